@@ -1,0 +1,40 @@
+# amble_library(<folder> SOURCES … [PUBLIC …] [PRIVATE …]): one static library per folder of src/, target amble_<folder>.
+# amble_test(<folder> SOURCES … [LINK …]): one GoogleTest program per folder of tests/.
+
+add_library(amble_options INTERFACE)
+target_compile_options(amble_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor
+                                               -ffp-contract=off)
+if(AMBLE_WARNINGS_AS_ERRORS)
+  target_compile_options(amble_options INTERFACE -Werror)
+endif()
+if(AMBLE_SANITIZE)
+  target_compile_options(amble_options INTERFACE -fsanitize=${AMBLE_SANITIZE} -fno-omit-frame-pointer
+                                                 -fno-sanitize-recover=all)
+  target_link_options(amble_options INTERFACE -fsanitize=${AMBLE_SANITIZE})
+endif()
+
+function(amble_library folder)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  set(target amble_${folder})
+  add_library(${target} STATIC ${ARG_SOURCES})
+  add_library(amble::${folder} ALIAS ${target})
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+                                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE $<BUILD_INTERFACE:amble_options> ${ARG_PRIVATE})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${folder})
+  set_property(GLOBAL APPEND PROPERTY AMBLE_LIBRARIES ${target})
+endfunction()
+
+function(amble_test folder)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK" ${ARGN})
+  set(target ${folder}_tests)
+  add_executable(${target} ${ARG_SOURCES})
+  target_link_libraries(${target} PRIVATE amble_options ${ARG_LINK} GTest::gmock GTest::gtest_main)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_compile_definitions(${target} PRIVATE AMBLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+endfunction()

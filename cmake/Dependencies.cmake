@@ -1,0 +1,20 @@
+# Every third-party library amble links, found in one place. docs/ARCHITECTURE.md says why each is there.
+find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(hwy REQUIRED)
+find_package(mujoco REQUIRED)  # needs libqhull-dev beside it, or generation fails
+find_package(ZLIB REQUIRED)
+pkg_check_modules(ODE REQUIRED IMPORTED_TARGET ode)
+pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
+find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
+
+if(AMBLE_TESTS)
+  find_package(GTest REQUIRED)
+endif()
+if(AMBLE_BENCHMARKS)
+  find_package(benchmark REQUIRED)
+endif()

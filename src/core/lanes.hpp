@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+
+namespace amble {
+
+/// `rows` quantities for each of `lanes` robots that advance together, stored quantity by quantity (structure of
+/// arrays), float32. row(r) is contiguous over the lanes, so that one SIMD instruction serves many robots.
+class LaneArray {
+ public:
+  LaneArray() = default;
+  LaneArray(int rows, int lanes)
+      : rows_(rows), lanes_(lanes), values_(static_cast<std::size_t>(rows) * static_cast<std::size_t>(lanes)) {}
+
+  int rows() const { return rows_; }
+  int lanes() const { return lanes_; }
+  float& at(int row, int lane) { return values_[index(row, lane)]; }
+  float at(int row, int lane) const { return values_[index(row, lane)]; }
+  float* row(int r) { return values_.data() + index(r, 0); }
+  const float* row(int r) const { return values_.data() + index(r, 0); }
+  void set_lane(int lane, float value) {
+    for (int r = 0; r < rows_; ++r) at(r, lane) = value;
+  }
+
+ private:
+  std::size_t index(int row, int lane) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(lanes_) + static_cast<std::size_t>(lane);
+  }
+
+  int rows_ = 0;
+  int lanes_ = 0;
+  std::vector<float> values_;
+};
+
+}  // namespace amble

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cmath>
+
+namespace amble {
+
+/// Three numbers along x, y, z. Units and frame are those of the variable that holds it (docs/CONVENTIONS.md).
+struct Vec3 {
+  double x = 0.0, y = 0.0, z = 0.0;
+
+  friend Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Vec3 operator-(Vec3 a) { return {-a.x, -a.y, -a.z}; }
+  friend Vec3 operator*(double s, Vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
+  friend bool operator==(const Vec3&, const Vec3&) = default;
+};
+
+inline double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec3 cross(Vec3 a, Vec3 b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
+
+/// A rotation as a unit quaternion (w, x, y, z). rotate(q, v) takes v from the rotated frame to the fixed one.
+struct Quat {
+  double w = 1.0, x = 0.0, y = 0.0, z = 0.0;
+
+  friend Quat operator*(Quat a, Quat b) {
+    return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+            a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+  }
+  friend bool operator==(const Quat&, const Quat&) = default;
+};
+
+inline Quat conjugate(Quat q) { return {q.w, -q.x, -q.y, -q.z}; }
+inline Vec3 rotate(Quat q, Vec3 v) {
+  const Vec3 u{q.x, q.y, q.z};
+  const Vec3 t = 2.0 * cross(u, v);
+  return v + q.w * t + cross(u, t);
+}
+/// Rotation by `angle_rad` about the unit vector `axis`, right-handed.
+inline Quat axis_angle(Vec3 axis, double angle_rad) {
+  const double s = std::sin(0.5 * angle_rad);
+  return {std::cos(0.5 * angle_rad), s * axis.x, s * axis.y, s * axis.z};
+}
+
+/// Rotation about x, y and z in radians such that q = R_z(yaw) R_y(pitch) R_x(roll); pitch in [−π/2, π/2].
+struct RollPitchYaw {
+  double roll = 0.0, pitch = 0.0, yaw = 0.0;
+};
+RollPitchYaw roll_pitch_yaw(Quat q);
+
+}  // namespace amble

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace amble {
+
+/// What a random stream is for. Part of its key, so that a new use of randomness never shifts an old one.
+/// Values are part of the reproducibility promise: add at the end, never renumber.
+enum class Purpose : std::uint32_t {
+  test = 0,
+  initial_genome = 1,
+  reproduction = 2,
+  speciation = 3,
+  trial_noise = 4,
+  bootstrap = 5,
+};
+
+/// A stream of random numbers that depends on its key alone, (seed, purpose, generation, individual), and so on neither
+/// thread nor order of work. Philox4x32-10 (Salmon et al., SC 2011) in counter mode: 2^34 32-bit numbers per stream.
+/// All transforms are our own, because those of the standard library differ between implementations.
+class Stream {
+ public:
+  Stream(std::uint64_t seed, Purpose purpose, std::uint32_t generation = 0, std::uint32_t individual = 0);
+
+  std::uint32_t next_u32();
+  std::uint64_t next_u64();
+
+  /// Uniform in [0, 1), 53 random bits.
+  double uniform();
+  /// Uniform in [low, high).
+  double uniform(double low, double high);
+  /// Uniform in {0, …, count − 1}, without modulo bias. `count` > 0.
+  std::uint32_t below(std::uint32_t count);
+  /// True with the given probability in [0, 1].
+  bool chance(double probability);
+  /// Standard normal, by Box and Muller's transform (both of a pair are used).
+  double normal();
+
+ private:
+  void refill();
+
+  std::array<std::uint32_t, 2> key_;
+  std::array<std::uint32_t, 4> counter_;
+  std::array<std::uint32_t, 4> block_{};
+  int used_ = 4;
+  double spare_normal_ = 0.0;
+  bool has_spare_normal_ = false;
+};
+
+}  // namespace amble

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace amble::io {
+
+/// Appends plain values to a byte string, little-endian, without padding.
+class BinaryWriter {
+ public:
+  template <typename T>
+    requires(std::is_arithmetic_v<T> || std::is_enum_v<T>)
+  void put(T value) {
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  void put_text(std::string_view text);
+  /// Length, then the elements.
+  template <typename T>
+    requires std::is_arithmetic_v<T>
+  void put_span(std::span<const T> values) {
+    put(static_cast<std::uint64_t>(values.size()));
+    bytes_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+  }
+
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+/// Reads what BinaryWriter wrote. Never reads beyond the end and never allocates more than the bytes that are there: any
+/// mismatch throws UserError(ExitCode::bad_file) "WHAT: truncated at byte N" or the like. `what` names the file.
+class BinaryReader {
+ public:
+  BinaryReader(std::string_view bytes, std::string what) : bytes_(bytes), what_(std::move(what)) {}
+
+  template <typename T>
+    requires std::is_arithmetic_v<T>
+  T get() {
+    T value;
+    copy(&value, sizeof value);
+    return value;
+  }
+  /// An enum stored as its underlying type; `count` is the number of its values.
+  template <typename T>
+    requires std::is_enum_v<T>
+  T get_enum(std::uint64_t count) {
+    const auto raw = get<std::underlying_type_t<T>>();
+    if (static_cast<std::uint64_t>(raw) >= count) bad("unknown enum value");
+    return static_cast<T>(raw);
+  }
+  std::string get_text();
+  template <typename T>
+    requires std::is_arithmetic_v<T>
+  std::vector<T> get_vector() {
+    std::vector<T> values(get_count(sizeof(T)));
+    copy(values.data(), values.size() * sizeof(T));
+    return values;
+  }
+  /// A length that must be followed by at least `bytes_each` × length bytes.
+  std::size_t get_count(std::size_t bytes_each);
+  /// Throws unless all bytes were read.
+  void finish() const;
+  [[noreturn]] void bad(std::string_view why) const;
+
+ private:
+  void copy(void* to, std::size_t size);
+
+  std::string_view bytes_;
+  std::string what_;
+  std::size_t position_ = 0;
+};
+
+/// Wraps a payload for the disk: an 8-character magic, the format's version, length, checksum (XXH3), payload.
+std::string seal(std::string_view magic, std::uint32_t version, std::string_view payload);
+/// Checks and removes the wrapping. Throws UserError(ExitCode::bad_file): not such a file, another version, truncated, or
+/// altered (checksum), each in its own words and naming `what`.
+std::string_view unseal(std::string_view magic, std::uint32_t version, std::string_view bytes, const std::string& what);
+
+}  // namespace amble::io

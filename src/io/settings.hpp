@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace amble::io {
+
+/// What the documentation says of one setting.
+struct Doc {
+  std::string_view what;         ///< one sentence, with the unit
+  std::string_view source = {};  ///< where the number comes from, e.g. "Morse et al. 2013, sec. 4"
+};
+
+/// Closed range of a number.
+struct Range {
+  double lowest = -std::numeric_limits<double>::infinity();
+  double highest = std::numeric_limits<double>::infinity();
+};
+
+/// Walks over the fields of a settings struct. One `describe(SettingsVisitor&)` member per struct serves reading TOML,
+/// writing TOML, reading and writing JSON, and the table of settings in the docs, so that these cannot drift apart.
+/// Readers change the values, writers leave them as they are.
+class SettingsVisitor {
+ public:
+  virtual ~SettingsVisitor() = default;
+
+  /// A table [key]; what is visited until end() belongs to it.
+  virtual void begin(std::string_view key, Doc doc) = 0;
+  virtual void end() = 0;
+
+  virtual void number(std::string_view key, double& value, Range range, Doc doc) = 0;
+  virtual void integer(std::string_view key, std::int64_t& value, Range range, Doc doc) = 0;
+  virtual void flag(std::string_view key, bool& value, Doc doc) = 0;
+  virtual void text(std::string_view key, std::string& value, Doc doc) = 0;
+  virtual void numbers(std::string_view key, std::vector<double>& value, Range range, Doc doc) = 0;
+  virtual void choice_index(std::string_view key, int& index, std::span<const std::string_view> names, Doc doc) = 0;
+
+  void integer(std::string_view key, int& value, Range range, Doc doc) {
+    std::int64_t wide = value;
+    integer(key, wide, range, doc);
+    value = static_cast<int>(wide);
+  }
+
+  /// A value of an enum whose enumerators are numbered 0, 1, … in the order of `names`.
+  template <typename Enum, std::size_t N>
+  void choice(std::string_view key, Enum& value, const std::array<std::string_view, N>& names, Doc doc) {
+    int index = static_cast<int>(value);
+    choice_index(key, index, names, doc);
+    value = static_cast<Enum>(index);
+  }
+
+  /// A nested settings struct as a table of its own.
+  template <typename Settings>
+  void table(std::string_view key, Settings& settings, Doc doc) {
+    begin(key, doc);
+    settings.describe(*this);
+    end();
+  }
+};
+
+}  // namespace amble::io

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "amble/io/settings.hpp"
+
+namespace amble::io {
+
+/// A TOML document with its origin, so that every complaint names "FILE:LINE: key 'a.b' …".
+///
+/// A document may name others: `include = ["../parts/neat.toml"]` (paths relative to the file). They are read first, in order;
+/// later ones, and last the document itself, override key by key. Circles are refused.
+class TomlDocument {
+ public:
+  /// Throws UserError: missing file, syntax error ("FILE:LINE:COLUMN: …"), a bad include.
+  static TomlDocument read(const std::filesystem::path& path);
+  static TomlDocument parse(std::string_view text, const std::string& name);
+
+  ~TomlDocument();
+  TomlDocument(TomlDocument&&) noexcept;
+  TomlDocument& operator=(TomlDocument&&) noexcept;
+
+  /// Applies "key.path=value" from the command line; the value is TOML, or a bare word, which is a string. Later complaints
+  /// about the key name "--set KEY".
+  void set(std::string_view assignment);
+
+  /// A visitor that reads from the top table. Missing keys keep their values. Types and ranges are checked: a complaint names file,
+  /// line, key, the value and what was expected. finish() must be called at the end: it refuses keys nobody asked for, with the
+  /// nearest known key as a suggestion.
+  class Reader : public SettingsVisitor {
+   public:
+    virtual void finish() = 0;
+  };
+  std::unique_ptr<Reader> reader() const;
+
+  /// For text settings that name files: the folder of the file in which the key stands (the current folder for --set).
+  std::filesystem::path folder_of(std::string_view key_path) const;
+  /// "FILE:LINE" of a key, for complaints found later.
+  std::string where(std::string_view key_path) const;
+
+  struct Impl;
+  const Impl& impl() const { return *impl_; }
+
+ private:
+  TomlDocument();
+  std::unique_ptr<Impl> impl_;
+};
+
+/// All visited fields as TOML text with their units and sources as comments; reads back to the same values.
+std::string settings_to_toml(const std::function<void(SettingsVisitor&)>& describe);
+
+/// One column of the table of settings in the docs.
+struct SettingsColumn {
+  std::string title;
+  std::function<void(SettingsVisitor&)> describe;
+};
+/// A Markdown table: key, what it means, allowed values, the value in each column, source.
+std::string settings_to_markdown(const std::vector<SettingsColumn>& columns);
+
+}  // namespace amble::io

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include "amble/core/lanes.hpp"
+#include "amble/core/math.hpp"
+#include "amble/morphology/robot_spec.hpp"
+
+namespace amble::physics {
+
+/// What controllers may know, for all lanes at once. Rows in control order (RobotSpec::joints) and leg order.
+struct SensorFrame {
+  LaneArray joint_angle_rad;  ///< joints × lanes
+  LaneArray touch;            ///< legs × lanes: 1 while the foot touches the ground, else 0
+  LaneArray attitude_rad;     ///< 3 × lanes: roll, pitch, yaw of the root (core/math.hpp)
+};
+
+/// Position of the root's frame in the world, and its rotation (root axes → world axes).
+struct RootPose {
+  Vec3 position_m;
+  Quat rotation;
+};
+
+struct EngineSettings {
+  double timestep_s = 0.01;
+};
+
+/// Advances up to lanes() copies of one robot in lockstep, one copy per lane, on flat ground at z = 0.
+/// Lanes do not influence each other, not by one bit: a lane's states depend on its own targets alone.
+/// An engine belongs to one thread. Order within step(): collide, move by one timestep, then read the sensors.
+class Engine {
+ public:
+  virtual ~Engine() = default;
+
+  virtual int lanes() const = 0;
+
+  /// Puts the robot of this lane into its start pose, at rest, whatever became of it before; its sensors are valid at
+  /// once (all joint angles 0; a foot touches if it is not above the ground).
+  virtual void place(int lane) = 0;
+  /// Takes the robot of this lane out of step() until it is placed again.
+  virtual void retire(int lane) = 0;
+
+  /// Advances every placed lane by one timestep towards its target angles: rad, joints × lanes, clamped to the stops.
+  virtual void step(const LaneArray& targets_rad) = 0;
+
+  /// False once a placed lane's state is not finite or absurdly fast (over 1000 m/s or rad/s): its trial has diverged,
+  /// its other values mean nothing, and it must be retired.
+  virtual bool healthy(int lane) const = 0;
+
+  virtual const SensorFrame& sensors() const = 0;
+  virtual RootPose root_pose(int lane) const = 0;
+  /// Centre of mass of the root body; RobotSpec::fall_height_m refers to it.
+  virtual Vec3 root_com_m(int lane) const = 0;
+  /// Centre of mass of the whole robot.
+  virtual Vec3 com_m(int lane) const = 0;
+  /// Linear momentum (kg m/s) of the whole robot.
+  virtual Vec3 momentum(int lane) const = 0;
+  /// Hash of all positions and velocities of this lane, to the bit.
+  virtual std::uint64_t state_hash(int lane) const = 0;
+};
+
+/// Makes the engine of that name: "ode". Throws UserError for an unknown name or a robot that the engine cannot simulate.
+std::unique_ptr<Engine> make_engine(std::string_view name, const morphology::RobotSpec& robot,
+                                    const EngineSettings& settings);
+
+}  // namespace amble::physics
