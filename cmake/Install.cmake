@@ -1,1 +1,24 @@
+# `cmake --install`: program, libraries, headers, robots and configs, a CMake package and a pkg-config file.
+include(CMakePackageConfigHelpers)
+get_property(amble_libraries GLOBAL PROPERTY AMBLE_LIBRARIES)
 
+install(TARGETS amble RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS ${amble_libraries} EXPORT ambleTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/amble
+        FILES_MATCHING PATTERN "*.hpp" PATTERN "cli" EXCLUDE PATTERN "ode" EXCLUDE)
+install(DIRECTORY robots configs DESTINATION ${CMAKE_INSTALL_DATADIR}/amble)
+
+install(EXPORT ambleTargets NAMESPACE amble:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/amble)
+configure_package_config_file(cmake/ambleConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/ambleConfig.cmake
+                              INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/amble)
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/ambleConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/ambleConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/ambleConfigVersion.cmake
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/amble)
+
+# Static libraries: users before what they use.
+list(REVERSE amble_libraries)
+list(TRANSFORM amble_libraries PREPEND "-l" OUTPUT_VARIABLE amble_link_flags)
+list(JOIN amble_link_flags " " amble_link_flags)
+file(RELATIVE_PATH amble_prefix_from_libdir /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+configure_file(cmake/amble.pc.in ${CMAKE_CURRENT_BINARY_DIR}/amble.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/amble.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

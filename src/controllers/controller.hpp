@@ -12,33 +12,35 @@
 
 namespace amble::controllers {
 
-/// Parameters of one controller, made once per genome and const from then on. Each architecture derives its own.
+/// Parameters of one controller, made once per genome and const from then on. Each architecture derives its
+/// own.
 class Parameters {
  public:
   virtual ~Parameters() = default;
 };
 
-/// State of up to lanes() controllers of one architecture that step together, one per robot lane (structure of arrays).
-/// Lanes do not influence each other. Belongs to one thread.
+/// State of up to lanes() controllers of one architecture that step together, one per robot lane (structure
+/// of arrays). Lanes do not influence each other. Belongs to one thread.
 class Batch {
  public:
   virtual ~Batch() = default;
 
   virtual int lanes() const = 0;
-  /// Puts a controller into a lane, in its initial state. `parameters` come from the same Architecture and are not copied:
-  /// they must live until the lane is loaded again.
+  /// Puts a controller into a lane, in its initial state. `parameters` come from the same Architecture and
+  /// are not copied: they must live until the lane is loaded again.
   virtual void load(int lane, const Parameters& parameters) = 0;
-  /// One tick: reads the sensors, advances the state, writes target angles (rad, joints × lanes) for all loaded lanes;
-  /// what it writes for others means nothing. Targets lie within the joints' stops.
+  /// One tick: reads the sensors, advances the state, writes target angles (rad, joints × lanes) for all
+  /// loaded lanes; what it writes for others means nothing. Targets lie within the joints' stops.
   virtual void step(const physics::SensorFrame& sensors, LaneArray& targets_rad) = 0;
 
-  /// Names of the state variables worth recording (for the SUPG: each leg's timer and trigger), and their values in a lane.
+  /// Names of the state variables worth recording (for the SUPG: each leg's timer and trigger), and their
+  /// values in a lane.
   virtual std::vector<std::string> state_names() const = 0;
   virtual void state(int lane, std::span<float> values) const = 0;
 };
 
-/// A kind of controller (SUPG, sine wave, CTRNN) for one robot: knows what its CPPN must look like and how a CPPN becomes a
-/// controller. Const and shared by all workers.
+/// A kind of controller (SUPG, sine wave, CTRNN) for one robot: knows what its CPPN must look like and how a
+/// CPPN becomes a controller. Const and shared by all workers.
 class Architecture {
  public:
   virtual ~Architecture() = default;

@@ -1,61 +1,70 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
+#include "amble/cppn/program.hpp"
 #include "amble/cppn/settings.hpp"
 #include "amble/neat/genome.hpp"
 
 namespace amble::cppn {
 
-/// Query points of a CPPN, stored input by input (structure of arrays, float32) and padded to whole blocks, so that one
-/// SIMD instruction serves many points. The bias is not among the inputs; it is the constant 1.
+/// Query points of a CPPN, stored input by input (structure of arrays, float32) and padded to whole blocks,
+/// so that one SIMD instruction serves many points. The bias is not among the inputs; it is the constant 1.
 class Points {
  public:
-  /// Lanes that evaluation treats as one; the capacity is a multiple of it.
-  static constexpr int block = 16;
+  /// Points that evaluation treats as one: a few vector registers of any width; the capacity is a multiple of
+  /// it.
+  static constexpr int block = 64;
 
+  /// All coordinates are 0 at first.
   Points(int inputs, int count);
   int inputs() const { return inputs_; }
   int count() const { return count_; }
   int capacity() const { return capacity_; }
+  /// `value` must be within ±2^64 (checked; activation.hpp).
   void set(int point, int input, float value);
-  float get(int point, int input) const;
+  float get(int point, int input) const { return values_[index(point, input)]; }
   const float* input(int i) const { return values_.data() + static_cast<std::ptrdiff_t>(i) * capacity_; }
 
  private:
+  std::size_t index(int point, int input) const {
+    return static_cast<std::size_t>(input) * static_cast<std::size_t>(capacity_) +
+           static_cast<std::size_t>(point);
+  }
+
   int inputs_, count_, capacity_;
   std::vector<float> values_;
 };
 
-/// A genome made ready for many queries: const, shareable between threads. Disabled links and nodes that no output
-/// depends on are left out. All arithmetic is IEEE single precision without fused operations in a fixed order, and the
-/// activation functions are our own: the same bits on every CPU and for every vector width.
+/// A genome made ready for many queries: const, shareable between threads. Disabled links and nodes that no
+/// output depends on are left out. All arithmetic is IEEE single precision without fused operations in a
+/// fixed order, and the activation functions are our own (activation.hpp): the same bits on every CPU and for
+/// every vector width. Values are never NaN.
+///
+/// A node's value is its activation function of the sum, from zero and in order of innovation, of weight ×
+/// source. With Settings::recurrent all nodes start from 0 and are updated together for 2 × hidden nodes + 1
+/// passes (the hidden nodes of the whole genome), as in HyperSharpNEAT; where the links form no cycle, one
+/// pass in topological order gives the same bits.
 class Network {
  public:
+  /// The genome must be valid (neat::validate). Weights are rounded to single precision and clamped to ±2^32.
   Network(const neat::Genome& genome, const Settings& settings);
 
-  int inputs() const { return inputs_; }
-  int outputs() const { return outputs_; }
-  /// Whether the enabled links form a cycle that outputs depend on. If not, evaluation is feed-forward in one pass.
-  bool cyclic() const { return cyclic_; }
+  int inputs() const { return program_.inputs; }
+  int outputs() const { return static_cast<int>(program_.output_slots.size()); }
+  /// Whether the enabled links form a cycle that outputs depend on. If not, evaluation is feed-forward in one
+  /// pass (except that a chain of outputs longer than the passes above is cut off just as the passes would).
+  bool cyclic() const { return program_.cyclic; }
 
   /// Values of all outputs at all points: outputs × points.capacity() floats, output by output; those beyond
-  /// points.count() mean nothing. `results` must have exactly that size. `points.inputs()` must equal inputs().
+  /// points.count() mean nothing. `results` must have exactly that size. `points.inputs()` must equal
+  /// inputs().
   void evaluate(const Points& points, std::span<float> results) const;
 
  private:
-  friend class Evaluator;
-  struct Link { int from; float weight; };
-  struct Node { int first_link; int link_count; neat::Activation activation; };
-
-  int inputs_ = 0, outputs_ = 0;
-  bool cyclic_ = false;
-  int passes_ = 1;
-  bool linear_is_absolute_ = true;
-  std::vector<Node> nodes_;   ///< computed nodes, in order of evaluation
-  std::vector<Link> links_;
-  std::vector<int> output_slot_;
+  Program program_;
 };
 
 }  // namespace amble::cppn

@@ -13,8 +13,8 @@ inline constexpr std::array<std::string_view, 2> linear_names{"absolute", "ident
 
 struct Settings {
   Linear linear = Linear::absolute;
-  /// Whether links may close cycles. A cyclic CPPN is run for 2 × hidden nodes + 1 synchronous passes from a cleared
-  /// state (HyperSharpNEAT; supg-science 2).
+  /// Whether links may close cycles. A CPPN is then run for 2 × hidden nodes + 1 synchronous passes from a
+  /// cleared state (HyperSharpNEAT).
   bool recurrent = true;
 
   void describe(io::SettingsVisitor& visitor);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -14,14 +15,13 @@ namespace amble::io {
 class BinaryWriter {
  public:
   template <typename T>
-    requires(std::is_arithmetic_v<T> || std::is_enum_v<T>)
-  void put(T value) {
+  requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void put(T value) {
     bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
   void put_text(std::string_view text);
   /// Length, then the elements.
   template <typename T>
-    requires std::is_arithmetic_v<T>
+  requires std::is_arithmetic_v<T>
   void put_span(std::span<const T> values) {
     put(static_cast<std::uint64_t>(values.size()));
     bytes_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
@@ -33,31 +33,35 @@ class BinaryWriter {
   std::string bytes_;
 };
 
-/// Reads what BinaryWriter wrote. Never reads beyond the end and never allocates more than the bytes that are there: any
-/// mismatch throws UserError(ExitCode::bad_file) "WHAT: truncated at byte N" or the like. `what` names the file.
+/// Reads what BinaryWriter wrote. Never reads beyond the end and never allocates more than the bytes that are
+/// there: any mismatch throws UserError(ExitCode::bad_file) "WHAT: truncated at byte N" or the like. `what`
+/// names the file.
 class BinaryReader {
  public:
   BinaryReader(std::string_view bytes, std::string what) : bytes_(bytes), what_(std::move(what)) {}
 
   template <typename T>
-    requires std::is_arithmetic_v<T>
-  T get() {
-    T value;
-    copy(&value, sizeof value);
-    return value;
+  requires std::is_arithmetic_v<T> T get() {
+    if constexpr (std::is_same_v<T, bool>) {
+      const auto raw = get<std::uint8_t>();
+      if (raw > 1) bad("not a flag");
+      return raw == 1;
+    } else {
+      T value;
+      copy(&value, sizeof value);
+      return value;
+    }
   }
   /// An enum stored as its underlying type; `count` is the number of its values.
   template <typename T>
-    requires std::is_enum_v<T>
-  T get_enum(std::uint64_t count) {
+  requires std::is_enum_v<T> T get_enum(std::uint64_t count) {
     const auto raw = get<std::underlying_type_t<T>>();
     if (static_cast<std::uint64_t>(raw) >= count) bad("unknown enum value");
     return static_cast<T>(raw);
   }
   std::string get_text();
   template <typename T>
-    requires std::is_arithmetic_v<T>
-  std::vector<T> get_vector() {
+  requires std::is_arithmetic_v<T> std::vector<T> get_vector() {
     std::vector<T> values(get_count(sizeof(T)));
     copy(values.data(), values.size() * sizeof(T));
     return values;
@@ -76,10 +80,19 @@ class BinaryReader {
   std::size_t position_ = 0;
 };
 
-/// Wraps a payload for the disk: an 8-character magic, the format's version, length, checksum (XXH3), payload.
+/// Bytes that seal() puts before the payload.
+inline constexpr std::size_t seal_header_size = 8 + 4 + 8 + 8;
+
+/// Wraps a payload for the disk: an 8-character magic, the format's version, length, checksum (XXH3),
+/// payload.
 std::string seal(std::string_view magic, std::uint32_t version, std::string_view payload);
-/// Checks and removes the wrapping. Throws UserError(ExitCode::bad_file): not such a file, another version, truncated, or
-/// altered (checksum), each in its own words and naming `what`.
-std::string_view unseal(std::string_view magic, std::uint32_t version, std::string_view bytes, const std::string& what);
+/// Checks and removes the wrapping. Throws UserError(ExitCode::bad_file): not such a file, another version,
+/// truncated, or altered (checksum), each in its own words and naming `what`.
+std::string_view unseal(std::string_view magic, std::uint32_t version, std::string_view bytes,
+                        const std::string& what);
+/// Size of the whole sealed file, told by its first seal_header_size bytes; throws as unseal() does. For
+/// files in which more follows.
+std::uint64_t sealed_size(std::string_view magic, std::uint32_t version, std::string_view start,
+                          const std::string& what);
 
 }  // namespace amble::io

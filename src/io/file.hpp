@@ -7,16 +7,56 @@
 
 namespace amble::io {
 
-/// The whole file as bytes. Throws UserError(ExitCode::io) "PATH: reason".
-std::string read_file(const std::filesystem::path& path);
+/// Reads a file piece by piece. Throws UserError(ExitCode::io) "PATH: reason".
+class InputFile {
+ public:
+  explicit InputFile(const std::filesystem::path& path);
+  ~InputFile();
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
 
-/// Replaces `path` whole or not at all: writes PATH.tmp.<pid> in the same folder, syncs it, renames it, syncs the folder.
-/// On any failure (no space, no permission) the temporary file is removed, an old file is left as it was, and
-/// UserError(ExitCode::io) "cannot write PATH: reason" is thrown.
+  /// The next `count` bytes, or fewer at the end of the file. Memory grows with what is read, not with
+  /// `count`.
+  std::string read(std::uint64_t count);
+
+ private:
+  std::filesystem::path path_;
+  int fd_ = -1;
+};
+
+/// The whole file as bytes. Throws UserError(ExitCode::io) "PATH: reason", also if it is larger than
+/// `limit_bytes`.
+std::string read_file(const std::filesystem::path& path, std::uint64_t limit_bytes = std::uint64_t{1} << 32);
+
+/// Replaces a file whole or not at all: what is written goes to PATH.tmp.<pid> in the same folder; commit()
+/// syncs that, renames it and syncs the folder. Without commit(), or after a failure (no space, no
+/// permission), the temporary file is removed and an old file is left as it was. What is there and is not a
+/// regular file (a pipe, /dev/stdout) is written to directly. Throws UserError(ExitCode::io) "cannot write
+/// PATH: reason".
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::filesystem::path& path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  void write(std::string_view bytes);
+  void commit();
+
+ private:
+  [[noreturn]] void give_up();
+
+  std::filesystem::path path_;
+  std::filesystem::path written_path_;  ///< the temporary file, or path_ itself
+  int fd_ = -1;
+};
+
+/// One AtomicFile with these contents.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// A log that only grows (generations.csv): lines are appended whole and synced. On opening, what lies beyond `keep_bytes` is
-/// cut off, so that a resumed run continues from its checkpoint. Throws UserError(ExitCode::io), also if the file is shorter.
+/// A log that only grows (generations.csv): lines are appended whole and synced. On opening, what lies beyond
+/// `keep_bytes` is cut off, so that a resumed run continues from its checkpoint. Throws
+/// UserError(ExitCode::io), also if the file is shorter.
 class AppendFile {
  public:
   AppendFile(const std::filesystem::path& path, std::uint64_t keep_bytes);

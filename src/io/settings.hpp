@@ -1,8 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <initializer_list>
 #include <limits>
 #include <span>
 #include <string>
@@ -18,15 +18,16 @@ struct Doc {
   std::string_view source = {};  ///< where the number comes from, e.g. "Morse et al. 2013, sec. 4"
 };
 
-/// Closed range of a number.
+/// Closed range of a number: both bounds belong to it. So infinity is a legal value where a bound is
+/// infinite, and only there; give a finite bound where it makes no sense. NaN is in no range.
 struct Range {
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
 };
 
-/// Walks over the fields of a settings struct. One `describe(SettingsVisitor&)` member per struct serves reading TOML,
-/// writing TOML, reading and writing JSON, and the table of settings in the docs, so that these cannot drift apart.
-/// Readers change the values, writers leave them as they are.
+/// Walks over the fields of a settings struct. One `describe(SettingsVisitor&)` member per struct serves
+/// reading TOML, writing TOML, reading and writing JSON, and the table of settings in the docs, so that these
+/// cannot drift apart. Readers change the values, writers leave them as they are.
 class SettingsVisitor {
  public:
   virtual ~SettingsVisitor() = default;
@@ -39,12 +40,17 @@ class SettingsVisitor {
   virtual void integer(std::string_view key, std::int64_t& value, Range range, Doc doc) = 0;
   virtual void flag(std::string_view key, bool& value, Doc doc) = 0;
   virtual void text(std::string_view key, std::string& value, Doc doc) = 0;
+  virtual void texts(std::string_view key, std::vector<std::string>& value, Doc doc) = 0;
   virtual void numbers(std::string_view key, std::vector<double>& value, Range range, Doc doc) = 0;
-  virtual void choice_index(std::string_view key, int& index, std::span<const std::string_view> names, Doc doc) = 0;
+  virtual void choice_index(std::string_view key, int& index, std::span<const std::string_view> names,
+                            Doc doc) = 0;
 
+  /// The range is narrowed to what an int can hold.
   void integer(std::string_view key, int& value, Range range, Doc doc) {
+    constexpr std::numeric_limits<int> limits;
     std::int64_t wide = value;
-    integer(key, wide, range, doc);
+    integer(key, wide,
+            {std::max(range.lowest, 1.0 * limits.min()), std::min(range.highest, 1.0 * limits.max())}, doc);
     value = static_cast<int>(wide);
   }
 
@@ -63,6 +69,12 @@ class SettingsVisitor {
     settings.describe(*this);
     end();
   }
+};
+
+/// A visitor that reads. finish() must be called after the last field: it refuses keys that nobody asked for.
+class SettingsReader : public SettingsVisitor {
+ public:
+  virtual void finish() = 0;
 };
 
 }  // namespace amble::io

@@ -13,8 +13,8 @@ namespace amble::io {
 
 /// A TOML document with its origin, so that every complaint names "FILE:LINE: key 'a.b' …".
 ///
-/// A document may name others: `include = ["../parts/neat.toml"]` (paths relative to the file). They are read first, in order;
-/// later ones, and last the document itself, override key by key. Circles are refused.
+/// A document may name others: `include = ["../parts/neat.toml"]` (paths relative to the file). They are read
+/// first, in order; later ones, and last the document itself, override key by key. Circles are refused.
 class TomlDocument {
  public:
   /// Throws UserError: missing file, syntax error ("FILE:LINE:COLUMN: …"), a bad include.
@@ -25,29 +25,27 @@ class TomlDocument {
   TomlDocument(TomlDocument&&) noexcept;
   TomlDocument& operator=(TomlDocument&&) noexcept;
 
-  /// Applies "key.path=value" from the command line; the value is TOML, or a bare word, which is a string. Later complaints
-  /// about the key name "--set KEY".
+  /// Applies "key.path=value" from the command line; the value is TOML, or a bare word, which is a string.
+  /// Later complaints about the key name "--set KEY=VALUE".
   void set(std::string_view assignment);
 
-  /// A visitor that reads from the top table. Missing keys keep their values. Types and ranges are checked: a complaint names file,
-  /// line, key, the value and what was expected. finish() must be called at the end: it refuses keys nobody asked for, with the
-  /// nearest known key as a suggestion.
-  class Reader : public SettingsVisitor {
-   public:
-    virtual void finish() = 0;
-  };
+  /// A visitor that reads from the top table. Missing keys keep their values. Types and ranges are checked: a
+  /// complaint names file, line, key, the value and what was expected. finish() names the nearest known key
+  /// beside an unknown one.
+  using Reader = SettingsReader;
+  /// The document must outlive the reader.
   std::unique_ptr<Reader> reader() const;
 
-  /// For text settings that name files: the folder of the file in which the key stands (the current folder for --set).
+  /// For text settings that name files: the folder of the file in which the key stands. Empty for the current
+  /// folder, and for keys from the command line.
   std::filesystem::path folder_of(std::string_view key_path) const;
-  /// "FILE:LINE" of a key, for complaints found later.
+  /// "FILE:LINE" of a key ("--set KEY=VALUE" if it came from there; the document's name if the key is
+  /// absent), for complaints found later.
   std::string where(std::string_view key_path) const;
 
-  struct Impl;
-  const Impl& impl() const { return *impl_; }
-
  private:
-  TomlDocument();
+  struct Impl;
+  explicit TomlDocument(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -8,14 +8,15 @@
 
 namespace amble::morphology {
 
-/// Shapes that engines can put into contact. `size_m` of a Geom means: sphere {radius, –, –}; capsule and cylinder
-/// {radius, half length of the straight part along the geom's z, –}; box {half extents}.
+/// Shapes that engines can put into contact. `size_m` of a Geom means: sphere {radius, –, –}; capsule and
+/// cylinder {radius, half length of the straight part along the geom's z, –}; box {half extents}.
 enum class Shape { sphere, capsule, cylinder, box };
 
 /// A piece of a body's surface. Carries no mass: that is in Body.
 struct Geom {
   std::string name;
   int body = 0;
+  bool collides = true;  ///< false: only to look at
   Shape shape = Shape::sphere;
   Vec3 size_m;
   Vec3 position_m;  ///< centre, in the body's frame
@@ -23,22 +24,23 @@ struct Geom {
   std::array<float, 4> rgba{0.7f, 0.7f, 0.7f, 1.0f};
 };
 
-/// A rigid body. Its frame stands at `position_m`, `rotation` in the parent's frame while all joints are at zero;
-/// for the root (parent −1) in the world, which is the start pose.
+/// A rigid body. Its frame stands at `position_m`, `rotation` in the parent's frame while all joints are at
+/// zero; for the root (parent −1) in the world, which is the start pose.
 struct Body {
   std::string name;
   int parent = -1;  ///< always smaller than the body's own index
   Vec3 position_m;
   Quat rotation;
   double mass_kg = 0.0;
-  Vec3 com_m;               ///< centre of mass, in the body's frame
-  Vec3 inertia_kg_m2;       ///< principal moments about the centre of mass
-  Quat inertia_rotation;    ///< principal axes → body axes
+  Vec3 com_m;             ///< centre of mass, in the body's frame
+  Vec3 inertia_kg_m2;     ///< principal moments about the centre of mass
+  Quat inertia_rotation;  ///< principal axes → body axes
 };
 
 enum class ServoMode {
-  velocity,  ///< aims at the speed gain × (target − angle), with at most max_torque (the authors' ODE joint motor)
-  torque,    ///< applies kp × (target − angle) − kd × speed, clamped to ± max_torque
+  velocity,  ///< aims at the speed gain × (target − angle), with at most max_torque (the authors' ODE joint
+             ///< motor)
+  torque,  ///< applies kp × (target − angle) − kd × speed, clamped to ± max_torque
 };
 
 /// How a joint follows its target angle.
@@ -50,14 +52,15 @@ struct Servo {
   double kd_nm_s_per_rad = 0.0;
 };
 
-/// A motorised hinge between `body` and its parent. Its angle is 0 in the start pose and grows by the right-hand rule
-/// about `axis` as `body` turns against its parent. A body with two joints carries them in the order of the chain: the
-/// first is fixed to the parent, the second to the body.
+/// A motorised hinge between `body` and its parent. Its angle is 0 in the start pose and grows by the
+/// right-hand rule about `axis` as `body` turns against its parent. A body with two joints carries them in
+/// the order of the chain: the first is fixed to the parent, the second to the body.
 struct Joint {
   std::string name;
   int body = 0;
-  Vec3 anchor_m;  ///< in the frame of `body`
-  Vec3 axis;      ///< unit vector in the frame of `body`, at zero angles
+  int chain_index = 0;                      ///< place among the joints of its body, counted from the parent
+  Vec3 anchor_m;                            ///< in the frame of `body`
+  Vec3 axis;                                ///< unit vector in the frame of `body`, at zero angles
   double lower_rad = 0.0, upper_rad = 0.0;  ///< stops; targets are scaled to this range
   Servo servo;
 };
@@ -68,16 +71,19 @@ struct Leg {
   std::vector<int> joints;  ///< one per joint type, in the order of RobotSpec::joint_types
 };
 
-/// How bodies meet the ground (and each other). erp and cfm as in ODE; docs/CONVENTIONS.md gives them as spring and damper.
+/// How bodies meet the ground (and each other). erp and cfm as in ODE (manual, "Soft constraints"): with
+/// timestep h a contact is a spring of erp / (h cfm) N/m and a damper of (1 − erp) / cfm N s/m. The ODE
+/// engine gives both numbers to all constraints of its world, joints included, as the authors' program did.
 struct Contact {
   double friction = 0.0;  ///< Coulomb coefficient; infinity: no sliding at all
   double erp = 0.0;       ///< share of the penetration undone per step, in (0, 1]
-  double cfm_per_kg = 0.0;  ///< softness, ODE's constraint force mixing, velocity per impulse: m/s per N s
+  double cfm_s_per_kg =
+      0.0;  ///< softness, ODE's constraint force mixing: yielding velocity per force, m/s per N
 };
 
 /// All that is known of a robot: const, shared by all workers, independent of any engine.
-/// Joints stand in control order, leg by leg and type by type: joint index = leg × joint_types.size() + type. That is the order
-/// of motors, targets, angles, and rows of every table in amble.
+/// Joints stand in control order, leg by leg and type by type: joint index = leg × joint_types.size() + type.
+/// That is the order of motors, targets, angles, and rows of every table in amble.
 struct RobotSpec {
   std::string name;
   std::vector<Body> bodies;  ///< bodies[0] is the root ("torso"), free to move
@@ -91,7 +97,7 @@ struct RobotSpec {
   bool self_collision = false;
 
   double total_mass_kg() const;
-  /// Indices into `joints` of the joints of one body, in the order of the chain.
+  /// Indices into `joints` of the joints of one body, in the order of the chain (Joint::chain_index).
   std::vector<int> joints_of_body(int body) const;
 };
 

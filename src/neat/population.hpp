@@ -6,44 +6,53 @@
 #include <vector>
 
 #include "amble/io/binary.hpp"
+#include "amble/neat/fitness.hpp"
 #include "amble/neat/genome.hpp"
 #include "amble/neat/settings.hpp"
 
 namespace amble::neat {
-
-/// What a search says of one genome.
-struct Fitness {
-  double selection = 0.0;  ///< ≥ 0: decides offspring counts and the roulette (novelty, or the objective itself)
-  double objective = 0.0;  ///< ranks the members of a species: elites and the survival cut (Morse et al. 2013, sec. 4)
-};
 
 /// What a generation looked like when it was speciated.
 struct PopulationStatistics {
   int species = 0;
   double compatibility_threshold = 0.0;
   double mean_hidden = 0.0;
-  double mean_links = 0.0;
+  double mean_links = 0.0;  ///< enabled ones
 };
 
-/// A NEAT population, generation by generation. Everything it does depends on settings, seed, and the fitness it was given,
-/// to the bit; all state is in save() and load().
+/// One species of the present generation.
+struct SpeciesStatistics {
+  std::uint32_t id = 0;  ///< never used again in a run once the species is extinct
+  int size = 0;
+  int age = 0;                              ///< generations since it was founded
+  int generations_without_improvement = 0;  ///< of its best objective, before this generation
+};
+
+/// A NEAT population, generation by generation. Everything it does depends on settings, seed, and the fitness
+/// it was given, to the bit; all state is in save() and load().
 class Population {
  public:
-  /// Generation 0: genomes without hidden nodes, linked as the settings say, weights random.
+  /// Generation 0: genomes without hidden nodes, linked as the settings say, weights random. The settings
+  /// must be valid (Settings::validate); `inputs` does not count the bias.
   Population(const Settings& settings, int inputs, int outputs, bool recurrent, std::uint64_t seed);
   ~Population();
   Population(Population&&) noexcept;
   Population& operator=(Population&&) noexcept;
 
   int generation() const;
+  /// As many as PopulationSettings::size, in every generation.
   std::span<const Genome> genomes() const;
   PopulationStatistics statistics() const;
+  /// The species, oldest first; their sizes add up to the size of the population.
+  std::vector<SpeciesStatistics> species() const;
 
-  /// Breeds the next generation from the fitness of this one, in the order of genomes().
+  /// Breeds the next generation from the fitness of this one, in the order of genomes(). Infinite fitness,
+  /// NaN and a negative selection are programmer's mistakes.
   void advance(std::span<const Fitness> fitness);
 
   void save(io::BinaryWriter& writer) const;
-  /// Replaces the state by what save() wrote, under the same settings; throws UserError(ExitCode::bad_file) if it does not fit.
+  /// Replaces the state by what save() wrote, under the same settings; throws UserError(ExitCode::bad_file)
+  /// if it does not fit, and then leaves the state as it was.
   void load(io::BinaryReader& reader);
 
  private:

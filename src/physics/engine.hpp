@@ -29,24 +29,26 @@ struct EngineSettings {
 
 /// Advances up to lanes() copies of one robot in lockstep, one copy per lane, on flat ground at z = 0.
 /// Lanes do not influence each other, not by one bit: a lane's states depend on its own targets alone.
-/// An engine belongs to one thread. Order within step(): collide, move by one timestep, then read the sensors.
+/// An engine belongs to one thread. Order within step(): collide, move by one timestep, then read the
+/// sensors.
 class Engine {
  public:
   virtual ~Engine() = default;
 
   virtual int lanes() const = 0;
 
-  /// Puts the robot of this lane into its start pose, at rest, whatever became of it before; its sensors are valid at
-  /// once (all joint angles 0; a foot touches if it is not above the ground).
+  /// Puts the robot of this lane into its start pose, at rest, whatever became of it before; its sensors are
+  /// valid at once (all joint angles 0; a foot touches if it is not above the ground).
   virtual void place(int lane) = 0;
   /// Takes the robot of this lane out of step() until it is placed again.
   virtual void retire(int lane) = 0;
 
-  /// Advances every placed lane by one timestep towards its target angles: rad, joints × lanes, clamped to the stops.
+  /// Advances every placed lane by one timestep towards its target angles: rad, joints × lanes, clamped to
+  /// the stops.
   virtual void step(const LaneArray& targets_rad) = 0;
 
-  /// False once a placed lane's state is not finite or absurdly fast (over 1000 m/s or rad/s): its trial has diverged,
-  /// its other values mean nothing, and it must be retired.
+  /// False once a placed lane's state is not finite or absurdly fast (over 1000 m/s or rad/s): its trial has
+  /// diverged, its other values mean nothing, and it must be retired.
   virtual bool healthy(int lane) const = 0;
 
   virtual const SensorFrame& sensors() const = 0;
@@ -61,7 +63,8 @@ class Engine {
   virtual std::uint64_t state_hash(int lane) const = 0;
 };
 
-/// Makes the engine of that name: "ode". Throws UserError for an unknown name or a robot that the engine cannot simulate.
+/// Makes the engine of that name: "ode". Throws UserError for an unknown name or a robot that the engine
+/// cannot simulate.
 std::unique_ptr<Engine> make_engine(std::string_view name, const morphology::RobotSpec& robot,
                                     const EngineSettings& settings);
 

@@ -13,19 +13,21 @@ namespace amble::record {
 
 /// What a recording says of itself before its frames (docs/FORMATS.md).
 struct RecordingHeader {
-  double frame_s = 0.0;                ///< time between frames
-  std::vector<std::string> columns;    ///< names of the float32 numbers of a frame; see standard_columns()
-  std::string robot_json;              ///< morphology::to_json of the robot
-  std::string controller_json;         ///< {"kind": "supg", …}: Architecture::parameters_json
-  std::string origin;                  ///< the champion it was made from, for titles
+  double frame_s = 0.0;              ///< time between frames
+  std::vector<std::string> columns;  ///< names of the float32 numbers of a frame; see standard_columns()
+  std::string robot_json;            ///< morphology::to_json of the robot
+  std::string controller_json;       ///< {"kind": "supg", …}: Architecture::parameters_json
+  std::string origin;                ///< the champion it was made from, for titles
 };
 
-/// The columns every recording has, in order: root.x .y .z .qw .qx .qy .qz, com.x .y .z, then per joint angle.NAME and target.NAME
-/// (joint by joint: all angles, then all targets), then touch.LEG; a controller's state names follow.
-std::vector<std::string> standard_columns(const std::vector<std::string>& joints, const std::vector<std::string>& legs);
+/// The columns every recording has, in order: root.x .y .z .qw .qx .qy .qz, com.x .y .z, then per joint
+/// angle.NAME and target.NAME (joint by joint: all angles, then all targets), then touch.LEG; a controller's
+/// state names follow.
+std::vector<std::string> standard_columns(const std::vector<std::string>& joints,
+                                          const std::vector<std::string>& legs);
 
-/// Writes a recording chunk by chunk, so that memory does not grow with its length. The file appears under its name only
-/// with finish(); without it the temporary file is removed. Throws UserError(ExitCode::io).
+/// Writes a recording chunk by chunk, so that memory does not grow with its length. The file appears under
+/// its name only with finish(); without it the temporary file is removed. Throws UserError(ExitCode::io).
 class RecordingWriter {
  public:
   RecordingWriter(const std::filesystem::path& path, const RecordingHeader& header);
@@ -38,7 +40,8 @@ class RecordingWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Reads a recording chunk by chunk. Throws UserError(ExitCode::bad_file): foreign, another version, truncated, altered.
+/// Reads a recording chunk by chunk. Throws UserError(ExitCode::bad_file): foreign, another version,
+/// truncated, altered.
 class RecordingReader {
  public:
   explicit RecordingReader(const std::filesystem::path& path);
@@ -46,7 +49,8 @@ class RecordingReader {
   const RecordingHeader& header() const;
   /// Index of a column; throws UserError if there is none of that name.
   int column(const std::string& name) const;
-  /// The next frame, or false after the last one, when outcome() is known. The checksum of every chunk is checked.
+  /// The next frame, or false after the last one, when outcome() is known. The checksum of every chunk is
+  /// checked.
   bool next(std::vector<float>& frame);
   Outcome outcome() const;
   std::uint64_t frames_read() const;

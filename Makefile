@@ -1,0 +1,36 @@
+# Thin: each target prints and runs the commands one would type. PRESET chooses another build for `make test` (asan, tsan).
+PRESET ?= dev
+PREFIX ?= /usr/local
+JOBS ?= $(shell nproc)
+SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
+
+.PHONY: demo build test bench install clean
+
+demo: build
+	rm -rf demo
+	build/release/src/cli/amble evolve configs/demo.toml --seed 1 --jobs $(JOBS) --out demo/run
+	build/release/src/cli/amble page demo/run -o demo/index.html
+
+build:
+	./setup
+	cmake --preset release
+	cmake --build --preset release
+
+test:
+	./setup --dev
+	cmake --preset $(PRESET)
+	cmake --build --preset $(PRESET)
+	ctest --preset $(PRESET) -j $(JOBS)
+
+bench:
+	./setup --dev
+	cmake --preset release -DAMBLE_BENCHMARKS=ON
+	cmake --build --preset release
+	build/release/bench/amble_bench --csv build/bench.csv
+	build/release/bench/amble_micro
+
+install: build
+	$(SUDO) cmake --install build/release --prefix $(PREFIX)
+
+clean:
+	rm -rf build demo

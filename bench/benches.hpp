@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "bench/table.hpp"
+
+namespace amble::bench {
+
+/// Queries of evolved CPPNs: batched against point by point.
+void measure_cppn(std::vector<Figure>& figures);
+/// Breeding and speciating 300 genomes.
+void measure_neat(std::vector<Figure>& figures);
+/// Steps per second of the engine alone, on the authors' quadruped.
+void measure_physics(std::vector<Figure>& figures);
+/// Whole runs: evaluations per second by workers, share outside physics, memory.
+void measure_runs(std::vector<Figure>& figures);
+
+}  // namespace amble::bench

@@ -1,0 +1,56 @@
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+
+#include "amble/experiment/run.hpp"
+#include "bench/benches.hpp"
+#include "bench/workload.hpp"
+
+namespace amble::bench {
+namespace {
+
+class Totals : public experiment::RunListener {
+ public:
+  void on_generation(const experiment::GenerationRow& row, const experiment::Progress&,
+                     const experiment::Config&) override {
+    evaluations += static_cast<double>(row.evaluations);
+    steps += static_cast<double>(row.steps);
+    wall_s += row.wall_s;
+    outside_s += row.outside_s;
+  }
+  double evaluations = 0.0, steps = 0.0, wall_s = 0.0, outside_s = 0.0;
+};
+
+Totals run(int generations, int jobs) {
+  const auto folder = std::filesystem::temp_directory_path() / ("amble-bench-" + std::to_string(getpid()));
+  const std::atomic<bool> never{false};
+  Totals totals;
+  experiment::Run::start(folder, authors_config({"generations=" + std::to_string(generations)}), jobs)
+      .execute(totals, never);
+  std::filesystem::remove_all(folder);
+  return totals;
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+}  // namespace
+
+void measure_runs(std::vector<Figure>& figures) {
+  constexpr int generations = 4;
+  const auto one = run(generations, 1), two = run(generations, 2);
+  const double one_per_s = one.evaluations / one.wall_s, two_per_s = two.evaluations / two.wall_s;
+  figures.push_back({"two_workers_vs_one", two_per_s / one_per_s, "1", "evaluations per second, whole run"});
+  figures.push_back({"outside_physics_share", two.outside_s / two.wall_s, "1", "of wall time, 300 genomes, two workers"});
+  figures.push_back({"evaluations_per_s_ode", one_per_s, "1/s", "end to end, one worker"});
+  figures.push_back({"evaluations_per_s_ode_two_workers", two_per_s, "1/s", "end to end"});
+  figures.push_back({"steps_per_s_ode_two_workers", two.steps / two.wall_s, "1/s", "end to end"});
+  figures.push_back({"peak_memory_mb", peak_memory_mb(), "MB", "of the whole benchmark, runs of 300 genomes included"});
+}
+
+}  // namespace amble::bench

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <vector>
+
+namespace amble::bench {
+
+/// One measured figure.
+struct Figure {
+  std::string name;   ///< a word with its unit's sense, e.g. "raw_steps_per_s_ode"
+  double value = 0.0;
+  std::string unit;   ///< "1" for ratios
+  std::string note;   ///< what it says, for people
+};
+
+/// Ratios first, then the rest, as aligned text.
+std::string to_text(const std::vector<Figure>& figures);
+/// Columns name,value,unit.
+std::string to_csv(const std::vector<Figure>& figures);
+
+inline double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Calls `work` again and again for `least_s` seconds, `repeats` times over, after one call to warm up; the median of the seconds per
+/// call.
+template <typename Work>
+double seconds_per_call(Work work, double least_s = 0.3, int repeats = 5) {
+  work();
+  std::vector<double> seconds;
+  for (int i = 0; i < repeats; ++i) {
+    int calls = 0;
+    const double start_s = now_s();
+    double spent_s = 0.0;
+    do {
+      work();
+      ++calls;
+      spent_s = now_s() - start_s;
+    } while (spent_s < least_s);
+    seconds.push_back(spent_s / calls);
+  }
+  std::ranges::sort(seconds);
+  return seconds[seconds.size() / 2];
+}
+
+}  // namespace amble::bench

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "amble/analysis/motion.hpp"
+#include "amble/analysis/robot_model.hpp"
+#include "amble/analysis/supg.hpp"
+
+namespace amble::analysis {
+
+/// A recording, read into memory.
+struct Recorded {
+  std::string origin;  ///< the champion it was made from
+  RobotModel robot;
+  Motion motion;
+  std::string controller_kind;
+  std::optional<Supg> supg;  ///< for controllers of kind "supg"
+};
+
+/// Throws UserError: the file is missing or altered, lacks a column, or its robot or controller JSON does not
+/// fit. Frames from the first that is not finite on are left out.
+Recorded read_recorded(const std::filesystem::path& path);
+
+}  // namespace amble::analysis

@@ -1,0 +1,39 @@
+#include "amble/analysis/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "amble/analysis/footfalls.hpp"
+
+namespace amble::analysis {
+
+Summary summarise(const Motion& motion) {
+  Summary summary;
+  summary.outcome = motion.outcome;
+  summary.seconds = motion.seconds();
+  if (motion.frames() > 0) {
+    const Vec3 moved = motion.com_m.back() - motion.com_start_m;
+    summary.distance_m = std::hypot(moved.x, moved.y);
+    summary.mean_speed_m_s = summary.distance_m / summary.seconds;
+  }
+  for (const auto& trigger : motion.trigger)
+    summary.triggers.push_back(static_cast<int>(std::ranges::count(trigger, true)));
+  for (const auto& touch : motion.touch) summary.duty_factors.push_back(duty_factor(touch));
+  return summary;
+}
+
+std::string outcome_text(const Summary& summary) {
+  switch (summary.outcome) {
+    case record::Outcome::completed:
+      return fmt::format("upright for the full {:.1f} s", summary.seconds);
+    case record::Outcome::fell:
+      return fmt::format("fell after {:.1f} s", summary.seconds);
+    case record::Outcome::diverged:
+      return fmt::format("simulation diverged after {:.1f} s", summary.seconds);
+  }
+  return {};
+}
+
+}  // namespace amble::analysis

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "amble/analysis/motion.hpp"
+
+namespace amble::analysis {
+
+/// The head-line numbers of a recording.
+struct Summary {
+  double distance_m = 0.0;  ///< of the whole-body centre of mass from its start, over the ground
+  double seconds = 0.0;     ///< until the time was up or the robot fell
+  double mean_speed_m_s = 0.0;
+  record::Outcome outcome = record::Outcome::completed;
+  std::vector<int> triggers;         ///< per leg; empty without triggers
+  std::vector<double> duty_factors;  ///< per leg
+};
+
+Summary summarise(const Motion& motion);
+
+/// "walked the full 15.0 s", "fell after 3.2 s", …
+std::string outcome_text(const Summary& summary);
+
+}  // namespace amble::analysis

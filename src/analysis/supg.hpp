@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "amble/analysis/robot_model.hpp"
+
+namespace amble::analysis {
+
+/// What a leg's offset means to a SUPG controller: the timer starts at it, or starts that much later.
+enum class Offset { phase, delay };
+
+/// The temporal patterns of a SUPG controller (Morse et al. 2013, sec. 3).
+struct Supg {
+  int period_ticks = 0;
+  double timestep_s = 0.0;
+  Offset offset = Offset::phase;
+  std::vector<int> offset_ticks;  ///< per leg
+  /// Joint by joint (RobotModel::joints): the target angle at each tick of the timer, from 0 to period_ticks.
+  std::vector<std::vector<double>> patterns_rad;
+
+  double period_s() const { return period_ticks * timestep_s; }
+};
+
+/// The kind of a controller, from a recording's controller_json. This and parse_supg throw
+/// UserError(ExitCode::bad_file) naming `what`: not JSON, or a key that is missing or wrong.
+std::string parse_controller_kind(const std::string& controller_json, const std::string& what);
+
+/// The patterns of a controller of kind "supg".
+Supg parse_supg(const std::string& controller_json, const RobotModel& robot, const std::string& what);
+
+}  // namespace amble::analysis

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "amble/core/error.hpp"
+
+namespace amble::cli {
+
+/// Set by the subcommand that was named; run after parsing.
+using Action = std::function<ExitCode()>;
+
+void add_evolve(CLI::App& app, Action& action);
+void add_resume(CLI::App& app, Action& action);
+void add_trial(CLI::App& app, Action& action);
+void add_info(CLI::App& app, Action& action);
+void add_robot(CLI::App& app, Action& action);
+void add_verify(CLI::App& app, Action& action);
+void add_page(CLI::App& app, Action& action);
+void add_settings(CLI::App& app, Action& action);
+
+}  // namespace amble::cli

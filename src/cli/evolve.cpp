@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "amble/cli/commands.hpp"
+#include "amble/cli/progress.hpp"
+#include "amble/cli/stop_signal.hpp"
+#include "amble/experiment/run.hpp"
+
+namespace amble::cli {
+namespace {
+
+constexpr int most_jobs = 1024;
+
+struct EvolveOptions {
+  std::filesystem::path config, out;
+  experiment::Overrides overrides;
+  int jobs = 1;
+};
+
+int processors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+void add_jobs(CLI::App& command, int& jobs) {
+  jobs = processors();
+  command.add_option("--jobs", jobs, "Workers; the results do not depend on it")
+      ->capture_default_str()
+      ->check(CLI::Range(1, most_jobs));
+}
+
+ExitCode execute(experiment::Run run) {
+  const std::string folder = run.paths().folder.string();
+  if (run.generation() >= run.config().generations)
+    fmt::print("{}: all {} generations are done; more by --generations N\n", folder, run.config().generations);
+  experiment::RunStatus status;
+  {
+    ProgressLine progress(run.generation());
+    status = run.execute(progress, stop_signal());
+  }
+  if (status == experiment::RunStatus::interrupted) {
+    fmt::print(stderr, "stopped at generation {} of {}; go on by: amble resume {}\n", run.generation(),
+               run.config().generations, folder);
+    return ExitCode::interrupted;
+  }
+  fmt::print("best distance {:.3f} m (generation {}), {} trials\nlook at it by: amble page {} -o page.html\n", run.progress().best_m,
+             run.progress().best_generation, run.progress().evaluations, folder);
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_evolve(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("evolve", "Evolve controllers as a config file says, into a run folder");
+  auto options = std::make_shared<EvolveOptions>();
+  command->add_option("CONFIG", options->config, "Config file (TOML)")->required();
+  command->add_option("--set", options->overrides.assignments, "Lay key.path=value over the config (repeatable)")
+      ->allow_extra_args(false);
+  command->add_option("--seed", options->overrides.seed, "Seed of all randomness");
+  command->add_option("--generations", options->overrides.generations, "Generations to evaluate");
+  command->add_option("--out", options->out, "The run folder to make")->required();
+  add_jobs(*command, options->jobs);
+  command->callback([options, &action] {
+    action = [options] {
+      stop_signal();
+      const auto config = experiment::load_config(options->config, options->overrides);
+      return execute(experiment::Run::start(options->out, config, options->jobs));
+    };
+  });
+}
+
+void add_resume(CLI::App& app, Action& action) {
+  struct Options {
+    std::filesystem::path folder;
+    std::optional<int> generations;
+    int jobs = 1;
+  };
+  auto* command = app.add_subcommand("resume", "Go on with a run that was stopped, or make it longer");
+  auto options = std::make_shared<Options>();
+  command->add_option("DIR", options->folder, "Run folder")->required();
+  command->add_option("--generations", options->generations, "Generations to evaluate in all")
+      ->check(CLI::Range(1, 1000000000));
+  add_jobs(*command, options->jobs);
+  command->callback([options, &action] {
+    action = [options] {
+      stop_signal();
+      return execute(experiment::Run::resume(options->folder, options->generations, options->jobs));
+    };
+  });
+}
+
+}  // namespace amble::cli

@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "amble/analysis/generations_csv.hpp"
+#include "amble/cli/commands.hpp"
+#include "amble/cli/progress.hpp"
+#include "amble/experiment/champion.hpp"
+#include "amble/experiment/run_folder.hpp"
+#include "amble/io/file.hpp"
+#include "amble/record/recording.hpp"
+
+namespace amble::cli {
+namespace {
+
+void print_champion(const experiment::Champion& champion) {
+  const auto& problem = champion.problem;
+  fmt::print("experiment  {} (seed {})\ngeneration  {}, genome {}\n", champion.experiment, champion.seed,
+             champion.generation, champion.index);
+  fmt::print("robot       {}\ncontroller  {}\nengine      {}\n", problem.robot.name, problem.architecture->name(),
+             problem.engine);
+  fmt::print("CPPN        {} inputs, {} outputs, {} hidden nodes, {} links\n", problem.cppn_inputs(),
+             problem.cppn_outputs(), champion.genome.count(neat::NodeKind::hidden), champion.genome.enabled_links());
+  fmt::print("result      {:.3f} m in {:.2f} s, {}\n", champion.result.distance_m, champion.result.seconds,
+             record::outcome_names[static_cast<std::size_t>(champion.result.outcome)]);
+}
+
+ExitCode run_info(const std::filesystem::path& folder) {
+  if (!experiment::is_run_folder(folder))
+    fail(ExitCode::bad_input, "{}: not a run folder (no config.toml)", folder.string());
+  const experiment::RunPaths paths(folder);
+  const auto config = experiment::load_config(paths.config, {});
+  const auto rows = analysis::read_generations(paths.generations);
+  double evaluations = 0.0, steps = 0.0;
+  for (std::size_t i = 0; i < rows.count(); ++i) {
+    evaluations += rows.evaluations[i];
+    steps += rows.steps[i];
+  }
+  fmt::print("experiment  {} (seed {})\nengine      {}\ngenerations {} of {}\n", config.name, config.seed, config.engine,
+             rows.count(), config.generations);
+  fmt::print("trials      {:.0f} ({:.3g} steps)\n", evaluations, steps);
+  const auto champions = paths.champion_files();
+  fmt::print("champions   {}\n", champions.size());
+  if (!champions.empty()) {
+    fmt::print("\nbest: {}\n", champions.back().string());
+    print_champion(experiment::load_champion(champions.back()));
+  }
+  if (rows.count() < static_cast<std::size_t>(config.generations))
+    fmt::print("\ngo on by: amble resume {}\n", folder.string());
+  return ExitCode::ok;
+}
+
+ExitCode recording_info(const std::filesystem::path& path) {
+  record::RecordingReader reader(path);
+  std::vector<float> frame;
+  while (reader.next(frame)) {
+  }
+  fmt::print("recording of {}\n{} frames, {} s apart: {}\n{}\n{} columns:", reader.header().origin, reader.frames_read(),
+             reader.header().frame_s,
+             clock_text(static_cast<double>(reader.frames_read()) * reader.header().frame_s),
+             record::outcome_names[static_cast<std::size_t>(reader.outcome())], reader.header().columns.size());
+  for (const auto& column : reader.header().columns) fmt::print(" {}", column);
+  fmt::print("\n");
+  return ExitCode::ok;
+}
+
+ExitCode info(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) return run_info(path);
+  if (path.extension() == ".json") {
+    print_champion(experiment::load_champion(path));
+    return ExitCode::ok;
+  }
+  return recording_info(path);
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("info", "Say what a run folder, champion or recording holds");
+  auto path = std::make_shared<std::filesystem::path>();
+  command->add_option("PATH", *path, "Run folder, champion file or recording")->required();
+  command->callback([path, &action] { action = [path] { return info(*path); }; });
+}
+
+}  // namespace amble::cli

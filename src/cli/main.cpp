@@ -1,0 +1,65 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <string>
+
+#include "amble/cli/commands.hpp"
+#include "amble/experiment/build_info.hpp"
+
+namespace {
+
+using amble::ExitCode;
+
+ExitCode complain(ExitCode code, std::string text) {
+  // One line, whatever a library may have put into its message.
+  for (char& c : text)
+    if (c == '\n') c = ' ';
+  while (text.ends_with(' ')) text.pop_back();
+  fmt::print(stderr, "amble: {}\n", text);
+  return code;
+}
+
+ExitCode run(int argc, char** argv) {
+  CLI::App app("Evolves walking controllers for legged robots.", "amble");
+  const auto build = amble::experiment::build_info();
+  app.set_version_flag("--version", fmt::format("amble {} ({}, {}, {})", build.version, build.commit.substr(0, 12),
+                                                build.compiler, build.flags));
+  app.require_subcommand(1);
+  app.footer("Each command explains itself: amble COMMAND --help");
+  amble::cli::Action action;
+  amble::cli::add_evolve(app, action);
+  amble::cli::add_resume(app, action);
+  amble::cli::add_trial(app, action);
+  amble::cli::add_info(app, action);
+  amble::cli::add_robot(app, action);
+  amble::cli::add_verify(app, action);
+  amble::cli::add_page(app, action);
+  amble::cli::add_settings(app, action);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& request) {  // --help, --version
+    app.exit(request);
+    return ExitCode::ok;
+  } catch (const CLI::ParseError& error) {
+    if (argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty())
+      return complain(ExitCode::bad_input, fmt::format("unknown command '{}' (amble --help)", argv[1]));
+    return complain(ExitCode::bad_input, std::string(error.what()) + " (amble --help)");
+  }
+  return action();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ExitCode code = ExitCode::internal;
+  try {
+    code = run(argc, argv);
+    if (std::fflush(stdout) != 0) code = complain(ExitCode::io, "cannot write to the standard output");
+  } catch (const amble::UserError& error) {
+    code = complain(error.code(), error.what());
+  } catch (const std::exception& error) {
+    code = complain(ExitCode::internal, fmt::format("defect: {}", error.what()));
+  }
+  return static_cast<int>(code);
+}

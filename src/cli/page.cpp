@@ -1,0 +1,98 @@
+#include "amble/analysis/page.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "amble/cli/commands.hpp"
+#include "amble/cli/stop_signal.hpp"
+#include "amble/experiment/build_info.hpp"
+#include "amble/experiment/replay.hpp"
+#include "amble/experiment/run_folder.hpp"
+#include "amble/io/file.hpp"
+
+namespace amble::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PageOptions {
+  fs::path run, out;
+};
+
+/// A file that is gone with the object, even if the page cannot be made.
+class ScratchFile {
+ public:
+  explicit ScratchFile(fs::path path) : path_(std::move(path)) {}
+  ~ScratchFile() {
+    std::error_code none;
+    fs::remove(path_, none);
+  }
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+std::vector<analysis::Fact> facts(const experiment::Config& config, const experiment::Champion& champion) {
+  const auto build = experiment::build_info();
+  const auto& robot = champion.problem.robot;
+  return {{"Robot", fmt::format("{}, {:.1f} kg, {} motors", robot.name, robot.total_mass_kg(), robot.joints.size())},
+          {"Engine", fmt::format("{}, steps of {} s", config.engine, config.trial.timestep_s)},
+          {"Controller", champion.problem.architecture->name()},
+          {"Population", fmt::format("{} genomes, {} generations", config.neat.population.size, config.generations)},
+          {"Trial", fmt::format("{} s, or until the robot falls", config.trial.duration_s)},
+          {"Seed", fmt::format("{}", config.seed)},
+          {"Champion", fmt::format("generation {}, genome {}", champion.generation, champion.index)},
+          {"Made by", fmt::format("amble {} ({}), {}", build.version, build.commit.substr(0, 12), build.compiler)}};
+}
+
+ExitCode make_page(const PageOptions& options) {
+  if (!experiment::is_run_folder(options.run))
+    fail(ExitCode::bad_input, "{}: not a run folder (no config.toml)", options.run.string());
+  const experiment::RunPaths paths(options.run);
+  const auto config = experiment::load_config(paths.config, {});
+  const auto champion_path = paths.best_champion();
+  const auto champion = experiment::load_champion(champion_path);
+
+  const ScratchFile recording(fs::temp_directory_path() / fmt::format("amble-page-{}.rec", getpid()));
+  const auto replay =
+      experiment::replay(champion.problem, champion.genome,
+                         {.seconds = {}, .engine = {}, .record = recording.path(), .origin = champion_path.string()},
+                         stop_signal());
+  if (!replay) return ExitCode::interrupted;
+
+  const auto page = analysis::make_page(
+      {.title = config.name,
+       .subtitle = fmt::format("the champion of {} generations of {}, evolved by amble", champion.generation + 1,
+                               config.neat.population.size),
+       .generations = analysis::read_generations(paths.generations),
+       .recording = recording.path(),
+       .cppn = analysis::CppnSize{champion.genome.count(neat::NodeKind::hidden), champion.genome.enabled_links()},
+       .facts = facts(config, champion),
+       .commands = {fmt::format("amble evolve {} --out AGAIN", paths.config.string()), "amble page AGAIN -o page.html"}});
+  if (options.out.has_parent_path()) fs::create_directories(options.out.parent_path());
+  io::write_file(options.out, page);
+  fmt::print("{}\n", fs::absolute(options.out).lexically_normal().string());
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_page(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("page", "Make a page with figures of a run and its champion");
+  auto options = std::make_shared<PageOptions>();
+  command->add_option("DIR", options->run, "Run folder")->required();
+  command->add_option("-o,--out", options->out, "The page to write (HTML)")->required();
+  command->callback([options, &action] { action = [options] { return make_page(*options); }; });
+}
+
+}  // namespace amble::cli

@@ -1,0 +1,58 @@
+#include "amble/cli/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+namespace amble::cli {
+namespace {
+
+constexpr double terminal_interval_s = 0.1, plain_interval_s = 5.0;
+
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+std::string clock_text(double seconds) {
+  const auto whole = std::llround(std::max(0.0, seconds));
+  const auto hours = whole / 3600, minutes = whole / 60 % 60, rest = whole % 60;
+  if (hours > 0) return fmt::format("{}:{:02}:{:02}", hours, minutes, rest);
+  return fmt::format("{}:{:02}", minutes, rest);
+}
+
+ProgressLine::ProgressLine(int first_generation)
+    : terminal_(isatty(STDERR_FILENO) != 0), first_generation_(first_generation), start_s_(now_s()) {}
+
+ProgressLine::~ProgressLine() {
+  if (open_) std::fputc('\n', stderr);
+}
+
+void ProgressLine::on_generation(const experiment::GenerationRow& row, const experiment::Progress& progress,
+                                 const experiment::Config& config) {
+  const int done = row.generation + 1;
+  const double now = now_s();
+  const bool last = done == config.generations;
+  if (!last && now - last_print_s_ < (terminal_ ? terminal_interval_s : plain_interval_s)) return;
+  last_print_s_ = now;
+
+  const double s_per_generation = (now - start_s_) / (done - first_generation_);
+  const double left_s = s_per_generation * (config.generations - done);
+  const auto line = fmt::format("generation {}/{}  best {:.2f} m  median {:.2f} m  {} species  {:.0f} trials/s  {} {}",
+                                done, config.generations, progress.best_m, row.median_m, row.population.species,
+                                static_cast<double>(row.evaluations) / row.wall_s, last ? "took" : "left",
+                                clock_text(last ? now - start_s_ : left_s));
+  if (terminal_)
+    fmt::print(stderr, "\r\033[K{}", line);
+  else
+    fmt::print(stderr, "{}\n", line);
+  std::fflush(stderr);
+  open_ = terminal_;
+}
+
+}  // namespace amble::cli

@@ -1,0 +1,57 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "amble/cli/commands.hpp"
+#include "amble/cli/stop_signal.hpp"
+#include "amble/experiment/replay.hpp"
+
+namespace amble::cli {
+namespace {
+
+struct TrialOptions {
+  std::filesystem::path champion;
+  std::optional<double> seconds;
+  std::optional<std::string> engine;
+  std::optional<std::filesystem::path> record;
+};
+
+ExitCode run_trial(const TrialOptions& options) {
+  const auto champion = experiment::load_champion(options.champion);
+  const auto replay = experiment::replay(champion.problem, champion.genome,
+                                         {.seconds = options.seconds,
+                                          .engine = options.engine,
+                                          .record = options.record,
+                                          .origin = options.champion.string()},
+                                         stop_signal());
+  if (!replay) return ExitCode::interrupted;
+  const auto& result = replay->result;
+  fmt::print("outcome   {}\nupright   {:.2f} s\ndistance  {:.3f} m\nspeed     {:.3f} m/s\n",
+             record::outcome_names[static_cast<std::size_t>(result.outcome)], result.seconds, result.distance_m,
+             result.distance_m / result.seconds);
+  if (!replay->legs.empty()) {
+    fmt::print("triggers ");
+    for (std::size_t i = 0; i < replay->legs.size(); ++i) fmt::print(" {} {}", replay->legs[i], replay->triggers[i]);
+    fmt::print("\n");
+  }
+  if (options.record) fmt::print("recorded  {}\n", options.record->string());
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_trial(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("trial", "Let a champion walk again, for as long as you like");
+  auto options = std::make_shared<TrialOptions>();
+  command->add_option("CHAMPION", options->champion, "Champion file (JSON)")->required();
+  command->add_option("--seconds", options->seconds, "Length of the trial (default: as in its evolution)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--engine", options->engine, "Physics engine (default: as in its evolution)");
+  command->add_option("--record", options->record, "Write every step to this recording");
+  command->callback([options, &action] { action = [options] { return run_trial(*options); }; });
+}
+
+}  // namespace amble::cli

@@ -1,0 +1,100 @@
+#include "amble/controllers/supg.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "amble/controllers/supg_batch.hpp"
+#include "amble/core/check.hpp"
+
+namespace amble::controllers {
+
+SupgParameters::SupgParameters(int legs, int types, int period_ticks)
+    : legs_(legs),
+      types_(types),
+      period_ticks_(period_ticks),
+      offset_ticks_(static_cast<std::size_t>(legs), 1),
+      targets_rad_(static_cast<std::size_t>(legs * (period_ticks + 2) * types)) {}
+
+SupgArchitecture::SupgArchitecture(const SupgSettings& settings, const morphology::RobotSpec& robot,
+                                   double timestep_s)
+    : settings_(settings),
+      timestep_s_(timestep_s),
+      period_ticks_(controllers::period_ticks(settings, timestep_s)),
+      joint_types_(robot.joint_types),
+      layout_(settings.layout, static_cast<int>(robot.legs.size()),
+              static_cast<int>(robot.joint_types.size()), period_ticks_) {
+  AMBLE_CHECK(robot.joints.size() == robot.legs.size() * robot.joint_types.size(),
+              "a robot has one joint per leg and type");
+  for (const morphology::Leg& leg : robot.legs) leg_names_.push_back(leg.name);
+  for (const morphology::Joint& joint : robot.joints) ranges_.push_back({joint.lower_rad, joint.upper_rad});
+}
+
+std::vector<std::string> SupgArchitecture::input_names() const {
+  if (settings_.layout.leg_axis == substrate::LegAxis::x) return {"leg", "joint_type", "time"};
+  return {"joint_type", "leg", "time"};
+}
+
+SupgParameters SupgArchitecture::blank() const {
+  SupgParameters parameters(legs(), types(), period_ticks_);
+  for (int leg = 0; leg < legs(); ++leg)
+    for (int timer = SupgParameters::stopped; timer <= period_ticks_; ++timer)
+      for (int type = 0; type < types(); ++type)
+        parameters.targets_rad(leg, timer)[type] = range(leg, type).at(0.5);
+  return parameters;
+}
+
+std::unique_ptr<Parameters> SupgArchitecture::decode(const cppn::Network& network) const {
+  AMBLE_CHECK(network.outputs() == 2, "a SUPG's CPPN has two outputs");
+  const cppn::Points& points = layout_.points();
+  std::vector<float> results(2 * static_cast<std::size_t>(points.capacity()));
+  network.evaluate(points, results);
+  const float* const pattern = results.data();
+  const float* const offset = results.data() + points.capacity();
+
+  auto parameters = std::make_unique<SupgParameters>(blank());
+  for (int leg = 0; leg < legs(); ++leg) {
+    const double a = static_cast<double>(offset[layout_.offset_point(leg)]);
+    const double ticks = std::ceil((a + 1.0) * 0.5 * period_ticks_);
+    parameters->set_offset_ticks(leg, static_cast<int>(std::clamp(ticks, 1.0, period_ticks_ - 1.0)));
+    for (int type = 0; type < types(); ++type) {
+      for (int tick = 0; tick <= period_ticks_; ++tick) {
+        const double p = static_cast<double>(pattern[layout_.pattern_point(leg, type, tick)]);
+        parameters->targets_rad(leg, tick)[type] = range(leg, type).at(std::clamp((p + 1.0) * 0.5, 0.0, 1.0));
+      }
+    }
+  }
+  return parameters;
+}
+
+std::unique_ptr<Batch> SupgArchitecture::make_batch(int lanes) const {
+  return std::make_unique<SupgBatch>(settings_, leg_names_, blank(), lanes);
+}
+
+std::string SupgArchitecture::parameters_json(const Parameters& parameters) const {
+  const auto* const supg = dynamic_cast<const SupgParameters*>(&parameters);
+  AMBLE_CHECK(supg != nullptr, "the parameters are not a SUPG's");
+  nlohmann::ordered_json json{{"kind", name()},
+                              {"period_ticks", period_ticks_},
+                              {"period_s", settings_.period_s},
+                              {"timestep_s", timestep_s_},
+                              {"trigger", trigger_names[static_cast<std::size_t>(settings_.trigger)]},
+                              {"trigger_debounce_ticks", settings_.trigger_debounce_ticks},
+                              {"offset", offset_names[static_cast<std::size_t>(settings_.offset)]},
+                              {"start_tick", settings_.start_tick},
+                              {"idle", idle_names[static_cast<std::size_t>(settings_.idle)]},
+                              {"legs", leg_names_},
+                              {"joint_types", joint_types_},
+                              {"offset_ticks", nlohmann::ordered_json::array()},
+                              {"patterns_rad", nlohmann::ordered_json::array()}};
+  for (int leg = 0; leg < legs(); ++leg) {
+    json["offset_ticks"].push_back(supg->offset_ticks(leg));
+    for (int type = 0; type < types(); ++type) {
+      auto& pattern = json["patterns_rad"].emplace_back(nlohmann::ordered_json::array());
+      for (int tick = 0; tick <= period_ticks_; ++tick) pattern.push_back(supg->targets_rad(leg, tick)[type]);
+    }
+  }
+  return json.dump();
+}
+
+}  // namespace amble::controllers

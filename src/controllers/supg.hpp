@@ -1,0 +1,100 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "amble/controllers/controller.hpp"
+#include "amble/controllers/supg_settings.hpp"
+#include "amble/substrate/supg_layout.hpp"
+
+namespace amble::controllers {
+
+/// A decoded SUPG controller: for each joint the target angle at each value of its leg's timer, and the
+/// offset of each leg. The CPPN is asked once for all of them and not again while the robot walks.
+class SupgParameters : public Parameters {
+ public:
+  SupgParameters(int legs, int types, int period_ticks);
+
+  int legs() const { return legs_; }
+  int types() const { return types_; }
+  int period_ticks() const { return period_ticks_; }
+  /// 1 … period_ticks − 1.
+  int offset_ticks(int leg) const { return offset_ticks_[static_cast<std::size_t>(leg)]; }
+  void set_offset_ticks(int leg, int ticks) { offset_ticks_[static_cast<std::size_t>(leg)] = ticks; }
+
+  /// Target angles (rad) of the leg's joints, type by type, at a value of its timer: 0 … period_ticks, or
+  /// `stopped`.
+  static constexpr int stopped = -1;
+  const float* targets_rad(int leg, int timer) const { return targets_rad_.data() + index(leg, timer); }
+  float* targets_rad(int leg, int timer) { return targets_rad_.data() + index(leg, timer); }
+
+ private:
+  std::size_t index(int leg, int timer) const {
+    return static_cast<std::size_t>((leg * (period_ticks_ + 2) + timer + 1) * types_);
+  }
+
+  int legs_, types_, period_ticks_;
+  std::vector<int> offset_ticks_;
+  std::vector<float> targets_rad_;  ///< by leg, timer (from `stopped` on) and type: what a leg needs in one
+                                    ///< tick lies together
+};
+
+/// Single-unit pattern generators: one per joint, each with a pattern over one period that its leg's trigger
+/// starts anew (Morse et al. 2013, sec. 3).
+///
+/// CPPN inputs: leg and joint type (or the other way round: SupgLayoutSettings::leg_axis) and time in
+/// periods. Outputs: `pattern`, which becomes the command (pattern + 1)/2, clamped to 0 … 1, and is scaled to
+/// the joint's range; and `offset` a, which becomes ceil((a + 1)/2 × period) ticks, clamped to 1 … period
+/// − 1.
+///
+/// The SUPGs of a leg share one timer, in ticks; −1 means stopped. In each tick, in this order:
+/// 1. Touch is read. It is a trigger with Trigger::level; with Trigger::edge only if the foot was off the
+/// ground in at least the
+///    trigger_debounce_ticks ticks before. All feet count as touching before tick 1.
+/// 2. The timer is set. Offset::phase: at tick 1 it starts at the offset. Offset::delay: it is stopped for
+/// `offset` ticks and starts
+///    at start_tick in the next. From the tick after this first start on, a trigger sets it to start_tick;
+///    triggers before are ignored. Otherwise it grows by 1; when that reaches the period, Idle::mid stops it,
+///    Idle::hold keeps it at the period, and Idle::wrap sets it to 0.
+/// 3. The targets are the patterns at time timer / period; while the timer is stopped, the middle of each
+/// joint's range.
+class SupgArchitecture : public Architecture {
+ public:
+  /// Throws UserError: a period that is not a whole number of ticks; a layout for another number of legs or
+  /// joint types.
+  SupgArchitecture(const SupgSettings& settings, const morphology::RobotSpec& robot, double timestep_s);
+
+  std::string name() const override { return "supg"; }
+  std::vector<std::string> input_names() const override;
+  std::vector<std::string> output_names() const override { return {"pattern", "offset"}; }
+  std::unique_ptr<Parameters> decode(const cppn::Network& network) const override;
+  std::unique_ptr<Batch> make_batch(int lanes) const override;
+  std::string parameters_json(const Parameters& parameters) const override;
+
+  int period_ticks() const { return period_ticks_; }
+
+ private:
+  struct JointRange {
+    double lower_rad, upper_rad;
+    float at(double command) const {
+      return static_cast<float>(lower_rad + (upper_rad - lower_rad) * command);
+    }
+  };
+  const JointRange& range(int leg, int type) const {
+    return ranges_[static_cast<std::size_t>(leg * types() + type)];
+  }
+  int legs() const { return static_cast<int>(leg_names_.size()); }
+  int types() const { return static_cast<int>(joint_types_.size()); }
+  /// With every target in the middle of its range and every offset 1.
+  SupgParameters blank() const;
+
+  SupgSettings settings_;
+  double timestep_s_;
+  int period_ticks_;
+  std::vector<std::string> leg_names_, joint_types_;
+  std::vector<JointRange> ranges_;  ///< in control order
+  substrate::SupgLayout layout_;
+};
+
+}  // namespace amble::controllers

@@ -1,0 +1,122 @@
+#include "amble/controllers/supg_batch.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "amble/core/check.hpp"
+
+namespace amble::controllers {
+namespace {
+
+constexpr std::int32_t stopped = SupgParameters::stopped;
+
+std::int32_t end_of_cycle(Idle idle, int period_ticks) {
+  switch (idle) {
+    case Idle::mid:
+      return stopped;
+    case Idle::hold:
+      return period_ticks;
+    case Idle::wrap:
+      return 0;
+  }
+  return stopped;
+}
+
+}  // namespace
+
+SupgBatch::SupgBatch(const SupgSettings& settings, std::vector<std::string> leg_names, SupgParameters parked,
+                     int lanes)
+    : offset_(settings.offset),
+      start_tick_(settings.start_tick),
+      period_ticks_(parked.period_ticks()),
+      airborne_ticks_needed_(settings.trigger == Trigger::level ? 0 : settings.trigger_debounce_ticks),
+      end_of_cycle_(end_of_cycle(settings.idle, parked.period_ticks())),
+      leg_names_(std::move(leg_names)),
+      parked_(std::move(parked)),
+      lanes_(lanes) {
+  AMBLE_CHECK(lanes > 0, "a batch has at least one lane");
+  const auto size = static_cast<std::size_t>(parked_.legs() * lanes);
+  controllers_.assign(static_cast<std::size_t>(lanes), nullptr);
+  for (auto* const values : {&timer_, &airborne_ticks_, &wait_ticks_, &first_timer_, &triggered_})
+    values->resize(size);
+  for (int lane = 0; lane < lanes; ++lane) load(lane, parked_);
+}
+
+void SupgBatch::load(int lane, const Parameters& parameters) {
+  AMBLE_CHECK(lane >= 0 && lane < lanes_, "there is no such lane");
+  const auto* const supg = dynamic_cast<const SupgParameters*>(&parameters);
+  AMBLE_CHECK(supg != nullptr && supg->legs() == parked_.legs() && supg->types() == parked_.types() &&
+                  supg->period_ticks() == period_ticks_,
+              "the parameters belong to another architecture");
+  controllers_[static_cast<std::size_t>(lane)] = supg;
+  for (int leg = 0; leg < supg->legs(); ++leg) {
+    const std::size_t i = index(leg, lane);
+    const bool phase = offset_ == Offset::phase;
+    timer_[i] = stopped;
+    airborne_ticks_[i] = 0;
+    wait_ticks_[i] = phase ? 0 : supg->offset_ticks(leg);
+    first_timer_[i] = phase ? supg->offset_ticks(leg) : start_tick_;
+    triggered_[i] = 0;
+  }
+}
+
+void SupgBatch::step(const physics::SensorFrame& sensors, LaneArray& targets_rad) {
+  AMBLE_CHECK(sensors.touch.rows() == parked_.legs() && sensors.touch.lanes() == lanes_,
+              "touch must be legs × lanes");
+  AMBLE_CHECK(targets_rad.rows() == parked_.legs() * parked_.types() && targets_rad.lanes() == lanes_,
+              "targets must be joints × lanes");
+  for (int leg = 0; leg < parked_.legs(); ++leg) {
+    update_timers(leg, sensors.touch.row(leg));
+    write_targets(leg, targets_rad);
+  }
+}
+
+void SupgBatch::update_timers(int leg, const float* touch) {
+  const std::size_t first = index(leg, 0);
+  for (std::size_t lane = 0; lane < static_cast<std::size_t>(lanes_); ++lane) {
+    const std::size_t i = first + lane;
+    const bool touching = touch[lane] > 0.5f;
+    const bool started = wait_ticks_[i] < 0, starts = wait_ticks_[i] == 0;
+    const bool triggered = started && touching && airborne_ticks_[i] >= airborne_ticks_needed_;
+
+    std::int32_t next = timer_[i] + 1;
+    next = next >= period_ticks_ ? end_of_cycle_ : next;
+    next = timer_[i] == stopped ? stopped : next;
+    next = triggered ? start_tick_ : next;
+    timer_[i] = starts ? first_timer_[i] : next;
+
+    triggered_[i] = triggered;
+    wait_ticks_[i] = std::max(wait_ticks_[i] - 1, -1);
+    airborne_ticks_[i] = touching ? 0 : std::min(airborne_ticks_[i] + 1, airborne_ticks_needed_);
+  }
+}
+
+void SupgBatch::write_targets(int leg, LaneArray& targets_rad) const {
+  const int types = parked_.types();
+  float* const first_row = targets_rad.row(leg * types);
+  const std::int32_t* const timer = timer_.data() + index(leg, 0);
+  for (int lane = 0; lane < lanes_; ++lane) {
+    const float* const targets = controllers_[static_cast<std::size_t>(lane)]->targets_rad(leg, timer[lane]);
+    for (int type = 0; type < types; ++type) first_row[type * lanes_ + lane] = targets[type];
+  }
+}
+
+std::vector<std::string> SupgBatch::state_names() const {
+  std::vector<std::string> names;
+  for (const std::string& leg : leg_names_) names.push_back("timer." + leg);
+  for (const std::string& leg : leg_names_) names.push_back("trigger." + leg);
+  return names;
+}
+
+void SupgBatch::state(int lane, std::span<float> values) const {
+  const auto legs = leg_names_.size();
+  AMBLE_CHECK(lane >= 0 && lane < lanes_, "there is no such lane");
+  AMBLE_CHECK(values.size() == 2 * legs, "a SUPG has two state variables per leg");
+  for (std::size_t leg = 0; leg < legs; ++leg) {
+    const std::size_t i = index(static_cast<int>(leg), lane);
+    values[leg] = static_cast<float>(timer_[i]);
+    values[legs + leg] = static_cast<float>(triggered_[i]);
+  }
+}
+
+}  // namespace amble::controllers

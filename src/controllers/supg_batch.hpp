@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "amble/controllers/supg.hpp"
+
+namespace amble::controllers {
+
+/// SUPG controllers stepping together; what they do is told at SupgArchitecture. Each quantity is stored leg
+/// by leg, over the lanes, and the update of a tick has no branches that depend on a lane.
+class SupgBatch : public Batch {
+ public:
+  /// `parked` is what runs in lanes that have not been loaded.
+  SupgBatch(const SupgSettings& settings, std::vector<std::string> leg_names, SupgParameters parked,
+            int lanes);
+
+  int lanes() const override { return lanes_; }
+  void load(int lane, const Parameters& parameters) override;
+  void step(const physics::SensorFrame& sensors, LaneArray& targets_rad) override;
+  std::vector<std::string> state_names() const override;
+  void state(int lane, std::span<float> values) const override;
+
+ private:
+  std::size_t index(int leg, int lane) const { return static_cast<std::size_t>(leg * lanes_ + lane); }
+  void update_timers(int leg, const float* touch);
+  void write_targets(int leg, LaneArray& targets_rad) const;
+
+  Offset offset_;
+  std::int32_t start_tick_, period_ticks_;
+  std::int32_t airborne_ticks_needed_;  ///< for a touch to be a trigger
+  std::int32_t end_of_cycle_;           ///< what the timer becomes on reaching the period
+  std::vector<std::string> leg_names_;
+  SupgParameters parked_;
+  int lanes_;
+
+  std::vector<const SupgParameters*> controllers_;  ///< lane by lane
+  std::vector<std::int32_t> timer_;                 ///< ticks, or SupgParameters::stopped
+  std::vector<std::int32_t> airborne_ticks_;  ///< ticks in a row for which the foot has been off the ground
+  std::vector<std::int32_t>
+      wait_ticks_;  ///< ticks before the timer starts for the first time; −1 once it has
+  std::vector<std::int32_t> first_timer_;  ///< timer value of that start
+  std::vector<std::int32_t> triggered_;    ///< 1 if a trigger fired in this tick
+};
+
+}  // namespace amble::controllers

@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "amble/core/check.hpp"
+#include "amble/cppn/program.hpp"
+
+namespace amble::cppn {
+namespace {
+
+/// For each node, by its index in the genome, the nodes at the other end of its links.
+using Neighbours = std::vector<std::vector<int>>;
+
+struct Graph {
+  Neighbours sources, targets;
+};
+
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
+bool is_computed(const neat::NodeGene& node) {
+  return node.kind == neat::NodeKind::output || node.kind == neat::NodeKind::hidden;
+}
+
+Graph graph_of(const neat::Genome& genome, const std::vector<bool>& kept) {
+  Graph graph{Neighbours(genome.nodes.size()), Neighbours(genome.nodes.size())};
+  for (const neat::LinkGene& link : genome.links) {
+    const int from = genome.index_of(link.from), to = genome.index_of(link.to);
+    AMBLE_CHECK(from >= 0 && to >= 0, "a link names a node that is not in the genome");
+    if (!link.enabled || !kept[at(to)]) continue;
+    graph.sources[at(to)].push_back(from);
+    graph.targets[at(from)].push_back(to);
+  }
+  return graph;
+}
+
+/// Least number of links from each node to an output; −1 where there is no way.
+std::vector<int> distances_to_outputs(const neat::Genome& genome, const Graph& graph) {
+  std::vector<int> distances(genome.nodes.size(), -1), queue;
+  for (std::size_t i = 0; i < genome.nodes.size(); ++i) {
+    if (genome.nodes[i].kind != neat::NodeKind::output) continue;
+    distances[i] = 0;
+    queue.push_back(static_cast<int>(i));
+  }
+  for (std::size_t next = 0; next < queue.size(); ++next) {
+    const int node = queue[next];
+    for (const int source : graph.sources[at(node)]) {
+      if (distances[at(source)] >= 0) continue;
+      distances[at(source)] = distances[at(node)] + 1;
+      queue.push_back(source);
+    }
+  }
+  return distances;
+}
+
+/// The greatest lengths[start] + number of links over all paths that end at each node; −1 where a cycle makes
+/// them endless.
+std::vector<int> longest_paths(const Neighbours& before, const Neighbours& after, std::vector<int> lengths) {
+  std::vector<std::size_t> waits_for(before.size());
+  std::vector<int> queue;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    waits_for[i] = before[i].size();
+    if (waits_for[i] == 0) queue.push_back(static_cast<int>(i));
+  }
+  for (std::size_t next = 0; next < queue.size(); ++next) {
+    const int node = queue[next];
+    for (const int follower : after[at(node)]) {
+      lengths[at(follower)] = std::max(lengths[at(follower)], lengths[at(node)] + 1);
+      if (--waits_for[at(follower)] == 0) queue.push_back(follower);
+    }
+  }
+  for (std::size_t i = 0; i < before.size(); ++i)
+    if (waits_for[i] != 0) lengths[i] = -1;
+  return lengths;
+}
+
+/// When each node's value is worth computing, all of them counted in passes or links.
+struct Schedule {
+  std::vector<bool> kept;
+  std::vector<int> distance;  ///< shortest way to an output
+  std::vector<int> height;    ///< longest way to an output; −1: endless
+  std::vector<int> depth;     ///< the pass after which the value stays; −1: perhaps never
+
+  /// Passes in which a node must be computed, of `passes` in all.
+  std::pair<int, int> window(std::size_t node, int passes) const {
+    if (depth[node] >= 0) return {1, std::min(passes, depth[node] + 1)};  // once into each of the two buffers
+    return {height[node] >= 0 ? std::max(1, passes - height[node]) : 1, passes - distance[node]};
+  }
+};
+
+Schedule schedule_of(const neat::Genome& genome) {
+  const std::size_t count = genome.nodes.size();
+  Schedule schedule;
+  schedule.distance = distances_to_outputs(genome, graph_of(genome, std::vector<bool>(count, true)));
+  for (const int distance : schedule.distance) schedule.kept.push_back(distance >= 0);
+  const Graph graph = graph_of(genome, schedule.kept);
+  std::vector<int> start(count);
+  for (std::size_t i = 0; i < count; ++i) start[i] = is_computed(genome.nodes[i]) ? 1 : 0;
+  schedule.depth = longest_paths(graph.sources, graph.targets, start);
+  schedule.height = longest_paths(graph.targets, graph.sources, std::vector<int>(count, 0));
+  return schedule;
+}
+
+/// Computed nodes that are kept, sources before targets as far as there is such an order.
+std::vector<int> evaluation_order(const neat::Genome& genome, const Schedule& schedule) {
+  std::vector<int> order;
+  for (std::size_t i = 0; i < genome.nodes.size(); ++i)
+    if (schedule.kept[i] && is_computed(genome.nodes[i])) order.push_back(static_cast<int>(i));
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return schedule.depth[at(a)] < schedule.depth[at(b)]; });
+  return order;
+}
+
+float to_weight(double weight) {
+  AMBLE_CHECK(std::isfinite(weight), "a CPPN weight is not finite");
+  // With values up to 2^64 (activation.hpp) no sum can then overflow.
+  return static_cast<float>(std::clamp(weight, -0x1p32, 0x1p32));
+}
+
+void decide_passes(Program& program, const neat::Genome& genome, const Schedule& schedule, bool recurrent) {
+  program.passes = 2 * genome.count(neat::NodeKind::hidden) + 1;
+  int deepest = 0;
+  for (std::size_t i = 0; i < genome.nodes.size(); ++i) {
+    if (!schedule.kept[i]) continue;
+    deepest = std::max(deepest, schedule.depth[i]);
+    program.cyclic |= schedule.depth[i] < 0;
+  }
+  AMBLE_CHECK(recurrent || !program.cyclic, "a feed-forward CPPN has a cycle");
+  // A chain of outputs can be longer than the passes of a recurrent CPPN; its last links then see values that
+  // have not settled.
+  program.in_place = !program.cyclic && (!recurrent || deepest <= program.passes);
+  if (program.in_place) program.passes = 1;
+}
+
+}  // namespace
+
+Program compile(const neat::Genome& genome, const Settings& settings) {
+  const Schedule schedule = schedule_of(genome);
+  Program program;
+  program.linear = settings.linear;
+  program.inputs = genome.count(neat::NodeKind::input);
+  decide_passes(program, genome, schedule, settings.recurrent);
+
+  // Bias and inputs are the genome's first nodes, so that their slot is their index.
+  std::vector<int> slot_of(genome.nodes.size(), -1);
+  std::iota(slot_of.begin(), slot_of.begin() + 1 + program.inputs, 0);
+  program.slots = 1 + program.inputs;
+  const std::vector<int> order = evaluation_order(genome, schedule);
+  for (const int node : order) slot_of[at(node)] = program.slots++;
+
+  for (const int index : order) {
+    const neat::NodeGene& gene = genome.nodes[at(index)];
+    const auto [first_pass, last_pass] = schedule.window(at(index), program.passes);
+    Program::Node node{
+        slot_of[at(index)], static_cast<int>(program.links.size()), 0,
+        gene.activation,    program.in_place ? 1 : first_pass,      program.in_place ? 1 : last_pass};
+    for (const neat::LinkGene& link : genome.links) {
+      if (!link.enabled || link.to != gene.id) continue;
+      program.links.push_back({slot_of[at(genome.index_of(link.from))], to_weight(link.weight)});
+      ++node.link_count;
+    }
+    program.nodes.push_back(node);
+  }
+  for (std::size_t i = 0; i < genome.nodes.size(); ++i)
+    if (genome.nodes[i].kind == neat::NodeKind::output) program.output_slots.push_back(slot_of[i]);
+  return program;
+}
+
+}  // namespace amble::cppn

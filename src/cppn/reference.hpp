@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "amble/cppn/settings.hpp"
+#include "amble/neat/genome.hpp"
+
+namespace amble::cppn {
+
+/// The plain twin of Network: one point at a time, in double precision, with the functions of <cmath>. It
+/// defines what a CPPN computes and is what Network is tested against and its speed is compared with; nothing
+/// else uses it.
+class Reference {
+ public:
+  Reference(const neat::Genome& genome, const Settings& settings);
+
+  /// `inputs` without the bias. A CPPN without a cycle is evaluated in one pass, sources first; any other in
+  /// 2 × hidden nodes + 1 synchronous passes.
+  void evaluate(std::span<const double> inputs, std::span<double> outputs) const;
+
+ private:
+  struct Source {
+    std::size_t node;
+    double weight;
+  };
+  struct Node {
+    std::size_t index;
+    neat::Activation activation;
+    std::vector<Source> sources;
+  };
+  bool put_sources_first(std::vector<bool> ready);
+  double next_value(const Node& node, const std::vector<double>& values) const;
+
+  std::size_t node_count_, input_count_ = 0, output_count_ = 0;
+  int passes_ = 1;
+  bool feed_forward_ = true;
+  Linear linear_;
+  std::vector<Node> nodes_;  ///< outputs and hidden; sources first if there is no cycle
+};
+
+}  // namespace amble::cppn

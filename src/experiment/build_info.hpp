@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+namespace amble::experiment {
+
+/// What this program was built from and with, and the machine it runs on: for manifests and --version.
+struct BuildInfo {
+  std::string version;   ///< "0.1.0"
+  std::string commit;    ///< git commit, "+" appended if the tree had changes; "unknown" outside a checkout
+  std::string compiler;  ///< "GNU 12.2.0"
+  std::string flags;     ///< those that decide the arithmetic
+};
+BuildInfo build_info();
+
+/// The processor's name as the system gives it.
+std::string cpu_name();
+
+}  // namespace amble::experiment

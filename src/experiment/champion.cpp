@@ -1,0 +1,121 @@
+#include "amble/experiment/champion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "amble/core/error.hpp"
+#include "amble/io/file.hpp"
+#include "amble/morphology/robot_json.hpp"
+#include "amble/neat/genome_json.hpp"
+#include "amble/score/distance.hpp"
+
+namespace amble::experiment {
+namespace {
+
+constexpr std::string_view champion_format = "amble-champion";
+constexpr int champion_version = 1;
+constexpr std::size_t digits_per_step = 8;
+
+std::string trace_text(const std::vector<std::uint32_t>& trace) {
+  std::string text;
+  for (const auto hash : trace) text += fmt::format("{:08x}", hash);
+  return text;
+}
+
+std::vector<std::uint32_t> parse_trace(const io::JsonView& view) {
+  const std::string text = view.text();
+  if (text.size() % digits_per_step != 0) view.bad("eight hexadecimal digits per step");
+  std::vector<std::uint32_t> trace(text.size() / digits_per_step);
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    const char* const first = text.data() + i * digits_per_step;
+    const auto [end, error] = std::from_chars(first, first + digits_per_step, trace[i], 16);
+    if (error != std::errc() || end != first + digits_per_step) view.bad("eight hexadecimal digits per step");
+  }
+  return trace;
+}
+
+io::Json result_json(const TrialResult& result) {
+  return {{"distance_m", result.distance_m},
+          {"seconds", result.seconds},
+          {"steps", result.steps},
+          {"outcome", record::outcome_names[static_cast<std::size_t>(result.outcome)]}};
+}
+
+TrialResult parse_result(const io::JsonView& view) {
+  TrialResult result;
+  result.distance_m = view.at("distance_m").number();
+  result.seconds = view.at("seconds").number();
+  result.steps = static_cast<int>(view.at("steps").integer());
+  const auto outcome = view.at("outcome").text();
+  const auto found = std::ranges::find(record::outcome_names, outcome);
+  if (found == record::outcome_names.end()) view.at("outcome").bad("completed, fell or diverged");
+  result.outcome = static_cast<record::Outcome>(found - record::outcome_names.begin());
+  return result;
+}
+
+Problem parse_problem(const io::JsonView& root) {
+  Problem problem{.robot = morphology::from_json(root.at("robot")),
+                  .engine = root.at("engine").text(),
+                  .cppn = io::settings_from_json<cppn::Settings>(root.at("cppn")),
+                  .controller = io::settings_from_json<controllers::ControllerSettings>(root.at("controller")),
+                  .trial = io::settings_from_json<trial::Settings>(root.at("trial")),
+                  .architecture = nullptr};
+  problem.complete();
+  return problem;
+}
+
+}  // namespace
+
+TrialResult summarise(const record::Trajectory& trajectory) {
+  return {.distance_m = score::distance_m(trajectory),
+          .steps = trajectory.steps,
+          .seconds = trajectory.seconds(),
+          .outcome = trajectory.outcome};
+}
+
+std::string champion_text(const Champion& champion) {
+  const Problem& problem = champion.problem;
+  return io::sealed_json(champion_format, champion_version,
+                         {{"experiment", champion.experiment},
+                          {"seed", champion.seed},
+                          {"generation", champion.generation},
+                          {"index", champion.index},
+                          {"result", result_json(champion.result)},
+                          {"genome", neat::to_json(champion.genome)},
+                          {"cppn", io::settings_to_json(problem.cppn)},
+                          {"controller", io::settings_to_json(problem.controller)},
+                          {"engine", problem.engine},
+                          {"trial", io::settings_to_json(problem.trial)},
+                          {"robot", morphology::to_json(problem.robot)},
+                          {"trace", trace_text(champion.trace)}});
+}
+
+LoadedChampion parse_champion(const std::string& text, const std::string& what, io::Altered altered) {
+  const auto sealed = io::unseal_json(champion_format, champion_version, text, what, altered);
+  const io::JsonView root(sealed.document, what);
+  try {
+    Champion champion{.experiment = root.at("experiment").text(),
+                      .seed = root.at("seed").integer(),
+                      .generation = static_cast<int>(root.at("generation").integer()),
+                      .index = static_cast<int>(root.at("index").integer()),
+                      .problem = parse_problem(root),
+                      .genome = neat::genome_from_json(root.at("genome")),
+                      .result = parse_result(root.at("result")),
+                      .trace = parse_trace(root.at("trace"))};
+    neat::validate(champion.genome, champion.problem.cppn_inputs(), champion.problem.cppn_outputs(),
+                   champion.problem.cppn.recurrent);
+    return {std::move(champion), sealed.altered};
+  } catch (const UserError& error) {
+    const std::string_view reason = error.what();
+    if (reason.starts_with(what)) throw;
+    fail(ExitCode::bad_file, "{}: {}", what, reason);
+  }
+}
+
+Champion load_champion(const std::filesystem::path& path) {
+  return parse_champion(io::read_file(path), path.string()).champion;
+}
+
+}  // namespace amble::experiment

@@ -1,0 +1,60 @@
+#include "amble/experiment/checkpoint.hpp"
+
+#include "amble/core/error.hpp"
+#include "amble/core/hash.hpp"
+#include "amble/io/binary.hpp"
+#include "amble/io/file.hpp"
+
+namespace amble::experiment {
+namespace {
+
+constexpr std::string_view magic = "AMBLECKP";
+constexpr std::uint32_t version = 1;
+
+/// Names a config, but for what may change when a run goes on.
+std::uint64_t config_hash(const Config& config) {
+  Config copy = config;
+  copy.generations = 1;
+  copy.robot.clear();
+  return hash_text(copy.to_toml());
+}
+
+}  // namespace
+
+void save_checkpoint(const std::filesystem::path& path, const Config& config, const Progress& progress,
+                     const neat::Population& population, const search::Search& search) {
+  io::BinaryWriter writer;
+  writer.put(config_hash(config));
+  writer.put(progress.best_m);
+  writer.put(static_cast<std::int32_t>(progress.best_generation));
+  writer.put(progress.evaluations);
+  writer.put(progress.steps);
+  writer.put(progress.wall_s);
+  writer.put(progress.csv_bytes);
+  population.save(writer);
+  search.save(writer);
+  io::write_file(path, io::seal(magic, version, writer.bytes()));
+}
+
+Progress load_checkpoint(const std::filesystem::path& path, const Config& config, neat::Population& population,
+                         search::Search& search) {
+  const std::string what = path.string();
+  const std::string bytes = io::read_file(path);
+  io::BinaryReader reader(io::unseal(magic, version, bytes, what), what);
+  if (reader.get<std::uint64_t>() != config_hash(config))
+    fail(ExitCode::bad_file, "{}: written under another config.toml than the one beside it; restore that, or start a new run",
+         what);
+  Progress progress;
+  progress.best_m = reader.get<double>();
+  progress.best_generation = reader.get<std::int32_t>();
+  progress.evaluations = reader.get<std::uint64_t>();
+  progress.steps = reader.get<std::uint64_t>();
+  progress.wall_s = reader.get<double>();
+  progress.csv_bytes = reader.get<std::uint64_t>();
+  population.load(reader);
+  search.load(reader);
+  reader.finish();
+  return progress;
+}
+
+}  // namespace amble::experiment

@@ -1,0 +1,53 @@
+#include "amble/experiment/config.hpp"
+
+#include "amble/core/error.hpp"
+#include "amble/io/toml_settings.hpp"
+
+namespace amble::experiment {
+
+void Config::describe(io::SettingsVisitor& visitor) {
+  visitor.text("name", name, {"what this experiment is called in files and figures"});
+  visitor.text("robot", robot, {"robot file, relative to the config file"});
+  visitor.text("engine", engine, {"physics engine: ode", "Morse et al. 2013, sec. 4"});
+  visitor.integer("seed", seed, {0, 9007199254740992.0}, {"seed of all randomness"});
+  visitor.integer("generations", generations, {1, 1e9},
+                  {"generations to evaluate, the initial one included", "Morse et al. 2013, sec. 4"});
+  neat.describe(visitor);
+  visitor.table("cppn", cppn, {"the compositional pattern producing network"});
+  visitor.table("controller", controller, {"how a CPPN becomes a controller"});
+  visitor.table("trial", trial, {"one evaluation of one controller"});
+  visitor.table("search", search, {"what selects parents"});
+}
+
+void Config::validate() const {
+  if (robot.empty()) fail(ExitCode::bad_input, "key 'robot' is missing: expected the path of a robot file");
+  neat.validate();
+  trial.validate();
+}
+
+std::string Config::to_toml() const {
+  Config copy = *this;
+  return io::settings_to_toml([&copy](io::SettingsVisitor& visitor) { copy.describe(visitor); });
+}
+
+Config load_config(const std::filesystem::path& path, const Overrides& overrides) {
+  auto document = io::TomlDocument::read(path);
+  for (const auto& assignment : overrides.assignments) document.set(assignment);
+  if (overrides.seed) document.set("seed=" + std::to_string(*overrides.seed));
+  if (overrides.generations) document.set("generations=" + std::to_string(*overrides.generations));
+
+  Config config;
+  const auto reader = document.reader();
+  config.describe(*reader);
+  reader->finish();
+  try {
+    config.validate();
+  } catch (const UserError& error) {
+    fail(error.code(), "{}: {}", path.string(), error.what());
+  }
+  const std::filesystem::path robot = config.robot;
+  if (robot.is_relative()) config.robot = (document.folder_of("robot") / robot).lexically_normal().string();
+  return config;
+}
+
+}  // namespace amble::experiment

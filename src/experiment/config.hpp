@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "amble/controllers/factory.hpp"
+#include "amble/cppn/settings.hpp"
+#include "amble/io/settings.hpp"
+#include "amble/neat/settings.hpp"
+#include "amble/search/search.hpp"
+#include "amble/trial/settings.hpp"
+
+namespace amble::experiment {
+
+/// Everything that decides the result of a run, but for the robot's own data. docs/SETTINGS.md lists each key with its source.
+struct Config {
+  std::string name = "unnamed";
+  std::string robot;  ///< robot file (TOML side file, or robot.json of a run folder)
+  std::string engine = "ode";
+  std::int64_t seed = 1;
+  int generations = 800;
+  neat::Settings neat;
+  cppn::Settings cppn;
+  controllers::ControllerSettings controller;
+  trial::Settings trial;
+  search::Settings search;
+
+  void describe(io::SettingsVisitor& visitor);
+  /// Rules that join several settings. Throws UserError naming the keys.
+  void validate() const;
+  /// The whole config as TOML with comments; reads back to the same values.
+  std::string to_toml() const;
+};
+
+/// What the command line may lay over a config file.
+struct Overrides {
+  std::vector<std::string> assignments;  ///< "key.path=value", in order
+  std::optional<std::int64_t> seed;
+  std::optional<int> generations;
+};
+
+/// Reads, overrides, checks. `robot` comes back as a path that can be opened from here. Throws UserError.
+Config load_config(const std::filesystem::path& path, const Overrides& overrides);
+
+}  // namespace amble::experiment

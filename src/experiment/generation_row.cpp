@@ -1,0 +1,42 @@
+#include "amble/experiment/generation_row.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "amble/core/check.hpp"
+
+namespace amble::experiment {
+
+std::string csv_header() {
+  return "generation,best_m,best_so_far_m,mean_m,median_m,species,threshold,mean_hidden,mean_links,best_hidden,"
+         "best_links,fell,diverged,evaluations,steps,wall_s,physics_s,outside_s\n";
+}
+
+std::string csv_line(const GenerationRow& row) {
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{:.6f},{:.6f},{:.6f}\n", row.generation,
+                     row.best_m, row.best_so_far_m, row.mean_m, row.median_m, row.population.species,
+                     row.population.compatibility_threshold, row.population.mean_hidden, row.population.mean_links,
+                     row.best_hidden, row.best_links, row.fell, row.diverged, row.evaluations, row.steps, row.wall_s,
+                     row.physics_s, row.outside_s);
+}
+
+void summarise_trials(std::span<const double> distances_m, std::span<const record::Trajectory> trajectories,
+                      GenerationRow& row) {
+  AMBLE_CHECK(!distances_m.empty(), "a generation has members");
+  std::vector<double> sorted(distances_m.begin(), distances_m.end());
+  std::ranges::sort(sorted);
+  const std::size_t n = sorted.size();
+  row.best_m = sorted.back();
+  row.median_m = 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]);
+  double sum = 0.0;
+  for (const double distance_m : distances_m) sum += distance_m;
+  row.mean_m = sum / static_cast<double>(n);
+  for (const auto& trajectory : trajectories) {
+    row.fell += trajectory.outcome == record::Outcome::fell;
+    row.diverged += trajectory.outcome == record::Outcome::diverged;
+  }
+}
+
+}  // namespace amble::experiment

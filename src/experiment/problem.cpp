@@ -1,0 +1,59 @@
+#include "amble/experiment/problem.hpp"
+
+#include <utility>
+
+#include "amble/io/file.hpp"
+#include "amble/io/json_file.hpp"
+#include "amble/morphology/robot_file.hpp"
+#include "amble/morphology/robot_json.hpp"
+
+namespace amble::experiment {
+namespace {
+
+constexpr int robot_version = 1;
+
+}  // namespace
+
+Problem Problem::make(const Config& config, morphology::RobotSpec robot) {
+  Problem problem{.robot = std::move(robot),
+                  .engine = config.engine,
+                  .cppn = config.cppn,
+                  .controller = config.controller,
+                  .trial = config.trial,
+                  .architecture = nullptr};
+  problem.complete();
+  return problem;
+}
+
+void Problem::complete() {
+  trial.validate();
+  architecture = controllers::make_architecture(controller, robot, trial.timestep_s);
+  make_engine();
+}
+
+std::unique_ptr<physics::Engine> Problem::make_engine() const {
+  return physics::make_engine(engine, robot, {.timestep_s = trial.timestep_s});
+}
+
+std::unique_ptr<controllers::Parameters> Problem::decode(const neat::Genome& genome) const {
+  return architecture->decode(cppn::Network(genome, cppn));
+}
+
+trial::Protocol Problem::protocol(int path_stride) const {
+  return {.steps = trial.steps(),
+          .timestep_s = trial.timestep_s,
+          .path_stride = path_stride,
+          .fall_height_m = robot.fall_height_m};
+}
+
+morphology::RobotSpec load_robot_file(const std::filesystem::path& path) {
+  if (path.extension() != ".json") return morphology::load_robot(path);
+  const auto sealed = io::unseal_json("amble-robot", robot_version, io::read_file(path), path.string());
+  return morphology::from_json(io::JsonView(sealed.document, path.string()).at("robot"));
+}
+
+std::string robot_file_text(const morphology::RobotSpec& robot) {
+  return io::sealed_json("amble-robot", robot_version, {{"robot", morphology::to_json(robot)}});
+}
+
+}  // namespace amble::experiment

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "amble/controllers/controller.hpp"
+#include "amble/controllers/factory.hpp"
+#include "amble/cppn/settings.hpp"
+#include "amble/experiment/config.hpp"
+#include "amble/morphology/robot_spec.hpp"
+#include "amble/neat/genome.hpp"
+#include "amble/trial/settings.hpp"
+#include "amble/trial/trial.hpp"
+
+namespace amble::experiment {
+
+/// All that a genome needs to become a trajectory: robot, engine, architecture, trial. Const, shared by all workers.
+struct Problem {
+  morphology::RobotSpec robot;
+  std::string engine;
+  cppn::Settings cppn;
+  controllers::ControllerSettings controller;
+  trial::Settings trial;
+  std::shared_ptr<const controllers::Architecture> architecture;
+
+  /// Throws UserError where the parts do not fit together (an engine that cannot simulate the robot, a controller for other legs).
+  static Problem make(const Config& config, morphology::RobotSpec robot);
+  /// Makes `architecture` from the other members and checks that they fit.
+  void complete();
+
+  int cppn_inputs() const { return static_cast<int>(architecture->input_names().size()); }
+  int cppn_outputs() const { return static_cast<int>(architecture->output_names().size()); }
+  std::unique_ptr<physics::Engine> make_engine() const;
+  std::unique_ptr<controllers::Parameters> decode(const neat::Genome& genome) const;
+  trial::Protocol protocol(int path_stride) const;
+};
+
+/// A robot file: the TOML side file of a model, or the robot.json of a run folder. Throws UserError.
+morphology::RobotSpec load_robot_file(const std::filesystem::path& path);
+/// The text of a robot.json.
+std::string robot_file_text(const morphology::RobotSpec& robot);
+
+}  // namespace amble::experiment

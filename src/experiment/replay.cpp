@@ -1,0 +1,44 @@
+#include "amble/experiment/replay.hpp"
+
+#include "amble/morphology/robot_json.hpp"
+#include "amble/trial/observers.hpp"
+
+namespace amble::experiment {
+
+std::optional<Replay> replay(const Problem& original, const neat::Genome& genome, const ReplayOptions& options,
+                             const std::atomic<bool>& stop) {
+  Problem problem = original;
+  if (options.seconds) problem.trial.duration_s = *options.seconds;
+  if (options.engine) problem.engine = *options.engine;
+  problem.trial.validate();
+
+  const auto engine = problem.make_engine();
+  const auto controllers = problem.architecture->make_batch(engine->lanes());
+  auto parameters = problem.decode(genome);
+
+  trial::TraceObserver trace;
+  trial::TriggerObserver triggers(*controllers);
+  std::optional<trial::RecordingObserver> recording;
+  trial::ObserverList observers;
+  observers.add(trace);
+  observers.add(triggers);
+  if (options.record) {
+    recording.emplace(*options.record, problem.robot, *controllers, problem.trial.timestep_s,
+                      morphology::to_json(problem.robot).dump(), problem.architecture->parameters_json(*parameters),
+                      options.origin);
+    observers.add(*recording);
+  }
+
+  trial::OneTask task(std::move(parameters), &observers);
+  trial::Runner runner(*engine, *controllers, problem.protocol(0));
+  runner.run(task, stop);
+  if (!task.result()) return std::nullopt;
+  if (recording) recording->finish(task.result()->outcome);
+  return Replay{.result = summarise(*task.result()),
+                .legs = triggers.legs(),
+                .triggers = triggers.counts(),
+                .trace = trace.trace(),
+                .physics_s = runner.physics_s()};
+}
+
+}  // namespace amble::experiment

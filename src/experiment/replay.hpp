@@ -1,0 +1,34 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "amble/experiment/champion.hpp"
+
+namespace amble::experiment {
+
+/// How a champion is run again; what is not given is as in its own file.
+struct ReplayOptions {
+  std::optional<double> seconds;
+  std::optional<std::string> engine;
+  std::optional<std::filesystem::path> record;  ///< writes a recording (record/recording.hpp)
+  std::string origin;                           ///< named in the recording
+};
+
+struct Replay {
+  TrialResult result;
+  std::vector<std::string> legs;       ///< legs with triggers; empty for controllers without
+  std::vector<std::int64_t> triggers;  ///< per leg
+  std::vector<std::uint32_t> trace;    ///< trial::TraceObserver
+  double physics_s = 0.0;              ///< time spent in the engine
+};
+
+/// One trial of one genome. Nothing if `stop` was set before it ended (then nothing is recorded). Throws UserError.
+std::optional<Replay> replay(const Problem& problem, const neat::Genome& genome, const ReplayOptions& options,
+                             const std::atomic<bool>& stop);
+
+}  // namespace amble::experiment

@@ -1,0 +1,120 @@
+#include "amble/experiment/run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "amble/core/error.hpp"
+#include "amble/experiment/replay.hpp"
+#include "amble/score/distance.hpp"
+
+namespace amble::experiment {
+namespace {
+
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+Run::Run(RunFolder folder, const Config& config, const morphology::RobotSpec& robot, int jobs)
+    : folder_(std::move(folder)),
+      config_(config),
+      problem_(std::make_unique<const Problem>(Problem::make(config, robot))),
+      population_(config.neat, problem_->cppn_inputs(), problem_->cppn_outputs(), config.cppn.recurrent,
+                  static_cast<std::uint64_t>(config.seed)),
+      search_(search::make_search(config.search)),
+      jobs_(jobs) {}
+
+Run Run::start(const std::filesystem::path& folder, const Config& config, int jobs) {
+  const auto robot = load_robot_file(config.robot);
+  Problem::make(config, robot);  // complain before anything is written
+  Run run(RunFolder::create(folder, config, robot), config, robot, jobs);
+  run.csv_ = std::make_unique<io::AppendFile>(run.paths().generations, 0);
+  run.csv_->append(csv_header());
+  run.checkpoint();
+  run.folder_.note_process(config, jobs, 0);
+  return run;
+}
+
+Run Run::resume(const std::filesystem::path& folder, std::optional<int> generations, int jobs) {
+  auto held = RunFolder::open(folder);
+  Config config = held.load_config();
+  if (generations) config.generations = *generations;
+  const auto robot = held.load_robot();
+  Run run(std::move(held), config, robot, jobs);
+  run.progress_ = load_checkpoint(run.paths().checkpoint, config, run.population_, *run.search_);
+  run.csv_ = std::make_unique<io::AppendFile>(run.paths().generations, run.progress_.csv_bytes);
+  if (generations) run.folder_.save_config(config);
+  run.folder_.note_process(config, jobs, run.generation());
+  return run;
+}
+
+// The generation loop: evaluate, judge, keep the best, breed, write down.
+RunStatus Run::execute(RunListener& listener, const std::atomic<bool>& stop) {
+  Evaluator evaluator(*problem_, 0, jobs_);
+  double last_row_s = now_s();
+  while (population_.generation() < config_.generations) {
+    const auto result = evaluator.evaluate(population_.genomes(), stop);
+    if (!result) return RunStatus::interrupted;
+
+    std::vector<double> distances_m;
+    std::vector<search::Evaluation> evaluations;
+    for (const auto& trajectory : result->trajectories) {
+      distances_m.push_back(score::distance_m(trajectory));
+      evaluations.push_back({.objective = distances_m.back(), .behaviour = trajectory.com_path_m});
+    }
+    const auto fitness = search_->judge(evaluations);
+
+    GenerationRow row{.generation = population_.generation(), .population = population_.statistics()};
+    summarise_trials(distances_m, result->trajectories, row);
+    const auto best = static_cast<std::size_t>(std::ranges::max_element(distances_m) - distances_m.begin());
+    row.best_hidden = population_.genomes()[best].count(neat::NodeKind::hidden);
+    row.best_links = population_.genomes()[best].enabled_links();
+    row.evaluations = evaluations.size();
+    row.steps = result->steps;
+    row.physics_s = result->physics_s;
+    if (row.best_m > progress_.best_m) row.physics_s += keep_champion(*result, best);
+    row.best_so_far_m = progress_.best_m;
+
+    population_.advance(fitness);
+
+    row.wall_s = now_s() - std::exchange(last_row_s, now_s());
+    row.outside_s = row.wall_s - row.physics_s;
+    progress_.evaluations += row.evaluations;
+    progress_.steps += row.steps;
+    progress_.wall_s += row.wall_s;
+    csv_->append(csv_line(row));
+    progress_.csv_bytes = csv_->size();
+    checkpoint();
+    listener.on_generation(row, progress_, config_);
+  }
+  return RunStatus::finished;
+}
+
+double Run::keep_champion(const GenerationResult& result, std::size_t best) {
+  static const std::atomic<bool> to_the_end{false};
+  Champion champion{.experiment = config_.name,
+                    .seed = config_.seed,
+                    .generation = population_.generation(),
+                    .index = static_cast<int>(best),
+                    .problem = *problem_,
+                    .genome = population_.genomes()[best],
+                    .result = summarise(result.trajectories[best]),
+                    .trace = {}};
+  const auto again = replay(*problem_, champion.genome, {}, to_the_end);
+  if (again->result.distance_m != champion.result.distance_m)
+    fail(ExitCode::differs, "generation {}: the champion walked {} m, and {} m when run again: the engine does not repeat",
+         champion.generation, champion.result.distance_m, again->result.distance_m);
+  champion.trace = again->trace;
+  folder_.save_champion(champion);
+  progress_.best_m = champion.result.distance_m;
+  progress_.best_generation = champion.generation;
+  return again->physics_s;
+}
+
+void Run::checkpoint() const {
+  save_checkpoint(paths().checkpoint, config_, progress_, population_, *search_);
+}
+
+}  // namespace amble::experiment

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "amble/experiment/checkpoint.hpp"
+#include "amble/experiment/config.hpp"
+#include "amble/experiment/evaluator.hpp"
+#include "amble/experiment/generation_row.hpp"
+#include "amble/experiment/problem.hpp"
+#include "amble/experiment/run_folder.hpp"
+#include "amble/io/file.hpp"
+#include "amble/neat/population.hpp"
+#include "amble/search/search.hpp"
+
+namespace amble::experiment {
+
+/// Hears how a run goes. Called from the thread of Run::execute.
+class RunListener {
+ public:
+  virtual ~RunListener() = default;
+  virtual void on_generation(const GenerationRow& row, const Progress& progress, const Config& config) = 0;
+};
+
+enum class RunStatus { finished, interrupted };
+
+/// One evolutionary run in its folder. After every generation all files are on the disk, and a checkpoint from which the
+/// run goes on to the same bits as if it had never stopped.
+class Run {
+ public:
+  /// A new run. Throws UserError; then nothing was written over.
+  static Run start(const std::filesystem::path& folder, const Config& config, int jobs);
+  /// Goes on with an old one, to `generations` if given. Throws UserError.
+  static Run resume(const std::filesystem::path& folder, std::optional<int> generations, int jobs);
+
+  /// Until all generations are done, or `stop` is set: then the generation in flight is dropped and the checkpoint stands.
+  RunStatus execute(RunListener& listener, const std::atomic<bool>& stop);
+
+  const Config& config() const { return config_; }
+  const Progress& progress() const { return progress_; }
+  const RunPaths& paths() const { return folder_.paths(); }
+  int generation() const { return population_.generation(); }
+
+ private:
+  Run(RunFolder folder, const Config& config, const morphology::RobotSpec& robot, int jobs);
+
+  /// Returns seconds spent in the engine for it.
+  double keep_champion(const GenerationResult& result, std::size_t best);
+  void checkpoint() const;
+
+  RunFolder folder_;
+  Config config_;
+  std::unique_ptr<const Problem> problem_;
+  neat::Population population_;
+  std::unique_ptr<search::Search> search_;
+  std::unique_ptr<io::AppendFile> csv_;
+  Progress progress_;
+  int jobs_;
+};
+
+}  // namespace amble::experiment

@@ -1,0 +1,143 @@
+#include "amble/experiment/run_folder.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <system_error>
+
+#include "amble/core/error.hpp"
+#include "amble/experiment/build_info.hpp"
+#include "amble/io/file.hpp"
+#include "amble/io/json_file.hpp"
+
+namespace amble::experiment {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view manifest_format = "amble-manifest";
+constexpr int manifest_version = 1;
+constexpr std::string_view lock_name = ".lock";
+
+bool holds_nothing(const fs::path& folder) {
+  return std::ranges::all_of(fs::directory_iterator(folder),
+                             [](const auto& entry) { return entry.path().filename() == lock_name; });
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) fail(ExitCode::io, "cannot make folder {}: {}", folder.string(), error.message());
+  if (!fs::is_directory(folder)) fail(ExitCode::io, "{} is not a folder", folder.string());
+}
+
+/// Before anything is made or locked: a folder that is in use stays as it is.
+void refuse_used_folder(const fs::path& folder) {
+  if (!fs::exists(folder)) return;
+  if (!fs::is_directory(folder)) fail(ExitCode::bad_input, "--out {}: a file of that name exists", folder.string());
+  if (is_run_folder(folder))
+    fail(ExitCode::bad_input, "--out {0}: holds a run already; go on with it by `amble resume {0}`, or name another folder",
+         folder.string());
+  if (!holds_nothing(folder))
+    fail(ExitCode::bad_input, "--out {}: not empty and not a run; name another folder", folder.string());
+}
+
+io::Json process_json(const ProcessNote& note) {
+  return {{"started_utc", note.started_utc}, {"amble", note.version}, {"commit", note.commit},
+          {"compiler", note.compiler},       {"flags", note.flags},   {"cpu", note.cpu},
+          {"jobs", note.jobs},               {"from_generation", note.from_generation}};
+}
+
+}  // namespace
+
+RunPaths::RunPaths(const fs::path& folder_in)
+    : folder(folder_in),
+      config(folder / "config.toml"),
+      robot(folder / "robot.json"),
+      manifest(folder / "manifest.json"),
+      generations(folder / "generations.csv"),
+      checkpoint(folder / "checkpoint.bin"),
+      champions(folder / "champions") {}
+
+fs::path RunPaths::champion(int generation) const { return champions / fmt::format("{:05}.json", generation); }
+
+std::vector<fs::path> RunPaths::champion_files() const {
+  std::vector<fs::path> files;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(champions, none))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
+}
+
+fs::path RunPaths::best_champion() const {
+  const auto files = champion_files();
+  if (files.empty()) fail(ExitCode::bad_input, "{}: no champion yet", folder.string());
+  return files.back();
+}
+
+bool is_run_folder(const fs::path& folder) {
+  const RunPaths paths(folder);
+  return fs::is_regular_file(paths.config) && fs::is_regular_file(paths.robot);
+}
+
+RunFolder::RunFolder(const fs::path& folder)
+    : paths_(folder), lock_(std::make_unique<io::FolderLock>(folder)) {}
+
+RunFolder RunFolder::create(const fs::path& folder, const Config& config, const morphology::RobotSpec& robot) {
+  refuse_used_folder(folder);
+  make_folder(folder);
+  RunFolder run(folder);
+  refuse_used_folder(folder);  // again, now that nobody else can fill it
+  make_folder(run.paths_.champions);
+  io::write_file(run.paths_.robot, robot_file_text(robot));
+  run.save_config(config);
+  return run;
+}
+
+RunFolder RunFolder::open(const fs::path& folder) {
+  if (!fs::is_directory(folder)) fail(ExitCode::io, "{}: no such folder", folder.string());
+  if (!is_run_folder(folder)) fail(ExitCode::bad_input, "{}: not a run folder (no config.toml)", folder.string());
+  return RunFolder(folder);
+}
+
+Config RunFolder::load_config() const { return experiment::load_config(paths_.config, {}); }
+
+void RunFolder::save_config(const Config& config) const {
+  Config saved = config;
+  saved.robot = paths_.robot.filename().string();
+  io::write_file(paths_.config, saved.to_toml());
+}
+
+morphology::RobotSpec RunFolder::load_robot() const { return load_robot_file(paths_.robot); }
+
+void RunFolder::save_champion(const Champion& champion) const {
+  io::write_file(paths_.champion(champion.generation), champion_text(champion));
+}
+
+void RunFolder::note_process(const Config& config, int jobs, int from_generation) const {
+  io::Json processes = io::Json::array();
+  if (fs::exists(paths_.manifest)) {
+    const auto old = io::unseal_json(manifest_format, manifest_version, io::read_file(paths_.manifest),
+                                     paths_.manifest.string());
+    processes = old.document.value("processes", io::Json::array());
+  }
+  const auto build = build_info();
+  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  processes.push_back(process_json({.started_utc = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now)),
+                                    .version = build.version,
+                                    .commit = build.commit,
+                                    .compiler = build.compiler,
+                                    .flags = build.flags,
+                                    .cpu = cpu_name(),
+                                    .jobs = jobs,
+                                    .from_generation = from_generation}));
+  io::write_file(paths_.manifest, io::sealed_json(manifest_format, manifest_version,
+                                                  {{"name", config.name},
+                                                   {"seed", config.seed},
+                                                   {"engine", config.engine},
+                                                   {"processes", processes}}));
+}
+
+}  // namespace amble::experiment

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "amble/experiment/champion.hpp"
+#include "amble/experiment/config.hpp"
+#include "amble/io/lock.hpp"
+
+namespace amble::experiment {
+
+/// Where the files of a run are (docs/FORMATS.md).
+struct RunPaths {
+  explicit RunPaths(const std::filesystem::path& folder);
+  std::filesystem::path folder, config, robot, manifest, generations, checkpoint, champions;
+
+  std::filesystem::path champion(int generation) const;
+  /// Champion files in the order of their generations; the last is the best.
+  std::vector<std::filesystem::path> champion_files() const;
+  /// Throws UserError if the run has none.
+  std::filesystem::path best_champion() const;
+};
+
+/// One process that worked on a run, for the manifest.
+struct ProcessNote {
+  std::string started_utc;  ///< ISO 8601
+  std::string version, commit, compiler, flags, cpu;
+  int jobs = 0;
+  int from_generation = 0;
+};
+
+/// A run folder held by this process alone.
+class RunFolder {
+ public:
+  /// Makes the folder and writes config.toml and robot.json. Throws UserError: the folder holds a run or anything else, is
+  /// locked, or cannot be written; then nothing in it was changed.
+  static RunFolder create(const std::filesystem::path& folder, const Config& config,
+                          const morphology::RobotSpec& robot);
+  /// Takes hold of the folder of an earlier run. Throws UserError if it is none, or locked.
+  static RunFolder open(const std::filesystem::path& folder);
+
+  const RunPaths& paths() const { return paths_; }
+  Config load_config() const;
+  void save_config(const Config& config) const;
+  morphology::RobotSpec load_robot() const;
+  void save_champion(const Champion& champion) const;
+  /// Adds a line on this process to the manifest.
+  void note_process(const Config& config, int jobs, int from_generation) const;
+
+ private:
+  explicit RunFolder(const std::filesystem::path& folder);
+
+  RunPaths paths_;
+  std::unique_ptr<io::FolderLock> lock_;
+};
+
+/// Whether a folder looks like a run's.
+bool is_run_folder(const std::filesystem::path& folder);
+
+}  // namespace amble::experiment

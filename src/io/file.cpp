@@ -1,0 +1,169 @@
+#include "amble/io/file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+#include "amble/core/check.hpp"
+#include "amble/core/error.hpp"
+
+namespace amble::io {
+namespace {
+
+std::string reason(int error) {
+  return std::generic_category().message(error);
+}
+
+[[noreturn]] void fail_to_write(const std::filesystem::path& path, int error) {
+  fail(ExitCode::io, "cannot write {}: {}", path.string(), reason(error));
+}
+
+/// False, with errno set, if not all could be written.
+bool write_all(int fd, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(fd, bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) return false;
+    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+/// Devices and pipes cannot be synced, and need not be.
+bool sync(int fd) {
+  return ::fsync(fd) == 0 || errno == EINVAL || errno == EROFS;
+}
+
+/// Makes a new or renamed entry of the folder survive a power cut. False, with errno set, on failure.
+bool sync_folder_of(const std::filesystem::path& path) {
+  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return errno == EACCES;  // a folder that may be written but not read cannot be synced
+  const bool synced = sync(fd);
+  const int error = errno;
+  ::close(fd);
+  errno = error;
+  return synced;
+}
+
+bool is_special_file(const std::filesystem::path& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+}
+
+}  // namespace
+
+InputFile::InputFile(const std::filesystem::path& path)
+    : path_(path), fd_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+  if (fd_ < 0) fail(ExitCode::io, "{}: {}", path_.string(), reason(errno));
+}
+
+InputFile::~InputFile() {
+  ::close(fd_);
+}
+
+std::string InputFile::read(std::uint64_t count) {
+  constexpr std::uint64_t piece = std::uint64_t{1} << 20;
+  std::string bytes;
+  while (bytes.size() < count) {
+    const std::size_t have = bytes.size();
+    bytes.resize(have + static_cast<std::size_t>(std::min(piece, count - have)));
+    const ssize_t got = ::read(fd_, bytes.data() + have, bytes.size() - have);
+    const int error = errno;
+    bytes.resize(have + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+    if (got < 0 && error != EINTR) fail(ExitCode::io, "{}: {}", path_.string(), reason(error));
+    if (got == 0) break;
+  }
+  return bytes;
+}
+
+std::string read_file(const std::filesystem::path& path, std::uint64_t limit_bytes) {
+  InputFile file(path);
+  std::string bytes = file.read(limit_bytes + 1);
+  if (bytes.size() > limit_bytes) fail(ExitCode::io, "{}: larger than {} bytes", path.string(), limit_bytes);
+  return bytes;
+}
+
+AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), written_path_(path) {
+  if (!is_special_file(path)) written_path_ += fmt::format(".tmp.{}", ::getpid());
+  fd_ = ::open(written_path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (fd_ < 0) fail_to_write(path_, errno);
+}
+
+AtomicFile::~AtomicFile() {
+  if (fd_ < 0) return;
+  ::close(fd_);
+  if (written_path_ != path_) ::unlink(written_path_.c_str());
+}
+
+void AtomicFile::give_up() {
+  const int error = errno;
+  if (fd_ >= 0) ::close(fd_);
+  fd_ = -1;
+  if (written_path_ != path_) ::unlink(written_path_.c_str());
+  fail_to_write(path_, error);
+}
+
+void AtomicFile::write(std::string_view bytes) {
+  AMBLE_CHECK(fd_ >= 0, "written to after commit() or a failure");
+  if (!write_all(fd_, bytes)) give_up();
+}
+
+void AtomicFile::commit() {
+  AMBLE_CHECK(fd_ >= 0, "committed twice or after a failure");
+  if (!sync(fd_)) give_up();
+  const int fd = fd_;
+  fd_ = -1;
+  if (::close(fd) != 0) give_up();
+  if (written_path_ == path_) return;
+  if (::rename(written_path_.c_str(), path_.c_str()) != 0) give_up();
+  if (!sync_folder_of(path_)) fail_to_write(path_, errno);
+}
+
+void write_file(const std::filesystem::path& path, std::string_view bytes) {
+  AtomicFile file(path);
+  file.write(bytes);
+  file.commit();
+}
+
+AppendFile::AppendFile(const std::filesystem::path& path, std::uint64_t keep_bytes)
+    : path_(path), fd_(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666)), size_(keep_bytes) {
+  if (fd_ < 0) fail_to_write(path_, errno);
+  // The destructor does not run when a constructor throws.
+  const auto close_and_fail = [this](const std::string& message) {
+    ::close(fd_);
+    throw UserError(message, ExitCode::io);
+  };
+  const off_t length = ::lseek(fd_, 0, SEEK_END);
+  if (length < 0) close_and_fail(fmt::format("cannot write {}: {}", path_.string(), reason(errno)));
+  if (static_cast<std::uint64_t>(length) < keep_bytes) {
+    close_and_fail(
+        fmt::format("{}: truncated: it has {} bytes, {} were expected", path_.string(), length, keep_bytes));
+  }
+  const auto kept = static_cast<off_t>(keep_bytes);
+  if (::ftruncate(fd_, kept) != 0 || ::lseek(fd_, kept, SEEK_SET) != kept || !sync(fd_) ||
+      !sync_folder_of(path_)) {
+    close_and_fail(fmt::format("cannot write {}: {}", path_.string(), reason(errno)));
+  }
+}
+
+AppendFile::~AppendFile() {
+  ::close(fd_);
+}
+
+void AppendFile::append(std::string_view bytes) {
+  if (!write_all(fd_, bytes) || !sync(fd_)) {
+    const int error = errno;
+    // Half a line must not stay: the next append continues after the last whole one.
+    const auto whole = static_cast<off_t>(size_);
+    if (::ftruncate(fd_, whole) == 0) ::lseek(fd_, whole, SEEK_SET);
+    fail_to_write(path_, error);
+  }
+  size_ += bytes.size();
+}
+
+}  // namespace amble::io

@@ -1,0 +1,84 @@
+#include "amble/io/toml_node.hpp"
+
+#include <algorithm>
+
+#include "amble/io/toml_text.hpp"
+
+namespace amble::io {
+
+const TomlNode* TomlNode::find(std::string_view key) const {
+  const auto found = std::find(keys.begin(), keys.end(), key);
+  return found == keys.end() ? nullptr : &items[static_cast<std::size_t>(found - keys.begin())];
+}
+
+const TomlNode* TomlNode::find_path(std::string_view path) const {
+  const std::size_t dot = path.find('.');
+  const TomlNode* child = find(path.substr(0, dot));
+  return child == nullptr || dot == std::string_view::npos ? child : child->find_path(path.substr(dot + 1));
+}
+
+void TomlNode::put(std::string_view key, TomlNode value) {
+  const auto found = std::find(keys.begin(), keys.end(), key);
+  if (found != keys.end()) {
+    items[static_cast<std::size_t>(found - keys.begin())] = std::move(value);
+  } else {
+    keys.emplace_back(key);
+    items.push_back(std::move(value));
+  }
+}
+
+void TomlNode::drop(std::string_view key) {
+  const auto found = std::find(keys.begin(), keys.end(), key);
+  if (found == keys.end()) return;
+  items.erase(items.begin() + (found - keys.begin()));
+  keys.erase(found);
+}
+
+void TomlNode::merge(TomlNode table) {
+  for (std::size_t i = 0; i < table.keys.size(); ++i) {
+    TomlNode& theirs = table.items[i];
+    const auto found = std::find(keys.begin(), keys.end(), table.keys[i]);
+    TomlNode* ours = found == keys.end() ? nullptr : &items[static_cast<std::size_t>(found - keys.begin())];
+    if (ours != nullptr && ours->kind == Kind::table && theirs.kind == Kind::table) {
+      ours->merge(std::move(theirs));
+    } else {
+      put(table.keys[i], std::move(theirs));
+    }
+  }
+}
+
+std::string toml_text(const TomlNode& node) {
+  using Kind = TomlNode::Kind;
+  switch (node.kind) {
+    case Kind::table:
+      return "{...}";
+    case Kind::integer:
+      return std::to_string(node.integer);
+    case Kind::number:
+      return node.number != node.number ? "nan" : toml_number(node.number);
+    case Kind::flag:
+      return node.flag ? "true" : "false";
+    case Kind::date:
+      return node.text;
+    case Kind::text:
+    case Kind::list:
+      break;
+  }
+  constexpr std::size_t longest = 60;
+  if (node.kind == Kind::text) {
+    if (node.text.size() <= longest) return toml_quoted(node.text);
+    std::size_t end = longest;
+    while (end > 0 && (static_cast<unsigned char>(node.text[end]) & 0xc0) == 0x80)
+      --end;  // not amid a UTF-8 character
+    return toml_quoted(node.text.substr(0, end)) + "...";
+  }
+  std::string text = "[";
+  for (const TomlNode& item : node.items) {
+    if (text.size() > longest) return text + ", ...]";
+    if (text.size() > 1) text += ", ";
+    text += toml_text(item);
+  }
+  return text + "]";
+}
+
+}  // namespace amble::io

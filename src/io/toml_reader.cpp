@@ -1,0 +1,183 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "amble/core/error.hpp"
+#include "amble/io/expectation.hpp"
+#include "amble/io/toml_node.hpp"
+#include "amble/io/toml_text.hpp"
+
+namespace amble::io {
+namespace {
+
+using Kind = TomlNode::Kind;
+
+/// Fewest single-character edits that turn one word into the other (Levenshtein 1966).
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+std::string_view last_part(std::string_view path) {
+  const std::size_t dot = path.rfind('.');
+  return dot == std::string_view::npos ? path : path.substr(dot + 1);
+}
+
+/// The known key that the user may have meant, or nothing. A key that only stands in the wrong table counts
+/// as one edit.
+std::string nearest(std::string_view key, const std::vector<std::string>& known) {
+  std::string best;
+  std::size_t fewest = 1 + key.size() / 3;
+  for (const std::string& candidate : known) {
+    const bool misplaced = last_part(key) == last_part(candidate);
+    const std::size_t edits = misplaced ? 1 : edit_distance(key, candidate);
+    if (edits < fewest) {
+      fewest = edits;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+/// The value as a number if it may be one: a whole number will do.
+bool as_number(const TomlNode& node, double& value) {
+  if (node.kind == Kind::integer) value = static_cast<double>(node.integer);
+  if (node.kind == Kind::number) value = node.number;
+  return node.kind == Kind::integer || node.kind == Kind::number;
+}
+
+class TomlReader final : public SettingsReader {
+ public:
+  explicit TomlReader(const TomlNode& root) : root_(root), tables_{{"", &root}} {}
+
+  using SettingsVisitor::integer;
+
+  void begin(std::string_view key, Doc) override {
+    const TomlNode* node = get(key);
+    if (node != nullptr && node->kind != Kind::table)
+      complain(key, *node, fmt::format("a table [{}]", path_of(key)));
+    tables_.push_back({path_of(key), node});
+  }
+  void end() override { tables_.pop_back(); }
+
+  void number(std::string_view key, double& value, Range range, Doc) override {
+    const TomlNode* node = get(key);
+    if (node == nullptr) return;
+    double found = 0.0;
+    if (!as_number(*node, found) || !in_range(range, found)) complain(key, *node, expected_number(range));
+    value = found;
+  }
+  void integer(std::string_view key, std::int64_t& value, Range range, Doc) override {
+    const TomlNode* node = get(key);
+    if (node == nullptr) return;
+    if (node->kind != Kind::integer || !in_range(range, node->integer))
+      complain(key, *node, expected_integer(range));
+    value = node->integer;
+  }
+  void flag(std::string_view key, bool& value, Doc) override {
+    const TomlNode* node = get(key);
+    if (node == nullptr) return;
+    if (node->kind != Kind::flag) complain(key, *node, expected_flag);
+    value = node->flag;
+  }
+  void text(std::string_view key, std::string& value, Doc) override {
+    const TomlNode* node = get(key);
+    if (node == nullptr) return;
+    if (node->kind != Kind::text) complain(key, *node, expected_text);
+    value = node->text;
+  }
+  void texts(std::string_view key, std::vector<std::string>& values, Doc) override {
+    const TomlNode* node = get(key);
+    if (node == nullptr) return;
+    const auto is_text = [](const TomlNode& item) { return item.kind == Kind::text; };
+    if (node->kind != Kind::list || !std::all_of(node->items.begin(), node->items.end(), is_text)) {
+      complain(key, *node, expected_texts);
+    }
+    values.clear();
+    for (const TomlNode& item : node->items) values.push_back(item.text);
+  }
+  void numbers(std::string_view key, std::vector<double>& values, Range range, Doc) override {
+    const TomlNode* node = get(key);
+    if (node == nullptr) return;
+    if (node->kind != Kind::list) complain(key, *node, expected_numbers(range));
+    std::vector<double> found(node->items.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (!as_number(node->items[i], found[i]) || !in_range(range, found[i])) {
+        complain(key, *node, expected_numbers(range));
+      }
+    }
+    values = std::move(found);
+  }
+  void choice_index(std::string_view key, int& index, std::span<const std::string_view> names, Doc) override {
+    const TomlNode* node = get(key);
+    if (node == nullptr) return;
+    const auto found =
+        node->kind == Kind::text ? std::find(names.begin(), names.end(), node->text) : names.end();
+    if (found == names.end()) complain(key, *node, expected_choice(names));
+    index = static_cast<int>(found - names.begin());
+  }
+
+  void finish() override { refuse_unknown_keys(root_, ""); }
+
+ private:
+  struct Table {
+    std::string path;
+    const TomlNode* node;  ///< null where the document has no such table
+  };
+
+  static std::string join(const std::string& table, std::string_view key) {
+    return table.empty() ? std::string(key) : fmt::format("{}.{}", table, key);
+  }
+  std::string path_of(std::string_view key) const { return join(tables_.back().path, key); }
+
+  const TomlNode* get(std::string_view key) {
+    known_.push_back(path_of(key));
+    const TomlNode* table = tables_.back().node;
+    return table == nullptr ? nullptr : table->find(key);
+  }
+
+  [[noreturn]] void complain(std::string_view key, const TomlNode& node, std::string_view expected) const {
+    // What was typed on the command line already names key and value.
+    if (node.from_command_line) fail(ExitCode::bad_input, "{}: expected {}", node.where, expected);
+    fail(ExitCode::bad_input, "{}: '{}' = {}: expected {}", node.where, path_of(key), toml_text(node),
+         expected);
+  }
+
+  void refuse_unknown_keys(const TomlNode& table, const std::string& table_path) const {
+    for (std::size_t i = 0; i < table.keys.size(); ++i) {
+      const std::string path =
+          join(table_path, is_bare_key(table.keys[i]) ? table.keys[i] : toml_quoted(table.keys[i]));
+      const TomlNode& node = table.items[i];
+      if (std::find(known_.begin(), known_.end(), path) != known_.end()) {
+        if (node.kind == Kind::table) refuse_unknown_keys(node, path);
+        continue;
+      }
+      const std::string meant = nearest(path, known_);
+      fail(ExitCode::bad_input, "{}: unknown key '{}'{}", node.where, path,
+           meant.empty() ? "" : fmt::format(" (did you mean '{}'?)", meant));
+    }
+  }
+
+  const TomlNode& root_;
+  std::vector<Table> tables_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace
+
+std::unique_ptr<SettingsReader> make_toml_reader(const TomlNode& root) {
+  return std::make_unique<TomlReader>(root);
+}
+
+}  // namespace amble::io

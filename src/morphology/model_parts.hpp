@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "amble/core/math.hpp"
+#include "amble/morphology/model_file.hpp"
+#include "amble/morphology/robot_spec.hpp"
+
+namespace amble::morphology {
+
+/// What a model file says of a robot. Bodies that are fixed to their parent are one rigid body with it, under
+/// the parent's name.
+struct ModelParts {
+  std::vector<Body> bodies;
+  std::vector<Joint> joints;  ///< in the order of the model, without servo
+  std::vector<Geom> geoms;
+  Vec3 gravity_m_s2;
+};
+
+/// Takes a compiled model apart. A geom without a name gets that of its body in the model, with ".0", ".1", …
+/// behind it where there are several. Left out: geoms of the world (the ground is amble's own) and decorative
+/// geoms whose shape amble does not know. Throws UserError for what amble cannot simulate: more than one
+/// robot, a root that is not free, joints other than limited hinges, closed loops, tendons, colliding meshes
+/// and other shapes, obstacles in the world.
+ModelParts take_apart(const ModelFile& file);
+
+}  // namespace amble::morphology

@@ -1,0 +1,142 @@
+#include "amble/morphology/robot_check.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <initializer_list>
+#include <string_view>
+#include <utility>
+
+#include "amble/core/check.hpp"
+
+namespace amble::morphology {
+namespace {
+
+bool finite(Vec3 v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool unit(Quat q) {
+  return std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1.0) < 1e-6;
+}
+
+class Checker {
+ public:
+  Checker(const RobotSpec& robot, const std::function<void(const std::string&)>& complain)
+      : robot_(robot), complain_(complain) {}
+
+  void check() const {
+    if (robot_.bodies.empty()) bad("the robot has no body");
+    for (const Joint& joint : robot_.joints) check_joint(joint);
+    for (int b = 0; b < count(robot_.bodies); ++b) check_body(b);
+    for (const Geom& geom : robot_.geoms) check_geom(geom);
+    check_legs();
+    check_contact();
+    if (!finite(robot_.gravity_m_s2)) bad("gravity must be finite");
+    if (!std::isfinite(robot_.fall_height_m)) bad("fall_height_m must be finite");
+  }
+
+ private:
+  template <typename T>
+  static int count(const std::vector<T>& items) {
+    return static_cast<int>(items.size());
+  }
+
+  template <typename... Args>
+  void bad(fmt::format_string<Args...> text, Args&&... args) const {
+    complain_(fmt::format(text, std::forward<Args>(args)...));
+    AMBLE_CHECK(false, "complain must throw");
+  }
+
+  void need(bool good, std::string_view kind, const std::string& name, std::string_view problem) const {
+    if (!good) bad("{} '{}' {}", kind, name, problem);
+  }
+
+  void check_body(int b) const {
+    const Body& body = robot_.bodies[static_cast<std::size_t>(b)];
+    const Vec3 moments = body.inertia_kg_m2;
+    const auto must = [&](bool good, std::string_view problem) { need(good, "body", body.name, problem); };
+    must(b == 0 ? body.parent == -1 : body.parent >= 0 && body.parent < b, "must come after its parent");
+    must(finite(body.position_m) && unit(body.rotation), "must have a finite position and a unit rotation");
+    must(std::isfinite(body.mass_kg) && body.mass_kg > 0.0, "must have a positive mass");
+    must(finite(body.com_m) && unit(body.inertia_rotation),
+         "must have a finite centre of mass and unit principal axes");
+    must(finite(moments) && moments.x > 0.0 && moments.y > 0.0 && moments.z > 0.0,
+         "must have positive moments of inertia");
+    must(b == 0 || !robot_.joints_of_body(b).empty(), "is not moved by any joint");
+  }
+
+  void check_geom(const Geom& geom) const {
+    const auto must = [&](bool good, std::string_view problem) { need(good, "geom", geom.name, problem); };
+    const Vec3 size = geom.size_m;
+    must(geom.body >= 0 && geom.body < count(robot_.bodies), "names a body that is not there");
+    must(finite(geom.position_m) && unit(geom.rotation), "must have a finite position and a unit rotation");
+    must(finite(size) && size.x > 0.0, "must have a positive size");
+    must(geom.shape == Shape::sphere || size.y > 0.0, "must have a positive length");
+    must(geom.shape != Shape::box || size.z > 0.0, "must have a positive height");
+  }
+
+  void check_joint(const Joint& joint) const {
+    const auto must = [&](bool good, std::string_view problem) { need(good, "joint", joint.name, problem); };
+    must(joint.body > 0 && joint.body < count(robot_.bodies), "names a body that is not there, or the root");
+    must(finite(joint.anchor_m), "must have a finite anchor");
+    must(finite(joint.axis) && std::abs(norm(joint.axis) - 1.0) < 1e-6, "must have an axis of length 1");
+    must(joint.lower_rad < joint.upper_rad, "must have a lower stop below its upper stop");
+    if (!(joint.lower_rad <= 0.0 && joint.upper_rad >= 0.0)) {
+      bad("joint '{}': the start pose, angle 0, lies outside its range {} … {} rad", joint.name,
+          joint.lower_rad, joint.upper_rad);
+    }
+    const Servo& servo = joint.servo;
+    for (const double number :
+         {servo.gain_per_s, servo.max_torque_nm, servo.kp_nm_per_rad, servo.kd_nm_s_per_rad}) {
+      must(std::isfinite(number) && number >= 0.0,
+           "must have servo numbers that are finite and not negative");
+    }
+  }
+
+  void check_legs() const {
+    const int types = count(robot_.joint_types);
+    const int legs = count(robot_.legs);
+    if (count(robot_.joints) != legs * types) {
+      bad("{} legs with {} joints each need {} joints, not {}", legs, types, legs * types,
+          robot_.joints.size());
+    }
+    for (int l = 0; l < legs; ++l) {
+      const Leg& leg = robot_.legs[static_cast<std::size_t>(l)];
+      const auto must = [&](bool good, std::string_view problem) { need(good, "leg", leg.name, problem); };
+      must(leg.foot_geom >= 0 && leg.foot_geom < count(robot_.geoms), "names a foot that is not there");
+      const Geom& foot = robot_.geoms[static_cast<std::size_t>(leg.foot_geom)];
+      must(foot.collides, "has a foot that cannot collide");
+      must(count(leg.joints) == types, "must have one joint per joint type");
+      bool carries_foot = types == 0;
+      for (int t = 0; t < types; ++t) {
+        must(leg.joints[static_cast<std::size_t>(t)] == l * types + t, "has joints out of control order");
+        carries_foot =
+            carries_foot || robot_.joints[static_cast<std::size_t>(l * types + t)].body == foot.body;
+      }
+      if (!carries_foot)
+        bad("leg '{}': its foot '{}' is on body '{}', which none of its joints moves", leg.name, foot.name,
+            robot_.bodies[static_cast<std::size_t>(foot.body)].name);
+    }
+  }
+
+  void check_contact() const {
+    const Contact& contact = robot_.contact;
+    if (!(contact.friction >= 0.0)) bad("contact.friction must not be negative");
+    if (!(contact.erp > 0.0 && contact.erp <= 1.0)) bad("contact.erp must be in (0, 1], not {}", contact.erp);
+    if (!(std::isfinite(contact.cfm_s_per_kg) && contact.cfm_s_per_kg >= 0.0)) {
+      bad("contact.cfm_s_per_kg must be finite and not negative");
+    }
+  }
+
+  const RobotSpec& robot_;
+  const std::function<void(const std::string&)>& complain_;
+};
+
+}  // namespace
+
+void check_robot(const RobotSpec& robot, const std::function<void(const std::string&)>& complain) {
+  Checker(robot, complain).check();
+}
+
+}  // namespace amble::morphology

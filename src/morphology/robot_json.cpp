@@ -1,0 +1,198 @@
+#include "amble/morphology/robot_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "amble/morphology/robot_check.hpp"
+
+namespace amble::morphology {
+namespace {
+
+using io::Json;
+using io::JsonView;
+
+constexpr std::array<std::string_view, 4> shape_names{"sphere", "capsule", "cylinder", "box"};
+constexpr std::array<std::string_view, 2> servo_mode_names{"velocity", "torque"};
+
+Json json_of(Vec3 v) {
+  return Json::array({v.x, v.y, v.z});
+}
+Json json_of(Quat q) {
+  return Json::array({q.w, q.x, q.y, q.z});
+}
+
+Vec3 vec3(const JsonView& json) {
+  if (json.size() != 3) json.bad("an array of 3 numbers");
+  return {json.at(std::size_t{0}).number(), json.at(1).number(), json.at(2).number()};
+}
+
+Quat quat(const JsonView& json) {
+  if (json.size() != 4) json.bad("an array of 4 numbers");
+  return {json.at(std::size_t{0}).number(), json.at(1).number(), json.at(2).number(), json.at(3).number()};
+}
+
+int index(const JsonView& json) {
+  const std::int64_t value = json.integer();
+  if (value < -1 || value > 1'000'000) json.bad("an index");
+  return static_cast<int>(value);
+}
+
+template <typename Enum, std::size_t N>
+Enum choice(const JsonView& json, const std::array<std::string_view, N>& names) {
+  const auto found = std::find(names.begin(), names.end(), json.text());
+  if (found == names.end()) json.bad(fmt::format("one of {}", fmt::join(names, ", ")));
+  return static_cast<Enum>(found - names.begin());
+}
+
+template <typename T, typename Read>
+std::vector<T> list(const JsonView& json, Read read) {
+  std::vector<T> items;
+  for (std::size_t i = 0; i < json.size(); ++i) items.push_back(read(json.at(i)));
+  return items;
+}
+
+template <typename T, typename Write>
+Json array_of(const std::vector<T>& items, Write write) {
+  Json array = Json::array();
+  for (const T& item : items) array.push_back(write(item));
+  return array;
+}
+
+Json json_of_body(const Body& body) {
+  return {{"name", body.name},
+          {"parent", body.parent},
+          {"position_m", json_of(body.position_m)},
+          {"rotation", json_of(body.rotation)},
+          {"mass_kg", body.mass_kg},
+          {"com_m", json_of(body.com_m)},
+          {"inertia_kg_m2", json_of(body.inertia_kg_m2)},
+          {"inertia_rotation", json_of(body.inertia_rotation)}};
+}
+
+Body read_body(const JsonView& json) {
+  return {.name = json.at("name").text(),
+          .parent = index(json.at("parent")),
+          .position_m = vec3(json.at("position_m")),
+          .rotation = quat(json.at("rotation")),
+          .mass_kg = json.at("mass_kg").number(),
+          .com_m = vec3(json.at("com_m")),
+          .inertia_kg_m2 = vec3(json.at("inertia_kg_m2")),
+          .inertia_rotation = quat(json.at("inertia_rotation"))};
+}
+
+Json json_of_servo(const Servo& servo) {
+  return {{"mode", servo_mode_names[static_cast<std::size_t>(servo.mode)]},
+          {"gain_per_s", servo.gain_per_s},
+          {"max_torque_nm", servo.max_torque_nm},
+          {"kp_nm_per_rad", servo.kp_nm_per_rad},
+          {"kd_nm_s_per_rad", servo.kd_nm_s_per_rad}};
+}
+
+Servo read_servo(const JsonView& json) {
+  return {.mode = choice<ServoMode>(json.at("mode"), servo_mode_names),
+          .gain_per_s = json.at("gain_per_s").number(),
+          .max_torque_nm = json.at("max_torque_nm").number(),
+          .kp_nm_per_rad = json.at("kp_nm_per_rad").number(),
+          .kd_nm_s_per_rad = json.at("kd_nm_s_per_rad").number()};
+}
+
+Json json_of_joint(const Joint& joint) {
+  return {{"name", joint.name},
+          {"body", joint.body},
+          {"chain_index", joint.chain_index},
+          {"anchor_m", json_of(joint.anchor_m)},
+          {"axis", json_of(joint.axis)},
+          {"lower_rad", joint.lower_rad},
+          {"upper_rad", joint.upper_rad},
+          {"servo", json_of_servo(joint.servo)}};
+}
+
+Joint read_joint(const JsonView& json) {
+  return {.name = json.at("name").text(),
+          .body = index(json.at("body")),
+          .chain_index = index(json.at("chain_index")),
+          .anchor_m = vec3(json.at("anchor_m")),
+          .axis = vec3(json.at("axis")),
+          .lower_rad = json.at("lower_rad").number(),
+          .upper_rad = json.at("upper_rad").number(),
+          .servo = read_servo(json.at("servo"))};
+}
+
+Json json_of_geom(const Geom& geom) {
+  return {{"name", geom.name},
+          {"body", geom.body},
+          {"collides", geom.collides},
+          {"shape", shape_names[static_cast<std::size_t>(geom.shape)]},
+          {"size_m", json_of(geom.size_m)},
+          {"position_m", json_of(geom.position_m)},
+          {"rotation", json_of(geom.rotation)},
+          {"rgba", geom.rgba}};
+}
+
+Geom read_geom(const JsonView& json) {
+  Geom geom{.name = json.at("name").text(),
+            .body = index(json.at("body")),
+            .collides = json.at("collides").flag(),
+            .shape = choice<Shape>(json.at("shape"), shape_names),
+            .size_m = vec3(json.at("size_m")),
+            .position_m = vec3(json.at("position_m")),
+            .rotation = quat(json.at("rotation"))};
+  const JsonView rgba = json.at("rgba");
+  if (rgba.size() != geom.rgba.size()) rgba.bad("an array of 4 numbers");
+  for (std::size_t i = 0; i < geom.rgba.size(); ++i) geom.rgba[i] = static_cast<float>(rgba.at(i).number());
+  return geom;
+}
+
+Leg read_leg(const JsonView& json) {
+  return {.name = json.at("name").text(),
+          .foot_geom = index(json.at("foot_geom")),
+          .joints = list<int>(json.at("joints"), index)};
+}
+
+}  // namespace
+
+Json to_json(const RobotSpec& robot) {
+  const Contact& contact = robot.contact;
+  return {{"name", robot.name},
+          {"bodies", array_of(robot.bodies, json_of_body)},
+          {"joints", array_of(robot.joints, json_of_joint)},
+          {"geoms", array_of(robot.geoms, json_of_geom)},
+          {"joint_types", robot.joint_types},
+          {"legs",
+           array_of(robot.legs,
+                    [](const Leg& leg) {
+                      return Json{{"name", leg.name}, {"foot_geom", leg.foot_geom}, {"joints", leg.joints}};
+                    })},
+          {"contact",
+           {{"friction", io::json_number(contact.friction)},
+            {"erp", contact.erp},
+            {"cfm_s_per_kg", contact.cfm_s_per_kg}}},
+          {"gravity_m_s2", json_of(robot.gravity_m_s2)},
+          {"fall_height_m", robot.fall_height_m},
+          {"self_collision", robot.self_collision}};
+}
+
+RobotSpec from_json(const JsonView& json) {
+  const JsonView contact = json.at("contact");
+  RobotSpec robot{.name = json.at("name").text(),
+                  .bodies = list<Body>(json.at("bodies"), read_body),
+                  .joints = list<Joint>(json.at("joints"), read_joint),
+                  .geoms = list<Geom>(json.at("geoms"), read_geom),
+                  .joint_types = list<std::string>(json.at("joint_types"),
+                                                   [](const JsonView& type) { return type.text(); }),
+                  .legs = list<Leg>(json.at("legs"), read_leg),
+                  .contact = {.friction = contact.at("friction").number(),
+                              .erp = contact.at("erp").number(),
+                              .cfm_s_per_kg = contact.at("cfm_s_per_kg").number()},
+                  .gravity_m_s2 = vec3(json.at("gravity_m_s2")),
+                  .fall_height_m = json.at("fall_height_m").number(),
+                  .self_collision = json.at("self_collision").flag()};
+  check_robot(robot, [&](const std::string& problem) { json.complain("holds no valid robot: " + problem); });
+  return robot;
+}
+
+}  // namespace amble::morphology

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "amble/io/json_file.hpp"
+#include "amble/morphology/robot_spec.hpp"
+
+namespace amble::morphology {
+
+/// The whole robot as JSON (docs/FORMATS.md), so that a champion or a recording needs no other file. Numbers
+/// read back to the same bits; infinite friction is "inf".
+io::Json to_json(const RobotSpec& robot);
+
+/// Throws UserError(ExitCode::bad_file) for a missing or wrong key, and for a robot that breaks RobotSpec's
+/// promises.
+RobotSpec from_json(const io::JsonView& json);
+
+}  // namespace amble::morphology

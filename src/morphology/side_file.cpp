@@ -1,0 +1,200 @@
+#include "amble/morphology/side_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "amble/core/error.hpp"
+#include "amble/io/toml_settings.hpp"
+
+namespace amble::morphology {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double largest = std::numeric_limits<double>::max();
+/// Stands for a number that the file has not given. No physical number has a default in the code.
+constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
+constexpr std::array<std::string_view, 2> servo_mode_names{"velocity", "torque"};
+
+void visit(io::SettingsVisitor& visitor, Servo& servo) {
+  visitor.choice("mode", servo.mode, servo_mode_names, {"how the joint follows its target angle"});
+  visitor.number("gain_per_s", servo.gain_per_s, {0.0, largest},
+                 {"velocity servo: speed aimed at per angle still to go, 1/s"});
+  visitor.number("max_torque_nm", servo.max_torque_nm, {0.0, largest}, {"largest torque, N m"});
+  visitor.number("kp_nm_per_rad", servo.kp_nm_per_rad, {0.0, largest},
+                 {"torque servo: torque per angle still to go, N m/rad"});
+  visitor.number("kd_nm_s_per_rad", servo.kd_nm_s_per_rad, {0.0, largest},
+                 {"torque servo: torque per speed, N m s/rad"});
+}
+
+void visit(io::SettingsVisitor& visitor, Contact& contact) {
+  visitor.number("friction", contact.friction, {0.0, infinity},
+                 {"Coulomb coefficient; inf: no sliding at all"});
+  visitor.number("erp", contact.erp, {0.0, 1.0}, {"share of the penetration undone per step"});
+  visitor.number("cfm_s_per_kg", contact.cfm_s_per_kg, {0.0, largest},
+                 {"yielding velocity per force, m/s per N"});
+}
+
+std::string filled_in(std::string pattern, std::string_view leg, std::string_view type) {
+  const auto replace = [&pattern](std::string_view mark, std::string_view text) {
+    for (std::size_t at = pattern.find(mark); at != std::string::npos;
+         at = pattern.find(mark, at + text.size())) {
+      pattern.replace(at, mark.size(), text);
+    }
+  };
+  replace("{leg}", leg);
+  replace("{type}", type);
+  return pattern;
+}
+
+/// Reads one side file, table by table.
+class SideFileReader {
+ public:
+  explicit SideFileReader(const std::filesystem::path& path)
+      : path_(path.string()), document_(io::TomlDocument::read(path)), reader_(document_.reader()) {}
+
+  SideFile read() {
+    read_top();
+    read_names();
+    read_servos();
+    reader_->begin("contact", {"how bodies meet the ground and each other"});
+    visit(*reader_, side_.contact);
+    reader_->end();
+    reader_->finish();
+    require_numbers();
+    return std::move(side_);
+  }
+
+ private:
+  [[noreturn]] void missing(std::string_view key) const {
+    fail(ExitCode::bad_input, "{}: '{}' is missing", path_, key);
+  }
+
+  void require(std::string_view key, double number) const {
+    if (std::isnan(number)) missing(key);
+  }
+
+  void read_top() {
+    std::string model;
+    side_.fall_height_m = not_given;
+    side_.contact = {not_given, not_given, not_given};
+    reader_->text("name", side_.name, {"what the robot is called in titles"});
+    reader_->text("model", model, {"its MJCF or URDF file, relative to this file"});
+    reader_->texts("legs", side_.legs, {"names of the legs, in control order"});
+    reader_->texts("joint_types", side_.joint_types, {"names of the joint types, in control order"});
+    reader_->number("start_height_m", side_.start_height_m, {0.0, largest},
+                    {"height of the root's frame in the start pose; 0: as the model has it"});
+    reader_->number("fall_height_m", side_.fall_height_m, {-largest, largest},
+                    {"the robot has fallen when the root's centre of mass is lower"});
+    reader_->flag("self_collision", side_.self_collision,
+                  {"whether bodies that no joint links collide with each other"});
+    if (model.empty()) missing("model");
+    side_.model = document_.folder_of("model") / model;
+    if (side_.name.empty()) side_.name = side_.model.stem().string();
+    check_names("legs", side_.legs);
+    check_names("joint_types", side_.joint_types);
+    for (const std::string& leg : side_.legs) {
+      if (std::find(side_.joint_types.begin(), side_.joint_types.end(), leg) != side_.joint_types.end()) {
+        fail(ExitCode::bad_input, "{}: 'legs' and 'joint_types' both name '{}'",
+             document_.where("legs"), leg);
+      }
+    }
+  }
+
+  void check_names(std::string_view key, const std::vector<std::string>& names) const {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const bool repeated = std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i),
+                                      names[i]) != names.begin() + static_cast<std::ptrdiff_t>(i);
+      if (repeated)
+        fail(ExitCode::bad_input, "{}: '{}' names '{}' twice", document_.where(key), key, names[i]);
+      if (names[i].empty() || names[i] == "foot" || names[i] == "joint") {
+        fail(ExitCode::bad_input, "{}: '{}' must not use the name '{}'", document_.where(key), key,
+             names[i]);
+      }
+    }
+  }
+
+  void read_names() {
+    std::string joint_pattern = "{leg}_{type}";
+    std::string foot_pattern = "{leg}_foot";
+    reader_->begin("names", {"what the model calls the parts of a leg"});
+    reader_->text("joint", joint_pattern, {"pattern for joints; {leg} and {type} are replaced"});
+    reader_->text("foot", foot_pattern, {"pattern for foot geoms; {leg} is replaced"});
+    for (const std::string& leg : side_.legs) {
+      LegNames names;
+      names.foot = filled_in(foot_pattern, leg, "");
+      reader_->begin(leg, {"names of this leg's parts where they do not follow the pattern"});
+      reader_->text("foot", names.foot, {"its foot geom"});
+      for (const std::string& type : side_.joint_types) {
+        std::string joint = filled_in(joint_pattern, leg, type);
+        reader_->text(type, joint, {"its joint of this type"});
+        names.joints.push_back(std::move(joint));
+      }
+      reader_->end();
+      side_.names.push_back(std::move(names));
+    }
+    reader_->end();
+  }
+
+  void read_servos() {
+    Servo common{ServoMode::velocity, not_given, not_given, not_given, 0.0};
+    reader_->begin("servo", {"the motor of every joint"});
+    visit(*reader_, common);
+    reader_->end();
+
+    std::vector<Servo> by_type(side_.joint_types.size(), common);
+    reader_->begin("servo_of",
+                   {"where motors differ: servo_of.TYPE for a joint type, servo_of.LEG.TYPE for one joint"});
+    for (std::size_t t = 0; t < by_type.size(); ++t) read_servo(side_.joint_types[t], by_type[t]);
+    for (const std::string& leg : side_.legs) {
+      reader_->begin(leg, {"motors of this leg"});
+      for (std::size_t t = 0; t < by_type.size(); ++t) {
+        side_.servos.push_back(by_type[t]);
+        read_servo(side_.joint_types[t], side_.servos.back());
+      }
+      reader_->end();
+    }
+    reader_->end();
+  }
+
+  void read_servo(std::string_view key, Servo& servo) {
+    reader_->begin(key, {"motor of this joint type"});
+    visit(*reader_, servo);
+    reader_->end();
+  }
+
+  void require_numbers() {
+    for (Servo& servo : side_.servos) {
+      const bool velocity = servo.mode == ServoMode::velocity;
+      require("servo.max_torque_nm", servo.max_torque_nm);
+      require(velocity ? "servo.gain_per_s" : "servo.kp_nm_per_rad",
+              velocity ? servo.gain_per_s : servo.kp_nm_per_rad);
+      // What the mode does not use is zero.
+      (velocity ? servo.kp_nm_per_rad : servo.gain_per_s) = 0.0;
+      if (velocity) servo.kd_nm_s_per_rad = 0.0;
+    }
+    require("fall_height_m", side_.fall_height_m);
+    require("contact.friction", side_.contact.friction);
+    require("contact.erp", side_.contact.erp);
+    require("contact.cfm_s_per_kg", side_.contact.cfm_s_per_kg);
+  }
+
+  std::string path_;
+  io::TomlDocument document_;
+  std::unique_ptr<io::TomlDocument::Reader> reader_;
+  SideFile side_;
+};
+
+}  // namespace
+
+SideFile read_side_file(const std::filesystem::path& path) {
+  if (path.extension() != ".toml") {
+    fail(ExitCode::bad_input,
+         "{}: a robot is named by its TOML file, which names the model (robots/README.md)", path.string());
+  }
+  return SideFileReader(path).read();
+}
+
+}  // namespace amble::morphology

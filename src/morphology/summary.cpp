@@ -1,0 +1,130 @@
+#include "amble/morphology/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string_view>
+#include <vector>
+
+#include "amble/morphology/pose.hpp"
+
+namespace amble::morphology {
+namespace {
+
+using Row = std::vector<std::string>;
+
+/// Columns as wide as their widest cell, two blanks between them.
+std::string table(const std::vector<Row>& rows) {
+  std::vector<std::size_t> widths(rows[0].size(), 0);
+  for (const Row& row : rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+  }
+  std::string text;
+  for (const Row& row : rows) {
+    std::string line = " ";
+    for (std::size_t c = 0; c < row.size(); ++c) line += fmt::format(" {:<{}} ", row[c], widths[c]);
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string number(double value) {
+  return fmt::format("{:.5g}", std::abs(value) < 1e-12 ? 0.0 : value);
+}
+
+std::string numbers(Vec3 v) {
+  return number(v.x) + " " + number(v.y) + " " + number(v.z);
+}
+
+std::string servo_text(const Servo& servo) {
+  if (servo.mode == ServoMode::velocity) {
+    return fmt::format("velocity, {} /s, at most {} N m", number(servo.gain_per_s),
+                       number(servo.max_torque_nm));
+  }
+  return fmt::format("torque, {} N m/rad, {} N m s/rad, at most {} N m", number(servo.kp_nm_per_rad),
+                     number(servo.kd_nm_s_per_rad), number(servo.max_torque_nm));
+}
+
+std::string shape_text(const Geom& geom) {
+  const Vec3 size = geom.size_m;
+  switch (geom.shape) {
+    case Shape::sphere:
+      return fmt::format("sphere, radius {}", number(size.x));
+    case Shape::capsule:
+      return fmt::format("capsule, radius {}, straight part {}", number(size.x), number(2 * size.y));
+    case Shape::cylinder:
+      return fmt::format("cylinder, radius {}, length {}", number(size.x), number(2 * size.y));
+    case Shape::box:
+      return fmt::format("box, {} x {} x {}", number(2 * size.x), number(2 * size.y), number(2 * size.z));
+  }
+  return {};
+}
+
+std::string bodies_text(const RobotSpec& robot) {
+  const std::vector<Pose> poses = start_poses(robot);
+  std::vector<Row> rows{{"body", "parent", "mass kg", "inertia kg m2", "centre of mass in the world, m"}};
+  for (std::size_t b = 0; b < robot.bodies.size(); ++b) {
+    const Body& body = robot.bodies[b];
+    const std::string parent =
+        body.parent < 0 ? "-" : robot.bodies[static_cast<std::size_t>(body.parent)].name;
+    rows.push_back({body.name, parent, number(body.mass_kg), numbers(body.inertia_kg_m2),
+                    numbers(poses[b] * body.com_m)});
+  }
+  return table(rows);
+}
+
+std::string joints_text(const RobotSpec& robot) {
+  const std::vector<Pose> poses = start_poses(robot);
+  std::vector<Row> rows{{"joint", "moves", "axis in the world", "range rad", "servo"}};
+  for (const Joint& joint : robot.joints) {
+    const auto body = static_cast<std::size_t>(joint.body);
+    rows.push_back({joint.name, robot.bodies[body].name, numbers(rotate(poses[body].rotation, joint.axis)),
+                    number(joint.lower_rad) + " to " + number(joint.upper_rad), servo_text(joint.servo)});
+  }
+  return table(rows);
+}
+
+std::string legs_text(const RobotSpec& robot) {
+  std::vector<Row> rows{{"leg", "foot", "over the ground, m", "joints"}};
+  for (const Leg& leg : robot.legs) {
+    std::string joints;
+    for (const int j : leg.joints)
+      joints += (joints.empty() ? "" : ", ") + robot.joints[static_cast<std::size_t>(j)].name;
+    rows.push_back({leg.name, robot.geoms[static_cast<std::size_t>(leg.foot_geom)].name,
+                    number(start_clearance_m(robot, leg.foot_geom)), joints});
+  }
+  return table(rows);
+}
+
+std::string geoms_text(const RobotSpec& robot) {
+  std::vector<Row> rows{{"geom", "body", "shape, m", ""}};
+  for (const Geom& geom : robot.geoms) {
+    rows.push_back({geom.name, robot.bodies[static_cast<std::size_t>(geom.body)].name, shape_text(geom),
+                    geom.collides ? "" : "only to look at"});
+  }
+  return table(rows);
+}
+
+}  // namespace
+
+std::string summary(const RobotSpec& robot) {
+  std::string text =
+      fmt::format("robot {}: {} bodies, {} joints, {} legs, {} kg\n\n", robot.name, robot.bodies.size(),
+                  robot.joints.size(), robot.legs.size(), number(robot.total_mass_kg()));
+  text += bodies_text(robot) + "\n";
+  if (!robot.joints.empty()) text += joints_text(robot) + "\n";
+  if (!robot.legs.empty()) text += legs_text(robot) + "\n";
+  text += geoms_text(robot) + "\n";
+  const Contact& contact = robot.contact;
+  text += fmt::format("contact: friction {}, erp {}, cfm {} m/s per N; self-collision {}\n",
+                      number(contact.friction), number(contact.erp), number(contact.cfm_s_per_kg),
+                      robot.self_collision ? "on" : "off");
+  text += fmt::format("gravity: {} m/s2; the robot has fallen below {} m\n", numbers(robot.gravity_m_s2),
+                      number(robot.fall_height_m));
+  return text;
+}
+
+}  // namespace amble::morphology

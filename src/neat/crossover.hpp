@@ -1,0 +1,22 @@
+#pragma once
+
+#include "amble/core/random.hpp"
+#include "amble/neat/genome.hpp"
+#include "amble/neat/settings.hpp"
+
+namespace amble::neat {
+
+/// A child of two parents, their links aligned by innovation number (Stanley & Miikkulainen 2002, sec. 3.2).
+///
+/// - Links of both: the weight of one parent, each with probability 1/2.
+/// - Links of the fitter alone: inherited. Links of the weaker alone: by CrossoverSettings::weaker_genes.
+/// - A link that is disabled in a parent that has it is enabled with `enable_probability`, else disabled.
+/// - Nodes: those of bias, inputs and outputs, and the hidden ones that a link of the child touches.
+///
+/// Without `recurrent` both parents must be free of cycles, and so is the child: its links of the fitter
+/// parent are, and a link of the weaker that would close a cycle with those taken before it, in order of
+/// innovation, is left out.
+Genome crossover(const Genome& fitter, const Genome& weaker, const CrossoverSettings& settings,
+                 bool recurrent, Stream& stream);
+
+}  // namespace amble::neat

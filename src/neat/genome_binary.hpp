@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "amble/io/binary.hpp"
+#include "amble/neat/genome.hpp"
+
+namespace amble::neat {
+
+/// The genome as bytes, weights to the bit.
+void save(const Genome& genome, io::BinaryWriter& writer);
+/// Reads what save() wrote; throws UserError(ExitCode::bad_file). Whether the genes fit together is for
+/// validate() to say.
+Genome load_genome(io::BinaryReader& reader);
+
+void save(std::span<const Genome> genomes, io::BinaryWriter& writer);
+std::vector<Genome> load_genomes(io::BinaryReader& reader);
+
+}  // namespace amble::neat

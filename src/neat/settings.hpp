@@ -1,0 +1,122 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "amble/io/settings.hpp"
+#include "amble/neat/genome.hpp"
+
+namespace amble::neat {
+
+// The defaults are the numbers of Morse et al. 2013 and of the authors' code, which builds on HyperSharpNEAT.
+// settings.cpp says for each what it means, its unit and its source.
+
+struct PopulationSettings {
+  int size = 300;
+
+  void describe(io::SettingsVisitor& visitor);
+};
+
+/// What a genome looks like, at the start and when it grows.
+struct GenomeSettings {
+  double weight_limit = 1.5;
+  double initial_link_probability = 1.0;
+  Activation output_activation = Activation::bipolar_sigmoid;
+  /// Shares of the functions of new hidden nodes, in the order of `activation_names`.
+  std::array<double, 4> activation_shares{0.25, 0.25, 0.25, 0.25};
+
+  void describe(io::SettingsVisitor& visitor);
+};
+
+/// What happens to one genome's weights when the operator "weights" is drawn: one of five kinds of change.
+/// Jiggling adds a uniform number within ±jiggle_limit, resetting draws the weight anew.
+struct WeightMutationSettings {
+  double jiggle_limit = 0.05;
+  double jiggle_many_share = 0.125, jiggle_many_probability = 0.5;
+  double jiggle_few_share = 0.125, jiggle_few_probability = 0.1;
+  double jiggle_one_share = 0.125;
+  double reset_few_share = 0.5, reset_few_probability = 0.1;
+  double reset_one_share = 0.125;
+
+  void describe(io::SettingsVisitor& visitor);
+};
+
+/// What becomes of the link that a new node splits.
+enum class SplitLink {
+  remove,  ///< deleted (the authors' code)
+  disable  ///< kept, but disabled (Stanley & Miikkulainen 2002, sec. 3.1)
+};
+inline constexpr std::array<std::string_view, 2> split_link_names{"remove", "disable"};
+
+/// The four shares are those of a roulette that picks one operator per mutated genome; they need not add up
+/// to 1.
+struct MutationSettings {
+  double weights_share = 0.96;
+  double add_link_share = 0.06;
+  double add_node_share = 0.01;
+  double delete_link_share = 0.0;
+  SplitLink split_link = SplitLink::remove;
+  WeightMutationSettings weights;
+
+  void describe(io::SettingsVisitor& visitor);
+};
+
+/// How the genes that only the weaker parent has are inherited.
+enum class WeakerGenes { all_or_none, one_by_one };
+inline constexpr std::array<std::string_view, 2> weaker_genes_names{"all_or_none", "one_by_one"};
+
+struct CrossoverSettings {
+  WeakerGenes weaker_genes = WeakerGenes::all_or_none;
+  double weaker_genes_probability = 0.1;
+  double enable_probability = 0.25;
+  bool mutate_child = false;
+
+  void describe(io::SettingsVisitor& visitor);
+};
+
+/// Coefficients of the compatibility distance (Stanley & Miikkulainen 2002, eq. 1).
+struct DistanceSettings {
+  double excess = 1.0;
+  double disjoint = 1.0;
+  double weight = 3.0;
+  bool normalised = false;
+};
+
+struct SpeciationSettings {
+  DistanceSettings distance;
+  double initial_threshold = 100.0;
+  int target_min = 28;
+  int target_max = 30;
+  int corrections_per_generation = 1;
+
+  void describe(io::SettingsVisitor& visitor);
+};
+
+struct ReproductionSettings {
+  double survival = 0.8;
+  double elitism = 0.1;
+  double asexual_probability = 0.5;
+  double interspecies_probability = 0.01;
+  int stagnation_generations = 1500;
+  double stagnation_factor = 0.01;
+
+  void describe(io::SettingsVisitor& visitor);
+};
+
+/// All that NEAT is told. Its tables are meant to stand at the top of a config: population.size,
+/// mutation.add_link_share, …
+struct Settings {
+  PopulationSettings population;
+  GenomeSettings genome;
+  MutationSettings mutation;
+  CrossoverSettings crossover;
+  SpeciationSettings speciation;
+  ReproductionSettings reproduction;
+
+  void describe(io::SettingsVisitor& visitor);
+  /// The rules that join several settings. Throws UserError naming the key; single values are checked by
+  /// describe()'s ranges.
+  void validate() const;
+};
+
+}  // namespace amble::neat

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "amble/io/binary.hpp"
+#include "amble/neat/fitness.hpp"
+#include "amble/neat/genome.hpp"
+#include "amble/neat/settings.hpp"
+#include "amble/neat/threshold.hpp"
+
+namespace amble::neat {
+
+struct Species {
+  std::uint32_t id = 0;      ///< never used again once the species is extinct
+  Genome representative;     ///< the best by objective of the last generation; of a new species, its founder
+  std::vector<int> members;  ///< indices of genomes; best objective first once record() was called
+  int age = 0;               ///< generations since it was founded
+  int generations_without_improvement = 0;
+  double best_objective = -std::numeric_limits<double>::infinity();  ///< over its whole life
+};
+
+/// Which genome belongs to which species, generation by generation (Stanley & Miikkulainen 2002, sec. 3.3).
+///
+/// Each genome joins the first species, oldest first, whose representative is closer than the threshold, or
+/// founds a new one. Then the threshold is steered towards the target number of species and all genomes are
+/// sorted anew, at most corrections_per_generation times. A species without members is extinct.
+///
+/// Improvement is measured by the objective, because it can be compared between generations, which novelty
+/// cannot.
+class Speciation {
+ public:
+  explicit Speciation(const SpeciationSettings& settings);
+
+  /// Sorts the genomes of a new generation into species.
+  void assign(std::span<const Genome> genomes);
+  /// Takes note of what the generation achieved: members are put in the order of their objective (equal ones
+  /// by index), the best becomes the representative, best_objective and generations_without_improvement are
+  /// brought up to date.
+  void record(std::span<const Genome> genomes, std::span<const Fitness> fitness);
+
+  const std::vector<Species>& species() const { return species_; }
+  double threshold() const { return threshold_.value(); }
+
+  void save(io::BinaryWriter& writer) const;
+  /// Replaces the state by what save() wrote. Throws UserError(ExitCode::bad_file), also unless each of
+  /// `genomes` genomes is a member of exactly one species. Whether the representatives are valid genomes is
+  /// for the caller to check.
+  void load(io::BinaryReader& reader, std::size_t genomes);
+
+ private:
+  /// Which genomes are together: the groups of `species_` first, some perhaps empty, then new ones.
+  struct Grouping {
+    std::vector<std::vector<int>> members;
+    int occupied() const;
+  };
+  Grouping group(std::span<const Genome> genomes) const;
+
+  SpeciationSettings settings_;
+  Threshold threshold_;
+  std::vector<Species> species_;
+  std::uint32_t next_id_ = 0;
+};
+
+}  // namespace amble::neat

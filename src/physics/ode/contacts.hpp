@@ -1,0 +1,51 @@
+#pragma once
+
+#include <ode/ode.h>
+
+#include <vector>
+
+#include "amble/core/lanes.hpp"
+#include "amble/morphology/robot_spec.hpp"
+#include "amble/physics/ode/world.hpp"
+
+namespace amble::physics::ode {
+
+/// Finds the contacts of a robot, always in the same order of geoms, so that equal states give equal forces
+/// to the bit. (ODE's spaces hand out pairs in an order that depends on what happened before.)
+class Contacts {
+ public:
+  Contacts(const morphology::RobotSpec& robot, const World& world);
+  ~Contacts();
+  Contacts(const Contacts&) = delete;
+  Contacts& operator=(const Contacts&) = delete;
+
+  /// Which feet touch the ground: legs × 1 of 0 or 1.
+  void feel(LaneArray& touch);
+  /// Replaces the contacts of the step before by those of the present pose. Fills `touch` as feel() does.
+  void collide(LaneArray& touch);
+
+ private:
+  struct Collider {
+    dGeomID geom = nullptr;
+    dBodyID body = nullptr;
+    double radius_m = 0.0;  ///< of the bounding sphere about the geom's centre
+    int leg = -1;           ///< whose foot it is, −1: none
+  };
+  struct Pair {
+    int a = 0, b = 0;  ///< indices into colliders_
+  };
+
+  int meet_ground(const Collider& collider);
+  void meet(const Pair& pair);
+  void add_contacts(int count, dBodyID a, dBodyID b);
+
+  const World& world_;
+  dJointGroupID group_;
+  dSurfaceParameters surface_{};
+  std::vector<Collider> colliders_;
+  std::vector<Pair> pairs_;  ///< that may collide with each other
+  static constexpr int most_contacts = 16;
+  dContactGeom found_[most_contacts];
+};
+
+}  // namespace amble::physics::ode

@@ -1,0 +1,98 @@
+#include "amble/physics/ode/motors.hpp"
+
+#include <algorithm>
+
+namespace amble::physics::ode {
+namespace {
+
+using morphology::Joint;
+using morphology::RobotSpec;
+using morphology::ServoMode;
+
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
+/// A torque servo leaves ODE's joint motor unpowered.
+double motor_limit(const Joint& joint) {
+  return joint.servo.mode == ServoMode::velocity ? joint.servo.max_torque_nm : 0.0;
+}
+
+}  // namespace
+
+Motors::Motors(const RobotSpec& robot, const World& world)
+    : joints_(robot.joints), angles_rad_(robot.joints.size(), 0.0) {
+  for (int b = 1; b < static_cast<int>(robot.bodies.size()); ++b) {
+    const std::vector<int> chain = robot.joints_of_body(b);
+    Drive drive{.joint = world.joints()[at(b)], .first = chain[0]};
+    if (chain.size() == 1) {
+      dJointSetHingeParam(drive.joint, dParamFMax, motor_limit(joints_[at(chain[0])]));
+    } else {
+      drive.second = chain[1];
+      dJointSetUniversalParam(drive.joint, dParamFMax1, motor_limit(joints_[at(chain[0])]));
+      dJointSetUniversalParam(drive.joint, dParamFMax2, motor_limit(joints_[at(chain[1])]));
+    }
+    drives_.push_back(drive);
+  }
+}
+
+void Motors::read(LaneArray& angles_rad) {
+  for (const Drive& drive : drives_) {
+    if (drive.second < 0) {
+      angles_rad_[at(drive.first)] = dJointGetHingeAngle(drive.joint);
+    } else {
+      dJointGetUniversalAngles(drive.joint, &angles_rad_[at(drive.first)], &angles_rad_[at(drive.second)]);
+    }
+  }
+  for (int j = 0; j < angles_rad.rows(); ++j) angles_rad.at(j, 0) = static_cast<float>(angles_rad_[at(j)]);
+}
+
+void Motors::drive(const LaneArray& targets_rad) {
+  const auto target = [&](int j) {
+    return std::clamp(static_cast<double>(targets_rad.at(j, 0)), joints_[at(j)].lower_rad,
+                      joints_[at(j)].upper_rad);
+  };
+  for (const Drive& drive : drives_) {
+    if (drive.second < 0) {
+      drive_hinge(drive, target(drive.first));
+    } else {
+      drive_universal(drive, target(drive.first), target(drive.second));
+    }
+  }
+}
+
+double Motors::speed_command(int joint, double target_rad) const {
+  return joints_[at(joint)].servo.gain_per_s * (target_rad - angles_rad_[at(joint)]);
+}
+
+double Motors::torque_command(int joint, double target_rad, double speed_rad_s) const {
+  const auto& servo = joints_[at(joint)].servo;
+  if (servo.mode == ServoMode::velocity) return 0.0;
+  const double torque =
+      servo.kp_nm_per_rad * (target_rad - angles_rad_[at(joint)]) - servo.kd_nm_s_per_rad * speed_rad_s;
+  return std::clamp(torque, -servo.max_torque_nm, servo.max_torque_nm);
+}
+
+void Motors::drive_hinge(const Drive& drive, double target_rad) const {
+  if (joints_[at(drive.first)].servo.mode == ServoMode::velocity) {
+    dJointSetHingeParam(drive.joint, dParamVel, speed_command(drive.first, target_rad));
+  } else {
+    dJointAddHingeTorque(drive.joint,
+                         torque_command(drive.first, target_rad, dJointGetHingeAngleRate(drive.joint)));
+  }
+}
+
+void Motors::drive_universal(const Drive& drive, double target1_rad, double target2_rad) const {
+  // An unpowered motor ignores its speed, so both modes can share one joint.
+  dJointSetUniversalParam(drive.joint, dParamVel1, speed_command(drive.first, target1_rad));
+  dJointSetUniversalParam(drive.joint, dParamVel2, speed_command(drive.second, target2_rad));
+  const bool torque1 = joints_[at(drive.first)].servo.mode == ServoMode::torque;
+  const bool torque2 = joints_[at(drive.second)].servo.mode == ServoMode::torque;
+  if (torque1 || torque2) {
+    dJointAddUniversalTorques(
+        drive.joint, torque_command(drive.first, target1_rad, dJointGetUniversalAngle1Rate(drive.joint)),
+        torque_command(drive.second, target2_rad, dJointGetUniversalAngle2Rate(drive.joint)));
+  }
+}
+
+}  // namespace amble::physics::ode

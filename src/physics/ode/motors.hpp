@@ -1,0 +1,41 @@
+#pragma once
+
+#include <ode/ode.h>
+
+#include <vector>
+
+#include "amble/core/lanes.hpp"
+#include "amble/morphology/robot_spec.hpp"
+#include "amble/physics/ode/world.hpp"
+
+namespace amble::physics::ode {
+
+/// The servos of a robot's joints.
+class Motors {
+ public:
+  Motors(const morphology::RobotSpec& robot, const World& world);
+
+  /// Reads all angles into `angles_rad` (joints × 1).
+  void read(LaneArray& angles_rad);
+  /// Sets speeds and torques for the next step. Uses the angles of the last read().
+  void drive(const LaneArray& targets_rad);
+
+ private:
+  /// One ODE joint with the motors it carries.
+  struct Drive {
+    dJointID joint = nullptr;
+    int first = -1;   ///< index of the joint about ODE's first (or only) axis
+    int second = -1;  ///< about the second axis, −1: a hinge
+  };
+
+  double speed_command(int joint, double target_rad) const;
+  double torque_command(int joint, double target_rad, double speed_rad_s) const;
+  void drive_hinge(const Drive& drive, double target_rad) const;
+  void drive_universal(const Drive& drive, double target1_rad, double target2_rad) const;
+
+  const std::vector<morphology::Joint>& joints_;
+  std::vector<Drive> drives_;
+  std::vector<double> angles_rad_;
+};
+
+}  // namespace amble::physics::ode

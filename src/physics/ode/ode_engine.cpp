@@ -1,0 +1,196 @@
+#include "amble/physics/ode/ode_engine.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "amble/core/check.hpp"
+#include "amble/core/hash.hpp"
+#include "amble/physics/ode/contacts.hpp"
+#include "amble/physics/ode/library.hpp"
+#include "amble/physics/ode/motors.hpp"
+#include "amble/physics/ode/world.hpp"
+
+namespace amble::physics {
+namespace {
+
+using morphology::RobotSpec;
+
+/// Beyond this a robot has exploded: m/s or rad/s (Engine::healthy).
+constexpr double absurd_speed = 1000.0;
+
+/// State of a body as ODE keeps it, copied once per step: centre of mass, quaternion, velocity, angular
+/// velocity.
+struct BodyState {
+  std::array<double, 3> position_m;
+  std::array<double, 4> rotation;
+  std::array<double, 3> velocity_m_s;
+  std::array<double, 3> spin_rad_s;
+};
+static_assert(sizeof(BodyState) == 13 * sizeof(double), "hashed as plain doubles");
+
+Vec3 vec3(const std::array<double, 3>& v) {
+  return {v[0], v[1], v[2]};
+}
+Quat quat(const std::array<double, 4>& q) {
+  return {q[0], q[1], q[2], q[3]};
+}
+
+bool sane(const BodyState& body) {
+  double sum = 0.0;  // finite only if every number is
+  for (const double x : body.position_m) sum += x;
+  for (const double x : body.rotation) sum += x;
+  const double speed = norm(vec3(body.velocity_m_s));
+  const double spin = norm(vec3(body.spin_rad_s));
+  return std::isfinite(sum) && speed <= absurd_speed && spin <= absurd_speed;
+}
+
+bool has_nan(const LaneArray& targets_rad) {
+  bool found = false;
+  for (int j = 0; j < targets_rad.rows(); ++j) found = found || std::isnan(targets_rad.at(j, 0));
+  return found;
+}
+
+/// Everything that belongs to one trial.
+struct Trial {
+  ode::World world;
+  ode::Motors motors;
+  ode::Contacts contacts;
+
+  Trial(const RobotSpec& robot, const ode::Threading& threading)
+      : world(robot, threading), motors(robot, world), contacts(robot, world) {}
+};
+
+class OdeEngine final : public Engine {
+ public:
+  OdeEngine(const RobotSpec& robot, const EngineSettings& settings)
+      : robot_(robot),
+        timestep_s_(settings.timestep_s),
+        total_mass_kg_(robot.total_mass_kg()),
+        bodies_(robot.bodies.size()) {
+    ode::check_joints(robot);
+    ode::prepare_thread();
+    threading_.emplace();
+    sensors_.joint_angle_rad = LaneArray(static_cast<int>(robot.joints.size()), 1);
+    sensors_.touch = LaneArray(static_cast<int>(robot.legs.size()), 1);
+    sensors_.attitude_rad = LaneArray(3, 1);
+  }
+
+  int lanes() const override { return 1; }
+
+  void place(int lane) override {
+    check_lane(lane);
+    ode::prepare_thread();
+    trial_.reset();
+    trial_.emplace(robot_, *threading_);
+    stepping_ = true;
+    healthy_ = true;
+    trial_->contacts.feel(sensors_.touch);
+    read_state();
+  }
+
+  void retire(int lane) override {
+    check_lane(lane);
+    stepping_ = false;
+  }
+
+  void step(const LaneArray& targets_rad) override {
+    if (!stepping_ || !healthy_) return;
+    AMBLE_CHECK(targets_rad.rows() == sensors_.joint_angle_rad.rows() && targets_rad.lanes() == 1, "targets");
+    if (has_nan(targets_rad)) {  // would drive ODE into a Fault, which costs memory
+      healthy_ = false;
+      return;
+    }
+    try {
+      trial_->contacts.collide(sensors_.touch);
+      trial_->motors.drive(targets_rad);
+      if (dWorldStep(trial_->world.id(), timestep_s_) == 0) throw ode::Fault("out of memory");
+    } catch (const ode::Fault&) {
+      healthy_ = false;
+      threading_->replace();
+      return;
+    }
+    read_state();
+  }
+
+  bool healthy(int lane) const override {
+    check_lane(lane);
+    return healthy_;
+  }
+
+  const SensorFrame& sensors() const override { return sensors_; }
+
+  RootPose root_pose(int lane) const override {
+    check_lane(lane);
+    const Quat rotation = quat(bodies_[0].rotation);
+    return {vec3(bodies_[0].position_m) - rotate(rotation, robot_.bodies[0].com_m), rotation};
+  }
+
+  Vec3 root_com_m(int lane) const override {
+    check_lane(lane);
+    return vec3(bodies_[0].position_m);
+  }
+
+  Vec3 com_m(int lane) const override {
+    check_lane(lane);
+    Vec3 sum;
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      sum = sum + robot_.bodies[b].mass_kg * vec3(bodies_[b].position_m);
+    return (1.0 / total_mass_kg_) * sum;
+  }
+
+  Vec3 momentum(int lane) const override {
+    check_lane(lane);
+    Vec3 sum;
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      sum = sum + robot_.bodies[b].mass_kg * vec3(bodies_[b].velocity_m_s);
+    return sum;
+  }
+
+  std::uint64_t state_hash(int lane) const override {
+    check_lane(lane);
+    return hash_bytes(bodies_.data(), bodies_.size() * sizeof(BodyState));
+  }
+
+ private:
+  void check_lane(int lane) const { AMBLE_CHECK(lane == 0, "the ode engine has one lane"); }
+
+  void read_state() {
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const dBodyID body = trial_->world.bodies()[b];
+      std::copy_n(dBodyGetPosition(body), 3, bodies_[b].position_m.begin());
+      std::copy_n(dBodyGetQuaternion(body), 4, bodies_[b].rotation.begin());
+      std::copy_n(dBodyGetLinearVel(body), 3, bodies_[b].velocity_m_s.begin());
+      std::copy_n(dBodyGetAngularVel(body), 3, bodies_[b].spin_rad_s.begin());
+      healthy_ = healthy_ && sane(bodies_[b]);
+    }
+    if (!healthy_) return;
+    trial_->motors.read(sensors_.joint_angle_rad);
+    const RollPitchYaw attitude = roll_pitch_yaw(quat(bodies_[0].rotation));
+    sensors_.attitude_rad.at(0, 0) = static_cast<float>(attitude.roll);
+    sensors_.attitude_rad.at(1, 0) = static_cast<float>(attitude.pitch);
+    sensors_.attitude_rad.at(2, 0) = static_cast<float>(attitude.yaw);
+  }
+
+  const RobotSpec robot_;
+  const double timestep_s_;
+  const double total_mass_kg_;
+  std::optional<ode::Threading> threading_;
+  std::optional<Trial> trial_;
+  std::vector<BodyState> bodies_;
+  SensorFrame sensors_;
+  bool stepping_ = false;
+  bool healthy_ = true;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_ode_engine(const RobotSpec& robot, const EngineSettings& settings) {
+  return std::make_unique<OdeEngine>(robot, settings);
+}
+
+}  // namespace amble::physics

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <ode/ode.h>
+
+#include <vector>
+
+#include "amble/core/math.hpp"
+#include "amble/morphology/robot_spec.hpp"
+#include "amble/physics/ode/library.hpp"
+
+namespace amble::physics::ode {
+
+/// One robot in its start pose in an ODE world of its own. An ODE body stands at the centre of mass of a
+/// Body, with the axes of the Body's frame. Built anew for every trial, so that nothing of an earlier trial
+/// can linger.
+class World {
+ public:
+  World(const morphology::RobotSpec& robot, const Threading& threading);
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  dWorldID id() const { return world_; }
+  /// In the order of RobotSpec::bodies.
+  const std::vector<dBodyID>& bodies() const { return bodies_; }
+  /// By body: the hinge or universal joint to its parent; null for the root.
+  const std::vector<dJointID>& joints() const { return joints_; }
+  /// In the order of RobotSpec::geoms; null for those that do not collide.
+  const std::vector<dGeomID>& geoms() const { return geoms_; }
+  dGeomID ground() const { return ground_; }
+
+ private:
+  void add_bodies(const morphology::RobotSpec& robot);
+  void add_joints(const morphology::RobotSpec& robot);
+  void add_geoms(const morphology::RobotSpec& robot);
+
+  dWorldID world_;
+  dGeomID ground_ = nullptr;
+  std::vector<dBodyID> bodies_;
+  std::vector<dJointID> joints_;
+  std::vector<dGeomID> geoms_;
+};
+
+/// Throws UserError for what ODE has no joint for; see make_ode_engine().
+void check_joints(const morphology::RobotSpec& robot);
+
+}  // namespace amble::physics::ode

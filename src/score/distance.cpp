@@ -1,0 +1,12 @@
+#include "amble/score/distance.hpp"
+
+#include <cmath>
+
+namespace amble::score {
+
+double distance_m(const record::Trajectory& trajectory) {
+  const Vec3 moved = trajectory.com_end_m - trajectory.com_start_m;
+  return std::sqrt(moved.x * moved.x + moved.y * moved.y);
+}
+
+}  // namespace amble::score

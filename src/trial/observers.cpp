@@ -1,0 +1,81 @@
+#include "amble/trial/observers.hpp"
+
+#include <string_view>
+
+namespace amble::trial {
+namespace {
+
+record::RecordingHeader recording_header(const morphology::RobotSpec& robot, const controllers::Batch& controllers,
+                                         double frame_s, const std::string& robot_json,
+                                         const std::string& controller_json, const std::string& origin) {
+  std::vector<std::string> joints, legs;
+  for (const auto& joint : robot.joints) joints.push_back(joint.name);
+  for (const auto& leg : robot.legs) legs.push_back(leg.name);
+  record::RecordingHeader header{.frame_s = frame_s,
+                                 .columns = record::standard_columns(joints, legs),
+                                 .robot_json = robot_json,
+                                 .controller_json = controller_json,
+                                 .origin = origin};
+  for (auto& name : controllers.state_names()) header.columns.push_back(std::move(name));
+  return header;
+}
+
+}  // namespace
+
+void TraceObserver::on_step(int, const physics::Engine& engine, const controllers::Batch&, const LaneArray&,
+                            int lane) {
+  trace_.push_back(static_cast<std::uint32_t>(engine.state_hash(lane)));
+}
+
+TriggerObserver::TriggerObserver(const controllers::Batch& controllers) {
+  constexpr std::string_view prefix = "trigger.";
+  const auto names = controllers.state_names();
+  state_.resize(names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!names[i].starts_with(prefix)) continue;
+    legs_.push_back(names[i].substr(prefix.size()));
+    columns_.push_back(i);
+  }
+  counts_.resize(legs_.size());
+}
+
+void TriggerObserver::on_step(int, const physics::Engine&, const controllers::Batch& controllers, const LaneArray&,
+                              int lane) {
+  if (legs_.empty()) return;
+  controllers.state(lane, state_);
+  for (std::size_t i = 0; i < columns_.size(); ++i) counts_[i] += state_[columns_[i]] > 0.5f;
+}
+
+RecordingObserver::RecordingObserver(const std::filesystem::path& path, const morphology::RobotSpec& robot,
+                                     const controllers::Batch& controllers, double frame_s,
+                                     const std::string& robot_json, const std::string& controller_json,
+                                     const std::string& origin)
+    : writer_(path, recording_header(robot, controllers, frame_s, robot_json, controller_json, origin)),
+      state_count_(controllers.state_names().size()) {}
+
+void RecordingObserver::on_step(int, const physics::Engine& engine, const controllers::Batch& controllers,
+                                const LaneArray& targets_rad, int lane) {
+  frame_.clear();
+  const auto put = [this](double value) { frame_.push_back(static_cast<float>(value)); };
+  const auto put_lane = [&](const LaneArray& rows) {
+    for (int row = 0; row < rows.rows(); ++row) frame_.push_back(rows.at(row, lane));
+  };
+  const auto pose = engine.root_pose(lane);
+  const Vec3 com_m = engine.com_m(lane);
+  for (const double value : {pose.position_m.x, pose.position_m.y, pose.position_m.z, pose.rotation.w,
+                             pose.rotation.x, pose.rotation.y, pose.rotation.z, com_m.x, com_m.y, com_m.z})
+    put(value);
+  put_lane(engine.sensors().joint_angle_rad);
+  put_lane(targets_rad);
+  put_lane(engine.sensors().touch);
+  frame_.resize(frame_.size() + state_count_);
+  controllers.state(lane, std::span(frame_).last(state_count_));
+  writer_.add(frame_);
+}
+
+void ObserverList::on_step(int step, const physics::Engine& engine, const controllers::Batch& controllers,
+                           const LaneArray& targets_rad, int lane) {
+  for (Observer* observer : observers_) observer->on_step(step, engine, controllers, targets_rad, lane);
+}
+
+}  // namespace amble::trial

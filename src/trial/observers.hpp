@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "amble/morphology/robot_spec.hpp"
+#include "amble/record/recording.hpp"
+#include "amble/trial/trial.hpp"
+
+namespace amble::trial {
+
+/// One hash per step of a trial: 32 bits of the engine's state hash. Names the first step at which two trials differ.
+class TraceObserver : public Observer {
+ public:
+  void on_step(int step, const physics::Engine& engine, const controllers::Batch& controllers,
+               const LaneArray& targets_rad, int lane) override;
+  const std::vector<std::uint32_t>& trace() const { return trace_; }
+
+ private:
+  std::vector<std::uint32_t> trace_;
+};
+
+/// Counts how often each leg's controller was triggered, from its state "trigger.<LEG>" (the SUPG has it).
+class TriggerObserver : public Observer {
+ public:
+  explicit TriggerObserver(const controllers::Batch& controllers);
+  void on_step(int step, const physics::Engine& engine, const controllers::Batch& controllers,
+               const LaneArray& targets_rad, int lane) override;
+  /// Leg names and counts; empty for controllers without triggers.
+  const std::vector<std::string>& legs() const { return legs_; }
+  const std::vector<std::int64_t>& counts() const { return counts_; }
+
+ private:
+  std::vector<std::string> legs_;
+  std::vector<std::size_t> columns_;
+  std::vector<std::int64_t> counts_;
+  std::vector<float> state_;
+};
+
+/// Writes every step of a trial to a recording (record/recording.hpp).
+class RecordingObserver : public Observer {
+ public:
+  /// `controller_json` and `robot_json` go into the recording's header; `origin` names the champion.
+  RecordingObserver(const std::filesystem::path& path, const morphology::RobotSpec& robot,
+                    const controllers::Batch& controllers, double frame_s, const std::string& robot_json,
+                    const std::string& controller_json, const std::string& origin);
+  void on_step(int step, const physics::Engine& engine, const controllers::Batch& controllers,
+               const LaneArray& targets_rad, int lane) override;
+  void finish(record::Outcome outcome) { writer_.finish(outcome); }
+
+ private:
+  record::RecordingWriter writer_;
+  std::size_t state_count_;
+  std::vector<float> frame_;
+};
+
+/// Passes every step on to several observers, in order.
+class ObserverList : public Observer {
+ public:
+  void add(Observer& observer) { observers_.push_back(&observer); }
+  void on_step(int step, const physics::Engine& engine, const controllers::Batch& controllers,
+               const LaneArray& targets_rad, int lane) override;
+
+ private:
+  std::vector<Observer*> observers_;
+};
+
+}  // namespace amble::trial

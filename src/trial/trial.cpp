@@ -1,0 +1,93 @@
+#include "amble/trial/trial.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "amble/core/check.hpp"
+
+namespace amble::trial {
+namespace {
+
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+Runner::Runner(physics::Engine& engine, controllers::Batch& controllers, const Protocol& protocol)
+    : engine_(engine),
+      controllers_(controllers),
+      protocol_(protocol),
+      targets_rad_(engine.sensors().joint_angle_rad.rows(), engine.lanes()),
+      lanes_(static_cast<std::size_t>(engine.lanes())) {
+  AMBLE_CHECK(controllers.lanes() == engine.lanes(), "one controller per robot");
+}
+
+// The step loop: sense and decide, move, then see what became of each robot.
+void Runner::run(TaskQueue& queue, const std::atomic<bool>& stop) {
+  for (int lane = 0; lane < engine_.lanes(); ++lane) refill(lane, queue);
+  while (busy_ > 0 && !stop.load(std::memory_order_relaxed)) {
+    controllers_.step(engine_.sensors(), targets_rad_);
+
+    const double before_s = now_s();
+    engine_.step(targets_rad_);
+    physics_s_ += now_s() - before_s;
+
+    for (int lane = 0; lane < engine_.lanes(); ++lane)
+      if (lanes_[static_cast<std::size_t>(lane)].busy) after_step(lane, queue);
+  }
+}
+
+void Runner::refill(int lane, TaskQueue& queue) {
+  Lane& slot = lanes_[static_cast<std::size_t>(lane)];
+  busy_ -= slot.busy;
+  auto task = queue.next();
+  slot.busy = task.has_value();
+  if (!task) {
+    engine_.retire(lane);
+    return;
+  }
+  ++busy_;
+  slot.task = std::move(*task);
+  const double before_s = now_s();
+  engine_.place(lane);
+  physics_s_ += now_s() - before_s;
+  controllers_.load(lane, *slot.task.parameters);
+  slot.trajectory = {};
+  slot.trajectory.timestep_s = protocol_.timestep_s;
+  slot.trajectory.path_stride = protocol_.path_stride;
+  slot.trajectory.com_start_m = slot.last_healthy_com_m = engine_.com_m(lane);
+}
+
+void Runner::after_step(int lane, TaskQueue& queue) {
+  Lane& slot = lanes_[static_cast<std::size_t>(lane)];
+  const auto outcome = advance(lane);
+  if (!outcome) return;
+  slot.trajectory.outcome = *outcome;
+  slot.trajectory.com_end_m = slot.last_healthy_com_m;
+  queue.done(slot.task.index, std::move(slot.trajectory));
+  refill(lane, queue);
+}
+
+/// Books one step of a lane; says how its trial ended, if it did.
+std::optional<record::Outcome> Runner::advance(int lane) {
+  Lane& slot = lanes_[static_cast<std::size_t>(lane)];
+  record::Trajectory& trajectory = slot.trajectory;
+  ++trajectory.steps;
+  ++steps_simulated_;
+  if (!engine_.healthy(lane)) return record::Outcome::diverged;
+
+  slot.last_healthy_com_m = engine_.com_m(lane);
+  if (protocol_.path_stride > 0 && trajectory.steps % protocol_.path_stride == 0) {
+    const Vec3 moved = slot.last_healthy_com_m - trajectory.com_start_m;
+    trajectory.com_path_m.push_back(static_cast<float>(moved.x));
+    trajectory.com_path_m.push_back(static_cast<float>(moved.y));
+  }
+  if (slot.task.observer) slot.task.observer->on_step(trajectory.steps, engine_, controllers_, targets_rad_, lane);
+
+  if (engine_.root_com_m(lane).z < protocol_.fall_height_m) return record::Outcome::fell;
+  if (trajectory.steps == protocol_.steps) return record::Outcome::completed;
+  return std::nullopt;
+}
+
+}  // namespace amble::trial

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "amble/controllers/controller.hpp"
+#include "amble/physics/engine.hpp"
+#include "amble/record/trajectory.hpp"
+
+namespace amble::trial {
+
+/// Looks on while one lane's trial runs. Called from the thread that runs it.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  /// After every step of a robot that is healthy, the last included. `step` counts from 1. `targets_rad` are those of this step.
+  virtual void on_step(int step, const physics::Engine& engine, const controllers::Batch& controllers,
+                       const LaneArray& targets_rad, int lane) = 0;
+};
+
+/// A controller that waits for its trial.
+struct Task {
+  std::size_t index = 0;  ///< given back with the result
+  std::unique_ptr<controllers::Parameters> parameters;
+  Observer* observer = nullptr;  ///< not owned, may be null
+};
+
+/// Where trials come from and where their results go. Shared by workers: both functions may be called from several
+/// threads at once.
+class TaskQueue {
+ public:
+  virtual ~TaskQueue() = default;
+  /// The next controller to try, or nothing when there is no more.
+  virtual std::optional<Task> next() = 0;
+  virtual void done(std::size_t index, record::Trajectory trajectory) = 0;
+};
+
+/// How trials run.
+struct Protocol {
+  int steps = 1500;
+  double timestep_s = 0.01;
+  int path_stride = 0;  ///< every how many steps the path is sampled; 0: not at all
+  double fall_height_m = 0.0;
+};
+
+/// Runs trials on one engine, as many at a time as it has lanes; a lane whose trial has ended takes the next task at once. What a
+/// trial gives depends on its own controller alone, not on lane, company or order. Belongs to one thread.
+class Runner {
+ public:
+  Runner(physics::Engine& engine, controllers::Batch& controllers, const Protocol& protocol);
+
+  /// Until the queue is empty and the last trial has ended, or `stop` is set (then trials in flight are dropped).
+  void run(TaskQueue& queue, const std::atomic<bool>& stop);
+
+  /// Steps simulated, and time spent in the engine, since the runner was made.
+  std::uint64_t steps_simulated() const { return steps_simulated_; }
+  double physics_s() const { return physics_s_; }
+
+ private:
+  struct Lane {
+    Task task;
+    record::Trajectory trajectory;
+    Vec3 last_healthy_com_m;
+    bool busy = false;
+  };
+
+  void refill(int lane, TaskQueue& queue);
+  void after_step(int lane, TaskQueue& queue);
+  std::optional<record::Outcome> advance(int lane);
+
+  physics::Engine& engine_;
+  controllers::Batch& controllers_;
+  Protocol protocol_;
+  LaneArray targets_rad_;
+  std::vector<Lane> lanes_;
+  int busy_ = 0;
+  std::uint64_t steps_simulated_ = 0;
+  double physics_s_ = 0.0;
+};
+
+/// A queue of one task.
+class OneTask : public TaskQueue {
+ public:
+  OneTask(std::unique_ptr<controllers::Parameters> parameters, Observer* observer)
+      : task_(Task{0, std::move(parameters), observer}) {}
+
+  std::optional<Task> next() override { return std::exchange(task_, std::nullopt); }
+  void done(std::size_t, record::Trajectory trajectory) override { result_ = std::move(trajectory); }
+  /// Nothing until the trial has ended.
+  const std::optional<record::Trajectory>& result() const { return result_; }
+
+ private:
+  std::optional<Task> task_;
+  std::optional<record::Trajectory> result_;
+};
+
+}  // namespace amble::trial

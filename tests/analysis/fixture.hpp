@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "amble/analysis/recorded.hpp"
+#include "amble/analysis/robot_model.hpp"
+#include "amble/analysis/supg.hpp"
+
+namespace amble::tests {
+
+/// The JSON of a robot with a trunk 1 m long, 0.4 m wide and 0.2 m high at a height of 1 m, and legs at its
+/// corners (more than four: further back). Each has an upper leg of 0.5 m (a capsule) on two hinges and a
+/// lower leg of 0.4 m (a box) ending in a foot of radius 0.1 m. Joint types in the order knee, hip_fb,
+/// hip_io; in the chain hip_io comes before hip_fb. All of it weighs 1 kg in the trunk and 0.1 kg in each
+/// lower leg, at its joint.
+std::string robot_json(int legs = 4);
+analysis::RobotModel robot(int legs = 4);
+
+/// The JSON of a SUPG controller for that robot: period 10 ticks of 0.1 s; joint j has the target j × 0.01 +
+/// tick × 0.001 rad; leg l starts at tick l + 1.
+std::string supg_json(int legs = 4);
+
+/// A walk of `frames` frames of 0.1 s straight along x at 0.5 m/s, standing. Leg l touches in the frames k
+/// with (k + l) mod 4 < 2; a trigger follows each touch-down by a frame and sets the timer to 1.
+analysis::Recorded walk(int frames, int legs = 4);
+
+/// The text that `function` throws as a UserError, or "no error".
+template <typename Function>
+std::string error_of(Function function);
+
+}  // namespace amble::tests
+
+#include "amble/core/error.hpp"
+
+template <typename Function>
+std::string amble::tests::error_of(Function function) {
+  try {
+    function();
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "no error";
+}

@@ -1,0 +1,83 @@
+#include "amble/analysis/kinematics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/analysis/fixture.hpp"
+
+namespace amble::analysis {
+namespace {
+
+constexpr double quarter = std::numbers::pi / 2;
+
+void expect_near(Vec3 actual, Vec3 expected) {
+  EXPECT_NEAR(actual.x, expected.x, 1e-12);
+  EXPECT_NEAR(actual.y, expected.y, 1e-12);
+  EXPECT_NEAR(actual.z, expected.z, 1e-12);
+}
+
+/// Where the front left foot is, with its knee, hip_fb and hip_io at these angles.
+Vec3 foot(double knee_rad, double fb_rad, double io_rad, const BodyPose& root = {{0, 0, 1}, {}}) {
+  const RobotModel robot = tests::robot();
+  std::vector<double> angles(12, 0.0);
+  angles[0] = knee_rad;
+  angles[1] = fb_rad;
+  angles[2] = io_rad;
+  return geom_centre_m(robot.geoms[3], body_poses(robot, root, angles));
+}
+
+// The hip is at (0.5, 0.2, 1), the upper leg 0.5 m and the lower leg with the foot's centre 0.4 m long.
+TEST(Kinematics, LegsHangStraightAtZero) {
+  expect_near(foot(0, 0, 0), {0.5, 0.2, 0.1});
+}
+
+TEST(Kinematics, HipSwingsTheLegBackward) {
+  expect_near(foot(0, quarter, 0), {0.5 - 0.9, 0.2, 1});
+}
+
+TEST(Kinematics, HipSwingsTheLegOutward) {
+  expect_near(foot(0, 0, quarter), {0.5, 0.2 + 0.9, 1});
+}
+
+TEST(Kinematics, KneeBringsTheFootForward) {
+  expect_near(foot(-quarter, 0, 0), {0.5 + 0.4, 0.2, 0.5});
+}
+
+TEST(Kinematics, SecondHingeOfABodyIsCarriedByTheFirst) {
+  // Turned outward first, then backward about its own lateral axis; the other order would end at y = 1.1.
+  expect_near(foot(0, quarter, quarter), {0.5 - 0.9, 0.2, 1});
+}
+
+TEST(Kinematics, AnglesOfAChainAddUp) {
+  expect_near(foot(-quarter, quarter, 0), {0.5 - 0.5, 0.2, 1 - 0.4});
+}
+
+TEST(Kinematics, EverythingMovesWithTheRoot) {
+  // Turned to the left, the front left hip is at (−0.2, 0.5) from the root.
+  const BodyPose root{{10, 20, 3}, axis_angle({0, 0, 1}, quarter)};
+  expect_near(foot(0, 0, 0, root), {10 - 0.2, 20 + 0.5, 3 - 0.9});
+  expect_near(foot(0, quarter, 0, root), {10 - 0.2, 20 + 0.5 - 0.9, 3});
+}
+
+TEST(Kinematics, AnAnchorStaysWhereItIs) {
+  RobotModel robot = tests::robot();
+  robot.joints[0].anchor_m = {0, 0, 0.1};
+  std::vector<double> angles(12, 0.0);
+  angles[0] = 2 * quarter;
+  // The lower leg turns upside down about a point 0.1 m above its frame, which was at z = 0.5.
+  const auto poses = body_poses(robot, {{0, 0, 1}, {}}, angles);
+  expect_near(poses[2].position_m, {0.5, 0.2, 0.7});
+}
+
+TEST(Kinematics, ReadsAFrameOfAMotion) {
+  auto recorded = tests::walk(3);
+  recorded.motion.angle_rad[1][2] = static_cast<float>(quarter);
+  const auto poses = body_poses(recorded.robot, recorded.motion, 2);
+  const Vec3 at = geom_centre_m(recorded.robot.geoms[3], poses);
+  EXPECT_NEAR(at.x, 0.15 + 0.5 - 0.9, 1e-6);
+  EXPECT_NEAR(at.z, 1.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace amble::analysis

@@ -1,0 +1,70 @@
+#include "amble/analysis/svg.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+
+#include "tests/analysis/xml.hpp"
+
+namespace amble::analysis {
+namespace {
+
+TEST(Number, HasAPointAndNoTrailingZeros) {
+  EXPECT_EQ(number(1.5), "1.5");
+  EXPECT_EQ(number(1.0), "1");
+  EXPECT_EQ(number(100.0), "100");
+  EXPECT_EQ(number(1234.567), "1234.57");
+  EXPECT_EQ(number(1234.567, 0), "1235");
+  EXPECT_EQ(number(100.0, 0), "100");
+}
+
+TEST(Number, HasNoNegativeZero) {
+  EXPECT_EQ(number(-0.0), "0");
+  EXPECT_EQ(number(-0.001), "0");
+  EXPECT_EQ(number(-0.01), "-0.01");
+}
+
+TEST(NumberDeathTest, RefusesWhatIsNotFinite) {
+  EXPECT_DEATH(number(std::numeric_limits<double>::quiet_NaN()), "finite");
+}
+
+TEST(Escape, LeavesNoMarkup) {
+  EXPECT_EQ(escape("a<b> & \"c\" 'd'"), "a&lt;b&gt; &amp; &quot;c&quot; &#39;d&#39;");
+}
+
+TEST(Escape, ReplacesControlCharactersAndKeepsLines) {
+  EXPECT_EQ(escape("a\x01z\n\t"), "a\uFFFDz\n\t");
+}
+
+TEST(Svg, IsWellFormedWhateverTheTexts) {
+  Svg svg(100, 50, "a \"description\" <with> & markup");
+  svg.begin_group("leg0");
+  svg.line({0, 1}, {2, 3.5}, "axis");
+  svg.polygon(std::array<Point, 3>{{{0, 0}, {1, 0.25}, {-1, 1}}}, "shape");
+  svg.text({5, 6}, Anchor::end, "label", "1 < 2 & 3");
+  svg.end_group();
+  svg.circle({1, 2}, 3);
+  svg.rect({1, 2, 3, 4}, "bar", 1.5);
+  const auto elements = tests::parse_xml(svg.finish());
+  ASSERT_EQ(elements.size(), 7u);
+  EXPECT_EQ(elements[0].attributes.at("viewBox"), "0 0 100 50");
+  EXPECT_EQ(elements[0].attributes.at("aria-label"), "a \"description\" <with> & markup");
+  EXPECT_EQ(elements[2].number("y2"), 3.5);
+  EXPECT_EQ(elements[4].text, "1 < 2 & 3");
+  EXPECT_EQ(elements[4].attributes.at("text-anchor"), "end");
+  EXPECT_EQ(elements[4].path, (std::vector<std::string>{"", "leg0", "label"}));
+}
+
+TEST(SvgDeathTest, RefusesAGroupThatIsNotEnded) {
+  EXPECT_DEATH(
+      {
+        Svg svg(1, 1, "");
+        svg.begin_group("a");
+        svg.finish();
+      },
+      "still open");
+}
+
+}  // namespace
+}  // namespace amble::analysis

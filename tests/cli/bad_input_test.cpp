@@ -1,0 +1,245 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/mount.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <map>
+
+#include "amble/core/error.hpp"
+#include "tests/cli/process.hpp"
+
+namespace amble::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string source = AMBLE_SOURCE_DIR;
+const std::string config = source + "/configs/authors/supg-objective.toml";
+
+/// Every file below a folder with its text.
+std::map<std::string, std::string> snapshot(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    files[entry.path().string()] = entry.is_regular_file() ? slurp(entry.path()) : "";
+  return files;
+}
+
+class BadInput : public testing::Test {
+ protected:
+  /// One line on stderr that holds `words`, the exit code, and no file touched.
+  void expect_complaint(const std::vector<std::string>& arguments, ExitCode code, const std::string& words) {
+    const auto before = snapshot(scratch_.path);
+    const auto finished = amble(arguments);
+    EXPECT_EQ(finished.exit_code, static_cast<int>(code)) << finished.err;
+    EXPECT_THAT(finished.err, StartsWith("amble: "));
+    EXPECT_THAT(finished.err, HasSubstr(words));
+    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
+    auto after = snapshot(scratch_.path);
+    std::erase_if(after, [](const auto& file) { return file.first.ends_with("/.lock"); });
+    auto expected = before;
+    std::erase_if(expected, [](const auto& file) { return file.first.ends_with("/.lock"); });
+    EXPECT_EQ(after, expected);
+  }
+
+  /// A config of its own: that of the authors with more lines at its end.
+  std::string config_with(const std::string& lines) {
+    spill(scratch_.path / "c.toml", "include = [\"" + config + "\"]\n" + lines + "\n");
+    return scratch_ / "c.toml";
+  }
+
+  /// A finished run of two generations.
+  void make_run() {
+    const auto run = amble({"evolve", config, "--set", "population.size=40", "--set", "trial.duration_s=1",
+                            "--generations", "2", "--out", run_});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+  }
+
+  ScratchFolder scratch_;
+  std::string out_ = scratch_ / "out";
+  std::string run_ = scratch_ / "run";
+};
+
+TEST_F(BadInput, NoCommandOrAnUnknownOne) {
+  expect_complaint({}, ExitCode::bad_input, "subcommand");
+  expect_complaint({"dance"}, ExitCode::bad_input, "dance");
+}
+
+TEST_F(BadInput, MissingConfig) {
+  expect_complaint({"evolve", scratch_ / "none.toml", "--out", out_}, ExitCode::io,
+                   "none.toml: No such file or directory");
+}
+
+TEST_F(BadInput, UnknownKey) {
+  expect_complaint({"evolve", config_with("population.sise = 10"), "--out", out_}, ExitCode::bad_input,
+                   "c.toml:2: unknown key 'population.sise' (did you mean 'population.size'?)");
+}
+
+TEST_F(BadInput, WrongType) {
+  expect_complaint({"evolve", config_with("population.size = \"many\""), "--out", out_}, ExitCode::bad_input,
+                   "c.toml:2: 'population.size' = \"many\": expected a whole number from 2 to 1000000");
+}
+
+TEST_F(BadInput, ValueOutOfRange) {
+  expect_complaint({"evolve", config_with("reproduction.elitism = 1.5"), "--out", out_}, ExitCode::bad_input,
+                   "c.toml:2: 'reproduction.elitism' = 1.5: expected a number from 0 to 1");
+}
+
+TEST_F(BadInput, UnknownChoice) {
+  expect_complaint({"evolve", config, "--set", "search.kind=luck", "--out", out_}, ExitCode::bad_input,
+                   "--set search.kind=luck: expected ");
+}
+
+TEST_F(BadInput, UnknownEngine) {
+  expect_complaint({"evolve", config, "--set", "engine=newton", "--out", out_}, ExitCode::bad_input, "newton");
+}
+
+TEST_F(BadInput, SyntaxErrorWithLineAndColumn) {
+  spill(scratch_.path / "c.toml", "seed = 1\npopulation = { size = \n");
+  expect_complaint({"evolve", scratch_ / "c.toml", "--out", out_}, ExitCode::bad_input, "c.toml:2:");
+}
+
+TEST_F(BadInput, SettingsThatDoNotFitTogether) {
+  expect_complaint({"evolve", config, "--set", "population.size=10", "--out", out_}, ExitCode::bad_input,
+                   "speciation.target_max");
+}
+
+TEST_F(BadInput, MissingRobot) {
+  expect_complaint({"evolve", config, "--set", "robot=none.toml", "--out", out_}, ExitCode::io, "none.toml");
+}
+
+class BadRobot : public BadInput {
+ protected:
+  BadRobot() {
+    fs::copy(source + "/robots/quadruped", scratch_.path / "robot");
+  }
+  void replace(const std::string& file, const std::string& what, const std::string& with) {
+    auto text = slurp(scratch_.path / "robot" / file);
+    const auto at = text.find(what);
+    ASSERT_NE(at, std::string::npos);
+    spill(scratch_.path / "robot" / file, text.replace(at, what.size(), with));
+  }
+  std::string robot_ = scratch_ / "robot/authors.toml";
+};
+
+TEST_F(BadRobot, ThatMujocoRefuses) {
+  replace("authors.xml", "<worldbody>", "<worldbody><body><joint/></body>");
+  expect_complaint({"robot", robot_}, ExitCode::bad_input, "authors.xml");
+}
+
+TEST_F(BadRobot, ThatIsNoXml) {
+  replace("authors.xml", "</worldbody>", "");
+  expect_complaint({"robot", robot_}, ExitCode::bad_input, "authors.xml");
+}
+
+TEST_F(BadRobot, WithAJointThatTheSideFileDoesNotName) {
+  replace("authors.xml", "name=\"FL_knee\"", "name=\"FL_elbow\"");
+  expect_complaint({"robot", robot_}, ExitCode::bad_input, "FL_");
+}
+
+TEST_F(BadRobot, WithAModelThatIsNotThere) {
+  fs::remove(scratch_.path / "robot/authors.xml");
+  expect_complaint({"robot", robot_}, ExitCode::io, "authors.xml");
+}
+
+TEST_F(BadInput, JobsZero) {
+  expect_complaint({"evolve", config, "--jobs", "0", "--out", out_}, ExitCode::bad_input, "--jobs");
+}
+
+TEST_F(BadInput, OutFolderThatHoldsARun) {
+  make_run();
+  expect_complaint({"evolve", config, "--out", run_}, ExitCode::bad_input, "holds a run already");
+}
+
+TEST_F(BadInput, OutFolderThatIsNotEmptyAndNoRun) {
+  fs::create_directories(out_);
+  spill(fs::path(out_) / "thesis.txt", "years of work");
+  expect_complaint({"evolve", config, "--out", out_}, ExitCode::bad_input, "not empty and not a run");
+}
+
+TEST_F(BadInput, ChampionTruncatedOrAltered) {
+  make_run();
+  const auto champion = fs::directory_iterator(fs::path(run_) / "champions")->path();
+  const auto text = slurp(champion);
+  spill(champion, text.substr(0, text.size() / 2));
+  expect_complaint({"trial", champion.string()}, ExitCode::bad_file, champion.string());
+  auto altered = text;
+  const auto weight = altered.find("\"weight\": ") + 10;
+  altered.replace(weight, altered.find_first_of(",}\n", weight) - weight, "0.125");
+  spill(champion, altered);
+  expect_complaint({"trial", champion.string()}, ExitCode::bad_file, "checksum");
+  altered.replace(weight, 5, "1e999");
+  spill(champion, altered);
+  expect_complaint({"trial", champion.string()}, ExitCode::bad_file, champion.string());
+}
+
+TEST_F(BadInput, CheckpointTruncatedAlteredOrOfAnotherVersion) {
+  make_run();
+  const auto checkpoint = fs::path(run_) / "checkpoint.bin";
+  const auto bytes = slurp(checkpoint);
+  const std::vector<std::string> resume{"resume", run_, "--generations", "3"};
+  spill(checkpoint, bytes.substr(0, bytes.size() - 7));
+  expect_complaint(resume, ExitCode::bad_file, "checkpoint.bin: truncated");
+  auto altered = bytes;
+  altered[altered.size() / 2] = static_cast<char>(altered[altered.size() / 2] ^ 4);
+  spill(checkpoint, altered);
+  expect_complaint(resume, ExitCode::bad_file, "checksum");
+  auto newer = bytes;
+  newer[8] = 99;
+  spill(checkpoint, newer);
+  expect_complaint(resume, ExitCode::bad_file, "version 99");
+  fs::remove(checkpoint);
+  expect_complaint(resume, ExitCode::io, "checkpoint.bin");
+}
+
+TEST_F(BadInput, RunWhoseConfigWasEdited) {
+  make_run();
+  const auto path = fs::path(run_) / "config.toml";
+  auto text = slurp(path);
+  const auto at = text.find("add_node_share = 0.01");
+  ASSERT_NE(at, std::string::npos);
+  spill(path, text.replace(at, 21, "add_node_share = 0.02"));
+  expect_complaint({"resume", run_, "--generations", "3"}, ExitCode::bad_file, "written under another config.toml");
+}
+
+TEST_F(BadInput, FolderThatIsNoRun) {
+  expect_complaint({"resume", scratch_ / "none"}, ExitCode::io, "no such folder");
+  expect_complaint({"verify", scratch_.path.string()}, ExitCode::bad_input, "not a run folder");
+  expect_complaint({"info", scratch_.path.string()}, ExitCode::bad_input, "not a run folder");
+  expect_complaint({"page", scratch_.path.string(), "-o", out_}, ExitCode::bad_input, "not a run folder");
+}
+
+TEST_F(BadInput, TrialOfNoWholeNumberOfSteps) {
+  make_run();
+  const auto champion = fs::directory_iterator(fs::path(run_) / "champions")->path().string();
+  expect_complaint({"trial", champion, "--seconds", "1.0001"}, ExitCode::bad_input, "whole number of timesteps");
+  expect_complaint({"trial", champion, "--seconds", "-1"}, ExitCode::bad_input, "--seconds");
+}
+
+TEST_F(BadInput, RecordingThatIsNone) {
+  spill(scratch_.path / "walk.rec", "not a recording");
+  expect_complaint({"info", scratch_ / "walk.rec"}, ExitCode::bad_file, "walk.rec");
+}
+
+TEST_F(BadInput, FullDiskLeavesARunThatGoesOnLater) {
+  const auto disk = scratch_.path / "disk";
+  fs::create_directories(disk);
+  if (mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=400k") != 0) GTEST_SKIP() << "needs the right to mount";
+  const auto run = (disk / "run").string();
+  const auto full = amble({"evolve", config, "--set", "population.size=40", "--set", "trial.duration_s=0.2", "--generations",
+                           "2000", "--out", run});
+  EXPECT_EQ(full.exit_code, static_cast<int>(ExitCode::io)) << full.err;
+  EXPECT_THAT(full.err, HasSubstr("No space left on device"));
+  const auto moved = scratch_ / "moved";
+  fs::copy(run, moved, fs::copy_options::recursive);
+  umount(disk.c_str());
+  const auto csv = slurp(fs::path(moved) / "generations.csv");
+  const auto rows = std::count(csv.begin(), csv.end(), '\n') - 1;
+  const auto resumed = amble({"resume", moved, "--generations", std::to_string(rows + 2)});
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+}
+
+}  // namespace
+}  // namespace amble::tests

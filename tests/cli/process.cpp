@@ -1,0 +1,100 @@
+#include "tests/cli/process.hpp"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace amble::tests {
+namespace {
+
+std::filesystem::path scratch_name() {
+  static int count = 0;
+  return std::filesystem::temp_directory_path() /
+         ("amble-test-" + std::to_string(getpid()) + "-" + std::to_string(count++));
+}
+
+}  // namespace
+
+Process::Process(const std::vector<std::string>& arguments) : out_(scratch_name()), err_(scratch_name()) {
+  std::vector<char*> argv{const_cast<char*>(AMBLE_PROGRAM)};
+  for (const auto& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  pid_ = fork();
+  if (pid_ < 0) throw std::runtime_error("fork failed");
+  if (pid_ == 0) {
+    dup2(open(out_.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600), STDOUT_FILENO);
+    dup2(open(err_.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600), STDERR_FILENO);
+    execv(AMBLE_PROGRAM, argv.data());
+    _exit(127);
+  }
+}
+
+Process::~Process() {
+  if (!waited_) {
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  std::error_code none;
+  std::filesystem::remove(out_, none);
+  std::filesystem::remove(err_, none);
+}
+
+void Process::signal(int number) const { kill(pid_, number); }
+
+Finished Process::wait() {
+  int status = 0;
+  waitpid(pid_, &status, 0);
+  waited_ = true;
+  Finished finished{.out = slurp(out_), .err = slurp(err_)};
+  if (WIFEXITED(status)) finished.exit_code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) finished.signal = WTERMSIG(status);
+  return finished;
+}
+
+Finished amble(const std::vector<std::string>& arguments) { return Process(arguments).wait(); }
+
+ScratchFolder::ScratchFolder() : path(scratch_name()) { std::filesystem::create_directories(path); }
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code none;
+  std::filesystem::remove_all(path, none);
+}
+
+std::string slurp(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+void spill(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+std::string without_times(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::string kept;
+  for (std::string line; std::getline(lines, line);) {
+    for (int i = 0; i < 3; ++i) line.resize(std::min(line.size(), line.rfind(',')));
+    kept += line + "\n";
+  }
+  return kept;
+}
+
+std::string all_champions(const std::filesystem::path& run) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(run / "champions")) files.push_back(entry.path());
+  std::ranges::sort(files);
+  std::string all;
+  for (const auto& file : files) all += file.filename().string() + "\n" + slurp(file);
+  return all;
+}
+
+}  // namespace amble::tests

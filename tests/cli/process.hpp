@@ -1,0 +1,55 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace amble::tests {
+
+struct Finished {
+  int exit_code = -1;  ///< −1: ended by a signal
+  int signal = 0;
+  std::string out, err;
+};
+
+/// A real process of the program under test.
+class Process {
+ public:
+  explicit Process(const std::vector<std::string>& arguments);
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  void signal(int number) const;
+  Finished wait();
+
+ private:
+  pid_t pid_ = -1;
+  std::filesystem::path out_, err_;
+  bool waited_ = false;
+};
+
+/// Runs `amble` with these arguments to its end.
+Finished amble(const std::vector<std::string>& arguments);
+
+/// A folder that is removed with the object.
+class ScratchFolder {
+ public:
+  ScratchFolder();
+  ~ScratchFolder();
+  std::filesystem::path path;
+  std::string operator/(const std::string& name) const { return (path / name).string(); }
+};
+
+std::string slurp(const std::filesystem::path& path);
+void spill(const std::filesystem::path& path, const std::string& text);
+
+/// generations.csv without its last three columns, which are times.
+std::string without_times(const std::string& csv);
+
+/// Every champion file's name and text.
+std::string all_champions(const std::filesystem::path& run);
+
+}  // namespace amble::tests

@@ -1,0 +1,53 @@
+#include "amble/controllers/supg_settings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "amble/core/error.hpp"
+#include "amble/io/json_file.hpp"
+
+namespace amble::controllers {
+namespace {
+
+std::string complaint(double period_s, double timestep_s) {
+  SupgSettings settings;
+  settings.period_s = period_s;
+  try {
+    period_ticks(settings, timestep_s);
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_input);
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(SupgSettings, CountThePeriodInTicks) {
+  SupgSettings settings;
+  EXPECT_EQ(period_ticks(settings, 0.01), 100);
+  EXPECT_EQ(period_ticks(settings, 0.5), 2);
+  settings.period_s = 0.3;  // 0.3 / 0.01 is not 30 to the last bit
+  EXPECT_EQ(period_ticks(settings, 0.01), 30);
+}
+
+TEST(SupgSettings, RefuseAPeriodThatIsNotAWholeNumberOfTicks) {
+  EXPECT_EQ(complaint(1.005, 0.01),
+            "controller.supg.period_s = 1.005 is 100.49999999999999 ticks of 0.01 s: expected a whole number "
+            "from 2 to 100000");
+  EXPECT_NE(complaint(0.01, 0.01), "none");
+  EXPECT_NE(complaint(1.0, 1e-6), "none");
+  EXPECT_EQ(complaint(0.02, 0.01), "none");
+}
+
+TEST(SupgSettings, AreTheAuthorsByDefault) {
+  SupgSettings settings;
+  io::Json json = io::Json::object();
+  settings.describe(*io::json_writer(json));
+  EXPECT_EQ(json, io::Json::parse(R"({
+    "period_s": 1.0, "trigger": "edge", "trigger_debounce_ticks": 1, "offset": "phase", "start_tick": 1, "idle": "mid",
+    "layout": {"leg_axis": "x", "leg_coordinates": [-1.0, -0.33, 0.33, 1.0], "leg_divisor": 50.0,
+               "type_coordinates": [-1.0, 0.0, 1.0]}})"));
+}
+
+}  // namespace
+}  // namespace amble::controllers

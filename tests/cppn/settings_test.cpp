@@ -1,0 +1,28 @@
+#include "amble/cppn/settings.hpp"
+
+#include <gtest/gtest.h>
+
+#include "amble/io/json_file.hpp"
+
+namespace amble::cppn {
+namespace {
+
+TEST(CppnSettings, AreWrittenAndReadUnderTheirNames) {
+  Settings settings{Linear::identity, false};
+  io::Json json = io::Json::object();
+  settings.describe(*io::json_writer(json));
+  EXPECT_EQ(json.dump(), R"({"linear":"identity","recurrent":false})");
+
+  Settings read;
+  read.describe(*io::json_reader(io::JsonView(json, "test")));
+  EXPECT_EQ(read.linear, Linear::identity);
+  EXPECT_FALSE(read.recurrent);
+}
+
+TEST(CppnSettings, AreTheAuthorsByDefault) {
+  EXPECT_EQ(Settings().linear, Linear::absolute);
+  EXPECT_TRUE(Settings().recurrent);
+}
+
+}  // namespace
+}  // namespace amble::cppn

@@ -1,0 +1,65 @@
+#include "amble/experiment/config.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "amble/core/error.hpp"
+#include "amble/io/file.hpp"
+#include "tests/experiment/fixture.hpp"
+
+namespace amble::experiment {
+namespace {
+
+const std::string configs = std::string(AMBLE_SOURCE_DIR) + "/configs/";
+
+TEST(Config, WrittenInFullReadsBackToTheSameText) {
+  const ScratchFolder scratch;
+  for (const char* preset : {"authors/supg-objective.toml", "paper/supg-objective.toml"}) {
+    const auto config = load_config(configs + preset, {});
+    io::write_file(scratch.path / "full.toml", config.to_toml());
+    const auto again = load_config(scratch.path / "full.toml", {});
+    EXPECT_EQ(again.to_toml(), config.to_toml());
+  }
+}
+
+TEST(Config, PresetsHaveThePapersNumbers) {
+  for (const char* preset : {"authors/supg-objective.toml", "paper/supg-objective.toml"}) {
+    const auto config = load_config(configs + preset, {});
+    EXPECT_EQ(config.neat.population.size, 300);
+    EXPECT_EQ(config.generations, 800);
+    EXPECT_EQ(config.neat.mutation.add_link_share, 0.06);
+    EXPECT_EQ(config.neat.mutation.add_node_share, 0.01);
+    EXPECT_EQ(config.neat.reproduction.elitism, 0.1);
+    EXPECT_EQ(config.trial.steps(), 1500);
+    EXPECT_EQ(config.engine, "ode");
+  }
+}
+
+TEST(Config, FindsItsRobotBesideTheFileThatNamesIt) {
+  const auto config = load_config(configs + "authors/supg-objective.toml", {});
+  EXPECT_TRUE(std::filesystem::exists(config.robot)) << config.robot;
+}
+
+TEST(Config, TakesOverridesInOrderAndBareWordsAsText) {
+  const auto config =
+      load_config(configs + "authors/supg-objective.toml",
+                  {.assignments = {"population.size=50", "name=quick", "population.size=60"}, .seed = 9, .generations = 4});
+  EXPECT_EQ(config.neat.population.size, 60);
+  EXPECT_EQ(config.name, "quick");
+  EXPECT_EQ(config.seed, 9);
+  EXPECT_EQ(config.generations, 4);
+}
+
+TEST(Config, WithoutARobotIsRefusedByName) {
+  const ScratchFolder scratch;
+  io::write_file(scratch.path / "c.toml", "seed = 1\n");
+  try {
+    load_config(scratch.path / "c.toml", {});
+    FAIL() << "accepted";
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("c.toml: key 'robot' is missing"));
+  }
+}
+
+}  // namespace
+}  // namespace amble::experiment

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "amble/experiment/run.hpp"
+
+namespace amble::experiment {
+
+/// configs/authors/supg-objective.toml, made small: 40 genomes, trials of one second.
+inline Config small_config(std::vector<std::string> more = {}) {
+  Overrides overrides{.assignments = {"population.size=40", "trial.duration_s=1"}, .seed = 1, .generations = 3};
+  overrides.assignments.insert(overrides.assignments.end(), more.begin(), more.end());
+  return load_config(AMBLE_SOURCE_DIR "/configs/authors/supg-objective.toml", overrides);
+}
+
+inline Problem small_problem() {
+  const auto config = small_config();
+  return Problem::make(config, load_robot_file(config.robot));
+}
+
+inline neat::Population small_population(const Problem& problem, std::uint64_t seed = 1) {
+  return neat::Population(small_config().neat, problem.cppn_inputs(), problem.cppn_outputs(), true, seed);
+}
+
+/// A folder that is removed with the object.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "amble-test-XXXXXX").string();
+    path = mkdtemp(name.data());
+  }
+  ~ScratchFolder() {
+    std::error_code none;
+    std::filesystem::remove_all(path, none);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  std::filesystem::path path;
+};
+
+/// Hears nothing, or stops the run after some generations.
+class Listener : public RunListener {
+ public:
+  explicit Listener(int stop_after = 1 << 30) : left_(stop_after) {}
+  void on_generation(const GenerationRow& row, const Progress&, const Config&) override {
+    rows.push_back(row);
+    if (--left_ == 0) stop = true;
+  }
+  std::atomic<bool> stop{false};
+  std::vector<GenerationRow> rows;
+
+ private:
+  int left_;
+};
+
+}  // namespace amble::experiment

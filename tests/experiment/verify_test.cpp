@@ -1,0 +1,69 @@
+#include "amble/experiment/verify.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "amble/experiment/replay.hpp"
+#include "amble/io/file.hpp"
+#include "tests/experiment/fixture.hpp"
+
+namespace amble::experiment {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::atomic<bool> never{false};
+
+class Verify : public testing::Test {
+ protected:
+  Verify() {
+    champion_.genome = small_population(champion_.problem).genomes()[0];
+    const auto trial = replay(champion_.problem, champion_.genome, {}, never);
+    champion_.result = trial->result;
+    champion_.trace = trial->trace;
+  }
+
+  Verdict verdict() {
+    io::write_file(path_, champion_text(champion_));
+    return verify_champion(path_, never).value();
+  }
+
+  ScratchFolder scratch_;
+  std::filesystem::path path_ = scratch_.path / "c.json";
+  Champion champion_{.experiment = "test", .seed = 1, .generation = 0, .index = 0, .problem = small_problem(),
+                     .genome = {}, .result = {}, .trace = {}};
+};
+
+TEST_F(Verify, AgreesWithAnHonestChampion) {
+  const auto found = verdict();
+  EXPECT_TRUE(found.agrees) << found.text;
+  EXPECT_THAT(found.text, StartsWith("agrees: "));
+}
+
+TEST_F(Verify, NamesTheFirstStepThatDiffers) {
+  champion_.trace[41] ^= 1;
+  const auto found = verdict();
+  EXPECT_FALSE(found.agrees);
+  EXPECT_EQ(found.text, "differs: first differing step 42 (t = 0.42 s)");
+}
+
+TEST_F(Verify, NamesAnotherDistance) {
+  champion_.result.distance_m = 123.0;
+  EXPECT_THAT(verdict().text, HasSubstr("distance 123 m recorded"));
+}
+
+TEST_F(Verify, SeesAGenomeThatIsNotTheOneThatWalked) {
+  champion_.genome = small_population(champion_.problem).genomes()[1];
+  EXPECT_THAT(verdict().text, HasSubstr("first differing step"));
+}
+
+TEST_F(Verify, CallsADamagedFileUnsound) {
+  io::write_file(path_, champion_text(champion_).substr(0, 500));
+  const auto found = verify_champion(path_, never).value();
+  EXPECT_FALSE(found.agrees);
+  EXPECT_THAT(found.text, StartsWith("unsound: "));
+}
+
+}  // namespace
+}  // namespace amble::experiment

@@ -1,0 +1,194 @@
+#include "amble/io/file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "tests/io/child_process.hpp"
+#include "tests/io/expect_error.hpp"
+#include "tests/io/temporary_folder.hpp"
+
+namespace amble::io {
+namespace {
+
+using test::error_of;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::UnorderedElementsAre;
+
+/// From now on no file of this process may grow beyond `bytes`: a write fails as on a full disk, with another
+/// reason.
+void limit_file_size(rlim_t bytes) {
+  ::signal(SIGXFSZ, SIG_IGN);
+  const rlimit limit{bytes, bytes};
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+}
+
+/// Gives up the right to override permissions. Only for child processes.
+void become_nobody() {
+  if (::geteuid() == 0 && (::setgid(65534) != 0 || ::setuid(65534) != 0)) ::_exit(253);
+}
+
+TEST(ReadFile, GivesAllBytes) {
+  const test::TemporaryFolder folder;
+  const std::string bytes = std::string("a\0\r\n\xff", 5) + std::string(3 << 20, 'x');
+  EXPECT_EQ(read_file(folder.put("f", bytes)), bytes);
+  EXPECT_EQ(read_file(folder.put("empty", "")), "");
+}
+
+TEST(ReadFile, SaysWhyItCannot) {
+  const test::TemporaryFolder folder;
+  const std::string missing = (folder / "no").string();
+  EXPECT_EQ(error_of(ExitCode::io, [&] { read_file(missing); }), missing + ": No such file or directory");
+  EXPECT_EQ(error_of(ExitCode::io, [&] { read_file(folder.path()); }),
+            folder.path().string() + ": Is a directory");
+  const std::string large = folder.put("large", "12345").string();
+  EXPECT_EQ(error_of(ExitCode::io, [&] { read_file(large, 4); }), large + ": larger than 4 bytes");
+  EXPECT_EQ(read_file(large, 5), "12345");
+}
+
+TEST(InputFile, ReadsPieceByPieceUpToTheEnd) {
+  const test::TemporaryFolder folder;
+  InputFile file(folder.put("f", "abcdefg"));
+  EXPECT_EQ(file.read(3), "abc");
+  EXPECT_EQ(file.read(0), "");
+  EXPECT_EQ(file.read(UINT64_MAX), "defg");
+  EXPECT_EQ(file.read(1), "");
+}
+
+TEST(WriteFile, ReplacesTheOldFileAndLeavesNothingElse) {
+  const test::TemporaryFolder folder;
+  write_file(folder / "f", "old");
+  write_file(folder / "f", "new");
+  EXPECT_EQ(read_file(folder / "f"), "new");
+  EXPECT_THAT(folder.entries(), ElementsAre("f"));
+}
+
+TEST(WriteFile, SaysThatTheFolderIsMissing) {
+  const test::TemporaryFolder folder;
+  const std::string path = (folder / "no/f").string();
+  EXPECT_EQ(error_of(ExitCode::io, [&] { write_file(path, "x"); }),
+            "cannot write " + path + ": No such file or directory");
+}
+
+TEST(WriteFile, DoesNotReplaceAFolder) {
+  const test::TemporaryFolder folder;
+  folder.put("taken/f", "x");
+  const std::string path = (folder / "taken").string();
+  EXPECT_EQ(error_of(ExitCode::io, [&] { write_file(path, "x"); }),
+            "cannot write " + path + ": Is a directory");
+  EXPECT_THAT(folder.entries(), ElementsAre("taken"));
+}
+
+TEST(WriteFile, KeepsTheOldFileWhenThereIsNoRoom) {
+  const test::TemporaryFolder folder;
+  write_file(folder / "f", "old");
+  const int status = test::in_child_process([&] {
+    limit_file_size(1000);
+    const std::string expected = "cannot write " + (folder / "f").string() + ": File too large";
+    return error_of(ExitCode::io, [&] { write_file(folder / "f", std::string(2000, 'x')); }) == expected ? 0
+                                                                                                         : 1;
+  });
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(read_file(folder / "f"), "old");
+  EXPECT_THAT(folder.entries(), ElementsAre("f"));
+}
+
+TEST(WriteFile, SaysThatTheDiskIsFull) {
+  EXPECT_EQ(error_of(ExitCode::io, [] { write_file("/dev/full", "x"); }),
+            "cannot write /dev/full: No space left on device");
+  struct stat status {};
+  ASSERT_EQ(::stat("/dev/full", &status), 0);
+  EXPECT_TRUE(S_ISCHR(status.st_mode)) << "a device must not be replaced by a file";
+}
+
+TEST(WriteFile, SaysThatPermissionIsLackingAndKeepsTheOldFile) {
+  const test::TemporaryFolder folder;
+  write_file(folder / "f", "old");
+  ASSERT_EQ(::chmod(folder.path().c_str(), 0555), 0);
+  const int status = test::in_child_process([&] {
+    become_nobody();
+    const std::string expected = "cannot write " + (folder / "f").string() + ": Permission denied";
+    return error_of(ExitCode::io, [&] { write_file(folder / "f", "new"); }) == expected ? 0 : 1;
+  });
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(read_file(folder / "f"), "old");
+}
+
+TEST(AtomicFile, ShowsItselfOnlyWhenCommitted) {
+  const test::TemporaryFolder folder;
+  {
+    AtomicFile file(folder / "f");
+    file.write("one ");
+    EXPECT_FALSE(std::filesystem::exists(folder / "f"));
+    file.write("two");
+    file.commit();
+    EXPECT_EQ(read_file(folder / "f"), "one two");
+  }
+  {
+    AtomicFile abandoned(folder / "g");
+    abandoned.write("x");
+    EXPECT_THAT(folder.entries(), UnorderedElementsAre("f", "g.tmp." + std::to_string(::getpid())));
+  }
+  EXPECT_THAT(folder.entries(), ElementsAre("f"));
+}
+
+TEST(AtomicFile, ReplacesWhatAKilledProcessOfTheSameNumberLeftBehind) {
+  const test::TemporaryFolder folder;
+  folder.put("f.tmp." + std::to_string(::getpid()), "a long remainder");
+  write_file(folder / "f", "new");
+  EXPECT_EQ(read_file(folder / "f"), "new");
+  EXPECT_THAT(folder.entries(), ElementsAre("f"));
+}
+
+TEST(AppendFile, GrowsAndCutsOffWhatLiesBeyondTheCheckpoint) {
+  const test::TemporaryFolder folder;
+  {
+    AppendFile log(folder / "log", 0);
+    log.append("one\n");
+    log.append("two\n");
+    EXPECT_EQ(log.size(), 8u);
+    EXPECT_EQ(read_file(folder / "log"), "one\ntwo\n");
+  }
+  AppendFile log(folder / "log", 4);
+  EXPECT_EQ(read_file(folder / "log"), "one\n");
+  log.append("2\n");
+  EXPECT_EQ(read_file(folder / "log"), "one\n2\n");
+}
+
+TEST(AppendFile, RefusesAFileThatLacksWhatTheCheckpointSaw) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.put("log", "one\n").string();
+  EXPECT_EQ(error_of(ExitCode::io, [&] { AppendFile(path, 8); }),
+            path + ": truncated: it has 4 bytes, 8 were expected");
+  EXPECT_EQ(read_file(path), "one\n");
+}
+
+TEST(AppendFile, LeavesNoHalfLineWhenThereIsNoRoom) {
+  const test::TemporaryFolder folder;
+  const std::string path = (folder / "log").string();
+  const int status = test::in_child_process([&] {
+    limit_file_size(10);
+    AppendFile log(path, 0);
+    log.append("1234567\n");
+    const std::string message = error_of(ExitCode::io, [&] { log.append("too long\n"); });
+    if (message != "cannot write " + path + ": File too large") return 1;
+    log.append("9\n");
+    return log.size() == 10 ? 0 : 2;
+  });
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(read_file(path), "1234567\n9\n");
+}
+
+TEST(AppendFile, SaysThatItsFolderIsMissing) {
+  const test::TemporaryFolder folder;
+  const std::string path = (folder / "no/log").string();
+  EXPECT_EQ(error_of(ExitCode::io, [&] { AppendFile(path, 0); }),
+            "cannot write " + path + ": No such file or directory");
+}
+
+}  // namespace
+}  // namespace amble::io

@@ -1,0 +1,135 @@
+#include <gtest/gtest.h>
+
+#include "amble/io/toml_settings.hpp"
+#include "tests/io/expect_error.hpp"
+#include "tests/io/sample_settings.hpp"
+
+namespace amble::io {
+namespace {
+
+using test::error_of;
+using test::Sample;
+
+Sample sample_from(const std::string& text) {
+  const TomlDocument document = TomlDocument::parse(text, "configs/x.toml");
+  Sample sample;
+  const auto reader = document.reader();
+  sample.describe(*reader);
+  reader->finish();
+  return sample;
+}
+
+std::string refusal(const std::string& text) {
+  return error_of(ExitCode::bad_input, [&] { sample_from(text); });
+}
+
+TEST(TomlReader, ReadsEveryKindAndKeepsWhatIsMissing) {
+  const Sample sample = sample_from(
+      "name = 'x'\nfriction = 3 # whole numbers will do\nelitism = false\ncolour = \"red\"\nweights = [1, "
+      "-0.5]\nlegs = []\n"
+      "inner.seed = -9223372036854775808\n[outer]\ndeep = {rate = 1}\n");
+  EXPECT_EQ(sample.name, "x");
+  EXPECT_EQ(sample.friction, 3.0);
+  EXPECT_FALSE(sample.elitism);
+  EXPECT_EQ(sample.colour, test::Colour::red);
+  EXPECT_EQ(sample.weights, (std::vector<double>{1.0, -0.5}));
+  EXPECT_TRUE(sample.legs.empty());
+  EXPECT_EQ(sample.inner.seed, std::numeric_limits<std::int64_t>::min());
+  EXPECT_EQ(sample.deep.rate, 1.0);
+  EXPECT_EQ(sample.population, 300);
+  EXPECT_EQ(sample_from("friction = inf").friction, std::numeric_limits<double>::infinity());
+}
+
+TEST(TomlReader, RefusesWrongTypes) {
+  EXPECT_EQ(refusal("\n\npopulation = \"many\""),
+            "configs/x.toml:3: 'population' = \"many\": expected a whole number from 2 to 1000000");
+  EXPECT_EQ(refusal("population = 3.0"),
+            "configs/x.toml:1: 'population' = 3.0: expected a whole number from 2 to 1000000");
+  EXPECT_EQ(refusal("inner.seed = true"), "configs/x.toml:1: 'inner.seed' = true: expected a whole number");
+  EXPECT_EQ(refusal("[inner]\nrate = '0.5'"),
+            "configs/x.toml:2: 'inner.rate' = \"0.5\": expected a number from 0 to 1");
+  EXPECT_EQ(refusal("elitism = 1"), "configs/x.toml:1: 'elitism' = 1: expected true or false");
+  EXPECT_EQ(refusal("name = 2013-07-06"), "configs/x.toml:1: 'name' = 2013-07-06: expected text in quotes");
+  EXPECT_EQ(refusal("name = 07:32:00"), "configs/x.toml:1: 'name' = 07:32:00: expected text in quotes");
+  EXPECT_EQ(refusal("name = 2013-07-06T07:32:00Z"),
+            "configs/x.toml:1: 'name' = 2013-07-06T07:32:00Z: expected text in quotes");
+  EXPECT_EQ(refusal("colour = 'pink'"),
+            "configs/x.toml:1: 'colour' = \"pink\": expected one of \"red\", \"green\", \"blue\"");
+  EXPECT_EQ(refusal("colour = 1"),
+            "configs/x.toml:1: 'colour' = 1: expected one of \"red\", \"green\", \"blue\"");
+  EXPECT_EQ(refusal("weights = 1"),
+            "configs/x.toml:1: 'weights' = 1: expected a list of numbers from -10 to 10");
+  EXPECT_EQ(refusal("weights = [1, 'a', {b = 1}]"),
+            "configs/x.toml:1: 'weights' = [1, \"a\", {...}]: expected a list of numbers from -10 to 10");
+  EXPECT_EQ(refusal("legs = ['FL', 1]"),
+            "configs/x.toml:1: 'legs' = [\"FL\", 1]: expected a list of texts in quotes");
+  EXPECT_EQ(refusal("inner = 1"), "configs/x.toml:1: 'inner' = 1: expected a table [inner]");
+  EXPECT_EQ(refusal("[[inner]]\nrate = 1"), "configs/x.toml:1: 'inner' = [{...}]: expected a table [inner]");
+  EXPECT_EQ(refusal("[population]\nx = 1"),
+            "configs/x.toml:1: 'population' = {...}: expected a whole number from 2 to 1000000");
+}
+
+TEST(TomlReader, RefusesNumbersOutOfRange) {
+  EXPECT_EQ(refusal("population = 1"),
+            "configs/x.toml:1: 'population' = 1: expected a whole number from 2 to 1000000");
+  EXPECT_EQ(refusal("population = 4294967297"),
+            "configs/x.toml:1: 'population' = 4294967297: expected a whole number from 2 to 1000000");
+  EXPECT_EQ(refusal("inner.rate = 1.0000000000000002"),
+            "configs/x.toml:1: 'inner.rate' = 1.0000000000000002: expected a number from 0 to 1");
+  EXPECT_EQ(refusal("friction = -1"), "configs/x.toml:1: 'friction' = -1: expected a number from 0 to inf");
+  EXPECT_EQ(refusal("friction = -inf"),
+            "configs/x.toml:1: 'friction' = -inf: expected a number from 0 to inf");
+  EXPECT_EQ(refusal("friction = nan"), "configs/x.toml:1: 'friction' = nan: expected a number from 0 to inf");
+  EXPECT_EQ(refusal("inner.rate = inf"),
+            "configs/x.toml:1: 'inner.rate' = inf: expected a number from 0 to 1");
+  EXPECT_EQ(refusal("weights = [0, inf]"),
+            "configs/x.toml:1: 'weights' = [0, inf]: expected a list of numbers from -10 to 10");
+}
+
+TEST(TomlReader, RefusesUnknownKeysAndSuggestsTheNearest) {
+  EXPECT_EQ(refusal("\npopulatoin = 5"),
+            "configs/x.toml:2: unknown key 'populatoin' (did you mean 'population'?)");
+  EXPECT_EQ(refusal("[inner]\nraet = 5"),
+            "configs/x.toml:2: unknown key 'inner.raet' (did you mean 'inner.rate'?)");
+  EXPECT_EQ(refusal("[iner]\nrate = 5"), "configs/x.toml:1: unknown key 'iner' (did you mean 'inner'?)");
+  EXPECT_EQ(refusal("rate = 5"), "configs/x.toml:1: unknown key 'rate' (did you mean 'inner.rate'?)");
+  EXPECT_EQ(refusal("[inner]\npopulation = 5"),
+            "configs/x.toml:2: unknown key 'inner.population' (did you mean 'population'?)");
+  EXPECT_EQ(refusal("\"in.ner\" = 5"), "configs/x.toml:1: unknown key '\"in.ner\"'");
+  EXPECT_EQ(refusal("\"a\\nb\" = 5"), "configs/x.toml:1: unknown key '\"a\\nb\"'");
+  EXPECT_EQ(refusal("\"inner.rate\" = 0.5"),
+            "configs/x.toml:1: unknown key '\"inner.rate\"' (did you mean 'inner.rate'?)");
+  EXPECT_EQ(refusal("zebra = 5"), "configs/x.toml:1: unknown key 'zebra'");
+  EXPECT_EQ(refusal("zebra = 5\naardvark = 5"), "configs/x.toml:1: unknown key 'zebra'")
+      << "the first in the file";
+  EXPECT_EQ(refusal("[outer]\ndeep.seed = 1\n[outer.deeper]\nx = 1"),
+            "configs/x.toml:3: unknown key 'outer.deeper' (did you mean 'outer.deep'?)");
+}
+
+TEST(TomlReader, ShortensLongValues) {
+  std::string expected = "configs/x.toml:1: 'population' = \"" + std::string(59, 'x');
+  EXPECT_EQ(refusal("population = '" + std::string(500, 'x') + "'"),
+            expected + "x\"...: expected a whole number from 2 to 1000000");
+  EXPECT_EQ(refusal("population = '" + std::string(59, 'x') + "éé'"),
+            expected + "\"...: expected a whole number from 2 to 1000000");
+  EXPECT_EQ(refusal("population = \"a\\nb\""),
+            "configs/x.toml:1: 'population' = \"a\\nb\": expected a whole number from 2 to 1000000");
+  std::string list = "0";
+  for (int i = 0; i < 1000; ++i) list += ", 0";
+  EXPECT_EQ(refusal("population = [" + list + "]"), "configs/x.toml:1: 'population' = [" +
+                                                        list.substr(0, 61) +
+                                                        ", ...]: expected a whole number from 2 to 1000000");
+}
+
+TEST(TomlReader, AWholeNumberForAnIntStaysWithinAnInt) {
+  struct Unbounded {
+    int value = 0;
+    void describe(SettingsVisitor& visitor) { visitor.integer("value", value, {0}, {"No upper bound."}); }
+  } settings;
+  const TomlDocument document = TomlDocument::parse("value = 2147483648", "x.toml");
+  EXPECT_EQ(error_of(ExitCode::bad_input, [&] { settings.describe(*document.reader()); }),
+            "x.toml:1: 'value' = 2147483648: expected a whole number from 0 to 2147483647");
+}
+
+}  // namespace
+}  // namespace amble::io

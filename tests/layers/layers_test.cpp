@@ -1,0 +1,90 @@
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+
+#include "tests/layers/source_tree.hpp"
+
+namespace amble::tests {
+namespace {
+
+using Allowed = std::map<std::string, std::set<std::string>>;
+
+std::set<std::string> words(const std::string& text) {
+  static const std::regex word("[a-z]+");
+  std::set<std::string> found;
+  for (std::sregex_iterator it(text.begin(), text.end(), word), end; it != end; ++it) found.insert(it->str());
+  return found;
+}
+
+/// The table "folder | in → out | may include" of docs/ARCHITECTURE.md.
+Allowed allowed_includes() {
+  std::ifstream file(std::string(AMBLE_SOURCE_DIR) + "/docs/ARCHITECTURE.md");
+  static const std::regex row(R"(\| `([a-z]+)` \|.*\| ([^|]*) \|)");
+  Allowed allowed;
+  std::set<std::string> above;
+  std::smatch match;
+  for (std::string line; std::getline(file, line);) {
+    if (!std::regex_match(line, match, row)) continue;
+    const std::string folder = match[1];
+    allowed[folder] = match[2].str().starts_with("all") ? above : words(match[2]);
+    allowed[folder].insert(folder);
+    above.insert(folder);
+  }
+  return allowed;
+}
+
+TEST(Layers, EveryFolderStandsInTheArchitectureTable) {
+  const auto allowed = allowed_includes();
+  ASSERT_GE(allowed.size(), 10u) << "the table was not found";
+  for (const auto& file : source_files()) EXPECT_TRUE(allowed.contains(file.folder)) << file.path;
+}
+
+TEST(Layers, NoFolderIncludesWhatItsRowDoesNotName) {
+  static const std::regex include(R"(\s*#\s*include\s*["<]amble/([a-z]+)/.*)");
+  const auto allowed = allowed_includes();
+  for (const auto& file : source_files()) {
+    std::smatch match;
+    for (const auto& line : file.lines) {
+      if (!std::regex_match(line, match, include)) continue;
+      EXPECT_TRUE(allowed.at(file.folder).contains(match[1])) << file.path << ": " << line;
+    }
+  }
+}
+
+struct Library {
+  const char* header;
+  const char* home;  ///< path prefix below src/
+};
+
+class OneDoor : public testing::TestWithParam<Library> {};
+
+TEST_P(OneDoor, LeadsToTheLibrary) {
+  const std::string header = GetParam().header, home = std::string(AMBLE_SOURCE_DIR) + "/src/" + GetParam().home;
+  for (const auto& file : source_files()) {
+    for (const auto& line : file.lines) {
+      if (!line.starts_with("#include") || line.find(header) == std::string::npos) continue;
+      EXPECT_TRUE(file.path.string().starts_with(home)) << file.path << ": " << line;
+    }
+  }
+}
+
+std::string letters_of(const testing::TestParamInfo<Library>& library) {
+  std::string letters;
+  for (const char c : std::string(library.param.header))
+    if (std::isalnum(static_cast<unsigned char>(c))) letters += c;
+  return letters;
+}
+
+INSTANTIATE_TEST_SUITE_P(Layers, OneDoor,
+                         testing::Values(Library{"<ode/", "physics/ode/"}, Library{"<CLI/", "cli/"},
+                                         Library{"<mujoco/", "morphology/"}, Library{"<toml++/", "io/"},
+                                         Library{"<xxhash", "core/"}, Library{"<Random123/", "core/"},
+                                         Library{"<hwy/", "cppn/"}, Library{"<zlib", "record/"}),
+                         letters_of);
+
+}  // namespace
+}  // namespace amble::tests

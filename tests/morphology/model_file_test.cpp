@@ -1,0 +1,70 @@
+#include "amble/morphology/model_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/morphology/files.hpp"
+
+namespace amble::morphology {
+namespace {
+
+TEST(CompileModel, SaysThatAFileIsMissing) {
+  const Files files;
+  try {
+    compile_model(files.path("absent.xml"));
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.code(), ExitCode::io);
+    EXPECT_NE(std::string(error.what()).find("absent.xml"), std::string::npos);
+  }
+}
+
+TEST(CompileModel, PassesOnWhatMujocoSaysInOneLine) {
+  const Files files;
+  const auto complaint = [&](const std::string& text) {
+    const auto path = files.write("bad.xml", text);
+    return files.complaint([&] { compile_model(path); });
+  };
+  for (const std::string& text :
+       {std::string("no xml at all"), with(one_leg_xml, "<worldbody>", "<wordbody>"),
+        with(one_leg_xml, "type=\"box\"", "type=\"bux\""), with(one_leg_xml, "mass=\"3\"", "mass=\"-3\""),
+        with(one_leg_xml, "</mujoco>", "")}) {
+    const std::string line = complaint(text);
+    EXPECT_EQ(line.find("bad.xml: MuJoCo refuses the model: "), 0u) << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+    EXPECT_GT(line.size(), 45u) << line;
+  }
+  EXPECT_NE(complaint(with(one_leg_xml, "type=\"box\"", "type=\"bux\"")).find("bux"), std::string::npos);
+  EXPECT_EQ(complaint("").find("bad.xml: MuJoCo refuses the model: "), 0u);
+}
+
+TEST(CompileModel, RefusesAMovingBodyWithoutMass) {
+  const Files files;
+  const auto path = files.write("bad.xml", with(one_leg_xml, "mass=\"1\"", "mass=\"0\""));
+  const std::string line = files.complaint([&] { compile_model(path); });
+  EXPECT_NE(line.find("mass and inertia of moving bodies must be larger than mjMINVAL"), std::string::npos)
+      << line;
+}
+
+TEST(CompileModel, KeepsTheRootLinkOfAUrdf) {
+  const Files files;
+  const std::string urdf = R"(<robot name="r"><link name="base"><inertial><mass value="2"/>
+    <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link></robot>)";
+  const ModelFile compiled = compile_model(files.write("r.urdf", urdf));
+  EXPECT_TRUE(compiled.root_is_welded);
+  ASSERT_EQ(compiled.model->nbody, 2);
+  EXPECT_EQ(compiled.model->body_mass[1], 2.0);
+
+  const auto complaint = [&](const std::string& text) {
+    const auto path = files.write("r.urdf", text);
+    return files.complaint([&] { compile_model(path); });
+  };
+  EXPECT_EQ(
+      complaint(with(urdf, "<link", "<mujoco><compiler/></mujoco><link")),
+      "r.urdf: the element <mujoco> must hold <compiler fusestatic=\"false\"/>, or the root link is lost");
+  EXPECT_EQ(complaint("<nothing/>"), "r.urdf: a URDF needs an element <robot>");
+}
+
+}  // namespace
+}  // namespace amble::morphology

@@ -1,0 +1,201 @@
+#include "amble/morphology/model_parts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "amble/morphology/pose.hpp"
+#include "tests/morphology/files.hpp"
+
+namespace amble::morphology {
+namespace {
+
+ModelParts parts_of(const Files& files, const std::string& text, const std::string& name = "m.xml") {
+  return take_apart(compile_model(files.write(name, text)));
+}
+
+/// Inertia about the centre of mass and along a direction of the body's frame.
+double moment_about(const Body& body, Vec3 direction) {
+  const Vec3 d = rotate(conjugate(body.inertia_rotation), direction);
+  return body.inertia_kg_m2.x * d.x * d.x + body.inertia_kg_m2.y * d.y * d.y +
+         body.inertia_kg_m2.z * d.z * d.z;
+}
+
+TEST(TakeApart, ReadsBodiesJointsAndGeoms) {
+  const Files files;
+  const ModelParts parts = parts_of(files, one_leg_xml);
+  ASSERT_EQ(parts.bodies.size(), 3u);
+  EXPECT_EQ(parts.bodies[0].parent, -1);
+  EXPECT_EQ(parts.bodies[2].parent, 1);
+  EXPECT_EQ(parts.bodies[2].name, "shin");
+  EXPECT_EQ(parts.bodies[2].position_m, (Vec3{0.0, 0.0, -0.4}));
+  ASSERT_EQ(parts.joints.size(), 2u);
+  EXPECT_EQ(parts.joints[1].name, "A_knee");
+  EXPECT_EQ(parts.joints[1].body, 2);
+  EXPECT_EQ(parts.joints[1].lower_rad, -0.7);
+  ASSERT_EQ(parts.geoms.size(), 4u);
+  EXPECT_EQ(parts.geoms[0].shape, Shape::box);
+  EXPECT_EQ(parts.geoms[0].size_m, (Vec3{0.2, 0.1, 0.05}));
+  EXPECT_EQ(parts.geoms[1].shape, Shape::capsule);
+  EXPECT_NEAR(parts.geoms[1].size_m.y, 0.2, 1e-15);
+  EXPECT_EQ(parts.geoms[2].shape, Shape::cylinder);
+  EXPECT_EQ(parts.geoms[3].shape, Shape::sphere);
+  EXPECT_EQ(parts.gravity_m_s2, (Vec3{0.0, 0.0, -9.8}));
+}
+
+TEST(TakeApart, FusesABodyThatIsFixedToItsParent) {
+  const Files files;
+  const ModelParts whole = parts_of(files, one_leg_xml);
+  // The same foot as a body of its own, turned and without a joint.
+  const ModelParts split = parts_of(
+      files,
+      with(
+          one_leg_xml, R"(<geom name="A_foot" type="sphere" pos="0 0 -0.4" size="0.06" mass="0.25"/>)",
+          R"(<body name="foot" pos="0.1 0 -0.3" euler="0 0.7 0.2"><body name="sole" pos="0 0.1 0"><geom name="A_foot"
+                     type="sphere" pos="0 0 -0.1" size="0.06" mass="0.25"/></body></body>)"));
+  ASSERT_EQ(split.bodies.size(), 3u);
+  ASSERT_EQ(split.geoms.size(), 4u);
+  const Body& shin = split.bodies[2];
+  const Geom& foot = split.geoms[3];
+  EXPECT_EQ(foot.body, 2);
+  EXPECT_DOUBLE_EQ(shin.mass_kg, 0.75);
+
+  // Against sums by hand: cylinder 0.5 kg at −0.2, sphere 0.25 kg wherever the foot is.
+  const Vec3 centre = (1.0 / 0.75) * (0.5 * Vec3{0.0, 0.0, -0.2} + 0.25 * foot.position_m);
+  EXPECT_NEAR(norm(shin.com_m - centre), 0.0, 1e-12);
+  const double sphere = 0.4 * 0.25 * 0.06 * 0.06;
+  const double across = 0.5 * (3 * 0.04 * 0.04 + 0.4 * 0.4) / 12;
+  const double along = 0.5 * 0.5 * 0.04 * 0.04;
+  const auto about = [&](Vec3 axis, double cylinder) {
+    const auto distance2 = [&](Vec3 at) { return dot(cross(axis, at - centre), cross(axis, at - centre)); };
+    return cylinder + 0.5 * distance2({0.0, 0.0, -0.2}) + sphere + 0.25 * distance2(foot.position_m);
+  };
+  EXPECT_NEAR(moment_about(shin, {1, 0, 0}), about({1, 0, 0}, across), 1e-12);
+  EXPECT_NEAR(moment_about(shin, {0, 1, 0}), about({0, 1, 0}, across), 1e-12);
+  EXPECT_NEAR(moment_about(shin, {0, 0, 1}), about({0, 0, 1}, along), 1e-12);
+  const Vec3 slanted{0.6, 0.0, 0.8};
+  EXPECT_NEAR(moment_about(shin, slanted), about(slanted, 0.36 * across + 0.64 * along), 1e-12);
+  EXPECT_EQ(whole.bodies[2].mass_kg, 0.75);
+}
+
+TEST(TakeApart, CountsAnglesFromTheStartPose) {
+  const Files files;
+  const ModelParts parts =
+      parts_of(files, with(one_leg_xml, R"(range="-0.7 0")", R"(range="-0.7 0" ref="-0.2")"));
+  EXPECT_DOUBLE_EQ(parts.joints[1].lower_rad, -0.5);
+  EXPECT_DOUBLE_EQ(parts.joints[1].upper_rad, 0.2);
+}
+
+TEST(TakeApart, NamesGeomsThatHaveNoName) {
+  const Files files;
+  std::string text = with(one_leg_xml, "name=\"thigh\" type", "type");
+  text = with(with(text, "name=\"shin\" type", "type"), "name=\"A_foot\" type", "type");
+  const ModelParts parts = parts_of(files, text);
+  EXPECT_EQ(parts.geoms[1].name, "thigh");
+  EXPECT_EQ(parts.geoms[2].name, "shin.0");
+  EXPECT_EQ(parts.geoms[3].name, "shin.1");
+}
+
+TEST(TakeApart, LeavesOutTheGroundAndDecorationItCannotShow) {
+  const Files files;
+  const std::string decorated = with(
+      with(
+          one_leg_xml, "<worldbody>",
+          R"(<worldbody><geom type="plane" size="1 1 1"/><geom type="box" size="1 1 1" contype="0" conaffinity="0"/>)"),
+      R"(<geom name="A_foot")",
+      R"(<geom name="badge" type="ellipsoid" size="0.1 0.2 0.3" mass="0" contype="0" conaffinity="0"/>
+              <geom name="nose" type="box" size="0.1 0.1 0.1" mass="0" contype="0" conaffinity="0"/><geom name="A_foot")");
+  const ModelParts parts = parts_of(files, decorated);
+  ASSERT_EQ(parts.geoms.size(), 5u);
+  EXPECT_EQ(parts.geoms[3].name, "nose");
+  EXPECT_FALSE(parts.geoms[3].collides);
+  EXPECT_TRUE(parts.geoms[4].collides);
+}
+
+TEST(TakeApart, FreesTheRootOfAUrdf) {
+  const Files files;
+  const std::string inertia = R"(<inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/>)";
+  const ModelParts parts = parts_of(files,
+                                    R"(<robot name="r">
+    <link name="base"><inertial><mass value="2"/>)" +
+                                        inertia + R"(</inertial></link>
+    <link name="leg"><inertial><mass value="1"/>)" +
+                                        inertia + R"(</inertial></link>
+    <link name="foot"><inertial><mass value="0.5"/>)" +
+                                        inertia + R"(</inertial>
+      <collision><geometry><sphere radius="0.05"/></geometry></collision></link>
+    <joint name="hip" type="revolute"><parent link="base"/><child link="leg"/><origin xyz="0 0 -0.5"/><axis xyz="0 1 0"/>
+      <limit lower="-1" upper="1" effort="5" velocity="3"/></joint>
+    <joint name="ankle" type="fixed"><parent link="leg"/><child link="foot"/><origin xyz="0 0 -0.3"/></joint>
+  </robot>)",
+                                    "r.urdf");
+  ASSERT_EQ(parts.bodies.size(), 2u);
+  EXPECT_EQ(parts.bodies[0].name, "base");
+  EXPECT_EQ(parts.bodies[0].mass_kg, 2.0);
+  EXPECT_DOUBLE_EQ(parts.bodies[1].mass_kg, 1.5);
+  EXPECT_NEAR(parts.bodies[1].com_m.z, -0.1, 1e-15);
+  EXPECT_EQ(parts.bodies[1].position_m, (Vec3{0.0, 0.0, -0.5}));
+  ASSERT_EQ(parts.joints.size(), 1u);
+  EXPECT_EQ(parts.joints[0].body, 1);
+  ASSERT_EQ(parts.geoms.size(), 1u);
+  EXPECT_EQ(parts.geoms[0].name, "foot");
+  EXPECT_EQ(parts.geoms[0].body, 1);
+  EXPECT_EQ(parts.geoms[0].position_m, (Vec3{0.0, 0.0, -0.3}));
+}
+
+TEST(TakeApart, RefusesWhatItCannotSimulateInOneLine) {
+  const Files files;
+  const auto complaint = [&](std::string_view from, std::string_view to) {
+    return files.complaint([&] { parts_of(files, with(one_leg_xml, from, to)); });
+  };
+  EXPECT_EQ(complaint("type=\"hinge\" axis", "type=\"slide\" axis"),
+            "m.xml: joint 'A_hip': only hinges are supported, no ball, slide or free joints");
+  EXPECT_EQ(complaint(R"(type="hinge" axis="0 1 0" limited="true" range="-0.5 0.5")", "type=\"ball\""),
+            "m.xml: joint 'A_hip': only hinges are supported, no ball, slide or free joints");
+  EXPECT_EQ(complaint(R"(limited="true" range="-0.7 0")", ""),
+            "m.xml: joint 'A_knee' has no limits: give it a range (MJCF: limited=\"true\" range=\"…\"; URDF: "
+            "type=\"revolute\")");
+  EXPECT_EQ(complaint("name=\"A_knee\"", ""), "m.xml: body 'shin' has a joint without a name");
+  EXPECT_EQ(complaint("<freejoint name=\"root\"/>", ""),
+            "m.xml: the root body 'torso' must be free to move: give it a <freejoint/> and no other joint");
+  EXPECT_EQ(complaint("<freejoint name=\"root\"/>", R"(<joint name="rail" type="slide"/>)"),
+            "m.xml: the root body 'torso' must be free to move: give it a <freejoint/> and no other joint");
+  EXPECT_EQ(
+      complaint("<worldbody>", R"(<worldbody><body name="table"><geom type="box" size="1 1 1"/></body>)"),
+      "m.xml: expected one body in the world, the robot's root, but found 2");
+  EXPECT_EQ(complaint("<worldbody>", R"(<worldbody><geom name="step" type="box" size="1 1 1"/>)"),
+            "m.xml: geom 'step' of the world: the only ground is the plane z = 0, without obstacles");
+  EXPECT_EQ(
+      complaint("<worldbody>", R"(<worldbody><geom name="ramp" type="plane" size="1 1 1" euler="0 0.1 0"/>)"),
+      "m.xml: geom 'ramp' of the world: the only ground is the plane z = 0, without obstacles");
+  EXPECT_EQ(
+      complaint(
+          "</worldbody>",
+          R"(</worldbody><equality><connect name="loop" body1="shin" body2="torso" anchor="0 0 0"/></equality>)"),
+      "m.xml: equality constraint 'loop': robots with closed loops are not supported");
+  EXPECT_EQ(
+      complaint(
+          "</worldbody>",
+          R"(</worldbody><tendon><fixed name="sinew"><joint joint="A_hip" coef="1"/></fixed></tendon>)"),
+      "m.xml: tendon 'sinew': tendons are not supported");
+  EXPECT_EQ(
+      complaint("type=\"sphere\" pos=\"0 0 -0.4\" size=\"0.06\"", "type=\"ellipsoid\" size=\"0.1 0.2 0.3\""),
+      "m.xml: geom 'A_foot': only spheres, capsules, cylinders and boxes can collide; a mesh must be "
+      "decoration "
+      "(contype=\"0\" conaffinity=\"0\")");
+}
+
+TEST(TakeApart, LeavesAFreeJointInMidChainToMujoco) {
+  const Files files;
+  const std::string line = files.complaint([&] {
+    parts_of(files, with(one_leg_xml,
+                         R"(<joint name="A_knee" type="hinge" axis="0 1 0" limited="true" range="-0.7 0"/>)",
+                         "<freejoint/>"));
+  });
+  EXPECT_EQ(line.find("m.xml: MuJoCo refuses the model: "), 0u) << line;
+  EXPECT_NE(line.find("free joint"), std::string::npos) << line;
+}
+
+}  // namespace
+}  // namespace amble::morphology

@@ -1,0 +1,90 @@
+#include "amble/morphology/robot_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "tests/morphology/files.hpp"
+
+namespace amble::morphology {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::string problem_after(const std::function<void(RobotSpec&)>& change) {
+  const Files files;
+  RobotSpec robot = load_one_leg(files);
+  change(robot);
+  try {
+    check_robot(robot, [](const std::string& problem) { throw std::runtime_error(problem); });
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(CheckRobot, AcceptsAGoodOne) {
+  EXPECT_EQ(problem_after([](RobotSpec&) {}), "");
+}
+
+TEST(CheckRobot, FindsBodiesThatCannotBe) {
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.bodies.clear(); }), "the robot has no body");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.bodies[1].mass_kg = 0.0; }),
+            "body 'thigh' must have a positive mass");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.bodies[1].mass_kg = nan; }),
+            "body 'thigh' must have a positive mass");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.bodies[2].inertia_kg_m2.y = -1.0; }),
+            "body 'shin' must have positive moments of inertia");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.bodies[1].parent = 2; }),
+            "body 'thigh' must come after its parent");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.bodies[2].rotation.w = 2.0; }),
+            "body 'shin' must have a finite position and a unit rotation");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.bodies[2].com_m.z = nan; }),
+            "body 'shin' must have a finite centre of mass and unit principal axes");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.joints[1].body = 1; }),
+            "body 'shin' is not moved by any joint");
+}
+
+TEST(CheckRobot, FindsGeomsAndJointsThatCannotBe) {
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.geoms[0].body = 7; }),
+            "geom 'torso' names a body that is not there");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.geoms[0].size_m.z = 0.0; }),
+            "geom 'torso' must have a positive height");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.geoms[1].size_m.y = -1.0; }),
+            "geom 'thigh' must have a positive length");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.geoms[3].size_m.x = nan; }),
+            "geom 'A_foot' must have a positive size");
+  EXPECT_EQ(problem_after([](RobotSpec& r) {
+              r.joints[0].axis = {0.0, 2.0, 0.0};
+            }),
+            "joint 'A_hip' must have an axis of length 1");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.joints[0].lower_rad = 0.5; }),
+            "joint 'A_hip' must have a lower stop below its upper stop");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.joints[0].servo.max_torque_nm = nan; }),
+            "joint 'A_hip' must have servo numbers that are finite and not negative");
+}
+
+TEST(CheckRobot, FindsLegsThatDoNotFit) {
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.joint_types.pop_back(); }),
+            "1 legs with 1 joints each need 1 joints, not 2");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { std::swap(r.legs[0].joints[0], r.legs[0].joints[1]); }),
+            "leg 'A' has joints out of control order");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.legs[0].foot_geom = -1; }),
+            "leg 'A' names a foot that is not there");
+}
+
+TEST(CheckRobot, FindsNumbersThatCannotBe) {
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.contact.friction = nan; }),
+            "contact.friction must not be negative");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.contact.erp = 0.0; }), "contact.erp must be in (0, 1], not 0");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.contact.cfm_s_per_kg = -1.0; }),
+            "contact.cfm_s_per_kg must be finite and not negative");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.gravity_m_s2.x = nan; }), "gravity must be finite");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.fall_height_m = nan; }), "fall_height_m must be finite");
+}
+
+}  // namespace
+}  // namespace amble::morphology

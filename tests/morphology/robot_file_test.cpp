@@ -1,0 +1,105 @@
+#include "amble/morphology/robot_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "amble/morphology/pose.hpp"
+#include "tests/morphology/files.hpp"
+
+namespace amble::morphology {
+namespace {
+
+TEST(LoadRobot, PutsJointsIntoControlOrderWhateverTheModelsOrder) {
+  const Files files;
+  const RobotSpec robot =
+      load_one_leg(files, one_leg_xml, with(one_leg_toml, R"(["hip", "knee"])", R"(["knee", "hip"])"));
+  ASSERT_EQ(robot.joints.size(), 2u);
+  EXPECT_EQ(robot.joints[0].name, "A_knee");
+  EXPECT_EQ(robot.joints[1].name, "A_hip");
+  ASSERT_EQ(robot.legs.size(), 1u);
+  EXPECT_EQ(robot.legs[0].joints, (std::vector<int>{0, 1}));
+  EXPECT_EQ(robot.geoms[static_cast<std::size_t>(robot.legs[0].foot_geom)].name, "A_foot");
+  EXPECT_EQ(robot.name, "one leg");
+}
+
+TEST(LoadRobot, TakesNamesByPatternOrOneByOne) {
+  const Files files;
+  std::string xml = with(with(one_leg_xml, "A_hip", "joint_hip_of_A"), "A_knee", "gelenk");
+  xml = with(xml, "A_foot", "sole_A");
+  const RobotSpec robot = load_one_leg(files, xml, one_leg_toml + R"(
+[names]
+joint = "joint_{type}_of_{leg}"
+foot = "sole_{leg}"
+[names.A]
+knee = "gelenk"
+)");
+  EXPECT_EQ(robot.joints[0].name, "joint_hip_of_A");
+  EXPECT_EQ(robot.joints[1].name, "gelenk");
+}
+
+TEST(LoadRobot, AllowsARobotWithoutLegs) {
+  const RobotSpec robot = load_robot(AMBLE_SOURCE_DIR "/scenes/box.toml");
+  EXPECT_TRUE(robot.joints.empty());
+  EXPECT_TRUE(robot.legs.empty());
+}
+
+TEST(LoadRobot, RaisesTheRootToTheStartHeight) {
+  const Files files;
+  const RobotSpec robot = load_one_leg(files, one_leg_xml, "start_height_m = 0.96\n" + one_leg_toml);
+  EXPECT_EQ(robot.bodies[0].position_m.z, 0.96);
+  EXPECT_NEAR(start_clearance_m(robot, robot.legs[0].foot_geom), 0.0, 1e-15);
+}
+
+TEST(LoadRobot, RefusesWhereModelAndSideFileDisagree) {
+  const Files files;
+  const auto complaint = [&](std::string_view from, std::string_view to) {
+    return files.complaint([&] { load_one_leg(files, one_leg_xml, with(one_leg_toml, from, to)); });
+  };
+  EXPECT_EQ(complaint(R"(["hip", "knee"])", R"(["hip", "ankle"])"),
+            "one_leg.toml: leg 'A' needs a joint 'A_ankle' (ankle), but one_leg.xml has: A_hip, A_knee");
+  EXPECT_EQ(complaint(R"(["hip", "knee"])", R"(["hip"])"),
+            "one_leg.toml: joint 'A_knee' of one_leg.xml belongs to no leg: every joint must be named by "
+            "legs and joint_types");
+  EXPECT_EQ(complaint(R"(["A"])", R"(["A", "B"])"),
+            "one_leg.toml: leg 'B' needs a joint 'B_hip' (hip), but one_leg.xml has: A_hip, A_knee");
+  EXPECT_EQ(complaint("[servo]", "[names]\njoint = \"A_hip\"\n[servo]"),
+            "one_leg.toml: joint 'A_hip' is named twice");
+  EXPECT_EQ(
+      complaint("[servo]", "[names]\nfoot = \"{leg}_toe\"\n[servo]"),
+      "one_leg.toml: leg 'A' needs a foot geom 'A_toe', but one_leg.xml has: torso, thigh, shin, A_foot");
+  EXPECT_EQ(complaint("[servo]", "[names.A]\nfoot = \"torso\"\n[servo]"),
+            "one_leg.toml: leg 'A': its foot 'torso' is on body 'torso', which none of its joints moves");
+}
+
+TEST(LoadRobot, RefusesAStartPoseOutsideTheRangeOrUnderground) {
+  const Files files;
+  const auto complaint = [&](std::string_view from, std::string_view to) {
+    return files.complaint([&] { load_one_leg(files, with(one_leg_xml, from, to)); });
+  };
+  EXPECT_EQ(complaint("range=\"-0.7 0\"", "range=\"-0.7 -0.1\""),
+            "one_leg.toml: joint 'A_knee': the start pose, angle 0, lies outside its range -0.7 … -0.1 rad");
+  EXPECT_EQ(
+      complaint("pos=\"0 0 1\"", "pos=\"0 0 0.9\""),
+      "one_leg.toml: foot 'A_foot' starts 0.060 m below the ground: raise the root, or set start_height_m");
+  EXPECT_EQ(complaint("name=\"A_foot\"", "name=\"A_foot\" contype=\"0\" conaffinity=\"0\""),
+            "one_leg.toml: leg 'A' has a foot that cannot collide");
+}
+
+TEST(LoadRobot, WantsTheTomlFileNotTheModel) {
+  const Files files;
+  const auto path = files.write("one_leg.xml", one_leg_xml);
+  EXPECT_EQ(files.complaint([&] { load_robot(path); }),
+            "one_leg.xml: a robot is named by its TOML file, which names the model (robots/README.md)");
+}
+
+TEST(LoadRobot, SaysWhichFileIsMissing) {
+  const Files files;
+  const std::string line = files.complaint(
+      [&] { load_robot(files.write("r.toml", with(one_leg_toml, "one_leg.xml", "gone.xml"))); });
+  EXPECT_EQ(line.find("gone.xml: "), 0u) << line;
+  EXPECT_EQ(files.complaint([&] { load_robot(files.path("absent.toml")); }).find("absent.toml: "), 0u);
+}
+
+}  // namespace
+}  // namespace amble::morphology

@@ -1,0 +1,94 @@
+#include "amble/morphology/robot_json.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "amble/core/error.hpp"
+#include "amble/core/random.hpp"
+#include "amble/morphology/robot_file.hpp"
+
+namespace amble::morphology {
+namespace {
+
+RobotSpec quadruped() {
+  return load_robot(AMBLE_SOURCE_DIR "/robots/quadruped/authors.toml");
+}
+
+RobotSpec through_text(const RobotSpec& robot) {
+  const io::Json parsed = io::Json::parse(to_json(robot).dump());
+  return from_json({parsed, "FILE", "robot"});
+}
+
+TEST(RobotJson, ReadsBackTheSameRobotToTheBit) {
+  RobotSpec robot = quadruped();
+  // Numbers that no short decimal stands for.
+  Stream stream(3, Purpose::test);
+  for (Body& body : robot.bodies) {
+    body.mass_kg *= stream.uniform(0.5, 2.0);
+    body.com_m = {stream.normal(), stream.normal(), 1e-300 * stream.normal()};
+    body.inertia_rotation = axis_angle({0.0, 0.6, 0.8}, stream.uniform());
+  }
+  for (Geom& geom : robot.geoms) geom.rgba[1] = static_cast<float>(stream.uniform());
+  robot.joints[3].servo = {.mode = ServoMode::torque,
+                           .gain_per_s = 0.0,
+                           .kp_nm_per_rad = stream.uniform(),
+                           .kd_nm_s_per_rad = 0.1};
+
+  const RobotSpec again = through_text(robot);
+  EXPECT_EQ(to_json(again), to_json(robot));
+  EXPECT_EQ(to_json(again).dump(), to_json(robot).dump());
+  for (std::size_t b = 0; b < robot.bodies.size(); ++b) {
+    EXPECT_EQ(again.bodies[b].mass_kg, robot.bodies[b].mass_kg);
+    EXPECT_EQ(again.bodies[b].com_m, robot.bodies[b].com_m);
+    EXPECT_EQ(again.bodies[b].inertia_rotation, robot.bodies[b].inertia_rotation);
+  }
+  for (std::size_t g = 0; g < robot.geoms.size(); ++g) {
+    EXPECT_EQ(again.geoms[g].rgba, robot.geoms[g].rgba);
+    EXPECT_EQ(again.geoms[g].shape, robot.geoms[g].shape);
+    EXPECT_EQ(again.geoms[g].collides, robot.geoms[g].collides);
+  }
+  EXPECT_EQ(again.joints[3].servo.mode, ServoMode::torque);
+  EXPECT_EQ(again.joints_of_body(1), robot.joints_of_body(1));
+}
+
+TEST(RobotJson, WritesInfiniteFrictionAsInf) {
+  EXPECT_EQ(to_json(quadruped()).at("contact").at("friction"), "inf");
+  EXPECT_TRUE(std::isinf(through_text(quadruped()).contact.friction));
+}
+
+TEST(RobotJson, RefusesWhatIsNotARobot) {
+  const auto complaint = [](const std::function<void(io::Json&)>& change) -> std::string {
+    io::Json json = to_json(quadruped());
+    change(json);
+    try {
+      from_json({json, "FILE", "robot"});
+    } catch (const UserError& error) {
+      EXPECT_EQ(error.code(), ExitCode::bad_file);
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(complaint([](io::Json& j) { j.erase("gravity_m_s2"); }),
+            "FILE: key 'robot.gravity_m_s2' is missing");
+  EXPECT_EQ(complaint([](io::Json& j) { j["gravity_m_s2"].push_back(1.0); }),
+            "FILE: key 'robot.gravity_m_s2' must be an array of 3 numbers");
+  EXPECT_EQ(complaint([](io::Json& j) { j["geoms"][0]["shape"] = "blob"; }),
+            complaint([](io::Json& j) { j["geoms"][0]["shape"] = "blub"; }));
+  EXPECT_NE(complaint([](io::Json& j) {
+              j["geoms"][0]["shape"] = "blob";
+            }).find("must be one of sphere, capsule, cylinder, box"),
+            std::string::npos);
+  EXPECT_EQ(complaint([](io::Json& j) { j["bodies"][1]["mass_kg"] = -1.0; }),
+            "FILE: key 'robot' holds no valid robot: body 'FL_upper' must have a positive mass");
+  EXPECT_EQ(complaint([](io::Json& j) { j["bodies"][1]["mass_kg"] = "inf"; }),
+            "FILE: key 'robot' holds no valid robot: body 'FL_upper' must have a positive mass");
+  EXPECT_EQ(
+      complaint([](io::Json& j) { j["joints"][0]["body"] = 900; }),
+      "FILE: key 'robot' holds no valid robot: joint 'FL_knee' names a body that is not there, or the root");
+}
+
+}  // namespace
+}  // namespace amble::morphology

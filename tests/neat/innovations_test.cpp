@@ -1,0 +1,112 @@
+#include "amble/neat/innovations.hpp"
+
+#include <gtest/gtest.h>
+
+#include "amble/neat/mutation.hpp"
+#include "tests/neat/samples.hpp"
+
+namespace amble::neat {
+namespace {
+
+TEST(Innovations, GiveTheSameLinkTheSameNumberForEver) {
+  Innovations innovations(2, 1);
+  EXPECT_EQ(innovations.link(0, 3), 0u);
+  EXPECT_EQ(innovations.link(1, 3), 1u);
+  EXPECT_EQ(innovations.link(0, 3), 0u);
+  EXPECT_EQ(innovations.link(3, 3), 2u);
+  EXPECT_EQ(innovations.link(1, 3), 1u);
+}
+
+TEST(Innovations, TellTheDirectionsOfALinkApart) {
+  Innovations innovations(1, 2);
+  EXPECT_NE(innovations.link(2, 3), innovations.link(3, 2));
+}
+
+TEST(Innovations, GiveTheSameSplitTheSameNodeInEveryGenome) {
+  Innovations innovations(2, 1);
+  const Genome one = sample_genome(2, 1, {}, {}), other = sample_genome(2, 1, {}, {{0, 0, 3, 1.0, true}});
+  const auto link = innovations.link(0, 3), second_link = innovations.link(1, 3);
+  const auto node = innovations.node(link, Activation::sine, one);
+  EXPECT_EQ(node, 4u) << "the first id after bias, inputs and outputs";
+  EXPECT_EQ(innovations.node(link, Activation::sine, other), node);
+  EXPECT_EQ(innovations.node(second_link, Activation::sine, one), 5u);
+  EXPECT_EQ(innovations.node(link, Activation::gaussian, one), 6u) << "another function is another node";
+  EXPECT_EQ(innovations.node(link, Activation::sine, one), node);
+}
+
+TEST(Innovations, GiveAGenomeThatHasTheNodeTheNextOneInLine) {
+  Innovations innovations(2, 1);
+  const auto link = innovations.link(0, 3);
+  const Genome none = sample_genome(2, 1, {}, {});
+  const auto first = innovations.node(link, Activation::sine, none);
+  const Genome with_first = sample_genome(2, 1, {{first, NodeKind::hidden, Activation::sine}}, {});
+  const auto second = innovations.node(link, Activation::sine, with_first);
+  EXPECT_NE(second, first);
+  EXPECT_EQ(innovations.node(link, Activation::sine, with_first), second) << "the same for every such genome";
+  EXPECT_EQ(innovations.node(link, Activation::sine, none), first);
+  const Genome with_second = sample_genome(2, 1, {{second, NodeKind::hidden, Activation::sine}}, {});
+  EXPECT_EQ(innovations.node(link, Activation::sine, with_second), first) << "the first in line that is free";
+}
+
+TEST(Innovations, KnowTheirOwnNumbersOnly) {
+  Stream stream(51, Purpose::test);
+  Innovations innovations(2, 1);
+  const Genome genome = grown_genome(2, 1, 60, true, innovations, stream);
+  ASSERT_GT(genome.count(NodeKind::hidden), 2);
+  EXPECT_TRUE(innovations.knows(genome));
+  Genome other = genome;
+  other.links.back().innovation = 100000;
+  EXPECT_FALSE(innovations.knows(other));
+  other = genome;
+  std::swap(other.links[0].from, other.links[1].from);
+  std::swap(other.links[0].to, other.links[1].to);
+  EXPECT_FALSE(innovations.knows(other)) << "links with each other's numbers";
+  other = genome;
+  other.nodes.back().id = 100000;
+  EXPECT_FALSE(innovations.knows(other));
+  other = genome;
+  other.nodes.back().activation =
+      static_cast<Activation>((static_cast<int>(other.nodes.back().activation) + 1) % 4);
+  EXPECT_FALSE(innovations.knows(other)) << "equal ids mean equal functions";
+}
+
+TEST(Innovations, ContinueAfterSaveAndLoad) {
+  Stream stream(52, Purpose::test);
+  Innovations innovations(2, 1);
+  for (int i = 0; i < 20; ++i) grown_genome(2, 1, 30, true, innovations, stream);
+  io::BinaryWriter writer;
+  innovations.save(writer);
+  Innovations loaded(2, 1);
+  io::BinaryReader reader(writer.bytes(), "file");
+  loaded.load(reader);
+  reader.finish();
+  Stream one(53, Purpose::test), two(53, Purpose::test);
+  for (int i = 0; i < 20; ++i)
+    ASSERT_EQ(grown_genome(2, 1, 60, true, innovations, one), grown_genome(2, 1, 60, true, loaded, two));
+  io::BinaryWriter after, loaded_after;
+  innovations.save(after);
+  loaded.save(loaded_after);
+  EXPECT_EQ(after.bytes(), loaded_after.bytes());
+}
+
+TEST(Innovations, RefuseWhatCannotBe) {
+  const auto complaint_about = [](std::initializer_list<std::uint32_t> ends, std::uint32_t split_link) {
+    io::BinaryWriter writer;
+    writer.put(std::uint32_t{4});
+    writer.put(static_cast<std::uint64_t>(ends.size() / 2));
+    for (const auto end : ends) writer.put(end);
+    writer.put(std::uint64_t{1});
+    writer.put(split_link);
+    writer.put(Activation::sine);
+    Innovations innovations(2, 1);
+    io::BinaryReader reader(writer.bytes(), "file");
+    return complaint([&] { innovations.load(reader); });
+  };
+  EXPECT_EQ(complaint_about({0, 3, 4, 3}, 0), "");
+  EXPECT_NE(complaint_about({0, 3, 0, 3}, 0).find("a link with two innovation numbers"), std::string::npos);
+  EXPECT_NE(complaint_about({0, 3, 5, 3}, 0).find("a link that joins unknown nodes"), std::string::npos);
+  EXPECT_NE(complaint_about({0, 3, 4, 3}, 2).find("a node that splits an unknown link"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace amble::neat

@@ -1,0 +1,91 @@
+#include "amble/neat/settings.hpp"
+
+#include <gtest/gtest.h>
+
+#include "amble/core/error.hpp"
+#include "amble/io/json_file.hpp"
+#include "tests/neat/samples.hpp"
+
+namespace amble::neat {
+namespace {
+
+TEST(Settings, DefaultsAreThePublishedNumbers) {
+  const Settings s;
+  EXPECT_NO_THROW(s.validate());
+  EXPECT_EQ(s.population.size, 300);
+  EXPECT_EQ(s.mutation.add_link_share, 0.06);
+  EXPECT_EQ(s.mutation.add_node_share, 0.01);
+  EXPECT_EQ(s.reproduction.elitism, 0.1);
+}
+
+TEST(Settings, AllFieldsAreVisited) {
+  // Every number is changed through the visitor's JSON, and every one arrives.
+  io::Json json = io::settings_to_json(Settings{});
+  int leaves = 0;
+  const std::function<void(io::Json&)> change = [&](io::Json& node) {
+    for (auto& [key, value] : node.items()) {
+      if (value.is_object()) {
+        change(value);
+        continue;
+      }
+      ++leaves;
+      if (value.is_boolean())
+        value = !value.get<bool>();
+      else if (value.is_number_integer())
+        value = value.get<int>() + 1;
+      else if (value.is_number())
+        value = value.get<double>() / 2;
+    }
+  };
+  change(json);
+  json["genome"]["output_activation"] = "sine";
+  json["mutation"]["split_link"] = "disable";
+  json["crossover"]["weaker_genes"] = "one_by_one";
+  const auto read = io::settings_from_json<Settings>(io::JsonView(json, "settings"));
+  EXPECT_EQ(io::settings_to_json(read), json);
+  EXPECT_EQ(leaves, 1 + 7 + 14 + 4 + 8 + 6);
+  EXPECT_EQ(read.population.size, 301);
+  EXPECT_EQ(read.genome.activation_shares[3], 0.125);
+  EXPECT_EQ(read.genome.output_activation, Activation::sine);
+  EXPECT_EQ(read.mutation.split_link, SplitLink::disable);
+  EXPECT_EQ(read.mutation.weights.reset_few_share, 0.25);
+  EXPECT_EQ(read.crossover.weaker_genes, WeakerGenes::one_by_one);
+  EXPECT_TRUE(read.speciation.distance.normalised);
+  EXPECT_EQ(read.reproduction.stagnation_generations, 1501);
+}
+
+std::string complaint_about(void (*spoil)(Settings&)) {
+  Settings settings;
+  spoil(settings);
+  return complaint([&] { settings.validate(); });
+}
+
+TEST(Settings, RefuseWhatDoesNotFitTogetherNamingTheKey) {
+  EXPECT_EQ(complaint_about([](Settings& s) { s.speciation.target_min = 31; }),
+            "'speciation.target_max' = 30: expected at least speciation.target_min = 31");
+  EXPECT_EQ(complaint_about([](Settings& s) { s.population.size = 20; }),
+            "'speciation.target_max' = 30: expected at most population.size = 20");
+  EXPECT_EQ(complaint_about([](Settings& s) {
+              s.mutation.weights_share = s.mutation.add_link_share = s.mutation.add_node_share = 0;
+            }),
+            "'mutation.weights_share' = 0: expected more than 0, because all other shares of mutation are 0");
+  EXPECT_EQ(complaint_about([](Settings& s) {
+              auto& w = s.mutation.weights;
+              w.jiggle_many_share = w.jiggle_few_share = w.jiggle_one_share = w.reset_few_share =
+                  w.reset_one_share = 0;
+            }),
+            "'mutation.weights.jiggle_many_share' = 0: expected more than 0, because all other shares of "
+            "mutation.weights are 0");
+  EXPECT_EQ(
+      complaint_about([](Settings& s) {
+        s.genome.activation_shares = {0, 0, 0, 0};
+      }),
+      "'genome.activation_shares.bipolar_sigmoid' = 0: expected more than 0, because the shares of all other "
+      "functions are 0");
+  EXPECT_EQ(
+      complaint_about([](Settings& s) { s.genome.initial_link_probability = s.mutation.add_link_share = 0; }),
+      "'mutation.add_link_share' = 0: expected more than 0, because genome.initial_link_probability is 0");
+}
+
+}  // namespace
+}  // namespace amble::neat

@@ -1,0 +1,224 @@
+#include "amble/neat/speciation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "amble/neat/distance.hpp"
+#include "tests/neat/samples.hpp"
+
+namespace amble::neat {
+namespace {
+
+/// One link of the given weight: two such genomes are 3 × |difference| apart.
+Genome with_weight(double weight) {
+  return sample_genome(1, 1, {}, {{0, 0, 2, weight, true}});
+}
+
+std::vector<Genome> with_weights(const std::vector<double>& weights) {
+  std::vector<Genome> genomes;
+  for (const double weight : weights) genomes.push_back(with_weight(weight));
+  return genomes;
+}
+
+std::vector<Fitness> with_objectives(const std::vector<double>& objectives) {
+  std::vector<Fitness> fitness;
+  for (const double objective : objectives) fitness.push_back({.selection = 1.0, .objective = objective});
+  return fitness;
+}
+
+SpeciationSettings unsteered(double threshold) {
+  SpeciationSettings settings;
+  settings.initial_threshold = threshold;
+  settings.corrections_per_generation = 0;
+  return settings;
+}
+
+std::vector<std::vector<int>> members(const Speciation& speciation) {
+  std::vector<std::vector<int>> result;
+  for (const Species& species : speciation.species()) result.push_back(species.members);
+  return result;
+}
+
+using Groups = std::vector<std::vector<int>>;
+
+TEST(Speciation, PutsIdenticalGenomesIntoOneSpecies) {
+  Speciation speciation(unsteered(Threshold::lowest));
+  speciation.assign(with_weights({0.5, 0.5, 0.5}));
+  EXPECT_EQ(members(speciation), (Groups{{0, 1, 2}}));
+}
+
+TEST(Speciation, TakesTheFirstSpeciesThatIsCloserThanTheThreshold) {
+  Speciation speciation(unsteered(1.5));
+  // Founders 0.0 and 1.0; 0.4 is close to the first, 0.6 only to the second, and 0.5 lies at the threshold of
+  // both: it is not closer than that, and founds a third.
+  speciation.assign(with_weights({0.0, 1.0, 0.4, 0.6, 0.5}));
+  EXPECT_EQ(members(speciation), (Groups{{0, 2}, {1, 3}, {4}}));
+  Speciation wide(unsteered(2.0));
+  // 0.5 is close to both now: the older species has it.
+  wide.assign(with_weights({0.0, 1.0, 0.5}));
+  EXPECT_EQ(members(wide), (Groups{{0, 2}, {1}}));
+}
+
+TEST(Speciation, ComparesWithTheBestOfTheLastGeneration) {
+  Speciation speciation(unsteered(1.5));
+  const auto genomes = with_weights({0.0, 0.4});
+  speciation.assign(genomes);
+  ASSERT_EQ(members(speciation), (Groups{{0, 1}}));
+  speciation.record(genomes, with_objectives({1.0, 2.0}));
+  EXPECT_EQ(speciation.species()[0].representative, genomes[1]);
+  EXPECT_EQ(speciation.species()[0].members, (std::vector<int>{1, 0}));
+  // 0.8 is within 0.5 of 0.4, but not of the founder 0.0.
+  speciation.assign(with_weights({0.8, -0.2}));
+  EXPECT_EQ(members(speciation), (Groups{{0}, {1}}));
+  EXPECT_EQ(speciation.species()[0].id, 0u);
+  EXPECT_EQ(speciation.species()[0].age, 1);
+  EXPECT_EQ(speciation.species()[1].id, 1u);
+  EXPECT_EQ(speciation.species()[1].age, 0);
+}
+
+TEST(Speciation, ForgetsSpeciesWithoutMembersAndTheirNumbers) {
+  Speciation speciation(unsteered(1.5));
+  speciation.assign(with_weights({0.0, 1.0}));
+  speciation.assign(with_weights({1.0, 1.0}));
+  ASSERT_EQ(members(speciation), (Groups{{0, 1}}));
+  EXPECT_EQ(speciation.species()[0].id, 1u);
+  speciation.assign(with_weights({1.0, 0.0}));
+  EXPECT_EQ(speciation.species()[1].id, 2u) << "number 0 is not given again";
+}
+
+TEST(Speciation, CountsGenerationsWithoutABetterObjective) {
+  Speciation speciation(unsteered(100));
+  const auto genomes = with_weights({0.0, 0.1});
+  const auto stagnation_after = [&](const std::vector<double>& objectives) {
+    speciation.assign(genomes);
+    speciation.record(genomes, with_objectives(objectives));
+    return speciation.species()[0].generations_without_improvement;
+  };
+  EXPECT_EQ(stagnation_after({-2.0, -1.0}), 0);
+  EXPECT_EQ(stagnation_after({-1.0, -3.0}), 1) << "an equal objective is no improvement";
+  EXPECT_EQ(stagnation_after({-5.0, -3.0}), 2);
+  EXPECT_EQ(speciation.species()[0].best_objective, -1.0) << "the best of its life";
+  EXPECT_EQ(stagnation_after({-0.5, -3.0}), 0);
+  EXPECT_EQ(speciation.species()[0].age, 3);
+}
+
+TEST(Speciation, OrdersEqualObjectivesByIndex) {
+  Speciation speciation(unsteered(100));
+  const auto genomes = with_weights({0.0, 0.1, 0.2, 0.3});
+  speciation.assign(genomes);
+  speciation.record(genomes, with_objectives({1.0, 2.0, 1.0, 2.0}));
+  EXPECT_EQ(speciation.species()[0].members, (std::vector<int>{1, 3, 0, 2}));
+}
+
+TEST(Speciation, SortsAnewAfterEachCorrectionOfTheThreshold) {
+  SpeciationSettings settings = unsteered(3.15);
+  settings.target_min = 2;
+  settings.target_max = 2;
+  const auto genomes = with_weights({0.0, 1.03});  // 3.09 apart
+  Speciation still(settings);
+  still.assign(genomes);
+  EXPECT_EQ(still.species().size(), 1u);
+  settings.corrections_per_generation = 1;  // one step of 0.1: 3.05
+  Speciation steered(settings);
+  steered.assign(genomes);
+  EXPECT_EQ(steered.species().size(), 2u);
+  EXPECT_DOUBLE_EQ(steered.threshold(), 3.05);
+}
+
+struct Start {
+  double threshold;
+  int corrections;
+};
+
+class Steering : public testing::TestWithParam<Start> {};
+
+TEST_P(Steering, ReachesTheTargetAndStaysThere) {
+  // A synthetic population of 300 whose weights drift while its structure and its order of objectives stay.
+  Stream stream(121, Purpose::test);
+  Innovations innovations(3, 2);
+  std::vector<Genome> genomes;
+  std::vector<Fitness> fitness(300);
+  for (Fitness& f : fitness) {
+    genomes.push_back(grown_genome(3, 2, static_cast<int>(stream.below(12)), true, innovations, stream));
+    f.objective = stream.uniform();
+  }
+  SpeciationSettings settings;
+  settings.initial_threshold = GetParam().threshold;
+  settings.corrections_per_generation = GetParam().corrections;
+  Speciation speciation(settings);
+  int on_target = 0;
+  for (int generation = 0; generation < 200; ++generation) {
+    speciation.assign(genomes);
+    const auto species = static_cast<int>(speciation.species().size());
+    if (generation >= 100) {
+      on_target += species >= settings.target_min && species <= settings.target_max;
+      EXPECT_GE(species, 25);
+      EXPECT_LE(species, 33);
+    }
+    speciation.record(genomes, fitness);
+    for (Genome& genome : genomes)
+      for (LinkGene& link : genome.links)
+        if (stream.chance(0.02)) link.weight += stream.uniform(-0.05, 0.05);
+  }
+  EXPECT_GE(on_target, 90) << "of the last hundred generations";
+}
+
+INSTANTIATE_TEST_SUITE_P(FromBothSides, Steering,
+                         testing::Values(Start{100.0, 1}, Start{0.5, 1}, Start{100.0, 5}, Start{0.5, 5}),
+                         [](const auto& start) {
+                           return std::string(start.param.threshold > 1 ? "Above" : "Below") +
+                                  std::to_string(start.param.corrections);
+                         });
+
+TEST(Speciation, ReachesTheTargetSoonerWithMoreCorrections) {
+  Stream stream(123, Purpose::test);
+  Innovations innovations(3, 2);
+  std::vector<Genome> genomes;
+  for (int i = 0; i < 300; ++i)
+    genomes.push_back(grown_genome(3, 2, static_cast<int>(stream.below(12)), true, innovations, stream));
+  const auto generations_to_target = [&](int corrections) {
+    SpeciationSettings settings;
+    settings.corrections_per_generation = corrections;
+    Speciation speciation(settings);
+    for (int generation = 1; generation < 200; ++generation) {
+      speciation.assign(genomes);
+      const auto species = static_cast<int>(speciation.species().size());
+      if (species >= settings.target_min && species <= settings.target_max) return generation;
+    }
+    return 200;
+  };
+  EXPECT_LT(generations_to_target(1), 60);
+  EXPECT_EQ(generations_to_target(200), 1);
+}
+
+TEST(Speciation, PutsEveryGenomeCloseToItsRepresentative) {
+  Stream stream(122, Purpose::test);
+  Innovations innovations(3, 2);
+  Speciation speciation(SpeciationSettings{});
+  for (int generation = 0; generation < 60; ++generation) {
+    std::vector<Genome> genomes;
+    for (int i = 0; i < 60; ++i)
+      genomes.push_back(grown_genome(3, 2, static_cast<int>(stream.below(12)), true, innovations, stream));
+    speciation.assign(genomes);
+    std::set<int> placed;
+    for (std::size_t s = 0; s < speciation.species().size(); ++s)
+      for (const int member : speciation.species()[s].members) {
+        EXPECT_TRUE(placed.insert(member).second);
+        const Genome& genome = genomes[static_cast<std::size_t>(member)];
+        for (std::size_t earlier = 0; earlier <= s; ++earlier) {
+          const double distance = compatibility_distance(speciation.species()[earlier].representative, genome,
+                                                         DistanceSettings{});
+          if (earlier < s) {
+            ASSERT_GE(distance, speciation.threshold());
+          } else {
+            ASSERT_LT(distance, speciation.threshold());
+          }
+        }
+      }
+    EXPECT_EQ(placed.size(), genomes.size());
+  }
+}
+
+}  // namespace
+}  // namespace amble::neat

@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "amble/neat/crossover.hpp"
+#include "amble/neat/initial_genome.hpp"
+#include "amble/neat/mutation.hpp"
+#include "tests/neat/samples.hpp"
+
+namespace amble::neat {
+namespace {
+
+constexpr int inputs = 3, outputs = 2;
+
+/// Recurrent or not, what becomes of a split link, how the weaker parent's genes are inherited.
+class RandomStructure : public testing::TestWithParam<std::tuple<bool, SplitLink, WeakerGenes>> {};
+
+TEST_P(RandomStructure, StaysValidThroughThousandsOfMutationsAndCrossovers) {
+  const auto [recurrent, split_link, weaker_genes] = GetParam();
+  Settings settings = lively_settings();
+  settings.mutation.split_link = split_link;
+  settings.crossover.weaker_genes = weaker_genes;
+  settings.crossover.weaker_genes_probability = 0.5;
+
+  Stream stream(111, Purpose::test);
+  Innovations innovations(inputs, outputs);
+  std::vector<Genome> pool;
+  for (int i = 0; i < 12; ++i)
+    pool.push_back(initial_genome(settings.genome, inputs, outputs, innovations, stream));
+
+  int crossed = 0, largest = 0;
+  for (int round = 0; round < 4000; ++round) {
+    Genome& place = pool[stream.below(12)];
+    const Genome& mother = pool[stream.below(12)];
+    const Genome& father = pool[stream.below(12)];
+    Genome child;
+    if (stream.chance(0.3)) {
+      child = crossover(mother, father, settings.crossover, recurrent, stream);
+      ++crossed;
+      for (const LinkGene& link : mother.links)
+        ASSERT_TRUE(std::ranges::binary_search(child.links, link.innovation, {}, &LinkGene::innovation))
+            << "the fitter parent's links are all inherited";
+    } else {
+      child = mother;
+      ASSERT_NE(mutate(child, settings, recurrent, innovations, stream), Mutation::none);
+    }
+    ASSERT_EQ(complaint([&] { validate(child, inputs, outputs, recurrent); }), "");
+    ASSERT_TRUE(innovations.knows(child)) << "the same numbers for the same genes";
+    ASSERT_TRUE(all_hidden_nodes_are_linked(child));
+    ASSERT_TRUE(std::ranges::all_of(child.links, [&](const LinkGene& link) {
+      return std::abs(link.weight) <= settings.genome.weight_limit;
+    }));
+    largest = std::max(largest, static_cast<int>(child.links.size()));
+    place = child.links.size() < 80 ? child
+                                    : initial_genome(settings.genome, inputs, outputs, innovations, stream);
+  }
+  EXPECT_GT(crossed, 1000);
+  EXPECT_GE(largest, 40) << "the sample holds large genomes";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    AllRules, RandomStructure,
+    testing::Combine(testing::Bool(), testing::Values(SplitLink::remove, SplitLink::disable),
+                     testing::Values(WeakerGenes::all_or_none, WeakerGenes::one_by_one)));
+
+}  // namespace
+}  // namespace amble::neat

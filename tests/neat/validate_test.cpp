@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "amble/core/error.hpp"
+#include "tests/neat/samples.hpp"
+
+namespace amble::neat {
+namespace {
+
+Genome good() {
+  return sample_genome(
+      2, 1, {{7, NodeKind::hidden, Activation::sine}, {9, NodeKind::hidden, Activation::gaussian}},
+      {{0, 0, 3, 0.5, true}, {2, 1, 7, -1.0, true}, {5, 7, 9, 1.0, true}, {6, 9, 3, 1.0, true}});
+}
+
+struct Defect {
+  const char* name;
+  void (*make)(Genome&);
+  const char* message;
+};
+
+class Validate : public testing::TestWithParam<Defect> {};
+
+TEST_P(Validate, RefusesWithTheReason) {
+  Genome genome = good();
+  GetParam().make(genome);
+  EXPECT_EQ(complaint([&] { validate(genome, 2, 1, false); }), GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Defects, Validate,
+    testing::Values(
+        Defect{"TooFewNodes", [](Genome& g) { g.nodes.resize(3); },
+               "genome: 3 nodes, expected at least 4: bias, 2 inputs, 1 outputs"},
+        Defect{"OutputInPlaceOfInput", [](Genome& g) { g.nodes[2].kind = NodeKind::output; },
+               "genome: node 2 of the list must be of kind input"},
+        Defect{"HiddenNodeCalledOutput", [](Genome& g) { g.nodes[4].kind = NodeKind::output; },
+               "genome: node 4 of the list must be of kind hidden"},
+        Defect{"IdThatIsNotItsIndex", [](Genome& g) { g.nodes[3].id = 4; },
+               "genome: node 3 of the list has id 4, expected 3"},
+        Defect{"HiddenIdsThatFall", [](Genome& g) { std::swap(g.nodes[4], g.nodes[5]); },
+               "genome: hidden node 7 is out of order: ids must rise from at least 4"},
+        Defect{"HiddenIdOfAnOutput", [](Genome& g) { g.nodes[4].id = 3; },
+               "genome: hidden node 3 is out of order: ids must rise from at least 4"},
+        Defect{"UnknownActivation", [](Genome& g) { g.nodes[4].activation = static_cast<Activation>(4); },
+               "genome: node 7 has an unknown activation function"},
+        Defect{"InputWithAnActivation", [](Genome& g) { g.nodes[1].activation = Activation::sine; },
+               "genome: node 1 must have the activation linear, as bias and inputs do"},
+        Defect{"LinksOutOfOrder", [](Genome& g) { g.links[1].innovation = 0; },
+               "genome: link 0 is out of order: innovation numbers must rise"},
+        Defect{"UnknownNode", [](Genome& g) { g.links[1].from = 8; },
+               "genome: link 2 names node 8, which is not there"},
+        Defect{"LinkIntoAnInput", [](Genome& g) { g.links[1].to = 2; },
+               "genome: link 2 leads into node 2, which is the bias or an input"},
+        Defect{"LinkIntoTheBias", [](Genome& g) { g.links[1].to = 0; },
+               "genome: link 2 leads into node 0, which is the bias or an input"},
+        Defect{"NotANumber", [](Genome& g) { g.links[2].weight = std::nan(""); },
+               "genome: link 5 has a weight that is not finite"},
+        Defect{"Infinite", [](Genome& g) { g.links[2].weight = -std::numeric_limits<double>::infinity(); },
+               "genome: link 5 has a weight that is not finite"},
+        Defect{"DoubleLink", [](Genome& g) { g.links[3].from = 7, g.links[3].to = 9; },
+               "genome: link 6 joins nodes 7 and 9 a second time"},
+        Defect{"Cycle",
+               [](Genome& g) {
+                 g.links.push_back({8, 9, 7, 0.1, true});
+               },
+               "genome: link 8 from node 9 to node 7 closes a cycle, but the network must be feed-forward"},
+        Defect{"DisabledCycle",
+               [](Genome& g) {
+                 g.links.push_back({8, 3, 7, 0.1, false});
+               },
+               "genome: link 8 from node 3 to node 7 closes a cycle, but the network must be feed-forward"}),
+    [](const auto& defect) { return std::string(defect.param.name); });
+
+TEST(Validate, AcceptsAGoodGenome) {
+  EXPECT_EQ(complaint([] { validate(good(), 2, 1, false); }), "");
+  EXPECT_EQ(complaint([] { validate(sample_genome(0, 1, {}, {}), 0, 1, false); }), "");
+}
+
+TEST(Validate, AcceptsCyclesWhereNetworksAreRecurrent) {
+  Genome genome = good();
+  genome.links.push_back({8, 9, 7, 0.1, true});
+  genome.links.push_back({9, 3, 3, 0.1, true});
+  EXPECT_EQ(complaint([&] { validate(genome, 2, 1, true); }), "");
+}
+
+TEST(Validate, RefusesAnotherNumberOfInputsOrOutputs) {
+  EXPECT_NE(complaint([] { validate(good(), 1, 1, false); }), "");
+  EXPECT_NE(complaint([] { validate(good(), 2, 2, false); }), "");
+}
+
+TEST(Validate, CallsItABadFile) {
+  try {
+    validate(good(), 3, 1, false);
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_file);
+  }
+}
+
+}  // namespace
+}  // namespace amble::neat

@@ -1,0 +1,94 @@
+#include "amble/physics/engine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "amble/core/error.hpp"
+#include "tests/physics/scene.hpp"
+
+namespace amble::physics {
+namespace {
+
+std::string refusal(const morphology::RobotSpec& robot, std::string_view engine = "ode") {
+  try {
+    make_engine(engine, robot, {});
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_input);
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(MakeEngine, RefusesAnUnknownName) {
+  EXPECT_EQ(refusal(quadruped(), "odd"), "unknown engine 'odd': expected ode");
+}
+
+TEST(MakeEngine, OdeRefusesThreeJointsOnOneBody) {
+  morphology::RobotSpec robot = quadruped();
+  robot.joints[0].body = robot.joints[1].body;
+  EXPECT_EQ(refusal(robot), "the ode engine cannot put 3 joints on body 'FL_upper': one or two are possible");
+}
+
+TEST(MakeEngine, OdeRefusesTwoJointsThatDoNotCrossAtARightAngle) {
+  const std::string message =
+      "the ode engine needs the joints 'FL_hip_io' and 'FL_hip_fb' of body 'FL_upper' to cross at a right "
+      "angle";
+  morphology::RobotSpec robot = quadruped();
+  robot.joints[1].axis = {0.6, 0.8, 0.0};
+  EXPECT_EQ(refusal(robot), message);
+  robot = quadruped();
+  robot.joints[1].anchor_m.z = -0.1;
+  EXPECT_EQ(refusal(robot), message);
+}
+
+TEST(MakeEngine, OdeRefusesARangeBeyondHalfATurn) {
+  morphology::RobotSpec robot = scene("pendulum");
+  robot.joints[0].upper_rad = 3.5;
+  EXPECT_EQ(refusal(robot),
+            "the ode engine needs the range of joint 'arm_swing' within ± π, not -3 … 3.5 rad");
+}
+
+TEST(Place, PutsTheRobotIntoTheStartPoseOfItsModel) {
+  for (const char* variant : {"authors", "paper"}) {
+    const Bench bench(quadruped(variant));
+    const RootPose root = bench.engine->root_pose(0);
+    EXPECT_EQ(root.position_m, (Vec3{0.0, 0.0, 0.88404}));
+    EXPECT_EQ(root.rotation, Quat{});
+    EXPECT_EQ(bench.engine->momentum(0), Vec3{});
+    for (int j = 0; j < 12; ++j) EXPECT_NEAR(bench.angle(j), 0.0, 1e-7);
+    for (int row = 0; row < 3; ++row) EXPECT_EQ(bench.engine->sensors().attitude_rad.at(row, 0), 0.0f);
+    for (int leg = 0; leg < 4; ++leg) EXPECT_TRUE(bench.touches(leg));
+    EXPECT_TRUE(bench.engine->healthy(0));
+  }
+}
+
+TEST(Place, StandsTheRootFrameNotItsCentreOfMassWhereTheModelSays) {
+  morphology::RobotSpec robot = weightless(scene("pendulum"));
+  robot.bodies[0].com_m = {0.1, -0.2, 0.3};
+  robot.bodies[0].rotation = axis_angle({0.0, 0.0, 1.0}, 0.5);
+  const Bench bench(robot);
+  const Vec3 offset = bench.engine->root_pose(0).position_m - robot.bodies[0].position_m;
+  EXPECT_NEAR(norm(offset), 0.0, 1e-14);
+  const Vec3 com = robot.bodies[0].position_m + rotate(robot.bodies[0].rotation, {0.1, -0.2, 0.3});
+  EXPECT_NEAR(norm(bench.engine->root_com_m(0) - com), 0.0, 1e-14);
+  EXPECT_NEAR(static_cast<double>(bench.engine->sensors().attitude_rad.at(2, 0)), 0.5, 1e-7);
+}
+
+TEST(Retire, StopsTheRobotUntilItIsPlacedAgain) {
+  Bench bench(lifted(quadruped(), 1.0));
+  const std::uint64_t start = bench.engine->state_hash(0);
+  bench.steps(10);
+  bench.engine->retire(0);
+  const std::uint64_t retired = bench.engine->state_hash(0);
+  EXPECT_NE(retired, start);
+  bench.steps(10);
+  EXPECT_EQ(bench.engine->state_hash(0), retired);
+  bench.engine->place(0);
+  EXPECT_EQ(bench.engine->state_hash(0), start);
+  bench.steps(1);
+  EXPECT_NE(bench.engine->state_hash(0), start);
+}
+
+}  // namespace
+}  // namespace amble::physics

@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/physics/scene.hpp"
+
+namespace amble::physics {
+namespace {
+
+TEST(OdeStanding, ABoxSinksUntilTheContactSpringsCarryItsWeight) {
+  // Four corners, each a spring of erp / (h cfm): depth = m g h cfm / (4 erp).
+  morphology::RobotSpec robot = scene("box");
+  robot.contact.cfm_s_per_kg = 1e-4;
+  for (const double h : {0.01, 0.002}) {
+    Bench bench(robot, h);
+    bench.steps(2000);
+    const double depth = 2.0 * 9.8 * h * 1e-4 / (4 * 0.2);
+    EXPECT_NEAR(0.1 - bench.engine->com_m(0).z, depth, 1e-3 * depth);
+    EXPECT_NEAR(norm(bench.engine->momentum(0)), 0.0, 1e-9);
+  }
+}
+
+TEST(OdeStanding, TheQuadrupedStandsStillOnAllFeet) {
+  for (const char* variant : {"authors", "paper"}) {
+    Bench bench(quadruped(variant));
+    bench.steps(300);
+    const Vec3 before = bench.engine->com_m(0);
+    for (int i = 0; i < 300; ++i) {
+      bench.steps(1);
+      for (int leg = 0; leg < 4; ++leg) ASSERT_TRUE(bench.touches(leg)) << "step " << i;
+    }
+    // The forces of the ground balance the weight: no momentum comes or goes.
+    EXPECT_NEAR(norm(bench.engine->momentum(0)), 0.0, 1e-3);
+    EXPECT_NEAR(norm(bench.engine->com_m(0) - before), 0.0, 1e-3);
+    EXPECT_NEAR(bench.engine->root_com_m(0).z, 0.88404, 1e-3);
+  }
+}
+
+TEST(OdeTouch, IsFeltWhenTheFootIsNotAboveTheGround) {
+  for (const double gap : {1e-9, 1e-3, 0.5}) {
+    const Bench above(lifted(quadruped(), 0.0001 + gap));  // the model puts the feet 0.1 mm deep
+    const Bench below(lifted(quadruped(), 0.0001 - 1e-9));
+    for (int leg = 0; leg < 4; ++leg) {
+      EXPECT_FALSE(above.touches(leg)) << gap;
+      EXPECT_TRUE(below.touches(leg));
+    }
+  }
+}
+
+TEST(OdeTouch, BelongsToThePoseAtTheBeginningOfTheStep) {
+  Bench bench(lifted(quadruped(), 0.05));
+  for (int i = 0; i < 30; ++i) {
+    // In the air the legs stay straight, so that the feet are where the root says.
+    const bool down = bench.engine->root_pose(0).position_m.z - 0.88414 <= 0.0;
+    bench.steps(1);
+    for (int leg = 0; leg < 4; ++leg) ASSERT_EQ(bench.touches(leg), down) << "step " << i;
+    if (down) return;
+  }
+  FAIL() << "never landed";
+}
+
+TEST(OdeTouch, ALiftedFootFeelsNothingWhileItsNeighboursStand) {
+  for (int leg = 0; leg < 4; ++leg) {
+    Bench bench(quadruped());
+    bench.targets.at(3 * leg, 0) = leg < 2 ? -0.8f : 0.8f;  // bend the knee
+    bench.steps(8);
+    // The robot leans towards the corner without support, so the foot across may leave the ground as well.
+    const int across = 3 - leg;
+    for (int other = 0; other < 4; ++other) {
+      if (other == across) continue;
+      EXPECT_EQ(bench.touches(other), other != leg) << leg << " " << other;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace amble::physics

@@ -1,0 +1,17 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "amble/record/recording.hpp"
+
+namespace amble::record {
+namespace {
+
+TEST(StandardColumns, StandInTheDocumentedOrder) {
+  EXPECT_THAT(standard_columns({"FL.knee", "FL.hip"}, {"FL"}),
+              testing::ElementsAre("root.x", "root.y", "root.z", "root.qw", "root.qx", "root.qy", "root.qz",
+                                   "com.x", "com.y", "com.z", "angle.FL.knee", "angle.FL.hip",
+                                   "target.FL.knee", "target.FL.hip", "touch.FL"));
+}
+
+}  // namespace
+}  // namespace amble::record

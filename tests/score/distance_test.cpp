@@ -1,0 +1,16 @@
+#include "amble/score/distance.hpp"
+
+#include <gtest/gtest.h>
+
+namespace amble::score {
+namespace {
+
+TEST(Distance, CountsTheHorizontalShiftInAnyDirectionAndNoHeight) {
+  record::Trajectory trajectory;
+  trajectory.com_start_m = {1.0, 2.0, 0.8};
+  trajectory.com_end_m = {-2.0, -2.0, 0.3};
+  EXPECT_DOUBLE_EQ(distance_m(trajectory), 5.0);
+}
+
+}  // namespace
+}  // namespace amble::score
