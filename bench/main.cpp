@@ -7,7 +7,8 @@
 #include "amble/io/file.hpp"
 #include "bench/benches.hpp"
 
-// Measures everything in one run and prints ratios first: amble_bench [--csv FILE]. Run it on a machine that does nothing else.
+// Measures everything in one run and prints ratios first: amble_bench [--csv FILE]. Run it on a machine that
+// does nothing else.
 int main(int argc, char** argv) {
   using namespace amble;
   std::vector<bench::Figure> figures;

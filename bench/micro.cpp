@@ -11,7 +11,8 @@ namespace {
 void compile_network(benchmark::State& state) {
   const auto genomes = evolved_genomes(50, 3, 2);
   std::size_t i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(cppn::Network(genomes[i++ % genomes.size()], cppn::Settings{}));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(cppn::Network(genomes[i++ % genomes.size()], cppn::Settings{}));
 }
 BENCHMARK(compile_network);
 

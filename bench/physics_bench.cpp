@@ -14,8 +14,10 @@ void set_targets(const morphology::RobotSpec& robot, int step, LaneArray& target
   for (int joint = 0; joint < targets_rad.rows(); ++joint) {
     const auto& spec = robot.joints[static_cast<std::size_t>(joint)];
     const double phase = 2.0 * 3.14159265358979 * (0.01 * step + 0.25 * (joint / 3));
-    const double target = 0.5 * (spec.lower_rad + spec.upper_rad) + 0.3 * (spec.upper_rad - spec.lower_rad) * std::sin(phase);
-    for (int lane = 0; lane < targets_rad.lanes(); ++lane) targets_rad.at(joint, lane) = static_cast<float>(target);
+    const double target =
+        0.5 * (spec.lower_rad + spec.upper_rad) + 0.3 * (spec.upper_rad - spec.lower_rad) * std::sin(phase);
+    for (int lane = 0; lane < targets_rad.lanes(); ++lane)
+      targets_rad.at(joint, lane) = static_cast<float>(target);
   }
 }
 
@@ -33,7 +35,8 @@ void measure_physics(std::vector<Figure>& figures) {
       engine->step(targets_rad);
     }
   });
-  figures.push_back({"raw_steps_per_s_ode", steps * engine->lanes() / seconds, "1/s", "one core, authors' quadruped"});
+  figures.push_back(
+      {"raw_steps_per_s_ode", steps * engine->lanes() / seconds, "1/s", "one core, authors' quadruped"});
 }
 
 }  // namespace amble::bench

@@ -46,11 +46,13 @@ void measure_runs(std::vector<Figure>& figures) {
   const auto one = run(generations, 1), two = run(generations, 2);
   const double one_per_s = one.evaluations / one.wall_s, two_per_s = two.evaluations / two.wall_s;
   figures.push_back({"two_workers_vs_one", two_per_s / one_per_s, "1", "evaluations per second, whole run"});
-  figures.push_back({"outside_physics_share", two.outside_s / two.wall_s, "1", "of wall time, 300 genomes, two workers"});
+  figures.push_back(
+      {"outside_physics_share", two.outside_s / two.wall_s, "1", "of wall time, 300 genomes, two workers"});
   figures.push_back({"evaluations_per_s_ode", one_per_s, "1/s", "end to end, one worker"});
   figures.push_back({"evaluations_per_s_ode_two_workers", two_per_s, "1/s", "end to end"});
   figures.push_back({"steps_per_s_ode_two_workers", two.steps / two.wall_s, "1/s", "end to end"});
-  figures.push_back({"peak_memory_mb", peak_memory_mb(), "MB", "of the whole benchmark, runs of 300 genomes included"});
+  figures.push_back(
+      {"peak_memory_mb", peak_memory_mb(), "MB", "of the whole benchmark, runs of 300 genomes included"});
 }
 
 }  // namespace amble::bench

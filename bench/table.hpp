@@ -9,10 +9,10 @@ namespace amble::bench {
 
 /// One measured figure.
 struct Figure {
-  std::string name;   ///< a word with its unit's sense, e.g. "raw_steps_per_s_ode"
+  std::string name;  ///< a word with its unit's sense, e.g. "raw_steps_per_s_ode"
   double value = 0.0;
-  std::string unit;   ///< "1" for ratios
-  std::string note;   ///< what it says, for people
+  std::string unit;  ///< "1" for ratios
+  std::string note;  ///< what it says, for people
 };
 
 /// Ratios first, then the rest, as aligned text.
@@ -24,8 +24,8 @@ inline double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Calls `work` again and again for `least_s` seconds, `repeats` times over, after one call to warm up; the median of the seconds per
-/// call.
+/// Calls `work` again and again for `least_s` seconds, `repeats` times over, after one call to warm up; the
+/// median of the seconds per call.
 template <typename Work>
 double seconds_per_call(Work work, double least_s = 0.3, int repeats = 5) {
   work();

@@ -19,7 +19,8 @@ std::vector<neat::Genome> evolved_genomes(int count, int inputs, int outputs) {
   settings.mutation.add_node_share = 0.5;
   neat::Population population(settings, inputs, outputs, true, 1);
   // Links grow faster than nodes here, so whichever is reached first is held.
-  while (population.statistics().mean_hidden < hidden_wanted && population.statistics().mean_links < links_wanted)
+  while (population.statistics().mean_hidden < hidden_wanted &&
+         population.statistics().mean_links < links_wanted)
     population.advance(std::vector<neat::Fitness>(static_cast<std::size_t>(count), {1.0, 1.0}));
   return {population.genomes().begin(), population.genomes().end()};
 }

@@ -76,19 +76,20 @@ Extent extent_of(const std::vector<Picture>& pictures) {
   return extent;
 }
 
-/// Fine marks each tenth of a metre, coarse ones with their distance each half metre.
+/// Coarse marks with their distance, and four fine ones between them.
 void draw_ground(Svg& svg, const Picture& picture, const Cell& cell) {
   svg.rect({cell.box.x, cell.ground_px, cell.box.width, cell.box.bottom() - cell.ground_px}, "ground");
   svg.line({cell.box.x, cell.ground_px}, {cell.box.right(), cell.ground_px}, "ground-line");
-  const double half_m = 0.5 * cell.box.width / cell.px_per_m;
-  const Interval seen{picture.distance_m - half_m, picture.distance_m + half_m};
-  for (double tenth = std::ceil(seen.lower * 10.0); tenth <= seen.upper * 10.0; ++tenth) {
-    const double x = cell.box.x + (0.1 * tenth - seen.lower) * cell.px_per_m;
-    const bool coarse = std::fmod(tenth, 5.0) == 0.0;
-    svg.line({x, cell.ground_px}, {x, cell.ground_px + (coarse ? 7 : 3.5)}, "ground-line");
+  const double width_m = cell.box.width / cell.px_per_m;
+  const Ticks coarse = nice_ticks({0.0, width_m}, 5);
+  const double left_m = picture.distance_m - 0.5 * width_m, fine_m = 0.2 * coarse.step;
+  for (double k = std::ceil(left_m / fine_m); k * fine_m <= left_m + width_m; ++k) {
+    const double x = cell.box.x + (k * fine_m - left_m) * cell.px_per_m;
+    const bool is_coarse = std::fmod(k, 5.0) == 0.0;
+    svg.line({x, cell.ground_px}, {x, cell.ground_px + (is_coarse ? 7 : 3.5)}, "ground-line");
     const bool room = x > cell.box.x + 16 && x < cell.box.right() - 16;
-    if (coarse && room)
-      svg.text({x, cell.ground_px + 19}, Anchor::middle, "tiny", label(0.1 * tenth, 1) + " m");
+    if (is_coarse && room)
+      svg.text({x, cell.ground_px + 19}, Anchor::middle, "tiny", label(k * fine_m, coarse.decimals) + " m");
   }
 }
 
@@ -145,7 +146,7 @@ std::vector<int> filmstrip_frames(const Motion& motion) {
   if (motion.outcome != record::Outcome::completed)
     end_s = std::max(end_s - fall_s, std::min(end_s, strip_s));
   const int last = std::clamp(static_cast<int>(std::lround(end_s / motion.frame_s)), 1, motion.frames()) - 1;
-  const int first = std::max(0, last - static_cast<int>(std::lround(strip_s / motion.frame_s)));
+  const int first = static_cast<int>(std::lround(std::max(0.0, last - strip_s / motion.frame_s)));
   std::vector<int> frames;
   for (int i = 0; i < filmstrip_poses; ++i) {
     const int frame =
@@ -167,9 +168,10 @@ std::string filmstrip_figure(const RobotModel& robot, const Motion& motion, Layo
   const double cell_height = head_px + extent.height_m * px_per_m + foot_px;
   const int rows = (static_cast<int>(pictures.size()) + columns - 1) / columns;
 
-  Svg svg(width_px(layout), rows * (cell_height + gap) - gap,
-          fmt::format("Side views of the robot at {} times, from {:.2f} s to {:.2f} s", pictures.size(),
-                      motion.time_s(pictures.front().frame), motion.time_s(pictures.back().frame)));
+  Svg svg(
+      width_px(layout), rows * (cell_height + gap) - gap,
+      fmt::format("Side views of the {} at {} times, from {:.2f} s to {:.2f} s", robot.name, pictures.size(),
+                  motion.time_s(pictures.front().frame), motion.time_s(pictures.back().frame)));
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     const int row = static_cast<int>(i) / columns, column = static_cast<int>(i) % columns;
     const Box box{column * (cell_width + gap), row * (cell_height + gap), cell_width, cell_height};

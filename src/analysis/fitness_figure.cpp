@@ -86,7 +86,8 @@ void draw_small(Svg& svg, const Generations& generations, const Box& plot, std::
   const Panel panel = make_panel(plot, generations, value_range({&values}));
   svg.text({plot.x - 26, plot.y - 12}, Anchor::start, "title", title);
   svg.text({plot.right(), plot.y - 12}, Anchor::end, "value", label(values.back(), decimals));
-  draw_y_axis(svg, panel.y, nice_ticks(panel.y.data, 4), plot.x, plot.right(), "");
+  const Ticks ticks = nice_ticks(panel.y.data, 4, decimals == 0 ? 1.0 : 0.0);
+  draw_y_axis(svg, panel.y, ticks, plot.x, plot.right(), "");
   draw_x_axis(svg, panel.x, nice_ticks(panel.x.data, plot.width > 150 ? 5 : 3, 1.0), plot.bottom(), "");
   draw_curve(svg, panel, generations, {title, values, "small"});
 }

@@ -63,7 +63,6 @@ Recorded read_recorded(const std::filesystem::path& path) {
   record::RecordingReader reader(path);
   const record::RecordingHeader& header = reader.header();
   Recorded recorded;
-  recorded.origin = header.origin;
   recorded.robot = parse_robot(header.robot_json, path.string() + ": robot");
   const std::string controller = path.string() + ": controller";
   recorded.controller_kind = parse_controller_kind(header.controller_json, controller);

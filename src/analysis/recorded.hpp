@@ -12,7 +12,6 @@ namespace amble::analysis {
 
 /// A recording, read into memory.
 struct Recorded {
-  std::string origin;  ///< the champion it was made from
   RobotModel robot;
   Motion motion;
   std::string controller_kind;

@@ -1,7 +1,5 @@
 #include "amble/analysis/summary.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -22,18 +20,6 @@ Summary summarise(const Motion& motion) {
     summary.triggers.push_back(static_cast<int>(std::ranges::count(trigger, true)));
   for (const auto& touch : motion.touch) summary.duty_factors.push_back(duty_factor(touch));
   return summary;
-}
-
-std::string outcome_text(const Summary& summary) {
-  switch (summary.outcome) {
-    case record::Outcome::completed:
-      return fmt::format("upright for the full {:.1f} s", summary.seconds);
-    case record::Outcome::fell:
-      return fmt::format("fell after {:.1f} s", summary.seconds);
-    case record::Outcome::diverged:
-      return fmt::format("simulation diverged after {:.1f} s", summary.seconds);
-  }
-  return {};
 }
 
 }  // namespace amble::analysis

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "amble/analysis/motion.hpp"
@@ -18,8 +17,5 @@ struct Summary {
 };
 
 Summary summarise(const Motion& motion);
-
-/// "walked the full 15.0 s", "fell after 3.2 s", …
-std::string outcome_text(const Summary& summary);
 
 }  // namespace amble::analysis

@@ -23,7 +23,9 @@ struct EvolveOptions {
   int jobs = 1;
 };
 
-int processors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+int processors() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 void add_jobs(CLI::App& command, int& jobs) {
   jobs = processors();
@@ -35,7 +37,8 @@ void add_jobs(CLI::App& command, int& jobs) {
 ExitCode execute(experiment::Run run) {
   const std::string folder = run.paths().folder.string();
   if (run.generation() >= run.config().generations)
-    fmt::print("{}: all {} generations are done; more by --generations N\n", folder, run.config().generations);
+    fmt::print("{}: all {} generations are done; more by --generations N\n", folder,
+               run.config().generations);
   experiment::RunStatus status;
   {
     ProgressLine progress(run.generation());
@@ -46,8 +49,8 @@ ExitCode execute(experiment::Run run) {
                run.config().generations, folder);
     return ExitCode::interrupted;
   }
-  fmt::print("best distance {:.3f} m (generation {}), {} trials\nlook at it by: amble page {} -o page.html\n", run.progress().best_m,
-             run.progress().best_generation, run.progress().evaluations, folder);
+  fmt::print("best distance {:.3f} m (generation {}), {} trials\nlook at it by: amble page {} -o page.html\n",
+             run.progress().best_m, run.progress().best_generation, run.progress().evaluations, folder);
   return ExitCode::ok;
 }
 
@@ -57,7 +60,8 @@ void add_evolve(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("evolve", "Evolve controllers as a config file says, into a run folder");
   auto options = std::make_shared<EvolveOptions>();
   command->add_option("CONFIG", options->config, "Config file (TOML)")->required();
-  command->add_option("--set", options->overrides.assignments, "Lay key.path=value over the config (repeatable)")
+  command
+      ->add_option("--set", options->overrides.assignments, "Lay key.path=value over the config (repeatable)")
       ->allow_extra_args(false);
   command->add_option("--seed", options->overrides.seed, "Seed of all randomness");
   command->add_option("--generations", options->overrides.generations, "Generations to evaluate");

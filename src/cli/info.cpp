@@ -20,10 +20,11 @@ void print_champion(const experiment::Champion& champion) {
   const auto& problem = champion.problem;
   fmt::print("experiment  {} (seed {})\ngeneration  {}, genome {}\n", champion.experiment, champion.seed,
              champion.generation, champion.index);
-  fmt::print("robot       {}\ncontroller  {}\nengine      {}\n", problem.robot.name, problem.architecture->name(),
-             problem.engine);
+  fmt::print("robot       {}\ncontroller  {}\nengine      {}\n", problem.robot.name,
+             problem.architecture->name(), problem.engine);
   fmt::print("CPPN        {} inputs, {} outputs, {} hidden nodes, {} links\n", problem.cppn_inputs(),
-             problem.cppn_outputs(), champion.genome.count(neat::NodeKind::hidden), champion.genome.enabled_links());
+             problem.cppn_outputs(), champion.genome.count(neat::NodeKind::hidden),
+             champion.genome.enabled_links());
   fmt::print("result      {:.3f} m in {:.2f} s, {}\n", champion.result.distance_m, champion.result.seconds,
              record::outcome_names[static_cast<std::size_t>(champion.result.outcome)]);
 }
@@ -39,8 +40,8 @@ ExitCode run_info(const std::filesystem::path& folder) {
     evaluations += rows.evaluations[i];
     steps += rows.steps[i];
   }
-  fmt::print("experiment  {} (seed {})\nengine      {}\ngenerations {} of {}\n", config.name, config.seed, config.engine,
-             rows.count(), config.generations);
+  fmt::print("experiment  {} (seed {})\nengine      {}\ngenerations {} of {}\n", config.name, config.seed,
+             config.engine, rows.count(), config.generations);
   fmt::print("trials      {:.0f} ({:.3g} steps)\n", evaluations, steps);
   const auto champions = paths.champion_files();
   fmt::print("champions   {}\n", champions.size());
@@ -58,10 +59,11 @@ ExitCode recording_info(const std::filesystem::path& path) {
   std::vector<float> frame;
   while (reader.next(frame)) {
   }
-  fmt::print("recording of {}\n{} frames, {} s apart: {}\n{}\n{} columns:", reader.header().origin, reader.frames_read(),
-             reader.header().frame_s,
+  fmt::print("recording of {}\n{} frames, {} s apart: {}\n{}\n{} columns:", reader.header().origin,
+             reader.frames_read(), reader.header().frame_s,
              clock_text(static_cast<double>(reader.frames_read()) * reader.header().frame_s),
-             record::outcome_names[static_cast<std::size_t>(reader.outcome())], reader.header().columns.size());
+             record::outcome_names[static_cast<std::size_t>(reader.outcome())],
+             reader.header().columns.size());
   for (const auto& column : reader.header().columns) fmt::print(" {}", column);
   fmt::print("\n");
   return ExitCode::ok;

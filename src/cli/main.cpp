@@ -23,8 +23,8 @@ ExitCode complain(ExitCode code, std::string text) {
 ExitCode run(int argc, char** argv) {
   CLI::App app("Evolves walking controllers for legged robots.", "amble");
   const auto build = amble::experiment::build_info();
-  app.set_version_flag("--version", fmt::format("amble {} ({}, {}, {})", build.version, build.commit.substr(0, 12),
-                                                build.compiler, build.flags));
+  app.set_version_flag("--version", fmt::format("amble {} ({}, {}, {})", build.version,
+                                                build.commit.substr(0, 12), build.compiler, build.flags));
   app.require_subcommand(1);
   app.footer("Each command explains itself: amble COMMAND --help");
   amble::cli::Action action;

@@ -45,14 +45,17 @@ class ScratchFile {
 std::vector<analysis::Fact> facts(const experiment::Config& config, const experiment::Champion& champion) {
   const auto build = experiment::build_info();
   const auto& robot = champion.problem.robot;
-  return {{"Robot", fmt::format("{}, {:.1f} kg, {} motors", robot.name, robot.total_mass_kg(), robot.joints.size())},
+  return {{"Robot",
+           fmt::format("{}, {:.1f} kg, {} motors", robot.name, robot.total_mass_kg(), robot.joints.size())},
           {"Engine", fmt::format("{}, steps of {} s", config.engine, config.trial.timestep_s)},
           {"Controller", champion.problem.architecture->name()},
-          {"Population", fmt::format("{} genomes, {} generations", config.neat.population.size, config.generations)},
+          {"Population",
+           fmt::format("{} genomes, {} generations", config.neat.population.size, config.generations)},
           {"Trial", fmt::format("{} s, or until the robot falls", config.trial.duration_s)},
           {"Seed", fmt::format("{}", config.seed)},
           {"Champion", fmt::format("generation {}, genome {}", champion.generation, champion.index)},
-          {"Made by", fmt::format("amble {} ({}), {}", build.version, build.commit.substr(0, 12), build.compiler)}};
+          {"Made by",
+           fmt::format("amble {} ({}), {}", build.version, build.commit.substr(0, 12), build.compiler)}};
 }
 
 ExitCode make_page(const PageOptions& options) {
@@ -64,21 +67,23 @@ ExitCode make_page(const PageOptions& options) {
   const auto champion = experiment::load_champion(champion_path);
 
   const ScratchFile recording(fs::temp_directory_path() / fmt::format("amble-page-{}.rec", getpid()));
-  const auto replay =
-      experiment::replay(champion.problem, champion.genome,
-                         {.seconds = {}, .engine = {}, .record = recording.path(), .origin = champion_path.string()},
-                         stop_signal());
+  const auto replay = experiment::replay(
+      champion.problem, champion.genome,
+      {.seconds = {}, .engine = {}, .record = recording.path(), .origin = champion_path.string()},
+      stop_signal());
   if (!replay) return ExitCode::interrupted;
 
-  const auto page = analysis::make_page(
-      {.title = config.name,
-       .subtitle = fmt::format("the champion of {} generations of {}, evolved by amble", champion.generation + 1,
-                               config.neat.population.size),
-       .generations = analysis::read_generations(paths.generations),
-       .recording = recording.path(),
-       .cppn = analysis::CppnSize{champion.genome.count(neat::NodeKind::hidden), champion.genome.enabled_links()},
-       .facts = facts(config, champion),
-       .commands = {fmt::format("amble evolve {} --out AGAIN", paths.config.string()), "amble page AGAIN -o page.html"}});
+  const auto page =
+      analysis::make_page({.title = config.name,
+                           .subtitle = fmt::format("the champion of {} generations of {}, evolved by amble",
+                                                   champion.generation + 1, config.neat.population.size),
+                           .generations = analysis::read_generations(paths.generations),
+                           .recording = recording.path(),
+                           .cppn = analysis::CppnSize{champion.genome.count(neat::NodeKind::hidden),
+                                                      champion.genome.enabled_links()},
+                           .facts = facts(config, champion),
+                           .commands = {fmt::format("amble evolve {} --out AGAIN", paths.config.string()),
+                                        "amble page AGAIN -o page.html"}});
   if (options.out.has_parent_path()) fs::create_directories(options.out.parent_path());
   io::write_file(options.out, page);
   fmt::print("{}\n", fs::absolute(options.out).lexically_normal().string());

@@ -6,7 +6,8 @@
 
 namespace amble::cli {
 
-/// Tells how a run goes: on a terminal one line that rewrites itself, else a plain line now and then. To stderr.
+/// Tells how a run goes: on a terminal one line that rewrites itself, else a plain line now and then. To
+/// stderr.
 class ProgressLine : public experiment::RunListener {
  public:
   explicit ProgressLine(int first_generation);

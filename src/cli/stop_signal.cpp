@@ -8,7 +8,9 @@ namespace {
 std::atomic<bool> stop{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch only lock-free atomics");
 
-void on_signal(int) { stop.store(true); }
+void on_signal(int) {
+  stop.store(true);
+}
 
 }  // namespace
 

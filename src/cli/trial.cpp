@@ -30,11 +30,12 @@ ExitCode run_trial(const TrialOptions& options) {
   if (!replay) return ExitCode::interrupted;
   const auto& result = replay->result;
   fmt::print("outcome   {}\nupright   {:.2f} s\ndistance  {:.3f} m\nspeed     {:.3f} m/s\n",
-             record::outcome_names[static_cast<std::size_t>(result.outcome)], result.seconds, result.distance_m,
-             result.distance_m / result.seconds);
+             record::outcome_names[static_cast<std::size_t>(result.outcome)], result.seconds,
+             result.distance_m, result.distance_m / result.seconds);
   if (!replay->legs.empty()) {
     fmt::print("triggers ");
-    for (std::size_t i = 0; i < replay->legs.size(); ++i) fmt::print(" {} {}", replay->legs[i], replay->triggers[i]);
+    for (std::size_t i = 0; i < replay->legs.size(); ++i)
+      fmt::print(" {} {}", replay->legs[i], replay->triggers[i]);
     fmt::print("\n");
   }
   if (options.record) fmt::print("recorded  {}\n", options.record->string());

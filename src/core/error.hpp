@@ -19,8 +19,8 @@ enum class ExitCode : int {
   interrupted = 7,  ///< stopped by a signal after a checkpoint: `amble resume` goes on
 };
 
-/// A mistake the user can mend. Becomes one line on stderr ("amble: <what>") and the exit code; never a stack trace.
-/// The text names file, line, key and value where there are such, and what was expected.
+/// A mistake the user can mend. Becomes one line on stderr ("amble: <what>") and the exit code; never a stack
+/// trace. The text names file, line, key and value where there are such, and what was expected.
 class UserError : public std::runtime_error {
  public:
   explicit UserError(const std::string& what, ExitCode code = ExitCode::bad_input)

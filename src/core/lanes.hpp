@@ -3,16 +3,17 @@
 #include <cstddef>
 #include <vector>
 
-
 namespace amble {
 
-/// `rows` quantities for each of `lanes` robots that advance together, stored quantity by quantity (structure of
-/// arrays), float32. row(r) is contiguous over the lanes, so that one SIMD instruction serves many robots.
+/// `rows` quantities for each of `lanes` robots that advance together, stored quantity by quantity (structure
+/// of arrays), float32. row(r) is contiguous over the lanes, so that one SIMD instruction serves many robots.
 class LaneArray {
  public:
   LaneArray() = default;
   LaneArray(int rows, int lanes)
-      : rows_(rows), lanes_(lanes), values_(static_cast<std::size_t>(rows) * static_cast<std::size_t>(lanes)) {}
+      : rows_(rows),
+        lanes_(lanes),
+        values_(static_cast<std::size_t>(rows) * static_cast<std::size_t>(lanes)) {}
 
   int rows() const { return rows_; }
   int lanes() const { return lanes_; }

@@ -4,7 +4,8 @@
 
 namespace amble {
 
-/// Three numbers along x, y, z. Units and frame are those of the variable that holds it (docs/CONVENTIONS.md).
+/// Three numbers along x, y, z. Units and frame are those of the variable that holds it
+/// (docs/CONVENTIONS.md).
 struct Vec3 {
   double x = 0.0, y = 0.0, z = 0.0;
 
@@ -15,13 +16,18 @@ struct Vec3 {
   friend bool operator==(const Vec3&, const Vec3&) = default;
 };
 
-inline double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline double dot(Vec3 a, Vec3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 inline Vec3 cross(Vec3 a, Vec3 b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
+inline double norm(Vec3 a) {
+  return std::sqrt(dot(a, a));
+}
 
-/// A rotation as a unit quaternion (w, x, y, z). rotate(q, v) takes v from the rotated frame to the fixed one.
+/// A rotation as a unit quaternion (w, x, y, z). rotate(q, v) takes v from the rotated frame to the fixed
+/// one.
 struct Quat {
   double w = 1.0, x = 0.0, y = 0.0, z = 0.0;
 
@@ -32,7 +38,9 @@ struct Quat {
   friend bool operator==(const Quat&, const Quat&) = default;
 };
 
-inline Quat conjugate(Quat q) { return {q.w, -q.x, -q.y, -q.z}; }
+inline Quat conjugate(Quat q) {
+  return {q.w, -q.x, -q.y, -q.z};
+}
 inline Vec3 rotate(Quat q, Vec3 v) {
   const Vec3 u{q.x, q.y, q.z};
   const Vec3 t = 2.0 * cross(u, v);

@@ -32,9 +32,13 @@ std::uint64_t Stream::next_u64() {
   return high << 32 | next_u32();
 }
 
-double Stream::uniform() { return static_cast<double>(next_u64() >> 11) * 0x1.0p-53; }
+double Stream::uniform() {
+  return static_cast<double>(next_u64() >> 11) * 0x1.0p-53;
+}
 
-double Stream::uniform(double low, double high) { return low + (high - low) * uniform(); }
+double Stream::uniform(double low, double high) {
+  return low + (high - low) * uniform();
+}
 
 std::uint32_t Stream::below(std::uint32_t count) {
   AMBLE_CHECK(count > 0, "below(0) has no value");
@@ -47,7 +51,9 @@ std::uint32_t Stream::below(std::uint32_t count) {
   return static_cast<std::uint32_t>(product >> 32);
 }
 
-bool Stream::chance(double probability) { return uniform() < probability; }
+bool Stream::chance(double probability) {
+  return uniform() < probability;
+}
 
 double Stream::normal() {
   if (has_spare_normal_) {

@@ -16,9 +16,10 @@ enum class Purpose : std::uint32_t {
   bootstrap = 5,
 };
 
-/// A stream of random numbers that depends on its key alone, (seed, purpose, generation, individual), and so on neither
-/// thread nor order of work. Philox4x32-10 (Salmon et al., SC 2011) in counter mode: 2^34 32-bit numbers per stream.
-/// All transforms are our own, because those of the standard library differ between implementations.
+/// A stream of random numbers that depends on its key alone, (seed, purpose, generation, individual), and so
+/// on neither thread nor order of work. Philox4x32-10 (Salmon et al., SC 2011) in counter mode: 2^34 32-bit
+/// numbers per stream. All transforms are our own, because those of the standard library differ between
+/// implementations.
 class Stream {
  public:
   Stream(std::uint64_t seed, Purpose purpose, std::uint32_t generation = 0, std::uint32_t individual = 0);

@@ -7,7 +7,9 @@
 
 namespace amble::experiment {
 
-BuildInfo build_info() { return {AMBLE_VERSION, AMBLE_COMMIT, AMBLE_COMPILER, AMBLE_FLAGS}; }
+BuildInfo build_info() {
+  return {AMBLE_VERSION, AMBLE_COMMIT, AMBLE_COMPILER, AMBLE_FLAGS};
+}
 
 std::string cpu_name() {
   std::ifstream file("/proc/cpuinfo");

@@ -56,12 +56,13 @@ TrialResult parse_result(const io::JsonView& view) {
 }
 
 Problem parse_problem(const io::JsonView& root) {
-  Problem problem{.robot = morphology::from_json(root.at("robot")),
-                  .engine = root.at("engine").text(),
-                  .cppn = io::settings_from_json<cppn::Settings>(root.at("cppn")),
-                  .controller = io::settings_from_json<controllers::ControllerSettings>(root.at("controller")),
-                  .trial = io::settings_from_json<trial::Settings>(root.at("trial")),
-                  .architecture = nullptr};
+  Problem problem{
+      .robot = morphology::from_json(root.at("robot")),
+      .engine = root.at("engine").text(),
+      .cppn = io::settings_from_json<cppn::Settings>(root.at("cppn")),
+      .controller = io::settings_from_json<controllers::ControllerSettings>(root.at("controller")),
+      .trial = io::settings_from_json<trial::Settings>(root.at("trial")),
+      .architecture = nullptr};
   problem.complete();
   return problem;
 }

@@ -21,7 +21,8 @@ struct TrialResult {
 };
 TrialResult summarise(const record::Trajectory& trajectory);
 
-/// A genome worth keeping, with all that is needed to run it again: robot, controller, trial, engine. Self-contained.
+/// A genome worth keeping, with all that is needed to run it again: robot, controller, trial, engine.
+/// Self-contained.
 struct Champion {
   std::string experiment;  ///< Config::name of its run
   std::int64_t seed = 0;
@@ -41,7 +42,8 @@ struct LoadedChampion {
   bool altered = false;  ///< the checksum did not fit (only where that is accepted)
 };
 
-/// Throws UserError: (bad_file) foreign, truncated, altered, of another version, or a genome that is not sound.
+/// Throws UserError: (bad_file) foreign, truncated, altered, of another version, or a genome that is not
+/// sound.
 LoadedChampion parse_champion(const std::string& text, const std::string& what,
                               io::Altered altered = io::Altered::refuse);
 Champion load_champion(const std::filesystem::path& path);

@@ -36,14 +36,21 @@ void save_checkpoint(const std::filesystem::path& path, const Config& config, co
   io::write_file(path, io::seal(magic, version, writer.bytes()));
 }
 
-Progress load_checkpoint(const std::filesystem::path& path, const Config& config, neat::Population& population,
-                         search::Search& search) {
+Progress load_checkpoint(const std::filesystem::path& path, const Config& config,
+                         neat::Population& population, search::Search& search) {
   const std::string what = path.string();
   const std::string bytes = io::read_file(path);
-  io::BinaryReader reader(io::unseal(magic, version, bytes, what), what);
-  if (reader.get<std::uint64_t>() != config_hash(config))
-    fail(ExitCode::bad_file, "{}: written under another config.toml than the one beside it; restore that, or start a new run",
+  const std::string_view payload = io::unseal(magic, version, bytes, what);
+  if (io::BinaryReader(payload, what).get<std::uint64_t>() != config_hash(config))
+    fail(ExitCode::bad_file,
+         "{}: written under another config.toml than the one beside it; restore that, or start a new run",
          what);
+  return load_progress(payload.substr(sizeof(std::uint64_t)), what, population, search);
+}
+
+Progress load_progress(std::string_view payload, const std::string& what, neat::Population& population,
+                       search::Search& search) {
+  io::BinaryReader reader(payload, what);
   Progress progress;
   progress.best_m = reader.get<double>();
   progress.best_generation = reader.get<std::int32_t>();

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "amble/experiment/config.hpp"
 #include "amble/neat/population.hpp"
@@ -11,11 +13,11 @@ namespace amble::experiment {
 
 /// How far a run has come.
 struct Progress {
-  double best_m = -1.0;        ///< best distance so far; −1 before the first generation
+  double best_m = -1.0;  ///< best distance so far; −1 before the first generation
   int best_generation = -1;
   std::uint64_t evaluations = 0;
   std::uint64_t steps = 0;
-  double wall_s = 0.0;         ///< over all processes that worked on the run
+  double wall_s = 0.0;          ///< over all processes that worked on the run
   std::uint64_t csv_bytes = 0;  ///< length of generations.csv at this moment
 };
 
@@ -23,9 +25,13 @@ struct Progress {
 void save_checkpoint(const std::filesystem::path& path, const Config& config, const Progress& progress,
                      const neat::Population& population, const search::Search& search);
 
-/// Restores what save_checkpoint wrote. Throws UserError(ExitCode::bad_file): foreign, of another version, truncated, altered, or
-/// written under another config than this (the number of generations may differ).
-Progress load_checkpoint(const std::filesystem::path& path, const Config& config, neat::Population& population,
-                         search::Search& search);
+/// Restores what save_checkpoint wrote. Throws UserError(ExitCode::bad_file): foreign, of another version,
+/// truncated, altered, or written under another config than this (the number of generations may differ).
+Progress load_checkpoint(const std::filesystem::path& path, const Config& config,
+                         neat::Population& population, search::Search& search);
+
+/// The part of load_checkpoint behind the seal and the config's hash.
+Progress load_progress(std::string_view payload, const std::string& what, neat::Population& population,
+                       search::Search& search);
 
 }  // namespace amble::experiment

@@ -15,7 +15,8 @@
 
 namespace amble::experiment {
 
-/// Everything that decides the result of a run, but for the robot's own data. docs/SETTINGS.md lists each key with its source.
+/// Everything that decides the result of a run, but for the robot's own data. docs/SETTINGS.md lists each key
+/// with its source.
 struct Config {
   std::string name = "unnamed";
   std::string robot;  ///< robot file (TOML side file, or robot.json of a run folder)

@@ -18,8 +18,8 @@ struct GenerationResult {
   double physics_s = 0.0;  ///< time in the engine, mean over the workers
 };
 
-/// Evaluates populations on several threads, each with an engine and a batch of controllers of its own. Which worker
-/// evaluates what depends on timing; the results do not.
+/// Evaluates populations on several threads, each with an engine and a batch of controllers of its own. Which
+/// worker evaluates what depends on timing; the results do not.
 class Evaluator {
  public:
   /// `jobs` >= 1 workers. `path_stride`: see trial::Protocol. The problem must outlive the evaluator.
@@ -27,7 +27,8 @@ class Evaluator {
   ~Evaluator();
 
   /// Nothing if `stop` was set before all trials had ended.
-  std::optional<GenerationResult> evaluate(std::span<const neat::Genome> genomes, const std::atomic<bool>& stop);
+  std::optional<GenerationResult> evaluate(std::span<const neat::Genome> genomes,
+                                           const std::atomic<bool>& stop);
 
  private:
   struct Shared;

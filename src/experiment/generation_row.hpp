@@ -9,7 +9,8 @@
 
 namespace amble::experiment {
 
-/// One line of generations.csv. All columns but the last three (times) are the same bits for any number of workers.
+/// One line of generations.csv. All columns but the last three (times) are the same bits for any number of
+/// workers.
 struct GenerationRow {
   int generation = 0;
   double best_m = 0.0, best_so_far_m = 0.0, mean_m = 0.0, median_m = 0.0;
@@ -17,9 +18,9 @@ struct GenerationRow {
   int best_hidden = 0, best_links = 0;  ///< of this generation's best genome
   int fell = 0, diverged = 0;
   std::uint64_t evaluations = 0, steps = 0;  ///< of this generation
-  double wall_s = 0.0;     ///< since the row before, files included
-  double physics_s = 0.0;  ///< of which in the engine, mean over the workers
-  double outside_s = 0.0;  ///< and not
+  double wall_s = 0.0;                       ///< since the row before, files included
+  double physics_s = 0.0;                    ///< of which in the engine, mean over the workers
+  double outside_s = 0.0;                    ///< and not
 };
 
 /// Names of the columns, one line.

@@ -15,7 +15,8 @@
 
 namespace amble::experiment {
 
-/// All that a genome needs to become a trajectory: robot, engine, architecture, trial. Const, shared by all workers.
+/// All that a genome needs to become a trajectory: robot, engine, architecture, trial. Const, shared by all
+/// workers.
 struct Problem {
   morphology::RobotSpec robot;
   std::string engine;
@@ -24,7 +25,8 @@ struct Problem {
   trial::Settings trial;
   std::shared_ptr<const controllers::Architecture> architecture;
 
-  /// Throws UserError where the parts do not fit together (an engine that cannot simulate the robot, a controller for other legs).
+  /// Throws UserError where the parts do not fit together (an engine that cannot simulate the robot, a
+  /// controller for other legs).
   static Problem make(const Config& config, morphology::RobotSpec robot);
   /// Makes `architecture` from the other members and checks that they fit.
   void complete();

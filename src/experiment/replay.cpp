@@ -5,8 +5,8 @@
 
 namespace amble::experiment {
 
-std::optional<Replay> replay(const Problem& original, const neat::Genome& genome, const ReplayOptions& options,
-                             const std::atomic<bool>& stop) {
+std::optional<Replay> replay(const Problem& original, const neat::Genome& genome,
+                             const ReplayOptions& options, const std::atomic<bool>& stop) {
   Problem problem = original;
   if (options.seconds) problem.trial.duration_s = *options.seconds;
   if (options.engine) problem.engine = *options.engine;
@@ -24,8 +24,8 @@ std::optional<Replay> replay(const Problem& original, const neat::Genome& genome
   observers.add(triggers);
   if (options.record) {
     recording.emplace(*options.record, problem.robot, *controllers, problem.trial.timestep_s,
-                      morphology::to_json(problem.robot).dump(), problem.architecture->parameters_json(*parameters),
-                      options.origin);
+                      morphology::to_json(problem.robot).dump(),
+                      problem.architecture->parameters_json(*parameters), options.origin);
     observers.add(*recording);
   }
 

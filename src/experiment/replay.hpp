@@ -27,7 +27,8 @@ struct Replay {
   double physics_s = 0.0;              ///< time spent in the engine
 };
 
-/// One trial of one genome. Nothing if `stop` was set before it ended (then nothing is recorded). Throws UserError.
+/// One trial of one genome. Nothing if `stop` was set before it ended (then nothing is recorded). Throws
+/// UserError.
 std::optional<Replay> replay(const Problem& problem, const neat::Genome& genome, const ReplayOptions& options,
                              const std::atomic<bool>& stop);
 

@@ -104,7 +104,8 @@ double Run::keep_champion(const GenerationResult& result, std::size_t best) {
                     .trace = {}};
   const auto again = replay(*problem_, champion.genome, {}, to_the_end);
   if (again->result.distance_m != champion.result.distance_m)
-    fail(ExitCode::differs, "generation {}: the champion walked {} m, and {} m when run again: the engine does not repeat",
+    fail(ExitCode::differs,
+         "generation {}: the champion walked {} m, and {} m when run again: the engine does not repeat",
          champion.generation, champion.result.distance_m, again->result.distance_m);
   champion.trace = again->trace;
   folder_.save_champion(champion);

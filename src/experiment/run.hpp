@@ -26,8 +26,8 @@ class RunListener {
 
 enum class RunStatus { finished, interrupted };
 
-/// One evolutionary run in its folder. After every generation all files are on the disk, and a checkpoint from which the
-/// run goes on to the same bits as if it had never stopped.
+/// One evolutionary run in its folder. After every generation all files are on the disk, and a checkpoint
+/// from which the run goes on to the same bits as if it had never stopped.
 class Run {
  public:
   /// A new run. Throws UserError; then nothing was written over.
@@ -35,7 +35,8 @@ class Run {
   /// Goes on with an old one, to `generations` if given. Throws UserError.
   static Run resume(const std::filesystem::path& folder, std::optional<int> generations, int jobs);
 
-  /// Until all generations are done, or `stop` is set: then the generation in flight is dropped and the checkpoint stands.
+  /// Until all generations are done, or `stop` is set: then the generation in flight is dropped and the
+  /// checkpoint stands.
   RunStatus execute(RunListener& listener, const std::atomic<bool>& stop);
 
   const Config& config() const { return config_; }

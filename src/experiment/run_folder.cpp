@@ -35,18 +35,25 @@ void make_folder(const fs::path& folder) {
 /// Before anything is made or locked: a folder that is in use stays as it is.
 void refuse_used_folder(const fs::path& folder) {
   if (!fs::exists(folder)) return;
-  if (!fs::is_directory(folder)) fail(ExitCode::bad_input, "--out {}: a file of that name exists", folder.string());
+  if (!fs::is_directory(folder))
+    fail(ExitCode::bad_input, "--out {}: a file of that name exists", folder.string());
   if (is_run_folder(folder))
-    fail(ExitCode::bad_input, "--out {0}: holds a run already; go on with it by `amble resume {0}`, or name another folder",
+    fail(ExitCode::bad_input,
+         "--out {0}: holds a run already; go on with it by `amble resume {0}`, or name another folder",
          folder.string());
   if (!holds_nothing(folder))
     fail(ExitCode::bad_input, "--out {}: not empty and not a run; name another folder", folder.string());
 }
 
 io::Json process_json(const ProcessNote& note) {
-  return {{"started_utc", note.started_utc}, {"amble", note.version}, {"commit", note.commit},
-          {"compiler", note.compiler},       {"flags", note.flags},   {"cpu", note.cpu},
-          {"jobs", note.jobs},               {"from_generation", note.from_generation}};
+  return {{"started_utc", note.started_utc},
+          {"amble", note.version},
+          {"commit", note.commit},
+          {"compiler", note.compiler},
+          {"flags", note.flags},
+          {"cpu", note.cpu},
+          {"jobs", note.jobs},
+          {"from_generation", note.from_generation}};
 }
 
 }  // namespace
@@ -60,7 +67,9 @@ RunPaths::RunPaths(const fs::path& folder_in)
       checkpoint(folder / "checkpoint.bin"),
       champions(folder / "champions") {}
 
-fs::path RunPaths::champion(int generation) const { return champions / fmt::format("{:05}.json", generation); }
+fs::path RunPaths::champion(int generation) const {
+  return champions / fmt::format("{:05}.json", generation);
+}
 
 std::vector<fs::path> RunPaths::champion_files() const {
   std::vector<fs::path> files;
@@ -85,7 +94,8 @@ bool is_run_folder(const fs::path& folder) {
 RunFolder::RunFolder(const fs::path& folder)
     : paths_(folder), lock_(std::make_unique<io::FolderLock>(folder)) {}
 
-RunFolder RunFolder::create(const fs::path& folder, const Config& config, const morphology::RobotSpec& robot) {
+RunFolder RunFolder::create(const fs::path& folder, const Config& config,
+                            const morphology::RobotSpec& robot) {
   refuse_used_folder(folder);
   make_folder(folder);
   RunFolder run(folder);
@@ -98,11 +108,14 @@ RunFolder RunFolder::create(const fs::path& folder, const Config& config, const 
 
 RunFolder RunFolder::open(const fs::path& folder) {
   if (!fs::is_directory(folder)) fail(ExitCode::io, "{}: no such folder", folder.string());
-  if (!is_run_folder(folder)) fail(ExitCode::bad_input, "{}: not a run folder (no config.toml)", folder.string());
+  if (!is_run_folder(folder))
+    fail(ExitCode::bad_input, "{}: not a run folder (no config.toml)", folder.string());
   return RunFolder(folder);
 }
 
-Config RunFolder::load_config() const { return experiment::load_config(paths_.config, {}); }
+Config RunFolder::load_config() const {
+  return experiment::load_config(paths_.config, {});
+}
 
 void RunFolder::save_config(const Config& config) const {
   Config saved = config;
@@ -110,7 +123,9 @@ void RunFolder::save_config(const Config& config) const {
   io::write_file(paths_.config, saved.to_toml());
 }
 
-morphology::RobotSpec RunFolder::load_robot() const { return load_robot_file(paths_.robot); }
+morphology::RobotSpec RunFolder::load_robot() const {
+  return load_robot_file(paths_.robot);
+}
 
 void RunFolder::save_champion(const Champion& champion) const {
   io::write_file(paths_.champion(champion.generation), champion_text(champion));

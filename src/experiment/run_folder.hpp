@@ -36,8 +36,8 @@ struct ProcessNote {
 /// A run folder held by this process alone.
 class RunFolder {
  public:
-  /// Makes the folder and writes config.toml and robot.json. Throws UserError: the folder holds a run or anything else, is
-  /// locked, or cannot be written; then nothing in it was changed.
+  /// Makes the folder and writes config.toml and robot.json. Throws UserError: the folder holds a run or
+  /// anything else, is locked, or cannot be written; then nothing in it was changed.
   static RunFolder create(const std::filesystem::path& folder, const Config& config,
                           const morphology::RobotSpec& robot);
   /// Takes hold of the folder of an earlier run. Throws UserError if it is none, or locked.

@@ -45,7 +45,8 @@ std::optional<Verdict> verify_champion(const std::filesystem::path& path, const 
     auto found = differences(champion, *again);
     if (altered) found.insert(found.begin(), "the file was altered (checksum)");
     if (found.empty())
-      return Verdict{true, fmt::format("agrees: {:.3f} m, {} steps", again->result.distance_m, again->result.steps)};
+      return Verdict{
+          true, fmt::format("agrees: {:.3f} m, {} steps", again->result.distance_m, again->result.steps)};
     return Verdict{false, fmt::format("differs: {}", fmt::join(found, "; "))};
   } catch (const UserError& error) {
     return Verdict{false, fmt::format("unsound: {}", error.what())};

@@ -13,8 +13,8 @@ struct Verdict {
   std::string text;  ///< "agrees: …" or "differs: …" with the first step that does
 };
 
-/// Runs the champion of a file again, step by step against its trace. An altered or unsound file is a verdict, not an error.
-/// Nothing if `stop` was set. Throws UserError if the file cannot be read at all.
+/// Runs the champion of a file again, step by step against its trace. An altered or unsound file is a
+/// verdict, not an error. Nothing if `stop` was set. Throws UserError if the file cannot be read at all.
 std::optional<Verdict> verify_champion(const std::filesystem::path& path, const std::atomic<bool>& stop);
 
 }  // namespace amble::experiment

@@ -1,5 +1,7 @@
 #include "amble/morphology/model_file.hpp"
 
+#include <mujoco/mujoco.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -64,7 +66,9 @@ class FatalComplaint : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-void throw_complaint(const char* text) { throw FatalComplaint(text); }
+void throw_complaint(const char* text) {
+  throw FatalComplaint(text);
+}
 void ignore_warning(const char*) {}
 
 mjModel* load(const std::filesystem::path& path, const mjVFS* files) {
@@ -84,6 +88,10 @@ mjModel* load(const std::filesystem::path& path, const mjVFS* files) {
 }
 
 }  // namespace
+
+void DeleteModel::operator()(mjModel_* model) const {
+  mj_deleteModel(model);
+}
 
 ModelFile compile_model(const std::filesystem::path& path) {
   ModelFile compiled;

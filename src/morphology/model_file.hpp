@@ -1,19 +1,19 @@
 #pragma once
 
-#include <mujoco/mujoco.h>
-
 #include <filesystem>
 #include <memory>
+
+struct mjModel_;  // MuJoCo's mjModel
 
 namespace amble::morphology {
 
 struct DeleteModel {
-  void operator()(mjModel* model) const { mj_deleteModel(model); }
+  void operator()(mjModel_* model) const;
 };
 
 /// A robot's model as MuJoCo's compiler understood it.
 struct ModelFile {
-  std::unique_ptr<mjModel, DeleteModel> model;
+  std::unique_ptr<mjModel_, DeleteModel> model;
   std::filesystem::path path;
   bool root_is_welded = false;  ///< URDF cannot say that the root link moves freely: it hangs on the world
 };

@@ -1,5 +1,7 @@
 #include "amble/morphology/model_parts.hpp"
 
+#include <mujoco/mujoco.h>
+
 #include <array>
 #include <cmath>
 #include <map>

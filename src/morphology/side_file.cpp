@@ -97,8 +97,8 @@ class SideFileReader {
     check_names("joint_types", side_.joint_types);
     for (const std::string& leg : side_.legs) {
       if (std::find(side_.joint_types.begin(), side_.joint_types.end(), leg) != side_.joint_types.end()) {
-        fail(ExitCode::bad_input, "{}: 'legs' and 'joint_types' both name '{}'",
-             document_.where("legs"), leg);
+        fail(ExitCode::bad_input, "{}: 'legs' and 'joint_types' both name '{}'", document_.where("legs"),
+             leg);
       }
     }
   }
@@ -110,8 +110,7 @@ class SideFileReader {
       if (repeated)
         fail(ExitCode::bad_input, "{}: '{}' names '{}' twice", document_.where(key), key, names[i]);
       if (names[i].empty() || names[i] == "foot" || names[i] == "joint") {
-        fail(ExitCode::bad_input, "{}: '{}' must not use the name '{}'", document_.where(key), key,
-             names[i]);
+        fail(ExitCode::bad_input, "{}: '{}' must not use the name '{}'", document_.where(key), key, names[i]);
       }
     }
   }

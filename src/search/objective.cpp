@@ -10,7 +10,8 @@ std::vector<neat::Fitness> ObjectiveSearch::judge(std::span<const Evaluation> ge
   std::vector<neat::Fitness> fitness;
   fitness.reserve(generation.size());
   for (const Evaluation& evaluation : generation) {
-    AMBLE_CHECK(std::isfinite(evaluation.objective) && evaluation.objective >= 0.0, "objectives are finite and >= 0");
+    AMBLE_CHECK(std::isfinite(evaluation.objective) && evaluation.objective >= 0.0,
+                "objectives are finite and >= 0");
     fitness.push_back({.selection = evaluation.objective, .objective = evaluation.objective});
   }
   return fitness;

@@ -20,13 +20,15 @@ struct Settings {
   void describe(io::SettingsVisitor& visitor);
 };
 
-/// What became of one genome, in the search's terms: how good it was, and what it did. Of what kind is not its business.
+/// What became of one genome, in the search's terms: how good it was, and what it did. Of what kind is not
+/// its business.
 struct Evaluation {
-  double objective = 0.0;  ///< ≥ 0, finite; more is better
+  double objective = 0.0;            ///< ≥ 0, finite; more is better
   std::span<const float> behaviour;  ///< same length for all; may be empty for searches that do not need it
 };
 
-/// Turns evaluations into the fitness that selects parents. Belongs to one thread; all state is in save() and load().
+/// Turns evaluations into the fitness that selects parents. Belongs to one thread; all state is in save() and
+/// load().
 class Search {
  public:
   virtual ~Search() = default;

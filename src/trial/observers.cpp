@@ -5,9 +5,10 @@
 namespace amble::trial {
 namespace {
 
-record::RecordingHeader recording_header(const morphology::RobotSpec& robot, const controllers::Batch& controllers,
-                                         double frame_s, const std::string& robot_json,
-                                         const std::string& controller_json, const std::string& origin) {
+record::RecordingHeader recording_header(const morphology::RobotSpec& robot,
+                                         const controllers::Batch& controllers, double frame_s,
+                                         const std::string& robot_json, const std::string& controller_json,
+                                         const std::string& origin) {
   std::vector<std::string> joints, legs;
   for (const auto& joint : robot.joints) joints.push_back(joint.name);
   for (const auto& leg : robot.legs) legs.push_back(leg.name);
@@ -39,8 +40,8 @@ TriggerObserver::TriggerObserver(const controllers::Batch& controllers) {
   counts_.resize(legs_.size());
 }
 
-void TriggerObserver::on_step(int, const physics::Engine&, const controllers::Batch& controllers, const LaneArray&,
-                              int lane) {
+void TriggerObserver::on_step(int, const physics::Engine&, const controllers::Batch& controllers,
+                              const LaneArray&, int lane) {
   if (legs_.empty()) return;
   controllers.state(lane, state_);
   for (std::size_t i = 0; i < columns_.size(); ++i) counts_[i] += state_[columns_[i]] > 0.5f;

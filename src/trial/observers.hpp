@@ -11,7 +11,8 @@
 
 namespace amble::trial {
 
-/// One hash per step of a trial: 32 bits of the engine's state hash. Names the first step at which two trials differ.
+/// One hash per step of a trial: 32 bits of the engine's state hash. Names the first step at which two trials
+/// differ.
 class TraceObserver : public Observer {
  public:
   void on_step(int step, const physics::Engine& engine, const controllers::Batch& controllers,

@@ -17,10 +17,13 @@ void Settings::describe(io::SettingsVisitor& visitor) {
 void Settings::validate() const {
   const double exact = duration_s / timestep_s;
   if (exact < 0.5 || exact > 1e9 || std::abs(exact - std::round(exact)) > 1e-6 * exact)
-    fail(ExitCode::bad_input, "trial.duration_s = {}: expected a whole number of timesteps of {} s, at most 1e9",
-         duration_s, timestep_s);
+    fail(ExitCode::bad_input,
+         "trial.duration_s = {}: expected a whole number of timesteps of {} s, at most 1e9", duration_s,
+         timestep_s);
 }
 
-int Settings::steps() const { return static_cast<int>(std::lround(duration_s / timestep_s)); }
+int Settings::steps() const {
+  return static_cast<int>(std::lround(duration_s / timestep_s));
+}
 
 }  // namespace amble::trial

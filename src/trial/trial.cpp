@@ -83,7 +83,8 @@ std::optional<record::Outcome> Runner::advance(int lane) {
     trajectory.com_path_m.push_back(static_cast<float>(moved.x));
     trajectory.com_path_m.push_back(static_cast<float>(moved.y));
   }
-  if (slot.task.observer) slot.task.observer->on_step(trajectory.steps, engine_, controllers_, targets_rad_, lane);
+  if (slot.task.observer)
+    slot.task.observer->on_step(trajectory.steps, engine_, controllers_, targets_rad_, lane);
 
   if (engine_.root_com_m(lane).z < protocol_.fall_height_m) return record::Outcome::fell;
   if (trajectory.steps == protocol_.steps) return record::Outcome::completed;

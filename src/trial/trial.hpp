@@ -18,7 +18,8 @@ namespace amble::trial {
 class Observer {
  public:
   virtual ~Observer() = default;
-  /// After every step of a robot that is healthy, the last included. `step` counts from 1. `targets_rad` are those of this step.
+  /// After every step of a robot that is healthy, the last included. `step` counts from 1. `targets_rad` are
+  /// those of this step.
   virtual void on_step(int step, const physics::Engine& engine, const controllers::Batch& controllers,
                        const LaneArray& targets_rad, int lane) = 0;
 };
@@ -30,8 +31,8 @@ struct Task {
   Observer* observer = nullptr;  ///< not owned, may be null
 };
 
-/// Where trials come from and where their results go. Shared by workers: both functions may be called from several
-/// threads at once.
+/// Where trials come from and where their results go. Shared by workers: both functions may be called from
+/// several threads at once.
 class TaskQueue {
  public:
   virtual ~TaskQueue() = default;
@@ -48,13 +49,15 @@ struct Protocol {
   double fall_height_m = 0.0;
 };
 
-/// Runs trials on one engine, as many at a time as it has lanes; a lane whose trial has ended takes the next task at once. What a
-/// trial gives depends on its own controller alone, not on lane, company or order. Belongs to one thread.
+/// Runs trials on one engine, as many at a time as it has lanes; a lane whose trial has ended takes the next
+/// task at once. What a trial gives depends on its own controller alone, not on lane, company or order.
+/// Belongs to one thread.
 class Runner {
  public:
   Runner(physics::Engine& engine, controllers::Batch& controllers, const Protocol& protocol);
 
-  /// Until the queue is empty and the last trial has ended, or `stop` is set (then trials in flight are dropped).
+  /// Until the queue is empty and the last trial has ended, or `stop` is set (then trials in flight are
+  /// dropped).
   void run(TaskQueue& queue, const std::atomic<bool>& stop);
 
   /// Steps simulated, and time spent in the engine, since the runner was made.

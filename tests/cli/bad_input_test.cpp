@@ -93,7 +93,8 @@ TEST_F(BadInput, UnknownChoice) {
 }
 
 TEST_F(BadInput, UnknownEngine) {
-  expect_complaint({"evolve", config, "--set", "engine=newton", "--out", out_}, ExitCode::bad_input, "newton");
+  expect_complaint({"evolve", config, "--set", "engine=newton", "--out", out_}, ExitCode::bad_input,
+                   "newton");
 }
 
 TEST_F(BadInput, SyntaxErrorWithLineAndColumn) {
@@ -112,9 +113,7 @@ TEST_F(BadInput, MissingRobot) {
 
 class BadRobot : public BadInput {
  protected:
-  BadRobot() {
-    fs::copy(source + "/robots/quadruped", scratch_.path / "robot");
-  }
+  BadRobot() { fs::copy(source + "/robots/quadruped", scratch_.path / "robot"); }
   void replace(const std::string& file, const std::string& what, const std::string& with) {
     auto text = slurp(scratch_.path / "robot" / file);
     const auto at = text.find(what);
@@ -201,7 +200,8 @@ TEST_F(BadInput, RunWhoseConfigWasEdited) {
   const auto at = text.find("add_node_share = 0.01");
   ASSERT_NE(at, std::string::npos);
   spill(path, text.replace(at, 21, "add_node_share = 0.02"));
-  expect_complaint({"resume", run_, "--generations", "3"}, ExitCode::bad_file, "written under another config.toml");
+  expect_complaint({"resume", run_, "--generations", "3"}, ExitCode::bad_file,
+                   "written under another config.toml");
 }
 
 TEST_F(BadInput, FolderThatIsNoRun) {
@@ -214,7 +214,8 @@ TEST_F(BadInput, FolderThatIsNoRun) {
 TEST_F(BadInput, TrialOfNoWholeNumberOfSteps) {
   make_run();
   const auto champion = fs::directory_iterator(fs::path(run_) / "champions")->path().string();
-  expect_complaint({"trial", champion, "--seconds", "1.0001"}, ExitCode::bad_input, "whole number of timesteps");
+  expect_complaint({"trial", champion, "--seconds", "1.0001"}, ExitCode::bad_input,
+                   "whole number of timesteps");
   expect_complaint({"trial", champion, "--seconds", "-1"}, ExitCode::bad_input, "--seconds");
 }
 
@@ -228,8 +229,8 @@ TEST_F(BadInput, FullDiskLeavesARunThatGoesOnLater) {
   fs::create_directories(disk);
   if (mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=400k") != 0) GTEST_SKIP() << "needs the right to mount";
   const auto run = (disk / "run").string();
-  const auto full = amble({"evolve", config, "--set", "population.size=40", "--set", "trial.duration_s=0.2", "--generations",
-                           "2000", "--out", run});
+  const auto full = amble({"evolve", config, "--set", "population.size=40", "--set", "trial.duration_s=0.2",
+                           "--generations", "2000", "--out", run});
   EXPECT_EQ(full.exit_code, static_cast<int>(ExitCode::io)) << full.err;
   EXPECT_THAT(full.err, HasSubstr("No space left on device"));
   const auto moved = scratch_ / "moved";

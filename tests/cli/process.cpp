@@ -46,7 +46,9 @@ Process::~Process() {
   std::filesystem::remove(err_, none);
 }
 
-void Process::signal(int number) const { kill(pid_, number); }
+void Process::signal(int number) const {
+  kill(pid_, number);
+}
 
 Finished Process::wait() {
   int status = 0;
@@ -58,9 +60,13 @@ Finished Process::wait() {
   return finished;
 }
 
-Finished amble(const std::vector<std::string>& arguments) { return Process(arguments).wait(); }
+Finished amble(const std::vector<std::string>& arguments) {
+  return Process(arguments).wait();
+}
 
-ScratchFolder::ScratchFolder() : path(scratch_name()) { std::filesystem::create_directories(path); }
+ScratchFolder::ScratchFolder() : path(scratch_name()) {
+  std::filesystem::create_directories(path);
+}
 
 ScratchFolder::~ScratchFolder() {
   std::error_code none;
@@ -90,7 +96,8 @@ std::string without_times(const std::string& csv) {
 
 std::string all_champions(const std::filesystem::path& run) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(run / "champions")) files.push_back(entry.path());
+  for (const auto& entry : std::filesystem::directory_iterator(run / "champions"))
+    files.push_back(entry.path());
   std::ranges::sort(files);
   std::string all;
   for (const auto& file : files) all += file.filename().string() + "\n" + slurp(file);

@@ -18,9 +18,13 @@ constexpr int ok = static_cast<int>(ExitCode::ok), interrupted = static_cast<int
 
 /// A run of a second or two: small population, short trials.
 Arguments evolve(const std::string& out, int generations, int jobs) {
-  return {"evolve", std::string(AMBLE_SOURCE_DIR) + "/configs/authors/supg-objective.toml", "--set",
-          "population.size=40", "--set", "trial.duration_s=1", "--seed", "1", "--generations",
-          std::to_string(generations), "--jobs", std::to_string(jobs), "--out", out};
+  return {"evolve",        std::string(AMBLE_SOURCE_DIR) + "/configs/authors/supg-objective.toml",
+          "--set",         "population.size=40",
+          "--set",         "trial.duration_s=1",
+          "--seed",        "1",
+          "--generations", std::to_string(generations),
+          "--jobs",        std::to_string(jobs),
+          "--out",         out};
 }
 
 /// Waits until the run's table has that many generations.
@@ -82,7 +86,8 @@ TEST_P(StopSignal, EndsARunWithItsOwnExitCodeAndACheckpointToGoOnFrom) {
   process.signal(GetParam());
   const auto finished = process.wait();
   EXPECT_EQ(finished.exit_code, interrupted);
-  EXPECT_NE(finished.err.find("go on by: amble resume " + scratch / "run"), std::string::npos) << finished.err;
+  EXPECT_NE(finished.err.find("go on by: amble resume " + scratch / "run"), std::string::npos)
+      << finished.err;
   const auto csv = slurp(scratch.path / "run/generations.csv");
   const auto rows = std::count(csv.begin(), csv.end(), '\n') - 1;
   const auto resumed = amble({"resume", scratch / "run", "--generations", std::to_string(rows + 1)});
@@ -117,8 +122,9 @@ TEST(Verify, AgreesOnAnUntouchedRunAndNamesTheStepAfterOneWeightIsAltered) {
   spill(champion, text.replace(weight, end - weight, "\"weight\": 0.75"));
   const auto altered = amble({"verify", scratch / "run"});
   EXPECT_EQ(altered.exit_code, differs);
-  EXPECT_NE(altered.out.find(champion.string() + " differs: the file was altered (checksum); first differing step"),
-            std::string::npos)
+  EXPECT_NE(
+      altered.out.find(champion.string() + " differs: the file was altered (checksum); first differing step"),
+      std::string::npos)
       << altered.out;
 }
 

@@ -29,9 +29,10 @@ TEST(Quat, ProductRotatesByTheRightFactorFirst) {
 TEST(RollPitchYaw, RecoversRandomAngles) {
   Stream stream(1, Purpose::test);
   for (int i = 0; i < 1000; ++i) {
-    const double roll = stream.uniform(-pi, pi), pitch = stream.uniform(-1.5, 1.5), yaw = stream.uniform(-pi, pi);
-    const auto angles =
-        roll_pitch_yaw(axis_angle({0, 0, 1}, yaw) * axis_angle({0, 1, 0}, pitch) * axis_angle({1, 0, 0}, roll));
+    const double roll = stream.uniform(-pi, pi), pitch = stream.uniform(-1.5, 1.5),
+                 yaw = stream.uniform(-pi, pi);
+    const auto angles = roll_pitch_yaw(axis_angle({0, 0, 1}, yaw) * axis_angle({0, 1, 0}, pitch) *
+                                       axis_angle({1, 0, 0}, roll));
     EXPECT_NEAR(angles.roll, roll, 1e-9);
     EXPECT_NEAR(angles.pitch, pitch, 1e-9);
     EXPECT_NEAR(angles.yaw, yaw, 1e-9);

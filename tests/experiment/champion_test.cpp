@@ -15,14 +15,15 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 Champion some_champion() {
-  Champion champion{.experiment = "test",
-                    .seed = 7,
-                    .generation = 12,
-                    .index = 3,
-                    .problem = small_problem(),
-                    .genome = {},
-                    .result = {.distance_m = 0.1 + 0.2, .steps = 77, .seconds = 0.77, .outcome = record::Outcome::fell},
-                    .trace = {0, 1, 0xffffffffu, 0x1234abcdu}};
+  Champion champion{
+      .experiment = "test",
+      .seed = 7,
+      .generation = 12,
+      .index = 3,
+      .problem = small_problem(),
+      .genome = {},
+      .result = {.distance_m = 0.1 + 0.2, .steps = 77, .seconds = 0.77, .outcome = record::Outcome::fell},
+      .trace = {0, 1, 0xffffffffu, 0x1234abcdu}};
   champion.genome = small_population(champion.problem).genomes()[5];
   return champion;
 }
@@ -107,9 +108,14 @@ TEST(Champion, ReaderThrowsNothingButUserErrorsUnderRandomDamage) {
     for (std::uint32_t i = 0; i < 1 + stream.below(8); ++i) {
       const std::size_t at = stream.below(static_cast<std::uint32_t>(damaged.size()));
       switch (stream.below(3)) {
-        case 0: damaged[at] = static_cast<char>(stream.below(256)); break;
-        case 1: damaged.erase(at, 1 + stream.below(40)); break;
-        default: damaged.insert(at, text.substr(stream.below(1000), stream.below(40)));
+        case 0:
+          damaged[at] = static_cast<char>(stream.below(256));
+          break;
+        case 1:
+          damaged.erase(at, 1 + stream.below(40));
+          break;
+        default:
+          damaged.insert(at, text.substr(stream.below(1000), stream.below(40)));
       }
     }
     try {

@@ -19,8 +19,13 @@ class Checkpoint : public testing::Test {
  protected:
   Checkpoint() {
     for (int i = 0; i < 3; ++i) population_.advance(some_fitness());
-    save_checkpoint(path_, config_, {.best_m = 2.5, .best_generation = 1, .evaluations = 120, .steps = 9999, .wall_s = 1.5,
-                                     .csv_bytes = 321},
+    save_checkpoint(path_, config_,
+                    {.best_m = 2.5,
+                     .best_generation = 1,
+                     .evaluations = 120,
+                     .steps = 9999,
+                     .wall_s = 1.5,
+                     .csv_bytes = 321},
                     population_, *search_);
     bytes_ = io::read_file(path_);
   }
@@ -34,7 +39,9 @@ class Checkpoint : public testing::Test {
     return fitness;
   }
 
-  Progress load(neat::Population& population) const { return load_checkpoint(path_, config_, population, *search_); }
+  Progress load(neat::Population& population) const {
+    return load_checkpoint(path_, config_, population, *search_);
+  }
 
   /// The message when these bytes are loaded; "" if they are accepted.
   std::string complaint(const std::string& bytes) {
@@ -103,7 +110,8 @@ TEST_F(Checkpoint, ReaderThrowsNothingButUserErrorsForDamageUnderAValidChecksum)
     Stream stream(1, Purpose::test, 1, round);
     std::string payload = bytes_.substr(header);
     for (std::uint32_t i = 0; i < 1 + stream.below(6); ++i)
-      payload[8 + stream.below(static_cast<std::uint32_t>(payload.size() - 8))] = static_cast<char>(stream.below(256));
+      payload[8 + stream.below(static_cast<std::uint32_t>(payload.size() - 8))] =
+          static_cast<char>(stream.below(256));
     if (stream.chance(0.3)) payload.resize(stream.below(static_cast<std::uint32_t>(payload.size())));
     complaint(io::seal("AMBLECKP", 1, payload));
   }

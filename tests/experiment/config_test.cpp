@@ -41,9 +41,10 @@ TEST(Config, FindsItsRobotBesideTheFileThatNamesIt) {
 }
 
 TEST(Config, TakesOverridesInOrderAndBareWordsAsText) {
-  const auto config =
-      load_config(configs + "authors/supg-objective.toml",
-                  {.assignments = {"population.size=50", "name=quick", "population.size=60"}, .seed = 9, .generations = 4});
+  const auto config = load_config(configs + "authors/supg-objective.toml",
+                                  {.assignments = {"population.size=50", "name=quick", "population.size=60"},
+                                   .seed = 9,
+                                   .generations = 4});
   EXPECT_EQ(config.neat.population.size, 60);
   EXPECT_EQ(config.name, "quick");
   EXPECT_EQ(config.seed, 9);

@@ -12,7 +12,8 @@ namespace amble::experiment {
 
 /// configs/authors/supg-objective.toml, made small: 40 genomes, trials of one second.
 inline Config small_config(std::vector<std::string> more = {}) {
-  Overrides overrides{.assignments = {"population.size=40", "trial.duration_s=1"}, .seed = 1, .generations = 3};
+  Overrides overrides{
+      .assignments = {"population.size=40", "trial.duration_s=1"}, .seed = 1, .generations = 3};
   overrides.assignments.insert(overrides.assignments.end(), more.begin(), more.end());
   return load_config(AMBLE_SOURCE_DIR "/configs/authors/supg-objective.toml", overrides);
 }

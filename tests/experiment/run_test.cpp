@@ -12,7 +12,8 @@ namespace {
 /// What must not depend on workers or interruptions: genomes, distances and traces are all in the champions.
 std::string champions(const std::filesystem::path& folder) {
   std::string all;
-  for (const auto& file : RunPaths(folder).champion_files()) all += file.filename().string() + io::read_file(file);
+  for (const auto& file : RunPaths(folder).champion_files())
+    all += file.filename().string() + io::read_file(file);
   return all;
 }
 
@@ -33,7 +34,8 @@ TEST(Run, GoesOnAfterAnInterruptionAsIfThereHadBeenNone) {
   Listener whole;
   Run::start(scratch.path / "whole", small_config(), 2).execute(whole, whole.stop);
   Listener part(1);
-  EXPECT_EQ(Run::start(scratch.path / "part", small_config(), 2).execute(part, part.stop), RunStatus::interrupted);
+  EXPECT_EQ(Run::start(scratch.path / "part", small_config(), 2).execute(part, part.stop),
+            RunStatus::interrupted);
   Listener rest;
   EXPECT_EQ(Run::resume(scratch.path / "part", {}, 2).execute(rest, rest.stop), RunStatus::finished);
   EXPECT_EQ(champions(scratch.path / "part"), champions(scratch.path / "whole"));
@@ -46,7 +48,8 @@ TEST(Run, NeverLosesItsBestDistance) {
   Listener listener;
   Run::start(scratch.path / "run", small_config({"generations=6"}), 2).execute(listener, listener.stop);
   for (std::size_t i = 1; i < listener.rows.size(); ++i)
-    EXPECT_GE(listener.rows[i].best_m, listener.rows[i - 1].best_m) << "elites are carried over, and trials repeat";
+    EXPECT_GE(listener.rows[i].best_m, listener.rows[i - 1].best_m)
+        << "elites are carried over, and trials repeat";
 }
 
 TEST(Run, LeavesNothingBehindWhenTheRobotIsUnknown) {

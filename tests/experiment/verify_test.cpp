@@ -31,8 +31,14 @@ class Verify : public testing::Test {
 
   ScratchFolder scratch_;
   std::filesystem::path path_ = scratch_.path / "c.json";
-  Champion champion_{.experiment = "test", .seed = 1, .generation = 0, .index = 0, .problem = small_problem(),
-                     .genome = {}, .result = {}, .trace = {}};
+  Champion champion_{.experiment = "test",
+                     .seed = 1,
+                     .generation = 0,
+                     .index = 0,
+                     .problem = small_problem(),
+                     .genome = {},
+                     .result = {},
+                     .trace = {}};
 };
 
 TEST_F(Verify, AgreesWithAnHonestChampion) {

@@ -33,7 +33,8 @@ class TemporaryFolder {
   std::filesystem::path put(const std::string& name, const std::string& bytes) const {
     const auto file = path_ / name;
     std::filesystem::create_directories(file.parent_path());
-    std::filesystem::remove(file);  // a truncated file is flushed to disk by some file systems, a new one is not
+    std::filesystem::remove(
+        file);  // a truncated file is flushed to disk by some file systems, a new one is not
     std::ofstream(file, std::ios::binary) << bytes;
     return file;
   }

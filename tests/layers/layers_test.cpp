@@ -63,7 +63,8 @@ struct Library {
 class OneDoor : public testing::TestWithParam<Library> {};
 
 TEST_P(OneDoor, LeadsToTheLibrary) {
-  const std::string header = GetParam().header, home = std::string(AMBLE_SOURCE_DIR) + "/src/" + GetParam().home;
+  const std::string header = GetParam().header,
+                    home = std::string(AMBLE_SOURCE_DIR) + "/src/" + GetParam().home;
   for (const auto& file : source_files()) {
     for (const auto& line : file.lines) {
       if (!line.starts_with("#include") || line.find(header) == std::string::npos) continue;

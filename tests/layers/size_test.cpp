@@ -12,8 +12,7 @@ namespace {
 constexpr std::size_t most_lines_per_file = 400, most_lines_per_function = 60;
 
 TEST(Size, FilesStayUnder400Lines) {
-  for (const auto& file : source_files())
-    EXPECT_LE(file.lines.size(), most_lines_per_file) << file.path;
+  for (const auto& file : source_files()) EXPECT_LE(file.lines.size(), most_lines_per_file) << file.path;
 }
 
 /// Whether a line opens a block that is not a function's: namespace, type, initialiser.
@@ -23,13 +22,15 @@ bool opens_other_block(const std::string& line) {
   return line.find("= {") != std::string::npos || line.find("{{") != std::string::npos;
 }
 
-/// Lengths of the functions that are defined at the left margin, by clang-format's habit of closing them there with "}".
+/// Lengths of the functions that are defined at the left margin, by clang-format's habit of closing them
+/// there with "}".
 TEST(Size, FunctionsStayUnder60Lines) {
   for (const auto& file : source_files()) {
     std::optional<std::size_t> start;
     for (std::size_t i = 0; i < file.lines.size(); ++i) {
       const auto& line = file.lines[i];
-      const bool at_margin = !line.empty() && line[0] != ' ' && line[0] != '}' && line[0] != '#' && line[0] != '/';
+      const bool at_margin =
+          !line.empty() && line[0] != ' ' && line[0] != '}' && line[0] != '#' && line[0] != '/';
       if (!start && at_margin && !opens_other_block(line) && !line.ends_with(";")) start = i;
       if (start && at_margin && line.ends_with(";")) start.reset();
       if (start && line.starts_with("}")) {

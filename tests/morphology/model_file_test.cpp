@@ -1,6 +1,7 @@
 #include "amble/morphology/model_file.hpp"
 
 #include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
 
 #include <string>
 

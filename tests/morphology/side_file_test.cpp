@@ -72,11 +72,9 @@ TEST(SideFile, RefusesNamesThatClash) {
     return files.complaint([&] { read(files, with(one_leg_toml, from, to)); });
   };
   EXPECT_EQ(complaint(R"(["A"])", R"(["A", "A"])"), "s.toml:3: 'legs' names 'A' twice");
-  EXPECT_EQ(complaint(R"("knee"])", R"("foot"])"),
-            "s.toml:4: 'joint_types' must not use the name 'foot'");
+  EXPECT_EQ(complaint(R"("knee"])", R"("foot"])"), "s.toml:4: 'joint_types' must not use the name 'foot'");
   EXPECT_EQ(complaint(R"(["A"])", R"([""])"), "s.toml:3: 'legs' must not use the name ''");
-  EXPECT_EQ(complaint(R"(["A"])", R"(["hip"])"),
-            "s.toml:3: 'legs' and 'joint_types' both name 'hip'");
+  EXPECT_EQ(complaint(R"(["A"])", R"(["hip"])"), "s.toml:3: 'legs' and 'joint_types' both name 'hip'");
 }
 
 TEST(SideFile, NamesTheLineOfABadValue) {
@@ -86,14 +84,13 @@ TEST(SideFile, NamesTheLineOfABadValue) {
   };
   EXPECT_EQ(complaint("erp = 0.1", "erp = 1.5").find("s.toml:15: 'contact.erp'"), 0u)
       << complaint("erp = 0.1", "erp = 1.5");
-  EXPECT_EQ(complaint("gain_per_s = 9.0", "gain_per_s = \"fast\"").find("s.toml:10: 'servo.gain_per_s'"),
-            0u);
+  EXPECT_EQ(complaint("gain_per_s = 9.0", "gain_per_s = \"fast\"").find("s.toml:10: 'servo.gain_per_s'"), 0u);
   EXPECT_EQ(complaint("mode = \"velocity\"", "mode = \"position\"").find("s.toml:9: 'servo.mode'"), 0u);
-  EXPECT_EQ(complaint("erp = 0.1", "epr = 0.1").find("s.toml:15: unknown key 'contact.epr'"), 0u) << complaint("erp = 0.1", "epr = 0.1");
+  EXPECT_EQ(complaint("erp = 0.1", "epr = 0.1").find("s.toml:15: unknown key 'contact.epr'"), 0u)
+      << complaint("erp = 0.1", "epr = 0.1");
   EXPECT_EQ(complaint("friction = inf", "friction = nan").find("s.toml:14: 'contact.friction'"), 0u);
-  EXPECT_EQ(
-      complaint("max_torque_nm = 5.0", "max_torque_nm = inf").find("s.toml:11: 'servo.max_torque_nm'"),
-      0u);
+  EXPECT_EQ(complaint("max_torque_nm = 5.0", "max_torque_nm = inf").find("s.toml:11: 'servo.max_torque_nm'"),
+            0u);
 }
 
 }  // namespace

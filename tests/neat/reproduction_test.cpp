@@ -123,17 +123,36 @@ TEST(Reproduction, CopiesNoMoreElitesThanThereAreMembers) {
   EXPECT_NE(children[1], sample.genomes[0]);
 }
 
-TEST(Reproduction, LetsOnlySurvivorsBeParents) {
+/// How often each member of one species, in the order of its objective, gives its gene to a child.
+std::map<int, int> genes_given(int members) {
   Sample sample;
-  std::vector<Fitness> members;
-  for (int i = 0; i < 10; ++i) members.push_back({.selection = 1.0, .objective = 10.0 - i});
-  sample.add(members);
-  std::map<int, int> children_of;
+  std::vector<Fitness> fitness;
+  for (int i = 0; i < members; ++i)
+    fitness.push_back({.selection = 1.0, .objective = static_cast<double>(members - i)});
+  sample.add(fitness);
+  std::map<int, int> given;
   for (std::uint32_t number = 1; number <= 500; ++number)
-    for (const Genome& child : sample.breed(only_crossover(), number)) ++children_of[parent_of(child)];
-  for (int i = 0; i < 8; ++i) EXPECT_GT(children_of[i], 300) << i;
-  EXPECT_EQ(children_of.count(8), 0u) << "beyond the 80 % that survive, in spite of its selection";
-  EXPECT_EQ(children_of.count(9), 0u);
+    for (const Genome& child : sample.breed(only_crossover(), number)) ++given[parent_of(child)];
+  return given;
+}
+
+TEST(Reproduction, LetsOnlySurvivorsBeParents) {
+  const auto of_ten = genes_given(10), of_three = genes_given(3), of_four = genes_given(4);
+  ASSERT_EQ(of_ten.size(), 8u) << "80 % of ten survive, whatever the others' selection";
+  for (const auto& [member, count] : of_ten) EXPECT_GT(count, 300) << member;
+  EXPECT_FALSE(of_ten.contains(8) || of_ten.contains(9));
+  EXPECT_EQ(of_three.size(), 2u) << "2.4 are two";
+  EXPECT_EQ(of_four.size(), 3u) << "3.2 are three";
+}
+
+TEST(Reproduction, LetsAtLeastOneSurvive) {
+  Settings settings = only_crossover();
+  settings.reproduction.survival = 0.0;
+  Sample sample;
+  sample.add({{1, 2}, {1, 1}});
+  const auto children = sample.breed(settings);
+  EXPECT_EQ(children[0], sample.genomes[0]);
+  EXPECT_NE(children[1], sample.genomes[0]) << "bred from the best alone, and so mutated";
 }
 
 TEST(Reproduction, DrawsParentsByTheirSelection) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <set>
 
 #include "amble/neat/distance.hpp"
@@ -129,6 +130,9 @@ TEST(Speciation, SortsAnewAfterEachCorrectionOfTheThreshold) {
 struct Start {
   double threshold;
   int corrections;
+  friend std::ostream& operator<<(std::ostream& out, const Start& start) {
+    return out << "threshold " << start.threshold << ", corrections " << start.corrections;
+  }
 };
 
 class Steering : public testing::TestWithParam<Start> {};

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <ostream>
 
 #include "amble/core/error.hpp"
 #include "tests/neat/samples.hpp"
@@ -19,6 +20,7 @@ struct Defect {
   const char* name;
   void (*make)(Genome&);
   const char* message;
+  friend std::ostream& operator<<(std::ostream& out, const Defect& defect) { return out << defect.name; }
 };
 
 class Validate : public testing::TestWithParam<Defect> {};

@@ -10,7 +10,8 @@
 namespace amble::trial {
 namespace {
 
-/// A point that moves along x by its target each step, and sinks by 1 mm each step; a target of NaN makes it unhealthy.
+/// A point that moves along x by its target each step, and sinks by 1 mm each step; a target of NaN makes it
+/// unhealthy.
 class FakeEngine : public physics::Engine {
  public:
   explicit FakeEngine(int lanes) : states_(static_cast<std::size_t>(lanes)) {
@@ -36,7 +37,9 @@ class FakeEngine : public physics::Engine {
   Vec3 root_com_m(int lane) const override { return state(lane).position; }
   Vec3 com_m(int lane) const override { return state(lane).position; }
   Vec3 momentum(int) const override { return {}; }
-  std::uint64_t state_hash(int lane) const override { return static_cast<std::uint64_t>(state(lane).position.x * 1e6); }
+  std::uint64_t state_hash(int lane) const override {
+    return static_cast<std::uint64_t>(state(lane).position.x * 1e6);
+  }
 
   int steps = 0;
   int moved = 0;
@@ -92,7 +95,9 @@ class Queue : public TaskQueue {
     const std::size_t index = next_++;
     return Task{index, std::make_unique<FakeParameters>(tasks_[index]), nullptr};
   }
-  void done(std::size_t index, record::Trajectory trajectory) override { results[index] = std::move(trajectory); }
+  void done(std::size_t index, record::Trajectory trajectory) override {
+    results[index] = std::move(trajectory);
+  }
 
  private:
   std::vector<FakeParameters> tasks_;
@@ -190,7 +195,8 @@ TEST(Runner, DropsTrialsInFlightWhenItIsStopped) {
   class StopAt : public Observer {
    public:
     explicit StopAt(std::atomic<bool>& stop) : stop_(stop) {}
-    void on_step(int step, const physics::Engine&, const controllers::Batch&, const LaneArray&, int) override {
+    void on_step(int step, const physics::Engine&, const controllers::Batch&, const LaneArray&,
+                 int) override {
       if (step == 3) stop_ = true;
     }
 
