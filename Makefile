@@ -8,7 +8,7 @@ SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 
 demo: build
 	rm -rf demo
-	build/release/src/cli/amble evolve configs/demo.toml --seed 1 --jobs $(JOBS) --out demo/run
+	build/release/src/cli/amble evolve configs/demo.toml --seed 3 --jobs $(JOBS) --out demo/run
 	build/release/src/cli/amble page demo/run -o demo/index.html
 
 build:
