@@ -6,7 +6,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(hwy REQUIRED)
-find_package(mujoco REQUIRED)  # needs libqhull-dev beside it, or generation fails
+find_package(MuJoCo REQUIRED)
 find_package(ZLIB REQUIRED)
 pkg_check_modules(ODE REQUIRED IMPORTED_TARGET ode)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)

@@ -13,6 +13,7 @@ configure_package_config_file(cmake/ambleConfig.cmake.in ${CMAKE_CURRENT_BINARY_
                               INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/amble)
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/ambleConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/ambleConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/ambleConfigVersion.cmake
+              cmake/FindMuJoCo.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/amble)
 
 # Static libraries: users before what they use.
