@@ -60,9 +60,12 @@ tr:last-child > * { border-bottom: 1px solid var(--hair); }
 pre { margin: 22px 0 0; padding: 16px 18px; background: var(--panel); border-radius: 8px; font: 13.5px/1.6 var(--mono); white-space: pre-wrap; overflow-wrap: anywhere; }
 )css";
 
-constexpr std::string_view figures = R"css(
+constexpr std::string_view in_page = R"css(
 svg { display: block; width: 100%; height: auto; overflow: visible; }
 .narrow { display: none; }
+)css";
+
+constexpr std::string_view figures = R"css(
 svg text { font: 13px var(--sans); fill: var(--ink); }
 svg text.tick { font-size: 12px; fill: var(--soft); }
 svg text.tiny { font-size: 10.5px; fill: var(--soft); }
@@ -129,8 +132,14 @@ constexpr std::string_view phone_and_paper = R"css(
 
 std::string style_sheet() {
   std::string sheet;
-  for (const std::string_view part : {colours, text, figures, phone_and_paper}) sheet += part;
+  for (const std::string_view part : {colours, text, in_page, figures, phone_and_paper}) sheet += part;
   return sheet;
+}
+
+std::string figure_style_sheet() {
+  std::string sheet(colours);
+  sheet += "svg { background: var(--paper); overflow: visible; }";
+  return sheet += figures;
 }
 
 }  // namespace amble::analysis

@@ -9,4 +9,7 @@ namespace amble::analysis {
 /// ends in lightness (front dark, back light), so that they stay apart for colour-blind readers too.
 std::string style_sheet();
 
+/// The part that figures need, for an SVG file of its own; light, or dark where the reader prefers that.
+std::string figure_style_sheet();
+
 }  // namespace amble::analysis

@@ -5,11 +5,13 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "amble/analysis/figures.hpp"
 #include "amble/cli/commands.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/build_info.hpp"
@@ -24,6 +26,7 @@ namespace fs = std::filesystem;
 
 struct PageOptions {
   fs::path run, out;
+  std::optional<fs::path> figures;
 };
 
 /// A file that is gone with the object, even if the page cannot be made.
@@ -73,19 +76,25 @@ ExitCode make_page(const PageOptions& options) {
       stop_signal());
   if (!replay) return ExitCode::interrupted;
 
-  const auto page =
-      analysis::make_page({.title = config.name,
-                           .subtitle = fmt::format("the champion of {} generations of {}, evolved by amble",
-                                                   champion.generation + 1, config.neat.population.size),
-                           .generations = analysis::read_generations(paths.generations),
-                           .recording = recording.path(),
-                           .cppn = analysis::CppnSize{champion.genome.count(neat::NodeKind::hidden),
-                                                      champion.genome.enabled_links()},
-                           .facts = facts(config, champion),
-                           .commands = {fmt::format("amble evolve {} --out AGAIN", paths.config.string()),
-                                        "amble page AGAIN -o page.html"}});
+  const analysis::PageInput input{
+      .title = config.name,
+      .subtitle = fmt::format("the champion of {} generations of {}, evolved by amble",
+                              champion.generation + 1, config.neat.population.size),
+      .generations = analysis::read_generations(paths.generations),
+      .recording = recording.path(),
+      .cppn =
+          analysis::CppnSize{champion.genome.count(neat::NodeKind::hidden), champion.genome.enabled_links()},
+      .facts = facts(config, champion),
+      .commands = {fmt::format("amble evolve {} --out AGAIN", paths.config.string()),
+                   "amble page AGAIN -o page.html"}};
+  const auto recorded = analysis::read_recorded(recording.path());
   if (options.out.has_parent_path()) fs::create_directories(options.out.parent_path());
-  io::write_file(options.out, page);
+  io::write_file(options.out, analysis::make_page(input, recorded));
+  if (options.figures) {
+    fs::create_directories(*options.figures);
+    for (const auto& figure : analysis::figure_files(input, recorded))
+      io::write_file(*options.figures / figure.name, figure.svg);
+  }
   fmt::print("{}\n", fs::absolute(options.out).lexically_normal().string());
   return ExitCode::ok;
 }
@@ -97,6 +106,8 @@ void add_page(CLI::App& app, Action& action) {
   auto options = std::make_shared<PageOptions>();
   command->add_option("DIR", options->run, "Run folder")->required();
   command->add_option("-o,--out", options->out, "The page to write (HTML)")->required();
+  command->add_option("--figures", options->figures,
+                      "Also write each figure as an SVG file into this folder");
   command->callback([options, &action] { action = [options] { return make_page(*options); }; });
 }
 

@@ -138,8 +138,10 @@ TEST(Trial, RecordsWhatInfoAndPageCanRead) {
   const auto info = amble({"info", scratch / "walk.rec"});
   EXPECT_EQ(info.exit_code, ok) << info.err;
   EXPECT_NE(info.out.find("trigger.FL"), std::string::npos) << info.out;
-  const auto page = amble({"page", scratch / "run", "-o", scratch / "page.html"});
+  const auto page =
+      amble({"page", scratch / "run", "-o", scratch / "page.html", "--figures", scratch / "figures"});
   EXPECT_EQ(page.exit_code, ok) << page.err;
+  EXPECT_TRUE(std::filesystem::exists(scratch.path / "figures/footfalls.svg"));
   EXPECT_NE(slurp(scratch.path / "page.html").find("</html>"), std::string::npos);
 }
 
