@@ -1,4 +1,5 @@
 # Writes amble_build_info.inc at each build, only if it changed: cmake -DSOURCE_DIR=… -DOUTPUT=… -DVERSION=… -DCOMPILER=… -DFLAGS=… -P this
+cmake_minimum_required(VERSION 3.25)
 find_program(GIT git)
 set(commit "unknown")
 if(GIT AND EXISTS ${SOURCE_DIR}/.git)
