@@ -6,8 +6,10 @@
 #include <array>
 #include <cstdio>
 #include <cstring>
+#include <mutex>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
@@ -71,9 +73,35 @@ void throw_complaint(const char* text) {
 }
 void ignore_warning(const char*) {}
 
+/// Redirects MuJoCo's complaints while it lives. The handlers belong to the whole process, so models are
+/// loaded one at a time, and a program that uses MuJoCo itself gets its own handlers back.
+class ComplaintsCaught {
+ public:
+  ComplaintsCaught()
+      : lock_(mutex()),
+        error_(std::exchange(mju_user_error, throw_complaint)),
+        // MuJoCo's default writes a log file into the current folder.
+        warning_(std::exchange(mju_user_warning, ignore_warning)) {}
+  ~ComplaintsCaught() {
+    mju_user_error = error_;
+    mju_user_warning = warning_;
+  }
+  ComplaintsCaught(const ComplaintsCaught&) = delete;
+  ComplaintsCaught& operator=(const ComplaintsCaught&) = delete;
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex one_for_all;
+    return one_for_all;
+  }
+
+  std::lock_guard<std::mutex> lock_;
+  void (*error_)(const char*);
+  void (*warning_)(const char*);
+};
+
 mjModel* load(const std::filesystem::path& path, const mjVFS* files) {
-  mju_user_error = throw_complaint;
-  mju_user_warning = ignore_warning;  // the default writes a log file into the current folder
+  const ComplaintsCaught caught;
   std::array<char, 1000> complaint{};
   mjModel* model = nullptr;
   try {
