@@ -1,4 +1,4 @@
-# Thin: each target prints and runs the commands one would type. PRESET chooses another build for `make test` (asan, tsan).
+# Thin: each target prints and runs the commands one would type. PRESET chooses another build for `make test` (asan, tsan, fuzz).
 PRESET ?= dev
 PREFIX ?= /usr/local
 JOBS ?= $(shell nproc)

@@ -141,8 +141,8 @@ std::string path_figure(const RobotModel& robot, const Motion& motion, Layout la
   Svg svg(width, height, fmt::format("Path seen from above: {:.2f} m from start to end", summary.distance_m));
   draw_grid(svg, map, width, height, step_m);
   for (const auto& trunk : scene.trunk_m) {
-    std::vector<Point> corners;
-    for (const Point corner : trunk) corners.push_back(map(corner));
+    std::vector<Point> corners(trunk.size());
+    std::ranges::transform(trunk, corners.begin(), map);
     svg.polygon(corners, "trunk-outline");
   }
   for (const Footprint& print : scene.footprints) {

@@ -105,8 +105,7 @@ std::vector<Silhouette> silhouettes(const RobotModel& robot, const std::vector<B
 // Andrew's monotone chain: lower chain from left to right, then the upper one back.
 std::vector<Point> convex_hull(std::vector<Point> points) {
   std::ranges::sort(points, [](Point a, Point b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  const auto [first, last] = std::ranges::unique(points);
-  points.erase(first, last);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
   std::vector<Point> hull;
   const auto extend = [&hull](Point next, std::size_t keep) {

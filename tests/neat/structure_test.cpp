@@ -18,7 +18,9 @@ constexpr int inputs = 3, outputs = 2;
 class RandomStructure : public testing::TestWithParam<std::tuple<bool, SplitLink, WeakerGenes>> {};
 
 TEST_P(RandomStructure, StaysValidThroughThousandsOfMutationsAndCrossovers) {
-  const auto [recurrent, split_link, weaker_genes] = GetParam();
+  const bool recurrent = std::get<0>(GetParam());
+  const SplitLink split_link = std::get<1>(GetParam());
+  const WeakerGenes weaker_genes = std::get<2>(GetParam());
   Settings settings = lively_settings();
   settings.mutation.split_link = split_link;
   settings.crossover.weaker_genes = weaker_genes;

@@ -35,7 +35,7 @@ void abandon(dThreadingImplementationID implementation) {
 void prepare_thread() {
   static std::once_flag once;
   std::call_once(once, initialise_process);
-  thread_local const bool ready = dAllocateODEDataForThread(dAllocateMaskAll) != 0;
+  thread_local const bool ready = dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll)) != 0;
   AMBLE_CHECK(ready, "dAllocateODEDataForThread");
 }
 
