@@ -10,6 +10,8 @@ namespace amble::bench {
 void measure_cppn(std::vector<Figure>& figures);
 /// Breeding and speciating 300 genomes.
 void measure_neat(std::vector<Figure>& figures);
+/// Judging a generation by novelty: against plain loops.
+void measure_novelty(std::vector<Figure>& figures);
 /// Steps per second of the engine alone, on the authors' quadruped.
 void measure_physics(std::vector<Figure>& figures);
 /// Whole runs: evaluations per second by workers, share outside physics, memory.

@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   std::vector<bench::Figure> figures;
   bench::measure_cppn(figures);
   bench::measure_neat(figures);
+  bench::measure_novelty(figures);
   bench::measure_physics(figures);
   bench::measure_runs(figures);
   const auto build = experiment::build_info();

@@ -9,6 +9,7 @@ find_package(hwy REQUIRED)
 find_package(MuJoCo REQUIRED)
 find_package(ZLIB REQUIRED)
 pkg_check_modules(ODE REQUIRED IMPORTED_TARGET ode)
+pkg_check_modules(OPENBLAS REQUIRED IMPORTED_TARGET openblas)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
 

@@ -10,7 +10,7 @@ AMBLE_FUZZ_TARGET(bytes) {
   config.neat.population.size = 4;
   config.neat.speciation.target_min = config.neat.speciation.target_max = 2;
   neat::Population population(config.neat, 3, 2, true, 1);
-  const auto search = search::make_search(config.search);
+  const auto search = search::make_search(config.search, config.behaviour_length());
 
   experiment::load_progress(bytes, "payload", population, *search);
   // What was accepted is a population to go on with.

@@ -1,5 +1,6 @@
 #include "amble/analysis/generations_csv.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -24,6 +25,13 @@ constexpr std::array<std::pair<std::string_view, Column>, 10> columns{{
     {"mean_links", &Generations::mean_links},
     {"evaluations", &Generations::evaluations},
     {"steps", &Generations::steps},
+}};
+
+/// Columns that may be absent, or whose cells may be empty in every row.
+constexpr std::array<std::pair<std::string_view, Column>, 3> optional_columns{{
+    {"archive", &Generations::archive},
+    {"novelty_threshold", &Generations::novelty_threshold},
+    {"best_novelty", &Generations::best_novelty},
 }};
 
 std::vector<std::string_view> split(std::string_view line) {
@@ -51,16 +59,23 @@ double parse_cell(std::string_view cell, std::string_view column, const std::str
   return value;
 }
 
-/// Where each of `columns` stands in the header row.
-std::array<std::size_t, columns.size()> find_columns(const std::vector<std::string_view>& header,
-                                                     const std::string& name) {
-  std::array<std::size_t, columns.size()> places{};
-  for (std::size_t c = 0; c < columns.size(); ++c) {
-    while (places[c] < header.size() && header[places[c]] != columns[c].first) ++places[c];
-    if (places[c] == header.size())
-      fail(ExitCode::bad_file, "{}:1: column '{}' is missing", name, columns[c].first);
+/// Where a column stands in the header row; the header's size if it does not.
+std::size_t find_column(const std::vector<std::string_view>& header, std::string_view column) {
+  return static_cast<std::size_t>(std::ranges::find(header, column) - header.begin());
+}
+
+void parse_row(const std::vector<std::string_view>& header, const std::vector<std::string_view>& cells,
+               const std::string& name, int line, Generations& table) {
+  for (const auto& [column, values] : columns)
+    (table.*values).push_back(parse_cell(cells[find_column(header, column)], column, name, line));
+  for (const auto& [column, values] : optional_columns) {
+    const std::size_t place = find_column(header, column);
+    const bool filled = place < header.size() && !cells[place].empty();
+    if (!filled && (table.*values).empty()) continue;
+    if (!filled || (table.*values).size() + 1 != table.count())
+      fail(ExitCode::bad_file, "{}:{}: column '{}': filled in some rows only", name, line, column);
+    (table.*values).push_back(parse_cell(cells[place], column, name, line));
   }
-  return places;
 }
 
 }  // namespace
@@ -73,15 +88,16 @@ Generations parse_generations(std::string_view text, const std::string& name) {
   if (text.empty())
     fail(ExitCode::bad_file, "{}:1: expected a row of column names, found an empty file", name);
   const auto header = split(take_line(text));
-  const auto places = find_columns(header, name);
+  for (const auto& [column, values] : columns)
+    if (find_column(header, column) == header.size())
+      fail(ExitCode::bad_file, "{}:1: column '{}' is missing", name, column);
   Generations table;
   for (int line = 2; !text.empty(); ++line) {
     const auto cells = split(take_line(text));
     if (cells.size() != header.size())
       fail(ExitCode::bad_file, "{}:{}: expected {} columns, found {}", name, line, header.size(),
            cells.size());
-    for (std::size_t c = 0; c < columns.size(); ++c)
-      (table.*columns[c].second).push_back(parse_cell(cells[places[c]], columns[c].first, name, line));
+    parse_row(header, cells, name, line, table);
   }
   return table;
 }

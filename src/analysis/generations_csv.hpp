@@ -17,6 +17,8 @@ struct Generations {
   std::vector<double> threshold;  ///< compatibility threshold of the speciation
   std::vector<double> mean_hidden, mean_links;
   std::vector<double> evaluations, steps;  ///< of this generation; steps are simulated ticks
+  /// Of novelty search; empty for runs without.
+  std::vector<double> archive, novelty_threshold, best_novelty;
 
   std::size_t count() const { return generation.size(); }
 };

@@ -43,6 +43,11 @@ ExitCode run_info(const std::filesystem::path& folder) {
   fmt::print("experiment  {} (seed {})\nengine      {}\ngenerations {} of {}\n", config.name, config.seed,
              config.engine, rows.count(), config.generations);
   fmt::print("trials      {:.0f} ({:.3g} steps)\n", evaluations, steps);
+  fmt::print("search      {}", search::kind_names[static_cast<std::size_t>(config.search.kind)]);
+  if (!rows.archive.empty())
+    fmt::print(": archive of {:.0f} behaviours, threshold {:.4g} in the last generation", rows.archive.back(),
+               rows.novelty_threshold.back());
+  fmt::print("\n");
   const auto champions = paths.champion_files();
   fmt::print("champions   {}\n", champions.size());
   if (!champions.empty()) {

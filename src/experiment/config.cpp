@@ -2,6 +2,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/io/toml_settings.hpp"
+#include "amble/score/path_behaviour.hpp"
 
 namespace amble::experiment {
 
@@ -23,6 +24,11 @@ void Config::validate() const {
   if (robot.empty()) fail(ExitCode::bad_input, "key 'robot' is missing: expected the path of a robot file");
   neat.validate();
   trial.validate();
+  if (search.kind == search::Kind::novelty) search.novelty.validate(behaviour_length());
+}
+
+std::size_t Config::behaviour_length() const {
+  return score::path_behaviour_length(trial.steps(), search.path_stride());
 }
 
 std::string Config::to_toml() const {

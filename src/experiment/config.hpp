@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -32,6 +33,8 @@ struct Config {
   void describe(io::SettingsVisitor& visitor);
   /// Rules that join several settings. Throws UserError naming the keys.
   void validate() const;
+  /// Numbers in the behaviour that the search judges a trial by; 0 if it wants none.
+  std::size_t behaviour_length() const;
   /// The whole config as TOML with comments; reads back to the same values.
   std::string to_toml() const;
 };

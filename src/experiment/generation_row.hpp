@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "amble/neat/population.hpp"
 #include "amble/record/trajectory.hpp"
+#include "amble/search/search.hpp"
 
 namespace amble::experiment {
 
@@ -17,10 +19,11 @@ struct GenerationRow {
   neat::PopulationStatistics population;
   int best_hidden = 0, best_links = 0;  ///< of this generation's best genome
   int fell = 0, diverged = 0;
-  std::uint64_t evaluations = 0, steps = 0;  ///< of this generation
-  double wall_s = 0.0;                       ///< since the row before, files included
-  double physics_s = 0.0;                    ///< of which in the engine, mean over the workers
-  double outside_s = 0.0;                    ///< and not
+  std::optional<search::NoveltyStatistics> novelty;  ///< nothing, and so empty cells, for other searches
+  std::uint64_t evaluations = 0, steps = 0;          ///< of this generation
+  double wall_s = 0.0;                               ///< since the row before, files included
+  double physics_s = 0.0;                            ///< of which in the engine, mean over the workers
+  double outside_s = 0.0;                            ///< and not
 };
 
 /// Names of the columns, one line.

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "amble/experiment/checkpoint.hpp"
 #include "amble/experiment/config.hpp"
@@ -49,6 +51,9 @@ class Run {
 
   /// Returns seconds spent in the engine for it.
   double keep_champion(const GenerationResult& result, std::size_t best);
+  std::vector<neat::Fitness> judge(const GenerationResult& result, std::span<const double> distances_m);
+  /// All files but the champions, in an order from which a run goes on wherever it is cut off.
+  void write_down(const GenerationRow& row);
   void checkpoint() const;
 
   RunFolder folder_;
@@ -56,7 +61,7 @@ class Run {
   std::unique_ptr<const Problem> problem_;
   neat::Population population_;
   std::unique_ptr<search::Search> search_;
-  std::unique_ptr<io::AppendFile> csv_;
+  std::unique_ptr<io::AppendFile> csv_, archive_;  ///< without an archive, the latter is null
   Progress progress_;
   int jobs_;
 };

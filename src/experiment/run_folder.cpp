@@ -64,6 +64,7 @@ RunPaths::RunPaths(const fs::path& folder_in)
       robot(folder / "robot.json"),
       manifest(folder / "manifest.json"),
       generations(folder / "generations.csv"),
+      archive(folder / "archive.bin"),
       checkpoint(folder / "checkpoint.bin"),
       champions(folder / "champions") {}
 

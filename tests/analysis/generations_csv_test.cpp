@@ -41,6 +41,21 @@ TEST(GenerationsCsv, TakesAHeaderAloneAndLinesEndingInCarriageReturns) {
   EXPECT_THAT(parse_generations(header + "\r\n0,1,2,3,4,5,6,7,8,9\r\n", "x").steps, ElementsAre(9));
 }
 
+TEST(GenerationsCsv, TakesColumnsOfNoveltySearchFilledEmptyOrAbsent) {
+  const std::string more = header + ",archive,novelty_threshold,best_novelty\n", row = "0,1,2,3,4,5,6,7,8,9";
+  const auto filled = parse_generations(more + row + ",15,1000,0.5\n" + row + ",17,1200,2e3\n", "x");
+  EXPECT_THAT(filled.archive, ElementsAre(15, 17));
+  EXPECT_THAT(filled.novelty_threshold, ElementsAre(1000, 1200));
+  EXPECT_THAT(filled.best_novelty, ElementsAre(0.5, 2000));
+  const auto empty = parse_generations(more + row + ",,,\n", "x");
+  EXPECT_EQ(empty.count(), 1u);
+  EXPECT_TRUE(empty.archive.empty());
+  EXPECT_TRUE(parse_generations(header + "\n" + row + "\n", "x").best_novelty.empty());
+  const std::string partly = ":3: column 'archive': filled in some rows only";
+  EXPECT_EQ(error_of(more + row + ",15,1000,1\n" + row + ",,1000,1\n"), "runs/1/generations.csv" + partly);
+  EXPECT_EQ(error_of(more + row + ",,1000,1\n" + row + ",15,1000,1\n"), "runs/1/generations.csv" + partly);
+}
+
 TEST(GenerationsCsv, NamesFileLineAndColumnOfWhatIsWrong) {
   EXPECT_EQ(error_of(""), "runs/1/generations.csv:1: expected a row of column names, found an empty file");
   EXPECT_EQ(error_of("generation,mean_m\n"), "runs/1/generations.csv:1: column 'best_m' is missing");

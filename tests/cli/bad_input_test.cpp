@@ -17,7 +17,8 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 const std::string source = AMBLE_SOURCE_DIR;
-const std::string config = source + "/configs/authors/supg-objective.toml";
+const std::string config = source + "/configs/authors/supg-objective.toml",
+                  novelty_config = source + "/configs/authors/supg-novelty.toml";
 
 /// Every file below a folder with its text.
 std::map<std::string, std::string> snapshot(const fs::path& folder) {
@@ -51,8 +52,8 @@ class BadInput : public testing::Test {
   }
 
   /// A finished run of two generations.
-  void make_run() {
-    const auto run = amble({"evolve", config, "--set", "population.size=40", "--set", "trial.duration_s=1",
+  void make_run(const std::string& from = config) {
+    const auto run = amble({"evolve", from, "--set", "population.size=40", "--set", "trial.duration_s=1",
                             "--generations", "2", "--out", run_});
     ASSERT_EQ(run.exit_code, 0) << run.err;
   }
@@ -90,6 +91,45 @@ TEST_F(BadInput, ValueOutOfRange) {
 TEST_F(BadInput, UnknownChoice) {
   expect_complaint({"evolve", config, "--set", "search.kind=luck", "--out", out_}, ExitCode::bad_input,
                    "--set search.kind=luck: expected ");
+}
+
+TEST_F(BadInput, NegativeNumberOfNeighbours) {
+  expect_complaint({"evolve", config_with("search.novelty.neighbours = -3"), "--out", out_},
+                   ExitCode::bad_input,
+                   "c.toml:2: 'search.novelty.neighbours' = -3: expected a whole number from 1 to 1000000");
+}
+
+TEST_F(BadInput, ArchiveLargerThanMemory) {
+  expect_complaint(
+      {"evolve", novelty_config, "--set", "search.novelty.archive_limit=1000000000", "--out", out_},
+      ExitCode::bad_input,
+      "search.novelty.archive_limit = 1000000000: that many behaviours of 1500 numbers need 7216.0 GB; "
+      "expected at most ");
+}
+
+TEST_F(BadInput, PathStrideLongerThanATrial) {
+  expect_complaint({"evolve", novelty_config, "--set", "search.novelty.path_stride=1501", "--out", out_},
+                   ExitCode::bad_input,
+                   "search.novelty.path_stride = 1501: expected at most the steps of a trial");
+}
+
+TEST_F(BadInput, ArchiveThatIsTruncatedAlteredOrMissing) {
+  make_run(novelty_config);
+  const auto archive = fs::path(run_) / "archive.bin";
+  const auto bytes = slurp(archive);
+  const std::vector<std::string> resume{"resume", run_, "--generations", "3"};
+  spill(archive, bytes.substr(0, bytes.size() - 7));
+  expect_complaint(resume, ExitCode::bad_file, "archive.bin: truncated");
+  auto altered = bytes;
+  altered[altered.size() / 2] = static_cast<char>(altered[altered.size() / 2] ^ 4);
+  spill(archive, altered);
+  expect_complaint(resume, ExitCode::bad_file, "archive.bin: altered: the checksum of member");
+  spill(archive, "");
+  expect_complaint(resume, ExitCode::bad_file, "archive.bin: truncated");
+  fs::remove(archive);
+  expect_complaint(resume, ExitCode::bad_file, "archive.bin: missing");
+  spill(archive, bytes);
+  EXPECT_EQ(amble(resume).exit_code, 0);
 }
 
 TEST_F(BadInput, UnknownEngine) {

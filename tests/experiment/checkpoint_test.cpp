@@ -61,7 +61,7 @@ class Checkpoint : public testing::Test {
   Config config_ = small_config();
   Problem problem_ = small_problem();
   neat::Population population_ = small_population(problem_);
-  std::unique_ptr<search::Search> search_ = search::make_search(config_.search);
+  std::unique_ptr<search::Search> search_ = search::make_search(config_.search, config_.behaviour_length());
   std::string bytes_;
 };
 
@@ -115,6 +115,25 @@ TEST_F(Checkpoint, ReaderThrowsNothingButUserErrorsForDamageUnderAValidChecksum)
     if (stream.chance(0.3)) payload.resize(stream.below(static_cast<std::uint32_t>(payload.size())));
     complaint(io::seal("AMBLECKP", 1, payload));
   }
+}
+
+TEST_F(Checkpoint, HoldsTheThresholdOfNoveltySearch) {
+  config_ = small_novelty_config({"search.novelty.first_members=40"});
+  const auto make = [&] { return search::make_search(config_.search, config_.behaviour_length()); };
+  const auto search = make();
+  const std::vector<float> still(config_.behaviour_length());
+  search->judge(std::vector<search::Evaluation>(40, {.objective = 0.0, .behaviour = still}));
+  io::write_file(scratch_.path / "archive.bin", search->take_archive_growth());
+  save_checkpoint(path_, config_, {}, population_, *search);
+
+  const auto again = make();
+  auto population = small_population(problem_);
+  load_checkpoint(path_, config_, population, *again);
+  io::InputFile file(scratch_.path / "archive.bin");
+  again->restore_archive(file, "archive.bin");
+  again->judge(std::vector<search::Evaluation>(1, {.objective = 0.0, .behaviour = still}));
+  EXPECT_EQ(again->novelty_statistics()->threshold, 0.5 * 1.2);
+  EXPECT_EQ(again->novelty_statistics()->archive_members, 40u);
 }
 
 }  // namespace

@@ -35,6 +35,34 @@ TEST(Config, PresetsHaveThePapersNumbers) {
   }
 }
 
+TEST(Config, NoveltyPresetsDifferFromThoseOfTheObjectiveInNothingButSearchAndName) {
+  for (const std::string preset : {"authors/", "paper/"}) {
+    const auto objective = load_config(configs + preset + "supg-objective.toml", {});
+    auto novelty = load_config(configs + preset + "supg-novelty.toml", {});
+    EXPECT_EQ(novelty.search.kind, search::Kind::novelty);
+    EXPECT_NE(novelty.name, objective.name);
+    novelty.search = objective.search;
+    novelty.name = objective.name;
+    EXPECT_EQ(novelty.to_toml(), objective.to_toml());
+  }
+}
+
+TEST(Config, NoveltyPresetsAreWhatTextAndCodeSay) {
+  const auto authors = load_config(configs + "authors/supg-novelty.toml", {});
+  EXPECT_EQ(authors.behaviour_length(), 1500u);
+  EXPECT_EQ(authors.search.novelty.distance, search::Distance::squared);
+  EXPECT_EQ(authors.search.novelty.compare_with, search::Neighbours::archive);
+  const auto paper = load_config(configs + "paper/supg-novelty.toml", {});
+  EXPECT_EQ(paper.behaviour_length(), 3000u);
+  EXPECT_EQ(paper.search.novelty.distance, search::Distance::root);
+  EXPECT_EQ(paper.search.novelty.compare_with, search::Neighbours::archive_and_population);
+  for (const auto& config : {authors, paper}) {
+    EXPECT_EQ(config.search.novelty.neighbours, 15);
+    EXPECT_EQ(config.search.novelty.threshold, 1000.0);
+    EXPECT_EQ(config.search.novelty.first_members, 15);
+  }
+}
+
 TEST(Config, FindsItsRobotBesideTheFileThatNamesIt) {
   const auto config = load_config(configs + "authors/supg-objective.toml", {});
   EXPECT_TRUE(std::filesystem::exists(config.robot)) << config.robot;

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "amble/experiment/run.hpp"
@@ -16,6 +17,12 @@ inline Config small_config(std::vector<std::string> more = {}) {
       .assignments = {"population.size=40", "trial.duration_s=1"}, .seed = 1, .generations = 3};
   overrides.assignments.insert(overrides.assignments.end(), more.begin(), more.end());
   return load_config(AMBLE_SOURCE_DIR "/configs/authors/supg-objective.toml", overrides);
+}
+
+/// The same under novelty search, with a threshold that makes the archive grow in each of these generations.
+inline Config small_novelty_config(std::vector<std::string> more = {}) {
+  more.insert(more.begin(), {"search.kind=novelty", "search.novelty.threshold=0.5"});
+  return small_config(std::move(more));
 }
 
 inline Problem small_problem() {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
+#include <string>
 
 namespace amble::experiment {
 namespace {
@@ -36,6 +38,31 @@ TEST(GenerationRow, LineHasAsManyColumnsAsTheHeaderAndRoundTripsNumbers) {
   const auto line = csv_line(row), header = csv_header();
   EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::count(header.begin(), header.end(), ','));
   EXPECT_EQ(std::stod(line.substr(line.find(',') + 1)), 0.1 + 0.2);
+}
+
+/// The cell of a line under this column.
+std::string cell(const std::string& line, const std::string& column) {
+  std::istringstream names(csv_header()), cells(line);
+  for (std::string name, found; std::getline(names, name, ',') && std::getline(cells, found, ',');)
+    if (name == column) return found;
+  return "no such column";
+}
+
+TEST(GenerationRow, HasCellsOfNoveltySearchThatAreEmptyForOtherSearches) {
+  GenerationRow row;
+  EXPECT_EQ(cell(csv_line(row), "archive"), "");
+  EXPECT_EQ(cell(csv_line(row), "novelty_threshold"), "");
+  EXPECT_EQ(cell(csv_line(row), "best_novelty"), "");
+  row.evaluations = 77;
+  row.novelty = {.archive_members = 17, .threshold = 1200.0, .best_novelty = 0.1};
+  EXPECT_EQ(cell(csv_line(row), "archive"), "17");
+  EXPECT_EQ(cell(csv_line(row), "novelty_threshold"), "1200");
+  EXPECT_EQ(cell(csv_line(row), "best_novelty"), "0.1");
+  EXPECT_EQ(cell(csv_line(row), "evaluations"), "77");
+}
+
+TEST(GenerationRow, EndsWithItsThreeTimes) {
+  EXPECT_TRUE(csv_header().ends_with(",wall_s,physics_s,outside_s\n"));
 }
 
 }  // namespace

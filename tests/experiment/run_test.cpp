@@ -17,39 +17,101 @@ std::string champions(const std::filesystem::path& folder) {
   return all;
 }
 
-TEST(Run, GivesTheSameChampionsForAnyNumberOfWorkers) {
+/// The archive of a run under novelty search; "" of another.
+std::string archive(const std::filesystem::path& folder) {
+  const auto path = RunPaths(folder).archive;
+  return std::filesystem::exists(path) ? io::read_file(path) : "";
+}
+
+class EachSearch : public testing::TestWithParam<search::Kind> {
+ protected:
+  Config config() const {
+    return GetParam() == search::Kind::novelty ? small_novelty_config() : small_config();
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Run, EachSearch, testing::Values(search::Kind::objective, search::Kind::novelty),
+                         [](const auto& kind) {
+                           return std::string(search::kind_names[static_cast<std::size_t>(kind.param)]);
+                         });
+
+TEST_P(EachSearch, GivesTheSameChampionsAndArchiveForAnyNumberOfWorkers) {
   const ScratchFolder scratch;
-  std::string first;
+  std::string first, first_archive;
   for (const int jobs : {1, 2, 4}) {
     const auto folder = scratch.path / std::to_string(jobs);
     Listener listener;
-    EXPECT_EQ(Run::start(folder, small_config(), jobs).execute(listener, listener.stop), RunStatus::finished);
-    if (first.empty()) first = champions(folder);
+    EXPECT_EQ(Run::start(folder, config(), jobs).execute(listener, listener.stop), RunStatus::finished);
+    if (first.empty()) first = champions(folder), first_archive = archive(folder);
     EXPECT_EQ(champions(folder), first);
+    EXPECT_EQ(archive(folder), first_archive);
   }
 }
 
-TEST(Run, GoesOnAfterAnInterruptionAsIfThereHadBeenNone) {
+TEST_P(EachSearch, GoesOnAfterAnInterruptionAsIfThereHadBeenNone) {
   const ScratchFolder scratch;
   Listener whole;
-  Run::start(scratch.path / "whole", small_config(), 2).execute(whole, whole.stop);
+  Run::start(scratch.path / "whole", config(), 2).execute(whole, whole.stop);
   Listener part(1);
-  EXPECT_EQ(Run::start(scratch.path / "part", small_config(), 2).execute(part, part.stop),
-            RunStatus::interrupted);
+  EXPECT_EQ(Run::start(scratch.path / "part", config(), 2).execute(part, part.stop), RunStatus::interrupted);
   Listener rest;
   EXPECT_EQ(Run::resume(scratch.path / "part", {}, 2).execute(rest, rest.stop), RunStatus::finished);
   EXPECT_EQ(champions(scratch.path / "part"), champions(scratch.path / "whole"));
+  EXPECT_EQ(archive(scratch.path / "part"), archive(scratch.path / "whole"));
   ASSERT_EQ(rest.rows.size(), 2u);
   EXPECT_EQ(rest.rows.back().best_so_far_m, whole.rows.back().best_so_far_m);
 }
 
-TEST(Run, NeverLosesItsBestDistance) {
+TEST_P(EachSearch, NeverLosesItsBestDistance) {
   const ScratchFolder scratch;
   Listener listener;
-  Run::start(scratch.path / "run", small_config({"generations=6"}), 2).execute(listener, listener.stop);
+  auto longer = config();
+  longer.generations = 6;
+  Run::start(scratch.path / "run", longer, 2).execute(listener, listener.stop);
   for (std::size_t i = 1; i < listener.rows.size(); ++i)
     EXPECT_GE(listener.rows[i].best_m, listener.rows[i - 1].best_m)
         << "elites are carried over, and trials repeat";
+}
+
+TEST(NoveltyRun, FillsItsArchiveAndReportsIt) {
+  const ScratchFolder scratch;
+  Listener listener;
+  const auto config = small_novelty_config();
+  Run::start(scratch.path / "run", config, 2).execute(listener, listener.stop);
+  ASSERT_EQ(listener.rows.size(), 3u);
+  std::size_t before = 0;
+  for (const auto& row : listener.rows) {
+    ASSERT_TRUE(row.novelty);
+    EXPECT_GT(row.novelty->archive_members, before);
+    EXPECT_GT(row.novelty->best_novelty, row.novelty->threshold);
+    before = row.novelty->archive_members;
+  }
+  EXPECT_EQ(config.behaviour_length(), 100u);
+  EXPECT_EQ(archive(scratch.path / "run").size(), 16 + before * (100 * 4 + 8));
+}
+
+TEST(NoveltyRun, CutsAnArchiveBackThatIsAheadOfItsCheckpoint) {
+  const ScratchFolder scratch;
+  Listener whole, part(1), rest;
+  Run::start(scratch.path / "whole", small_novelty_config(), 1).execute(whole, whole.stop);
+  Run::start(scratch.path / "part", small_novelty_config(), 1).execute(part, part.stop);
+  const RunPaths paths(scratch.path / "part");
+  io::write_file(paths.archive, io::read_file(paths.archive) + std::string(1000, 'x'));
+  io::write_file(paths.generations, io::read_file(paths.generations) + "1,2,3");
+  Run::resume(scratch.path / "part", {}, 1).execute(rest, rest.stop);
+  EXPECT_EQ(archive(scratch.path / "part"), archive(scratch.path / "whole"));
+  EXPECT_EQ(champions(scratch.path / "part"), champions(scratch.path / "whole"));
+}
+
+TEST(ObjectiveRun, KeepsNoArchiveAndRecordsNoPaths) {
+  const ScratchFolder scratch;
+  Listener listener;
+  const auto config = small_config();
+  EXPECT_EQ(config.search.path_stride(), 0);
+  EXPECT_EQ(config.behaviour_length(), 0u);
+  Run::start(scratch.path / "run", config, 1).execute(listener, listener.stop);
+  EXPECT_FALSE(std::filesystem::exists(RunPaths(scratch.path / "run").archive));
+  EXPECT_FALSE(listener.rows.front().novelty);
 }
 
 TEST(Run, LeavesNothingBehindWhenTheRobotIsUnknown) {

@@ -84,7 +84,8 @@ INSTANTIATE_TEST_SUITE_P(Layers, OneDoor,
                          testing::Values(Library{"<ode/", "physics/ode/"}, Library{"<CLI/", "cli/"},
                                          Library{"<mujoco/", "morphology/"}, Library{"<toml++/", "io/"},
                                          Library{"<xxhash", "core/"}, Library{"<Random123/", "core/"},
-                                         Library{"<hwy/", "cppn/"}, Library{"<zlib", "record/"}),
+                                         Library{"<hwy/", "cppn/"}, Library{"<zlib", "record/"},
+                                         Library{"<cblas", "search/"}),
                          letters_of);
 
 }  // namespace

@@ -1,0 +1,69 @@
+#include "amble/search/distance_estimates.hpp"
+
+#include <cblas.h>
+
+#include <cmath>
+#include <limits>
+
+#include "amble/core/check.hpp"
+
+namespace amble::search {
+namespace {
+
+class OneBlasThread {
+ public:
+  OneBlasThread() : before_(openblas_get_num_threads()) { openblas_set_num_threads(1); }
+  ~OneBlasThread() { openblas_set_num_threads(before_); }
+  OneBlasThread(const OneBlasThread&) = delete;
+  OneBlasThread& operator=(const OneBlasThread&) = delete;
+
+ private:
+  int before_;
+};
+
+/// a × bᵀ
+std::vector<float> multiply(const Behaviours& a, const Behaviours& b) {
+  std::vector<float> products(a.rows() * b.rows());
+  if (products.empty()) return products;
+  const OneBlasThread one_thread;
+  const auto rows_a = static_cast<int>(a.rows()), rows_b = static_cast<int>(b.rows()),
+             length = static_cast<int>(a.length());
+  cblas_sgemm(CblasRowMajor, CblasNoTrans, CblasTrans, rows_a, rows_b, length, 1.0f, a.data(), length,
+              b.data(), length, 0.0f, products.data(), rows_b);
+  return products;
+}
+
+template <typename T>
+constexpr double unit_roundoff = static_cast<double>(std::numeric_limits<T>::epsilon()) / 2.0;
+
+}  // namespace
+
+DistanceEstimates::DistanceEstimates(const Behaviours& a, const Behaviours& b)
+    : squared_norms_a_(a.squared_norms().begin(), a.squared_norms().end()),
+      squared_norms_b_(b.squared_norms().begin(), b.squared_norms().end()),
+      products_(multiply(a, b)) {
+  AMBLE_CHECK(a.length() == b.length() && a.length() <= longest_behaviour, "behaviours have one length");
+  const double n = static_cast<double>(a.length());
+  // A dot product of n terms, summed in any order and fused or not, is off by at most n u / (1 − n u) |a| |b|
+  // (Higham, Accuracy and Stability of Numerical Algorithms, 2002, sec. 3.1), and by what underflows. It
+  // counts twice; the hundredth covers the rounding of the norms.
+  const double nu = n * unit_roundoff<float>;
+  float_error_ = 2.02 * nu / (1.0 - nu);
+  underflow_ = 2.0 * n * static_cast<double>(std::numeric_limits<float>::min());
+  // By the same rule for double precision: n for either norm, 2 n for the exact distance, which is at most
+  // 2 (|a|² + |b|²), and a few for putting the three terms together.
+  double_error_ = 4.0 * (n + 4.0) * unit_roundoff<double>;
+}
+
+Bounds DistanceEstimates::between(std::size_t row_a, std::size_t row_b) const {
+  const double norm_a = squared_norms_a_[row_a], norm_b = squared_norms_b_[row_b];
+  const auto product = static_cast<double>(products_[row_a * squared_norms_b_.size() + row_b]);
+  // Once a sum has overflowed it stays infinite or not a number: then nothing is known.
+  if (!std::isfinite(product)) return {0.0, std::numeric_limits<double>::infinity()};
+  const double estimate = norm_a + norm_b - 2.0 * product;
+  const double slack =
+      float_error_ * std::sqrt(norm_a * norm_b) + double_error_ * (norm_a + norm_b) + underflow_;
+  return {estimate - slack, estimate + slack};
+}
+
+}  // namespace amble::search

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "amble/search/archive_log.hpp"
+#include "amble/search/behaviours.hpp"
+#include "amble/search/novelty_settings.hpp"
+#include "amble/search/search.hpp"
+
+namespace amble::search {
+
+/// Novelty search (Lehman & Stanley 2011; Morse et al. 2013, sec. 4): selects by how far a behaviour is from
+/// its nearest neighbours among earlier ones. Elitism goes by the objective (neat::Fitness).
+///
+/// A generation is judged in index order, after all its trials. A newcomer's novelty is the sum of the
+/// distances to its nearest neighbours in the archive as it then stands, so it sees those of its own
+/// generation who joined before it; or in the archive and all the rest of its generation. Whoever is both
+/// counts once. If the novelty exceeds the threshold, or the archive is still small, the newcomer joins. At
+/// the end of the generation the threshold adapts to the number of those who joined, for whichever reason.
+class NoveltySearch : public Search {
+ public:
+  NoveltySearch(const NoveltySettings& settings, std::size_t behaviour_length);
+
+  std::vector<neat::Fitness> judge(std::span<const Evaluation> generation) override;
+  void save(io::BinaryWriter& writer) const override;
+  void load(io::BinaryReader& reader) override;
+  bool has_archive() const override { return true; }
+  std::string take_archive_growth() override { return log_.take_growth(archive_); }
+  std::uint64_t restore_archive(io::InputFile& file, const std::string& what) override;
+  std::optional<NoveltyStatistics> novelty_statistics() const override { return statistics_; }
+
+  const Behaviours& archive() const { return archive_; }
+  /// For the next generation.
+  double threshold() const { return threshold_; }
+
+ private:
+  double novelty(std::span<const double> squared_distances) const;
+  bool joins(double novelty) const;
+  void adapt_threshold(int added);
+
+  NoveltySettings settings_;
+  Behaviours archive_;
+  ArchiveLog log_;
+  double threshold_;
+  int empty_generations_ = 0;
+  std::optional<NoveltyStatistics> statistics_;
+};
+
+}  // namespace amble::search

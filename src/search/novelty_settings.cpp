@@ -1,0 +1,80 @@
+#include "amble/search/novelty_settings.hpp"
+
+#include <unistd.h>
+
+#include <cmath>
+
+#include "amble/core/error.hpp"
+#include "amble/search/distance_estimates.hpp"
+
+namespace amble::search {
+namespace {
+
+constexpr std::string_view authors = "the authors' code", paper = "Morse et al. 2013, sec. 4";
+
+}  // namespace
+
+void NoveltySettings::describe(io::SettingsVisitor& visitor) {
+  visitor.integer("path_stride", path_stride, {1, 1e6},
+                  {"a behaviour is the path of the centre of mass (x, y), sampled after every so many steps",
+                   "the authors' code: 2; Morse et al. 2013, sec. 4: 1"});
+  visitor.choice("distance", distance, distance_names,
+                 {"distance of two behaviours: the sum of squared differences, or its root",
+                  "the authors' code: squared; Morse et al. 2013, sec. 4: root (\"Cartesian distance\")"});
+  visitor.choice("compare_with", compare_with, neighbours_names,
+                 {"among whom the nearest neighbours are looked for",
+                  "the authors' code: archive; Lehman & Stanley 2011: archive_and_population"});
+  visitor.integer(
+      "neighbours", neighbours, {1, 1e6},
+      {"novelty is the sum of the distances to so many nearest neighbours; absent ones count 0", paper});
+  visitor.number("threshold", threshold, {1e-9, 1e12},
+                 {"who is more novel than this joins the archive; the value in generation 0", paper});
+  visitor.integer("first_members", first_members, {0, 1e6},
+                  {"while the archive has fewer members, everyone joins it", authors});
+  visitor.integer("raise_above", raise_above, {0, 1e6},
+                  {"a generation that adds more members than this raises the threshold", authors});
+  visitor.number("raise_factor", raise_factor, {1, 1e3}, {"by this factor", authors});
+  visitor.integer("lower_after", lower_after, {1, 1e6},
+                  {"the threshold is lowered when so many generations in a row have added nobody",
+                   "the authors' code: 4; Lehman's code: 10"});
+  visitor.choice("lowering", lowering, lowering_names,
+                 {"and then again in each further such generation, or after as many more",
+                  "the authors' code: each_generation; Lehman's code: count_anew"});
+  visitor.number("lower_factor", lower_factor, {1e-3, 1},
+                 {"by this factor", "the authors' code: 0.8; Lehman's code: 0.95"});
+  visitor.number("lowest_threshold", lowest_threshold, {0, 1e12},
+                 {"but not below this", "the authors' code: none; Lehman's code: 0.25"});
+  visitor.integer("archive_limit", archive_limit, {1, 1e9},
+                  {"an archive of so many members takes nobody in"});
+}
+
+void NoveltySettings::validate(std::size_t behaviour_length) const {
+  if (behaviour_length == 0)
+    fail(ExitCode::bad_input, "search.novelty.path_stride = {}: expected at most the steps of a trial",
+         path_stride);
+  if (behaviour_length > longest_behaviour)
+    fail(ExitCode::bad_input,
+         "search.novelty.path_stride = {}: behaviours of {} numbers; expected at most {}, by a larger stride",
+         path_stride, behaviour_length, longest_behaviour);
+}
+
+void NoveltySettings::check_memory(std::size_t behaviour_length, int population, double memory_bytes) const {
+  // A member is its behaviour, its norm (held twice while a generation is judged), and a product with each
+  // newcomer.
+  const double per_member = static_cast<double>(behaviour_length) * sizeof(float) + 2.0 * sizeof(double) +
+                            static_cast<double>(population) * sizeof(float);
+  const double bytes = per_member * archive_limit;
+  constexpr double giga = 1e9;
+  if (bytes > memory_bytes)
+    fail(ExitCode::bad_input,
+         "search.novelty.archive_limit = {}: that many behaviours of {} numbers need {:.1f} GB; expected at "
+         "most {:.0f}, for the {:.1f} GB of this machine",
+         archive_limit, behaviour_length, bytes / giga, std::floor(memory_bytes / per_member),
+         memory_bytes / giga);
+}
+
+double machine_memory_bytes() {
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+}
+
+}  // namespace amble::search

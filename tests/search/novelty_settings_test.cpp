@@ -1,0 +1,80 @@
+#include "amble/search/novelty_settings.hpp"
+
+#include <gtest/gtest.h>
+
+#include "amble/core/error.hpp"
+#include "amble/io/toml_settings.hpp"
+
+namespace amble::search {
+namespace {
+
+template <typename Call>
+std::string complaint(Call call) {
+  try {
+    call();
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_input);
+    return error.what();
+  }
+  return "";
+}
+
+std::string reading(const std::string& line) {
+  return complaint([&] {
+    NoveltySettings settings;
+    auto document = io::TomlDocument::parse("", "c.toml");
+    document.set(line);
+    const auto reader = document.reader();
+    settings.describe(*reader);
+    reader->finish();
+  });
+}
+
+TEST(NoveltySettings, HaveARangeEach) {
+  for (const char* line :
+       {"path_stride=0", "neighbours=0", "neighbours=-3", "threshold=0", "threshold=-1", "threshold=nan",
+        "threshold=inf", "first_members=-1", "raise_above=-1", "raise_factor=0.9", "lower_after=0",
+        "lower_factor=1.1", "lower_factor=0", "lowest_threshold=-1", "archive_limit=0", "distance=manhattan",
+        "compare_with=nobody", "lowering=never", "path_stride=1.5"})
+    EXPECT_NE(reading(line).find("expected"), std::string::npos) << line << ": " << reading(line);
+  for (const char* line :
+       {"path_stride=1", "neighbours=1", "threshold=0.1", "first_members=0", "raise_above=0",
+        "raise_factor=1", "lower_after=1", "lower_factor=1", "lowest_threshold=0.25", "archive_limit=1",
+        "distance=root", "compare_with=archive_and_population", "lowering=count_anew"})
+    EXPECT_EQ(reading(line), "") << line;
+}
+
+TEST(NoveltySettings, RefuseAStrideLongerThanATrialAndBehavioursWithoutBound) {
+  NoveltySettings settings;
+  settings.path_stride = 2000;
+  EXPECT_EQ(complaint([&] { settings.validate(0); }),
+            "search.novelty.path_stride = 2000: expected at most the steps of a trial");
+  settings.path_stride = 1;
+  EXPECT_EQ(
+      complaint([&] { settings.validate(2000000); }),
+      "search.novelty.path_stride = 1: behaviours of 2000000 numbers; expected at most 1000000, by a larger "
+      "stride");
+  EXPECT_EQ(complaint([&] { settings.validate(1000000); }), "");
+}
+
+TEST(NoveltySettings, RefuseAnArchiveLargerThanMemoryAndSayHowLargeItMayBe) {
+  NoveltySettings settings;
+  settings.archive_limit = 1000000;
+  // 1500 floats, two doubles and 300 floats: 7216 bytes for each member.
+  EXPECT_EQ(
+      complaint([&] { settings.check_memory(1500, 300, 4e9); }),
+      "search.novelty.archive_limit = 1000000: that many behaviours of 1500 numbers need 7.2 GB; expected at "
+      "most 554323, for the 4.0 GB of this machine");
+  EXPECT_EQ(complaint([&] { settings.check_memory(1500, 300, 7.216e9); }), "");
+  settings.archive_limit = 554323;
+  EXPECT_EQ(complaint([&] { settings.check_memory(1500, 300, 4e9); }), "");
+  settings.archive_limit = 554324;
+  EXPECT_NE(complaint([&] { settings.check_memory(1500, 300, 4e9); }), "");
+}
+
+TEST(NoveltySettings, KnowThisMachinesMemory) {
+  EXPECT_GT(machine_memory_bytes(), 1e8);
+}
+
+}  // namespace
+}  // namespace amble::search

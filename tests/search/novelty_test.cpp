@@ -1,0 +1,243 @@
+#include "amble/search/novelty.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/search/naive_novelty.hpp"
+#include "tests/search/samples.hpp"
+
+namespace amble::search {
+namespace {
+
+using testing::ElementsAre;
+
+/// Nobody joins but by the rule under test, and behaviours are single numbers.
+NoveltySettings plain_settings() {
+  NoveltySettings settings;
+  settings.threshold = 1e9;
+  settings.first_members = 0;
+  return settings;
+}
+
+/// A generation of one-number behaviours: their novelties.
+std::vector<double> judge(NoveltySearch& search, const std::vector<float>& positions) {
+  Rows rows;
+  for (const float position : positions) rows.push_back({position});
+  std::vector<double> novelties;
+  for (const auto& fitness : search.judge(evaluations(rows))) novelties.push_back(fitness.selection);
+  return novelties;
+}
+
+TEST(NoveltySearch, LetsTheFirstMembersJoinWhateverTheirNoveltyAndNobodyAfterThem) {
+  auto settings = plain_settings();
+  settings.first_members = 15;
+  NoveltySearch search(settings, 1);
+  judge(search, std::vector<float>(14, 1.0f));
+  EXPECT_EQ(search.archive().rows(), 14u);
+  judge(search, {1.0f, 1.0f, 2.0f});
+  EXPECT_EQ(search.archive().rows(), 15u);
+}
+
+TEST(NoveltySearch, LetsJoinWhoIsMoreNovelThanTheThresholdAndNotWhoEqualsIt) {
+  auto settings = plain_settings();
+  settings.first_members = 1;
+  settings.threshold = 9.0;
+  NoveltySearch search(settings, 1);
+  judge(search, {0.0f, 3.0f});
+  EXPECT_EQ(search.archive().rows(), 1u);
+  judge(search, {3.001f});
+  EXPECT_EQ(search.archive().rows(), 2u);
+}
+
+TEST(NoveltySearch, CountsNothingForAbsentNeighbours) {
+  auto settings = plain_settings();
+  settings.first_members = 3;
+  NoveltySearch search(settings, 1);
+  EXPECT_THAT(judge(search, {0.0f, 3.0f, 5.0f}), ElementsAre(0.0, 9.0, 25.0 + 4.0));
+}
+
+TEST(NoveltySearch, AddsUpTheNearestOnly) {
+  auto settings = plain_settings();
+  settings.first_members = 4;
+  settings.neighbours = 2;
+  NoveltySearch search(settings, 1);
+  judge(search, {0.0f, 10.0f, 12.0f, 100.0f});
+  EXPECT_THAT(judge(search, {11.0f, 0.0f, 13.0f}), ElementsAre(1.0 + 1.0, 0.0 + 100.0, 1.0 + 9.0));
+}
+
+TEST(NoveltySearch, AddsUpRootsWhereDistancesAreRooted) {
+  auto settings = plain_settings();
+  settings.first_members = 2;
+  settings.distance = Distance::root;
+  NoveltySearch search(settings, 1);
+  judge(search, {0.0f, 3.0f});
+  EXPECT_THAT(judge(search, {5.0f}), ElementsAre(5.0 + 2.0));
+}
+
+TEST(NoveltySearch, ShowsThoseWhoJoinToThoseAfterThem) {
+  auto settings = plain_settings();
+  settings.first_members = 1;
+  settings.threshold = 3.0;
+  NoveltySearch search(settings, 1);
+  // 0 joins as the first; 1 is too close; 2 joins; the last is compared with 0 and 2.
+  EXPECT_THAT(judge(search, {0.0f, 1.0f, 2.0f, 1.0f}), ElementsAre(0.0, 1.0, 4.0, 1.0 + 1.0));
+  EXPECT_EQ(search.archive().rows(), 2u);
+}
+
+TEST(NoveltySearch, ComparesWithAllOfTheGenerationButOneselfAndCountsMembersOfBothOnce) {
+  auto settings = plain_settings();
+  settings.compare_with = Neighbours::archive_and_population;
+  settings.first_members = 1;
+  NoveltySearch search(settings, 1);
+  EXPECT_THAT(judge(search, {0.0f, 1.0f, 3.0f}), ElementsAre(1.0 + 9.0, 1.0 + 4.0, 9.0 + 4.0));
+  EXPECT_EQ(search.archive().rows(), 1u);
+  // Now with the archive, {0}: the same behaviour judged again is one of it, and one of the population.
+  EXPECT_THAT(judge(search, {0.0f, 1.0f}), ElementsAre(0.0 + 1.0, 1.0 + 1.0));
+}
+
+TEST(NoveltySearch, RaisesTheThresholdAfterMoreThanFourJoined) {
+  for (const int joining : {4, 5}) {
+    auto settings = plain_settings();
+    settings.first_members = joining;
+    settings.threshold = 100.0;
+    NoveltySearch search(settings, 1);
+    judge(search, std::vector<float>(10, 1.0f));
+    EXPECT_EQ(search.threshold(), joining > 4 ? 100.0 * 1.2 : 100.0) << joining;
+  }
+}
+
+TEST(NoveltySearch, LowersTheThresholdFromTheFourthEmptyGenerationOnInEach) {
+  NoveltySearch search(plain_settings(), 1);
+  double expected = 1e9;
+  for (int generation = 1; generation <= 7; ++generation) {
+    judge(search, {1.0f, 2.0f});
+    if (generation >= 4) expected *= 0.8;
+    EXPECT_EQ(search.threshold(), expected) << generation;
+  }
+}
+
+TEST(NoveltySearch, CountsEmptyGenerationsAnewAfterOneThatWasNot) {
+  auto settings = plain_settings();
+  settings.first_members = 1;
+  settings.threshold = 10.0;
+  NoveltySearch search(settings, 1);
+  judge(search, {0.0f});
+  for (int i = 0; i < 3; ++i) judge(search, {1.0f});
+  judge(search, {4.0f});
+  for (int i = 0; i < 3; ++i) judge(search, {1.0f});
+  EXPECT_EQ(search.threshold(), 10.0);
+  judge(search, {1.0f});
+  EXPECT_EQ(search.threshold(), 10.0 * 0.8);
+}
+
+TEST(NoveltySearch, FollowsLehmansRulesWithLehmansNumbers) {
+  auto settings = plain_settings();
+  settings.threshold = 0.27;
+  settings.lower_after = 10;
+  settings.lowering = Lowering::count_anew;
+  settings.lower_factor = 0.95;
+  settings.lowest_threshold = 0.25;
+  NoveltySearch search(settings, 1);
+  for (int generation = 1; generation <= 40; ++generation) {
+    judge(search, {1.0f});
+    const double expected = generation < 10 ? 0.27 : generation < 20 ? 0.27 * 0.95 : 0.25;
+    EXPECT_EQ(search.threshold(), expected) << generation;
+  }
+}
+
+TEST(NoveltySearch, TakesNobodyIntoAFullArchive) {
+  auto settings = plain_settings();
+  settings.first_members = 15;
+  settings.archive_limit = 3;
+  NoveltySearch search(settings, 1);
+  judge(search, {0.0f, 1.0f, 2.0f, 1e6f});
+  EXPECT_EQ(search.archive().rows(), 3u);
+  EXPECT_GT(judge(search, {1e6f})[0], search.threshold());
+  EXPECT_EQ(search.archive().rows(), 3u);
+}
+
+TEST(NoveltySearch, SelectsByNoveltyAndLeavesTheObjectiveToElitism) {
+  auto settings = plain_settings();
+  settings.first_members = 1;
+  NoveltySearch search(settings, 1);
+  const Rows rows{{0.0f}, {2.0f}};
+  const auto fitness = search.judge(std::vector<Evaluation>{{7.5, rows[0]}, {0.25, rows[1]}});
+  EXPECT_EQ(fitness[0].objective, 7.5);
+  EXPECT_EQ(fitness[1].objective, 0.25);
+  EXPECT_EQ(fitness[0].selection, 0.0);
+  EXPECT_EQ(fitness[1].selection, 4.0);
+}
+
+TEST(NoveltySearch, ReportsTheThresholdThatItsGenerationHadToExceed) {
+  auto settings = plain_settings();
+  settings.first_members = 5;
+  settings.threshold = 50.0;
+  NoveltySearch search(settings, 1);
+  EXPECT_FALSE(search.novelty_statistics());
+  judge(search, {0.0f, 1.0f, 2.0f, 3.0f, 4.0f});
+  const auto statistics = search.novelty_statistics();
+  ASSERT_TRUE(statistics);
+  EXPECT_EQ(statistics->threshold, 50.0);
+  EXPECT_EQ(search.threshold(), 60.0);
+  EXPECT_EQ(statistics->archive_members, 5u);
+  EXPECT_EQ(statistics->best_novelty, 16.0 + 9.0 + 4.0 + 1.0);
+}
+
+NoveltySettings random_settings(Stream& stream) {
+  NoveltySettings settings;
+  settings.distance = stream.chance(0.5) ? Distance::squared : Distance::root;
+  settings.compare_with = stream.chance(0.5) ? Neighbours::archive : Neighbours::archive_and_population;
+  settings.neighbours = 1 + static_cast<int>(stream.below(20));
+  settings.threshold = std::pow(10.0, stream.uniform(-2.0, 4.0));
+  settings.first_members = static_cast<int>(stream.below(20));
+  settings.lower_after = 1 + static_cast<int>(stream.below(4));
+  settings.lowering = stream.chance(0.5) ? Lowering::each_generation : Lowering::count_anew;
+  settings.archive_limit = stream.chance(0.2) ? 1 + static_cast<int>(stream.below(30)) : 1000;
+  return settings;
+}
+
+TEST(NoveltySearch, EqualsItsNaiveTwinForBehavioursOfAllShapes) {
+  for (std::uint32_t round = 0; round < 400; ++round) {
+    Stream stream(1, Purpose::test, 0, round);
+    const auto settings = random_settings(stream);
+    const Shape shape = shapes[round % shapes.size()];
+    const std::size_t length = 1 + stream.below(50);
+    NoveltySearch search(settings, length);
+    NaiveNovelty twin(settings);
+    for (int generation = 0; generation < 6; ++generation) {
+      const auto rows = random_rows(shape, 1 + stream.below(25), length, stream);
+      const auto fitness = search.judge(evaluations(rows));
+      const auto expected = twin.judge(rows);
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const bool exact = shape == Shape::small_whole_numbers;
+        ASSERT_NEAR(fitness[i].selection, expected[i], exact ? 0.0 : 1e-13 * expected[i]) << round;
+      }
+      ASSERT_EQ(search.threshold(), twin.threshold) << round;
+      ASSERT_EQ(search.archive().rows(), twin.archive.size()) << round;
+    }
+    for (std::size_t member = 0; member < twin.archive.size(); ++member)
+      ASSERT_TRUE(std::ranges::equal(search.archive().row(member), twin.archive[member])) << round;
+  }
+}
+
+TEST(NoveltySearch, EqualsItsNaiveTwinOnPathsOfFullLength) {
+  NoveltySettings settings;
+  settings.threshold = 10.0;
+  NoveltySearch search(settings, 1500);
+  NaiveNovelty twin(settings);
+  Stream stream(2, Purpose::test);
+  for (int generation = 0; generation < 4; ++generation) {
+    const auto rows = random_rows(Shape::mixed, 40, 1500, stream);
+    const auto fitness = search.judge(evaluations(rows));
+    const auto expected = twin.judge(rows);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      ASSERT_NEAR(fitness[i].selection, expected[i], 1e-13 * expected[i]);
+  }
+  EXPECT_EQ(search.archive().rows(), twin.archive.size());
+}
+
+}  // namespace
+}  // namespace amble::search
