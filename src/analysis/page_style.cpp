@@ -104,6 +104,14 @@ svg text.mean, svg text.median { font-weight: 450; fill: var(--soft); }
 .foot { fill: var(--panel); stroke: var(--leg); stroke-width: 2; }
 .foot-down { fill: var(--leg); stroke: var(--leg); stroke-width: 2; }
 .far { opacity: .42; }
+.plane { fill: var(--panel); stroke: var(--hair); }
+.link { stroke: var(--leg); stroke-width: 1.1; opacity: .7; } .link.strong { stroke-width: 1.8; } .link.weak { stroke-width: .6; }
+.many .link { opacity: .2; stroke-width: .7; } .many .link.strong { stroke-width: 1.1; }
+.loop { fill: none; stroke: var(--leg); stroke-width: 1.1; }
+.arrow { fill: var(--leg); }
+.node-sensor { fill: var(--paper); stroke: var(--ink); stroke-width: 1.6; }
+.node-hidden { fill: var(--paper); stroke: var(--ink); stroke-width: 1.6; }
+.node-joint { fill: var(--ink); stroke: var(--ink); stroke-width: 1.6; }
 )css";
 
 constexpr std::string_view phone_and_paper = R"css(

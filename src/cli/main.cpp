@@ -36,6 +36,7 @@ ExitCode run(int argc, char** argv) {
   amble::cli::add_verify(app, action);
   amble::cli::add_page(app, action);
   amble::cli::add_settings(app, action);
+  amble::cli::add_substrate(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help, --version

@@ -31,8 +31,8 @@ struct Problem {
   /// Makes `architecture` from the other members and checks that they fit.
   void complete();
 
-  int cppn_inputs() const { return static_cast<int>(architecture->input_names().size()); }
-  int cppn_outputs() const { return static_cast<int>(architecture->output_names().size()); }
+  int cppn_inputs() const { return static_cast<int>(architecture->layout().input_names().size()); }
+  int cppn_outputs() const { return static_cast<int>(architecture->layout().output_names().size()); }
   std::unique_ptr<physics::Engine> make_engine() const;
   std::unique_ptr<controllers::Parameters> decode(const neat::Genome& genome) const;
   trial::Protocol protocol(int path_stride) const;

@@ -80,6 +80,15 @@ std::string supg_json(int legs) {
   return json.dump();
 }
 
+std::string network_json() {
+  return R"({"kind": "ctrnn", "coordinates": ["x", "y"], "nodes": [
+    {"name": "foot", "group": "in", "at": [-1, 0], "role": "sensor"},
+    {"name": "inner", "group": "hidden", "at": [0, 0.5], "role": "hidden", "bias": 0.5, "time_constant": 3},
+    {"name": "knee", "group": "out", "at": [1, 0], "role": "joint", "bias": 3, "time_constant": 3}],
+    "possible_links": 4,
+    "links": [{"source": 0, "target": 1, "weight": 2.0}, {"source": 1, "target": 2, "weight": -0.5}]})";
+}
+
 analysis::Recorded walk(int frames, int legs) {
   analysis::Recorded recorded;
   recorded.robot = robot(legs);

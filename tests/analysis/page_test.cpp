@@ -112,16 +112,25 @@ TEST(Page, SaysSoIfNoGenerationIsFinished) {
   EXPECT_THAT(make_page(page, tests::walk(20)), HasSubstr("No generation has been finished yet."));
 }
 
-TEST(Page, SaysSoIfTheControllerHasNoTimers) {
+TEST(Page, DrawsTheNetworkOfAControllerWithoutTimers) {
   Recorded recorded = tests::walk(20);
   recorded.controller_kind = "ctrnn";
+  recorded.network = parse_network(tests::network_json(), "test");
   recorded.supg.reset();
   recorded.motion.timer_ticks.clear();
   recorded.motion.trigger.clear();
   const std::string page = make_page(input(), recorded);
   tests::parse_xml(page);
-  EXPECT_THAT(page, HasSubstr("The controller of this champion is of kind “ctrnn”. It has no timers"));
+  EXPECT_THAT(page, HasSubstr("2 of 4 possible links are expressed."));
+  EXPECT_THAT(page, Not(HasSubstr("Temporal patterns")));
   EXPECT_THAT(page, Not(HasSubstr("<dt>Triggers</dt>")));
+}
+
+TEST(Page, SaysSoIfItCannotDrawTheController) {
+  Recorded recorded = tests::walk(20);
+  recorded.controller_kind = "spring";
+  recorded.supg.reset();
+  EXPECT_THAT(make_page(input(), recorded), HasSubstr("of kind “spring”, which is not drawn"));
 }
 
 TEST(Page, SaysSoIfAFootNeverTouches) {

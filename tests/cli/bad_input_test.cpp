@@ -137,6 +137,23 @@ TEST_F(BadInput, UnknownEngine) {
                    "newton");
 }
 
+TEST_F(BadInput, SubstrateThatDoesNotHoldTogether) {
+  expect_complaint({"evolve", config, "--set", "controller.substrate.outputs=[\"pattern\"]", "--out", out_},
+                   ExitCode::bad_input,
+                   "controller.substrate.properties[1].output = \"offset\": the CPPN has no such output");
+  const std::string links = "controller.substrate.links=[{from=\"FL.knee\", to=\"tail\"}]";
+  const std::string ctrnn = source + "/configs/authors/ctrnn-objective.toml";
+  expect_complaint({"substrate", ctrnn, "--set", links, "-o", out_}, ExitCode::bad_input,
+                   "controller.substrate.links[0].to = \"tail\": there is no node and no group of that name");
+  expect_complaint({"substrate", config_with("[controller.substrate]\nnodes = [\n  { nam = \"a\" },\n]")},
+                   ExitCode::bad_input,
+                   "c.toml:4: unknown key 'controller.substrate.nodes[0].nam' (did you mean "
+                   "'controller.substrate.nodes[0].name'?)");
+  // A substrate for another robot, and a figure that is asked for another time constant than it has.
+  expect_complaint({"evolve", ctrnn, "--set", "controller.ctrnn.step=2", "--out", out_}, ExitCode::bad_input,
+                   "controller.ctrnn.step = 2: expected at most the shortest time constant, 1");
+}
+
 TEST_F(BadInput, SyntaxErrorWithLineAndColumn) {
   spill(scratch_.path / "c.toml", "seed = 1\npopulation = { size = \n");
   expect_complaint({"evolve", scratch_ / "c.toml", "--out", out_}, ExitCode::bad_input, "c.toml:2:");

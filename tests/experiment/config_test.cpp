@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
 #include "tests/experiment/fixture.hpp"
@@ -11,10 +13,13 @@ namespace amble::experiment {
 namespace {
 
 const std::string configs = std::string(AMBLE_SOURCE_DIR) + "/configs/";
+const std::vector<std::string> presets{"authors/supg-objective.toml",  "paper/supg-objective.toml",
+                                       "authors/sine-objective.toml",  "paper/sine-objective.toml",
+                                       "authors/ctrnn-objective.toml", "paper/ctrnn-objective.toml"};
 
 TEST(Config, WrittenInFullReadsBackToTheSameText) {
   const ScratchFolder scratch;
-  for (const char* preset : {"authors/supg-objective.toml", "paper/supg-objective.toml"}) {
+  for (const std::string& preset : presets) {
     const auto config = load_config(configs + preset, {});
     io::write_file(scratch.path / "full.toml", config.to_toml());
     const auto again = load_config(scratch.path / "full.toml", {});
@@ -23,7 +28,7 @@ TEST(Config, WrittenInFullReadsBackToTheSameText) {
 }
 
 TEST(Config, PresetsHaveThePapersNumbers) {
-  for (const char* preset : {"authors/supg-objective.toml", "paper/supg-objective.toml"}) {
+  for (const std::string& preset : presets) {
     const auto config = load_config(configs + preset, {});
     EXPECT_EQ(config.neat.population.size, 300);
     EXPECT_EQ(config.generations, 800);
@@ -87,6 +92,22 @@ TEST(Config, WithoutARobotIsRefusedByName) {
     FAIL() << "accepted";
   } catch (const UserError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("c.toml: key 'robot' is missing"));
+  }
+}
+
+TEST(Config, PresetsMakeTheArchitecturesOfThePaper) {
+  // Inputs and outputs of the CPPN: section 3, figures 6 and 7.
+  const std::map<std::string, std::pair<int, int>> sizes{
+      {"supg", {3, 2}}, {"sine", {6, 1}}, {"ctrnn", {8, 4}}};
+  for (const std::string& preset : presets) {
+    const auto config = load_config(configs + preset, {});
+    const auto problem = Problem::make(config, load_robot_file(config.robot));
+    const auto slash = preset.find('/'), dash = preset.find('-');
+    const auto& [inputs, outputs] = sizes.at(preset.substr(slash + 1, dash - slash - 1));
+    EXPECT_EQ(problem.cppn_inputs(), inputs) << preset;
+    EXPECT_EQ(problem.cppn_outputs(), outputs) << preset;
+    EXPECT_EQ(config.controller.ctrnn.state,
+              preset.starts_with("authors") ? controllers::StateRule::cleared : controllers::StateRule::kept);
   }
 }
 

@@ -62,6 +62,16 @@ TEST_P(EachSearch, GoesOnAfterAnInterruptionAsIfThereHadBeenNone) {
   EXPECT_EQ(rest.rows.back().best_so_far_m, whole.rows.back().best_so_far_m);
 }
 
+TEST_P(EachSearch, KeepsTheHeadOfItsTableWhenItIsStoppedBeforeTheFirstGeneration) {
+  const ScratchFolder scratch;
+  const auto table = RunPaths(scratch.path / "run").generations;
+  Run::start(scratch.path / "run", config(), 2);
+  const std::string head = io::read_file(table);
+  EXPECT_EQ(head, csv_header());
+  Run::resume(scratch.path / "run", {}, 2);
+  EXPECT_EQ(io::read_file(table), head);
+}
+
 TEST_P(EachSearch, NeverLosesItsBestDistance) {
   const ScratchFolder scratch;
   Listener listener;
