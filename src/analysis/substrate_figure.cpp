@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
@@ -70,10 +71,14 @@ void draw_legend(Svg& svg, const Substrate& substrate) {
     x += 12.0 + 7.4 * static_cast<double>(text.size()) + 26.0;
   };
   for (std::size_t role = 0; role < role_names.size(); ++role) {
+    const auto has_role = [&](const SubstrateNode& node) { return node.role == static_cast<NodeRole>(role); };
+    if (std::ranges::none_of(substrate.nodes, has_role)) continue;
     draw_node(svg, {x, 12.0}, static_cast<NodeRole>(role));
     write(role_names[role]);
   }
   for (std::size_t kind = 0; kind < substrate.link_kinds.size(); ++kind) {
+    const auto is_kind = [&](const SubstrateLink& link) { return link.kind == static_cast<int>(kind); };
+    if (std::ranges::none_of(substrate.links, is_kind)) continue;
     svg.begin_group(leg_class(static_cast<int>(kind)));
     svg.line({x - 8.0, 12.0}, {x + 6.0, 12.0}, "link strong");
     svg.end_group();
@@ -94,10 +99,10 @@ std::string substrate_figure(const Substrate& substrate, Layout layout) {
     draw_node(svg, places.nodes[i], substrate.nodes[i].role);
   if (wide) {
     for (std::size_t i = 0; i < substrate.nodes.size(); ++i)
-      svg.text({places.nodes[i].x, places.nodes[i].y + node_px + 12.0}, Anchor::middle, "tiny halo",
-               substrate.nodes[i].name);
+      svg.text({places.nodes[i].x + node_px + 2.0, places.nodes[i].y + node_px + 9.0}, Anchor::start,
+               "tiny halo", substrate.nodes[i].name);
     for (const auto& [at, text] : places.marks) svg.text(at, Anchor::middle, "tick", text);
-    for (const auto& [at, text] : places.titles) svg.text(at, Anchor::start, "tick", text);
+    for (const auto& [at, text] : places.titles) svg.text(at, Anchor::start, "tick halo", text);
     draw_legend(svg, substrate);
   }
   return svg.finish();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "amble/analysis/axis.hpp"
@@ -36,9 +37,16 @@ std::vector<Point> corners(const Box& box) {
   return {{box.x, box.y}, {box.right(), box.y}, {box.right(), box.bottom()}, {box.x, box.bottom()}};
 }
 
+/// As many decimals as it takes, up to four.
+std::string plain(double value) {
+  int decimals = 0;
+  for (double rest = value; decimals < 4 && std::fabs(rest - std::round(rest)) > 1e-6; rest *= 10.0)
+    ++decimals;
+  return label(value, decimals);
+}
+
 std::string title(const Substrate& substrate, std::size_t axis, double value) {
-  return fmt::format("{} = {}", substrate.coordinates[axis],
-                     label(value, value == static_cast<int>(value) ? 0 : 2));
+  return fmt::format("{} = {}", substrate.coordinates[axis], plain(value));
 }
 
 /// One or two coordinates: right and up.
@@ -56,10 +64,10 @@ SubstratePlaces in_a_plane(const Substrate& substrate, double width_px, double t
   places.frames.push_back(corners(box));
   constexpr std::size_t most_marks = 9;
   if (xs.size() <= most_marks)
-    for (const double value : xs) places.marks.push_back({{x(value), box.bottom() + 18.0}, number(value, 4)});
+    for (const double value : xs) places.marks.push_back({{x(value), box.bottom() + 18.0}, plain(value)});
   if (substrate.coordinates.size() > 1 && ys.size() <= most_marks)
-    for (const double value : ys) places.marks.push_back({{box.x + 22.0, y(value) + 4.0}, number(value, 4)});
-  places.marks.push_back({{0.5 * width_px, box.bottom() + 36.0}, substrate.coordinates[0]});
+    for (const double value : ys) places.marks.push_back({{box.x + 22.0, y(value) + 4.0}, plain(value)});
+  places.marks.push_back({{0.5 * width_px, box.bottom() + 36.0}, substrate.coordinates[0] + " →"});
   if (substrate.coordinates.size() > 1)
     places.titles.push_back({{box.x + 8.0, box.y + 18.0}, substrate.coordinates[1] + " ↑"});
   return places;
