@@ -151,7 +151,8 @@ void Run::write_down(const GenerationRow& row) {
   csv_->append(csv_line(row));
   progress_.csv_bytes = csv_->size();
   // What the checkpoint counts on must be on the disk before it.
-  if (archive_) archive_->append(search_->take_archive_growth());
+  if (archive_)
+    if (const auto growth = search_->take_archive_growth(); !growth.empty()) archive_->append(growth);
   checkpoint();
 }
 
