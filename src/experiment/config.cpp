@@ -9,7 +9,7 @@ namespace amble::experiment {
 void Config::describe(io::SettingsVisitor& visitor) {
   visitor.text("name", name, {"what this experiment is called in files and figures"});
   visitor.text("robot", robot, {"robot file, relative to the config file"});
-  visitor.text("engine", engine, {"physics engine: ode", "Morse et al. 2013, sec. 4"});
+  visitor.text("engine", engine, {"physics engine: ode or batch", "Morse et al. 2013, sec. 4 (ode)"});
   visitor.integer("seed", seed, {0, 9007199254740992.0}, {"seed of all randomness"});
   visitor.integer("generations", generations, {1, 1e9},
                   {"generations to evaluate, the initial one included", "Morse et al. 2013, sec. 4"});

@@ -25,6 +25,7 @@ struct RootPose {
 
 struct EngineSettings {
   double timestep_s = 0.01;
+  int iterations = 20;  ///< of the batch engine's constraint solver, fixed
 };
 
 /// Advances up to lanes() copies of one robot in lockstep, one copy per lane, on flat ground at z = 0.
@@ -63,8 +64,8 @@ class Engine {
   virtual std::uint64_t state_hash(int lane) const = 0;
 };
 
-/// Makes the engine of that name: "ode". Throws UserError for an unknown name or a robot that the engine
-/// cannot simulate.
+/// Makes the engine of that name: "ode" or "batch". Throws UserError for an unknown name or a robot that the
+/// engine cannot simulate.
 std::unique_ptr<Engine> make_engine(std::string_view name, const morphology::RobotSpec& robot,
                                     const EngineSettings& settings);
 

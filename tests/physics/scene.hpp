@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,10 +40,12 @@ struct Bench {
   LaneArray targets;
   double timestep_s;
 
-  explicit Bench(morphology::RobotSpec spec, double h = 0.01)
+  explicit Bench(morphology::RobotSpec spec, double h = 0.01) : Bench("ode", std::move(spec), h) {}
+  /// The robot stands in lane 0, alone.
+  Bench(const std::string& name, morphology::RobotSpec spec, double h = 0.01)
       : robot(std::move(spec)),
-        engine(make_engine("ode", robot, {.timestep_s = h})),
-        targets(static_cast<int>(robot.joints.size()), 1),
+        engine(make_engine(name, robot, {.timestep_s = h})),
+        targets(static_cast<int>(robot.joints.size()), engine->lanes()),
         timestep_s(h) {
     engine->place(0);
   }
@@ -54,6 +58,15 @@ struct Bench {
   }
   bool touches(int leg) const { return engine->sensors().touch.at(leg, 0) == 1.0f; }
 };
+
+/// A claim about every engine.
+class OnEachEngine : public testing::TestWithParam<const char*> {
+ protected:
+  bool single_precision() const { return std::string(GetParam()) == "batch"; }
+};
+#define ON_EACH_ENGINE(suite)                                               \
+  INSTANTIATE_TEST_SUITE_P(Physics, suite, testing::Values("ode", "batch"), \
+                           [](const auto& engine) { return std::string(engine.param); })
 
 /// Forward kinematics: where all bodies are for a pose of the root and joint angles. Independent of any
 /// engine.
