@@ -133,8 +133,7 @@ std::string network_section(const NeuralNetwork& network) {
   const std::string text =
       fmt::format("The neurons at their places in the substrate. {} of {} possible links are expressed.",
                   substrate.links.size(), network.possible_links);
-  constexpr std::size_t most_coordinates = 4;
-  if (substrate.coordinates.size() > most_coordinates)
+  if (!can_be_drawn(substrate))
     return section("The network", text, note("A substrate with more than four coordinates is not drawn."));
   return section("The network", text,
                  both([&](Layout layout) { return substrate_figure(substrate, layout); }));

@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "amble/core/check.hpp"
+
 namespace amble::analysis {
 namespace {
 
@@ -144,10 +146,15 @@ std::string style_sheet() {
   return sheet;
 }
 
-std::string figure_style_sheet() {
-  std::string sheet(colours);
-  sheet += "svg { background: var(--paper); overflow: visible; }";
-  return sheet += figures;
+std::string standalone_svg(std::string element) {
+  const std::size_t head_end = element.find('>');
+  AMBLE_CHECK(head_end != std::string::npos, "an SVG element begins with its tag");
+  std::string style = "\n<style>";
+  style += colours;
+  style += "svg { background: var(--paper); padding: 16px; overflow: visible; }";
+  style += figures;
+  style += "</style>";
+  return element.insert(head_end + 1, style);
 }
 
 }  // namespace amble::analysis

@@ -88,6 +88,10 @@ void draw_legend(Svg& svg, const Substrate& substrate) {
 
 }  // namespace
 
+bool can_be_drawn(const Substrate& substrate) {
+  return substrate.coordinates.size() <= 4;
+}
+
 std::string substrate_figure(const Substrate& substrate, Layout layout) {
   const bool wide = layout == Layout::wide;
   const SubstratePlaces places = substrate_places(substrate, width_px(layout), wide ? 36.0 : 8.0);
@@ -109,11 +113,7 @@ std::string substrate_figure(const Substrate& substrate, Layout layout) {
 }
 
 std::string substrate_svg(const Substrate& substrate) {
-  std::string text = substrate_figure(substrate, Layout::wide);
-  const std::size_t inside = text.find('>') + 1;
-  text.insert(inside, fmt::format("\n<style>{}svg {{ background: var(--paper); padding: 16px; }}</style>\n",
-                                  style_sheet()));
-  return text;
+  return standalone_svg(substrate_figure(substrate, Layout::wide));
 }
 
 }  // namespace amble::analysis

@@ -29,9 +29,12 @@ struct Substrate {
   std::vector<std::string> link_kinds;  ///< for the legend
 };
 
+/// Whether there are few enough coordinates for a picture: four at most.
+bool can_be_drawn(const Substrate& substrate);
+
 /// Nodes at their places, and links between them. Two coordinates make a plane; with three, the first stacks
 /// planes upon each other; with four, the last two place modules. Distances are stretched so that each
-/// coordinate fills the picture. An <svg> element. Throws UserError for more than four coordinates.
+/// coordinate fills the picture. An <svg> element. Throws UserError if it cannot be drawn.
 std::string substrate_figure(const Substrate& substrate, Layout layout);
 
 /// The same as a file of its own, with its style sheet.

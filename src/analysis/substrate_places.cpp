@@ -103,7 +103,7 @@ SubstratePlaces in_planes(const Substrate& substrate, double width_px, double to
 
 /// Four coordinates: modules by the last two, and in them right and up by the first two.
 SubstratePlaces in_modules(const Substrate& substrate, double width_px, double top_px) {
-  constexpr double height_px = 250.0, gap_px = 64.0;
+  const double height_px = 250.0, gap_px = 0.07 * width_px;
   const auto columns = distinct(substrate, 2), rows = distinct(substrate, 3);
   const auto count = static_cast<double>(columns.size());
   const double module_px = (width_px - 2.0 - (count - 1.0) * gap_px) / count;
@@ -119,7 +119,7 @@ SubstratePlaces in_modules(const Substrate& substrate, double width_px, double t
   std::set<std::pair<double, double>> framed;
   for (const SubstrateNode& node : substrate.nodes) {
     const Box its = box(coordinate(node, 2), coordinate(node, 3));
-    const Scale x = stretch(xs, its.x + margin_px, its.right() - margin_px);
+    const Scale x = stretch(xs, its.x + 0.1 * module_px, its.right() - 0.2 * module_px);
     const Scale y = stretch(ys, its.bottom() - 0.7 * margin_px, its.y + 0.9 * margin_px);
     places.nodes.push_back({x(coordinate(node, 0)), y(coordinate(node, 1))});
     if (!framed.emplace(coordinate(node, 2), coordinate(node, 3)).second) continue;
@@ -135,7 +135,7 @@ SubstratePlaces in_modules(const Substrate& substrate, double width_px, double t
 
 SubstratePlaces substrate_places(const Substrate& substrate, double width_px, double top_px) {
   const std::size_t count = substrate.coordinates.size();
-  if (count == 0 || count > 4)
+  if (!can_be_drawn(substrate))
     fail(ExitCode::bad_input, "a substrate with {} coordinates cannot be drawn: expected at most 4", count);
   if (count <= 2) return in_a_plane(substrate, width_px, top_px);
   return count == 3 ? in_planes(substrate, width_px, top_px) : in_modules(substrate, width_px, top_px);

@@ -89,9 +89,12 @@ void LayoutBuilder::add_nodes() {
     if (!node.sensor.empty())
       added.sensor = parse_sensor(node.sensor, robot_, "controller.substrate." + item("nodes", i, "sensor"));
   }
-  for (std::size_t i = 0; i < settings_.nodes.size(); ++i)
-    if (settings_.nodes[i].group != settings_.nodes[i].name && names.contains(settings_.nodes[i].group))
-      refuse(item("nodes", i, "group"), " = \"{}\": a node is called so, too", settings_.nodes[i].group);
+  for (std::size_t i = 0; i < settings_.nodes.size(); ++i) {
+    const auto namesake = names.find(settings_.nodes[i].group);
+    if (namesake != names.end() && namesake->second != i)
+      refuse(item("nodes", i, "group"), " = \"{}\": nodes[{}], which is another node, is called so",
+             settings_.nodes[i].group, namesake->second);
+  }
 }
 
 void LayoutBuilder::check_node(std::size_t index) const {

@@ -9,7 +9,8 @@ constexpr io::Range value_range{-1e6, 1e6};
 }  // namespace
 
 void NodeSettings::describe(io::SettingsVisitor& visitor) {
-  visitor.text("name", name, {"what the node is called; no other node and no group may be called so"});
+  visitor.text("name", name,
+               {"what the node is called; no other node may be called so, and no group of others"});
   visitor.text("group", group, {"links and properties name nodes by their groups"});
   visitor.numbers("at", at, coordinate_range, {"where the node stands: one number per coordinate"});
   visitor.text(

@@ -70,7 +70,12 @@ TEST(BadSubstrate, TwoNodesInOnePlaceOrOfOneName) {
             "nodes[2].name = \"FL.touch\": nodes[0] is called so, too");
   EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[2].name = ""; }), "nodes[2].name is missing");
   EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[2].group = "FL.touch"; }),
-            "nodes[2].group = \"FL.touch\": a node is called so, too");
+            "nodes[2].group = \"FL.touch\": nodes[0], which is another node, is called so");
+}
+
+TEST(BadSubstrate, ButANodeMayBeCalledAsItsOwnGroupOfOne) {
+  EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[1].group = s.nodes[1].name; }),
+            "properties: \"FL.hidden left\" has no bias, which a controller of kind ctrnn needs");
 }
 
 TEST(BadSubstrate, OutputThatTheCppnLacksOrNobodyReads) {
