@@ -50,6 +50,7 @@ Run Run::start(const std::filesystem::path& folder, const Config& config, int jo
   Run run(RunFolder::create(folder, config, robot), config, robot, jobs);
   run.csv_ = std::make_unique<io::AppendFile>(run.paths().generations, 0);
   run.csv_->append(csv_header());
+  run.progress_.csv_bytes = run.csv_->size();
   if (run.search_->has_archive()) {
     run.archive_ = std::make_unique<io::AppendFile>(run.paths().archive, 0);
     run.archive_->append(run.search_->take_archive_growth());

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
 #include "tests/experiment/fixture.hpp"
@@ -60,6 +62,16 @@ TEST_P(EachSearch, GoesOnAfterAnInterruptionAsIfThereHadBeenNone) {
   EXPECT_EQ(archive(scratch.path / "part"), archive(scratch.path / "whole"));
   ASSERT_EQ(rest.rows.size(), 2u);
   EXPECT_EQ(rest.rows.back().best_so_far_m, whole.rows.back().best_so_far_m);
+}
+
+TEST_P(EachSearch, CanBeResumedBeforeItsFirstGenerationIsDone) {
+  const ScratchFolder scratch;
+  Run::start(scratch.path / "run", config(), 1);
+  Listener listener;
+  EXPECT_EQ(Run::resume(scratch.path / "run", {}, 1).execute(listener, listener.stop), RunStatus::finished);
+  const auto csv = io::read_file(RunPaths(scratch.path / "run").generations);
+  EXPECT_TRUE(csv.starts_with(csv_header()));
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 3);
 }
 
 TEST_P(EachSearch, NeverLosesItsBestDistance) {
