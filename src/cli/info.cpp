@@ -30,9 +30,7 @@ void print_champion(const experiment::Champion& champion) {
 }
 
 ExitCode run_info(const std::filesystem::path& folder) {
-  if (!experiment::is_run_folder(folder))
-    fail(ExitCode::bad_input, "{}: not a run folder (no config.toml)", folder.string());
-  const experiment::RunPaths paths(folder);
+  const experiment::RunPaths paths = experiment::find_run(folder);
   const auto config = experiment::load_config(paths.config, {});
   const auto rows = analysis::read_generations(paths.generations);
   double evaluations = 0.0, steps = 0.0;

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string>
+#include <system_error>
 
 #include "amble/cli/commands.hpp"
 #include "amble/experiment/build_info.hpp"
@@ -59,6 +60,8 @@ int main(int argc, char** argv) {
     if (std::fflush(stdout) != 0) code = complain(ExitCode::io, "cannot write to the standard output");
   } catch (const amble::UserError& error) {
     code = complain(error.code(), error.what());
+  } catch (const std::system_error& error) {  // of files: permissions, a full device
+    code = complain(ExitCode::io, error.what());
   } catch (const std::exception& error) {
     code = complain(ExitCode::internal, fmt::format("defect: {}", error.what()));
   }

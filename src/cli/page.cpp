@@ -62,9 +62,8 @@ std::vector<analysis::Fact> facts(const experiment::Config& config, const experi
 }
 
 ExitCode make_page(const PageOptions& options) {
-  if (!experiment::is_run_folder(options.run))
-    fail(ExitCode::bad_input, "{}: not a run folder (no config.toml)", options.run.string());
-  const experiment::RunPaths paths(options.run);
+  const experiment::RunPaths paths = experiment::find_run(options.run);
+  io::refuse_to_replace(options.out, "<!DOCTYPE html>", "a page");
   const auto config = experiment::load_config(paths.config, {});
   const auto champion_path = paths.best_champion();
   const auto champion = experiment::load_champion(champion_path);
@@ -74,7 +73,7 @@ ExitCode make_page(const PageOptions& options) {
       champion.problem, champion.genome,
       {.seconds = {}, .engine = {}, .record = recording.path(), .origin = champion_path.string()},
       stop_signal());
-  if (!replay) return ExitCode::interrupted;
+  if (!replay) fail(ExitCode::interrupted, "stopped before the champion had walked");
 
   const analysis::PageInput input{
       .title = config.name,
@@ -92,8 +91,10 @@ ExitCode make_page(const PageOptions& options) {
   io::write_file(options.out, analysis::make_page(input, recorded));
   if (options.figures) {
     fs::create_directories(*options.figures);
-    for (const auto& figure : analysis::figure_files(input, recorded))
+    for (const auto& figure : analysis::figure_files(input, recorded)) {
+      io::refuse_to_replace(*options.figures / figure.name, "<svg", "a figure");
       io::write_file(*options.figures / figure.name, figure.svg);
+    }
   }
   fmt::print("{}\n", fs::absolute(options.out).lexically_normal().string());
   return ExitCode::ok;

@@ -8,6 +8,8 @@
 #include "amble/cli/commands.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/replay.hpp"
+#include "amble/io/file.hpp"
+#include "amble/record/frame_codec.hpp"
 
 namespace amble::cli {
 namespace {
@@ -21,13 +23,14 @@ struct TrialOptions {
 
 ExitCode run_trial(const TrialOptions& options) {
   const auto champion = experiment::load_champion(options.champion);
+  if (options.record) io::refuse_to_replace(*options.record, record::recording_magic, "a recording");
   const auto replay = experiment::replay(champion.problem, champion.genome,
                                          {.seconds = options.seconds,
                                           .engine = options.engine,
                                           .record = options.record,
                                           .origin = options.champion.string()},
                                          stop_signal());
-  if (!replay) return ExitCode::interrupted;
+  if (!replay) fail(ExitCode::interrupted, "stopped before the end of the trial");
   const auto& result = replay->result;
   fmt::print("outcome   {}\nupright   {:.2f} s\ndistance  {:.3f} m\nspeed     {:.3f} m/s\n",
              record::outcome_names[static_cast<std::size_t>(result.outcome)], result.seconds,
@@ -49,7 +52,7 @@ void add_trial(CLI::App& app, Action& action) {
   auto options = std::make_shared<TrialOptions>();
   command->add_option("CHAMPION", options->champion, "Champion file (JSON)")->required();
   command->add_option("--seconds", options->seconds, "Length of the trial (default: as in its evolution)")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1e-5, 1e6));
   command->add_option("--engine", options->engine, "Physics engine (default: as in its evolution)");
   command->add_option("--record", options->record, "Write every step to this recording");
   command->callback([options, &action] { action = [options] { return run_trial(*options); }; });

@@ -3,10 +3,12 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 
 #include "amble/core/check.hpp"
+#include "amble/core/error.hpp"
 
 namespace amble::experiment {
 namespace {
@@ -37,14 +39,21 @@ class GenomeQueue : public trial::TaskQueue {
   std::atomic<std::size_t> done_{0};
 };
 
+/// What a worker works with; made by itself, in its first round.
+struct Workplace {
+  std::unique_ptr<physics::Engine> engine;
+  std::unique_ptr<controllers::Batch> controllers;
+};
+
 }  // namespace
 
 /// What the workers and their employer share. A round is one call of evaluate().
 struct Evaluator::Shared {
   Shared(const Problem& problem_in, int path_stride_in) : problem(problem_in), path_stride(path_stride_in) {}
+  ~Shared();
 
   void work();
-  void one_round(trial::Runner& runner);
+  void one_round(Workplace& workplace);
 
   const Problem& problem;
   const int path_stride;
@@ -62,8 +71,7 @@ struct Evaluator::Shared {
 };
 
 void Evaluator::Shared::work() {
-  const auto engine = problem.make_engine();
-  const auto controllers = problem.architecture->make_batch(engine->lanes());
+  Workplace workplace;
   for (int seen = 0;;) {
     {
       std::unique_lock lock(mutex);
@@ -71,37 +79,52 @@ void Evaluator::Shared::work() {
       if (quit) return;
       seen = round;
     }
-    trial::Runner runner(*engine, *controllers, problem.protocol(path_stride));
-    one_round(runner);
+    one_round(workplace);
   }
 }
 
-void Evaluator::Shared::one_round(trial::Runner& runner) {
+void Evaluator::Shared::one_round(Workplace& workplace) {
   std::exception_ptr caught;
+  std::uint64_t own_steps = 0;
+  double own_physics_s = 0.0;
   try {
+    if (!workplace.engine) workplace.engine = problem.make_engine();
+    if (!workplace.controllers)
+      workplace.controllers = problem.architecture->make_batch(workplace.engine->lanes());
+    trial::Runner runner(*workplace.engine, *workplace.controllers, problem.protocol(path_stride));
     runner.run(*queue, *stop);
+    own_steps = runner.steps_simulated();
+    own_physics_s = runner.physics_s();
   } catch (...) {
     caught = std::current_exception();
   }
   const std::lock_guard lock(mutex);
   if (caught && !failure) failure = caught;
-  steps += runner.steps_simulated();
-  physics_s += runner.physics_s();
+  steps += own_steps;
+  physics_s += own_physics_s;
   if (--working == 0) finished.notify_one();
 }
 
 Evaluator::Evaluator(const Problem& problem, int path_stride, int jobs)
     : shared_(std::make_unique<Shared>(problem, path_stride)) {
   AMBLE_CHECK(jobs >= 1, "an evaluator needs a worker");
-  for (int i = 0; i < jobs; ++i) shared_->workers.emplace_back([shared = shared_.get()] { shared->work(); });
+  try {
+    for (int i = 0; i < jobs; ++i)
+      shared_->workers.emplace_back([shared = shared_.get()] { shared->work(); });
+  } catch (const std::system_error& error) {
+    fail(ExitCode::io, "cannot start {} workers: {}", jobs, error.code().message());
+  }
 }
 
-Evaluator::~Evaluator() {
+Evaluator::~Evaluator() = default;
+
+/// The workers, declared last, are waited for after this.
+Evaluator::Shared::~Shared() {
   {
-    const std::lock_guard lock(shared_->mutex);
-    shared_->quit = true;
+    const std::lock_guard lock(mutex);
+    quit = true;
   }
-  shared_->wake.notify_all();
+  wake.notify_all();
 }
 
 std::optional<GenerationResult> Evaluator::evaluate(std::span<const neat::Genome> genomes,

@@ -47,7 +47,7 @@ Run Run::start(const std::filesystem::path& folder, const Config& config, int jo
   check_memory(config);
   const auto robot = load_robot_file(config.robot);
   Problem::make(config, robot);  // complain before anything is written
-  Run run(RunFolder::create(folder, config, robot), config, robot, jobs);
+  Run run(RunFolder::create(folder, robot), config, robot, jobs);
   run.csv_ = std::make_unique<io::AppendFile>(run.paths().generations, 0);
   run.csv_->append(csv_header());
   run.progress_.csv_bytes = run.csv_->size();
@@ -57,6 +57,7 @@ Run Run::start(const std::filesystem::path& folder, const Config& config, int jo
   }
   run.checkpoint();
   run.folder_.note_process(config, jobs, 0);
+  run.folder_.save_config(config);  // last: what has a config is a run
   return run;
 }
 
@@ -68,11 +69,14 @@ Run Run::resume(const std::filesystem::path& folder, std::optional<int> generati
   const auto robot = held.load_robot();
   Run run(std::move(held), config, robot, jobs);
   run.progress_ = load_checkpoint(run.paths().checkpoint, config, run.population_, *run.search_);
+  if (generations && *generations < run.generation())
+    fail(ExitCode::bad_input, "{}: {} generations are done already, --generations {} asks for fewer",
+         folder.string(), run.generation(), *generations);
   const auto archive_bytes = restore_archive(run.paths().archive, *run.search_);
   run.csv_ = std::make_unique<io::AppendFile>(run.paths().generations, run.progress_.csv_bytes);
   if (archive_bytes) run.archive_ = std::make_unique<io::AppendFile>(run.paths().archive, *archive_bytes);
-  if (generations) run.folder_.save_config(config);
   run.folder_.note_process(config, jobs, run.generation());
+  if (generations) run.folder_.save_config(config);
   return run;
 }
 
@@ -98,7 +102,11 @@ RunStatus Run::execute(RunListener& listener, const std::atomic<bool>& stop) {
     row.evaluations = distances_m.size();
     row.steps = result->steps;
     row.physics_s = result->physics_s;
-    if (row.best_m > progress_.best_m) row.physics_s += keep_champion(*result, best);
+    if (row.best_m > progress_.best_m) {
+      const auto physics_s = keep_champion(*result, best, stop);
+      if (!physics_s) return RunStatus::interrupted;
+      row.physics_s += *physics_s;
+    }
     row.best_so_far_m = progress_.best_m;
 
     population_.advance(fitness);
@@ -122,8 +130,8 @@ std::vector<neat::Fitness> Run::judge(const GenerationResult& result, std::span<
   return search_->judge(evaluations);
 }
 
-double Run::keep_champion(const GenerationResult& result, std::size_t best) {
-  static const std::atomic<bool> to_the_end{false};
+std::optional<double> Run::keep_champion(const GenerationResult& result, std::size_t best,
+                                         const std::atomic<bool>& stop) {
   Champion champion{.experiment = config_.name,
                     .seed = config_.seed,
                     .generation = population_.generation(),
@@ -132,7 +140,8 @@ double Run::keep_champion(const GenerationResult& result, std::size_t best) {
                     .genome = population_.genomes()[best],
                     .result = summarise(result.trajectories[best]),
                     .trace = {}};
-  const auto again = replay(*problem_, champion.genome, {}, to_the_end);
+  const auto again = replay(*problem_, champion.genome, {}, stop);
+  if (!again) return std::nullopt;
   if (again->result.distance_m != champion.result.distance_m)
     fail(ExitCode::differs,
          "generation {}: the champion walked {} m, and {} m when run again: the engine does not repeat",

@@ -226,9 +226,19 @@ TEST_F(BadInput, ChampionTruncatedOrAltered) {
   altered.replace(weight, altered.find_first_of(",}\n", weight) - weight, "0.125");
   spill(champion, altered);
   expect_complaint({"trial", champion.string()}, ExitCode::bad_file, "checksum");
-  altered.replace(weight, 5, "1e999");
-  spill(champion, altered);
-  expect_complaint({"trial", champion.string()}, ExitCode::bad_file, champion.string());
+}
+
+TEST_F(BadInput, OutputsThatWouldReplaceFilesOfAnotherKind) {
+  make_run();
+  const auto champion = fs::directory_iterator(fs::path(run_) / "champions")->path().string();
+  expect_complaint({"trial", champion, "--record", champion}, ExitCode::bad_input, "is not a recording");
+  expect_complaint({"page", run_, "-o", run_ + "/checkpoint.bin"}, ExitCode::bad_input, "is not a page");
+}
+
+TEST_F(BadInput, ARunMadeShorterThanItIs) {
+  make_run();
+  expect_complaint({"resume", run_, "--generations", "1"}, ExitCode::bad_input,
+                   "2 generations are done already");
 }
 
 TEST_F(BadInput, CheckpointTruncatedAlteredOrOfAnotherVersion) {

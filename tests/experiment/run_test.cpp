@@ -74,6 +74,23 @@ TEST_P(EachSearch, CanBeResumedBeforeItsFirstGenerationIsDone) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 3);
 }
 
+TEST_P(EachSearch, CannotBeMadeShorterThanItIs) {
+  const ScratchFolder scratch;
+  Listener listener;
+  Run::start(scratch.path / "run", config(), 2).execute(listener, listener.stop);
+  const auto before = io::read_file(RunPaths(scratch.path / "run").config);
+  try {
+    Run::resume(scratch.path / "run", 1, 2);
+    ADD_FAILURE() << "accepted";
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_input);
+    EXPECT_NE(std::string(error.what()).find("3 generations are done already, --generations 1"),
+              std::string::npos)
+        << error.what();
+  }
+  EXPECT_EQ(io::read_file(RunPaths(scratch.path / "run").config), before);
+}
+
 TEST_P(EachSearch, NeverLosesItsBestDistance) {
   const ScratchFolder scratch;
   Listener listener;
