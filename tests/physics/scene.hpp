@@ -38,9 +38,9 @@ struct Bench {
   LaneArray targets;
   double timestep_s;
 
-  explicit Bench(morphology::RobotSpec spec, double h = 0.01)
+  explicit Bench(morphology::RobotSpec spec, double h = 0.01, bool torques = false)
       : robot(std::move(spec)),
-        engine(make_engine("ode", robot, {.timestep_s = h})),
+        engine(make_engine("ode", robot, {.timestep_s = h, .torques = torques})),
         targets(static_cast<int>(robot.joints.size()), 1),
         timestep_s(h) {
     engine->place(0);
