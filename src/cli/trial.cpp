@@ -6,6 +6,7 @@
 #include <string>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/gait_observer.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/io/file.hpp"
@@ -24,11 +25,14 @@ struct TrialOptions {
 ExitCode run_trial(const TrialOptions& options) {
   const auto champion = experiment::load_champion(options.champion);
   if (options.record) io::refuse_to_replace(*options.record, record::recording_magic, "a recording");
+  GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
   const auto replay = experiment::replay(champion.problem, champion.genome,
                                          {.seconds = options.seconds,
                                           .engine = options.engine,
                                           .record = options.record,
-                                          .origin = options.champion.string()},
+                                          .origin = options.champion.string(),
+                                          .observer = &gait,
+                                          .trace = false},
                                          stop_signal());
   if (!replay) fail(ExitCode::interrupted, "stopped before the end of the trial");
   const auto& result = replay->result;
@@ -41,6 +45,7 @@ ExitCode run_trial(const TrialOptions& options) {
       fmt::print(" {} {}", replay->legs[i], replay->triggers[i]);
     fmt::print("\n");
   }
+  fmt::print("{}", analysis::gait_summary(gait.finish(result.outcome)));
   if (options.record) fmt::print("recorded  {}\n", options.record->string());
   return ExitCode::ok;
 }

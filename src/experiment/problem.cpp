@@ -31,8 +31,8 @@ void Problem::complete() {
   make_engine();
 }
 
-std::unique_ptr<physics::Engine> Problem::make_engine() const {
-  return physics::make_engine(engine, robot, {.timestep_s = trial.timestep_s});
+std::unique_ptr<physics::Engine> Problem::make_engine(bool torques) const {
+  return physics::make_engine(engine, robot, {.timestep_s = trial.timestep_s, .torques = torques});
 }
 
 std::unique_ptr<controllers::Parameters> Problem::decode(const neat::Genome& genome) const {

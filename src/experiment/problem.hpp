@@ -33,7 +33,8 @@ struct Problem {
 
   int cppn_inputs() const { return static_cast<int>(architecture->layout().input_names().size()); }
   int cppn_outputs() const { return static_cast<int>(architecture->layout().output_names().size()); }
-  std::unique_ptr<physics::Engine> make_engine() const;
+  /// `torques`: see physics::EngineSettings.
+  std::unique_ptr<physics::Engine> make_engine(bool torques = false) const;
   std::unique_ptr<controllers::Parameters> decode(const neat::Genome& genome) const;
   trial::Protocol protocol(int path_stride) const;
 };

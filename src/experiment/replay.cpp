@@ -12,7 +12,7 @@ std::optional<Replay> replay(const Problem& original, const neat::Genome& genome
   if (options.engine) problem.engine = *options.engine;
   problem.trial.validate();
 
-  const auto engine = problem.make_engine();
+  const auto engine = problem.make_engine(options.record || options.observer);
   const auto controllers = problem.architecture->make_batch(engine->lanes());
   auto parameters = problem.decode(genome);
 
@@ -20,10 +20,11 @@ std::optional<Replay> replay(const Problem& original, const neat::Genome& genome
   trial::TriggerObserver triggers(*controllers);
   std::optional<trial::RecordingObserver> recording;
   trial::ObserverList observers;
-  observers.add(trace);
+  if (options.trace) observers.add(trace);
   observers.add(triggers);
+  if (options.observer) observers.add(*options.observer);
   if (options.record) {
-    recording.emplace(*options.record, problem.robot, *controllers, problem.trial.timestep_s,
+    recording.emplace(*options.record, problem.robot, *engine, *controllers, problem.trial.timestep_s,
                       morphology::to_json(problem.robot).dump(),
                       problem.architecture->parameters_json(*parameters), options.origin);
     observers.add(*recording);

@@ -26,6 +26,7 @@ struct RootPose {
 struct EngineSettings {
   double timestep_s = 0.01;
   int iterations = 20;  ///< of the batch engine's constraint solver, fixed
+  bool torques = false;  ///< keep motor_torque_nm(); it changes no other bit
 };
 
 /// Advances up to lanes() copies of one robot in lockstep, one copy per lane, on flat ground at z = 0.
@@ -54,6 +55,10 @@ class Engine {
 
   virtual const SensorFrame& sensors() const = 0;
   virtual RootPose root_pose(int lane) const = 0;
+  /// What each joint's motor gave in the last step, N m about the joint's axis, child against parent (joints
+  /// × lanes); the push of a stop is not in it. Null unless EngineSettings::torques is set and the engine can
+  /// tell.
+  virtual const LaneArray* motor_torque_nm() const { return nullptr; }
   /// Centre of mass of the root body; RobotSpec::fall_height_m refers to it.
   virtual Vec3 root_com_m(int lane) const = 0;
   /// Centre of mass of the whole robot.

@@ -58,7 +58,8 @@ void add_leg(Json& robot, int leg) {
 }  // namespace
 
 std::string robot_json(int legs) {
-  Json json{{"name", "test robot"}, {"joint_types", {"knee", "hip_fb", "hip_io"}}};
+  Json json{
+      {"name", "test robot"}, {"joint_types", {"knee", "hip_fb", "hip_io"}}, {"gravity_m_s2", {0, 0, -9.8}}};
   json["bodies"].push_back(body_json("torso", -1, {0, 0, 1}, 1.0));
   json["geoms"].push_back(geom_json(0, "box", {0.5, 0.2, 0.1}, {0, 0, 0}));
   for (int leg = 0; leg < legs; ++leg) add_leg(json, leg);

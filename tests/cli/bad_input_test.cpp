@@ -286,6 +286,15 @@ TEST_F(BadInput, TrialOfNoWholeNumberOfSteps) {
   expect_complaint({"trial", champion, "--seconds", "-1"}, ExitCode::bad_input, "--seconds");
 }
 
+TEST_F(BadInput, GaitOfWhatHasNone) {
+  expect_complaint({"gait", scratch_.path.string()}, ExitCode::bad_input, "not a run folder");
+  expect_complaint({"gait", scratch_ / "none.rec"}, ExitCode::io, "none.rec");
+  spill(scratch_.path / "walk.rec", "not a recording");
+  expect_complaint({"gait", scratch_ / "walk.rec"}, ExitCode::bad_file, "walk.rec");
+  expect_complaint({"gait", scratch_ / "walk.rec", "--debounce", "9"}, ExitCode::bad_input,
+                   "debounce = 9 s: expected 0 to 1 s");
+}
+
 TEST_F(BadInput, RecordingThatIsNone) {
   spill(scratch_.path / "walk.rec", "not a recording");
   expect_complaint({"info", scratch_ / "walk.rec"}, ExitCode::bad_file, "walk.rec");

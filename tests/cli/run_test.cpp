@@ -145,5 +145,25 @@ TEST(Trial, RecordsWhatInfoAndPageCanRead) {
   EXPECT_NE(slurp(scratch.path / "page.html").find("</html>"), std::string::npos);
 }
 
+TEST(Gait, IsTheSameOfARunItsChampionAndARecording) {
+  const ScratchFolder scratch;
+  ASSERT_EQ(amble(evolve(scratch / "run", 4, 2)).exit_code, ok);
+  std::string champion;
+  for (const auto& entry : std::filesystem::directory_iterator(scratch.path / "run/champions"))
+    champion = std::max(champion, entry.path().string());
+  const auto of_run = amble({"gait", scratch / "run", "--seconds", "4", "--json", "-"});
+  ASSERT_EQ(of_run.exit_code, ok) << of_run.err;
+  EXPECT_NE(of_run.out.find("\"format\": \"amble-gait\""), std::string::npos) << of_run.out;
+  EXPECT_EQ(amble({"gait", champion, "--seconds", "4", "--json", "-"}).out, of_run.out);
+
+  const auto table = amble({"gait", champion, "--seconds", "4", "--json", scratch / "gait.json"});
+  EXPECT_EQ(slurp(scratch.path / "gait.json"), of_run.out);
+  const auto trial = amble({"trial", champion, "--seconds", "4", "--record", scratch / "walk.rec"});
+  ASSERT_EQ(trial.exit_code, ok) << trial.err;
+  EXPECT_NE(trial.out.find("\ngait      "), std::string::npos) << trial.out;
+  // A recording keeps the centre of mass in single precision; the table shows no more than that.
+  EXPECT_EQ(amble({"gait", scratch / "walk.rec"}).out, table.out);
+}
+
 }  // namespace
 }  // namespace amble::tests

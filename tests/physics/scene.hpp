@@ -40,11 +40,11 @@ struct Bench {
   LaneArray targets;
   double timestep_s;
 
-  explicit Bench(morphology::RobotSpec spec, double h = 0.01) : Bench("ode", std::move(spec), h) {}
+  explicit Bench(morphology::RobotSpec spec, double h = 0.01, bool torques = false) : Bench("ode", std::move(spec), h, torques) {}
   /// The robot stands in lane 0, alone.
-  Bench(const std::string& name, morphology::RobotSpec spec, double h = 0.01)
+  Bench(const std::string& name, morphology::RobotSpec spec, double h = 0.01, bool torques = false)
       : robot(std::move(spec)),
-        engine(make_engine(name, robot, {.timestep_s = h})),
+        engine(make_engine(name, robot, {.timestep_s = h, .torques = torques})),
         targets(static_cast<int>(robot.joints.size()), engine->lanes()),
         timestep_s(h) {
     engine->place(0);

@@ -13,6 +13,7 @@
 #include "amble/physics/ode/contacts.hpp"
 #include "amble/physics/ode/library.hpp"
 #include "amble/physics/ode/motors.hpp"
+#include "amble/physics/ode/torque_meter.hpp"
 #include "amble/physics/ode/world.hpp"
 
 namespace amble::physics {
@@ -60,9 +61,12 @@ struct Trial {
   ode::World world;
   ode::Motors motors;
   ode::Contacts contacts;
+  std::optional<ode::TorqueMeter> torques;
 
-  Trial(const RobotSpec& robot, const ode::Threading& threading)
-      : world(robot, threading), motors(robot, world), contacts(robot, world) {}
+  Trial(const RobotSpec& robot, const ode::Threading& threading, bool with_torques)
+      : world(robot, threading), motors(robot, world), contacts(robot, world) {
+    if (with_torques) torques.emplace(robot, motors);
+  }
 };
 
 class OdeEngine final : public Engine {
@@ -70,6 +74,7 @@ class OdeEngine final : public Engine {
   OdeEngine(const RobotSpec& robot, const EngineSettings& settings)
       : robot_(robot),
         timestep_s_(settings.timestep_s),
+        with_torques_(settings.torques),
         total_mass_kg_(robot.total_mass_kg()),
         bodies_(robot.bodies.size()) {
     ode::check_joints(robot);
@@ -78,6 +83,7 @@ class OdeEngine final : public Engine {
     sensors_.joint_angle_rad = LaneArray(static_cast<int>(robot.joints.size()), 1);
     sensors_.touch = LaneArray(static_cast<int>(robot.legs.size()), 1);
     sensors_.attitude_rad = LaneArray(3, 1);
+    if (with_torques_) torques_nm_ = LaneArray(static_cast<int>(robot.joints.size()), 1);
   }
 
   int lanes() const override { return 1; }
@@ -86,7 +92,8 @@ class OdeEngine final : public Engine {
     check_lane(lane);
     ode::prepare_thread();
     trial_.reset();
-    trial_.emplace(robot_, *threading_);
+    trial_.emplace(robot_, *threading_, with_torques_);
+    torques_nm_.set_lane(0, 0.0f);
     stepping_ = true;
     healthy_ = true;
     trial_->contacts.feel(sensors_.touch);
@@ -108,12 +115,14 @@ class OdeEngine final : public Engine {
     try {
       trial_->contacts.collide(sensors_.touch);
       trial_->motors.drive(targets_rad);
+      if (with_torques_) trial_->torques->before_step(targets_rad);
       if (dWorldStep(trial_->world.id(), timestep_s_) == 0) throw ode::Fault("out of memory");
     } catch (const ode::Fault&) {
       healthy_ = false;
       threading_->replace();
       return;
     }
+    if (with_torques_) trial_->torques->after_step(torques_nm_);
     read_state();
   }
 
@@ -123,6 +132,8 @@ class OdeEngine final : public Engine {
   }
 
   const SensorFrame& sensors() const override { return sensors_; }
+
+  const LaneArray* motor_torque_nm() const override { return with_torques_ ? &torques_nm_ : nullptr; }
 
   RootPose root_pose(int lane) const override {
     check_lane(lane);
@@ -178,11 +189,13 @@ class OdeEngine final : public Engine {
 
   const RobotSpec robot_;
   const double timestep_s_;
+  const bool with_torques_;
   const double total_mass_kg_;
   std::optional<ode::Threading> threading_;
   std::optional<Trial> trial_;
   std::vector<BodyState> bodies_;
   SensorFrame sensors_;
+  LaneArray torques_nm_;
   bool stepping_ = false;
   bool healthy_ = true;
 };
