@@ -136,6 +136,10 @@ std::string style_sheet() {
   return sheet;
 }
 
+std::string palette_style_sheet() {
+  return std::string(colours);
+}
+
 std::string figure_style_sheet() {
   std::string sheet(colours);
   sheet += "svg { background: var(--paper); overflow: visible; }";

@@ -9,6 +9,9 @@ namespace amble::analysis {
 /// ends in lightness (front dark, back light), so that they stay apart for colour-blind readers too.
 std::string style_sheet();
 
+/// The colours alone, as custom properties (--paper, --ink, --c0 …): light and dark, and light on paper.
+std::string palette_style_sheet();
+
 /// The part that figures need, for an SVG file of its own; light, or dark where the reader prefers that.
 std::string figure_style_sheet();
 
