@@ -42,11 +42,11 @@ export function connectTransport(clock) {
     slider.value = clock.time_s;
     slider.setAttribute("aria-valuetext", `${clock.time_s.toFixed(2)} seconds`);
     speed.value = clock.speed;
-    output.textContent = `${clockText(clock.time_s, 2)} / ${clockText(clock.duration_s, 0)}`;
-    const [text, name] = clock.playing ? ["❚❚\uFE0E", "Pause"] : ["▶\uFE0E", "Play"];
-    if (play.textContent !== text) {
-      play.textContent = text;
+    output.replaceChildren(clockText(clock.time_s, 2), element("span", {}, ` / ${clockText(clock.duration_s, 0)}`));
+    const name = clock.playing ? "Pause" : "Play";
+    if (play.getAttribute("aria-label") !== name) {
       play.setAttribute("aria-label", name);
+      play.classList.toggle("playing", clock.playing);
     }
   };
 }

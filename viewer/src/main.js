@@ -26,6 +26,7 @@ const publicApi = (page) => ({
   step: (frames) => page.clock.step(frames),
   speed: (factor) => page.clock.setSpeed(factor),
   camera: (mode) => page.setCamera(mode),
+  resetCamera: () => page.resetCamera(),
   layout: (layout) => page.setLayout(layout),
   select: (i) => page.select(i),
   /** {root: [x, y, z, qw, qx, qy, qz], com: [x, y, z], angles: […]} */

@@ -8,6 +8,7 @@ import { CAMERAS, Stage } from "./scene.js";
 import { element, onThemeChange } from "./theme.js";
 
 const SPANS_S = [2, 5, 15, 60];
+const SLOW_S = 0.07, SLOW_FRAMES = 40; // frames so far apart, so many of them, are too much for the machine
 const FRAMES_KEPT = 2000; // of their times, for amble.frames()
 const byId = (id) => document.getElementById(id);
 
@@ -145,7 +146,12 @@ export class Page {
 
   frame(now_ms) {
     this.asked = false;
-    if (this.clock.playing && this.last_ms !== undefined) this.clock.advance(Math.min((now_ms - this.last_ms) / 1000, 0.25));
+    if (this.clock.playing && this.last_ms !== undefined) {
+      const passed_s = (now_ms - this.last_ms) / 1000;
+      this.clock.advance(Math.min(passed_s, 0.25));
+      this.slow = passed_s > SLOW_S ? (this.slow ?? 0) + 1 : 0;
+      if (this.slow === SLOW_FRAMES) this.stage?.simplify();
+    }
     this.last_ms = this.clock.playing ? now_ms : undefined;
     this.show();
     if (this.clock.playing) this.invalidate();

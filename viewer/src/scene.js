@@ -39,6 +39,7 @@ export class Stage {
     this.controls.minDistance = 0.8 * this.reach;
     this.controls.maxDistance = 25 * this.reach;
     this.controls.addEventListener("change", onChange);
+    this.pixelRatio = 2; // more is not seen
     this.mode = "follow";
     this.side = true;
     this.selected = 0;
@@ -61,11 +62,12 @@ export class Stage {
     this.sky = new HemisphereLight("#ffffff", "#b9bfc6", 2.3);
     this.sun = new DirectionalLight("#ffffff", 1.5);
     this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(1024, 1024);
+    this.sun.shadow.mapSize.set(2048, 2048);
     const box = this.sun.shadow.camera;
-    const size = 1.6 * this.reach + this.walks.length * this.reach;
+    const size = (1.3 + 0.8 * (this.walks.length - 1)) * this.reach;
     [box.left, box.right, box.top, box.bottom, box.near, box.far] = [-size, size, size, -size, 0.1, 12 * this.reach];
     this.sun.shadow.bias = -0.0005;
+    this.sun.shadow.radius = 2.5;
     this.scene.add(this.sky, this.sun, this.sun.target);
   }
 
@@ -136,11 +138,18 @@ export class Stage {
     this.controls.update();
   }
 
+  /** Less to draw, for machines that cannot keep up. */
+  simplify() {
+    this.renderer.shadowMap.enabled = this.sun.castShadow = false;
+    this.pixelRatio = 1;
+    this.width = 0; // so that resize() sets the size anew
+  }
+
   resize() {
     const { clientWidth: width, clientHeight: height } = this.parent;
     if (width === 0 || height === 0 || (width === this.width && height === this.height)) return;
     [this.width, this.height] = [width, height];
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, this.pixelRatio));
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
