@@ -146,6 +146,10 @@ std::string style_sheet() {
   return sheet;
 }
 
+std::string palette_style_sheet() {
+  return std::string(colours);
+}
+
 std::string standalone_svg(std::string element) {
   const std::size_t head_end = element.find('>');
   AMBLE_CHECK(head_end != std::string::npos, "an SVG element begins with its tag");

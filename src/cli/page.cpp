@@ -1,18 +1,16 @@
 #include "amble/analysis/page.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
-#include <utility>
 #include <vector>
 
 #include "amble/analysis/figures.hpp"
 #include "amble/cli/commands.hpp"
+#include "amble/cli/scratch_file.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/build_info.hpp"
 #include "amble/experiment/replay.hpp"
@@ -27,22 +25,6 @@ namespace fs = std::filesystem;
 struct PageOptions {
   fs::path run, out;
   std::optional<fs::path> figures;
-};
-
-/// A file that is gone with the object, even if the page cannot be made.
-class ScratchFile {
- public:
-  explicit ScratchFile(fs::path path) : path_(std::move(path)) {}
-  ~ScratchFile() {
-    std::error_code none;
-    fs::remove(path_, none);
-  }
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
 };
 
 std::vector<analysis::Fact> facts(const experiment::Config& config, const experiment::Champion& champion) {
@@ -68,7 +50,7 @@ ExitCode make_page(const PageOptions& options) {
   const auto champion_path = paths.best_champion();
   const auto champion = experiment::load_champion(champion_path);
 
-  const ScratchFile recording(fs::temp_directory_path() / fmt::format("amble-page-{}.rec", getpid()));
+  const ScratchFile recording("page");
   const auto replay = experiment::replay(
       champion.problem, champion.genome,
       {.seconds = {}, .engine = {}, .record = recording.path(), .origin = champion_path.string()},
