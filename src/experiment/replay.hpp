@@ -17,6 +17,7 @@ struct ReplayOptions {
   std::optional<std::string> engine;
   std::optional<std::filesystem::path> record;  ///< writes a recording (record/recording.hpp)
   std::string origin;                           ///< named in the recording
+  std::optional<trial::ScenarioKey> noise;      ///< under the problem's noise; nothing: without any
 };
 
 struct Replay {
@@ -27,8 +28,8 @@ struct Replay {
   double physics_s = 0.0;              ///< time spent in the engine
 };
 
-/// One trial of one genome. Nothing if `stop` was set before it ended (then nothing is recorded). Throws
-/// UserError.
+/// One trial of one genome, without noise unless it is asked for. Nothing if `stop` was set before it ended
+/// (then nothing is recorded). Throws UserError.
 std::optional<Replay> replay(const Problem& problem, const neat::Genome& genome, const ReplayOptions& options,
                              const std::atomic<bool>& stop);
 

@@ -10,8 +10,9 @@ namespace {
 const std::string source = AMBLE_SOURCE_DIR;
 
 TEST(Docs, SettingsAreTheProgramsOwnTable) {
-  auto table = amble({"settings", source + "/configs/authors/supg-novelty.toml",
-                      source + "/configs/paper/supg-novelty.toml"});
+  auto table =
+      amble({"settings", source + "/configs/authors/supg-novelty.toml",
+             source + "/configs/paper/supg-novelty.toml", source + "/configs/robust/supg-objective.toml"});
   ASSERT_EQ(table.exit_code, 0) << table.err;
   for (auto at = table.out.find(source); at != std::string::npos; at = table.out.find(source))
     table.out.erase(at, source.size() + 1);
