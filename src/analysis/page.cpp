@@ -108,8 +108,8 @@ std::string fitness_section(const Generations& generations) {
   const std::size_t count = generations.count();
   if (count == 0) return section("How it learned", "", note("No generation has been finished yet."));
   return section("How it learned",
-                 fmt::format("Distance walked over {} generation{}: {} trials, {} simulated steps.", count,
-                             count == 1 ? "" : "s", grouped(sum(generations.evaluations)),
+                 fmt::format("Distance walked over {} generation{}: {} evaluations, {} simulated steps.",
+                             count, count == 1 ? "" : "s", grouped(sum(generations.evaluations)),
                              grouped(sum(generations.steps))),
                  both([&](Layout layout) { return fitness_figure(generations, layout); }));
 }

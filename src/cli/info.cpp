@@ -27,6 +27,11 @@ void print_champion(const experiment::Champion& champion) {
              champion.genome.enabled_links());
   fmt::print("result      {:.3f} m in {:.2f} s, {}\n", champion.result.distance_m, champion.result.seconds,
              record::outcome_names[static_cast<std::size_t>(champion.result.outcome)]);
+  if (champion.episodes.empty()) return;
+  fmt::print("under noise {:.3f} m, {} of", champion.objective_m(),
+             trial::episode_score_names[static_cast<std::size_t>(problem.noise.score)]);
+  for (const auto& episode : champion.episodes) fmt::print(" {:.3f}", episode.result.distance_m);
+  fmt::print("\n");
 }
 
 ExitCode run_info(const std::filesystem::path& folder) {
@@ -40,7 +45,7 @@ ExitCode run_info(const std::filesystem::path& folder) {
   }
   fmt::print("experiment  {} (seed {})\nengine      {}\ngenerations {} of {}\n", config.name, config.seed,
              config.engine, rows.count(), config.generations);
-  fmt::print("trials      {:.0f} ({:.3g} steps)\n", evaluations, steps);
+  fmt::print("evaluations {:.0f} ({:.3g} steps)\n", evaluations, steps);
   fmt::print("search      {}", search::kind_names[static_cast<std::size_t>(config.search.kind)]);
   if (!rows.archive.empty())
     fmt::print(": archive of {:.0f} behaviours, threshold {:.4g} in the last generation", rows.archive.back(),

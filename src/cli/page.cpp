@@ -27,6 +27,12 @@ struct PageOptions {
   std::optional<fs::path> figures;
 };
 
+std::string noise_text(const trial::NoiseSettings& noise) {
+  if (!noise.any()) return "none";
+  return fmt::format("{} of {} episodes; what is shown walked without",
+                     trial::episode_score_names[static_cast<std::size_t>(noise.score)], noise.episodes);
+}
+
 std::vector<analysis::Fact> facts(const experiment::Config& config, const experiment::Champion& champion) {
   const auto build = experiment::build_info();
   const auto& robot = champion.problem.robot;
@@ -37,6 +43,7 @@ std::vector<analysis::Fact> facts(const experiment::Config& config, const experi
           {"Population",
            fmt::format("{} genomes, {} generations", config.neat.population.size, config.generations)},
           {"Trial", fmt::format("{} s, or until the robot falls", config.trial.duration_s)},
+          {"Noise", noise_text(config.noise)},
           {"Seed", fmt::format("{}", config.seed)},
           {"Champion", fmt::format("generation {}, genome {}", champion.generation, champion.index)},
           {"Made by",
@@ -51,10 +58,13 @@ ExitCode make_page(const PageOptions& options) {
   const auto champion = experiment::load_champion(champion_path);
 
   const ScratchFile recording("page");
-  const auto replay = experiment::replay(
-      champion.problem, champion.genome,
-      {.seconds = {}, .engine = {}, .record = recording.path(), .origin = champion_path.string()},
-      stop_signal());
+  const auto replay = experiment::replay(champion.problem, champion.genome,
+                                         {.seconds = {},
+                                          .engine = {},
+                                          .record = recording.path(),
+                                          .origin = champion_path.string(),
+                                          .noise = {}},
+                                         stop_signal());
   if (!replay) fail(ExitCode::interrupted, "stopped before the champion had walked");
 
   const analysis::PageInput input{

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -20,20 +21,28 @@ struct TrialOptions {
   std::optional<double> seconds;
   std::optional<std::string> engine;
   std::optional<std::filesystem::path> record;
+  std::optional<std::uint32_t> noise;
 };
+
+constexpr std::uint32_t most_episodes = 1000000;
 
 ExitCode run_trial(const TrialOptions& options) {
   const auto champion = experiment::load_champion(options.champion);
   if (options.record) io::refuse_to_replace(*options.record, record::recording_magic, "a recording");
   GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
-  const auto replay = experiment::replay(champion.problem, champion.genome,
-                                         {.seconds = options.seconds,
-                                          .engine = options.engine,
-                                          .record = options.record,
-                                          .origin = options.champion.string(),
-                                          .observer = &gait,
-                                          .trace = false},
-                                         stop_signal());
+  experiment::ReplayOptions how{.seconds = options.seconds,
+                                .engine = options.engine,
+                                .record = options.record,
+                                .origin = options.champion.string(),
+                                .observer = &gait,
+                                .trace = false,
+                                .noise = {}};
+  if (options.noise) {
+    if (!champion.problem.noise.any())
+      fail(ExitCode::bad_input, "--noise: {} was evolved without noise", options.champion.string());
+    how.noise = champion.scenario_key(*options.noise);
+  }
+  const auto replay = experiment::replay(champion.problem, champion.genome, how, stop_signal());
   if (!replay) fail(ExitCode::interrupted, "stopped before the end of the trial");
   const auto& result = replay->result;
   fmt::print("outcome   {}\nupright   {:.2f} s\ndistance  {:.3f} m\nspeed     {:.3f} m/s\n",
@@ -60,6 +69,12 @@ void add_trial(CLI::App& app, Action& action) {
       ->check(CLI::Range(1e-5, 1e6));
   command->add_option("--engine", options->engine, "Physics engine (default: as in its evolution)");
   command->add_option("--record", options->record, "Write every step to this recording");
+  command
+      ->add_option(
+          "--noise", options->noise,
+          "Disturb the trial as in this episode of its evaluation, from 0; higher numbers are noise that "
+          "it has not met (default: no noise)")
+      ->check(CLI::Range(0u, most_episodes));
   command->callback([options, &action] { action = [options] { return run_trial(*options); }; });
 }
 

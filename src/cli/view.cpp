@@ -31,8 +31,8 @@ struct ViewOptions {
 
 io::Json cppn_json(const experiment::Champion& champion) {
   io::Json json = neat::to_json(champion.genome);
-  json["inputs"] = champion.problem.architecture->input_names();
-  json["outputs"] = champion.problem.architecture->output_names();
+  json["inputs"] = champion.problem.architecture->layout().input_names();
+  json["outputs"] = champion.problem.architecture->layout().output_names();
   return json;
 }
 

@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "amble/core/error.hpp"
+#include "amble/experiment/episodes.hpp"
 #include "amble/io/file.hpp"
 #include "amble/morphology/robot_json.hpp"
 #include "amble/neat/genome_json.hpp"
@@ -55,6 +56,25 @@ TrialResult parse_result(const io::JsonView& view) {
   return result;
 }
 
+io::Json noise_json(const Champion& champion) {
+  io::Json episodes = io::Json::array();
+  for (const auto& episode : champion.episodes)
+    episodes.push_back({{"result", result_json(episode.result)}, {"trace", trace_text(episode.trace)}});
+  return {{"settings", io::settings_to_json(champion.problem.noise)}, {"episodes", std::move(episodes)}};
+}
+
+std::vector<NoisyTrial> parse_episodes(const io::JsonView& root) {
+  std::vector<NoisyTrial> episodes;
+  if (!root.has("noise")) return episodes;
+  const auto list = root.at("noise").at("episodes");
+  if (static_cast<std::int64_t>(list.size()) != root.at("noise").at("settings").at("episodes").integer())
+    list.bad("as many as settings.episodes");
+  for (std::size_t i = 0; i < list.size(); ++i)
+    episodes.push_back(
+        {.result = parse_result(list.at(i).at("result")), .trace = parse_trace(list.at(i).at("trace"))});
+  return episodes;
+}
+
 Problem parse_problem(const io::JsonView& root) {
   Problem problem{
       .robot = morphology::from_json(root.at("robot")),
@@ -62,7 +82,10 @@ Problem parse_problem(const io::JsonView& root) {
       .cppn = io::settings_from_json<cppn::Settings>(root.at("cppn")),
       .controller = io::settings_from_json<controllers::ControllerSettings>(root.at("controller")),
       .trial = io::settings_from_json<trial::Settings>(root.at("trial")),
+      .noise = {},
       .architecture = nullptr};
+  if (root.has("noise"))
+    problem.noise = io::settings_from_json<trial::NoiseSettings>(root.at("noise").at("settings"));
   problem.complete();
   return problem;
 }
@@ -76,21 +99,35 @@ TrialResult summarise(const record::Trajectory& trajectory) {
           .outcome = trajectory.outcome};
 }
 
+trial::ScenarioKey Champion::scenario_key(std::size_t episode) const {
+  return {.seed = static_cast<std::uint64_t>(seed),
+          .generation = static_cast<std::uint32_t>(generation),
+          .episode = static_cast<std::uint32_t>(episode)};
+}
+
+double Champion::objective_m() const {
+  if (episodes.empty()) return result.distance_m;
+  std::vector<double> distances_m;
+  for (const auto& episode : episodes) distances_m.push_back(episode.result.distance_m);
+  return experiment::objective_m(problem.noise.score, distances_m);
+}
+
 std::string champion_text(const Champion& champion) {
   const Problem& problem = champion.problem;
-  return io::sealed_json(champion_format, champion_version,
-                         {{"experiment", champion.experiment},
-                          {"seed", champion.seed},
-                          {"generation", champion.generation},
-                          {"index", champion.index},
-                          {"result", result_json(champion.result)},
-                          {"genome", neat::to_json(champion.genome)},
-                          {"cppn", io::settings_to_json(problem.cppn)},
-                          {"controller", io::settings_to_json(problem.controller)},
-                          {"engine", problem.engine},
-                          {"trial", io::settings_to_json(problem.trial)},
-                          {"robot", morphology::to_json(problem.robot)},
-                          {"trace", trace_text(champion.trace)}});
+  io::Json document{{"experiment", champion.experiment},
+                    {"seed", champion.seed},
+                    {"generation", champion.generation},
+                    {"index", champion.index},
+                    {"result", result_json(champion.result)},
+                    {"genome", neat::to_json(champion.genome)},
+                    {"cppn", io::settings_to_json(problem.cppn)},
+                    {"controller", io::settings_to_json(problem.controller)},
+                    {"engine", problem.engine},
+                    {"trial", io::settings_to_json(problem.trial)},
+                    {"robot", morphology::to_json(problem.robot)},
+                    {"trace", trace_text(champion.trace)}};
+  if (!champion.episodes.empty()) document["noise"] = noise_json(champion);
+  return io::sealed_json(champion_format, champion_version, document);
 }
 
 LoadedChampion parse_champion(const std::string& text, const std::string& what, io::Altered altered) {
@@ -104,7 +141,8 @@ LoadedChampion parse_champion(const std::string& text, const std::string& what, 
                       .problem = parse_problem(root),
                       .genome = neat::genome_from_json(root.at("genome")),
                       .result = parse_result(root.at("result")),
-                      .trace = parse_trace(root.at("trace"))};
+                      .trace = parse_trace(root.at("trace")),
+                      .episodes = parse_episodes(root)};
     neat::validate(champion.genome, champion.problem.cppn_inputs(), champion.problem.cppn_outputs(),
                    champion.problem.cppn.recurrent);
     return {std::move(champion), sealed.altered};

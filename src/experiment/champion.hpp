@@ -21,6 +21,12 @@ struct TrialResult {
 };
 TrialResult summarise(const record::Trajectory& trajectory);
 
+/// One of the trials under noise that made a genome a champion.
+struct NoisyTrial {
+  TrialResult result;
+  std::vector<std::uint32_t> trace;
+};
+
 /// A genome worth keeping, with all that is needed to run it again: robot, controller, trial, engine.
 /// Self-contained.
 struct Champion {
@@ -30,8 +36,14 @@ struct Champion {
   int index = 0;  ///< in its population
   Problem problem;
   neat::Genome genome;
-  TrialResult result;                ///< of the trial that made it a champion
+  TrialResult result;                ///< of its trial without noise
   std::vector<std::uint32_t> trace;  ///< trial::TraceObserver of that trial: one hash per step
+  std::vector<NoisyTrial> episodes;  ///< Problem::noise; empty if there is none
+
+  /// Names the noise of an episode; beyond those that made it a champion, noise that it has not met.
+  trial::ScenarioKey scenario_key(std::size_t episode) const;
+  /// By what it became the champion, m: what its episodes make of it, or its distance without noise.
+  double objective_m() const;
 };
 
 /// The text of a champion file (docs/FORMATS.md).

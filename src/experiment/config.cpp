@@ -16,7 +16,8 @@ void Config::describe(io::SettingsVisitor& visitor) {
   neat.describe(visitor);
   visitor.table("cppn", cppn, {"the compositional pattern producing network"});
   visitor.table("controller", controller, {"how a CPPN becomes a controller"});
-  visitor.table("trial", trial, {"one evaluation of one controller"});
+  visitor.table("trial", trial, {"one trial of one controller"});
+  visitor.table("noise", noise, {"noise in trials, and how many of them make an evaluation; off by default"});
   visitor.table("search", search, {"what selects parents"});
 }
 
@@ -24,6 +25,7 @@ void Config::validate() const {
   if (robot.empty()) fail(ExitCode::bad_input, "key 'robot' is missing: expected the path of a robot file");
   neat.validate();
   trial.validate();
+  noise.validate(trial);
   if (search.kind == search::Kind::novelty) search.novelty.validate(behaviour_length());
 }
 

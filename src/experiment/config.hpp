@@ -12,6 +12,7 @@
 #include "amble/io/settings.hpp"
 #include "amble/neat/settings.hpp"
 #include "amble/search/search.hpp"
+#include "amble/trial/noise_settings.hpp"
 #include "amble/trial/settings.hpp"
 
 namespace amble::experiment {
@@ -28,6 +29,7 @@ struct Config {
   cppn::Settings cppn;
   controllers::ControllerSettings controller;
   trial::Settings trial;
+  trial::NoiseSettings noise;
   search::Settings search;
 
   void describe(io::SettingsVisitor& visitor);

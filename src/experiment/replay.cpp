@@ -30,7 +30,9 @@ std::optional<Replay> replay(const Problem& original, const neat::Genome& genome
     observers.add(*recording);
   }
 
-  trial::OneTask task(std::move(parameters), &observers);
+  std::optional<trial::Scenario> scenario;
+  if (options.noise) scenario = problem.scenario(*options.noise);
+  trial::OneTask task(std::move(parameters), &observers, scenario ? &*scenario : nullptr);
   trial::Runner runner(*engine, *controllers, problem.protocol(0));
   runner.run(task, stop);
   if (!task.result()) return std::nullopt;

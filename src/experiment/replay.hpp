@@ -20,6 +20,7 @@ struct ReplayOptions {
   std::string origin;                           ///< named in the recording
   trial::Observer* observer = nullptr;          ///< not owned; sees motor torques if the engine tells them
   bool trace = true;                            ///< keep a hash per step; off for trials of hours
+  std::optional<trial::ScenarioKey> noise;      ///< under the problem's noise; nothing: without any
 };
 
 struct Replay {
@@ -30,8 +31,8 @@ struct Replay {
   double physics_s = 0.0;              ///< time spent in the engine
 };
 
-/// One trial of one genome. Nothing if `stop` was set before it ended (then nothing is recorded). Throws
-/// UserError.
+/// One trial of one genome, without noise unless it is asked for. Nothing if `stop` was set before it ended
+/// (then nothing is recorded). Throws UserError.
 std::optional<Replay> replay(const Problem& problem, const neat::Genome& genome, const ReplayOptions& options,
                              const std::atomic<bool>& stop);
 

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "amble/core/error.hpp"
+#include "amble/experiment/episodes.hpp"
 #include "amble/experiment/replay.hpp"
-#include "amble/score/distance.hpp"
 #include "amble/score/path_behaviour.hpp"
 
 namespace amble::experiment {
@@ -85,11 +85,11 @@ RunStatus Run::execute(RunListener& listener, const std::atomic<bool>& stop) {
   Evaluator evaluator(*problem_, config_.search.path_stride(), jobs_);
   double last_row_s = now_s();
   while (population_.generation() < config_.generations) {
-    const auto result = evaluator.evaluate(population_.genomes(), stop);
+    const auto scenarios = problem_->scenarios(config_.seed, population_.generation());
+    const auto result = evaluator.evaluate(population_.genomes(), stop, scenarios);
     if (!result) return RunStatus::interrupted;
 
-    std::vector<double> distances_m;
-    for (const auto& trajectory : result->trajectories) distances_m.push_back(score::distance_m(trajectory));
+    const auto distances_m = objectives_m(config_.noise.score, *result);
     const auto fitness = judge(*result, distances_m);
 
     GenerationRow row{.generation = population_.generation(),
@@ -103,7 +103,7 @@ RunStatus Run::execute(RunListener& listener, const std::atomic<bool>& stop) {
     row.steps = result->steps;
     row.physics_s = result->physics_s;
     if (row.best_m > progress_.best_m) {
-      const auto physics_s = keep_champion(*result, best, stop);
+      const auto physics_s = keep_champion(best, row.best_m, stop);
       if (!physics_s) return RunStatus::interrupted;
       row.physics_s += *physics_s;
     }
@@ -124,33 +124,45 @@ std::vector<neat::Fitness> Run::judge(const GenerationResult& result, std::span<
   std::vector<std::vector<float>> behaviours;
   std::vector<search::Evaluation> evaluations;
   for (std::size_t i = 0; i < distances_m.size(); ++i) {
-    behaviours.push_back(score::path_behaviour(result.trajectories[i], length));
+    // What it did is what it did in its first episode: a mean of paths would be nobody's path.
+    behaviours.push_back(score::path_behaviour(result.of_genome(i).front(), length));
     evaluations.push_back({.objective = distances_m[i], .behaviour = behaviours.back()});
   }
   return search_->judge(evaluations);
 }
 
-std::optional<double> Run::keep_champion(const GenerationResult& result, std::size_t best,
-                                         const std::atomic<bool>& stop) {
+std::optional<double> Run::keep_champion(std::size_t best, double distance_m, const std::atomic<bool>& stop) {
   Champion champion{.experiment = config_.name,
                     .seed = config_.seed,
                     .generation = population_.generation(),
                     .index = static_cast<int>(best),
                     .problem = *problem_,
                     .genome = population_.genomes()[best],
-                    .result = summarise(result.trajectories[best]),
-                    .trace = {}};
-  const auto again = replay(*problem_, champion.genome, {}, stop);
-  if (!again) return std::nullopt;
-  if (again->result.distance_m != champion.result.distance_m)
+                    .result = {},
+                    .trace = {},
+                    .episodes = {}};
+  const auto undisturbed = replay(*problem_, champion.genome, {}, stop);
+  if (!undisturbed) return std::nullopt;
+  champion.result = undisturbed->result;
+  champion.trace = undisturbed->trace;
+  double physics_s = undisturbed->physics_s;
+  if (problem_->noise.any())
+    for (std::size_t i = 0; i < static_cast<std::size_t>(problem_->noise.episodes); ++i) {
+      ReplayOptions options;
+      options.noise = champion.scenario_key(i);
+      const auto again = replay(*problem_, champion.genome, options, stop);
+      if (!again) return std::nullopt;
+      champion.episodes.push_back({again->result, again->trace});
+      physics_s += again->physics_s;
+    }
+  if (champion.objective_m() != distance_m)
     fail(ExitCode::differs,
          "generation {}: the champion walked {} m, and {} m when run again: the engine does not repeat",
-         champion.generation, champion.result.distance_m, again->result.distance_m);
-  champion.trace = again->trace;
+         champion.generation, distance_m, champion.objective_m());
   folder_.save_champion(champion);
-  progress_.best_m = champion.result.distance_m;
+  progress_.best_m = distance_m;
   progress_.best_generation = champion.generation;
-  return again->physics_s;
+  return physics_s;
 }
 
 void Run::write_down(const GenerationRow& row) {

@@ -49,9 +49,9 @@ class Run {
  private:
   Run(RunFolder folder, const Config& config, const morphology::RobotSpec& robot, int jobs);
 
-  /// Returns seconds spent in the engine for it, or nothing if `stop` was set meanwhile.
-  std::optional<double> keep_champion(const GenerationResult& result, std::size_t best,
-                                      const std::atomic<bool>& stop);
+  /// `distance_m`: the objective of this genome. Returns seconds spent in the engine for it, or nothing if
+  /// `stop` was set meanwhile.
+  std::optional<double> keep_champion(std::size_t best, double distance_m, const std::atomic<bool>& stop);
   std::vector<neat::Fitness> judge(const GenerationResult& result, std::span<const double> distances_m);
   /// All files but the champions, in an order from which a run goes on wherever it is cut off.
   void write_down(const GenerationRow& row);

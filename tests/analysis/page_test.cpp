@@ -74,8 +74,8 @@ TEST(Page, GivesTheNumbersOfTheRecording) {
   EXPECT_EQ(numbers.at("Mean speed"), "0.50 ");
   EXPECT_EQ(numbers.at("CPPN"), "7 ");
   EXPECT_THAT(page, HasSubstr("<h2>Seen from above: 7.50 m</h2>"));
-  EXPECT_THAT(page,
-              HasSubstr("Distance walked over 2 generations: 600 trials, 890\u202f000 simulated steps."));
+  EXPECT_THAT(
+      page, HasSubstr("Distance walked over 2 generations: 600 evaluations, 890\u202f000 simulated steps."));
   // Leg 0 comes down every 0.4 s from 0.5 s on: 37 times until 14.9 s.
   EXPECT_THAT(page, HasSubstr("<span class=\"key leg0\"><small>FL</small> 37</span>"));
 }

@@ -22,7 +22,8 @@ void expect_in_settings_page(std::vector<std::string> arguments) {
 
 TEST(Docs, SettingsAreTheProgramsOwnTables) {
   const std::string authors = source + "/configs/authors/", paper = source + "/configs/paper/";
-  expect_in_settings_page({authors + "supg-novelty.toml", paper + "supg-novelty.toml"});
+  expect_in_settings_page({authors + "supg-novelty.toml", paper + "supg-novelty.toml",
+                           source + "/configs/robust/supg-objective.toml"});
   expect_in_settings_page({"--differing", authors + "supg-objective.toml", authors + "sine-objective.toml",
                            authors + "ctrnn-objective.toml"});
 }

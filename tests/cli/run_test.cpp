@@ -128,6 +128,36 @@ TEST(Verify, AgreesOnAnUntouchedRunAndNamesTheStepAfterOneWeightIsAltered) {
       << altered.out;
 }
 
+TEST(Noise, ChangesATrialOnlyWhereItIsAskedForAndIsVerified) {
+  const ScratchFolder scratch;
+  auto arguments = evolve(scratch / "noisy", 2, 2);
+  arguments[1] = std::string(AMBLE_SOURCE_DIR) + "/configs/robust/supg-objective.toml";
+  ASSERT_EQ(amble(arguments).exit_code, ok);
+  const auto verified = amble({"verify", scratch / "noisy"});
+  EXPECT_EQ(verified.exit_code, ok) << verified.out;
+  EXPECT_NE(verified.out.find("; under noise "), std::string::npos) << verified.out;
+
+  const auto champion =
+      std::filesystem::directory_iterator(scratch.path / "noisy/champions")->path().string();
+  const auto trial = [&](Arguments more) {
+    Arguments all{"trial", champion, "--seconds", "2"};
+    all.insert(all.end(), more.begin(), more.end());
+    const auto run = amble(all);
+    EXPECT_EQ(run.exit_code, ok) << run.err;
+    return run.out;
+  };
+  EXPECT_EQ(trial({}), trial({}));
+  EXPECT_EQ(trial({"--noise", "1"}), trial({"--noise", "1"}));
+  EXPECT_NE(trial({"--noise", "1"}), trial({}));
+  EXPECT_NE(trial({"--noise", "1"}), trial({"--noise", "2"}));
+
+  ASSERT_EQ(amble(evolve(scratch / "quiet", 1, 2)).exit_code, ok);
+  const auto quiet = std::filesystem::directory_iterator(scratch.path / "quiet/champions")->path().string();
+  const auto refused = amble({"trial", quiet, "--noise", "0"});
+  EXPECT_EQ(refused.exit_code, static_cast<int>(ExitCode::bad_input));
+  EXPECT_NE(refused.err.find("was evolved without noise"), std::string::npos) << refused.err;
+}
+
 TEST(Trial, RecordsWhatInfoAndPageCanRead) {
   const ScratchFolder scratch;
   ASSERT_EQ(amble(evolve(scratch / "run", 2, 2)).exit_code, ok);

@@ -23,7 +23,8 @@ Champion some_champion() {
       .problem = small_problem(),
       .genome = {},
       .result = {.distance_m = 0.1 + 0.2, .steps = 77, .seconds = 0.77, .outcome = record::Outcome::fell},
-      .trace = {0, 1, 0xffffffffu, 0x1234abcdu}};
+      .trace = {0, 1, 0xffffffffu, 0x1234abcdu},
+      .episodes = {}};
   champion.genome = small_population(champion.problem).genomes()[5];
   return champion;
 }
@@ -52,6 +53,48 @@ TEST(Champion, ReadsBackToTheBit) {
   EXPECT_EQ(again.result.outcome, record::Outcome::fell);
   EXPECT_EQ(morphology::to_json(again.problem.robot), morphology::to_json(champion.problem.robot));
   EXPECT_EQ(champion_text(again), text);
+}
+
+/// The same, evolved under noise.
+Champion noisy_champion() {
+  auto champion = some_champion();
+  champion.problem.noise.episodes = 2;
+  champion.problem.noise.push_m_s = 0.2;
+  champion.episodes = {
+      {.result = {.distance_m = 0.5, .steps = 2, .seconds = 0.02, .outcome = record::Outcome::completed},
+       .trace = {5, 6}},
+      {.result = {.distance_m = 0.1, .steps = 1, .seconds = 0.01, .outcome = record::Outcome::diverged},
+       .trace = {7}}};
+  return champion;
+}
+
+TEST(Champion, EvolvedUnderNoiseReadsBackWithItsEpisodes) {
+  const auto champion = noisy_champion();
+  const auto text = champion_text(champion);
+  const auto again = parse_champion(text, "c.json").champion;
+  ASSERT_EQ(again.episodes.size(), 2u);
+  EXPECT_EQ(again.episodes[0].trace, champion.episodes[0].trace);
+  EXPECT_EQ(again.episodes[1].result.outcome, record::Outcome::diverged);
+  EXPECT_EQ(again.problem.noise.push_m_s, 0.2);
+  EXPECT_EQ(champion_text(again), text);
+}
+
+TEST(Champion, IsJudgedByWhatItsEpisodesMakeOfIt) {
+  auto champion = noisy_champion();
+  EXPECT_EQ(champion.objective_m(), 0.3);
+  champion.problem.noise.score = trial::EpisodeScore::worst;
+  EXPECT_EQ(champion.objective_m(), 0.1);
+  EXPECT_EQ(some_champion().objective_m(), 0.1 + 0.2) << "without noise by its distance";
+}
+
+TEST(Champion, WithoutNoiseSaysNothingOfIt) {
+  EXPECT_EQ(champion_text(some_champion()).find("noise"), std::string::npos);
+}
+
+TEST(Champion, WithoutAnEpisodeThatItsNoiseAsksForIsRefused) {
+  auto champion = noisy_champion();
+  champion.episodes.pop_back();
+  EXPECT_THAT(complaint(champion_text(champion)), HasSubstr("as many as settings.episodes"));
 }
 
 TEST(Champion, IsRefusedAfterAnyChangeOfItsText) {

@@ -68,6 +68,25 @@ TEST(Config, NoveltyPresetsAreWhatTextAndCodeSay) {
   }
 }
 
+TEST(Config, PresetsOfThePaperAreWithoutNoise) {
+  for (const char* preset : {"authors/supg-objective.toml", "paper/supg-objective.toml",
+                             "authors/supg-novelty.toml", "paper/supg-novelty.toml"}) {
+    const auto config = load_config(configs + preset, {});
+    EXPECT_FALSE(config.noise.any()) << preset;
+    EXPECT_EQ(config.noise.episodes, 1) << preset;
+  }
+}
+
+TEST(Config, RobustPresetDiffersFromTheAuthorsInNothingButNoiseAndName) {
+  auto robust = load_config(configs + "robust/supg-objective.toml", {});
+  const auto authors = load_config(configs + "authors/supg-objective.toml", {});
+  EXPECT_TRUE(robust.noise.any());
+  EXPECT_GT(robust.noise.episodes, 1);
+  robust.noise = {};
+  robust.name = authors.name;
+  EXPECT_EQ(robust.to_toml(), authors.to_toml());
+}
+
 TEST(Config, FindsItsRobotBesideTheFileThatNamesIt) {
   const auto config = load_config(configs + "authors/supg-objective.toml", {});
   EXPECT_TRUE(std::filesystem::exists(config.robot)) << config.robot;

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
@@ -25,19 +27,27 @@ std::string archive(const std::filesystem::path& folder) {
   return std::filesystem::exists(path) ? io::read_file(path) : "";
 }
 
-class EachSearch : public testing::TestWithParam<search::Kind> {
+struct Way {
+  std::string name;
+  search::Kind kind = search::Kind::objective;
+  bool noise = false;
+};
+
+class EachWay : public testing::TestWithParam<Way> {
  protected:
   Config config() const {
-    return GetParam() == search::Kind::novelty ? small_novelty_config() : small_config();
+    const auto noise = GetParam().noise ? all_noise() : std::vector<std::string>{};
+    return GetParam().kind == search::Kind::novelty ? small_novelty_config(noise) : small_config(noise);
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Run, EachSearch, testing::Values(search::Kind::objective, search::Kind::novelty),
-                         [](const auto& kind) {
-                           return std::string(search::kind_names[static_cast<std::size_t>(kind.param)]);
-                         });
+INSTANTIATE_TEST_SUITE_P(Run, EachWay,
+                         testing::Values(Way{"objective"}, Way{"novelty", search::Kind::novelty},
+                                         Way{"objective_under_noise", search::Kind::objective, true},
+                                         Way{"novelty_under_noise", search::Kind::novelty, true}),
+                         [](const auto& way) { return way.param.name; });
 
-TEST_P(EachSearch, GivesTheSameChampionsAndArchiveForAnyNumberOfWorkers) {
+TEST_P(EachWay, GivesTheSameChampionsAndArchiveForAnyNumberOfWorkers) {
   const ScratchFolder scratch;
   std::string first, first_archive;
   for (const int jobs : {1, 2, 4}) {
@@ -50,7 +60,7 @@ TEST_P(EachSearch, GivesTheSameChampionsAndArchiveForAnyNumberOfWorkers) {
   }
 }
 
-TEST_P(EachSearch, GoesOnAfterAnInterruptionAsIfThereHadBeenNone) {
+TEST_P(EachWay, GoesOnAfterAnInterruptionAsIfThereHadBeenNone) {
   const ScratchFolder scratch;
   Listener whole;
   Run::start(scratch.path / "whole", config(), 2).execute(whole, whole.stop);
@@ -64,7 +74,7 @@ TEST_P(EachSearch, GoesOnAfterAnInterruptionAsIfThereHadBeenNone) {
   EXPECT_EQ(rest.rows.back().best_so_far_m, whole.rows.back().best_so_far_m);
 }
 
-TEST_P(EachSearch, CanBeResumedBeforeItsFirstGenerationIsDone) {
+TEST_P(EachWay, CanBeResumedBeforeItsFirstGenerationIsDone) {
   const ScratchFolder scratch;
   Run::start(scratch.path / "run", config(), 1);
   Listener listener;
@@ -74,7 +84,7 @@ TEST_P(EachSearch, CanBeResumedBeforeItsFirstGenerationIsDone) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 3);
 }
 
-TEST_P(EachSearch, CannotBeMadeShorterThanItIs) {
+TEST_P(EachWay, CannotBeMadeShorterThanItIs) {
   const ScratchFolder scratch;
   Listener listener;
   Run::start(scratch.path / "run", config(), 2).execute(listener, listener.stop);
@@ -91,15 +101,42 @@ TEST_P(EachSearch, CannotBeMadeShorterThanItIs) {
   EXPECT_EQ(io::read_file(RunPaths(scratch.path / "run").config), before);
 }
 
-TEST_P(EachSearch, NeverLosesItsBestDistance) {
+TEST_P(EachWay, NeverLosesItsBestDistanceButToNoise) {
   const ScratchFolder scratch;
   Listener listener;
   auto longer = config();
   longer.generations = 6;
   Run::start(scratch.path / "run", longer, 2).execute(listener, listener.stop);
-  for (std::size_t i = 1; i < listener.rows.size(); ++i)
+  for (std::size_t i = 1; i < listener.rows.size(); ++i) {
+    EXPECT_GE(listener.rows[i].best_so_far_m, listener.rows[i - 1].best_so_far_m);
+    if (GetParam().noise) continue;
     EXPECT_GE(listener.rows[i].best_m, listener.rows[i - 1].best_m)
         << "elites are carried over, and trials repeat";
+  }
+}
+
+TEST(NoisyRun, CountsGenomesAsEvaluationsAndTheStepsOfAllEpisodes) {
+  const ScratchFolder scratch;
+  Listener listener;
+  auto config = small_config({"noise.episodes=3", "noise.touch_flip_probability=0.001"});
+  config.generations = 1;
+  Run::start(scratch.path / "run", config, 2).execute(listener, listener.stop);
+  EXPECT_EQ(listener.rows[0].evaluations, 40u);
+  EXPECT_GT(listener.rows[0].steps, 2u * 40u * 100u) << "more than two episodes can have";
+}
+
+TEST(NoisyRun, KeepsChampionsByTheirObjectiveUnderNoise) {
+  const ScratchFolder scratch;
+  Listener listener;
+  auto more = all_noise();
+  more.push_back("noise.score=worst");
+  Run::start(scratch.path / "run", small_config(more), 2).execute(listener, listener.stop);
+  const auto champion = load_champion(RunPaths(scratch.path / "run").best_champion());
+  EXPECT_EQ(champion.objective_m(), listener.rows.back().best_so_far_m);
+  EXPECT_EQ(champion.problem.noise.score, trial::EpisodeScore::worst);
+  ASSERT_EQ(champion.episodes.size(), 2u);
+  EXPECT_EQ(champion.objective_m(),
+            std::min(champion.episodes[0].result.distance_m, champion.episodes[1].result.distance_m));
 }
 
 TEST(NoveltyRun, FillsItsArchiveAndReportsIt) {

@@ -10,6 +10,7 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/hash.hpp"
+#include "amble/morphology/pose.hpp"
 #include "amble/physics/ode/contacts.hpp"
 #include "amble/physics/ode/library.hpp"
 #include "amble/physics/ode/motors.hpp"
@@ -89,15 +90,15 @@ class OdeEngine final : public Engine {
   int lanes() const override { return 1; }
 
   void place(int lane) override {
-    check_lane(lane);
-    ode::prepare_thread();
-    trial_.reset();
-    trial_.emplace(robot_, *threading_, with_torques_);
-    torques_nm_.set_lane(0, 0.0f);
-    stepping_ = true;
-    healthy_ = true;
-    trial_->contacts.feel(sensors_.touch);
-    read_state();
+    make_trial(lane);
+    begin();
+  }
+
+  void place_at(int lane, const StartPose& pose) override {
+    make_trial(lane);
+    trial_->world.move_to(robot_, morphology::poses_at(robot_, {pose.root.position_m, pose.root.rotation},
+                                                       pose.joint_angle_rad));
+    begin();
   }
 
   void retire(int lane) override {
@@ -124,6 +125,15 @@ class OdeEngine final : public Engine {
     }
     if (with_torques_) trial_->torques->after_step(torques_nm_);
     read_state();
+  }
+
+  bool takes_disturbances() const override { return true; }
+  void push(int lane, Vec3 impulse_n_s) override {
+    check_lane(lane);
+    AMBLE_CHECK(stepping_, "only a placed robot can be pushed");
+    // ODE adds forces up until the next step, which uses them and sets them back to zero.
+    const Vec3 force_n = (1.0 / timestep_s_) * impulse_n_s;
+    dBodyAddForce(trial_->world.bodies()[0], force_n.x, force_n.y, force_n.z);
   }
 
   bool healthy(int lane) const override {
@@ -169,6 +179,21 @@ class OdeEngine final : public Engine {
 
  private:
   void check_lane(int lane) const { AMBLE_CHECK(lane == 0, "the ode engine has one lane"); }
+
+  void make_trial(int lane) {
+    check_lane(lane);
+    ode::prepare_thread();
+    trial_.reset();
+    trial_.emplace(robot_, *threading_, with_torques_);
+    torques_nm_.set_lane(0, 0.0f);
+  }
+
+  void begin() {
+    stepping_ = true;
+    healthy_ = true;
+    trial_->contacts.feel(sensors_.touch);
+    read_state();
+  }
 
   void read_state() {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
