@@ -65,16 +65,20 @@ void print_legs(const GaitReport& report, Text text) {
   fmt::format_to(text, "phase: touch-downs after those of {}, in its strides\n", reference);
 }
 
+/// Says when the gait changed, if it did. Within merged windows only the seconds tell.
 void print_segments(const GaitReport& report, Text text) {
   const auto segments = gait_segments(report);
-  if (segments.size() < 2) return;
-  fmt::format_to(text, "\ngait by windows\n");
-  for (std::size_t i = 0; i < std::min(segments.size(), most_segment_lines); ++i)
-    fmt::format_to(text, "{:>9.1f} … {:.1f} s  {}\n", segments[i].start_s, segments[i].end_s,
-                   words(segments[i].verdict));
-  if (segments.size() > most_segment_lines)
-    fmt::format_to(text, "          … and {} more (--json has them)\n", segments.size() - most_segment_lines);
-  fmt::format_to(text, "in all   ");
+  if (segments.size() >= 2) {
+    fmt::format_to(text, "\ngait by windows\n");
+    for (std::size_t i = 0; i < std::min(segments.size(), most_segment_lines); ++i)
+      fmt::format_to(text, "{:>9.1f} … {:.1f} s  {}\n", segments[i].start_s, segments[i].end_s,
+                     words(segments[i].verdict));
+    if (segments.size() > most_segment_lines)
+      fmt::format_to(text, "          … and {} more (--json has them)\n",
+                     segments.size() - most_segment_lines);
+  }
+  if (std::ranges::count_if(report.gait_seconds, [](double seconds) { return seconds > 0.0; }) < 2) return;
+  fmt::format_to(text, "\nwindows  ");
   for (std::size_t gait = 0; gait < report.gait_seconds.size(); ++gait)
     if (report.gait_seconds[gait] > 0.0)
       fmt::format_to(text, " {} {:.0f} s", gait_names[gait], report.gait_seconds[gait]);

@@ -189,6 +189,9 @@ TEST(GaitMeter, NamesBothHalvesOfATrialInWhichTheGaitChanges) {
   EXPECT_DOUBLE_EQ(segments[2].end_s, 62.0);
   EXPECT_DOUBLE_EQ(report.gait_seconds[static_cast<std::size_t>(Gait::trot)], 30.0);
   EXPECT_DOUBLE_EQ(report.gait_seconds[static_cast<std::size_t>(Gait::pace)], 25.0);
+  const std::string table = gait_table(report);
+  EXPECT_NE(table.find("      2.0 … 32.0 s  trot\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("\nwindows   trot 30 s pace 25 s irregular 5 s\n"), std::string::npos) << table;
 }
 
 TEST(GaitMeter, MeasuresHowAPhaseDrifts) {
