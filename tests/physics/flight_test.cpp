@@ -28,7 +28,7 @@ TEST_P(Flight, AFallingBoxFollowsTheParabolaOfTheIntegrator) {
 TEST_P(Flight, MotorsCannotChangeTheMomentumOfARobotInTheAir) {
   for (const char* variant : {"authors", "paper"}) {
     Bench bench(GetParam(), lifted(quadruped(variant), 100.0));
-    const double rounding = single_precision() ? 2e-4 : 1e-9;
+    const double rounding = single_precision() ? 5e-4 : 1e-9;
     const double mass = bench.robot.total_mass_kg();
     Stream stream(7, Purpose::test);
     double largest_angle = 0.0;
@@ -45,8 +45,8 @@ TEST_P(Flight, MotorsCannotChangeTheMomentumOfARobotInTheAir) {
     }
     EXPECT_GT(largest_angle, 0.5);
     // The centre of mass falls straight down, as the box does.
-    EXPECT_NEAR(bench.engine->com_m(0).x, 0.0, 1e-9);
-    EXPECT_NEAR(bench.engine->com_m(0).y, 0.0, 1e-9);
+    EXPECT_NEAR(bench.engine->com_m(0).x, 0.0, single_precision() ? 1e-7 : 1e-9);
+    EXPECT_NEAR(bench.engine->com_m(0).y, 0.0, single_precision() ? 1e-7 : 1e-9);
   }
 }
 

@@ -20,10 +20,12 @@ morphology::RobotSpec on_slope(double angle_rad, double friction) {
 }
 
 TEST_P(Friction, TheBoxHoldsUpToTheFrictionAngle) {
+  // A solver that stops after 20 iterations lets it creep by millimetres per second.
+  const double creep_m = single_precision() ? 0.02 : 1e-3;
   for (const double friction : {0.2, 0.5}) {
     Bench bench(GetParam(), on_slope(std::atan(0.98 * friction), friction));
     bench.steps(300);
-    EXPECT_LT(bench.engine->com_m(0).x, 1e-3) << friction;
+    EXPECT_LT(bench.engine->com_m(0).x, creep_m) << friction;
   }
 }
 

@@ -116,6 +116,58 @@ inline FullState full_state(const morphology::RobotSpec& robot, const RootPose& 
   return result;
 }
 
+/// Solves m x = b, m positive definite.
+inline std::vector<double> solved(std::vector<std::vector<double>> m, std::vector<double> b) {
+  const std::size_t n = b.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t r = i + 1; r < n; ++r) {
+      const double factor = m[r][i] / m[i][i];
+      for (std::size_t c = i; c < n; ++c) m[r][c] -= factor * m[i][c];
+      b[r] -= factor * b[i];
+    }
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t c = i + 1; c < n; ++c) b[i] -= m[i][c] * b[c];
+    b[i] /= m[i][i];
+  }
+  return b;
+}
+
+/// The speeds of root and joints that come nearest, by kinetic energy, to what the bodies do by themselves:
+/// after a step ODE's bodies move as the joints allowed before it, and the next step begins by this.
+inline FullState nearest(const morphology::RobotSpec& robot, const FullState& pose,
+                         const std::vector<BodyMotion>& bodies) {
+  const std::size_t joints = robot.joints.size(), count = 6 + joints;
+  const auto moving = [&](const std::vector<double>& speeds) {
+    FullState state{pose.root,
+                    {speeds[0], speeds[1], speeds[2]},
+                    {speeds[3], speeds[4], speeds[5]},
+                    pose.angle_rad,
+                    {speeds.begin() + 6, speeds.end()}};
+    return state;
+  };
+  std::vector<std::vector<BodyMotion>> columns;
+  for (std::size_t k = 0; k < count; ++k) {
+    std::vector<double> unit(count, 0.0);
+    unit[k] = 1.0;
+    columns.push_back(body_motions(robot, moving(unit)));
+  }
+  const auto product = [&](const std::vector<BodyMotion>& a, const std::vector<BodyMotion>& b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      sum += robot.bodies[i].mass_kg * dot(a[i].velocity_m_s, b[i].velocity_m_s) +
+             dot(own_spin(robot.bodies[i], a[i].rotation, a[i].spin_rad_s), b[i].spin_rad_s);
+    return sum;
+  };
+  std::vector<std::vector<double>> mass(count, std::vector<double>(count));
+  std::vector<double> momentum(count);
+  for (std::size_t r = 0; r < count; ++r) {
+    for (std::size_t c = 0; c < count; ++c) mass[r][c] = product(columns[r], columns[c]);
+    momentum[r] = product(columns[r], bodies);
+  }
+  return moving(solved(mass, momentum));
+}
+
 inline double kinetic_energy(const morphology::RobotSpec& robot, const std::vector<BodyMotion>& motions) {
   double energy = 0.0;
   for (std::size_t b = 0; b < motions.size(); ++b) {

@@ -53,13 +53,26 @@ class OdeRig {
         count += dJointGetType(dBodyGetJoint(body, j)) == dJointTypeContact ? 1 : 0;
     return count;
   }
-  Vec3 root_velocity() const {
-    const dReal* v = dBodyGetLinearVel(world_.bodies()[0]);
-    return {v[0], v[1], v[2]};
+  /// The root's velocity is left out.
+  FullState pose() {
+    const dReal* q = dBodyGetQuaternion(world_.bodies()[0]);
+    const Quat rotation{q[0], q[1], q[2], q[3]};
+    const Vec3 com = vec3(dBodyGetPosition(world_.bodies()[0]));
+    FullState state{{com - rotate(rotation, robot_.bodies[0].com_m), rotation}, {}, {}, {}, {}};
+    motors_.read(angles_);
+    for (int j = 0; j < angles_.rows(); ++j) state.angle_rad.push_back(static_cast<double>(angles_.at(j, 0)));
+    return state;
   }
-  Vec3 root_spin() const {
-    const dReal* v = dBodyGetAngularVel(world_.bodies()[0]);
-    return {v[0], v[1], v[2]};
+  std::vector<BodyMotion> motions() const {
+    std::vector<BodyMotion> motions;
+    for (const dBodyID body : world_.bodies()) {
+      const dReal* q = dBodyGetQuaternion(body);
+      motions.push_back({vec3(dBodyGetPosition(body)),
+                         {q[0], q[1], q[2], q[3]},
+                         vec3(dBodyGetLinearVel(body)),
+                         vec3(dBodyGetAngularVel(body))});
+    }
+    return motions;
   }
   double angle(int joint) {
     motors_.read(angles_);
@@ -67,6 +80,8 @@ class OdeRig {
   }
 
  private:
+  static Vec3 vec3(const dReal* v) { return {v[0], v[1], v[2]}; }
+
   const morphology::RobotSpec robot_;
   ode::Threading threading_;
   ode::World world_;

@@ -80,7 +80,7 @@ HWY_INLINE void bound(float* servo, V speed, V low, V high) {
 
 /// Torque of the servo, and the row that motor or stop add to the solver, as ODE has them
 /// (dxJointLimitMotor): one row for both. At a stop a motor becomes a torque of its full strength, towards
-/// where it wants to go.
+/// where it wants to go. A target that is not a number becomes such a torque, and the robot diverges.
 HWY_INLINE V drive(const Pass& pass, const LaneArray& targets_rad, const Link& link, int index) {
   const V angle = pass.state(pass.batch.rows.angle + index),
           speed = pass.state(pass.batch.rows.speed + index);
@@ -106,7 +106,8 @@ HWY_INLINE V drive(const Pass& pass, const LaneArray& targets_rad, const Link& l
   bound(row, hn::IfThenElse(stopped, set(pull) * beyond, wanted),
         hn::IfThenElse(stopped, low, hn::Neg(impulse)), hn::IfThenElse(stopped, high, impulse));
   const Mask upwards = hn::Or(wanted > none, hn::And(wanted == none, at_upper));
-  return hn::IfThenElseZero(stopped, hn::IfThenElse(upwards, most, hn::Neg(most)));
+  const V torque = hn::IfThenElseZero(stopped, hn::IfThenElse(upwards, most, hn::Neg(most)));
+  return hn::IfThenElse(asked == asked, torque, asked);
 }
 
 }  // namespace amble::physics::batch::HWY_NAMESPACE
