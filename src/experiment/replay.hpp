@@ -20,7 +20,8 @@ struct ReplayOptions {
   std::string origin;                           ///< named in the recording
   trial::Observer* observer = nullptr;          ///< not owned; sees motor torques if the engine tells them
   bool trace = true;                            ///< keep a hash per step; off for trials of hours
-  std::optional<trial::ScenarioKey> noise;      ///< under the problem's noise; nothing: without any
+  std::optional<trial::ScenarioKey> noise =
+      std::nullopt;  ///< under the problem's noise; nothing: without any
 };
 
 struct Replay {
