@@ -12,8 +12,8 @@ std::string style_sheet();
 /// The colours alone, as custom properties (--paper, --ink, --c0 …): light and dark, and light on paper.
 std::string palette_style_sheet();
 
-/// An <svg> element (svg.hpp) as a file of its own, with the part of the style sheet that figures need: light, or dark where the reader
-/// prefers that.
+/// An <svg> element (svg.hpp) as a file of its own, with the part of the style sheet that figures need:
+/// light, or dark where the reader prefers that.
 std::string standalone_svg(std::string element);
 
 }  // namespace amble::analysis

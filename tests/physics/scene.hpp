@@ -40,7 +40,8 @@ struct Bench {
   LaneArray targets;
   double timestep_s;
 
-  explicit Bench(morphology::RobotSpec spec, double h = 0.01, bool torques = false) : Bench("ode", std::move(spec), h, torques) {}
+  explicit Bench(morphology::RobotSpec spec, double h = 0.01, bool torques = false)
+      : Bench("ode", std::move(spec), h, torques) {}
   /// The robot stands in lane 0, alone.
   Bench(const std::string& name, morphology::RobotSpec spec, double h = 0.01, bool torques = false)
       : robot(std::move(spec)),
