@@ -229,7 +229,7 @@ HWY_INLINE void chain_blocks(const Pass& pass, std::size_t c, const BaseFactor& 
 }
 
 template <int N>
-HWY_INLINE void all_blocks(const Pass& pass, const BaseFactor& base, V* base_free) {
+HWY_NOINLINE void all_blocks(const Pass& pass, const BaseFactor& base, V* base_free) {
   ChainBlocks& torso = pass.work().chain_blocks[0];
   torso = {0, 0, 0};
   V none[1];

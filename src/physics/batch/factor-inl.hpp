@@ -129,8 +129,8 @@ HWY_INLINE void free_chain(const Pass& pass, const LaneArray& targets_rad, std::
 
 /// Factorises, and finds the base's part of Lᵀ ν after a step without constraints.
 template <int N>
-HWY_INLINE void free_motion(const Pass& pass, const LaneArray& targets_rad, const Base& base,
-                            BaseFactor& factor, V* base_free) {
+HWY_NOINLINE void free_motion(const Pass& pass, const LaneArray& targets_rad, const Base& base,
+                              BaseFactor& factor, V* base_free) {
   const Model& model = pass.model();
   const Symmetric& m = base.inertia;
   const V none = zero(), mass = set(model.mass_kg);

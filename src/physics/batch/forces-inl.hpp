@@ -57,7 +57,7 @@ HWY_INLINE void inertial_forces(const Pass& pass, const Chain& chain, const Base
 
 /// All inertial forces, kept as rows `free`, and the drift of the base.
 template <int N>
-HWY_INLINE void find_inertial_forces(const Pass& pass, Base& base) {
+HWY_NOINLINE void find_inertial_forces(const Pass& pass, Base& base) {
   const Model& model = pass.model();
   Spatial total = inertial_force(base.torso_second, base.torso_first, set(model.torso.mass_kg), base.motion,
                                  no_spatial());

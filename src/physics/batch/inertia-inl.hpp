@@ -153,7 +153,7 @@ HWY_INLINE Symmetric inverse(const Symmetric& m) {
 
 /// The mass matrix, and the base's velocity from the robot's momentum.
 template <int N>
-HWY_INLINE Base weigh(const Pass& pass) {
+HWY_NOINLINE Base weigh(const Pass& pass) {
   const Model& model = pass.model();
   Base base;
   const V one = set(1.0f), none = zero();

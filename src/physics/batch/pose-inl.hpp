@@ -105,7 +105,7 @@ HWY_INLINE void world_axes(const Pass& pass) {
 }
 
 /// Poses of everything, from the centre of mass of the whole robot.
-inline void find_pose(const Pass& pass) {
+HWY_NOINLINE void find_pose(const Pass& pass) {
   const Model& model = pass.model();
   world_axes(pass);
   V3 moment = set(model.torso.mass_kg) * set(model.torso.com_m);
@@ -121,7 +121,7 @@ inline void find_pose(const Pass& pass) {
 }
 
 /// The heights of all points that may touch the ground; where a foot touches.
-inline void find_touch(const Pass& pass) {
+HWY_NOINLINE void find_touch(const Pass& pass) {
   const Model& model = pass.model();
   const Mask active = pass.active();
   const V3 up = pass.state3(Rows::axes + 6);
@@ -153,7 +153,7 @@ inline void find_touch(const Pass& pass) {
 }
 
 /// Copies angles, attitude and touch to where controllers look for them.
-inline void read_sensors(const Pass& pass) {
+HWY_NOINLINE void read_sensors(const Pass& pass) {
   const auto put = [&](V v, LaneArray& rows, int row)
                        HWY_ATTR { hn::StoreU(v, Floats(), rows.row(row) + pass.lane); };
   SensorFrame& sensors = pass.batch.sensors;

@@ -102,7 +102,7 @@ HWY_INLINE void visit_chain(const Pass& pass, const ChainBlocks& blocks, int n, 
 
 /// Brings Lᵀ ν (rows `free` and `base`) to what all constraints leave of it.
 template <int N, Bound contact>
-HWY_INLINE void solve(const Pass& pass, V* base_out) {
+HWY_NOINLINE void solve(const Pass& pass, V* base_out) {
   const Model& model = pass.model();
   V base[6];
   for (int d = 0; d < 6; ++d) base[d] = base_out[d];

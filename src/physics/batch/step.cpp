@@ -114,7 +114,7 @@ HWY_INLINE V turn_joints(const Next& next, std::size_t c, const V* motion, V fas
 
 /// Velocities after the constraints, and positions after them.
 template <int N>
-HWY_INLINE void integrate(const Pass& pass, const BaseFactor& factor, V* motion) {
+HWY_NOINLINE void integrate(const Pass& pass, const BaseFactor& factor, V* motion) {
   const Model& model = pass.model();
   const Next next{pass, pass.active()};
   V3 push = zero3(), turn = zero3();
