@@ -32,10 +32,11 @@ class Disturbances {
     std::vector<float> late_rad;  ///< joints × latency: targets on their way, a ring over the latency
   };
 
-  void disturb_sensors(Lane& lane, int index);
+  void flip_touches(Lane& lane, int index);
   static void delay(Lane& lane, int index, LaneArray& targets_rad);
 
   std::vector<Lane> lanes_;
+  LaneArray joint_offset_rad_, attitude_offset_rad_;  ///< shaped as the sensors
   physics::SensorFrame read_;
   int disturbed_ = 0;  ///< lanes that have a scenario
 };

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,7 @@ TEST(Disturbances, HandTheVerySensorsOnWhileNoLaneIsDisturbed) {
 TEST(Disturbances, OffsetWhatOneLaneReadsAndLeaveTheOthersAlone) {
   auto sensors = frame(2);
   sensors.joint_angle_rad.at(1, 1) = 0.5f;
+  sensors.joint_angle_rad.at(1, 0) = -0.0f;
   auto scenario = quiet();
   scenario.joint_sensor_rad = {0.25f, -0.25f};
   scenario.attitude_sensor_rad = {0.5f, 1.0f, 1.5f};
@@ -51,6 +53,7 @@ TEST(Disturbances, OffsetWhatOneLaneReadsAndLeaveTheOthersAlone) {
     EXPECT_EQ(read.attitude_rad.at(2, 1), 1.5f);
     EXPECT_EQ(read.joint_angle_rad.at(0, 0), 0.0f);
     EXPECT_EQ(read.attitude_rad.at(0, 0), 0.0f);
+    EXPECT_TRUE(std::signbit(read.joint_angle_rad.at(1, 0))) << "to the bit";
   }
 }
 
