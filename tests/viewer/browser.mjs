@@ -42,10 +42,10 @@ export async function open(browser, path, { at_s = 0, ...context } = {}) {
 }
 
 /** The stage as numbers: how many colours it has, and a sum that changes with the picture. */
-export const pictureOf = (page) =>
-  page.evaluate(() => {
+export const pictureOf = (page, which = "#stage canvas") =>
+  page.evaluate((selector) => {
     window.amble.render();
-    const stage = document.querySelector("#stage canvas");
+    const stage = document.querySelector(selector);
     const copy = document.createElement("canvas");
     [copy.width, copy.height] = [stage.width, stage.height];
     const paint = copy.getContext("2d");
@@ -59,7 +59,7 @@ export const pictureOf = (page) =>
       hash = (Math.imul(hash, 31) + colour) | 0;
     }
     return { colours: colours.size, hash };
-  });
+  }, which);
 
 export const time = (page) => page.evaluate(() => window.amble.time());
 

@@ -173,6 +173,7 @@ test("light, dark and paper have their own colours, and paper shows no buttons",
     await page.emulateMedia({ media: "print", colorScheme: "dark" });
     await settled(page);
     assert.notEqual((await pictureOf(page)).hash, dark.hash);
+    assert.ok((await pictureOf(page, "#stage .paper")).colours > 200);
     assert.equal(await page.locator(".transport").isVisible(), false);
     assert.ok((await page.pdf()).length > 30_000);
   }));

@@ -60,6 +60,7 @@ export class Page {
   }
   noStage(text) {
     this.stage?.canvas.remove();
+    this.stage?.paper.remove();
     this.stage = null;
     byId("stage").append(element("p", { class: "no-stage" }, text));
     byId("views").hidden = true;
@@ -135,6 +136,7 @@ export class Page {
     this.overview.repaint();
     this.analysis.repaint();
     this.show();
+    if (matchMedia("print").matches) this.stage?.copyToPaper();
   }
 
   /** Asks for a frame; many changes before it make one. */

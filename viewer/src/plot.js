@@ -150,7 +150,7 @@ class Pen {
     const { context } = this;
     const first = Math.max(0, Math.floor((this.from_s - frames.first_s) / frames.step_s));
     const last = Math.min(frames.count - 1, Math.ceil((this.to_s - frames.first_s) / frames.step_s));
-    // No more than a point per half px: a long window need not draw every row.
+    // Where more than two rows fall on a px, their least and greatest stand for all.
     const stride = Math.max(1, Math.floor((last - first) / (2 * (this.right - this.left))));
     context.save();
     context.beginPath();
@@ -158,9 +158,13 @@ class Pen {
     context.clip();
     context.beginPath();
     for (let k = first; k <= last; k += stride) {
-      const x = this.x(frames.first_s + k * frames.step_s), at = y(column[k]);
-      if (steps && k > first) context.lineTo(x, y(column[k - stride]));
-      context.lineTo(x, at);
+      const x = this.x(frames.first_s + k * frames.step_s);
+      if (stride === 1) {
+        if (steps && k > first) context.lineTo(x, y(column[k - 1]));
+        context.lineTo(x, y(column[k]));
+      } else {
+        for (const value of extremes(column, k, Math.min(k + stride, frames.count))) context.lineTo(x, y(value));
+      }
     }
     context.strokeStyle = css.startsWith("--") ? colour(css) : css;
     context.lineWidth = width;
@@ -179,4 +183,13 @@ class Pen {
         this.text(`${number(i * step, decimals)} s`, x, base_y + 12, { align: "center", size: 11.5 });
     }
   }
+}
+
+function extremes(column, from, to) {
+  let lower = column[from], upper = lower;
+  for (let k = from + 1; k < to; ++k) {
+    lower = Math.min(lower, column[k]);
+    upper = Math.max(upper, column[k]);
+  }
+  return [lower, upper];
 }

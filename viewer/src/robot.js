@@ -110,6 +110,7 @@ export class RobotModel {
       material.transparent = ghost;
       material.opacity = ghost ? 0.28 : 1;
       material.depthWrite = !ghost;
+      material.needsUpdate = true;
       mesh.castShadow = !ghost;
     }
   }

@@ -23,6 +23,9 @@ export class Stage {
     this.canvas.setAttribute("aria-label", "The robot in motion; drag to turn, scroll to come nearer");
     this.canvas.setAttribute("role", "img");
     this.parent = parent;
+    this.paper = document.createElement("canvas"); // what printers get: they cannot print WebGL
+    this.paper.className = "paper";
+    parent.append(this.paper);
 
     this.scene = new Scene();
     this.scene.fog = new Fog("#fff", 1, 2);
@@ -96,17 +99,24 @@ export class Stage {
     this.mode = mode;
   }
 
-  /** Where the camera looks at time t: the mean of all walkers, their ways smoothed. */
+  /** Keeps the picture for paper. */
+  copyToPaper() {
+    [this.paper.width, this.paper.height] = [this.canvas.width, this.canvas.height];
+    this.paper.getContext("2d").drawImage(this.canvas, 0, 0);
+  }
+
+  /** Where the camera looks at time t: the mean of the walkers side by side, or the one with ghosts; smoothed. */
   focus(t) {
+    const lanes = this.side ? this.lanes : [this.lanes[this.selected]];
     const sum = new Vector3();
     const samples = [-1, -0.5, 0, 0.5, 1].map((share) => t + share * SMOOTH_S);
-    for (const { walk, group } of this.lanes)
+    for (const { walk, group } of lanes)
       for (const at of samples) {
         const [x, y] = walk.comAt(at);
         sum.x += x;
         sum.y += y + group.position.y;
       }
-    sum.divideScalar(this.lanes.length * samples.length);
+    sum.divideScalar(lanes.length * samples.length);
     sum.z = 0.8 * this.lanes[0].walk.robot.bodies[0].position_m[2];
     return sum;
   }
@@ -172,15 +182,5 @@ export class Stage {
     this.scene.fog.near = away + 2 * this.reach;
     this.scene.fog.far = away + 18 * this.reach;
     this.renderer.render(this.scene, this.camera);
-  }
-
-  /** Where a walker's name stands on the stage, in px, or null if it is out of sight. */
-  nameplate(i) {
-    const { model, group } = this.lanes[i];
-    const point = model.root.position.clone().add(group.position);
-    point.z += 0.55 * this.reach;
-    point.project(this.camera);
-    if (point.z > 1 || Math.abs(point.x) > 1 || Math.abs(point.y) > 1) return null;
-    return { x: ((point.x + 1) / 2) * this.width, y: ((1 - point.y) / 2) * this.height };
   }
 }

@@ -2,6 +2,7 @@
 import { Plot, niceStep, number } from "./plot.js";
 import { legColour, walkerColour } from "./theme.js";
 
+const TRIGGER_SPAN_S = 40; // in longer windows the triangles would hide each other
 const FOOT_ROW = 30, TIMER_ROW = 40, JOINT_ROW = 42, MOTION_ROW = 92;
 
 /** Footfall diagram (Hildebrand 1965): a bar while the foot is on the ground, a triangle at each trigger. */
@@ -19,7 +20,7 @@ export function footfallPlot(walk, window, clock) {
 }
 
 function triangle(pen, time_s, y) {
-  if (time_s < pen.from_s || time_s > pen.to_s) return;
+  if (time_s < pen.from_s || time_s > pen.to_s || pen.to_s - pen.from_s > TRIGGER_SPAN_S) return;
   const { context } = pen, x = pen.x(time_s);
   context.beginPath();
   context.moveTo(x, y);
