@@ -179,8 +179,8 @@ class Pen {
     for (let i = Math.ceil(this.from_s / step - 1e-9); i * step <= this.to_s + 1e-9; ++i) {
       const x = this.x(i * step);
       this.hair(x, 0, x, base_y + 3);
-      if (x < this.right - 8 || this.to_s - this.from_s === i * step)
-        this.text(`${number(i * step, decimals)} s`, x, base_y + 12, { align: "center", size: 11.5 });
+      const align = x > this.right - 16 ? "right" : "center"; // the last would be cut off
+      this.text(`${number(i * step, decimals)} s`, align === "right" ? this.right + RIGHT : x, base_y + 12, { align, size: 11.5 });
     }
   }
 }
