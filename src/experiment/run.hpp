@@ -49,10 +49,12 @@ class Run {
  private:
   Run(RunFolder folder, const Config& config, const morphology::RobotSpec& robot, int jobs);
 
-  /// `distance_m`: the objective of this genome. Returns seconds spent in the engine for it, or nothing if
-  /// `stop` was set meanwhile.
-  std::optional<double> keep_champion(std::size_t best, double distance_m, const std::atomic<bool>& stop);
-  std::vector<neat::Fitness> judge(const GenerationResult& result, std::span<const double> distances_m);
+  /// What these do, and how long it takes, is noted in `row`. The best genome's objective is row.best_m;
+  /// false if `stop` was set meanwhile.
+  bool keep_champion(std::size_t best, GenerationRow& row, const std::atomic<bool>& stop);
+  std::vector<neat::Fitness> judge(const GenerationResult& result, std::span<const double> distances_m,
+                                   GenerationRow& row);
+  void breed(std::span<const neat::Fitness> fitness, GenerationRow& row);
   /// All files but the champions, in an order from which a run goes on wherever it is cut off.
   void write_down(const GenerationRow& row);
   void checkpoint() const;
@@ -65,6 +67,7 @@ class Run {
   std::unique_ptr<io::AppendFile> csv_, archive_;  ///< without an archive, the latter is null
   Progress progress_;
   int jobs_;
+  double files_s_ = 0.0;  ///< spent on the files of the last row
 };
 
 }  // namespace amble::experiment
