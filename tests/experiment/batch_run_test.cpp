@@ -36,7 +36,7 @@ std::vector<std::int64_t> instruction_sets() {
 /// A whole run's champions, archive and table without its times.
 std::string small_run(const std::filesystem::path& folder, int jobs) {
   Listener listener;
-  const auto config = small_novelty_config({"engine=batch", "population.size=20", "noise.push_m_s=0.2"});
+  const auto config = small_novelty_config({"engine=batch", "noise.push_m_s=0.2"});
   EXPECT_EQ(Run::start(folder, config, jobs).execute(listener, listener.stop), RunStatus::finished);
   const RunPaths paths(folder);
   std::string all = io::read_file(paths.archive);
