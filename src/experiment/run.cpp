@@ -51,7 +51,7 @@ Run Run::start(const std::filesystem::path& folder, const Config& config, int jo
     run.archive_ = std::make_unique<io::AppendFile>(run.paths().archive, 0);
     run.archive_->append(run.search_->take_archive_growth());
   }
-  run.checkpoint();
+  save_checkpoint(run.paths().checkpoint, config, run.progress_, run.population_, *run.search_);
   run.folder_.note_process(config, jobs, 0);
   run.folder_.save_config(config);  // last: what has a config is a run
   return run;
@@ -76,8 +76,14 @@ Run Run::resume(const std::filesystem::path& folder, std::optional<int> generati
   return run;
 }
 
-// The generation loop: evaluate, judge, keep the best, breed, write down.
 RunStatus Run::execute(RunListener& listener, const std::atomic<bool>& stop) {
+  const RunStatus status = generations(listener, stop);
+  settle();
+  return status;
+}
+
+// The generation loop: evaluate, judge, keep the best, breed, write down.
+RunStatus Run::generations(RunListener& listener, const std::atomic<bool>& stop) {
   Evaluator evaluator(*problem_, config_.search.path_stride(), jobs_);
   double last_row_s = now_s();
   while (population_.generation() < config_.generations) {
@@ -170,19 +176,27 @@ bool Run::keep_champion(std::size_t best, GenerationRow& row, const std::atomic<
 
 void Run::write_down(const GenerationRow& row) {
   const Stopwatch watch(files_s_);
+  settle();
   progress_.evaluations += row.evaluations;
   progress_.steps += row.steps;
   progress_.wall_s += row.wall_s;
-  csv_->append(csv_line(row));
+  csv_->write(csv_line(row));
   progress_.csv_bytes = csv_->size();
-  // What the checkpoint counts on must be on the disk before it.
   if (archive_)
-    if (const auto growth = search_->take_archive_growth(); !growth.empty()) archive_->append(growth);
-  checkpoint();
+    if (const auto growth = search_->take_archive_growth(); !growth.empty()) archive_->write(growth);
+  auto checkpoint = std::make_unique<io::AtomicFile>(paths().checkpoint);
+  checkpoint->write(checkpoint_bytes(config_, progress_, population_, *search_));
+  // What the checkpoint counts on must be on the disk before it.
+  settling_ = std::async(std::launch::async,
+                         [csv = csv_.get(), archive = archive_.get(), file = std::move(checkpoint)] {
+                           csv->sync();
+                           if (archive) archive->sync();
+                           file->commit();
+                         });
 }
 
-void Run::checkpoint() const {
-  save_checkpoint(paths().checkpoint, config_, progress_, population_, *search_);
+void Run::settle() {
+  if (settling_.valid()) settling_.get();
 }
 
 }  // namespace amble::experiment

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "amble/physics/batch/batch_engine.hpp"
 #include "tests/physics/scene.hpp"
 
 namespace amble::physics {
@@ -63,6 +64,17 @@ TEST_P(Push, AddsUpWithAnotherBeforeTheSameStep) {
   bench.engine->push(0, {0.0, -0.25, 0.0});
   bench.steps(1);
   EXPECT_NEAR(norm(bench.engine->momentum(0) - Vec3{0.5, -0.25, 0.0}), 0.0, rounding(1.0));
+}
+
+TEST(PushOfBatch, GivesTheSpinOfItsArm) {
+  const auto engine = make_batch_engine(weightless(quadruped("paper")), {});
+  engine->place(0);
+  const Vec3 impulse_n_s{1.0, 0.6, 0.8};
+  const Vec3 expected = cross(engine->root_com_m(0) - engine->com_m(0), impulse_n_s);
+  EXPECT_GT(norm(expected), 0.05);
+  engine->push(0, impulse_n_s);
+  engine->step(LaneArray(12, engine->lanes()));
+  EXPECT_NEAR(norm(engine->state(0).spin_kg_m2_s - expected), 0.0, 1e-5);
 }
 
 TEST(PushOfBatch, MovesTorsoAndLegsAsInOde) {
