@@ -77,7 +77,7 @@ test("pause stops it", () =>
   }));
 
 test("scrubbing the slider moves time and the cursor of every diagram in sight", () =>
-  onPage({}, async (page) => {
+  onPage({ viewport: { width: 1280, height: 1250 } }, async (page) => {
     const start = await cursors(page);
     assert.ok(start.plots.length >= 4 && start.patterns.length === 12);
     const slider = await page.locator("#slider").boundingBox();
