@@ -43,6 +43,14 @@ test("two walkers move by one clock, side by side or one as a ghost of the other
     assert.equal(await page.locator("#now dd").nth(1).textContent(), "1.00 m");
   }));
 
+test("the camera keeps walkers in sight that part", () =>
+  onPage(makePage("parting.html", recording("walk.rec"), recording("long.rec")), {}, async (page) => {
+    await page.evaluate(() => { window.amble.seek(60); window.amble.render(); });
+    const places = await page.evaluate(() => [0, 1].map((i) => [window.amble.placed(i)[0][0], window.amble.seen(i)]));
+    assert.ok(places[1][0] - places[0][0] > 10, "they are far apart");
+    for (const [, place] of places) assert.ok(place.every((at) => Math.abs(at) < 0.9), `at ${place}`);
+  }));
+
 test("five minutes scrub without a stall", async (context) => {
   const path = makePage("long.html", recording("long.rec"));
   const { size } = statSync(path);

@@ -171,6 +171,12 @@ export class Stage {
     box.updateProjectionMatrix();
   }
 
+  /** Where a walker's root is in the picture: −1 … 1 to the right and up. */
+  seen(i) {
+    const { x, y } = this.lanes[i].model.root.getWorldPosition(new Vector3()).project(this.camera);
+    return [x, y];
+  }
+
   /** Less to draw, for machines that cannot keep up. */
   simplify() {
     this.renderer.shadowMap.enabled = this.sun.castShadow = false;
