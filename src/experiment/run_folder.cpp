@@ -149,7 +149,7 @@ RunPaths find_run(const fs::path& folder) {
   if (!fs::is_directory(folder)) fail(ExitCode::io, "{}: no such folder", folder.string());
   if (!is_run_folder(folder))
     fail(ExitCode::bad_input, "{}: not a run folder (no config.toml)", folder.string());
-  const RunPaths paths(folder);
+  RunPaths paths(folder);
   io::unseal_json(manifest_format, run_version, io::read_file(paths.manifest), paths.manifest.string());
   return paths;
 }
