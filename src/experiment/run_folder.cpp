@@ -10,6 +10,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/experiment/build_info.hpp"
+#include "amble/experiment/checkpoint.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
 
@@ -140,6 +141,7 @@ RunFolder RunFolder::open(const fs::path& folder) {
   find_run(folder);
   RunFolder run(folder);
   make_folder(run.paths_.champions);
+  finish_checkpoint(run.paths_.checkpoint);
   remove_temporaries(folder);
   remove_temporaries(run.paths_.champions);
   return run;

@@ -7,14 +7,6 @@
 
 namespace amble::physics {
 
-void Engine::place_at(int, const StartPose&) {
-  AMBLE_CHECK(false, "asked of an engine that takes no disturbances");
-}
-
-void Engine::push(int, Vec3) {
-  AMBLE_CHECK(false, "asked of an engine that takes no disturbances");
-}
-
 std::unique_ptr<Engine> make_engine(std::string_view name, const morphology::RobotSpec& robot,
                                     const EngineSettings& settings) {
   AMBLE_CHECK(settings.timestep_s > 0.0, "timestep_s");

@@ -31,19 +31,24 @@ struct Way {
   std::string name;
   search::Kind kind = search::Kind::objective;
   bool noise = false;
+  std::string engine = "ode";
 };
 
 class EachWay : public testing::TestWithParam<Way> {
  protected:
   Config config() const {
-    const auto noise = GetParam().noise ? all_noise() : std::vector<std::string>{};
-    return GetParam().kind == search::Kind::novelty ? small_novelty_config(noise) : small_config(noise);
+    auto more = GetParam().noise ? all_noise() : std::vector<std::string>{};
+    more.push_back("engine=" + GetParam().engine);
+    return GetParam().kind == search::Kind::novelty ? small_novelty_config(more) : small_config(more);
   }
 };
 
 INSTANTIATE_TEST_SUITE_P(Run, EachWay,
                          testing::Values(Way{"objective"}, Way{"novelty", search::Kind::novelty},
-                                         Way{"novelty_under_noise", search::Kind::novelty, true}),
+                                         Way{"novelty_under_noise", search::Kind::novelty, true},
+                                         Way{"batch", search::Kind::objective, false, "batch"},
+                                         Way{"batch_novelty_under_noise", search::Kind::novelty, true,
+                                             "batch"}),
                          [](const auto& way) { return way.param.name; });
 
 TEST_P(EachWay, GivesTheSameChampionsAndArchiveForAnyNumberOfWorkers) {

@@ -9,17 +9,20 @@
 namespace amble::physics {
 namespace {
 
+class Torques : public OnEachEngine {};
+ON_EACH_ENGINE(Torques);
+
 double torque(const Bench& bench, int joint) {
   return static_cast<double>(bench.engine->motor_torque_nm()->at(joint, 0));
 }
 
-TEST(OdeTorques, AreToldOnlyWhenAskedFor) {
-  EXPECT_EQ(make_engine("ode", quadruped(), {})->motor_torque_nm(), nullptr);
-  EXPECT_NE(make_engine("ode", quadruped(), {.torques = true})->motor_torque_nm(), nullptr);
+TEST_P(Torques, AreToldOnlyWhenAskedFor) {
+  EXPECT_EQ(make_engine(GetParam(), quadruped(), {})->motor_torque_nm(), nullptr);
+  EXPECT_NE(make_engine(GetParam(), quadruped(), {.torques = true})->motor_torque_nm(), nullptr);
 }
 
-TEST(OdeTorques, ChangeNoBitOfTheMotion) {
-  Bench plain(quadruped()), told(quadruped(), 0.01, true);
+TEST_P(Torques, ChangeNoBitOfTheMotion) {
+  Bench plain(GetParam(), quadruped()), told(GetParam(), quadruped(), 0.01, true);
   Stream stream(3, Purpose::test);
   for (int n = 0; n < 600; ++n) {
     if (n % 20 == 0)
@@ -31,23 +34,23 @@ TEST(OdeTorques, ChangeNoBitOfTheMotion) {
   }
 }
 
-TEST(OdeTorques, HoldAPendulumAgainstGravity) {
+TEST_P(Torques, HoldAPendulumAgainstGravity) {
   // 1 kg at 0.5 m from the hinge, at rest 0.2 + 0.5 rad off the vertical: m g l sin(0.7). About +y a positive
   // angle swings the bob to −x, so the motor holds it there with a positive torque.
   morphology::RobotSpec robot = scene("pendulum");
   robot.joints[0].servo = {.mode = morphology::ServoMode::velocity, .gain_per_s = 9.0, .max_torque_nm = 50.0};
-  Bench bench(robot, 0.01, true);
+  Bench bench(GetParam(), robot, 0.01, true);
   bench.targets.at(0, 0) = 0.5f;
   bench.steps(500);
   EXPECT_NEAR(torque(bench, 0), 1.0 * 9.8 * 0.5 * std::sin(0.2 + bench.angle(0)), 1e-3);
   EXPECT_NEAR(bench.angle(0), 0.5, 1e-3);
 }
 
-TEST(OdeTorques, LiftingAPendulumCostsItsPotentialEnergy) {
+TEST_P(Torques, LiftingAPendulumCostsItsPotentialEnergy) {
   // From rest 0.2 rad off the vertical to rest at 1.2 rad: m g l (cos 0.2 − cos 1.2).
   morphology::RobotSpec robot = scene("pendulum");
   robot.joints[0].servo = {.mode = morphology::ServoMode::velocity, .gain_per_s = 2.0, .max_torque_nm = 50.0};
-  Bench bench(robot, 0.001, true);
+  Bench bench(GetParam(), robot, 0.001, true);
   bench.targets.at(0, 0) = 1.0f;
   // Over a step a torque does work at the mean of the speeds before and after it; the angle moves at the
   // speed after it.
@@ -63,12 +66,12 @@ TEST(OdeTorques, LiftingAPendulumCostsItsPotentialEnergy) {
   EXPECT_NEAR(work_j, expected, 0.002 * expected);
 }
 
-TEST(OdeTorques, ReachTheLimitOnEveryAxisOfAQuadrupedFarFromItsTargets) {
+TEST_P(Torques, ReachTheLimitOnEveryAxisOfAQuadrupedFarFromItsTargets) {
   // The legs are light and the gain is high: in the first steps all twelve motors give their 0.2 N m,
   // whatever the bearings carry. Also at stops, where ODE books the motor apart from the stop.
   morphology::RobotSpec robot = weightless(quadruped());
   for (auto& joint : robot.joints) joint.servo = {.gain_per_s = 90.0, .max_torque_nm = 0.2};
-  Bench bench(robot, 0.001, true);
+  Bench bench(GetParam(), robot, 0.001, true);
   for (int j = 0; j < 12; ++j)
     bench.targets.at(j, 0) =
         static_cast<float>(bench.robot.joints[static_cast<std::size_t>(j)].lower_rad < 0.0 ? -0.8 : 0.8);
@@ -79,13 +82,13 @@ TEST(OdeTorques, ReachTheLimitOnEveryAxisOfAQuadrupedFarFromItsTargets) {
   }
 }
 
-TEST(OdeTorques, OfATorqueServoAreItsLaw) {
+TEST_P(Torques, OfATorqueServoAreItsLaw) {
   morphology::RobotSpec robot = weightless(scene("pendulum"));
   robot.joints[0].servo = {.mode = morphology::ServoMode::torque,
                            .max_torque_nm = 2.0,
                            .kp_nm_per_rad = 20.0,
                            .kd_nm_s_per_rad = 0.0};
-  Bench bench(robot, 0.001, true);
+  Bench bench(GetParam(), robot, 0.001, true);
   bench.targets.at(0, 0) = 0.15f;
   for (int n = 0; n < 300; ++n) {
     const double expected = std::clamp(20.0 * (static_cast<double>(0.15f) - bench.angle(0)), -2.0, 2.0);
