@@ -5,7 +5,11 @@
 #include "amble/physics/batch/denormals.hpp"
 
 // Instruction sets that would only repeat the code of their neighbours, or have no fixed width.
+#ifdef AMBLE_FEW_INSTRUCTION_SETS
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3 | HWY_AVX3_DL)
+#else
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_RVV)
+#endif
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "amble/physics/batch/step.cpp"
 #include <hwy/foreach_target.h>
