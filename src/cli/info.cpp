@@ -7,6 +7,7 @@
 
 #include "amble/analysis/generations_csv.hpp"
 #include "amble/cli/commands.hpp"
+#include "amble/cli/compare.hpp"
 #include "amble/cli/progress.hpp"
 #include "amble/experiment/champion.hpp"
 #include "amble/experiment/run_folder.hpp"
@@ -27,6 +28,10 @@ void print_champion(const experiment::Champion& champion) {
              champion.genome.enabled_links());
   fmt::print("result      {:.3f} m in {:.2f} s, {}\n", champion.result.distance_m, champion.result.seconds,
              record::outcome_names[static_cast<std::size_t>(champion.result.outcome)]);
+  for (const auto& [engine, result] : champion.referees)
+    fmt::print("in {:<8} {:.3f} m in {:.2f} s, {} ({} kept)\n", engine, result.distance_m, result.seconds,
+               record::outcome_names[static_cast<std::size_t>(result.outcome)],
+               share_text(result.distance_m, champion.result.distance_m));
 }
 
 ExitCode run_info(const std::filesystem::path& folder) {

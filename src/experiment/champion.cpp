@@ -55,6 +55,25 @@ TrialResult parse_result(const io::JsonView& view) {
   return result;
 }
 
+io::Json referees_json(const std::vector<Refereed>& referees) {
+  io::Json list = io::Json::array();
+  for (const auto& referee : referees) {
+    list.push_back({{"engine", referee.engine}});
+    list.back().update(result_json(referee.result));
+  }
+  return list;
+}
+
+/// Champions of earlier versions have none.
+std::vector<Refereed> parse_referees(const io::JsonView& root) {
+  std::vector<Refereed> referees;
+  if (!root.has("referees")) return referees;
+  const auto list = root.at("referees");
+  for (std::size_t i = 0; i < list.size(); ++i)
+    referees.push_back({list.at(i).at("engine").text(), parse_result(list.at(i))});
+  return referees;
+}
+
 Problem parse_problem(const io::JsonView& root) {
   Problem problem{
       .robot = morphology::from_json(root.at("robot")),
@@ -84,6 +103,7 @@ std::string champion_text(const Champion& champion) {
                           {"generation", champion.generation},
                           {"index", champion.index},
                           {"result", result_json(champion.result)},
+                          {"referees", referees_json(champion.referees)},
                           {"genome", neat::to_json(champion.genome)},
                           {"cppn", io::settings_to_json(problem.cppn)},
                           {"controller", io::settings_to_json(problem.controller)},
@@ -104,6 +124,7 @@ LoadedChampion parse_champion(const std::string& text, const std::string& what, 
                       .problem = parse_problem(root),
                       .genome = neat::genome_from_json(root.at("genome")),
                       .result = parse_result(root.at("result")),
+                      .referees = parse_referees(root),
                       .trace = parse_trace(root.at("trace"))};
     neat::validate(champion.genome, champion.problem.cppn_inputs(), champion.problem.cppn_outputs(),
                    champion.problem.cppn.recurrent);

@@ -21,6 +21,12 @@ struct TrialResult {
 };
 TrialResult summarise(const record::Trajectory& trajectory);
 
+/// What a champion's genome came to in another engine than its own.
+struct Refereed {
+  std::string engine;
+  TrialResult result;
+};
+
 /// A genome worth keeping, with all that is needed to run it again: robot, controller, trial, engine.
 /// Self-contained.
 struct Champion {
@@ -31,6 +37,7 @@ struct Champion {
   Problem problem;
   neat::Genome genome;
   TrialResult result;                ///< of the trial that made it a champion
+  std::vector<Refereed> referees;    ///< in the order of Config::referees
   std::vector<std::uint32_t> trace;  ///< trial::TraceObserver of that trial: one hash per step
 };
 

@@ -1,7 +1,12 @@
 #include "amble/experiment/config.hpp"
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
 #include "amble/core/error.hpp"
 #include "amble/io/toml_settings.hpp"
+#include "amble/physics/engine.hpp"
 #include "amble/score/path_behaviour.hpp"
 
 namespace amble::experiment {
@@ -9,7 +14,9 @@ namespace amble::experiment {
 void Config::describe(io::SettingsVisitor& visitor) {
   visitor.text("name", name, {"what this experiment is called in files and figures"});
   visitor.text("robot", robot, {"robot file, relative to the config file"});
-  visitor.text("engine", engine, {"physics engine: ode", "Morse et al. 2013, sec. 4"});
+  visitor.text("engine", engine, {"physics engine: ode or mujoco", "Morse et al. 2013, sec. 4"});
+  visitor.texts("referees", referees,
+                {"engines in which each new champion is tried again; its file says how far it comes there"});
   visitor.integer("seed", seed, {0, 9007199254740992.0}, {"seed of all randomness"});
   visitor.integer("generations", generations, {1, 1e9},
                   {"generations to evaluate, the initial one included", "Morse et al. 2013, sec. 4"});
@@ -22,6 +29,15 @@ void Config::describe(io::SettingsVisitor& visitor) {
 
 void Config::validate() const {
   if (robot.empty()) fail(ExitCode::bad_input, "key 'robot' is missing: expected the path of a robot file");
+  physics::check_engine_name(engine);
+  for (auto referee = referees.begin(); referee != referees.end(); ++referee) {
+    if (std::ranges::find(physics::engine_names, *referee) == physics::engine_names.end())
+      fail(ExitCode::bad_input, "referees: unknown engine '{}': expected {}", *referee,
+           fmt::join(physics::engine_names, " or "));
+    if (*referee == engine || std::find(referees.begin(), referee, *referee) != referee)
+      fail(ExitCode::bad_input, "referees: '{}' is named twice, or is the engine of the run itself",
+           *referee);
+  }
   neat.validate();
   trial.validate();
   if (search.kind == search::Kind::novelty) search.novelty.validate(behaviour_length());

@@ -22,6 +22,7 @@ struct Config {
   std::string name = "unnamed";
   std::string robot;  ///< robot file (TOML side file, or robot.json of a run folder)
   std::string engine = "ode";
+  std::vector<std::string> referees;  ///< engines in which each new champion is tried again
   std::int64_t seed = 1;
   int generations = 800;
   neat::Settings neat;

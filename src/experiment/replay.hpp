@@ -13,10 +13,10 @@ namespace amble::experiment {
 
 /// How a champion is run again; what is not given is as in its own file.
 struct ReplayOptions {
-  std::optional<double> seconds;
-  std::optional<std::string> engine;
-  std::optional<std::filesystem::path> record;  ///< writes a recording (record/recording.hpp)
-  std::string origin;                           ///< named in the recording
+  std::optional<double> seconds = {};
+  std::optional<std::string> engine = {};
+  std::optional<std::filesystem::path> record = {};  ///< writes a recording (record/recording.hpp)
+  std::string origin = {};                           ///< named in the recording
 };
 
 struct Replay {

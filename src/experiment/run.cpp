@@ -23,6 +23,15 @@ void check_memory(const Config& config) {
                                        search::machine_memory_bytes());
 }
 
+/// Throws UserError before anything is written.
+void complain_early(const Config& config, const morphology::RobotSpec& robot) {
+  auto problem = Problem::make(config, robot);
+  for (const auto& referee : config.referees) {
+    problem.engine = referee;
+    problem.make_engine();
+  }
+}
+
 /// Returns how many bytes of the file the search has taken back; nothing if it keeps no archive.
 std::optional<std::uint64_t> restore_archive(const std::filesystem::path& path, search::Search& search) {
   if (!search.has_archive()) return std::nullopt;
@@ -46,7 +55,7 @@ Run::Run(RunFolder folder, const Config& config, const morphology::RobotSpec& ro
 Run Run::start(const std::filesystem::path& folder, const Config& config, int jobs) {
   check_memory(config);
   const auto robot = load_robot_file(config.robot);
-  Problem::make(config, robot);  // complain before anything is written
+  complain_early(config, robot);
   Run run(RunFolder::create(folder, config, robot), config, robot, jobs);
   run.csv_ = std::make_unique<io::AppendFile>(run.paths().generations, 0);
   run.csv_->append(csv_header());
@@ -130,6 +139,7 @@ double Run::keep_champion(const GenerationResult& result, std::size_t best) {
                     .problem = *problem_,
                     .genome = population_.genomes()[best],
                     .result = summarise(result.trajectories[best]),
+                    .referees = {},
                     .trace = {}};
   const auto again = replay(*problem_, champion.genome, {}, to_the_end);
   if (again->result.distance_m != champion.result.distance_m)
@@ -137,10 +147,16 @@ double Run::keep_champion(const GenerationResult& result, std::size_t best) {
          "generation {}: the champion walked {} m, and {} m when run again: the engine does not repeat",
          champion.generation, champion.result.distance_m, again->result.distance_m);
   champion.trace = again->trace;
+  double physics_s = again->physics_s;
+  for (const auto& engine : config_.referees) {
+    const auto elsewhere = replay(*problem_, champion.genome, {.engine = engine}, to_the_end);
+    champion.referees.push_back({engine, elsewhere->result});
+    physics_s += elsewhere->physics_s;
+  }
   folder_.save_champion(champion);
   progress_.best_m = champion.result.distance_m;
   progress_.best_generation = champion.generation;
-  return again->physics_s;
+  return physics_s;
 }
 
 void Run::write_down(const GenerationRow& row) {

@@ -49,7 +49,7 @@ class Run {
  private:
   Run(RunFolder folder, const Config& config, const morphology::RobotSpec& robot, int jobs);
 
-  /// Returns seconds spent in the engine for it.
+  /// Runs the best of the generation again, here and in the referees. Returns seconds spent in engines.
   double keep_champion(const GenerationResult& result, std::size_t best);
   std::vector<neat::Fitness> judge(const GenerationResult& result, std::span<const double> distances_m);
   /// All files but the champions, in an order from which a run goes on wherever it is cut off.

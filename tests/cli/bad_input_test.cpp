@@ -137,6 +137,11 @@ TEST_F(BadInput, UnknownEngine) {
                    "newton");
 }
 
+TEST_F(BadInput, UnknownReferee) {
+  expect_complaint({"evolve", config, "--set", "referees=[\"newton\"]", "--out", out_}, ExitCode::bad_input,
+                   "referees: unknown engine 'newton'");
+}
+
 TEST_F(BadInput, SyntaxErrorWithLineAndColumn) {
   spill(scratch_.path / "c.toml", "seed = 1\npopulation = { size = \n");
   expect_complaint({"evolve", scratch_ / "c.toml", "--out", out_}, ExitCode::bad_input, "c.toml:2:");

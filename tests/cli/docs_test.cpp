@@ -20,7 +20,8 @@ TEST(Docs, SettingsAreTheProgramsOwnTable) {
 }
 
 TEST(Docs, EveryCommandExplainsItself) {
-  for (const char* command : {"evolve", "resume", "trial", "info", "robot", "verify", "page", "settings"}) {
+  for (const char* command :
+       {"evolve", "resume", "trial", "compare", "info", "robot", "verify", "page", "settings"}) {
     const auto help = amble({command, "--help"});
     EXPECT_EQ(help.exit_code, 0) << command;
     EXPECT_NE(help.out.find("Usage"), std::string::npos) << command;

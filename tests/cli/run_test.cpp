@@ -128,6 +128,30 @@ TEST(Verify, AgreesOnAnUntouchedRunAndNamesTheStepAfterOneWeightIsAltered) {
       << altered.out;
 }
 
+TEST(Referees, AreShownByInfoTrialAndCompare) {
+  const ScratchFolder scratch;
+  auto arguments = evolve(scratch / "run", 2, 2);
+  arguments.insert(arguments.end(), {"--set", "referees=[\"mujoco\"]"});
+  const auto run = amble(arguments);
+  ASSERT_EQ(run.exit_code, ok) << run.err;
+  EXPECT_EQ(amble({"verify", scratch / "run"}).exit_code, ok);
+  const auto champion = std::filesystem::directory_iterator(scratch.path / "run/champions")->path().string();
+
+  const auto trial = amble({"trial", champion, "--engine", "mujoco"});
+  EXPECT_NE(trial.out.find("engine    mujoco (evolved in ode)\n"), std::string::npos) << trial.out;
+  const auto label = trial.out.find("distance  ");
+  ASSERT_NE(label, std::string::npos);
+  const auto distance = trial.out.substr(label + 10, trial.out.find('\n', label) - label - 10);
+
+  const auto info = amble({"info", champion});
+  EXPECT_NE(info.out.find("in mujoco   " + distance), std::string::npos) << info.out;
+  const auto table = amble({"compare", champion, "--seconds", "1,2", "--engines", "mujoco"});
+  ASSERT_EQ(table.exit_code, ok) << table.err;
+  EXPECT_EQ(std::count(table.out.begin(), table.out.end(), '\n'), 5) << table.out;
+  EXPECT_NE(table.out.find(distance.substr(0, distance.find(' '))), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("home"), std::string::npos) << table.out;
+}
+
 TEST(Trial, RecordsWhatInfoAndPageCanRead) {
   const ScratchFolder scratch;
   ASSERT_EQ(amble(evolve(scratch / "run", 2, 2)).exit_code, ok);

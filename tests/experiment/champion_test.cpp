@@ -23,6 +23,7 @@ Champion some_champion() {
       .problem = small_problem(),
       .genome = {},
       .result = {.distance_m = 0.1 + 0.2, .steps = 77, .seconds = 0.77, .outcome = record::Outcome::fell},
+      .referees = {{"mujoco", {.distance_m = 0.7, .steps = 100, .seconds = 1.0}}},
       .trace = {0, 1, 0xffffffffu, 0x1234abcdu}};
   champion.genome = small_population(champion.problem).genomes()[5];
   return champion;
@@ -50,8 +51,26 @@ TEST(Champion, ReadsBackToTheBit) {
   EXPECT_EQ(again.generation, 12);
   EXPECT_EQ(again.result.distance_m, champion.result.distance_m);
   EXPECT_EQ(again.result.outcome, record::Outcome::fell);
+  ASSERT_EQ(again.referees.size(), 1u);
+  EXPECT_EQ(again.referees[0].engine, "mujoco");
+  EXPECT_EQ(again.referees[0].result.distance_m, 0.7);
+  EXPECT_EQ(again.referees[0].result.outcome, record::Outcome::completed);
   EXPECT_EQ(morphology::to_json(again.problem.robot), morphology::to_json(champion.problem.robot));
   EXPECT_EQ(champion_text(again), text);
+}
+
+TEST(Champion, OfAnEarlierVersionHasNoReferees) {
+  auto champion = some_champion();
+  champion.referees.clear();
+  auto text = champion_text(champion);
+  const std::string empty = "  \"referees\": [],\n";
+  const auto at = text.find(empty);
+  ASSERT_NE(at, std::string::npos);
+  text.erase(at, empty.size());
+  const auto [again, altered] = parse_champion(text, "c.json", io::Altered::accept);
+  EXPECT_TRUE(altered) << "what referees say is under the seal";
+  EXPECT_TRUE(again.referees.empty());
+  EXPECT_EQ(again.genome, champion.genome);
 }
 
 TEST(Champion, IsRefusedAfterAnyChangeOfItsText) {

@@ -79,6 +79,22 @@ TEST(Config, TakesOverridesInOrderAndBareWordsAsText) {
   EXPECT_EQ(config.generations, 4);
 }
 
+TEST(Config, RefereesAreOtherEnginesThanItsOwn) {
+  const auto complaint = [](const std::string& assignment) -> std::string {
+    try {
+      load_config(configs + "authors/supg-objective.toml", {.assignments = {assignment}});
+    } catch (const UserError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(complaint("referees=[\"mujoco\"]"), "accepted");
+  EXPECT_THAT(complaint("referees=[\"newton\"]"),
+              testing::HasSubstr("referees: unknown engine 'newton': expected ode or mujoco"));
+  for (const char* bad : {"referees=[\"ode\"]", "referees=[\"mujoco\", \"mujoco\"]"})
+    EXPECT_THAT(complaint(bad), testing::HasSubstr("is named twice, or is the engine of the run itself"));
+}
+
 TEST(Config, WithoutARobotIsRefusedByName) {
   const ScratchFolder scratch;
   io::write_file(scratch.path / "c.toml", "seed = 1\n");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "amble/core/error.hpp"
+#include "amble/experiment/replay.hpp"
 #include "amble/io/file.hpp"
 #include "tests/experiment/fixture.hpp"
 
@@ -112,6 +113,28 @@ TEST(ObjectiveRun, KeepsNoArchiveAndRecordsNoPaths) {
   Run::start(scratch.path / "run", config, 1).execute(listener, listener.stop);
   EXPECT_FALSE(std::filesystem::exists(RunPaths(scratch.path / "run").archive));
   EXPECT_FALSE(listener.rows.front().novelty);
+}
+
+TEST(RefereedRun, TriesEachChampionInTheRefereesAndIsTheSameRunOtherwise) {
+  const ScratchFolder scratch;
+  Listener plain, refereed;
+  Run::start(scratch.path / "plain", small_config(), 1).execute(plain, plain.stop);
+  Run::start(scratch.path / "refereed", small_config({"referees=[\"mujoco\"]"}), 2)
+      .execute(refereed, refereed.stop);
+  const auto files = RunPaths(scratch.path / "refereed").champion_files();
+  ASSERT_FALSE(files.empty());
+  for (const auto& file : files) {
+    const auto champion = load_champion(file);
+    ASSERT_EQ(champion.referees.size(), 1u);
+    EXPECT_EQ(champion.referees[0].engine, "mujoco");
+    const auto again = replay(champion.problem, champion.genome, {.engine = "mujoco"}, refereed.stop);
+    EXPECT_EQ(champion.referees[0].result.distance_m, again->result.distance_m);
+    EXPECT_EQ(champion.referees[0].result.steps, again->result.steps);
+    const auto twin = load_champion(scratch.path / "plain/champions" / file.filename());
+    EXPECT_TRUE(twin.referees.empty());
+    EXPECT_EQ(champion.genome, twin.genome);
+    EXPECT_EQ(champion.trace, twin.trace);
+  }
 }
 
 TEST(Run, LeavesNothingBehindWhenTheRobotIsUnknown) {

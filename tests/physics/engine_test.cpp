@@ -1,5 +1,6 @@
 #include "amble/physics/engine.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -21,7 +22,20 @@ std::string refusal(const morphology::RobotSpec& robot, std::string_view engine 
 }
 
 TEST(MakeEngine, RefusesAnUnknownName) {
-  EXPECT_EQ(refusal(quadruped(), "odd"), "unknown engine 'odd': expected ode");
+  EXPECT_EQ(refusal(quadruped(), "odd"), "unknown engine 'odd': expected ode or mujoco");
+}
+
+TEST(MakeEngine, MujocoRefusesAnImpossibleInertia) {
+  morphology::RobotSpec robot = quadruped();
+  robot.bodies[0].inertia_kg_m2 = {1.0, 1.0, 3.0};  // no body has more than the sum of the other two
+  EXPECT_EQ(refusal(robot, "ode"), "accepted");
+  EXPECT_THAT(refusal(robot, "mujoco"), testing::StartsWith("the mujoco engine: MuJoCo refuses the model: "));
+}
+
+TEST(MakeEngine, MujocoTakesWhatOdeHasNoJointFor) {
+  morphology::RobotSpec robot = quadruped();
+  robot.joints[1].axis = {0.6, 0.8, 0.0};
+  EXPECT_EQ(refusal(robot, "mujoco"), "accepted");
 }
 
 TEST(MakeEngine, OdeRefusesThreeJointsOnOneBody) {
@@ -49,9 +63,14 @@ TEST(MakeEngine, OdeRefusesARangeBeyondHalfATurn) {
             "the ode engine needs the range of joint 'arm_swing' within ± π, not -3 … 3.5 rad");
 }
 
-TEST(Place, PutsTheRobotIntoTheStartPoseOfItsModel) {
+class Place : public EachEngine {};
+INSTANTIATE_TEST_SUITE_P(Engines, Place, every_engine, engine_of);
+class Retire : public EachEngine {};
+INSTANTIATE_TEST_SUITE_P(Engines, Retire, every_engine, engine_of);
+
+TEST_P(Place, PutsTheRobotIntoTheStartPoseOfItsModel) {
   for (const char* variant : {"authors", "paper"}) {
-    const Bench bench(quadruped(variant));
+    const Bench bench(engine_name(), quadruped(variant));
     const RootPose root = bench.engine->root_pose(0);
     EXPECT_EQ(root.position_m, (Vec3{0.0, 0.0, 0.88404}));
     EXPECT_EQ(root.rotation, Quat{});
@@ -63,11 +82,11 @@ TEST(Place, PutsTheRobotIntoTheStartPoseOfItsModel) {
   }
 }
 
-TEST(Place, StandsTheRootFrameNotItsCentreOfMassWhereTheModelSays) {
+TEST_P(Place, StandsTheRootFrameNotItsCentreOfMassWhereTheModelSays) {
   morphology::RobotSpec robot = weightless(scene("pendulum"));
   robot.bodies[0].com_m = {0.1, -0.2, 0.3};
   robot.bodies[0].rotation = axis_angle({0.0, 0.0, 1.0}, 0.5);
-  const Bench bench(robot);
+  const Bench bench(engine_name(), robot);
   const Vec3 offset = bench.engine->root_pose(0).position_m - robot.bodies[0].position_m;
   EXPECT_NEAR(norm(offset), 0.0, 1e-14);
   const Vec3 com = robot.bodies[0].position_m + rotate(robot.bodies[0].rotation, {0.1, -0.2, 0.3});
@@ -75,8 +94,8 @@ TEST(Place, StandsTheRootFrameNotItsCentreOfMassWhereTheModelSays) {
   EXPECT_NEAR(static_cast<double>(bench.engine->sensors().attitude_rad.at(2, 0)), 0.5, 1e-7);
 }
 
-TEST(Retire, StopsTheRobotUntilItIsPlacedAgain) {
-  Bench bench(lifted(quadruped(), 1.0));
+TEST_P(Retire, StopsTheRobotUntilItIsPlacedAgain) {
+  Bench bench(engine_name(), lifted(quadruped(), 1.0));
   const std::uint64_t start = bench.engine->state_hash(0);
   bench.steps(10);
   bench.engine->retire(0);

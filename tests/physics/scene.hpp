@@ -1,7 +1,10 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "amble/core/lanes.hpp"
@@ -38,9 +41,9 @@ struct Bench {
   LaneArray targets;
   double timestep_s;
 
-  explicit Bench(morphology::RobotSpec spec, double h = 0.01)
+  Bench(std::string_view name, morphology::RobotSpec spec, double h = 0.01)
       : robot(std::move(spec)),
-        engine(make_engine("ode", robot, {.timestep_s = h})),
+        engine(make_engine(name, robot, {.timestep_s = h})),
         targets(static_cast<int>(robot.joints.size()), 1),
         timestep_s(h) {
     engine->place(0);
@@ -54,6 +57,18 @@ struct Bench {
   }
   bool touches(int leg) const { return engine->sensors().touch.at(leg, 0) == 1.0f; }
 };
+
+/// Tests that every engine must pass.
+class EachEngine : public testing::TestWithParam<std::string_view> {
+ protected:
+  static std::string_view engine_name() { return GetParam(); }
+};
+
+inline const auto every_engine = testing::ValuesIn(engine_names);
+
+inline std::string engine_of(const testing::TestParamInfo<std::string_view>& info) {
+  return std::string(info.param);
+}
 
 /// Forward kinematics: where all bodies are for a pose of the root and joint angles. Independent of any
 /// engine.

@@ -16,10 +16,18 @@ morphology::RobotSpec arm(const morphology::Servo& servo) {
   return robot;
 }
 
-TEST(OdeVelocityServo, ApproachesItsTargetAtFirstOrder) {
+class VelocityServo : public EachEngine {};
+INSTANTIATE_TEST_SUITE_P(Engines, VelocityServo, every_engine, engine_of);
+class TorqueServo : public EachEngine {};
+INSTANTIATE_TEST_SUITE_P(Engines, TorqueServo, every_engine, engine_of);
+class Servo : public EachEngine {};
+INSTANTIATE_TEST_SUITE_P(Engines, Servo, every_engine, engine_of);
+
+TEST_P(VelocityServo, ApproachesItsTargetAtFirstOrder) {
   // Speed = gain × (target − angle), held for a step: the rest shrinks by (1 − gain h) per step.
   for (const double h : {0.01, 0.001}) {
-    Bench bench(arm({.mode = morphology::ServoMode::velocity, .gain_per_s = 9.0, .max_torque_nm = 1e4}), h);
+    Bench bench(engine_name(),
+                arm({.mode = morphology::ServoMode::velocity, .gain_per_s = 9.0, .max_torque_nm = 1e4}), h);
     bench.targets.at(0, 0) = 0.5f;
     for (int n = 1; n <= 100; ++n) {
       bench.steps(1);
@@ -28,27 +36,30 @@ TEST(OdeVelocityServo, ApproachesItsTargetAtFirstOrder) {
   }
 }
 
-TEST(OdeVelocityServo, PushesNoHarderThanItsLimit) {
-  Bench bench(arm({.mode = morphology::ServoMode::velocity, .gain_per_s = 9.0, .max_torque_nm = 0.4}), 0.001);
+TEST_P(VelocityServo, PushesNoHarderThanItsLimit) {
+  Bench bench(engine_name(),
+              arm({.mode = morphology::ServoMode::velocity, .gain_per_s = 9.0, .max_torque_nm = 0.4}), 0.001);
   bench.targets.at(0, 0) = 2.5f;
   bench.steps(500);
   const double expected = 0.5 * (0.4 / inertia) * 0.5 * 0.501;
   EXPECT_NEAR(bench.angle(0), expected, 1e-3 * expected);
 }
 
-TEST(OdeVelocityServo, TurnsBothWays) {
+TEST_P(VelocityServo, TurnsBothWays) {
   for (const float target : {-0.7f, 0.7f}) {
-    Bench bench(arm({.mode = morphology::ServoMode::velocity, .gain_per_s = 9.0, .max_torque_nm = 50.0}));
+    Bench bench(engine_name(),
+                arm({.mode = morphology::ServoMode::velocity, .gain_per_s = 9.0, .max_torque_nm = 50.0}));
     bench.targets.at(0, 0) = target;
     bench.steps(300);
     EXPECT_NEAR(bench.angle(0), static_cast<double>(target), 1e-4);
   }
 }
 
-TEST(OdeTorqueServo, SwingsAsADampedOscillator) {
+TEST_P(TorqueServo, SwingsAsADampedOscillator) {
   // I a'' + kd a' + kp (a − target) = 0 from rest.
   const double kp = 20.0, kd = 1.2, target = 0.4, h = 0.0005;
-  Bench bench(arm({.mode = morphology::ServoMode::torque,
+  Bench bench(engine_name(),
+              arm({.mode = morphology::ServoMode::torque,
                    .max_torque_nm = 1e4,
                    .kp_nm_per_rad = kp,
                    .kd_nm_s_per_rad = kd}),
@@ -65,8 +76,9 @@ TEST(OdeTorqueServo, SwingsAsADampedOscillator) {
   }
 }
 
-TEST(OdeTorqueServo, ClampsItsTorque) {
-  Bench bench(arm({.mode = morphology::ServoMode::torque, .max_torque_nm = 0.4, .kp_nm_per_rad = 1000.0}),
+TEST_P(TorqueServo, ClampsItsTorque) {
+  Bench bench(engine_name(),
+              arm({.mode = morphology::ServoMode::torque, .max_torque_nm = 0.4, .kp_nm_per_rad = 1000.0}),
               0.001);
   for (const double sign : {1.0, -1.0}) {
     bench.engine->place(0);
@@ -77,7 +89,7 @@ TEST(OdeTorqueServo, ClampsItsTorque) {
   }
 }
 
-TEST(OdeTorqueServo, MovesAUniversalJointAsTheVelocityServoDoes) {
+TEST_P(TorqueServo, MovesAUniversalJointAsTheVelocityServoDoes) {
   morphology::RobotSpec robot = weightless(quadruped());
   for (morphology::Joint& joint : robot.joints) {
     joint.servo = {.mode = morphology::ServoMode::torque,
@@ -85,7 +97,7 @@ TEST(OdeTorqueServo, MovesAUniversalJointAsTheVelocityServoDoes) {
                    .kp_nm_per_rad = 5.0,
                    .kd_nm_s_per_rad = 0.5};
   }
-  Bench bench(robot, 0.002);
+  Bench bench(engine_name(), robot, 0.002);
   for (int leg = 0; leg < 4; ++leg) {
     bench.targets.at(3 * leg, 0) = leg < 2 ? -0.5f : 0.4f;
     bench.targets.at(3 * leg + 1, 0) = leg % 2 == 0 ? 0.3f : -0.6f;
@@ -96,22 +108,23 @@ TEST(OdeTorqueServo, MovesAUniversalJointAsTheVelocityServoDoes) {
     EXPECT_NEAR(bench.angle(j), static_cast<double>(bench.targets.at(j, 0)), 0.01) << j;
 }
 
-TEST(OdeServo, FeelsTheInertiaOfTurnedPrincipalAxes) {
+TEST_P(Servo, FeelsTheInertiaOfTurnedPrincipalAxes) {
   // Principal axes turned by 90° about x: about the hinge's y now lies the moment that was third, 0.01
   // instead of 0.03.
   morphology::RobotSpec robot =
       arm({.mode = morphology::ServoMode::torque, .max_torque_nm = 0.4, .kp_nm_per_rad = 1000.0});
   robot.bodies[1].inertia_rotation = axis_angle({1.0, 0.0, 0.0}, std::acos(0.0));
-  Bench bench(robot, 0.001);
+  Bench bench(engine_name(), robot, 0.001);
   bench.targets.at(0, 0) = 2.5f;
   bench.steps(500);
   const double expected = 0.5 * (0.4 / 0.26) * 0.5 * 0.501;
   EXPECT_NEAR(bench.angle(0), expected, 1e-3 * expected);
 }
 
-TEST(OdeServo, ClampsTargetsToTheStops) {
+TEST_P(Servo, ClampsTargetsToTheStops) {
   for (const float target : {1e30f, -1e30f, std::numeric_limits<float>::infinity()}) {
-    Bench bench(arm({.mode = morphology::ServoMode::velocity, .gain_per_s = 9.0, .max_torque_nm = 50.0}));
+    Bench bench(engine_name(),
+                arm({.mode = morphology::ServoMode::velocity, .gain_per_s = 9.0, .max_torque_nm = 50.0}));
     bench.targets.at(0, 0) = target;
     bench.steps(300);
     EXPECT_TRUE(bench.engine->healthy(0));

@@ -7,12 +7,17 @@
 namespace amble::physics {
 namespace {
 
-TEST(OdeStanding, ABoxSinksUntilTheContactSpringsCarryItsWeight) {
+class Standing : public EachEngine {};
+INSTANTIATE_TEST_SUITE_P(Engines, Standing, every_engine, engine_of);
+class Touch : public EachEngine {};
+INSTANTIATE_TEST_SUITE_P(Engines, Touch, every_engine, engine_of);
+
+TEST_P(Standing, ABoxSinksUntilTheContactSpringsCarryItsWeight) {
   // Four corners, each a spring of erp / (h cfm): depth = m g h cfm / (4 erp).
   morphology::RobotSpec robot = scene("box");
   robot.contact.cfm_s_per_kg = 1e-4;
   for (const double h : {0.01, 0.002}) {
-    Bench bench(robot, h);
+    Bench bench(engine_name(), robot, h);
     bench.steps(2000);
     const double depth = 2.0 * 9.8 * h * 1e-4 / (4 * 0.2);
     EXPECT_NEAR(0.1 - bench.engine->com_m(0).z, depth, 1e-3 * depth);
@@ -20,9 +25,9 @@ TEST(OdeStanding, ABoxSinksUntilTheContactSpringsCarryItsWeight) {
   }
 }
 
-TEST(OdeStanding, TheQuadrupedStandsStillOnAllFeet) {
+TEST_P(Standing, TheQuadrupedStandsStillOnAllFeet) {
   for (const char* variant : {"authors", "paper"}) {
-    Bench bench(quadruped(variant));
+    Bench bench(engine_name(), quadruped(variant));
     bench.steps(300);
     const Vec3 before = bench.engine->com_m(0);
     for (int i = 0; i < 300; ++i) {
@@ -36,10 +41,11 @@ TEST(OdeStanding, TheQuadrupedStandsStillOnAllFeet) {
   }
 }
 
-TEST(OdeTouch, IsFeltWhenTheFootIsNotAboveTheGround) {
+TEST_P(Touch, IsFeltWhenTheFootIsNotAboveTheGround) {
   for (const double gap : {1e-9, 1e-3, 0.5}) {
-    const Bench above(lifted(quadruped(), 0.0001 + gap));  // the model puts the feet 0.1 mm deep
-    const Bench below(lifted(quadruped(), 0.0001 - 1e-9));
+    const Bench above(engine_name(),
+                      lifted(quadruped(), 0.0001 + gap));  // the model puts the feet 0.1 mm deep
+    const Bench below(engine_name(), lifted(quadruped(), 0.0001 - 1e-9));
     for (int leg = 0; leg < 4; ++leg) {
       EXPECT_FALSE(above.touches(leg)) << gap;
       EXPECT_TRUE(below.touches(leg));
@@ -47,8 +53,8 @@ TEST(OdeTouch, IsFeltWhenTheFootIsNotAboveTheGround) {
   }
 }
 
-TEST(OdeTouch, BelongsToThePoseAtTheBeginningOfTheStep) {
-  Bench bench(lifted(quadruped(), 0.05));
+TEST_P(Touch, BelongsToThePoseAtTheBeginningOfTheStep) {
+  Bench bench(engine_name(), lifted(quadruped(), 0.05));
   for (int i = 0; i < 30; ++i) {
     // In the air the legs stay straight, so that the feet are where the root says.
     const bool down = bench.engine->root_pose(0).position_m.z - 0.88414 <= 0.0;
@@ -59,9 +65,9 @@ TEST(OdeTouch, BelongsToThePoseAtTheBeginningOfTheStep) {
   FAIL() << "never landed";
 }
 
-TEST(OdeTouch, ALiftedFootFeelsNothingWhileItsNeighboursStand) {
+TEST_P(Touch, ALiftedFootFeelsNothingWhileItsNeighboursStand) {
   for (int leg = 0; leg < 4; ++leg) {
-    Bench bench(quadruped());
+    Bench bench(engine_name(), quadruped());
     bench.targets.at(3 * leg, 0) = leg < 2 ? -0.8f : 0.8f;  // bend the knee
     bench.steps(8);
     // The robot leans towards the corner without support, so the foot across may leave the ground as well.

@@ -23,13 +23,16 @@ Vec3 foot_position(const Bench& bench, int leg) {
   return kinematics(bench.robot, {}, angles(bench))[static_cast<std::size_t>(foot.body)] * foot.position_m;
 }
 
-TEST(OdeJoints, MeasuredAnglesPutTheBodiesWhereTheyAre) {
+class Joints : public EachEngine {};
+INSTANTIATE_TEST_SUITE_P(Engines, Joints, every_engine, engine_of);
+
+TEST_P(Joints, MeasuredAnglesPutTheBodiesWhereTheyAre) {
   // The whole robot's centre of mass, from ODE's bodies, against forward kinematics from root pose and joint
   // angles. A flipped sign, a wrong axis or a wrong order of the hip's two axes moves it by centimetres.
   for (const char* variant : {"authors", "paper"}) {
     morphology::RobotSpec robot = weightless(quadruped(variant));
     robot.contact.cfm_s_per_kg = 1e-9;  // stiff joints
-    Bench bench(robot);
+    Bench bench(engine_name(), robot);
     Stream stream(11, Purpose::test);
     for (int n = 0; n < 1000; ++n) {
       if (n % 100 == 0) {
@@ -49,7 +52,7 @@ TEST(OdeJoints, MeasuredAnglesPutTheBodiesWhereTheyAre) {
   }
 }
 
-TEST(OdeJoints, SignsAreThoseOfTheConventions) {
+TEST_P(Joints, SignsAreThoseOfTheConventions) {
   // Leg by leg, the foot's way in the root's frame when one joint alone goes to a target.
   struct Case {
     int type;
@@ -64,7 +67,7 @@ TEST(OdeJoints, SignsAreThoseOfTheConventions) {
                                   {1, -0.5f, {1.0, 0.0, 0.0}},
                                   {2, 0.4f, {0.0, outward, 0.0}}};
     for (const Case& one : cases) {
-      Bench bench(weightless(quadruped()));
+      Bench bench(engine_name(), weightless(quadruped()));
       const Vec3 before = foot_position(bench, leg);
       const Vec3 root_before = bench.engine->root_pose(0).position_m;
       bench.targets.at(3 * leg + one.type, 0) = one.target;
@@ -78,13 +81,13 @@ TEST(OdeJoints, SignsAreThoseOfTheConventions) {
   }
 }
 
-TEST(OdeJoints, APendulumSwingsWithItsPeriod) {
+TEST_P(Joints, APendulumSwingsWithItsPeriod) {
   // T = 2 π sqrt(I / (m g d)) (1 + a²/16 + 11 a⁴/3072) for amplitude a = 0.2 rad about the vertical, angle
   // −0.2.
   const double expected =
       2 * std::numbers::pi * std::sqrt(0.28 / (9.8 * 0.5)) * (1 + 0.04 / 16 + 11 * 0.0016 / 3072);
   const double h = 0.001;
-  Bench bench(scene("pendulum"), h);
+  Bench bench(engine_name(), scene("pendulum"), h);
   std::vector<double> crossings;
   double before = 0.0;
   for (int n = 1; n <= 8000; ++n) {
@@ -99,10 +102,10 @@ TEST(OdeJoints, APendulumSwingsWithItsPeriod) {
   EXPECT_NEAR(period, expected, 1e-3 * expected);
 }
 
-TEST(OdeJoints, StopsHold) {
+TEST_P(Joints, StopsHold) {
   morphology::RobotSpec robot = scene("pendulum");
   robot.joints[0].lower_rad = -0.1;
-  Bench bench(robot);
+  Bench bench(engine_name(), robot);
   double lowest = 0.0;
   for (int n = 0; n < 500; ++n) {
     bench.steps(1);
@@ -112,12 +115,12 @@ TEST(OdeJoints, StopsHold) {
   EXPECT_NEAR(bench.angle(0), -0.1, 1e-4);  // and comes to rest there, against its weight
 }
 
-TEST(OdeJoints, LegsPassThroughEachOtherUnlessSelfCollisionIsOn) {
+TEST_P(Joints, LegsPassThroughEachOtherUnlessSelfCollisionIsOn) {
   // Left front leg back, left hind leg forward: their feet would cross.
   const auto meeting = [](bool self_collision) {
     morphology::RobotSpec robot = weightless(quadruped());
     robot.self_collision = self_collision;
-    Bench bench(robot);
+    Bench bench(engine_name(), robot);
     bench.targets.at(1, 0) = 0.8f;
     bench.targets.at(7, 0) = -0.8f;
     bench.steps(300);
@@ -128,11 +131,11 @@ TEST(OdeJoints, LegsPassThroughEachOtherUnlessSelfCollisionIsOn) {
   EXPECT_LT(meeting(true), 1.3);
 }
 
-TEST(OdeJoints, SelfCollisionLeavesStandingAlone) {
+TEST_P(Joints, SelfCollisionLeavesStandingAlone) {
   morphology::RobotSpec robot = quadruped();
   robot.self_collision = true;
-  Bench with(robot);
-  Bench without(quadruped());
+  Bench with(engine_name(), robot);
+  Bench without(engine_name(), quadruped());
   with.steps(100);
   without.steps(100);
   EXPECT_EQ(with.engine->state_hash(0), without.engine->state_hash(0));

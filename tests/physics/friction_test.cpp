@@ -16,19 +16,22 @@ morphology::RobotSpec on_slope(double angle_rad, double friction) {
   return robot;
 }
 
-TEST(OdeFriction, TheBoxHoldsUpToTheFrictionAngle) {
+class Friction : public EachEngine {};
+INSTANTIATE_TEST_SUITE_P(Engines, Friction, every_engine, engine_of);
+
+TEST_P(Friction, TheBoxHoldsUpToTheFrictionAngle) {
   for (const double friction : {0.2, 0.5}) {
-    Bench bench(on_slope(std::atan(0.98 * friction), friction));
+    Bench bench(engine_name(), on_slope(std::atan(0.98 * friction), friction));
     bench.steps(300);
     EXPECT_LT(bench.engine->com_m(0).x, 1e-3) << friction;
   }
 }
 
-TEST(OdeFriction, BeyondTheFrictionAngleTheBoxSlidesWithTheAccelerationLeft) {
+TEST_P(Friction, BeyondTheFrictionAngleTheBoxSlidesWithTheAccelerationLeft) {
   for (const double friction : {0.2, 0.5}) {
     for (const double steeper : {1.05, 1.5}) {
       const double angle = std::atan(steeper * friction);
-      Bench bench(on_slope(angle, friction), 0.001);
+      Bench bench(engine_name(), on_slope(angle, friction), 0.001);
       bench.steps(100);
       const double before = bench.engine->momentum(0).x;
       bench.steps(900);
@@ -39,28 +42,28 @@ TEST(OdeFriction, BeyondTheFrictionAngleTheBoxSlidesWithTheAccelerationLeft) {
   }
 }
 
-TEST(OdeFriction, FrictionIsACoefficientNotAForce) {
+TEST_P(Friction, FrictionIsACoefficientNotAForce) {
   // Ten times the mass must slide just the same.
   morphology::RobotSpec robot = on_slope(std::atan(0.6), 0.5);
   robot.bodies[0].mass_kg *= 10.0;
   robot.bodies[0].inertia_kg_m2 = 10.0 * robot.bodies[0].inertia_kg_m2;
   robot.contact.cfm_s_per_kg *= 0.1;
-  Bench heavy(robot, 0.001);
-  Bench light(on_slope(std::atan(0.6), 0.5), 0.001);
+  Bench heavy(engine_name(), robot, 0.001);
+  Bench light(engine_name(), on_slope(std::atan(0.6), 0.5), 0.001);
   heavy.steps(500);
   light.steps(500);
   EXPECT_NEAR(heavy.engine->com_m(0).x, light.engine->com_m(0).x, 1e-3 * light.engine->com_m(0).x);
 }
 
-TEST(OdeFriction, InfiniteFrictionHoldsOnAnySlope) {
-  Bench bench(on_slope(0.7, std::numeric_limits<double>::infinity()));
+TEST_P(Friction, InfiniteFrictionHoldsOnAnySlope) {
+  Bench bench(engine_name(), on_slope(0.7, std::numeric_limits<double>::infinity()));
   bench.steps(300);
   EXPECT_LT(std::abs(bench.engine->com_m(0).x), 1e-3);
 }
 
-TEST(OdeFriction, ASledComesToRestAfterTheDistanceThatFrictionAllows) {
+TEST_P(Friction, ASledComesToRestAfterTheDistanceThatFrictionAllows) {
   const double h = 0.001;
-  Bench bench(scene("sled"), h);
+  Bench bench(engine_name(), scene("sled"), h);
   bench.targets.at(0, 0) = bench.targets.at(1, 0) = 1.6f;
   const auto speed = [&] { return bench.engine->momentum(0).x / 3.0; };
 
