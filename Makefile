@@ -10,6 +10,7 @@ demo: build
 	rm -rf demo
 	build/release/src/cli/amble evolve configs/demo.toml --seed 3 --jobs $(JOBS) --out demo/run
 	build/release/src/cli/amble page demo/run -o demo/index.html
+	build/release/src/cli/amble view demo/run -o demo/walk.html
 
 build:
 	./setup

@@ -12,7 +12,7 @@ void measure_cppn(std::vector<Figure>& figures);
 void measure_neat(std::vector<Figure>& figures);
 /// Judging a generation by novelty: against plain loops.
 void measure_novelty(std::vector<Figure>& figures);
-/// Steps per second of the engine alone, on the authors' quadruped.
+/// Steps per second of the engines alone, on the same robots with the same targets.
 void measure_physics(std::vector<Figure>& figures);
 /// Whole runs: evaluations per second by workers, share outside physics, memory.
 void measure_runs(std::vector<Figure>& figures);

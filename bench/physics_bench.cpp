@@ -1,4 +1,7 @@
+#include <hwy/highway.h>
+
 #include <cmath>
+#include <cstdint>
 
 #include "amble/experiment/problem.hpp"
 #include "bench/benches.hpp"
@@ -21,12 +24,9 @@ void set_targets(const morphology::RobotSpec& robot, int step, LaneArray& target
   }
 }
 
-}  // namespace
-
-void measure_physics(std::vector<Figure>& figures) {
-  const auto config = authors_config();
-  const auto robot = experiment::load_robot_file(config.robot);
-  const auto engine = physics::make_engine("ode", robot, {.timestep_s = config.trial.timestep_s});
+/// Robot-steps per second of one engine on one core, all lanes busy.
+double steps_per_s(const char* name, const morphology::RobotSpec& robot) {
+  const auto engine = physics::make_engine(name, robot, {});
   LaneArray targets_rad(static_cast<int>(robot.joints.size()), engine->lanes());
   const double seconds = seconds_per_call([&] {
     for (int lane = 0; lane < engine->lanes(); ++lane) engine->place(lane);
@@ -35,8 +35,30 @@ void measure_physics(std::vector<Figure>& figures) {
       engine->step(targets_rad);
     }
   });
+  return steps * engine->lanes() / seconds;
+}
+
+}  // namespace
+
+void measure_physics(std::vector<Figure>& figures) {
+  const auto paper = experiment::load_robot_file(AMBLE_SOURCE_DIR "/robots/quadruped/paper.toml");
+  const auto authors = experiment::load_robot_file(AMBLE_SOURCE_DIR "/robots/quadruped/authors.toml");
+  const double ode = steps_per_s("ode", paper), mujoco = steps_per_s("mujoco", paper),
+               batch = steps_per_s("batch", paper);
+  figures.push_back({"raw_steps_per_s_ode", ode, "1/s", "one core, paper's quadruped, dWorldStep"});
+  figures.push_back({"raw_steps_per_s_mujoco", mujoco, "1/s",
+                     "one core, paper's quadruped, at most 20 iterations of Newton's method"});
+  figures.push_back({"raw_steps_per_s_batch", batch, "1/s", "one core, paper's quadruped, 20 iterations"});
+  figures.push_back({"batch_vs_ode_raw", batch / ode, "1", "steps per second, paper's quadruped"});
+  figures.push_back({"batch_vs_mujoco_raw", batch / mujoco, "1", "steps per second, paper's quadruped"});
+  figures.push_back({"batch_vs_ode_raw_authors", steps_per_s("batch", authors) / steps_per_s("ode", authors),
+                     "1", "steps per second, authors' quadruped"});
+  const std::int64_t instructions = hwy::SupportedTargets();
+  if ((instructions & HWY_AVX2) == 0 || (instructions & HWY_AVX3) == 0) return;
+  hwy::SetSupportedTargetsForTest(HWY_AVX2);
   figures.push_back(
-      {"raw_steps_per_s_ode", steps * engine->lanes() / seconds, "1/s", "one core, authors' quadruped"});
+      {"batch_vs_ode_raw_avx2", steps_per_s("batch", paper) / ode, "1", "the same without AVX-512"});
+  hwy::SetSupportedTargetsForTest(0);
 }
 
 }  // namespace amble::bench

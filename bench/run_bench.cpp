@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <string>
 
 #include "amble/experiment/run.hpp"
 #include "bench/benches.hpp"
@@ -23,11 +24,12 @@ class Totals : public experiment::RunListener {
   double evaluations = 0.0, steps = 0.0, wall_s = 0.0, outside_s = 0.0;
 };
 
-Totals run(int generations, int jobs) {
+Totals run(const std::string& engine, int generations, int jobs) {
   const auto folder = std::filesystem::temp_directory_path() / ("amble-bench-" + std::to_string(getpid()));
   const std::atomic<bool> never{false};
   Totals totals;
-  experiment::Run::start(folder, authors_config({"generations=" + std::to_string(generations)}), jobs)
+  experiment::Run::start(
+      folder, authors_config({"engine=" + engine, "generations=" + std::to_string(generations)}), jobs)
       .execute(totals, never);
   std::filesystem::remove_all(folder);
   return totals;
@@ -39,11 +41,25 @@ double peak_memory_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
+/// More generations, because a generation is over so soon.
+void measure_batch_runs(double ode_per_s, std::vector<Figure>& figures) {
+  constexpr int generations = 40;
+  const auto one = run("batch", generations, 1), two = run("batch", generations, 2);
+  const double one_per_s = one.evaluations / one.wall_s, two_per_s = two.evaluations / two.wall_s;
+  figures.push_back(
+      {"batch_vs_ode_end_to_end", one_per_s / ode_per_s, "1", "evaluations per second, one worker"});
+  figures.push_back(
+      {"outside_physics_share_batch", two.outside_s / two.wall_s, "1", "of wall time, two workers"});
+  figures.push_back({"evaluations_per_s_batch", one_per_s, "1/s", "end to end, one worker"});
+  figures.push_back({"evaluations_per_s_batch_all_workers", two_per_s, "1/s", "end to end, two workers"});
+  figures.push_back({"steps_per_s_batch_two_workers", two.steps / two.wall_s, "1/s", "end to end"});
+}
+
 }  // namespace
 
 void measure_runs(std::vector<Figure>& figures) {
   constexpr int generations = 4;
-  const auto one = run(generations, 1), two = run(generations, 2);
+  const auto one = run("ode", generations, 1), two = run("ode", generations, 2);
   const double one_per_s = one.evaluations / one.wall_s, two_per_s = two.evaluations / two.wall_s;
   figures.push_back({"two_workers_vs_one", two_per_s / one_per_s, "1", "evaluations per second, whole run"});
   figures.push_back(
@@ -51,6 +67,7 @@ void measure_runs(std::vector<Figure>& figures) {
   figures.push_back({"evaluations_per_s_ode", one_per_s, "1/s", "end to end, one worker"});
   figures.push_back({"evaluations_per_s_ode_two_workers", two_per_s, "1/s", "end to end"});
   figures.push_back({"steps_per_s_ode_two_workers", two.steps / two.wall_s, "1/s", "end to end"});
+  measure_batch_runs(one_per_s, figures);
   figures.push_back(
       {"peak_memory_mb", peak_memory_mb(), "MB", "of the whole benchmark, runs of 300 genomes included"});
 }

@@ -12,6 +12,7 @@
 #include "amble/analysis/page_style.hpp"
 #include "amble/analysis/path_figure.hpp"
 #include "amble/analysis/pattern_figure.hpp"
+#include "amble/analysis/substrate_figure.hpp"
 #include "amble/analysis/summary.hpp"
 #include "amble/analysis/svg.hpp"
 
@@ -107,8 +108,8 @@ std::string fitness_section(const Generations& generations) {
   const std::size_t count = generations.count();
   if (count == 0) return section("How it learned", "", note("No generation has been finished yet."));
   return section("How it learned",
-                 fmt::format("Distance walked over {} generation{}: {} trials, {} simulated steps.", count,
-                             count == 1 ? "" : "s", grouped(sum(generations.evaluations)),
+                 fmt::format("Distance walked over {} generation{}: {} evaluations, {} simulated steps.",
+                             count, count == 1 ? "" : "s", grouped(sum(generations.evaluations)),
                              grouped(sum(generations.steps))),
                  both([&](Layout layout) { return fitness_figure(generations, layout); }));
 }
@@ -127,14 +128,24 @@ std::string footfall_section(const Recorded& recorded) {
                  both([&](Layout layout) { return footfall_figure(recorded.robot, motion, layout); }));
 }
 
-std::string pattern_section(const Recorded& recorded) {
+std::string network_section(const NeuralNetwork& network) {
+  const Substrate& substrate = network.substrate;
+  const std::string text =
+      fmt::format("The neurons at their places in the substrate. {} of {} possible links are expressed.",
+                  substrate.links.size(), network.possible_links);
+  if (!can_be_drawn(substrate))
+    return section("The network", text, note("A substrate with more than four coordinates is not drawn."));
+  return section("The network", text,
+                 both([&](Layout layout) { return substrate_figure(substrate, layout); }));
+}
+
+/// What the controller is made of.
+std::string controller_section(const Recorded& recorded) {
+  if (recorded.network) return network_section(*recorded.network);
   if (!recorded.supg)
-    return section(
-        "Temporal patterns", "",
-        note(fmt::format(
-            "The controller of this champion is of kind “{}”. It has no timers, so there are no temporal "
-            "patterns and no triggers to show.",
-            recorded.controller_kind)));
+    return section("The controller", "",
+                   note(fmt::format("The controller of this champion is of kind “{}”, which is not drawn.",
+                                    recorded.controller_kind)));
   const Supg& supg = *recorded.supg;
   const std::string_view offset = supg.offset == Offset::phase
                                       ? "where the leg’s timer starts"
@@ -182,7 +193,7 @@ std::string provenance_section(const PageInput& input) {
 /// All that is drawn from the recording.
 std::string walk_sections(const Recorded& recorded, const Summary& summary) {
   std::string out = footfall_section(recorded);
-  out += pattern_section(recorded);
+  out += controller_section(recorded);
   return out + path_section(recorded, summary);
 }
 

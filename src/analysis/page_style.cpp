@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "amble/core/check.hpp"
+
 namespace amble::analysis {
 namespace {
 
@@ -104,6 +106,14 @@ svg text.mean, svg text.median { font-weight: 450; fill: var(--soft); }
 .foot { fill: var(--panel); stroke: var(--leg); stroke-width: 2; }
 .foot-down { fill: var(--leg); stroke: var(--leg); stroke-width: 2; }
 .far { opacity: .42; }
+.plane { fill: var(--panel); stroke: var(--hair); }
+.link { stroke: var(--leg); stroke-width: 1.1; opacity: .7; } .link.strong { stroke-width: 1.8; } .link.weak { stroke-width: .6; }
+.many .link { opacity: .2; stroke-width: .7; } .many .link.strong { stroke-width: 1.1; }
+.loop { fill: none; stroke: var(--leg); stroke-width: 1.1; }
+.arrow { fill: var(--leg); }
+.node-sensor { fill: var(--paper); stroke: var(--ink); stroke-width: 1.6; }
+.node-hidden { fill: var(--paper); stroke: var(--ink); stroke-width: 1.6; }
+.node-joint { fill: var(--ink); stroke: var(--ink); stroke-width: 1.6; }
 )css";
 
 constexpr std::string_view phone_and_paper = R"css(
@@ -136,10 +146,19 @@ std::string style_sheet() {
   return sheet;
 }
 
-std::string figure_style_sheet() {
-  std::string sheet(colours);
-  sheet += "svg { background: var(--paper); overflow: visible; }";
-  return sheet += figures;
+std::string palette_style_sheet() {
+  return std::string(colours);
+}
+
+std::string standalone_svg(std::string element) {
+  const std::size_t head_end = element.find('>');
+  AMBLE_CHECK(head_end != std::string::npos, "an SVG element begins with its tag");
+  std::string style = "\n<style>";
+  style += colours;
+  style += "svg { background: var(--paper); padding: 16px; overflow: visible; }";
+  style += figures;
+  style += "</style>";
+  return element.insert(head_end + 1, style);
 }
 
 }  // namespace amble::analysis

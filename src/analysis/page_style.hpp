@@ -9,7 +9,11 @@ namespace amble::analysis {
 /// ends in lightness (front dark, back light), so that they stay apart for colour-blind readers too.
 std::string style_sheet();
 
-/// The part that figures need, for an SVG file of its own; light, or dark where the reader prefers that.
-std::string figure_style_sheet();
+/// The colours alone, as custom properties (--paper, --ink, --c0 …): light and dark, and light on paper.
+std::string palette_style_sheet();
+
+/// An <svg> element (svg.hpp) as a file of its own, with the part of the style sheet that figures need:
+/// light, or dark where the reader prefers that.
+std::string standalone_svg(std::string element);
 
 }  // namespace amble::analysis

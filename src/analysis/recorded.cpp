@@ -68,6 +68,8 @@ Recorded read_recorded(const std::filesystem::path& path) {
   recorded.controller_kind = parse_controller_kind(header.controller_json, controller);
   if (recorded.controller_kind == "supg")
     recorded.supg = parse_supg(header.controller_json, recorded.robot, controller);
+  if (recorded.controller_kind == "network" || recorded.controller_kind == "ctrnn")
+    recorded.network = parse_network(header.controller_json, controller);
 
   Motion& motion = recorded.motion;
   motion.frame_s = header.frame_s;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "amble/analysis/motion.hpp"
+#include "amble/analysis/network.hpp"
 #include "amble/analysis/robot_model.hpp"
 #include "amble/analysis/supg.hpp"
 
@@ -15,7 +16,8 @@ struct Recorded {
   RobotModel robot;
   Motion motion;
   std::string controller_kind;
-  std::optional<Supg> supg;  ///< for controllers of kind "supg"
+  std::optional<Supg> supg;              ///< for controllers of kind "supg"
+  std::optional<NeuralNetwork> network;  ///< for controllers of kind "network" and "ctrnn"
 };
 
 /// Throws UserError: the file is missing or altered, lacks a column, or its robot or controller JSON does not

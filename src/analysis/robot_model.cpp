@@ -144,6 +144,7 @@ RobotModel parse_robot(const std::string& robot_json, const std::string& what) {
   for (std::size_t i = 0; i < types.size(); ++i) robot.joint_types.push_back(types.at(i).text());
   const JsonView legs = json.at("legs");
   for (std::size_t i = 0; i < legs.size(); ++i) robot.legs.push_back(read_leg(legs.at(i), robot));
+  robot.gravity_m_s2 = read_vector(json.at("gravity_m_s2"));
   if (robot.legs.empty()) legs.bad("a list with at least one leg");
   return robot;
 }

@@ -55,6 +55,7 @@ struct RobotModel {
   std::vector<Geom> geoms;
   std::vector<std::string> joint_types;
   std::vector<Leg> legs;
+  Vec3 gravity_m_s2;
 
   /// Indices into `joints` of the joints of one body, in the order of the chain.
   std::vector<int> joints_of_body(int body) const;

@@ -14,10 +14,13 @@ void add_evolve(CLI::App& app, Action& action);
 void add_resume(CLI::App& app, Action& action);
 void add_trial(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
+void add_gait(CLI::App& app, Action& action);
 void add_info(CLI::App& app, Action& action);
 void add_robot(CLI::App& app, Action& action);
 void add_verify(CLI::App& app, Action& action);
 void add_page(CLI::App& app, Action& action);
+void add_view(CLI::App& app, Action& action);
 void add_settings(CLI::App& app, Action& action);
+void add_substrate(CLI::App& app, Action& action);
 
 }  // namespace amble::cli

@@ -1,95 +1,105 @@
-#include "amble/cli/compare.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/compare_table.hpp"
 #include "amble/cli/stop_signal.hpp"
-#include "amble/experiment/replay.hpp"
+#include "amble/experiment/referees.hpp"
+#include "amble/experiment/run_folder.hpp"
 #include "amble/physics/engine.hpp"
 
 namespace amble::cli {
 namespace {
 
+constexpr std::array formats{"text", "markdown", "json"};
+
 struct CompareOptions {
-  std::vector<std::filesystem::path> champions;
+  std::vector<std::filesystem::path> inputs;
   std::vector<double> seconds;  ///< none: as in the champion's evolution
   std::vector<std::string> engines{physics::engine_names.begin(), physics::engine_names.end()};
+  std::string format = formats[0];
 };
 
-constexpr std::string_view row = "{:<{}}  {:>8}  {:<8}  {:>11}  {:>8}  {:<10}  {:>6}\n";
+struct Entrant {
+  std::string name;
+  experiment::Champion champion;
+};
 
-void print_result(const std::string& name, std::size_t width, double seconds, const std::string& engine,
-                  const experiment::TrialResult& result, const std::string& kept) {
-  fmt::print(row, name, width, fmt::format("{:g}", seconds), engine, fmt::format("{:.3f}", result.distance_m),
-             fmt::format("{:.2f}", result.seconds),
-             record::outcome_names[static_cast<std::size_t>(result.outcome)], kept);
+std::vector<Entrant> load(const std::vector<std::filesystem::path>& inputs) {
+  std::vector<Entrant> entrants;
+  for (const auto& input : inputs) {
+    const bool is_run = std::filesystem::is_directory(input);
+    const auto path = is_run ? experiment::find_run(input).best_champion() : input;
+    entrants.push_back({input.string(), experiment::load_champion(path)});
+  }
+  return entrants;
 }
 
-/// All engines for one champion and one duration, its own first. False if a signal came.
-bool compare(const experiment::Champion& champion, double seconds, const std::string& name, std::size_t width,
-             const std::vector<std::string>& engines) {
-  const auto& home = champion.problem.engine;
-  const auto in = [&](const std::string& engine) {
-    return experiment::replay(champion.problem, champion.genome, {.seconds = seconds, .engine = engine},
-                              stop_signal());
-  };
-  const auto at_home = in(home);
-  if (!at_home) return false;
-  print_result(name, width, seconds, home, at_home->result, "home");
-  for (const auto& engine : engines) {
-    if (engine == home) continue;
-    const auto away = in(engine);
-    if (!away) return false;
-    print_result(name, width, seconds, engine, away->result,
-                 share_text(away->result.distance_m, at_home->result.distance_m));
+/// Those asked for, and every champion's own, which the others are compared to.
+std::vector<std::string> columns(const std::vector<std::string>& asked,
+                                 const std::vector<Entrant>& entrants) {
+  for (const auto& engine : asked) physics::check_engine_name(engine, "--engines: ");
+  std::vector<std::string> engines;
+  for (const auto& name : physics::engine_names)
+    if (std::ranges::count(asked, name) > 0 || std::ranges::any_of(entrants, [&](const Entrant& entrant) {
+          return entrant.champion.problem.engine == name;
+        }))
+      engines.emplace_back(name);
+  return engines;
+}
+
+ComparedChampion compare(const Entrant& entrant, double seconds, const std::vector<std::string>& engines) {
+  const auto& [name, champion] = entrant;
+  const experiment::RefereeOptions how{.seconds = seconds, .jobs = static_cast<int>(engines.size())};
+  try {
+    auto judged = experiment::ask_referees(champion.problem, champion.genome, engines, how, stop_signal());
+    if (!judged) fail(ExitCode::interrupted, "stopped before all champions had walked");
+    return {.name = name, .home = champion.problem.engine, .trial_s = seconds, .in = std::move(*judged)};
+  } catch (const UserError& error) {
+    if (error.code() == ExitCode::interrupted) throw;
+    fail(error.code(), "{}: {} (--engines chooses engines)", name, error.what());
   }
-  return true;
 }
 
 ExitCode run_compare(const CompareOptions& options) {
-  for (const auto& engine : options.engines) physics::check_engine_name(engine);
-  std::vector<experiment::Champion> champions;
-  std::size_t width = std::string_view("champion").size();
-  for (const auto& path : options.champions) {
-    champions.push_back(experiment::load_champion(path));
-    width = std::max(width, path.string().size());
+  const auto entrants = load(options.inputs);
+  const auto engines = columns(options.engines, entrants);
+  std::vector<ComparedChampion> rows;
+  for (const auto& entrant : entrants) {
+    auto lengths_s = options.seconds;
+    if (lengths_s.empty()) lengths_s.push_back(entrant.champion.problem.trial.duration_s);
+    for (const double length_s : lengths_s) rows.push_back(compare(entrant, length_s, engines));
   }
-  fmt::print(row, "champion", width, "trial, s", "engine", "distance, m", "upright", "outcome", "kept");
-  for (std::size_t i = 0; i < champions.size(); ++i) {
-    auto durations = options.seconds;
-    if (durations.empty()) durations.push_back(champions[i].problem.trial.duration_s);
-    for (const double seconds : durations)
-      if (!compare(champions[i], seconds, options.champions[i].string(), width, options.engines))
-        return ExitCode::interrupted;
-  }
+  const auto text = options.format == "json"       ? compare_json(rows)
+                    : options.format == "markdown" ? compare_markdown(rows)
+                                                   : compare_text(rows);
+  fmt::print("{}", text);
   return ExitCode::ok;
 }
 
 }  // namespace
 
-std::string share_text(double distance_m, double of_m) {
-  return of_m > 0.0 ? fmt::format("{:.0f} %", 100.0 * distance_m / of_m) : "–";
-}
-
 void add_compare(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("compare", "Let champions walk in several physics engines, as a table");
   auto options = std::make_shared<CompareOptions>();
-  command->add_option("CHAMPION", options->champions, "Champion files (JSON)")->required();
+  command->add_option("INPUT", options->inputs, "Champions (JSON) and run folders (their best champions)")
+      ->required();
   command
       ->add_option("--seconds", options->seconds, "Lengths of trials, e.g. 15,300 (default: as in evolution)")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber);
-  command->add_option("--engines", options->engines, "Engines besides the champion's own, e.g. ode,mujoco")
+      ->check(CLI::Range(1e-5, 1e6));
+  command->add_option("--engines", options->engines, "Engines besides the champions' own, e.g. ode,mujoco")
       ->delimiter(',')
       ->capture_default_str();
+  command->add_option("--format", options->format, "What to print: text, markdown or json")
+      ->capture_default_str()
+      ->check(CLI::IsMember(std::vector<std::string>(formats.begin(), formats.end())));
   command->callback([options, &action] { action = [options] { return run_compare(*options); }; });
 }
 

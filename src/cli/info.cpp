@@ -7,7 +7,7 @@
 
 #include "amble/analysis/generations_csv.hpp"
 #include "amble/cli/commands.hpp"
-#include "amble/cli/compare.hpp"
+#include "amble/cli/compare_table.hpp"
 #include "amble/cli/progress.hpp"
 #include "amble/experiment/champion.hpp"
 #include "amble/experiment/run_folder.hpp"
@@ -28,16 +28,17 @@ void print_champion(const experiment::Champion& champion) {
              champion.genome.enabled_links());
   fmt::print("result      {:.3f} m in {:.2f} s, {}\n", champion.result.distance_m, champion.result.seconds,
              record::outcome_names[static_cast<std::size_t>(champion.result.outcome)]);
-  for (const auto& [engine, result] : champion.referees)
-    fmt::print("in {:<8} {:.3f} m in {:.2f} s, {} ({} kept)\n", engine, result.distance_m, result.seconds,
-               record::outcome_names[static_cast<std::size_t>(result.outcome)],
-               share_text(result.distance_m, champion.result.distance_m));
+  for (const auto& [engine, judged] : champion.referees)
+    fmt::print("in {:<8} {}\n", engine, result_text(judged, champion.result.distance_m));
+  if (champion.episodes.empty()) return;
+  fmt::print("under noise {:.3f} m, {} of", champion.objective_m(),
+             trial::episode_score_names[static_cast<std::size_t>(problem.noise.score)]);
+  for (const auto& episode : champion.episodes) fmt::print(" {:.3f}", episode.result.distance_m);
+  fmt::print("\n");
 }
 
 ExitCode run_info(const std::filesystem::path& folder) {
-  if (!experiment::is_run_folder(folder))
-    fail(ExitCode::bad_input, "{}: not a run folder (no config.toml)", folder.string());
-  const experiment::RunPaths paths(folder);
+  const experiment::RunPaths paths = experiment::find_run(folder);
   const auto config = experiment::load_config(paths.config, {});
   const auto rows = analysis::read_generations(paths.generations);
   double evaluations = 0.0, steps = 0.0;
@@ -47,7 +48,7 @@ ExitCode run_info(const std::filesystem::path& folder) {
   }
   fmt::print("experiment  {} (seed {})\nengine      {}\ngenerations {} of {}\n", config.name, config.seed,
              config.engine, rows.count(), config.generations);
-  fmt::print("trials      {:.0f} ({:.3g} steps)\n", evaluations, steps);
+  fmt::print("evaluations {:.0f} ({:.3g} steps)\n", evaluations, steps);
   fmt::print("search      {}", search::kind_names[static_cast<std::size_t>(config.search.kind)]);
   if (!rows.archive.empty())
     fmt::print(": archive of {:.0f} behaviours, threshold {:.4g} in the last generation", rows.archive.back(),

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string>
+#include <system_error>
 
 #include "amble/cli/commands.hpp"
 #include "amble/experiment/build_info.hpp"
@@ -32,11 +33,14 @@ ExitCode run(int argc, char** argv) {
   amble::cli::add_resume(app, action);
   amble::cli::add_trial(app, action);
   amble::cli::add_compare(app, action);
+  amble::cli::add_gait(app, action);
   amble::cli::add_info(app, action);
   amble::cli::add_robot(app, action);
   amble::cli::add_verify(app, action);
   amble::cli::add_page(app, action);
+  amble::cli::add_view(app, action);
   amble::cli::add_settings(app, action);
+  amble::cli::add_substrate(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help, --version
@@ -59,6 +63,8 @@ int main(int argc, char** argv) {
     if (std::fflush(stdout) != 0) code = complain(ExitCode::io, "cannot write to the standard output");
   } catch (const amble::UserError& error) {
     code = complain(error.code(), error.what());
+  } catch (const std::system_error& error) {  // of files: permissions, a full device
+    code = complain(ExitCode::io, error.what());
   } catch (const std::exception& error) {
     code = complain(ExitCode::internal, fmt::format("defect: {}", error.what()));
   }

@@ -1,18 +1,17 @@
 #include "amble/analysis/page.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
-#include <utility>
 #include <vector>
 
 #include "amble/analysis/figures.hpp"
 #include "amble/cli/commands.hpp"
+#include "amble/cli/compare_table.hpp"
+#include "amble/cli/scratch_file.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/build_info.hpp"
 #include "amble/experiment/replay.hpp"
@@ -29,52 +28,51 @@ struct PageOptions {
   std::optional<fs::path> figures;
 };
 
-/// A file that is gone with the object, even if the page cannot be made.
-class ScratchFile {
- public:
-  explicit ScratchFile(fs::path path) : path_(std::move(path)) {}
-  ~ScratchFile() {
-    std::error_code none;
-    fs::remove(path_, none);
-  }
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
+std::string noise_text(const trial::NoiseSettings& noise) {
+  if (!noise.any()) return "none";
+  return fmt::format("{} of {} episodes; what is shown walked without",
+                     trial::episode_score_names[static_cast<std::size_t>(noise.score)], noise.episodes);
+}
 
 std::vector<analysis::Fact> facts(const experiment::Config& config, const experiment::Champion& champion) {
   const auto build = experiment::build_info();
   const auto& robot = champion.problem.robot;
-  return {{"Robot",
-           fmt::format("{}, {:.1f} kg, {} motors", robot.name, robot.total_mass_kg(), robot.joints.size())},
-          {"Engine", fmt::format("{}, steps of {} s", config.engine, config.trial.timestep_s)},
-          {"Controller", champion.problem.architecture->name()},
-          {"Population",
-           fmt::format("{} genomes, {} generations", config.neat.population.size, config.generations)},
-          {"Trial", fmt::format("{} s, or until the robot falls", config.trial.duration_s)},
-          {"Seed", fmt::format("{}", config.seed)},
-          {"Champion", fmt::format("generation {}, genome {}", champion.generation, champion.index)},
-          {"Made by",
-           fmt::format("amble {} ({}), {}", build.version, build.commit.substr(0, 12), build.compiler)}};
+  std::vector<analysis::Fact> facts{
+      {"Robot",
+       fmt::format("{}, {:.1f} kg, {} motors", robot.name, robot.total_mass_kg(), robot.joints.size())},
+      {"Engine", fmt::format("{}, steps of {} s", config.engine, config.trial.timestep_s)},
+      {"Controller", champion.problem.architecture->name()},
+      {"Population",
+       fmt::format("{} genomes, {} generations", config.neat.population.size, config.generations)},
+      {"Trial", fmt::format("{} s, or until the robot falls", config.trial.duration_s)},
+      {"Noise", noise_text(config.noise)},
+      {"Seed", fmt::format("{}", config.seed)},
+      {"Champion", fmt::format("generation {}, genome {}: {:.3f} m in the engine {}", champion.generation,
+                               champion.index, champion.result.distance_m, config.engine)},
+      {"Made by",
+       fmt::format("amble {} ({}), {}", build.version, build.commit.substr(0, 12), build.compiler)}};
+  for (const auto& [engine, judged] : champion.referees)
+    facts.insert(facts.end() - 1,
+                 {"In the engine " + engine, result_text(judged, champion.result.distance_m)});
+  return facts;
 }
 
 ExitCode make_page(const PageOptions& options) {
-  if (!experiment::is_run_folder(options.run))
-    fail(ExitCode::bad_input, "{}: not a run folder (no config.toml)", options.run.string());
-  const experiment::RunPaths paths(options.run);
+  const experiment::RunPaths paths = experiment::find_run(options.run);
+  io::refuse_to_replace(options.out, "<!DOCTYPE html>", "a page");
   const auto config = experiment::load_config(paths.config, {});
   const auto champion_path = paths.best_champion();
   const auto champion = experiment::load_champion(champion_path);
 
-  const ScratchFile recording(fs::temp_directory_path() / fmt::format("amble-page-{}.rec", getpid()));
-  const auto replay = experiment::replay(
-      champion.problem, champion.genome,
-      {.seconds = {}, .engine = {}, .record = recording.path(), .origin = champion_path.string()},
-      stop_signal());
-  if (!replay) return ExitCode::interrupted;
+  const ScratchFile recording("page");
+  const auto replay = experiment::replay(champion.problem, champion.genome,
+                                         {.seconds = {},
+                                          .engine = {},
+                                          .record = recording.path(),
+                                          .origin = champion_path.string(),
+                                          .noise = {}},
+                                         stop_signal());
+  if (!replay) fail(ExitCode::interrupted, "stopped before the champion had walked");
 
   const analysis::PageInput input{
       .title = config.name,
@@ -92,8 +90,10 @@ ExitCode make_page(const PageOptions& options) {
   io::write_file(options.out, analysis::make_page(input, recorded));
   if (options.figures) {
     fs::create_directories(*options.figures);
-    for (const auto& figure : analysis::figure_files(input, recorded))
+    for (const auto& figure : analysis::figure_files(input, recorded)) {
+      io::refuse_to_replace(*options.figures / figure.name, "<svg", "a figure");
       io::write_file(*options.figures / figure.name, figure.svg);
+    }
   }
   fmt::print("{}\n", fs::absolute(options.out).lexically_normal().string());
   return ExitCode::ok;

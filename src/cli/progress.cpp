@@ -44,7 +44,7 @@ void ProgressLine::on_generation(const experiment::GenerationRow& row, const exp
   const double s_per_generation = (now - start_s_) / (done - first_generation_);
   const double left_s = s_per_generation * (config.generations - done);
   const auto line =
-      fmt::format("generation {}/{}  best {:.2f} m  median {:.2f} m  {} species  {:.0f} trials/s  {} {}",
+      fmt::format("generation {}/{}  best {:.2f} m  median {:.2f} m  {} species  {:.0f} evaluations/s  {} {}",
                   done, config.generations, progress.best_m, row.median_m, row.population.species,
                   static_cast<double>(row.evaluations) / row.wall_s, last ? "took" : "left",
                   clock_text(last ? now - start_s_ : left_s));

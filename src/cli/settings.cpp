@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "amble/cli/commands.hpp"
@@ -11,17 +13,31 @@
 namespace amble::cli {
 namespace {
 
-ExitCode print_settings(const std::vector<std::filesystem::path>& files) {
+struct SettingsOptions {
+  std::vector<std::filesystem::path> files;
+  bool differing = false;
+};
+
+/// A preset is a folder of configs, and gives the column its name; or the file does, if the folder is one.
+std::string column_title(const std::filesystem::path& file, const std::vector<std::filesystem::path>& files) {
+  const auto folder = file.parent_path();
+  const auto in_folder =
+      std::ranges::count(files, folder, [](const auto& path) { return path.parent_path(); });
+  return in_folder > 1 ? file.stem().string() : folder.filename().string();
+}
+
+ExitCode print_settings(const SettingsOptions& options) {
+  const auto& files = options.files;
   std::vector<experiment::Config> configs(1);
   for (const auto& file : files) configs.push_back(experiment::load_config(file, {}));
   std::vector<io::SettingsColumn> columns;
   for (std::size_t i = 0; i < configs.size(); ++i) {
-    // A preset is a folder of configs, and gives the column its name.
-    const std::string title = i == 0 ? "default" : files[i - 1].parent_path().filename().string();
+    const std::string title = i == 0 ? "default" : column_title(files[i - 1], files);
     columns.push_back(
         {title, [&config = configs[i]](io::SettingsVisitor& visitor) { config.describe(visitor); }});
   }
-  fmt::print("{}", io::settings_to_markdown(columns));
+  fmt::print("{}", io::settings_to_markdown(
+                       columns, options.differing ? io::SettingsRows::differing : io::SettingsRows::all));
   return ExitCode::ok;
 }
 
@@ -30,9 +46,10 @@ ExitCode print_settings(const std::vector<std::filesystem::path>& files) {
 void add_settings(CLI::App& app, Action& action) {
   auto* command =
       app.add_subcommand("settings", "Print the table of all settings with their meaning and source");
-  auto files = std::make_shared<std::vector<std::filesystem::path>>();
-  command->add_option("CONFIG", *files, "Config files whose values are shown beside the defaults");
-  command->callback([files, &action] { action = [files] { return print_settings(*files); }; });
+  auto options = std::make_shared<SettingsOptions>();
+  command->add_option("CONFIG", options->files, "Config files whose values are shown beside the defaults");
+  command->add_flag("--differing", options->differing, "Only settings in which the config files differ");
+  command->callback([options, &action] { action = [options] { return print_settings(*options); }; });
 }
 
 }  // namespace amble::cli

@@ -1,13 +1,17 @@
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/gait_observer.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/replay.hpp"
+#include "amble/io/file.hpp"
+#include "amble/record/frame_codec.hpp"
 
 namespace amble::cli {
 namespace {
@@ -17,17 +21,29 @@ struct TrialOptions {
   std::optional<double> seconds;
   std::optional<std::string> engine;
   std::optional<std::filesystem::path> record;
+  std::optional<std::uint32_t> noise;
 };
+
+constexpr std::uint32_t most_episodes = 1000000;
 
 ExitCode run_trial(const TrialOptions& options) {
   const auto champion = experiment::load_champion(options.champion);
-  const auto replay = experiment::replay(champion.problem, champion.genome,
-                                         {.seconds = options.seconds,
-                                          .engine = options.engine,
-                                          .record = options.record,
-                                          .origin = options.champion.string()},
-                                         stop_signal());
-  if (!replay) return ExitCode::interrupted;
+  if (options.record) io::refuse_to_replace(*options.record, record::recording_magic, "a recording");
+  GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
+  experiment::ReplayOptions how{.seconds = options.seconds,
+                                .engine = options.engine,
+                                .record = options.record,
+                                .origin = options.champion.string(),
+                                .observer = &gait,
+                                .trace = false,
+                                .noise = {}};
+  if (options.noise) {
+    if (!champion.problem.noise.any())
+      fail(ExitCode::bad_input, "--noise: {} was evolved without noise", options.champion.string());
+    how.noise = champion.scenario_key(*options.noise);
+  }
+  const auto replay = experiment::replay(champion.problem, champion.genome, how, stop_signal());
+  if (!replay) fail(ExitCode::interrupted, "stopped before the end of the trial");
   const auto& result = replay->result;
   const auto& home = champion.problem.engine;
   const auto& judge = options.engine.value_or(home);
@@ -41,6 +57,7 @@ ExitCode run_trial(const TrialOptions& options) {
       fmt::print(" {} {}", replay->legs[i], replay->triggers[i]);
     fmt::print("\n");
   }
+  fmt::print("{}", analysis::gait_summary(gait.finish(result.outcome)));
   if (options.record) fmt::print("recorded  {}\n", options.record->string());
   return ExitCode::ok;
 }
@@ -52,9 +69,15 @@ void add_trial(CLI::App& app, Action& action) {
   auto options = std::make_shared<TrialOptions>();
   command->add_option("CHAMPION", options->champion, "Champion file (JSON)")->required();
   command->add_option("--seconds", options->seconds, "Length of the trial (default: as in its evolution)")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1e-5, 1e6));
   command->add_option("--engine", options->engine, "Physics engine (default: as in its evolution)");
   command->add_option("--record", options->record, "Write every step to this recording");
+  command
+      ->add_option(
+          "--noise", options->noise,
+          "Disturb the trial as in this episode of its evaluation, from 0; higher numbers are noise that "
+          "it has not met (default: no noise)")
+      ->check(CLI::Range(0u, most_episodes));
   command->callback([options, &action] { action = [options] { return run_trial(*options); }; });
 }
 

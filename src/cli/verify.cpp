@@ -13,14 +13,12 @@ namespace amble::cli {
 namespace {
 
 ExitCode verify(const std::filesystem::path& folder) {
-  if (!experiment::is_run_folder(folder))
-    fail(ExitCode::bad_input, "{}: not a run folder (no config.toml)", folder.string());
-  const auto files = experiment::RunPaths(folder).champion_files();
+  const auto files = experiment::find_run(folder).champion_files();
   if (files.empty()) fail(ExitCode::bad_input, "{}: no champion yet", folder.string());
   int differing = 0;
   for (const auto& file : files) {
     const auto verdict = experiment::verify_champion(file, stop_signal());
-    if (!verdict) return ExitCode::interrupted;
+    if (!verdict) fail(ExitCode::interrupted, "stopped before all champions were run");
     fmt::print("{} {}\n", file.string(), verdict->text);
     differing += !verdict->agrees;
   }

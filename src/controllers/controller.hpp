@@ -9,6 +9,7 @@
 #include "amble/cppn/network.hpp"
 #include "amble/morphology/robot_spec.hpp"
 #include "amble/physics/engine.hpp"
+#include "amble/substrate/layout.hpp"
 
 namespace amble::controllers {
 
@@ -46,9 +47,8 @@ class Architecture {
   virtual ~Architecture() = default;
 
   virtual std::string name() const = 0;
-  /// Names of the CPPN's inputs (bias not counted) and outputs, in order; their counts are the CPPN's.
-  virtual std::vector<std::string> input_names() const = 0;
-  virtual std::vector<std::string> output_names() const = 0;
+  /// The substrate; its inputs (bias not counted) and outputs are the CPPN's.
+  virtual const substrate::Layout& layout() const = 0;
   virtual std::unique_ptr<Parameters> decode(const cppn::Network& network) const = 0;
   virtual std::unique_ptr<Batch> make_batch(int lanes) const = 0;
   /// The parameters as JSON text, for recordings and exports (docs/FORMATS.md).

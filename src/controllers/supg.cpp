@@ -6,8 +6,11 @@
 
 #include "amble/controllers/supg_batch.hpp"
 #include "amble/core/check.hpp"
+#include "amble/core/error.hpp"
 
 namespace amble::controllers {
+
+using substrate::Property;
 
 SupgParameters::SupgParameters(int legs, int types, int period_ticks)
     : legs_(legs),
@@ -16,23 +19,35 @@ SupgParameters::SupgParameters(int legs, int types, int period_ticks)
       offset_ticks_(static_cast<std::size_t>(legs), 1),
       targets_rad_(static_cast<std::size_t>(legs * (period_ticks + 2) * types)) {}
 
-SupgArchitecture::SupgArchitecture(const SupgSettings& settings, const morphology::RobotSpec& robot,
-                                   double timestep_s)
+SupgArchitecture::SupgArchitecture(const SupgSettings& settings, const substrate::Settings& substrate,
+                                   const morphology::RobotSpec& robot, double timestep_s)
     : settings_(settings),
       timestep_s_(timestep_s),
       period_ticks_(controllers::period_ticks(settings, timestep_s)),
       joint_types_(robot.joint_types),
-      layout_(settings.layout, static_cast<int>(robot.legs.size()),
-              static_cast<int>(robot.joint_types.size()), period_ticks_) {
+      ranges_(joint_ranges(robot)),
+      layout_(substrate,
+              {.kind = "supg",
+               .network = false,
+               .properties = {Property::pattern, Property::offset},
+               .pattern_ticks = period_ticks_},
+              robot) {
   AMBLE_CHECK(robot.joints.size() == robot.legs.size() * robot.joint_types.size(),
               "a robot has one joint per leg and type");
   for (const morphology::Leg& leg : robot.legs) leg_names_.push_back(leg.name);
-  for (const morphology::Joint& joint : robot.joints) ranges_.push_back({joint.lower_rad, joint.upper_rad});
-}
-
-std::vector<std::string> SupgArchitecture::input_names() const {
-  if (settings_.layout.leg_axis == substrate::LegAxis::x) return {"leg", "joint_type", "time"};
-  return {"joint_type", "leg", "time"};
+  for (int leg = 0; leg < legs(); ++leg) {
+    const int first = layout_.driver(joint(leg, 0));
+    for (int type = 1; type < types(); ++type) {
+      const int other = layout_.driver(joint(leg, type));
+      if (layout_.shared(Property::offset, first, other)) continue;
+      const auto& nodes = layout_.nodes();
+      fail(ExitCode::bad_input,
+           "controller.substrate.properties: \"{}\" and \"{}\" are SUPGs of leg {} but could get different "
+           "offsets: name in 'zero' the coordinates that tell them apart",
+           nodes[static_cast<std::size_t>(first)].name, nodes[static_cast<std::size_t>(other)].name,
+           leg_names_[static_cast<std::size_t>(leg)]);
+    }
+  }
 }
 
 SupgParameters SupgArchitecture::blank() const {
@@ -45,21 +60,19 @@ SupgParameters SupgArchitecture::blank() const {
 }
 
 std::unique_ptr<Parameters> SupgArchitecture::decode(const cppn::Network& network) const {
-  AMBLE_CHECK(network.outputs() == 2, "a SUPG's CPPN has two outputs");
-  const cppn::Points& points = layout_.points();
-  std::vector<float> results(2 * static_cast<std::size_t>(points.capacity()));
-  network.evaluate(points, results);
-  const float* const pattern = results.data();
-  const float* const offset = results.data() + points.capacity();
-
+  const substrate::Decoded decoded = layout_.decode(network);
+  const auto offsets = decoded.of(Property::offset);
   auto parameters = std::make_unique<SupgParameters>(blank());
   for (int leg = 0; leg < legs(); ++leg) {
-    const double a = static_cast<double>(offset[layout_.offset_point(leg)]);
+    const auto a = static_cast<double>(offsets[static_cast<std::size_t>(layout_.driver(joint(leg, 0)))]);
     const double ticks = std::ceil((a + 1.0) * 0.5 * period_ticks_);
     parameters->set_offset_ticks(leg, static_cast<int>(std::clamp(ticks, 1.0, period_ticks_ - 1.0)));
     for (int type = 0; type < types(); ++type) {
+      const float* const pattern =
+          decoded.patterns.data() +
+          static_cast<std::ptrdiff_t>(layout_.driver(joint(leg, type))) * (period_ticks_ + 1);
       for (int tick = 0; tick <= period_ticks_; ++tick) {
-        const double p = static_cast<double>(pattern[layout_.pattern_point(leg, type, tick)]);
+        const auto p = static_cast<double>(pattern[tick]);
         parameters->targets_rad(leg, tick)[type] = range(leg, type).at(std::clamp((p + 1.0) * 0.5, 0.0, 1.0));
       }
     }

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "amble/controllers/controller.hpp"
+#include "amble/controllers/joint_range.hpp"
 #include "amble/controllers/supg_settings.hpp"
-#include "amble/substrate/supg_layout.hpp"
+#include "amble/substrate/layout.hpp"
 
 namespace amble::controllers {
 
@@ -43,10 +44,9 @@ class SupgParameters : public Parameters {
 /// Single-unit pattern generators: one per joint, each with a pattern over one period that its leg's trigger
 /// starts anew (Morse et al. 2013, sec. 3).
 ///
-/// CPPN inputs: leg and joint type (or the other way round: SupgLayoutSettings::leg_axis) and time in
-/// periods. Outputs: `pattern`, which becomes the command (pattern + 1)/2, clamped to 0 … 1, and is scaled to
-/// the joint's range; and `offset` a, which becomes ceil((a + 1)/2 × period) ticks, clamped to 1 … period
-/// − 1.
+/// Each node of the substrate is a SUPG with two properties. Its `pattern` becomes the command
+/// (pattern + 1)/2, clamped to 0 … 1, and is scaled to the joint's range. Its `offset` a becomes
+/// ceil((a + 1)/2 × period) ticks, clamped to 1 … period − 1, and is the same for the SUPGs of a leg.
 ///
 /// The SUPGs of a leg share one timer, in ticks; −1 means stopped. In each tick, in this order:
 /// 1. Touch is read. It is a trigger with Trigger::level; with Trigger::edge only if the foot was off the
@@ -61,13 +61,13 @@ class SupgParameters : public Parameters {
 /// joint's range.
 class SupgArchitecture : public Architecture {
  public:
-  /// Throws UserError: a period that is not a whole number of ticks; a layout for another number of legs or
-  /// joint types.
-  SupgArchitecture(const SupgSettings& settings, const morphology::RobotSpec& robot, double timestep_s);
+  /// Throws UserError: a period that is not a whole number of ticks; a substrate that does not fit the robot,
+  /// or in which the SUPGs of a leg could get different offsets.
+  SupgArchitecture(const SupgSettings& settings, const substrate::Settings& substrate,
+                   const morphology::RobotSpec& robot, double timestep_s);
 
   std::string name() const override { return "supg"; }
-  std::vector<std::string> input_names() const override;
-  std::vector<std::string> output_names() const override { return {"pattern", "offset"}; }
+  const substrate::Layout& layout() const override { return layout_; }
   std::unique_ptr<Parameters> decode(const cppn::Network& network) const override;
   std::unique_ptr<Batch> make_batch(int lanes) const override;
   std::string parameters_json(const Parameters& parameters) const override;
@@ -75,14 +75,9 @@ class SupgArchitecture : public Architecture {
   int period_ticks() const { return period_ticks_; }
 
  private:
-  struct JointRange {
-    double lower_rad, upper_rad;
-    float at(double command) const {
-      return static_cast<float>(lower_rad + (upper_rad - lower_rad) * command);
-    }
-  };
+  int joint(int leg, int type) const { return leg * types() + type; }
   const JointRange& range(int leg, int type) const {
-    return ranges_[static_cast<std::size_t>(leg * types() + type)];
+    return ranges_[static_cast<std::size_t>(joint(leg, type))];
   }
   int legs() const { return static_cast<int>(leg_names_.size()); }
   int types() const { return static_cast<int>(joint_types_.size()); }
@@ -94,7 +89,7 @@ class SupgArchitecture : public Architecture {
   int period_ticks_;
   std::vector<std::string> leg_names_, joint_types_;
   std::vector<JointRange> ranges_;  ///< in control order
-  substrate::SupgLayout layout_;
+  substrate::Layout layout_;
 };
 
 }  // namespace amble::controllers

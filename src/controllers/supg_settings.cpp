@@ -29,7 +29,6 @@ void SupgSettings::describe(io::SettingsVisitor& visitor) {
                  {"at the end of the period a SUPG puts its joint to mid-range (mid), keeps its last value "
                   "(hold) or begins again (wrap)",
                   "the authors' code: mid; Morse et al. 2013 do not say"});
-  visitor.table("layout", layout, {"where the SUPGs stand in the substrate", "Morse et al. 2013, fig. 4"});
 }
 
 int period_ticks(const SupgSettings& settings, double timestep_s) {

@@ -4,7 +4,6 @@
 #include <string_view>
 
 #include "amble/io/settings.hpp"
-#include "amble/substrate/supg_layout.hpp"
 
 namespace amble::controllers {
 
@@ -31,7 +30,6 @@ struct SupgSettings {
   Offset offset = Offset::phase;
   int start_tick = 1;
   Idle idle = Idle::mid;
-  substrate::SupgLayoutSettings layout;
 
   void describe(io::SettingsVisitor& visitor);
 };

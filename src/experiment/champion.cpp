@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "amble/core/error.hpp"
+#include "amble/experiment/episodes.hpp"
 #include "amble/io/file.hpp"
 #include "amble/morphology/robot_json.hpp"
 #include "amble/neat/genome_json.hpp"
@@ -15,7 +16,7 @@ namespace amble::experiment {
 namespace {
 
 constexpr std::string_view champion_format = "amble-champion";
-constexpr int champion_version = 1;
+constexpr int champion_version = 2;
 constexpr std::size_t digits_per_step = 8;
 
 std::string trace_text(const std::vector<std::uint32_t>& trace) {
@@ -55,22 +56,42 @@ TrialResult parse_result(const io::JsonView& view) {
   return result;
 }
 
-io::Json referees_json(const std::vector<Refereed>& referees) {
+io::Json noise_json(const Champion& champion) {
+  io::Json episodes = io::Json::array();
+  for (const auto& episode : champion.episodes)
+    episodes.push_back({{"result", result_json(episode.result)}, {"trace", trace_text(episode.trace)}});
+  return {{"settings", io::settings_to_json(champion.problem.noise)}, {"episodes", std::move(episodes)}};
+}
+
+std::vector<NoisyTrial> parse_episodes(const io::JsonView& root) {
+  std::vector<NoisyTrial> episodes;
+  if (!root.has("noise")) return episodes;
+  const auto list = root.at("noise").at("episodes");
+  if (static_cast<std::int64_t>(list.size()) != root.at("noise").at("settings").at("episodes").integer())
+    list.bad("as many as settings.episodes");
+  for (std::size_t i = 0; i < list.size(); ++i)
+    episodes.push_back(
+        {.result = parse_result(list.at(i).at("result")), .trace = parse_trace(list.at(i).at("trace"))});
+  return episodes;
+}
+
+io::Json referees_json(const Champion& champion) {
   io::Json list = io::Json::array();
-  for (const auto& referee : referees) {
-    list.push_back({{"engine", referee.engine}});
-    list.back().update(result_json(referee.result));
+  for (const auto& [engine, result] : champion.referees) {
+    io::Json referee{{"engine", engine}};
+    referee.update(result_json(result));
+    if (const auto kept = share_kept(result.distance_m, champion.result.distance_m)) referee["kept"] = *kept;
+    list.push_back(std::move(referee));
   }
   return list;
 }
 
-/// Champions of earlier versions have none.
 std::vector<Refereed> parse_referees(const io::JsonView& root) {
   std::vector<Refereed> referees;
   if (!root.has("referees")) return referees;
   const auto list = root.at("referees");
   for (std::size_t i = 0; i < list.size(); ++i)
-    referees.push_back({list.at(i).at("engine").text(), parse_result(list.at(i))});
+    referees.push_back({.engine = list.at(i).at("engine").text(), .result = parse_result(list.at(i))});
   return referees;
 }
 
@@ -81,7 +102,10 @@ Problem parse_problem(const io::JsonView& root) {
       .cppn = io::settings_from_json<cppn::Settings>(root.at("cppn")),
       .controller = io::settings_from_json<controllers::ControllerSettings>(root.at("controller")),
       .trial = io::settings_from_json<trial::Settings>(root.at("trial")),
+      .noise = {},
       .architecture = nullptr};
+  if (root.has("noise"))
+    problem.noise = io::settings_from_json<trial::NoiseSettings>(root.at("noise").at("settings"));
   problem.complete();
   return problem;
 }
@@ -95,22 +119,41 @@ TrialResult summarise(const record::Trajectory& trajectory) {
           .outcome = trajectory.outcome};
 }
 
+trial::ScenarioKey Champion::scenario_key(std::size_t episode) const {
+  return {.seed = static_cast<std::uint64_t>(seed),
+          .generation = static_cast<std::uint32_t>(generation),
+          .episode = static_cast<std::uint32_t>(episode)};
+}
+
+double Champion::objective_m() const {
+  if (episodes.empty()) return result.distance_m;
+  std::vector<double> distances_m;
+  for (const auto& episode : episodes) distances_m.push_back(episode.result.distance_m);
+  return experiment::objective_m(problem.noise.score, distances_m);
+}
+
+std::optional<double> share_kept(double distance_m, double of_m) {
+  if (of_m <= 0.0) return std::nullopt;
+  return distance_m / of_m;
+}
+
 std::string champion_text(const Champion& champion) {
   const Problem& problem = champion.problem;
-  return io::sealed_json(champion_format, champion_version,
-                         {{"experiment", champion.experiment},
-                          {"seed", champion.seed},
-                          {"generation", champion.generation},
-                          {"index", champion.index},
-                          {"result", result_json(champion.result)},
-                          {"referees", referees_json(champion.referees)},
-                          {"genome", neat::to_json(champion.genome)},
-                          {"cppn", io::settings_to_json(problem.cppn)},
-                          {"controller", io::settings_to_json(problem.controller)},
-                          {"engine", problem.engine},
-                          {"trial", io::settings_to_json(problem.trial)},
-                          {"robot", morphology::to_json(problem.robot)},
-                          {"trace", trace_text(champion.trace)}});
+  io::Json document{{"experiment", champion.experiment},
+                    {"seed", champion.seed},
+                    {"generation", champion.generation},
+                    {"index", champion.index},
+                    {"result", result_json(champion.result)},
+                    {"genome", neat::to_json(champion.genome)},
+                    {"cppn", io::settings_to_json(problem.cppn)},
+                    {"controller", io::settings_to_json(problem.controller)},
+                    {"engine", problem.engine},
+                    {"trial", io::settings_to_json(problem.trial)},
+                    {"robot", morphology::to_json(problem.robot)},
+                    {"trace", trace_text(champion.trace)}};
+  if (!champion.episodes.empty()) document["noise"] = noise_json(champion);
+  if (!champion.referees.empty()) document["referees"] = referees_json(champion);
+  return io::sealed_json(champion_format, champion_version, document);
 }
 
 LoadedChampion parse_champion(const std::string& text, const std::string& what, io::Altered altered) {
@@ -124,8 +167,9 @@ LoadedChampion parse_champion(const std::string& text, const std::string& what, 
                       .problem = parse_problem(root),
                       .genome = neat::genome_from_json(root.at("genome")),
                       .result = parse_result(root.at("result")),
-                      .referees = parse_referees(root),
-                      .trace = parse_trace(root.at("trace"))};
+                      .trace = parse_trace(root.at("trace")),
+                      .episodes = parse_episodes(root),
+                      .referees = parse_referees(root)};
     neat::validate(champion.genome, champion.problem.cppn_inputs(), champion.problem.cppn_outputs(),
                    champion.problem.cppn.recurrent);
     return {std::move(champion), sealed.altered};

@@ -4,6 +4,7 @@
 #include "amble/core/hash.hpp"
 #include "amble/io/binary.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/json_file.hpp"
 
 namespace amble::experiment {
 namespace {
@@ -16,7 +17,9 @@ std::uint64_t config_hash(const Config& config) {
   Config copy = config;
   copy.generations = 1;
   copy.robot.clear();
-  return hash_text(copy.to_toml());
+  io::Json values = io::Json::object();
+  copy.describe(*io::json_writer(values));
+  return hash_text(values.dump());
 }
 
 }  // namespace

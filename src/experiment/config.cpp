@@ -1,7 +1,5 @@
 #include "amble/experiment/config.hpp"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 
 #include "amble/core/error.hpp"
@@ -14,7 +12,7 @@ namespace amble::experiment {
 void Config::describe(io::SettingsVisitor& visitor) {
   visitor.text("name", name, {"what this experiment is called in files and figures"});
   visitor.text("robot", robot, {"robot file, relative to the config file"});
-  visitor.text("engine", engine, {"physics engine: ode or mujoco", "Morse et al. 2013, sec. 4"});
+  visitor.text("engine", engine, {"physics engine: ode, batch or mujoco", "Morse et al. 2013, sec. 4 (ode)"});
   visitor.texts("referees", referees,
                 {"engines in which each new champion is tried again; its file says how far it comes there"});
   visitor.integer("seed", seed, {0, 9007199254740992.0}, {"seed of all randomness"});
@@ -23,24 +21,29 @@ void Config::describe(io::SettingsVisitor& visitor) {
   neat.describe(visitor);
   visitor.table("cppn", cppn, {"the compositional pattern producing network"});
   visitor.table("controller", controller, {"how a CPPN becomes a controller"});
-  visitor.table("trial", trial, {"one evaluation of one controller"});
+  visitor.table("trial", trial, {"one trial of one controller"});
+  visitor.table("noise", noise, {"noise in trials, and how many of them make an evaluation; off by default"});
   visitor.table("search", search, {"what selects parents"});
 }
 
 void Config::validate() const {
   if (robot.empty()) fail(ExitCode::bad_input, "key 'robot' is missing: expected the path of a robot file");
   physics::check_engine_name(engine);
-  for (auto referee = referees.begin(); referee != referees.end(); ++referee) {
-    if (std::ranges::find(physics::engine_names, *referee) == physics::engine_names.end())
-      fail(ExitCode::bad_input, "referees: unknown engine '{}': expected {}", *referee,
-           fmt::join(physics::engine_names, " or "));
-    if (*referee == engine || std::find(referees.begin(), referee, *referee) != referee)
-      fail(ExitCode::bad_input, "referees: '{}' is named twice, or is the engine of the run itself",
-           *referee);
-  }
+  check_referees();
   neat.validate();
   trial.validate();
+  noise.validate(trial);
   if (search.kind == search::Kind::novelty) search.novelty.validate(behaviour_length());
+}
+
+void Config::check_referees() const {
+  for (auto referee = referees.begin(); referee != referees.end(); ++referee) {
+    physics::check_engine_name(*referee, "referees: ");
+    if (*referee == engine)
+      fail(ExitCode::bad_input, "referees: '{}' is the engine of the run itself", *referee);
+    if (std::find(referees.begin(), referee, *referee) != referee)
+      fail(ExitCode::bad_input, "referees: '{}' is named twice", *referee);
+  }
 }
 
 std::size_t Config::behaviour_length() const {

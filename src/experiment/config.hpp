@@ -12,6 +12,7 @@
 #include "amble/io/settings.hpp"
 #include "amble/neat/settings.hpp"
 #include "amble/search/search.hpp"
+#include "amble/trial/noise_settings.hpp"
 #include "amble/trial/settings.hpp"
 
 namespace amble::experiment {
@@ -29,6 +30,7 @@ struct Config {
   cppn::Settings cppn;
   controllers::ControllerSettings controller;
   trial::Settings trial;
+  trial::NoiseSettings noise;
   search::Settings search;
 
   void describe(io::SettingsVisitor& visitor);
@@ -38,6 +40,9 @@ struct Config {
   std::size_t behaviour_length() const;
   /// The whole config as TOML with comments; reads back to the same values.
   std::string to_toml() const;
+
+ private:
+  void check_referees() const;
 };
 
 /// What the command line may lay over a config file.

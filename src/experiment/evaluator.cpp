@@ -1,40 +1,92 @@
 #include "amble/experiment/evaluator.hpp"
 
+#include <algorithm>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 
 #include "amble/core/check.hpp"
+#include "amble/core/error.hpp"
 
 namespace amble::experiment {
 namespace {
 
-/// Hands out genomes by rising index and decodes each on the thread that asks for it.
-class GenomeQueue : public trial::TaskQueue {
+/// A generation that all workers share: hands out genomes by rising index, and collects results.
+class Generation {
  public:
-  GenomeQueue(const Problem& problem, std::span<const neat::Genome> genomes)
-      : problem_(problem), genomes_(genomes), trajectories_(genomes.size()) {}
+  Generation(const Problem& problem_in, std::span<const neat::Genome> genomes_in,
+             std::span<const trial::Scenario> scenarios_in)
+      : problem(problem_in),
+        genomes(genomes_in),
+        scenarios(scenarios_in),
+        trajectories_(genomes.size() * episodes()) {}
 
-  std::optional<trial::Task> next() override {
-    const std::size_t index = next_.fetch_add(1, std::memory_order_relaxed);
-    if (index >= genomes_.size()) return std::nullopt;
-    return trial::Task{index, problem_.decode(genomes_[index]), nullptr};
-  }
-  void done(std::size_t index, record::Trajectory trajectory) override {
+  std::size_t episodes() const { return std::max<std::size_t>(1, scenarios.size()); }
+  std::size_t next_genome() { return next_.fetch_add(1, std::memory_order_relaxed); }
+  void done(std::size_t index, record::Trajectory trajectory) {
     trajectories_[index] = std::move(trajectory);
     done_.fetch_add(1, std::memory_order_relaxed);
   }
-  bool complete() const { return done_.load() == genomes_.size(); }
+  bool complete() const { return done_.load() == trajectories_.size(); }
   std::vector<record::Trajectory> take() { return std::move(trajectories_); }
 
+  const Problem& problem;
+  const std::span<const neat::Genome> genomes;
+  const std::span<const trial::Scenario> scenarios;
+
  private:
-  const Problem& problem_;
-  std::span<const neat::Genome> genomes_;
   std::vector<record::Trajectory> trajectories_;
   std::atomic<std::size_t> next_{0};
   std::atomic<std::size_t> done_{0};
+};
+
+/// The tasks of one worker: takes a genome, decodes it once, and gives out its episodes in order. A task's
+/// index is that of its trajectory.
+class WorkerQueue : public trial::TaskQueue {
+ public:
+  explicit WorkerQueue(Generation& generation) : generation_(generation), episode_(generation.episodes()) {}
+
+  std::optional<trial::Task> next() override {
+    if (episode_ == generation_.episodes() && !take_genome()) return std::nullopt;
+    const trial::Scenario* const scenario =
+        generation_.scenarios.empty() ? nullptr : &generation_.scenarios[episode_];
+    const std::size_t index = genome_ * generation_.episodes() + episode_++;
+    return trial::Task{index, parameters_, nullptr, scenario};
+  }
+  void done(std::size_t index, record::Trajectory trajectory) override {
+    generation_.done(index, std::move(trajectory));
+  }
+
+ private:
+  bool take_genome() {
+    genome_ = generation_.next_genome();
+    if (genome_ >= generation_.genomes.size()) return false;
+    parameters_ = generation_.problem.decode(generation_.genomes[genome_]);
+    episode_ = 0;
+    return true;
+  }
+
+  Generation& generation_;
+  std::size_t genome_ = 0, episode_;  ///< whose and which trial comes next; past the last: a new genome's
+  std::shared_ptr<const controllers::Parameters> parameters_;
+};
+
+/// What a worker works with; made by itself, in its first round. The runner lives as long as the controllers:
+/// a lane that stays empty for a round still holds its last parameters.
+struct Workplace {
+  std::unique_ptr<physics::Engine> engine;
+  std::unique_ptr<controllers::Batch> controllers;
+  std::optional<trial::Runner> runner;
+
+  trial::Runner& open(const Problem& problem, int path_stride) {
+    if (!engine) engine = problem.make_engine();
+    if (!controllers) controllers = problem.architecture->make_batch(engine->lanes());
+    if (!runner) runner.emplace(*engine, *controllers, problem.protocol(path_stride));
+    return *runner;
+  }
 };
 
 }  // namespace
@@ -42,9 +94,10 @@ class GenomeQueue : public trial::TaskQueue {
 /// What the workers and their employer share. A round is one call of evaluate().
 struct Evaluator::Shared {
   Shared(const Problem& problem_in, int path_stride_in) : problem(problem_in), path_stride(path_stride_in) {}
+  ~Shared();
 
   void work();
-  void one_round(trial::Runner& runner);
+  void one_round(Workplace& workplace);
 
   const Problem& problem;
   const int path_stride;
@@ -53,7 +106,7 @@ struct Evaluator::Shared {
   int round = 0;
   int working = 0;
   bool quit = false;
-  GenomeQueue* queue = nullptr;
+  Generation* generation = nullptr;
   const std::atomic<bool>* stop = nullptr;
   std::uint64_t steps = 0;
   double physics_s = 0.0;
@@ -62,8 +115,7 @@ struct Evaluator::Shared {
 };
 
 void Evaluator::Shared::work() {
-  const auto engine = problem.make_engine();
-  const auto controllers = problem.architecture->make_batch(engine->lanes());
+  Workplace workplace;
   for (int seen = 0;;) {
     {
       std::unique_lock lock(mutex);
@@ -71,45 +123,61 @@ void Evaluator::Shared::work() {
       if (quit) return;
       seen = round;
     }
-    trial::Runner runner(*engine, *controllers, problem.protocol(path_stride));
-    one_round(runner);
+    one_round(workplace);
   }
 }
 
-void Evaluator::Shared::one_round(trial::Runner& runner) {
+void Evaluator::Shared::one_round(Workplace& workplace) {
   std::exception_ptr caught;
+  std::uint64_t own_steps = 0;
+  double own_physics_s = 0.0;
   try {
-    runner.run(*queue, *stop);
+    trial::Runner& runner = workplace.open(problem, path_stride);
+    const std::uint64_t steps_before = runner.steps_simulated();
+    const double physics_before_s = runner.physics_s();
+    WorkerQueue queue(*generation);
+    runner.run(queue, *stop);
+    own_steps = runner.steps_simulated() - steps_before;
+    own_physics_s = runner.physics_s() - physics_before_s;
   } catch (...) {
     caught = std::current_exception();
   }
   const std::lock_guard lock(mutex);
   if (caught && !failure) failure = caught;
-  steps += runner.steps_simulated();
-  physics_s += runner.physics_s();
+  steps += own_steps;
+  physics_s += own_physics_s;
   if (--working == 0) finished.notify_one();
 }
 
 Evaluator::Evaluator(const Problem& problem, int path_stride, int jobs)
     : shared_(std::make_unique<Shared>(problem, path_stride)) {
   AMBLE_CHECK(jobs >= 1, "an evaluator needs a worker");
-  for (int i = 0; i < jobs; ++i) shared_->workers.emplace_back([shared = shared_.get()] { shared->work(); });
+  try {
+    for (int i = 0; i < jobs; ++i)
+      shared_->workers.emplace_back([shared = shared_.get()] { shared->work(); });
+  } catch (const std::system_error& error) {
+    fail(ExitCode::io, "cannot start {} workers: {}", jobs, error.code().message());
+  }
 }
 
-Evaluator::~Evaluator() {
+Evaluator::~Evaluator() = default;
+
+/// The workers, declared last, are waited for after this.
+Evaluator::Shared::~Shared() {
   {
-    const std::lock_guard lock(shared_->mutex);
-    shared_->quit = true;
+    const std::lock_guard lock(mutex);
+    quit = true;
   }
-  shared_->wake.notify_all();
+  wake.notify_all();
 }
 
 std::optional<GenerationResult> Evaluator::evaluate(std::span<const neat::Genome> genomes,
-                                                    const std::atomic<bool>& stop) {
+                                                    const std::atomic<bool>& stop,
+                                                    std::span<const trial::Scenario> scenarios) {
   Shared& shared = *shared_;
-  GenomeQueue queue(shared.problem, genomes);
+  Generation generation(shared.problem, genomes, scenarios);
   std::unique_lock lock(shared.mutex);
-  shared.queue = &queue;
+  shared.generation = &generation;
   shared.stop = &stop;
   shared.steps = 0;
   shared.physics_s = 0.0;
@@ -119,9 +187,11 @@ std::optional<GenerationResult> Evaluator::evaluate(std::span<const neat::Genome
   shared.finished.wait(lock, [&] { return shared.working == 0; });
 
   if (shared.failure) std::rethrow_exception(std::exchange(shared.failure, nullptr));
-  if (!queue.complete()) return std::nullopt;
-  return GenerationResult{queue.take(), shared.steps,
-                          shared.physics_s / static_cast<double>(shared.workers.size())};
+  if (!generation.complete()) return std::nullopt;
+  return GenerationResult{.trajectories = generation.take(),
+                          .episodes = generation.episodes(),
+                          .steps = shared.steps,
+                          .physics_s = shared.physics_s / static_cast<double>(shared.workers.size())};
 }
 
 }  // namespace amble::experiment

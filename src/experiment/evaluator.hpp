@@ -13,9 +13,15 @@
 namespace amble::experiment {
 
 struct GenerationResult {
-  std::vector<record::Trajectory> trajectories;  ///< in the order of the genomes
+  /// In the order of the genomes, and for each in the order of its episodes.
+  std::vector<record::Trajectory> trajectories;
+  std::size_t episodes = 1;  ///< trials per genome
   std::uint64_t steps = 0;
   double physics_s = 0.0;  ///< time in the engine, mean over the workers
+
+  std::span<const record::Trajectory> of_genome(std::size_t index) const {
+    return std::span(trajectories).subspan(index * episodes, episodes);
+  }
 };
 
 /// Evaluates populations on several threads, each with an engine and a batch of controllers of its own. Which
@@ -26,9 +32,11 @@ class Evaluator {
   Evaluator(const Problem& problem, int path_stride, int jobs);
   ~Evaluator();
 
-  /// Nothing if `stop` was set before all trials had ended.
+  /// One trial per genome and scenario; without scenarios, one without noise per genome. Nothing if `stop`
+  /// was set before all trials had ended.
   std::optional<GenerationResult> evaluate(std::span<const neat::Genome> genomes,
-                                           const std::atomic<bool>& stop);
+                                           const std::atomic<bool>& stop,
+                                           std::span<const trial::Scenario> scenarios = {});
 
  private:
   struct Shared;

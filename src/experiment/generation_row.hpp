@@ -11,7 +11,7 @@
 
 namespace amble::experiment {
 
-/// One line of generations.csv. All columns but the last three (times) are the same bits for any number of
+/// One line of generations.csv. All columns but the last four (times) are the same bits for any number of
 /// workers.
 struct GenerationRow {
   int generation = 0;
@@ -23,7 +23,8 @@ struct GenerationRow {
   std::uint64_t evaluations = 0, steps = 0;          ///< of this generation
   double wall_s = 0.0;                               ///< since the row before, files included
   double physics_s = 0.0;                            ///< of which in the engine, mean over the workers
-  double outside_s = 0.0;                            ///< and not
+  double referees_s = 0.0;                           ///< of which for the trials of referees
+  double outside_s = 0.0;                            ///< of which for anything else
 };
 
 /// Names of the columns, one line.

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/morphology/robot_file.hpp"
@@ -20,6 +21,7 @@ Problem Problem::make(const Config& config, morphology::RobotSpec robot) {
                   .cppn = config.cppn,
                   .controller = config.controller,
                   .trial = config.trial,
+                  .noise = config.noise,
                   .architecture = nullptr};
   problem.complete();
   return problem;
@@ -27,12 +29,15 @@ Problem Problem::make(const Config& config, morphology::RobotSpec robot) {
 
 void Problem::complete() {
   trial.validate();
+  noise.validate(trial);
   architecture = controllers::make_architecture(controller, robot, trial.timestep_s);
-  make_engine();
+  if (!make_engine()->takes_disturbances() && noise.any())
+    fail(ExitCode::bad_input,
+         "noise: the engine \"{}\" cannot push robots; use engine = \"ode\", or leave noise out", engine);
 }
 
-std::unique_ptr<physics::Engine> Problem::make_engine() const {
-  return physics::make_engine(engine, robot, {.timestep_s = trial.timestep_s});
+std::unique_ptr<physics::Engine> Problem::make_engine(bool torques) const {
+  return physics::make_engine(engine, robot, {.timestep_s = trial.timestep_s, .torques = torques});
 }
 
 std::unique_ptr<controllers::Parameters> Problem::decode(const neat::Genome& genome) const {
@@ -44,6 +49,20 @@ trial::Protocol Problem::protocol(int path_stride) const {
           .timestep_s = trial.timestep_s,
           .path_stride = path_stride,
           .fall_height_m = robot.fall_height_m};
+}
+
+trial::Scenario Problem::scenario(const trial::ScenarioKey& key) const {
+  return trial::draw_scenario(noise, robot, trial.steps(), trial.timestep_s, key);
+}
+
+std::vector<trial::Scenario> Problem::scenarios(std::int64_t seed, int generation) const {
+  std::vector<trial::Scenario> all;
+  if (!noise.any()) return all;
+  for (int episode = 0; episode < noise.episodes; ++episode)
+    all.push_back(scenario({.seed = static_cast<std::uint64_t>(seed),
+                            .generation = static_cast<std::uint32_t>(generation),
+                            .episode = static_cast<std::uint32_t>(episode)}));
+  return all;
 }
 
 morphology::RobotSpec load_robot_file(const std::filesystem::path& path) {

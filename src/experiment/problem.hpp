@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "amble/controllers/controller.hpp"
 #include "amble/controllers/factory.hpp"
@@ -10,6 +12,8 @@
 #include "amble/experiment/config.hpp"
 #include "amble/morphology/robot_spec.hpp"
 #include "amble/neat/genome.hpp"
+#include "amble/trial/noise_settings.hpp"
+#include "amble/trial/scenario.hpp"
 #include "amble/trial/settings.hpp"
 #include "amble/trial/trial.hpp"
 
@@ -23,6 +27,7 @@ struct Problem {
   cppn::Settings cppn;
   controllers::ControllerSettings controller;
   trial::Settings trial;
+  trial::NoiseSettings noise;
   std::shared_ptr<const controllers::Architecture> architecture;
 
   /// Throws UserError where the parts do not fit together (an engine that cannot simulate the robot, a
@@ -31,11 +36,15 @@ struct Problem {
   /// Makes `architecture` from the other members and checks that they fit.
   void complete();
 
-  int cppn_inputs() const { return static_cast<int>(architecture->input_names().size()); }
-  int cppn_outputs() const { return static_cast<int>(architecture->output_names().size()); }
-  std::unique_ptr<physics::Engine> make_engine() const;
+  int cppn_inputs() const { return static_cast<int>(architecture->layout().input_names().size()); }
+  int cppn_outputs() const { return static_cast<int>(architecture->layout().output_names().size()); }
+  /// `torques`: see physics::EngineSettings.
+  std::unique_ptr<physics::Engine> make_engine(bool torques = false) const;
   std::unique_ptr<controllers::Parameters> decode(const neat::Genome& genome) const;
   trial::Protocol protocol(int path_stride) const;
+  trial::Scenario scenario(const trial::ScenarioKey& key) const;
+  /// The scenarios that all genomes of a generation meet, one per episode; empty without noise.
+  std::vector<trial::Scenario> scenarios(std::int64_t seed, int generation) const;
 };
 
 /// A robot file: the TOML side file of a model, or the robot.json of a run folder. Throws UserError.

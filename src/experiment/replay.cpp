@@ -12,7 +12,7 @@ std::optional<Replay> replay(const Problem& original, const neat::Genome& genome
   if (options.engine) problem.engine = *options.engine;
   problem.trial.validate();
 
-  const auto engine = problem.make_engine();
+  const auto engine = problem.make_engine(options.record || options.observer);
   const auto controllers = problem.architecture->make_batch(engine->lanes());
   auto parameters = problem.decode(genome);
 
@@ -20,16 +20,19 @@ std::optional<Replay> replay(const Problem& original, const neat::Genome& genome
   trial::TriggerObserver triggers(*controllers);
   std::optional<trial::RecordingObserver> recording;
   trial::ObserverList observers;
-  observers.add(trace);
+  if (options.trace) observers.add(trace);
   observers.add(triggers);
+  if (options.observer) observers.add(*options.observer);
   if (options.record) {
-    recording.emplace(*options.record, problem.robot, *controllers, problem.trial.timestep_s,
+    recording.emplace(*options.record, problem.robot, *engine, *controllers, problem.trial.timestep_s,
                       morphology::to_json(problem.robot).dump(),
                       problem.architecture->parameters_json(*parameters), options.origin);
     observers.add(*recording);
   }
 
-  trial::OneTask task(std::move(parameters), &observers);
+  std::optional<trial::Scenario> scenario;
+  if (options.noise) scenario = problem.scenario(*options.noise);
+  trial::OneTask task(std::move(parameters), &observers, scenario ? &*scenario : nullptr);
   trial::Runner runner(*engine, *controllers, problem.protocol(0));
   runner.run(task, stop);
   if (!task.result()) return std::nullopt;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "amble/experiment/champion.hpp"
+#include "amble/trial/trial.hpp"
 
 namespace amble::experiment {
 
@@ -17,18 +18,21 @@ struct ReplayOptions {
   std::optional<std::string> engine = {};
   std::optional<std::filesystem::path> record = {};  ///< writes a recording (record/recording.hpp)
   std::string origin = {};                           ///< named in the recording
+  trial::Observer* observer = nullptr;           ///< not owned; sees motor torques if the engine tells them
+  bool trace = true;                             ///< keep a hash per step; off for trials of hours
+  std::optional<trial::ScenarioKey> noise = {};  ///< under the problem's noise; nothing: without any
 };
 
 struct Replay {
   TrialResult result;
   std::vector<std::string> legs;       ///< legs with triggers; empty for controllers without
   std::vector<std::int64_t> triggers;  ///< per leg
-  std::vector<std::uint32_t> trace;    ///< trial::TraceObserver
+  std::vector<std::uint32_t> trace;    ///< trial::TraceObserver; empty if not asked for
   double physics_s = 0.0;              ///< time spent in the engine
 };
 
-/// One trial of one genome. Nothing if `stop` was set before it ended (then nothing is recorded). Throws
-/// UserError.
+/// One trial of one genome, without noise unless it is asked for. Nothing if `stop` was set before it ended
+/// (then nothing is recorded). Throws UserError.
 std::optional<Replay> replay(const Problem& problem, const neat::Genome& genome, const ReplayOptions& options,
                              const std::atomic<bool>& stop);
 

@@ -5,8 +5,9 @@
 #include <utility>
 
 #include "amble/core/error.hpp"
+#include "amble/experiment/episodes.hpp"
+#include "amble/experiment/referees.hpp"
 #include "amble/experiment/replay.hpp"
-#include "amble/score/distance.hpp"
 #include "amble/score/path_behaviour.hpp"
 
 namespace amble::experiment {
@@ -23,13 +24,20 @@ void check_memory(const Config& config) {
                                        search::machine_memory_bytes());
 }
 
-/// Throws UserError before anything is written.
+/// Throws UserError if the run or one of its referees cannot be.
 void complain_early(const Config& config, const morphology::RobotSpec& robot) {
   auto problem = Problem::make(config, robot);
   for (const auto& referee : config.referees) {
     problem.engine = referee;
     problem.make_engine();
   }
+}
+
+/// Throws UserError for a table that rows of this version would not fit into.
+void check_columns(const std::filesystem::path& path) {
+  if (io::InputFile(path).read(csv_header().size()) != csv_header())
+    fail(ExitCode::bad_file, "{}: has other columns: the run was begun by another version of amble",
+         path.string());
 }
 
 /// Returns how many bytes of the file the search has taken back; nothing if it keeps no archive.
@@ -55,16 +63,18 @@ Run::Run(RunFolder folder, const Config& config, const morphology::RobotSpec& ro
 Run Run::start(const std::filesystem::path& folder, const Config& config, int jobs) {
   check_memory(config);
   const auto robot = load_robot_file(config.robot);
-  complain_early(config, robot);
-  Run run(RunFolder::create(folder, config, robot), config, robot, jobs);
+  complain_early(config, robot);  // before anything is written
+  Run run(RunFolder::create(folder, robot), config, robot, jobs);
   run.csv_ = std::make_unique<io::AppendFile>(run.paths().generations, 0);
   run.csv_->append(csv_header());
+  run.progress_.csv_bytes = run.csv_->size();
   if (run.search_->has_archive()) {
     run.archive_ = std::make_unique<io::AppendFile>(run.paths().archive, 0);
     run.archive_->append(run.search_->take_archive_growth());
   }
   run.checkpoint();
   run.folder_.note_process(config, jobs, 0);
+  run.folder_.save_config(config);  // last: what has a config is a run
   return run;
 }
 
@@ -76,11 +86,15 @@ Run Run::resume(const std::filesystem::path& folder, std::optional<int> generati
   const auto robot = held.load_robot();
   Run run(std::move(held), config, robot, jobs);
   run.progress_ = load_checkpoint(run.paths().checkpoint, config, run.population_, *run.search_);
+  if (generations && *generations < run.generation())
+    fail(ExitCode::bad_input, "{}: {} generations are done already, --generations {} asks for fewer",
+         folder.string(), run.generation(), *generations);
+  check_columns(run.paths().generations);
   const auto archive_bytes = restore_archive(run.paths().archive, *run.search_);
   run.csv_ = std::make_unique<io::AppendFile>(run.paths().generations, run.progress_.csv_bytes);
   if (archive_bytes) run.archive_ = std::make_unique<io::AppendFile>(run.paths().archive, *archive_bytes);
-  if (generations) run.folder_.save_config(config);
   run.folder_.note_process(config, jobs, run.generation());
+  if (generations) run.folder_.save_config(config);
   return run;
 }
 
@@ -89,11 +103,11 @@ RunStatus Run::execute(RunListener& listener, const std::atomic<bool>& stop) {
   Evaluator evaluator(*problem_, config_.search.path_stride(), jobs_);
   double last_row_s = now_s();
   while (population_.generation() < config_.generations) {
-    const auto result = evaluator.evaluate(population_.genomes(), stop);
+    const auto scenarios = problem_->scenarios(config_.seed, population_.generation());
+    const auto result = evaluator.evaluate(population_.genomes(), stop, scenarios);
     if (!result) return RunStatus::interrupted;
 
-    std::vector<double> distances_m;
-    for (const auto& trajectory : result->trajectories) distances_m.push_back(score::distance_m(trajectory));
+    const auto distances_m = objectives_m(config_.noise.score, *result);
     const auto fitness = judge(*result, distances_m);
 
     GenerationRow row{.generation = population_.generation(),
@@ -106,13 +120,13 @@ RunStatus Run::execute(RunListener& listener, const std::atomic<bool>& stop) {
     row.evaluations = distances_m.size();
     row.steps = result->steps;
     row.physics_s = result->physics_s;
-    if (row.best_m > progress_.best_m) row.physics_s += keep_champion(*result, best);
+    if (row.best_m > progress_.best_m && !keep_champion(best, row, stop)) return RunStatus::interrupted;
     row.best_so_far_m = progress_.best_m;
 
     population_.advance(fitness);
 
     row.wall_s = now_s() - std::exchange(last_row_s, now_s());
-    row.outside_s = row.wall_s - row.physics_s;
+    row.outside_s = row.wall_s - row.physics_s - row.referees_s;
     write_down(row);
     listener.on_generation(row, progress_, config_);
   }
@@ -124,39 +138,50 @@ std::vector<neat::Fitness> Run::judge(const GenerationResult& result, std::span<
   std::vector<std::vector<float>> behaviours;
   std::vector<search::Evaluation> evaluations;
   for (std::size_t i = 0; i < distances_m.size(); ++i) {
-    behaviours.push_back(score::path_behaviour(result.trajectories[i], length));
+    // What it did is what it did in its first episode: a mean of paths would be nobody's path.
+    behaviours.push_back(score::path_behaviour(result.of_genome(i).front(), length));
     evaluations.push_back({.objective = distances_m[i], .behaviour = behaviours.back()});
   }
   return search_->judge(evaluations);
 }
 
-double Run::keep_champion(const GenerationResult& result, std::size_t best) {
-  static const std::atomic<bool> to_the_end{false};
+bool Run::keep_champion(std::size_t best, GenerationRow& row, const std::atomic<bool>& stop) {
   Champion champion{.experiment = config_.name,
                     .seed = config_.seed,
                     .generation = population_.generation(),
                     .index = static_cast<int>(best),
                     .problem = *problem_,
                     .genome = population_.genomes()[best],
-                    .result = summarise(result.trajectories[best]),
-                    .referees = {},
-                    .trace = {}};
-  const auto again = replay(*problem_, champion.genome, {}, to_the_end);
-  if (again->result.distance_m != champion.result.distance_m)
+                    .result = {},
+                    .trace = {},
+                    .episodes = {}};
+  const auto undisturbed = replay(*problem_, champion.genome, {}, stop);
+  if (!undisturbed) return false;
+  champion.result = undisturbed->result;
+  champion.trace = undisturbed->trace;
+  row.physics_s += undisturbed->physics_s;
+  if (problem_->noise.any())
+    for (std::size_t i = 0; i < static_cast<std::size_t>(problem_->noise.episodes); ++i) {
+      const auto again = replay(*problem_, champion.genome, {.noise = champion.scenario_key(i)}, stop);
+      if (!again) return false;
+      champion.episodes.push_back({again->result, again->trace});
+      row.physics_s += again->physics_s;
+    }
+  if (champion.objective_m() != row.best_m)
     fail(ExitCode::differs,
          "generation {}: the champion walked {} m, and {} m when run again: the engine does not repeat",
-         champion.generation, champion.result.distance_m, again->result.distance_m);
-  champion.trace = again->trace;
-  double physics_s = again->physics_s;
-  for (const auto& engine : config_.referees) {
-    const auto elsewhere = replay(*problem_, champion.genome, {.engine = engine}, to_the_end);
-    champion.referees.push_back({engine, elsewhere->result});
-    physics_s += elsewhere->physics_s;
+         champion.generation, row.best_m, champion.objective_m());
+  if (!config_.referees.empty()) {
+    const double before_s = now_s();
+    auto judged = ask_referees(*problem_, champion.genome, config_.referees, {.jobs = jobs_}, stop);
+    if (!judged) return false;
+    champion.referees = std::move(*judged);
+    row.referees_s = now_s() - before_s;
   }
   folder_.save_champion(champion);
-  progress_.best_m = champion.result.distance_m;
+  progress_.best_m = row.best_m;
   progress_.best_generation = champion.generation;
-  return physics_s;
+  return true;
 }
 
 void Run::write_down(const GenerationRow& row) {
@@ -166,7 +191,8 @@ void Run::write_down(const GenerationRow& row) {
   csv_->append(csv_line(row));
   progress_.csv_bytes = csv_->size();
   // What the checkpoint counts on must be on the disk before it.
-  if (archive_) archive_->append(search_->take_archive_growth());
+  if (archive_)
+    if (const auto growth = search_->take_archive_growth(); !growth.empty()) archive_->append(growth);
   checkpoint();
 }
 

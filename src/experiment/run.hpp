@@ -49,8 +49,9 @@ class Run {
  private:
   Run(RunFolder folder, const Config& config, const morphology::RobotSpec& robot, int jobs);
 
-  /// Runs the best of the generation again, here and in the referees. Returns seconds spent in engines.
-  double keep_champion(const GenerationResult& result, std::size_t best);
+  /// Runs the best of the generation again, here and in the referees; adds the seconds to the row's. False if
+  /// `stop` was set meanwhile.
+  bool keep_champion(std::size_t best, GenerationRow& row, const std::atomic<bool>& stop);
   std::vector<neat::Fitness> judge(const GenerationResult& result, std::span<const double> distances_m);
   /// All files but the champions, in an order from which a run goes on wherever it is cut off.
   void write_down(const GenerationRow& row);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <system_error>
 
@@ -17,12 +18,40 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view manifest_format = "amble-manifest";
-constexpr int manifest_version = 1;
+/// Of the run folder as a whole: raised whenever an older program's run could not go on here.
+constexpr int run_version = 2;
 constexpr std::string_view lock_name = ".lock";
 
+/// Left by a process that was killed while it wrote (io::AtomicFile).
+bool is_temporary(const fs::path& file) {
+  const std::string name = file.filename().string();
+  const auto at = name.rfind(io::temporary_mark);
+  return at != std::string::npos &&
+         name.find_first_not_of("0123456789", at + io::temporary_mark.size()) == std::string::npos;
+}
+
+void remove_temporaries(const fs::path& folder) {
+  std::vector<fs::path> left;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (is_temporary(entry.path())) left.push_back(entry.path());
+  for (const auto& file : left) fs::remove(file);
+}
+
+/// Whether a run may begin here: nothing is there, or only what a start leaves that was killed before it
+/// wrote its config.
 bool holds_nothing(const fs::path& folder) {
-  return std::ranges::all_of(fs::directory_iterator(folder),
-                             [](const auto& entry) { return entry.path().filename() == lock_name; });
+  const RunPaths paths(folder);
+  const std::array beginnings{fs::path(folder / lock_name),
+                              paths.robot,
+                              paths.generations,
+                              paths.archive,
+                              paths.checkpoint,
+                              paths.manifest};
+  return std::ranges::all_of(fs::directory_iterator(folder), [&](const auto& entry) {
+    const fs::path& path = entry.path();
+    if (path == paths.champions) return fs::is_directory(path) && fs::is_empty(path);
+    return is_temporary(path) || std::ranges::find(beginnings, path) != beginnings.end();
+  });
 }
 
 void make_folder(const fs::path& folder) {
@@ -95,23 +124,34 @@ bool is_run_folder(const fs::path& folder) {
 RunFolder::RunFolder(const fs::path& folder)
     : paths_(folder), lock_(std::make_unique<io::FolderLock>(folder)) {}
 
-RunFolder RunFolder::create(const fs::path& folder, const Config& config,
-                            const morphology::RobotSpec& robot) {
+RunFolder RunFolder::create(const fs::path& folder, const morphology::RobotSpec& robot) {
   refuse_used_folder(folder);
   make_folder(folder);
   RunFolder run(folder);
   refuse_used_folder(folder);  // again, now that nobody else can fill it
+  remove_temporaries(folder);
   make_folder(run.paths_.champions);
+  fs::remove(run.paths_.manifest);
   io::write_file(run.paths_.robot, robot_file_text(robot));
-  run.save_config(config);
   return run;
 }
 
 RunFolder RunFolder::open(const fs::path& folder) {
+  find_run(folder);
+  RunFolder run(folder);
+  make_folder(run.paths_.champions);
+  remove_temporaries(folder);
+  remove_temporaries(run.paths_.champions);
+  return run;
+}
+
+RunPaths find_run(const fs::path& folder) {
   if (!fs::is_directory(folder)) fail(ExitCode::io, "{}: no such folder", folder.string());
   if (!is_run_folder(folder))
     fail(ExitCode::bad_input, "{}: not a run folder (no config.toml)", folder.string());
-  return RunFolder(folder);
+  const RunPaths paths(folder);
+  io::unseal_json(manifest_format, run_version, io::read_file(paths.manifest), paths.manifest.string());
+  return paths;
 }
 
 Config RunFolder::load_config() const {
@@ -135,7 +175,7 @@ void RunFolder::save_champion(const Champion& champion) const {
 void RunFolder::note_process(const Config& config, int jobs, int from_generation) const {
   io::Json processes = io::Json::array();
   if (fs::exists(paths_.manifest)) {
-    const auto old = io::unseal_json(manifest_format, manifest_version, io::read_file(paths_.manifest),
+    const auto old = io::unseal_json(manifest_format, run_version, io::read_file(paths_.manifest),
                                      paths_.manifest.string());
     processes = old.document.value("processes", io::Json::array());
   }
@@ -149,7 +189,7 @@ void RunFolder::note_process(const Config& config, int jobs, int from_generation
                                     .cpu = cpu_name(),
                                     .jobs = jobs,
                                     .from_generation = from_generation}));
-  io::write_file(paths_.manifest, io::sealed_json(manifest_format, manifest_version,
+  io::write_file(paths_.manifest, io::sealed_json(manifest_format, run_version,
                                                   {{"name", config.name},
                                                    {"seed", config.seed},
                                                    {"engine", config.engine},

@@ -36,11 +36,11 @@ struct ProcessNote {
 /// A run folder held by this process alone.
 class RunFolder {
  public:
-  /// Makes the folder and writes config.toml and robot.json. Throws UserError: the folder holds a run or
-  /// anything else, is locked, or cannot be written; then nothing in it was changed.
-  static RunFolder create(const std::filesystem::path& folder, const Config& config,
-                          const morphology::RobotSpec& robot);
-  /// Takes hold of the folder of an earlier run. Throws UserError if it is none, or locked.
+  /// Makes the folder and writes robot.json; it becomes a run with save_config(). Throws UserError: the
+  /// folder holds a run or anything else, is locked, or cannot be written; then nothing in it was changed.
+  static RunFolder create(const std::filesystem::path& folder, const morphology::RobotSpec& robot);
+  /// Takes hold of the folder of an earlier run, and removes the temporary files of a process that was
+  /// killed there. Throws UserError as find_run(), or if it is locked.
   static RunFolder open(const std::filesystem::path& folder);
 
   const RunPaths& paths() const { return paths_; }
@@ -57,6 +57,9 @@ class RunFolder {
   RunPaths paths_;
   std::unique_ptr<io::FolderLock> lock_;
 };
+
+/// The paths of a run to read. Throws UserError: no folder, no run, or one of another version.
+RunPaths find_run(const std::filesystem::path& folder);
 
 /// Whether a folder looks like a run's.
 bool is_run_folder(const std::filesystem::path& folder);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "amble/core/error.hpp"
@@ -12,26 +13,59 @@
 namespace amble::experiment {
 namespace {
 
-/// What differs between the recorded trial and the new one, in words; empty if nothing.
-std::vector<std::string> differences(const Champion& champion, const Replay& again) {
-  std::vector<std::string> found;
-  const auto [old_end, new_end] = std::ranges::mismatch(champion.trace, again.trace);
-  if (old_end != champion.trace.end() || new_end != again.trace.end()) {
-    const auto step = old_end - champion.trace.begin() + 1;
-    found.push_back(fmt::format("first differing step {} (t = {:.2f} s)", step,
-                                static_cast<double>(step) * champion.problem.trial.timestep_s));
+/// A trial as it stands in a champion's file.
+struct Recorded {
+  const TrialResult& result;
+  const std::vector<std::uint32_t>& trace;
+  std::string prefix;  ///< for words about it
+};
+
+/// Adds what differs between a recorded trial and the same run again, in words; nothing if they agree.
+void compare(const Recorded& old, const Replay& again, double timestep_s, std::vector<std::string>& found) {
+  const auto [old_end, new_end] = std::ranges::mismatch(old.trace, again.trace);
+  if (old_end != old.trace.end() || new_end != again.trace.end()) {
+    const auto step = old_end - old.trace.begin() + 1;
+    found.push_back(fmt::format("{}first differing step {} (t = {:.2f} s)", old.prefix, step,
+                                static_cast<double>(step) * timestep_s));
   }
-  if (champion.result.distance_m != again.result.distance_m)
-    found.push_back(
-        fmt::format("distance {} m recorded, {} m now", champion.result.distance_m, again.result.distance_m));
-  if (champion.result.outcome != again.result.outcome || champion.result.steps != again.result.steps) {
+  if (old.result.distance_m != again.result.distance_m)
+    found.push_back(fmt::format("{}distance {} m recorded, {} m now", old.prefix, old.result.distance_m,
+                                again.result.distance_m));
+  if (old.result.outcome != again.result.outcome || old.result.steps != again.result.steps) {
     const auto words = [](const TrialResult& result) {
       return fmt::format("{} after {} steps", record::outcome_names[static_cast<std::size_t>(result.outcome)],
                          result.steps);
     };
-    found.push_back(fmt::format("{} recorded, {} now", words(champion.result), words(again.result)));
+    found.push_back(fmt::format("{}{} recorded, {} now", old.prefix, words(old.result), words(again.result)));
+  }
+}
+
+/// Runs all trials of a champion again; what differs. Nothing if `stop` was set.
+std::optional<std::vector<std::string>> differences(const Champion& champion, const std::atomic<bool>& stop) {
+  std::vector<std::string> found;
+  const double timestep_s = champion.problem.trial.timestep_s;
+  const auto again = replay(champion.problem, champion.genome, {}, stop);
+  if (!again) return std::nullopt;
+  compare({champion.result, champion.trace, ""}, *again, timestep_s, found);
+  for (std::size_t i = 0; i < champion.episodes.size(); ++i) {
+    ReplayOptions options;
+    options.noise = champion.scenario_key(i);
+    const auto disturbed = replay(champion.problem, champion.genome, options, stop);
+    if (!disturbed) return std::nullopt;
+    const auto& [result, trace] = champion.episodes[i];
+    compare({result, trace, fmt::format("under noise {}: ", i)}, *disturbed, timestep_s, found);
   }
   return found;
+}
+
+std::string agreement(const Champion& champion) {
+  std::string text =
+      fmt::format("agrees: {:.3f} m, {} steps", champion.result.distance_m, champion.result.steps);
+  if (!champion.episodes.empty())
+    text += fmt::format("; under noise {:.3f} m ({} of {})", champion.objective_m(),
+                        trial::episode_score_names[static_cast<std::size_t>(champion.problem.noise.score)],
+                        champion.episodes.size());
+  return text;
 }
 
 }  // namespace
@@ -40,14 +74,11 @@ std::optional<Verdict> verify_champion(const std::filesystem::path& path, const 
   const std::string text = io::read_file(path);
   try {
     const auto [champion, altered] = parse_champion(text, path.string(), io::Altered::accept);
-    const auto again = replay(champion.problem, champion.genome, {}, stop);
-    if (!again) return std::nullopt;
-    auto found = differences(champion, *again);
-    if (altered) found.insert(found.begin(), "the file was altered (checksum)");
-    if (found.empty())
-      return Verdict{
-          true, fmt::format("agrees: {:.3f} m, {} steps", again->result.distance_m, again->result.steps)};
-    return Verdict{false, fmt::format("differs: {}", fmt::join(found, "; "))};
+    auto found = differences(champion, stop);
+    if (!found) return std::nullopt;
+    if (altered) found->insert(found->begin(), "the file was altered (checksum)");
+    if (!found->empty()) return Verdict{false, fmt::format("differs: {}", fmt::join(*found, "; "))};
+    return Verdict{true, agreement(champion)};
   } catch (const UserError& error) {
     return Verdict{false, fmt::format("unsound: {}", error.what())};
   }

@@ -15,6 +15,8 @@ namespace amble::io {
 inline constexpr std::string_view expected_flag = "true or false";
 inline constexpr std::string_view expected_text = "text in quotes";
 inline constexpr std::string_view expected_texts = "a list of texts in quotes";
+inline constexpr std::string_view expected_table = "a table in braces";
+inline constexpr std::string_view expected_tables = "a list of tables in braces";
 
 /// "a number from 0 to 1"; "from 0 to inf" where infinity is a value; "a number" if there are no bounds.
 std::string expected_number(Range range);

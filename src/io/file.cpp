@@ -89,7 +89,7 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t limit_byt
 }
 
 AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), written_path_(path) {
-  if (!is_special_file(path)) written_path_ += fmt::format(".tmp.{}", ::getpid());
+  if (!is_special_file(path)) written_path_ += fmt::format("{}{}", temporary_mark, ::getpid());
   fd_ = ::open(written_path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (fd_ < 0) fail_to_write(path_, errno);
 }
@@ -130,19 +130,31 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
   file.commit();
 }
 
+void refuse_to_replace(const std::filesystem::path& path, std::string_view beginning, std::string_view what) {
+  if (!std::filesystem::is_regular_file(path)) return;
+  const std::string found = InputFile(path).read(beginning.size());
+  if (!found.empty() && found != beginning)
+    fail(ExitCode::bad_input, "{} exists and is not {}: name another file", path.string(), what);
+}
+
 AppendFile::AppendFile(const std::filesystem::path& path, std::uint64_t keep_bytes)
-    : path_(path), fd_(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666)), size_(keep_bytes) {
+    : path_(path),
+      fd_(::open(path.c_str(), O_WRONLY | (keep_bytes == 0 ? O_CREAT : 0) | O_CLOEXEC, 0666)),
+      size_(keep_bytes) {
+  if (fd_ < 0 && errno == ENOENT && keep_bytes > 0)
+    fail(ExitCode::bad_file, "{}: missing: {} bytes were expected", path_.string(), keep_bytes);
   if (fd_ < 0) fail_to_write(path_, errno);
   // The destructor does not run when a constructor throws.
-  const auto close_and_fail = [this](const std::string& message) {
+  const auto close_and_fail = [this](const std::string& message, ExitCode code = ExitCode::io) {
     ::close(fd_);
-    throw UserError(message, ExitCode::io);
+    throw UserError(message, code);
   };
   const off_t length = ::lseek(fd_, 0, SEEK_END);
   if (length < 0) close_and_fail(fmt::format("cannot write {}: {}", path_.string(), reason(errno)));
   if (static_cast<std::uint64_t>(length) < keep_bytes) {
     close_and_fail(
-        fmt::format("{}: truncated: it has {} bytes, {} were expected", path_.string(), length, keep_bytes));
+        fmt::format("{}: truncated: it has {} bytes, {} were expected", path_.string(), length, keep_bytes),
+        ExitCode::bad_file);
   }
   const auto kept = static_cast<off_t>(keep_bytes);
   if (::ftruncate(fd_, kept) != 0 || ::lseek(fd_, kept, SEEK_SET) != kept || !sync(fd_) ||

@@ -28,6 +28,9 @@ class InputFile {
 /// `limit_bytes`.
 std::string read_file(const std::filesystem::path& path, std::uint64_t limit_bytes = std::uint64_t{1} << 32);
 
+/// Between a file's name and the process id in the name of its temporary file.
+inline constexpr std::string_view temporary_mark = ".tmp.";
+
 /// Replaces a file whole or not at all: what is written goes to PATH.tmp.<pid> in the same folder; commit()
 /// syncs that, renames it and syncs the folder. Without commit(), or after a failure (no space, no
 /// permission), the temporary file is removed and an old file is left as it was. What is there and is not a
@@ -54,9 +57,14 @@ class AtomicFile {
 /// One AtomicFile with these contents.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
+/// Throws UserError(ExitCode::bad_input) if `path` is a file with contents that do not begin with
+/// `beginning`: it is not what would be written there (`what`, e.g. "a recording"), and so not ours to
+/// replace.
+void refuse_to_replace(const std::filesystem::path& path, std::string_view beginning, std::string_view what);
+
 /// A log that only grows (generations.csv): lines are appended whole and synced. On opening, what lies beyond
 /// `keep_bytes` is cut off, so that a resumed run continues from its checkpoint. Throws
-/// UserError(ExitCode::io), also if the file is shorter.
+/// UserError(ExitCode::io), or ExitCode::bad_file if the file is missing or shorter.
 class AppendFile {
  public:
   AppendFile(const std::filesystem::path& path, std::uint64_t keep_bytes);

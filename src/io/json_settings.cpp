@@ -24,6 +24,15 @@ class Writer final : public SettingsVisitor {
     for (const double value : values) list.push_back(json_number(value));
     put(key, std::move(list));
   }
+  void list(std::string_view key, SettingsList& items, Doc) override {
+    Json list = Json::array();
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      tables_.push_back(&list.emplace_back(Json::object()));
+      items.describe(i, *this);
+      tables_.pop_back();
+    }
+    put(key, std::move(list));
+  }
   void choice_index(std::string_view key, int& index, std::span<const std::string_view> names, Doc) override {
     AMBLE_CHECK(index >= 0 && static_cast<std::size_t>(index) < names.size(), "an enum value without a name");
     put(key, names[static_cast<std::size_t>(index)]);
@@ -72,6 +81,15 @@ class Reader final : public SettingsReader {
     values.assign(list.size(), 0.0);
     for (std::size_t i = 0; i < values.size(); ++i)
       values[i] = checked_number(list.at(i), range, expected_number(range));
+  }
+  void list(std::string_view key, SettingsList& items, Doc) override {
+    const JsonView list = get(key);
+    items.renew(list.size());
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      tables_.push_back({list.at(i), {}});
+      items.describe(i, *this);
+      end();
+    }
   }
   void choice_index(std::string_view key, int& index, std::span<const std::string_view> names, Doc) override {
     const JsonView view = get(key);

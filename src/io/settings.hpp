@@ -25,6 +25,20 @@ struct Range {
   double highest = std::numeric_limits<double>::infinity();
 };
 
+class SettingsVisitor;
+
+/// A list of settings structs of one kind, as visitors see it.
+class SettingsList {
+ public:
+  virtual ~SettingsList() = default;
+  virtual std::size_t size() const = 0;
+  /// `count` items with default values, in place of all that there were.
+  virtual void renew(std::size_t count) = 0;
+  virtual void describe(std::size_t index, SettingsVisitor& visitor) = 0;
+  /// An item with default values, which does not belong to the list.
+  virtual void describe_default(SettingsVisitor& visitor) const = 0;
+};
+
 /// Walks over the fields of a settings struct. One `describe(SettingsVisitor&)` member per struct serves
 /// reading TOML, writing TOML, reading and writing JSON, and the table of settings in the docs, so that these
 /// cannot drift apart. Readers change the values, writers leave them as they are.
@@ -44,6 +58,9 @@ class SettingsVisitor {
   virtual void numbers(std::string_view key, std::vector<double>& value, Range range, Doc doc) = 0;
   virtual void choice_index(std::string_view key, int& index, std::span<const std::string_view> names,
                             Doc doc) = 0;
+
+  /// A list of tables without tables of their own. A reader that finds the key renews the list.
+  virtual void list(std::string_view key, SettingsList& items, Doc doc) = 0;
 
   /// The range is narrowed to what an int can hold.
   void integer(std::string_view key, int& value, Range range, Doc doc) {
@@ -69,7 +86,30 @@ class SettingsVisitor {
     settings.describe(*this);
     end();
   }
+
+  /// A list of settings structs, each written as a table.
+  template <typename Settings>
+  void tables(std::string_view key, std::vector<Settings>& items, Doc doc);
 };
+
+template <typename Settings>
+void SettingsVisitor::tables(std::string_view key, std::vector<Settings>& items, Doc doc) {
+  class List final : public SettingsList {
+   public:
+    explicit List(std::vector<Settings>& settings) : settings_(settings) {}
+    std::size_t size() const override { return settings_.size(); }
+    void renew(std::size_t count) override { settings_.assign(count, Settings()); }
+    void describe(std::size_t index, SettingsVisitor& visitor) override {
+      settings_[index].describe(visitor);
+    }
+    void describe_default(SettingsVisitor& visitor) const override { Settings().describe(visitor); }
+
+   private:
+    std::vector<Settings>& settings_;
+  };
+  List settings(items);
+  list(key, settings, doc);
+}
 
 /// A visitor that reads. finish() must be called after the last field: it refuses keys that nobody asked for.
 class SettingsReader : public SettingsVisitor {

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <span>
 
+#include "amble/io/expectation.hpp"
 #include "amble/io/settings_printer.hpp"
 #include "amble/io/toml_settings.hpp"
 
@@ -24,26 +27,40 @@ class ColumnCollector final : public SettingsPrinter {
 
   void begin(std::string_view key, Doc) override { tables_.push_back(path_of(key)); }
   void end() override { tables_.pop_back(); }
+  /// How many items there are, and the keys that each has.
+  void list(std::string_view key, SettingsList& items, Doc doc) override {
+    row(key, expected_tables, doc).values[column_] =
+        fmt::format("{} item{}", items.size(), items.size() == 1 ? "" : "s");
+    tables_.push_back(path_of(key) + "[]");
+    in_list_ = true;
+    items.describe_default(*this);
+    in_list_ = false;
+    tables_.pop_back();
+  }
 
  private:
   std::string path_of(std::string_view key) const {
     return tables_.empty() ? std::string(key) : fmt::format("{}.{}", tables_.back(), key);
   }
 
-  void put(std::string_view key, std::string value, std::string_view expected, Doc doc) override {
+  Row& row(std::string_view key, std::string_view expected, Doc doc) {
     const std::string path = path_of(key);
-    auto row = std::find_if(rows_.begin(), rows_.end(), [&](const Row& other) { return other.key == path; });
-    if (row == rows_.end()) {
-      rows_.push_back({path, std::string(doc.what), std::string(expected), std::string(doc.source),
-                       std::vector<std::string>(columns_)});
-      row = rows_.end() - 1;
-    }
-    row->values[column_] = fmt::format("`{}`", value);
+    const auto found =
+        std::find_if(rows_.begin(), rows_.end(), [&](const Row& other) { return other.key == path; });
+    if (found != rows_.end()) return *found;
+    return rows_.emplace_back(Row{path, std::string(doc.what), std::string(expected), std::string(doc.source),
+                                  std::vector<std::string>(columns_)});
+  }
+  void put(std::string_view key, std::string value, std::string_view expected, Doc doc) override {
+    Row& its = row(key, expected, doc);
+    // The items of a list differ; what is shown is the default of their fields, in the first column.
+    if (!in_list_ || column_ == 0) its.values[column_] = fmt::format("`{}`", value);
   }
 
   std::vector<Row>& rows_;
   std::size_t column_, columns_;
   std::vector<std::string> tables_;
+  bool in_list_ = false;
 };
 
 /// A cell's text; a bar would end the cell.
@@ -55,12 +72,18 @@ std::string cell(std::string_view text) {
 
 }  // namespace
 
-std::string settings_to_markdown(const std::vector<SettingsColumn>& columns) {
+std::string settings_to_markdown(const std::vector<SettingsColumn>& columns, SettingsRows wanted) {
   std::vector<Row> rows;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     ColumnCollector collector(rows, i, columns.size());
     columns[i].describe(collector);
   }
+
+  if (wanted == SettingsRows::differing)
+    std::erase_if(rows, [](const Row& row) {
+      const auto others = std::span(row.values).subspan(1);
+      return std::ranges::adjacent_find(others, std::ranges::not_equal_to()) == others.end();
+    });
 
   std::string table = "| key | what it means | allowed |";
   std::string rule = "|---|---|---|";

@@ -56,7 +56,8 @@ TomlNode convert(const toml::node& node, toml::source_index line, const Origin& 
     convert_table(*table, result, origin);
   } else if (const auto* list = node.as_array()) {
     result.kind = Kind::list;
-    for (const toml::node& item : *list) result.items.push_back(convert(item, line, origin));
+    for (const toml::node& item : *list)
+      result.items.push_back(convert(item, item.source().begin.line, origin));
   } else if (const auto* text = node.as_string()) {
     result.kind = Kind::text;
     result.text = text->get();

@@ -128,6 +128,20 @@ class TomlReader final : public SettingsReader {
     index = static_cast<int>(found - names.begin());
   }
 
+  void list(std::string_view key, SettingsList& items, Doc) override {
+    const TomlNode* node = get(key);
+    if (node == nullptr) return;
+    if (node->kind != Kind::list) complain(key, *node, expected_tables);
+    items.renew(node->items.size());
+    for (std::size_t i = 0; i < node->items.size(); ++i) {
+      const std::string item = numbered(key, i);
+      if (node->items[i].kind != Kind::table) complain(item, node->items[i], expected_table);
+      tables_.push_back({path_of(item), &node->items[i]});
+      items.describe(i, *this);
+      tables_.pop_back();
+    }
+  }
+
   void finish() override { refuse_unknown_keys(root_, ""); }
 
  private:
@@ -138,6 +152,9 @@ class TomlReader final : public SettingsReader {
 
   static std::string join(const std::string& table, std::string_view key) {
     return table.empty() ? std::string(key) : fmt::format("{}.{}", table, key);
+  }
+  static std::string numbered(std::string_view key, std::size_t index) {
+    return fmt::format("{}[{}]", key, index);
   }
   std::string path_of(std::string_view key) const { return join(tables_.back().path, key); }
 
@@ -161,6 +178,9 @@ class TomlReader final : public SettingsReader {
       const TomlNode& node = table.items[i];
       if (std::find(known_.begin(), known_.end(), path) != known_.end()) {
         if (node.kind == Kind::table) refuse_unknown_keys(node, path);
+        for (std::size_t item = 0; node.kind == Kind::list && item < node.items.size(); ++item)
+          if (node.items[item].kind == Kind::table)
+            refuse_unknown_keys(node.items[item], numbered(path, item));
         continue;
       }
       const std::string meant = nearest(path, known_);

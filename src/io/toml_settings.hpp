@@ -57,7 +57,14 @@ struct SettingsColumn {
   std::string title;
   std::function<void(SettingsVisitor&)> describe;
 };
-/// A Markdown table: key, what it means, allowed values, the value in each column, source.
-std::string settings_to_markdown(const std::vector<SettingsColumn>& columns);
+enum class SettingsRows {
+  all,
+  differing,  ///< only those in which the columns after the first differ from each other
+};
+/// A Markdown table: key, what it means, allowed values, the value in each column, source. The first column
+/// has the defaults; for a list of tables it also has those of an item's keys, and the others say only how
+/// many items there are.
+std::string settings_to_markdown(const std::vector<SettingsColumn>& columns,
+                                 SettingsRows rows = SettingsRows::all);
 
 }  // namespace amble::io

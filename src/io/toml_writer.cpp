@@ -1,11 +1,55 @@
 #include <fmt/format.h>
 
 #include "amble/core/check.hpp"
+#include "amble/io/expectation.hpp"
 #include "amble/io/settings_printer.hpp"
 #include "amble/io/toml_settings.hpp"
 
 namespace amble::io {
 namespace {
+
+/// The fields of an item as TOML, key by key.
+class ItemPrinter final : public SettingsPrinter {
+ public:
+  struct Field {
+    std::string key, value;
+  };
+  const std::vector<Field>& fields() const { return fields_; }
+
+  void begin(std::string_view, Doc) override { AMBLE_CHECK(false, "an item of a list holds no tables"); }
+  void end() override {}
+  void list(std::string_view, SettingsList&, Doc) override {
+    AMBLE_CHECK(false, "an item of a list holds no lists of tables");
+  }
+
+ private:
+  void put(std::string_view key, std::string value, std::string_view, Doc) override {
+    fields_.push_back({std::string(key), std::move(value)});
+  }
+
+  std::vector<Field> fields_;
+};
+
+/// Item by item on a line of its own; what has its default value is left out.
+std::string list_text(SettingsList& items) {
+  if (items.size() == 0) return "[]";
+  ItemPrinter defaults;
+  items.describe_default(defaults);
+  std::string text = "[\n";
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    ItemPrinter item;
+    items.describe(i, item);
+    AMBLE_CHECK(item.fields().size() == defaults.fields().size(), "the items of a list have the same keys");
+    std::string fields;
+    for (std::size_t k = 0; k < item.fields().size(); ++k) {
+      const auto& [key, value] = item.fields()[k];
+      if (value != defaults.fields()[k].value)
+        fields += fmt::format("{} {} = {}", fields.empty() ? "" : ",", key, value);
+    }
+    text += fields.empty() ? "  {},\n" : fmt::format("  {{{} }},\n", fields);
+  }
+  return text + "]";
+}
 
 /// Collects each table's own keys before its nested tables, because TOML has them in that order.
 class TomlWriter final : public SettingsPrinter {
@@ -26,6 +70,10 @@ class TomlWriter final : public SettingsPrinter {
     // A table without own keys is implied by the tables within it.
     if (!table.keys.empty()) nested += fmt::format("\n{}[{}]\n{}", table.comment, table.path, table.keys);
     nested += table.nested;
+  }
+
+  void list(std::string_view key, SettingsList& items, Doc doc) override {
+    put(key, list_text(items), expected_tables, doc);
   }
 
   std::string result() const {

@@ -2,29 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "amble/core/check.hpp"
 
 namespace amble::morphology {
+namespace {
 
-std::vector<Pose> start_poses(const RobotSpec& robot) {
-  std::vector<Pose> poses;
-  poses.reserve(robot.bodies.size());
-  for (const Body& body : robot.bodies) {
-    const Pose own{body.position_m, body.rotation};
-    poses.push_back(body.parent < 0 ? own : poses[static_cast<std::size_t>(body.parent)] * own);
-  }
-  return poses;
-}
-
-double start_clearance_m(const RobotSpec& robot, int geom) {
-  const Geom& shape = robot.geoms[static_cast<std::size_t>(geom)];
-  const Pose body = start_poses(robot)[static_cast<std::size_t>(shape.body)];
-  const Pose pose = body * Pose{shape.position_m, shape.rotation};
+/// Height of the lowest point of a geom whose body's frame stands at `body`.
+double lowest_point_m(const Geom& geom, const Pose& body) {
+  const Pose pose = body * Pose{geom.position_m, geom.rotation};
 
   // How far the shape reaches below its centre: the world's z seen from the geom's own axes decides.
   const Vec3 up = rotate(conjugate(pose.rotation), {0.0, 0.0, 1.0});
-  const Vec3 size = shape.size_m;
+  const Vec3 size = geom.size_m;
   double reach = 0.0;
-  switch (shape.shape) {
+  switch (geom.shape) {
     case Shape::sphere:
       reach = size.x;
       break;
@@ -39,6 +32,49 @@ double start_clearance_m(const RobotSpec& robot, int geom) {
       break;
   }
   return pose.position_m.z - reach;
+}
+
+}  // namespace
+
+std::vector<Pose> start_poses(const RobotSpec& robot) {
+  std::vector<Pose> poses;
+  poses.reserve(robot.bodies.size());
+  for (const Body& body : robot.bodies) {
+    const Pose own{body.position_m, body.rotation};
+    poses.push_back(body.parent < 0 ? own : poses[static_cast<std::size_t>(body.parent)] * own);
+  }
+  return poses;
+}
+
+std::vector<Pose> poses_at(const RobotSpec& robot, const Pose& root, std::span<const double> angles_rad) {
+  AMBLE_CHECK(angles_rad.size() == robot.joints.size(), "one angle per joint");
+  std::vector<Pose> poses{root};
+  poses.reserve(robot.bodies.size());
+  for (int b = 1; b < static_cast<int>(robot.bodies.size()); ++b) {
+    const Body& body = robot.bodies[static_cast<std::size_t>(b)];
+    Pose pose = poses[static_cast<std::size_t>(body.parent)] * Pose{body.position_m, body.rotation};
+    for (const int j : robot.joints_of_body(b)) {
+      const Joint& joint = robot.joints[static_cast<std::size_t>(j)];
+      const Quat turn = axis_angle(joint.axis, angles_rad[static_cast<std::size_t>(j)]);
+      // About the anchor, which stays where it is.
+      pose = pose * Pose{joint.anchor_m - rotate(turn, joint.anchor_m), turn};
+    }
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+double start_clearance_m(const RobotSpec& robot, int geom) {
+  const Geom& shape = robot.geoms[static_cast<std::size_t>(geom)];
+  return lowest_point_m(shape, start_poses(robot)[static_cast<std::size_t>(shape.body)]);
+}
+
+double clearance_m(const RobotSpec& robot, std::span<const Pose> poses) {
+  double lowest_m = std::numeric_limits<double>::infinity();
+  for (const Geom& geom : robot.geoms)
+    if (geom.collides)
+      lowest_m = std::min(lowest_m, lowest_point_m(geom, poses[static_cast<std::size_t>(geom.body)]));
+  return lowest_m;
 }
 
 }  // namespace amble::morphology

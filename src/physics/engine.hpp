@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "amble/core/lanes.hpp"
 #include "amble/core/math.hpp"
@@ -24,8 +25,17 @@ struct RootPose {
   Quat rotation;
 };
 
+/// A pose to start a trial from, at rest. In the robot's own start pose the root stands as in
+/// RobotSpec::bodies[0] and all angles are 0.
+struct StartPose {
+  RootPose root;
+  std::vector<double> joint_angle_rad;  ///< in control order (RobotSpec::joints), within the stops
+};
+
 struct EngineSettings {
   double timestep_s = 0.01;
+  int iterations = 20;   ///< of the batch engine's constraint solver, fixed
+  bool torques = false;  ///< keep motor_torque_nm(); it changes no other bit
 };
 
 /// Advances up to lanes() copies of one robot in lockstep, one copy per lane, on flat ground at z = 0.
@@ -41,12 +51,21 @@ class Engine {
   /// Puts the robot of this lane into its start pose, at rest, whatever became of it before; its sensors are
   /// valid at once (all joint angles 0; a foot touches if it is not above the ground).
   virtual void place(int lane) = 0;
+  /// The same, but into the given pose. Joint angles are still counted from the robot's own start pose.
+  /// Only of an engine that takes_disturbances().
+  virtual void place_at(int lane, const StartPose& pose);
   /// Takes the robot of this lane out of step() until it is placed again.
   virtual void retire(int lane) = 0;
 
   /// Advances every placed lane by one timestep towards its target angles: rad, joints × lanes, clamped to
   /// the stops.
   virtual void step(const LaneArray& targets_rad) = 0;
+  /// Pushes the robot of a placed lane: during its next step alone, the force impulse / timestep acts on the
+  /// centre of mass of the root body. `impulse_n_s` in N s, world frame. Placing the lane anew before that
+  /// step takes the push back.
+  virtual void push(int lane, Vec3 impulse_n_s);
+  /// Whether place_at() and push() work.
+  virtual bool takes_disturbances() const { return false; }
 
   /// False once a placed lane's state is not finite or absurdly fast (over 1000 m/s or rad/s): its trial has
   /// diverged, its other values mean nothing, and it must be retired.
@@ -54,6 +73,10 @@ class Engine {
 
   virtual const SensorFrame& sensors() const = 0;
   virtual RootPose root_pose(int lane) const = 0;
+  /// What each joint's motor gave in the last step, N m about the joint's axis, child against parent (joints
+  /// × lanes); the push of a stop is not in it. Null unless EngineSettings::torques is set and the engine can
+  /// tell.
+  virtual const LaneArray* motor_torque_nm() const { return nullptr; }
   /// Centre of mass of the root body; RobotSpec::fall_height_m refers to it.
   virtual Vec3 root_com_m(int lane) const = 0;
   /// Centre of mass of the whole robot.
@@ -64,13 +87,14 @@ class Engine {
   virtual std::uint64_t state_hash(int lane) const = 0;
 };
 
-inline constexpr std::array<std::string_view, 2> engine_names{"ode", "mujoco"};
+inline constexpr std::array<std::string_view, 3> engine_names{"ode", "batch", "mujoco"};
 
-/// Throws UserError unless it is one of engine_names.
-void check_engine_name(std::string_view name);
+/// Throws UserError unless it is one of engine_names. `what` stands in front of the complaint, e.g.
+/// "referees: ".
+void check_engine_name(std::string_view name, std::string_view what = "");
 
-/// Makes the engine of that name. Throws UserError for an unknown name or a robot that the engine
-/// cannot simulate.
+/// Makes the engine of that name. Throws UserError for an unknown name or a robot that the engine cannot
+/// simulate.
 std::unique_ptr<Engine> make_engine(std::string_view name, const morphology::RobotSpec& robot,
                                     const EngineSettings& settings);
 

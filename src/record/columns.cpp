@@ -14,4 +14,10 @@ std::vector<std::string> standard_columns(const std::vector<std::string>& joints
   return columns;
 }
 
+std::vector<std::string> torque_columns(const std::vector<std::string>& joints) {
+  std::vector<std::string> columns;
+  for (const std::string& joint : joints) columns.push_back("torque." + joint);
+  return columns;
+}
+
 }  // namespace amble::record

@@ -21,10 +21,14 @@ struct RecordingHeader {
 };
 
 /// The columns every recording has, in order: root.x .y .z .qw .qx .qy .qz, com.x .y .z, then per joint
-/// angle.NAME and target.NAME (joint by joint: all angles, then all targets), then touch.LEG; a controller's
-/// state names follow.
+/// angle.NAME and target.NAME (joint by joint: all angles, then all targets), then touch.LEG. The
+/// torque columns, if there are any, and a controller's state names follow.
 std::vector<std::string> standard_columns(const std::vector<std::string>& joints,
                                           const std::vector<std::string>& legs);
+
+/// The columns that follow the standard ones where the engine tells motor torques (N m): torque.NAME, joint
+/// by joint.
+std::vector<std::string> torque_columns(const std::vector<std::string>& joints);
 
 /// Writes a recording chunk by chunk, so that memory does not grow with its length. The file appears under
 /// its name only with finish(); without it the temporary file is removed. Throws UserError(ExitCode::io).

@@ -5,6 +5,7 @@
 namespace amble::score {
 
 double distance_m(const record::Trajectory& trajectory) {
+  if (trajectory.outcome == record::Outcome::diverged) return 0.0;
   const Vec3 moved = trajectory.com_end_m - trajectory.com_start_m;
   return std::sqrt(moved.x * moved.x + moved.y * moved.y);
 }

@@ -5,7 +5,8 @@
 namespace amble::score {
 
 /// How far the whole-body centre of mass came over the ground, in any direction, m; for a robot that fell, to
-/// where it fell. The objective of Morse et al. 2013, sec. 4.
+/// where it fell; 0 for a trial that diverged, where the simulation broke down. The objective of Morse et al.
+/// 2013, sec. 4.
 double distance_m(const record::Trajectory& trajectory);
 
 }  // namespace amble::score

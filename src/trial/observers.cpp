@@ -5,7 +5,7 @@
 namespace amble::trial {
 namespace {
 
-record::RecordingHeader recording_header(const morphology::RobotSpec& robot,
+record::RecordingHeader recording_header(const morphology::RobotSpec& robot, bool torques,
                                          const controllers::Batch& controllers, double frame_s,
                                          const std::string& robot_json, const std::string& controller_json,
                                          const std::string& origin) {
@@ -17,6 +17,8 @@ record::RecordingHeader recording_header(const morphology::RobotSpec& robot,
                                  .robot_json = robot_json,
                                  .controller_json = controller_json,
                                  .origin = origin};
+  if (torques)
+    for (auto& name : record::torque_columns(joints)) header.columns.push_back(std::move(name));
   for (auto& name : controllers.state_names()) header.columns.push_back(std::move(name));
   return header;
 }
@@ -48,10 +50,11 @@ void TriggerObserver::on_step(int, const physics::Engine&, const controllers::Ba
 }
 
 RecordingObserver::RecordingObserver(const std::filesystem::path& path, const morphology::RobotSpec& robot,
-                                     const controllers::Batch& controllers, double frame_s,
-                                     const std::string& robot_json, const std::string& controller_json,
-                                     const std::string& origin)
-    : writer_(path, recording_header(robot, controllers, frame_s, robot_json, controller_json, origin)),
+                                     const physics::Engine& engine, const controllers::Batch& controllers,
+                                     double frame_s, const std::string& robot_json,
+                                     const std::string& controller_json, const std::string& origin)
+    : writer_(path, recording_header(robot, engine.motor_torque_nm() != nullptr, controllers, frame_s,
+                                     robot_json, controller_json, origin)),
       state_count_(controllers.state_names().size()) {}
 
 void RecordingObserver::on_step(int, const physics::Engine& engine, const controllers::Batch& controllers,
@@ -69,6 +72,7 @@ void RecordingObserver::on_step(int, const physics::Engine& engine, const contro
   put_lane(engine.sensors().joint_angle_rad);
   put_lane(targets_rad);
   put_lane(engine.sensors().touch);
+  if (const LaneArray* torques_nm = engine.motor_torque_nm()) put_lane(*torques_nm);
   frame_.resize(frame_.size() + state_count_);
   controllers.state(lane, std::span(frame_).last(state_count_));
   writer_.add(frame_);

@@ -19,15 +19,17 @@ Runner::Runner(physics::Engine& engine, controllers::Batch& controllers, const P
       controllers_(controllers),
       protocol_(protocol),
       targets_rad_(engine.sensors().joint_angle_rad.rows(), engine.lanes()),
+      disturbances_(engine.sensors()),
       lanes_(static_cast<std::size_t>(engine.lanes())) {
   AMBLE_CHECK(controllers.lanes() == engine.lanes(), "one controller per robot");
 }
 
-// The step loop: sense and decide, move, then see what became of each robot.
+// The step loop: sense and decide, move (noise may meddle with both), then see what became of each robot.
 void Runner::run(TaskQueue& queue, const std::atomic<bool>& stop) {
   for (int lane = 0; lane < engine_.lanes(); ++lane) refill(lane, queue);
   while (busy_ > 0 && !stop.load(std::memory_order_relaxed)) {
-    controllers_.step(engine_.sensors(), targets_rad_);
+    controllers_.step(disturbances_.read(engine_.sensors()), targets_rad_);
+    disturbances_.act(targets_rad_, engine_);
 
     const double before_s = now_s();
     engine_.step(targets_rad_);
@@ -40,18 +42,22 @@ void Runner::run(TaskQueue& queue, const std::atomic<bool>& stop) {
 
 void Runner::refill(int lane, TaskQueue& queue) {
   Lane& slot = lanes_[static_cast<std::size_t>(lane)];
-  busy_ -= slot.busy;
+  busy_ -= std::exchange(slot.busy, false);
   auto task = queue.next();
   slot.busy = task.has_value();
+  disturbances_.load(lane, task ? task->scenario : nullptr);
   if (!task) {
     engine_.retire(lane);
     return;
   }
   ++busy_;
-  slot.task = std::move(*task);
   const double before_s = now_s();
-  engine_.place(lane);
+  if (task->scenario && task->scenario->start)
+    engine_.place_at(lane, *task->scenario->start);
+  else
+    engine_.place(lane);
   physics_s_ += now_s() - before_s;
+  slot.task = std::move(*task);
   controllers_.load(lane, *slot.task.parameters);
   slot.trajectory = {};
   slot.trajectory.timestep_s = protocol_.timestep_s;

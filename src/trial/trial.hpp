@@ -11,6 +11,8 @@
 #include "amble/controllers/controller.hpp"
 #include "amble/physics/engine.hpp"
 #include "amble/record/trajectory.hpp"
+#include "amble/trial/disturbances.hpp"
+#include "amble/trial/scenario.hpp"
 
 namespace amble::trial {
 
@@ -26,9 +28,10 @@ class Observer {
 
 /// A controller that waits for its trial.
 struct Task {
-  std::size_t index = 0;  ///< given back with the result
-  std::unique_ptr<controllers::Parameters> parameters;
-  Observer* observer = nullptr;  ///< not owned, may be null
+  std::size_t index = 0;                                      ///< given back with the result
+  std::shared_ptr<const controllers::Parameters> parameters;  ///< may be shared by several trials
+  Observer* observer = nullptr;                               ///< not owned, may be null
+  const Scenario* scenario = nullptr;                         ///< not owned; null: no noise
 };
 
 /// Where trials come from and where their results go. Shared by workers: both functions may be called from
@@ -50,7 +53,8 @@ struct Protocol {
 };
 
 /// Runs trials on one engine, as many at a time as it has lanes; a lane whose trial has ended takes the next
-/// task at once. What a trial gives depends on its own controller alone, not on lane, company or order.
+/// task at once. What a trial gives depends on its own controller and scenario alone, not on lane, company or
+/// order.
 /// Belongs to one thread.
 class Runner {
  public:
@@ -80,6 +84,7 @@ class Runner {
   controllers::Batch& controllers_;
   Protocol protocol_;
   LaneArray targets_rad_;
+  Disturbances disturbances_;
   std::vector<Lane> lanes_;
   int busy_ = 0;
   std::uint64_t steps_simulated_ = 0;
@@ -89,8 +94,9 @@ class Runner {
 /// A queue of one task.
 class OneTask : public TaskQueue {
  public:
-  OneTask(std::unique_ptr<controllers::Parameters> parameters, Observer* observer)
-      : task_(Task{0, std::move(parameters), observer}) {}
+  explicit OneTask(std::shared_ptr<const controllers::Parameters> parameters, Observer* observer = nullptr,
+                   const Scenario* scenario = nullptr)
+      : task_(Task{0, std::move(parameters), observer, scenario}) {}
 
   std::optional<Task> next() override { return std::exchange(task_, std::nullopt); }
   void done(std::size_t, record::Trajectory trajectory) override { result_ = std::move(trajectory); }

@@ -58,7 +58,8 @@ void add_leg(Json& robot, int leg) {
 }  // namespace
 
 std::string robot_json(int legs) {
-  Json json{{"name", "test robot"}, {"joint_types", {"knee", "hip_fb", "hip_io"}}};
+  Json json{
+      {"name", "test robot"}, {"joint_types", {"knee", "hip_fb", "hip_io"}}, {"gravity_m_s2", {0, 0, -9.8}}};
   json["bodies"].push_back(body_json("torso", -1, {0, 0, 1}, 1.0));
   json["geoms"].push_back(geom_json(0, "box", {0.5, 0.2, 0.1}, {0, 0, 0}));
   for (int leg = 0; leg < legs; ++leg) add_leg(json, leg);
@@ -78,6 +79,15 @@ std::string supg_json(int legs) {
     json["patterns_rad"].push_back(row);
   }
   return json.dump();
+}
+
+std::string network_json() {
+  return R"({"kind": "ctrnn", "coordinates": ["x", "y"], "nodes": [
+    {"name": "foot", "group": "in", "at": [-1, 0], "role": "sensor"},
+    {"name": "inner", "group": "hidden", "at": [0, 0.5], "role": "hidden", "bias": 0.5, "time_constant": 3},
+    {"name": "knee", "group": "out", "at": [1, 0], "role": "joint", "bias": 3, "time_constant": 3}],
+    "possible_links": 4,
+    "links": [{"source": 0, "target": 1, "weight": 2.0}, {"source": 1, "target": 2, "weight": -0.5}]})";
 }
 
 analysis::Recorded walk(int frames, int legs) {

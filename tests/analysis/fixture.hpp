@@ -21,6 +21,10 @@ analysis::RobotModel robot(int legs = 4);
 /// tick × 0.001 rad; leg l starts at tick l + 1.
 std::string supg_json(int legs = 4);
 
+/// The JSON of a CTRNN: a sensor "foot" at (−1, 0), hidden "inner" at (0, 0.5) and "knee" at (1, 0), with
+/// links foot → inner of weight 2 and inner → knee of weight −0.5, of 4 possible ones.
+std::string network_json();
+
 /// A walk of `frames` frames of 0.1 s straight along x at 0.5 m/s, standing. Leg l touches in the frames k
 /// with (k + l) mod 4 < 2; a trigger follows each touch-down by a frame and sets the timer to 1.
 analysis::Recorded walk(int frames, int legs = 4);

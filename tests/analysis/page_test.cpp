@@ -74,8 +74,8 @@ TEST(Page, GivesTheNumbersOfTheRecording) {
   EXPECT_EQ(numbers.at("Mean speed"), "0.50 ");
   EXPECT_EQ(numbers.at("CPPN"), "7 ");
   EXPECT_THAT(page, HasSubstr("<h2>Seen from above: 7.50 m</h2>"));
-  EXPECT_THAT(page,
-              HasSubstr("Distance walked over 2 generations: 600 trials, 890\u202f000 simulated steps."));
+  EXPECT_THAT(
+      page, HasSubstr("Distance walked over 2 generations: 600 evaluations, 890\u202f000 simulated steps."));
   // Leg 0 comes down every 0.4 s from 0.5 s on: 37 times until 14.9 s.
   EXPECT_THAT(page, HasSubstr("<span class=\"key leg0\"><small>FL</small> 37</span>"));
 }
@@ -112,16 +112,25 @@ TEST(Page, SaysSoIfNoGenerationIsFinished) {
   EXPECT_THAT(make_page(page, tests::walk(20)), HasSubstr("No generation has been finished yet."));
 }
 
-TEST(Page, SaysSoIfTheControllerHasNoTimers) {
+TEST(Page, DrawsTheNetworkOfAControllerWithoutTimers) {
   Recorded recorded = tests::walk(20);
   recorded.controller_kind = "ctrnn";
+  recorded.network = parse_network(tests::network_json(), "test");
   recorded.supg.reset();
   recorded.motion.timer_ticks.clear();
   recorded.motion.trigger.clear();
   const std::string page = make_page(input(), recorded);
   tests::parse_xml(page);
-  EXPECT_THAT(page, HasSubstr("The controller of this champion is of kind “ctrnn”. It has no timers"));
+  EXPECT_THAT(page, HasSubstr("2 of 4 possible links are expressed."));
+  EXPECT_THAT(page, Not(HasSubstr("Temporal patterns")));
   EXPECT_THAT(page, Not(HasSubstr("<dt>Triggers</dt>")));
+}
+
+TEST(Page, SaysSoIfItCannotDrawTheController) {
+  Recorded recorded = tests::walk(20);
+  recorded.controller_kind = "spring";
+  recorded.supg.reset();
+  EXPECT_THAT(make_page(input(), recorded), HasSubstr("of kind “spring”, which is not drawn"));
 }
 
 TEST(Page, SaysSoIfAFootNeverTouches) {

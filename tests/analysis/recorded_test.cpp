@@ -94,10 +94,12 @@ TEST_F(RecordedTest, EndsBeforeTheFirstFrameThatIsNotFinite) {
 
 TEST_F(RecordedTest, TakesAControllerWithoutTimers) {
   header_.columns.resize(header_.columns.size() - 8);
-  header_.controller_json = "{\"kind\": \"ctrnn\"}";
+  header_.controller_json = tests::network_json();
   write(2, record::Outcome::completed);
   const Recorded recorded = read_recorded(path_);
   EXPECT_FALSE(recorded.supg.has_value());
+  ASSERT_TRUE(recorded.network.has_value());
+  EXPECT_EQ(recorded.network->substrate.nodes.size(), 3u);
   EXPECT_TRUE(recorded.motion.timer_ticks.empty());
   EXPECT_TRUE(recorded.motion.trigger.empty());
 }

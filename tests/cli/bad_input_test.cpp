@@ -139,7 +139,24 @@ TEST_F(BadInput, UnknownEngine) {
 
 TEST_F(BadInput, UnknownReferee) {
   expect_complaint({"evolve", config, "--set", "referees=[\"newton\"]", "--out", out_}, ExitCode::bad_input,
-                   "referees: unknown engine 'newton'");
+                   "referees: unknown engine 'newton': expected ode, batch, mujoco");
+}
+
+TEST_F(BadInput, SubstrateThatDoesNotHoldTogether) {
+  expect_complaint({"evolve", config, "--set", "controller.substrate.outputs=[\"pattern\"]", "--out", out_},
+                   ExitCode::bad_input,
+                   "controller.substrate.properties[1].output = \"offset\": the CPPN has no such output");
+  const std::string links = "controller.substrate.links=[{from=\"FL.knee\", to=\"tail\"}]";
+  const std::string ctrnn = source + "/configs/authors/ctrnn-objective.toml";
+  expect_complaint({"substrate", ctrnn, "--set", links, "-o", out_}, ExitCode::bad_input,
+                   "controller.substrate.links[0].to = \"tail\": there is no node and no group of that name");
+  expect_complaint({"substrate", config_with("[controller.substrate]\nnodes = [\n  { nam = \"a\" },\n]")},
+                   ExitCode::bad_input,
+                   "c.toml:4: unknown key 'controller.substrate.nodes[0].nam' (did you mean "
+                   "'controller.substrate.nodes[0].name'?)");
+  // A substrate for another robot, and a figure that is asked for another time constant than it has.
+  expect_complaint({"evolve", ctrnn, "--set", "controller.ctrnn.step=2", "--out", out_}, ExitCode::bad_input,
+                   "controller.ctrnn.step = 2: expected at most the shortest time constant, 1");
 }
 
 TEST_F(BadInput, SyntaxErrorWithLineAndColumn) {
@@ -214,9 +231,19 @@ TEST_F(BadInput, ChampionTruncatedOrAltered) {
   altered.replace(weight, altered.find_first_of(",}\n", weight) - weight, "0.125");
   spill(champion, altered);
   expect_complaint({"trial", champion.string()}, ExitCode::bad_file, "checksum");
-  altered.replace(weight, 5, "1e999");
-  spill(champion, altered);
-  expect_complaint({"trial", champion.string()}, ExitCode::bad_file, champion.string());
+}
+
+TEST_F(BadInput, OutputsThatWouldReplaceFilesOfAnotherKind) {
+  make_run();
+  const auto champion = fs::directory_iterator(fs::path(run_) / "champions")->path().string();
+  expect_complaint({"trial", champion, "--record", champion}, ExitCode::bad_input, "is not a recording");
+  expect_complaint({"page", run_, "-o", run_ + "/checkpoint.bin"}, ExitCode::bad_input, "is not a page");
+}
+
+TEST_F(BadInput, ARunMadeShorterThanItIs) {
+  make_run();
+  expect_complaint({"resume", run_, "--generations", "1"}, ExitCode::bad_input,
+                   "2 generations are done already");
 }
 
 TEST_F(BadInput, CheckpointTruncatedAlteredOrOfAnotherVersion) {
@@ -262,6 +289,15 @@ TEST_F(BadInput, TrialOfNoWholeNumberOfSteps) {
   expect_complaint({"trial", champion, "--seconds", "1.0001"}, ExitCode::bad_input,
                    "whole number of timesteps");
   expect_complaint({"trial", champion, "--seconds", "-1"}, ExitCode::bad_input, "--seconds");
+}
+
+TEST_F(BadInput, GaitOfWhatHasNone) {
+  expect_complaint({"gait", scratch_.path.string()}, ExitCode::bad_input, "not a run folder");
+  expect_complaint({"gait", scratch_ / "none.rec"}, ExitCode::io, "none.rec");
+  spill(scratch_.path / "walk.rec", "not a recording");
+  expect_complaint({"gait", scratch_ / "walk.rec"}, ExitCode::bad_file, "walk.rec");
+  expect_complaint({"gait", scratch_ / "walk.rec", "--debounce", "9"}, ExitCode::bad_input,
+                   "debounce = 9 s: expected 0 to 1 s");
 }
 
 TEST_F(BadInput, RecordingThatIsNone) {

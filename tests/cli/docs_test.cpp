@@ -9,9 +9,10 @@ namespace {
 
 const std::string source = AMBLE_SOURCE_DIR;
 
-TEST(Docs, SettingsAreTheProgramsOwnTable) {
-  auto table = amble({"settings", source + "/configs/authors/supg-novelty.toml",
-                      source + "/configs/paper/supg-novelty.toml"});
+/// Whether docs/SETTINGS.md holds what `amble settings` prints with these arguments.
+void expect_in_settings_page(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "settings");
+  auto table = amble(arguments);
   ASSERT_EQ(table.exit_code, 0) << table.err;
   for (auto at = table.out.find(source); at != std::string::npos; at = table.out.find(source))
     table.out.erase(at, source.size() + 1);
@@ -19,9 +20,17 @@ TEST(Docs, SettingsAreTheProgramsOwnTable) {
   EXPECT_NE(page.find(table.out), std::string::npos) << "run tools/update-docs";
 }
 
+TEST(Docs, SettingsAreTheProgramsOwnTables) {
+  const std::string authors = source + "/configs/authors/", paper = source + "/configs/paper/";
+  expect_in_settings_page({authors + "supg-novelty.toml", paper + "supg-novelty.toml",
+                           source + "/configs/robust/supg-objective.toml"});
+  expect_in_settings_page({"--differing", authors + "supg-objective.toml", authors + "sine-objective.toml",
+                           authors + "ctrnn-objective.toml"});
+}
+
 TEST(Docs, EveryCommandExplainsItself) {
-  for (const char* command :
-       {"evolve", "resume", "trial", "compare", "info", "robot", "verify", "page", "settings"}) {
+  for (const char* command : {"evolve", "resume", "trial", "compare", "gait", "info", "robot", "verify",
+                              "page", "view", "settings", "substrate"}) {
     const auto help = amble({command, "--help"});
     EXPECT_EQ(help.exit_code, 0) << command;
     EXPECT_NE(help.out.find("Usage"), std::string::npos) << command;

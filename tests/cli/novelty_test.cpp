@@ -51,8 +51,8 @@ TEST(NoveltyRun, GivesTheSameBytesForOneTwoAndFiveWorkers) {
       ASSERT_EQ(run.exit_code, 0) << run.err;
     }
     EXPECT_GT(slurp(scratch.path / "1/archive.bin").size(), 16 + 30 * (100 * 4 + 8)) << "hardly an archive";
-    EXPECT_EQ(results(scratch.path / "1"), results(scratch.path / "2"));
-    EXPECT_EQ(results(scratch.path / "1"), results(scratch.path / "5"));
+    EXPECT_TRUE(results(scratch.path / "1") == results(scratch.path / "2"));
+    EXPECT_TRUE(results(scratch.path / "1") == results(scratch.path / "5"));
   }
 }
 
@@ -74,7 +74,7 @@ TEST(NoveltyRun, GivesTheSameBytesAfterBeingKilledAgainAndAgain) {
   }
   const auto last = amble(arguments);
   ASSERT_EQ(last.exit_code, 0) << last.err;
-  EXPECT_EQ(results(killed), results(scratch.path / "whole"));
+  EXPECT_TRUE(results(killed) == results(scratch.path / "whole"));
 }
 
 TEST(NoveltyRun, GivesTheSameBytesWhateverKernelsAndThreadsTheMatrixProductUses) {
@@ -84,7 +84,7 @@ TEST(NoveltyRun, GivesTheSameBytesWhateverKernelsAndThreadsTheMatrixProductUses)
     const Environment old_cpu("OPENBLAS_CORETYPE", "Prescott"), threads("OPENBLAS_NUM_THREADS", "4");
     ASSERT_EQ(amble(evolve(scratch / "old", 4, 1)).exit_code, 0);
   }
-  EXPECT_EQ(results(scratch.path / "plain"), results(scratch.path / "old"));
+  EXPECT_TRUE(results(scratch.path / "plain") == results(scratch.path / "old"));
 }
 
 TEST(NoveltyRun, TellsOfItsArchive) {

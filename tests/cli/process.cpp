@@ -88,7 +88,7 @@ std::string without_times(const std::string& csv) {
   std::istringstream lines(csv);
   std::string kept;
   for (std::string line; std::getline(lines, line);) {
-    for (int i = 0; i < 3; ++i) line.resize(std::min(line.size(), line.rfind(',')));
+    for (int i = 0; i < 4; ++i) line.resize(std::min(line.size(), line.rfind(',')));
     kept += line + "\n";
   }
   return kept;
@@ -97,7 +97,7 @@ std::string without_times(const std::string& csv) {
 std::string all_champions(const std::filesystem::path& run) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(run / "champions"))
-    files.push_back(entry.path());
+    if (entry.path().extension() == ".json") files.push_back(entry.path());  // no remains of a kill -9
   std::ranges::sort(files);
   std::string all;
   for (const auto& file : files) all += file.filename().string() + "\n" + slurp(file);

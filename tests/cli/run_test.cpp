@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "amble/core/error.hpp"
+#include "amble/io/json_file.hpp"
 #include "tests/cli/process.hpp"
 
 namespace amble::tests {
@@ -128,28 +129,66 @@ TEST(Verify, AgreesOnAnUntouchedRunAndNamesTheStepAfterOneWeightIsAltered) {
       << altered.out;
 }
 
-TEST(Referees, AreShownByInfoTrialAndCompare) {
+TEST(Noise, ChangesATrialOnlyWhereItIsAskedForAndIsVerified) {
+  const ScratchFolder scratch;
+  auto arguments = evolve(scratch / "noisy", 2, 2);
+  arguments[1] = std::string(AMBLE_SOURCE_DIR) + "/configs/robust/supg-objective.toml";
+  ASSERT_EQ(amble(arguments).exit_code, ok);
+  const auto verified = amble({"verify", scratch / "noisy"});
+  EXPECT_EQ(verified.exit_code, ok) << verified.out;
+  EXPECT_NE(verified.out.find("; under noise "), std::string::npos) << verified.out;
+
+  const auto champion =
+      std::filesystem::directory_iterator(scratch.path / "noisy/champions")->path().string();
+  const auto trial = [&](Arguments more) {
+    Arguments all{"trial", champion, "--seconds", "2"};
+    all.insert(all.end(), more.begin(), more.end());
+    const auto run = amble(all);
+    EXPECT_EQ(run.exit_code, ok) << run.err;
+    return run.out;
+  };
+  EXPECT_EQ(trial({}), trial({}));
+  EXPECT_EQ(trial({"--noise", "1"}), trial({"--noise", "1"}));
+  EXPECT_NE(trial({"--noise", "1"}), trial({}));
+  EXPECT_NE(trial({"--noise", "1"}), trial({"--noise", "2"}));
+
+  ASSERT_EQ(amble(evolve(scratch / "quiet", 1, 2)).exit_code, ok);
+  const auto quiet = std::filesystem::directory_iterator(scratch.path / "quiet/champions")->path().string();
+  const auto refused = amble({"trial", quiet, "--noise", "0"});
+  EXPECT_EQ(refused.exit_code, static_cast<int>(ExitCode::bad_input));
+  EXPECT_NE(refused.err.find("was evolved without noise"), std::string::npos) << refused.err;
+}
+
+TEST(Referees, AreShownByInfoTrialAndCompareAndLeaveVerifyAlone) {
   const ScratchFolder scratch;
   auto arguments = evolve(scratch / "run", 2, 2);
-  arguments.insert(arguments.end(), {"--set", "referees=[\"mujoco\"]"});
+  arguments.insert(arguments.end(), {"--set", "engine=batch", "--set", "referees=[\"ode\", \"mujoco\"]"});
   const auto run = amble(arguments);
   ASSERT_EQ(run.exit_code, ok) << run.err;
-  EXPECT_EQ(amble({"verify", scratch / "run"}).exit_code, ok);
-  const auto champion = std::filesystem::directory_iterator(scratch.path / "run/champions")->path().string();
+  const auto verified = amble({"verify", scratch / "run"});
+  EXPECT_EQ(verified.exit_code, ok) << verified.out;
 
+  std::string champion;  // the best, which is the last
+  for (const auto& file : std::filesystem::directory_iterator(scratch.path / "run/champions"))
+    champion = std::max(champion, file.path().string());
   const auto trial = amble({"trial", champion, "--engine", "mujoco"});
-  EXPECT_NE(trial.out.find("engine    mujoco (evolved in ode)\n"), std::string::npos) << trial.out;
-  const auto label = trial.out.find("distance  ");
-  ASSERT_NE(label, std::string::npos);
-  const auto distance = trial.out.substr(label + 10, trial.out.find('\n', label) - label - 10);
+  EXPECT_TRUE(trial.out.starts_with("engine    mujoco (evolved in batch)\n")) << trial.out;
+  const auto label = trial.out.find("distance  ") + 10;
+  const auto distance = trial.out.substr(label, trial.out.find('\n', label) - label);
 
   const auto info = amble({"info", champion});
-  EXPECT_NE(info.out.find("in mujoco   " + distance), std::string::npos) << info.out;
-  const auto table = amble({"compare", champion, "--seconds", "1,2", "--engines", "mujoco"});
+  EXPECT_NE(info.out.find("in mujoco   " + distance + ", "), std::string::npos) << info.out;
+  const auto table = amble({"compare", champion, scratch / "run", "--engines", "mujoco"});
   ASSERT_EQ(table.exit_code, ok) << table.err;
-  EXPECT_EQ(std::count(table.out.begin(), table.out.end(), '\n'), 5) << table.out;
-  EXPECT_NE(table.out.find(distance.substr(0, distance.find(' '))), std::string::npos) << table.out;
-  EXPECT_NE(table.out.find("home"), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("in batch "), std::string::npos)
+      << "the home engine is always there: " << table.out;
+  EXPECT_EQ(table.out.find("in ode"), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("  " + distance + ", "), std::string::npos) << table.out;
+  const auto list = io::Json::parse(amble({"compare", champion, "--seconds", "1,2", "--format", "json"}).out);
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_EQ(list[1]["trial_s"], 2.0);
+  EXPECT_EQ(list[0]["evolved_in"], "batch");
+  EXPECT_EQ(list[0]["results"].size(), 3u);
 }
 
 TEST(Trial, RecordsWhatInfoAndPageCanRead) {
@@ -167,6 +206,26 @@ TEST(Trial, RecordsWhatInfoAndPageCanRead) {
   EXPECT_EQ(page.exit_code, ok) << page.err;
   EXPECT_TRUE(std::filesystem::exists(scratch.path / "figures/footfalls.svg"));
   EXPECT_NE(slurp(scratch.path / "page.html").find("</html>"), std::string::npos);
+}
+
+TEST(Gait, IsTheSameOfARunItsChampionAndARecording) {
+  const ScratchFolder scratch;
+  ASSERT_EQ(amble(evolve(scratch / "run", 4, 2)).exit_code, ok);
+  std::string champion;
+  for (const auto& entry : std::filesystem::directory_iterator(scratch.path / "run/champions"))
+    champion = std::max(champion, entry.path().string());
+  const auto of_run = amble({"gait", scratch / "run", "--seconds", "4", "--json", "-"});
+  ASSERT_EQ(of_run.exit_code, ok) << of_run.err;
+  EXPECT_NE(of_run.out.find("\"format\": \"amble-gait\""), std::string::npos) << of_run.out;
+  EXPECT_EQ(amble({"gait", champion, "--seconds", "4", "--json", "-"}).out, of_run.out);
+
+  const auto table = amble({"gait", champion, "--seconds", "4", "--json", scratch / "gait.json"});
+  EXPECT_EQ(slurp(scratch.path / "gait.json"), of_run.out);
+  const auto trial = amble({"trial", champion, "--seconds", "4", "--record", scratch / "walk.rec"});
+  ASSERT_EQ(trial.exit_code, ok) << trial.err;
+  EXPECT_NE(trial.out.find("\ngait      "), std::string::npos) << trial.out;
+  // A recording keeps the centre of mass in single precision; the table shows no more than that.
+  EXPECT_EQ(amble({"gait", scratch / "walk.rec"}).out, table.out);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "amble/core/random.hpp"
-#include "tests/controllers/quadruped.hpp"
+#include "tests/controllers/supg_substrate.hpp"
 
 namespace amble::controllers {
 namespace {
@@ -40,7 +40,7 @@ struct TimerStory {
 /// Plays a written contact sequence ('#' foot down, '.' foot up) of the front left foot; the others stay
 /// down.
 TimerStory play(const SupgSettings& settings, int offset_ticks, const std::string& contacts) {
-  const SupgArchitecture architecture(settings, quadruped(), timestep_s);
+  const SupgArchitecture architecture(settings, supg_substrate(), quadruped(), timestep_s);
   SupgParameters parameters = numbered_parameters(1);
   parameters.set_offset_ticks(0, offset_ticks);
   const std::unique_ptr<Batch> batch = architecture.make_batch(1);
@@ -156,7 +156,7 @@ TEST(SupgTimer, IgnoresContactChatterWithDebounce) {
 }
 
 TEST(SupgTimer, GivesEachLegItsOwnTimerAndOffset) {
-  const SupgArchitecture architecture(short_settings(), quadruped(), timestep_s);
+  const SupgArchitecture architecture(short_settings(), supg_substrate(), quadruped(), timestep_s);
   SupgParameters parameters = numbered_parameters(1);
   for (int leg = 0; leg < legs; ++leg) parameters.set_offset_ticks(leg, 1 + leg);
   const std::unique_ptr<Batch> batch = architecture.make_batch(1);
@@ -178,7 +178,7 @@ TEST(SupgTimer, GivesEachLegItsOwnTimerAndOffset) {
 }
 
 TEST(SupgBatchDeathTest, RefusesParametersOfAnotherArchitecture) {
-  const SupgArchitecture architecture(short_settings(), quadruped(), timestep_s);
+  const SupgArchitecture architecture(short_settings(), supg_substrate(), quadruped(), timestep_s);
   const std::unique_ptr<Batch> batch = architecture.make_batch(1);
   EXPECT_DEATH(batch->load(0, SupgParameters(legs, types, period + 1)), "another architecture");
   EXPECT_DEATH(batch->load(1, numbered_parameters(1)), "no such lane");

@@ -44,9 +44,7 @@ TEST(SupgSettings, AreTheAuthorsByDefault) {
   io::Json json = io::Json::object();
   settings.describe(*io::json_writer(json));
   EXPECT_EQ(json, io::Json::parse(R"({
-    "period_s": 1.0, "trigger": "edge", "trigger_debounce_ticks": 1, "offset": "phase", "start_tick": 1, "idle": "mid",
-    "layout": {"leg_axis": "x", "leg_coordinates": [-1.0, -0.33, 0.33, 1.0], "leg_divisor": 50.0,
-               "type_coordinates": [-1.0, 0.0, 1.0]}})"));
+    "period_s": 1.0, "trigger": "edge", "trigger_debounce_ticks": 1, "offset": "phase", "start_tick": 1, "idle": "mid"})"));
 }
 
 }  // namespace

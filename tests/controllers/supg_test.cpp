@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "amble/core/error.hpp"
-#include "tests/controllers/quadruped.hpp"
+#include "tests/controllers/supg_substrate.hpp"
 
 namespace amble::controllers {
 namespace {
@@ -33,20 +33,29 @@ const SupgParameters& as_supg(const std::unique_ptr<Parameters>& parameters) {
   return dynamic_cast<const SupgParameters&>(*parameters);
 }
 
-TEST(Supg, NamesTheInputsAndOutputsOfItsCppn) {
-  SupgSettings settings;
-  EXPECT_EQ(SupgArchitecture(settings, quadruped(), timestep_s).input_names(),
-            (std::vector<std::string>{"leg", "joint_type", "time"}));
-  settings.layout.leg_axis = substrate::LegAxis::y;
-  const SupgArchitecture architecture(settings, quadruped(), timestep_s);
-  EXPECT_EQ(architecture.input_names(), (std::vector<std::string>{"joint_type", "leg", "time"}));
-  EXPECT_EQ(architecture.output_names(), (std::vector<std::string>{"pattern", "offset"}));
+TEST(Supg, TakesInputsAndOutputsOfItsCppnFromTheSubstrate) {
+  const SupgArchitecture architecture(SupgSettings(), supg_substrate(), quadruped(), timestep_s);
+  EXPECT_EQ(architecture.layout().input_names(), (std::vector<std::string>{"leg", "joint_type", "time"}));
+  EXPECT_EQ(architecture.layout().output_names(), (std::vector<std::string>{"pattern", "offset"}));
   EXPECT_EQ(architecture.name(), "supg");
+}
+
+TEST(Supg, RefusesASubstrateInWhichALegCouldGetTwoOffsets) {
+  auto substrate = supg_substrate();
+  substrate.properties[1].zero.clear();
+  try {
+    SupgArchitecture(SupgSettings(), substrate, quadruped(), timestep_s);
+    FAIL() << "accepted";
+  } catch (const UserError& error) {
+    EXPECT_STREQ(error.what(),
+                 "controller.substrate.properties: \"FL.knee\" and \"FL.hip_fb\" are SUPGs of leg FL but "
+                 "could get different offsets: name in 'zero' the coordinates that tell them apart");
+  }
 }
 
 TEST(Supg, DecodesAGenomeIntoHandComputedAngles) {
   // pattern = 0.1 + 5 leg + 0.25 type + 0.5 time, with leg −0.02, −0.0066, 0.0066, 0.02 and type −1, 0, 1.
-  const SupgArchitecture architecture(SupgSettings(), quadruped(), timestep_s);
+  const SupgArchitecture architecture(SupgSettings(), supg_substrate(), quadruped(), timestep_s);
   const auto parameters = architecture.decode(linear_cppn({0.1, 5.0, 0.25, 0.5}, {}));
   const SupgParameters& supg = as_supg(parameters);
   ASSERT_EQ(supg.period_ticks(), 100);
@@ -64,7 +73,7 @@ TEST(Supg, DecodesAGenomeIntoHandComputedAngles) {
 }
 
 TEST(Supg, ClampsCommandsToTheStops) {
-  const SupgArchitecture architecture(SupgSettings(), quadruped(), timestep_s);
+  const SupgArchitecture architecture(SupgSettings(), supg_substrate(), quadruped(), timestep_s);
   // pattern = −3 + 6 time: at the lower stop until time = 1/3, at the upper from 2/3 on.
   const auto parameters = architecture.decode(linear_cppn({-3.0, 0.0, 0.0, 6.0}, {}));
   const SupgParameters& supg = as_supg(parameters);
@@ -76,7 +85,7 @@ TEST(Supg, ClampsCommandsToTheStops) {
 }
 
 TEST(Supg, PutsStoppedJointsToMidRange) {
-  const SupgArchitecture architecture(SupgSettings(), quadruped(), timestep_s);
+  const SupgArchitecture architecture(SupgSettings(), supg_substrate(), quadruped(), timestep_s);
   const auto parameters = architecture.decode(linear_cppn({0.7, 0.0, 0.0, 0.0}, {}));
   const float* const front = as_supg(parameters).targets_rad(1, SupgParameters::stopped);
   EXPECT_FLOAT_EQ(front[0], -0.4f);
@@ -88,7 +97,7 @@ TEST(Supg, PutsStoppedJointsToMidRange) {
 TEST(Supg, DecodesOffsetsFromLegAlone) {
   // a = 0.005 + 10 leg: −0.195, −0.061, 0.071, 0.205; ceil((a + 1) 50) is 41, 47, 54, 61. Type and time count
   // as zero.
-  const SupgArchitecture architecture(SupgSettings(), quadruped(), timestep_s);
+  const SupgArchitecture architecture(SupgSettings(), supg_substrate(), quadruped(), timestep_s);
   const auto parameters = architecture.decode(linear_cppn({}, {0.005, 10.0, 7.0, 7.0}));
   for (int leg = 0; leg < 4; ++leg)
     EXPECT_EQ(as_supg(parameters).offset_ticks(leg),
@@ -96,7 +105,7 @@ TEST(Supg, DecodesOffsetsFromLegAlone) {
 }
 
 TEST(Supg, ClampsOffsetsInsideThePeriod) {
-  const SupgArchitecture architecture(SupgSettings(), quadruped(), timestep_s);
+  const SupgArchitecture architecture(SupgSettings(), supg_substrate(), quadruped(), timestep_s);
   EXPECT_EQ(as_supg(architecture.decode(linear_cppn({}, {-1.0, 0, 0, 0}))).offset_ticks(0), 1);
   EXPECT_EQ(as_supg(architecture.decode(linear_cppn({}, {-9.0, 0, 0, 0}))).offset_ticks(0), 1);
   EXPECT_EQ(as_supg(architecture.decode(linear_cppn({}, {-0.97, 0, 0, 0}))).offset_ticks(0), 2);
@@ -108,7 +117,7 @@ TEST(Supg, WritesItsParametersAsJson) {
   SupgSettings settings;
   settings.period_s = 0.04;
   settings.idle = Idle::hold;
-  const SupgArchitecture architecture(settings, quadruped(), timestep_s);
+  const SupgArchitecture architecture(settings, supg_substrate(), quadruped(), timestep_s);
   const auto parameters = architecture.decode(linear_cppn({0.0, 0.0, 0.0, 1.0}, {0.1, 0.0, 0.0, 0.0}));
   const auto json = nlohmann::json::parse(architecture.parameters_json(*parameters));
   EXPECT_EQ(json["kind"], "supg");
@@ -130,7 +139,7 @@ TEST(Supg, WritesItsParametersAsJson) {
 }
 
 TEST(SupgDeathTest, RefusesACppnOfAnotherShape) {
-  const SupgArchitecture architecture(SupgSettings(), quadruped(), timestep_s);
+  const SupgArchitecture architecture(SupgSettings(), supg_substrate(), quadruped(), timestep_s);
   neat::Genome genome;
   for (std::uint32_t id = 0; id < 5; ++id)
     genome.nodes.push_back({id,
@@ -138,14 +147,14 @@ TEST(SupgDeathTest, RefusesACppnOfAnotherShape) {
                             : id < 4 ? NodeKind::input
                                      : NodeKind::output,
                             Activation::linear});
-  EXPECT_DEATH(architecture.decode({genome, {}}), "two outputs");
+  EXPECT_DEATH(architecture.decode({genome, {}}), "another number of outputs");
 }
 
-TEST(Supg, RefusesARobotThatItsLayoutDoesNotFit) {
+TEST(Supg, RefusesARobotThatItsSubstrateDoesNotFit) {
   morphology::RobotSpec robot = quadruped();
   robot.legs.pop_back();
   robot.joints.resize(9);
-  EXPECT_THROW(SupgArchitecture(SupgSettings(), robot, timestep_s), UserError);
+  EXPECT_THROW(SupgArchitecture(SupgSettings(), supg_substrate(), robot, timestep_s), UserError);
 }
 
 }  // namespace

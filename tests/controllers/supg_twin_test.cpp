@@ -5,7 +5,7 @@
 
 #include "amble/controllers/supg.hpp"
 #include "amble/core/random.hpp"
-#include "tests/controllers/quadruped.hpp"
+#include "tests/controllers/supg_substrate.hpp"
 
 namespace amble::controllers {
 namespace {
@@ -73,7 +73,7 @@ class Pair {
  public:
   Pair(const SupgSettings& settings, int lanes, Stream& stream)
       : settings_(settings),
-        architecture_(settings, quadruped(), timestep_s),
+        architecture_(settings, supg_substrate(), quadruped(), timestep_s),
         batch_(architecture_.make_batch(lanes)),
         sensors_{LaneArray(legs * types, lanes), LaneArray(legs, lanes), LaneArray(3, lanes)},
         targets_(legs * types, lanes),
@@ -162,7 +162,7 @@ TEST(SupgBatch, EqualsPlainTimersForAllSwitchesAndLaneCounts) {
 }
 
 TEST(SupgBatch, StepsWithLanesThatWereNeverLoaded) {
-  const SupgArchitecture architecture(SupgSettings(), quadruped(), timestep_s);
+  const SupgArchitecture architecture(SupgSettings(), supg_substrate(), quadruped(), timestep_s);
   const std::unique_ptr<Batch> batch = architecture.make_batch(16);
   const physics::SensorFrame sensors{LaneArray(legs * types, 16), LaneArray(legs, 16), LaneArray(3, 16)};
   LaneArray targets(legs * types, 16);

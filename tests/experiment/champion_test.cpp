@@ -23,8 +23,8 @@ Champion some_champion() {
       .problem = small_problem(),
       .genome = {},
       .result = {.distance_m = 0.1 + 0.2, .steps = 77, .seconds = 0.77, .outcome = record::Outcome::fell},
-      .referees = {{"mujoco", {.distance_m = 0.7, .steps = 100, .seconds = 1.0}}},
-      .trace = {0, 1, 0xffffffffu, 0x1234abcdu}};
+      .trace = {0, 1, 0xffffffffu, 0x1234abcdu},
+      .episodes = {}};
   champion.genome = small_population(champion.problem).genomes()[5];
   return champion;
 }
@@ -51,26 +51,78 @@ TEST(Champion, ReadsBackToTheBit) {
   EXPECT_EQ(again.generation, 12);
   EXPECT_EQ(again.result.distance_m, champion.result.distance_m);
   EXPECT_EQ(again.result.outcome, record::Outcome::fell);
-  ASSERT_EQ(again.referees.size(), 1u);
-  EXPECT_EQ(again.referees[0].engine, "mujoco");
-  EXPECT_EQ(again.referees[0].result.distance_m, 0.7);
-  EXPECT_EQ(again.referees[0].result.outcome, record::Outcome::completed);
   EXPECT_EQ(morphology::to_json(again.problem.robot), morphology::to_json(champion.problem.robot));
   EXPECT_EQ(champion_text(again), text);
 }
 
-TEST(Champion, OfAnEarlierVersionHasNoReferees) {
+/// The same, evolved under noise.
+Champion noisy_champion() {
   auto champion = some_champion();
-  champion.referees.clear();
-  auto text = champion_text(champion);
-  const std::string empty = "  \"referees\": [],\n";
-  const auto at = text.find(empty);
-  ASSERT_NE(at, std::string::npos);
-  text.erase(at, empty.size());
-  const auto [again, altered] = parse_champion(text, "c.json", io::Altered::accept);
-  EXPECT_TRUE(altered) << "what referees say is under the seal";
-  EXPECT_TRUE(again.referees.empty());
-  EXPECT_EQ(again.genome, champion.genome);
+  champion.problem.noise.episodes = 2;
+  champion.problem.noise.push_m_s = 0.2;
+  champion.episodes = {
+      {.result = {.distance_m = 0.5, .steps = 2, .seconds = 0.02, .outcome = record::Outcome::completed},
+       .trace = {5, 6}},
+      {.result = {.distance_m = 0.1, .steps = 1, .seconds = 0.01, .outcome = record::Outcome::diverged},
+       .trace = {7}}};
+  return champion;
+}
+
+TEST(Champion, EvolvedUnderNoiseReadsBackWithItsEpisodes) {
+  const auto champion = noisy_champion();
+  const auto text = champion_text(champion);
+  const auto again = parse_champion(text, "c.json").champion;
+  ASSERT_EQ(again.episodes.size(), 2u);
+  EXPECT_EQ(again.episodes[0].trace, champion.episodes[0].trace);
+  EXPECT_EQ(again.episodes[1].result.outcome, record::Outcome::diverged);
+  EXPECT_EQ(again.problem.noise.push_m_s, 0.2);
+  EXPECT_EQ(champion_text(again), text);
+}
+
+TEST(Champion, CarriesWhatItsRefereesSaidUnderItsSeal) {
+  auto champion = some_champion();
+  champion.referees = {{"ode", {.distance_m = 0.15, .steps = 100, .seconds = 1.0}},
+                       {"mujoco", {.distance_m = 0.7, .steps = 9, .outcome = record::Outcome::diverged}}};
+  const auto text = champion_text(champion);
+  const auto again = parse_champion(text, "c.json").champion;
+  ASSERT_EQ(again.referees.size(), 2u);
+  EXPECT_EQ(again.referees[0].engine, "ode");
+  EXPECT_EQ(again.referees[0].result.distance_m, 0.15);
+  EXPECT_EQ(again.referees[1].result.outcome, record::Outcome::diverged);
+  EXPECT_EQ(champion_text(again), text);
+  const auto document = io::Json::parse(text);
+  EXPECT_EQ(document["referees"][0]["kept"], 0.15 / (0.1 + 0.2));
+
+  auto altered = text;
+  altered.replace(altered.find("0.7,"), 3, "0.8");
+  EXPECT_THAT(complaint(altered), HasSubstr("checksum"));
+}
+
+TEST(Champion, WithoutRefereesSaysNothingOfThem) {
+  EXPECT_EQ(champion_text(some_champion()).find("referees"), std::string::npos);
+}
+
+TEST(Champion, KeepsAShareOfAnyDistanceButNone) {
+  EXPECT_EQ(share_kept(1.5, 3.0), 0.5);
+  EXPECT_EQ(share_kept(1.5, 0.0), std::nullopt);
+}
+
+TEST(Champion, IsJudgedByWhatItsEpisodesMakeOfIt) {
+  auto champion = noisy_champion();
+  EXPECT_EQ(champion.objective_m(), 0.3);
+  champion.problem.noise.score = trial::EpisodeScore::worst;
+  EXPECT_EQ(champion.objective_m(), 0.1);
+  EXPECT_EQ(some_champion().objective_m(), 0.1 + 0.2) << "without noise by its distance";
+}
+
+TEST(Champion, WithoutNoiseSaysNothingOfIt) {
+  EXPECT_EQ(champion_text(some_champion()).find("noise"), std::string::npos);
+}
+
+TEST(Champion, WithoutAnEpisodeThatItsNoiseAsksForIsRefused) {
+  auto champion = noisy_champion();
+  champion.episodes.pop_back();
+  EXPECT_THAT(complaint(champion_text(champion)), HasSubstr("as many as settings.episodes"));
 }
 
 TEST(Champion, IsRefusedAfterAnyChangeOfItsText) {

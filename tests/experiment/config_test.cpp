@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
 #include "tests/experiment/fixture.hpp"
@@ -11,10 +13,13 @@ namespace amble::experiment {
 namespace {
 
 const std::string configs = std::string(AMBLE_SOURCE_DIR) + "/configs/";
+const std::vector<std::string> presets{"authors/supg-objective.toml",  "paper/supg-objective.toml",
+                                       "authors/sine-objective.toml",  "paper/sine-objective.toml",
+                                       "authors/ctrnn-objective.toml", "paper/ctrnn-objective.toml"};
 
 TEST(Config, WrittenInFullReadsBackToTheSameText) {
   const ScratchFolder scratch;
-  for (const char* preset : {"authors/supg-objective.toml", "paper/supg-objective.toml"}) {
+  for (const std::string& preset : presets) {
     const auto config = load_config(configs + preset, {});
     io::write_file(scratch.path / "full.toml", config.to_toml());
     const auto again = load_config(scratch.path / "full.toml", {});
@@ -23,7 +28,7 @@ TEST(Config, WrittenInFullReadsBackToTheSameText) {
 }
 
 TEST(Config, PresetsHaveThePapersNumbers) {
-  for (const char* preset : {"authors/supg-objective.toml", "paper/supg-objective.toml"}) {
+  for (const std::string& preset : presets) {
     const auto config = load_config(configs + preset, {});
     EXPECT_EQ(config.neat.population.size, 300);
     EXPECT_EQ(config.generations, 800);
@@ -63,6 +68,25 @@ TEST(Config, NoveltyPresetsAreWhatTextAndCodeSay) {
   }
 }
 
+TEST(Config, PresetsOfThePaperAreWithoutNoise) {
+  for (const char* preset : {"authors/supg-objective.toml", "paper/supg-objective.toml",
+                             "authors/supg-novelty.toml", "paper/supg-novelty.toml"}) {
+    const auto config = load_config(configs + preset, {});
+    EXPECT_FALSE(config.noise.any()) << preset;
+    EXPECT_EQ(config.noise.episodes, 1) << preset;
+  }
+}
+
+TEST(Config, RobustPresetDiffersFromTheAuthorsInNothingButNoiseAndName) {
+  auto robust = load_config(configs + "robust/supg-objective.toml", {});
+  const auto authors = load_config(configs + "authors/supg-objective.toml", {});
+  EXPECT_TRUE(robust.noise.any());
+  EXPECT_GT(robust.noise.episodes, 1);
+  robust.noise = {};
+  robust.name = authors.name;
+  EXPECT_EQ(robust.to_toml(), authors.to_toml());
+}
+
 TEST(Config, FindsItsRobotBesideTheFileThatNamesIt) {
   const auto config = load_config(configs + "authors/supg-objective.toml", {});
   EXPECT_TRUE(std::filesystem::exists(config.robot)) << config.robot;
@@ -82,17 +106,22 @@ TEST(Config, TakesOverridesInOrderAndBareWordsAsText) {
 TEST(Config, RefereesAreOtherEnginesThanItsOwn) {
   const auto complaint = [](const std::string& assignment) -> std::string {
     try {
-      load_config(configs + "authors/supg-objective.toml", {.assignments = {assignment}});
+      load_config(configs + "authors/supg-objective.toml",
+                  {.assignments = {assignment}, .seed = {}, .generations = {}});
     } catch (const UserError& error) {
       return error.what();
     }
     return "accepted";
   };
-  EXPECT_EQ(complaint("referees=[\"mujoco\"]"), "accepted");
+  EXPECT_EQ(complaint("referees=[\"mujoco\", \"batch\"]"), "accepted");
+  EXPECT_THAT(complaint("engine=newton"),
+              testing::HasSubstr("unknown engine 'newton': expected ode, batch, mujoco"));
   EXPECT_THAT(complaint("referees=[\"newton\"]"),
-              testing::HasSubstr("referees: unknown engine 'newton': expected ode or mujoco"));
-  for (const char* bad : {"referees=[\"ode\"]", "referees=[\"mujoco\", \"mujoco\"]"})
-    EXPECT_THAT(complaint(bad), testing::HasSubstr("is named twice, or is the engine of the run itself"));
+              testing::HasSubstr("referees: unknown engine 'newton': expected ode, batch, mujoco"));
+  EXPECT_THAT(complaint("referees=[\"ode\"]"),
+              testing::HasSubstr("referees: 'ode' is the engine of the run itself"));
+  EXPECT_THAT(complaint("referees=[\"mujoco\", \"mujoco\"]"),
+              testing::HasSubstr("referees: 'mujoco' is named twice"));
 }
 
 TEST(Config, WithoutARobotIsRefusedByName) {
@@ -103,6 +132,22 @@ TEST(Config, WithoutARobotIsRefusedByName) {
     FAIL() << "accepted";
   } catch (const UserError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("c.toml: key 'robot' is missing"));
+  }
+}
+
+TEST(Config, PresetsMakeTheArchitecturesOfThePaper) {
+  // Inputs and outputs of the CPPN: section 3, figures 6 and 7.
+  const std::map<std::string, std::pair<int, int>> sizes{
+      {"supg", {3, 2}}, {"sine", {6, 1}}, {"ctrnn", {8, 4}}};
+  for (const std::string& preset : presets) {
+    const auto config = load_config(configs + preset, {});
+    const auto problem = Problem::make(config, load_robot_file(config.robot));
+    const auto slash = preset.find('/'), dash = preset.find('-');
+    const auto& [inputs, outputs] = sizes.at(preset.substr(slash + 1, dash - slash - 1));
+    EXPECT_EQ(problem.cppn_inputs(), inputs) << preset;
+    EXPECT_EQ(problem.cppn_outputs(), outputs) << preset;
+    EXPECT_EQ(config.controller.ctrnn.state,
+              preset.starts_with("authors") ? controllers::StateRule::cleared : controllers::StateRule::kept);
   }
 }
 

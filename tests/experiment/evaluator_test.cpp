@@ -25,6 +25,52 @@ TEST(Evaluator, GivesWhatOneTrialAfterTheOtherGives) {
   }
 }
 
+TEST(Evaluator, GivesEachGenomeATrialPerScenario) {
+  const auto problem = noisy_problem();
+  const auto population = small_population(problem);
+  const auto scenarios = problem.scenarios(1, 3);
+  ASSERT_EQ(scenarios.size(), 2u);
+  std::vector<GenerationResult> results;
+  for (const int jobs : {1, 3}) {
+    Evaluator evaluator(problem, 0, jobs);
+    results.push_back(evaluator.evaluate(population.genomes(), never, scenarios).value());
+    EXPECT_EQ(results.back().episodes, 2u);
+    ASSERT_EQ(results.back().trajectories.size(), 2 * population.genomes().size());
+  }
+  EXPECT_EQ(results[0].steps, results[1].steps);
+  std::uint64_t steps = 0;
+  for (std::size_t i = 0; i < population.genomes().size(); ++i) {
+    for (std::uint32_t episode = 0; episode < 2; ++episode) {
+      const auto& trajectory = results[0].of_genome(i)[episode];
+      steps += static_cast<std::uint64_t>(trajectory.steps);
+      EXPECT_EQ(score::distance_m(trajectory), score::distance_m(results[1].of_genome(i)[episode]));
+      if (i % 10 != 0) continue;
+      ReplayOptions options;
+      options.noise = trial::ScenarioKey{.seed = 1, .generation = 3, .episode = episode};
+      EXPECT_EQ(score::distance_m(trajectory),
+                replay(problem, population.genomes()[i], options, never)->result.distance_m);
+    }
+  }
+  EXPECT_EQ(results[0].steps, steps) << "of all episodes";
+}
+
+TEST(Evaluator, WorksOnAfterARoundWithNoise) {
+  const auto problem = noisy_problem();
+  const auto population = small_population(problem);
+  Evaluator evaluator(problem, 0, 2);
+  const auto before = evaluator.evaluate(population.genomes(), never);
+  {
+    const auto scenarios = problem.scenarios(1, 0);
+    const std::atomic<bool> stop{true};
+    EXPECT_FALSE(evaluator.evaluate(population.genomes(), stop, scenarios));
+    EXPECT_TRUE(evaluator.evaluate(population.genomes(), never, scenarios));
+  }
+  const auto after = evaluator.evaluate(population.genomes().first(3), never);
+  ASSERT_EQ(after->trajectories.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(score::distance_m(before->trajectories[i]), score::distance_m(after->trajectories[i]));
+}
+
 TEST(Evaluator, RepeatsItselfRoundAfterRound) {
   const auto problem = small_problem();
   const auto population = small_population(problem);

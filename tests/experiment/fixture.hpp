@@ -25,9 +25,25 @@ inline Config small_novelty_config(std::vector<std::string> more = {}) {
   return small_config(std::move(more));
 }
 
-inline Problem small_problem() {
-  const auto config = small_config();
+/// Every kind of noise, and two episodes.
+inline std::vector<std::string> all_noise() {
+  return {"noise.episodes=2",
+          "noise.push_m_s=0.3",
+          "noise.push_interval_s=0.3",
+          "noise.start_joint_rad=0.05",
+          "noise.start_tilt_rad=0.05",
+          "noise.start_height_m=0.02",
+          "noise.touch_flip_probability=0.01",
+          "noise.joint_sensor_rad=0.02",
+          "noise.attitude_sensor_rad=0.02",
+          "noise.latency_ticks=2"};
+}
+
+inline Problem small_problem(const Config& config = small_config()) {
   return Problem::make(config, load_robot_file(config.robot));
+}
+inline Problem noisy_problem() {
+  return small_problem(small_config(all_noise()));
 }
 
 inline neat::Population small_population(const Problem& problem, std::uint64_t seed = 1) {

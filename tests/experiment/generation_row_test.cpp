@@ -61,8 +61,8 @@ TEST(GenerationRow, HasCellsOfNoveltySearchThatAreEmptyForOtherSearches) {
   EXPECT_EQ(cell(csv_line(row), "evaluations"), "77");
 }
 
-TEST(GenerationRow, EndsWithItsThreeTimes) {
-  EXPECT_TRUE(csv_header().ends_with(",wall_s,physics_s,outside_s\n"));
+TEST(GenerationRow, EndsWithItsFourTimes) {
+  EXPECT_TRUE(csv_header().ends_with(",wall_s,physics_s,referees_s,outside_s\n"));
 }
 
 }  // namespace

@@ -30,12 +30,18 @@ class Folder : public testing::Test {
   morphology::RobotSpec robot_ = load_robot_file(config_.robot);
 
   std::string creating() {
-    return complaint([&] { RunFolder::create(folder_, config_, robot_); });
+    return complaint([&] { RunFolder::create(folder_, robot_); });
+  }
+  RunFolder begun() {
+    auto run = RunFolder::create(folder_, robot_);
+    run.note_process(config_, 1, 0);
+    run.save_config(config_);
+    return run;
   }
 };
 
 TEST_F(Folder, NeedsNothingOutsideItself) {
-  RunFolder::create(folder_, config_, robot_);
+  begun();
   const auto moved = scratch_.path / "elsewhere";
   std::filesystem::rename(folder_, moved);
   const auto run = RunFolder::open(moved);
@@ -44,7 +50,7 @@ TEST_F(Folder, NeedsNothingOutsideItself) {
 }
 
 TEST_F(Folder, ThatHoldsARunIsNotTakenAgain) {
-  RunFolder::create(folder_, config_, robot_);
+  begun();
   const auto before = io::read_file(folder_ / "config.toml");
   config_.name = "other";
   EXPECT_THAT(creating(), HasSubstr("holds a run already; go on with it by `amble resume"));
@@ -58,13 +64,41 @@ TEST_F(Folder, ThatHoldsAnythingElseIsLeftAlone) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1);
 }
 
+TEST_F(Folder, WhoseStartWasKilledBeforeItHadAConfigIsTakenAgain) {
+  RunFolder::create(folder_, robot_);
+  io::write_file(folder_ / "checkpoint.bin", "half");
+  io::write_file(folder_ / "config.toml.tmp.4711", "ha");
+  EXPECT_EQ(creating(), "");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "config.toml.tmp.4711"));
+}
+
+TEST_F(Folder, LosesTheTemporaryFilesOfAKilledProcess) {
+  begun();
+  io::write_file(folder_ / "checkpoint.bin.tmp.4711", "ha");
+  io::write_file(folder_ / "champions/00001.json.tmp.4711", "ha");
+  io::write_file(folder_ / "notes.tmp.old", "the user's own");
+  RunFolder::open(folder_);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "checkpoint.bin.tmp.4711"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_ / "champions"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "notes.tmp.old"));
+}
+
+TEST_F(Folder, OfAnotherVersionIsRefusedByThatName) {
+  begun();
+  io::write_file(folder_ / "manifest.json", io::sealed_json("amble-manifest", 1, {{"name", "old"}}));
+  for (const auto& opening :
+       {complaint([&] { RunFolder::open(folder_); }), complaint([&] { find_run(folder_); })})
+    EXPECT_THAT(opening,
+                HasSubstr("manifest.json: version 1 of the file format; this program reads version 2"));
+}
+
 TEST_F(Folder, CannotBeAFile) {
   io::write_file(folder_, "x");
   EXPECT_THAT(creating(), HasSubstr("a file of that name exists"));
 }
 
 TEST_F(Folder, IsHeldByOneAtATime) {
-  const auto held = RunFolder::create(folder_, config_, robot_);
+  const auto held = begun();
   EXPECT_THAT(complaint([&] { RunFolder::open(folder_); }), HasSubstr("in use"));
 }
 
@@ -75,8 +109,7 @@ TEST_F(Folder, ThatIsMissingOrNoRunCannotBeResumed) {
 }
 
 TEST_F(Folder, ManifestGrowsByEachProcess) {
-  const auto run = RunFolder::create(folder_, config_, robot_);
-  run.note_process(config_, 2, 0);
+  const auto run = begun();
   run.note_process(config_, 1, 17);
   const auto manifest = io::Json::parse(io::read_file(folder_ / "manifest.json"));
   ASSERT_EQ(manifest["processes"].size(), 2u);
@@ -85,7 +118,7 @@ TEST_F(Folder, ManifestGrowsByEachProcess) {
 }
 
 TEST_F(Folder, ChampionsAreListedInTheOrderOfTheirGenerations) {
-  const auto run = RunFolder::create(folder_, config_, robot_);
+  const auto run = begun();
   for (const int generation : {100, 2, 30}) io::write_file(run.paths().champion(generation), "{}");
   const auto files = run.paths().champion_files();
   ASSERT_EQ(files.size(), 3u);

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "amble/core/error.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/io/file.hpp"
@@ -24,19 +28,26 @@ std::string archive(const std::filesystem::path& folder) {
   return std::filesystem::exists(path) ? io::read_file(path) : "";
 }
 
-class EachSearch : public testing::TestWithParam<search::Kind> {
+struct Way {
+  std::string name;
+  search::Kind kind = search::Kind::objective;
+  bool noise = false;
+};
+
+class EachWay : public testing::TestWithParam<Way> {
  protected:
   Config config() const {
-    return GetParam() == search::Kind::novelty ? small_novelty_config() : small_config();
+    const auto noise = GetParam().noise ? all_noise() : std::vector<std::string>{};
+    return GetParam().kind == search::Kind::novelty ? small_novelty_config(noise) : small_config(noise);
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Run, EachSearch, testing::Values(search::Kind::objective, search::Kind::novelty),
-                         [](const auto& kind) {
-                           return std::string(search::kind_names[static_cast<std::size_t>(kind.param)]);
-                         });
+INSTANTIATE_TEST_SUITE_P(Run, EachWay,
+                         testing::Values(Way{"objective"}, Way{"novelty", search::Kind::novelty},
+                                         Way{"novelty_under_noise", search::Kind::novelty, true}),
+                         [](const auto& way) { return way.param.name; });
 
-TEST_P(EachSearch, GivesTheSameChampionsAndArchiveForAnyNumberOfWorkers) {
+TEST_P(EachWay, GivesTheSameChampionsAndArchiveForAnyNumberOfWorkers) {
   const ScratchFolder scratch;
   std::string first, first_archive;
   for (const int jobs : {1, 2, 4}) {
@@ -49,7 +60,7 @@ TEST_P(EachSearch, GivesTheSameChampionsAndArchiveForAnyNumberOfWorkers) {
   }
 }
 
-TEST_P(EachSearch, GoesOnAfterAnInterruptionAsIfThereHadBeenNone) {
+TEST_P(EachWay, GoesOnAfterAnInterruptionAsIfThereHadBeenNone) {
   const ScratchFolder scratch;
   Listener whole;
   Run::start(scratch.path / "whole", config(), 2).execute(whole, whole.stop);
@@ -63,15 +74,67 @@ TEST_P(EachSearch, GoesOnAfterAnInterruptionAsIfThereHadBeenNone) {
   EXPECT_EQ(rest.rows.back().best_so_far_m, whole.rows.back().best_so_far_m);
 }
 
-TEST_P(EachSearch, NeverLosesItsBestDistance) {
+TEST_P(EachWay, CanBeResumedBeforeItsFirstGenerationIsDone) {
+  const ScratchFolder scratch;
+  Run::start(scratch.path / "run", config(), 1);
+  Listener listener;
+  EXPECT_EQ(Run::resume(scratch.path / "run", {}, 1).execute(listener, listener.stop), RunStatus::finished);
+  const auto csv = io::read_file(RunPaths(scratch.path / "run").generations);
+  EXPECT_TRUE(csv.starts_with(csv_header()));
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 3);
+}
+
+TEST_P(EachWay, CannotBeMadeShorterThanItIs) {
   const ScratchFolder scratch;
   Listener listener;
-  auto longer = config();
-  longer.generations = 6;
-  Run::start(scratch.path / "run", longer, 2).execute(listener, listener.stop);
-  for (std::size_t i = 1; i < listener.rows.size(); ++i)
-    EXPECT_GE(listener.rows[i].best_m, listener.rows[i - 1].best_m)
-        << "elites are carried over, and trials repeat";
+  Run::start(scratch.path / "run", config(), 2).execute(listener, listener.stop);
+  const auto before = io::read_file(RunPaths(scratch.path / "run").config);
+  try {
+    Run::resume(scratch.path / "run", 1, 2);
+    ADD_FAILURE() << "accepted";
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_input);
+    EXPECT_NE(std::string(error.what()).find("3 generations are done already, --generations 1"),
+              std::string::npos)
+        << error.what();
+  }
+  EXPECT_EQ(io::read_file(RunPaths(scratch.path / "run").config), before);
+}
+
+TEST(Run, NeverLosesItsBestDistanceWithoutNoise) {
+  for (auto config : {small_config(), small_novelty_config()}) {
+    const ScratchFolder scratch;
+    Listener listener;
+    config.generations = 6;
+    Run::start(scratch.path / "run", config, 2).execute(listener, listener.stop);
+    for (std::size_t i = 1; i < listener.rows.size(); ++i)
+      EXPECT_GE(listener.rows[i].best_m, listener.rows[i - 1].best_m)
+          << "elites are carried over, and trials repeat";
+  }
+}
+
+TEST(NoisyRun, CountsGenomesAsEvaluationsAndTheStepsOfAllEpisodes) {
+  const ScratchFolder scratch;
+  Listener listener;
+  auto config = small_config({"noise.episodes=3", "noise.touch_flip_probability=0.001"});
+  config.generations = 1;
+  Run::start(scratch.path / "run", config, 2).execute(listener, listener.stop);
+  EXPECT_EQ(listener.rows[0].evaluations, 40u);
+  EXPECT_GT(listener.rows[0].steps, 2u * 40u * 100u) << "more than two episodes can have";
+}
+
+TEST(NoisyRun, KeepsChampionsByTheirObjectiveUnderNoise) {
+  const ScratchFolder scratch;
+  Listener listener;
+  auto more = all_noise();
+  more.push_back("noise.score=worst");
+  Run::start(scratch.path / "run", small_config(more), 2).execute(listener, listener.stop);
+  const auto champion = load_champion(RunPaths(scratch.path / "run").best_champion());
+  EXPECT_EQ(champion.objective_m(), listener.rows.back().best_so_far_m);
+  EXPECT_EQ(champion.problem.noise.score, trial::EpisodeScore::worst);
+  ASSERT_EQ(champion.episodes.size(), 2u);
+  EXPECT_EQ(champion.objective_m(),
+            std::min(champion.episodes[0].result.distance_m, champion.episodes[1].result.distance_m));
 }
 
 TEST(NoveltyRun, FillsItsArchiveAndReportsIt) {
@@ -117,23 +180,58 @@ TEST(ObjectiveRun, KeepsNoArchiveAndRecordsNoPaths) {
 
 TEST(RefereedRun, TriesEachChampionInTheRefereesAndIsTheSameRunOtherwise) {
   const ScratchFolder scratch;
+  const auto folder = [&](int jobs) { return scratch.path / ("refereed" + std::to_string(jobs)); };
   Listener plain, refereed;
-  Run::start(scratch.path / "plain", small_config(), 1).execute(plain, plain.stop);
-  Run::start(scratch.path / "refereed", small_config({"referees=[\"mujoco\"]"}), 2)
-      .execute(refereed, refereed.stop);
-  const auto files = RunPaths(scratch.path / "refereed").champion_files();
+  Run::start(scratch.path / "plain", small_config({"engine=batch"}), 1).execute(plain, plain.stop);
+  for (const int jobs : {1, 2})
+    Run::start(folder(jobs), small_config({"engine=batch", "referees=[\"mujoco\", \"ode\"]"}), jobs)
+        .execute(refereed, refereed.stop);
+  EXPECT_EQ(champions(folder(1)), champions(folder(2)));
+  EXPECT_GT(refereed.rows.front().referees_s, 0.0);
+  EXPECT_EQ(plain.rows.front().referees_s, 0.0);
+  const auto files = RunPaths(folder(1)).champion_files();
   ASSERT_FALSE(files.empty());
   for (const auto& file : files) {
     const auto champion = load_champion(file);
-    ASSERT_EQ(champion.referees.size(), 1u);
+    ASSERT_EQ(champion.referees.size(), 2u);
+    for (const auto& [engine, result] : champion.referees) {
+      const auto again = replay(champion.problem, champion.genome, {.engine = engine}, refereed.stop);
+      EXPECT_EQ(result.distance_m, again->result.distance_m) << engine;
+      EXPECT_EQ(result.steps, again->result.steps) << engine;
+    }
     EXPECT_EQ(champion.referees[0].engine, "mujoco");
-    const auto again = replay(champion.problem, champion.genome, {.engine = "mujoco"}, refereed.stop);
-    EXPECT_EQ(champion.referees[0].result.distance_m, again->result.distance_m);
-    EXPECT_EQ(champion.referees[0].result.steps, again->result.steps);
     const auto twin = load_champion(scratch.path / "plain/champions" / file.filename());
     EXPECT_TRUE(twin.referees.empty());
     EXPECT_EQ(champion.genome, twin.genome);
     EXPECT_EQ(champion.trace, twin.trace);
+  }
+}
+
+TEST(RefereedRun, IsRefusedBeforeAnythingIsWrittenIfARefereeCannotSimulateTheRobot) {
+  const ScratchFolder scratch;
+  auto robot = load_robot_file(small_config().robot);
+  robot.self_collision = true;
+  io::write_file(scratch.path / "robot.json", robot_file_text(robot));
+  auto config = small_config({"referees=[\"batch\"]"});
+  config.robot = (scratch.path / "robot.json").string();
+  EXPECT_THROW(Run::start(scratch.path / "run", config, 1), UserError);
+  EXPECT_FALSE(std::filesystem::exists(scratch.path / "run"));
+}
+
+TEST(Run, IsNotResumedIntoATableOfOtherColumns) {
+  const ScratchFolder scratch;
+  Listener listener;
+  Run::start(scratch.path / "run", small_config(), 1).execute(listener, listener.stop);
+  const auto table = RunPaths(scratch.path / "run").generations;
+  auto text = io::read_file(table);
+  text.replace(text.find("referees_s"), 10, "something_");
+  io::write_file(table, text);
+  try {
+    Run::resume(scratch.path / "run", 4, 1);
+    ADD_FAILURE() << "accepted";
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.what(),
+              table.string() + ": has other columns: the run was begun by another version of amble");
   }
 }
 

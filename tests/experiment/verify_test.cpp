@@ -38,13 +38,35 @@ class Verify : public testing::Test {
                      .problem = small_problem(),
                      .genome = {},
                      .result = {},
-                     .trace = {}};
+                     .trace = {},
+                     .episodes = {}};
 };
 
 TEST_F(Verify, AgreesWithAnHonestChampion) {
   const auto found = verdict();
   EXPECT_TRUE(found.agrees) << found.text;
   EXPECT_THAT(found.text, StartsWith("agrees: "));
+}
+
+TEST_F(Verify, RunsTheEpisodesOfAChampionAgainUnderTheirNoise) {
+  champion_.problem = noisy_problem();
+  for (std::size_t i = 0; i < 2; ++i) {
+    ReplayOptions options;
+    options.noise = champion_.scenario_key(i);
+    const auto trial = replay(champion_.problem, champion_.genome, options, never);
+    champion_.episodes.push_back({trial->result, trial->trace});
+  }
+  EXPECT_NE(champion_.episodes[0].trace, champion_.trace) << "noise is felt";
+  EXPECT_NE(champion_.episodes[0].trace, champion_.episodes[1].trace);
+  EXPECT_THAT(verdict().text, HasSubstr("; under noise "));
+  EXPECT_TRUE(verdict().agrees);
+
+  champion_.episodes[1].trace[4] ^= 1;
+  EXPECT_EQ(verdict().text, "differs: under noise 1: first differing step 5 (t = 0.05 s)");
+  champion_.episodes[1].trace[4] ^= 1;
+  ++champion_.generation;
+  EXPECT_THAT(verdict().text, StartsWith("differs: under noise 0: first differing step 1 "))
+      << "noise of another generation";
 }
 
 TEST_F(Verify, NamesTheFirstStepThatDiffers) {

@@ -162,9 +162,30 @@ TEST(AppendFile, GrowsAndCutsOffWhatLiesBeyondTheCheckpoint) {
 TEST(AppendFile, RefusesAFileThatLacksWhatTheCheckpointSaw) {
   const test::TemporaryFolder folder;
   const std::string path = folder.put("log", "one\n").string();
-  EXPECT_EQ(error_of(ExitCode::io, [&] { AppendFile(path, 8); }),
+  EXPECT_EQ(error_of(ExitCode::bad_file, [&] { AppendFile(path, 8); }),
             path + ": truncated: it has 4 bytes, 8 were expected");
   EXPECT_EQ(read_file(path), "one\n");
+}
+
+TEST(AppendFile, MakesNoFileWhereTheCheckpointSawOne) {
+  const test::TemporaryFolder folder;
+  const auto path = folder / "log";
+  EXPECT_EQ(error_of(ExitCode::bad_file, [&] { AppendFile(path, 8); }),
+            path.string() + ": missing: 8 bytes were expected");
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(RefuseToReplace, LetsPassWhatIsMissingEmptyOrOfTheSameKind) {
+  const test::TemporaryFolder folder;
+  const auto path = folder / "out.html";
+  refuse_to_replace(path, "<!DOCTYPE", "a page");
+  write_file(path, "");
+  refuse_to_replace(path, "<!DOCTYPE", "a page");
+  write_file(path, "<!DOCTYPE html>");
+  refuse_to_replace(path, "<!DOCTYPE", "a page");
+  write_file(path, "<!DOC");
+  EXPECT_EQ(error_of(ExitCode::bad_input, [&] { refuse_to_replace(path, "<!DOCTYPE", "a page"); }),
+            path.string() + " exists and is not a page: name another file");
 }
 
 TEST(AppendFile, LeavesNoHalfLineWhenThereIsNoRoom) {

@@ -24,7 +24,8 @@ TEST(JsonSettings, WritesEveryFieldInOrder) {
   EXPECT_EQ(
       settings_to_json(Sample{}).dump(),
       R"({"inner":{"rate":0.25,"seed":1},"name":"walker","population":300,"friction":"inf","elitism":true,)"
-      R"("colour":"green","weights":[1.0,-2.5],"legs":["FL","FR"],"outer":{"deep":{"rate":0.25,"seed":1}}})");
+      R"("colour":"green","weights":[1.0,-2.5],"legs":["FL","FR"],"knots":[{"name":"first","at":[1.0,2.0],"length":0.5,"tight":false},)"
+      R"({"name":"second","at":[],"length":0.25,"tight":true}],"outer":{"deep":{"rate":0.25,"seed":1}}})");
 }
 
 TEST(JsonSettings, ReadBackRandomSettingsToTheBit) {
@@ -65,6 +66,17 @@ TEST(JsonSettings, RefuseWrongTypesAndRanges) {
             "c.json: key 'config.weights[1]' must be a number from -10 to 10");
   EXPECT_EQ(refusal([](Json& json) { json["legs"][0] = 11; }), "c.json: key 'config.legs[0]' must be text");
   EXPECT_EQ(refusal([](Json& json) { json = Json::array(); }), "c.json: key 'config' must be an object");
+}
+
+TEST(JsonSettings, NamePlaceOfABadItemOfAList) {
+  EXPECT_EQ(refusal([](Json& json) { json["knots"][1]["length"] = 2.0; }),
+            "c.json: key 'config.knots[1].length' must be a number from 0 to 1");
+  EXPECT_EQ(refusal([](Json& json) { json["knots"][0].erase("at"); }),
+            "c.json: key 'config.knots[0].at' is missing");
+  EXPECT_EQ(refusal([](Json& json) { json["knots"][0]["colour"] = "red"; }),
+            "c.json: key 'config.knots[0].colour' is unknown");
+  EXPECT_EQ(refusal([](Json& json) { json["knots"][0] = 1; }),
+            "c.json: key 'config.knots[0]' must be an object");
 }
 
 }  // namespace

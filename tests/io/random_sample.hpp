@@ -37,6 +37,12 @@ inline Sample random_sample(Stream& stream) {
   for (double& weight : sample.weights) weight = stream.chance(0.2) ? -0.0 : stream.uniform(-10.0, 10.0);
   sample.legs.clear();
   for (std::uint32_t n = stream.below(4); n > 0; --n) sample.legs.push_back(text());
+  sample.knots.resize(stream.below(4));
+  for (auto& knot : sample.knots) {
+    knot = {text(), std::vector<double>(stream.below(3)), stream.chance(0.3) ? 0.5 : stream.uniform(),
+            stream.chance(0.5)};
+    for (double& x : knot.at) x = stream.uniform(-10.0, 10.0);
+  }
   return sample;
 }
 
@@ -55,6 +61,12 @@ inline std::string fingerprint(const Sample& s) {
   result += std::to_string(s.weights.size()) + ",";
   for (const double weight : s.weights) add(&weight, sizeof weight);
   for (const std::string& leg : s.legs) add_text(leg);
+  for (const Knot& knot : s.knots) {
+    add_text(knot.name);
+    result += std::to_string(knot.at.size()) + (knot.tight ? "+" : "-");
+    add(&knot.length, sizeof knot.length);
+    for (const double x : knot.at) add(&x, sizeof x);
+  }
   return result;
 }
 

@@ -24,6 +24,21 @@ struct Inner {
   }
 };
 
+/// An item of a list of tables.
+struct Knot {
+  std::string name;
+  std::vector<double> at;
+  double length = 0.5;
+  bool tight = false;
+
+  void describe(io::SettingsVisitor& visitor) {
+    visitor.text("name", name, {"What it is called."});
+    visitor.numbers("at", at, {-10.0, 10.0}, {"Where it is."});
+    visitor.number("length", length, {0.0, 1.0}, {"Length, m."});
+    visitor.flag("tight", tight, {"Whether it holds."});
+  }
+};
+
 /// Settings with a field of every kind, a scalar after a table, and a table in a table.
 struct Sample {
   Inner inner;
@@ -34,6 +49,7 @@ struct Sample {
   Colour colour = Colour::green;
   std::vector<double> weights{1.0, -2.5};
   std::vector<std::string> legs{"FL", "FR"};
+  std::vector<Knot> knots{{"first", {1.0, 2.0}, 0.5, false}, {"second", {}, 0.25, true}};
   Inner deep;
 
   void describe(io::SettingsVisitor& visitor) {
@@ -46,6 +62,7 @@ struct Sample {
     visitor.choice("colour", colour, colour_names, {"Colour of the torso."});
     visitor.numbers("weights", weights, {-10.0, 10.0}, {"Weights, without unit."});
     visitor.texts("legs", legs, {"Names of the legs."});
+    visitor.tables("knots", knots, {"A list of tables."});
     visitor.begin("outer", {"A table that holds only a table."});
     visitor.table("deep", deep, {"The innermost table."});
     visitor.end();

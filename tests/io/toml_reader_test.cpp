@@ -131,5 +131,36 @@ TEST(TomlReader, AWholeNumberForAnIntStaysWithinAnInt) {
             "x.toml:1: 'value' = 2147483648: expected a whole number from 0 to 2147483647");
 }
 
+TEST(TomlReader, ReadsAListOfTablesAndGivesMissingKeysTheirDefaults) {
+  const Sample sample =
+      sample_from("knots = [\n  { name = 'a', at = [1, 2.5] },\n  { tight = true, length = 1 },\n  {},\n]");
+  ASSERT_EQ(sample.knots.size(), 3u);
+  EXPECT_EQ(sample.knots[0].name, "a");
+  EXPECT_EQ(sample.knots[0].at, (std::vector{1.0, 2.5}));
+  EXPECT_EQ(sample.knots[0].length, 0.5);
+  EXPECT_EQ(sample.knots[1].name, "");
+  EXPECT_EQ(sample.knots[1].length, 1.0);
+  EXPECT_TRUE(sample.knots[1].tight);
+  EXPECT_FALSE(sample.knots[2].tight);
+  EXPECT_TRUE(sample_from("knots = []").knots.empty());
+  EXPECT_EQ(sample_from("[[knots]]\nname = 'b'\n[[knots]]\nname = 'c'").knots[1].name, "c");
+  EXPECT_EQ(sample_from("").knots.size(), Sample().knots.size());
+}
+
+TEST(TomlReader, NamesLineAndPlaceOfABadItem) {
+  EXPECT_EQ(refusal("knots = [\n  { name = 'a' },\n  { at = ['x'] },\n]"),
+            "configs/x.toml:3: 'knots[1].at' = [\"x\"]: expected a list of numbers from -10 to 10");
+  EXPECT_EQ(refusal("knots = [\n  { name = 'a' },\n  { length = 2 },\n]"),
+            "configs/x.toml:3: 'knots[1].length' = 2: expected a number from 0 to 1");
+  EXPECT_EQ(refusal("knots = [\n  { name = 'a' },\n  7,\n]"),
+            "configs/x.toml:3: 'knots[1]' = 7: expected a table in braces");
+  EXPECT_EQ(refusal("knots = 3"), "configs/x.toml:1: 'knots' = 3: expected a list of tables in braces");
+}
+
+TEST(TomlReader, RefusesUnknownKeysInsideItems) {
+  EXPECT_EQ(refusal("knots = [\n  { name = 'a' },\n  { nam = 'b' },\n]"),
+            "configs/x.toml:3: unknown key 'knots[1].nam' (did you mean 'knots[1].name'?)");
+}
+
 }  // namespace
 }  // namespace amble::io

@@ -35,6 +35,12 @@ weights = [1.0, -2.5]
 # Names of the legs.
 # (a list of texts in quotes)
 legs = ["FL", "FR"]
+# A list of tables.
+# (a list of tables in braces)
+knots = [
+  { name = "first", at = [1.0, 2.0] },
+  { name = "second", length = 0.25, tight = true },
+]
 
 # What lies within.
 [inner]

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <vector>
 
 #include "tests/morphology/files.hpp"
 
@@ -27,6 +29,43 @@ TEST(StartPoses, ChainTheBodies) {
   ASSERT_EQ(poses.size(), 3u);
   EXPECT_EQ(poses[0].position_m, (Vec3{0.0, 0.0, 1.0}));
   EXPECT_NEAR(poses[2].position_m.z, 0.5, 1e-15);
+}
+
+TEST(PosesAt, AreTheStartPosesWhenNothingIsTurned) {
+  const Files files;
+  const auto robot = load_one_leg(files);
+  const auto start = start_poses(robot);
+  const auto poses = poses_at(robot, start[0], std::vector<double>(robot.joints.size()));
+  for (std::size_t b = 0; b < poses.size(); ++b)
+    EXPECT_NEAR(norm(poses[b].position_m - start[b].position_m), 0.0, 1e-15);
+}
+
+TEST(PosesAt, TurnABodyAboutTheAnchorOfItsJoint) {
+  RobotSpec robot;
+  robot.bodies.resize(2);
+  robot.bodies[1].parent = 0;
+  robot.bodies[1].position_m = {0.0, 0.0, -1.0};
+  robot.joints.resize(1);
+  robot.joints[0].body = 1;
+  robot.joints[0].axis = {0.0, 1.0, 0.0};
+  robot.joints[0].anchor_m = {0.0, 0.0, 1.0};  // where the root's frame stands
+  const double turned[]{quarter};
+  const auto poses = poses_at(robot, {{5.0, 0.0, 2.0}, {}}, turned);
+  EXPECT_NEAR(norm(poses[1].position_m - Vec3{4.0, 0.0, 2.0}), 0.0, 1e-15) << "down turns to back about +y";
+  EXPECT_NEAR(norm(poses[1] * robot.joints[0].anchor_m - Vec3{5.0, 0.0, 2.0}), 0.0, 1e-15);
+}
+
+TEST(Clearance, IsThatOfTheLowestGeomThatCollides) {
+  RobotSpec robot;
+  robot.bodies.resize(1);
+  const std::vector<Pose> poses{{{0.0, 0.0, 2.0}, {}}};
+  EXPECT_EQ(clearance_m(robot, poses), std::numeric_limits<double>::infinity());
+  robot.geoms.resize(3);
+  for (Geom& geom : robot.geoms) geom.size_m = {0.1, 0.0, 0.0};
+  robot.geoms[1].position_m.z = -0.5;
+  robot.geoms[2].position_m.z = -1.5;
+  robot.geoms[2].collides = false;
+  EXPECT_NEAR(clearance_m(robot, poses), 1.4, 1e-15);
 }
 
 TEST(StartClearance, IsTheHeightOfTheLowestPointOfEachShape) {

@@ -25,11 +25,11 @@ morphology::RobotSpec crushed() {
   return robot;
 }
 
-class Divergence : public EachEngine {};
-INSTANTIATE_TEST_SUITE_P(Engines, Divergence, every_engine, engine_of);
+class Divergence : public OnEachEngine {};
+ON_EACH_ENGINE(Divergence);
 
 TEST_P(Divergence, ATargetThatIsNotANumberEndsTheTrialAndNotTheProcess) {
-  Bench bench(engine_name(), quadruped());
+  Bench bench(GetParam(), quadruped());
   bench.steps(20);
   const std::uint64_t healthy = bench.engine->state_hash(0);
   ASSERT_TRUE(bench.engine->healthy(0));
@@ -47,7 +47,7 @@ TEST_P(Divergence, ATargetThatIsNotANumberEndsTheTrialAndNotTheProcess) {
 }
 
 TEST_P(Divergence, ForcesBeyondAllNumbersEndTheTrialAndNotTheProcess) {
-  Bench bench(engine_name(), crushed());
+  Bench bench(GetParam(), crushed());
   const std::uint64_t start = bench.engine->state_hash(0);
   for (int i = 0; i < 100; ++i) {
     bench.steps(3);
@@ -59,15 +59,15 @@ TEST_P(Divergence, ForcesBeyondAllNumbersEndTheTrialAndNotTheProcess) {
 }
 
 TEST_P(Divergence, OneEnginesFaultLeavesTheOthersAlone) {
-  Bench undisturbed(engine_name(), quadruped());
+  Bench undisturbed(GetParam(), quadruped());
   undisturbed.steps(40);
   std::vector<int> faults(2, 0);
-  Bench bench(engine_name(), quadruped());
+  Bench bench(GetParam(), quadruped());
   {
     std::vector<std::jthread> threads;
     for (int& count : faults) {
       threads.emplace_back([&count] {
-        Bench own(engine_name(), crushed());
+        Bench own(GetParam(), crushed());
         for (int i = 0; i < 20; ++i) {
           own.steps(2);
           count += own.engine->healthy(0) ? 0 : 1;
@@ -84,7 +84,7 @@ TEST_P(Divergence, OneEnginesFaultLeavesTheOthersAlone) {
 TEST_P(Divergence, AbsurdSpeedIsNotHealthy) {
   morphology::RobotSpec robot = lifted(scene("box"), 1e6);
   robot.gravity_m_s2 = {0.0, 0.0, -9.8e3};
-  Bench bench(engine_name(), robot);
+  Bench bench(GetParam(), robot);
   bench.steps(10);  // 980 m/s
   EXPECT_TRUE(bench.engine->healthy(0));
   bench.steps(1);  // 1078 m/s

@@ -8,6 +8,9 @@
 namespace amble::physics {
 namespace {
 
+class Friction : public OnEachEngine {};
+ON_EACH_ENGINE(Friction);
+
 /// The box on a slope of this angle, seen by someone who stands upright on the slope; it falls towards +x.
 morphology::RobotSpec on_slope(double angle_rad, double friction) {
   morphology::RobotSpec robot = scene("box");
@@ -16,14 +19,13 @@ morphology::RobotSpec on_slope(double angle_rad, double friction) {
   return robot;
 }
 
-class Friction : public EachEngine {};
-INSTANTIATE_TEST_SUITE_P(Engines, Friction, every_engine, engine_of);
-
 TEST_P(Friction, TheBoxHoldsUpToTheFrictionAngle) {
+  // A solver that stops after 20 iterations lets it creep by millimetres per second.
+  const double creep_m = single_precision() ? 0.02 : 1e-3;
   for (const double friction : {0.2, 0.5}) {
-    Bench bench(engine_name(), on_slope(std::atan(0.98 * friction), friction));
+    Bench bench(GetParam(), on_slope(std::atan(0.98 * friction), friction));
     bench.steps(300);
-    EXPECT_LT(bench.engine->com_m(0).x, 1e-3) << friction;
+    EXPECT_LT(bench.engine->com_m(0).x, creep_m) << friction;
   }
 }
 
@@ -31,7 +33,7 @@ TEST_P(Friction, BeyondTheFrictionAngleTheBoxSlidesWithTheAccelerationLeft) {
   for (const double friction : {0.2, 0.5}) {
     for (const double steeper : {1.05, 1.5}) {
       const double angle = std::atan(steeper * friction);
-      Bench bench(engine_name(), on_slope(angle, friction), 0.001);
+      Bench bench(GetParam(), on_slope(angle, friction), 0.001);
       bench.steps(100);
       const double before = bench.engine->momentum(0).x;
       bench.steps(900);
@@ -48,22 +50,22 @@ TEST_P(Friction, FrictionIsACoefficientNotAForce) {
   robot.bodies[0].mass_kg *= 10.0;
   robot.bodies[0].inertia_kg_m2 = 10.0 * robot.bodies[0].inertia_kg_m2;
   robot.contact.cfm_s_per_kg *= 0.1;
-  Bench heavy(engine_name(), robot, 0.001);
-  Bench light(engine_name(), on_slope(std::atan(0.6), 0.5), 0.001);
+  Bench heavy(GetParam(), robot, 0.001);
+  Bench light(GetParam(), on_slope(std::atan(0.6), 0.5), 0.001);
   heavy.steps(500);
   light.steps(500);
   EXPECT_NEAR(heavy.engine->com_m(0).x, light.engine->com_m(0).x, 1e-3 * light.engine->com_m(0).x);
 }
 
 TEST_P(Friction, InfiniteFrictionHoldsOnAnySlope) {
-  Bench bench(engine_name(), on_slope(0.7, std::numeric_limits<double>::infinity()));
+  Bench bench(GetParam(), on_slope(0.7, std::numeric_limits<double>::infinity()));
   bench.steps(300);
   EXPECT_LT(std::abs(bench.engine->com_m(0).x), 1e-3);
 }
 
 TEST_P(Friction, ASledComesToRestAfterTheDistanceThatFrictionAllows) {
   const double h = 0.001;
-  Bench bench(engine_name(), scene("sled"), h);
+  Bench bench(GetParam(), scene("sled"), h);
   bench.targets.at(0, 0) = bench.targets.at(1, 0) = 1.6f;
   const auto speed = [&] { return bench.engine->momentum(0).x / 3.0; };
 

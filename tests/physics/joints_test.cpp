@@ -10,6 +10,11 @@
 namespace amble::physics {
 namespace {
 
+class Joints : public OnEachEngine {};
+ON_EACH_ENGINE(Joints);
+class SelfCollision : public OnEachEngine {};
+ON_EACH_REFEREE(SelfCollision);
+
 std::vector<double> angles(const Bench& bench) {
   std::vector<double> values;
   for (int j = 0; j < static_cast<int>(bench.robot.joints.size()); ++j) values.push_back(bench.angle(j));
@@ -23,16 +28,13 @@ Vec3 foot_position(const Bench& bench, int leg) {
   return kinematics(bench.robot, {}, angles(bench))[static_cast<std::size_t>(foot.body)] * foot.position_m;
 }
 
-class Joints : public EachEngine {};
-INSTANTIATE_TEST_SUITE_P(Engines, Joints, every_engine, engine_of);
-
 TEST_P(Joints, MeasuredAnglesPutTheBodiesWhereTheyAre) {
   // The whole robot's centre of mass, from ODE's bodies, against forward kinematics from root pose and joint
   // angles. A flipped sign, a wrong axis or a wrong order of the hip's two axes moves it by centimetres.
   for (const char* variant : {"authors", "paper"}) {
     morphology::RobotSpec robot = weightless(quadruped(variant));
     robot.contact.cfm_s_per_kg = 1e-9;  // stiff joints
-    Bench bench(engine_name(), robot);
+    Bench bench(GetParam(), robot);
     Stream stream(11, Purpose::test);
     for (int n = 0; n < 1000; ++n) {
       if (n % 100 == 0) {
@@ -67,7 +69,7 @@ TEST_P(Joints, SignsAreThoseOfTheConventions) {
                                   {1, -0.5f, {1.0, 0.0, 0.0}},
                                   {2, 0.4f, {0.0, outward, 0.0}}};
     for (const Case& one : cases) {
-      Bench bench(engine_name(), weightless(quadruped()));
+      Bench bench(GetParam(), weightless(quadruped()));
       const Vec3 before = foot_position(bench, leg);
       const Vec3 root_before = bench.engine->root_pose(0).position_m;
       bench.targets.at(3 * leg + one.type, 0) = one.target;
@@ -87,7 +89,7 @@ TEST_P(Joints, APendulumSwingsWithItsPeriod) {
   const double expected =
       2 * std::numbers::pi * std::sqrt(0.28 / (9.8 * 0.5)) * (1 + 0.04 / 16 + 11 * 0.0016 / 3072);
   const double h = 0.001;
-  Bench bench(engine_name(), scene("pendulum"), h);
+  Bench bench(GetParam(), scene("pendulum"), h);
   std::vector<double> crossings;
   double before = 0.0;
   for (int n = 1; n <= 8000; ++n) {
@@ -105,7 +107,7 @@ TEST_P(Joints, APendulumSwingsWithItsPeriod) {
 TEST_P(Joints, StopsHold) {
   morphology::RobotSpec robot = scene("pendulum");
   robot.joints[0].lower_rad = -0.1;
-  Bench bench(engine_name(), robot);
+  Bench bench(GetParam(), robot);
   double lowest = 0.0;
   for (int n = 0; n < 500; ++n) {
     bench.steps(1);
@@ -115,12 +117,12 @@ TEST_P(Joints, StopsHold) {
   EXPECT_NEAR(bench.angle(0), -0.1, 1e-4);  // and comes to rest there, against its weight
 }
 
-TEST_P(Joints, LegsPassThroughEachOtherUnlessSelfCollisionIsOn) {
+TEST_P(SelfCollision, LetsLegsPassThroughEachOtherUnlessItIsOn) {
   // Left front leg back, left hind leg forward: their feet would cross.
-  const auto meeting = [](bool self_collision) {
+  const auto meeting = [&](bool self_collision) {
     morphology::RobotSpec robot = weightless(quadruped());
     robot.self_collision = self_collision;
-    Bench bench(engine_name(), robot);
+    Bench bench(GetParam(), robot);
     bench.targets.at(1, 0) = 0.8f;
     bench.targets.at(7, 0) = -0.8f;
     bench.steps(300);
@@ -131,11 +133,11 @@ TEST_P(Joints, LegsPassThroughEachOtherUnlessSelfCollisionIsOn) {
   EXPECT_LT(meeting(true), 1.3);
 }
 
-TEST_P(Joints, SelfCollisionLeavesStandingAlone) {
+TEST_P(SelfCollision, LeavesStandingAlone) {
   morphology::RobotSpec robot = quadruped();
   robot.self_collision = true;
-  Bench with(engine_name(), robot);
-  Bench without(engine_name(), quadruped());
+  Bench with(GetParam(), robot);
+  Bench without(GetParam(), quadruped());
   with.steps(100);
   without.steps(100);
   EXPECT_EQ(with.engine->state_hash(0), without.engine->state_hash(0));

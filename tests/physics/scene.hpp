@@ -4,7 +4,6 @@
 
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "amble/core/lanes.hpp"
@@ -41,10 +40,13 @@ struct Bench {
   LaneArray targets;
   double timestep_s;
 
-  Bench(std::string_view name, morphology::RobotSpec spec, double h = 0.01)
+  explicit Bench(morphology::RobotSpec spec, double h = 0.01, bool torques = false)
+      : Bench("ode", std::move(spec), h, torques) {}
+  /// The robot stands in lane 0, alone.
+  Bench(const std::string& name, morphology::RobotSpec spec, double h = 0.01, bool torques = false)
       : robot(std::move(spec)),
-        engine(make_engine(name, robot, {.timestep_s = h})),
-        targets(static_cast<int>(robot.joints.size()), 1),
+        engine(make_engine(name, robot, {.timestep_s = h, .torques = torques})),
+        targets(static_cast<int>(robot.joints.size()), engine->lanes()),
         timestep_s(h) {
     engine->place(0);
   }
@@ -58,17 +60,19 @@ struct Bench {
   bool touches(int leg) const { return engine->sensors().touch.at(leg, 0) == 1.0f; }
 };
 
-/// Tests that every engine must pass.
-class EachEngine : public testing::TestWithParam<std::string_view> {
+/// A claim about every engine.
+class OnEachEngine : public testing::TestWithParam<const char*> {
  protected:
-  static std::string_view engine_name() { return GetParam(); }
+  bool single_precision() const { return std::string(GetParam()) == "batch"; }
+  /// Joint angles and their speeds as coordinates keep the robot's momentum to first order in the time step.
+  bool drifting() const { return std::string(GetParam()) == "mujoco"; }
 };
-
-inline const auto every_engine = testing::ValuesIn(engine_names);
-
-inline std::string engine_of(const testing::TestParamInfo<std::string_view>& info) {
-  return std::string(info.param);
-}
+#define ON_ENGINES(suite, ...)                                           \
+  INSTANTIATE_TEST_SUITE_P(Physics, suite, testing::Values(__VA_ARGS__), \
+                           [](const auto& engine) { return std::string(engine.param); })
+#define ON_EACH_ENGINE(suite) ON_ENGINES(suite, "ode", "batch", "mujoco")
+/// Those that step one robot at a time, in double precision.
+#define ON_EACH_REFEREE(suite) ON_ENGINES(suite, "ode", "mujoco")
 
 /// Forward kinematics: where all bodies are for a pose of the root and joint angles. Independent of any
 /// engine.

@@ -7,6 +7,13 @@
 namespace amble::physics {
 namespace {
 
+class VelocityServo : public OnEachEngine {};
+ON_EACH_ENGINE(VelocityServo);
+class TorqueServo : public OnEachEngine {};
+ON_EACH_ENGINE(TorqueServo);
+class Servo : public OnEachEngine {};
+ON_EACH_ENGINE(Servo);
+
 /// Moment of inertia of the pendulum about its hinge: 0.03 about its centre, 1 kg at 0.5 m.
 constexpr double inertia = 0.28;
 
@@ -16,17 +23,10 @@ morphology::RobotSpec arm(const morphology::Servo& servo) {
   return robot;
 }
 
-class VelocityServo : public EachEngine {};
-INSTANTIATE_TEST_SUITE_P(Engines, VelocityServo, every_engine, engine_of);
-class TorqueServo : public EachEngine {};
-INSTANTIATE_TEST_SUITE_P(Engines, TorqueServo, every_engine, engine_of);
-class Servo : public EachEngine {};
-INSTANTIATE_TEST_SUITE_P(Engines, Servo, every_engine, engine_of);
-
 TEST_P(VelocityServo, ApproachesItsTargetAtFirstOrder) {
   // Speed = gain × (target − angle), held for a step: the rest shrinks by (1 − gain h) per step.
   for (const double h : {0.01, 0.001}) {
-    Bench bench(engine_name(),
+    Bench bench(GetParam(),
                 arm({.mode = morphology::ServoMode::velocity, .gain_per_s = 9.0, .max_torque_nm = 1e4}), h);
     bench.targets.at(0, 0) = 0.5f;
     for (int n = 1; n <= 100; ++n) {
@@ -37,7 +37,7 @@ TEST_P(VelocityServo, ApproachesItsTargetAtFirstOrder) {
 }
 
 TEST_P(VelocityServo, PushesNoHarderThanItsLimit) {
-  Bench bench(engine_name(),
+  Bench bench(GetParam(),
               arm({.mode = morphology::ServoMode::velocity, .gain_per_s = 9.0, .max_torque_nm = 0.4}), 0.001);
   bench.targets.at(0, 0) = 2.5f;
   bench.steps(500);
@@ -47,7 +47,7 @@ TEST_P(VelocityServo, PushesNoHarderThanItsLimit) {
 
 TEST_P(VelocityServo, TurnsBothWays) {
   for (const float target : {-0.7f, 0.7f}) {
-    Bench bench(engine_name(),
+    Bench bench(GetParam(),
                 arm({.mode = morphology::ServoMode::velocity, .gain_per_s = 9.0, .max_torque_nm = 50.0}));
     bench.targets.at(0, 0) = target;
     bench.steps(300);
@@ -58,7 +58,7 @@ TEST_P(VelocityServo, TurnsBothWays) {
 TEST_P(TorqueServo, SwingsAsADampedOscillator) {
   // I a'' + kd a' + kp (a − target) = 0 from rest.
   const double kp = 20.0, kd = 1.2, target = 0.4, h = 0.0005;
-  Bench bench(engine_name(),
+  Bench bench(GetParam(),
               arm({.mode = morphology::ServoMode::torque,
                    .max_torque_nm = 1e4,
                    .kp_nm_per_rad = kp,
@@ -77,7 +77,7 @@ TEST_P(TorqueServo, SwingsAsADampedOscillator) {
 }
 
 TEST_P(TorqueServo, ClampsItsTorque) {
-  Bench bench(engine_name(),
+  Bench bench(GetParam(),
               arm({.mode = morphology::ServoMode::torque, .max_torque_nm = 0.4, .kp_nm_per_rad = 1000.0}),
               0.001);
   for (const double sign : {1.0, -1.0}) {
@@ -97,7 +97,7 @@ TEST_P(TorqueServo, MovesAUniversalJointAsTheVelocityServoDoes) {
                    .kp_nm_per_rad = 5.0,
                    .kd_nm_s_per_rad = 0.5};
   }
-  Bench bench(engine_name(), robot, 0.002);
+  Bench bench(GetParam(), robot, 0.002);
   for (int leg = 0; leg < 4; ++leg) {
     bench.targets.at(3 * leg, 0) = leg < 2 ? -0.5f : 0.4f;
     bench.targets.at(3 * leg + 1, 0) = leg % 2 == 0 ? 0.3f : -0.6f;
@@ -114,7 +114,7 @@ TEST_P(Servo, FeelsTheInertiaOfTurnedPrincipalAxes) {
   morphology::RobotSpec robot =
       arm({.mode = morphology::ServoMode::torque, .max_torque_nm = 0.4, .kp_nm_per_rad = 1000.0});
   robot.bodies[1].inertia_rotation = axis_angle({1.0, 0.0, 0.0}, std::acos(0.0));
-  Bench bench(engine_name(), robot, 0.001);
+  Bench bench(GetParam(), robot, 0.001);
   bench.targets.at(0, 0) = 2.5f;
   bench.steps(500);
   const double expected = 0.5 * (0.4 / 0.26) * 0.5 * 0.501;
@@ -123,7 +123,7 @@ TEST_P(Servo, FeelsTheInertiaOfTurnedPrincipalAxes) {
 
 TEST_P(Servo, ClampsTargetsToTheStops) {
   for (const float target : {1e30f, -1e30f, std::numeric_limits<float>::infinity()}) {
-    Bench bench(engine_name(),
+    Bench bench(GetParam(),
                 arm({.mode = morphology::ServoMode::velocity, .gain_per_s = 9.0, .max_torque_nm = 50.0}));
     bench.targets.at(0, 0) = target;
     bench.steps(300);

@@ -13,5 +13,9 @@ TEST(StandardColumns, StandInTheDocumentedOrder) {
                                    "target.FL.knee", "target.FL.hip", "touch.FL"));
 }
 
+TEST(TorqueColumns, AreOnePerJoint) {
+  EXPECT_THAT(torque_columns({"FL.knee", "FL.hip"}), testing::ElementsAre("torque.FL.knee", "torque.FL.hip"));
+}
+
 }  // namespace
 }  // namespace amble::record

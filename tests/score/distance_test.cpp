@@ -12,5 +12,14 @@ TEST(Distance, CountsTheHorizontalShiftInAnyDirectionAndNoHeight) {
   EXPECT_DOUBLE_EQ(distance_m(trajectory), 5.0);
 }
 
+TEST(Distance, IsNothingWhereTheSimulationBrokeDown) {
+  record::Trajectory trajectory;
+  trajectory.com_end_m = {60.0, 0.0, 0.3};
+  trajectory.outcome = record::Outcome::diverged;
+  EXPECT_EQ(distance_m(trajectory), 0.0);
+  trajectory.outcome = record::Outcome::fell;
+  EXPECT_EQ(distance_m(trajectory), 60.0);
+}
+
 }  // namespace
 }  // namespace amble::score

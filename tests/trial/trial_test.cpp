@@ -2,110 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <vector>
 
+#include "tests/trial/fakes.hpp"
+
 namespace amble::trial {
 namespace {
-
-/// A point that moves along x by its target each step, and sinks by 1 mm each step; a target of NaN makes it
-/// unhealthy.
-class FakeEngine : public physics::Engine {
- public:
-  explicit FakeEngine(int lanes) : states_(static_cast<std::size_t>(lanes)) {
-    frame_.joint_angle_rad = LaneArray(1, lanes);
-    frame_.touch = LaneArray(1, lanes);
-    frame_.attitude_rad = LaneArray(3, lanes);
-  }
-  int lanes() const override { return static_cast<int>(states_.size()); }
-  void place(int lane) override { state(lane) = {.placed = true, .position = {0, 0, 1.0}}; }
-  void retire(int lane) override { state(lane).placed = false; }
-  void step(const LaneArray& targets_rad) override {
-    ++steps;
-    for (int lane = 0; lane < lanes(); ++lane) {
-      if (!state(lane).placed) continue;
-      ++moved;
-      state(lane).position.x += targets_rad.at(0, lane);
-      state(lane).position.z -= 0.001;
-    }
-  }
-  bool healthy(int lane) const override { return std::isfinite(state(lane).position.x); }
-  const physics::SensorFrame& sensors() const override { return frame_; }
-  physics::RootPose root_pose(int lane) const override { return {state(lane).position, {}}; }
-  Vec3 root_com_m(int lane) const override { return state(lane).position; }
-  Vec3 com_m(int lane) const override { return state(lane).position; }
-  Vec3 momentum(int) const override { return {}; }
-  std::uint64_t state_hash(int lane) const override {
-    return static_cast<std::uint64_t>(state(lane).position.x * 1e6);
-  }
-
-  int steps = 0;
-  int moved = 0;
-
- private:
-  struct State {
-    bool placed = false;
-    Vec3 position;
-  };
-  State& state(int lane) { return states_[static_cast<std::size_t>(lane)]; }
-  const State& state(int lane) const { return states_[static_cast<std::size_t>(lane)]; }
-  std::vector<State> states_;
-  physics::SensorFrame frame_;
-};
-
-/// Always the same target; not a number after `bad_after` ticks.
-struct FakeParameters : controllers::Parameters {
-  explicit FakeParameters(float target, int bad_after = std::numeric_limits<int>::max())
-      : target_rad(target), bad_after_ticks(bad_after) {}
-  float target_rad;
-  int bad_after_ticks;
-};
-
-class FakeBatch : public controllers::Batch {
- public:
-  explicit FakeBatch(int lanes) : loaded_(static_cast<std::size_t>(lanes)), ticks_(loaded_.size()) {}
-  int lanes() const override { return static_cast<int>(loaded_.size()); }
-  void load(int lane, const controllers::Parameters& parameters) override {
-    loaded_[static_cast<std::size_t>(lane)] = &dynamic_cast<const FakeParameters&>(parameters);
-    ticks_[static_cast<std::size_t>(lane)] = 0;
-  }
-  void step(const physics::SensorFrame&, LaneArray& targets_rad) override {
-    for (std::size_t lane = 0; lane < loaded_.size(); ++lane) {
-      if (!loaded_[lane]) continue;
-      const bool bad = ++ticks_[lane] > loaded_[lane]->bad_after_ticks;
-      targets_rad.at(0, static_cast<int>(lane)) =
-          bad ? std::numeric_limits<float>::quiet_NaN() : loaded_[lane]->target_rad;
-    }
-  }
-  std::vector<std::string> state_names() const override { return {}; }
-  void state(int, std::span<float>) const override {}
-
- private:
-  std::vector<const FakeParameters*> loaded_;
-  std::vector<int> ticks_;
-};
-
-class Queue : public TaskQueue {
- public:
-  explicit Queue(std::vector<FakeParameters> tasks) : tasks_(std::move(tasks)), results(tasks_.size()) {}
-  std::optional<Task> next() override {
-    if (next_ == tasks_.size()) return std::nullopt;
-    const std::size_t index = next_++;
-    return Task{index, std::make_unique<FakeParameters>(tasks_[index]), nullptr};
-  }
-  void done(std::size_t index, record::Trajectory trajectory) override {
-    results[index] = std::move(trajectory);
-  }
-
- private:
-  std::vector<FakeParameters> tasks_;
-  std::size_t next_ = 0;
-
- public:
-  std::vector<std::optional<record::Trajectory>> results;
-};
 
 const std::atomic<bool> never{false};
 
@@ -181,6 +84,71 @@ TEST(Runner, GivesEveryTrialTheSameResultForAnyNumberOfLanes) {
     for (const auto& result : queue.results) ends.back().push_back(result.value().com_end_m.x);
   }
   for (const auto& other : ends) EXPECT_EQ(other, ends.front());
+}
+
+/// A start, a push and a latency.
+Scenario some_scenario() {
+  Scenario scenario;
+  scenario.start = physics::StartPose{.root = {{7.0, 0.0, 2.0}, {}}, .joint_angle_rad = {0.0}};
+  scenario.pushes = {{.step = 3, .impulse_n_s = {100.0, 0.0, 0.0}}};
+  scenario.joint_sensor_rad = {0.0f};
+  scenario.attitude_sensor_rad = {0.0f, 0.0f, 0.0f};
+  scenario.latency_ticks = 2;
+  return scenario;
+}
+
+TEST(Runner, LetsAScenarioActOnItsTrial) {
+  FakeEngine engine(1);
+  FakeBatch batch(1);
+  const auto scenario = some_scenario();
+  Queue queue({FakeParameters(1.0f)}, &scenario);
+  Runner(engine, batch, protocol(10, 0.0, 1)).run(queue, never);
+  const auto& trajectory = queue.results[0].value();
+  EXPECT_EQ(trajectory.com_start_m, (Vec3{7.0, 0.0, 2.0}));
+  EXPECT_DOUBLE_EQ(trajectory.com_end_m.x, 7.0 + 8.0 + 100.0) << "the targets of 10 steps, two of them late";
+  EXPECT_EQ(trajectory.com_path_m[2], 0.0f) << "before the push and the first target";
+  EXPECT_EQ(trajectory.com_path_m[4], 101.0f) << "both in step 3";
+}
+
+TEST(Runner, GivesEveryDisturbedTrialTheSameResultForAnyNumberOfLanes) {
+  const auto scenario = some_scenario();
+  std::vector<FakeParameters> tasks;
+  for (int i = 0; i < 37; ++i) tasks.emplace_back(0.125f * static_cast<float>(i), 1 + (i * 7) % 19);
+  std::vector<std::vector<double>> ends;
+  for (const int lanes : {1, 2, 8, 64}) {
+    FakeEngine engine(lanes);
+    FakeBatch batch(lanes);
+    Queue queue(tasks, &scenario);
+    Runner(engine, batch, protocol(12)).run(queue, never);
+    ends.emplace_back();
+    for (const auto& result : queue.results) ends.back().push_back(result.value().com_end_m.x);
+  }
+  for (const auto& other : ends) EXPECT_EQ(other, ends.front());
+}
+
+TEST(Runner, ForgetsTheScenarioOfATrialWhenTheNextHasNone) {
+  FakeEngine engine(1);
+  FakeBatch batch(1);
+  Runner runner(engine, batch, protocol(5));
+  const auto scenario = some_scenario();
+  Queue disturbed({FakeParameters(1.0f)}, &scenario), undisturbed({FakeParameters(1.0f)});
+  runner.run(disturbed, never);
+  runner.run(undisturbed, never);
+  EXPECT_DOUBLE_EQ(undisturbed.results[0]->com_end_m.x, 5.0);
+  EXPECT_EQ(runner.steps_simulated(), 10u);
+}
+
+TEST(Runner, StartsAfreshAfterItWasStopped) {
+  FakeEngine engine(2);
+  FakeBatch batch(2);
+  Runner runner(engine, batch, protocol(5));
+  Queue dropped({FakeParameters(1.0f), FakeParameters(1.0f)});
+  const std::atomic<bool> stop{true};
+  runner.run(dropped, stop);
+  Queue queue({FakeParameters(1.0f)});
+  runner.run(queue, never);
+  EXPECT_DOUBLE_EQ(queue.results[0]->com_end_m.x, 5.0);
+  EXPECT_FALSE(dropped.results[0]);
 }
 
 TEST(Runner, DoesNothingWithAnEmptyQueue) {

@@ -59,24 +59,31 @@ class MujocoEngine final : public Engine {
       : robot_(robot),
         model_(mujoco::make_model(robot, settings.timestep_s)),
         data_(new_data(model_.get())),
-        slip_(robot.contact.friction, settings.timestep_s) {
+        slip_(robot.contact.friction, settings.timestep_s),
+        with_torques_(settings.torques) {
     sensors_.joint_angle_rad = LaneArray(static_cast<int>(robot.joints.size()), 1);
     sensors_.touch = LaneArray(static_cast<int>(robot.legs.size()), 1);
     sensors_.attitude_rad = LaneArray(3, 1);
+    if (with_torques_) torques_nm_ = LaneArray(static_cast<int>(robot.joints.size()), 1);
   }
 
   int lanes() const override { return 1; }
 
   void place(int lane) override {
-    check_lane(lane);
-    mj_resetData(model_.get(), data_.get());
-    // MuJoCo reports the first warning of each kind into a log file in the current folder.
-    for (mjWarningStat& warning : data_->warning) warning.number = 1;
-    stepping_ = true;
-    healthy_ = true;
-    mj_fwdPosition(model_.get(), data_.get());
-    feel();
-    read_state();
+    reset(lane);
+    begin();
+  }
+
+  void place_at(int lane, const StartPose& pose) override {
+    reset(lane);
+    AMBLE_CHECK(pose.joint_angle_rad.size() == robot_.joints.size(), "one angle per joint");
+    const auto& [position_m, rotation] = pose.root;
+    const mjtNum root[] = {position_m.x, position_m.y, position_m.z, rotation.w,
+                           rotation.x,   rotation.y,   rotation.z};
+    std::ranges::copy(root, data_->qpos);
+    for (std::size_t j = 0; j < pose.joint_angle_rad.size(); ++j)
+      data_->qpos[model_.position_of[j]] = pose.joint_angle_rad[j];
+    begin();
   }
 
   void retire(int lane) override {
@@ -97,8 +104,20 @@ class MujocoEngine final : public Engine {
     drive(targets_rad);
     mj_fwdAcceleration(model_.get(), data_.get());
     slip_.solve(model_.get(), data_.get());
+    if (with_torques_) measure_torques();
     mj_Euler(model_.get(), data_.get());
+    mju_zero3(data_->xfrc_applied + 6 * root_body);
     read_state();
+  }
+
+  bool takes_disturbances() const override { return true; }
+  void push(int lane, Vec3 impulse_n_s) override {
+    check_lane(lane);
+    AMBLE_CHECK(stepping_, "only a placed robot can be pushed");
+    // Acts on the body's centre of mass.
+    mjtNum* const force_n = data_->xfrc_applied + 6 * root_body;
+    const mjtNum impulse[] = {impulse_n_s.x, impulse_n_s.y, impulse_n_s.z};
+    mju_addToScl3(force_n, impulse, 1.0 / model_->opt.timestep);
   }
 
   bool healthy(int lane) const override {
@@ -107,6 +126,8 @@ class MujocoEngine final : public Engine {
   }
 
   const SensorFrame& sensors() const override { return sensors_; }
+
+  const LaneArray* motor_torque_nm() const override { return with_torques_ ? &torques_nm_ : nullptr; }
 
   RootPose root_pose(int lane) const override {
     check_lane(lane);
@@ -140,6 +161,22 @@ class MujocoEngine final : public Engine {
  private:
   void check_lane(int lane) const { AMBLE_CHECK(lane == 0, "the mujoco engine has one lane"); }
 
+  void reset(int lane) {
+    check_lane(lane);
+    mj_resetData(model_.get(), data_.get());
+    // MuJoCo reports the first warning of each kind into a log file in the current folder.
+    for (mjWarningStat& warning : data_->warning) warning.number = 1;
+    torques_nm_.set_lane(0, 0.0f);
+  }
+
+  void begin() {
+    stepping_ = true;
+    healthy_ = true;
+    mj_fwdPosition(model_.get(), data_.get());
+    feel();
+    read_state();
+  }
+
   /// Reads which feet touch the ground.
   void feel() {
     sensors_.touch.set_lane(0, 0.0f);
@@ -163,6 +200,14 @@ class MujocoEngine final : public Engine {
       const double speed_rad_s = robot_.joints[at(j)].servo.gain_per_s * error_rad(j, targets_rad);
       data_->efc_aref[row] += data_->efc_KBIP[4 * row + 1] * speed_rad_s;
     }
+  }
+
+  /// What drive() came to, once the constraints are solved.
+  void measure_torques() {
+    for (int j = 0; j < torques_nm_.rows(); ++j)
+      torques_nm_.at(j, 0) = static_cast<float>(data_->qfrc_applied[model_.dof_of[at(j)]]);
+    for (int row = data_->ne; row < data_->ne + data_->nf; ++row)
+      torques_nm_.at(model_.joint_of[at(data_->efc_id[row])], 0) = static_cast<float>(data_->efc_force[row]);
   }
 
   double error_rad(int j, const LaneArray& targets_rad) const {
@@ -206,7 +251,9 @@ class MujocoEngine final : public Engine {
   const mujoco::Model model_;
   const std::unique_ptr<mjData, DeleteData> data_;
   mujoco::Slip slip_;
+  const bool with_torques_;
   SensorFrame sensors_;
+  LaneArray torques_nm_;
   bool stepping_ = false;
   bool healthy_ = true;
 };

@@ -48,17 +48,37 @@ void Motors::read(LaneArray& angles_rad) {
 }
 
 void Motors::drive(const LaneArray& targets_rad) {
-  const auto target = [&](int j) {
-    return std::clamp(static_cast<double>(targets_rad.at(j, 0)), joints_[at(j)].lower_rad,
-                      joints_[at(j)].upper_rad);
-  };
   for (const Drive& drive : drives_) {
     if (drive.second < 0) {
-      drive_hinge(drive, target(drive.first));
+      drive_hinge(drive, target(drive.first, targets_rad));
     } else {
-      drive_universal(drive, target(drive.first), target(drive.second));
+      drive_universal(drive, target(drive.first, targets_rad), target(drive.second, targets_rad));
     }
   }
+}
+
+std::optional<double> Motors::torque_beforehand(const Drive& drive, int joint,
+                                                const LaneArray& targets_rad) const {
+  const Joint& spec = joints_[at(joint)];
+  const double target_rad = target(joint, targets_rad), angle_rad = angles_rad_[at(joint)];
+  if (spec.servo.mode == ServoMode::torque)
+    return torque_command(joint, target_rad, rate_rad_s(drive, joint));
+  const bool at_lower = angle_rad <= spec.lower_rad, at_upper = angle_rad >= spec.upper_rad;
+  if (!at_lower && !at_upper) return std::nullopt;
+  const double speed = speed_command(joint, target_rad);
+  const bool forward = speed > 0.0 || (speed == 0.0 && !at_lower);
+  return forward ? spec.servo.max_torque_nm : -spec.servo.max_torque_nm;
+}
+
+double Motors::target(int joint, const LaneArray& targets_rad) const {
+  return std::clamp(static_cast<double>(targets_rad.at(joint, 0)), joints_[at(joint)].lower_rad,
+                    joints_[at(joint)].upper_rad);
+}
+
+double Motors::rate_rad_s(const Drive& drive, int joint) const {
+  if (drive.second < 0) return dJointGetHingeAngleRate(drive.joint);
+  return joint == drive.first ? dJointGetUniversalAngle1Rate(drive.joint)
+                              : dJointGetUniversalAngle2Rate(drive.joint);
 }
 
 double Motors::speed_command(int joint, double target_rad) const {
@@ -78,7 +98,7 @@ void Motors::drive_hinge(const Drive& drive, double target_rad) const {
     dJointSetHingeParam(drive.joint, dParamVel, speed_command(drive.first, target_rad));
   } else {
     dJointAddHingeTorque(drive.joint,
-                         torque_command(drive.first, target_rad, dJointGetHingeAngleRate(drive.joint)));
+                         torque_command(drive.first, target_rad, rate_rad_s(drive, drive.first)));
   }
 }
 
@@ -89,9 +109,9 @@ void Motors::drive_universal(const Drive& drive, double target1_rad, double targ
   const bool torque1 = joints_[at(drive.first)].servo.mode == ServoMode::torque;
   const bool torque2 = joints_[at(drive.second)].servo.mode == ServoMode::torque;
   if (torque1 || torque2) {
-    dJointAddUniversalTorques(
-        drive.joint, torque_command(drive.first, target1_rad, dJointGetUniversalAngle1Rate(drive.joint)),
-        torque_command(drive.second, target2_rad, dJointGetUniversalAngle2Rate(drive.joint)));
+    dJointAddUniversalTorques(drive.joint,
+                              torque_command(drive.first, target1_rad, rate_rad_s(drive, drive.first)),
+                              torque_command(drive.second, target2_rad, rate_rad_s(drive, drive.second)));
   }
 }
 

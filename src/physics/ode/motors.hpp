@@ -2,6 +2,7 @@
 
 #include <ode/ode.h>
 
+#include <optional>
 #include <vector>
 
 #include "amble/core/lanes.hpp"
@@ -13,14 +14,6 @@ namespace amble::physics::ode {
 /// The servos of a robot's joints.
 class Motors {
  public:
-  Motors(const morphology::RobotSpec& robot, const World& world);
-
-  /// Reads all angles into `angles_rad` (joints × 1).
-  void read(LaneArray& angles_rad);
-  /// Sets speeds and torques for the next step. Uses the angles of the last read().
-  void drive(const LaneArray& targets_rad);
-
- private:
   /// One ODE joint with the motors it carries.
   struct Drive {
     dJointID joint = nullptr;
@@ -28,6 +21,21 @@ class Motors {
     int second = -1;  ///< about the second axis, −1: a hinge
   };
 
+  Motors(const morphology::RobotSpec& robot, const World& world);
+
+  /// Reads all angles into `angles_rad` (joints × 1).
+  void read(LaneArray& angles_rad);
+  /// Sets speeds and torques for the next step. Uses the angles of the last read().
+  void drive(const LaneArray& targets_rad);
+
+  const std::vector<Drive>& drives() const { return drives_; }
+  /// A motor's torque in the next step, N m, as far as it does not depend on the step's solution: that of a
+  /// torque servo, and that of a velocity servo at a stop, where ODE's motor gives all it has.
+  std::optional<double> torque_beforehand(const Drive& drive, int joint, const LaneArray& targets_rad) const;
+
+ private:
+  double target(int joint, const LaneArray& targets_rad) const;
+  double rate_rad_s(const Drive& drive, int joint) const;
   double speed_command(int joint, double target_rad) const;
   double torque_command(int joint, double target_rad, double speed_rad_s) const;
   void drive_hinge(const Drive& drive, double target_rad) const;

@@ -10,9 +10,11 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/hash.hpp"
+#include "amble/morphology/pose.hpp"
 #include "amble/physics/ode/contacts.hpp"
 #include "amble/physics/ode/library.hpp"
 #include "amble/physics/ode/motors.hpp"
+#include "amble/physics/ode/torque_meter.hpp"
 #include "amble/physics/ode/world.hpp"
 
 namespace amble::physics {
@@ -60,9 +62,12 @@ struct Trial {
   ode::World world;
   ode::Motors motors;
   ode::Contacts contacts;
+  std::optional<ode::TorqueMeter> torques;
 
-  Trial(const RobotSpec& robot, const ode::Threading& threading)
-      : world(robot, threading), motors(robot, world), contacts(robot, world) {}
+  Trial(const RobotSpec& robot, const ode::Threading& threading, bool with_torques)
+      : world(robot, threading), motors(robot, world), contacts(robot, world) {
+    if (with_torques) torques.emplace(robot, motors);
+  }
 };
 
 class OdeEngine final : public Engine {
@@ -70,6 +75,7 @@ class OdeEngine final : public Engine {
   OdeEngine(const RobotSpec& robot, const EngineSettings& settings)
       : robot_(robot),
         timestep_s_(settings.timestep_s),
+        with_torques_(settings.torques),
         total_mass_kg_(robot.total_mass_kg()),
         bodies_(robot.bodies.size()) {
     ode::check_joints(robot);
@@ -78,19 +84,21 @@ class OdeEngine final : public Engine {
     sensors_.joint_angle_rad = LaneArray(static_cast<int>(robot.joints.size()), 1);
     sensors_.touch = LaneArray(static_cast<int>(robot.legs.size()), 1);
     sensors_.attitude_rad = LaneArray(3, 1);
+    if (with_torques_) torques_nm_ = LaneArray(static_cast<int>(robot.joints.size()), 1);
   }
 
   int lanes() const override { return 1; }
 
   void place(int lane) override {
-    check_lane(lane);
-    ode::prepare_thread();
-    trial_.reset();
-    trial_.emplace(robot_, *threading_);
-    stepping_ = true;
-    healthy_ = true;
-    trial_->contacts.feel(sensors_.touch);
-    read_state();
+    make_trial(lane);
+    begin();
+  }
+
+  void place_at(int lane, const StartPose& pose) override {
+    make_trial(lane);
+    trial_->world.move_to(robot_, morphology::poses_at(robot_, {pose.root.position_m, pose.root.rotation},
+                                                       pose.joint_angle_rad));
+    begin();
   }
 
   void retire(int lane) override {
@@ -108,13 +116,24 @@ class OdeEngine final : public Engine {
     try {
       trial_->contacts.collide(sensors_.touch);
       trial_->motors.drive(targets_rad);
+      if (with_torques_) trial_->torques->before_step(targets_rad);
       if (dWorldStep(trial_->world.id(), timestep_s_) == 0) throw ode::Fault("out of memory");
     } catch (const ode::Fault&) {
       healthy_ = false;
       threading_->replace();
       return;
     }
+    if (with_torques_) trial_->torques->after_step(torques_nm_);
     read_state();
+  }
+
+  bool takes_disturbances() const override { return true; }
+  void push(int lane, Vec3 impulse_n_s) override {
+    check_lane(lane);
+    AMBLE_CHECK(stepping_, "only a placed robot can be pushed");
+    // ODE adds forces up until the next step, which uses them and sets them back to zero.
+    const Vec3 force_n = (1.0 / timestep_s_) * impulse_n_s;
+    dBodyAddForce(trial_->world.bodies()[0], force_n.x, force_n.y, force_n.z);
   }
 
   bool healthy(int lane) const override {
@@ -123,6 +142,8 @@ class OdeEngine final : public Engine {
   }
 
   const SensorFrame& sensors() const override { return sensors_; }
+
+  const LaneArray* motor_torque_nm() const override { return with_torques_ ? &torques_nm_ : nullptr; }
 
   RootPose root_pose(int lane) const override {
     check_lane(lane);
@@ -159,6 +180,21 @@ class OdeEngine final : public Engine {
  private:
   void check_lane(int lane) const { AMBLE_CHECK(lane == 0, "the ode engine has one lane"); }
 
+  void make_trial(int lane) {
+    check_lane(lane);
+    ode::prepare_thread();
+    trial_.reset();
+    trial_.emplace(robot_, *threading_, with_torques_);
+    torques_nm_.set_lane(0, 0.0f);
+  }
+
+  void begin() {
+    stepping_ = true;
+    healthy_ = true;
+    trial_->contacts.feel(sensors_.touch);
+    read_state();
+  }
+
   void read_state() {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const dBodyID body = trial_->world.bodies()[b];
@@ -178,11 +214,13 @@ class OdeEngine final : public Engine {
 
   const RobotSpec robot_;
   const double timestep_s_;
+  const bool with_torques_;
   const double total_mass_kg_;
   std::optional<ode::Threading> threading_;
   std::optional<Trial> trial_;
   std::vector<BodyState> bodies_;
   SensorFrame sensors_;
+  LaneArray torques_nm_;
   bool stepping_ = false;
   bool healthy_ = true;
 };

@@ -23,9 +23,13 @@ std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
 
-void set_rotation(dBodyID body, Quat q) {
+/// Puts the frame of a body somewhere in the world.
+void set_pose(dBodyID id, const Body& body, const Pose& pose) {
+  const Vec3 com = pose * body.com_m;
+  const Quat q = pose.rotation;
   const dQuaternion rotation{q.w, q.x, q.y, q.z};
-  dBodySetQuaternion(body, rotation);
+  dBodySetPosition(id, com.x, com.y, com.z);
+  dBodySetQuaternion(id, rotation);
 }
 
 /// The inertia tensor in the axes of the body's frame, from its principal moments.
@@ -111,15 +115,18 @@ World::~World() {
   dWorldDestroy(world_);
 }
 
+void World::move_to(const RobotSpec& robot, const std::vector<Pose>& poses) {
+  // Joints measure their angles from the pose in which they were made, so that these come out right.
+  for (std::size_t b = 0; b < bodies_.size(); ++b) set_pose(bodies_[b], robot.bodies[b], poses[b]);
+}
+
 void World::add_bodies(const RobotSpec& robot) {
   const std::vector<Pose> poses = morphology::start_poses(robot);
   for (std::size_t b = 0; b < robot.bodies.size(); ++b) {
     const dBodyID body = dBodyCreate(world_);
-    const Vec3 com = poses[b] * robot.bodies[b].com_m;
     const dMass mass = mass_of(robot.bodies[b]);
     dBodySetMass(body, &mass);
-    dBodySetPosition(body, com.x, com.y, com.z);
-    set_rotation(body, poses[b].rotation);
+    set_pose(body, robot.bodies[b], poses[b]);
     bodies_.push_back(body);
   }
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "amble/core/math.hpp"
+#include "amble/morphology/pose.hpp"
 #include "amble/morphology/robot_spec.hpp"
 #include "amble/physics/ode/library.hpp"
 
@@ -19,6 +20,9 @@ class World {
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
+
+  /// Moves the robot, at rest, so that the frames of its bodies stand at `poses` in the world.
+  void move_to(const morphology::RobotSpec& robot, const std::vector<morphology::Pose>& poses);
 
   dWorldID id() const { return world_; }
   /// In the order of RobotSpec::bodies.

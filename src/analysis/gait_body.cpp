@@ -1,0 +1,74 @@
+#include "amble/analysis/gait_body.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "amble/analysis/kinematics.hpp"
+
+namespace amble::analysis {
+namespace {
+
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
+/// The joint of a leg that is nearest to the root: bodies stand before their children, and joints of one body
+/// in the order of the chain. Nothing for a leg without joints.
+const Joint* hip(const RobotModel& robot, const Leg& leg) {
+  const Joint* first = nullptr;
+  for (const int j : leg.joints) {
+    const Joint& joint = robot.joints[at(j)];
+    if (!first || std::pair(joint.body, joint.chain_index) < std::pair(first->body, first->chain_index))
+      first = &joint;
+  }
+  return first;
+}
+
+double leg_length_m(const RobotModel& robot, const std::vector<BodyPose>& poses) {
+  double sum_m = 0.0;
+  int count = 0;
+  for (const Leg& leg : robot.legs) {
+    const Joint* joint = hip(robot, leg);
+    if (!joint) continue;
+    const BodyPose& pose = poses[at(joint->body)];
+    sum_m += (pose.position_m + rotate(pose.rotation, joint->anchor_m)).z;
+    ++count;
+  }
+  return count == 0 ? 0.0 : sum_m / count;
+}
+
+std::optional<QuadrupedLegs> quadruped_legs(const std::vector<Vec3>& feet) {
+  if (feet.size() != 4) return std::nullopt;
+  std::array<int, 4> order{0, 1, 2, 3};
+  std::ranges::stable_sort(order, [&](int a, int b) { return feet[at(a)].x > feet[at(b)].x; });
+  if (feet[at(order[1])].x <= feet[at(order[2])].x) return std::nullopt;
+  for (const std::size_t left : {std::size_t{0}, std::size_t{2}}) {
+    if (feet[at(order[left])].y < feet[at(order[left + 1])].y) std::swap(order[left], order[left + 1]);
+    if (feet[at(order[left])].y <= feet[at(order[left + 1])].y) return std::nullopt;
+  }
+  return QuadrupedLegs{order[0], order[1], order[2], order[3]};
+}
+
+}  // namespace
+
+GaitBody gait_body(const RobotModel& robot) {
+  const std::vector<double> straight(robot.joints.size(), 0.0);
+  const auto poses =
+      body_poses(robot, BodyPose{robot.bodies[0].position_m, robot.bodies[0].rotation}, straight);
+  GaitBody body;
+  body.robot = robot.name;
+  std::vector<Vec3> feet;
+  for (const Leg& leg : robot.legs) {
+    body.legs.push_back(leg.name);
+    feet.push_back(geom_centre_m(robot.geoms[at(leg.foot_geom)], poses));
+  }
+  for (const Joint& joint : robot.joints) body.joints.push_back(joint.name);
+  for (const Body& part : robot.bodies) body.mass_kg += part.mass_kg;
+  body.gravity_m_s2 = norm(robot.gravity_m_s2);
+  body.leg_length_m = leg_length_m(robot, poses);
+  body.com_start_m = robot.com_at_start_m();
+  body.quadruped = quadruped_legs(feet);
+  return body;
+}
+
+}  // namespace amble::analysis

@@ -1,0 +1,66 @@
+#include "amble/analysis/network.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "amble/io/json_file.hpp"
+
+namespace amble::analysis {
+namespace {
+
+using io::JsonView;
+
+double read_finite(const JsonView& json) {
+  const double value = json.number();
+  if (!std::isfinite(value)) json.bad("a finite number");
+  return value;
+}
+
+SubstrateNode read_node(const JsonView& json, std::size_t coordinates) {
+  SubstrateNode node;
+  node.name = json.at("name").text();
+  const JsonView at = json.at("at");
+  if (at.size() != coordinates) at.bad("a number for each coordinate");
+  for (std::size_t i = 0; i < at.size(); ++i) node.at.push_back(read_finite(at.at(i)));
+  const std::string role = json.at("role").text();
+  if (role != "sensor" && role != "hidden" && role != "joint") json.at("role").bad("sensor, hidden or joint");
+  node.role = role == "sensor" ? NodeRole::sensor : role == "joint" ? NodeRole::joint : NodeRole::hidden;
+  return node;
+}
+
+int read_index(const JsonView& json, std::size_t end) {
+  const std::int64_t index = json.integer();
+  if (index < 0 || index >= static_cast<std::int64_t>(end)) json.bad("the index of a node");
+  return static_cast<int>(index);
+}
+
+}  // namespace
+
+NeuralNetwork parse_network(const std::string& controller_json, const std::string& what) {
+  const io::Json document = io::parse_json(controller_json, what);
+  const JsonView json(document, what);
+  NeuralNetwork network;
+  Substrate& substrate = network.substrate;
+  substrate.link_kinds = {"excites", "inhibits"};
+  const JsonView coordinates = json.at("coordinates");
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    substrate.coordinates.push_back(coordinates.at(i).text());
+  const JsonView nodes = json.at("nodes");
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    substrate.nodes.push_back(read_node(nodes.at(i), coordinates.size()));
+  const JsonView links = json.at("links");
+  double largest = 0.0;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const double weight = read_finite(links.at(i).at("weight"));
+    largest = std::max(largest, std::fabs(weight));
+    substrate.links.push_back({read_index(links.at(i).at("source"), nodes.size()),
+                               read_index(links.at(i).at("target"), nodes.size()), weight < 0.0 ? 1 : 0,
+                               std::fabs(weight)});
+  }
+  for (SubstrateLink& link : substrate.links)
+    if (largest > 0.0) link.strength /= largest;
+  network.possible_links = static_cast<int>(json.at("possible_links").integer());
+  return network;
+}
+
+}  // namespace amble::analysis

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "amble/analysis/circular.hpp"
+
+namespace amble::analysis {
+
+/// What one foot did in a stretch of time. A stride goes from touch-down to touch-down and belongs to the
+/// stretch in which it ends.
+struct LegSums {
+  std::int64_t contact_frames = 0;
+  std::int64_t touchdowns = 0;
+  std::int64_t strides = 0;
+  std::int64_t stance_frames = 0;  ///< within the strides
+  std::int64_t stride_frames = 0;
+  double squared_stride_frames = 0.0;
+};
+
+/// Sums over a stretch of time from which the figures of a gait follow. Stretches that follow each other can
+/// be merged.
+struct StrideSums {
+  explicit StrideSums(std::size_t leg_count)
+      : legs(leg_count), phases(leg_count, std::vector<CircularSum>(leg_count)) {}
+
+  std::int64_t frames = 0;
+  std::vector<LegSums> legs;
+  /// phases[i][j]: when foot j lands in the strides of foot i, as a share of the stride.
+  std::vector<std::vector<CircularSum>> phases;
+
+  void merge(const StrideSums& later);
+};
+
+/// Finds touch-downs and strides in the settled touches of all feet, frame by frame. Remembers a few
+/// touch-downs per foot, however long it goes on.
+class StrideTracker {
+ public:
+  /// A time between two touch-downs of a foot that is longer than `longest_stride_frames` is a rest, not a
+  /// stride.
+  StrideTracker(std::size_t legs, std::int64_t longest_stride_frames);
+
+  /// The next frame, leg by leg; what happens in it is added to `sums`. A foot that stands in the first frame
+  /// has not landed in it.
+  void add(const std::vector<bool>& touch, StrideSums& sums);
+
+ private:
+  static constexpr std::size_t remembered = 16;
+
+  struct Foot {
+    bool touch = false;
+    std::int64_t stance_frames = 0;  ///< since the last touch-down
+    std::int64_t touchdowns = 0;
+    std::array<std::int64_t, remembered> landed_at{};  ///< frames of the last touch-downs, a ring
+
+    std::optional<std::int64_t> last_touchdown() const;
+  };
+
+  void land(std::size_t leg, StrideSums& sums);
+  void add_phases(std::size_t leg, std::int64_t begin, StrideSums& sums) const;
+
+  std::int64_t longest_stride_frames_;
+  std::int64_t frame_ = 0;
+  std::vector<Foot> feet_;
+};
+
+}  // namespace amble::analysis

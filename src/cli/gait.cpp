@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "amble/analysis/recorded_gait.hpp"
+#include "amble/cli/commands.hpp"
+#include "amble/cli/gait_observer.hpp"
+#include "amble/cli/stop_signal.hpp"
+#include "amble/experiment/replay.hpp"
+#include "amble/experiment/run_folder.hpp"
+#include "amble/io/file.hpp"
+
+namespace amble::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct GaitOptions {
+  fs::path path;
+  std::optional<double> seconds;
+  std::optional<std::string> engine;
+  std::optional<std::string> json;
+  analysis::GaitSettings settings;
+};
+
+/// Lets a champion walk. Nothing if it was stopped.
+std::optional<analysis::GaitReport> champion_gait(const fs::path& path, const GaitOptions& options) {
+  const auto champion = experiment::load_champion(path);
+  GaitObserver observer(champion.problem.robot, champion.problem.trial.timestep_s, options.settings);
+  const auto replay = experiment::replay(champion.problem, champion.genome,
+                                         {.seconds = options.seconds,
+                                          .engine = options.engine,
+                                          .record = {},
+                                          .origin = path.string(),
+                                          .observer = &observer,
+                                          .trace = false},
+                                         stop_signal());
+  if (!replay) return std::nullopt;
+  return observer.finish(replay->result.outcome);
+}
+
+std::optional<analysis::GaitReport> measure(const GaitOptions& options) {
+  if (fs::is_directory(options.path)) {
+    if (!experiment::is_run_folder(options.path))
+      fail(ExitCode::bad_input, "{}: not a run folder (no config.toml)", options.path.string());
+    return champion_gait(experiment::RunPaths(options.path).best_champion(), options);
+  }
+  if (options.path.extension() == ".json") return champion_gait(options.path, options);
+  if (options.engine) fail(ExitCode::bad_input, "--engine: a recording has been made already");
+  return analysis::recorded_gait(options.path, options.settings, options.seconds);
+}
+
+ExitCode run_gait(const GaitOptions& options) {
+  options.settings.validate();
+  const auto report = measure(options);
+  if (!report) return ExitCode::interrupted;
+  if (options.json == "-") {
+    fmt::print("{}", analysis::gait_json(*report));
+    return ExitCode::ok;
+  }
+  if (options.json) io::write_file(*options.json, analysis::gait_json(*report));
+  fmt::print("{}", analysis::gait_table(*report));
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_gait(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("gait", "Name and measure a gait: footfalls, phases, speed, energy");
+  auto options = std::make_shared<GaitOptions>();
+  command->add_option("PATH", options->path, "Recording, champion file, or run folder (its best champion)")
+      ->required();
+  command
+      ->add_option("--seconds", options->seconds,
+                   "Length of the trial (default: as in its evolution), or of the part of a recording")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--engine", options->engine, "Physics engine (default: as in its evolution)");
+  command->add_option("--json", options->json, "Write all figures to this file; - prints them instead");
+  auto& settings = options->settings;
+  command->add_option("--debounce", settings.debounce_s, "Shorter gaps and touches are chatter, s")
+      ->capture_default_str();
+  command->add_option("--transient", settings.transient_s, "Footfalls so early do not count, s")
+      ->capture_default_str();
+  command->add_option("--window", settings.window_s, "The gait is named anew for each so long a part, s")
+      ->capture_default_str();
+  command->callback([options, &action] { action = [options] { return run_gait(*options); }; });
+}
+
+}  // namespace amble::cli

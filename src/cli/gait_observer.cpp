@@ -1,0 +1,30 @@
+#include "amble/cli/gait_observer.hpp"
+
+#include "amble/analysis/robot_model.hpp"
+#include "amble/morphology/robot_json.hpp"
+
+namespace amble::cli {
+namespace {
+
+void copy_lane(const LaneArray& rows, int lane, std::vector<float>& values) {
+  values.clear();
+  for (int row = 0; row < rows.rows(); ++row) values.push_back(rows.at(row, lane));
+}
+
+}  // namespace
+
+GaitObserver::GaitObserver(const morphology::RobotSpec& robot, double timestep_s,
+                           const analysis::GaitSettings& settings)
+    : meter_(analysis::gait_body(analysis::parse_robot(morphology::to_json(robot).dump(), robot.name)),
+             timestep_s, settings) {}
+
+void GaitObserver::on_step(int, const physics::Engine& engine, const controllers::Batch&, const LaneArray&,
+                           int lane) {
+  copy_lane(engine.sensors().touch, lane, touch_);
+  copy_lane(engine.sensors().joint_angle_rad, lane, angle_rad_);
+  if (const LaneArray* torques_nm = engine.motor_torque_nm()) copy_lane(*torques_nm, lane, torque_nm_);
+  meter_.add(
+      {.com_m = engine.com_m(lane), .touch = touch_, .angle_rad = angle_rad_, .torque_nm = torque_nm_});
+}
+
+}  // namespace amble::cli

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "amble/analysis/gait_meter.hpp"
+#include "amble/morphology/robot_spec.hpp"
+#include "amble/trial/trial.hpp"
+
+namespace amble::cli {
+
+/// Shows every step of a trial to a gait meter.
+class GaitObserver : public trial::Observer {
+ public:
+  GaitObserver(const morphology::RobotSpec& robot, double timestep_s, const analysis::GaitSettings& settings);
+  void on_step(int step, const physics::Engine& engine, const controllers::Batch& controllers,
+               const LaneArray& targets_rad, int lane) override;
+  analysis::GaitReport finish(record::Outcome outcome) { return meter_.finish(outcome); }
+
+ private:
+  analysis::GaitMeter meter_;
+  std::vector<float> touch_, angle_rad_, torque_nm_;
+};
+
+}  // namespace amble::cli

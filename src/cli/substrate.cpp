@@ -1,0 +1,60 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "amble/analysis/substrate_figure.hpp"
+#include "amble/cli/commands.hpp"
+#include "amble/experiment/problem.hpp"
+#include "amble/io/file.hpp"
+#include "amble/substrate/summary.hpp"
+
+namespace amble::cli {
+namespace {
+
+struct SubstrateOptions {
+  std::filesystem::path config, out;
+  experiment::Overrides overrides;
+};
+
+analysis::Substrate drawn(const substrate::Layout& layout) {
+  analysis::Substrate picture{
+      .coordinates = layout.coordinates(), .nodes = {}, .links = {}, .link_kinds = {}};
+  for (const substrate::Node& node : layout.nodes())
+    picture.nodes.push_back({node.name, node.at,
+                             node.sensor       ? analysis::NodeRole::sensor
+                             : node.joint >= 0 ? analysis::NodeRole::joint
+                                               : analysis::NodeRole::hidden});
+  for (const substrate::Link& link : layout.links())
+    picture.links.push_back({link.source, link.target, link.output, 0.5});
+  if (!layout.links().empty()) picture.link_kinds = layout.output_names();
+  return picture;
+}
+
+ExitCode show_substrate(const SubstrateOptions& options) {
+  const auto config = experiment::load_config(options.config, options.overrides);
+  const auto problem = experiment::Problem::make(config, experiment::load_robot_file(config.robot));
+  const substrate::Layout& layout = problem.architecture->layout();
+  fmt::print("controller    {}\n{}", problem.architecture->name(),
+             substrate::summary(config.controller.substrate, layout));
+  if (!options.out.empty()) io::write_file(options.out, analysis::substrate_svg(drawn(layout)));
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_substrate(CLI::App& app, Action& action) {
+  auto* command =
+      app.add_subcommand("substrate", "Show the nodes and links of a config's controller, and draw them");
+  auto options = std::make_shared<SubstrateOptions>();
+  command->add_option("CONFIG", options->config, "Config file (TOML)")->required();
+  command
+      ->add_option("--set", options->overrides.assignments, "Lay key.path=value over the config (repeatable)")
+      ->allow_extra_args(false);
+  command->add_option("-o,--out", options->out, "Draw them into this file (SVG)");
+  command->callback([options, &action] { action = [options] { return show_substrate(*options); }; });
+}
+
+}  // namespace amble::cli

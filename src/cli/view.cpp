@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "amble/cli/commands.hpp"
+#include "amble/cli/scratch_file.hpp"
+#include "amble/cli/stop_signal.hpp"
+#include "amble/experiment/build_info.hpp"
+#include "amble/experiment/replay.hpp"
+#include "amble/experiment/run_folder.hpp"
+#include "amble/io/file.hpp"
+#include "amble/neat/genome_json.hpp"
+#include "amble/view/page.hpp"
+
+namespace amble::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ViewOptions {
+  std::vector<fs::path> inputs;
+  fs::path out;
+  std::optional<double> seconds;
+  std::optional<std::string> title;
+};
+
+io::Json cppn_json(const experiment::Champion& champion) {
+  io::Json json = neat::to_json(champion.genome);
+  json["inputs"] = champion.problem.architecture->layout().input_names();
+  json["outputs"] = champion.problem.architecture->layout().output_names();
+  return json;
+}
+
+/// Lets a champion walk again. Nothing if it was stopped by a signal.
+std::optional<view::Walker> walk(const fs::path& champion_path, const ViewOptions& options,
+                                 const ScratchFile& recording) {
+  const auto champion = experiment::load_champion(champion_path);
+  const auto replay = experiment::replay(champion.problem, champion.genome,
+                                         {.seconds = options.seconds,
+                                          .engine = {},
+                                          .record = recording.path(),
+                                          .origin = champion_path.string()},
+                                         stop_signal());
+  if (!replay) return std::nullopt;
+  return view::Walker{
+      .title = fmt::format("{}, generation {}", champion.experiment, champion.generation),
+      .recording = recording.path(),
+      .cppn = cppn_json(champion),
+      .gait = nullptr,
+  };
+}
+
+ExitCode make_view(const ViewOptions& options) {
+  std::deque<ScratchFile> scratch;
+  view::PageInput page;
+  for (const fs::path& input : options.inputs) {
+    const bool is_run = fs::is_directory(input);
+    if (is_run && !experiment::is_run_folder(input))
+      fail(ExitCode::bad_input, "{}: not a run folder (no config.toml)", input.string());
+    if (is_run || input.extension() == ".json") {
+      const auto champion = is_run ? experiment::RunPaths(input).best_champion() : input;
+      auto walker = walk(champion, options, scratch.emplace_back("view"));
+      if (!walker) return ExitCode::interrupted;
+      page.walkers.push_back(std::move(*walker));
+    } else {
+      page.walkers.push_back(
+          {.title = input.stem().string(), .recording = input, .cppn = nullptr, .gait = nullptr});
+    }
+  }
+  page.title = options.title.value_or(
+      page.walkers.size() == 1 ? page.walkers.front().title : fmt::format("{} walkers", page.walkers.size()));
+  const auto build = experiment::build_info();
+  page.made_by = fmt::format("amble {} ({})", build.version, build.commit.substr(0, 12));
+  const std::string html = view::make_page(page);
+  if (options.out.has_parent_path()) fs::create_directories(options.out.parent_path());
+  io::write_file(options.out, html);
+  fmt::print("{}\n", fs::absolute(options.out).lexically_normal().string());
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_view(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("view", "Make a page in which champions walk, in 3-D and with diagrams");
+  auto options = std::make_shared<ViewOptions>();
+  command
+      ->add_option(
+          "INPUT", options->inputs,
+          "Champions (JSON), run folders (their best champions) and recordings; several walk together")
+      ->required();
+  command->add_option("-o,--out", options->out, "The page to write (HTML)")->required();
+  command
+      ->add_option("--seconds", options->seconds, "How long champions walk (default: as in their evolution)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--title", options->title, "Title of the page");
+  command->callback([options, &action] { action = [options] { return make_view(*options); }; });
+}
+
+}  // namespace amble::cli

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "amble/morphology/robot_spec.hpp"
+
+namespace amble::controllers {
+
+/// A joint's stops, rad.
+struct JointRange {
+  double lower_rad = 0.0, upper_rad = 0.0;
+
+  /// The target of a command: 0 is the lower stop, 1 the upper.
+  float at(double command) const { return static_cast<float>(lower_rad + (upper_rad - lower_rad) * command); }
+};
+
+/// Joint by joint in control order.
+inline std::vector<JointRange> joint_ranges(const morphology::RobotSpec& robot) {
+  std::vector<JointRange> ranges;
+  for (const morphology::Joint& joint : robot.joints) ranges.push_back({joint.lower_rad, joint.upper_rad});
+  return ranges;
+}
+
+}  // namespace amble::controllers

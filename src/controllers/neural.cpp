@@ -1,0 +1,181 @@
+#include "amble/controllers/neural.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <utility>
+
+#include "amble/core/check.hpp"
+#include "amble/cppn/activation.hpp"
+
+namespace amble::controllers {
+namespace {
+
+const NeuralParameters& as_neural(const Parameters& parameters) {
+  const auto* const neural = dynamic_cast<const NeuralParameters*>(&parameters);
+  AMBLE_CHECK(neural != nullptr, "the parameters belong to another architecture");
+  return *neural;
+}
+
+}  // namespace
+
+void logistic(std::span<float> values, float slope) {
+  for (float& value : values) value *= slope;
+  cppn::activate(neat::Activation::bipolar_sigmoid, cppn::Linear::identity, values);
+  for (float& value : values) value = 0.5f + 0.5f * value;
+}
+
+NeuralArchitecture::NeuralArchitecture(std::string_view kind, std::vector<substrate::Property> properties,
+                                       const substrate::Settings& substrate,
+                                       const morphology::RobotSpec& robot, double timestep_s) {
+  substrate::Layout layout(
+      substrate, {.kind = kind, .network = true, .properties = std::move(properties), .pattern_ticks = 0},
+      robot);
+  Wiring wiring = make_wiring(layout);
+  model_ = std::make_shared<const NeuralModel>(NeuralModel{std::string(kind), std::move(layout),
+                                                           std::move(wiring), joint_ranges(robot), timestep_s,
+                                                           substrate.sine_period_s});
+}
+
+std::unique_ptr<Parameters> NeuralArchitecture::decode(const cppn::Network& network) const {
+  auto parameters = std::make_unique<NeuralParameters>();
+  parameters->decoded = layout().decode(network);
+  return parameters;
+}
+
+std::string NeuralArchitecture::parameters_json(const Parameters& parameters) const {
+  const substrate::Decoded& decoded = as_neural(parameters).decoded;
+  using Json = nlohmann::ordered_json;
+  Json json{{"kind", name()},
+            {"coordinates", layout().coordinates()},
+            {"nodes", Json::array()},
+            {"possible_links", layout().links().size()},
+            {"links", Json::array()}};
+  for (std::size_t i = 0; i < layout().nodes().size(); ++i) {
+    const substrate::Node& node = layout().nodes()[i];
+    Json entry{{"name", node.name}, {"group", node.group}, {"at", node.at}};
+    entry["role"] = node.sensor ? "sensor" : node.joint >= 0 ? "joint" : "hidden";
+    if (name() == "ctrnn" && !node.sensor) {
+      entry["bias"] = decoded.of(substrate::Property::bias)[i];
+      entry["time_constant"] = decoded.of(substrate::Property::time_constant)[i];
+    }
+    json["nodes"].push_back(std::move(entry));
+  }
+  for (std::size_t i = 0; i < decoded.weights.size(); ++i) {
+    const substrate::Link& link = layout().links()[i];
+    if (decoded.weights[i] != 0.0f)
+      json["links"].push_back(
+          {{"source", link.source}, {"target", link.target}, {"weight", decoded.weights[i]}});
+  }
+  return json.dump();
+}
+
+NeuralBatch::NeuralBatch(std::shared_ptr<const NeuralModel> model, int lanes)
+    : model_(std::move(model)), lanes_(lanes), tick_(static_cast<std::size_t>(lanes)) {
+  AMBLE_CHECK(lanes > 0, "a batch has at least one lane");
+  stride_ = lanes == 1 ? 1 : (static_cast<std::size_t>(lanes) + 3) / 4 * 4;
+  weights_.resize(wiring().links.size() * stride_);
+  values_.resize(static_cast<std::size_t>(wiring().slots()) * stride_);
+}
+
+void NeuralBatch::load(int lane, const Parameters& parameters) {
+  AMBLE_CHECK(lane >= 0 && lane < lanes_, "there is no such lane");
+  const NeuralParameters& neural = as_neural(parameters);
+  AMBLE_CHECK(neural.decoded.weights.size() == model_->layout.links().size(),
+              "the parameters belong to another architecture");
+  for (std::size_t k = 0; k < wiring().links.size(); ++k)
+    weights_[index(static_cast<int>(k), lane)] =
+        neural.decoded.weights[static_cast<std::size_t>(wiring().links[k].index)];
+  for (int slot = 0; slot < wiring().slots(); ++slot) values_[index(slot, lane)] = 0.0f;
+  tick_[static_cast<std::size_t>(lane)] = 0;
+  reset(lane, neural);
+}
+
+void NeuralBatch::step(const physics::SensorFrame& sensors, LaneArray& targets_rad) {
+  AMBLE_CHECK(targets_rad.rows() == static_cast<int>(model_->ranges.size()) && targets_rad.lanes() == lanes_,
+              "targets must be joints × lanes");
+  sense(sensors);
+  advance();
+  for (int& tick : tick_) ++tick;
+  for (int joint = 0; joint < targets_rad.rows(); ++joint) {
+    const float* const value =
+        values_.data() + index(wiring().joint_slots[static_cast<std::size_t>(joint)], 0);
+    float* const target_rad = targets_rad.row(joint);
+    const JointRange& range = model_->ranges[static_cast<std::size_t>(joint)];
+    for (int lane = 0; lane < lanes_; ++lane)
+      target_rad[lane] = range.at(std::clamp(static_cast<double>(value[lane]), 0.0, 1.0));
+  }
+}
+
+void NeuralBatch::sense(const physics::SensorFrame& sensors) {
+  using Kind = substrate::Sensor::Kind;
+  for (int slot = 0; slot < wiring().sensor_count(); ++slot) {
+    const substrate::Sensor& sensor = wiring().sensors[static_cast<std::size_t>(slot)];
+    float* const row = values_.data() + index(slot, 0);
+    const auto copy = [&](const LaneArray& from, int from_row) {
+      AMBLE_CHECK(from_row < from.rows() && from.lanes() == lanes_, "the sensors are of another robot");
+      std::copy_n(from.row(from_row), lanes_, row);
+    };
+    switch (sensor.kind) {
+      case Kind::angle:
+        copy(sensors.joint_angle_rad, sensor.index);
+        break;
+      case Kind::touch:
+        copy(sensors.touch, sensor.index);
+        break;
+      case Kind::roll:
+        copy(sensors.attitude_rad, 0);
+        break;
+      case Kind::pitch:
+        copy(sensors.attitude_rad, 1);
+        break;
+      case Kind::yaw:
+        copy(sensors.attitude_rad, 2);
+        break;
+      case Kind::sine:
+        sense_sine(row);
+    }
+  }
+}
+
+void NeuralBatch::sense_sine(float* row) const {
+  for (std::size_t lane = 0; lane < tick_.size(); ++lane) {
+    const double turns = tick_[lane] * model_->timestep_s / model_->sine_period_s;
+    row[lane] = static_cast<float>((turns - std::floor(turns + 0.5)) * std::numbers::pi);
+  }
+  // A CPPN's sine is sin(2x).
+  cppn::activate(neat::Activation::sine, cppn::Linear::identity, {row, tick_.size()});
+}
+
+std::span<float> NeuralBatch::neurons(int first, int last) {
+  const int before = wiring().sensor_count();
+  return std::span(values_).subspan(index(before + first, 0), index(last - first, 0));
+}
+
+void NeuralBatch::sum(int first, int last, std::span<float> sums) const {
+  weighted_sums(wiring(), first, last, weights_.data(), values_.data(), static_cast<int>(stride_),
+                sums.data());
+}
+
+std::vector<std::string> NeuralBatch::state_names() const {
+  std::vector<std::string> names;
+  for (const substrate::Node& node : model_->layout.nodes())
+    if (!node.sensor) names.push_back("neuron." + node.name);
+  return names;
+}
+
+void NeuralBatch::state(int lane, std::span<float> values) const {
+  AMBLE_CHECK(lane >= 0 && lane < lanes_, "there is no such lane");
+  AMBLE_CHECK(values.size() == wiring().neurons.size(), "one value per neuron");
+  // The wiring orders neurons by level; names are in the order of the layout.
+  std::vector<int> slot_of_node(model_->layout.nodes().size(), -1);
+  for (int i = 0; i < wiring().neuron_count(); ++i)
+    slot_of_node[static_cast<std::size_t>(wiring().neurons[static_cast<std::size_t>(i)].node)] =
+        wiring().sensor_count() + i;
+  std::size_t next = 0;
+  for (const int slot : slot_of_node)
+    if (slot >= 0) values[next++] = values_[index(slot, lane)];
+}
+
+}  // namespace amble::controllers

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "amble/controllers/controller.hpp"
+#include "amble/controllers/joint_range.hpp"
+#include "amble/controllers/wiring.hpp"
+
+namespace amble::controllers {
+
+/// Replaces each value x by 1/(1 + e^(−slope x)), to 1e−7; the same bits on every CPU (cppn/activation.hpp).
+void logistic(std::span<float> values, float slope);
+
+/// A decoded network of neurons.
+struct NeuralParameters : Parameters {
+  substrate::Decoded decoded;
+  std::vector<float> rates;  ///< of a CTRNN, neuron by neuron of the Wiring (ctrnn.hpp)
+};
+
+/// What all networks of one architecture have in common.
+struct NeuralModel {
+  std::string kind;
+  substrate::Layout layout;
+  Wiring wiring;
+  std::vector<JointRange> ranges;
+  double timestep_s;
+  double sine_period_s;
+};
+
+/// Controllers made of neurons in a substrate: the parts that static networks and CTRNNs share.
+class NeuralArchitecture : public Architecture {
+ public:
+  std::string name() const override { return model_->kind; }
+  const substrate::Layout& layout() const override { return model_->layout; }
+  std::unique_ptr<Parameters> decode(const cppn::Network& network) const override;
+  std::string parameters_json(const Parameters& parameters) const override;
+
+ protected:
+  /// Throws UserError where substrate and robot do not fit; `properties` are those that neurons must have.
+  NeuralArchitecture(std::string_view kind, std::vector<substrate::Property> properties,
+                     const substrate::Settings& substrate, const morphology::RobotSpec& robot,
+                     double timestep_s);
+
+  std::shared_ptr<const NeuralModel> model_;
+};
+
+/// Networks stepping together. In a tick the sensors are read, the neurons advance(), and the values of the
+/// neurons that drive joints, clamped to 0 … 1, are scaled to the joints' ranges. The state worth recording
+/// is each neuron's value.
+class NeuralBatch : public Batch {
+ public:
+  NeuralBatch(std::shared_ptr<const NeuralModel> model, int lanes);
+
+  int lanes() const override { return lanes_; }
+  void load(int lane, const Parameters& parameters) override;
+  void step(const physics::SensorFrame& sensors, LaneArray& targets_rad) override;
+  std::vector<std::string> state_names() const override;
+  void state(int lane, std::span<float> values) const override;
+
+ protected:
+  /// One tick of all lanes: from the sensors' values to those of the neurons.
+  virtual void advance() = 0;
+  /// Puts a lane into its initial state.
+  virtual void reset(int lane, const NeuralParameters& parameters) = 0;
+
+  const Wiring& wiring() const { return model_->wiring; }
+  /// Lanes per row: 1 or a multiple of 4; those beyond lanes() mean nothing.
+  std::size_t stride() const { return stride_; }
+  std::size_t index(int row, int lane) const {
+    return static_cast<std::size_t>(row) * stride_ + static_cast<std::size_t>(lane);
+  }
+  /// What the nodes say: slot by slot.
+  std::vector<float>& values() { return values_; }
+  /// The values of the neurons [first, last).
+  std::span<float> neurons(int first, int last);
+  /// The weighted sums of the neurons [first, last) from the present values.
+  void sum(int first, int last, std::span<float> sums) const;
+
+ private:
+  void sense(const physics::SensorFrame& sensors);
+  void sense_sine(float* row) const;
+
+  std::shared_ptr<const NeuralModel> model_;
+  int lanes_;
+  std::size_t stride_;
+  std::vector<float> weights_;  ///< link by link of the wiring
+  std::vector<float> values_;
+  std::vector<int> tick_;  ///< lane by lane, from 0
+};
+
+}  // namespace amble::controllers

@@ -1,0 +1,207 @@
+#include "amble/physics/batch/model.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "amble/core/error.hpp"
+#include "amble/morphology/pose.hpp"
+
+namespace amble::physics::batch {
+namespace {
+
+using morphology::Body;
+using morphology::Geom;
+using morphology::Joint;
+using morphology::Pose;
+using morphology::RobotSpec;
+using morphology::Shape;
+
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
+Float3 narrow(Vec3 v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+Pose inverse(const Pose& pose) {
+  const Quat back = conjugate(pose.rotation);
+  return {-rotate(back, pose.position_m), back};
+}
+
+/// `origin` of the link's frame and the body's pose, both seen from the torso in the start pose.
+MassPart mass_part(const Body& body, const Pose& pose, Vec3 origin) {
+  const Quat principal = pose.rotation * body.inertia_rotation;
+  const std::array<Vec3, 3> axes{rotate(principal, {1, 0, 0}), rotate(principal, {0, 1, 0}),
+                                 rotate(principal, {0, 0, 1})};
+  const Vec3 moments = body.inertia_kg_m2;
+  const auto element = [&](double Vec3::*r, double Vec3::*c) {
+    return moments.x * axes[0].*r * axes[0].*c + moments.y * axes[1].*r * axes[1].*c +
+           moments.z * axes[2].*r * axes[2].*c;
+  };
+  constexpr auto x = &Vec3::x, y = &Vec3::y, z = &Vec3::z;
+  return {.mass_kg = static_cast<float>(body.mass_kg),
+          .com_m = narrow(pose * body.com_m - origin),
+          .moments_kg_m2 = narrow({element(x, x), element(y, y), element(z, z)}),
+          .products_kg_m2 = narrow({element(x, y), element(x, z), element(y, z)})};
+}
+
+class Builder {
+ public:
+  Builder(const RobotSpec& robot, Model& model) : robot_(robot), model_(model) {
+    const auto poses = morphology::start_poses(robot);
+    for (const Pose& pose : poses) poses_.push_back(inverse(poses[0]) * pose);
+    places_.resize(robot.bodies.size());
+  }
+
+  void build() {
+    model_.torso = mass_part(robot_.bodies[0], poses_[0], {});
+    for (int body : children(0)) add_chain(body);
+    model_.first_geom.push_back(0);
+    add_geoms(-1);
+    for (int c = 0; c < static_cast<int>(model_.chains.size()); ++c) add_geoms(c);
+  }
+
+ private:
+  struct Place {
+    int chain = -1, link = -1;
+    Vec3 origin_m;  ///< of the link's frame, seen from the torso in the start pose
+  };
+
+  std::vector<int> children(int parent) const {
+    std::vector<int> found;
+    for (int b = 1; b < static_cast<int>(robot_.bodies.size()); ++b)
+      if (robot_.bodies[at(b)].parent == parent) found.push_back(b);
+    return found;
+  }
+
+  void add_chain(int body) {
+    const int chain = static_cast<int>(model_.chains.size());
+    const int first = static_cast<int>(model_.links.size());
+    Vec3 before;
+    for (;;) {
+      for (const int joint : robot_.joints_of_body(body)) before = add_link(joint, before);
+      Link& last = model_.links.back();
+      last.has_mass = true;
+      last.body = mass_part(robot_.bodies[at(body)], poses_[at(body)], before);
+      const int count = static_cast<int>(model_.links.size()) - first;
+      places_[at(body)] = {chain, count - 1, before};
+      const auto next = children(body);
+      if (next.size() > 1)
+        fail(ExitCode::bad_input,
+             "the batch engine cannot simulate chains that branch, as at body '{}': use engine ode",
+             robot_.bodies[at(body)].name);
+      if (count > Model::max_chain)
+        fail(ExitCode::bad_input,
+             "the batch engine cannot simulate more than {} joints in one chain, as at body '{}'",
+             Model::max_chain, robot_.bodies[at(body)].name);
+      if (next.empty()) {
+        model_.chains.push_back({first, count});
+        return;
+      }
+      body = next[0];
+    }
+  }
+
+  Vec3 add_link(int index, Vec3 before) {
+    const Joint& joint = robot_.joints[at(index)];
+    const Pose& pose = poses_[at(joint.body)];
+    const Vec3 origin = pose * joint.anchor_m;
+    const Vec3 axis = rotate(pose.rotation, joint.axis);
+    Link link{.joint = index,
+              .from_parent_m = narrow(origin - before),
+              .direction = narrow(axis),
+              .body = {},
+              .lower_rad = static_cast<float>(joint.lower_rad),
+              .upper_rad = static_cast<float>(joint.upper_rad),
+              .velocity_servo = joint.servo.mode == morphology::ServoMode::velocity,
+              .gain_per_s = static_cast<float>(joint.servo.gain_per_s),
+              .max_torque_nm = static_cast<float>(joint.servo.max_torque_nm),
+              .kp_nm_per_rad = static_cast<float>(joint.servo.kp_nm_per_rad),
+              .kd_nm_s_per_rad = static_cast<float>(joint.servo.kd_nm_s_per_rad)};
+    const std::array<double, 3> parts{axis.x, axis.y, axis.z};
+    for (int k = 0; k < 3; ++k) {
+      if (std::abs(parts[at(k)]) < 1.0 - 1e-12) continue;
+      link.axis = k;
+      link.sign = parts[at(k)] > 0.0 ? 1.0f : -1.0f;
+    }
+    model_.links.push_back(link);
+    return origin;
+  }
+
+  void add_geoms(int chain) {
+    for (int g = 0; g < static_cast<int>(robot_.geoms.size()); ++g) {
+      const Geom& geom = robot_.geoms[at(g)];
+      if (geom.collides && places_[at(geom.body)].chain == chain) add_geom(g);
+    }
+    model_.first_geom.push_back(static_cast<int>(model_.geoms.size()));
+  }
+
+  void add_geom(int index) {
+    const Geom& geom = robot_.geoms[at(index)];
+    const Place& place = places_[at(geom.body)];
+    const Pose pose = poses_[at(geom.body)] * Pose{geom.position_m, geom.rotation};
+    PointGroup group{.first = static_cast<int>(model_.points.size()),
+                     .centre_m = narrow(pose.position_m - place.origin_m)};
+    const auto add = [&](Vec3 offset, double radius) {
+      model_.points.push_back(
+          {place.chain, place.link, narrow(pose * offset - place.origin_m), static_cast<float>(radius)});
+      group.reach_m = std::max(group.reach_m, static_cast<float>(norm(offset) + radius));
+    };
+    const Vec3 size = geom.size_m;
+    switch (geom.shape) {
+      case Shape::sphere:
+        add({}, size.x);
+        break;
+      case Shape::capsule:
+        for (const double end : {-size.y, size.y}) add({0.0, 0.0, end}, size.x);
+        break;
+      case Shape::box:
+        for (int corner = 0; corner < 8; ++corner)
+          add({corner & 1 ? size.x : -size.x, corner & 2 ? size.y : -size.y, corner & 4 ? size.z : -size.z},
+              0.0);
+        break;
+      case Shape::cylinder:
+        fail(ExitCode::bad_input,
+             "the batch engine knows no contact of cylinders, as of geom '{}': use a capsule, or engine ode",
+             geom.name);
+    }
+    group.reach_m *= 1.0001f;  // so much may rounding spoil it
+    group.count = static_cast<int>(model_.points.size()) - group.first;
+    for (std::size_t l = 0; l < robot_.legs.size(); ++l)
+      if (robot_.legs[l].foot_geom == index) group.leg = static_cast<int>(l);
+    model_.geoms.push_back(group);
+  }
+
+  const RobotSpec& robot_;
+  Model& model_;
+  std::vector<Pose> poses_;    ///< of all bodies, seen from the torso in the start pose
+  std::vector<Place> places_;  ///< of all bodies
+};
+
+}  // namespace
+
+Model::Model(const RobotSpec& robot)
+    : mass_kg(static_cast<float>(robot.total_mass_kg())),
+      gravity_m_s2(narrow(robot.gravity_m_s2)),
+      friction(static_cast<float>(robot.contact.friction)),
+      erp(static_cast<float>(robot.contact.erp)),
+      cfm_s_per_kg(static_cast<float>(robot.contact.cfm_s_per_kg)),
+      legs(static_cast<int>(robot.legs.size())) {
+  if (robot.self_collision)
+    fail(ExitCode::bad_input,
+         "the batch engine knows no self-collision: set self_collision = false, or use engine ode");
+  Builder(robot, *this).build();
+  for (const Chain& chain : chains) {
+    longest_chain = std::max(longest_chain, chain.count);
+    equal_chains = equal_chains && chain.count == chains[0].count;
+    float mass = 0.0f;
+    for (int l = chain.first + chain.count - 1; l >= chain.first; --l) {
+      if (links[at(l)].has_mass) mass += links[at(l)].body.mass_kg;
+      links[at(l)].outer_mass_kg = mass;
+    }
+  }
+}
+
+}  // namespace amble::physics::batch

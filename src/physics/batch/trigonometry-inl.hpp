@@ -1,0 +1,67 @@
+// Sine, cosine and arc tangent of several numbers at once, for each instruction set. Own polynomials
+// (interpolated at Chebyshev nodes).
+#if defined(AMBLE_BATCH_TRIGONOMETRY_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef AMBLE_BATCH_TRIGONOMETRY_INL_HPP
+#undef AMBLE_BATCH_TRIGONOMETRY_INL_HPP
+#else
+#define AMBLE_BATCH_TRIGONOMETRY_INL_HPP
+#endif
+
+#include "amble/physics/batch/vector-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace amble::physics::batch::HWY_NAMESPACE {
+
+struct SineCosine {
+  V sine, cosine;
+};
+
+/// To 2e-7 within ± 100 rad.
+HWY_INLINE SineCosine sine_cosine(V angle) {
+  const Ints ints;
+  const Floats d;
+  // angle = k π/2 + r with r within ± π/4.
+  const V k = hn::Round(angle * set(0.636619772f));
+  V r = fnma(k, set(1.57079625129699707031f), angle);
+  r = fnma(k, set(7.54978941586159635335e-8f), r);
+  const V u = r * r;
+  const V one = set(1.0f);
+  V s = fma(u, set(-1.95878909e-4f), set(8.33274827e-3f));
+  s = fma(u, s, set(-1.66666647e-1f));
+  s = fma(u * r, s, r);
+  V c = fma(u, set(2.45479421e-5f), set(-1.38883030e-3f));
+  c = fma(u, c, set(4.16666647e-2f));
+  c = fma(u * u, c, fnma(u, set(0.5f), one));
+  // A quarter turn swaps the two and half a turn negates both.
+  const auto quarters = hn::ConvertTo(ints, k);
+  const auto odd = hn::MaskFromVec(hn::BitCast(d, hn::ShiftRight<31>(hn::ShiftLeft<31>(quarters))));
+  const auto sign_bit = hn::Set(ints, INT32_MIN);
+  const auto sine_sign = hn::And(hn::ShiftLeft<30>(quarters), sign_bit);
+  const auto cosine_sign = hn::And(hn::ShiftLeft<30>(hn::Add(quarters, hn::Set(ints, 1))), sign_bit);
+  return {hn::Xor(hn::IfThenElse(odd, c, s), hn::BitCast(d, sine_sign)),
+          hn::Xor(hn::IfThenElse(odd, s, c), hn::BitCast(d, cosine_sign))};
+}
+
+/// atan2(y, x) to 4e-7; 0 where both are 0.
+HWY_INLINE V arc_tangent(V y, V x) {
+  constexpr float pi = 3.14159265f;
+  const V long_side = hn::Max(hn::Abs(x), hn::Abs(y)), short_side = hn::Min(hn::Abs(x), hn::Abs(y));
+  V t = short_side / hn::Max(long_side, set(1e-30f));  // 0 … 1
+  // Above tan(π/8) seen from π/4.
+  const Mask steep = t > set(0.414213562f);
+  t = hn::IfThenElse(steep, (t - set(1.0f)) / (t + set(1.0f)), t);
+  const V u = t * t;
+  V p = fma(u, set(8.52049204e-2f), set(-1.40241428e-1f));
+  p = fma(u, p, set(1.99912377e-1f));
+  p = fma(u, p, set(-3.33332866e-1f));
+  V angle = fma(u * t, p, t);
+  angle = hn::IfThenElse(steep, angle + set(0.25f * pi), angle);
+  angle = hn::IfThenElse(hn::Abs(y) > hn::Abs(x), set(0.5f * pi) - angle, angle);
+  angle = hn::IfThenElse(x < zero(), set(pi) - angle, angle);
+  return hn::IfThenElse(y < zero(), hn::Neg(angle), angle);
+}
+
+}  // namespace amble::physics::batch::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // toggled by HWY_TARGET_TOGGLE

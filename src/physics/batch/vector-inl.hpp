@@ -1,0 +1,178 @@
+// Arithmetic on one quantity of several robots at once, for each instruction set: included once per target
+// through Highway's foreach_target. Products are added by fused multiply-add wherever they are added, written
+// out, and nothing here is approximate beyond rounding: so every instruction set gives the same bits.
+#if defined(AMBLE_BATCH_VECTOR_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef AMBLE_BATCH_VECTOR_INL_HPP
+#undef AMBLE_BATCH_VECTOR_INL_HPP
+#else
+#define AMBLE_BATCH_VECTOR_INL_HPP
+#endif
+
+#include <hwy/highway.h>
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "amble/physics/batch/model.hpp"
+#include "amble/physics/batch/rows.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace amble::physics::batch::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::CappedTag<float, lanes>;
+using Ints = hn::RebindToSigned<Floats>;
+using V = hn::Vec<Floats>;
+using Mask = hn::Mask<Floats>;
+constexpr int width = static_cast<int>(hn::MaxLanes(Floats()));
+
+HWY_INLINE V set(float x) {
+  return hn::Set(Floats(), x);
+}
+HWY_INLINE V zero() {
+  return hn::Zero(Floats());
+}
+HWY_INLINE Mask nowhere() {
+  return hn::MaskFromVec(zero());
+}
+HWY_INLINE V load(const float* from) {
+  return hn::Load(Floats(), from);
+}
+HWY_INLINE void store(V v, float* to) {
+  hn::Store(v, Floats(), to);
+}
+
+#if HWY_NATIVE_FMA
+/// a b + c, rounded once.
+HWY_INLINE V fma(V a, V b, V c) {
+  return hn::MulAdd(a, b, c);
+}
+#else
+/// The product is exact in double. The sum is rounded to odd, so that rounding it once more, to float, gives
+/// what rounding the exact sum gives (Boldo and Melquiond 2008, "Emulation of FMA and correctly rounded
+/// sums").
+HWY_INLINE float fused(float a, float b, float c) {
+  const double product = static_cast<double>(a) * static_cast<double>(b);
+  const double addend = static_cast<double>(c);
+  double sum = product + addend;
+  const double part = sum - product;
+  const double error = (product - (sum - part)) + (addend - part);
+  const auto bits = std::bit_cast<std::uint64_t>(sum);
+  if ((error > 0.0 || error < 0.0) && (bits & 1) == 0)
+    sum = std::bit_cast<double>((error > 0.0) == (sum > 0.0) ? bits + 1 : bits - 1);
+  return static_cast<float>(sum);
+}
+
+HWY_INLINE V fma(V a, V b, V c) {
+  HWY_ALIGN float as[width], bs[width], cs[width];
+  store(a, as);
+  store(b, bs);
+  store(c, cs);
+  for (int i = 0; i < width; ++i) cs[i] = fused(as[i], bs[i], cs[i]);
+  return load(cs);
+}
+#endif
+
+/// c − a b, rounded once.
+HWY_INLINE V fnma(V a, V b, V c) {
+#if HWY_NATIVE_FMA
+  return hn::NegMulAdd(a, b, c);
+#else
+  return fma(hn::Neg(a), b, c);
+#endif
+}
+/// a b − c d: the second product is rounded before.
+HWY_INLINE V difference_of_products(V a, V b, V c, V d) {
+  return fnma(c, d, a * b);
+}
+
+struct V3 {
+  V x, y, z;
+};
+
+HWY_INLINE V3 set(Float3 v) {
+  return {set(v.x), set(v.y), set(v.z)};
+}
+HWY_INLINE V3 zero3() {
+  return {zero(), zero(), zero()};
+}
+HWY_INLINE V3 operator+(V3 a, V3 b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+HWY_INLINE V3 operator-(V3 a, V3 b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+HWY_INLINE V3 operator*(V s, V3 a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+/// c + s a.
+HWY_INLINE V3 fma(V s, V3 a, V3 c) {
+  return {fma(s, a.x, c.x), fma(s, a.y, c.y), fma(s, a.z, c.z)};
+}
+/// c − s a.
+HWY_INLINE V3 fnma(V s, V3 a, V3 c) {
+  return {fnma(s, a.x, c.x), fnma(s, a.y, c.y), fnma(s, a.z, c.z)};
+}
+/// c + a · b.
+HWY_INLINE V dot(V3 a, V3 b, V c) {
+  return fma(a.z, b.z, fma(a.y, b.y, fma(a.x, b.x, c)));
+}
+HWY_INLINE V dot(V3 a, V3 b) {
+  return fma(a.z, b.z, fma(a.y, b.y, a.x * b.x));
+}
+HWY_INLINE V3 cross(V3 a, V3 b) {
+  return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
+          difference_of_products(a.x, b.y, a.y, b.x)};
+}
+/// c + a × b.
+HWY_INLINE V3 cross(V3 a, V3 b, V3 c) {
+  return {fnma(a.z, b.y, fma(a.y, b.z, c.x)), fnma(a.x, b.z, fma(a.z, b.x, c.y)),
+          fnma(a.y, b.x, fma(a.x, b.y, c.z))};
+}
+
+/// The columns of a 3 × 3 matrix.
+struct Columns {
+  V3 x, y, z;
+};
+HWY_INLINE V3 operator*(const Columns& m, V3 v) {
+  return fma(v.z, m.z, fma(v.y, m.y, v.x * m.x));
+}
+/// The transposed matrix times v.
+HWY_INLINE V3 transposed(const Columns& m, V3 v) {
+  return {dot(m.x, v), dot(m.y, v), dot(m.z, v)};
+}
+
+struct Symmetric {
+  V xx, yy, zz, xy, xz, yz;
+};
+HWY_INLINE V3 operator*(const Symmetric& m, V3 v) {
+  return {fma(m.xz, v.z, fma(m.xy, v.y, m.xx * v.x)), fma(m.yz, v.z, fma(m.yy, v.y, m.xy * v.x)),
+          fma(m.zz, v.z, fma(m.yz, v.y, m.xz * v.x))};
+}
+HWY_INLINE Symmetric operator+(const Symmetric& a, const Symmetric& b) {
+  return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.xz + b.xz, a.yz + b.yz};
+}
+
+/// Several consecutive rows of the state, for the lanes of this pass.
+HWY_INLINE V3 load3(const Row* rows, int lane) {
+  return {load(rows[0].lane.data() + lane), load(rows[1].lane.data() + lane),
+          load(rows[2].lane.data() + lane)};
+}
+HWY_INLINE void store3(V3 v, Row* rows, int lane) {
+  store(v.x, rows[0].lane.data() + lane);
+  store(v.y, rows[1].lane.data() + lane);
+  store(v.z, rows[2].lane.data() + lane);
+}
+HWY_INLINE V load1(const Row& row, int lane) {
+  return load(row.lane.data() + lane);
+}
+HWY_INLINE void store1(V v, Row& row, int lane) {
+  store(v, row.lane.data() + lane);
+}
+
+}  // namespace amble::physics::batch::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // toggled by HWY_TARGET_TOGGLE

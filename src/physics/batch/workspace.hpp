@@ -1,0 +1,88 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "amble/physics/batch/model.hpp"
+#include "amble/physics/batch/rows.hpp"
+
+namespace amble::physics::batch {
+
+/// A block of up to three constraint rows, as vectors that follow each other: first each row's W = L⁻¹ Jᵀ
+/// (numbers of its chain, then the six of the base), then these. Rows are scaled so that a row's impulse
+/// changes its own speed by one.
+struct BlockShape {
+  int numbers;  ///< of one W
+
+  int field(int index) const { return 3 * numbers + index; }
+  int size() const { return field(27); }
+
+  static constexpr int gain = 0;   ///< 1 − softness, of an impulse
+  static constexpr int bias = 3;   ///< speed wanted
+  static constexpr int low = 6;    ///< bounds of the impulse; of a friction row with a coefficient, `high`
+  static constexpr int high = 9;   ///< is its bound per impulse of the normal row
+  static constexpr int gram = 12;  ///< W1 · W0, W2 · W0, W2 · W1
+  static constexpr int impulse = 15;
+  static constexpr int root = 18;      ///< what scales an impulse
+  static constexpr int inverse = 21;   ///< and its inverse
+  static constexpr int position = 24;  ///< of a contact: from the centre of mass, torso axes
+};
+
+/// The blocks of a chain: joints first, then contacts.
+struct ChainBlocks {
+  int first = 0, joint_blocks = 0, count = 0;
+};
+
+/// Memory for one pass over as many lanes as a vector holds; nothing in it outlives a step but `felt`.
+class Workspace {
+ public:
+  explicit Workspace(const Model& model)
+      : shape{model.longest_chain + 6}, chain_blocks(model.chains.size() + 1) {
+    const int links = static_cast<int>(model.links.size()), points = static_cast<int>(model.points.size());
+    const auto take = [this](int vectors) {
+      const int start = vectors_;
+      vectors_ += vectors;
+      return start;
+    };
+    heights = take(points);
+    inertia = take(9 * links);
+    columns = take(6 * links);
+    servos = take(3 * links);
+    free = take(links);
+    for (const Chain& chain : model.chains)
+      factors.push_back(take(chain.count * (chain.count + 1) / 2 + 7 * chain.count));
+    blocks = take((links + points) * shape.size());
+    storage_.resize(static_cast<std::size_t>((vectors_ + 1) * lanes));
+    void* start = storage_.data();
+    std::size_t space = storage_.size() * sizeof(float);
+    memory_ = static_cast<float*>(std::align(sizeof(Row), sizeof(float), start, space));
+    block_point.resize(static_cast<std::size_t>(links + points));
+    felt.resize(static_cast<std::size_t>(lanes * points));
+  }
+
+  Workspace(const Workspace&) = delete;
+  Workspace& operator=(const Workspace&) = delete;
+
+  /// Aligned as a Row is.
+  float* memory() { return memory_; }
+
+  int heights;  ///< by point: of its lowest place over the ground
+  int inertia;  ///< by link: its own second (6) and first (3) moment of mass about the robot's centre
+  int columns;  ///< by link: column of the mass matrix for the base, turning and pushing: 6
+  int servos;   ///< by link: speed wanted, lowest and highest impulse
+  int free;     ///< by link: Lᵀ ν of the joints
+  std::vector<int>
+      factors;  ///< by chain: its L, inverses of L's diagonal, L's six rows for the base (by joint)
+  int blocks;
+  BlockShape shape;
+  std::vector<ChainBlocks> chain_blocks;  ///< of the torso, then of each chain
+  std::vector<int> block_point;           ///< by block: its point
+  std::vector<unsigned char> felt;        ///< by pass and point: has an impulse of the step before
+
+ private:
+  int vectors_ = 0;
+  std::vector<float> storage_;
+  float* memory_ = nullptr;
+};
+
+}  // namespace amble::physics::batch

@@ -1,0 +1,79 @@
+#include "amble/substrate/layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "amble/core/check.hpp"
+#include "amble/substrate/layout_builder.hpp"
+
+namespace amble::substrate {
+namespace {
+
+/// The value of a straight line that is `low` at −1 and `high` at 1.
+double on_line(double low, double high, float o) {
+  return 0.5 * (low + high) + 0.5 * (high - low) * std::clamp(static_cast<double>(o), -1.0, 1.0);
+}
+
+}  // namespace
+
+Layout::Layout(const Settings& settings, const Needs& needs, const morphology::RobotSpec& robot) {
+  LayoutBuilder(*this, settings, needs, robot).build();
+}
+
+const Layout::Source& Layout::source(Property property, int node) const {
+  const auto found = std::find_if(sources_.begin(), sources_.end(), [&](const Source& source) {
+    return source.property == property && source.node == node;
+  });
+  AMBLE_CHECK(found != sources_.end(), "the node lacks this property");
+  return *found;
+}
+
+bool Layout::shared(Property property, int a, int b) const {
+  const Source &one = source(property, a), &other = source(property, b);
+  if (one.output != other.output) return false;
+  if (one.output < 0) return one.value == other.value;
+  return one.points == other.points && one.low == other.low && one.high == other.high;
+}
+
+double Layout::lowest(Property property) const {
+  double lowest = INFINITY;
+  for (const Source& source : sources_)
+    if (source.property == property)
+      lowest = std::min(lowest, source.output < 0 ? source.value : std::min(source.low, source.high));
+  return lowest;
+}
+
+Decoded Layout::decode(const cppn::Network& network) const {
+  AMBLE_CHECK(network.outputs() == static_cast<int>(output_names_.size()),
+              "the CPPN has another number of outputs than the substrate");
+  std::vector<float> results(output_names_.size() * static_cast<std::size_t>(points_.capacity()));
+  network.evaluate(points_, results);
+  const auto output_at = [&](int output, int point) {
+    return results[static_cast<std::size_t>(output * points_.capacity() + point)];
+  };
+
+  Decoded decoded;
+  decoded.weights.resize(links_.size());
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const double o = on_line(-1.0, 1.0, output_at(links_[i].output, link_points_[i]));
+    const double excess = (std::fabs(o) - expression_threshold_) / (1.0 - expression_threshold_);
+    if (excess > 0.0) decoded.weights[i] = static_cast<float>(std::copysign(excess * weight_range_, o));
+  }
+  for (auto& values : decoded.properties) values.resize(nodes_.size());
+  const auto ticks = static_cast<std::size_t>(pattern_ticks_ + 1);
+  if (pattern_ticks_ > 0) decoded.patterns.resize(nodes_.size() * ticks);
+  for (const Source& source : sources_) {
+    const auto node = static_cast<std::size_t>(source.node);
+    const bool is_pattern = source.property == Property::pattern;
+    float* const values = is_pattern
+                              ? decoded.patterns.data() + node * ticks
+                              : decoded.properties[static_cast<std::size_t>(source.property)].data() + node;
+    for (std::size_t i = 0; i < (is_pattern ? ticks : 1); ++i)
+      values[i] = static_cast<float>(
+          source.output < 0 ? source.value
+                            : on_line(source.low, source.high, output_at(source.output, source.points[i])));
+  }
+  return decoded;
+}
+
+}  // namespace amble::substrate

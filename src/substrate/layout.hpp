@@ -1,0 +1,105 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "amble/cppn/network.hpp"
+#include "amble/morphology/robot_spec.hpp"
+#include "amble/substrate/sensor.hpp"
+#include "amble/substrate/settings.hpp"
+
+namespace amble::substrate {
+
+/// What a kind of controller makes of a substrate.
+struct Needs {
+  std::string_view kind;             ///< for messages
+  bool network = true;               ///< whether there are links, sensors and nodes that drive no joint
+  std::vector<Property> properties;  ///< that each node but the sensors must have
+  int pattern_ticks = 0;             ///< patterns are asked for at times 0, 1/ticks, …, 1
+};
+
+struct Node {
+  std::string name, group;
+  std::vector<double> at;
+  std::optional<Sensor> sensor;
+  int joint = -1;  ///< index in RobotSpec::joints; −1: drives none
+};
+
+struct Link {
+  int source = 0, target = 0;  ///< nodes
+  int output = 0;              ///< CPPN output that gives the weight
+};
+
+/// What a CPPN says of a substrate: plain numbers, one set per genome.
+struct Decoded {
+  std::vector<float> weights;  ///< link by link; 0 where the link is not expressed
+  /// Property by property and node by node; 0 where a node lacks it. Patterns are not among them.
+  std::array<std::vector<float>, property_count> properties;
+  std::vector<float> patterns;  ///< node by node, tick by tick: 0 … pattern_ticks
+
+  std::span<const float> of(Property property) const {
+    return properties[static_cast<std::size_t>(property)];
+  }
+};
+
+/// A substrate made ready for many genomes: checked against robot and controller, with all questions that it
+/// has for a CPPN laid down once. Const and shared by all workers.
+///
+/// CPPN inputs: the coordinates of a link's source, then those of its target. For a property of a node these
+/// are the node's own and zeros (Morse et al. 2013, figure 1). Without links there is one set of coordinates.
+/// If a node has a pattern, time in periods is one more input, 0 for everything but patterns.
+///
+/// Outputs o are cut to −1 … 1. A link's weight is 0 where |o| is at most the expression threshold t, and
+/// else sign(o) (|o| − t)/(1 − t) × weight_range (HyperSharpNEAT). A property is the straight line through
+/// `low` at −1 and `high` at 1.
+class Layout {
+ public:
+  /// Throws UserError naming the key where settings, robot and controller do not fit.
+  Layout(const Settings& settings, const Needs& needs, const morphology::RobotSpec& robot);
+
+  const std::vector<std::string>& coordinates() const { return coordinates_; }
+  const std::vector<std::string>& input_names() const { return input_names_; }
+  const std::vector<std::string>& output_names() const { return output_names_; }
+  const std::vector<Node>& nodes() const { return nodes_; }
+  /// Item by item of the settings, then source by source; those that lead back follow theirs.
+  const std::vector<Link>& links() const { return links_; }
+  int joint_count() const { return static_cast<int>(drivers_.size()); }
+  /// The node that drives a joint.
+  int driver(int joint) const { return drivers_[static_cast<std::size_t>(joint)]; }
+  /// Whether two nodes get the same value of a property from every CPPN, because they ask it alike.
+  bool shared(Property property, int a, int b) const;
+  /// The least value that a property can have.
+  double lowest(Property property) const;
+
+  const cppn::Points& points() const { return points_; }
+  Decoded decode(const cppn::Network& network) const;
+
+ private:
+  friend class LayoutBuilder;
+
+  /// A property of one node.
+  struct Source {
+    int node = 0;
+    Property property = Property::bias;
+    int output = -1;  ///< −1: none, the property is `value`
+    double low = 0.0, high = 0.0, value = 0.0;
+    std::vector<int> points;  ///< one; for a pattern tick by tick
+  };
+  const Source& source(Property property, int node) const;
+
+  std::vector<std::string> coordinates_, input_names_, output_names_;
+  double expression_threshold_ = 0.0, weight_range_ = 0.0;
+  int pattern_ticks_ = 0;
+  std::vector<Node> nodes_;
+  std::vector<Link> links_;
+  std::vector<int> link_points_;  ///< link by link
+  std::vector<int> drivers_;      ///< joint by joint
+  std::vector<Source> sources_;
+  cppn::Points points_{0, 0};
+};
+
+}  // namespace amble::substrate

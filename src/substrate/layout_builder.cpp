@@ -1,0 +1,283 @@
+#include "amble/substrate/layout_builder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "amble/core/error.hpp"
+
+namespace amble::substrate {
+namespace {
+
+constexpr std::size_t most_links = 1'000'000;
+
+template <typename... Args>
+[[noreturn]] void refuse(const std::string& key, fmt::format_string<Args...> text, Args&&... args) {
+  throw UserError(
+      fmt::format("controller.substrate.{}{}", key, fmt::format(text, std::forward<Args>(args)...)));
+}
+
+std::string item(const char* list, std::size_t index, const char* key = nullptr) {
+  return key == nullptr ? fmt::format("{}[{}]", list, index) : fmt::format("{}[{}].{}", list, index, key);
+}
+
+/// Names that are there once each and not empty.
+void check_names(const std::vector<std::string>& names, const char* key) {
+  if (names.empty()) refuse(key, " is empty: expected a list of names");
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i].empty()) refuse(item(key, i), " is empty: expected a name");
+    if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
+        names.begin() + static_cast<std::ptrdiff_t>(i))
+      refuse(item(key, i), " = \"{}\" is there twice", names[i]);
+  }
+}
+
+std::string_view name_of(Property property) {
+  return property_names[static_cast<std::size_t>(property)];
+}
+
+}  // namespace
+
+void LayoutBuilder::build() {
+  take_names();
+  add_nodes();
+  assign_joints();
+  add_links();
+  add_properties();
+  check_properties();
+  check_outputs();
+  layout_.points_ = points_.points(static_cast<int>(layout_.input_names_.size()));
+}
+
+void LayoutBuilder::take_names() {
+  check_names(settings_.coordinates, "coordinates");
+  check_names(settings_.outputs, "outputs");
+  layout_.coordinates_ = settings_.coordinates;
+  layout_.output_names_ = settings_.outputs;
+  layout_.expression_threshold_ = settings_.expression_threshold;
+  layout_.weight_range_ = settings_.weight_range;
+  layout_.pattern_ticks_ = needs_.pattern_ticks;
+  read_.resize(settings_.outputs.size());
+  if (!needs_.network && !settings_.links.empty())
+    refuse("links", ": a controller of kind {} has no links", needs_.kind);
+  if (settings_.links.empty()) {
+    layout_.input_names_ = settings_.coordinates;
+  } else {
+    for (const char* end : {"source", "target"})
+      for (const std::string& name : settings_.coordinates)
+        layout_.input_names_.push_back(fmt::format("{}.{}", end, name));
+  }
+  has_time_ = std::any_of(settings_.properties.begin(), settings_.properties.end(),
+                          [](const PropertySettings& p) { return p.property == Property::pattern; });
+  if (has_time_) layout_.input_names_.push_back("time");
+}
+
+void LayoutBuilder::add_nodes() {
+  if (settings_.nodes.empty()) refuse("nodes", " is empty: a controller needs nodes");
+  std::map<std::string, std::size_t> names;
+  std::map<std::vector<float>, std::size_t> places;
+  for (std::size_t i = 0; i < settings_.nodes.size(); ++i) {
+    const NodeSettings& node = settings_.nodes[i];
+    check_node(i);
+    if (const auto [first, is_new] = names.try_emplace(node.name, i); !is_new)
+      refuse(item("nodes", i, "name"), " = \"{}\": nodes[{}] is called so, too", node.name, first->second);
+    const std::vector<float> at(node.at.begin(), node.at.end());
+    if (const auto [first, is_new] = places.try_emplace(at, i); !is_new)
+      refuse(item("nodes", i, "at"), ": \"{}\" stands where \"{}\" (nodes[{}]) stands", node.name,
+             settings_.nodes[first->second].name, first->second);
+    Node& added = layout_.nodes_.emplace_back(Node{node.name, node.group, node.at, std::nullopt, -1});
+    if (!node.sensor.empty())
+      added.sensor = parse_sensor(node.sensor, robot_, "controller.substrate." + item("nodes", i, "sensor"));
+  }
+  for (std::size_t i = 0; i < settings_.nodes.size(); ++i) {
+    const auto namesake = names.find(settings_.nodes[i].group);
+    if (namesake != names.end() && namesake->second != i)
+      refuse(item("nodes", i, "group"), " = \"{}\": nodes[{}], which is another node, is called so",
+             settings_.nodes[i].group, namesake->second);
+  }
+}
+
+void LayoutBuilder::check_node(std::size_t index) const {
+  const NodeSettings& node = settings_.nodes[index];
+  if (node.name.empty()) refuse(item("nodes", index, "name"), " is missing");
+  if (node.at.size() != settings_.coordinates.size())
+    refuse(item("nodes", index, "at"), ": \"{}\" has {} coordinates: expected {} ({})", node.name,
+           node.at.size(), settings_.coordinates.size(), fmt::join(settings_.coordinates, ", "));
+  if (!node.sensor.empty() && !node.joint.empty())
+    refuse(item("nodes", index), ": \"{}\" has both a sensor and a joint", node.name);
+  if (!needs_.network && node.joint.empty())
+    refuse(item("nodes", index), ": \"{}\" drives no joint: each node of a controller of kind {} must",
+           node.name, needs_.kind);
+}
+
+void LayoutBuilder::assign_joints() {
+  layout_.drivers_.assign(robot_.joints.size(), -1);
+  for (std::size_t i = 0; i < settings_.nodes.size(); ++i) {
+    const std::string& name = settings_.nodes[i].joint;
+    if (name.empty()) continue;
+    const auto joint = std::find_if(robot_.joints.begin(), robot_.joints.end(),
+                                    [&](const morphology::Joint& j) { return j.name == name; });
+    if (joint == robot_.joints.end())
+      refuse(item("nodes", i, "joint"), " = \"{}\": the robot has no such joint", name);
+    layout_.nodes_[i].joint = static_cast<int>(joint - robot_.joints.begin());
+    int& driver = layout_.drivers_[static_cast<std::size_t>(layout_.nodes_[i].joint)];
+    if (driver >= 0)
+      refuse(item("nodes", i, "joint"), " = \"{}\": \"{}\" (nodes[{}]) drives it already", name,
+             name_of(driver), driver);
+    driver = static_cast<int>(i);
+  }
+  for (std::size_t joint = 0; joint < robot_.joints.size(); ++joint)
+    if (layout_.drivers_[joint] < 0)
+      refuse("nodes", ": no node drives the robot's joint {}", robot_.joints[joint].name);
+}
+
+void LayoutBuilder::add_links() {
+  for (std::size_t i = 0; i < settings_.links.size(); ++i) {
+    const LinkSettings& link = settings_.links[i];
+    const auto from = nodes_of(link.from, item("links", i, "from"));
+    const auto to = nodes_of(link.to, item("links", i, "to"));
+    const auto same = coordinates_of(link.same, item("links", i, "same"));
+    const int output = output_of(link.weight, item("links", i, "weight"));
+    const bool itself = link.from == link.to && is_node(link.from);
+    const std::size_t before = layout_.links_.size();
+    for (const int source : from) {
+      const auto& at = layout_.nodes_[static_cast<std::size_t>(source)].at;
+      for (const int target : to) {
+        const auto& other = layout_.nodes_[static_cast<std::size_t>(target)].at;
+        const bool agree =
+            std::all_of(same.begin(), same.end(), [&](std::size_t c) { return at[c] == other[c]; });
+        if (!agree || (source == target && !itself)) continue;
+        add_link(i, source, target, output);
+        if (link.both_ways) add_link(i, target, source, output);
+      }
+    }
+    if (layout_.links_.size() == before)
+      refuse(item("links", i), ": there is nothing to link from \"{}\" to \"{}\"", link.from, link.to);
+  }
+}
+
+void LayoutBuilder::add_link(std::size_t index, int source, int target, int output) {
+  if (const auto [first, is_new] = linked_.try_emplace({source, target}, index); !is_new)
+    refuse(item("links", index), ": \"{}\" is linked to \"{}\" already by links[{}]", name_of(source),
+           name_of(target), first->second);
+  if (layout_.links_.size() == most_links) refuse("links", " are more than {}", most_links);
+  layout_.links_.push_back({source, target, output});
+  layout_.link_points_.push_back(points_.add(link_inputs(source, target)));
+}
+
+void LayoutBuilder::add_properties() {
+  for (std::size_t i = 0; i < settings_.properties.size(); ++i) {
+    const PropertySettings& property = settings_.properties[i];
+    if (std::find(needs_.properties.begin(), needs_.properties.end(), property.property) ==
+        needs_.properties.end())
+      refuse(item("properties", i, "property"),
+             " = \"{}\": nodes of a controller of kind {} have no such property",
+             substrate::name_of(property.property), needs_.kind);
+    if (property.property == Property::pattern && property.output.empty())
+      refuse(item("properties", i, "output"), " is missing: a pattern is not constant");
+    for (const int node : nodes_of(property.of, item("properties", i, "of"))) add_property(i, node);
+  }
+}
+
+void LayoutBuilder::add_property(std::size_t index, int node) {
+  const PropertySettings& property = settings_.properties[index];
+  const std::string_view what = substrate::name_of(property.property);
+  if (layout_.nodes_[static_cast<std::size_t>(node)].sensor)
+    refuse(item("properties", index, "of"), ": \"{}\" is a sensor and has no {}", name_of(node), what);
+  for (const Layout::Source& other : layout_.sources_)
+    if (other.node == node && other.property == property.property)
+      refuse(item("properties", index), ": the {} of \"{}\" is given already", what, name_of(node));
+
+  Layout::Source& source = layout_.sources_.emplace_back();
+  source.node = node;
+  source.property = property.property;
+  source.low = property.low;
+  source.high = property.high;
+  source.value = property.value;
+  const auto zero = coordinates_of(property.zero, item("properties", index, "zero"));
+  if (property.output.empty()) return;
+  source.output = output_of(property.output, item("properties", index, "output"));
+  const int last_tick = property.property == Property::pattern ? needs_.pattern_ticks : 0;
+  for (int tick = 0; tick <= last_tick; ++tick)
+    source.points.push_back(points_.add(node_inputs(node, zero, tick)));
+}
+
+void LayoutBuilder::check_properties() const {
+  for (const Property property : needs_.properties) {
+    std::vector<bool> has(layout_.nodes_.size());
+    for (const Layout::Source& source : layout_.sources_)
+      if (source.property == property) has[static_cast<std::size_t>(source.node)] = true;
+    for (std::size_t node = 0; node < has.size(); ++node)
+      if (!has[node] && !layout_.nodes_[node].sensor)
+        refuse("properties", ": \"{}\" has no {}, which a controller of kind {} needs",
+               layout_.nodes_[node].name, substrate::name_of(property), needs_.kind);
+  }
+}
+
+void LayoutBuilder::check_outputs() const {
+  for (std::size_t i = 0; i < read_.size(); ++i)
+    if (!read_[i])
+      refuse(item("outputs", i), " = \"{}\": no link and no property reads it", settings_.outputs[i]);
+}
+
+bool LayoutBuilder::is_node(const std::string& name) const {
+  return std::any_of(layout_.nodes_.begin(), layout_.nodes_.end(),
+                     [&](const Node& node) { return node.name == name; });
+}
+
+std::vector<int> LayoutBuilder::nodes_of(const std::string& name, const std::string& key) const {
+  std::vector<int> found;
+  for (std::size_t i = 0; i < layout_.nodes_.size(); ++i)
+    if (!name.empty() && (layout_.nodes_[i].name == name || layout_.nodes_[i].group == name))
+      found.push_back(static_cast<int>(i));
+  if (found.empty()) refuse(key, " = \"{}\": there is no node and no group of that name", name);
+  return found;
+}
+
+int LayoutBuilder::output_of(const std::string& name, const std::string& key) {
+  const auto found = std::find(settings_.outputs.begin(), settings_.outputs.end(), name);
+  if (found == settings_.outputs.end())
+    refuse(key, " = \"{}\": the CPPN has no such output (it has {})", name,
+           fmt::join(settings_.outputs, ", "));
+  const auto output = found - settings_.outputs.begin();
+  read_[static_cast<std::size_t>(output)] = true;
+  return static_cast<int>(output);
+}
+
+std::vector<std::size_t> LayoutBuilder::coordinates_of(const std::vector<std::string>& names,
+                                                       const std::string& key) const {
+  std::vector<std::size_t> found;
+  for (const std::string& name : names) {
+    const auto at = std::find(settings_.coordinates.begin(), settings_.coordinates.end(), name);
+    if (at == settings_.coordinates.end())
+      refuse(key, ": there is no coordinate \"{}\" (there are {})", name,
+             fmt::join(settings_.coordinates, ", "));
+    found.push_back(static_cast<std::size_t>(at - settings_.coordinates.begin()));
+  }
+  return found;
+}
+
+std::vector<float> LayoutBuilder::place(int node) const {
+  const auto& at = layout_.nodes_[static_cast<std::size_t>(node)].at;
+  return {at.begin(), at.end()};
+}
+
+std::vector<float> LayoutBuilder::link_inputs(int source, int target) const {
+  std::vector<float> inputs = place(source);
+  const std::vector<float> end = place(target);
+  inputs.insert(inputs.end(), end.begin(), end.end());
+  inputs.resize(layout_.input_names_.size());
+  return inputs;
+}
+
+std::vector<float> LayoutBuilder::node_inputs(int node, const std::vector<std::size_t>& zero,
+                                              int tick) const {
+  std::vector<float> inputs = place(node);
+  for (const std::size_t coordinate : zero) inputs[coordinate] = 0.0f;
+  inputs.resize(layout_.input_names_.size());
+  if (has_time_ && tick > 0)
+    inputs.back() = static_cast<float>(static_cast<double>(tick) / needs_.pattern_ticks);
+  return inputs;
+}
+
+}  // namespace amble::substrate

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "amble/substrate/layout.hpp"
+#include "amble/substrate/query_points.hpp"
+
+namespace amble::substrate {
+
+/// Fills a Layout and refuses what does not fit; used by Layout's constructor only.
+class LayoutBuilder {
+ public:
+  LayoutBuilder(Layout& layout, const Settings& settings, const Needs& needs,
+                const morphology::RobotSpec& robot)
+      : layout_(layout), settings_(settings), needs_(needs), robot_(robot) {}
+  void build();
+
+ private:
+  void take_names();
+  void add_nodes();
+  void check_node(std::size_t index) const;
+  void assign_joints();
+  void add_links();
+  void add_link(std::size_t item, int source, int target, int output);
+  void add_properties();
+  void add_property(std::size_t item, int node);
+  void check_properties() const;
+  void check_outputs() const;
+
+  /// The nodes that a name stands for: one, or those of a group.
+  std::vector<int> nodes_of(const std::string& name, const std::string& key) const;
+  bool is_node(const std::string& name) const;
+  int output_of(const std::string& name, const std::string& key);
+  std::vector<std::size_t> coordinates_of(const std::vector<std::string>& names,
+                                          const std::string& key) const;
+  std::vector<float> place(int node) const;
+  std::vector<float> link_inputs(int source, int target) const;
+  std::vector<float> node_inputs(int node, const std::vector<std::size_t>& zero, int tick) const;
+  const std::string& name_of(int node) const { return layout_.nodes_[static_cast<std::size_t>(node)].name; }
+
+  Layout& layout_;
+  const Settings& settings_;
+  const Needs& needs_;
+  const morphology::RobotSpec& robot_;
+  bool has_time_ = false;
+  std::vector<bool> read_;                             ///< output by output
+  std::map<std::pair<int, int>, std::size_t> linked_;  ///< by which item
+  QueryPoints points_;
+};
+
+}  // namespace amble::substrate

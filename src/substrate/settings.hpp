@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "amble/io/settings.hpp"
+
+namespace amble::substrate {
+
+/// What a CPPN can say of a single node, or a constant stand for.
+enum class Property {
+  pattern,        ///< output of a SUPG as a function of its timer, −1 … 1
+  offset,         ///< of a SUPG, −1 … 1
+  bias,           ///< of a neuron
+  time_constant,  ///< of a neuron; the unit is the controller's
+};
+inline constexpr std::array<std::string_view, 4> property_names{"pattern", "offset", "bias", "time_constant"};
+inline constexpr std::size_t property_count = property_names.size();
+
+/// A place in the substrate and what stands there: a sensor, a neuron, or a neuron or SUPG that drives a
+/// joint.
+struct NodeSettings {
+  std::string name;
+  std::string group;       ///< links and properties name nodes by their groups
+  std::vector<double> at;  ///< one number per coordinate
+  std::string sensor;      ///< empty: none (sensor.hpp)
+  std::string joint;       ///< name of the joint that it drives; empty: none
+
+  void describe(io::SettingsVisitor& visitor);
+};
+
+/// Links between all nodes of two groups.
+struct LinkSettings {
+  std::string from, to;           ///< a group, or one node
+  std::string weight = "weight";  ///< the CPPN output that gives the weights
+  std::vector<std::string> same;  ///< only pairs that agree in these coordinates
+  bool both_ways = false;
+
+  void describe(io::SettingsVisitor& visitor);
+};
+
+/// A property of all nodes of a group.
+struct PropertySettings {
+  std::string of;  ///< a group, or one node
+  Property property = Property::bias;
+  std::string output;             ///< the CPPN output that gives it; empty: it is `value` for all
+  double low = -1.0, high = 1.0;  ///< the property where that output is −1, and where it is 1
+  double value = 0.0;
+  std::vector<std::string> zero;  ///< coordinates that count as 0 when the CPPN is asked
+
+  void describe(io::SettingsVisitor& visitor);
+};
+
+/// A HyperNEAT substrate as data: where the nodes of a controller stand, what is linked, and which output of
+/// the CPPN says what (Morse et al. 2013, sec. 2.2 and figures 1, 4, 6, 7).
+struct Settings {
+  std::vector<std::string> coordinates;  ///< names, in the order of NodeSettings::at and of the CPPN's inputs
+  std::vector<std::string> outputs;      ///< names of the CPPN's outputs, in order
+  double expression_threshold = 0.2;     ///< outputs up to this size make no link
+  double weight_range = 3.0;             ///< weight where the output is 1
+  double sine_period_s = 1.0;            ///< of the sensor "sine"
+  std::vector<NodeSettings> nodes;
+  std::vector<LinkSettings> links;
+  std::vector<PropertySettings> properties;
+
+  void describe(io::SettingsVisitor& visitor);
+};
+
+}  // namespace amble::substrate

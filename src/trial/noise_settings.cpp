@@ -1,0 +1,53 @@
+#include "amble/trial/noise_settings.hpp"
+
+#include "amble/core/error.hpp"
+
+namespace amble::trial {
+
+void NoiseSettings::describe(io::SettingsVisitor& visitor) {
+  visitor.integer(
+      "episodes", episodes, {1, 1000},
+      {"trials per evaluation, each with noise of its own, the same for all genomes of a generation"});
+  visitor.choice("score", score, episode_score_names,
+                 {"what counts of the distances of an evaluation's episodes"});
+  visitor.number(
+      "push_m_s", push_m_s, {0.0, 100.0},
+      {"pushes: largest horizontal impulse, divided by the robot's whole mass, m/s; acts on the root"});
+  visitor.number("push_interval_s", push_interval_s, {1e-5, 1e6},
+                 {"one push, at a random moment, in each such interval, s"});
+  visitor.number("start_joint_rad", start_joint_rad, {0.0, 0.5},
+                 {"start: each joint turned by up to ± this, within its stops, rad"});
+  visitor.number("start_tilt_rad", start_tilt_rad, {0.0, 0.5},
+                 {"start: roll and pitch of the root, each up to ± this, rad"});
+  visitor.number("start_height_m", start_height_m, {0.0, 1.0},
+                 {"start: up to so much higher over the ground than without noise, m"});
+  visitor.number("touch_flip_probability", touch_flip_probability, {0.0, 1.0},
+                 {"sensors: probability per tick that a foot's touch is read the wrong way round"});
+  visitor.number("joint_sensor_rad", joint_sensor_rad, {0.0, 1.0},
+                 {"sensors: each joint angle is read wrong by up to ± this, constant during a trial, rad"});
+  visitor.number("attitude_sensor_rad", attitude_sensor_rad, {0.0, 1.0},
+                 {"sensors: the same for roll, pitch and yaw, rad"});
+  visitor.integer(
+      "latency_ticks", latency_ticks, {0, 100},
+      {"targets reach the motors late, by a number of ticks from 0 to this, constant during a trial"});
+}
+
+void NoiseSettings::validate(const Settings& trial) const {
+  if (episodes > 1 && !any())
+    fail(ExitCode::bad_input, "noise.episodes = {}: without any noise they would all be the same; expected 1",
+         episodes);
+  if (push_m_s > 0.0 && push_interval_s < trial.timestep_s)
+    fail(ExitCode::bad_input, "noise.push_interval_s = {}: expected at least one timestep, {} s",
+         push_interval_s, trial.timestep_s);
+}
+
+bool NoiseSettings::disturbs_start() const {
+  return start_joint_rad > 0.0 || start_tilt_rad > 0.0 || start_height_m > 0.0;
+}
+
+bool NoiseSettings::any() const {
+  return disturbs_start() || push_m_s > 0.0 || touch_flip_probability > 0.0 || joint_sensor_rad > 0.0 ||
+         attitude_sensor_rad > 0.0 || latency_ticks > 0;
+}
+
+}  // namespace amble::trial

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "amble/io/settings.hpp"
+#include "amble/trial/settings.hpp"
+
+namespace amble::trial {
+
+/// What the distances of several episodes make of a controller.
+enum class EpisodeScore { mean, worst };
+inline constexpr std::array<std::string_view, 2> episode_score_names{"mean", "worst"};
+
+/// Noise against controllers that live on the quirks of one simulator (Jakobi, Husbands & Harvey 1995): what
+/// works in every one of several disturbed trials ("episodes") does not hang on a detail. All amounts are 0
+/// by default: no noise. Each is drawn uniformly; trial/scenario.hpp says how.
+struct NoiseSettings {
+  int episodes = 1;
+  EpisodeScore score = EpisodeScore::mean;
+  double push_m_s = 0.0;
+  double push_interval_s = 2.0;
+  double start_joint_rad = 0.0;
+  double start_tilt_rad = 0.0;
+  double start_height_m = 0.0;
+  double touch_flip_probability = 0.0;
+  double joint_sensor_rad = 0.0;
+  double attitude_sensor_rad = 0.0;
+  int latency_ticks = 0;
+
+  void describe(io::SettingsVisitor& visitor);
+  /// Throws UserError for several episodes that would all be the same, and pushes more often than steps.
+  void validate(const Settings& trial) const;
+
+  /// Whether the robot starts elsewhere than in its start pose.
+  bool disturbs_start() const;
+  /// Whether there is any noise at all.
+  bool any() const;
+};
+
+}  // namespace amble::trial

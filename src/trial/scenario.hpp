@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "amble/core/math.hpp"
+#include "amble/morphology/robot_spec.hpp"
+#include "amble/physics/engine.hpp"
+#include "amble/trial/noise_settings.hpp"
+
+namespace amble::trial {
+
+/// Everything that noise does to one trial, drawn beforehand. Steps count from 1, as in Observer::on_step.
+struct Scenario {
+  struct Push {
+    int step = 0;      ///< acts during this step
+    Vec3 impulse_n_s;  ///< physics::Engine::push
+  };
+  struct TouchFlip {
+    int step = 0;  ///< what the controller reads just before this step
+    int leg = 0;
+  };
+
+  std::optional<physics::StartPose> start;  ///< nothing: the robot's own start pose
+  std::vector<Push> pushes;                 ///< by rising step
+  std::vector<TouchFlip> touch_flips;       ///< by rising step
+  std::vector<float> joint_sensor_rad;      ///< added to what is read; per joint
+  std::vector<float> attitude_sensor_rad;   ///< the same for roll, pitch and yaw
+  int latency_ticks = 0;                    ///< until the first targets arrive, those of angle 0 stand
+};
+
+/// Names a scenario: the same key and settings give the same scenario, to the bit.
+///
+/// It names no individual on purpose. All genomes of a generation meet the same scenarios (common random
+/// numbers; Law, Simulation Modeling and Analysis, sec. 11.2): so they are compared by what they do, not by
+/// their luck, and the best of a generation is not just the one that was pushed least. The next generation
+/// meets others, so nobody can adapt to one scenario, not even an elite.
+struct ScenarioKey {
+  std::uint64_t seed = 0;
+  std::uint32_t generation = 0;
+  std::uint32_t episode = 0;
+};
+
+/// The scenario of a trial of `steps` steps. A longer trial begins as a shorter one of the same key, and no
+/// kind of noise depends on the amount of another.
+///
+/// Start: joints and tilt as drawn, then the root is lifted so that the lowest point is as high over the
+/// ground as in the robot's own start pose (but not below it), plus the height drawn. Pushes: uniform over a
+/// disc in the horizontal plane.
+Scenario draw_scenario(const NoiseSettings& noise, const morphology::RobotSpec& robot, int steps,
+                       double timestep_s, const ScenarioKey& key);
+
+}  // namespace amble::trial

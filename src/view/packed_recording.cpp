@@ -1,0 +1,116 @@
+#include "amble/view/packed_recording.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "amble/analysis/robot_model.hpp"
+#include "amble/record/frame_codec.hpp"
+#include "amble/record/recording.hpp"
+
+namespace amble::view {
+namespace {
+
+constexpr double pose_interval_s = 0.02;
+
+/// Some columns of a recording, collected row by row.
+class Table {
+ public:
+  explicit Table(const record::RecordingReader& reader) : reader_(reader) {}
+
+  /// Throws UserError if the recording has no such column.
+  void require(const std::string& name) {
+    indices_.push_back(static_cast<std::size_t>(reader_.column(name)));
+    names_.push_back(name);
+  }
+  void accept(const std::string& name) {
+    if (std::ranges::find(reader_.header().columns, name) != reader_.header().columns.end()) require(name);
+  }
+
+  void add(const std::vector<float>& frame) {
+    for (const std::size_t index : indices_) values_.push_back(frame[index]);
+  }
+  void add_row(const std::vector<float>& row) { values_.insert(values_.end(), row.begin(), row.end()); }
+
+  PackedFrames pack(double first_s, double step_s) const {
+    return {.columns = names_,
+            .first_s = first_s,
+            .step_s = step_s,
+            .count = values_.size() / names_.size(),
+            .bytes = record::compress_frames(values_, names_.size())};
+  }
+
+  const std::vector<std::string>& names() const { return names_; }
+  const std::vector<std::size_t>& indices() const { return indices_; }
+
+ private:
+  const record::RecordingReader& reader_;
+  std::vector<std::string> names_;
+  std::vector<std::size_t> indices_;
+  std::vector<float> values_;
+};
+
+Table pose_table(const record::RecordingReader& reader, const analysis::RobotModel& robot) {
+  Table table(reader);
+  for (const char* name : {"x", "y", "z", "qw", "qx", "qy", "qz"}) table.require(std::string("root.") + name);
+  for (const char* name : {"x", "y", "z"}) table.require(std::string("com.") + name);
+  for (const auto& joint : robot.joints) table.require("angle." + joint.name);
+  for (const auto& joint : robot.joints) table.require("target." + joint.name);
+  for (const auto& leg : robot.legs) table.accept("timer." + leg.name);
+  return table;
+}
+
+Table contact_table(const record::RecordingReader& reader, const analysis::RobotModel& robot) {
+  Table table(reader);
+  for (const auto& leg : robot.legs) table.require("touch." + leg.name);
+  for (const auto& leg : robot.legs) table.accept("trigger." + leg.name);
+  return table;
+}
+
+/// The row of time 0: the robot as its file has it, with all else from the first frame (zeros without one).
+std::vector<float> start_row(const analysis::RobotModel& robot, const Table& poses,
+                             const std::vector<float>& first_frame) {
+  const analysis::Body& root = robot.bodies.front();
+  const Vec3 com_m = robot.com_at_start_m();
+  std::vector<float> row;
+  for (const double value : {root.position_m.x, root.position_m.y, root.position_m.z, root.rotation.w,
+                             root.rotation.x, root.rotation.y, root.rotation.z, com_m.x, com_m.y, com_m.z})
+    row.push_back(static_cast<float>(value));
+  row.resize(row.size() + robot.joints.size(), 0.0f);
+  for (std::size_t i = row.size(); i < poses.names().size(); ++i)
+    row.push_back(first_frame.empty() ? 0.0f : first_frame[poses.indices()[i]]);
+  return row;
+}
+
+}  // namespace
+
+PackedRecording pack_recording(const std::filesystem::path& path) {
+  record::RecordingReader reader(path);
+  const record::RecordingHeader& header = reader.header();
+  const auto robot = analysis::parse_robot(header.robot_json, path.string() + ": robot");
+  const auto frames_per_pose =
+      static_cast<std::uint64_t>(std::max(1.0, std::round(pose_interval_s / header.frame_s)));
+  Table poses = pose_table(reader, robot), contacts = contact_table(reader, robot);
+
+  const auto finite = [](float value) { return std::isfinite(value); };
+  std::uint64_t frames = 0;
+  bool healthy = true;
+  for (std::vector<float> frame; reader.next(frame);) {
+    healthy = healthy && std::ranges::all_of(frame, finite);
+    if (!healthy) continue;
+    if (frames == 0) poses.add_row(start_row(robot, poses, frame));
+    contacts.add(frame);
+    if (++frames % frames_per_pose == 0) poses.add(frame);
+  }
+  if (frames == 0) poses.add_row(start_row(robot, poses, {}));
+
+  return {.robot_json = header.robot_json,
+          .controller_json = header.controller_json,
+          .origin = header.origin,
+          .seconds = static_cast<double>(frames) * header.frame_s,
+          .outcome = reader.outcome(),
+          .poses = poses.pack(0.0, static_cast<double>(frames_per_pose) * header.frame_s),
+          .contacts = contacts.pack(header.frame_s, header.frame_s)};
+}
+
+}  // namespace amble::view

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "amble/record/trajectory.hpp"
+
+namespace amble::view {
+
+/// Numbers at even times, for the page: `count` rows, the first at `first_s`.
+struct PackedFrames {
+  std::vector<std::string> columns;
+  double first_s = 0.0, step_s = 0.0;
+  std::size_t count = 0;
+  std::string
+      bytes;  ///< record::compress_frames of all rows: a zlib stream of float32, as recorded to the bit
+};
+
+/// What the page keeps of a recording.
+struct PackedRecording {
+  std::string robot_json, controller_json, origin;
+  double seconds = 0.0;  ///< until the time was up or the robot fell
+  record::Outcome outcome = record::Outcome::completed;
+  /// Root, centre of mass, angles, targets and timers about 50 times a second. The first row is the start
+  /// pose, time 0; its targets and timers are those of the first step.
+  PackedFrames poses;
+  /// Touches and triggers of every recorded frame: between two poses a foot may come down and leave.
+  PackedFrames contacts;
+};
+
+/// Reads a recording frame by frame; memory grows by what the page keeps (about 12 kB per second of the
+/// quadruped). Frames from the first that is not finite on are left out. Throws UserError: the file is
+/// missing, foreign, truncated or altered, lacks a column, or holds no robot with legs.
+PackedRecording pack_recording(const std::filesystem::path& path);
+
+}  // namespace amble::view

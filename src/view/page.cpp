@@ -1,0 +1,77 @@
+#include "amble/view/page.hpp"
+
+#include <string_view>
+
+#include "amble/analysis/page_style.hpp"
+#include "amble/analysis/svg.hpp"
+#include "amble/core/check.hpp"
+#include "amble/view/base64.hpp"
+#include "amble/view/packed_recording.hpp"
+#include "amble/view/page_template.hpp"
+
+namespace amble::view {
+namespace {
+
+io::Json frames_json(const PackedFrames& frames) {
+  return {{"columns", frames.columns},
+          {"first_s", frames.first_s},
+          {"step_s", frames.step_s},
+          {"count", frames.count},
+          {"data", base64(frames.bytes)}};
+}
+
+io::Json walker_json(const Walker& walker) {
+  const PackedRecording recording = pack_recording(walker.recording);
+  const std::string what = walker.recording.string();
+  return {{"title", walker.title},
+          {"origin", recording.origin},
+          {"seconds", recording.seconds},
+          {"outcome", record::outcome_names[static_cast<std::size_t>(recording.outcome)]},
+          {"robot", io::parse_json(recording.robot_json, what)},
+          {"controller", io::parse_json(recording.controller_json, what)},
+          {"poses", frames_json(recording.poses)},
+          {"contacts", frames_json(recording.contacts)},
+          {"cppn", walker.cppn},
+          {"gait", walker.gait}};
+}
+
+/// JSON that may stand inside an element of HTML: pure ASCII and without "<", which occurs in texts only.
+std::string script_text(const io::Json& json) {
+  std::string text;
+  for (const char c : json.dump(-1, ' ', true, io::Json::error_handler_t::replace)) {
+    if (c == '<')
+      text += "\\u003c";
+    else
+      text += c;
+  }
+  return text;
+}
+
+/// Appends the template up to a mark and what takes the mark's place; returns the rest.
+std::string_view fill(std::string_view rest, std::string_view mark, std::string_view content,
+                      std::string& page) {
+  const auto at = rest.find(mark);
+  AMBLE_CHECK(at != std::string_view::npos, "the page's template has all marks, in order");
+  page += rest.substr(0, at);
+  page += content;
+  return rest.substr(at + mark.size());
+}
+
+}  // namespace
+
+std::string make_page(const PageInput& input) {
+  AMBLE_CHECK(!input.walkers.empty(), "a page shows at least one walker");
+  io::Json data{{"title", input.title}, {"made_by", input.made_by}, {"walkers", io::Json::array()}};
+  for (const Walker& walker : input.walkers) data["walkers"].push_back(walker_json(walker));
+
+  std::string page;
+  std::string_view rest = page_template();
+  rest = fill(rest, "<!--amble:title-->", analysis::escape(input.title), page);
+  rest = fill(rest, "<!--amble:palette-->", "<style>" + analysis::palette_style_sheet() + "</style>", page);
+  rest = fill(rest, "<!--amble:data-->",
+              "<script type=\"application/json\" id=\"amble-data\">" + script_text(data) + "</script>", page);
+  page += rest;
+  return page;
+}
+
+}  // namespace amble::view

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "amble/io/json_file.hpp"
+
+namespace amble::view {
+
+/// One robot on the page.
+struct Walker {
+  std::string title;
+  std::filesystem::path recording;
+  /// The genome of its controller: {"nodes": [{"id", "kind", "activation"}, …], "links": [{"from", "to",
+  /// "weight", "enabled"}, …], "inputs": [name, …], "outputs": [name, …]}, bias not named; null: not known.
+  io::Json cppn;
+  /// Its gait: {"gait": name, "legs": [{"name", "duty_factor", "phase", "phase_spread"}, …]}, phases in
+  /// turns; null: the page shows duty factors only.
+  io::Json gait;
+};
+
+struct PageInput {
+  std::string title;
+  std::vector<Walker> walkers;  ///< at least one
+  std::string made_by;          ///< program and version, for the foot of the page
+};
+
+/// A self-contained page that shows the walkers moving, in 3-D, with diagrams tied to the time: no network,
+/// and nothing needed but a browser (of 2023 or later). Throws UserError as pack_recording() does.
+std::string make_page(const PageInput& input);
+
+}  // namespace amble::view

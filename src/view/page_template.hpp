@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string_view>
+
+namespace amble::view {
+
+/// viewer/dist/page.html as it was when amble was built: the whole page but for title, colours and data.
+std::string_view page_template();
+
+}  // namespace amble::view

@@ -1,0 +1,154 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "amble/controllers/ctrnn.hpp"
+#include "amble/controllers/network.hpp"
+#include "amble/cppn/activation.hpp"
+#include "tests/controllers/quadruped.hpp"
+
+namespace amble::controllers {
+
+/// What one robot senses.
+struct Senses {
+  std::vector<float> angle_rad, touch, attitude_rad;
+};
+
+/// The slow twin of networks in a substrate: one robot, node by node, link by link, in the order of the
+/// layout.
+class PlainNetwork {
+ public:
+  PlainNetwork(const substrate::Layout& layout, substrate::Decoded decoded, double timestep_s,
+               double sine_period_s)
+      : layout_(layout),
+        decoded_(std::move(decoded)),
+        timestep_s_(timestep_s),
+        sine_period_s_(sine_period_s),
+        value_(layout.nodes().size()),
+        y_(layout.nodes().size()) {}
+
+  void tick(const NetworkSettings& settings, const Senses& senses) {
+    clear(value_);
+    sense(senses);
+    for (int pass = 0; pass < settings.passes; ++pass) {
+      std::vector<float> next = value_;
+      for (std::size_t i = 0; i < next.size(); ++i)
+        if (is_neuron(i)) next[i] = logistic_of(sum(i), settings.slope);
+      value_ = next;
+    }
+  }
+
+  void tick(const CtrnnSettings& settings, const Senses& senses) {
+    sense(senses);
+    if (settings.state == StateRule::cleared) clear(y_);
+    for (int step = 0; step < settings.steps_per_tick; ++step) {
+      const auto k1 = change(settings, y_);
+      if (settings.integrator == Integrator::rk4) {
+        const auto k2 = change(settings, moved(y_, k1, 0.5f)), k3 = change(settings, moved(y_, k2, 0.5f)),
+                   k4 = change(settings, moved(y_, k3, 1.0f));
+        for (std::size_t i = 0; i < y_.size(); ++i)
+          y_[i] += (k1[i] + 2.0f * k2[i] + 2.0f * k3[i] + k4[i]) * (1.0f / 6.0f);
+      } else {
+        y_ = moved(y_, k1, 1.0f);
+      }
+    }
+    show(settings, y_);
+  }
+
+  float value(std::size_t node) const { return value_[node]; }
+  float target_rad(int joint) const {
+    const morphology::Joint its = quadruped().joints[static_cast<std::size_t>(joint)];
+    const auto value = static_cast<double>(value_[static_cast<std::size_t>(layout_.driver(joint))]);
+    const double command = value < 0.0 ? 0.0 : value > 1.0 ? 1.0 : value;
+    return static_cast<float>(its.lower_rad + (its.upper_rad - its.lower_rad) * command);
+  }
+
+ private:
+  bool is_neuron(std::size_t node) const { return !layout_.nodes()[node].sensor; }
+
+  void clear(std::vector<float>& values) const {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (is_neuron(i)) values[i] = 0.0f;
+  }
+
+  void sense(const Senses& senses) {
+    using Kind = substrate::Sensor::Kind;
+    for (std::size_t i = 0; i < value_.size(); ++i) {
+      if (is_neuron(i)) continue;
+      const auto sensor = *layout_.nodes()[i].sensor;
+      const auto index = static_cast<std::size_t>(sensor.index);
+      if (sensor.kind == Kind::angle) value_[i] = senses.angle_rad[index];
+      if (sensor.kind == Kind::touch) value_[i] = senses.touch[index];
+      if (sensor.kind == Kind::roll) value_[i] = senses.attitude_rad[0];
+      if (sensor.kind == Kind::pitch) value_[i] = senses.attitude_rad[1];
+      if (sensor.kind == Kind::yaw) value_[i] = senses.attitude_rad[2];
+      if (sensor.kind == Kind::sine) value_[i] = sine();
+    }
+    ++tick_;
+  }
+
+  float sine() const {
+    const double turns = tick_ * timestep_s_ / sine_period_s_;
+    auto x = static_cast<float>((turns - std::floor(turns + 0.5)) * std::numbers::pi);
+    cppn::activate(neat::Activation::sine, cppn::Linear::identity, {&x, 1});
+    return x;
+  }
+
+  float sum(std::size_t node) const {
+    float sum = 0.0f;
+    for (std::size_t i = 0; i < layout_.links().size(); ++i)
+      if (layout_.links()[i].target == static_cast<int>(node))
+        sum += decoded_.weights[i] * value_[static_cast<std::size_t>(layout_.links()[i].source)];
+    return sum;
+  }
+
+  static float logistic_of(float x, double slope) {
+    logistic({&x, 1}, static_cast<float>(slope));
+    return x;
+  }
+
+  float rate(const CtrnnSettings& settings, std::size_t node) const {
+    const double time_constant = decoded_.of(substrate::Property::time_constant)[node];
+    auto x = static_cast<float>(settings.step / time_constant);
+    if (settings.integrator != Integrator::exponential_euler) return x;
+    cppn::activate(neat::Activation::bipolar_sigmoid, cppn::Linear::identity, {&x, 1});
+    return 2.0f * x / (1.0f + x);
+  }
+
+  void show(const CtrnnSettings& settings, const std::vector<float>& y) {
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      if (!is_neuron(i)) continue;
+      const float bias = decoded_.of(substrate::Property::bias)[i];
+      value_[i] = settings.equation == Equation::rate ? y[i] : logistic_of(y[i] + bias, settings.slope);
+    }
+  }
+
+  std::vector<float> change(const CtrnnSettings& settings, const std::vector<float>& y) {
+    show(settings, y);
+    std::vector<float> change(y.size());
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      if (!is_neuron(i)) continue;
+      float aim = sum(i);
+      if (settings.equation == Equation::rate)
+        aim = logistic_of(aim - decoded_.of(substrate::Property::bias)[i], settings.slope);
+      change[i] = rate(settings, i) * (aim - y[i]);
+    }
+    return change;
+  }
+
+  static std::vector<float> moved(std::vector<float> y, const std::vector<float>& change, float share) {
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] += share * change[i];
+    return y;
+  }
+
+  const substrate::Layout& layout_;
+  substrate::Decoded decoded_;
+  double timestep_s_, sine_period_s_;
+  std::vector<float> value_, y_;
+  int tick_ = 0;
+};
+
+}  // namespace amble::controllers

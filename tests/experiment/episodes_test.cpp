@@ -1,0 +1,35 @@
+#include "amble/experiment/episodes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace amble::experiment {
+namespace {
+
+TEST(Episodes, CountByTheirMeanOrTheirWorst) {
+  const std::array<double, 3> distances_m{3.0, 1.0, 5.0};
+  EXPECT_EQ(objective_m(trial::EpisodeScore::mean, distances_m), 3.0);
+  EXPECT_EQ(objective_m(trial::EpisodeScore::worst, distances_m), 1.0);
+}
+
+TEST(Episodes, OfWhichThereIsButOneCountAsItsDistanceToTheBit) {
+  const std::array<double, 1> distance_m{0.1 + 0.2};
+  EXPECT_EQ(objective_m(trial::EpisodeScore::mean, distance_m), 0.1 + 0.2);
+  EXPECT_EQ(objective_m(trial::EpisodeScore::worst, distance_m), 0.1 + 0.2);
+}
+
+TEST(Episodes, BelongToTheirGenomes) {
+  GenerationResult result;
+  result.episodes = 2;
+  for (const double walked_m : {1.0, 3.0, 10.0, 30.0}) {
+    record::Trajectory trajectory;
+    trajectory.com_end_m = {walked_m, 0.0, 0.0};
+    result.trajectories.push_back(trajectory);
+  }
+  EXPECT_EQ(objectives_m(trial::EpisodeScore::mean, result), (std::vector<double>{2.0, 20.0}));
+  EXPECT_EQ(objectives_m(trial::EpisodeScore::worst, result), (std::vector<double>{1.0, 10.0}));
+}
+
+}  // namespace
+}  // namespace amble::experiment

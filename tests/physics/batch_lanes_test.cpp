@@ -1,0 +1,133 @@
+#include <gtest/gtest.h>
+#include <hwy/highway.h>
+
+#include <cmath>
+#include <limits>
+
+#include "amble/core/hash.hpp"
+#include "tests/physics/scene.hpp"
+
+namespace amble::physics {
+namespace {
+
+float target(int gait, int joint, int step) {
+  return 0.6f * static_cast<float>(std::sin(0.06 * step + 1.7 * gait * joint));
+}
+
+/// Every lane on its own walk: `gaits[lane]`, −1: stays empty. Lanes may begin late. One hash per lane over
+/// all its states.
+std::vector<std::uint64_t> walk(const morphology::RobotSpec& robot, const std::vector<int>& gaits,
+                                const std::vector<int>& begin = std::vector<int>(16, 0), int steps = 200) {
+  const auto engine = make_engine("batch", robot, {});
+  std::vector<std::vector<std::uint64_t>> hashes(16);
+  LaneArray targets(static_cast<int>(robot.joints.size()), 16);
+  for (int n = 0; n < steps + 100; ++n) {
+    for (int lane = 0; lane < 16; ++lane) {
+      const int gait = gaits[static_cast<std::size_t>(lane)], age = n - begin[static_cast<std::size_t>(lane)];
+      if (gait < 0) continue;
+      if (age == 0) engine->place(lane);
+      if (age == steps) engine->retire(lane);
+      for (int j = 0; j < targets.rows(); ++j) targets.at(j, lane) = target(gait, j, age);
+    }
+    engine->step(targets);
+    for (int lane = 0; lane < 16; ++lane) {
+      const int age = n - begin[static_cast<std::size_t>(lane)];
+      if (age >= 0 && age < steps) hashes[static_cast<std::size_t>(lane)].push_back(engine->state_hash(lane));
+    }
+  }
+  std::vector<std::uint64_t> all;
+  for (const auto& lane : hashes) all.push_back(hash_span<std::uint64_t>(lane));
+  return all;
+}
+
+const std::vector<int> in_order{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+
+TEST(BatchLanes, AWalkIsTheSameInEveryLaneAndCompany) {
+  for (const char* variant : {"paper", "authors"}) {
+    const auto robot = quadruped(variant);
+    const auto together = walk(robot, in_order);
+    for (std::size_t a = 0; a < 16; ++a)
+      for (std::size_t b = 0; b < a; ++b) ASSERT_NE(together[a], together[b]);
+
+    std::vector<int> shuffled;
+    for (int lane = 0; lane < 16; ++lane) shuffled.push_back((lane * 7 + 3) % 16);
+    const auto other = walk(robot, shuffled);
+    for (std::size_t lane = 0; lane < 16; ++lane)
+      EXPECT_EQ(other[lane], together[static_cast<std::size_t>(shuffled[lane])]) << lane;
+
+    for (const int gait : {0, 5, 11}) {
+      std::vector<int> alone(16, -1);
+      alone[static_cast<std::size_t>(15 - gait)] = gait;
+      EXPECT_EQ(walk(robot, alone)[static_cast<std::size_t>(15 - gait)],
+                together[static_cast<std::size_t>(gait)]);
+    }
+  }
+}
+
+TEST(BatchLanes, ALaneThatIsRefilledMidwayDisturbsNobodyAndIsNotDisturbed) {
+  const auto robot = quadruped("paper");
+  std::vector<int> begin;
+  for (int lane = 0; lane < 16; ++lane) begin.push_back(6 * lane);
+  EXPECT_EQ(walk(robot, in_order, begin), walk(robot, in_order));
+}
+
+TEST(BatchLanes, EveryInstructionSetGivesTheSameBits) {
+  const std::int64_t all = hwy::SupportedTargets();
+  for (const auto& robot : {quadruped("paper"), quadruped("authors"), scene("sled")}) {
+    const auto best = walk(robot, in_order, std::vector<int>(16, 0), 120);
+    int compared = 0;
+    for (const std::int64_t set :
+         {std::int64_t{HWY_AVX3}, std::int64_t{HWY_AVX2}, std::int64_t{HWY_SSE4}, std::int64_t{HWY_SCALAR}}) {
+      if ((all & set) == 0 && set != HWY_SCALAR) continue;
+      hwy::SetSupportedTargetsForTest(set);
+      EXPECT_EQ(walk(robot, in_order, std::vector<int>(16, 0), 120), best) << hwy::TargetName(set);
+      ++compared;
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    EXPECT_GE(compared, 1);
+  }
+}
+
+TEST(BatchLanes, ALaneThatExplodesLeavesTheOthersAlone) {
+  const auto robot = quadruped("paper");
+  const auto run = [&](float bad) {
+    const auto engine = make_engine("batch", robot, {});
+    LaneArray targets(12, 16);
+    engine->place(3);
+    engine->place(4);
+    for (int n = 0; n < 100; ++n) {
+      for (int j = 0; j < 12; ++j) targets.at(j, 3) = targets.at(j, 4) = target(2, j, n);
+      if (n == 30) targets.at(5, 3) = bad;
+      engine->step(targets);
+    }
+    EXPECT_EQ(engine->healthy(3), !std::isnan(bad));
+    EXPECT_TRUE(engine->healthy(4));
+    return engine->state_hash(4);
+  };
+  EXPECT_EQ(run(std::numeric_limits<float>::quiet_NaN()), run(0.1f));
+}
+
+TEST(BatchLanes, ForcesBeyondAllNumbersEndTheTrialAndNotTheProcess) {
+  morphology::RobotSpec robot = quadruped();
+  robot.gravity_m_s2.z = -1e308;
+  Bench bench("batch", robot);
+  const std::uint64_t start = bench.engine->state_hash(0);
+  bench.steps(3);
+  EXPECT_FALSE(bench.engine->healthy(0));
+  bench.engine->place(0);
+  EXPECT_TRUE(bench.engine->healthy(0));
+  EXPECT_EQ(bench.engine->state_hash(0), start);
+}
+
+TEST(BatchLanes, AbsurdSpeedIsNotHealthy) {
+  morphology::RobotSpec robot = lifted(scene("box"), 1e6);
+  robot.gravity_m_s2 = {0.0, 0.0, -9.8e3};
+  Bench bench("batch", robot);
+  bench.steps(10);  // 980 m/s
+  EXPECT_TRUE(bench.engine->healthy(0));
+  bench.steps(1);  // 1078 m/s
+  EXPECT_FALSE(bench.engine->healthy(0));
+}
+
+}  // namespace
+}  // namespace amble::physics

@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include "amble/core/random.hpp"
+#include "tests/physics/scene.hpp"
+
+namespace amble::physics {
+namespace {
+
+/// A pose in the air, tilted, with every joint somewhere within its stops.
+StartPose some_pose(const morphology::RobotSpec& robot, std::uint32_t which) {
+  Stream stream(3, Purpose::test, which);
+  StartPose pose{.root = {.position_m = {0.4, -0.3, 3.0},
+                          .rotation = axis_angle({0.6, 0.0, 0.8}, stream.uniform(-0.5, 0.5))},
+                 .joint_angle_rad = {}};
+  for (const auto& joint : robot.joints)
+    pose.joint_angle_rad.push_back(stream.uniform(joint.lower_rad, joint.upper_rad));
+  return pose;
+}
+
+class StartPoses : public OnEachEngine {};
+ON_EACH_REFEREE(StartPoses);
+
+TEST_P(StartPoses, PutsRootJointsAndSensorsWhereTheyWereAskedToBe) {
+  Bench bench(GetParam(), quadruped());
+  for (std::uint32_t which = 0; which < 50; ++which) {
+    const StartPose pose = some_pose(bench.robot, which);
+    bench.engine->place_at(0, pose);
+    ASSERT_NEAR(norm(bench.engine->root_pose(0).position_m - pose.root.position_m), 0.0, 1e-12);
+    const auto attitude = roll_pitch_yaw(pose.root.rotation);
+    EXPECT_NEAR(static_cast<double>(bench.engine->sensors().attitude_rad.at(0, 0)), attitude.roll, 1e-6);
+    EXPECT_NEAR(static_cast<double>(bench.engine->sensors().attitude_rad.at(1, 0)), attitude.pitch, 1e-6);
+    for (int j = 0; j < 12; ++j)
+      ASSERT_NEAR(bench.angle(j), pose.joint_angle_rad[static_cast<std::size_t>(j)], 1e-6)
+          << which << ' ' << j;
+    for (int leg = 0; leg < 4; ++leg) EXPECT_FALSE(bench.touches(leg));
+  }
+}
+
+TEST_P(StartPoses, PutsEveryBodyWhereKinematicsSay) {
+  Bench bench(GetParam(), quadruped());
+  for (std::uint32_t which = 0; which < 50; ++which) {
+    const StartPose pose = some_pose(bench.robot, which);
+    bench.engine->place_at(0, pose);
+    const auto bodies = kinematics(bench.robot, pose.root, pose.joint_angle_rad);
+    Vec3 sum;
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      sum = sum + bench.robot.bodies[b].mass_kg * (bodies[b] * bench.robot.bodies[b].com_m);
+    EXPECT_NEAR(norm((1.0 / bench.robot.total_mass_kg()) * sum - bench.engine->com_m(0)), 0.0, 1e-12);
+  }
+}
+
+TEST_P(StartPoses, StartsAtRestWithItsJointsWhole) {
+  // Were a joint torn, the engine would pull its bodies together and the robot would start to move.
+  Bench bench(GetParam(), weightless(quadruped()));
+  const StartPose pose = some_pose(bench.robot, 1);
+  bench.engine->place_at(0, pose);
+  EXPECT_EQ(norm(bench.engine->momentum(0)), 0.0);
+  for (int j = 0; j < 12; ++j) bench.targets.at(j, 0) = bench.engine->sensors().joint_angle_rad.at(j, 0);
+  bench.steps(100);
+  for (int j = 0; j < 12; ++j)
+    EXPECT_NEAR(bench.angle(j), pose.joint_angle_rad[static_cast<std::size_t>(j)], 1e-6);
+  EXPECT_NEAR(norm(bench.engine->root_pose(0).position_m - pose.root.position_m), 0.0, 1e-6);
+}
+
+TEST_P(StartPoses, LeavesNothingBehindForTheNextTrial) {
+  Bench bench(GetParam(), quadruped());
+  const std::uint64_t fresh = bench.engine->state_hash(0);
+  bench.engine->place_at(0, some_pose(bench.robot, 2));
+  EXPECT_NE(bench.engine->state_hash(0), fresh);
+  bench.steps(5);
+  bench.engine->place(0);
+  EXPECT_EQ(bench.engine->state_hash(0), fresh);
+}
+
+}  // namespace
+}  // namespace amble::physics

@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "amble/core/random.hpp"
+#include "tests/physics/scene.hpp"
+
+namespace amble::physics {
+namespace {
+
+double torque(const Bench& bench, int joint) {
+  return static_cast<double>(bench.engine->motor_torque_nm()->at(joint, 0));
+}
+
+class Torques : public OnEachEngine {};
+ON_EACH_REFEREE(Torques);
+
+TEST_P(Torques, AreToldOnlyWhenAskedFor) {
+  EXPECT_EQ(make_engine(GetParam(), quadruped(), {})->motor_torque_nm(), nullptr);
+  EXPECT_NE(make_engine(GetParam(), quadruped(), {.torques = true})->motor_torque_nm(), nullptr);
+}
+
+TEST_P(Torques, ChangeNoBitOfTheMotion) {
+  Bench plain(GetParam(), quadruped()), told(GetParam(), quadruped(), 0.01, true);
+  Stream stream(3, Purpose::test);
+  for (int n = 0; n < 600; ++n) {
+    if (n % 20 == 0)
+      for (int j = 0; j < 12; ++j)
+        plain.targets.at(j, 0) = told.targets.at(j, 0) = static_cast<float>(stream.uniform(-1.0, 1.0));
+    plain.steps(1);
+    told.steps(1);
+    ASSERT_EQ(plain.engine->state_hash(0), told.engine->state_hash(0)) << n;
+  }
+}
+
+TEST_P(Torques, HoldAPendulumAgainstGravity) {
+  // 1 kg at 0.5 m from the hinge, at rest 0.2 + 0.5 rad off the vertical: m g l sin(0.7). About +y a positive
+  // angle swings the bob to −x, so the motor holds it there with a positive torque.
+  morphology::RobotSpec robot = scene("pendulum");
+  robot.joints[0].servo = {.mode = morphology::ServoMode::velocity, .gain_per_s = 9.0, .max_torque_nm = 50.0};
+  Bench bench(GetParam(), robot, 0.01, true);
+  bench.targets.at(0, 0) = 0.5f;
+  bench.steps(500);
+  EXPECT_NEAR(torque(bench, 0), 1.0 * 9.8 * 0.5 * std::sin(0.2 + bench.angle(0)), 1e-3);
+  EXPECT_NEAR(bench.angle(0), 0.5, 1e-3);
+}
+
+TEST_P(Torques, LiftingAPendulumCostsItsPotentialEnergy) {
+  // From rest 0.2 rad off the vertical to rest at 1.2 rad: m g l (cos 0.2 − cos 1.2).
+  morphology::RobotSpec robot = scene("pendulum");
+  robot.joints[0].servo = {.mode = morphology::ServoMode::velocity, .gain_per_s = 2.0, .max_torque_nm = 50.0};
+  Bench bench(GetParam(), robot, 0.001, true);
+  bench.targets.at(0, 0) = 1.0f;
+  // Over a step a torque does work at the mean of the speeds before and after it; the angle moves at the
+  // speed after it.
+  double work_j = 0.0, before_rad = bench.angle(0), turned_before_rad = 0.0;
+  for (int n = 0; n < 5000; ++n) {
+    bench.steps(1);
+    const double turned_rad = bench.angle(0) - before_rad;
+    work_j += torque(bench, 0) * 0.5 * (turned_rad + turned_before_rad);
+    before_rad = bench.angle(0);
+    turned_before_rad = turned_rad;
+  }
+  const double expected = 1.0 * 9.8 * 0.5 * (std::cos(0.2) - std::cos(1.2));
+  EXPECT_NEAR(work_j, expected, 0.002 * expected);
+}
+
+TEST_P(Torques, ReachTheLimitOnEveryAxisOfAQuadrupedFarFromItsTargets) {
+  // The legs are light and the gain is high: in the first steps all twelve motors give their 0.2 N m,
+  // whatever the bearings carry. Also at stops, where ODE books the motor apart from the stop.
+  morphology::RobotSpec robot = weightless(quadruped());
+  for (auto& joint : robot.joints) joint.servo = {.gain_per_s = 90.0, .max_torque_nm = 0.2};
+  Bench bench(GetParam(), robot, 0.001, true);
+  for (int j = 0; j < 12; ++j)
+    bench.targets.at(j, 0) =
+        static_cast<float>(bench.robot.joints[static_cast<std::size_t>(j)].lower_rad < 0.0 ? -0.8 : 0.8);
+  for (int n = 0; n < 20; ++n) {
+    bench.steps(1);
+    for (int j = 0; j < 12; ++j)
+      ASSERT_NEAR(torque(bench, j), bench.targets.at(j, 0) < 0.0f ? -0.2 : 0.2, 1e-6) << n << " " << j;
+  }
+}
+
+TEST_P(Torques, OfATorqueServoAreItsLaw) {
+  morphology::RobotSpec robot = weightless(scene("pendulum"));
+  robot.joints[0].servo = {.mode = morphology::ServoMode::torque,
+                           .max_torque_nm = 2.0,
+                           .kp_nm_per_rad = 20.0,
+                           .kd_nm_s_per_rad = 0.0};
+  Bench bench(GetParam(), robot, 0.001, true);
+  bench.targets.at(0, 0) = 0.15f;
+  for (int n = 0; n < 300; ++n) {
+    const double expected = std::clamp(20.0 * (static_cast<double>(0.15f) - bench.angle(0)), -2.0, 2.0);
+    bench.steps(1);
+    ASSERT_NEAR(torque(bench, 0), expected, 1e-5) << n;
+  }
+}
+
+}  // namespace
+}  // namespace amble::physics

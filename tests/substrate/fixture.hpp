@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "amble/io/toml_settings.hpp"
+#include "amble/substrate/layout.hpp"
+#include "tests/controllers/quadruped.hpp"
+
+namespace amble::substrate {
+
+/// The substrate of a file in configs/parts.
+inline Settings part(const std::string& name) {
+  const auto document =
+      io::TomlDocument::read(std::string(AMBLE_SOURCE_DIR) + "/configs/parts/" + name + ".toml");
+  Settings settings;
+  const auto reader = document.reader();
+  reader->begin("controller", {});
+  reader->table("substrate", settings, {});
+  reader->end();
+  return settings;
+}
+
+/// The substrate of a TOML text.
+inline Settings substrate_of(const std::string& toml) {
+  const auto document = io::TomlDocument::parse(toml, "x.toml");
+  Settings settings;
+  const auto reader = document.reader();
+  settings.describe(*reader);
+  reader->finish();
+  return settings;
+}
+
+inline Needs supg_needs(int ticks = 100) {
+  return {"supg", false, {Property::pattern, Property::offset}, ticks};
+}
+inline Needs network_needs() {
+  return {"network", true, {}, 0};
+}
+inline Needs ctrnn_needs() {
+  return {"ctrnn", true, {Property::bias, Property::time_constant}, 0};
+}
+
+}  // namespace amble::substrate

@@ -1,0 +1,136 @@
+#include "amble/substrate/layout.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/substrate/fixture.hpp"
+
+namespace amble::substrate {
+namespace {
+
+using neat::Activation;
+using neat::NodeKind;
+
+/// A CPPN of linear functions: output k is the sum of row k times (bias, inputs…).
+cppn::Network linear_cppn(const std::vector<std::vector<double>>& rows) {
+  neat::Genome genome;
+  const auto inputs = static_cast<std::uint32_t>(rows[0].size());
+  std::uint32_t id = 0, innovation = 0;
+  for (; id < inputs; ++id)
+    genome.nodes.push_back({id, id == 0 ? NodeKind::bias : NodeKind::input, Activation::linear});
+  for (const auto& row : rows) {
+    genome.nodes.push_back({id, NodeKind::output, Activation::linear});
+    for (std::uint32_t i = 0; i < inputs; ++i) genome.links.push_back({innovation++, i, id, row[i]});
+    ++id;
+  }
+  return {genome, {cppn::Linear::identity, true}};
+}
+
+/// One leg with one joint, on a line.
+morphology::RobotSpec hopper() {
+  morphology::RobotSpec robot;
+  robot.joint_types = {"knee"};
+  robot.legs.push_back({"L", 0, {0}});
+  robot.joints.emplace_back().name = "L_knee";
+  return robot;
+}
+
+const std::string line = R"(
+coordinates = ["x"]
+outputs = ["weight", "bias", "tau"]
+nodes = [
+  { name = "a", group = "in", at = [-1], sensor = "sine" },
+  { name = "b", group = "neuron", at = [0.25] },
+  { name = "c", group = "neuron", at = [0.5], joint = "L_knee" },
+]
+links = [
+  { from = "in", to = "neuron" },
+  { from = "neuron", to = "neuron" },
+  { from = "c", to = "c" },
+]
+properties = [
+  { of = "neuron", property = "bias", output = "bias", low = -2, high = 6 },
+  { of = "b", property = "time_constant", output = "tau", low = 1, high = 61, zero = ["x"] },
+  { of = "c", property = "time_constant", value = 7 },
+]
+)";
+
+TEST(Layout, LinksAGroupToItselfWithoutSelfLinksAndANodeToItselfByName) {
+  const Layout layout(substrate_of(line), ctrnn_needs(), hopper());
+  std::vector<std::pair<int, int>> links;
+  for (const Link& link : layout.links()) links.emplace_back(link.source, link.target);
+  EXPECT_EQ(links, (std::vector<std::pair<int, int>>{{0, 1}, {0, 2}, {1, 2}, {2, 1}, {2, 2}}));
+}
+
+TEST(Layout, TurnsOutputsIntoWeightsByThresholdAndRange) {
+  const Layout layout(substrate_of(line), ctrnn_needs(), hopper());
+  // o = source + 2 target: −0.5, 0, 1.25 (counts as 1), 1, 1.5. With threshold 0.2 and range 3 the weight is
+  // sign(o) (|o| − 0.2)/0.8 × 3.
+  const auto decoded = layout.decode(linear_cppn({{0, 1, 2}, {0, 0, 0}, {0, 0, 0}}));
+  ASSERT_EQ(decoded.weights.size(), 5u);
+  EXPECT_FLOAT_EQ(decoded.weights[0], -1.125f);
+  EXPECT_EQ(decoded.weights[1], 0.0f);
+  EXPECT_FLOAT_EQ(decoded.weights[2], 3.0f);
+  EXPECT_FLOAT_EQ(decoded.weights[3], 3.0f);
+  EXPECT_FLOAT_EQ(decoded.weights[4], 3.0f);
+}
+
+TEST(Layout, ExpressesNoLinkAtTheThresholdItself) {
+  auto settings = substrate_of(line);
+  settings.expression_threshold = 0.25;
+  const Layout layout(settings, ctrnn_needs(), hopper());
+  for (const double o : {0.25, -0.25})
+    for (const float weight : layout.decode(linear_cppn({{o, 0, 0}, {0, 0, 0}, {0, 0, 0}})).weights)
+      EXPECT_EQ(weight, 0.0f);
+  for (const double o : {0.625, -0.625})
+    for (const float weight : layout.decode(linear_cppn({{o, 0, 0}, {0, 0, 0}, {0, 0, 0}})).weights)
+      EXPECT_FLOAT_EQ(weight, o > 0 ? 1.5f : -1.5f);
+}
+
+TEST(Layout, AsksForPropertiesWithTheOtherCoordinatesZero) {
+  const Layout layout(substrate_of(line), ctrnn_needs(), hopper());
+  // bias: o = 0.5 + x1 + 100 x2 with x2 = 0, so 0.75 and 1; on the line from −2 at −1 to 6 at 1 that is 5
+  // and 6. time constant: o = 0.5 + x1 with x1 counting as 0, so 31 + 30 × 0.5 = 46.
+  const auto decoded = layout.decode(linear_cppn({{0, 0, 0}, {0.5, 1, 100}, {0.5, 1, 0}}));
+  EXPECT_FLOAT_EQ(decoded.of(Property::bias)[1], 5.0f);
+  EXPECT_FLOAT_EQ(decoded.of(Property::bias)[2], 6.0f);
+  EXPECT_FLOAT_EQ(decoded.of(Property::time_constant)[1], 46.0f);
+  EXPECT_FLOAT_EQ(decoded.of(Property::time_constant)[2], 7.0f);
+  EXPECT_EQ(decoded.of(Property::bias)[0], 0.0f) << "a sensor has none";
+  EXPECT_EQ(layout.lowest(Property::time_constant), 1.0);
+  EXPECT_EQ(layout.lowest(Property::bias), -2.0);
+}
+
+TEST(Layout, AsksForPatternsTickByTick) {
+  const Layout layout(substrate_of(R"(
+coordinates = ["x", "y"]
+outputs = ["p", "o"]
+nodes = [ { name = "k", group = "s", at = [0.25, -0.5], joint = "L_knee" } ]
+properties = [
+  { of = "s", property = "pattern", output = "p" },
+  { of = "s", property = "offset", output = "o", zero = ["y"] },
+]
+)"),
+                      supg_needs(4), hopper());
+  EXPECT_EQ(layout.input_names(), (std::vector<std::string>{"x", "y", "time"}));
+  const auto decoded = layout.decode(linear_cppn({{0, 1, 1, 1}, {0, 1, 1, 1}}));
+  ASSERT_EQ(decoded.patterns.size(), 5u);
+  for (std::size_t tick = 0; tick < 5; ++tick)
+    EXPECT_FLOAT_EQ(decoded.patterns[tick], -0.25f + 0.25f * static_cast<float>(tick));
+  EXPECT_FLOAT_EQ(decoded.of(Property::offset)[0], 0.25f);
+}
+
+TEST(Layout, LinksOnlyPairsThatAgreeInTheNamedCoordinates) {
+  auto settings = part("ctrnn");
+  settings.links = {{.from = "touch", .to = "hidden", .weight = "intra", .same = {"module_y"}}};
+  settings.outputs = {"intra", "bias", "time_constant"};
+  const Layout layout(settings, ctrnn_needs(), controllers::quadruped());
+  ASSERT_EQ(layout.links().size(), 16u);
+  for (const Link& link : layout.links())
+    EXPECT_EQ(layout.nodes()[static_cast<std::size_t>(link.source)].at[3],
+              layout.nodes()[static_cast<std::size_t>(link.target)].at[3]);
+}
+
+}  // namespace
+}  // namespace amble::substrate

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "amble/record/recording.hpp"
+
+namespace amble::tests {
+
+/// A made-up trot of the robot of tests/analysis/fixture.hpp, as a recording has it: it moves at `speed_m_s`
+/// along x, its joints swing once a second, and every number that has a fraction carries noise, so that it is
+/// as hard to compress as a measured one. A leg's foot touches in half of each second and triggers when it
+/// comes down.
+struct SyntheticWalk {
+  int frames = 1500;
+  double frame_s = 0.01;
+  double speed_m_s = 0.25;
+  bool touches = true;  ///< false: no foot ever does
+  record::Outcome outcome = record::Outcome::completed;
+
+  record::RecordingHeader header() const;
+  /// Frame k, the state at (k + 1) × frame_s.
+  std::vector<float> frame(int k) const;
+  void write(const std::filesystem::path& path) const;
+};
+
+}  // namespace amble::tests

@@ -1,0 +1,78 @@
+// A headless Chromium that watches what a page says and asks for.
+import { execFileSync } from "node:child_process";
+import { mkdirSync } from "node:fs";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { chromium } from "../../viewer/node_modules/playwright-core/index.mjs";
+
+const { AMBLE_PROGRAM, AMBLE_RECORDINGS, AMBLE_PAGES, CHROMIUM = "/usr/bin/chromium" } = process.env;
+const SOFTWARE_GL = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+
+export const recording = (name) => join(AMBLE_RECORDINGS, name);
+export const amble = (...words) => execFileSync(AMBLE_PROGRAM, words, { encoding: "utf8" });
+
+/** Makes a page with `amble view`; gives its path. */
+export function makePage(name, ...inputs) {
+  mkdirSync(AMBLE_PAGES, { recursive: true });
+  const path = join(AMBLE_PAGES, name);
+  amble("view", ...inputs, "-o", path);
+  return path;
+}
+
+export function launch({ gl = true } = {}) {
+  const args = ["--no-sandbox", "--disable-dev-shm-usage", ...(gl ? SOFTWARE_GL : ["--disable-3d-apis"])];
+  return chromium.launch({ executablePath: CHROMIUM, args });
+}
+
+/** Opens a page, standing still at `at_s` (null: as a reader would, playing). `complaints` collects what goes wrong. */
+export async function open(browser, path, { at_s = 0, ...context } = {}) {
+  const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...context });
+  page.setDefaultTimeout(60_000);
+  const complaints = [];
+  const url = pathToFileURL(path).href + (at_s === null ? "" : `#t=${at_s}`);
+  page.on("console", (message) => complaints.push(`console ${message.type()}: ${message.text()}`));
+  page.on("pageerror", (error) => complaints.push(`error: ${error.message}`));
+  page.on("request", (request) => {
+    if (request.url().split("#")[0] !== url.split("#")[0] && !request.url().startsWith("data:"))
+      complaints.push(`request: ${request.url()}`);
+  });
+  await page.goto(url);
+  await page.waitForFunction(() => window.amble || !document.getElementById("trouble").hidden);
+  return { page, complaints };
+}
+
+/** The stage as numbers: how many colours it has, and a sum that changes with the picture. */
+export const pictureOf = (page, which = "#stage canvas") =>
+  page.evaluate((selector) => {
+    window.amble.render();
+    const stage = document.querySelector(selector);
+    const copy = document.createElement("canvas");
+    [copy.width, copy.height] = [stage.width, stage.height];
+    const paint = copy.getContext("2d");
+    paint.drawImage(stage, 0, 0);
+    const { data } = paint.getImageData(0, 0, copy.width, copy.height);
+    const colours = new Set();
+    let hash = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      const colour = (data[i] << 16) | (data[i + 1] << 8) | data[i + 2];
+      colours.add(colour);
+      hash = (Math.imul(hash, 31) + colour) | 0;
+    }
+    return { colours: colours.size, hash };
+  }, which);
+
+export const time = (page) => page.evaluate(() => window.amble.time());
+
+/** Where the cursors of all diagrams in sight stand, and the places of the timers in the patterns. */
+export const cursors = (page) =>
+  page.evaluate(() => {
+    window.amble.render();
+    return {
+      plots: [...document.querySelectorAll(".cursor")].map((line) => line.style.transform),
+      patterns: [...document.querySelectorAll(".now-line")].map((line) => line.getAttribute("x1")),
+    };
+  });
+
+/** Waits until the page has drawn what was asked of it. */
+export const settled = (page) =>
+  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done)))));

@@ -1,0 +1,154 @@
+// Pages of other kinds: several walkers, five minutes, falls, old browsers, damage.
+import assert from "node:assert/strict";
+import { readFileSync, statSync, writeFileSync } from "node:fs";
+import { after, before, test } from "node:test";
+import { launch, makePage, open, pictureOf, recording, settled } from "./browser.mjs";
+
+let browser;
+before(async () => (browser = await launch()));
+after(() => browser.close());
+
+async function onPage(path, options, steps) {
+  const { page, complaints } = await open(browser, path, options);
+  try {
+    await steps(page);
+    assert.deepEqual(complaints, []);
+  } finally {
+    await page.close();
+  }
+}
+
+/** A copy of a page with other data. */
+function changed(path, name, change) {
+  const made = path.replace(/[^/]+$/, name);
+  writeFileSync(made, change(readFileSync(path, "utf8")));
+  return made;
+}
+
+test("two walkers move by one clock, side by side or one as a ghost of the other", () =>
+  onPage(makePage("two.html", recording("walk.rec"), recording("slow.rec")), {}, async (page) => {
+    assert.deepEqual(await page.evaluate(() => window.amble.walkers), ["walk", "slow"]);
+    await page.evaluate(() => { window.amble.seek(10); window.amble.render(); });
+    const [fast, slow] = await page.evaluate(() => [0, 1].map((i) => window.amble.placed(i)[0][0]));
+    assert.ok(Math.abs(fast - 2.5) < 0.01 && Math.abs(slow - 1) < 0.01, `${fast} m, ${slow} m`);
+    const side = await pictureOf(page);
+    await page.keyboard.press("g");
+    assert.notEqual((await pictureOf(page)).hash, side.hash);
+    await page.keyboard.press("2");
+    assert.equal(await page.locator(".walkers [aria-pressed=true]").textContent(), "slow");
+    await settled(page);
+    assert.equal(await page.locator("#now dd").nth(1).textContent(), "1.00 m");
+  }));
+
+test("five minutes scrub without a stall", async (context) => {
+  const path = makePage("long.html", recording("long.rec"));
+  const { size } = statSync(path);
+  assert.ok(size < 3e6, `${size} bytes`);
+  await onPage(path, {}, async (page) => {
+    const result = await page.evaluate(async () => {
+      const slider = document.getElementById("slider");
+      window.amble.frames().length = 0;
+      const between = [];
+      let last = performance.now();
+      for (let i = 1; i <= 100; ++i) {
+        slider.value = window.amble.duration * ((i * 37) % 100) / 100;
+        slider.dispatchEvent(new Event("input"));
+        await new Promise(requestAnimationFrame);
+        between.push(performance.now() - last);
+        last = performance.now();
+      }
+      const quantiles = (values) => {
+        const sorted = [...values].sort((a, b) => a - b);
+        return [0.5, 0.95, 1].map((q) => sorted[Math.floor(q * (sorted.length - 1))]);
+      };
+      return { work: quantiles(window.amble.frames()), between: quantiles(between), frames: window.amble.frames().length };
+    });
+    const text = (values) => values.map((value) => value.toFixed(1)).join(", ");
+    context.diagnostic(`page of 300 s: ${size} bytes; per frame (median, 95 %, worst) ${text(result.work)} ms of work, ` +
+                       `${text(result.between)} ms apart with a software renderer`);
+    assert.ok(result.frames >= 90);
+    assert.ok(result.work[1] < 50, "a frame's work must leave room for 20 frames a second");
+    for (const span of await page.locator(".spans button").all()) await span.click(); // up to all five minutes
+    await page.evaluate(() => { window.amble.frames().length = 0; window.amble.seek(150); window.amble.render(); });
+    assert.ok((await page.evaluate(() => Math.max(...window.amble.frames()))) < 300);
+  });
+});
+
+test("a robot that fell at once is said to have fallen, and that no foot touched", () =>
+  onPage(makePage("fell.html", recording("fell.rec")), {}, async (page) => {
+    assert.match(await page.locator("#subtitle").textContent(), /then it fell after 0\.07 s/);
+    assert.match(await page.locator("#analysis").textContent(), /No foot touched the ground/);
+    assert.ok((await pictureOf(page)).colours > 200);
+    await page.keyboard.press("End");
+    assert.ok(Math.abs((await page.evaluate(() => window.amble.time())) - 0.07) < 1e-9);
+  }));
+
+test("a recording without a step gives a page that says so and shows the start pose", () =>
+  onPage(makePage("empty.html", recording("empty.rec")), { at_s: null }, async (page) => {
+    assert.match(await page.locator("#subtitle").textContent(), /no step was recorded/);
+    assert.ok((await pictureOf(page)).colours > 200);
+    for (const key of ["Space", "ArrowRight", "End"]) await page.keyboard.press(key);
+    assert.equal(await page.evaluate(() => window.amble.time()), 0);
+  }));
+
+test("another kind of controller is named, and has no timers", () => {
+  const page = changed(makePage("walk2.html", recording("walk.rec")), "ctrnn.html",
+                       (text) => text.replace('"kind":"supg"', '"kind":"ctrnn"'));
+  return onPage(page, {}, async (opened) => {
+    assert.match(await opened.locator("#analysis").textContent(), /of kind “ctrnn”/);
+    assert.equal(await opened.locator(".patterns").count(), 0);
+  });
+});
+
+test("the gait's name and phases are shown where they are known", () => {
+  const legs = ["FL", "FR", "BL", "BR"].map((name, i) => ({ name, duty_factor: 0.6, phase: [0, 0.5, 0.5, 0][i], phase_spread: 0.02 }));
+  const page = changed(makePage("walk3.html", recording("walk.rec")), "gait.html",
+                       (text) => text.replace('"gait":null', `"gait":${JSON.stringify({ gait: "trot", legs })}`));
+  return onPage(page, {}, async (opened) => {
+    assert.equal(await opened.locator(".gait-name").textContent(), "trot");
+    assert.match(await opened.locator(".gait").textContent(), /Phase0\.00 ± 0\.020\.50 ± 0\.02/);
+  });
+});
+
+test("a CPPN with a circle and a disabled link is drawn whole", () => {
+  const node = (id, kind, activation) => ({ id, kind, activation });
+  const link = (from, to, weight, enabled = true) => ({ from, to, weight, enabled });
+  const cppn = {
+    nodes: [node(0, "bias", "linear"), node(1, "input", "linear"), node(2, "output", "sine"), node(3, "hidden", "gaussian"),
+            node(4, "hidden", "bipolar_sigmoid")],
+    links: [link(0, 3, 1), link(1, 3, -2), link(3, 4, 0.5), link(4, 3, 0.1), link(4, 2, 3), link(2, 2, 0.2), link(1, 2, 1, false)],
+    inputs: ["leg"], outputs: ["pattern"],
+  };
+  const page = changed(makePage("walk4.html", recording("walk.rec")), "cppn.html",
+                       (text) => text.replace('"cppn":null', `"cppn":${JSON.stringify(cppn)}`));
+  return onPage(page, {}, async (opened) => {
+    assert.equal(await opened.locator(".cppn .node").count(), 5);
+    assert.equal(await opened.locator(".cppn .link").count(), 7);
+    assert.equal(await opened.locator(".cppn .link.back").count(), 2);
+    assert.equal(await opened.locator(".cppn .link.minus").count(), 1);
+    assert.equal(await opened.locator(".cppn .link.disabled").count(), 1);
+    assert.deepEqual(await opened.locator(".cppn text").allTextContents(), ["bias", "leg", "pattern"]);
+  });
+});
+
+test("without WebGL the page says so, and its diagrams work", async () => {
+  const without = await launch({ gl: false });
+  try {
+    const { page } = await open(without, makePage("walk5.html", recording("walk.rec")));
+    assert.match(await page.locator("#stage").textContent(), /no WebGL/);
+    await page.keyboard.press("Shift+ArrowRight");
+    const moved = await page.evaluate(() => { window.amble.render(); return document.querySelector(".cursor").style.transform; });
+    assert.notEqual(moved, "translateX(62.00px)");
+    await page.close();
+  } finally {
+    await without.close();
+  }
+});
+
+test("damaged data is reported in the page", async () => {
+  const damaged = changed(makePage("walk6.html", recording("walk.rec")), "damaged.html",
+                          (text) => text.replace(/"data":"(.{200}).{40}/, '"data":"$1'));
+  const { page } = await open(browser, damaged);
+  assert.match(await page.locator("#trouble").textContent(), /could not be shown/);
+  await page.close();
+});

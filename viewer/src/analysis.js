@@ -1,0 +1,71 @@
+// The diagrams of one walker, as sections beside the stage.
+import { cppnGraph } from "./cppn.js";
+import { gaitTable } from "./gait.js";
+import { Patterns } from "./patterns.js";
+import { element, legClass } from "./theme.js";
+import { footfallPlot, jointPlot, motionPlot, timerPlot } from "./time_diagrams.js";
+
+const section = (title, text, ...content) =>
+  element("section", {}, element("h2", {}, title), ...(text ? [element("p", { class: "lead" }, text)] : []), ...content);
+const note = (text) => element("p", { class: "note" }, text);
+
+export class Analysis {
+  constructor(parent, walks, window, clock) {
+    Object.assign(this, { parent, walks, window, clock, shown: [], plots: [], selected: 0 });
+  }
+
+  /** Shows the diagrams of another walker. */
+  select(selected) {
+    this.selected = selected;
+    const walk = this.walks[selected];
+    this.plots = [];
+    this.shown = [];
+    const plot = (made) => {
+      this.plots.push(made);
+      this.shown.push(made);
+      return made.element;
+    };
+    const { window, clock } = this;
+    this.parent.replaceChildren(
+      this.footfalls(walk, plot(footfallPlot(walk, window, clock))),
+      ...this.supg(walk, plot),
+      section("Joints", "Each joint’s angle, in the colour of its leg, and the target that its servo follows, thin. " +
+              "The height of a row is the joint’s range.", plot(jointPlot(walk, window, clock))),
+      section("Speed and height", "Of the centre of mass over the ground; speed over half a second.",
+              plot(motionPlot(this.walks, window, clock, () => this.selected))),
+      ...(walk.cppn ? [section("CPPN", "The evolved network that paints the patterns, from its inputs (left) to its outputs.",
+                               cppnGraph(walk.cppn))] : []),
+    );
+    this.show();
+  }
+
+  footfalls(walk, plot) {
+    const keys = element("p", { class: "keys" }, ...walk.robot.legs.map(({ name }, leg) =>
+      element("span", { class: `key ${legClass(leg)}` }, name)));
+    const text = "A bar means that the foot is on the ground." +
+      (walk.triggers ? " A triangle marks a trigger: the foot came down and reset the timer of its leg." : "");
+    const made = section("Footfalls", text, keys, plot, gaitTable(walk));
+    if (!walk.everTouched()) made.append(note("No foot touched the ground."));
+    return made;
+  }
+
+  supg(walk, plot) {
+    if (!walk.supg || !walk.timers)
+      return [section("Controller", "", note(`The controller is of kind “${walk.controller.kind}”: it has no timers and no ` +
+                                             "temporal patterns to show."))];
+    const patterns = new Patterns(walk);
+    this.shown.push(patterns);
+    return [section("Timers and patterns",
+      `Each leg’s timer climbs through its ${walk.supg.period_ticks * walk.supg.timestep_s} s and a trigger sends it back; ` +
+      "below, the target angle of each joint over its leg’s timer, over the joint’s range, with the place of the timer now. " +
+      `Dotted: ${walk.supg.offset === "phase" ? "where the leg’s timer starts" : "how long the leg waits before its timer starts"}.`,
+      plot(timerPlot(walk, this.window, this.clock)), patterns.element)];
+  }
+
+  show() {
+    for (const diagram of this.shown) diagram.show(this.clock.time_s);
+  }
+  repaint() {
+    for (const plot of this.plots) plot.repaint();
+  }
+}

@@ -1,0 +1,62 @@
+import { pageData } from "./data.js";
+import { Page } from "./page.js";
+import { Walk } from "./walk.js";
+
+function complain(text) {
+  const trouble = document.getElementById("trouble");
+  trouble.hidden = false;
+  trouble.textContent = text;
+}
+
+/** #t=2.5 opens the page at that time, not playing. */
+const askedTime = () => {
+  const match = /(?:^#|&)t=([\d.]+)/.exec(location.hash);
+  return match ? Number(match[1]) : null;
+};
+
+/** What scripts and tests may ask of the page. Times in seconds, walkers by their place. */
+const publicApi = (page) => ({
+  duration: page.clock.duration_s,
+  walkers: page.walks.map(({ title }) => title),
+  time: () => page.clock.time_s,
+  playing: () => page.clock.playing,
+  play: () => page.clock.play(),
+  pause: () => page.clock.pause(),
+  seek: (t) => page.clock.seek(t),
+  step: (frames) => page.clock.step(frames),
+  speed: (factor) => page.clock.setSpeed(factor),
+  camera: (mode) => page.setCamera(mode),
+  resetCamera: () => page.resetCamera(),
+  layout: (layout) => page.setLayout(layout),
+  select: (i) => page.select(i),
+  /** {root: [x, y, z, qw, qx, qy, qz], com: [x, y, z], angles: […]} */
+  pose: (i, t) => page.walks[i].pose(t),
+  joints: (i) => page.walks[i].robot.joints.map(({ name }) => name),
+  touching: (i, leg, t) => page.walks[i].touching(leg, t),
+  /** Where the stage has put a walker's root and feet: [[x, y, z], …]; the root first. */
+  placed: (i) => page.stage.lanes[i].model.placed(),
+  /** Draws now, without waiting for the browser's next frame. */
+  render: () => page.show(),
+  /** How long the last frames took to compute and draw, ms. */
+  frames: () => page.frames,
+  hasStage: () => page.stage !== null,
+});
+
+async function start() {
+  if (typeof DecompressionStream === "undefined") {
+    complain("This browser is too old to unpack the recording in this page: it needs one of 2023 or later.");
+    return;
+  }
+  const data = pageData(document);
+  const page = new Page(data, await Promise.all(data.walkers.map(Walk.unpack)));
+  const time_s = askedTime();
+  if (time_s !== null) page.clock.seek(time_s);
+  else if (!matchMedia("(prefers-reduced-motion: reduce)").matches) page.clock.play();
+  page.show();
+  window.amble = publicApi(page);
+}
+
+start().catch((error) => {
+  console.error(error);
+  complain(`This page could not be shown: ${error.message}`);
+});

@@ -1,0 +1,139 @@
+// The robot's own geometry, moved by its joints.
+import {
+  BoxGeometry, CapsuleGeometry, CylinderGeometry, Group, Mesh, MeshLambertMaterial, SphereGeometry, Vector3,
+} from "three";
+import { colour, legColour, walkerColour } from "./theme.js";
+
+function geometryOf({ shape, size_m }) {
+  const [a, b, c] = size_m;
+  switch (shape) {
+    case "sphere": return new SphereGeometry(a, 24, 16);
+    case "box": return new BoxGeometry(2 * a, 2 * b, 2 * c);
+    // three's axis is y, ours z
+    case "capsule": return new CapsuleGeometry(a, 2 * b, 6, 20).rotateX(Math.PI / 2);
+    case "cylinder": return new CylinderGeometry(a, a, 2 * b, 24).rotateX(Math.PI / 2);
+  }
+  throw new Error(`unknown shape ${shape}`);
+}
+
+const place = (object, position, rotation) => {
+  object.position.fromArray(position);
+  const [w, x, y, z] = rotation;
+  object.quaternion.set(x, y, z, w);
+  return object;
+};
+
+/** The leg that a body belongs to, or −1 for the trunk. */
+function legOfBody(robot, body) {
+  for (let b = body; b >= 0; b = robot.bodies[b].parent) {
+    const leg = robot.legs.findIndex(({ joints }) => joints.some((joint) => robot.joints[joint].body === b));
+    if (leg >= 0) return leg;
+  }
+  return -1;
+}
+
+export class RobotModel {
+  constructor(robot, walker) {
+    this.robot = robot;
+    this.walker = walker;
+    this.root = new Group();
+    this.hinges = [];
+    this.parts = []; // {material, leg, foot}
+    const frames = this.makeBodies();
+    this.addGeoms(frames);
+    this.paint();
+  }
+
+  /** Nested groups, one chain per body; gives the group that carries each body's geoms. */
+  makeBodies() {
+    const { bodies, joints } = this.robot;
+    const frames = [];
+    bodies.forEach((body, b) => {
+      if (b === 0) return frames.push(this.root);
+      let frame = place(new Group(), body.position_m, body.rotation);
+      frames[body.parent].add(frame);
+      const chain = joints.map((joint, j) => ({ joint, j })).filter(({ joint }) => joint.body === b);
+      chain.sort((p, q) => p.joint.chain_index - q.joint.chain_index);
+      for (const { joint, j } of chain) {
+        // A hinge turns what follows about its anchor, which stays where it is.
+        const hinge = new Group();
+        hinge.position.fromArray(joint.anchor_m);
+        const back = new Group();
+        back.position.fromArray(joint.anchor_m).negate();
+        frame.add(hinge);
+        hinge.add(back);
+        this.hinges[j] = { group: hinge, axis: new Vector3().fromArray(joint.axis) };
+        frame = back;
+      }
+      frames.push(frame);
+    });
+    return frames;
+  }
+
+  addGeoms(frames) {
+    this.feet = [];
+    this.robot.geoms.forEach((geom, g) => {
+      const material = new MeshLambertMaterial();
+      const mesh = place(new Mesh(geometryOf(geom), material), geom.position_m, geom.rotation);
+      mesh.castShadow = true;
+      frames[geom.body].add(mesh);
+      const leg = legOfBody(this.robot, geom.body);
+      const foot = this.robot.legs.findIndex(({ foot_geom }) => foot_geom === g);
+      if (foot >= 0) this.feet[foot] = { mesh, material, touching: null };
+      this.parts.push({ mesh, material, leg, foot });
+    });
+  }
+
+  paint() {
+    for (const { material, leg, foot } of this.parts) {
+      material.color.set(leg < 0 ? walkerColour(this.walker) : legColour(leg));
+      if (foot >= 0) this.feet[foot].touching = null; // painted anew by setTouch
+    }
+  }
+
+  setPose({ root, angles }) {
+    place(this.root, root.slice(0, 3), root.slice(3));
+    this.hinges.forEach(({ group, axis }, j) => group.quaternion.setFromAxisAngle(axis, angles[j]));
+  }
+
+  /** A foot on the ground glows. */
+  setTouch(leg, touching) {
+    const foot = this.feet[leg];
+    if (!foot || foot.touching === touching) return;
+    foot.touching = touching;
+    foot.material.color.set(touching ? colour("--touch") : legColour(leg));
+    foot.material.emissive.set(touching ? colour("--touch-glow") : "#000");
+  }
+
+  setGhost(ghost) {
+    for (const { material, mesh } of this.parts) {
+      material.transparent = ghost;
+      material.opacity = ghost ? 0.28 : 1;
+      material.depthWrite = !ghost;
+      material.needsUpdate = true;
+      mesh.castShadow = !ghost;
+    }
+  }
+
+  /** Where root and feet are, in the walker's own lane. */
+  placed() {
+    this.root.updateMatrixWorld(true);
+    const lane = this.root.parent.position;
+    const centres = this.feet.map(({ mesh }) => mesh.getWorldPosition(new Vector3()).sub(lane).toArray());
+    return [this.root.position.toArray(), ...centres];
+  }
+
+  /** How far the robot reaches around its middle in the start pose, m. */
+  reach() {
+    const first = this.robot.bodies[0];
+    place(this.root, first.position_m, first.rotation);
+    for (const { group } of this.hinges) group.quaternion.identity();
+    this.root.updateMatrixWorld(true);
+    const points = this.parts.map(({ mesh }) => {
+      mesh.geometry.computeBoundingSphere();
+      return { centre: mesh.getWorldPosition(new Vector3()), radius: mesh.geometry.boundingSphere.radius };
+    });
+    const middle = this.root.position;
+    return Math.max(...points.map(({ centre, radius }) => centre.distanceTo(middle) + radius));
+  }
+}

@@ -1,0 +1,186 @@
+// The stage: robots, ground, light and camera.
+import {
+  Color, DirectionalLight, Fog, Group, HemisphereLight, PCFShadowMap, PerspectiveCamera, Scene, Vector3, WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { Ground, Trail } from "./ground.js";
+import { RobotModel } from "./robot.js";
+import { colour, walkerColour } from "./theme.js";
+
+export const CAMERAS = ["follow", "orbit", "still"];
+const TURN_S = 20; // of the orbiting camera, once around
+const SMOOTH_S = 0.4; // the camera follows the mean way over this long before and after
+
+export class Stage {
+  /** Throws if the browser gives no WebGL. */
+  constructor(parent, walks, onChange) {
+    this.walks = walks;
+    this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = PCFShadowMap;
+    parent.prepend(this.renderer.domElement);
+    this.canvas = this.renderer.domElement;
+    this.canvas.setAttribute("aria-label", "The robot in motion; drag to turn, scroll to come nearer");
+    this.canvas.setAttribute("role", "img");
+    this.parent = parent;
+    this.paper = document.createElement("canvas"); // what printers get: they cannot print WebGL
+    this.paper.className = "paper";
+    parent.append(this.paper);
+
+    this.scene = new Scene();
+    this.scene.fog = new Fog("#fff", 1, 2);
+    this.lanes = walks.map((walk, i) => this.addWalker(walk, i));
+    this.reach = Math.max(...this.lanes.map(({ model }) => model.reach()));
+    this.ground = new Ground(this.reach);
+    this.scene.add(this.ground.group);
+    this.addLights();
+
+    this.camera = new PerspectiveCamera(32, 1, 0.02 * this.reach, 80 * this.reach);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, this.canvas);
+    this.controls.maxPolarAngle = 0.495 * Math.PI;
+    this.controls.minDistance = 0.8 * this.reach;
+    this.controls.maxDistance = 25 * this.reach;
+    this.controls.addEventListener("change", onChange);
+    this.pixelRatio = 2; // more is not seen
+    this.mode = "follow";
+    this.side = true;
+    this.selected = 0;
+    this.paint();
+    this.arrange();
+    this.time_s = 0;
+    this.resetCamera();
+  }
+
+  addWalker(walk, i) {
+    const group = new Group();
+    const model = new RobotModel(walk.robot, i);
+    const trail = new Trail(walk, 0.02 * model.reach());
+    group.add(model.root, trail.group);
+    this.scene.add(group);
+    return { walk, group, model, trail };
+  }
+
+  addLights() {
+    this.sky = new HemisphereLight("#ffffff", "#b9bfc6", 2.3);
+    this.sun = new DirectionalLight("#ffffff", 1.5);
+    this.sun.castShadow = true;
+    this.sun.shadow.mapSize.set(2048, 2048);
+    const box = this.sun.shadow.camera;
+    const size = (1.3 + 0.8 * (this.walks.length - 1)) * this.reach;
+    [box.left, box.right, box.top, box.bottom, box.near, box.far] = [-size, size, size, -size, 0.1, 12 * this.reach];
+    this.sun.shadow.bias = -0.0005;
+    this.sun.shadow.radius = 2.5;
+    this.scene.add(this.sky, this.sun, this.sun.target);
+  }
+
+  /** Colours again, after light and dark changed. */
+  paint() {
+    this.scene.background = new Color(colour("--sky"));
+    this.scene.fog.color.set(colour("--sky"));
+    this.ground.paint();
+    this.lanes.forEach(({ model, trail }, i) => {
+      model.paint();
+      trail.paint(this.lanes.length > 1 ? walkerColour(i) : colour("--ink"));
+    });
+  }
+
+  /** Side by side, or all from the same place and all but the selected one as ghosts. */
+  arrange(side = this.side, selected = this.selected) {
+    [this.side, this.selected] = [side, selected];
+    const spacing = side ? 1.5 * this.reach : 0;
+    this.lanes.forEach(({ group, model }, i) => {
+      group.position.y = ((this.lanes.length - 1) / 2 - i) * spacing;
+      model.setGhost(!side && i !== selected);
+    });
+  }
+
+  setMode(mode) {
+    this.mode = mode;
+  }
+
+  /** Keeps the picture for paper. */
+  copyToPaper() {
+    [this.paper.width, this.paper.height] = [this.canvas.width, this.canvas.height];
+    this.paper.getContext("2d").drawImage(this.canvas, 0, 0);
+  }
+
+  /** Where the camera looks at time t: the mean of the walkers side by side, or the one with ghosts; smoothed. */
+  focus(t) {
+    const lanes = this.side ? this.lanes : [this.lanes[this.selected]];
+    const sum = new Vector3();
+    const samples = [-1, -0.5, 0, 0.5, 1].map((share) => t + share * SMOOTH_S);
+    for (const { walk, group } of lanes)
+      for (const at of samples) {
+        const [x, y] = walk.comAt(at);
+        sum.x += x;
+        sum.y += y + group.position.y;
+      }
+    sum.divideScalar(lanes.length * samples.length);
+    sum.z = 0.8 * this.lanes[0].walk.robot.bodies[0].position_m[2];
+    return sum;
+  }
+
+  resetCamera() {
+    this.resize();
+    const narrow = Math.max(1, 1.45 / this.camera.aspect);
+    const distance = this.reach * (4.1 + 1.1 * (this.side ? this.lanes.length - 1 : 0)) * narrow;
+    const target = this.focus(this.time_s);
+    this.controls.target.copy(target);
+    this.camera.position.set(0.42, -0.86, 0.34).normalize().multiplyScalar(distance).add(target);
+    this.focused = { time_s: this.time_s, target };
+    this.controls.update();
+  }
+
+  /** Moves the camera as its mode wants, from the time it last showed to t. */
+  moveCamera(t) {
+    const target = this.focus(t);
+    if (this.mode !== "still") {
+      const moved = target.clone().sub(this.focused.target);
+      this.controls.target.add(moved);
+      this.camera.position.add(moved);
+    }
+    if (this.mode === "orbit") {
+      const turn = ((t - this.focused.time_s) * 2 * Math.PI) / TURN_S;
+      this.camera.position.sub(this.controls.target).applyAxisAngle(this.camera.up, turn).add(this.controls.target);
+    }
+    this.focused = { time_s: t, target };
+    this.controls.update();
+  }
+
+  /** Less to draw, for machines that cannot keep up. */
+  simplify() {
+    this.renderer.shadowMap.enabled = this.sun.castShadow = false;
+    this.pixelRatio = 1;
+    this.width = 0; // so that resize() sets the size anew
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.parent;
+    if (width === 0 || height === 0 || (width === this.width && height === this.height)) return;
+    [this.width, this.height] = [width, height];
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, this.pixelRatio));
+    this.renderer.setSize(width, height);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+  }
+
+  show(t) {
+    this.time_s = t;
+    for (const { walk, model, trail } of this.lanes) {
+      model.setPose(walk.pose(t));
+      walk.robot.legs.forEach((_, leg) => model.setTouch(leg, walk.touching(leg, t)));
+      trail.setRow(walk.place(t).row);
+    }
+    this.moveCamera(t);
+    const { target } = this.controls;
+    const lowest = Math.min(...this.lanes.map(({ group }) => group.position.y));
+    this.ground.follow(target.x, target.y, lowest - 0.62 * this.reach);
+    this.sun.target.position.copy(target);
+    this.sun.position.set(0.5, -1.4, 4).multiplyScalar(this.reach).add(target);
+    const away = this.camera.position.distanceTo(target);
+    this.scene.fog.near = away + 2 * this.reach;
+    this.scene.fog.far = away + 18 * this.reach;
+    this.renderer.render(this.scene, this.camera);
+  }
+}
