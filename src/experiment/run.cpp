@@ -29,7 +29,11 @@ void complain_early(const Config& config, const morphology::RobotSpec& robot) {
   auto problem = Problem::make(config, robot);
   for (const auto& referee : config.referees) {
     problem.engine = referee;
-    problem.make_engine();
+    try {
+      problem.make_engine();
+    } catch (const UserError& error) {
+      fail(error.code(), "referees: {}", error.what());
+    }
   }
 }
 

@@ -183,7 +183,12 @@ TEST(Referees, AreShownByInfoTrialAndCompareAndLeaveVerifyAlone) {
   EXPECT_NE(table.out.find("in batch "), std::string::npos)
       << "the home engine is always there: " << table.out;
   EXPECT_EQ(table.out.find("in ode"), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("\nmedian; kept 70 %"), std::string::npos) << "two rows: " << table.out;
   EXPECT_NE(table.out.find("  " + distance + ", "), std::string::npos) << table.out;
+  const auto markdown = amble({"compare", champion, "--engines", "mujoco", "--format", "markdown"}).out;
+  EXPECT_TRUE(markdown.starts_with(
+      "| champion | evolved in | trial | in batch | in mujoco |\n|---|---|---|---|---|\n"))
+      << markdown;
   const auto list = io::Json::parse(amble({"compare", champion, "--seconds", "1,2", "--format", "json"}).out);
   ASSERT_EQ(list.size(), 2u);
   EXPECT_EQ(list[1]["trial_s"], 2.0);
