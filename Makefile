@@ -4,13 +4,19 @@ PREFIX ?= /usr/local
 JOBS ?= $(shell nproc)
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 
-.PHONY: demo build test bench install clean
+.PHONY: demo picture build test bench install clean
 
 demo: build
 	rm -rf demo
 	build/release/src/cli/amble evolve configs/demo.toml --seed 3 --jobs $(JOBS) --out demo/run
 	build/release/src/cli/amble page demo/run -o demo/index.html
 	build/release/src/cli/amble view demo/run -o demo/walk.html
+
+# The README's picture, from the page of `make demo`.
+picture: $(if $(wildcard demo/walk.html),,demo)
+	./setup --dev
+	viewer/install-packages
+	tools/render-video.mjs demo/walk.html docs/pictures/walker.png --whole --at 8.3 --size 1280x720
 
 build:
 	./setup

@@ -21,7 +21,7 @@ class Totals : public experiment::RunListener {
     evaluations += static_cast<double>(row.evaluations);
     steps += static_cast<double>(row.steps);
     wall_s += row.wall_s;
-    outside_s += row.outside_s;
+    outside_s += row.outside_s();
   }
   double evaluations = 0.0, steps = 0.0, wall_s = 0.0, outside_s = 0.0;
 };

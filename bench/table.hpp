@@ -1,9 +1,10 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <string>
 #include <vector>
+
+#include "amble/core/clock.hpp"
 
 namespace amble::bench {
 
@@ -24,10 +25,6 @@ struct Circumstance {
 std::string to_text(const std::vector<Figure>& figures);
 /// Columns name,value,unit; circumstances come last, as text in quotes without a unit.
 std::string to_csv(const std::vector<Figure>& figures, const std::vector<Circumstance>& circumstances);
-
-inline double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// Calls `work` again and again for `least_s` seconds, `repeats` times over, after one call to warm up; the
 /// median of the seconds per call.

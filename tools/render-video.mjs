@@ -7,42 +7,52 @@
 //
 // The stage alone is shown; --whole keeps title and diagrams. --camera follow|orbit|still, --layout side|ghosts. Once before:
 // viewer/install-packages. CHROMIUM=PATH names another browser.
-import { spawn } from "node:child_process";
+import { spawn, spawnSync } from "node:child_process";
 import { once } from "node:events";
-import { existsSync } from "node:fs";
+import { existsSync, writeFileSync } from "node:fs";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { parseArgs } from "node:util";
 
 const fail = (text) => { console.error(`render-video: ${text}`); process.exit(2); };
 const text = { type: "string" };
+const { CHROMIUM = "/usr/bin/chromium" } = process.env;
 
 function readArguments() {
   const options = { from: text, to: text, at: text, speed: text, fps: text, size: text, scheme: text, camera: text, layout: text,
                     whole: { type: "boolean" } };
   try {
-    const { values, positionals } = parseArgs({ options, allowPositionals: true });
-    const [page, out] = positionals;
+    const { values, positionals: [page, out] } = parseArgs({ options, allowPositionals: true });
     if (!out || !/\.(mp4|png)$/.test(out)) fail("usage: render-video.mjs PAGE.html OUT.mp4|OUT.png (see its first lines)");
     if (!existsSync(page)) fail(`${page}: no such file`);
     const [width, height] = (values.size ?? "1280x720").split("x").map(Number);
     if (!(width > 0 && height > 0)) fail(`--size ${values.size}: expected WIDTHxHEIGHT`);
+    if (out.endsWith(".mp4") && (width % 2 || height % 2)) fail(`--size ${values.size}: a video needs even numbers`);
+    for (const name of ["from", "to", "at", "speed", "fps"])
+      if (values[name] !== undefined && !(Number(values[name]) >= 0)) fail(`--${name} ${values[name]}: expected a number`);
     return { page, out, width, height, ...values };
   } catch (error) {
     return fail(error.message);
   }
 }
 
+/** What must be installed; says what is missing. */
+function checkTools(out) {
+  if (!existsSync(CHROMIUM)) fail(`${CHROMIUM} is missing (Debian: apt-get install chromium; or CHROMIUM=PATH)`);
+  if (out.endsWith(".mp4") && spawnSync("ffmpeg", ["-version"]).error) fail("ffmpeg is missing (Debian: apt-get install ffmpeg)");
+}
+
 async function openPage({ page: file, width, height, scheme, whole, camera, layout }) {
   const { chromium } = await import("../viewer/node_modules/playwright-core/index.mjs")
     .catch(() => fail("playwright-core is missing: run viewer/install-packages"));
   const browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+    executablePath: CHROMIUM,
     args: ["--no-sandbox", "--disable-dev-shm-usage", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
   });
   const page = await browser.newPage({ viewport: { width, height }, colorScheme: scheme ?? "light" });
   await page.goto(`${pathToFileURL(resolve(file)).href}#t=0`);
-  await page.waitForFunction(() => !!window.amble);
+  await page.waitForFunction(() => !!window.amble, null, { timeout: 20_000 })
+    .catch(() => fail(`${file}: not a page of \`amble view\``));
   if (!whole)
     await page.addStyleTag({ content: "#stage{position:fixed;inset:0;height:auto!important;border-radius:0;z-index:99;margin:0} .views{display:none!important}" });
   await page.evaluate(([mode, arrangement]) => {
@@ -64,18 +74,25 @@ async function video(page, { out, from, to, speed = 1, fps = 50 }) {
   const ffmpeg = spawn("ffmpeg", ["-y", "-loglevel", "error", "-f", "image2pipe", "-framerate", String(fps), "-i", "-",
                                   "-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart", out],
                        { stdio: ["pipe", "inherit", "inherit"] });
-  ffmpeg.on("error", () => fail("ffmpeg is missing (Debian: apt-get install ffmpeg)"));
+  ffmpeg.stdin.on("error", () => {}); // its exit code tells
   const frames = Math.floor(((end_s - start_s) / Number(speed)) * Number(fps)) + 1;
-  for (let k = 0; k < frames; ++k)
-    if (!ffmpeg.stdin.write(await shoot(page, start_s + (k * Number(speed)) / Number(fps)))) await once(ffmpeg.stdin, "drain");
+  const ended = once(ffmpeg, "close");
+  for (let k = 0; k < frames && ffmpeg.exitCode === null; ++k)
+    if (!ffmpeg.stdin.write(await shoot(page, start_s + (k * Number(speed)) / Number(fps))))
+      await Promise.race([once(ffmpeg.stdin, "drain"), ended]);
   ffmpeg.stdin.end();
-  const [code] = await once(ffmpeg, "close");
+  const [code] = await ended;
   if (code !== 0) fail(`ffmpeg ended with ${code}`);
 }
 
 const options = readArguments();
-const { browser, page } = await openPage(options);
-if (options.out.endsWith(".mp4")) await video(page, options);
-else await import("node:fs").then(async ({ writeFileSync }) => writeFileSync(options.out, await shoot(page, Number(options.at ?? 0))));
-await browser.close();
+checkTools(options.out);
+try {
+  const { browser, page } = await openPage(options);
+  if (options.out.endsWith(".mp4")) await video(page, options);
+  else writeFileSync(options.out, await shoot(page, Number(options.at ?? 0)));
+  await browser.close();
+} catch (error) {
+  fail(error.message.split("\n")[0]);
+}
 console.log(options.out);

@@ -70,8 +70,8 @@ GaitReport GaitMeter::finish(record::Outcome outcome) {
   std::vector<std::vector<bool>> rest;
   for (const ContactFilter& filter : filters_) rest.push_back(filter.finish());
   for (std::size_t k = 0; !rest.empty() && k < rest[0].size(); ++k) {
-    std::vector<bool> touch;
-    for (const auto& leg : rest) touch.push_back(leg[k]);
+    std::vector<bool> touch(rest.size());
+    for (std::size_t leg = 0; leg < rest.size(); ++leg) touch[leg] = rest[leg][k];
     settle(touch);
   }
   // What is left over is too short to be judged alone: the last window takes it.

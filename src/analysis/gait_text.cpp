@@ -14,7 +14,7 @@ using Text = std::back_insert_iterator<std::string>;
 
 std::string words(const std::optional<Verdict>& verdict) {
   if (!verdict) return "no name (gaits are named for four legs, two behind two)";
-  const std::string name(gait_names[static_cast<std::size_t>(verdict->gait)]);
+  std::string name(gait_names[static_cast<std::size_t>(verdict->gait)]);
   if (verdict->reason == Irregular::no) return name;
   return fmt::format("{} ({})", name, irregular_names[static_cast<std::size_t>(verdict->reason)]);
 }

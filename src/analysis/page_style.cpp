@@ -13,6 +13,7 @@ constexpr std::string_view colours = R"css(
   --paper: #fcfcfb; --panel: #f3f4f4; --ground: #e6e8ea; --ink: #16191d; --soft: #5d6670; --line: #b9c0c7;
   --mid: #8e979f; --hair: #e4e7ea; --trunk: #d5dae0; --trunk-line: #7b8590;
   --c0: #00599c; --c1: #c2410c; --c2: #3b9ee0; --c3: #e8a013; --c4: #00796b; --c5: #8e4fb0; --c6: #7d8a1f; --c7: #c75c93;
+  --plus: #00796b; --minus: #c2410c;
   --sans: system-ui, -apple-system, "Segoe UI", Roboto, Inter, "Noto Sans", "Helvetica Neue", Arial, sans-serif;
   --mono: ui-monospace, SFMono-Regular, Menlo, Consolas, "Liberation Mono", "DejaVu Sans Mono", monospace;
 }
@@ -21,10 +22,22 @@ constexpr std::string_view colours = R"css(
     --paper: #101317; --panel: #181c21; --ground: #232930; --ink: #e9ecef; --soft: #98a2ad; --line: #4a535d;
     --mid: #727d88; --hair: #262c33; --trunk: #39424c; --trunk-line: #8b97a3;
     --c0: #3d8fe0; --c1: #f0713a; --c2: #8ecbff; --c3: #ffc75a; --c4: #35b3a2; --c5: #b98ad6; --c6: #b3c043; --c7: #e58fbb;
+    --plus: #35b3a2; --minus: #f0713a;
   }
 }
 .leg0 { --leg: var(--c0); } .leg1 { --leg: var(--c1); } .leg2 { --leg: var(--c2); } .leg3 { --leg: var(--c3); }
 .leg4 { --leg: var(--c4); } .leg5 { --leg: var(--c5); } .leg6 { --leg: var(--c6); } .leg7 { --leg: var(--c7); }
+)css";
+
+constexpr std::string_view cppn = R"css(
+.cppn text { font: 13px var(--sans); fill: var(--ink); }
+.cppn .key-text { fill: var(--soft); }
+.wire path { fill: none; stroke-linecap: round; opacity: .72; } .wire:hover path { opacity: 1; }
+.wire.plus path { stroke: var(--plus); } .wire.minus path { stroke: var(--minus); }
+.wire.off path { stroke: var(--line); stroke-dasharray: 3 5; stroke-width: 1.2; }
+.neuron circle { fill: var(--paper); stroke: var(--ink); stroke-width: 1.6; }
+.terminal circle { fill: var(--ink); }
+.glyph { fill: none; stroke: var(--ink); stroke-width: 1.6; stroke-linecap: round; }
 )css";
 
 constexpr std::string_view text = R"css(
@@ -146,8 +159,8 @@ std::string style_sheet() {
   return sheet;
 }
 
-std::string palette_style_sheet() {
-  return std::string(colours);
+std::string shared_style_sheet() {
+  return std::string(colours) + std::string(cppn);
 }
 
 std::string standalone_svg(std::string element) {
@@ -157,6 +170,7 @@ std::string standalone_svg(std::string element) {
   style += colours;
   style += "svg { background: var(--paper); padding: 16px; overflow: visible; }";
   style += figures;
+  style += cppn;
   style += "</style>";
   return element.insert(head_end + 1, style);
 }

@@ -9,8 +9,9 @@ namespace amble::analysis {
 /// ends in lightness (front dark, back light), so that they stay apart for colour-blind readers too.
 std::string style_sheet();
 
-/// The colours alone, as custom properties (--paper, --ink, --c0 …): light and dark, and light on paper.
-std::string palette_style_sheet();
+/// For pages with a style of their own: the colours, as custom properties (--paper, --ink, --c0 …), light and
+/// dark, and light on paper; and how a CPPN is drawn (cppn_figure.hpp).
+std::string shared_style_sheet();
 
 /// An <svg> element (svg.hpp) as a file of its own, with the part of the style sheet that figures need:
 /// light, or dark where the reader prefers that.

@@ -7,6 +7,7 @@
 
 #include "amble/analysis/axis.hpp"
 #include "amble/analysis/footfalls.hpp"
+#include "amble/analysis/page_style.hpp"
 #include "amble/analysis/svg.hpp"
 
 namespace amble::analysis {
@@ -191,6 +192,10 @@ std::string pattern_figure(const RobotModel& robot, const Supg& supg, const Moti
       draw_time_axis(svg, supg, grid, leg, grid.height(triggers) - bottom_px);
   }
   return svg.finish();
+}
+
+std::string pattern_svg(const RobotModel& robot, const Supg& supg) {
+  return standalone_svg(pattern_figure(robot, supg, {}, Layout::wide));
 }
 
 }  // namespace amble::analysis

@@ -14,4 +14,7 @@ namespace amble::analysis {
 /// when triggers reset it. An <svg> element.
 std::string pattern_figure(const RobotModel& robot, const Supg& supg, const Motion& motion, Layout layout);
 
+/// The patterns alone, without a trial, as a file of its own with its style sheet.
+std::string pattern_svg(const RobotModel& robot, const Supg& supg);
+
 }  // namespace amble::analysis

@@ -58,10 +58,11 @@ Svg::Svg(double width_px, double height_px, std::string_view description) {
   out_ += fmt::format(" aria-label=\"{}\">\n", escape(description));
 }
 
-void Svg::begin_group(std::string_view name) {
+void Svg::begin_group(std::string_view name, std::string_view tooltip) {
   out_ += "<g";
   css_class(name);
   out_ += ">\n";
+  if (!tooltip.empty()) out_ += "<title>" + escape(tooltip) + "</title>\n";
   ++open_groups_;
 }
 
@@ -98,6 +99,15 @@ void Svg::circle(Point centre, double radius_px, std::string_view name) {
   attribute("cx", centre.x);
   attribute("cy", centre.y);
   attribute("r", radius_px);
+  out_ += "/>\n";
+}
+
+void Svg::bezier(const std::array<Point, 4>& p, std::string_view name, double width_px) {
+  const auto place = [](Point point) { return number(point.x, 1) + " " + number(point.y, 1); };
+  out_ += "<path";
+  css_class(name);
+  out_ += fmt::format(" d=\"M{} C{} {} {}\"", place(p[0]), place(p[1]), place(p[2]), place(p[3]));
+  if (width_px > 0.0) attribute("stroke-width", width_px);
   out_ += "/>\n";
 }
 

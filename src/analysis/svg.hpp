@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -37,11 +38,14 @@ class Svg {
   /// `description` is what a screen reader says.
   Svg(double width_px, double height_px, std::string_view description);
 
-  void begin_group(std::string_view css_class);
+  /// What a reader points at in the group is named by the tooltip.
+  void begin_group(std::string_view css_class, std::string_view tooltip = {});
   void end_group();
   void line(Point from, Point to, std::string_view css_class = {});
   void rect(const Box& box, std::string_view css_class = {}, double corner_px = 0.0);
   void circle(Point centre, double radius_px, std::string_view css_class = {});
+  /// A cubic Bézier curve by its four points. Without a width that of its class.
+  void bezier(const std::array<Point, 4>& points, std::string_view css_class = {}, double width_px = 0.0);
   void polyline(std::span<const Point> points, std::string_view css_class = {});
   void polygon(std::span<const Point> points, std::string_view css_class = {});
   void text(Point at, Anchor anchor, std::string_view css_class, std::string_view text);

@@ -20,6 +20,7 @@ void add_robot(CLI::App& app, Action& action);
 void add_verify(CLI::App& app, Action& action);
 void add_page(CLI::App& app, Action& action);
 void add_view(CLI::App& app, Action& action);
+void add_draw(CLI::App& app, Action& action);
 void add_settings(CLI::App& app, Action& action);
 void add_substrate(CLI::App& app, Action& action);
 

@@ -43,11 +43,8 @@ std::optional<analysis::GaitReport> champion_gait(const fs::path& path, const Ga
 }
 
 std::optional<analysis::GaitReport> measure(const GaitOptions& options) {
-  if (fs::is_directory(options.path)) {
-    if (!experiment::is_run_folder(options.path))
-      fail(ExitCode::bad_input, "{}: not a run folder (no config.toml)", options.path.string());
-    return champion_gait(experiment::RunPaths(options.path).best_champion(), options);
-  }
+  if (fs::is_directory(options.path))
+    return champion_gait(experiment::find_run(options.path).best_champion(), options);
   if (options.path.extension() == ".json") return champion_gait(options.path, options);
   if (options.engine) fail(ExitCode::bad_input, "--engine: a recording has been made already");
   return analysis::recorded_gait(options.path, options.settings, options.seconds);

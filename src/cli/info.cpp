@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <memory>
+#include <numeric>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "amble/analysis/generations_csv.hpp"
@@ -37,6 +39,34 @@ void print_champion(const experiment::Champion& champion) {
   fmt::print("\n");
 }
 
+double sum(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// Where the wall time of a run went, stage by stage; workers count as their mean.
+void print_stages(const analysis::Generations& rows) {
+  const double wall_s = sum(rows.wall_s);
+  if (wall_s <= 0.0 || rows.files_s.empty()) return;
+  const auto print = [wall_s](std::string_view stage, double seconds) {
+    fmt::print("  {:<24}{:>9.2f} s {:>5.1f} %\n", stage, seconds, 100.0 * seconds / wall_s);
+  };
+  fmt::print("time        {:.2f} s\n", wall_s);
+  double rest_s = wall_s;
+  const auto stage = [&](std::string_view name, const std::vector<double>& values) {
+    print(name, sum(values));
+    rest_s -= sum(values);
+  };
+  stage("physics", rows.physics_s);
+  stage("genomes to controllers", rows.decode_s);
+  stage("controllers, noise", rows.control_s);
+  stage("waiting for others", rows.waiting_s);
+  stage("search", rows.judge_s);
+  stage("breeding", rows.breed_s);
+  if (sum(rows.referees_s) > 0.0) stage("referees", rows.referees_s);
+  stage("files", rows.files_s);
+  print("books", rest_s);
+}
+
 ExitCode run_info(const std::filesystem::path& folder) {
   const experiment::RunPaths paths = experiment::find_run(folder);
   const auto config = experiment::load_config(paths.config, {});
@@ -54,6 +84,7 @@ ExitCode run_info(const std::filesystem::path& folder) {
     fmt::print(": archive of {:.0f} behaviours, threshold {:.4g} in the last generation", rows.archive.back(),
                rows.novelty_threshold.back());
   fmt::print("\n");
+  print_stages(rows);
   const auto champions = paths.champion_files();
   fmt::print("champions   {}\n", champions.size());
   if (!champions.empty()) {

@@ -39,6 +39,7 @@ ExitCode run(int argc, char** argv) {
   amble::cli::add_verify(app, action);
   amble::cli::add_page(app, action);
   amble::cli::add_view(app, action);
+  amble::cli::add_draw(app, action);
   amble::cli::add_settings(app, action);
   amble::cli::add_substrate(app, action);
   try {

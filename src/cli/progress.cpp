@@ -4,18 +4,15 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
+
+#include "amble/core/clock.hpp"
 
 namespace amble::cli {
 namespace {
 
 constexpr double terminal_interval_s = 0.1, plain_interval_s = 5.0;
-
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 }  // namespace
 

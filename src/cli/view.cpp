@@ -7,14 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "amble/analysis/cppn_figure.hpp"
+#include "amble/analysis/recorded_gait.hpp"
 #include "amble/cli/commands.hpp"
+#include "amble/cli/cppn_graph.hpp"
+#include "amble/cli/gait_observer.hpp"
 #include "amble/cli/scratch_file.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/build_info.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/io/file.hpp"
-#include "amble/neat/genome_json.hpp"
 #include "amble/view/page.hpp"
 
 namespace amble::cli {
@@ -29,48 +32,51 @@ struct ViewOptions {
   std::optional<std::string> title;
 };
 
-io::Json cppn_json(const experiment::Champion& champion) {
-  io::Json json = neat::to_json(champion.genome);
-  json["inputs"] = champion.problem.architecture->layout().input_names();
-  json["outputs"] = champion.problem.architecture->layout().output_names();
-  return json;
+io::Json gait_of(const analysis::GaitReport& report) {
+  return io::parse_json(analysis::gait_json(report), "gait");
 }
 
 /// Lets a champion walk again. Nothing if it was stopped by a signal.
-std::optional<view::Walker> walk(const fs::path& champion_path, const ViewOptions& options,
+std::optional<view::Walker> walk(const fs::path& path, const ViewOptions& options,
                                  const ScratchFile& recording) {
-  const auto champion = experiment::load_champion(champion_path);
+  const auto champion = experiment::load_champion(path);
+  GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
   const auto replay = experiment::replay(champion.problem, champion.genome,
                                          {.seconds = options.seconds,
                                           .engine = {},
                                           .record = recording.path(),
-                                          .origin = champion_path.string()},
+                                          .origin = path.string(),
+                                          .observer = &gait,
+                                          .trace = false},
                                          stop_signal());
   if (!replay) return std::nullopt;
-  return view::Walker{
-      .title = fmt::format("{}, generation {}", champion.experiment, champion.generation),
-      .recording = recording.path(),
-      .cppn = cppn_json(champion),
-      .gait = nullptr,
-  };
+  return view::Walker{.title = fmt::format("{}, generation {}", champion.experiment, champion.generation),
+                      .recording = recording.path(),
+                      .cppn_svg = analysis::cppn_figure(cppn_graph(champion)),
+                      .gait = gait_of(gait.finish(replay->result.outcome))};
+}
+
+view::Walker recorded(const fs::path& path) {
+  return {.title = path.stem().string(),
+          .recording = path,
+          .cppn_svg = {},
+          .gait = gait_of(analysis::recorded_gait(path, {}))};
 }
 
 ExitCode make_view(const ViewOptions& options) {
+  io::refuse_to_replace(options.out, "<!DOCTYPE html>", "a page");
   std::deque<ScratchFile> scratch;
   view::PageInput page;
   for (const fs::path& input : options.inputs) {
     const bool is_run = fs::is_directory(input);
-    if (is_run && !experiment::is_run_folder(input))
-      fail(ExitCode::bad_input, "{}: not a run folder (no config.toml)", input.string());
-    if (is_run || input.extension() == ".json") {
-      const auto champion = is_run ? experiment::RunPaths(input).best_champion() : input;
-      auto walker = walk(champion, options, scratch.emplace_back("view"));
-      if (!walker) return ExitCode::interrupted;
-      page.walkers.push_back(std::move(*walker));
-    } else {
-      page.walkers.push_back(
-          {.title = input.stem().string(), .recording = input, .cppn = nullptr, .gait = nullptr});
+    if (!is_run && input.extension() != ".json") {
+      page.walkers.push_back(recorded(input));
+      continue;
     }
+    const fs::path champion = is_run ? experiment::find_run(input).best_champion() : input;
+    auto walker = walk(champion, options, scratch.emplace_back("view"));
+    if (!walker) return ExitCode::interrupted;
+    page.walkers.push_back(std::move(*walker));
   }
   page.title = options.title.value_or(
       page.walkers.size() == 1 ? page.walkers.front().title : fmt::format("{} walkers", page.walkers.size()));

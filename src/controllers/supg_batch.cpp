@@ -36,7 +36,7 @@ SupgBatch::SupgBatch(const SupgSettings& settings, std::vector<std::string> leg_
       lanes_(lanes) {
   AMBLE_CHECK(lanes > 0, "a batch has at least one lane");
   const auto size = static_cast<std::size_t>(parked_.legs() * lanes);
-  controllers_.assign(static_cast<std::size_t>(lanes), nullptr);
+  tables_.resize(static_cast<std::size_t>(lanes));
   for (auto* const values : {&timer_, &airborne_ticks_, &wait_ticks_, &first_timer_, &triggered_})
     values->resize(size);
   for (int lane = 0; lane < lanes; ++lane) load(lane, parked_);
@@ -48,7 +48,7 @@ void SupgBatch::load(int lane, const Parameters& parameters) {
   AMBLE_CHECK(supg != nullptr && supg->legs() == parked_.legs() && supg->types() == parked_.types() &&
                   supg->period_ticks() == period_ticks_,
               "the parameters belong to another architecture");
-  controllers_[static_cast<std::size_t>(lane)] = supg;
+  tables_[static_cast<std::size_t>(lane)] = supg->targets_rad(0, 0);
   for (int leg = 0; leg < supg->legs(); ++leg) {
     const std::size_t i = index(leg, lane);
     const bool phase = offset_ == Offset::phase;
@@ -72,32 +72,41 @@ void SupgBatch::step(const physics::SensorFrame& sensors, LaneArray& targets_rad
 }
 
 void SupgBatch::update_timers(int leg, const float* touch) {
+  // Copies, so that the compiler knows that nothing written here changes them, and uses SIMD instructions.
+  const std::int32_t period = period_ticks_, needed = airborne_ticks_needed_, end = end_of_cycle_,
+                     start = start_tick_;
   const std::size_t first = index(leg, 0);
-  for (std::size_t lane = 0; lane < static_cast<std::size_t>(lanes_); ++lane) {
-    const std::size_t i = first + lane;
+  std::int32_t* const timer = timer_.data() + first;
+  std::int32_t* const airborne = airborne_ticks_.data() + first;
+  std::int32_t* const wait = wait_ticks_.data() + first;
+  std::int32_t* const fired = triggered_.data() + first;
+  const std::int32_t* const first_timer = first_timer_.data() + first;
+  for (int lane = 0; lane < lanes_; ++lane) {
     const bool touching = touch[lane] > 0.5f;
-    const bool started = wait_ticks_[i] < 0, starts = wait_ticks_[i] == 0;
-    const bool triggered = started && touching && airborne_ticks_[i] >= airborne_ticks_needed_;
+    const bool started = wait[lane] < 0, starts = wait[lane] == 0;
+    const bool triggered = started & touching & (airborne[lane] >= needed);
 
-    std::int32_t next = timer_[i] + 1;
-    next = next >= period_ticks_ ? end_of_cycle_ : next;
-    next = timer_[i] == stopped ? stopped : next;
-    next = triggered ? start_tick_ : next;
-    timer_[i] = starts ? first_timer_[i] : next;
+    std::int32_t next = timer[lane] + 1;
+    next = next >= period ? end : next;
+    next = timer[lane] == stopped ? stopped : next;
+    next = triggered ? start : next;
+    timer[lane] = starts ? first_timer[lane] : next;
 
-    triggered_[i] = triggered;
-    wait_ticks_[i] = std::max(wait_ticks_[i] - 1, -1);
-    airborne_ticks_[i] = touching ? 0 : std::min(airborne_ticks_[i] + 1, airborne_ticks_needed_);
+    fired[lane] = triggered ? 1 : 0;
+    wait[lane] = std::max(wait[lane] - 1, -1);
+    airborne[lane] = touching ? 0 : std::min(airborne[lane] + 1, needed);
   }
 }
 
 void SupgBatch::write_targets(int leg, LaneArray& targets_rad) const {
-  const int types = parked_.types();
-  float* const first_row = targets_rad.row(leg * types);
+  const std::ptrdiff_t types = parked_.types(), lanes = lanes_;
+  const std::ptrdiff_t from = parked_.targets_rad(leg, 0) - parked_.targets_rad(0, 0);
+  float* const first_row = targets_rad.row(leg * parked_.types());
   const std::int32_t* const timer = timer_.data() + index(leg, 0);
-  for (int lane = 0; lane < lanes_; ++lane) {
-    const float* const targets = controllers_[static_cast<std::size_t>(lane)]->targets_rad(leg, timer[lane]);
-    for (int type = 0; type < types; ++type) first_row[type * lanes_ + lane] = targets[type];
+  const float* const* const tables = tables_.data();
+  for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) {
+    const float* const targets = tables[lane] + from + timer[lane] * types;
+    for (std::ptrdiff_t type = 0; type < types; ++type) first_row[type * lanes + lane] = targets[type];
   }
 }
 

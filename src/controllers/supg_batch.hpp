@@ -35,8 +35,8 @@ class SupgBatch : public Batch {
   SupgParameters parked_;
   int lanes_;
 
-  std::vector<const SupgParameters*> controllers_;  ///< lane by lane
-  std::vector<std::int32_t> timer_;                 ///< ticks, or SupgParameters::stopped
+  std::vector<const float*> tables_;          ///< by lane: its controller's targets of leg 0 at timer 0
+  std::vector<std::int32_t> timer_;           ///< ticks, or SupgParameters::stopped
   std::vector<std::int32_t> airborne_ticks_;  ///< ticks in a row for which the foot has been off the ground
   std::vector<std::int32_t>
       wait_ticks_;  ///< ticks before the timer starts for the first time; −1 once it has

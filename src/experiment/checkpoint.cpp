@@ -24,8 +24,8 @@ std::uint64_t config_hash(const Config& config) {
 
 }  // namespace
 
-void save_checkpoint(const std::filesystem::path& path, const Config& config, const Progress& progress,
-                     const neat::Population& population, const search::Search& search) {
+std::string checkpoint_bytes(const Config& config, const Progress& progress,
+                             const neat::Population& population, const search::Search& search) {
   io::BinaryWriter writer;
   writer.put(config_hash(config));
   writer.put(progress.best_m);
@@ -36,7 +36,27 @@ void save_checkpoint(const std::filesystem::path& path, const Config& config, co
   writer.put(progress.csv_bytes);
   population.save(writer);
   search.save(writer);
-  io::write_file(path, io::seal(magic, version, writer.bytes()));
+  return io::seal(magic, version, writer.bytes());
+}
+
+void save_checkpoint(const std::filesystem::path& path, const Config& config, const Progress& progress,
+                     const neat::Population& population, const search::Search& search) {
+  io::write_file(path, checkpoint_bytes(config, progress, population, search));
+}
+
+void finish_checkpoint(const std::filesystem::path& path) {
+  const std::string beginning = path.filename().string() + std::string(io::temporary_mark);
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(path.parent_path(), none)) {
+    if (!entry.path().filename().string().starts_with(beginning)) continue;
+    try {
+      const std::string bytes = io::read_file(entry.path());
+      io::unseal(magic, version, bytes, entry.path().string());
+      io::write_file(path, bytes);
+    } catch (const UserError&) {
+      // Cut off while it was written: the checkpoint before it counts.
+    }
+  }
 }
 
 Progress load_checkpoint(const std::filesystem::path& path, const Config& config,

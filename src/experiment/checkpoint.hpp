@@ -21,9 +21,16 @@ struct Progress {
   std::uint64_t csv_bytes = 0;  ///< length of generations.csv at this moment
 };
 
-/// Writes all that a run needs to go on, to the bit, atomically.
+/// All that a run needs to go on, to the bit, as the bytes of a file.
+std::string checkpoint_bytes(const Config& config, const Progress& progress,
+                             const neat::Population& population, const search::Search& search);
+/// Writes them, atomically.
 void save_checkpoint(const std::filesystem::path& path, const Config& config, const Progress& progress,
                      const neat::Population& population, const search::Search& search);
+
+/// Names a checkpoint that a process had written whole under a temporary name (io::AtomicFile) when it was
+/// killed. Call it before temporary files are removed.
+void finish_checkpoint(const std::filesystem::path& path);
 
 /// Restores what save_checkpoint wrote. Throws UserError(ExitCode::bad_file): foreign, of another version,
 /// truncated, altered, or written under another config than this (the number of generations may differ).

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "amble/core/check.hpp"
+#include "amble/core/clock.hpp"
 #include "amble/core/error.hpp"
 
 namespace amble::experiment {
@@ -59,11 +60,13 @@ class WorkerQueue : public trial::TaskQueue {
   void done(std::size_t index, record::Trajectory trajectory) override {
     generation_.done(index, std::move(trajectory));
   }
+  double decode_s() const { return decode_s_; }
 
  private:
   bool take_genome() {
     genome_ = generation_.next_genome();
     if (genome_ >= generation_.genomes.size()) return false;
+    const Stopwatch watch(decode_s_);
     parameters_ = generation_.problem.decode(generation_.genomes[genome_]);
     episode_ = 0;
     return true;
@@ -72,6 +75,7 @@ class WorkerQueue : public trial::TaskQueue {
   Generation& generation_;
   std::size_t genome_ = 0, episode_;  ///< whose and which trial comes next; past the last: a new genome's
   std::shared_ptr<const controllers::Parameters> parameters_;
+  double decode_s_ = 0.0;
 };
 
 /// What a worker works with; made by itself, in its first round. The runner lives as long as the controllers:
@@ -109,7 +113,8 @@ struct Evaluator::Shared {
   Generation* generation = nullptr;
   const std::atomic<bool>* stop = nullptr;
   std::uint64_t steps = 0;
-  double physics_s = 0.0;
+  StageTimes times;     ///< sums over the workers, without waiting
+  double busy_s = 0.0;  ///< the same, of their whole rounds
   std::exception_ptr failure;
   std::vector<std::jthread> workers;
 };
@@ -130,22 +135,26 @@ void Evaluator::Shared::work() {
 void Evaluator::Shared::one_round(Workplace& workplace) {
   std::exception_ptr caught;
   std::uint64_t own_steps = 0;
-  double own_physics_s = 0.0;
+  StageTimes own;
+  const double start_s = now_s();
   try {
     trial::Runner& runner = workplace.open(problem, path_stride);
     const std::uint64_t steps_before = runner.steps_simulated();
-    const double physics_before_s = runner.physics_s();
+    const double physics_before_s = runner.physics_s(), control_before_s = runner.control_s();
     WorkerQueue queue(*generation);
     runner.run(queue, *stop);
     own_steps = runner.steps_simulated() - steps_before;
-    own_physics_s = runner.physics_s() - physics_before_s;
+    own = {.physics_s = runner.physics_s() - physics_before_s,
+           .decode_s = queue.decode_s(),
+           .control_s = runner.control_s() - control_before_s};
   } catch (...) {
     caught = std::current_exception();
   }
   const std::lock_guard lock(mutex);
   if (caught && !failure) failure = caught;
   steps += own_steps;
-  physics_s += own_physics_s;
+  for (const Stage& stage : stages) times.*stage.seconds += own.*stage.seconds;
+  busy_s += now_s() - start_s;
   if (--working == 0) finished.notify_one();
 }
 
@@ -180,18 +189,24 @@ std::optional<GenerationResult> Evaluator::evaluate(std::span<const neat::Genome
   shared.generation = &generation;
   shared.stop = &stop;
   shared.steps = 0;
-  shared.physics_s = 0.0;
+  shared.times = {};
+  shared.busy_s = 0.0;
   shared.working = static_cast<int>(shared.workers.size());
   ++shared.round;
+  const double start_s = now_s();
   shared.wake.notify_all();
   shared.finished.wait(lock, [&] { return shared.working == 0; });
 
   if (shared.failure) std::rethrow_exception(std::exchange(shared.failure, nullptr));
   if (!generation.complete()) return std::nullopt;
+  const auto workers = static_cast<double>(shared.workers.size());
+  StageTimes times = shared.times;
+  for (const Stage& stage : stages) times.*stage.seconds /= workers;
+  times.waiting_s = now_s() - start_s - shared.busy_s / workers;
   return GenerationResult{.trajectories = generation.take(),
                           .episodes = generation.episodes(),
                           .steps = shared.steps,
-                          .physics_s = shared.physics_s / static_cast<double>(shared.workers.size())};
+                          .times = times};
 }
 
 }  // namespace amble::experiment

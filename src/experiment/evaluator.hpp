@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "amble/experiment/problem.hpp"
+#include "amble/experiment/stage_times.hpp"
 #include "amble/record/trajectory.hpp"
 
 namespace amble::experiment {
@@ -17,7 +18,7 @@ struct GenerationResult {
   std::vector<record::Trajectory> trajectories;
   std::size_t episodes = 1;  ///< trials per genome
   std::uint64_t steps = 0;
-  double physics_s = 0.0;  ///< time in the engine, mean over the workers
+  StageTimes times;  ///< those that workers have
 
   std::span<const record::Trajectory> of_genome(std::size_t index) const {
     return std::span(trajectories).subspan(index * episodes, episodes);

@@ -5,14 +5,15 @@
 #include <span>
 #include <string>
 
+#include "amble/experiment/stage_times.hpp"
 #include "amble/neat/population.hpp"
 #include "amble/record/trajectory.hpp"
 #include "amble/search/search.hpp"
 
 namespace amble::experiment {
 
-/// One line of generations.csv. All columns but the last four (times) are the same bits for any number of
-/// workers.
+/// One line of generations.csv. All columns before wall_s, where the times begin, are the same bits for any
+/// number of workers.
 struct GenerationRow {
   int generation = 0;
   double best_m = 0.0, best_so_far_m = 0.0, mean_m = 0.0, median_m = 0.0;
@@ -21,10 +22,10 @@ struct GenerationRow {
   int fell = 0, diverged = 0;
   std::optional<search::NoveltyStatistics> novelty;  ///< nothing, and so empty cells, for other searches
   std::uint64_t evaluations = 0, steps = 0;          ///< of this generation
-  double wall_s = 0.0;                               ///< since the row before, files included
-  double physics_s = 0.0;                            ///< of which in the engine, mean over the workers
-  double referees_s = 0.0;                           ///< of which for the trials of referees
-  double outside_s = 0.0;                            ///< of which for anything else
+  double wall_s = 0.0;                               ///< since the row before
+  StageTimes times;                                  ///< of which; files are those of the row before
+
+  double outside_s() const { return wall_s - times.physics_s - times.referees_s; }
 };
 
 /// Names of the columns, one line.

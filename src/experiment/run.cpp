@@ -1,9 +1,9 @@
 #include "amble/experiment/run.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
+#include "amble/core/clock.hpp"
 #include "amble/core/error.hpp"
 #include "amble/experiment/episodes.hpp"
 #include "amble/experiment/referees.hpp"
@@ -12,10 +12,6 @@
 
 namespace amble::experiment {
 namespace {
-
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// Throws UserError rather than being killed for it after hours.
 void check_memory(const Config& config) {
@@ -76,7 +72,7 @@ Run Run::start(const std::filesystem::path& folder, const Config& config, int jo
     run.archive_ = std::make_unique<io::AppendFile>(run.paths().archive, 0);
     run.archive_->append(run.search_->take_archive_growth());
   }
-  run.checkpoint();
+  save_checkpoint(run.paths().checkpoint, config, run.progress_, run.population_, *run.search_);
   run.folder_.note_process(config, jobs, 0);
   run.folder_.save_config(config);  // last: what has a config is a run
   return run;
@@ -102,8 +98,14 @@ Run Run::resume(const std::filesystem::path& folder, std::optional<int> generati
   return run;
 }
 
-// The generation loop: evaluate, judge, keep the best, breed, write down.
 RunStatus Run::execute(RunListener& listener, const std::atomic<bool>& stop) {
+  const RunStatus status = generations(listener, stop);
+  settle();
+  return status;
+}
+
+// The generation loop: evaluate, judge, keep the best, breed, write down.
+RunStatus Run::generations(RunListener& listener, const std::atomic<bool>& stop) {
   Evaluator evaluator(*problem_, config_.search.path_stride(), jobs_);
   double last_row_s = now_s();
   while (population_.generation() < config_.generations) {
@@ -111,33 +113,34 @@ RunStatus Run::execute(RunListener& listener, const std::atomic<bool>& stop) {
     const auto result = evaluator.evaluate(population_.genomes(), stop, scenarios);
     if (!result) return RunStatus::interrupted;
 
+    GenerationRow row;
+    row.generation = population_.generation();
+    row.population = population_.statistics();
+    row.times = result->times;
+    row.times.files_s = std::exchange(files_s_, 0.0);
     const auto distances_m = objectives_m(config_.noise.score, *result);
-    const auto fitness = judge(*result, distances_m);
-
-    GenerationRow row{.generation = population_.generation(),
-                      .population = population_.statistics(),
-                      .novelty = search_->novelty_statistics()};
+    const auto fitness = judge(*result, distances_m, row);
     summarise_trials(distances_m, result->trajectories, row);
     const auto best = static_cast<std::size_t>(std::ranges::max_element(distances_m) - distances_m.begin());
     row.best_hidden = population_.genomes()[best].count(neat::NodeKind::hidden);
     row.best_links = population_.genomes()[best].enabled_links();
     row.evaluations = distances_m.size();
     row.steps = result->steps;
-    row.physics_s = result->physics_s;
     if (row.best_m > progress_.best_m && !keep_champion(best, row, stop)) return RunStatus::interrupted;
     row.best_so_far_m = progress_.best_m;
 
-    population_.advance(fitness);
+    breed(fitness, row);
 
     row.wall_s = now_s() - std::exchange(last_row_s, now_s());
-    row.outside_s = row.wall_s - row.physics_s - row.referees_s;
     write_down(row);
     listener.on_generation(row, progress_, config_);
   }
   return RunStatus::finished;
 }
 
-std::vector<neat::Fitness> Run::judge(const GenerationResult& result, std::span<const double> distances_m) {
+std::vector<neat::Fitness> Run::judge(const GenerationResult& result, std::span<const double> distances_m,
+                                      GenerationRow& row) {
+  const Stopwatch watch(row.times.judge_s);
   const std::size_t length = config_.behaviour_length();
   std::vector<std::vector<float>> behaviours;
   std::vector<search::Evaluation> evaluations;
@@ -146,7 +149,14 @@ std::vector<neat::Fitness> Run::judge(const GenerationResult& result, std::span<
     behaviours.push_back(score::path_behaviour(result.of_genome(i).front(), length));
     evaluations.push_back({.objective = distances_m[i], .behaviour = behaviours.back()});
   }
-  return search_->judge(evaluations);
+  auto fitness = search_->judge(evaluations);
+  row.novelty = search_->novelty_statistics();
+  return fitness;
+}
+
+void Run::breed(std::span<const neat::Fitness> fitness, GenerationRow& row) {
+  const Stopwatch watch(row.times.breed_s);
+  population_.advance(fitness);
 }
 
 bool Run::keep_champion(std::size_t best, GenerationRow& row, const std::atomic<bool>& stop) {
@@ -163,45 +173,56 @@ bool Run::keep_champion(std::size_t best, GenerationRow& row, const std::atomic<
   if (!undisturbed) return false;
   champion.result = undisturbed->result;
   champion.trace = undisturbed->trace;
-  row.physics_s += undisturbed->physics_s;
+  row.times.physics_s += undisturbed->physics_s;
   if (problem_->noise.any())
     for (std::size_t i = 0; i < static_cast<std::size_t>(problem_->noise.episodes); ++i) {
       const auto again = replay(*problem_, champion.genome, {.noise = champion.scenario_key(i)}, stop);
       if (!again) return false;
       champion.episodes.push_back({again->result, again->trace});
-      row.physics_s += again->physics_s;
+      row.times.physics_s += again->physics_s;
     }
   if (champion.objective_m() != row.best_m)
     fail(ExitCode::differs,
          "generation {}: the champion walked {} m, and {} m when run again: the engine does not repeat",
          champion.generation, row.best_m, champion.objective_m());
   if (!config_.referees.empty()) {
-    const double before_s = now_s();
+    const Stopwatch watch(row.times.referees_s);
     auto judged = ask_referees(*problem_, champion.genome, config_.referees, {.jobs = jobs_}, stop);
     if (!judged) return false;
     champion.referees = std::move(*judged);
-    row.referees_s = now_s() - before_s;
   }
-  folder_.save_champion(champion);
+  {
+    const Stopwatch watch(row.times.files_s);
+    folder_.save_champion(champion);
+  }
   progress_.best_m = row.best_m;
   progress_.best_generation = champion.generation;
   return true;
 }
 
 void Run::write_down(const GenerationRow& row) {
+  const Stopwatch watch(files_s_);
+  settle();
   progress_.evaluations += row.evaluations;
   progress_.steps += row.steps;
   progress_.wall_s += row.wall_s;
-  csv_->append(csv_line(row));
+  csv_->write(csv_line(row));
   progress_.csv_bytes = csv_->size();
-  // What the checkpoint counts on must be on the disk before it.
   if (archive_)
-    if (const auto growth = search_->take_archive_growth(); !growth.empty()) archive_->append(growth);
-  checkpoint();
+    if (const auto growth = search_->take_archive_growth(); !growth.empty()) archive_->write(growth);
+  auto checkpoint = std::make_unique<io::AtomicFile>(paths().checkpoint);
+  checkpoint->write(checkpoint_bytes(config_, progress_, population_, *search_));
+  // What the checkpoint counts on must be on the disk before it.
+  settling_ = std::async(std::launch::async,
+                         [csv = csv_.get(), archive = archive_.get(), file = std::move(checkpoint)] {
+                           csv->sync();
+                           if (archive) archive->sync();
+                           file->commit();
+                         });
 }
 
-void Run::checkpoint() const {
-  save_checkpoint(paths().checkpoint, config_, progress_, population_, *search_);
+void Run::settle() {
+  if (settling_.valid()) settling_.get();
 }
 
 }  // namespace amble::experiment

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <optional>
 #include <span>
@@ -28,8 +29,8 @@ class RunListener {
 
 enum class RunStatus { finished, interrupted };
 
-/// One evolutionary run in its folder. After every generation all files are on the disk, and a checkpoint
-/// from which the run goes on to the same bits as if it had never stopped.
+/// One evolutionary run in its folder. After every generation its files are written, with a checkpoint from
+/// which the run goes on to the same bits as if it had never stopped.
 class Run {
  public:
   /// A new run. Throws UserError; then nothing was written over.
@@ -49,13 +50,19 @@ class Run {
  private:
   Run(RunFolder folder, const Config& config, const morphology::RobotSpec& robot, int jobs);
 
-  /// Runs the best of the generation again, here and in the referees; adds the seconds to the row's. False if
-  /// `stop` was set meanwhile.
+  /// What these do, and how long it takes, is noted in `row`. The best genome's objective is row.best_m; it
+  /// is run again, here and in the referees; false if `stop` was set meanwhile.
   bool keep_champion(std::size_t best, GenerationRow& row, const std::atomic<bool>& stop);
-  std::vector<neat::Fitness> judge(const GenerationResult& result, std::span<const double> distances_m);
-  /// All files but the champions, in an order from which a run goes on wherever it is cut off.
+  std::vector<neat::Fitness> judge(const GenerationResult& result, std::span<const double> distances_m,
+                                   GenerationRow& row);
+  void breed(std::span<const neat::Fitness> fitness, GenerationRow& row);
+  RunStatus generations(RunListener& listener, const std::atomic<bool>& stop);
+  /// All files but the champions, in an order from which a run goes on wherever it is cut off. They are
+  /// written when it returns, so that nothing is lost with the process, and synced while the next generation
+  /// is evaluated.
   void write_down(const GenerationRow& row);
-  void checkpoint() const;
+  /// Waits until what write_down() wrote is on the disk. Throws UserError.
+  void settle();
 
   RunFolder folder_;
   Config config_;
@@ -65,6 +72,8 @@ class Run {
   std::unique_ptr<io::AppendFile> csv_, archive_;  ///< without an archive, the latter is null
   Progress progress_;
   int jobs_;
+  double files_s_ = 0.0;  ///< spent on the files of the last row
+  std::future<void> settling_;
 };
 
 }  // namespace amble::experiment

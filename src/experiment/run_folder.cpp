@@ -10,6 +10,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/experiment/build_info.hpp"
+#include "amble/experiment/checkpoint.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
 
@@ -140,6 +141,7 @@ RunFolder RunFolder::open(const fs::path& folder) {
   find_run(folder);
   RunFolder run(folder);
   make_folder(run.paths_.champions);
+  finish_checkpoint(run.paths_.checkpoint);
   remove_temporaries(folder);
   remove_temporaries(run.paths_.champions);
   return run;
@@ -149,7 +151,7 @@ RunPaths find_run(const fs::path& folder) {
   if (!fs::is_directory(folder)) fail(ExitCode::io, "{}: no such folder", folder.string());
   if (!is_run_folder(folder))
     fail(ExitCode::bad_input, "{}: not a run folder (no config.toml)", folder.string());
-  const RunPaths paths(folder);
+  RunPaths paths(folder);
   io::unseal_json(manifest_format, run_version, io::read_file(paths.manifest), paths.manifest.string());
   return paths;
 }

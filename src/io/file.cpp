@@ -34,7 +34,7 @@ bool write_all(int fd, std::string_view bytes) {
 }
 
 /// Devices and pipes cannot be synced, and need not be.
-bool sync(int fd) {
+bool sync_descriptor(int fd) {
   return ::fsync(fd) == 0 || errno == EINVAL || errno == EROFS;
 }
 
@@ -43,7 +43,7 @@ bool sync_folder_of(const std::filesystem::path& path) {
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (fd < 0) return errno == EACCES;  // a folder that may be written but not read cannot be synced
-  const bool synced = sync(fd);
+  const bool synced = sync_descriptor(fd);
   const int error = errno;
   ::close(fd);
   errno = error;
@@ -115,7 +115,7 @@ void AtomicFile::write(std::string_view bytes) {
 
 void AtomicFile::commit() {
   AMBLE_CHECK(fd_ >= 0, "committed twice or after a failure");
-  if (!sync(fd_)) give_up();
+  if (!sync_descriptor(fd_)) give_up();
   const int fd = fd_;
   fd_ = -1;
   if (::close(fd) != 0) give_up();
@@ -157,7 +157,7 @@ AppendFile::AppendFile(const std::filesystem::path& path, std::uint64_t keep_byt
         ExitCode::bad_file);
   }
   const auto kept = static_cast<off_t>(keep_bytes);
-  if (::ftruncate(fd_, kept) != 0 || ::lseek(fd_, kept, SEEK_SET) != kept || !sync(fd_) ||
+  if (::ftruncate(fd_, kept) != 0 || ::lseek(fd_, kept, SEEK_SET) != kept || !sync_descriptor(fd_) ||
       !sync_folder_of(path_)) {
     close_and_fail(fmt::format("cannot write {}: {}", path_.string(), reason(errno)));
   }
@@ -168,7 +168,12 @@ AppendFile::~AppendFile() {
 }
 
 void AppendFile::append(std::string_view bytes) {
-  if (!write_all(fd_, bytes) || !sync(fd_)) {
+  write(bytes);
+  sync();
+}
+
+void AppendFile::write(std::string_view bytes) {
+  if (!write_all(fd_, bytes)) {
     const int error = errno;
     // Half a line must not stay: the next append continues after the last whole one.
     const auto whole = static_cast<off_t>(size_);
@@ -176,6 +181,10 @@ void AppendFile::append(std::string_view bytes) {
     fail_to_write(path_, error);
   }
   size_ += bytes.size();
+}
+
+void AppendFile::sync() {
+  if (!sync_descriptor(fd_)) fail_to_write(path_, errno);
 }
 
 }  // namespace amble::io

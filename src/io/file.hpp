@@ -73,6 +73,10 @@ class AppendFile {
   AppendFile& operator=(const AppendFile&) = delete;
 
   void append(std::string_view bytes);
+  /// The two halves of append(): what has been written survives the process, what has been synced a power
+  /// cut. sync() may run in another thread than the next write().
+  void write(std::string_view bytes);
+  void sync();
   std::uint64_t size() const { return size_; }
 
  private:

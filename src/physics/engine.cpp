@@ -12,14 +12,6 @@
 
 namespace amble::physics {
 
-void Engine::place_at(int, const StartPose&) {
-  AMBLE_CHECK(false, "asked of an engine that takes no disturbances");
-}
-
-void Engine::push(int, Vec3) {
-  AMBLE_CHECK(false, "asked of an engine that takes no disturbances");
-}
-
 void check_engine_name(std::string_view name, std::string_view what) {
   if (std::ranges::find(engine_names, name) == engine_names.end())
     fail(ExitCode::bad_input, "{}unknown engine '{}': expected {}", what, name,

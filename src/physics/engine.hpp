@@ -52,8 +52,7 @@ class Engine {
   /// valid at once (all joint angles 0; a foot touches if it is not above the ground).
   virtual void place(int lane) = 0;
   /// The same, but into the given pose. Joint angles are still counted from the robot's own start pose.
-  /// Only of an engine that takes_disturbances().
-  virtual void place_at(int lane, const StartPose& pose);
+  virtual void place_at(int lane, const StartPose& pose) = 0;
   /// Takes the robot of this lane out of step() until it is placed again.
   virtual void retire(int lane) = 0;
 
@@ -63,9 +62,7 @@ class Engine {
   /// Pushes the robot of a placed lane: during its next step alone, the force impulse / timestep acts on the
   /// centre of mass of the root body. `impulse_n_s` in N s, world frame. Placing the lane anew before that
   /// step takes the push back.
-  virtual void push(int lane, Vec3 impulse_n_s);
-  /// Whether place_at() and push() work.
-  virtual bool takes_disturbances() const { return false; }
+  virtual void push(int lane, Vec3 impulse_n_s) = 0;
 
   /// False once a placed lane's state is not finite or absurdly fast (over 1000 m/s or rad/s): its trial has
   /// diverged, its other values mean nothing, and it must be retired.
@@ -74,9 +71,8 @@ class Engine {
   virtual const SensorFrame& sensors() const = 0;
   virtual RootPose root_pose(int lane) const = 0;
   /// What each joint's motor gave in the last step, N m about the joint's axis, child against parent (joints
-  /// × lanes); the push of a stop is not in it. Null unless EngineSettings::torques is set and the engine can
-  /// tell.
-  virtual const LaneArray* motor_torque_nm() const { return nullptr; }
+  /// × lanes); the push of a stop is not in it. Null unless EngineSettings::torques is set.
+  virtual const LaneArray* motor_torque_nm() const = 0;
   /// Centre of mass of the root body; RobotSpec::fall_height_m refers to it.
   virtual Vec3 root_com_m(int lane) const = 0;
   /// Centre of mass of the whole robot.

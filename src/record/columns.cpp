@@ -16,6 +16,7 @@ std::vector<std::string> standard_columns(const std::vector<std::string>& joints
 
 std::vector<std::string> torque_columns(const std::vector<std::string>& joints) {
   std::vector<std::string> columns;
+  columns.reserve(joints.size());
   for (const std::string& joint : joints) columns.push_back("torque." + joint);
   return columns;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <ranges>
 
 namespace amble::search {
 namespace {
@@ -10,10 +9,12 @@ namespace {
 /// A squared distance that at least `count` candidates are certainly within.
 double reach_of(std::span<const Candidate> candidates, std::size_t count) {
   if (candidates.size() <= count) return std::numeric_limits<double>::infinity();
-  const auto upper = [](const Candidate& candidate) { return candidate.squared_distance.upper; };
-  std::vector<double> smallest(count);
-  std::ranges::partial_sort_copy(candidates | std::views::transform(upper), smallest);
-  return smallest.back();
+  std::vector<double> upper;
+  upper.reserve(candidates.size());
+  for (const auto& candidate : candidates) upper.push_back(candidate.squared_distance.upper);
+  const auto last = upper.begin() + static_cast<std::ptrdiff_t>(count - 1);
+  std::ranges::nth_element(upper, last);
+  return *last;
 }
 
 }  // namespace

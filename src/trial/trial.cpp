@@ -1,18 +1,11 @@
 #include "amble/trial/trial.hpp"
 
-#include <chrono>
 #include <utility>
 
 #include "amble/core/check.hpp"
+#include "amble/core/clock.hpp"
 
 namespace amble::trial {
-namespace {
-
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-}  // namespace
 
 Runner::Runner(physics::Engine& engine, controllers::Batch& controllers, const Protocol& protocol)
     : engine_(engine),
@@ -28,12 +21,13 @@ Runner::Runner(physics::Engine& engine, controllers::Batch& controllers, const P
 void Runner::run(TaskQueue& queue, const std::atomic<bool>& stop) {
   for (int lane = 0; lane < engine_.lanes(); ++lane) refill(lane, queue);
   while (busy_ > 0 && !stop.load(std::memory_order_relaxed)) {
+    const double before_s = now_s();
     controllers_.step(disturbances_.read(engine_.sensors()), targets_rad_);
     disturbances_.act(targets_rad_, engine_);
-
-    const double before_s = now_s();
+    const double between_s = now_s();
     engine_.step(targets_rad_);
-    physics_s_ += now_s() - before_s;
+    control_s_ += between_s - before_s;
+    physics_s_ += now_s() - between_s;
 
     for (int lane = 0; lane < engine_.lanes(); ++lane)
       if (lanes_[static_cast<std::size_t>(lane)].busy) after_step(lane, queue);
@@ -51,12 +45,13 @@ void Runner::refill(int lane, TaskQueue& queue) {
     return;
   }
   ++busy_;
-  const double before_s = now_s();
-  if (task->scenario && task->scenario->start)
-    engine_.place_at(lane, *task->scenario->start);
-  else
-    engine_.place(lane);
-  physics_s_ += now_s() - before_s;
+  {
+    const Stopwatch watch(physics_s_);
+    if (task->scenario && task->scenario->start)
+      engine_.place_at(lane, *task->scenario->start);
+    else
+      engine_.place(lane);
+  }
   slot.task = std::move(*task);
   controllers_.load(lane, *slot.task.parameters);
   slot.trajectory = {};

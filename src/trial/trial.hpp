@@ -64,9 +64,10 @@ class Runner {
   /// dropped).
   void run(TaskQueue& queue, const std::atomic<bool>& stop);
 
-  /// Steps simulated, and time spent in the engine, since the runner was made.
+  /// Steps simulated, and time spent in the engine and in controllers and noise, since the runner was made.
   std::uint64_t steps_simulated() const { return steps_simulated_; }
   double physics_s() const { return physics_s_; }
+  double control_s() const { return control_s_; }
 
  private:
   struct Lane {
@@ -88,7 +89,7 @@ class Runner {
   std::vector<Lane> lanes_;
   int busy_ = 0;
   std::uint64_t steps_simulated_ = 0;
-  double physics_s_ = 0.0;
+  double physics_s_ = 0.0, control_s_ = 0.0;
 };
 
 /// A queue of one task.

@@ -31,7 +31,7 @@ io::Json walker_json(const Walker& walker) {
           {"controller", io::parse_json(recording.controller_json, what)},
           {"poses", frames_json(recording.poses)},
           {"contacts", frames_json(recording.contacts)},
-          {"cppn", walker.cppn},
+          {"cppn_svg", walker.cppn_svg.empty() ? io::Json(nullptr) : io::Json(walker.cppn_svg)},
           {"gait", walker.gait}};
 }
 
@@ -67,7 +67,7 @@ std::string make_page(const PageInput& input) {
   std::string page;
   std::string_view rest = page_template();
   rest = fill(rest, "<!--amble:title-->", analysis::escape(input.title), page);
-  rest = fill(rest, "<!--amble:palette-->", "<style>" + analysis::palette_style_sheet() + "</style>", page);
+  rest = fill(rest, "<!--amble:palette-->", "<style>" + analysis::shared_style_sheet() + "</style>", page);
   rest = fill(rest, "<!--amble:data-->",
               "<script type=\"application/json\" id=\"amble-data\">" + script_text(data) + "</script>", page);
   page += rest;

@@ -12,12 +12,8 @@ namespace amble::view {
 struct Walker {
   std::string title;
   std::filesystem::path recording;
-  /// The genome of its controller: {"nodes": [{"id", "kind", "activation"}, …], "links": [{"from", "to",
-  /// "weight", "enabled"}, …], "inputs": [name, …], "outputs": [name, …]}, bias not named; null: not known.
-  io::Json cppn;
-  /// Its gait: {"gait": name, "legs": [{"name", "duty_factor", "phase", "phase_spread"}, …]}, phases in
-  /// turns; null: the page shows duty factors only.
-  io::Json gait;
+  std::string cppn_svg;  ///< analysis::cppn_figure of its controller; empty: not known
+  io::Json gait;         ///< "amble-gait" (docs/FORMATS.md); null: the page shows duty factors only
 };
 
 struct PageInput {

@@ -34,6 +34,8 @@ TEST(GenerationsCsv, ReadsColumnsByNameInAnyOrder) {
   EXPECT_THAT(table.mean_links, ElementsAre(8, 8.5));
   EXPECT_THAT(table.evaluations, ElementsAre(300, 301));
   EXPECT_THAT(table.steps, ElementsAre(450000, 440000));
+  EXPECT_THAT(table.wall_s, ElementsAre(0.5, 0.75));
+  EXPECT_TRUE(table.physics_s.empty());
 }
 
 TEST(GenerationsCsv, TakesAHeaderAloneAndLinesEndingInCarriageReturns) {

@@ -85,6 +85,15 @@ TEST_P(PatternFigure, TakesOtherLegCountsAndARecordingWithoutTimers) {
   }
 }
 
+TEST(PatternSvg, ShowsThePatternsWithoutATrial) {
+  const Recorded recorded = tests::walk(1);
+  const std::string svg = pattern_svg(recorded.robot, *recorded.supg);
+  EXPECT_THAT(svg, testing::HasSubstr("<style>"));
+  const auto elements = tests::parse_xml(svg);
+  EXPECT_EQ(tests::with_class(elements, "curve").size(), 12u);
+  EXPECT_THAT(tests::texts(elements), Not(Contains(testing::StartsWith("Timer when"))));
+}
+
 INSTANTIATE_TEST_SUITE_P(Layouts, PatternFigure, testing::Values(Layout::wide, Layout::narrow));
 
 }  // namespace

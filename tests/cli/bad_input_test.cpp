@@ -305,6 +305,36 @@ TEST_F(BadInput, RecordingThatIsNone) {
   expect_complaint({"info", scratch_ / "walk.rec"}, ExitCode::bad_file, "walk.rec");
 }
 
+TEST_F(BadInput, ViewOfWhatCannotBeShown) {
+  const std::string page = scratch_ / "page.html", recording = scratch_ / "walk.rec";
+  expect_complaint({"view", scratch_.path.string(), "-o", page}, ExitCode::bad_input, "not a run folder");
+  expect_complaint({"view", scratch_ / "none.json", "-o", page}, ExitCode::io, "none.json");
+  spill(recording, "not a recording");
+  expect_complaint({"view", recording, "-o", page}, ExitCode::bad_file, "walk.rec: ");
+  make_run();
+  const auto champion = fs::directory_iterator(fs::path(run_) / "champions")->path().string();
+  fs::remove(recording);
+  ASSERT_EQ(amble({"trial", champion, "--record", recording}).exit_code, 0);
+  const auto bytes = slurp(recording);
+  spill(recording, bytes.substr(0, bytes.size() / 2));
+  expect_complaint({"view", recording, "-o", page}, ExitCode::bad_file, "walk.rec: truncated");
+  spill(page, "a letter to a friend");
+  expect_complaint({"view", champion, "-o", page}, ExitCode::bad_input, "page.html");
+}
+
+TEST_F(BadInput, DrawingOfWhatIsNoChampion) {
+  expect_complaint({"draw", scratch_.path.string()}, ExitCode::bad_input, "not a run folder");
+  expect_complaint({"draw", scratch_ / "none.json"}, ExitCode::io, "none.json");
+  spill(scratch_.path / "c.json", "{}");
+  expect_complaint({"draw", scratch_ / "c.json"}, ExitCode::bad_file, "c.json");
+  expect_complaint({"draw", scratch_ / "c.json", "-o", scratch_ / "c.png"}, ExitCode::bad_input,
+                   "c.png: expected a name that ends in .svg or .dot");
+  spill(scratch_.path / "c.svg", "a letter to a friend");
+  expect_complaint({"draw", scratch_ / "c.json", "-o", scratch_ / "c.svg"}, ExitCode::bad_input, "c.svg");
+  expect_complaint({"draw", scratch_ / "c.json", "--patterns", scratch_ / "c.svg"}, ExitCode::bad_input,
+                   "c.svg");
+}
+
 TEST_F(BadInput, FullDiskLeavesARunThatGoesOnLater) {
   const auto disk = scratch_.path / "disk";
   fs::create_directories(disk);

@@ -85,10 +85,13 @@ void spill(const std::filesystem::path& path, const std::string& text) {
 }
 
 std::string without_times(const std::string& csv) {
+  const std::string header = csv.substr(0, csv.find('\n'));
+  const auto times =
+      std::count(header.begin() + static_cast<std::ptrdiff_t>(header.find(",wall_s")), header.end(), ',');
   std::istringstream lines(csv);
   std::string kept;
   for (std::string line; std::getline(lines, line);) {
-    for (int i = 0; i < 4; ++i) line.resize(std::min(line.size(), line.rfind(',')));
+    for (int i = 0; i < times; ++i) line.resize(std::min(line.size(), line.rfind(',')));
     kept += line + "\n";
   }
   return kept;

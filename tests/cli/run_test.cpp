@@ -18,10 +18,11 @@ constexpr int ok = static_cast<int>(ExitCode::ok), interrupted = static_cast<int
               locked = static_cast<int>(ExitCode::locked), differs = static_cast<int>(ExitCode::differs);
 
 /// A run of a second or two: small population, short trials.
-Arguments evolve(const std::string& out, int generations, int jobs) {
+Arguments evolve(const std::string& out, int generations, int jobs, const std::string& engine = "ode") {
   return {"evolve",        std::string(AMBLE_SOURCE_DIR) + "/configs/authors/supg-objective.toml",
           "--set",         "population.size=40",
           "--set",         "trial.duration_s=1",
+          "--set",         "engine=" + engine,
           "--seed",        "1",
           "--generations", std::to_string(generations),
           "--jobs",        std::to_string(jobs),
@@ -38,10 +39,14 @@ void wait_for_rows(const std::filesystem::path& run, long rows) {
   FAIL() << "no progress";
 }
 
-TEST(Run, GivesTheSameBytesForOneTwoAndFiveWorkers) {
+class RunOnEngine : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Run, RunOnEngine, testing::Values("ode", "batch", "mujoco"),
+                         [](const auto& engine) { return std::string(engine.param); });
+
+TEST_P(RunOnEngine, GivesTheSameBytesForOneTwoAndFiveWorkers) {
   const ScratchFolder scratch;
   for (const int jobs : {1, 2, 5}) {
-    const auto run = amble(evolve(scratch / std::to_string(jobs), 6, jobs));
+    const auto run = amble(evolve(scratch / std::to_string(jobs), 6, jobs, GetParam()));
     ASSERT_EQ(run.exit_code, ok) << run.err;
   }
   for (const char* other : {"2", "5"}) {
@@ -51,11 +56,11 @@ TEST(Run, GivesTheSameBytesForOneTwoAndFiveWorkers) {
   }
 }
 
-TEST(Run, GivesTheSameBytesAfterKill9AndResume) {
+TEST_P(RunOnEngine, GivesTheSameBytesAfterKill9AndResume) {
   const ScratchFolder scratch;
-  ASSERT_EQ(amble(evolve(scratch / "whole", 12, 2)).exit_code, ok);
+  ASSERT_EQ(amble(evolve(scratch / "whole", 12, 2, GetParam())).exit_code, ok);
   {
-    Process victim(evolve(scratch / "killed", 12, 2));
+    Process victim(evolve(scratch / "killed", 12, 2, GetParam()));
     wait_for_rows(scratch.path / "killed", 4);
     victim.signal(SIGKILL);
     EXPECT_EQ(victim.wait().signal, SIGKILL);
@@ -108,6 +113,15 @@ TEST(Run, IsLeftAloneByASecondProcess) {
   EXPECT_EQ(first.wait().exit_code, interrupted);
 }
 
+TEST(Info, SaysWhereTheTimeOfARunWent) {
+  const ScratchFolder scratch;
+  ASSERT_EQ(amble(evolve(scratch / "run", 2, 1, "batch")).exit_code, ok);
+  const auto info = amble({"info", scratch / "run"});
+  ASSERT_EQ(info.exit_code, ok) << info.err;
+  for (const char* stage : {"\ntime  ", "\n  physics ", "\n  genomes to controllers ", "\n  files "})
+    EXPECT_NE(info.out.find(stage), std::string::npos) << stage << info.out;
+}
+
 TEST(Verify, AgreesOnAnUntouchedRunAndNamesTheStepAfterOneWeightIsAltered) {
   const ScratchFolder scratch;
   ASSERT_EQ(amble(evolve(scratch / "run", 4, 2)).exit_code, ok);
@@ -129,9 +143,9 @@ TEST(Verify, AgreesOnAnUntouchedRunAndNamesTheStepAfterOneWeightIsAltered) {
       << altered.out;
 }
 
-TEST(Noise, ChangesATrialOnlyWhereItIsAskedForAndIsVerified) {
+TEST_P(RunOnEngine, MeetsNoiseOnlyWhereItIsAskedForAndIsVerified) {
   const ScratchFolder scratch;
-  auto arguments = evolve(scratch / "noisy", 2, 2);
+  auto arguments = evolve(scratch / "noisy", 2, 2, GetParam());
   arguments[1] = std::string(AMBLE_SOURCE_DIR) + "/configs/robust/supg-objective.toml";
   ASSERT_EQ(amble(arguments).exit_code, ok);
   const auto verified = amble({"verify", scratch / "noisy"});
@@ -196,9 +210,9 @@ TEST(Referees, AreShownByInfoTrialAndCompareAndLeaveVerifyAlone) {
   EXPECT_EQ(list[0]["results"].size(), 3u);
 }
 
-TEST(Trial, RecordsWhatInfoAndPageCanRead) {
+TEST_P(RunOnEngine, HasChampionsWhoseRecordingInfoAndPageCanRead) {
   const ScratchFolder scratch;
-  ASSERT_EQ(amble(evolve(scratch / "run", 2, 2)).exit_code, ok);
+  ASSERT_EQ(amble(evolve(scratch / "run", 2, 2, GetParam())).exit_code, ok);
   const auto champion = std::filesystem::directory_iterator(scratch.path / "run/champions")->path().string();
   const auto trial = amble({"trial", champion, "--seconds", "2", "--record", scratch / "walk.rec"});
   ASSERT_EQ(trial.exit_code, ok) << trial.err;
@@ -206,6 +220,7 @@ TEST(Trial, RecordsWhatInfoAndPageCanRead) {
   const auto info = amble({"info", scratch / "walk.rec"});
   EXPECT_EQ(info.exit_code, ok) << info.err;
   EXPECT_NE(info.out.find("trigger.FL"), std::string::npos) << info.out;
+  EXPECT_NE(info.out.find("torque.FL_knee"), std::string::npos) << info.out;
   const auto page =
       amble({"page", scratch / "run", "-o", scratch / "page.html", "--figures", scratch / "figures"});
   EXPECT_EQ(page.exit_code, ok) << page.err;

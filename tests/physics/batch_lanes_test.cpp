@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -14,25 +15,45 @@ float target(int gait, int joint, int step) {
   return 0.6f * static_cast<float>(std::sin(0.06 * step + 1.7 * gait * joint));
 }
 
+/// Where a gait starts and how it is pushed: every second one leans, and is pushed twice.
+void place(Engine& engine, const morphology::RobotSpec& robot, int lane, int gait) {
+  if (gait % 2 == 0) return engine.place(lane);
+  StartPose start{.root = {robot.bodies[0].position_m, axis_angle({0.6, 0.8, 0.0}, 0.004 * gait)},
+                  .joint_angle_rad = {}};
+  for (std::size_t j = 0; j < robot.joints.size(); ++j)
+    start.joint_angle_rad.push_back(std::clamp(0.01 * static_cast<double>(j) - 0.02,
+                                               robot.joints[j].lower_rad, robot.joints[j].upper_rad));
+  engine.place_at(lane, start);
+}
+void push(Engine& engine, int lane, int gait, int age) {
+  if (gait % 2 == 1 && (age == 20 + gait || age == 80)) engine.push(lane, {0.1 * gait, 0.5, -0.2});
+}
+
 /// Every lane on its own walk: `gaits[lane]`, −1: stays empty. Lanes may begin late. One hash per lane over
-/// all its states.
+/// all its states and torques.
 std::vector<std::uint64_t> walk(const morphology::RobotSpec& robot, const std::vector<int>& gaits,
                                 const std::vector<int>& begin = std::vector<int>(16, 0), int steps = 200) {
-  const auto engine = make_engine("batch", robot, {});
+  const auto engine = make_engine("batch", robot, {.torques = true});
   std::vector<std::vector<std::uint64_t>> hashes(16);
+  std::vector<float> torques(robot.joints.size());
   LaneArray targets(static_cast<int>(robot.joints.size()), 16);
   for (int n = 0; n < steps + 100; ++n) {
     for (int lane = 0; lane < 16; ++lane) {
       const int gait = gaits[static_cast<std::size_t>(lane)], age = n - begin[static_cast<std::size_t>(lane)];
       if (gait < 0) continue;
-      if (age == 0) engine->place(lane);
+      if (age == 0) place(*engine, robot, lane, gait);
       if (age == steps) engine->retire(lane);
+      if (age >= 0 && age < steps) push(*engine, lane, gait, age);
       for (int j = 0; j < targets.rows(); ++j) targets.at(j, lane) = target(gait, j, age);
     }
     engine->step(targets);
     for (int lane = 0; lane < 16; ++lane) {
       const int age = n - begin[static_cast<std::size_t>(lane)];
-      if (age >= 0 && age < steps) hashes[static_cast<std::size_t>(lane)].push_back(engine->state_hash(lane));
+      if (age < 0 || age >= steps || gaits[static_cast<std::size_t>(lane)] < 0) continue;
+      for (std::size_t j = 0; j < torques.size(); ++j)
+        torques[j] = engine->motor_torque_nm()->at(static_cast<int>(j), lane);
+      hashes[static_cast<std::size_t>(lane)].push_back(engine->state_hash(lane));
+      hashes[static_cast<std::size_t>(lane)].push_back(hash_span<float>(torques));
     }
   }
   std::vector<std::uint64_t> all;

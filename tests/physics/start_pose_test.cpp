@@ -6,6 +6,12 @@
 namespace amble::physics {
 namespace {
 
+class PlaceAt : public OnEachEngine {
+ protected:
+  double rounding_m() const { return single_precision() ? 1e-6 : 1e-12; }
+};
+ON_EACH_ENGINE(PlaceAt);
+
 /// A pose in the air, tilted, with every joint somewhere within its stops.
 StartPose some_pose(const morphology::RobotSpec& robot, std::uint32_t which) {
   Stream stream(3, Purpose::test, which);
@@ -17,15 +23,12 @@ StartPose some_pose(const morphology::RobotSpec& robot, std::uint32_t which) {
   return pose;
 }
 
-class StartPoses : public OnEachEngine {};
-ON_EACH_REFEREE(StartPoses);
-
-TEST_P(StartPoses, PutsRootJointsAndSensorsWhereTheyWereAskedToBe) {
+TEST_P(PlaceAt, PutsRootJointsAndSensorsWhereTheyWereAskedToBe) {
   Bench bench(GetParam(), quadruped());
   for (std::uint32_t which = 0; which < 50; ++which) {
     const StartPose pose = some_pose(bench.robot, which);
     bench.engine->place_at(0, pose);
-    ASSERT_NEAR(norm(bench.engine->root_pose(0).position_m - pose.root.position_m), 0.0, 1e-12);
+    ASSERT_NEAR(norm(bench.engine->root_pose(0).position_m - pose.root.position_m), 0.0, rounding_m());
     const auto attitude = roll_pitch_yaw(pose.root.rotation);
     EXPECT_NEAR(static_cast<double>(bench.engine->sensors().attitude_rad.at(0, 0)), attitude.roll, 1e-6);
     EXPECT_NEAR(static_cast<double>(bench.engine->sensors().attitude_rad.at(1, 0)), attitude.pitch, 1e-6);
@@ -36,7 +39,7 @@ TEST_P(StartPoses, PutsRootJointsAndSensorsWhereTheyWereAskedToBe) {
   }
 }
 
-TEST_P(StartPoses, PutsEveryBodyWhereKinematicsSay) {
+TEST_P(PlaceAt, PutsEveryBodyWhereKinematicsSay) {
   Bench bench(GetParam(), quadruped());
   for (std::uint32_t which = 0; which < 50; ++which) {
     const StartPose pose = some_pose(bench.robot, which);
@@ -45,11 +48,11 @@ TEST_P(StartPoses, PutsEveryBodyWhereKinematicsSay) {
     Vec3 sum;
     for (std::size_t b = 0; b < bodies.size(); ++b)
       sum = sum + bench.robot.bodies[b].mass_kg * (bodies[b] * bench.robot.bodies[b].com_m);
-    EXPECT_NEAR(norm((1.0 / bench.robot.total_mass_kg()) * sum - bench.engine->com_m(0)), 0.0, 1e-12);
+    EXPECT_NEAR(norm((1.0 / bench.robot.total_mass_kg()) * sum - bench.engine->com_m(0)), 0.0, rounding_m());
   }
 }
 
-TEST_P(StartPoses, StartsAtRestWithItsJointsWhole) {
+TEST_P(PlaceAt, StartsAtRestWithItsJointsWhole) {
   // Were a joint torn, the engine would pull its bodies together and the robot would start to move.
   Bench bench(GetParam(), weightless(quadruped()));
   const StartPose pose = some_pose(bench.robot, 1);
@@ -62,7 +65,20 @@ TEST_P(StartPoses, StartsAtRestWithItsJointsWhole) {
   EXPECT_NEAR(norm(bench.engine->root_pose(0).position_m - pose.root.position_m), 0.0, 1e-6);
 }
 
-TEST_P(StartPoses, LeavesNothingBehindForTheNextTrial) {
+TEST_P(PlaceAt, FindsTheFeetOnTheGroundOrNot) {
+  Bench bench(GetParam(), quadruped());
+  StartPose pose{.root = {bench.robot.bodies[0].position_m, {}},
+                 .joint_angle_rad = std::vector<double>(12, 0.0)};
+  pose.root.position_m.z -= 1e-4;
+  bench.engine->place_at(0, pose);
+  for (int leg = 0; leg < 4; ++leg) EXPECT_TRUE(bench.touches(leg));
+  // A negative pitch lifts the nose.
+  pose.root.rotation = axis_angle({0.0, 1.0, 0.0}, -0.05);
+  bench.engine->place_at(0, pose);
+  for (int leg = 0; leg < 4; ++leg) EXPECT_EQ(bench.touches(leg), leg >= 2) << leg;
+}
+
+TEST_P(PlaceAt, LeavesNothingBehindForTheNextTrial) {
   Bench bench(GetParam(), quadruped());
   const std::uint64_t fresh = bench.engine->state_hash(0);
   bench.engine->place_at(0, some_pose(bench.robot, 2));

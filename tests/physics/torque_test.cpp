@@ -9,12 +9,12 @@
 namespace amble::physics {
 namespace {
 
+class Torques : public OnEachEngine {};
+ON_EACH_ENGINE(Torques);
+
 double torque(const Bench& bench, int joint) {
   return static_cast<double>(bench.engine->motor_torque_nm()->at(joint, 0));
 }
-
-class Torques : public OnEachEngine {};
-ON_EACH_REFEREE(Torques);
 
 TEST_P(Torques, AreToldOnlyWhenAskedFor) {
   EXPECT_EQ(make_engine(GetParam(), quadruped(), {})->motor_torque_nm(), nullptr);

@@ -44,6 +44,7 @@ class FakeEngine : public physics::Engine {
   }
   bool healthy(int lane) const override { return std::isfinite(state(lane).position.x); }
   const physics::SensorFrame& sensors() const override { return frame_; }
+  const LaneArray* motor_torque_nm() const override { return nullptr; }
   physics::RootPose root_pose(int lane) const override { return {state(lane).position, {}}; }
   Vec3 root_com_m(int lane) const override { return state(lane).position; }
   Vec3 com_m(int lane) const override { return state(lane).position; }

@@ -21,7 +21,7 @@ class ViewPageTest : public testing::Test {
   Walker walker(const SyntheticWalk& walk, const std::string& name = "walk") {
     const auto path = folder.path() / (name + ".rec");
     walk.write(path);
-    return {.title = name, .recording = path, .cppn = nullptr, .gait = nullptr};
+    return {.title = name, .recording = path, .cppn_svg = {}, .gait = nullptr};
   }
   static std::string page_of(std::vector<Walker> walkers, const std::string& title = "A title") {
     return make_page({.title = title, .walkers = std::move(walkers), .made_by = "a test"});

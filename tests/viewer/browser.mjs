@@ -1,6 +1,6 @@
 // A headless Chromium that watches what a page says and asks for.
 import { execFileSync } from "node:child_process";
-import { mkdirSync } from "node:fs";
+import { mkdirSync, rmSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { chromium } from "../../viewer/node_modules/playwright-core/index.mjs";
@@ -15,6 +15,7 @@ export const amble = (...words) => execFileSync(AMBLE_PROGRAM, words, { encoding
 export function makePage(name, ...inputs) {
   mkdirSync(AMBLE_PAGES, { recursive: true });
   const path = join(AMBLE_PAGES, name);
+  rmSync(path, { force: true });
   amble("view", ...inputs, "-o", path);
   return path;
 }

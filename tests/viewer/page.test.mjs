@@ -1,7 +1,9 @@
 // A page of one walk, as a reader meets it.
 import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
+import { fileURLToPath } from "node:url";
 import { amble, cursors, launch, makePage, open, pictureOf, recording, settled, time } from "./browser.mjs";
 
 let browser, walk;
@@ -77,7 +79,7 @@ test("pause stops it", () =>
   }));
 
 test("scrubbing the slider moves time and the cursor of every diagram in sight", () =>
-  onPage({}, async (page) => {
+  onPage({ viewport: { width: 1280, height: 1250 } }, async (page) => {
     const start = await cursors(page);
     assert.ok(start.plots.length >= 4 && start.patterns.length === 12);
     const slider = await page.locator("#slider").boundingBox();
@@ -184,4 +186,26 @@ test("one line on the command line refuses what is no recording", () => {
       assert.equal(error.stderr.trim().split("\n").length, 1);
       return error.stderr.includes(reason);
     });
+});
+
+test("render-video.mjs makes a picture, and a video where ffmpeg is, and says in a line what is missing", () => {
+  const render = (environment, ...words) =>
+    spawnSync(process.execPath, [fileURLToPath(new URL("../../tools/render-video.mjs", import.meta.url)), walk, ...words],
+              { encoding: "utf8", env: { ...process.env, ...environment } });
+  const picture = walk.replace(".html", ".png"), video = walk.replace(".html", ".mp4");
+  const made = render({}, picture, "--at", "5", "--size", "320x200");
+  assert.equal(made.status, 0, made.stderr);
+  assert.equal(readFileSync(picture).subarray(1, 4).toString(), "PNG");
+  if (spawnSync("ffmpeg", ["-version"]).status === 0) {
+    assert.equal(render({}, video, "--to", "0.1", "--size", "64x48").status, 0);
+    assert.equal(readFileSync(video).subarray(4, 8).toString(), "ftyp");
+  }
+  for (const [environment, out, complaint] of [
+    [{ PATH: "" }, video, /^render-video: ffmpeg is missing .*\n$/],
+    [{ CHROMIUM: "/no/browser" }, picture, /^render-video: \/no\/browser is missing .*\n$/],
+  ]) {
+    const failed = render(environment, out);
+    assert.equal(failed.status, 2);
+    assert.match(failed.stderr, complaint);
+  }
 });

@@ -1,12 +1,19 @@
 // The diagrams of one walker, as sections beside the stage.
-import { cppnGraph } from "./cppn.js";
-import { gaitTable } from "./gait.js";
+import { GaitTable } from "./gait.js";
 import { Patterns } from "./patterns.js";
 import { element, legClass } from "./theme.js";
 import { footfallPlot, jointPlot, motionPlot, timerPlot } from "./time_diagrams.js";
 
 const section = (title, text, ...content) =>
   element("section", {}, element("h2", {}, title), ...(text ? [element("p", { class: "lead" }, text)] : []), ...content);
+/** A picture that came with the page. */
+function drawing(svg) {
+  const box = element("div", { class: "scroll cppn-box" });
+  box.innerHTML = svg;
+  const picture = box.firstElementChild;
+  picture.style.minWidth = `${0.65 * picture.width.baseVal.value}px`; // or nobody could read it on a phone
+  return box;
+}
 const note = (text) => element("p", { class: "note" }, text);
 
 export class Analysis {
@@ -33,8 +40,9 @@ export class Analysis {
               "The height of a row is the joint’s range.", plot(jointPlot(walk, window, clock))),
       section("Speed and height", "Of the centre of mass over the ground; speed over half a second.",
               plot(motionPlot(this.walks, window, clock, () => this.selected))),
-      ...(walk.cppn ? [section("CPPN", "The evolved network that paints the patterns, from its inputs (left) to its outputs.",
-                               cppnGraph(walk.cppn))] : []),
+      ...(walk.cppn_svg ? [section("CPPN", "The evolved network that makes the controller, from its inputs (left) to its " +
+                                   "outputs: the function of each node, and each link’s weight as its width.",
+                                   drawing(walk.cppn_svg))] : []),
     );
     this.show();
   }
@@ -44,7 +52,9 @@ export class Analysis {
       element("span", { class: `key ${legClass(leg)}` }, name)));
     const text = "A bar means that the foot is on the ground." +
       (walk.triggers ? " A triangle marks a trigger: the foot came down and reset the timer of its leg." : "");
-    const made = section("Footfalls", text, keys, plot, gaitTable(walk));
+    const gait = new GaitTable(walk);
+    this.shown.push(gait);
+    const made = section("Footfalls and gait", text, keys, plot, gait.element);
     if (!walk.everTouched()) made.append(note("No foot touched the ground."));
     return made;
   }

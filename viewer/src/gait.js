@@ -1,26 +1,83 @@
-// Gait name, and duty factor and phase of each leg.
+// What `amble gait` found: the name, and duty factor, phase and stride of each leg, of all and around the present.
+import { number } from "./plot.js";
 import { element, legClass } from "./theme.js";
 
-const GAITS = { walk_lateral: "lateral walk", walk_diagonal: "diagonal walk" };
-const percent = (share) => `${(100 * share).toFixed(0)} %`;
+const percent = (share) => (share == null ? "–" : `${(100 * share).toFixed(0)} %`);
+const seconds = (time_s) => number(time_s, Number.isInteger(time_s) ? 0 : 1);
+const decimals = (count) => (value) => (value == null ? "–" : number(value, count));
 
-/** `walk.gait` is the result of the gait analysis (see src/view/page.hpp), or null: then duty factors are counted here. */
-export function gaitTable(walk) {
-  const { gait } = walk;
-  const legs = walk.robot.legs.map(({ name }, leg) => {
-    const known = gait?.legs?.find((result) => result.name === name);
-    return { name, leg, duty: known?.duty_factor ?? walk.dutyFactor(leg), phase: known?.phase, spread: known?.phase_spread };
-  });
-  const columns = [["Duty factor", ({ duty }) => (duty == null ? "–" : percent(duty))]];
-  if (gait) columns.push(["Phase", ({ phase, spread }) =>
-    (phase == null ? "–" : `${phase.toFixed(2)}${spread == null ? "" : ` ± ${spread.toFixed(2)}`}`)]);
-  const table = element("table", { class: "gait" },
-    element("tr", {}, element("th", {}), ...legs.map(({ name, leg }) =>
-      element("th", {}, element("span", { class: `key ${legClass(leg)}` }, name)))),
-    ...columns.map(([title, value]) =>
-      element("tr", {}, element("th", {}, title), ...legs.map((leg) => element("td", {}, value(leg))))));
-  const box = element("div", { class: "gait-box" });
-  if (gait?.gait) box.append(element("p", { class: "gait-name" }, GAITS[gait.gait] ?? gait.gait));
-  box.append(table);
-  return box;
+const nameOf = ({ gait, irregular_reason: reason }) => (gait ?? "no name") + (reason ? ` (${reason})` : "");
+
+export class GaitTable {
+  constructor(walk) {
+    Object.assign(this, { walk, gait: walk.gait });
+    this.element = element("div", { class: "gait-box" });
+    if (this.gait) this.element.append(this.headline());
+    this.element.append(element("div", { class: "scroll" }, this.table()));
+    if (this.gait) this.element.append(this.key(), this.figures());
+  }
+
+  headline() {
+    const { gait, duty_factor: duty, stride_s } = this.gait;
+    const name = gait ? nameOf(this.gait) : "no name (gaits are named for four legs, two behind two)";
+    const footwork = duty == null ? "no strides"
+      : `${duty > 0.5 ? "walking" : "running"}, duty factor ${number(duty, 2)}, stride ${number(stride_s, 2)} s`;
+    return element("p", { class: "gait-head" }, element("b", { class: "gait-name" }, name), ` ${footwork}`);
+  }
+
+  table() {
+    const { legs } = this.walk.robot;
+    const head = legs.map(({ name }, leg) => element("th", {}, element("span", { class: `key ${legClass(leg)}` }, name)));
+    const row = (title, cells) => element("tr", {}, element("th", {}, title), ...cells.map((cell) => element("td", {}, cell)));
+    const rows = [element("tr", {}, element("th", {}), ...head)];
+    const known = this.gait?.legs;
+    rows.push(row("Duty factor", legs.map((_, leg) => percent(known ? known[leg].duty_factor : this.walk.dutyFactor(leg)))));
+    if (known) {
+      const of = (value, text) => known.map((leg) => text(value(leg)));
+      rows.push(row("Phase", of(({ phase }) => phase?.phase, decimals(2))),
+                row("R", of(({ phase }) => phase?.resultant, decimals(2))),
+                row("Stride, s", of(({ stride_s }) => stride_s, decimals(2))));
+      if (this.gait.windows.length > 1) rows.push(...this.windowRows(row));
+    }
+    return element("table", { class: "gait" }, ...rows);
+  }
+
+  key() {
+    const { reference_leg: leg } = this.gait;
+    const text = leg ? `Phase: when a foot lands within the stride of ${leg}, 0 to 1. R: how steadily, 1 at most. ` : "";
+    const known = this.gait.work_positive_j != null;
+    return element("p", { class: "lead" }, `${text}Cost of transport: the motors’ work / (weight × way)` +
+                   (known ? "." : "; not known where an engine tells no torques."));
+  }
+
+  /** Rows that follow the time: the gait of the part of the trial around it. */
+  windowRows(row) {
+    this.title = element("td", { colspan: this.walk.robot.legs.length });
+    const cells = () => this.walk.robot.legs.map(() => document.createTextNode(""));
+    this.now = { duty_factors: cells(), phases: cells() };
+    return [element("tr", { class: "gait-now" }, element("th", {}, "Now"), this.title),
+            row("Duty factor", this.now.duty_factors), row("Phase", this.now.phases)];
+  }
+
+  figures() {
+    const { speed_m_s, straightness, froude, cost_of_transport_positive: cost } = this.gait;
+    const fields = [["Speed", speed_m_s, 3, "m/s"], ["Straightness", straightness, 2, ""], ["Froude number", froude, 4, ""],
+                    ["Cost of transport", cost, 2, ""]];
+    return element("dl", { class: "now" }, ...fields.map(([title, value, count, unit]) =>
+      element("div", {}, element("dt", {}, title),
+              element("dd", {}, decimals(count)(value), ...(unit ? [element("small", {}, ` ${unit}`)] : [])))));
+  }
+
+  show(t) {
+    if (!this.now) return;
+    const { windows } = this.gait;
+    const { start_s } = windows[0];
+    const window = t < start_s ? null : windows.find(({ end_s }) => t < end_s) ?? windows.at(-1);
+    if (window === this.window) return;
+    this.window = window;
+    this.title.textContent = window ? `${seconds(window.start_s)} … ${seconds(window.end_s)} s: ${nameOf(window)}`
+      : `the first ${seconds(start_s)} s do not count`;
+    this.now.duty_factors.forEach((cell, leg) => (cell.data = percent(window?.duty_factors[leg])));
+    this.now.phases.forEach((cell, leg) => (cell.data = decimals(2)(window?.phases[leg]?.phase)));
+  }
 }

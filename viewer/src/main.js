@@ -35,6 +35,8 @@ const publicApi = (page) => ({
   touching: (i, leg, t) => page.walks[i].touching(leg, t),
   /** Where the stage has put a walker's root and feet: [[x, y, z], …]; the root first. */
   placed: (i) => page.stage.lanes[i].model.placed(),
+  /** Where it is in the picture: [x, y], −1 … 1 to the right and up. */
+  seen: (i) => page.stage.seen(i),
   /** Draws now, without waiting for the browser's next frame. */
   render: () => page.show(),
   /** How long the last frames took to compute and draw, ms. */

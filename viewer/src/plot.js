@@ -1,6 +1,7 @@
 // A diagram over time: a canvas that shows a window of the recording, and a cursor at the present.
 import { colour, element } from "./theme.js";
 
+const onPaper = () => matchMedia("print").matches;
 const LEFT = 62, RIGHT = 10, AXIS = 20;
 
 /** The part of the recording that diagrams show: `span_s` around the present, inside the recording. */
@@ -74,7 +75,7 @@ export class Plot {
 
   /** Paints if the window has moved, and puts the cursor where the time is. */
   show() {
-    if (!this.visible) return;
+    if (!this.visible && !onPaper()) return;
     const from_s = this.held ? this.grabbed_s : this.window.start(this.clock.time_s);
     if (from_s !== this.painted_s || this.painted_span_s !== this.window.span_s) this.paint(from_s);
     const x = LEFT + ((this.clock.time_s - from_s) / this.window.span_s) * (this.width - LEFT - RIGHT);
@@ -84,7 +85,7 @@ export class Plot {
   paint(from_s) {
     this.width = this.element.clientWidth;
     if (this.width === 0) return;
-    const ratio = matchMedia("print").matches ? 3 : devicePixelRatio;
+    const ratio = onPaper() ? 3 : devicePixelRatio;
     this.canvas.width = Math.round(this.width * ratio);
     this.canvas.height = Math.round((this.height_px + AXIS) * ratio);
     const context = this.canvas.getContext("2d");

@@ -10,6 +10,7 @@ import { colour, walkerColour } from "./theme.js";
 export const CAMERAS = ["follow", "orbit", "still"];
 const TURN_S = 20; // of the orbiting camera, once around
 const SMOOTH_S = 0.4; // the camera follows the mean way over this long before and after
+const MOST_SPREAD = 8; // reaches; walkers farther apart leave the picture
 
 export class Stage {
   /** Throws if the browser gives no WebGL. */
@@ -66,9 +67,7 @@ export class Stage {
     this.sun = new DirectionalLight("#ffffff", 1.5);
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(2048, 2048);
-    const box = this.sun.shadow.camera;
-    const size = (1.3 + 0.8 * (this.walks.length - 1)) * this.reach;
-    [box.left, box.right, box.top, box.bottom, box.near, box.far] = [-size, size, size, -size, 0.1, 12 * this.reach];
+    this.sun.shadow.camera.near = 0.1;
     this.sun.shadow.bias = -0.0005;
     this.sun.shadow.radius = 2.5;
     this.scene.add(this.sky, this.sun, this.sun.target);
@@ -121,31 +120,61 @@ export class Stage {
     return sum;
   }
 
+  /** How far the walkers have come apart: from what the camera looks at to the farthest, m. */
+  spread(t, target) {
+    if (!this.side) return 0;
+    const distances = this.lanes.map(({ walk, group }) => {
+      const [x, y] = walk.comAt(t);
+      return Math.hypot(x - target.x, y + group.position.y - target.y);
+    });
+    return Math.min(Math.max(...distances), MOST_SPREAD * this.reach);
+  }
+
+  /** From how far away all walkers are in sight. */
+  distance(spread) {
+    return (4.1 * this.reach + 2.2 * spread) * Math.max(1, 1.45 / this.camera.aspect);
+  }
+
   resetCamera() {
     this.resize();
-    const narrow = Math.max(1, 1.45 / this.camera.aspect);
-    const distance = this.reach * (4.1 + 1.1 * (this.side ? this.lanes.length - 1 : 0)) * narrow;
-    const target = this.focus(this.time_s);
+    const target = this.focus(this.time_s), spread = this.spread(this.time_s, target);
     this.controls.target.copy(target);
-    this.camera.position.set(0.42, -0.86, 0.34).normalize().multiplyScalar(distance).add(target);
-    this.focused = { time_s: this.time_s, target };
+    this.camera.position.set(0.42, -0.86, 0.34).normalize().multiplyScalar(this.distance(spread)).add(target);
+    this.focused = { time_s: this.time_s, target, spread };
     this.controls.update();
   }
 
   /** Moves the camera as its mode wants, from the time it last showed to t. */
   moveCamera(t) {
-    const target = this.focus(t);
+    const target = this.focus(t), spread = this.spread(t, target);
     if (this.mode !== "still") {
-      const moved = target.clone().sub(this.focused.target);
-      this.controls.target.add(moved);
-      this.camera.position.add(moved);
+      const away = this.camera.position.clone().sub(this.controls.target);
+      away.multiplyScalar(this.distance(spread) / this.distance(this.focused.spread));
+      this.controls.target.add(target).sub(this.focused.target);
+      this.camera.position.copy(this.controls.target).add(away);
     }
     if (this.mode === "orbit") {
       const turn = ((t - this.focused.time_s) * 2 * Math.PI) / TURN_S;
       this.camera.position.sub(this.controls.target).applyAxisAngle(this.camera.up, turn).add(this.controls.target);
     }
-    this.focused = { time_s: t, target };
+    this.focused = { time_s: t, target, spread };
     this.controls.update();
+  }
+
+  /** Puts the light where it shades all walkers; the shadow's box grows in steps, or its edges would flicker. */
+  moveSun(target) {
+    this.sun.target.position.copy(target);
+    this.sun.position.set(0.5, -1.4, 4).multiplyScalar(this.reach).add(target);
+    const box = this.sun.shadow.camera, size = this.reach * (1.3 + Math.ceil(this.focused.spread / this.reach));
+    if (box.right === size) return;
+    [box.left, box.right, box.top, box.bottom, box.far] = [-size, size, size, -size, 12 * this.reach + 2 * size];
+    box.updateProjectionMatrix();
+  }
+
+  /** Where a walker's root is in the picture: −1 … 1 to the right and up. */
+  seen(i) {
+    const { x, y } = this.lanes[i].model.root.getWorldPosition(new Vector3()).project(this.camera);
+    return [x, y];
   }
 
   /** Less to draw, for machines that cannot keep up. */
@@ -176,8 +205,7 @@ export class Stage {
     const { target } = this.controls;
     const lowest = Math.min(...this.lanes.map(({ group }) => group.position.y));
     this.ground.follow(target.x, target.y, lowest - 0.62 * this.reach);
-    this.sun.target.position.copy(target);
-    this.sun.position.set(0.5, -1.4, 4).multiplyScalar(this.reach).add(target);
+    this.moveSun(target);
     const away = this.camera.position.distanceTo(target);
     this.scene.fog.near = away + 2 * this.reach;
     this.scene.fog.far = away + 18 * this.reach;

@@ -75,7 +75,7 @@ HWY_INLINE bool joint_block(const Pass& pass, const Chain& chain, const ChainFac
   const V softness = set(pass.model().cfm_s_per_kg / pass.batch.timestep_s);
   Mask needed = nowhere();
   for (int r = 0; r < rows; ++r) {
-    const float* const servo = pass.scratch(pass.work().servos + 3 * (chain.first + first + r));
+    const float* const servo = pass.scratch(pass.work().servos + 4 * (chain.first + first + r));
     needed = hn::Or(needed, load(servo + width) < load(servo + 2 * width));
   }
   if (hn::AllFalse(Floats(), hn::And(needed, pass.active()))) return false;
@@ -89,7 +89,7 @@ HWY_INLINE bool joint_block(const Pass& pass, const Chain& chain, const ChainFac
       w[i] = w[i] * load(factor.inverse(i));
     }
     finish_base(factor, base, w);
-    const float* const servo = pass.scratch(pass.work().servos + 3 * (chain.first + j));
+    const float* const servo = pass.scratch(pass.work().servos + 4 * (chain.first + j));
     finish_row(block, r, w, load(servo), softness);
     // An infinite bound stays so; 0 × root is 0.
     const V root = block.get(BlockShape::root, r);

@@ -113,6 +113,7 @@ HWY_INLINE void free_chain(const Pass& pass, const LaneArray& targets_rad, std::
     float* const row = pass.scratch(pass.work().free + index);
     const Spatial column = load_spatial(pass.scratch(pass.work().columns + 6 * index));
     const V torque = drive(pass, targets_rad, pass.link(chain, j), index);
+    store(torque, pass.scratch(pass.work().servos + 4 * index + 3));
     V x = h * (torque - (load(row) + dot(column, base.drift)));
     for (int k = 0; k < j; ++k) x = fnma(load(factor.lower(j, k)), pushed[k], x);
     pushed[j] = x * load(factor.inverse(j));
@@ -127,7 +128,8 @@ HWY_INLINE void free_chain(const Pass& pass, const LaneArray& targets_rad, std::
   }
 }
 
-/// Factorises, and finds the base's part of Lᵀ ν after a step without constraints.
+/// Factorises, and finds the base's part of Lᵀ ν after a step without constraints: what it had, less what the
+/// joints take from it, and what a push gives it.
 template <int N>
 HWY_NOINLINE void free_motion(const Pass& pass, const LaneArray& targets_rad, const Base& base,
                               BaseFactor& factor, V* base_free) {
@@ -146,6 +148,10 @@ HWY_NOINLINE void free_motion(const Pass& pass, const LaneArray& targets_rad, co
     free_chain<N>(pass, targets_rad, c, chain, base, motion, reaction);
   }
   factorise<6>(factor.lower, factor.inverse, 6);
+  const V3 push = pass.world() * pass.state3(Rows::push);
+  V kick[6];
+  to_array({cross(pass.state3(Rows::origin) + set(model.torso.com_m), push), push}, kick);
+  for (int d = 0; d < 6; ++d) reaction[d] = reaction[d] - kick[d];
   solve_base(factor, reaction);
   for (int d = 0; d < 6; ++d) {
     V sum = hn::Neg(reaction[d]);

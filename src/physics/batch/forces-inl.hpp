@@ -95,7 +95,7 @@ HWY_INLINE V drive(const Pass& pass, const LaneArray& targets_rad, const Link& l
   const V beyond = hn::IfThenElse(at_lower, angle - lower, angle - upper);
   const V low = hn::IfThenElseZero(at_upper, hn::Neg(infinite)),
           high = hn::IfThenElseZero(at_lower, infinite);
-  float* const row = pass.scratch(pass.work().servos + 3 * index);
+  float* const row = pass.scratch(pass.work().servos + 4 * index);
   if (!link.velocity_servo) {
     bound(row, set(pull) * beyond, low, high);
     const V torque = fnma(set(link.kd_nm_s_per_rad), speed, set(link.kp_nm_per_rad) * (target - angle));

@@ -31,7 +31,9 @@ struct Rows {
   static constexpr int axes = 18;      ///< the world's x, y, z axes in torso axes: 9
   static constexpr int origin = 27;    ///< of the torso's frame, torso axes, m: 3
   static constexpr int contacts = 30;  ///< points that touched at the beginning of the step before
-  static constexpr int joints = 31;    ///< first row that depends on the robot
+  // Set from outside.
+  static constexpr int push = 31;  ///< impulse on the torso's centre of mass in the next step, world, N s: 3
+  static constexpr int joints = 34;  ///< first row that depends on the robot
 
   explicit Rows(const Model& model)
       : links(static_cast<int>(model.links.size())),

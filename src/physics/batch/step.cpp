@@ -5,7 +5,11 @@
 #include "amble/physics/batch/denormals.hpp"
 
 // Instruction sets that would only repeat the code of their neighbours, or have no fixed width.
+#ifdef AMBLE_FEW_INSTRUCTION_SETS
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3 | HWY_AVX3_DL)
+#else
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_RVV)
+#endif
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "amble/physics/batch/step.cpp"
 #include <hwy/foreach_target.h>
@@ -23,12 +27,13 @@ HWY_INLINE V plain(V x) {
   return x + zero();
 }
 
-/// Keeps the impulses for the next step, and adds up what the ground gave: force × time, and torque × time
-/// about the centre of mass, both along world axes.
+/// Keeps the impulses for the next step, and adds up what ground and push gave: force × time, and torque ×
+/// time about the centre of mass, both along world axes.
 inline void collect_impulses(const Pass& pass, V3& push, V3& turn) {
   const Model& model = pass.model();
   const Columns world = pass.world();
-  V3 torque = zero3();
+  push = pass.state3(Rows::push);
+  V3 torque = cross(pass.state3(Rows::origin) + set(model.torso.com_m), world * push);
   for (std::size_t segment = 0; segment < pass.work().chain_blocks.size(); ++segment) {
     const ChainBlocks& blocks = pass.work().chain_blocks[segment];
     const Chain chain = segment == 0 ? Chain{} : model.chains[segment - 1];
@@ -117,7 +122,7 @@ template <int N>
 HWY_NOINLINE void integrate(const Pass& pass, const BaseFactor& factor, V* motion) {
   const Model& model = pass.model();
   const Next next{pass, pass.active()};
-  V3 push = zero3(), turn = zero3();
+  V3 push, turn;
   collect_impulses(pass, push, turn);
   solve_base_transposed(factor, motion);
   V fastest = zero();
@@ -131,6 +136,7 @@ HWY_NOINLINE void integrate(const Pass& pass, const BaseFactor& factor, V* motio
   advance(next, 0, velocity.x);
   advance(next, 1, velocity.y);
   advance(next, 2, velocity.z);
+  next.put3(Rows::push, zero3());
   const V3 spin{motion[0], motion[1], motion[2]};
   turn_torso(next, spin);
 
@@ -139,6 +145,20 @@ HWY_NOINLINE void integrate(const Pass& pass, const BaseFactor& factor, V* motio
   Mask sane = hn::And(dot(velocity, velocity) <= limit, dot(spin, spin) <= limit);
   sane = hn::And(sane, fastest <= set(joint_limit));
   next.put(Rows::healthy, hn::IfThenElseZero(sane, pass.state(Rows::healthy)));
+}
+
+/// What the motors gave. Where a servo's row has finite bounds it is the motor's, else that of a stop.
+HWY_NOINLINE void tell_torques(const Pass& pass) {
+  const V rate = set(1.0f / pass.batch.timestep_s);
+  for (int l = 0; l < pass.batch.rows.links; ++l) {
+    const float* const servo = pass.scratch(pass.work().servos + 4 * l);
+    const Mask motor =
+        load(servo + 2 * width) - load(servo + width) < set(std::numeric_limits<float>::infinity());
+    const V impulse = hn::IfThenElseZero(motor, pass.state(pass.batch.rows.joint_impulse + l));
+    const V torque = fma(rate, impulse, load(servo + 3 * width));
+    const int joint = pass.model().links[static_cast<std::size_t>(l)].joint;
+    hn::StoreU(torque, Floats(), pass.batch.torques_nm->row(joint) + pass.lane);
+  }
 }
 
 template <int N>
@@ -169,6 +189,7 @@ void step_lanes(const Batch& batch, const LaneArray& targets_rad) {
     } else {
       step_chains<-1>(pass, targets_rad);
     }
+    if (batch.torques_nm != nullptr) tell_torques(pass);
     find_pose(pass);
     read_sensors(pass);
   }

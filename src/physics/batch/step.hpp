@@ -16,6 +16,7 @@ struct Batch {
   Row* state;  ///< rows.count of them
   Workspace& workspace;
   SensorFrame& sensors;
+  LaneArray* torques_nm;  ///< of the motors, joints × lanes; null: not asked for
   float timestep_s;
   int iterations;  ///< of the constraint solver
 };

@@ -47,7 +47,7 @@ class Workspace {
     heights = take(points);
     inertia = take(9 * links);
     columns = take(6 * links);
-    servos = take(3 * links);
+    servos = take(4 * links);
     free = take(links);
     for (const Chain& chain : model.chains)
       factors.push_back(take(chain.count * (chain.count + 1) / 2 + 7 * chain.count));
@@ -69,7 +69,7 @@ class Workspace {
   int heights;  ///< by point: of its lowest place over the ground
   int inertia;  ///< by link: its own second (6) and first (3) moment of mass about the robot's centre
   int columns;  ///< by link: column of the mass matrix for the base, turning and pushing: 6
-  int servos;   ///< by link: speed wanted, lowest and highest impulse
+  int servos;   ///< by link: speed wanted, lowest and highest impulse, torque that is no row: 4
   int free;     ///< by link: Lᵀ ν of the joints
   std::vector<int>
       factors;  ///< by chain: its L, inverses of L's diagonal, L's six rows for the base (by joint)

@@ -127,7 +127,6 @@ class OdeEngine final : public Engine {
     read_state();
   }
 
-  bool takes_disturbances() const override { return true; }
   void push(int lane, Vec3 impulse_n_s) override {
     check_lane(lane);
     AMBLE_CHECK(stepping_, "only a placed robot can be pushed");

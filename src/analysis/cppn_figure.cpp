@@ -1,0 +1,210 @@
+#include "amble/analysis/cppn_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <string_view>
+
+#include "amble/analysis/axis.hpp"
+#include "amble/analysis/page_style.hpp"
+#include "amble/analysis/svg.hpp"
+
+namespace amble::analysis {
+namespace {
+
+constexpr double neuron_px = 15.0, terminal_px = 6.0;
+constexpr double layer_px = 84.0, row_px = 46.0, margin_px = 26.0;
+constexpr double letter_px = 7.2;  ///< mean width of a letter of 13 px
+constexpr double legend_row_px = 24.0;
+
+/// A cubic Bézier curve by its four points.
+using Stroke = std::array<Point, 4>;
+
+struct Glyph {
+  std::string_view function, title;
+  std::array<Stroke, 2> strokes;
+};
+/// The curves of the functions, within −8 … 8 px.
+constexpr std::array<Glyph, 4> glyphs{
+    {{"bipolar_sigmoid",
+      "sigmoid",
+      {{{{{-8, 6}, {-3, 6}, {-2, 3}, {0, 0}}}, {{{0, 0}, {2, -3}, {3, -6}, {8, -6}}}}}},
+     {"gaussian",
+      "Gaussian",
+      {{{{{-8, 6}, {-3, 6}, {-3, -6}, {0, -6}}}, {{{0, -6}, {3, -6}, {3, 6}, {8, 6}}}}}},
+     {"sine", "sine", {{{{{-8, 0}, {-5, -9}, {-3, -9}, {0, 0}}}, {{{0, 0}, {3, 9}, {5, 9}, {8, 0}}}}}},
+     {"linear", "linear", {{{{{-7, 6}, {-5, 4}, {-2, 2}, {0, 0}}}, {{{0, 0}, {2, -2}, {5, -4}, {7, -6}}}}}}}};
+
+bool is_terminal(const CppnNode& node) {
+  return node.role == CppnRole::bias || node.role == CppnRole::input;
+}
+
+std::string node_title(const CppnGraph& graph, std::size_t node) {
+  if (is_terminal(graph.nodes[node])) return graph.name_of(node);
+  return graph.name_of(node) + ": " + graph.nodes[node].function;
+}
+
+std::string link_title(const CppnGraph& graph, const CppnLink& link) {
+  return fmt::format("{} → {}: {}{}", graph.name_of(link.from), graph.name_of(link.to), label(link.weight, 3),
+                     link.enabled ? "" : ", disabled");
+}
+
+std::string link_class(const CppnLink& link, bool back) {
+  return fmt::format("wire {}{}{}", link.weight < 0.0 ? "minus" : "plus", link.enabled ? "" : " off",
+                     back ? " back" : "");
+}
+
+/// Width of a link's line: from a hair to 6 px.
+double width_of(const CppnLink& link, double most) {
+  return 0.8 + 5.2 * std::fabs(link.weight) / most;
+}
+
+class Drawing {
+ public:
+  explicit Drawing(const CppnGraph& graph) : graph_(graph), places_(place_nodes(graph)) {
+    std::size_t rows = 1, first = 0, last = 0;
+    for (const auto& nodes : places_.layers) rows = std::max(rows, nodes.size());
+    for (const CppnNode& node : graph.nodes) {
+      if (is_terminal(node)) first = std::max(first, node.name.size());
+      if (node.role == CppnRole::output) last = std::max(last, node.name.size());
+    }
+    left_px_ = 20.0 + letter_px * static_cast<double>(first);
+    right_px_ = 28.0 + letter_px * static_cast<double>(last);
+    const double inner = layer_px * static_cast<double>(places_.layers.size() - 1);
+    width_px_ = std::max(340.0, left_px_ + inner + right_px_);
+    rows_px_ = row_px * static_cast<double>(rows);
+  }
+
+  std::string draw() {
+    const auto legend = legend_places();
+    const double top = 2 * margin_px + rows_px_;
+    const double height = top + (legend.empty() ? 0.0 : legend.back().y + legend_row_px);
+    Svg svg(width_px_, height,
+            fmt::format("CPPN of {} nodes and {} links", graph_.nodes.size(), graph_.links.size()));
+    svg.begin_group("cppn");
+    draw_links(svg);
+    for (std::size_t i = 0; i < graph_.nodes.size(); ++i) draw_node(svg, i);
+    for (std::size_t i = 0; i < legend.size(); ++i) draw_key(svg, keys_[i], {legend[i].x, top + legend[i].y});
+    svg.end_group();
+    return svg.finish();
+  }
+
+ private:
+  struct Key {
+    std::string_view text;
+    const Glyph* glyph;  ///< or a line of this class
+    std::string_view wire;
+  };
+
+  Point at(std::size_t node) const {
+    const double share = static_cast<double>(places_.layer[node]) /
+                         std::max(1.0, static_cast<double>(places_.layers.size() - 1));
+    return {left_px_ + share * (width_px_ - left_px_ - right_px_),
+            margin_px + places_.place[node] * rows_px_};
+  }
+  double radius(std::size_t node) const { return is_terminal(graph_.nodes[node]) ? terminal_px : neuron_px; }
+
+  /// The heavy ones first, so that they do not hide the light ones.
+  void draw_links(Svg& svg) const {
+    std::vector<std::size_t> order(graph_.links.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, std::ranges::greater(),
+                             [&](std::size_t i) { return std::fabs(graph_.links[i].weight); });
+    const double most = graph_.heaviest_weight();
+    for (const std::size_t i : order) {
+      const CppnLink& link = graph_.links[i];
+      const bool back = places_.leads_back(link);
+      svg.begin_group(link_class(link, back), link_title(graph_, link));
+      svg.bezier(back ? way_back(link) : way_forth(link), {}, width_of(link, most));
+      svg.end_group();
+    }
+  }
+  Stroke way_forth(const CppnLink& link) const {
+    const Point from = at(link.from), to = at(link.to);
+    const double start = from.x + radius(link.from), end = to.x - radius(link.to);
+    const double bend = std::max(20.0, (end - start) / 2);
+    return {{{start, from.y}, {start + bend, from.y}, {end - bend, to.y}, {end, to.y}}};
+  }
+  Stroke way_back(const CppnLink& link) const {
+    const Point from = at(link.from), to = at(link.to);
+    const double start = from.y - radius(link.from), end = to.y - radius(link.to);
+    return {{{from.x, start}, {from.x + 30, start - 31}, {to.x - 30, end - 31}, {to.x, end}}};
+  }
+
+  void draw_node(Svg& svg, std::size_t i) const {
+    const CppnNode& node = graph_.nodes[i];
+    const Point centre = at(i);
+    svg.begin_group(is_terminal(node) ? "terminal" : "neuron", node_title(graph_, i));
+    svg.circle(centre, radius(i));
+    if (!is_terminal(node)) {
+      const auto glyph = std::ranges::find(glyphs, node.function, &Glyph::function);
+      if (glyph != glyphs.end()) draw_glyph(svg, *glyph, centre);
+    }
+    if (is_terminal(node)) svg.text({centre.x - 12, centre.y + 4.5}, Anchor::end, {}, node.name);
+    if (node.role == CppnRole::output)
+      svg.text({centre.x + neuron_px + 6, centre.y + 4.5}, Anchor::start, {}, node.name);
+    svg.end_group();
+  }
+
+  static void draw_glyph(Svg& svg, const Glyph& glyph, Point centre) {
+    for (Stroke stroke : glyph.strokes) {
+      for (Point& point : stroke) point = {point.x + centre.x, point.y + centre.y};
+      svg.bezier(stroke, "glyph");
+    }
+  }
+
+  /// Chooses the legend's entries and gives their places, row by row from 0.
+  std::vector<Point> legend_places() {
+    for (const Glyph& glyph : glyphs)
+      if (std::ranges::any_of(graph_.nodes, [&](const CppnNode& node) {
+            return !is_terminal(node) && node.function == glyph.function;
+          }))
+        keys_.push_back({glyph.title, &glyph, {}});
+    const std::size_t functions = keys_.size();
+    if (!graph_.links.empty()) keys_.push_back({"weight above 0", nullptr, "wire plus"});
+    if (!graph_.links.empty()) keys_.push_back({"below 0", nullptr, "wire minus"});
+    if (std::ranges::any_of(graph_.links, [](const CppnLink& link) { return !link.enabled; }))
+      keys_.push_back({"disabled", nullptr, "wire off"});
+    std::vector<Point> places;
+    Point next{4.0, 0.0};
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+      const double needs = 42.0 + letter_px * static_cast<double>(keys_[i].text.size());
+      if (next.x > 4.0 && (i == functions || next.x + needs > width_px_))
+        next = {4.0, next.y + legend_row_px};
+      places.push_back(next);
+      next.x += needs;
+    }
+    return places;
+  }
+  static void draw_key(Svg& svg, const Key& key, Point at) {
+    if (key.glyph) {
+      draw_glyph(svg, *key.glyph, {at.x + 10, at.y});
+    } else {
+      svg.begin_group(key.wire);
+      svg.bezier({{at, {at.x + 6, at.y}, {at.x + 14, at.y}, {at.x + 20, at.y}}}, {}, 4.0);
+      svg.end_group();
+    }
+    svg.text({at.x + 27, at.y + 4.5}, Anchor::start, "key-text", key.text);
+  }
+
+  const CppnGraph& graph_;
+  CppnPlaces places_;
+  std::vector<Key> keys_;
+  double left_px_ = 0.0, right_px_ = 0.0, width_px_ = 0.0, rows_px_ = 0.0;
+};
+
+}  // namespace
+
+std::string cppn_figure(const CppnGraph& graph) {
+  return Drawing(graph).draw();
+}
+
+std::string cppn_svg(const CppnGraph& graph) {
+  return standalone_svg(cppn_figure(graph));
+}
+
+}  // namespace amble::analysis

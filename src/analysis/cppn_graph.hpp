@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace amble::analysis {
+
+enum class CppnRole { bias, input, output, hidden };
+
+struct CppnNode {
+  std::uint32_t id = 0;
+  CppnRole role = CppnRole::hidden;
+  std::string
+      function;      ///< "bipolar_sigmoid", "gaussian", "sine" or "linear"; of no meaning for bias and inputs
+  std::string name;  ///< of the bias, inputs and outputs
+};
+
+struct CppnLink {
+  std::size_t from = 0, to = 0;  ///< indices into CppnGraph::nodes
+  double weight = 0.0;
+  bool enabled = true;
+};
+
+/// What a picture of a CPPN needs to know.
+struct CppnGraph {
+  std::vector<CppnNode> nodes;
+  std::vector<CppnLink> links;
+
+  /// "pattern", or "node 7" for a node without a name.
+  std::string name_of(std::size_t node) const;
+  /// The largest |weight|; 1 if there is none above 0.
+  double heaviest_weight() const;
+};
+
+/// Where the nodes of a CPPN stand, from its inputs to its outputs.
+struct CppnPlaces {
+  std::vector<std::vector<std::size_t>> layers;  ///< the nodes of each, in order; none is empty
+  std::vector<std::size_t> layer;                ///< node by node
+  std::vector<double> place;                     ///< node by node: within its layer, in (0, 1)
+
+  /// Whether a link does not lead to a later layer: it closes a cycle, or leaves an output.
+  bool leads_back(const CppnLink& link) const { return layer[link.from] >= layer[link.to]; }
+};
+
+/// Bias and inputs stand in the first layer, outputs in the last, a hidden node as many layers from the first
+/// as its longest way from there has links; the nodes within a hidden layer are ordered so that few links
+/// cross (barycentres: Sugiyama, Tagawa & Toda 1981).
+CppnPlaces place_nodes(const CppnGraph& graph);
+
+}  // namespace amble::analysis

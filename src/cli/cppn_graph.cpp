@@ -1,0 +1,35 @@
+#include "amble/cli/cppn_graph.hpp"
+
+#include <array>
+#include <string>
+
+namespace amble::cli {
+namespace {
+
+/// By neat::NodeKind.
+constexpr std::array<analysis::CppnRole, 4> roles{analysis::CppnRole::bias, analysis::CppnRole::input,
+                                                  analysis::CppnRole::output, analysis::CppnRole::hidden};
+
+}  // namespace
+
+analysis::CppnGraph cppn_graph(const experiment::Champion& champion) {
+  const neat::Genome& genome = champion.genome;
+  const substrate::Layout& layout = champion.problem.architecture->layout();
+  analysis::CppnGraph graph;
+  std::size_t inputs = 0, outputs = 0;
+  for (const neat::NodeGene& node : genome.nodes) {
+    const analysis::CppnRole role = roles[static_cast<std::size_t>(node.kind)];
+    std::string name;
+    if (role == analysis::CppnRole::bias) name = "bias";
+    if (role == analysis::CppnRole::input) name = layout.input_names()[inputs++];
+    if (role == analysis::CppnRole::output) name = layout.output_names()[outputs++];
+    const auto function = neat::activation_names[static_cast<std::size_t>(node.activation)];
+    graph.nodes.push_back({node.id, role, std::string(function), std::move(name)});
+  }
+  for (const neat::LinkGene& link : genome.links)
+    graph.links.push_back({static_cast<std::size_t>(genome.index_of(link.from)),
+                           static_cast<std::size_t>(genome.index_of(link.to)), link.weight, link.enabled});
+  return graph;
+}
+
+}  // namespace amble::cli

@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "amble/analysis/cppn_dot.hpp"
+#include "amble/analysis/cppn_figure.hpp"
+#include "amble/analysis/pattern_figure.hpp"
+#include "amble/cli/commands.hpp"
+#include "amble/cli/cppn_graph.hpp"
+#include "amble/experiment/run_folder.hpp"
+#include "amble/io/file.hpp"
+#include "amble/morphology/robot_json.hpp"
+
+namespace amble::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct DrawOptions {
+  fs::path path;
+  std::optional<fs::path> out, patterns;
+};
+
+void refuse_unless_ours(const DrawOptions& options) {
+  if (options.out) {
+    const fs::path kind = options.out->extension();
+    if (kind != ".svg" && kind != ".dot")
+      fail(ExitCode::bad_input, "--out {}: expected a name that ends in .svg or .dot", options.out->string());
+    io::refuse_to_replace(*options.out, kind == ".svg" ? "<svg" : "digraph", "a drawing");
+  }
+  if (options.patterns) io::refuse_to_replace(*options.patterns, "<svg", "a drawing");
+}
+
+std::string patterns_svg(const experiment::Champion& champion, const fs::path& path) {
+  const controllers::Architecture& architecture = *champion.problem.architecture;
+  if (architecture.name() != "supg")
+    fail(ExitCode::bad_input, "--patterns: the controller of {} is of kind {}: expected supg, which has them",
+         path.string(), architecture.name());
+  const auto robot = analysis::parse_robot(morphology::to_json(champion.problem.robot).dump(), path.string());
+  const auto controller = architecture.parameters_json(*champion.problem.decode(champion.genome));
+  return analysis::pattern_svg(robot, analysis::parse_supg(controller, robot, path.string()));
+}
+
+ExitCode draw(const DrawOptions& options) {
+  refuse_unless_ours(options);
+  const fs::path path =
+      fs::is_directory(options.path) ? experiment::find_run(options.path).best_champion() : options.path;
+  const auto champion = experiment::load_champion(path);
+  const analysis::CppnGraph graph = cppn_graph(champion);
+  if (options.patterns) io::write_file(*options.patterns, patterns_svg(champion, path));
+  if (options.out)
+    io::write_file(*options.out, options.out->extension() == ".svg" ? analysis::cppn_svg(graph)
+                                                                    : analysis::cppn_dot(graph));
+  if (!options.out && !options.patterns) fmt::print("{}", analysis::cppn_dot(graph));
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_draw(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("draw", "Draw a champion's CPPN, and the temporal patterns it paints");
+  auto options = std::make_shared<DrawOptions>();
+  command->add_option("CPPN", options->path, "Champion file, or run folder (its best champion)")->required();
+  command->add_option(
+      "-o,--out", options->out,
+      "Draw the CPPN into this file, by its name's end SVG or DOT (without this and --patterns: "
+      "DOT to the standard output)");
+  command->add_option("--patterns", options->patterns,
+                      "Draw the target angle of each leg and joint over the time of a period (SVG)");
+  command->callback([options, &action] { action = [options] { return draw(*options); }; });
+}
+
+}  // namespace amble::cli

@@ -1,0 +1,58 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/process.hpp"
+
+namespace amble::tests {
+namespace {
+
+using testing::AllOf;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string source = AMBLE_SOURCE_DIR;
+
+/// A run of one generation; gives its folder.
+std::string make_run(const ScratchFolder& scratch, const std::string& config = "supg-objective") {
+  const auto run = scratch / config;
+  const auto evolved =
+      amble({"evolve", source + "/configs/authors/" + config + ".toml", "--set", "population.size=40",
+             "--set", "trial.duration_s=0.5", "--generations", "1", "--out", run});
+  EXPECT_EQ(evolved.exit_code, 0) << evolved.err;
+  return run;
+}
+
+TEST(DrawCommand, PrintsDotOrWritesFilesByTheirNames) {
+  const ScratchFolder scratch;
+  const auto run = make_run(scratch), champion = run + "/champions/00000.json";
+  const auto printed = amble({"draw", champion});
+  EXPECT_EQ(printed.exit_code, 0) << printed.err;
+  EXPECT_THAT(printed.out,
+              AllOf(StartsWith("digraph cppn {\n"), HasSubstr("[label=\"joint_type\", shape=plaintext]"),
+                    HasSubstr("[label=\"pattern\\n"), EndsWith("}\n")));
+
+  const auto written =
+      amble({"draw", run, "-o", scratch / "cppn.svg", "--patterns", scratch / "patterns.svg"});
+  EXPECT_EQ(written.exit_code, 0) << written.err;
+  EXPECT_EQ(written.out, "");
+  EXPECT_THAT(slurp(scratch / "cppn.svg"), AllOf(StartsWith("<svg "), HasSubstr(">joint_type</text>")));
+  EXPECT_THAT(slurp(scratch / "patterns.svg"), AllOf(StartsWith("<svg "), HasSubstr(">hip_io</text>")));
+
+  EXPECT_EQ(amble({"draw", run, "-o", scratch / "cppn.dot"}).exit_code, 0);
+  EXPECT_EQ(slurp(scratch / "cppn.dot"), printed.out) << "the run's best champion is its only one";
+  EXPECT_EQ(amble({"draw", run, "-o", scratch / "cppn.svg"}).exit_code, 0) << "its own drawings it replaces";
+}
+
+TEST(DrawCommand, DrawsCppnsOfOtherControllersButNoPatterns) {
+  const ScratchFolder scratch;
+  const auto run = make_run(scratch, "ctrnn-objective");
+  EXPECT_THAT(amble({"draw", run}).out, HasSubstr("[label=\"source.module_x\""));
+  const auto refused = amble({"draw", run, "--patterns", scratch / "patterns.svg"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("is of kind ctrnn: expected supg, which has them\n"));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "patterns.svg"));
+}
+
+}  // namespace
+}  // namespace amble::tests
