@@ -1,7 +1,10 @@
 #include <fmt/format.h>
+#include <hwy/targets.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <string_view>
+#include <vector>
 
 #include "amble/experiment/build_info.hpp"
 #include "amble/io/file.hpp"
@@ -18,7 +21,16 @@ int main(int argc, char** argv) {
   bench::measure_physics(figures);
   bench::measure_runs(figures);
   const auto build = experiment::build_info();
-  fmt::print("{}\n{}; amble {} {}; {}; {}\n", bench::to_text(figures), experiment::cpu_name(), build.version,
-             build.commit, build.compiler, build.flags);
-  if (argc == 3 && std::string_view(argv[1]) == "--csv") io::write_file(argv[2], bench::to_csv(figures));
+  const std::int64_t supported = hwy::SupportedTargets();
+  const std::vector<bench::Circumstance> circumstances{
+      {"cpu", experiment::cpu_name()},
+      {"instruction_set", hwy::TargetName(supported & -supported)},  // the best is the lowest bit
+      {"compiler", build.compiler},
+      {"compiler_flags", build.flags},
+      {"amble", build.version + " " + build.commit}};
+  fmt::print("{}", bench::to_text(figures));
+  for (const auto& [name, text] : circumstances) fmt::print("\n{:<16} {}", name, text);
+  fmt::print("\n");
+  if (argc == 3 && std::string_view(argv[1]) == "--csv")
+    io::write_file(argv[2], bench::to_csv(figures, circumstances));
 }

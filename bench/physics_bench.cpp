@@ -1,9 +1,14 @@
 #include <hwy/highway.h>
+#include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 
 #include "amble/experiment/problem.hpp"
+#include "amble/morphology/mjcf_writer.hpp"
+#include "amble/morphology/model_file.hpp"
 #include "bench/benches.hpp"
 #include "bench/workload.hpp"
 
@@ -38,15 +43,51 @@ double steps_per_s(const char* name, const morphology::RobotSpec& robot) {
   return steps * engine->lanes() / seconds;
 }
 
+/// The same of MuJoCo by itself: mj_step with its own soft contacts and options, but for the limit of 20
+/// iterations, and a damped servo with the same limits of torque. The engine "mujoco" is slower, because it
+/// solves ODE's stiffer equations.
+double mj_steps_per_s(const morphology::RobotSpec& robot) {
+  const auto mjcf = morphology::write_mjcf(robot);
+  const auto owned = morphology::compile_mjcf(mjcf.text, "bench");
+  mjModel* const model = owned.get();
+  model->opt.timestep = physics::EngineSettings{}.timestep_s;
+  model->opt.iterations = physics::EngineSettings{}.iterations;
+  const std::unique_ptr<mjData, decltype(&mj_deleteData)> data(mj_makeData(model), mj_deleteData);
+  LaneArray targets_rad(static_cast<int>(robot.joints.size()), 1);
+  const double seconds = seconds_per_call([&] {
+    mj_resetData(model, data.get());
+    for (int step = 0; step < steps; ++step) {
+      set_targets(robot, step, targets_rad);
+      for (std::size_t place = 0; place < mjcf.joints.size(); ++place) {
+        const int joint = mjcf.joints[place], dof = model->jnt_dofadr[place + 1];
+        const double error_rad =
+            static_cast<double>(targets_rad.at(joint, 0)) - data->qpos[model->jnt_qposadr[place + 1]];
+        const auto& servo = robot.joints[static_cast<std::size_t>(joint)].servo;
+        constexpr double damping_nm_s_per_rad = 1.0;
+        const double torque_nm = damping_nm_s_per_rad * (servo.gain_per_s * error_rad - data->qvel[dof]);
+        data->qfrc_applied[dof] = std::clamp(torque_nm, -servo.max_torque_nm, servo.max_torque_nm);
+      }
+      mj_step(model, data.get());
+    }
+  });
+  return steps / seconds;
+}
+
 }  // namespace
 
 void measure_physics(std::vector<Figure>& figures) {
   const auto paper = experiment::load_robot_file(AMBLE_SOURCE_DIR "/robots/quadruped/paper.toml");
   const auto authors = experiment::load_robot_file(AMBLE_SOURCE_DIR "/robots/quadruped/authors.toml");
-  const double ode = steps_per_s("ode", paper), batch = steps_per_s("batch", paper);
+  const double ode = steps_per_s("ode", paper), mujoco = mj_steps_per_s(paper),
+               batch = steps_per_s("batch", paper);
   figures.push_back({"raw_steps_per_s_ode", ode, "1/s", "one core, paper's quadruped, dWorldStep"});
+  figures.push_back({"raw_steps_per_s_mujoco", mujoco, "1/s",
+                     "one core, paper's quadruped, mj_step alone, at most 20 iterations"});
+  figures.push_back({"raw_steps_per_s_mujoco_referee", steps_per_s("mujoco", paper), "1/s",
+                     "one core, the engine \"mujoco\", which solves ODE's equations"});
   figures.push_back({"raw_steps_per_s_batch", batch, "1/s", "one core, paper's quadruped, 20 iterations"});
   figures.push_back({"batch_vs_ode_raw", batch / ode, "1", "steps per second, paper's quadruped"});
+  figures.push_back({"batch_vs_mujoco_raw", batch / mujoco, "1", "steps per second, paper's quadruped"});
   figures.push_back({"batch_vs_ode_raw_authors", steps_per_s("batch", authors) / steps_per_s("ode", authors),
                      "1", "steps per second, authors' quadruped"});
   const std::int64_t instructions = hwy::SupportedTargets();

@@ -1,9 +1,11 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
 #include <string>
+#include <thread>
 
 #include "amble/experiment/run.hpp"
 #include "bench/benches.hpp"
@@ -44,15 +46,17 @@ double peak_memory_mb() {
 /// More generations, because a generation is over so soon.
 void measure_batch_runs(double ode_per_s, std::vector<Figure>& figures) {
   constexpr int generations = 40;
-  const auto one = run("batch", generations, 1), two = run("batch", generations, 2);
-  const double one_per_s = one.evaluations / one.wall_s, two_per_s = two.evaluations / two.wall_s;
+  const int workers = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const auto one = run("batch", generations, 1), all = run("batch", generations, workers);
+  const double one_per_s = one.evaluations / one.wall_s, all_per_s = all.evaluations / all.wall_s;
+  const auto end_to_end = "end to end, " + std::to_string(workers) + " workers";
   figures.push_back(
       {"batch_vs_ode_end_to_end", one_per_s / ode_per_s, "1", "evaluations per second, one worker"});
   figures.push_back(
-      {"outside_physics_share_batch", two.outside_s / two.wall_s, "1", "of wall time, two workers"});
+      {"outside_physics_share_batch", all.outside_s / all.wall_s, "1", "of wall time, all workers"});
   figures.push_back({"evaluations_per_s_batch", one_per_s, "1/s", "end to end, one worker"});
-  figures.push_back({"evaluations_per_s_batch_all_workers", two_per_s, "1/s", "end to end, two workers"});
-  figures.push_back({"steps_per_s_batch_two_workers", two.steps / two.wall_s, "1/s", "end to end"});
+  figures.push_back({"evaluations_per_s_batch_all_workers", all_per_s, "1/s", end_to_end});
+  figures.push_back({"steps_per_s_batch_all_workers", all.steps / all.wall_s, "1/s", end_to_end});
 }
 
 }  // namespace

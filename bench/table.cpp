@@ -22,9 +22,10 @@ std::string to_text(const std::vector<Figure>& figures) {
   return ratios + "\n" + rest;
 }
 
-std::string to_csv(const std::vector<Figure>& figures) {
+std::string to_csv(const std::vector<Figure>& figures, const std::vector<Circumstance>& circumstances) {
   std::string csv = "name,value,unit\n";
   for (const auto& figure : figures) csv += fmt::format("{},{},{}\n", figure.name, figure.value, figure.unit);
+  for (const auto& [name, text] : circumstances) csv += fmt::format("{},\"{}\",\n", name, text);
   return csv;
 }
 

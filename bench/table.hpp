@@ -16,10 +16,15 @@ struct Figure {
   std::string note;  ///< what it says, for people
 };
 
+/// What a figure depends on besides the program: processor, compiler.
+struct Circumstance {
+  std::string name, text;
+};
+
 /// Ratios first, then the rest, as aligned text.
 std::string to_text(const std::vector<Figure>& figures);
-/// Columns name,value,unit.
-std::string to_csv(const std::vector<Figure>& figures);
+/// Columns name,value,unit; circumstances come last, as text in quotes without a unit.
+std::string to_csv(const std::vector<Figure>& figures, const std::vector<Circumstance>& circumstances);
 
 /// Calls `work` again and again for `least_s` seconds, `repeats` times over, after one call to warm up; the
 /// median of the seconds per call.

@@ -28,7 +28,7 @@ constexpr std::array<std::pair<std::string_view, Column>, 10> columns{{
 }};
 
 /// Columns that may be absent, or whose cells may be empty in every row.
-constexpr std::array<std::pair<std::string_view, Column>, 11> optional_columns{{
+constexpr std::array<std::pair<std::string_view, Column>, 12> optional_columns{{
     {"archive", &Generations::archive},
     {"novelty_threshold", &Generations::novelty_threshold},
     {"best_novelty", &Generations::best_novelty},
@@ -39,6 +39,7 @@ constexpr std::array<std::pair<std::string_view, Column>, 11> optional_columns{{
     {"waiting_s", &Generations::waiting_s},
     {"judge_s", &Generations::judge_s},
     {"breed_s", &Generations::breed_s},
+    {"referees_s", &Generations::referees_s},
     {"files_s", &Generations::files_s},
 }};
 

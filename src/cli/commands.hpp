@@ -13,6 +13,7 @@ using Action = std::function<ExitCode()>;
 void add_evolve(CLI::App& app, Action& action);
 void add_resume(CLI::App& app, Action& action);
 void add_trial(CLI::App& app, Action& action);
+void add_compare(CLI::App& app, Action& action);
 void add_gait(CLI::App& app, Action& action);
 void add_info(CLI::App& app, Action& action);
 void add_robot(CLI::App& app, Action& action);

@@ -9,6 +9,7 @@
 
 #include "amble/analysis/generations_csv.hpp"
 #include "amble/cli/commands.hpp"
+#include "amble/cli/compare_table.hpp"
 #include "amble/cli/progress.hpp"
 #include "amble/experiment/champion.hpp"
 #include "amble/experiment/run_folder.hpp"
@@ -29,6 +30,8 @@ void print_champion(const experiment::Champion& champion) {
              champion.genome.enabled_links());
   fmt::print("result      {:.3f} m in {:.2f} s, {}\n", champion.result.distance_m, champion.result.seconds,
              record::outcome_names[static_cast<std::size_t>(champion.result.outcome)]);
+  for (const auto& [engine, judged] : champion.referees)
+    fmt::print("in {:<8} {}\n", engine, result_text(judged, champion.result.distance_m));
   if (champion.episodes.empty()) return;
   fmt::print("under noise {:.3f} m, {} of", champion.objective_m(),
              trial::episode_score_names[static_cast<std::size_t>(problem.noise.score)]);
@@ -59,6 +62,7 @@ void print_stages(const analysis::Generations& rows) {
   stage("waiting for others", rows.waiting_s);
   stage("search", rows.judge_s);
   stage("breeding", rows.breed_s);
+  if (sum(rows.referees_s) > 0.0) stage("referees", rows.referees_s);
   stage("files", rows.files_s);
   print("books", rest_s);
 }

@@ -32,6 +32,7 @@ ExitCode run(int argc, char** argv) {
   amble::cli::add_evolve(app, action);
   amble::cli::add_resume(app, action);
   amble::cli::add_trial(app, action);
+  amble::cli::add_compare(app, action);
   amble::cli::add_gait(app, action);
   amble::cli::add_info(app, action);
   amble::cli::add_robot(app, action);

@@ -10,6 +10,7 @@
 
 #include "amble/analysis/figures.hpp"
 #include "amble/cli/commands.hpp"
+#include "amble/cli/compare_table.hpp"
 #include "amble/cli/scratch_file.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/build_info.hpp"
@@ -36,18 +37,24 @@ std::string noise_text(const trial::NoiseSettings& noise) {
 std::vector<analysis::Fact> facts(const experiment::Config& config, const experiment::Champion& champion) {
   const auto build = experiment::build_info();
   const auto& robot = champion.problem.robot;
-  return {{"Robot",
-           fmt::format("{}, {:.1f} kg, {} motors", robot.name, robot.total_mass_kg(), robot.joints.size())},
-          {"Engine", fmt::format("{}, steps of {} s", config.engine, config.trial.timestep_s)},
-          {"Controller", champion.problem.architecture->name()},
-          {"Population",
-           fmt::format("{} genomes, {} generations", config.neat.population.size, config.generations)},
-          {"Trial", fmt::format("{} s, or until the robot falls", config.trial.duration_s)},
-          {"Noise", noise_text(config.noise)},
-          {"Seed", fmt::format("{}", config.seed)},
-          {"Champion", fmt::format("generation {}, genome {}", champion.generation, champion.index)},
-          {"Made by",
-           fmt::format("amble {} ({}), {}", build.version, build.commit.substr(0, 12), build.compiler)}};
+  std::vector<analysis::Fact> facts{
+      {"Robot",
+       fmt::format("{}, {:.1f} kg, {} motors", robot.name, robot.total_mass_kg(), robot.joints.size())},
+      {"Engine", fmt::format("{}, steps of {} s", config.engine, config.trial.timestep_s)},
+      {"Controller", champion.problem.architecture->name()},
+      {"Population",
+       fmt::format("{} genomes, {} generations", config.neat.population.size, config.generations)},
+      {"Trial", fmt::format("{} s, or until the robot falls", config.trial.duration_s)},
+      {"Noise", noise_text(config.noise)},
+      {"Seed", fmt::format("{}", config.seed)},
+      {"Champion", fmt::format("generation {}, genome {}: {:.3f} m in the engine {}", champion.generation,
+                               champion.index, champion.result.distance_m, config.engine)},
+      {"Made by",
+       fmt::format("amble {} ({}), {}", build.version, build.commit.substr(0, 12), build.compiler)}};
+  for (const auto& [engine, judged] : champion.referees)
+    facts.insert(facts.end() - 1,
+                 {"In the engine " + engine, result_text(judged, champion.result.distance_m)});
+  return facts;
 }
 
 ExitCode make_page(const PageOptions& options) {

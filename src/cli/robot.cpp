@@ -5,18 +5,26 @@
 
 #include "amble/cli/commands.hpp"
 #include "amble/experiment/problem.hpp"
+#include "amble/io/file.hpp"
+#include "amble/morphology/mjcf_writer.hpp"
 #include "amble/morphology/summary.hpp"
 
 namespace amble::cli {
 
 void add_robot(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("robot", "Show what was read from a robot file");
-  auto path = std::make_shared<std::filesystem::path>();
-  command->add_option("FILE", *path, "Robot file (TOML beside an MJCF model, or a run's robot.json)")
+  struct Options {
+    std::filesystem::path file, mjcf;
+  };
+  auto options = std::make_shared<Options>();
+  command->add_option("FILE", options->file, "Robot file (TOML beside an MJCF model, or a run's robot.json)")
       ->required();
-  command->callback([path, &action] {
-    action = [path] {
-      fmt::print("{}", morphology::summary(experiment::load_robot_file(*path)));
+  command->add_option("--mjcf", options->mjcf, "Write it as an MJCF model");
+  command->callback([options, &action] {
+    action = [options] {
+      const auto robot = experiment::load_robot_file(options->file);
+      if (!options->mjcf.empty()) io::write_file(options->mjcf, morphology::write_mjcf(robot).text);
+      fmt::print("{}", morphology::summary(robot));
       return ExitCode::ok;
     };
   });

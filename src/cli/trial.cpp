@@ -45,6 +45,9 @@ ExitCode run_trial(const TrialOptions& options) {
   const auto replay = experiment::replay(champion.problem, champion.genome, how, stop_signal());
   if (!replay) fail(ExitCode::interrupted, "stopped before the end of the trial");
   const auto& result = replay->result;
+  const auto& home = champion.problem.engine;
+  const auto& judge = options.engine.value_or(home);
+  fmt::print("engine    {}{}\n", judge, judge == home ? "" : fmt::format(" (evolved in {})", home));
   fmt::print("outcome   {}\nupright   {:.2f} s\ndistance  {:.3f} m\nspeed     {:.3f} m/s\n",
              record::outcome_names[static_cast<std::size_t>(result.outcome)], result.seconds,
              result.distance_m, result.distance_m / result.seconds);

@@ -75,6 +75,26 @@ std::vector<NoisyTrial> parse_episodes(const io::JsonView& root) {
   return episodes;
 }
 
+io::Json referees_json(const Champion& champion) {
+  io::Json list = io::Json::array();
+  for (const auto& [engine, result] : champion.referees) {
+    io::Json referee{{"engine", engine}};
+    referee.update(result_json(result));
+    if (const auto kept = share_kept(result.distance_m, champion.result.distance_m)) referee["kept"] = *kept;
+    list.push_back(std::move(referee));
+  }
+  return list;
+}
+
+std::vector<Refereed> parse_referees(const io::JsonView& root) {
+  std::vector<Refereed> referees;
+  if (!root.has("referees")) return referees;
+  const auto list = root.at("referees");
+  for (std::size_t i = 0; i < list.size(); ++i)
+    referees.push_back({.engine = list.at(i).at("engine").text(), .result = parse_result(list.at(i))});
+  return referees;
+}
+
 Problem parse_problem(const io::JsonView& root) {
   Problem problem{
       .robot = morphology::from_json(root.at("robot")),
@@ -112,6 +132,11 @@ double Champion::objective_m() const {
   return experiment::objective_m(problem.noise.score, distances_m);
 }
 
+std::optional<double> share_kept(double distance_m, double of_m) {
+  if (of_m <= 0.0) return std::nullopt;
+  return distance_m / of_m;
+}
+
 std::string champion_text(const Champion& champion) {
   const Problem& problem = champion.problem;
   io::Json document{{"experiment", champion.experiment},
@@ -127,6 +152,7 @@ std::string champion_text(const Champion& champion) {
                     {"robot", morphology::to_json(problem.robot)},
                     {"trace", trace_text(champion.trace)}};
   if (!champion.episodes.empty()) document["noise"] = noise_json(champion);
+  if (!champion.referees.empty()) document["referees"] = referees_json(champion);
   return io::sealed_json(champion_format, champion_version, document);
 }
 
@@ -142,7 +168,8 @@ LoadedChampion parse_champion(const std::string& text, const std::string& what, 
                       .genome = neat::genome_from_json(root.at("genome")),
                       .result = parse_result(root.at("result")),
                       .trace = parse_trace(root.at("trace")),
-                      .episodes = parse_episodes(root)};
+                      .episodes = parse_episodes(root),
+                      .referees = parse_referees(root)};
     neat::validate(champion.genome, champion.problem.cppn_inputs(), champion.problem.cppn_outputs(),
                    champion.problem.cppn.recurrent);
     return {std::move(champion), sealed.altered};

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,12 @@ struct NoisyTrial {
   std::vector<std::uint32_t> trace;
 };
 
+/// What a champion's genome came to in another engine than its own, without noise.
+struct Refereed {
+  std::string engine;
+  TrialResult result;
+};
+
 /// A genome worth keeping, with all that is needed to run it again: robot, controller, trial, engine.
 /// Self-contained.
 struct Champion {
@@ -36,15 +43,19 @@ struct Champion {
   int index = 0;  ///< in its population
   Problem problem;
   neat::Genome genome;
-  TrialResult result;                ///< of its trial without noise
-  std::vector<std::uint32_t> trace;  ///< trial::TraceObserver of that trial: one hash per step
-  std::vector<NoisyTrial> episodes;  ///< Problem::noise; empty if there is none
+  TrialResult result;                   ///< of its trial without noise
+  std::vector<std::uint32_t> trace;     ///< trial::TraceObserver of that trial: one hash per step
+  std::vector<NoisyTrial> episodes;     ///< Problem::noise; empty if there is none
+  std::vector<Refereed> referees = {};  ///< in the order of Config::referees; empty if there are none
 
   /// Names the noise of an episode; beyond those that made it a champion, noise that it has not met.
   trial::ScenarioKey scenario_key(std::size_t episode) const;
   /// By what it became the champion, m: what its episodes make of it, or its distance without noise.
   double objective_m() const;
 };
+
+/// Share of a distance that is kept elsewhere; nothing if there was none to keep.
+std::optional<double> share_kept(double distance_m, double of_m);
 
 /// The text of a champion file (docs/FORMATS.md).
 std::string champion_text(const Champion& champion);

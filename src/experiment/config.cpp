@@ -1,7 +1,10 @@
 #include "amble/experiment/config.hpp"
 
+#include <algorithm>
+
 #include "amble/core/error.hpp"
 #include "amble/io/toml_settings.hpp"
+#include "amble/physics/engine.hpp"
 #include "amble/score/path_behaviour.hpp"
 
 namespace amble::experiment {
@@ -9,7 +12,9 @@ namespace amble::experiment {
 void Config::describe(io::SettingsVisitor& visitor) {
   visitor.text("name", name, {"what this experiment is called in files and figures"});
   visitor.text("robot", robot, {"robot file, relative to the config file"});
-  visitor.text("engine", engine, {"physics engine: ode or batch", "Morse et al. 2013, sec. 4 (ode)"});
+  visitor.text("engine", engine, {"physics engine: ode, batch or mujoco", "Morse et al. 2013, sec. 4 (ode)"});
+  visitor.texts("referees", referees,
+                {"engines in which each new champion is tried again; its file says how far it comes there"});
   visitor.integer("seed", seed, {0, 9007199254740992.0}, {"seed of all randomness"});
   visitor.integer("generations", generations, {1, 1e9},
                   {"generations to evaluate, the initial one included", "Morse et al. 2013, sec. 4"});
@@ -23,10 +28,22 @@ void Config::describe(io::SettingsVisitor& visitor) {
 
 void Config::validate() const {
   if (robot.empty()) fail(ExitCode::bad_input, "key 'robot' is missing: expected the path of a robot file");
+  physics::check_engine_name(engine);
+  check_referees();
   neat.validate();
   trial.validate();
   noise.validate(trial);
   if (search.kind == search::Kind::novelty) search.novelty.validate(behaviour_length());
+}
+
+void Config::check_referees() const {
+  for (auto referee = referees.begin(); referee != referees.end(); ++referee) {
+    physics::check_engine_name(*referee, "referees: ");
+    if (*referee == engine)
+      fail(ExitCode::bad_input, "referees: '{}' is the engine of the run itself", *referee);
+    if (std::find(referees.begin(), referee, *referee) != referee)
+      fail(ExitCode::bad_input, "referees: '{}' is named twice", *referee);
+  }
 }
 
 std::size_t Config::behaviour_length() const {

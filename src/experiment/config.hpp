@@ -23,6 +23,7 @@ struct Config {
   std::string name = "unnamed";
   std::string robot;  ///< robot file (TOML side file, or robot.json of a run folder)
   std::string engine = "ode";
+  std::vector<std::string> referees;  ///< engines in which each new champion is tried again
   std::int64_t seed = 1;
   int generations = 800;
   neat::Settings neat;
@@ -39,6 +40,9 @@ struct Config {
   std::size_t behaviour_length() const;
   /// The whole config as TOML with comments; reads back to the same values.
   std::string to_toml() const;
+
+ private:
+  void check_referees() const;
 };
 
 /// What the command line may lay over a config file.

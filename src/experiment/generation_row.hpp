@@ -25,7 +25,7 @@ struct GenerationRow {
   double wall_s = 0.0;                               ///< since the row before
   StageTimes times;                                  ///< of which; files are those of the row before
 
-  double outside_s() const { return wall_s - times.physics_s; }
+  double outside_s() const { return wall_s - times.physics_s - times.referees_s; }
 };
 
 /// Names of the columns, one line.

@@ -14,14 +14,13 @@ namespace amble::experiment {
 
 /// How a champion is run again; what is not given is as in its own file.
 struct ReplayOptions {
-  std::optional<double> seconds;
-  std::optional<std::string> engine;
-  std::optional<std::filesystem::path> record;  ///< writes a recording (record/recording.hpp)
-  std::string origin;                           ///< named in the recording
-  trial::Observer* observer = nullptr;          ///< not owned; sees motor torques if the engine tells them
-  bool trace = true;                            ///< keep a hash per step; off for trials of hours
-  std::optional<trial::ScenarioKey> noise =
-      std::nullopt;  ///< under the problem's noise; nothing: without any
+  std::optional<double> seconds = {};
+  std::optional<std::string> engine = {};
+  std::optional<std::filesystem::path> record = {};  ///< writes a recording (record/recording.hpp)
+  std::string origin = {};                           ///< named in the recording
+  trial::Observer* observer = nullptr;           ///< not owned; sees motor torques if the engine tells them
+  bool trace = true;                             ///< keep a hash per step; off for trials of hours
+  std::optional<trial::ScenarioKey> noise = {};  ///< under the problem's noise; nothing: without any
 };
 
 struct Replay {

@@ -6,6 +6,7 @@
 #include "amble/core/clock.hpp"
 #include "amble/core/error.hpp"
 #include "amble/experiment/episodes.hpp"
+#include "amble/experiment/referees.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/score/path_behaviour.hpp"
 
@@ -17,6 +18,26 @@ void check_memory(const Config& config) {
   if (config.search.kind == search::Kind::novelty)
     config.search.novelty.check_memory(config.behaviour_length(), config.neat.population.size,
                                        search::machine_memory_bytes());
+}
+
+/// Throws UserError if the run or one of its referees cannot be.
+void complain_early(const Config& config, const morphology::RobotSpec& robot) {
+  auto problem = Problem::make(config, robot);
+  for (const auto& referee : config.referees) {
+    problem.engine = referee;
+    try {
+      problem.make_engine();
+    } catch (const UserError& error) {
+      fail(error.code(), "referees: {}", error.what());
+    }
+  }
+}
+
+/// Throws UserError for a table that rows of this version would not fit into.
+void check_columns(const std::filesystem::path& path) {
+  if (io::InputFile(path).read(csv_header().size()) != csv_header())
+    fail(ExitCode::bad_file, "{}: has other columns: the run was begun by another version of amble",
+         path.string());
 }
 
 /// Returns how many bytes of the file the search has taken back; nothing if it keeps no archive.
@@ -42,7 +63,7 @@ Run::Run(RunFolder folder, const Config& config, const morphology::RobotSpec& ro
 Run Run::start(const std::filesystem::path& folder, const Config& config, int jobs) {
   check_memory(config);
   const auto robot = load_robot_file(config.robot);
-  Problem::make(config, robot);  // complain before anything is written
+  complain_early(config, robot);  // before anything is written
   Run run(RunFolder::create(folder, robot), config, robot, jobs);
   run.csv_ = std::make_unique<io::AppendFile>(run.paths().generations, 0);
   run.csv_->append(csv_header());
@@ -68,6 +89,7 @@ Run Run::resume(const std::filesystem::path& folder, std::optional<int> generati
   if (generations && *generations < run.generation())
     fail(ExitCode::bad_input, "{}: {} generations are done already, --generations {} asks for fewer",
          folder.string(), run.generation(), *generations);
+  check_columns(run.paths().generations);
   const auto archive_bytes = restore_archive(run.paths().archive, *run.search_);
   run.csv_ = std::make_unique<io::AppendFile>(run.paths().generations, run.progress_.csv_bytes);
   if (archive_bytes) run.archive_ = std::make_unique<io::AppendFile>(run.paths().archive, *archive_bytes);
@@ -154,9 +176,7 @@ bool Run::keep_champion(std::size_t best, GenerationRow& row, const std::atomic<
   row.times.physics_s += undisturbed->physics_s;
   if (problem_->noise.any())
     for (std::size_t i = 0; i < static_cast<std::size_t>(problem_->noise.episodes); ++i) {
-      ReplayOptions options;
-      options.noise = champion.scenario_key(i);
-      const auto again = replay(*problem_, champion.genome, options, stop);
+      const auto again = replay(*problem_, champion.genome, {.noise = champion.scenario_key(i)}, stop);
       if (!again) return false;
       champion.episodes.push_back({again->result, again->trace});
       row.times.physics_s += again->physics_s;
@@ -165,6 +185,12 @@ bool Run::keep_champion(std::size_t best, GenerationRow& row, const std::atomic<
     fail(ExitCode::differs,
          "generation {}: the champion walked {} m, and {} m when run again: the engine does not repeat",
          champion.generation, row.best_m, champion.objective_m());
+  if (!config_.referees.empty()) {
+    const Stopwatch watch(row.times.referees_s);
+    auto judged = ask_referees(*problem_, champion.genome, config_.referees, {.jobs = jobs_}, stop);
+    if (!judged) return false;
+    champion.referees = std::move(*judged);
+  }
   {
     const Stopwatch watch(row.times.files_s);
     folder_.save_champion(champion);

@@ -50,8 +50,8 @@ class Run {
  private:
   Run(RunFolder folder, const Config& config, const morphology::RobotSpec& robot, int jobs);
 
-  /// What these do, and how long it takes, is noted in `row`. The best genome's objective is row.best_m;
-  /// false if `stop` was set meanwhile.
+  /// What these do, and how long it takes, is noted in `row`. The best genome's objective is row.best_m; it
+  /// is run again, here and in the referees; false if `stop` was set meanwhile.
   bool keep_champion(std::size_t best, GenerationRow& row, const std::atomic<bool>& stop);
   std::vector<neat::Fitness> judge(const GenerationResult& result, std::span<const double> distances_m,
                                    GenerationRow& row);

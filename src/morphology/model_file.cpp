@@ -6,13 +6,11 @@
 #include <array>
 #include <cstdio>
 #include <cstring>
-#include <mutex>
-#include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
+#include "amble/morphology/complaints.hpp"
 
 namespace amble::morphology {
 namespace {
@@ -42,7 +40,7 @@ std::string with_root_kept(std::string text, const std::filesystem::path& path) 
   return text;
 }
 
-/// A one-file file system in memory, from which MuJoCo reads the amended text.
+/// A one-file file system in memory, from which MuJoCo reads a text.
 class MemoryFile {
  public:
   MemoryFile(const std::filesystem::path& path, const std::string& text) : files_(std::make_unique<mjVFS>()) {
@@ -62,55 +60,17 @@ class MemoryFile {
   std::unique_ptr<mjVFS> files_;
 };
 
-/// What MuJoCo reports as a fatal error, after which its default handler ends the process.
-class FatalComplaint : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-void throw_complaint(const char* text) {
-  throw FatalComplaint(text);
-}
-void ignore_warning(const char*) {}
-
-/// Redirects MuJoCo's complaints while it lives. The handlers belong to the whole process, so models are
-/// loaded one at a time, and a program that uses MuJoCo itself gets its own handlers back.
-class ComplaintsCaught {
- public:
-  ComplaintsCaught()
-      : lock_(mutex()),
-        error_(std::exchange(mju_user_error, throw_complaint)),
-        // MuJoCo's default writes a log file into the current folder.
-        warning_(std::exchange(mju_user_warning, ignore_warning)) {}
-  ~ComplaintsCaught() {
-    mju_user_error = error_;
-    mju_user_warning = warning_;
-  }
-  ComplaintsCaught(const ComplaintsCaught&) = delete;
-  ComplaintsCaught& operator=(const ComplaintsCaught&) = delete;
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex one_for_all;
-    return one_for_all;
-  }
-
-  std::lock_guard<std::mutex> lock_;
-  void (*error_)(const char*);
-  void (*warning_)(const char*);
-};
-
-mjModel* load(const std::filesystem::path& path, const mjVFS* files) {
+ModelPointer load(const std::filesystem::path& path, const mjVFS* files, const std::string& what) {
   const ComplaintsCaught caught;
   std::array<char, 1000> complaint{};
-  mjModel* model = nullptr;
+  ModelPointer model;
   try {
-    model = mj_loadXML(path.c_str(), files, complaint.data(), static_cast<int>(complaint.size()));
+    model.reset(mj_loadXML(path.c_str(), files, complaint.data(), static_cast<int>(complaint.size())));
   } catch (const FatalComplaint& fatal) {
     std::snprintf(complaint.data(), complaint.size(), "%s", fatal.what());
   }
   if (model == nullptr) {
-    fail(ExitCode::bad_input, "{}: MuJoCo refuses the model: {}", path.string(), one_line(complaint.data()));
+    fail(ExitCode::bad_input, "{}: MuJoCo refuses the model: {}", what, one_line(complaint.data()));
   }
   return model;
 }
@@ -128,11 +88,16 @@ ModelFile compile_model(const std::filesystem::path& path) {
   if (path.extension() == ".urdf") {
     compiled.root_is_welded = true;
     const MemoryFile amended(path, with_root_kept(text, path));
-    compiled.model.reset(load(path, amended.get()));
+    compiled.model = load(path, amended.get(), path.string());
   } else {
-    compiled.model.reset(load(path, nullptr));
+    compiled.model = load(path, nullptr, path.string());
   }
   return compiled;
+}
+
+ModelPointer compile_mjcf(const std::string& text, const std::string& what) {
+  const MemoryFile file("model.xml", text);
+  return load("model.xml", file.get(), what);
 }
 
 }  // namespace amble::morphology

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 struct mjModel_;  // MuJoCo's mjModel
 
@@ -11,9 +12,11 @@ struct DeleteModel {
   void operator()(mjModel_* model) const;
 };
 
+using ModelPointer = std::unique_ptr<mjModel_, DeleteModel>;
+
 /// A robot's model as MuJoCo's compiler understood it.
 struct ModelFile {
-  std::unique_ptr<mjModel_, DeleteModel> model;
+  ModelPointer model;
   std::filesystem::path path;
   bool root_is_welded = false;  ///< URDF cannot say that the root link moves freely: it hangs on the world
 };
@@ -21,5 +24,9 @@ struct ModelFile {
 /// Compiles MJCF (.xml, .mjcf) or URDF (.urdf). Throws UserError: missing file (ExitCode::io), or the
 /// compiler's own complaint in one line.
 ModelFile compile_model(const std::filesystem::path& path);
+
+/// Compiles the text of an MJCF model that refers to no other files. Throws UserError with the compiler's
+/// complaint in one line, behind `what`.
+ModelPointer compile_mjcf(const std::string& text, const std::string& what);
 
 }  // namespace amble::morphology

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string_view>
@@ -82,8 +83,14 @@ class Engine {
   virtual std::uint64_t state_hash(int lane) const = 0;
 };
 
-/// Makes the engine of that name: "ode" or "batch". Throws UserError for an unknown name or a robot that the
-/// engine cannot simulate.
+inline constexpr std::array<std::string_view, 3> engine_names{"ode", "batch", "mujoco"};
+
+/// Throws UserError unless it is one of engine_names. `what` stands in front of the complaint, e.g.
+/// "referees: ".
+void check_engine_name(std::string_view name, std::string_view what = "");
+
+/// Makes the engine of that name. Throws UserError for an unknown name or a robot that the engine cannot
+/// simulate.
 std::unique_ptr<Engine> make_engine(std::string_view name, const morphology::RobotSpec& robot,
                                     const EngineSettings& settings);
 

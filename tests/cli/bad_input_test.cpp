@@ -137,6 +137,11 @@ TEST_F(BadInput, UnknownEngine) {
                    "newton");
 }
 
+TEST_F(BadInput, UnknownReferee) {
+  expect_complaint({"evolve", config, "--set", "referees=[\"newton\"]", "--out", out_}, ExitCode::bad_input,
+                   "referees: unknown engine 'newton': expected ode, batch, mujoco");
+}
+
 TEST_F(BadInput, SubstrateThatDoesNotHoldTogether) {
   expect_complaint({"evolve", config, "--set", "controller.substrate.outputs=[\"pattern\"]", "--out", out_},
                    ExitCode::bad_input,

@@ -46,7 +46,7 @@ class ScratchFolder {
 std::string slurp(const std::filesystem::path& path);
 void spill(const std::filesystem::path& path, const std::string& text);
 
-/// generations.csv without its last three columns, which are times.
+/// generations.csv without its last four columns, which are times.
 std::string without_times(const std::string& csv);
 
 /// Every champion file's name and text.

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "amble/core/error.hpp"
+#include "amble/io/json_file.hpp"
 #include "tests/cli/process.hpp"
 
 namespace amble::tests {
@@ -39,7 +40,7 @@ void wait_for_rows(const std::filesystem::path& run, long rows) {
 }
 
 class RunOnEngine : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Run, RunOnEngine, testing::Values("ode", "batch"),
+INSTANTIATE_TEST_SUITE_P(Run, RunOnEngine, testing::Values("ode", "batch", "mujoco"),
                          [](const auto& engine) { return std::string(engine.param); });
 
 TEST_P(RunOnEngine, GivesTheSameBytesForOneTwoAndFiveWorkers) {
@@ -170,6 +171,43 @@ TEST_P(RunOnEngine, MeetsNoiseOnlyWhereItIsAskedForAndIsVerified) {
   const auto refused = amble({"trial", quiet, "--noise", "0"});
   EXPECT_EQ(refused.exit_code, static_cast<int>(ExitCode::bad_input));
   EXPECT_NE(refused.err.find("was evolved without noise"), std::string::npos) << refused.err;
+}
+
+TEST(Referees, AreShownByInfoTrialAndCompareAndLeaveVerifyAlone) {
+  const ScratchFolder scratch;
+  auto arguments = evolve(scratch / "run", 2, 2);
+  arguments.insert(arguments.end(), {"--set", "engine=batch", "--set", "referees=[\"ode\", \"mujoco\"]"});
+  const auto run = amble(arguments);
+  ASSERT_EQ(run.exit_code, ok) << run.err;
+  const auto verified = amble({"verify", scratch / "run"});
+  EXPECT_EQ(verified.exit_code, ok) << verified.out;
+
+  std::string champion;  // the best, which is the last
+  for (const auto& file : std::filesystem::directory_iterator(scratch.path / "run/champions"))
+    champion = std::max(champion, file.path().string());
+  const auto trial = amble({"trial", champion, "--engine", "mujoco"});
+  EXPECT_TRUE(trial.out.starts_with("engine    mujoco (evolved in batch)\n")) << trial.out;
+  const auto label = trial.out.find("distance  ") + 10;
+  const auto distance = trial.out.substr(label, trial.out.find('\n', label) - label);
+
+  const auto info = amble({"info", champion});
+  EXPECT_NE(info.out.find("in mujoco   " + distance + ", "), std::string::npos) << info.out;
+  const auto table = amble({"compare", champion, scratch / "run", "--engines", "mujoco"});
+  ASSERT_EQ(table.exit_code, ok) << table.err;
+  EXPECT_NE(table.out.find("in batch "), std::string::npos)
+      << "the home engine is always there: " << table.out;
+  EXPECT_EQ(table.out.find("in ode"), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("\nmedian; kept 70 %"), std::string::npos) << "two rows: " << table.out;
+  EXPECT_NE(table.out.find("  " + distance + ", "), std::string::npos) << table.out;
+  const auto markdown = amble({"compare", champion, "--engines", "mujoco", "--format", "markdown"}).out;
+  EXPECT_TRUE(markdown.starts_with(
+      "| champion | evolved in | trial | in batch | in mujoco |\n|---|---|---|---|---|\n"))
+      << markdown;
+  const auto list = io::Json::parse(amble({"compare", champion, "--seconds", "1,2", "--format", "json"}).out);
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_EQ(list[1]["trial_s"], 2.0);
+  EXPECT_EQ(list[0]["evolved_in"], "batch");
+  EXPECT_EQ(list[0]["results"].size(), 3u);
 }
 
 TEST_P(RunOnEngine, HasChampionsWhoseRecordingInfoAndPageCanRead) {

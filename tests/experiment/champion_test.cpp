@@ -79,6 +79,34 @@ TEST(Champion, EvolvedUnderNoiseReadsBackWithItsEpisodes) {
   EXPECT_EQ(champion_text(again), text);
 }
 
+TEST(Champion, CarriesWhatItsRefereesSaidUnderItsSeal) {
+  auto champion = some_champion();
+  champion.referees = {{"ode", {.distance_m = 0.15, .steps = 100, .seconds = 1.0}},
+                       {"mujoco", {.distance_m = 0.7, .steps = 9, .outcome = record::Outcome::diverged}}};
+  const auto text = champion_text(champion);
+  const auto again = parse_champion(text, "c.json").champion;
+  ASSERT_EQ(again.referees.size(), 2u);
+  EXPECT_EQ(again.referees[0].engine, "ode");
+  EXPECT_EQ(again.referees[0].result.distance_m, 0.15);
+  EXPECT_EQ(again.referees[1].result.outcome, record::Outcome::diverged);
+  EXPECT_EQ(champion_text(again), text);
+  const auto document = io::Json::parse(text);
+  EXPECT_EQ(document["referees"][0]["kept"], 0.15 / (0.1 + 0.2));
+
+  auto altered = text;
+  altered.replace(altered.find("0.7,"), 3, "0.8");
+  EXPECT_THAT(complaint(altered), HasSubstr("checksum"));
+}
+
+TEST(Champion, WithoutRefereesSaysNothingOfThem) {
+  EXPECT_EQ(champion_text(some_champion()).find("referees"), std::string::npos);
+}
+
+TEST(Champion, KeepsAShareOfAnyDistanceButNone) {
+  EXPECT_EQ(share_kept(1.5, 3.0), 0.5);
+  EXPECT_EQ(share_kept(1.5, 0.0), std::nullopt);
+}
+
 TEST(Champion, IsJudgedByWhatItsEpisodesMakeOfIt) {
   auto champion = noisy_champion();
   EXPECT_EQ(champion.objective_m(), 0.3);

@@ -103,6 +103,27 @@ TEST(Config, TakesOverridesInOrderAndBareWordsAsText) {
   EXPECT_EQ(config.generations, 4);
 }
 
+TEST(Config, RefereesAreOtherEnginesThanItsOwn) {
+  const auto complaint = [](const std::string& assignment) -> std::string {
+    try {
+      load_config(configs + "authors/supg-objective.toml",
+                  {.assignments = {assignment}, .seed = {}, .generations = {}});
+    } catch (const UserError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(complaint("referees=[\"mujoco\", \"batch\"]"), "accepted");
+  EXPECT_THAT(complaint("engine=newton"),
+              testing::HasSubstr("unknown engine 'newton': expected ode, batch, mujoco"));
+  EXPECT_THAT(complaint("referees=[\"newton\"]"),
+              testing::HasSubstr("referees: unknown engine 'newton': expected ode, batch, mujoco"));
+  EXPECT_THAT(complaint("referees=[\"ode\"]"),
+              testing::HasSubstr("referees: 'ode' is the engine of the run itself"));
+  EXPECT_THAT(complaint("referees=[\"mujoco\", \"mujoco\"]"),
+              testing::HasSubstr("referees: 'mujoco' is named twice"));
+}
+
 TEST(Config, WithoutARobotIsRefusedByName) {
   const ScratchFolder scratch;
   io::write_file(scratch.path / "c.toml", "seed = 1\n");

@@ -63,12 +63,12 @@ TEST(GenerationRow, HasCellsOfNoveltySearchThatAreEmptyForOtherSearches) {
 
 TEST(GenerationRow, EndsWithItsTimes) {
   EXPECT_TRUE(csv_header().ends_with(
-      ",steps,wall_s,outside_s,physics_s,decode_s,control_s,waiting_s,judge_s,breed_s,files_s\n"));
+      ",steps,wall_s,outside_s,physics_s,decode_s,control_s,waiting_s,judge_s,breed_s,referees_s,files_s\n"));
   GenerationRow row;
   row.wall_s = 2.0;
-  row.times = {.physics_s = 1.5, .files_s = 0.125};
+  row.times = {.physics_s = 1.25, .referees_s = 0.25, .files_s = 0.125};
   EXPECT_EQ(cell(csv_line(row), "outside_s"), "0.500000");
-  EXPECT_EQ(cell(csv_line(row), "physics_s"), "1.500000");
+  EXPECT_EQ(cell(csv_line(row), "physics_s"), "1.250000");
   EXPECT_TRUE(csv_line(row).ends_with(",0.125000\n"));
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "amble/core/error.hpp"
+#include "amble/experiment/replay.hpp"
 #include "amble/io/file.hpp"
 #include "tests/experiment/fixture.hpp"
 
@@ -180,6 +181,69 @@ TEST(ObjectiveRun, KeepsNoArchiveAndRecordsNoPaths) {
   Run::start(scratch.path / "run", config, 1).execute(listener, listener.stop);
   EXPECT_FALSE(std::filesystem::exists(RunPaths(scratch.path / "run").archive));
   EXPECT_FALSE(listener.rows.front().novelty);
+}
+
+TEST(RefereedRun, TriesEachChampionInTheRefereesAndIsTheSameRunOtherwise) {
+  const ScratchFolder scratch;
+  const auto folder = [&](int jobs) { return scratch.path / ("refereed" + std::to_string(jobs)); };
+  Listener plain, refereed;
+  Run::start(scratch.path / "plain", small_config({"engine=batch"}), 1).execute(plain, plain.stop);
+  for (const int jobs : {1, 2})
+    Run::start(folder(jobs), small_config({"engine=batch", "referees=[\"mujoco\", \"ode\"]"}), jobs)
+        .execute(refereed, refereed.stop);
+  EXPECT_EQ(champions(folder(1)), champions(folder(2)));
+  EXPECT_GT(refereed.rows.front().times.referees_s, 0.0);
+  EXPECT_EQ(plain.rows.front().times.referees_s, 0.0);
+  const auto files = RunPaths(folder(1)).champion_files();
+  ASSERT_FALSE(files.empty());
+  for (const auto& file : files) {
+    const auto champion = load_champion(file);
+    ASSERT_EQ(champion.referees.size(), 2u);
+    for (const auto& [engine, result] : champion.referees) {
+      const auto again = replay(champion.problem, champion.genome, {.engine = engine}, refereed.stop);
+      EXPECT_EQ(result.distance_m, again->result.distance_m) << engine;
+      EXPECT_EQ(result.steps, again->result.steps) << engine;
+    }
+    EXPECT_EQ(champion.referees[0].engine, "mujoco");
+    const auto twin = load_champion(scratch.path / "plain/champions" / file.filename());
+    EXPECT_TRUE(twin.referees.empty());
+    EXPECT_EQ(champion.genome, twin.genome);
+    EXPECT_EQ(champion.trace, twin.trace);
+  }
+}
+
+TEST(RefereedRun, IsRefusedBeforeAnythingIsWrittenIfARefereeCannotSimulateTheRobot) {
+  const ScratchFolder scratch;
+  auto robot = load_robot_file(small_config().robot);
+  robot.self_collision = true;
+  io::write_file(scratch.path / "robot.json", robot_file_text(robot));
+  auto config = small_config({"referees=[\"batch\"]"});
+  config.robot = (scratch.path / "robot.json").string();
+  try {
+    Run::start(scratch.path / "run", config, 1);
+    ADD_FAILURE() << "accepted";
+  } catch (const UserError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("referees: the batch engine knows no self-collision"))
+        << error.what();
+  }
+  EXPECT_FALSE(std::filesystem::exists(scratch.path / "run"));
+}
+
+TEST(Run, IsNotResumedIntoATableOfOtherColumns) {
+  const ScratchFolder scratch;
+  Listener listener;
+  Run::start(scratch.path / "run", small_config(), 1).execute(listener, listener.stop);
+  const auto table = RunPaths(scratch.path / "run").generations;
+  auto text = io::read_file(table);
+  text.replace(text.find("referees_s"), 10, "something_");
+  io::write_file(table, text);
+  try {
+    Run::resume(scratch.path / "run", 4, 1);
+    ADD_FAILURE() << "accepted";
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.what(),
+              table.string() + ": has other columns: the run was begun by another version of amble");
+  }
 }
 
 TEST(Run, LeavesNothingBehindWhenTheRobotIsUnknown) {

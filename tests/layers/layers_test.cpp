@@ -87,8 +87,9 @@ std::string letters_of(const testing::TestParamInfo<Library>& library) {
 
 INSTANTIATE_TEST_SUITE_P(Layers, OneDoor,
                          testing::Values(Library{"<ode/", {"physics/ode/"}}, Library{"<CLI/", {"cli/"}},
-                                         Library{"<mujoco/", {"morphology/"}}, Library{"<toml++/", {"io/"}},
-                                         Library{"<xxhash", {"core/"}}, Library{"<Random123/", {"core/"}},
+                                         Library{"<mujoco/", {"morphology/", "physics/mujoco/"}},
+                                         Library{"<toml++/", {"io/"}}, Library{"<xxhash", {"core/"}},
+                                         Library{"<Random123/", {"core/"}},
                                          Library{"<hwy/", {"cppn/", "physics/batch/"}},
                                          Library{"<zlib", {"record/"}}, Library{"<cblas", {"search/"}}),
                          letters_of);

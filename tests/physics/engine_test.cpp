@@ -1,5 +1,6 @@
 #include "amble/physics/engine.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -26,7 +27,20 @@ ON_EACH_ENGINE(Place);
 ON_EACH_ENGINE(Retire);
 
 TEST(MakeEngine, RefusesAnUnknownName) {
-  EXPECT_EQ(refusal(quadruped(), "odd"), "unknown engine 'odd': expected ode or batch");
+  EXPECT_EQ(refusal(quadruped(), "odd"), "unknown engine 'odd': expected ode, batch, mujoco");
+}
+
+TEST(MakeEngine, MujocoRefusesAnImpossibleInertia) {
+  morphology::RobotSpec robot = quadruped();
+  robot.bodies[0].inertia_kg_m2 = {1.0, 1.0, 3.0};  // no body has more than the sum of the other two
+  EXPECT_EQ(refusal(robot, "ode"), "accepted");
+  EXPECT_THAT(refusal(robot, "mujoco"), testing::StartsWith("the mujoco engine: MuJoCo refuses the model: "));
+}
+
+TEST(MakeEngine, MujocoTakesWhatOdeHasNoJointFor) {
+  morphology::RobotSpec robot = quadruped();
+  robot.joints[1].axis = {0.6, 0.8, 0.0};
+  EXPECT_EQ(refusal(robot, "mujoco"), "accepted");
 }
 
 TEST(MakeEngine, OdeRefusesThreeJointsOnOneBody) {

@@ -12,6 +12,8 @@ namespace {
 
 class Joints : public OnEachEngine {};
 ON_EACH_ENGINE(Joints);
+class SelfCollision : public OnEachEngine {};
+ON_EACH_REFEREE(SelfCollision);
 
 std::vector<double> angles(const Bench& bench) {
   std::vector<double> values;
@@ -115,12 +117,12 @@ TEST_P(Joints, StopsHold) {
   EXPECT_NEAR(bench.angle(0), -0.1, 1e-4);  // and comes to rest there, against its weight
 }
 
-TEST(OdeJoints, LegsPassThroughEachOtherUnlessSelfCollisionIsOn) {
+TEST_P(SelfCollision, LetsLegsPassThroughEachOtherUnlessItIsOn) {
   // Left front leg back, left hind leg forward: their feet would cross.
-  const auto meeting = [](bool self_collision) {
+  const auto meeting = [&](bool self_collision) {
     morphology::RobotSpec robot = weightless(quadruped());
     robot.self_collision = self_collision;
-    Bench bench(robot);
+    Bench bench(GetParam(), robot);
     bench.targets.at(1, 0) = 0.8f;
     bench.targets.at(7, 0) = -0.8f;
     bench.steps(300);
@@ -131,11 +133,11 @@ TEST(OdeJoints, LegsPassThroughEachOtherUnlessSelfCollisionIsOn) {
   EXPECT_LT(meeting(true), 1.3);
 }
 
-TEST(OdeJoints, SelfCollisionLeavesStandingAlone) {
+TEST_P(SelfCollision, LeavesStandingAlone) {
   morphology::RobotSpec robot = quadruped();
   robot.self_collision = true;
-  Bench with(robot);
-  Bench without(quadruped());
+  Bench with(GetParam(), robot);
+  Bench without(GetParam(), quadruped());
   with.steps(100);
   without.steps(100);
   EXPECT_EQ(with.engine->state_hash(0), without.engine->state_hash(0));

@@ -64,10 +64,15 @@ struct Bench {
 class OnEachEngine : public testing::TestWithParam<const char*> {
  protected:
   bool single_precision() const { return std::string(GetParam()) == "batch"; }
+  /// Joint angles and their speeds as coordinates keep the robot's momentum to first order in the time step.
+  bool drifting() const { return std::string(GetParam()) == "mujoco"; }
 };
-#define ON_EACH_ENGINE(suite)                                               \
-  INSTANTIATE_TEST_SUITE_P(Physics, suite, testing::Values("ode", "batch"), \
+#define ON_ENGINES(suite, ...)                                           \
+  INSTANTIATE_TEST_SUITE_P(Physics, suite, testing::Values(__VA_ARGS__), \
                            [](const auto& engine) { return std::string(engine.param); })
+#define ON_EACH_ENGINE(suite) ON_ENGINES(suite, "ode", "batch", "mujoco")
+/// Those that step one robot at a time, in double precision.
+#define ON_EACH_REFEREE(suite) ON_ENGINES(suite, "ode", "mujoco")
 
 /// Forward kinematics: where all bodies are for a pose of the root and joint angles. Independent of any
 /// engine.

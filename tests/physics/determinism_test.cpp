@@ -25,23 +25,26 @@ std::uint64_t trial(Engine& engine, int gait, int steps = 300) {
   return hash_span<std::uint64_t>(hashes);
 }
 
-TEST(OdeDeterminism, ATrialDoesNotDependOnWhatRanBefore) {
+class Determinism : public OnEachEngine {};
+ON_EACH_REFEREE(Determinism);
+
+TEST_P(Determinism, ATrialDoesNotDependOnWhatRanBefore) {
   for (const bool self_collision : {false, true}) {
     morphology::RobotSpec robot = quadruped();
     robot.self_collision = self_collision;
-    const auto engine = make_engine("ode", robot, {});
+    const auto engine = make_engine(GetParam(), robot, {});
     const std::uint64_t first = trial(*engine, 1);
     const std::uint64_t other = trial(*engine, 2);
     EXPECT_NE(first, other);
     EXPECT_EQ(trial(*engine, 1), first);
-    EXPECT_EQ(trial(*make_engine("ode", robot, {}), 1), first);
+    EXPECT_EQ(trial(*make_engine(GetParam(), robot, {}), 1), first);
   }
 }
 
-TEST(OdeDeterminism, TrialsOfSeveralEnginesCanBeInterleaved) {
+TEST_P(Determinism, TrialsOfSeveralEnginesCanBeInterleaved) {
   const morphology::RobotSpec robot = quadruped("paper");
-  const auto one = make_engine("ode", robot, {});
-  const auto two = make_engine("ode", robot, {});
+  const auto one = make_engine(GetParam(), robot, {});
+  const auto two = make_engine(GetParam(), robot, {});
   LaneArray targets(12, 1);
   one->place(0);
   two->place(0);
@@ -53,11 +56,11 @@ TEST(OdeDeterminism, TrialsOfSeveralEnginesCanBeInterleaved) {
   }
 }
 
-TEST(OdeDeterminism, ThreadsDoNotDisturbEachOther) {
+TEST_P(Determinism, ThreadsDoNotDisturbEachOther) {
   const morphology::RobotSpec robot = quadruped();
   constexpr int gaits = 3;
   std::vector<std::uint64_t> alone;
-  const auto engine = make_engine("ode", robot, {});
+  const auto engine = make_engine(GetParam(), robot, {});
   for (int gait = 0; gait < gaits; ++gait) alone.push_back(trial(*engine, gait, 150));
 
   std::vector<std::vector<std::uint64_t>> together(2);
@@ -65,7 +68,7 @@ TEST(OdeDeterminism, ThreadsDoNotDisturbEachOther) {
     std::vector<std::jthread> threads;
     for (auto& hashes : together) {
       threads.emplace_back([&robot, &hashes] {
-        const auto own = make_engine("ode", robot, {});
+        const auto own = make_engine(GetParam(), robot, {});
         for (int gait = 0; gait < gaits; ++gait) hashes.push_back(trial(*own, gait, 150));
       });
     }
@@ -74,12 +77,12 @@ TEST(OdeDeterminism, ThreadsDoNotDisturbEachOther) {
   EXPECT_EQ(together[1], alone);
 }
 
-TEST(OdeDeterminism, AnEngineMayBeMadeInOneThreadAndUsedInAnother) {
+TEST_P(Determinism, AnEngineMayBeMadeInOneThreadAndUsedInAnother) {
   const morphology::RobotSpec robot = quadruped();
-  const auto engine = make_engine("ode", robot, {});
+  const auto engine = make_engine(GetParam(), robot, {});
   std::uint64_t elsewhere = 0;
   std::jthread([&] { elsewhere = trial(*engine, 1, 50); }).join();
-  EXPECT_EQ(trial(*make_engine("ode", robot, {}), 1, 50), elsewhere);
+  EXPECT_EQ(trial(*make_engine(GetParam(), robot, {}), 1, 50), elsewhere);
 }
 
 }  // namespace

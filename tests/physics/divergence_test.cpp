@@ -25,8 +25,11 @@ morphology::RobotSpec crushed() {
   return robot;
 }
 
-TEST(OdeDivergence, ATargetThatIsNotANumberEndsTheTrialAndNotTheProcess) {
-  Bench bench(quadruped());
+class Divergence : public OnEachEngine {};
+ON_EACH_ENGINE(Divergence);
+
+TEST_P(Divergence, ATargetThatIsNotANumberEndsTheTrialAndNotTheProcess) {
+  Bench bench(GetParam(), quadruped());
   bench.steps(20);
   const std::uint64_t healthy = bench.engine->state_hash(0);
   ASSERT_TRUE(bench.engine->healthy(0));
@@ -43,8 +46,8 @@ TEST(OdeDivergence, ATargetThatIsNotANumberEndsTheTrialAndNotTheProcess) {
   EXPECT_EQ(bench.engine->state_hash(0), healthy);
 }
 
-TEST(OdeDivergence, ForcesBeyondAllNumbersEndTheTrialAndNotTheProcess) {
-  Bench bench(crushed());
+TEST_P(Divergence, ForcesBeyondAllNumbersEndTheTrialAndNotTheProcess) {
+  Bench bench(GetParam(), crushed());
   const std::uint64_t start = bench.engine->state_hash(0);
   for (int i = 0; i < 100; ++i) {
     bench.steps(3);
@@ -55,16 +58,16 @@ TEST(OdeDivergence, ForcesBeyondAllNumbersEndTheTrialAndNotTheProcess) {
   }
 }
 
-TEST(OdeDivergence, OneEnginesFaultLeavesTheOthersAlone) {
-  Bench undisturbed(quadruped());
+TEST_P(Divergence, OneEnginesFaultLeavesTheOthersAlone) {
+  Bench undisturbed(GetParam(), quadruped());
   undisturbed.steps(40);
   std::vector<int> faults(2, 0);
-  Bench bench(quadruped());
+  Bench bench(GetParam(), quadruped());
   {
     std::vector<std::jthread> threads;
     for (int& count : faults) {
       threads.emplace_back([&count] {
-        Bench own(crushed());
+        Bench own(GetParam(), crushed());
         for (int i = 0; i < 20; ++i) {
           own.steps(2);
           count += own.engine->healthy(0) ? 0 : 1;
@@ -78,10 +81,10 @@ TEST(OdeDivergence, OneEnginesFaultLeavesTheOthersAlone) {
   EXPECT_EQ(bench.engine->state_hash(0), undisturbed.engine->state_hash(0));
 }
 
-TEST(OdeDivergence, AbsurdSpeedIsNotHealthy) {
+TEST_P(Divergence, AbsurdSpeedIsNotHealthy) {
   morphology::RobotSpec robot = lifted(scene("box"), 1e6);
   robot.gravity_m_s2 = {0.0, 0.0, -9.8e3};
-  Bench bench(robot);
+  Bench bench(GetParam(), robot);
   bench.steps(10);  // 980 m/s
   EXPECT_TRUE(bench.engine->healthy(0));
   bench.steps(1);  // 1078 m/s

@@ -1,0 +1,106 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "amble/cli/commands.hpp"
+#include "amble/cli/compare_table.hpp"
+#include "amble/cli/stop_signal.hpp"
+#include "amble/experiment/referees.hpp"
+#include "amble/experiment/run_folder.hpp"
+#include "amble/physics/engine.hpp"
+
+namespace amble::cli {
+namespace {
+
+constexpr std::array formats{"text", "markdown", "json"};
+
+struct CompareOptions {
+  std::vector<std::filesystem::path> inputs;
+  std::vector<double> seconds;  ///< none: as in the champion's evolution
+  std::vector<std::string> engines{physics::engine_names.begin(), physics::engine_names.end()};
+  std::string format = formats[0];
+};
+
+struct Entrant {
+  std::string name;
+  experiment::Champion champion;
+};
+
+std::vector<Entrant> load(const std::vector<std::filesystem::path>& inputs) {
+  std::vector<Entrant> entrants;
+  for (const auto& input : inputs) {
+    const bool is_run = std::filesystem::is_directory(input);
+    const auto path = is_run ? experiment::find_run(input).best_champion() : input;
+    entrants.push_back({input.string(), experiment::load_champion(path)});
+  }
+  return entrants;
+}
+
+/// Those asked for, and every champion's own, which the others are compared to.
+std::vector<std::string> columns(const std::vector<std::string>& asked,
+                                 const std::vector<Entrant>& entrants) {
+  for (const auto& engine : asked) physics::check_engine_name(engine, "--engines: ");
+  std::vector<std::string> engines;
+  for (const auto& name : physics::engine_names)
+    if (std::ranges::count(asked, name) > 0 || std::ranges::any_of(entrants, [&](const Entrant& entrant) {
+          return entrant.champion.problem.engine == name;
+        }))
+      engines.emplace_back(name);
+  return engines;
+}
+
+ComparedChampion compare(const Entrant& entrant, double seconds, const std::vector<std::string>& engines) {
+  const auto& [name, champion] = entrant;
+  const experiment::RefereeOptions how{.seconds = seconds, .jobs = static_cast<int>(engines.size())};
+  try {
+    auto judged = experiment::ask_referees(champion.problem, champion.genome, engines, how, stop_signal());
+    if (!judged) fail(ExitCode::interrupted, "stopped before all champions had walked");
+    return {.name = name, .home = champion.problem.engine, .trial_s = seconds, .in = std::move(*judged)};
+  } catch (const UserError& error) {
+    if (error.code() == ExitCode::interrupted) throw;
+    fail(error.code(), "{}: {} (--engines chooses engines)", name, error.what());
+  }
+}
+
+ExitCode run_compare(const CompareOptions& options) {
+  const auto entrants = load(options.inputs);
+  const auto engines = columns(options.engines, entrants);
+  std::vector<ComparedChampion> rows;
+  for (const auto& entrant : entrants) {
+    auto lengths_s = options.seconds;
+    if (lengths_s.empty()) lengths_s.push_back(entrant.champion.problem.trial.duration_s);
+    for (const double length_s : lengths_s) rows.push_back(compare(entrant, length_s, engines));
+  }
+  const auto text = options.format == "json"       ? compare_json(rows)
+                    : options.format == "markdown" ? compare_markdown(rows)
+                                                   : compare_text(rows);
+  fmt::print("{}", text);
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("compare", "Let champions walk in several physics engines, as a table");
+  auto options = std::make_shared<CompareOptions>();
+  command->add_option("INPUT", options->inputs, "Champions (JSON) and run folders (their best champions)")
+      ->required();
+  command
+      ->add_option("--seconds", options->seconds, "Lengths of trials, e.g. 15,300 (default: as in evolution)")
+      ->delimiter(',')
+      ->check(CLI::Range(1e-5, 1e6));
+  command->add_option("--engines", options->engines, "Engines besides the champions' own, e.g. ode,mujoco")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_option("--format", options->format, "What to print: text, markdown or json")
+      ->capture_default_str()
+      ->check(CLI::IsMember(std::vector<std::string>(formats.begin(), formats.end())));
+  command->callback([options, &action] { action = [options] { return run_compare(*options); }; });
+}
+
+}  // namespace amble::cli

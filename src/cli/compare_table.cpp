@@ -1,0 +1,132 @@
+#include "amble/cli/compare_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "amble/io/json_file.hpp"
+
+namespace amble::cli {
+namespace {
+
+using experiment::Refereed;
+using experiment::share_kept;
+
+/// From this share on a champion counts as one that has kept its distance.
+constexpr double enough = 0.7;
+
+using Cells = std::vector<std::string>;
+
+const experiment::TrialResult& at_home(const ComparedChampion& row) {
+  return std::ranges::find(row.in, row.home, &Refereed::engine)->result;
+}
+
+std::string ending(const experiment::TrialResult& result) {
+  if (result.outcome == record::Outcome::completed) return "";
+  return fmt::format(", {} at {:.2f} s", record::outcome_names[static_cast<std::size_t>(result.outcome)],
+                     result.seconds);
+}
+
+Cells row_cells(const ComparedChampion& row) {
+  Cells cells{row.name, row.home, fmt::format("{:g} s", row.trial_s)};
+  for (const auto& [engine, result] : row.in)
+    cells.push_back(engine == row.home ? fmt::format("{:.3f} m", result.distance_m) + ending(result)
+                                       : result_text(result, at_home(row).distance_m));
+  return cells;
+}
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  const std::size_t n = values.size();
+  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+}
+
+/// All champions for one length of time.
+Cells summary_cells(const std::vector<ComparedChampion>& rows, double trial_s) {
+  Cells cells{"median; kept 70 %", "", fmt::format("{:g} s", trial_s)};
+  for (std::size_t e = 0; e < rows.front().in.size(); ++e) {
+    std::vector<double> distances_m;
+    int away = 0, kept = 0;
+    for (const auto& row : rows) {
+      if (row.trial_s != trial_s) continue;
+      distances_m.push_back(row.in[e].result.distance_m);
+      if (row.in[e].engine == row.home) continue;
+      ++away;
+      kept += share_kept(distances_m.back(), at_home(row).distance_m).value_or(0.0) >= enough;
+    }
+    cells.push_back(fmt::format("{:.3f} m", median(distances_m)) +
+                    (away > 0 ? fmt::format("; {} of {}", kept, away) : ""));
+  }
+  return cells;
+}
+
+/// Head, rows, and a summary per length of time if there are several champions.
+std::vector<Cells> table(const std::vector<ComparedChampion>& rows) {
+  std::vector<Cells> lines{{"champion", "evolved in", "trial"}};
+  if (rows.empty()) return lines;
+  for (const auto& referee : rows.front().in) lines.front().push_back("in " + referee.engine);
+  std::vector<double> lengths_s;
+  for (const auto& row : rows) {
+    lines.push_back(row_cells(row));
+    if (std::ranges::find(lengths_s, row.trial_s) == lengths_s.end()) lengths_s.push_back(row.trial_s);
+  }
+  if (rows.size() > lengths_s.size())
+    for (const double length_s : lengths_s) lines.push_back(summary_cells(rows, length_s));
+  return lines;
+}
+
+}  // namespace
+
+std::string compare_text(const std::vector<ComparedChampion>& rows) {
+  const auto lines = table(rows);
+  std::vector<std::size_t> widths(lines.front().size(), 0);
+  for (const auto& cells : lines)
+    for (std::size_t c = 0; c < cells.size(); ++c) widths[c] = std::max(widths[c], cells[c].size());
+  std::string text;
+  for (const auto& cells : lines) {
+    std::string line;
+    for (std::size_t c = 0; c < cells.size(); ++c) line += fmt::format("{:<{}}  ", cells[c], widths[c]);
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
+
+std::string compare_markdown(const std::vector<ComparedChampion>& rows) {
+  std::string text;
+  for (const auto& cells : table(rows)) {
+    const bool head = text.empty();
+    text += fmt::format("| {} |\n", fmt::join(cells, " | "));
+    if (!head) continue;
+    for (std::size_t c = 0; c < cells.size(); ++c) text += "|---";
+    text += "|\n";
+  }
+  return text;
+}
+
+std::string compare_json(const std::vector<ComparedChampion>& rows) {
+  io::Json list = io::Json::array();
+  for (const auto& row : rows) {
+    io::Json results = io::Json::array();
+    for (const auto& [engine, result] : row.in) {
+      results.push_back({{"engine", engine},
+                         {"distance_m", result.distance_m},
+                         {"seconds", result.seconds},
+                         {"outcome", record::outcome_names[static_cast<std::size_t>(result.outcome)]}});
+      if (const auto kept = share_kept(result.distance_m, at_home(row).distance_m))
+        results.back()["kept"] = *kept;
+    }
+    list.push_back({{"champion", row.name},
+                    {"evolved_in", row.home},
+                    {"trial_s", row.trial_s},
+                    {"results", std::move(results)}});
+  }
+  return list.dump(2) + "\n";
+}
+
+std::string result_text(const experiment::TrialResult& result, double home_m) {
+  const auto kept = share_kept(result.distance_m, home_m);
+  return fmt::format("{:.3f} m", result.distance_m) + (kept ? fmt::format(", {:.0f} %", 100.0 * *kept) : "") +
+         ending(result);
+}
+
+}  // namespace amble::cli

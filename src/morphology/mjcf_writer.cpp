@@ -1,0 +1,134 @@
+#include "amble/morphology/mjcf_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <set>
+#include <string_view>
+#include <utility>
+
+namespace amble::morphology {
+namespace {
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+std::string numbers(Vec3 v) {
+  return fmt::format("{} {} {}", v.x, v.y, v.z);
+}
+std::string numbers(Quat q) {
+  return fmt::format("{} {} {} {}", q.w, q.x, q.y, q.z);
+}
+
+std::string size_of(const Geom& geom) {
+  switch (geom.shape) {
+    case Shape::sphere:
+      return fmt::format(R"(type="sphere" size="{}")", geom.size_m.x);
+    case Shape::capsule:
+      return fmt::format(R"(type="capsule" size="{} {}")", geom.size_m.x, geom.size_m.y);
+    case Shape::cylinder:
+      return fmt::format(R"(type="cylinder" size="{} {}")", geom.size_m.x, geom.size_m.y);
+    case Shape::box:
+      return fmt::format(R"(type="box" size="{}")", numbers(geom.size_m));
+  }
+  return {};
+}
+
+class Writer {
+ public:
+  explicit Writer(const RobotSpec& robot) : robot_(robot) {}
+
+  Mjcf write() {
+    const double friction = std::isinf(robot_.contact.friction) ? grip : robot_.contact.friction;
+    line("<mujoco model=\"{}\">", escaped(robot_.name));
+    line("  <compiler angle=\"radian\" inertiafromgeom=\"false\"/>");
+    line("  <option gravity=\"{}\" timestep=\"0.01\"/>", numbers(robot_.gravity_m_s2));
+    line("  <default>");
+    // Legs meet the ground (contype 1), and each other only where both attributes are set.
+    line("    <geom contype=\"{}\" conaffinity=\"1\" condim=\"{}\" friction=\"{}\"/>",
+         robot_.self_collision ? 1 : 0, friction > 0.0 ? 3 : 1, friction);
+    line("  </default>");
+    line("  <worldbody>");
+    line(R"(    <geom name="ground" type="plane" size="0 0 1" contype="1" conaffinity="0"/>)");
+    write_body(0, 4);
+    line("  </worldbody>");
+    line("</mujoco>");
+    return std::move(mjcf_);
+  }
+
+ private:
+  template <typename... Args>
+  void line(fmt::format_string<Args...> text, Args&&... args) {
+    fmt::format_to(std::back_inserter(mjcf_.text), text, std::forward<Args>(args)...);
+    mjcf_.text += '\n';
+  }
+
+  /// The attribute, if the name is one and no other part of the kind has it: MuJoCo wants them unique.
+  static std::string name_attribute(std::set<std::string>& used, const std::string& name) {
+    return !name.empty() && used.insert(name).second ? fmt::format("name=\"{}\" ", escaped(name)) : "";
+  }
+
+  void write_body(int b, int indent) {
+    const Body& body = robot_.bodies[static_cast<std::size_t>(b)];
+    const std::string margin(static_cast<std::size_t>(indent), ' ');
+    mjcf_.bodies.push_back(b);
+    line("{}<body {}pos=\"{}\" quat=\"{}\">", margin, name_attribute(body_names_, body.name),
+         numbers(body.position_m), numbers(body.rotation));
+    if (b == 0) line("{}  <freejoint/>", margin);
+    line(R"({}  <inertial pos="{}" quat="{}" mass="{}" diaginertia="{}"/>)", margin, numbers(body.com_m),
+         numbers(body.inertia_rotation), body.mass_kg, numbers(body.inertia_kg_m2));
+    for (const int j : robot_.joints_of_body(b)) write_joint(j, margin);
+    for (int g = 0; g < static_cast<int>(robot_.geoms.size()); ++g)
+      if (robot_.geoms[static_cast<std::size_t>(g)].body == b) write_geom(g, margin);
+    for (int child = b + 1; child < static_cast<int>(robot_.bodies.size()); ++child)
+      if (robot_.bodies[static_cast<std::size_t>(child)].parent == b) write_body(child, indent + 2);
+    line("{}</body>", margin);
+  }
+
+  void write_joint(int j, const std::string& margin) {
+    const Joint& joint = robot_.joints[static_cast<std::size_t>(j)];
+    mjcf_.joints.push_back(j);
+    line(R"({}  <joint {}type="hinge" pos="{}" axis="{}" limited="true" range="{} {}"/>)", margin,
+         name_attribute(joint_names_, joint.name), numbers(joint.anchor_m), numbers(joint.axis),
+         joint.lower_rad, joint.upper_rad);
+  }
+
+  void write_geom(int g, const std::string& margin) {
+    const Geom& geom = robot_.geoms[static_cast<std::size_t>(g)];
+    mjcf_.geoms.push_back(g);
+    line(R"({}  <geom {}{} pos="{}" quat="{}" rgba="{} {} {} {}"{}/>)", margin,
+         name_attribute(geom_names_, geom.name), size_of(geom), numbers(geom.position_m),
+         numbers(geom.rotation), geom.rgba[0], geom.rgba[1], geom.rgba[2], geom.rgba[3],
+         geom.collides ? "" : R"( contype="0" conaffinity="0")");
+  }
+
+  const RobotSpec& robot_;
+  Mjcf mjcf_;
+  std::set<std::string> body_names_{"world"}, joint_names_, geom_names_{"ground"};
+};
+
+}  // namespace
+
+Mjcf write_mjcf(const RobotSpec& robot) {
+  return Writer(robot).write();
+}
+
+}  // namespace amble::morphology

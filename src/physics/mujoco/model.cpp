@@ -1,0 +1,136 @@
+#include "amble/physics/mujoco/model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "amble/morphology/mjcf_writer.hpp"
+
+namespace amble::physics::mujoco {
+namespace {
+
+using morphology::Geom;
+using morphology::RobotSpec;
+using morphology::ServoMode;
+using morphology::Shape;
+
+/// MuJoCo's root body, its only child of the world.
+constexpr int root = 1;
+
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
+/// Gives MuJoCo's constraints the law of ODE's. ODE solves for the velocity v' after the step
+///     v' = (erp / h) depth − cfm f,
+/// MuJoCo for the acceleration a with
+///     a = −b v + k depth − R f   and   v' = v + h a,
+/// where R = diagonal (1 − d) / d with an impedance d < 1 and a diagonal that the compiler has estimated for
+/// each body and joint. They agree for b = 1 / h, k = erp / h², R = cfm / h.
+class Softness {
+ public:
+  Softness(const morphology::Contact& contact, double h)
+      : damping_(1.0 / h), stiffness_(contact.erp / (h * h)), regularizer_(contact.cfm_s_per_kg / h) {}
+
+  /// `reference` and `impedance`: MuJoCo's solref and solimp.
+  void give(mjtNum* reference, mjtNum* impedance, double diagonal) const {
+    const double d = std::clamp(diagonal / (diagonal + regularizer_), mjMINIMP, mjMAXIMP);
+    // Negative numbers are taken as −k d and −b d.
+    reference[0] = -stiffness_ * d;
+    reference[1] = -damping_ * d;
+    impedance[0] = impedance[1] = d;  // at any depth
+  }
+
+ private:
+  double damping_, stiffness_, regularizer_;
+};
+
+/// Contacts that a geom can have with the ground.
+int most_contacts(const Geom& geom) {
+  switch (geom.shape) {
+    case Shape::sphere:
+      return 1;
+    case Shape::capsule:
+      return 2;
+    case Shape::cylinder:
+    case Shape::box:
+      return 4;
+  }
+  return 0;
+}
+
+/// The compiler's own choice wastes memory, and with it time whenever a trial starts.
+std::string with_sizes(std::string text, const RobotSpec& robot) {
+  constexpr int between_legs = 64, most = 512;
+  int contacts = robot.self_collision ? between_legs : 0;
+  for (const Geom& geom : robot.geoms) contacts += geom.collides ? most_contacts(geom) : 0;
+  contacts = std::clamp(contacts, 1, most);
+  const int rows = 2 * static_cast<int>(robot.joints.size()) + 3 * contacts;
+  const auto end = text.find("</mujoco>");
+  text.insert(end, fmt::format("  <size nconmax=\"{}\" njmax=\"{}\"/>\n", contacts, rows));
+  return text;
+}
+
+void set_options(mjOption& option, double timestep_s) {
+  option.timestep = timestep_s;
+  option.integrator = mjINT_EULER;
+  option.solver = mjSOL_NEWTON;
+  option.cone = mjCONE_ELLIPTIC;
+  option.impratio = 1.0;
+  option.iterations = 20;
+  option.tolerance = 1e-10;
+  option.disableflags |= mjDSBL_PASSIVE | mjDSBL_ACTUATION | mjDSBL_SENSOR;
+}
+
+void set_joints(const RobotSpec& robot, const Softness& softness, Model& model) {
+  const mjModel& m = *model.mujoco;
+  for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j) {
+    const int dof = model.dof_of[at(j)], id = m.dof_jntid[dof];
+    const auto& servo = robot.joints[at(j)].servo;
+    const double diagonal = m.dof_invweight0[dof];
+    softness.give(m.jnt_solref + mjNREF * id, m.jnt_solimp + mjNIMP * id, diagonal);
+    softness.give(m.dof_solref + mjNREF * dof, m.dof_solimp + mjNIMP * dof, diagonal);
+    // A joint with dry friction that drags it towards a speed is a motor.
+    m.dof_frictionloss[dof] = servo.mode == ServoMode::velocity ? servo.max_torque_nm : 0.0;
+  }
+}
+
+void set_geoms(const Softness& softness, const mjModel& m) {
+  for (int g = 1; g < m.ngeom; ++g) {
+    const double diagonal = m.body_invweight0[2 * m.geom_bodyid[g]];
+    softness.give(m.geom_solref + mjNREF * g, m.geom_solimp + mjNIMP * g, diagonal);
+    m.geom_priority[g] = 1;  // over the ground's
+  }
+}
+
+}  // namespace
+
+Model make_model(const RobotSpec& robot, double timestep_s) {
+  const auto mjcf = morphology::write_mjcf(robot);
+  Model model{.mujoco = morphology::compile_mjcf(with_sizes(mjcf.text, robot), "the mujoco engine"),
+              .position_of = std::vector<int>(robot.joints.size()),
+              .dof_of = std::vector<int>(robot.joints.size()),
+              .joint_of = {},
+              .leg_of = {}};
+  mjModel& m = *model.mujoco;
+  model.joint_of.assign(at(m.nv), -1);
+  model.leg_of.assign(at(m.ngeom), -1);
+  for (std::size_t place = 0; place < mjcf.joints.size(); ++place) {
+    const int j = mjcf.joints[place];
+    model.position_of[at(j)] = m.jnt_qposadr[place + 1];
+    model.dof_of[at(j)] = m.jnt_dofadr[place + 1];
+    model.joint_of[at(model.dof_of[at(j)])] = j;
+  }
+  for (std::size_t place = 0; place < mjcf.geoms.size(); ++place) {
+    for (int l = 0; l < static_cast<int>(robot.legs.size()); ++l)
+      if (robot.legs[at(l)].foot_geom == mjcf.geoms[place]) model.leg_of[place + 1] = l;
+  }
+  set_options(m.opt, timestep_s);
+  const Softness softness(robot.contact, timestep_s);
+  set_joints(robot, softness, model);
+  set_geoms(softness, m);
+  return model;
+}
+
+}  // namespace amble::physics::mujoco

@@ -1,0 +1,266 @@
+#include "amble/physics/mujoco/mujoco_engine.hpp"
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "amble/core/check.hpp"
+#include "amble/core/error.hpp"
+#include "amble/core/hash.hpp"
+#include "amble/morphology/complaints.hpp"
+#include "amble/physics/mujoco/model.hpp"
+#include "amble/physics/mujoco/slip.hpp"
+
+namespace amble::physics {
+namespace {
+
+using morphology::RobotSpec;
+using morphology::Servo;
+using morphology::ServoMode;
+
+/// Beyond this a robot has exploded: m/s or rad/s (Engine::healthy).
+constexpr double absurd_speed = 1000.0;
+/// MuJoCo's ids: the ground is its first geom, the root the only child of its world body.
+constexpr int ground_geom = 0, root_body = 1;
+
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+Vec3 vec3(const mjtNum* v) {
+  return {v[0], v[1], v[2]};
+}
+
+struct DeleteData {
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+
+std::unique_ptr<mjData, DeleteData> new_data(const mjModel* model) {
+  const morphology::ComplaintsCaught caught;
+  try {
+    return std::unique_ptr<mjData, DeleteData>(mj_makeData(model));
+  } catch (const morphology::FatalComplaint& fatal) {
+    fail(ExitCode::bad_input, "the mujoco engine: {}", fatal.what());
+  }
+}
+
+bool has_nan(const LaneArray& targets_rad) {
+  bool found = false;
+  for (int j = 0; j < targets_rad.rows(); ++j) found = found || std::isnan(targets_rad.at(j, 0));
+  return found;
+}
+
+class MujocoEngine final : public Engine {
+ public:
+  MujocoEngine(const RobotSpec& robot, const EngineSettings& settings)
+      : robot_(robot),
+        model_(mujoco::make_model(robot, settings.timestep_s)),
+        data_(new_data(model_.get())),
+        slip_(robot.contact.friction, settings.timestep_s),
+        with_torques_(settings.torques) {
+    sensors_.joint_angle_rad = LaneArray(static_cast<int>(robot.joints.size()), 1);
+    sensors_.touch = LaneArray(static_cast<int>(robot.legs.size()), 1);
+    sensors_.attitude_rad = LaneArray(3, 1);
+    if (with_torques_) torques_nm_ = LaneArray(static_cast<int>(robot.joints.size()), 1);
+  }
+
+  int lanes() const override { return 1; }
+
+  void place(int lane) override {
+    reset(lane);
+    begin();
+  }
+
+  void place_at(int lane, const StartPose& pose) override {
+    reset(lane);
+    AMBLE_CHECK(pose.joint_angle_rad.size() == robot_.joints.size(), "one angle per joint");
+    const auto& [position_m, rotation] = pose.root;
+    const mjtNum root[] = {position_m.x, position_m.y, position_m.z, rotation.w,
+                           rotation.x,   rotation.y,   rotation.z};
+    std::ranges::copy(root, data_->qpos);
+    for (std::size_t j = 0; j < pose.joint_angle_rad.size(); ++j)
+      data_->qpos[model_.position_of[j]] = pose.joint_angle_rad[j];
+    begin();
+  }
+
+  void retire(int lane) override {
+    check_lane(lane);
+    stepping_ = false;
+  }
+
+  void step(const LaneArray& targets_rad) override {
+    if (!stepping_ || !healthy_) return;
+    AMBLE_CHECK(targets_rad.rows() == sensors_.joint_angle_rad.rows() && targets_rad.lanes() == 1, "targets");
+    if (has_nan(targets_rad)) {
+      healthy_ = false;
+      return;
+    }
+    mj_fwdPosition(model_.get(), data_.get());
+    feel();
+    mj_fwdVelocity(model_.get(), data_.get());
+    drive(targets_rad);
+    mj_fwdAcceleration(model_.get(), data_.get());
+    slip_.solve(model_.get(), data_.get());
+    if (with_torques_) measure_torques();
+    mj_Euler(model_.get(), data_.get());
+    mju_zero3(data_->xfrc_applied + 6 * root_body);
+    read_state();
+  }
+
+  void push(int lane, Vec3 impulse_n_s) override {
+    check_lane(lane);
+    AMBLE_CHECK(stepping_, "only a placed robot can be pushed");
+    // Acts on the body's centre of mass.
+    mjtNum* const force_n = data_->xfrc_applied + 6 * root_body;
+    const mjtNum impulse[] = {impulse_n_s.x, impulse_n_s.y, impulse_n_s.z};
+    mju_addToScl3(force_n, impulse, 1.0 / model_->opt.timestep);
+  }
+
+  bool healthy(int lane) const override {
+    check_lane(lane);
+    return healthy_;
+  }
+
+  const SensorFrame& sensors() const override { return sensors_; }
+
+  const LaneArray* motor_torque_nm() const override { return with_torques_ ? &torques_nm_ : nullptr; }
+
+  RootPose root_pose(int lane) const override {
+    check_lane(lane);
+    const mjtNum* q = data_->qpos;
+    return {vec3(q), Quat{q[3], q[4], q[5], q[6]}};
+  }
+
+  Vec3 root_com_m(int lane) const override {
+    check_lane(lane);
+    return vec3(data_->xipos + 3 * root_body);
+  }
+
+  Vec3 com_m(int lane) const override {
+    check_lane(lane);
+    return vec3(data_->subtree_com + 3 * root_body);
+  }
+
+  Vec3 momentum(int lane) const override {
+    check_lane(lane);
+    mj_comVel(model_.get(), data_.get());
+    mj_subtreeVel(model_.get(), data_.get());
+    return model_->body_subtreemass[root_body] * vec3(data_->subtree_linvel + 3 * root_body);
+  }
+
+  std::uint64_t state_hash(int lane) const override {
+    check_lane(lane);
+    const std::uint64_t of_position = hash_bytes(data_->qpos, at(model_->nq) * sizeof(mjtNum));
+    return hash_bytes(data_->qvel, at(model_->nv) * sizeof(mjtNum), of_position);
+  }
+
+ private:
+  void check_lane(int lane) const { AMBLE_CHECK(lane == 0, "the mujoco engine has one lane"); }
+
+  void reset(int lane) {
+    check_lane(lane);
+    mj_resetData(model_.get(), data_.get());
+    // MuJoCo reports the first warning of each kind into a log file in the current folder.
+    for (mjWarningStat& warning : data_->warning) warning.number = 1;
+    torques_nm_.set_lane(0, 0.0f);
+  }
+
+  void begin() {
+    stepping_ = true;
+    healthy_ = true;
+    mj_fwdPosition(model_.get(), data_.get());
+    feel();
+    read_state();
+  }
+
+  /// Reads which feet touch the ground.
+  void feel() {
+    sensors_.touch.set_lane(0, 0.0f);
+    for (const mjContact& contact : std::span(data_->contact, at(data_->ncon))) {
+      if (contact.geom1 != ground_geom) continue;
+      const int leg = model_.leg_of[at(contact.geom2)];
+      if (leg >= 0) sensors_.touch.at(leg, 0) = 1.0f;
+    }
+  }
+
+  /// Makes the servos pull towards the targets.
+  void drive(const LaneArray& targets_rad) {
+    for (int j = 0; j < targets_rad.rows(); ++j) {
+      const morphology::Joint& joint = robot_.joints[at(j)];
+      if (joint.servo.mode == ServoMode::torque)
+        data_->qfrc_applied[model_.dof_of[at(j)]] = torque_nm(j, error_rad(j, targets_rad));
+    }
+    // MuJoCo's friction in a joint brakes to speed 0: −b v. A motor brakes to its own speed.
+    for (int row = data_->ne; row < data_->ne + data_->nf; ++row) {
+      const int j = model_.joint_of[at(data_->efc_id[row])];
+      const double speed_rad_s = robot_.joints[at(j)].servo.gain_per_s * error_rad(j, targets_rad);
+      data_->efc_aref[row] += data_->efc_KBIP[4 * row + 1] * speed_rad_s;
+    }
+  }
+
+  /// What drive() came to, once the constraints are solved.
+  void measure_torques() {
+    for (int j = 0; j < torques_nm_.rows(); ++j)
+      torques_nm_.at(j, 0) = static_cast<float>(data_->qfrc_applied[model_.dof_of[at(j)]]);
+    for (int row = data_->ne; row < data_->ne + data_->nf; ++row)
+      torques_nm_.at(model_.joint_of[at(data_->efc_id[row])], 0) = static_cast<float>(data_->efc_force[row]);
+  }
+
+  double error_rad(int j, const LaneArray& targets_rad) const {
+    const morphology::Joint& joint = robot_.joints[at(j)];
+    const double target_rad =
+        std::clamp(static_cast<double>(targets_rad.at(j, 0)), joint.lower_rad, joint.upper_rad);
+    return target_rad - data_->qpos[model_.position_of[at(j)]];
+  }
+
+  double torque_nm(int j, double error_rad) const {
+    const Servo& servo = robot_.joints[at(j)].servo;
+    const double torque =
+        servo.kp_nm_per_rad * error_rad - servo.kd_nm_s_per_rad * data_->qvel[model_.dof_of[at(j)]];
+    return std::clamp(torque, -servo.max_torque_nm, servo.max_torque_nm);
+  }
+
+  bool sane() const {
+    double sum = 0.0;  // finite only if every number is
+    for (const double x : std::span(data_->qpos, at(model_->nq))) sum += x;
+    for (const double v : std::span(data_->qvel, at(model_->nv))) sum += v;
+    if (!std::isfinite(sum)) return false;
+    bool slow = norm(vec3(data_->qvel)) <= absurd_speed && norm(vec3(data_->qvel + 3)) <= absurd_speed;
+    for (const int dof : model_.dof_of) slow = slow && std::abs(data_->qvel[dof]) <= absurd_speed;
+    return slow;
+  }
+
+  void read_state() {
+    healthy_ = sane();
+    if (!healthy_) return;
+    mj_kinematics(model_.get(), data_.get());
+    mj_comPos(model_.get(), data_.get());
+    for (int j = 0; j < sensors_.joint_angle_rad.rows(); ++j)
+      sensors_.joint_angle_rad.at(j, 0) = static_cast<float>(data_->qpos[model_.position_of[at(j)]]);
+    const RollPitchYaw attitude = roll_pitch_yaw(root_pose(0).rotation);
+    sensors_.attitude_rad.at(0, 0) = static_cast<float>(attitude.roll);
+    sensors_.attitude_rad.at(1, 0) = static_cast<float>(attitude.pitch);
+    sensors_.attitude_rad.at(2, 0) = static_cast<float>(attitude.yaw);
+  }
+
+  const RobotSpec robot_;
+  const mujoco::Model model_;
+  const std::unique_ptr<mjData, DeleteData> data_;
+  mujoco::Slip slip_;
+  const bool with_torques_;
+  SensorFrame sensors_;
+  LaneArray torques_nm_;
+  bool stepping_ = false;
+  bool healthy_ = true;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_mujoco_engine(const RobotSpec& robot, const EngineSettings& settings) {
+  return std::make_unique<MujocoEngine>(robot, settings);
+}
+
+}  // namespace amble::physics

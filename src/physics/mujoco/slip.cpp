@@ -1,0 +1,44 @@
+#include "amble/physics/mujoco/slip.hpp"
+
+#include <cmath>
+
+namespace amble::physics::mujoco {
+namespace {
+
+constexpr int most_corrections = 5;
+/// A slip speed that changes by less is settled, m/s.
+constexpr double settled_m_s = 1e-6;
+
+}  // namespace
+
+Slip::Slip(double friction, double timestep_s) : friction_(friction), timestep_s_(timestep_s) {}
+
+void Slip::solve(const mjModel* model, mjData* data) {
+  mj_fwdConstraint(model, data);
+  if (friction_ == 0.0 || std::isinf(friction_)) return;
+  lowered_.assign(static_cast<std::size_t>(data->ncon), 0.0);
+  for (int i = 0; i < most_corrections && correct(model, data); ++i) mj_fwdConstraint(model, data);
+}
+
+/// Adapts what the solver aims at to its last solution; says whether that made a difference.
+bool Slip::correct(const mjModel* model, mjData* data) {
+  accelerations_.resize(static_cast<std::size_t>(data->nefc));
+  mj_mulJacVec(model, data, accelerations_.data(), data->qacc);
+  bool changed = false;
+  for (std::size_t c = 0; c < lowered_.size(); ++c) {
+    const int row = data->contact[c].efc_address;
+    if (row < 0) continue;
+    const auto missed = [&](int r) {
+      return accelerations_[static_cast<std::size_t>(r)] - data->efc_aref[r];
+    };
+    // Tangential rows aim at standing still after this step.
+    const double slip = std::hypot(missed(row + 1), missed(row + 2));
+    const double lowered = friction_ * slip;
+    changed = changed || std::abs(lowered - lowered_[c]) * timestep_s_ > settled_m_s;
+    data->efc_aref[row] += lowered_[c] - lowered;
+    lowered_[c] = lowered;
+  }
+  return changed;
+}
+
+}  // namespace amble::physics::mujoco
