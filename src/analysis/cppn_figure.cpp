@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "amble/analysis/axis.hpp"
+#include "amble/analysis/cppn_detours.hpp"
 #include "amble/analysis/page_style.hpp"
 #include "amble/analysis/svg.hpp"
 
@@ -17,7 +18,7 @@ namespace amble::analysis {
 namespace {
 
 constexpr double neuron_px = 15.0, terminal_px = 6.0;
-constexpr double layer_px = 84.0, row_px = 46.0, margin_px = 26.0;
+constexpr double layer_px = 84.0, row_px = 46.0, margin_px = 26.0, detour_margin_px = 8.0;
 constexpr double letter_px = 7.2;  ///< mean width of a letter of 13 px
 constexpr double legend_row_px = 24.0;
 
@@ -29,7 +30,7 @@ struct Glyph {
   std::array<Stroke, 2> strokes;
 };
 /// The curves of the functions, within −8 … 8 px.
-constexpr std::array<Glyph, 4> glyphs{
+constexpr std::array<Glyph, 5> glyphs{
     {{"bipolar_sigmoid",
       "sigmoid",
       {{{{{-8, 6}, {-3, 6}, {-2, 3}, {0, 0}}}, {{{0, 0}, {2, -3}, {3, -6}, {8, -6}}}}}},
@@ -37,7 +38,8 @@ constexpr std::array<Glyph, 4> glyphs{
       "Gaussian",
       {{{{{-8, 6}, {-3, 6}, {-3, -6}, {0, -6}}}, {{{0, -6}, {3, -6}, {3, 6}, {8, 6}}}}}},
      {"sine", "sine", {{{{{-8, 0}, {-5, -9}, {-3, -9}, {0, 0}}}, {{{0, 0}, {3, 9}, {5, 9}, {8, 0}}}}}},
-     {"linear", "linear", {{{{{-7, 6}, {-5, 4}, {-2, 2}, {0, 0}}}, {{{0, 0}, {2, -2}, {5, -4}, {7, -6}}}}}}}};
+     {"linear", "linear", {{{{{-7, 6}, {-5, 4}, {-2, 2}, {0, 0}}}, {{{0, 0}, {2, -2}, {5, -4}, {7, -6}}}}}},
+     {"|x|", "|x|", {{{{{-7, -6}, {-5, -2}, {-2, 2}, {0, 6}}}, {{{0, 6}, {2, 2}, {5, -2}, {7, -6}}}}}}}};
 
 bool is_terminal(const CppnNode& node) {
   return node.role == CppnRole::bias || node.role == CppnRole::input;
@@ -72,16 +74,26 @@ class Drawing {
       if (is_terminal(node)) first = std::max(first, node.name.size());
       if (node.role == CppnRole::output) last = std::max(last, node.name.size());
     }
-    left_px_ = 20.0 + letter_px * static_cast<double>(first);
-    right_px_ = 28.0 + letter_px * static_cast<double>(last);
-    const double inner = layer_px * static_cast<double>(places_.layers.size() - 1);
-    width_px_ = std::max(340.0, left_px_ + inner + right_px_);
-    rows_px_ = row_px * static_cast<double>(rows);
+    const double left = 20.0 + letter_px * static_cast<double>(first),
+                 right = 28.0 + letter_px * static_cast<double>(last),
+                 inner = layer_px * static_cast<double>(places_.layers.size() - 1);
+    width_px_ = std::max(340.0, left + inner + right);
+    bottom_px_ = 2 * margin_px + row_px * static_cast<double>(rows);
+    for (std::size_t node = 0; node < graph.nodes.size(); ++node) {
+      const double share = static_cast<double>(places_.layer[node]) /
+                           std::max(1.0, static_cast<double>(places_.layers.size() - 1));
+      centres_.push_back({left + share * (width_px_ - left - right),
+                          margin_px + places_.place[node] * (bottom_px_ - 2 * margin_px)});
+      radii_px_.push_back(is_terminal(graph.nodes[node]) ? terminal_px : neuron_px);
+    }
+    names_px_ = width_px_ - right + neuron_px + 6;
+    detours_ = detours(graph, places_, centres_, radii_px_);
+    make_room();
   }
 
   std::string draw() {
     const auto legend = legend_places();
-    const double top = 2 * margin_px + rows_px_;
+    const double top = bottom_px_;
     const double height = top + (legend.empty() ? 0.0 : legend.back().y + legend_row_px);
     Svg svg(width_px_, height,
             fmt::format("CPPN of {} nodes and {} links", graph_.nodes.size(), graph_.links.size()));
@@ -100,13 +112,26 @@ class Drawing {
     std::string_view wire;
   };
 
-  Point at(std::size_t node) const {
-    const double share = static_cast<double>(places_.layer[node]) /
-                         std::max(1.0, static_cast<double>(places_.layers.size() - 1));
-    return {left_px_ + share * (width_px_ - left_px_ - right_px_),
-            margin_px + places_.place[node] * rows_px_};
+  /// For the detours: above and below all else, and between the outputs and their names.
+  void make_room() {
+    double top = detour_margin_px, bottom = bottom_px_ - margin_px, right = names_px_ - detour_margin_px;
+    for (const Detour& detour : detours_) {
+      for (const Point& point : detour.curve) {
+        top = std::min(top, point.y);
+        bottom = std::max(bottom, point.y);
+        right = std::max(right, point.x);
+      }
+    }
+    const double down = detour_margin_px - top;
+    for (Point& centre : centres_) centre.y += down;
+    for (Detour& detour : detours_) {
+      for (Point& point : detour.curve) point.y += down;
+      detour.tip.y += down;
+    }
+    bottom_px_ = bottom + down + margin_px;
+    width_px_ += right + detour_margin_px - names_px_;
+    names_px_ = right + detour_margin_px;
   }
-  double radius(std::size_t node) const { return is_terminal(graph_.nodes[node]) ? terminal_px : neuron_px; }
 
   /// The heavy ones first, so that they do not hide the light ones.
   void draw_links(Svg& svg) const {
@@ -119,34 +144,39 @@ class Drawing {
       const CppnLink& link = graph_.links[i];
       const bool back = places_.leads_back(link);
       svg.begin_group(link_class(link, back), link_title(graph_, link));
-      svg.bezier(back ? way_back(link) : way_forth(link), {}, width_of(link, most));
+      if (back)
+        draw_detour(svg, detours_[i], width_of(link, most));
+      else
+        svg.bezier(way_forth(link), {}, width_of(link, most));
       svg.end_group();
     }
   }
   Stroke way_forth(const CppnLink& link) const {
-    const Point from = at(link.from), to = at(link.to);
-    const double start = from.x + radius(link.from), end = to.x - radius(link.to);
+    const Point from = centres_[link.from], to = centres_[link.to];
+    const double start = from.x + radii_px_[link.from], end = to.x - radii_px_[link.to];
     const double bend = std::max(20.0, (end - start) / 2);
     return {{{start, from.y}, {start + bend, from.y}, {end - bend, to.y}, {end, to.y}}};
   }
-  Stroke way_back(const CppnLink& link) const {
-    const Point from = at(link.from), to = at(link.to);
-    const double start = from.y - radius(link.from), end = to.y - radius(link.to);
-    return {{{from.x, start}, {from.x + 30, start - 31}, {to.x - 30, end - 31}, {to.x, end}}};
+  static void draw_detour(Svg& svg, const Detour& detour, double width) {
+    svg.bezier(detour.curve, {}, width);
+    const Point base = detour.curve.back(), tip = detour.tip;
+    const double length = std::hypot(tip.x - base.x, tip.y - base.y);
+    const double half = (2.5 + width / 2) / length;
+    const double x = half * (base.y - tip.y), y = half * (tip.x - base.x);
+    svg.polygon(std::array{tip, Point{base.x + x, base.y + y}, Point{base.x - x, base.y - y}});
   }
 
   void draw_node(Svg& svg, std::size_t i) const {
     const CppnNode& node = graph_.nodes[i];
-    const Point centre = at(i);
+    const Point centre = centres_[i];
     svg.begin_group(is_terminal(node) ? "terminal" : "neuron", node_title(graph_, i));
-    svg.circle(centre, radius(i));
+    svg.circle(centre, radii_px_[i]);
     if (!is_terminal(node)) {
       const auto glyph = std::ranges::find(glyphs, node.function, &Glyph::function);
       if (glyph != glyphs.end()) draw_glyph(svg, *glyph, centre);
     }
     if (is_terminal(node)) svg.text({centre.x - 12, centre.y + 4.5}, Anchor::end, {}, node.name);
-    if (node.role == CppnRole::output)
-      svg.text({centre.x + neuron_px + 6, centre.y + 4.5}, Anchor::start, {}, node.name);
+    if (node.role == CppnRole::output) svg.text({names_px_, centre.y + 4.5}, Anchor::start, {}, node.name);
     svg.end_group();
   }
 
@@ -185,7 +215,7 @@ class Drawing {
       draw_glyph(svg, *key.glyph, {at.x + 10, at.y});
     } else {
       svg.begin_group(key.wire);
-      svg.bezier({{at, {at.x + 6, at.y}, {at.x + 14, at.y}, {at.x + 20, at.y}}}, {}, 4.0);
+      svg.bezier(Stroke{{at, {at.x + 6, at.y}, {at.x + 14, at.y}, {at.x + 20, at.y}}}, {}, 4.0);
       svg.end_group();
     }
     svg.text({at.x + 27, at.y + 4.5}, Anchor::start, "key-text", key.text);
@@ -194,7 +224,12 @@ class Drawing {
   const CppnGraph& graph_;
   CppnPlaces places_;
   std::vector<Key> keys_;
-  double left_px_ = 0.0, right_px_ = 0.0, width_px_ = 0.0, rows_px_ = 0.0;
+  std::vector<Point> centres_;
+  std::vector<double> radii_px_;
+  std::vector<Detour> detours_;
+  double width_px_ = 0.0;
+  double bottom_px_ = 0.0;  ///< of what stands above the legend
+  double names_px_ = 0.0;   ///< where the outputs' names begin
 };
 
 }  // namespace

@@ -7,7 +7,8 @@
 namespace amble::analysis {
 
 /// A CPPN from its inputs, left, to its outputs, right: in each node the curve of its function, each link as
-/// wide as its weight is large and in the colour of its sign, disabled ones dashed. An <svg> element of class
+/// wide as its weight is large and in the colour of its sign, disabled ones dashed; those that lead back or
+/// stay in their layer go round the others and end in an arrowhead. An <svg> element of class
 /// "cppn", as wide as it needs to be, with a legend; a pointer that rests on a part is told its name.
 std::string cppn_figure(const CppnGraph& graph);
 

@@ -12,9 +12,9 @@ enum class CppnRole { bias, input, output, hidden };
 struct CppnNode {
   std::uint32_t id = 0;
   CppnRole role = CppnRole::hidden;
-  std::string
-      function;      ///< "bipolar_sigmoid", "gaussian", "sine" or "linear"; of no meaning for bias and inputs
-  std::string name;  ///< of the bias, inputs and outputs
+  std::string function;  ///< "bipolar_sigmoid", "gaussian", "sine", "linear" or "|x|"; of no meaning for bias
+                         ///< and inputs
+  std::string name;      ///< of the bias, inputs and outputs
 };
 
 struct CppnLink {

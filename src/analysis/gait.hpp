@@ -16,7 +16,7 @@ namespace amble::analysis {
 struct GaitSettings {
   double debounce_s = 0.08;       ///< shorter gaps in a stance, then shorter stances, are chatter
   double transient_s = 2.0;       ///< of the beginning, left out of all that is about footfalls
-  double window_s = 5.0;          ///< the gait is named anew for each so long a part of the trial
+  double window_s = 5.0;          ///< the gait is named anew for each part of the trial that lasts so long …
   double longest_stride_s = 5.0;  ///< a longer time between two touch-downs is a rest
 
   /// Throws UserError(ExitCode::bad_input) unless 0 ≤ debounce ≤ 1, 0 ≤ transient, 0.1 ≤ window ≤ 3600 and 0
@@ -39,7 +39,10 @@ struct LegGait {
   std::optional<double> drift_per_min;  ///< slope of the line that fits the windows' phases best
 };
 
-/// A part of the trial. `window_s` long, or 2, 4, 8, … times that in a long trial.
+/// … and up to this many times as long while a foot that strides has not made min_strides strides in it.
+inline constexpr std::int64_t longest_window = 5;
+
+/// A part of the trial: a window, or 2, 4, 8, … of them in a long trial.
 struct GaitWindow {
   double start_s = 0.0, end_s = 0.0;
   std::optional<Verdict> verdict;  ///< what held longest in it; nothing for robots without gait names

@@ -110,9 +110,18 @@ void GaitMeter::settle(const std::vector<bool>& touch) {
   }
   tracker_.add(touch, open_.sums);
   open_.com_end_m = com_m_;
-  if (open_.sums.frames < window_frames_) return;
+  if (!window_is_full()) return;
   if (last_) book(std::move(*last_));
   last_ = std::exchange(open_, stretch_from_here());
+}
+
+/// Slow feet get the time for the strides that a name needs, feet at rest are not waited for.
+bool GaitMeter::window_is_full() const {
+  if (open_.sums.frames < window_frames_) return false;
+  if (open_.sums.frames >= longest_window * window_frames_) return true;
+  for (std::size_t leg = 0; leg < body_.legs.size(); ++leg)
+    if (open_.sums.legs[leg].strides < min_strides && tracker_.in_stride(leg)) return false;
+  return true;
 }
 
 /// Judges a window that will not grow any more.

@@ -38,6 +38,7 @@ class GaitMeter {
  private:
   Stretch stretch_from_here() const;
   void settle(const std::vector<bool>& touch);
+  bool window_is_full() const;
   void book(Stretch window);
 
   std::optional<QuadrupedPhases> quadruped_phases(const StrideSums& sums) const;

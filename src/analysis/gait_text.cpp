@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "amble/analysis/gait.hpp"
@@ -24,12 +25,15 @@ std::string number(const std::optional<double>& value, int decimals) {
   return value ? fmt::format("{:.{}f}", *value, decimals) : "–";
 }
 
-/// "walking" or "running" with the numbers behind it.
+/// "walking", "running" or, where two decimals do not tell them apart, neither; with the numbers behind it.
 std::string footwork(const GaitReport& report) {
   if (!report.duty_factor) return "no strides";
+  const double stride_s = report.stride_s.value_or(0.0);
+  if (std::abs(*report.duty_factor - 0.5) < 0.0051)
+    return fmt::format("between walking and running (duty factor {:.3f}), stride {:.2f} s",
+                       *report.duty_factor, stride_s);
   return fmt::format("{} (duty factor {:.2f}), stride {:.2f} s",
-                     *report.duty_factor > 0.5 ? "walking" : "running", *report.duty_factor,
-                     report.stride_s.value_or(0.0));
+                     *report.duty_factor > 0.5 ? "walking" : "running", *report.duty_factor, stride_s);
 }
 
 std::string froude(const GaitReport& report) {

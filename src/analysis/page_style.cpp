@@ -34,6 +34,8 @@ constexpr std::string_view cppn = R"css(
 .cppn .key-text { fill: var(--soft); }
 .wire path { fill: none; stroke-linecap: round; opacity: .72; } .wire:hover path { opacity: 1; }
 .wire.plus path { stroke: var(--plus); } .wire.minus path { stroke: var(--minus); }
+.wire.plus polygon { fill: var(--plus); } .wire.minus polygon { fill: var(--minus); } .wire.off polygon { fill: var(--line); }
+.wire.back { opacity: .8; } .wire.back:hover, .wire.back path { opacity: 1; } .wire.back path { stroke-linecap: butt; }
 .wire.off path { stroke: var(--line); stroke-dasharray: 3 5; stroke-width: 1.2; }
 .neuron circle { fill: var(--paper); stroke: var(--ink); stroke-width: 1.6; }
 .terminal circle { fill: var(--ink); }

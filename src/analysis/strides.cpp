@@ -49,17 +49,22 @@ void StrideTracker::add(const std::vector<bool>& touch, StrideSums& sums) {
   ++frame_;
 }
 
+bool StrideTracker::in_stride(std::size_t leg) const {
+  const auto begin = feet_[leg].last_touchdown();
+  return begin && frame_ - *begin <= longest_stride_frames_;
+}
+
 void StrideTracker::land(std::size_t leg, StrideSums& sums) {
   LegSums& sum = sums.legs[leg];
   ++sum.touchdowns;
-  const auto begin = feet_[leg].last_touchdown();
-  if (!begin || frame_ - *begin > longest_stride_frames_) return;
-  const std::int64_t length = frame_ - *begin;
+  if (!in_stride(leg)) return;
+  const std::int64_t begin = *feet_[leg].last_touchdown();
+  const std::int64_t length = frame_ - begin;
   ++sum.strides;
   sum.stance_frames += feet_[leg].stance_frames;
   sum.stride_frames += length;
   sum.squared_stride_frames += static_cast<double>(length) * static_cast<double>(length);
-  add_phases(leg, *begin, sums);
+  add_phases(leg, begin, sums);
 }
 
 void StrideTracker::add_phases(std::size_t leg, std::int64_t begin, StrideSums& sums) const {

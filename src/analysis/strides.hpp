@@ -46,6 +46,9 @@ class StrideTracker {
   /// has not landed in it.
   void add(const std::vector<bool>& touch, StrideSums& sums);
 
+  /// Whether the foot's last touch-down is so fresh that the next one can end a stride.
+  bool in_stride(std::size_t leg) const;
+
  private:
   static constexpr std::size_t remembered = 16;
 

@@ -102,11 +102,14 @@ void Svg::circle(Point centre, double radius_px, std::string_view name) {
   out_ += "/>\n";
 }
 
-void Svg::bezier(const std::array<Point, 4>& p, std::string_view name, double width_px) {
+void Svg::bezier(std::span<const Point> chain, std::string_view name, double width_px) {
+  AMBLE_CHECK(chain.size() % 3 == 1, "each curve has two control points and an end");
   const auto place = [](Point point) { return number(point.x, 1) + " " + number(point.y, 1); };
   out_ += "<path";
   css_class(name);
-  out_ += fmt::format(" d=\"M{} C{} {} {}\"", place(p[0]), place(p[1]), place(p[2]), place(p[3]));
+  out_ += " d=\"M" + place(chain[0]);
+  for (std::size_t i = 1; i < chain.size(); ++i) out_ += (i % 3 == 1 ? " C" : " ") + place(chain[i]);
+  out_ += '"';
   if (width_px > 0.0) attribute("stroke-width", width_px);
   out_ += "/>\n";
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -44,8 +43,9 @@ class Svg {
   void line(Point from, Point to, std::string_view css_class = {});
   void rect(const Box& box, std::string_view css_class = {}, double corner_px = 0.0);
   void circle(Point centre, double radius_px, std::string_view css_class = {});
-  /// A cubic Bézier curve by its four points. Without a width that of its class.
-  void bezier(const std::array<Point, 4>& points, std::string_view css_class = {}, double width_px = 0.0);
+  /// A chain of cubic Bézier curves: where it begins, then two control points and an end for each. Without a
+  /// width that of its class.
+  void bezier(std::span<const Point> points, std::string_view css_class = {}, double width_px = 0.0);
   void polyline(std::span<const Point> points, std::string_view css_class = {});
   void polygon(std::span<const Point> points, std::string_view css_class = {});
   void text(Point at, Anchor anchor, std::string_view css_class, std::string_view text);

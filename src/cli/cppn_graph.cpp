@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 
 namespace amble::cli {
 namespace {
@@ -9,6 +10,12 @@ namespace {
 /// By neat::NodeKind.
 constexpr std::array<analysis::CppnRole, 4> roles{analysis::CppnRole::bias, analysis::CppnRole::input,
                                                   analysis::CppnRole::output, analysis::CppnRole::hidden};
+
+/// What a node computes: "linear" may mean |x|.
+std::string_view function_name(neat::Activation activation, const cppn::Settings& settings) {
+  if (activation == neat::Activation::linear && settings.linear == cppn::Linear::absolute) return "|x|";
+  return neat::activation_names[static_cast<std::size_t>(activation)];
+}
 
 }  // namespace
 
@@ -23,8 +30,8 @@ analysis::CppnGraph cppn_graph(const experiment::Champion& champion) {
     if (role == analysis::CppnRole::bias) name = "bias";
     if (role == analysis::CppnRole::input) name = layout.input_names()[inputs++];
     if (role == analysis::CppnRole::output) name = layout.output_names()[outputs++];
-    const auto function = neat::activation_names[static_cast<std::size_t>(node.activation)];
-    graph.nodes.push_back({node.id, role, std::string(function), std::move(name)});
+    graph.nodes.push_back(
+        {node.id, role, std::string(function_name(node.activation, champion.problem.cppn)), std::move(name)});
   }
   for (const neat::LinkGene& link : genome.links)
     graph.links.push_back({static_cast<std::size_t>(genome.index_of(link.from)),

@@ -81,7 +81,10 @@ void add_gait(CLI::App& app, Action& action) {
       ->capture_default_str();
   command->add_option("--transient", settings.transient_s, "Footfalls so early do not count, s")
       ->capture_default_str();
-  command->add_option("--window", settings.window_s, "The gait is named anew for each so long a part, s")
+  command
+      ->add_option(
+          "--window", settings.window_s,
+          "The gait is named anew for each part that lasts so long and holds 4 strides of each foot, s")
       ->capture_default_str();
   command->callback([options, &action] { action = [options] { return run_gait(*options); }; });
 }

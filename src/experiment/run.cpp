@@ -9,6 +9,7 @@
 #include "amble/experiment/referees.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/score/path_behaviour.hpp"
+#include "amble/search/usable_memory.hpp"
 
 namespace amble::experiment {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 void check_memory(const Config& config) {
   if (config.search.kind == search::Kind::novelty)
     config.search.novelty.check_memory(config.behaviour_length(), config.neat.population.size,
-                                       search::machine_memory_bytes());
+                                       search::usable_memory_bytes());
 }
 
 /// Throws UserError if the run or one of its referees cannot be.

@@ -1,7 +1,5 @@
 #include "amble/search/novelty_settings.hpp"
 
-#include <unistd.h>
-
 #include <cmath>
 
 #include "amble/core/error.hpp"
@@ -68,13 +66,9 @@ void NoveltySettings::check_memory(std::size_t behaviour_length, int population,
   if (bytes > memory_bytes)
     fail(ExitCode::bad_input,
          "search.novelty.archive_limit = {}: that many behaviours of {} numbers need {:.1f} GB; expected at "
-         "most {:.0f}, for the {:.1f} GB of this machine",
+         "most {:.0f}, for the {:.1f} GB that this process may use",
          archive_limit, behaviour_length, bytes / giga, std::floor(memory_bytes / per_member),
          memory_bytes / giga);
-}
-
-double machine_memory_bytes() {
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
 }
 
 }  // namespace amble::search

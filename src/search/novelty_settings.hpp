@@ -45,7 +45,4 @@ struct NoveltySettings {
   void check_memory(std::size_t behaviour_length, int population, double memory_bytes) const;
 };
 
-/// The memory of this machine.
-double machine_memory_bytes();
-
 }  // namespace amble::search

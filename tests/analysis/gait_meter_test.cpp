@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "amble/core/error.hpp"
@@ -194,13 +195,102 @@ TEST(GaitMeter, NamesBothHalvesOfATrialInWhichTheGaitChanges) {
   EXPECT_NE(table.find("\nwindows   trot 30 s pace 25 s irregular 5 s\n"), std::string::npos) << table;
 }
 
+TEST(GaitMeter, WaitsForTheStridesOfASlowGait) {
+  for (const int stride : {130, 160, 240, 400}) {
+    Feeder feeder;
+    feeder.walk({.stride = stride, .stance = stride * 6 / 10, .offset = {stride / 2, 0, 0, stride / 2}},
+                12'000);
+    const GaitReport report = feeder.finish();
+    const auto segments = gait_segments(report);
+    ASSERT_EQ(segments.size(), 1u) << stride << "\n" << gait_table(report);
+    EXPECT_EQ(segments[0].verdict, named(Gait::trot));
+    EXPECT_DOUBLE_EQ(segments[0].start_s, 2.0);
+    EXPECT_DOUBLE_EQ(segments[0].end_s, 120.0);
+    for (const GaitWindow& window : report.windows)
+      EXPECT_LT(window.end_s - window.start_s, 2.0 * std::max(5.0, 0.05 * stride)) << stride;
+  }
+}
+
+TEST(GaitMeter, SeesASlowGaitChange) {
+  Feeder feeder;
+  feeder.walk({.stride = 160, .stance = 96, .offset = {80, 0, 0, 80}}, 6000);  // trot
+  feeder.walk({.stride = 160, .stance = 96, .offset = {0, 80, 0, 80}}, 6000);  // pace
+  const GaitReport report = feeder.finish();
+  const auto segments = gait_segments(report);
+  ASSERT_GE(segments.size(), 2u);
+  ASSERT_LE(segments.size(), 3u) << "with at most one window in which both are";
+  EXPECT_EQ(segments.front().verdict, named(Gait::trot));
+  EXPECT_NEAR(segments.front().end_s, 60.0, 8.0);
+  EXPECT_EQ(segments.back().verdict, named(Gait::pace));
+  EXPECT_NEAR(segments.back().start_s, 60.0, 8.0);
+}
+
+TEST(GaitMeter, WaitsForNoFootAtRest) {
+  // Trot in which the left hind foot stops landing at 30 s. It can still end a stride for 5 s after its last
+  // touch-down; from then on windows are of 5 s again.
+  const Clockwork feet{.stride = 80, .stance = 48, .offset = {40, 0, 0, 40}};
+  Feeder feeder;
+  for (int k = 0; k < 6000; ++k) {
+    auto touch = feet.touch(k);
+    if (k >= 3000) touch[2] = 0.0f;
+    feeder.add(touch);
+  }
+  const GaitReport report = feeder.finish();
+  const auto segments = gait_segments(report);
+  ASSERT_EQ(segments.size(), 2u);
+  EXPECT_EQ(segments[0].verdict, named(Gait::trot));
+  EXPECT_EQ(segments[1].verdict, (Verdict{Gait::irregular, Irregular::few_strides}));
+  EXPECT_NEAR(segments[1].start_s, 30.0, 5.0);
+  for (std::size_t i = 0; i + 1 < report.windows.size(); ++i) {
+    const GaitWindow& window = report.windows[i];
+    EXPECT_LE(window.end_s - window.start_s, window.end_s < 30.0 || window.start_s > 35.0 ? 5.001 : 10.001);
+  }
+}
+
+TEST(GaitMeter, WaitsNoLongerThanFiveWindows) {
+  // The left fore foot lands every 4.5 s beside others that land every 0.8 s: in 10 s two or three times.
+  const Clockwork feet{.stride = 80, .stance = 48, .offset = {40, 0, 0, 40}},
+      limping{.stride = 450, .stance = 200, .offset = {0}};
+  Feeder feeder(4, {.window_s = 2.0});
+  for (int k = 0; k < 10'000; ++k) {
+    auto touch = feet.touch(k);
+    touch[0] = limping.touch(k)[0];
+    feeder.add(touch);
+  }
+  const GaitReport report = feeder.finish();
+  ASSERT_EQ(report.windows.size(), 9u);
+  for (std::size_t i = 1; i + 1 < report.windows.size(); ++i)
+    EXPECT_NEAR(report.windows[i].end_s - report.windows[i].start_s, 10.0, 1e-9);
+  // The last one takes what is left over and may be long enough for the fourth stride.
+  for (std::size_t i = 0; i + 1 < report.windows.size(); ++i)
+    EXPECT_EQ(report.windows[i].verdict, (Verdict{Gait::irregular, Irregular::few_strides}));
+}
+
+TEST(GaitMeter, SaysWhenItIsBetweenWalkingAndRunning) {
+  // A stride of 2 s is 200 frames.
+  const auto table = [](int stance) {
+    Feeder feeder;
+    feeder.walk({.stride = 200, .stance = stance, .offset = {100, 0, 0, 100}}, 4000);
+    return gait_table(feeder.finish());
+  };
+  EXPECT_NE(table(98).find("trot; running (duty factor 0.49), stride 2.00 s\n"), std::string::npos);
+  EXPECT_NE(table(99).find("trot; between walking and running (duty factor 0.495), stride"),
+            std::string::npos);
+  EXPECT_NE(table(100).find("trot; between walking and running (duty factor 0.500), stride"),
+            std::string::npos);
+  EXPECT_NE(table(101).find("trot; between walking and running (duty factor 0.505), stride"),
+            std::string::npos);
+  EXPECT_NE(table(102).find("trot; walking (duty factor 0.51), stride"), std::string::npos);
+}
+
 TEST(GaitMeter, MeasuresHowAPhaseDrifts) {
   // The left fore foot takes strides of 1.01 s beside others of 1 s: it falls behind by 0.01 of a stride
-  // in 1.01 s, 0.594 per minute. Window means lie from 4.5 s (2 … 7) to 54.5 s: 0.495 of a stride.
+  // in 1.01 s, 0.594 per minute. The first window lasts until the left hind foot ends its fourth stride in
+  // frame 700; window means lie from 4.505 s (2 … 7.01) to 54.51 s: 0.495 of a stride.
   Feeder feeder;
   const Clockwork feet{.stride = 100, .stance = 60, .offset = {0, 75, 0, 50}},
       slow{.stride = 101, .stance = 60, .offset = {25}};
-  for (int k = 0; k < 5700; ++k) {
+  for (int k = 0; k < 5701; ++k) {
     auto touch = feet.touch(k);
     touch[0] = slow.touch(k)[0];
     feeder.add(touch);

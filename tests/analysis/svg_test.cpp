@@ -59,14 +59,14 @@ TEST(Svg, IsWellFormedWhateverTheTexts) {
 TEST(Svg, DrawsCurvesAndNamesGroups) {
   Svg svg(10, 10, "");
   svg.begin_group("wire", "a → b & c");
-  svg.bezier({{{0, 0}, {1.25, 2}, {3, -4}, {5, 6}}}, {}, 1.5);
-  svg.bezier({{{0, 0}, {1, 1}, {2, 2}, {3, 3}}}, "glyph");
+  svg.bezier(std::array<Point, 7>{{{0, 0}, {1.25, 2}, {3, -4}, {5, 6}, {7, 7}, {8, 8}, {9, 9}}}, {}, 1.5);
+  svg.bezier(std::array<Point, 4>{{{0, 0}, {1, 1}, {2, 2}, {3, 3}}}, "glyph");
   svg.end_group();
   const auto elements = tests::parse_xml(svg.finish());
   ASSERT_EQ(elements.size(), 5u);
   EXPECT_EQ(elements[2].name, "title");
   EXPECT_EQ(elements[2].text, "a → b & c");
-  EXPECT_EQ(elements[3].attributes.at("d"), "M0 0 C1.2 2 3 -4 5 6");
+  EXPECT_EQ(elements[3].attributes.at("d"), "M0 0 C1.2 2 3 -4 5 6 C7 7 8 8 9 9");
   EXPECT_EQ(elements[3].number("stroke-width"), 1.5);
   EXPECT_FALSE(elements[4].attributes.contains("stroke-width"));
 }

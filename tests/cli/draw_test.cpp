@@ -44,6 +44,23 @@ TEST(DrawCommand, PrintsDotOrWritesFilesByTheirNames) {
   EXPECT_EQ(amble({"draw", run, "-o", scratch / "cppn.svg"}).exit_code, 0) << "its own drawings it replaces";
 }
 
+TEST(DrawCommand, SaysWhatALinearNodeComputes) {
+  // An absolute value in the authors' preset, the identity in the paper's.
+  const ScratchFolder scratch;
+  const std::pair<std::string, std::string> functions[] = {{"authors", "|x|"}, {"paper", "linear"}};
+  for (const auto& [preset, function] : functions) {
+    const auto run = scratch / preset;
+    const auto evolved = amble({"evolve", source + "/configs/" + preset + "/supg-objective.toml", "--set",
+                                "population.size=40", "--set", "trial.duration_s=0.1", "--set",
+                                "genome.output_activation=linear", "--generations", "1", "--out", run});
+    ASSERT_EQ(evolved.exit_code, 0) << evolved.err;
+    EXPECT_THAT(amble({"draw", run}).out, HasSubstr("[label=\"pattern\\n" + function + "\", shape=ellipse]"));
+    EXPECT_EQ(amble({"draw", run, "-o", run + ".svg"}).exit_code, 0);
+    EXPECT_THAT(slurp(run + ".svg"), AllOf(HasSubstr("<title>pattern: " + function + "</title>"),
+                                           HasSubstr(">" + function + "</text>")));
+  }
+}
+
 TEST(DrawCommand, DrawsCppnsOfOtherControllersButNoPatterns) {
   const ScratchFolder scratch;
   const auto run = make_run(scratch, "ctrnn-objective");

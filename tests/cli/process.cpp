@@ -1,6 +1,7 @@
 #include "tests/cli/process.hpp"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -52,9 +53,12 @@ void Process::signal(int number) const {
 
 Finished Process::wait() {
   int status = 0;
-  waitpid(pid_, &status, 0);
+  rusage used{};
+  wait4(pid_, &status, 0, &used);
   waited_ = true;
-  Finished finished{.out = slurp(out_), .err = slurp(err_)};
+  Finished finished{.out = slurp(out_),
+                    .err = slurp(err_),
+                    .peak_memory_bytes = 1024.0 * static_cast<double>(used.ru_maxrss)};
   if (WIFEXITED(status)) finished.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) finished.signal = WTERMSIG(status);
   return finished;

@@ -12,6 +12,7 @@ struct Finished {
   int exit_code = -1;  ///< −1: ended by a signal
   int signal = 0;
   std::string out, err;
+  double peak_memory_bytes = 0.0;  ///< its largest resident set
 };
 
 /// A real process of the program under test.

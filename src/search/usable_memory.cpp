@@ -1,0 +1,43 @@
+#include "amble/search/usable_memory.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+namespace amble::search {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Of the whole, the rest is for what else runs.
+constexpr double usable_share = 0.8;
+
+double machine_memory_bytes() {
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+}
+
+/// The process's group, relative to the folder of all groups; empty for the topmost one, and where there are
+/// none of version 2.
+fs::path group_of_process(const fs::path& process_groups) {
+  std::ifstream file(process_groups);
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("0::/")) return line.substr(4);
+  return {};
+}
+
+}  // namespace
+
+double usable_memory_bytes(const fs::path& process_groups, const fs::path& groups) {
+  double bytes = machine_memory_bytes();
+  // The limits of all groups above hold, too. "max", which is no number, means none.
+  for (fs::path group = group_of_process(process_groups);; group = group.parent_path()) {
+    double limit_bytes = 0.0;
+    if (std::ifstream(groups / group / "memory.max") >> limit_bytes) bytes = std::min(bytes, limit_bytes);
+    if (group.empty()) break;
+  }
+  return usable_share * bytes;
+}
+
+}  // namespace amble::search
