@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view manifest_format = "amble-manifest";
 /// Of the run folder as a whole: raised whenever an older program's run could not go on here.
-constexpr int run_version = 2;
+constexpr int run_version = 3;
 constexpr std::string_view lock_name = ".lock";
 
 /// Left by a process that was killed while it wrote (io::AtomicFile).
