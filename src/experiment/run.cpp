@@ -33,13 +33,6 @@ void complain_early(const Config& config, const morphology::RobotSpec& robot) {
   }
 }
 
-/// Throws UserError for a table that rows of this version would not fit into.
-void check_columns(const std::filesystem::path& path) {
-  if (io::InputFile(path).read(csv_header().size()) != csv_header())
-    fail(ExitCode::bad_file, "{}: has other columns: the run was begun by another version of amble",
-         path.string());
-}
-
 /// Returns how many bytes of the file the search has taken back; nothing if it keeps no archive.
 std::optional<std::uint64_t> restore_archive(const std::filesystem::path& path, search::Search& search) {
   if (!search.has_archive()) return std::nullopt;
@@ -89,7 +82,6 @@ Run Run::resume(const std::filesystem::path& folder, std::optional<int> generati
   if (generations && *generations < run.generation())
     fail(ExitCode::bad_input, "{}: {} generations are done already, --generations {} asks for fewer",
          folder.string(), run.generation(), *generations);
-  check_columns(run.paths().generations);
   const auto archive_bytes = restore_archive(run.paths().archive, *run.search_);
   run.csv_ = std::make_unique<io::AppendFile>(run.paths().generations, run.progress_.csv_bytes);
   if (archive_bytes) run.archive_ = std::make_unique<io::AppendFile>(run.paths().archive, *archive_bytes);

@@ -10,6 +10,8 @@ void NoiseSettings::describe(io::SettingsVisitor& visitor) {
       {"trials per evaluation, each with noise of its own, the same for all genomes of a generation"});
   visitor.choice("score", score, episode_score_names,
                  {"what counts of the distances of an evaluation's episodes"});
+  visitor.flag("first_undisturbed", first_undisturbed,
+               {"whether the first episode is without noise, so that no gait comes to need it"});
   visitor.number(
       "push_m_s", push_m_s, {0.0, 100.0},
       {"pushes: largest horizontal impulse, divided by the robot's whole mass, m/s; acts on the root"});
@@ -33,6 +35,9 @@ void NoiseSettings::describe(io::SettingsVisitor& visitor) {
 }
 
 void NoiseSettings::validate(const Settings& trial) const {
+  if (first_undisturbed && episodes < 2)
+    fail(ExitCode::bad_input, "noise.first_undisturbed leaves noise.episodes = {} no noise; expected at least 2",
+         episodes);
   if (episodes > 1 && !any())
     fail(ExitCode::bad_input, "noise.episodes = {}: without any noise they would all be the same; expected 1",
          episodes);

@@ -18,6 +18,7 @@ inline constexpr std::array<std::string_view, 2> episode_score_names{"mean", "wo
 struct NoiseSettings {
   int episodes = 1;
   EpisodeScore score = EpisodeScore::mean;
+  bool first_undisturbed = false;
   double push_m_s = 0.0;
   double push_interval_s = 2.0;
   double start_joint_rad = 0.0;

@@ -91,6 +91,11 @@ std::vector<float> draw_offsets(std::size_t count, double largest, Stream& strea
 Scenario draw_scenario(const NoiseSettings& noise, const RobotSpec& robot, int steps, double timestep_s,
                        const ScenarioKey& key) {
   Scenario scenario;
+  if (noise.first_undisturbed && key.episode == 0) {
+    scenario.attitude_sensor_rad.assign(3, -0.0f);  // which leaves even −0 as it is when added
+    scenario.joint_sensor_rad.assign(robot.joints.size(), -0.0f);
+    return scenario;
+  }
   if (noise.disturbs_start()) scenario.start = draw_start(noise, robot, stream_of(key, Kind::start));
   if (noise.push_m_s > 0.0)
     scenario.pushes =

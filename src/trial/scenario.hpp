@@ -45,6 +45,8 @@ struct ScenarioKey {
 /// The scenario of a trial of `steps` steps. A longer trial begins as a shorter one of the same key, and no
 /// kind of noise depends on the amount of another.
 ///
+/// With NoiseSettings::first_undisturbed, episode 0 is the trial without noise, to the bit.
+///
 /// Start: joints and tilt as drawn, then the root is lifted so that the lowest point is as high over the
 /// ground as in the robot's own start pose (but not below it), plus the height drawn. Pushes: uniform over a
 /// disc in the horizontal plane.

@@ -229,23 +229,6 @@ TEST(RefereedRun, IsRefusedBeforeAnythingIsWrittenIfARefereeCannotSimulateTheRob
   EXPECT_FALSE(std::filesystem::exists(scratch.path / "run"));
 }
 
-TEST(Run, IsNotResumedIntoATableOfOtherColumns) {
-  const ScratchFolder scratch;
-  Listener listener;
-  Run::start(scratch.path / "run", small_config(), 1).execute(listener, listener.stop);
-  const auto table = RunPaths(scratch.path / "run").generations;
-  auto text = io::read_file(table);
-  text.replace(text.find("referees_s"), 10, "something_");
-  io::write_file(table, text);
-  try {
-    Run::resume(scratch.path / "run", 4, 1);
-    ADD_FAILURE() << "accepted";
-  } catch (const UserError& error) {
-    EXPECT_EQ(error.what(),
-              table.string() + ": has other columns: the run was begun by another version of amble");
-  }
-}
-
 TEST(Run, LeavesNothingBehindWhenTheRobotIsUnknown) {
   const ScratchFolder scratch;
   auto config = small_config();

@@ -50,6 +50,16 @@ TEST(NoiseSettings, RefuseEpisodesThatWouldAllBeTheSame) {
   EXPECT_EQ(complaint(noise), "");
 }
 
+TEST(NoiseSettings, RefuseASingleEpisodeThatWouldBeUndisturbed) {
+  NoiseSettings noise;
+  noise.latency_ticks = 1;
+  noise.first_undisturbed = true;
+  EXPECT_EQ(complaint(noise),
+            "noise.first_undisturbed leaves noise.episodes = 1 no noise; expected at least 2");
+  noise.episodes = 2;
+  EXPECT_EQ(complaint(noise), "");
+}
+
 TEST(NoiseSettings, RefusePushesMoreOftenThanSteps) {
   NoiseSettings noise;
   noise.push_m_s = 0.1;

@@ -56,6 +56,20 @@ std::vector<double> numbers(const Scenario& scenario) {
   return all;
 }
 
+TEST(Scenario, LeavesTheFirstEpisodeAloneWhereAskedTo) {
+  auto noise = everything();
+  noise.first_undisturbed = true;
+  const auto first = draw(noise);
+  EXPECT_FALSE(first.start);
+  EXPECT_TRUE(first.pushes.empty() && first.touch_flips.empty());
+  EXPECT_EQ(first.latency_ticks, 0);
+  ASSERT_EQ(first.joint_sensor_rad.size(), 12u);
+  ASSERT_EQ(first.attitude_sensor_rad.size(), 3u);
+  for (const float offset : first.joint_sensor_rad) EXPECT_TRUE(offset == 0.0f && std::signbit(offset));
+  for (const float offset : first.attitude_sensor_rad) EXPECT_TRUE(offset == 0.0f && std::signbit(offset));
+  EXPECT_EQ(numbers(draw(noise, 1)), numbers(draw(everything(), 1))) << "and the others as they are";
+}
+
 TEST(Scenario, RepeatsForTheSameKeyAndForNoOther) {
   std::set<std::vector<double>> seen;
   for (std::uint32_t generation = 0; generation < 20; ++generation)
