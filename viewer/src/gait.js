@@ -54,7 +54,7 @@ export class GaitTable {
       "the phase moves, strides a minute; known from three parts of the trial on. " : "";
     const known = this.gait.work_positive_j != null;
     return element("p", { class: "lead" }, `${text}Cost of transport: the motors’ positive work / (weight × way)` +
-                   (known ? "; beside it, with braking counted too." : "; not known where an engine tells no torques."));
+                   (known ? "; in brackets, with braking counted too." : "; not known where an engine tells no torques."));
   }
 
   /** Rows that follow the time: the gait of the part of the trial around it. */

@@ -58,7 +58,7 @@ export class Stage {
     const group = new Group();
     const model = new RobotModel(walk.robot, i);
     const several = this.walks.length > 1; // are seen from farther away
-    const trail = new Trail(walk, (several ? 0.06 : 0.03) * model.reach());
+    const trail = new Trail(walk, (several ? 0.045 : 0.03) * model.reach());
     group.add(model.root, trail.group);
     this.scene.add(group);
     return { walk, group, model, trail };
