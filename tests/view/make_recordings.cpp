@@ -46,6 +46,7 @@ int main(int argc, char** argv) {
   const tests::SyntheticWalk walk;
   walk.write(folder / "walk.rec");
   tests::SyntheticWalk{.speed_m_s = 0.1}.write(folder / "slow.rec");
+  tests::SyntheticWalk{.chatters = true}.write(folder / "chatter.rec");
   tests::SyntheticWalk{.frames = 30000}.write(folder / "long.rec");
   tests::SyntheticWalk{.frames = 7, .touches = false, .outcome = record::Outcome::fell}.write(folder /
                                                                                               "fell.rec");

@@ -45,7 +45,11 @@ std::vector<float> SyntheticWalk::frame(int k) const {
     put(0.2 * std::sin(turn * phase(joint / 3) + joint % 3) + (joint < 6 ? -0.2 : 0.2) + jitter());
   for (int joint = 0; joint < joints; ++joint)
     put(joint * 0.01 + std::fmod(phase(joint / 3), 1.0) * period_ticks * 0.001);
-  for (int leg = 0; leg < legs; ++leg) put(touches && std::fmod(phase(leg), 1.0) < 0.5);
+  for (int leg = 0; leg < legs; ++leg) {
+    const double stride = std::fmod(phase(leg), 1.0);
+    const bool chatter = chatters && std::abs(std::fmod(stride, 0.5) - 0.25) < 0.015;
+    put(touches && (stride < 0.5) != chatter);
+  }
   for (int leg = 0; leg < legs; ++leg) put(std::floor(std::fmod(phase(leg), 1.0) * period_ticks));
   for (int leg = 0; leg < legs; ++leg) put(touches && k > 0 && std::fmod(phase(leg), 1.0) < frame_s);
   return row;

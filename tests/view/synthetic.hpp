@@ -17,7 +17,8 @@ struct SyntheticWalk {
   int frames = 1500;
   double frame_s = 0.01;
   double speed_m_s = 0.25;
-  bool touches = true;  ///< false: no foot ever does
+  bool touches = true;    ///< false: no foot ever does
+  bool chatters = false;  ///< amid each stance a foot lets go, and amid each swing it touches, for 30 ms
   record::Outcome outcome = record::Outcome::completed;
 
   record::RecordingHeader header() const;

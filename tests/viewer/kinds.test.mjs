@@ -49,13 +49,30 @@ test("the camera keeps walkers in sight that part", () =>
     const places = await page.evaluate(() => [0, 1].map((i) => [window.amble.placed(i)[0][0], window.amble.seen(i)]));
     assert.ok(places[1][0] - places[0][0] > 10, "they are far apart");
     for (const [, place] of places) assert.ok(place.every((at) => Math.abs(at) < 0.9), `at ${place}`);
+    for (const selected of ["1", "2"]) {
+      await page.keyboard.press(selected);
+      await page.keyboard.press("g");
+      const ghosts = await page.evaluate(() => { window.amble.render(); return [0, 1].map((i) => window.amble.seen(i)); });
+      for (const place of ghosts) assert.ok(place.every((at) => Math.abs(at) < 0.9), `as ghosts at ${place}`);
+      await page.keyboard.press("g");
+    }
+    for (const [key, i] of [["1", 0], ["2", 1]]) { // too far apart for one picture, the selected walker stays in it
+      await page.keyboard.press(key);
+      const seen = await page.evaluate((walker) => {
+        window.amble.seek(300);
+        window.amble.render();
+        return window.amble.seen(walker);
+      }, i);
+      assert.ok(seen.every((at) => Math.abs(at) < 0.9), `walker ${key} at ${seen}`);
+    }
   }));
 
-test("five minutes scrub without a stall", async (context) => {
+test("five minutes scrub without a stall, and show how the phases drift", async (context) => {
   const path = makePage("long.html", recording("long.rec"));
   const { size } = statSync(path);
   assert.ok(size < 3e6, `${size} bytes`);
   await onPage(path, {}, async (page) => {
+    assert.match(await page.locator(".gait tr", { hasText: "Drift / min" }).textContent(), /^Drift \/ min(−?0\.00\d){4}$/);
     const result = await page.evaluate(async () => {
       const slider = document.getElementById("slider");
       window.amble.frames().length = 0;
@@ -115,13 +132,28 @@ test("the gait is named, in all and around the present", () =>
   onPage(makePage("gait.html", recording("walk.rec")), {}, async (page) => {
     assert.equal(await page.locator(".gait-name").textContent(), "trot");
     const rows = async () => (await page.locator(".gait tr").allTextContents()).map((row) => row.replaceAll(/\s+/g, " "));
-    assert.deepEqual((await rows()).slice(1, 5),
-                     ["Duty factor50 %50 %50 %50 %", "Phase0.500.000.000.50", "R1.001.001.001.00", "Stride, s1.001.001.001.00"]);
-    assert.match((await rows())[5], /^Nowthe first 2 s do not count/);
+    assert.match(await page.locator(".gait-head").textContent(), /between walking and running, duty factor 0\.500, stride 1\.00 s/);
+    assert.deepEqual((await rows()).slice(1, 6),
+                     ["Duty factor50 %50 %50 %50 %", "Phase0.500.000.000.50", "R1.001.001.001.00", "Drift / min––––",
+                      "Stride, s1.001.001.001.00"]);
+    assert.match((await rows())[6], /^Nowthe first 2 s do not count/);
     await page.evaluate(() => { window.amble.seek(3); window.amble.render(); });
-    assert.match((await rows())[5], /^Now2 … 7 s: trot/);
-    assert.equal((await rows())[7], "Phase0.500.000.000.50");
+    assert.match((await rows())[6], /^Now2 … 7 s: trot/);
+    assert.equal((await rows())[8], "Phase0.500.000.000.50");
     assert.match(await page.locator(".gait-box dl").textContent(), /Speed0\.25\d m\/sStraightness.*Froude number.*Cost of transport–/);
+  }));
+
+test("chatter of the feet is a hairline, and counts in the diagram as little as in the table", () =>
+  onPage(makePage("chatter.html", recording("chatter.rec"), recording("walk.rec")), {}, async (page) => {
+    const [chattering, clean] = await page.evaluate(() => [0, 1].map((i) => [0, 1, 2, 3].map((leg) => window.amble.stances(i, leg))));
+    assert.deepEqual(chattering, clean);
+    assert.equal(clean[0].length, 15);
+    assert.match(await page.locator("#analysis").textContent(), /a gap or a touch under 0\.08 s, which does not count/);
+    assert.equal(await page.locator(".gait-name").textContent(), "trot");
+    assert.match(await page.locator(".gait tr").nth(1).textContent(), /Duty factor50 %50 %50 %50 %/);
+    const chatters = await pictureOf(page, ".plot canvas");
+    await page.keyboard.press("2");
+    assert.notEqual((await pictureOf(page, ".plot canvas")).hash, chatters.hash);
   }));
 
 test("a recording without gait figures shows the share of time on the ground", () => {
@@ -133,22 +165,53 @@ test("a recording without gait figures shows the share of time on the ground", (
   });
 });
 
-test("the page of a champion has its CPPN and the cost of transport", () => {
+/** A page of the best of the first generation of each experiment. */
+function championsPage(name, ...experiments) {
   const folder = mkdtempSync(join(tmpdir(), "amble-"));
-  const run = join(folder, "run");
-  amble("evolve", fileURLToPath(new URL("../../configs/authors/supg-objective.toml", import.meta.url)), "--set", "population.size=40",
-        "--set", "trial.duration_s=0.5", "--generations", "1", "--out", run);
-  const path = makePage("champion.html", run, "--seconds", "3");
-  rmSync(folder, { recursive: true });
-  return onPage(path, {}, async (page) => {
-    assert.deepEqual((await page.locator(".terminal text").allTextContents()), ["bias", "leg", "joint_type", "time"]);
+  try {
+    const runs = experiments.map((experiment) => {
+      const run = join(folder, experiment);
+      amble("evolve", fileURLToPath(new URL(`../../configs/authors/${experiment}.toml`, import.meta.url)), "--set", "population.size=40",
+            "--set", "trial.duration_s=0.5", "--generations", "1", "--out", run);
+      return run;
+    });
+    return makePage(name, ...runs, "--seconds", "3");
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+}
+
+const SUPG_INPUTS = ["bias", "leg", "joint_type", "time"];
+
+test("the page of a champion has its CPPN and the cost of transport", () =>
+  onPage(championsPage("champion.html", "supg-objective"), {}, async (page) => {
+    assert.deepEqual(await page.locator(".terminal text").allTextContents(), SUPG_INPUTS);
     assert.ok((await page.locator(".wire.plus path").count()) > 1);
     const colours = await page.evaluate(() => ["plus", "minus"].map((sign) =>
       getComputedStyle(document.querySelector(`.wire.${sign} path`)).stroke));
     assert.notEqual(colours[0], colours[1]);
-    assert.match(await page.locator(".gait-box dl").textContent(), /Cost of transport\d/);
-  });
-});
+    const cost = /Cost of transport(\d+\.\d\d) \((\d+\.\d\d)\)$/.exec(await page.locator(".gait-box dl").textContent());
+    assert.ok(cost && Number(cost[1]) < Number(cost[2]), "positive work, and beside it the work that counts braking too");
+    assert.match(await page.locator(".gait-box").textContent(), /the motors’ positive work \/ \(weight × way\)/);
+  }));
+
+test("champions of two kinds stand side by side, each with its own CPPN and diagrams", () =>
+  onPage(championsPage("kinds.html", "supg-objective", "ctrnn-objective"), {}, async (page) => {
+    assert.deepEqual(await page.evaluate(() => window.amble.walkers.map((title) => title.split("-")[0])), ["supg", "ctrnn"]);
+    const first = await pictureOf(page);
+    assert.deepEqual(await page.locator(".terminal text").allTextContents(), SUPG_INPUTS);
+    assert.equal(await page.locator(".patterns").count(), 1);
+    await page.keyboard.press("2");
+    const inputs = await page.locator(".terminal text").allTextContents();
+    assert.ok(inputs.includes("source.x") && inputs.includes("target.y"), `${inputs}`);
+    assert.ok((await page.locator(".wire path").count()) > 9);
+    assert.match(await page.locator("#analysis").textContent(), /of kind “ctrnn”/);
+    assert.equal(await page.locator(".patterns").count(), 0);
+    await page.keyboard.press("1");
+    assert.deepEqual(await page.locator(".terminal text").allTextContents(), SUPG_INPUTS);
+    await page.evaluate(() => window.amble.seek(0.5));
+    assert.notEqual((await pictureOf(page)).hash, first.hash);
+  }));
 
 test("without WebGL the page says so, and its diagrams work", async () => {
   const without = await launch({ gl: false });
@@ -157,7 +220,7 @@ test("without WebGL the page says so, and its diagrams work", async () => {
     assert.match(await page.locator("#stage").textContent(), /no WebGL/);
     await page.keyboard.press("Shift+ArrowRight");
     const moved = await page.evaluate(() => { window.amble.render(); return document.querySelector(".cursor").style.transform; });
-    assert.notEqual(moved, "translateX(62.00px)");
+    assert.notEqual(moved, "translateX(72.00px)");
     await page.close();
   } finally {
     await without.close();

@@ -2,7 +2,7 @@
 import { GaitTable } from "./gait.js";
 import { Patterns } from "./patterns.js";
 import { element, legClass } from "./theme.js";
-import { footfallPlot, jointPlot, motionPlot, timerPlot } from "./time_diagrams.js";
+import { footfallPlot, jointPlots, motionPlot, timerPlot } from "./time_diagrams.js";
 
 const section = (title, text, ...content) =>
   element("section", {}, element("h2", {}, title), ...(text ? [element("p", { class: "lead" }, text)] : []), ...content);
@@ -37,7 +37,8 @@ export class Analysis {
       this.footfalls(walk, plot(footfallPlot(walk, window, clock))),
       ...this.supg(walk, plot),
       section("Joints", "Each joint’s angle, in the colour of its leg, and the target that its servo follows, thin. " +
-              "The height of a row is the joint’s range.", plot(jointPlot(walk, window, clock))),
+              "The height of a row is the joint’s range, which stands beside it in rad.",
+              ...jointPlots(walk, window, clock).map(plot)),
       section("Speed and height", "Of the centre of mass over the ground; speed over half a second.",
               plot(motionPlot(this.walks, window, clock, () => this.selected))),
       ...(walk.cppn_svg ? [section("CPPN", "The evolved network that makes the controller, from its inputs (left) to its " +
@@ -50,7 +51,9 @@ export class Analysis {
   footfalls(walk, plot) {
     const keys = element("p", { class: "keys" }, ...walk.robot.legs.map(({ name }, leg) =>
       element("span", { class: `key ${legClass(leg)}` }, name)));
+    const chatters = walk.chatter.some(({ gaps, touches }) => gaps.length + touches.length > 0);
     const text = "A bar means that the foot is on the ground." +
+      (chatters ? ` A hairline is chatter of its sensor: a gap or a touch under ${walk.debounce_s} s, which does not count.` : "") +
       (walk.triggers ? " A triangle marks a trigger: the foot came down and reset the timer of its leg." : "");
     const gait = new GaitTable(walk);
     this.shown.push(gait);

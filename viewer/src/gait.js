@@ -8,6 +8,14 @@ const decimals = (count) => (value) => (value == null ? "–" : number(value, co
 
 const nameOf = ({ gait, irregular_reason: reason }) => (gait ?? "no name") + (reason ? ` (${reason})` : "");
 
+/** The duty factor parts walking from running; who is on the border is said to be there. */
+function footwork({ duty_factor: duty, stride_s }) {
+  if (duty == null) return "no strides";
+  const border = Math.abs(duty - 0.5) < 0.005;
+  const word = border ? "between walking and running" : duty > 0.5 ? "walking" : "running";
+  return `${word}, duty factor ${number(duty, border ? 3 : 2)}, stride ${number(stride_s, 2)} s`;
+}
+
 export class GaitTable {
   constructor(walk) {
     Object.assign(this, { walk, gait: walk.gait });
@@ -18,11 +26,8 @@ export class GaitTable {
   }
 
   headline() {
-    const { gait, duty_factor: duty, stride_s } = this.gait;
-    const name = gait ? nameOf(this.gait) : "no name (gaits are named for four legs, two behind two)";
-    const footwork = duty == null ? "no strides"
-      : `${duty > 0.5 ? "walking" : "running"}, duty factor ${number(duty, 2)}, stride ${number(stride_s, 2)} s`;
-    return element("p", { class: "gait-head" }, element("b", { class: "gait-name" }, name), ` ${footwork}`);
+    const name = this.gait.gait ? nameOf(this.gait) : "no name (gaits are named for four legs, two behind two)";
+    return element("p", { class: "gait-head" }, element("b", { class: "gait-name" }, name), ` ${footwork(this.gait)}`);
   }
 
   table() {
@@ -36,7 +41,8 @@ export class GaitTable {
       const of = (value, text) => known.map((leg) => text(value(leg)));
       rows.push(row("Phase", of(({ phase }) => phase?.phase, decimals(2))),
                 row("R", of(({ phase }) => phase?.resultant, decimals(2))),
-                row("Stride, s", of(({ stride_s }) => stride_s, decimals(2))));
+                row("Drift / min", of(({ drift_per_min }) => drift_per_min, decimals(3))),
+               row("Stride, s", of(({ stride_s }) => stride_s, decimals(2))));
       if (this.gait.windows.length > 1) rows.push(...this.windowRows(row));
     }
     return element("table", { class: "gait" }, ...rows);
@@ -44,10 +50,11 @@ export class GaitTable {
 
   key() {
     const { reference_leg: leg } = this.gait;
-    const text = leg ? `Phase: when a foot lands within the stride of ${leg}, 0 to 1. R: how steadily, 1 at most. ` : "";
+    const text = leg ? `Phase: when a foot lands within the stride of ${leg}, 0 to 1. R: how steadily, 1 at most. Drift: how ` +
+      "the phase moves, strides a minute; known from three parts of the trial on. " : "";
     const known = this.gait.work_positive_j != null;
-    return element("p", { class: "lead" }, `${text}Cost of transport: the motors’ work / (weight × way)` +
-                   (known ? "." : "; not known where an engine tells no torques."));
+    return element("p", { class: "lead" }, `${text}Cost of transport: the motors’ positive work / (weight × way)` +
+                   (known ? "; in brackets, with braking counted too." : "; not known where an engine tells no torques."));
   }
 
   /** Rows that follow the time: the gait of the part of the trial around it. */
@@ -60,9 +67,9 @@ export class GaitTable {
   }
 
   figures() {
-    const { speed_m_s, straightness, froude, cost_of_transport_positive: cost } = this.gait;
+    const { speed_m_s, straightness, froude, cost_of_transport_positive: cost, cost_of_transport_absolute: braking } = this.gait;
     const fields = [["Speed", speed_m_s, 3, "m/s"], ["Straightness", straightness, 2, ""], ["Froude number", froude, 4, ""],
-                    ["Cost of transport", cost, 2, ""]];
+                    ["Cost of transport", cost, 2, braking == null ? "" : `(${number(braking, 2)})`]];
     return element("dl", { class: "now" }, ...fields.map(([title, value, count, unit]) =>
       element("div", {}, element("dt", {}, title),
               element("dd", {}, decimals(count)(value), ...(unit ? [element("small", {}, ` ${unit}`)] : [])))));

@@ -64,15 +64,22 @@ export class Ground {
     this.textures.clear();
   }
 
-  /** Brings marks to where the camera looks. `lane_m` is the y of the numbers. */
-  follow(x_m, y_m, lane_m) {
+  /**
+   * Brings marks to where the camera looks. The numbers stand on the left (side 1) or right (−1) of y = `way_m` and at
+   * least `away_m` from it, `size` times as large as seen from nearby; they read upright from the other side. They keep
+   * still while way_m stays near.
+   */
+  follow(x_m, y_m, { side, way_m, away_m, size }) {
     const snap = (value) => Math.round(value / this.step_m) * this.step_m;
+    const lane_m = snap(way_m) + side * (0.5 * this.step_m + away_m);
     for (const part of [this.plane, this.shadow, this.lines]) [part.position.x, part.position.y] = [snap(x_m), snap(y_m)];
     const middle = Math.round(x_m / this.step_m);
     this.labels.forEach((label, i) => {
       const index = middle + i - LABELS;
-      label.position.x = index * this.step_m + 0.29 * this.step_m;
+      label.position.x = (index + side * (0.04 + 0.25 * size)) * this.step_m;
       label.position.y = lane_m;
+      label.rotation.z = side > 0 ? 0 : Math.PI;
+      label.scale.setScalar(size);
       label.material.map = this.texture(index);
     });
   }

@@ -33,6 +33,8 @@ const publicApi = (page) => ({
   pose: (i, t) => page.walks[i].pose(t),
   joints: (i) => page.walks[i].robot.joints.map(({ name }) => name),
   touching: (i, leg, t) => page.walks[i].touching(leg, t),
+  /** [from, to], … without chatter, as the gait figures count them */
+  stances: (i, leg) => page.walks[i].stances[leg],
   /** Where the stage has put a walker's root and feet: [[x, y, z], …]; the root first. */
   placed: (i) => page.stage.lanes[i].model.placed(),
   /** Where it is in the picture: [x, y], −1 … 1 to the right and up. */

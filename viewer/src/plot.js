@@ -2,7 +2,7 @@
 import { colour, element } from "./theme.js";
 
 const onPaper = () => matchMedia("print").matches;
-const LEFT = 62, RIGHT = 10, AXIS = 20;
+const LEFT = 72, RIGHT = 10, AXIS = 20;
 
 /** The part of the recording that diagrams show: `span_s` around the present, inside the recording. */
 export class TimeWindow {
@@ -22,6 +22,14 @@ export class TimeWindow {
 export function niceStep(length, most) {
   const power = 10 ** Math.floor(Math.log10(length / most));
   return power * [1, 2, 5, 10].find((factor) => (factor * power * most) / length >= 0.9999);
+}
+
+/** The whole nice steps around [lower, upper]: {lower, upper, ticks, text(tick)}, at least two ticks and about `most`. */
+export function niceAxis(lower, upper, most) {
+  const step = niceStep(upper - lower, most), decimals = Math.max(0, -Math.floor(Math.log10(step)));
+  const first = Math.floor(lower / step + 1e-9), last = Math.ceil(upper / step - 1e-9);
+  const ticks = Array.from({ length: last - first + 1 }, (_, i) => (first + i) * step);
+  return { lower: first * step, upper: last * step, ticks, text: (tick) => number(tick, decimals) };
 }
 
 export const number = (value, decimals) => value.toFixed(decimals).replace("-", "−");
@@ -144,6 +152,13 @@ class Pen {
     if (end_s < this.from_s || start_s > this.to_s) return;
     const x0 = Math.max(this.x(start_s), this.left), x1 = Math.min(this.x(end_s), this.right);
     this.rect(x0, Math.max(x1, x0 + 0.75), y, height, css);
+  }
+
+  /** A hairline at a time. */
+  mark(time_s, y, height, css) {
+    if (time_s < this.from_s || time_s > this.to_s) return;
+    const x = this.x(time_s);
+    this.rect(x - 0.6, x + 0.6, y, height, css);
   }
 
   /** A curve through the rows of `column` inside the window; value → px by y. */

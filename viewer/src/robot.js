@@ -38,7 +38,7 @@ export class RobotModel {
     this.walker = walker;
     this.root = new Group();
     this.hinges = [];
-    this.parts = []; // {material, leg, foot}
+    this.parts = []; // {mesh, material, leg, foot, mark}; a mark, as a nose, shows where the front is
     const frames = this.makeBodies();
     this.addGeoms(frames);
     this.paint();
@@ -80,13 +80,14 @@ export class RobotModel {
       const leg = legOfBody(this.robot, geom.body);
       const foot = this.robot.legs.findIndex(({ foot_geom }) => foot_geom === g);
       if (foot >= 0) this.feet[foot] = { mesh, material, touching: null };
-      this.parts.push({ mesh, material, leg, foot });
+      this.parts.push({ mesh, material, leg, foot, mark: leg < 0 && !geom.collides });
     });
   }
 
   paint() {
-    for (const { material, leg, foot } of this.parts) {
+    for (const { material, leg, foot, mark } of this.parts) {
       material.color.set(leg < 0 ? walkerColour(this.walker) : legColour(leg));
+      if (mark) material.color.multiplyScalar(0.2);
       if (foot >= 0) this.feet[foot].touching = null; // painted anew by setTouch
     }
   }

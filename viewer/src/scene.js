@@ -5,12 +5,13 @@ import {
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Ground, Trail } from "./ground.js";
 import { RobotModel } from "./robot.js";
-import { colour, walkerColour } from "./theme.js";
+import { colour, walkerLineColour } from "./theme.js";
 
 export const CAMERAS = ["follow", "orbit", "still"];
 const TURN_S = 20; // of the orbiting camera, once around
 const SMOOTH_S = 0.4; // the camera follows the mean way over this long before and after
-const MOST_SPREAD = 8; // reaches; walkers farther apart leave the picture
+const NEAR = 4.1; // reaches; so far away is the camera from one walker
+const MOST_SPREAD = { side: 8, ghosts: 6 }; // reaches; farther apart, the camera stays with the selected walker
 
 export class Stage {
   /** Throws if the browser gives no WebGL. */
@@ -56,7 +57,8 @@ export class Stage {
   addWalker(walk, i) {
     const group = new Group();
     const model = new RobotModel(walk.robot, i);
-    const trail = new Trail(walk, 0.02 * model.reach());
+    const several = this.walks.length > 1; // are seen from farther away
+    const trail = new Trail(walk, (several ? 0.045 : 0.03) * model.reach());
     group.add(model.root, trail.group);
     this.scene.add(group);
     return { walk, group, model, trail };
@@ -80,7 +82,7 @@ export class Stage {
     this.ground.paint();
     this.lanes.forEach(({ model, trail }, i) => {
       model.paint();
-      trail.paint(this.lanes.length > 1 ? walkerColour(i) : colour("--ink"));
+      trail.paint(this.lanes.length > 1 ? walkerLineColour(i) : colour("--ink"));
     });
   }
 
@@ -104,49 +106,46 @@ export class Stage {
     this.paper.getContext("2d").drawImage(this.canvas, 0, 0);
   }
 
-  /** Where the camera looks at time t: the mean of the walkers side by side, or the one with ghosts; smoothed. */
-  focus(t) {
-    const lanes = this.side ? this.lanes : [this.lanes[this.selected]];
-    const sum = new Vector3();
+  /** Where each walker's centre of mass is over the ground at time t, smoothed. */
+  places(t) {
     const samples = [-1, -0.5, 0, 0.5, 1].map((share) => t + share * SMOOTH_S);
-    for (const { walk, group } of lanes)
-      for (const at of samples) {
-        const [x, y] = walk.comAt(at);
-        sum.x += x;
-        sum.y += y + group.position.y;
-      }
-    sum.divideScalar(lanes.length * samples.length);
-    sum.z = 0.8 * this.lanes[0].walk.robot.bodies[0].position_m[2];
-    return sum;
+    return this.lanes.map(({ walk, group }) => {
+      const sum = new Vector3();
+      for (const at of samples) sum.add(new Vector3(...walk.comAt(at)));
+      return sum.divideScalar(samples.length).add(group.position).setZ(0);
+    });
   }
 
-  /** How far the walkers have come apart: from what the camera looks at to the farthest, m. */
-  spread(t, target) {
-    if (!this.side) return 0;
-    const distances = this.lanes.map(({ walk, group }) => {
-      const [x, y] = walk.comAt(t);
-      return Math.hypot(x - target.x, y + group.position.y - target.y);
-    });
-    return Math.min(Math.max(...distances), MOST_SPREAD * this.reach);
+  /**
+   * What the camera looks at: the middle of the walkers, but no farther than the greatest spread from the selected
+   * one. `spread` is from there to the farthest, `places` those of the walkers; m.
+   */
+  focus(t) {
+    const most = MOST_SPREAD[this.side ? "side" : "ghosts"] * this.reach;
+    const places = this.places(t), selected = places[this.selected];
+    const middle = places.reduce((sum, place) => sum.add(place), new Vector3()).divideScalar(places.length);
+    const target = middle.sub(selected).clampLength(0, most).add(selected);
+    const spread = Math.min(Math.max(...places.map((place) => place.distanceTo(target))), most);
+    target.z = 0.8 * this.lanes[0].walk.robot.bodies[0].position_m[2];
+    return { time_s: t, target, spread, places };
   }
 
   /** From how far away all walkers are in sight. */
   distance(spread) {
-    return (4.1 * this.reach + 2.2 * spread) * Math.max(1, 1.45 / this.camera.aspect);
+    return (NEAR * this.reach + 2.4 * spread) * Math.max(1, 1.45 / this.camera.aspect);
   }
 
   resetCamera() {
     this.resize();
-    const target = this.focus(this.time_s), spread = this.spread(this.time_s, target);
+    const { target, spread } = (this.focused = this.focus(this.time_s));
     this.controls.target.copy(target);
     this.camera.position.set(0.42, -0.86, 0.34).normalize().multiplyScalar(this.distance(spread)).add(target);
-    this.focused = { time_s: this.time_s, target, spread };
     this.controls.update();
   }
 
   /** Moves the camera as its mode wants, from the time it last showed to t. */
   moveCamera(t) {
-    const target = this.focus(t), spread = this.spread(t, target);
+    const focused = this.focus(t), { target, spread } = focused;
     if (this.mode !== "still") {
       const away = this.camera.position.clone().sub(this.controls.target);
       away.multiplyScalar(this.distance(spread) / this.distance(this.focused.spread));
@@ -157,8 +156,16 @@ export class Stage {
       const turn = ((t - this.focused.time_s) * 2 * Math.PI) / TURN_S;
       this.camera.position.sub(this.controls.target).applyAxisAngle(this.camera.up, turn).add(this.controls.target);
     }
-    this.focused = { time_s: t, target, spread };
+    this.focused = focused;
     this.controls.update();
+  }
+
+  /** Brings the ground to where the camera looks, its numbers to the far side of all paths, upright. */
+  moveGround(target, away) {
+    const side = this.camera.position.y < target.y ? 1 : -1;
+    const farthest = Math.max(...this.focused.places.map((place) => side * place.y));
+    const size = Math.min(Math.max(away / (NEAR * this.reach), 1), 1.8);
+    this.ground.follow(target.x, target.y, { side, way_m: side * farthest, away_m: 0.75 * this.reach, size });
   }
 
   /** Puts the light where it shades all walkers; the shadow's box grows in steps, or its edges would flicker. */
@@ -203,10 +210,9 @@ export class Stage {
     }
     this.moveCamera(t);
     const { target } = this.controls;
-    const lowest = Math.min(...this.lanes.map(({ group }) => group.position.y));
-    this.ground.follow(target.x, target.y, lowest - 0.62 * this.reach);
-    this.moveSun(target);
     const away = this.camera.position.distanceTo(target);
+    this.moveGround(target, away);
+    this.moveSun(target);
     this.scene.fog.near = away + 2 * this.reach;
     this.scene.fog.far = away + 18 * this.reach;
     this.renderer.render(this.scene, this.camera);

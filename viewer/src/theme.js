@@ -11,8 +11,10 @@ export function colour(name) {
 export const legColour = (leg) => colour("--c" + (leg % LEG_COLOURS));
 /** A class that sets --leg. */
 export const legClass = (leg) => "leg" + (leg % LEG_COLOURS);
-/** Trunk and curves of a walker: the first is grey. */
+/** Trunk of a walker: the first is grey. */
 export const walkerColour = (walker) => colour("--w" + (walker % 4));
+/** Its curves and path: the same, as strong as lines must be. */
+export const walkerLineColour = (walker) => colour("--l" + (walker % 4));
 
 /** Calls `listener` when light, dark or paper takes over. */
 export function onThemeChange(listener) {

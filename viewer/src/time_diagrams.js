@@ -1,11 +1,14 @@
 // The diagrams over time: footfalls, timers, joints, speed and height.
-import { Plot, niceStep, number } from "./plot.js";
-import { legColour, walkerColour } from "./theme.js";
+import { Plot, niceAxis, number } from "./plot.js";
+import { legColour, walkerLineColour } from "./theme.js";
 
 const TRIGGER_SPAN_S = 40; // in longer windows the triangles would hide each other
-const FOOT_ROW = 30, TIMER_ROW = 40, JOINT_ROW = 42, MOTION_ROW = 92;
+const FOOT_ROW = 30, TIMER_ROW = 40, JOINT_ROW = 46, MOTION_ROW = 112;
 
-/** Footfall diagram (Hildebrand 1965): a bar while the foot is on the ground, a triangle at each trigger. */
+/**
+ * Footfall diagram (Hildebrand 1965): a bar while the foot is on the ground, a triangle at each trigger. Chatter is a
+ * hairline: a gap in its stance, a touch outside of one.
+ */
 export function footfallPlot(walk, window, clock) {
   const { legs } = walk.robot;
   return new Plot("Footfalls", legs.length * FOOT_ROW, window, clock, (pen) => {
@@ -14,6 +17,8 @@ export function footfallPlot(walk, window, clock) {
       pen.rowLabel(name, y + 7);
       pen.rect(pen.left, pen.right, y, 14, "--panel");
       for (const stance of walk.stances[leg]) pen.bar(stance, y, 14, legColour(leg));
+      for (const time_s of walk.chatter[leg].gaps) pen.mark(time_s, y, 14, "--paper");
+      for (const time_s of walk.chatter[leg].touches) pen.mark(time_s, y, 14, legColour(leg));
       if (walk.triggers) for (const time_s of walk.triggers[leg]) triangle(pen, time_s, y - 1.5);
     });
   });
@@ -45,20 +50,32 @@ export function timerPlot(walk, window, clock) {
   });
 }
 
-/** Each joint's angle (coloured) and its target (thin), over the joint's range. */
-export function jointPlot(walk, window, clock) {
+/** "−0.8 … 0", in rad. */
+const rangeText = ({ lower_rad, upper_rad }) =>
+  [lower_rad, upper_rad].map((angle) => number(angle, 2).replace(/\.?0+$/, "")).join(" … ");
+
+/** A plot for each leg, and one for the joints of none, if there are any. */
+export function jointPlots(walk, window, clock) {
   const { joints, legs } = walk.robot;
-  const legOf = (joint) => legs.findIndex((leg) => leg.joints.includes(joint));
-  return new Plot("Joint angles and targets", joints.length * JOINT_ROW, window, clock, (pen) => {
-    joints.forEach(({ name, lower_rad, upper_rad }, j) => {
-      const top = j * JOINT_ROW + 5, height = JOINT_ROW - 10;
+  const others = joints.map((_, j) => j).filter((j) => !legs.some((leg) => leg.joints.includes(j)));
+  const groups = [...legs.map((leg, i) => [leg.joints, () => legColour(i)]), [others, () => "--ink"]];
+  return groups.filter(([members]) => members.length > 0).map(([members, css]) => jointPlot(walk, members, css, window, clock));
+}
+
+/** Each joint's angle (coloured) and its target (thin), over the joint's range. */
+function jointPlot(walk, members, css, window, clock) {
+  return new Plot("Joint angles and targets", members.length * JOINT_ROW, window, clock, (pen) => {
+    members.forEach((j, row) => {
+      const joint = walk.robot.joints[j], { name, lower_rad, upper_rad } = joint;
+      const top = row * JOINT_ROW + 4, height = JOINT_ROW - 8;
       const y = (angle) => top + height * (1 - (angle - lower_rad) / (upper_rad - lower_rad || 1));
-      const leg = legOf(j);
       const [first, ...rest] = name.split("_");
-      pen.rowLabel(first, top + height / 2 - (rest.length ? 7 : 0), leg < 0 ? "--ink" : legColour(leg));
-      if (rest.length) pen.text(rest.join(" "), 0, top + height / 2 + 8, { size: 11.5 });
+      const lines = top + height / 2 - (rest.length ? 13 : 7);
+      pen.rowLabel(first, lines, css());
+      if (rest.length) pen.text(rest.join(" "), 0, lines + 14, { size: 11.5 });
+      pen.text(rangeText(joint), 0, lines + (rest.length ? 27 : 14), { size: 10.5 });
       pen.rect(pen.left, pen.right, top, height, "--panel");
-      pen.curve(walk.angles[j], walk.poses, y, leg < 0 ? "--ink" : legColour(leg), 2.2);
+      pen.curve(walk.angles[j], walk.poses, y, css(), 2.2);
       pen.curve(walk.targets[j], walk.poses, y, "--ink", 1, { steps: true });
     });
   });
@@ -77,28 +94,23 @@ const extent = (columns) => {
 /** Speed over the ground and height of the centre of mass, of all walkers. */
 export function motionPlot(walks, window, clock, selected) {
   const speeds = walks.map((walk) => speedColumn(walk));
+  const heights = walks.map((walk) => walk.com[2]), [lowest, highest] = extent(heights);
   const rows = [
-    { title: "Speed", unit: "m/s", columns: speeds, range: [0, Math.max(0.05, extent(speeds)[1])] },
-    { title: "Height", unit: "m", columns: walks.map((walk) => walk.com[2]) },
+    { title: "Speed, m/s", columns: speeds, axis: niceAxis(0, Math.max(0.05, extent(speeds)[1]), 4) },
+    { title: "Height, m", columns: heights, axis: niceAxis(lowest - 0.002, highest + 0.002, 4) },
   ];
-  for (const row of rows) {
-    const [lower, upper] = row.range ?? extent(row.columns);
-    const spare = Math.max((upper - lower) * 0.06, 0.005);
-    row.range = [row.range ? 0 : lower - spare, upper + spare];
-  }
   return new Plot("Speed and height of the centre of mass", rows.length * MOTION_ROW, window, clock, (pen) => {
-    rows.forEach(({ title, unit, columns, range: [lower, upper] }, r) => {
-      const base = (r + 1) * MOTION_ROW - 6, height = MOTION_ROW - 22;
+    rows.forEach(({ title, columns, axis: { lower, upper, ticks, text } }, r) => {
+      const base = (r + 1) * MOTION_ROW - 8, height = MOTION_ROW - 40;
       const y = (value) => base - ((value - lower) / (upper - lower)) * height;
-      pen.text(`${title}, ${unit}`, 0, base - height - 8, { weight: 600, css: "--ink" });
-      const step = niceStep(upper - lower, 3), decimals = Math.max(0, -Math.floor(Math.log10(step)));
-      for (let i = Math.ceil(lower / step - 1e-9); i * step <= upper; ++i) {
-        pen.hair(pen.left, y(i * step), pen.right, y(i * step));
-        pen.text(number(i * step, decimals), pen.left - 8, y(i * step), { align: "right", size: 11.5 });
+      pen.text(title, 0, base - height - 18, { weight: 600, css: "--ink" });
+      for (const tick of ticks) {
+        pen.hair(pen.left, y(tick), pen.right, y(tick));
+        pen.text(text(tick), pen.left - 8, y(tick), { align: "right", size: 11.5 });
       }
       walks.forEach((walk, i) => {
-        const css = walks.length === 1 ? "--ink" : walkerColour(i);
-        pen.curve(columns[i], walk.poses, y, css, i === selected() ? 2 : 1.2);
+        const css = walks.length === 1 ? "--ink" : walkerLineColour(i);
+        pen.curve(columns[i], walk.poses, y, css, i === selected() ? 2.4 : 1.6);
       });
     });
   });

@@ -21,9 +21,21 @@ export class Walk {
     this.timers = this.columnsOfLegs(poses, "timer.");
     this.touches = this.columnsOfLegs(contacts, "touch.");
     const triggers = this.columnsOfLegs(contacts, "trigger.");
-    this.stances = this.touches.map((touch) => intervals(touch, contacts.step_s));
+    this.debounce_s = this.gait?.settings.debounce_s ?? 0;
+    this.footfalls();
     this.triggers = triggers && triggers.map((trigger) => onsets(trigger, contacts.step_s));
     this.supg = this.controller.kind === "supg" ? this.controller : null;
+  }
+
+  /** Stances as the gait figures count them, [from, to] in seconds, and when there was chatter in and between them. */
+  footfalls() {
+    const { step_s, count } = this.contacts;
+    const least = Math.round(this.debounce_s / step_s);
+    const span = ([first, end]) => [first === 0 ? 0 : (first + 1) * step_s, Math.min(end + 1, count) * step_s];
+    const middles = (rows) => rows.map(span).map(([from, to]) => (from + to) / 2);
+    const all = this.touches.map((touch) => footfalls(runs(touch), least));
+    this.stances = all.map(({ stances }) => stances.map(span));
+    this.chatter = all.map(({ gaps, touches }) => ({ gaps: middles(gaps), touches: middles(touches) }));
   }
 
   /** One column per leg, or null if a leg has none. */
@@ -91,21 +103,41 @@ export class Walk {
     return this.touches[leg].reduce((sum, touch) => sum + (touch > 0.5), 0) / this.contacts.count;
   }
   everTouched() {
-    return this.stances.some((list) => list.length > 0);
+    return this.touches.some((touch) => touch.some((value) => value > 0.5));
   }
 }
 
-/** Where a column of 0 and 1 is 1: [from, to] in seconds. Row k belongs to time (k + 1) × step. */
-export function intervals(column, step_s) {
+/** Where a column of 0 and 1 is 1: [first row, row after the last]. */
+export function runs(column) {
   const found = [];
-  const end = column.length;
-  for (let k = 0; k < end; ++k) {
+  for (let k = 0; k < column.length; ++k) {
     if (!(column[k] > 0.5)) continue;
     const first = k;
-    while (k < end && column[k] > 0.5) ++k;
-    found.push([first === 0 ? 0 : (first + 1) * step_s, Math.min(k + 1, end) * step_s]);
+    while (k < column.length && column[k] > 0.5) ++k;
+    found.push([first, k]);
   }
   return found;
+}
+
+/**
+ * Runs of touches without chatter, as src/analysis/contact_filter.hpp takes it out: gaps of fewer than `least` rows are
+ * closed, then stances of fewer rows dropped. Gives {stances, gaps, touches}; the last two are what did not count.
+ */
+export function footfalls(touched, least) {
+  const joined = [], gaps = [];
+  for (const [first, end] of touched) {
+    const stance = joined.at(-1);
+    if (stance && first - stance[1] < least) {
+      gaps.push([stance[1], first]);
+      stance[1] = end;
+    } else {
+      joined.push([first, end]);
+    }
+  }
+  const counts = ([first, end]) => end - first >= least;
+  const stances = joined.filter(counts);
+  const within = ([first]) => stances.some((stance) => stance[0] <= first && first < stance[1]);
+  return { stances, gaps: gaps.filter(within), touches: joined.filter((stance) => !counts(stance)) };
 }
 
 /** When a column of 0 and 1 became 1: the beginning of that step. */

@@ -1,0 +1,60 @@
+// Parts of the page's program that need no browser.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { niceAxis } from "../../viewer/src/plot.js";
+import { footfalls, runs } from "../../viewer/src/walk.js";
+
+/** Numbers in [0, 1), the same ones in each run (Lehmer's generator with the factor 48271). */
+function* numbers() {
+  for (let state = 1; ; state = (state * 48271) % 2147483647) yield state / 2147483647;
+}
+
+/** By its definition, touch by touch: gaps of fewer than `least` between touches are closed, then shorter stances dropped. */
+function settledSlowly(touch, least) {
+  const settled = touch.map((value) => value > 0.5);
+  const eachRun = (of, action) => {
+    for (let k = 0, first = 0; k < settled.length; first = ++k) {
+      while (k + 1 < settled.length && settled[k + 1] === settled[first]) ++k;
+      if (settled[first] === of) action(first, k + 1);
+    }
+  };
+  const close = [], drop = [];
+  eachRun(false, (first, end) => { if (first > 0 && end < settled.length && end - first < least) close.push([first, end]); });
+  for (const [first, end] of close) settled.fill(true, first, end);
+  eachRun(true, (first, end) => { if (end - first < least) drop.push([first, end]); });
+  for (const [first, end] of drop) settled.fill(false, first, end);
+  return settled;
+}
+
+test("stances are settled as by the definition, and chatter is what that changes", () => {
+  const random = numbers();
+  const next = () => random.next().value;
+  for (let round = 0; round < 3000; ++round) {
+    const stay = 0.3 + 0.69 * next(), least = Math.floor(7 * next());
+    const touch = [];
+    for (let k = Math.floor(60 * next()), value = 0; k > 0; --k) touch.push(next() < stay ? value : (value = 1 - value));
+    const { stances, gaps, touches } = footfalls(runs(touch), least);
+    const within = (list) => touch.map((_, k) => list.some(([first, end]) => first <= k && k < end));
+    const settled = settledSlowly(touch, least);
+    assert.deepEqual(within(stances), settled, `${touch.join("")}, ${least}`);
+    const closed = within(gaps), dropped = within(touches);
+    touch.forEach((value, k) => {
+      assert.equal(closed[k], value === 0 && settled[k], `${touch.join("")}, ${least}: gap at ${k}`);
+      if (value === 1) assert.equal(dropped[k], !settled[k], `${touch.join("")}, ${least}: touch at ${k}`);
+    });
+  }
+});
+
+test("an axis has at least two ticks, different ones, and holds what it is for", () => {
+  const random = numbers();
+  const next = () => random.next().value;
+  for (let round = 0; round < 3000; ++round) {
+    const lower = 4 * next() - 2, upper = lower + 10 ** (4 * next() - 3);
+    const axis = niceAxis(lower, upper, 4);
+    const slack = 1e-6 * (upper - lower);
+    assert.ok(axis.lower <= lower + slack && upper <= axis.upper + slack, `${lower} … ${upper}`);
+    assert.ok(axis.ticks.length >= 2 && axis.ticks.length <= 6, `${axis.ticks} for ${lower} … ${upper}`);
+    assert.equal(new Set(axis.ticks.map(axis.text)).size, axis.ticks.length, `${axis.ticks.map(axis.text)}`);
+    assert.ok(Math.abs(axis.ticks[0] - axis.lower) <= slack && Math.abs(axis.ticks.at(-1) - axis.upper) <= slack);
+  }
+});
