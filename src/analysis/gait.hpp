@@ -14,9 +14,9 @@ namespace amble::analysis {
 
 /// How footfalls are found (docs/GAIT.md says why these are the defaults).
 struct GaitSettings {
-  double debounce_s = 0.08;       ///< shorter gaps in a stance, then shorter stances, are chatter
-  double transient_s = 2.0;       ///< of the beginning, left out of all that is about footfalls
-  double window_s = 5.0;          ///< the gait is named anew for each part of the trial that lasts so long …
+  double debounce_s = 0.08;  ///< shorter gaps in a stance, then shorter stances, are chatter
+  double transient_s = 2.0;  ///< of the beginning, left out of all that is about footfalls
+  double window_s = 5.0;     ///< the gait is named anew for each part of the trial that lasts so long …
   double longest_stride_s = 5.0;  ///< a longer time between two touch-downs is a rest
 
   /// Throws UserError(ExitCode::bad_input) unless 0 ≤ debounce ≤ 1, 0 ≤ transient, 0.1 ≤ window ≤ 3600 and 0

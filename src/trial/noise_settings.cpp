@@ -36,8 +36,8 @@ void NoiseSettings::describe(io::SettingsVisitor& visitor) {
 
 void NoiseSettings::validate(const Settings& trial) const {
   if (first_undisturbed && episodes < 2)
-    fail(ExitCode::bad_input, "noise.first_undisturbed leaves noise.episodes = {} no noise; expected at least 2",
-         episodes);
+    fail(ExitCode::bad_input,
+         "noise.first_undisturbed leaves noise.episodes = {} no noise; expected at least 2", episodes);
   if (episodes > 1 && !any())
     fail(ExitCode::bad_input, "noise.episodes = {}: without any noise they would all be the same; expected 1",
          episodes);
