@@ -18,7 +18,7 @@ class Lanes {
  public:
   /// How far outside the lane is that is free from one end to the other, px.
   double take(double one_end, double other_end) {
-    const auto [begin, end] = std::minmax(one_end, other_end);
+    const double begin = std::min(one_end, other_end), end = std::max(one_end, other_end);
     std::size_t lane = 0;
     while (lane < taken_.size() && std::ranges::any_of(taken_[lane], [&](const auto& other) {
              return begin <= other.second && other.first <= end;

@@ -12,6 +12,7 @@ std::optional<std::vector<Refereed>> ask_referees(const Problem& problem, const 
                                                   const std::atomic<bool>& stop) {
   const auto policy = options.jobs > 1 ? std::launch::async : std::launch::deferred;
   std::vector<std::future<std::optional<Replay>>> trials;
+  trials.reserve(engines.size());
   for (const auto& engine : engines)
     trials.push_back(std::async(policy, [&] {
       return replay(problem, genome, {.seconds = options.seconds, .engine = engine, .trace = false}, stop);
