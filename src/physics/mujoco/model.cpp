@@ -15,9 +15,6 @@ using morphology::RobotSpec;
 using morphology::ServoMode;
 using morphology::Shape;
 
-/// MuJoCo's root body, its only child of the world.
-constexpr int root = 1;
-
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
