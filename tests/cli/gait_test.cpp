@@ -9,11 +9,8 @@ namespace {
 using testing::HasSubstr;
 
 TEST(GaitCommand, NeedsNoMoreMemoryForATrialTenTimesAsLong) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "AddressSanitizer keeps freed memory";
-#endif
-#ifdef __SANITIZE_THREAD__
-  GTEST_SKIP() << "ThreadSanitizer's shadow memory counts, too";
+#ifdef AMBLE_SANITIZED
+  GTEST_SKIP() << "sanitizers keep freed memory, and shadows of it";
 #endif
   const ScratchFolder scratch;
   const auto run = scratch / "run";
