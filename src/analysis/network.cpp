@@ -1,7 +1,6 @@
 #include "amble/analysis/network.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "amble/io/json_file.hpp"
 
@@ -10,18 +9,12 @@ namespace {
 
 using io::JsonView;
 
-double read_finite(const JsonView& json) {
-  const double value = json.number();
-  if (!std::isfinite(value)) json.bad("a finite number");
-  return value;
-}
-
 SubstrateNode read_node(const JsonView& json, std::size_t coordinates) {
   SubstrateNode node;
   node.name = json.at("name").text();
   const JsonView at = json.at("at");
   if (at.size() != coordinates) at.bad("a number for each coordinate");
-  for (std::size_t i = 0; i < at.size(); ++i) node.at.push_back(read_finite(at.at(i)));
+  for (std::size_t i = 0; i < at.size(); ++i) node.at.push_back(at.at(i).finite_number());
   const std::string role = json.at("role").text();
   if (role != "sensor" && role != "hidden" && role != "joint") json.at("role").bad("sensor, hidden or joint");
   node.role = role == "sensor" ? NodeRole::sensor : role == "joint" ? NodeRole::joint : NodeRole::hidden;
@@ -51,7 +44,7 @@ NeuralNetwork parse_network(const std::string& controller_json, const std::strin
   const JsonView links = json.at("links");
   double largest = 0.0;
   for (std::size_t i = 0; i < links.size(); ++i) {
-    const double weight = read_finite(links.at(i).at("weight"));
+    const double weight = links.at(i).at("weight").finite_number();
     largest = std::max(largest, std::fabs(weight));
     substrate.links.push_back({read_index(links.at(i).at("source"), nodes.size()),
                                read_index(links.at(i).at("target"), nodes.size()), weight < 0.0 ? 1 : 0,

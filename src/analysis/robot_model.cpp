@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string_view>
 
 #include "amble/io/json_file.hpp"
@@ -12,22 +11,15 @@ namespace {
 
 using io::JsonView;
 
-/// A number that is not "inf".
-double read_finite(const JsonView& json) {
-  const double value = json.number();
-  if (!std::isfinite(value)) json.bad("a finite number");
-  return value;
-}
-
 Vec3 read_vector(const JsonView& json) {
   if (json.size() != 3) json.bad("a list of 3 numbers");
-  return {read_finite(json.at(std::size_t{0})), read_finite(json.at(1)), read_finite(json.at(2))};
+  return {json.at(std::size_t{0}).finite_number(), json.at(1).finite_number(), json.at(2).finite_number()};
 }
 
 Quat read_rotation(const JsonView& json) {
   if (json.size() != 4) json.bad("a list of 4 numbers");
-  return {read_finite(json.at(std::size_t{0})), read_finite(json.at(1)), read_finite(json.at(2)),
-          read_finite(json.at(3))};
+  return {json.at(std::size_t{0}).finite_number(), json.at(1).finite_number(), json.at(2).finite_number(),
+          json.at(3).finite_number()};
 }
 
 /// An integer in [lowest, end).
@@ -51,7 +43,7 @@ Body read_body(const JsonView& json, std::size_t own_index) {
   body.parent = read_index(json.at("parent"), own_index == 0 ? -1 : 0, own_index);
   body.position_m = read_vector(json.at("position_m"));
   body.rotation = read_rotation(json.at("rotation"));
-  body.mass_kg = read_finite(json.at("mass_kg"));
+  body.mass_kg = json.at("mass_kg").finite_number();
   body.com_m = read_vector(json.at("com_m"));
   return body;
 }
@@ -63,8 +55,8 @@ Joint read_joint(const JsonView& json, std::size_t bodies) {
   joint.chain_index = static_cast<int>(json.at("chain_index").integer());
   joint.anchor_m = read_vector(json.at("anchor_m"));
   joint.axis = read_vector(json.at("axis"));
-  joint.lower_rad = read_finite(json.at("lower_rad"));
-  joint.upper_rad = read_finite(json.at("upper_rad"));
+  joint.lower_rad = json.at("lower_rad").finite_number();
+  joint.upper_rad = json.at("upper_rad").finite_number();
   return joint;
 }
 

@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "amble/cli/commands.hpp"
 #include "amble/cli/compare_table.hpp"
 #include "amble/cli/stop_signal.hpp"
+#include "amble/experiment/config.hpp"
 #include "amble/experiment/referees.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/physics/engine.hpp"
@@ -18,12 +21,16 @@ namespace amble::cli {
 namespace {
 
 constexpr std::array formats{"text", "markdown", "json"};
+/// More episodes than any evaluation has (NoiseSettings::episodes).
+constexpr std::uint32_t first_unmet_episode = 1000;
 
 struct CompareOptions {
   std::vector<std::filesystem::path> inputs;
   std::vector<double> seconds;  ///< none: as in the champion's evolution
   std::vector<std::string> engines{physics::engine_names.begin(), physics::engine_names.end()};
   std::string format = formats[0];
+  std::optional<std::filesystem::path> noise;  ///< a config file, for its noise
+  std::uint32_t episodes = 10;
 };
 
 struct Entrant {
@@ -54,11 +61,28 @@ std::vector<std::string> columns(const std::vector<std::string>& asked,
   return engines;
 }
 
-ComparedChampion compare(const Entrant& entrant, double seconds, const std::vector<std::string>& engines) {
+/// Puts the champions into this noise, whatever they were evolved under.
+void disturb(std::vector<Entrant>& entrants, const std::filesystem::path& config) {
+  auto noise = experiment::load_config(config, {}).noise;
+  if (!noise.any()) fail(ExitCode::bad_input, "--noise: {} is without noise", config.string());
+  noise.first_undisturbed = false;
+  for (auto& entrant : entrants) entrant.champion.problem.noise = noise;
+}
+
+/// Noise that evolution has not met: its episodes have lower numbers.
+std::vector<trial::ScenarioKey> unmet_noise(const experiment::Champion& champion, std::uint32_t episodes) {
+  std::vector<trial::ScenarioKey> keys;
+  for (std::uint32_t e = 0; e < episodes; ++e) keys.push_back(champion.scenario_key(first_unmet_episode + e));
+  return keys;
+}
+
+ComparedChampion compare(const Entrant& entrant, double seconds, const std::vector<std::string>& engines,
+                         const CompareOptions& options) {
   const auto& [name, champion] = entrant;
-  const experiment::RefereeOptions how{.seconds = seconds, .jobs = static_cast<int>(engines.size())};
+  experiment::RefereeOptions how{.seconds = seconds, .jobs = static_cast<int>(engines.size())};
+  if (options.noise) how.noise = unmet_noise(champion, options.episodes);
   try {
-    auto judged = experiment::ask_referees(champion.problem, champion.genome, engines, how, stop_signal());
+    auto judged = experiment::judge(champion.problem, champion.genome, engines, how, stop_signal());
     if (!judged) fail(ExitCode::interrupted, "stopped before all champions had walked");
     return {.name = name, .home = champion.problem.engine, .trial_s = seconds, .in = std::move(*judged)};
   } catch (const UserError& error) {
@@ -68,13 +92,14 @@ ComparedChampion compare(const Entrant& entrant, double seconds, const std::vect
 }
 
 ExitCode run_compare(const CompareOptions& options) {
-  const auto entrants = load(options.inputs);
+  auto entrants = load(options.inputs);
+  if (options.noise) disturb(entrants, *options.noise);
   const auto engines = columns(options.engines, entrants);
   std::vector<ComparedChampion> rows;
   for (const auto& entrant : entrants) {
     auto lengths_s = options.seconds;
     if (lengths_s.empty()) lengths_s.push_back(entrant.champion.problem.trial.duration_s);
-    for (const double length_s : lengths_s) rows.push_back(compare(entrant, length_s, engines));
+    for (const double length_s : lengths_s) rows.push_back(compare(entrant, length_s, engines, options));
   }
   const auto text = options.format == "json"       ? compare_json(rows)
                     : options.format == "markdown" ? compare_markdown(rows)
@@ -100,6 +125,14 @@ void add_compare(CLI::App& app, Action& action) {
   command->add_option("--format", options->format, "What to print: text, markdown or json")
       ->capture_default_str()
       ->check(CLI::IsMember(std::vector<std::string>(formats.begin(), formats.end())));
+  auto* noise =
+      command->add_option("--noise", options->noise,
+                          "Disturb all trials by the [noise] of this config file, in ways evolution "
+                          "has not met; distances are medians of the episodes");
+  command->add_option("--episodes", options->episodes, "Trials under --noise per champion, length and engine")
+      ->capture_default_str()
+      ->needs(noise)
+      ->check(CLI::Range(1u, 1000u));
   command->callback([options, &action] { action = [options] { return run_compare(*options); }; });
 }
 

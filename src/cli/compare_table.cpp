@@ -9,29 +9,51 @@
 namespace amble::cli {
 namespace {
 
-using experiment::Refereed;
+using experiment::Judgement;
 using experiment::share_kept;
+using experiment::TrialResult;
 
 /// From this share on a champion counts as one that has kept its distance.
 constexpr double enough = 0.7;
 
 using Cells = std::vector<std::string>;
 
-const experiment::TrialResult& at_home(const ComparedChampion& row) {
-  return std::ranges::find(row.in, row.home, &Refereed::engine)->result;
+double home_m(const ComparedChampion& row) {
+  return std::ranges::find(row.in, row.home, &Judgement::engine)->distance_m();
 }
 
-std::string ending(const experiment::TrialResult& result) {
+std::string_view outcome_name(const TrialResult& result) {
+  return record::outcome_names[static_cast<std::size_t>(result.outcome)];
+}
+
+std::string ending(const TrialResult& result) {
   if (result.outcome == record::Outcome::completed) return "";
-  return fmt::format(", {} at {:.2f} s", record::outcome_names[static_cast<std::size_t>(result.outcome)],
-                     result.seconds);
+  return fmt::format(", {} at {:.2f} s", outcome_name(result), result.seconds);
+}
+
+std::string endings(const Judgement& judged) {
+  if (judged.trials.size() == 1) return ending(judged.trials.front());
+  const auto early = std::ranges::count_if(
+      judged.trials, [](const TrialResult& trial) { return trial.outcome != record::Outcome::completed; });
+  return early > 0 ? fmt::format(", {} of {} ended early", early, judged.trials.size()) : "";
+}
+
+std::string distance_text(double distance_m) {
+  return fmt::format("{:.3f} m", distance_m);
+}
+
+std::string kept_text(double distance_m, double of_m) {
+  const auto kept = share_kept(distance_m, of_m);
+  return kept ? fmt::format(", {:.0f} %", 100.0 * *kept) : "";
 }
 
 Cells row_cells(const ComparedChampion& row) {
   Cells cells{row.name, row.home, fmt::format("{:g} s", row.trial_s)};
-  for (const auto& [engine, result] : row.in)
-    cells.push_back(engine == row.home ? fmt::format("{:.3f} m", result.distance_m) + ending(result)
-                                       : result_text(result, at_home(row).distance_m));
+  for (const auto& judged : row.in) {
+    const double walked_m = judged.distance_m();
+    cells.push_back(distance_text(walked_m) +
+                    (judged.engine == row.home ? "" : kept_text(walked_m, home_m(row))) + endings(judged));
+  }
   return cells;
 }
 
@@ -49,12 +71,12 @@ Cells summary_cells(const std::vector<ComparedChampion>& rows, double trial_s) {
     int away = 0, kept = 0;
     for (const auto& row : rows) {
       if (row.trial_s != trial_s) continue;
-      distances_m.push_back(row.in[e].result.distance_m);
+      distances_m.push_back(row.in[e].distance_m());
       if (row.in[e].engine == row.home) continue;
       ++away;
-      kept += share_kept(distances_m.back(), at_home(row).distance_m).value_or(0.0) >= enough;
+      kept += share_kept(distances_m.back(), home_m(row)).value_or(0.0) >= enough;
     }
-    cells.push_back(fmt::format("{:.3f} m", median(distances_m)) +
+    cells.push_back(distance_text(median(distances_m)) +
                     (away > 0 ? fmt::format("; {} of {}", kept, away) : ""));
   }
   return cells;
@@ -107,13 +129,14 @@ std::string compare_json(const std::vector<ComparedChampion>& rows) {
   io::Json list = io::Json::array();
   for (const auto& row : rows) {
     io::Json results = io::Json::array();
-    for (const auto& [engine, result] : row.in) {
-      results.push_back({{"engine", engine},
-                         {"distance_m", result.distance_m},
-                         {"seconds", result.seconds},
-                         {"outcome", record::outcome_names[static_cast<std::size_t>(result.outcome)]}});
-      if (const auto kept = share_kept(result.distance_m, at_home(row).distance_m))
-        results.back()["kept"] = *kept;
+    for (const auto& judged : row.in) {
+      io::Json trials = io::Json::array();
+      for (const auto& trial : judged.trials)
+        trials.push_back(
+            {{"distance_m", trial.distance_m}, {"seconds", trial.seconds}, {"outcome", outcome_name(trial)}});
+      results.push_back(
+          {{"engine", judged.engine}, {"distance_m", judged.distance_m()}, {"trials", std::move(trials)}});
+      if (const auto kept = share_kept(judged.distance_m(), home_m(row))) results.back()["kept"] = *kept;
     }
     list.push_back({{"champion", row.name},
                     {"evolved_in", row.home},
@@ -123,10 +146,8 @@ std::string compare_json(const std::vector<ComparedChampion>& rows) {
   return list.dump(2) + "\n";
 }
 
-std::string result_text(const experiment::TrialResult& result, double home_m) {
-  const auto kept = share_kept(result.distance_m, home_m);
-  return fmt::format("{:.3f} m", result.distance_m) + (kept ? fmt::format(", {:.0f} %", 100.0 * *kept) : "") +
-         ending(result);
+std::string result_text(const TrialResult& result, double home_m) {
+  return distance_text(result.distance_m) + kept_text(result.distance_m, home_m) + ending(result);
 }
 
 }  // namespace amble::cli

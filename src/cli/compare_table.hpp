@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "amble/experiment/champion.hpp"
+#include "amble/experiment/referees.hpp"
 
 namespace amble::cli {
 
@@ -12,11 +12,12 @@ struct ComparedChampion {
   std::string name;
   std::string home;  ///< the engine in which it evolved
   double trial_s = 0.0;
-  std::vector<experiment::Refereed> in;  ///< its home among them; the same engines in every row
+  std::vector<experiment::Judgement> in;  ///< its home among them; the same engines in every row
 };
 
 /// Columns for people; the last lines sum up if there are several champions: per engine the median distance,
-/// and how many champions kept at least 70 % of what they walk at home.
+/// and how many champions kept at least 70 % of what they walk at home. Of several trials of a champion
+/// the median distance counts.
 std::string compare_text(const std::vector<ComparedChampion>& rows);
 /// The same as a table in Markdown.
 std::string compare_markdown(const std::vector<ComparedChampion>& rows);

@@ -26,6 +26,7 @@ namespace fs = std::filesystem;
 struct PageOptions {
   fs::path run, out;
   std::optional<fs::path> figures;
+  std::optional<std::string> engine;
 };
 
 std::string noise_text(const trial::NoiseSettings& noise) {
@@ -34,7 +35,8 @@ std::string noise_text(const trial::NoiseSettings& noise) {
                      trial::episode_score_names[static_cast<std::size_t>(noise.score)], noise.episodes);
 }
 
-std::vector<analysis::Fact> facts(const experiment::Config& config, const experiment::Champion& champion) {
+std::vector<analysis::Fact> facts(const experiment::Config& config, const experiment::Champion& champion,
+                                  const std::string& shown_in) {
   const auto build = experiment::build_info();
   const auto& robot = champion.problem.robot;
   std::vector<analysis::Fact> facts{
@@ -49,6 +51,7 @@ std::vector<analysis::Fact> facts(const experiment::Config& config, const experi
       {"Seed", fmt::format("{}", config.seed)},
       {"Champion", fmt::format("generation {}, genome {}: {:.3f} m in the engine {}", champion.generation,
                                champion.index, champion.result.distance_m, config.engine)},
+      {"Shown", fmt::format("as it walks in the engine {}", shown_in)},
       {"Made by",
        fmt::format("amble {} ({}), {}", build.version, build.commit.substr(0, 12), build.compiler)}};
   for (const auto& [engine, judged] : champion.referees)
@@ -67,7 +70,7 @@ ExitCode make_page(const PageOptions& options) {
   const ScratchFile recording("page");
   const auto replay = experiment::replay(champion.problem, champion.genome,
                                          {.seconds = {},
-                                          .engine = {},
+                                          .engine = options.engine,
                                           .record = recording.path(),
                                           .origin = champion_path.string(),
                                           .noise = {}},
@@ -82,7 +85,7 @@ ExitCode make_page(const PageOptions& options) {
       .recording = recording.path(),
       .cppn =
           analysis::CppnSize{champion.genome.count(neat::NodeKind::hidden), champion.genome.enabled_links()},
-      .facts = facts(config, champion),
+      .facts = facts(config, champion, options.engine.value_or(config.engine)),
       .commands = {fmt::format("amble evolve {} --out AGAIN", paths.config.string()),
                    "amble page AGAIN -o page.html"}};
   const auto recorded = analysis::read_recorded(recording.path());
@@ -108,6 +111,8 @@ void add_page(CLI::App& app, Action& action) {
   command->add_option("-o,--out", options->out, "The page to write (HTML)")->required();
   command->add_option("--figures", options->figures,
                       "Also write each figure as an SVG file into this folder");
+  command->add_option("--engine", options->engine,
+                      "Physics engine in which the champion is shown (default: as in its evolution)");
   command->callback([options, &action] { action = [options] { return make_page(*options); }; });
 }
 

@@ -29,6 +29,7 @@ struct ViewOptions {
   std::vector<fs::path> inputs;
   fs::path out;
   std::optional<double> seconds;
+  std::optional<std::string> engine;
   std::optional<std::string> title;
 };
 
@@ -43,14 +44,17 @@ std::optional<view::Walker> walk(const fs::path& path, const ViewOptions& option
   GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
   const auto replay = experiment::replay(champion.problem, champion.genome,
                                          {.seconds = options.seconds,
-                                          .engine = {},
+                                          .engine = options.engine,
                                           .record = recording.path(),
                                           .origin = path.string(),
                                           .observer = &gait,
                                           .trace = false},
                                          stop_signal());
   if (!replay) return std::nullopt;
-  return view::Walker{.title = fmt::format("{}, generation {}", champion.experiment, champion.generation),
+  const auto& home = champion.problem.engine;
+  const auto& judge = options.engine.value_or(home);
+  return view::Walker{.title = fmt::format("{}, generation {}", champion.experiment, champion.generation) +
+                               (judge == home ? "" : fmt::format(", in the engine {}", judge)),
                       .recording = recording.path(),
                       .cppn_svg = analysis::cppn_figure(cppn_graph(champion)),
                       .gait = gait_of(gait.finish(replay->result.outcome))};
@@ -70,6 +74,7 @@ ExitCode make_view(const ViewOptions& options) {
   for (const fs::path& input : options.inputs) {
     const bool is_run = fs::is_directory(input);
     if (!is_run && input.extension() != ".json") {
+      if (options.engine) fail(ExitCode::bad_input, "--engine: {} has been made already", input.string());
       page.walkers.push_back(recorded(input));
       continue;
     }
@@ -103,6 +108,8 @@ void add_view(CLI::App& app, Action& action) {
   command
       ->add_option("--seconds", options->seconds, "How long champions walk (default: as in their evolution)")
       ->check(CLI::PositiveNumber);
+  command->add_option("--engine", options->engine,
+                      "Physics engine in which champions walk (default: as in their evolution)");
   command->add_option("--title", options->title, "Title of the page");
   command->callback([options, &action] { action = [options] { return make_view(*options); }; });
 }

@@ -180,7 +180,7 @@ bool Run::keep_champion(std::size_t best, GenerationRow& row, const std::atomic<
          champion.generation, row.best_m, champion.objective_m());
   if (!config_.referees.empty()) {
     const Stopwatch watch(row.times.referees_s);
-    auto judged = ask_referees(*problem_, champion.genome, config_.referees, {.jobs = jobs_}, stop);
+    auto judged = ask_referees(*problem_, champion.genome, config_.referees, jobs_, stop);
     if (!judged) return false;
     champion.referees = std::move(*judged);
   }

@@ -57,8 +57,9 @@ class JsonView {
   JsonView at(std::string_view key) const;
   JsonView at(std::size_t index) const;
   bool has(std::string_view key) const;
-  std::size_t size() const;  ///< of an array
-  double number() const;     ///< never NaN; infinite only where json_number wrote it so
+  std::size_t size() const;      ///< of an array
+  double number() const;         ///< never NaN; infinite only where json_number wrote it so
+  double finite_number() const;  ///< the same, but never infinite
   std::int64_t integer() const;
   bool flag() const;
   std::string text() const;

@@ -46,6 +46,12 @@ double JsonView::number() const {
   return value;
 }
 
+double JsonView::finite_number() const {
+  const double value = number();
+  if (!std::isfinite(value)) bad("a finite number");
+  return value;
+}
+
 std::int64_t JsonView::integer() const {
   if (!json_->is_number_integer()) bad("a whole number");
   constexpr auto highest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());

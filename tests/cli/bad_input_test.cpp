@@ -32,13 +32,13 @@ class BadInput : public testing::Test {
  protected:
   /// One line on stderr that holds `words`, the exit code, and no file touched.
   void expect_complaint(const std::vector<std::string>& arguments, ExitCode code, const std::string& words) {
-    const auto before = snapshot(scratch_.path);
+    const auto before = snapshot(scratch_.path());
     const auto finished = amble(arguments);
     EXPECT_EQ(finished.exit_code, static_cast<int>(code)) << finished.err;
     EXPECT_THAT(finished.err, StartsWith("amble: "));
     EXPECT_THAT(finished.err, HasSubstr(words));
     EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
-    auto after = snapshot(scratch_.path);
+    auto after = snapshot(scratch_.path());
     std::erase_if(after, [](const auto& file) { return file.first.ends_with("/.lock"); });
     auto expected = before;
     std::erase_if(expected, [](const auto& file) { return file.first.ends_with("/.lock"); });
@@ -47,7 +47,7 @@ class BadInput : public testing::Test {
 
   /// A config of its own: that of the authors with more lines at its end.
   std::string config_with(const std::string& lines) {
-    spill(scratch_.path / "c.toml", "include = [\"" + config + "\"]\n" + lines + "\n");
+    spill(scratch_ / "c.toml", "include = [\"" + config + "\"]\n" + lines + "\n");
     return scratch_ / "c.toml";
   }
 
@@ -58,7 +58,7 @@ class BadInput : public testing::Test {
     ASSERT_EQ(run.exit_code, 0) << run.err;
   }
 
-  ScratchFolder scratch_;
+  TemporaryFolder scratch_;
   std::string out_ = scratch_ / "out";
   std::string run_ = scratch_ / "run";
 };
@@ -160,7 +160,7 @@ TEST_F(BadInput, SubstrateThatDoesNotHoldTogether) {
 }
 
 TEST_F(BadInput, SyntaxErrorWithLineAndColumn) {
-  spill(scratch_.path / "c.toml", "seed = 1\npopulation = { size = \n");
+  spill(scratch_ / "c.toml", "seed = 1\npopulation = { size = \n");
   expect_complaint({"evolve", scratch_ / "c.toml", "--out", out_}, ExitCode::bad_input, "c.toml:2:");
 }
 
@@ -175,12 +175,12 @@ TEST_F(BadInput, MissingRobot) {
 
 class BadRobot : public BadInput {
  protected:
-  BadRobot() { fs::copy(source + "/robots/quadruped", scratch_.path / "robot"); }
+  BadRobot() { fs::copy(source + "/robots/quadruped", scratch_ / "robot"); }
   void replace(const std::string& file, const std::string& what, const std::string& with) {
-    auto text = slurp(scratch_.path / "robot" / file);
+    auto text = slurp(scratch_ / "robot" / file);
     const auto at = text.find(what);
     ASSERT_NE(at, std::string::npos);
-    spill(scratch_.path / "robot" / file, text.replace(at, what.size(), with));
+    spill(scratch_ / "robot" / file, text.replace(at, what.size(), with));
   }
   std::string robot_ = scratch_ / "robot/authors.toml";
 };
@@ -201,7 +201,7 @@ TEST_F(BadRobot, WithAJointThatTheSideFileDoesNotName) {
 }
 
 TEST_F(BadRobot, WithAModelThatIsNotThere) {
-  fs::remove(scratch_.path / "robot/authors.xml");
+  fs::remove(scratch_ / "robot/authors.xml");
   expect_complaint({"robot", robot_}, ExitCode::io, "authors.xml");
 }
 
@@ -278,9 +278,9 @@ TEST_F(BadInput, RunWhoseConfigWasEdited) {
 
 TEST_F(BadInput, FolderThatIsNoRun) {
   expect_complaint({"resume", scratch_ / "none"}, ExitCode::io, "no such folder");
-  expect_complaint({"verify", scratch_.path.string()}, ExitCode::bad_input, "not a run folder");
-  expect_complaint({"info", scratch_.path.string()}, ExitCode::bad_input, "not a run folder");
-  expect_complaint({"page", scratch_.path.string(), "-o", out_}, ExitCode::bad_input, "not a run folder");
+  expect_complaint({"verify", scratch_.path().string()}, ExitCode::bad_input, "not a run folder");
+  expect_complaint({"info", scratch_.path().string()}, ExitCode::bad_input, "not a run folder");
+  expect_complaint({"page", scratch_.path().string(), "-o", out_}, ExitCode::bad_input, "not a run folder");
 }
 
 TEST_F(BadInput, TrialOfNoWholeNumberOfSteps) {
@@ -292,22 +292,22 @@ TEST_F(BadInput, TrialOfNoWholeNumberOfSteps) {
 }
 
 TEST_F(BadInput, GaitOfWhatHasNone) {
-  expect_complaint({"gait", scratch_.path.string()}, ExitCode::bad_input, "not a run folder");
+  expect_complaint({"gait", scratch_.path().string()}, ExitCode::bad_input, "not a run folder");
   expect_complaint({"gait", scratch_ / "none.rec"}, ExitCode::io, "none.rec");
-  spill(scratch_.path / "walk.rec", "not a recording");
+  spill(scratch_ / "walk.rec", "not a recording");
   expect_complaint({"gait", scratch_ / "walk.rec"}, ExitCode::bad_file, "walk.rec");
   expect_complaint({"gait", scratch_ / "walk.rec", "--debounce", "9"}, ExitCode::bad_input,
                    "debounce = 9 s: expected 0 to 1 s");
 }
 
 TEST_F(BadInput, RecordingThatIsNone) {
-  spill(scratch_.path / "walk.rec", "not a recording");
+  spill(scratch_ / "walk.rec", "not a recording");
   expect_complaint({"info", scratch_ / "walk.rec"}, ExitCode::bad_file, "walk.rec");
 }
 
 TEST_F(BadInput, ViewOfWhatCannotBeShown) {
   const std::string page = scratch_ / "page.html", recording = scratch_ / "walk.rec";
-  expect_complaint({"view", scratch_.path.string(), "-o", page}, ExitCode::bad_input, "not a run folder");
+  expect_complaint({"view", scratch_.path().string(), "-o", page}, ExitCode::bad_input, "not a run folder");
   expect_complaint({"view", scratch_ / "none.json", "-o", page}, ExitCode::io, "none.json");
   spill(recording, "not a recording");
   expect_complaint({"view", recording, "-o", page}, ExitCode::bad_file, "walk.rec: ");
@@ -323,20 +323,20 @@ TEST_F(BadInput, ViewOfWhatCannotBeShown) {
 }
 
 TEST_F(BadInput, DrawingOfWhatIsNoChampion) {
-  expect_complaint({"draw", scratch_.path.string()}, ExitCode::bad_input, "not a run folder");
+  expect_complaint({"draw", scratch_.path().string()}, ExitCode::bad_input, "not a run folder");
   expect_complaint({"draw", scratch_ / "none.json"}, ExitCode::io, "none.json");
-  spill(scratch_.path / "c.json", "{}");
+  spill(scratch_ / "c.json", "{}");
   expect_complaint({"draw", scratch_ / "c.json"}, ExitCode::bad_file, "c.json");
   expect_complaint({"draw", scratch_ / "c.json", "-o", scratch_ / "c.png"}, ExitCode::bad_input,
                    "c.png: expected a name that ends in .svg or .dot");
-  spill(scratch_.path / "c.svg", "a letter to a friend");
+  spill(scratch_ / "c.svg", "a letter to a friend");
   expect_complaint({"draw", scratch_ / "c.json", "-o", scratch_ / "c.svg"}, ExitCode::bad_input, "c.svg");
   expect_complaint({"draw", scratch_ / "c.json", "--patterns", scratch_ / "c.svg"}, ExitCode::bad_input,
                    "c.svg");
 }
 
 TEST_F(BadInput, FullDiskLeavesARunThatGoesOnLater) {
-  const auto disk = scratch_.path / "disk";
+  const auto disk = scratch_ / "disk";
   fs::create_directories(disk);
   if (mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=400k") != 0) GTEST_SKIP() << "needs the right to mount";
   const auto run = (disk / "run").string();

@@ -14,7 +14,7 @@ using testing::StartsWith;
 const std::string source = AMBLE_SOURCE_DIR;
 
 /// A run of one generation; gives its folder.
-std::string make_run(const ScratchFolder& scratch, const std::string& config = "supg-objective") {
+std::string make_run(const TemporaryFolder& scratch, const std::string& config = "supg-objective") {
   const auto run = scratch / config;
   const auto evolved =
       amble({"evolve", source + "/configs/authors/" + config + ".toml", "--set", "population.size=40",
@@ -24,7 +24,7 @@ std::string make_run(const ScratchFolder& scratch, const std::string& config = "
 }
 
 TEST(DrawCommand, PrintsDotOrWritesFilesByTheirNames) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const auto run = make_run(scratch), champion = run + "/champions/00000.json";
   const auto printed = amble({"draw", champion});
   EXPECT_EQ(printed.exit_code, 0) << printed.err;
@@ -46,10 +46,10 @@ TEST(DrawCommand, PrintsDotOrWritesFilesByTheirNames) {
 
 TEST(DrawCommand, SaysWhatALinearNodeComputes) {
   // An absolute value in the authors' preset, the identity in the paper's.
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const std::pair<std::string, std::string> functions[] = {{"authors", "|x|"}, {"paper", "linear"}};
   for (const auto& [preset, function] : functions) {
-    const auto run = scratch / preset;
+    const std::string run = scratch / preset;
     const auto evolved = amble({"evolve", source + "/configs/" + preset + "/supg-objective.toml", "--set",
                                 "population.size=40", "--set", "trial.duration_s=0.1", "--set",
                                 "genome.output_activation=linear", "--generations", "1", "--out", run});
@@ -62,7 +62,7 @@ TEST(DrawCommand, SaysWhatALinearNodeComputes) {
 }
 
 TEST(DrawCommand, DrawsCppnsOfOtherControllersButNoPatterns) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const auto run = make_run(scratch, "ctrnn-objective");
   EXPECT_THAT(amble({"draw", run}).out, HasSubstr("[label=\"source.module_x\""));
   const auto refused = amble({"draw", run, "--patterns", scratch / "patterns.svg"});

@@ -12,7 +12,7 @@ TEST(GaitCommand, NeedsNoMoreMemoryForATrialTenTimesAsLong) {
 #ifdef AMBLE_SANITIZED
   GTEST_SKIP() << "sanitizers keep freed memory, and shadows of it";
 #endif
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const auto run = scratch / "run";
   const auto evolved = amble({"evolve", AMBLE_SOURCE_DIR "/configs/authors/supg-objective.toml", "--set",
                               "engine=batch", "--set", "population.size=40", "--set", "trial.duration_s=2",

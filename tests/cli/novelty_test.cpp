@@ -45,21 +45,21 @@ class Environment {
 
 TEST(NoveltyRun, GivesTheSameBytesForOneTwoAndFiveWorkers) {
   for (const char* preset : {"authors", "paper"}) {
-    const ScratchFolder scratch;
+    const TemporaryFolder scratch;
     for (const int jobs : {1, 2, 5}) {
       const auto run = amble(evolve(scratch / std::to_string(jobs), 5, jobs, preset));
       ASSERT_EQ(run.exit_code, 0) << run.err;
     }
-    EXPECT_GT(slurp(scratch.path / "1/archive.bin").size(), 16 + 30 * (100 * 4 + 8)) << "hardly an archive";
-    EXPECT_TRUE(results(scratch.path / "1") == results(scratch.path / "2"));
-    EXPECT_TRUE(results(scratch.path / "1") == results(scratch.path / "5"));
+    EXPECT_GT(slurp(scratch / "1/archive.bin").size(), 16 + 30 * (100 * 4 + 8)) << "hardly an archive";
+    EXPECT_TRUE(results(scratch / "1") == results(scratch / "2"));
+    EXPECT_TRUE(results(scratch / "1") == results(scratch / "5"));
   }
 }
 
 TEST(NoveltyRun, GivesTheSameBytesAfterBeingKilledAgainAndAgain) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   ASSERT_EQ(amble(evolve(scratch / "whole", 14, 2)).exit_code, 0);
-  const auto killed = scratch.path / "killed";
+  const auto killed = scratch / "killed";
   auto arguments = evolve(killed.string(), 14, 2);
   // At moments that have nothing to do with generations.
   for (const int milliseconds : {170, 230, 110, 190}) {
@@ -74,21 +74,21 @@ TEST(NoveltyRun, GivesTheSameBytesAfterBeingKilledAgainAndAgain) {
   }
   const auto last = amble(arguments);
   ASSERT_EQ(last.exit_code, 0) << last.err;
-  EXPECT_TRUE(results(killed) == results(scratch.path / "whole"));
+  EXPECT_TRUE(results(killed) == results(scratch / "whole"));
 }
 
 TEST(NoveltyRun, GivesTheSameBytesWhateverKernelsAndThreadsTheMatrixProductUses) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   ASSERT_EQ(amble(evolve(scratch / "plain", 4, 1)).exit_code, 0);
   {
     const Environment old_cpu("OPENBLAS_CORETYPE", "Prescott"), threads("OPENBLAS_NUM_THREADS", "4");
     ASSERT_EQ(amble(evolve(scratch / "old", 4, 1)).exit_code, 0);
   }
-  EXPECT_TRUE(results(scratch.path / "plain") == results(scratch.path / "old"));
+  EXPECT_TRUE(results(scratch / "plain") == results(scratch / "old"));
 }
 
 TEST(NoveltyRun, TellsOfItsArchive) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   ASSERT_EQ(amble(evolve(scratch / "run", 1, 2, "authors", "1e12")).exit_code, 0);
   const auto info = amble({"info", scratch / "run"});
   EXPECT_EQ(info.exit_code, 0) << info.err;

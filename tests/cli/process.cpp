@@ -68,15 +68,6 @@ Finished amble(const std::vector<std::string>& arguments) {
   return Process(arguments).wait();
 }
 
-ScratchFolder::ScratchFolder() : path(scratch_name()) {
-  std::filesystem::create_directories(path);
-}
-
-ScratchFolder::~ScratchFolder() {
-  std::error_code none;
-  std::filesystem::remove_all(path, none);
-}
-
 std::string slurp(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;

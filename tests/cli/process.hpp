@@ -6,7 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "tests/io/temporary_folder.hpp"
+
 namespace amble::tests {
+
+using test::TemporaryFolder;
 
 struct Finished {
   int exit_code = -1;  ///< −1: ended by a signal
@@ -34,15 +38,6 @@ class Process {
 
 /// Runs `amble` with these arguments to its end.
 Finished amble(const std::vector<std::string>& arguments);
-
-/// A folder that is removed with the object.
-class ScratchFolder {
- public:
-  ScratchFolder();
-  ~ScratchFolder();
-  std::filesystem::path path;
-  std::string operator/(const std::string& name) const { return (path / name).string(); }
-};
 
 std::string slurp(const std::filesystem::path& path);
 void spill(const std::filesystem::path& path, const std::string& text);

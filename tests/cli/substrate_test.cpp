@@ -35,7 +35,7 @@ TEST(SubstrateCommand, ListsNodesAndLinksOfTheArchitecturesOfThePaper) {
 }
 
 TEST(SubstrateCommand, DrawsThem) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   for (const std::string kind : {"supg", "sine", "ctrnn"}) {
     const auto file = scratch / (kind + ".svg");
     const auto drawn =
@@ -81,7 +81,7 @@ std::string own_config() {
 }
 
 TEST(SubstrateCommand, AndAllOthersTakeASubstrateThatAUserMade) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const auto config = scratch / "own.toml", run = scratch / "run";
   spill(config, own_config());
   const auto shown = amble({"substrate", config, "-o", scratch / "own.svg"});

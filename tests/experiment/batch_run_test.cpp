@@ -50,12 +50,12 @@ std::string small_run(const std::filesystem::path& folder, int jobs) {
 }
 
 TEST(BatchRun, GivesTheSameBytesOnEveryInstructionSet) {
-  const ScratchFolder scratch;
-  const std::string best = small_run(scratch.path / "best", 2);
+  const TemporaryFolder scratch;
+  const std::string best = small_run(scratch / "best", 2);
   EXPECT_GT(best.size(), 1000u);
   for (const std::int64_t set : instruction_sets()) {
     hwy::SetSupportedTargetsForTest(set);
-    EXPECT_TRUE(small_run(scratch.path / hwy::TargetName(set), 1) == best) << hwy::TargetName(set);
+    EXPECT_TRUE(small_run(scratch / hwy::TargetName(set), 1) == best) << hwy::TargetName(set);
   }
   hwy::SetSupportedTargetsForTest(0);
 }
@@ -175,11 +175,11 @@ TEST(BatchRunner, EndsTheTrialOfAControllerThatGivesNoNumberAndNoOther) {
 }
 
 TEST(BatchReplay, RecordsMotorTorquesAndGivesTheDistanceOfTheRun) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   const auto problem = batch_problem();
   const auto population = small_population(problem);
   ReplayOptions options;
-  options.record = scratch.path / "walk.rec";
+  options.record = scratch / "walk.rec";
   const auto recorded = replay(problem, population.genomes()[7], options, never);
   EXPECT_EQ(recorded->result.distance_m,
             replay(problem, population.genomes()[7], {}, never)->result.distance_m);

@@ -56,8 +56,8 @@ class Checkpoint : public testing::Test {
     return "";
   }
 
-  ScratchFolder scratch_;
-  std::filesystem::path path_ = scratch_.path / "checkpoint.bin";
+  TemporaryFolder scratch_;
+  std::filesystem::path path_ = scratch_ / "checkpoint.bin";
   Config config_ = small_config();
   Problem problem_ = small_problem();
   neat::Population population_ = small_population(problem_);
@@ -138,13 +138,13 @@ TEST_F(Checkpoint, HoldsTheThresholdOfNoveltySearch) {
   const auto search = make();
   const std::vector<float> still(config_.behaviour_length());
   search->judge(std::vector<search::Evaluation>(40, {.objective = 0.0, .behaviour = still}));
-  io::write_file(scratch_.path / "archive.bin", search->take_archive_growth());
+  io::write_file(scratch_ / "archive.bin", search->take_archive_growth());
   save_checkpoint(path_, config_, {}, population_, *search);
 
   const auto again = make();
   auto population = small_population(problem_);
   load_checkpoint(path_, config_, population, *again);
-  io::InputFile file(scratch_.path / "archive.bin");
+  io::InputFile file(scratch_ / "archive.bin");
   again->restore_archive(file, "archive.bin");
   again->judge(std::vector<search::Evaluation>(1, {.objective = 0.0, .behaviour = still}));
   EXPECT_EQ(again->novelty_statistics()->threshold, 0.5 * 1.2);

@@ -18,11 +18,11 @@ const std::vector<std::string> presets{"authors/supg-objective.toml",  "paper/su
                                        "authors/ctrnn-objective.toml", "paper/ctrnn-objective.toml"};
 
 TEST(Config, WrittenInFullReadsBackToTheSameText) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   for (const std::string& preset : presets) {
     const auto config = load_config(configs + preset, {});
-    io::write_file(scratch.path / "full.toml", config.to_toml());
-    const auto again = load_config(scratch.path / "full.toml", {});
+    io::write_file(scratch / "full.toml", config.to_toml());
+    const auto again = load_config(scratch / "full.toml", {});
     EXPECT_EQ(again.to_toml(), config.to_toml());
   }
 }
@@ -125,10 +125,10 @@ TEST(Config, RefereesAreOtherEnginesThanItsOwn) {
 }
 
 TEST(Config, WithoutARobotIsRefusedByName) {
-  const ScratchFolder scratch;
-  io::write_file(scratch.path / "c.toml", "seed = 1\n");
+  const TemporaryFolder scratch;
+  io::write_file(scratch / "c.toml", "seed = 1\n");
   try {
-    load_config(scratch.path / "c.toml", {});
+    load_config(scratch / "c.toml", {});
     FAIL() << "accepted";
   } catch (const UserError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("c.toml: key 'robot' is missing"));

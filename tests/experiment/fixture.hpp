@@ -8,8 +8,11 @@
 #include <vector>
 
 #include "amble/experiment/run.hpp"
+#include "tests/io/temporary_folder.hpp"
 
 namespace amble::experiment {
+
+using test::TemporaryFolder;
 
 /// configs/authors/supg-objective.toml, made small: 40 genomes, trials of one second.
 inline Config small_config(std::vector<std::string> more = {}) {
@@ -49,22 +52,6 @@ inline Problem noisy_problem() {
 inline neat::Population small_population(const Problem& problem, std::uint64_t seed = 1) {
   return neat::Population(small_config().neat, problem.cppn_inputs(), problem.cppn_outputs(), true, seed);
 }
-
-/// A folder that is removed with the object.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "amble-test-XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  ~ScratchFolder() {
-    std::error_code none;
-    std::filesystem::remove_all(path, none);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  std::filesystem::path path;
-};
 
 /// Hears nothing, or stops the run after some generations.
 class Listener : public RunListener {

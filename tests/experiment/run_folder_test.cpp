@@ -24,8 +24,8 @@ std::string complaint(Call call) {
 
 class Folder : public testing::Test {
  protected:
-  ScratchFolder scratch_;
-  std::filesystem::path folder_ = scratch_.path / "run";
+  TemporaryFolder scratch_;
+  std::filesystem::path folder_ = scratch_ / "run";
   Config config_ = small_config();
   morphology::RobotSpec robot_ = load_robot_file(config_.robot);
 
@@ -42,7 +42,7 @@ class Folder : public testing::Test {
 
 TEST_F(Folder, NeedsNothingOutsideItself) {
   begun();
-  const auto moved = scratch_.path / "elsewhere";
+  const auto moved = scratch_ / "elsewhere";
   std::filesystem::rename(folder_, moved);
   const auto run = RunFolder::open(moved);
   EXPECT_EQ(run.load_robot().name, robot_.name);

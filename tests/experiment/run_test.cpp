@@ -53,10 +53,10 @@ INSTANTIATE_TEST_SUITE_P(Run, EachWay,
                          [](const auto& way) { return way.param.name; });
 
 TEST_P(EachWay, GivesTheSameChampionsAndArchiveForAnyNumberOfWorkers) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   std::string first, first_archive;
   for (const int jobs : {1, 2, 4}) {
-    const auto folder = scratch.path / std::to_string(jobs);
+    const auto folder = scratch / std::to_string(jobs);
     Listener listener;
     EXPECT_EQ(Run::start(folder, config(), jobs).execute(listener, listener.stop), RunStatus::finished);
     if (first.empty()) first = champions(folder), first_archive = archive(folder);
@@ -66,36 +66,36 @@ TEST_P(EachWay, GivesTheSameChampionsAndArchiveForAnyNumberOfWorkers) {
 }
 
 TEST_P(EachWay, GoesOnAfterAnInterruptionAsIfThereHadBeenNone) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   Listener whole;
-  Run::start(scratch.path / "whole", config(), 2).execute(whole, whole.stop);
+  Run::start(scratch / "whole", config(), 2).execute(whole, whole.stop);
   Listener part(1);
-  EXPECT_EQ(Run::start(scratch.path / "part", config(), 2).execute(part, part.stop), RunStatus::interrupted);
+  EXPECT_EQ(Run::start(scratch / "part", config(), 2).execute(part, part.stop), RunStatus::interrupted);
   Listener rest;
-  EXPECT_EQ(Run::resume(scratch.path / "part", {}, 2).execute(rest, rest.stop), RunStatus::finished);
-  EXPECT_EQ(champions(scratch.path / "part"), champions(scratch.path / "whole"));
-  EXPECT_EQ(archive(scratch.path / "part"), archive(scratch.path / "whole"));
+  EXPECT_EQ(Run::resume(scratch / "part", {}, 2).execute(rest, rest.stop), RunStatus::finished);
+  EXPECT_EQ(champions(scratch / "part"), champions(scratch / "whole"));
+  EXPECT_EQ(archive(scratch / "part"), archive(scratch / "whole"));
   ASSERT_EQ(rest.rows.size(), 2u);
   EXPECT_EQ(rest.rows.back().best_so_far_m, whole.rows.back().best_so_far_m);
 }
 
 TEST_P(EachWay, CanBeResumedBeforeItsFirstGenerationIsDone) {
-  const ScratchFolder scratch;
-  Run::start(scratch.path / "run", config(), 1);
+  const TemporaryFolder scratch;
+  Run::start(scratch / "run", config(), 1);
   Listener listener;
-  EXPECT_EQ(Run::resume(scratch.path / "run", {}, 1).execute(listener, listener.stop), RunStatus::finished);
-  const auto csv = io::read_file(RunPaths(scratch.path / "run").generations);
+  EXPECT_EQ(Run::resume(scratch / "run", {}, 1).execute(listener, listener.stop), RunStatus::finished);
+  const auto csv = io::read_file(RunPaths(scratch / "run").generations);
   EXPECT_TRUE(csv.starts_with(csv_header()));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 3);
 }
 
 TEST_P(EachWay, CannotBeMadeShorterThanItIs) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   Listener listener;
-  Run::start(scratch.path / "run", config(), 2).execute(listener, listener.stop);
-  const auto before = io::read_file(RunPaths(scratch.path / "run").config);
+  Run::start(scratch / "run", config(), 2).execute(listener, listener.stop);
+  const auto before = io::read_file(RunPaths(scratch / "run").config);
   try {
-    Run::resume(scratch.path / "run", 1, 2);
+    Run::resume(scratch / "run", 1, 2);
     ADD_FAILURE() << "accepted";
   } catch (const UserError& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_input);
@@ -103,15 +103,15 @@ TEST_P(EachWay, CannotBeMadeShorterThanItIs) {
               std::string::npos)
         << error.what();
   }
-  EXPECT_EQ(io::read_file(RunPaths(scratch.path / "run").config), before);
+  EXPECT_EQ(io::read_file(RunPaths(scratch / "run").config), before);
 }
 
 TEST(Run, NeverLosesItsBestDistanceWithoutNoise) {
   for (auto config : {small_config(), small_novelty_config()}) {
-    const ScratchFolder scratch;
+    const TemporaryFolder scratch;
     Listener listener;
     config.generations = 6;
-    Run::start(scratch.path / "run", config, 2).execute(listener, listener.stop);
+    Run::start(scratch / "run", config, 2).execute(listener, listener.stop);
     for (std::size_t i = 1; i < listener.rows.size(); ++i)
       EXPECT_GE(listener.rows[i].best_m, listener.rows[i - 1].best_m)
           << "elites are carried over, and trials repeat";
@@ -119,22 +119,22 @@ TEST(Run, NeverLosesItsBestDistanceWithoutNoise) {
 }
 
 TEST(NoisyRun, CountsGenomesAsEvaluationsAndTheStepsOfAllEpisodes) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   Listener listener;
   auto config = small_config({"noise.episodes=3", "noise.touch_flip_probability=0.001"});
   config.generations = 1;
-  Run::start(scratch.path / "run", config, 2).execute(listener, listener.stop);
+  Run::start(scratch / "run", config, 2).execute(listener, listener.stop);
   EXPECT_EQ(listener.rows[0].evaluations, 40u);
   EXPECT_GT(listener.rows[0].steps, 2u * 40u * 100u) << "more than two episodes can have";
 }
 
 TEST(NoisyRun, KeepsChampionsByTheirObjectiveUnderNoise) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   Listener listener;
   auto more = all_noise();
   more.push_back("noise.score=worst");
-  Run::start(scratch.path / "run", small_config(more), 2).execute(listener, listener.stop);
-  const auto champion = load_champion(RunPaths(scratch.path / "run").best_champion());
+  Run::start(scratch / "run", small_config(more), 2).execute(listener, listener.stop);
+  const auto champion = load_champion(RunPaths(scratch / "run").best_champion());
   EXPECT_EQ(champion.objective_m(), listener.rows.back().best_so_far_m);
   EXPECT_EQ(champion.problem.noise.score, trial::EpisodeScore::worst);
   ASSERT_EQ(champion.episodes.size(), 2u);
@@ -143,10 +143,10 @@ TEST(NoisyRun, KeepsChampionsByTheirObjectiveUnderNoise) {
 }
 
 TEST(NoveltyRun, FillsItsArchiveAndReportsIt) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   Listener listener;
   const auto config = small_novelty_config();
-  Run::start(scratch.path / "run", config, 2).execute(listener, listener.stop);
+  Run::start(scratch / "run", config, 2).execute(listener, listener.stop);
   ASSERT_EQ(listener.rows.size(), 3u);
   std::size_t before = 0;
   for (const auto& row : listener.rows) {
@@ -156,38 +156,38 @@ TEST(NoveltyRun, FillsItsArchiveAndReportsIt) {
     before = row.novelty->archive_members;
   }
   EXPECT_EQ(config.behaviour_length(), 100u);
-  EXPECT_EQ(archive(scratch.path / "run").size(), 16 + before * (100 * 4 + 8));
+  EXPECT_EQ(archive(scratch / "run").size(), 16 + before * (100 * 4 + 8));
 }
 
 TEST(NoveltyRun, CutsAnArchiveBackThatIsAheadOfItsCheckpoint) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   Listener whole, part(1), rest;
-  Run::start(scratch.path / "whole", small_novelty_config(), 1).execute(whole, whole.stop);
-  Run::start(scratch.path / "part", small_novelty_config(), 1).execute(part, part.stop);
-  const RunPaths paths(scratch.path / "part");
+  Run::start(scratch / "whole", small_novelty_config(), 1).execute(whole, whole.stop);
+  Run::start(scratch / "part", small_novelty_config(), 1).execute(part, part.stop);
+  const RunPaths paths(scratch / "part");
   io::write_file(paths.archive, io::read_file(paths.archive) + std::string(1000, 'x'));
   io::write_file(paths.generations, io::read_file(paths.generations) + "1,2,3");
-  Run::resume(scratch.path / "part", {}, 1).execute(rest, rest.stop);
-  EXPECT_EQ(archive(scratch.path / "part"), archive(scratch.path / "whole"));
-  EXPECT_EQ(champions(scratch.path / "part"), champions(scratch.path / "whole"));
+  Run::resume(scratch / "part", {}, 1).execute(rest, rest.stop);
+  EXPECT_EQ(archive(scratch / "part"), archive(scratch / "whole"));
+  EXPECT_EQ(champions(scratch / "part"), champions(scratch / "whole"));
 }
 
 TEST(ObjectiveRun, KeepsNoArchiveAndRecordsNoPaths) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   Listener listener;
   const auto config = small_config();
   EXPECT_EQ(config.search.path_stride(), 0);
   EXPECT_EQ(config.behaviour_length(), 0u);
-  Run::start(scratch.path / "run", config, 1).execute(listener, listener.stop);
-  EXPECT_FALSE(std::filesystem::exists(RunPaths(scratch.path / "run").archive));
+  Run::start(scratch / "run", config, 1).execute(listener, listener.stop);
+  EXPECT_FALSE(std::filesystem::exists(RunPaths(scratch / "run").archive));
   EXPECT_FALSE(listener.rows.front().novelty);
 }
 
 TEST(RefereedRun, TriesEachChampionInTheRefereesAndIsTheSameRunOtherwise) {
-  const ScratchFolder scratch;
-  const auto folder = [&](int jobs) { return scratch.path / ("refereed" + std::to_string(jobs)); };
+  const TemporaryFolder scratch;
+  const auto folder = [&](int jobs) { return scratch / ("refereed" + std::to_string(jobs)); };
   Listener plain, refereed;
-  Run::start(scratch.path / "plain", small_config({"engine=batch"}), 1).execute(plain, plain.stop);
+  Run::start(scratch / "plain", small_config({"engine=batch"}), 1).execute(plain, plain.stop);
   for (const int jobs : {1, 2})
     Run::start(folder(jobs), small_config({"engine=batch", "referees=[\"mujoco\", \"ode\"]"}), jobs)
         .execute(refereed, refereed.stop);
@@ -205,7 +205,7 @@ TEST(RefereedRun, TriesEachChampionInTheRefereesAndIsTheSameRunOtherwise) {
       EXPECT_EQ(result.steps, again->result.steps) << engine;
     }
     EXPECT_EQ(champion.referees[0].engine, "mujoco");
-    const auto twin = load_champion(scratch.path / "plain/champions" / file.filename());
+    const auto twin = load_champion(scratch / "plain/champions" / file.filename());
     EXPECT_TRUE(twin.referees.empty());
     EXPECT_EQ(champion.genome, twin.genome);
     EXPECT_EQ(champion.trace, twin.trace);
@@ -213,28 +213,28 @@ TEST(RefereedRun, TriesEachChampionInTheRefereesAndIsTheSameRunOtherwise) {
 }
 
 TEST(RefereedRun, IsRefusedBeforeAnythingIsWrittenIfARefereeCannotSimulateTheRobot) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   auto robot = load_robot_file(small_config().robot);
   robot.self_collision = true;
-  io::write_file(scratch.path / "robot.json", robot_file_text(robot));
+  io::write_file(scratch / "robot.json", robot_file_text(robot));
   auto config = small_config({"referees=[\"batch\"]"});
-  config.robot = (scratch.path / "robot.json").string();
+  config.robot = (scratch / "robot.json").string();
   try {
-    Run::start(scratch.path / "run", config, 1);
+    Run::start(scratch / "run", config, 1);
     ADD_FAILURE() << "accepted";
   } catch (const UserError& error) {
     EXPECT_TRUE(std::string(error.what()).starts_with("referees: the batch engine knows no self-collision"))
         << error.what();
   }
-  EXPECT_FALSE(std::filesystem::exists(scratch.path / "run"));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "run"));
 }
 
 TEST(Run, LeavesNothingBehindWhenTheRobotIsUnknown) {
-  const ScratchFolder scratch;
+  const TemporaryFolder scratch;
   auto config = small_config();
-  config.robot = (scratch.path / "none.toml").string();
-  EXPECT_THROW(Run::start(scratch.path / "run", config, 1), UserError);
-  EXPECT_FALSE(std::filesystem::exists(scratch.path / "run"));
+  config.robot = (scratch / "none.toml").string();
+  EXPECT_THROW(Run::start(scratch / "run", config, 1), UserError);
+  EXPECT_FALSE(std::filesystem::exists(scratch / "run"));
 }
 
 }  // namespace

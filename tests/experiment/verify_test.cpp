@@ -29,8 +29,8 @@ class Verify : public testing::Test {
     return verify_champion(path_, never).value();
   }
 
-  ScratchFolder scratch_;
-  std::filesystem::path path_ = scratch_.path / "c.json";
+  TemporaryFolder scratch_;
+  std::filesystem::path path_ = scratch_ / "c.json";
   Champion champion_{.experiment = "test",
                      .seed = 1,
                      .generation = 0,

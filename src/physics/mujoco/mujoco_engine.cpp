@@ -14,6 +14,7 @@
 #include "amble/morphology/complaints.hpp"
 #include "amble/physics/mujoco/model.hpp"
 #include "amble/physics/mujoco/slip.hpp"
+#include "amble/physics/single_robot.hpp"
 
 namespace amble::physics {
 namespace {
@@ -22,8 +23,6 @@ using morphology::RobotSpec;
 using morphology::Servo;
 using morphology::ServoMode;
 
-/// Beyond this a robot has exploded: m/s or rad/s (Engine::healthy).
-constexpr double absurd_speed = 1000.0;
 /// MuJoCo's ids: the ground is its first geom, the root the only child of its world body.
 constexpr int ground_geom = 0, root_body = 1;
 
@@ -47,27 +46,13 @@ std::unique_ptr<mjData, DeleteData> new_data(const mjModel* model) {
   }
 }
 
-bool has_nan(const LaneArray& targets_rad) {
-  bool found = false;
-  for (int j = 0; j < targets_rad.rows(); ++j) found = found || std::isnan(targets_rad.at(j, 0));
-  return found;
-}
-
-class MujocoEngine final : public Engine {
+class MujocoEngine final : public SingleRobotEngine {
  public:
   MujocoEngine(const RobotSpec& robot, const EngineSettings& settings)
-      : robot_(robot),
+      : SingleRobotEngine(robot, settings),
         model_(mujoco::make_model(robot, settings.timestep_s)),
         data_(new_data(model_.get())),
-        slip_(robot.contact.friction, settings.timestep_s),
-        with_torques_(settings.torques) {
-    sensors_.joint_angle_rad = LaneArray(static_cast<int>(robot.joints.size()), 1);
-    sensors_.touch = LaneArray(static_cast<int>(robot.legs.size()), 1);
-    sensors_.attitude_rad = LaneArray(3, 1);
-    if (with_torques_) torques_nm_ = LaneArray(static_cast<int>(robot.joints.size()), 1);
-  }
-
-  int lanes() const override { return 1; }
+        slip_(robot.contact.friction, settings.timestep_s) {}
 
   void place(int lane) override {
     reset(lane);
@@ -86,18 +71,8 @@ class MujocoEngine final : public Engine {
     begin();
   }
 
-  void retire(int lane) override {
-    check_lane(lane);
-    stepping_ = false;
-  }
-
   void step(const LaneArray& targets_rad) override {
-    if (!stepping_ || !healthy_) return;
-    AMBLE_CHECK(targets_rad.rows() == sensors_.joint_angle_rad.rows() && targets_rad.lanes() == 1, "targets");
-    if (has_nan(targets_rad)) {
-      healthy_ = false;
-      return;
-    }
+    if (!can_step(targets_rad)) return;
     mj_fwdPosition(model_.get(), data_.get());
     feel();
     mj_fwdVelocity(model_.get(), data_.get());
@@ -111,22 +86,12 @@ class MujocoEngine final : public Engine {
   }
 
   void push(int lane, Vec3 impulse_n_s) override {
-    check_lane(lane);
-    AMBLE_CHECK(stepping_, "only a placed robot can be pushed");
+    check_pushable(lane);
     // Acts on the body's centre of mass.
     mjtNum* const force_n = data_->xfrc_applied + 6 * root_body;
     const mjtNum impulse[] = {impulse_n_s.x, impulse_n_s.y, impulse_n_s.z};
     mju_addToScl3(force_n, impulse, 1.0 / model_->opt.timestep);
   }
-
-  bool healthy(int lane) const override {
-    check_lane(lane);
-    return healthy_;
-  }
-
-  const SensorFrame& sensors() const override { return sensors_; }
-
-  const LaneArray* motor_torque_nm() const override { return with_torques_ ? &torques_nm_ : nullptr; }
 
   RootPose root_pose(int lane) const override {
     check_lane(lane);
@@ -158,19 +123,15 @@ class MujocoEngine final : public Engine {
   }
 
  private:
-  void check_lane(int lane) const { AMBLE_CHECK(lane == 0, "the mujoco engine has one lane"); }
-
   void reset(int lane) {
     check_lane(lane);
     mj_resetData(model_.get(), data_.get());
     // MuJoCo reports the first warning of each kind into a log file in the current folder.
     for (mjWarningStat& warning : data_->warning) warning.number = 1;
-    torques_nm_.set_lane(0, 0.0f);
   }
 
   void begin() {
-    stepping_ = true;
-    healthy_ = true;
+    place_here();
     mj_fwdPosition(model_.get(), data_.get());
     feel();
     read_state();
@@ -240,21 +201,12 @@ class MujocoEngine final : public Engine {
     mj_comPos(model_.get(), data_.get());
     for (int j = 0; j < sensors_.joint_angle_rad.rows(); ++j)
       sensors_.joint_angle_rad.at(j, 0) = static_cast<float>(data_->qpos[model_.position_of[at(j)]]);
-    const RollPitchYaw attitude = roll_pitch_yaw(root_pose(0).rotation);
-    sensors_.attitude_rad.at(0, 0) = static_cast<float>(attitude.roll);
-    sensors_.attitude_rad.at(1, 0) = static_cast<float>(attitude.pitch);
-    sensors_.attitude_rad.at(2, 0) = static_cast<float>(attitude.yaw);
+    sense_attitude(root_pose(0).rotation);
   }
 
-  const RobotSpec robot_;
   const mujoco::Model model_;
   const std::unique_ptr<mjData, DeleteData> data_;
   mujoco::Slip slip_;
-  const bool with_torques_;
-  SensorFrame sensors_;
-  LaneArray torques_nm_;
-  bool stepping_ = false;
-  bool healthy_ = true;
 };
 
 }  // namespace

@@ -16,14 +16,12 @@
 #include "amble/physics/ode/motors.hpp"
 #include "amble/physics/ode/torque_meter.hpp"
 #include "amble/physics/ode/world.hpp"
+#include "amble/physics/single_robot.hpp"
 
 namespace amble::physics {
 namespace {
 
 using morphology::RobotSpec;
-
-/// Beyond this a robot has exploded: m/s or rad/s (Engine::healthy).
-constexpr double absurd_speed = 1000.0;
 
 /// State of a body as ODE keeps it, copied once per step: centre of mass, quaternion, velocity, angular
 /// velocity.
@@ -51,12 +49,6 @@ bool sane(const BodyState& body) {
   return std::isfinite(sum) && speed <= absurd_speed && spin <= absurd_speed;
 }
 
-bool has_nan(const LaneArray& targets_rad) {
-  bool found = false;
-  for (int j = 0; j < targets_rad.rows(); ++j) found = found || std::isnan(targets_rad.at(j, 0));
-  return found;
-}
-
 /// Everything that belongs to one trial.
 struct Trial {
   ode::World world;
@@ -70,24 +62,17 @@ struct Trial {
   }
 };
 
-class OdeEngine final : public Engine {
+class OdeEngine final : public SingleRobotEngine {
  public:
   OdeEngine(const RobotSpec& robot, const EngineSettings& settings)
-      : robot_(robot),
+      : SingleRobotEngine(robot, settings),
         timestep_s_(settings.timestep_s),
-        with_torques_(settings.torques),
         total_mass_kg_(robot.total_mass_kg()),
         bodies_(robot.bodies.size()) {
     ode::check_joints(robot);
     ode::prepare_thread();
     threading_.emplace();
-    sensors_.joint_angle_rad = LaneArray(static_cast<int>(robot.joints.size()), 1);
-    sensors_.touch = LaneArray(static_cast<int>(robot.legs.size()), 1);
-    sensors_.attitude_rad = LaneArray(3, 1);
-    if (with_torques_) torques_nm_ = LaneArray(static_cast<int>(robot.joints.size()), 1);
   }
-
-  int lanes() const override { return 1; }
 
   void place(int lane) override {
     make_trial(lane);
@@ -101,18 +86,8 @@ class OdeEngine final : public Engine {
     begin();
   }
 
-  void retire(int lane) override {
-    check_lane(lane);
-    stepping_ = false;
-  }
-
   void step(const LaneArray& targets_rad) override {
-    if (!stepping_ || !healthy_) return;
-    AMBLE_CHECK(targets_rad.rows() == sensors_.joint_angle_rad.rows() && targets_rad.lanes() == 1, "targets");
-    if (has_nan(targets_rad)) {  // would drive ODE into a Fault, which costs memory
-      healthy_ = false;
-      return;
-    }
+    if (!can_step(targets_rad)) return;
     try {
       trial_->contacts.collide(sensors_.touch);
       trial_->motors.drive(targets_rad);
@@ -128,21 +103,11 @@ class OdeEngine final : public Engine {
   }
 
   void push(int lane, Vec3 impulse_n_s) override {
-    check_lane(lane);
-    AMBLE_CHECK(stepping_, "only a placed robot can be pushed");
+    check_pushable(lane);
     // ODE adds forces up until the next step, which uses them and sets them back to zero.
     const Vec3 force_n = (1.0 / timestep_s_) * impulse_n_s;
     dBodyAddForce(trial_->world.bodies()[0], force_n.x, force_n.y, force_n.z);
   }
-
-  bool healthy(int lane) const override {
-    check_lane(lane);
-    return healthy_;
-  }
-
-  const SensorFrame& sensors() const override { return sensors_; }
-
-  const LaneArray* motor_torque_nm() const override { return with_torques_ ? &torques_nm_ : nullptr; }
 
   RootPose root_pose(int lane) const override {
     check_lane(lane);
@@ -177,19 +142,15 @@ class OdeEngine final : public Engine {
   }
 
  private:
-  void check_lane(int lane) const { AMBLE_CHECK(lane == 0, "the ode engine has one lane"); }
-
   void make_trial(int lane) {
     check_lane(lane);
     ode::prepare_thread();
     trial_.reset();
     trial_.emplace(robot_, *threading_, with_torques_);
-    torques_nm_.set_lane(0, 0.0f);
   }
 
   void begin() {
-    stepping_ = true;
-    healthy_ = true;
+    place_here();
     trial_->contacts.feel(sensors_.touch);
     read_state();
   }
@@ -205,23 +166,14 @@ class OdeEngine final : public Engine {
     }
     if (!healthy_) return;
     trial_->motors.read(sensors_.joint_angle_rad);
-    const RollPitchYaw attitude = roll_pitch_yaw(quat(bodies_[0].rotation));
-    sensors_.attitude_rad.at(0, 0) = static_cast<float>(attitude.roll);
-    sensors_.attitude_rad.at(1, 0) = static_cast<float>(attitude.pitch);
-    sensors_.attitude_rad.at(2, 0) = static_cast<float>(attitude.yaw);
+    sense_attitude(quat(bodies_[0].rotation));
   }
 
-  const RobotSpec robot_;
   const double timestep_s_;
-  const bool with_torques_;
   const double total_mass_kg_;
   std::optional<ode::Threading> threading_;
   std::optional<Trial> trial_;
   std::vector<BodyState> bodies_;
-  SensorFrame sensors_;
-  LaneArray torques_nm_;
-  bool stepping_ = false;
-  bool healthy_ = true;
 };
 
 }  // namespace

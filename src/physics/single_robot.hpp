@@ -1,0 +1,40 @@
+#pragma once
+
+#include "amble/core/math.hpp"
+#include "amble/physics/engine.hpp"
+
+namespace amble::physics {
+
+/// Beyond this a robot has exploded: m/s or rad/s (Engine::healthy).
+inline constexpr double absurd_speed = 1000.0;
+
+/// What engines of one lane have in common: the lane's flags and the arrays that are read from outside.
+class SingleRobotEngine : public Engine {
+ public:
+  int lanes() const final { return 1; }
+  void retire(int lane) final;
+  bool healthy(int lane) const final;
+  const SensorFrame& sensors() const final { return sensors_; }
+  const LaneArray* motor_torque_nm() const final { return with_torques_ ? &torques_nm_ : nullptr; }
+
+ protected:
+  SingleRobotEngine(const morphology::RobotSpec& robot, const EngineSettings& settings);
+
+  static void check_lane(int lane);
+  /// At the start of a trial.
+  void place_here();
+  /// Whether there is something to step. NaN among the targets ends the trial as diverged (in ODE it would
+  /// cause a fault, which costs memory).
+  bool can_step(const LaneArray& targets_rad);
+  void check_pushable(int lane) const;
+  void sense_attitude(const Quat& rotation);
+
+  const morphology::RobotSpec robot_;
+  const bool with_torques_;
+  SensorFrame sensors_;
+  LaneArray torques_nm_;
+  bool stepping_ = false;
+  bool healthy_ = true;
+};
+
+}  // namespace amble::physics

@@ -1,0 +1,103 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "amble/core/error.hpp"
+#include "amble/io/json_file.hpp"
+#include "tests/cli/process.hpp"
+
+namespace amble::tests {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string configs = std::string(AMBLE_SOURCE_DIR) + "/configs/",
+                  robust = configs + "robust/supg-objective.toml";
+
+/// A small run in the batch engine, and its best champion.
+class Compare : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto evolved = amble({"evolve", robust, "--set", "engine=batch", "--set", "population.size=40",
+                                "--set", "trial.duration_s=1", "--generations", "2", "--out", run_});
+    ASSERT_EQ(evolved.exit_code, 0) << evolved.err;
+    for (const auto& file : std::filesystem::directory_iterator(scratch_ / "run/champions"))
+      champion_ = std::max(champion_, file.path().string());
+  }
+
+  /// What a command prints behind "distance  ".
+  std::string distance(const std::vector<std::string>& command) {
+    const auto out = amble(command).out;
+    const auto at = out.find("distance  ") + 10;
+    return out.substr(at, out.find('\n', at) - at);
+  }
+
+  TemporaryFolder scratch_;
+  std::string run_ = scratch_ / "run", champion_;
+};
+
+TEST_F(Compare, MakesATableOfTheEnginesAskedForAndTheChampionsOwn) {
+  const auto table = amble({"compare", champion_, run_, "--engines", "mujoco"});
+  ASSERT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_THAT(table.out, HasSubstr("in batch "));
+  EXPECT_THAT(table.out, Not(HasSubstr("in ode")));
+  EXPECT_THAT(table.out, HasSubstr("\nmedian; kept 70 %")) << "two rows";
+  EXPECT_THAT(table.out, HasSubstr("  " + distance({"trial", champion_, "--engine", "mujoco"}) + ", "));
+  const auto markdown = amble({"compare", champion_, "--engines", "mujoco", "--format", "markdown"}).out;
+  EXPECT_THAT(
+      markdown,
+      StartsWith("| champion | evolved in | trial | in batch | in mujoco |\n|---|---|---|---|---|\n"));
+}
+
+TEST_F(Compare, ListsEveryLengthAndEngineAsJson) {
+  const auto list =
+      io::Json::parse(amble({"compare", champion_, "--seconds", "1,2", "--format", "json"}).out);
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_EQ(list[1]["trial_s"], 2.0);
+  EXPECT_EQ(list[0]["evolved_in"], "batch");
+  ASSERT_EQ(list[0]["results"].size(), 3u);
+  EXPECT_EQ(list[0]["results"][0]["trials"].size(), 1u);
+}
+
+TEST_F(Compare, TakesTheMedianOfTrialsUnderNoiseThatEvolutionHasNotMet) {
+  const auto under_noise =
+      amble({"compare", champion_, "--noise", robust, "--episodes", "3", "--format", "json"});
+  ASSERT_EQ(under_noise.exit_code, 0) << under_noise.err;
+  for (const auto& judged : io::Json::parse(under_noise.out)[0]["results"]) {
+    std::vector<double> distances_m;
+    for (std::size_t e = 0; e < 3; ++e) {
+      distances_m.push_back(judged["trials"].at(e)["distance_m"]);
+      const auto alone = distance({"trial", champion_, "--engine", judged["engine"].get<std::string>(),
+                                   "--noise", std::to_string(1000 + e)});
+      EXPECT_NEAR(std::stod(alone), distances_m.back(), 0.0005) << judged["engine"];
+    }
+    std::ranges::sort(distances_m);
+    EXPECT_EQ(judged["distance_m"], distances_m[1]) << judged["engine"];
+    EXPECT_NE(distances_m[0], distances_m[2]) << "each episode has noise of its own";
+  }
+}
+
+TEST_F(Compare, RefusesANoiseThatIsNoneAndEpisodesWithoutNoise) {
+  const auto none = amble({"compare", champion_, "--noise", configs + "authors/supg-objective.toml"});
+  EXPECT_EQ(none.exit_code, static_cast<int>(ExitCode::bad_input));
+  EXPECT_THAT(none.err, HasSubstr("--noise: "));
+  EXPECT_THAT(none.err, HasSubstr("is without noise"));
+  EXPECT_EQ(amble({"compare", champion_, "--episodes", "3"}).exit_code,
+            static_cast<int>(ExitCode::bad_input));
+}
+
+TEST_F(Compare, TheAskedForEngineIsShownByViewAndPage) {
+  const std::string view = scratch_ / "view.html", page = scratch_ / "page.html";
+  EXPECT_EQ(amble({"view", run_, "--engine", "ode", "-o", view}).exit_code, 0);
+  EXPECT_THAT(slurp(view), HasSubstr(", in the engine ode"));
+  EXPECT_EQ(amble({"page", run_, "--engine", "ode", "-o", page}).exit_code, 0);
+  EXPECT_THAT(slurp(page), HasSubstr("as it walks in the engine ode"));
+  const auto refused = amble({"view", run_, "--engine", "bullet", "-o", scratch_ / "other.html"});
+  EXPECT_EQ(refused.exit_code, static_cast<int>(ExitCode::bad_input));
+  EXPECT_THAT(refused.err, HasSubstr("unknown engine 'bullet'"));
+}
+
+}  // namespace
+}  // namespace amble::tests
