@@ -8,9 +8,10 @@ SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 
 demo: build
 	rm -rf demo
-	build/release/src/cli/amble evolve configs/demo.toml --seed 3 --jobs $(JOBS) --out demo/run
-	build/release/src/cli/amble page demo/run -o demo/index.html
-	build/release/src/cli/amble view demo/run -o demo/walk.html
+	build/release/src/cli/amble evolve configs/demo.toml --seed 1 --jobs $(JOBS) --out demo/run
+	build/release/src/cli/amble compare demo/run --seconds 15,300
+	build/release/src/cli/amble page demo/run --engine ode -o demo/index.html
+	build/release/src/cli/amble view demo/run --engine ode -o demo/walk.html
 
 # The README's picture, from the page of `make demo`.
 picture: $(if $(wildcard demo/walk.html),,demo)

@@ -87,7 +87,8 @@ ExitCode make_page(const PageOptions& options) {
           analysis::CppnSize{champion.genome.count(neat::NodeKind::hidden), champion.genome.enabled_links()},
       .facts = facts(config, champion, options.engine.value_or(config.engine)),
       .commands = {fmt::format("amble evolve {} --out AGAIN", paths.config.string()),
-                   "amble page AGAIN -o page.html"}};
+                   fmt::format("amble page AGAIN{} -o page.html",
+                               options.engine ? " --engine " + *options.engine : "")}};
   const auto recorded = analysis::read_recorded(recording.path());
   if (options.out.has_parent_path()) fs::create_directories(options.out.parent_path());
   io::write_file(options.out, analysis::make_page(input, recorded));

@@ -12,6 +12,9 @@ namespace amble::experiment {
 void Config::describe(io::SettingsVisitor& visitor) {
   visitor.text("name", name, {"what this experiment is called in files and figures"});
   visitor.text("robot", robot, {"robot file, relative to the config file"});
+  visitor.number("drop_m", drop_m, {0.0, 1.0},
+                 {"each trial starts with the robot let go so high above its start pose, m",
+                  "Morse et al. 2013 and the authors' code: feet on the ground (0)"});
   visitor.text("engine", engine, {"physics engine: ode, batch or mujoco", "Morse et al. 2013, sec. 4 (ode)"});
   visitor.texts("referees", referees,
                 {"engines in which each new champion is tried again; its file says how far it comes there"});

@@ -21,7 +21,8 @@ namespace amble::experiment {
 /// with its source.
 struct Config {
   std::string name = "unnamed";
-  std::string robot;  ///< robot file (TOML side file, or robot.json of a run folder)
+  std::string robot;    ///< robot file (TOML side file, or robot.json of a run folder)
+  double drop_m = 0.0;  ///< every trial starts with the robot so high above its start pose
   std::string engine = "ode";
   std::vector<std::string> referees;  ///< engines in which each new champion is tried again
   std::int64_t seed = 1;

@@ -15,6 +15,7 @@ constexpr int robot_version = 1;
 }  // namespace
 
 Problem Problem::make(const Config& config, morphology::RobotSpec robot) {
+  robot.bodies[0].position_m.z += config.drop_m;
   Problem problem{.robot = std::move(robot),
                   .engine = config.engine,
                   .cppn = config.cppn,

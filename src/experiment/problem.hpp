@@ -30,6 +30,7 @@ struct Problem {
   trial::NoiseSettings noise;
   std::shared_ptr<const controllers::Architecture> architecture;
 
+  /// `robot` as its file has it; that of the problem starts Config::drop_m higher.
   /// Throws UserError where the parts do not fit together (an engine that cannot simulate the robot, a
   /// controller for other legs).
   static Problem make(const Config& config, morphology::RobotSpec robot);

@@ -77,12 +77,16 @@ TEST(Config, PresetsOfThePaperAreWithoutNoise) {
   }
 }
 
-TEST(Config, RobustPresetDiffersFromTheAuthorsInNothingButNoiseAndName) {
+TEST(Config, RobustPresetDiffersFromTheAuthorsInNoiseDropIdleRuleAndNameAlone) {
   auto robust = load_config(configs + "robust/supg-objective.toml", {});
   const auto authors = load_config(configs + "authors/supg-objective.toml", {});
   EXPECT_TRUE(robust.noise.any());
   EXPECT_GT(robust.noise.episodes, 1);
+  EXPECT_GT(robust.drop_m, 0.0);
+  EXPECT_EQ(robust.controller.supg.idle, controllers::Idle::wrap);
   robust.noise = {};
+  robust.drop_m = authors.drop_m;
+  robust.controller.supg.idle = authors.controller.supg.idle;
   robust.name = authors.name;
   EXPECT_EQ(robust.to_toml(), authors.to_toml());
 }

@@ -39,6 +39,7 @@ class EachWay : public testing::TestWithParam<Way> {
  protected:
   Config config() const {
     auto more = GetParam().noise ? all_noise() : std::vector<std::string>{};
+    if (GetParam().noise) more.push_back("drop_m=0.01");
     more.push_back("engine=" + GetParam().engine);
     return GetParam().kind == search::Kind::novelty ? small_novelty_config(more) : small_config(more);
   }
