@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "amble/analysis/gait_class.hpp"
@@ -90,6 +91,8 @@ struct GaitSegment {
 /// gait names.
 std::vector<GaitSegment> gait_segments(const GaitReport& report);
 
+/// How every gait_json() begins.
+inline constexpr std::string_view gait_json_start = "{\n  \"format\": \"amble-gait\"";
 /// As a JSON document, "format": "amble-gait" (docs/FORMATS.md).
 std::string gait_json(const GaitReport& report);
 /// As a table of plain text for people.

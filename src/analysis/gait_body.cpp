@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "amble/analysis/kinematics.hpp"
 
@@ -24,7 +25,11 @@ const Joint* hip(const RobotModel& robot, const Leg& leg) {
   return first;
 }
 
+/// Of a robot whose feet hang in the air in its start pose, as if it had been put down.
 double leg_length_m(const RobotModel& robot, const std::vector<BodyPose>& poses) {
+  double clearance_m = std::numeric_limits<double>::infinity();
+  for (const Leg& leg : robot.legs)
+    clearance_m = std::min(clearance_m, geom_bottom_m(robot.geoms[at(leg.foot_geom)], poses));
   double sum_m = 0.0;
   int count = 0;
   for (const Leg& leg : robot.legs) {
@@ -34,7 +39,7 @@ double leg_length_m(const RobotModel& robot, const std::vector<BodyPose>& poses)
     sum_m += (pose.position_m + rotate(pose.rotation, joint->anchor_m)).z;
     ++count;
   }
-  return count == 0 ? 0.0 : sum_m / count;
+  return count == 0 ? 0.0 : sum_m / count - std::max(clearance_m, 0.0);
 }
 
 std::optional<QuadrupedLegs> quadruped_legs(const std::vector<Vec3>& feet) {

@@ -1,5 +1,7 @@
 #include "amble/analysis/kinematics.hpp"
 
+#include <cmath>
+
 #include "amble/core/check.hpp"
 
 namespace amble::analysis {
@@ -37,6 +39,25 @@ std::vector<BodyPose> body_poses(const RobotModel& robot, const Motion& motion, 
 Vec3 geom_centre_m(const Geom& geom, const std::vector<BodyPose>& poses) {
   const BodyPose& pose = poses[static_cast<std::size_t>(geom.body)];
   return pose.position_m + rotate(pose.rotation, geom.position_m);
+}
+
+double geom_bottom_m(const Geom& geom, const std::vector<BodyPose>& poses) {
+  const double centre_m = geom_centre_m(geom, poses).z;
+  // What the world's up is in the geom's own axes.
+  const Quat rotation = poses[static_cast<std::size_t>(geom.body)].rotation * geom.rotation;
+  const Vec3 up = rotate(conjugate(rotation), {0.0, 0.0, 1.0});
+  const Vec3 size = geom.size_m;
+  switch (geom.shape) {
+    case Shape::sphere:
+      return centre_m - size.x;
+    case Shape::capsule:
+      return centre_m - size.x - size.y * std::abs(up.z);
+    case Shape::cylinder:
+      return centre_m - size.x * std::hypot(up.x, up.y) - size.y * std::abs(up.z);
+    case Shape::box:
+      return centre_m - size.x * std::abs(up.x) - size.y * std::abs(up.y) - size.z * std::abs(up.z);
+  }
+  return centre_m;
 }
 
 }  // namespace amble::analysis

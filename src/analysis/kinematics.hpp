@@ -26,4 +26,7 @@ std::vector<BodyPose> body_poses(const RobotModel& robot, const Motion& motion, 
 /// Centre of a geom in the world.
 Vec3 geom_centre_m(const Geom& geom, const std::vector<BodyPose>& poses);
 
+/// Height of a geom's lowest point in the world.
+double geom_bottom_m(const Geom& geom, const std::vector<BodyPose>& poses);
+
 }  // namespace amble::analysis

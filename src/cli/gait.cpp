@@ -47,13 +47,17 @@ std::optional<analysis::GaitReport> measure(const GaitOptions& options) {
     return champion_gait(experiment::find_run(options.path).best_champion(), options);
   if (options.path.extension() == ".json") return champion_gait(options.path, options);
   if (options.engine) fail(ExitCode::bad_input, "--engine: a recording has been made already");
+  if (options.seconds && !(*options.seconds > 0.0))
+    fail(ExitCode::bad_input, "--seconds: {}: expected a positive number", *options.seconds);
   return analysis::recorded_gait(options.path, options.settings, options.seconds);
 }
 
 ExitCode run_gait(const GaitOptions& options) {
   options.settings.validate();
+  if (options.json && *options.json != "-")
+    io::refuse_to_replace(*options.json, analysis::gait_json_start, "a gait");
   const auto report = measure(options);
-  if (!report) return ExitCode::interrupted;
+  if (!report) fail(ExitCode::interrupted, "stopped before the end of the trial");
   if (options.json == "-") {
     fmt::print("{}", analysis::gait_json(*report));
     return ExitCode::ok;

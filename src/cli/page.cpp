@@ -63,6 +63,11 @@ std::vector<analysis::Fact> facts(const experiment::Config& config, const experi
 ExitCode make_page(const PageOptions& options) {
   const experiment::RunPaths paths = experiment::find_run(options.run);
   io::refuse_to_replace(options.out, "<!DOCTYPE html>", "a page");
+  if (options.figures) {
+    fs::create_directories(*options.figures);
+    for (const auto name : analysis::figure_names)
+      io::refuse_to_replace(*options.figures / name, "<svg", "a figure");
+  }
   const auto config = experiment::load_config(paths.config, {});
   const auto champion_path = paths.best_champion();
   const auto champion = experiment::load_champion(champion_path);
@@ -92,13 +97,9 @@ ExitCode make_page(const PageOptions& options) {
   const auto recorded = analysis::read_recorded(recording.path());
   if (options.out.has_parent_path()) fs::create_directories(options.out.parent_path());
   io::write_file(options.out, analysis::make_page(input, recorded));
-  if (options.figures) {
-    fs::create_directories(*options.figures);
-    for (const auto& figure : analysis::figure_files(input, recorded)) {
-      io::refuse_to_replace(*options.figures / figure.name, "<svg", "a figure");
+  if (options.figures)
+    for (const auto& figure : analysis::figure_files(input, recorded))
       io::write_file(*options.figures / figure.name, figure.svg);
-    }
-  }
   fmt::print("{}\n", fs::absolute(options.out).lexically_normal().string());
   return ExitCode::ok;
 }

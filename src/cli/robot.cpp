@@ -22,6 +22,7 @@ void add_robot(CLI::App& app, Action& action) {
   command->add_option("--mjcf", options->mjcf, "Write it as an MJCF model");
   command->callback([options, &action] {
     action = [options] {
+      if (!options->mjcf.empty()) io::refuse_to_replace(options->mjcf, "<mujoco", "an MJCF model");
       const auto robot = experiment::load_robot_file(options->file);
       if (!options->mjcf.empty()) io::write_file(options->mjcf, morphology::write_mjcf(robot).text);
       fmt::print("{}", morphology::summary(robot));

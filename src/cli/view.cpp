@@ -74,13 +74,15 @@ ExitCode make_view(const ViewOptions& options) {
   for (const fs::path& input : options.inputs) {
     const bool is_run = fs::is_directory(input);
     if (!is_run && input.extension() != ".json") {
-      if (options.engine) fail(ExitCode::bad_input, "--engine: {} has been made already", input.string());
+      if (options.engine || options.seconds)
+        fail(ExitCode::bad_input, "{}: {} has been made already", options.engine ? "--engine" : "--seconds",
+             input.string());
       page.walkers.push_back(recorded(input));
       continue;
     }
     const fs::path champion = is_run ? experiment::find_run(input).best_champion() : input;
     auto walker = walk(champion, options, scratch.emplace_back("view"));
-    if (!walker) return ExitCode::interrupted;
+    if (!walker) fail(ExitCode::interrupted, "stopped before all champions had walked");
     page.walkers.push_back(std::move(*walker));
   }
   page.title = options.title.value_or(

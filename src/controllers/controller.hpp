@@ -37,6 +37,7 @@ class Batch {
   /// Names of the state variables worth recording (for the SUPG: each leg's timer and trigger), and their
   /// values in a lane.
   virtual std::vector<std::string> state_names() const = 0;
+  /// `values` has as many elements as state_names(), in that order.
   virtual void state(int lane, std::span<float> values) const = 0;
 };
 

@@ -15,8 +15,8 @@ enum class ExitCode : int {
   bad_file = 3,     ///< a file amble wrote is truncated, altered or of another version
   io = 4,           ///< the system refused: missing file, no permission, disk full
   locked = 5,       ///< another process works in the run folder
-  differs = 6,      ///< `amble verify` found a difference
-  interrupted = 7,  ///< stopped by a signal after a checkpoint: `amble resume` goes on
+  differs = 6,      ///< a champion does not repeat, or its file is unsound
+  interrupted = 7,  ///< stopped by a signal; of a run the checkpoint stands, and `amble resume` goes on
 };
 
 /// A mistake the user can mend. Becomes one line on stderr ("amble: <what>") and the exit code; never a stack

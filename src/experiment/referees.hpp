@@ -11,7 +11,7 @@ namespace amble::experiment {
 
 struct RefereeOptions {
   std::optional<double> seconds = {};  ///< length of the trials; nothing: as in the problem
-  int jobs = 1;                        ///< more than 1: the engines work side by side
+  int jobs = 1;                        ///< at least 1; more: the engines work side by side
   /// One trial under the problem's noise for each of these; none: one trial without noise.
   std::vector<trial::ScenarioKey> noise = {};
 };

@@ -33,7 +33,8 @@ enum class RunStatus { finished, interrupted };
 /// which the run goes on to the same bits as if it had never stopped.
 class Run {
  public:
-  /// A new run. Throws UserError; then nothing was written over.
+  /// A new run by `jobs` workers, at least 1; the results do not depend on their number. Throws UserError;
+  /// then nothing was written over.
   static Run start(const std::filesystem::path& folder, const Config& config, int jobs);
   /// Goes on with an old one, to `generations` if given. Throws UserError.
   static Run resume(const std::filesystem::path& folder, std::optional<int> generations, int jobs);

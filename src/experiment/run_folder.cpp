@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view manifest_format = "amble-manifest";
 /// Of the run folder as a whole: raised whenever an older program's run could not go on here.
-constexpr int run_version = 3;
+constexpr int run_version = 4;
 constexpr std::string_view lock_name = ".lock";
 
 /// Left by a process that was killed while it wrote (io::AtomicFile).
@@ -148,9 +148,10 @@ RunFolder RunFolder::open(const fs::path& folder) {
 }
 
 RunPaths find_run(const fs::path& folder) {
-  if (!fs::is_directory(folder)) fail(ExitCode::io, "{}: no such folder", folder.string());
+  if (!fs::is_directory(folder))
+    fail(ExitCode::io, "{}: {}", folder.string(), fs::exists(folder) ? "not a folder" : "no such folder");
   if (!is_run_folder(folder))
-    fail(ExitCode::bad_input, "{}: not a run folder (no config.toml)", folder.string());
+    fail(ExitCode::bad_input, "{}: not a run folder (config.toml or robot.json is missing)", folder.string());
   RunPaths paths(folder);
   io::unseal_json(manifest_format, run_version, io::read_file(paths.manifest), paths.manifest.string());
   return paths;

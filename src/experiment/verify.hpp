@@ -10,7 +10,7 @@ namespace amble::experiment {
 /// What came of running a champion again.
 struct Verdict {
   bool agrees = false;
-  std::string text;  ///< "agrees: …" or "differs: …" with the first step that does
+  std::string text;  ///< "agrees: …", "differs: …" with the first step that does, or "unsound: …"
 };
 
 /// Runs the champion of a file again, step by step against its trace. An altered or unsound file is a

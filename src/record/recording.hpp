@@ -36,6 +36,7 @@ class RecordingWriter {
  public:
   RecordingWriter(const std::filesystem::path& path, const RecordingHeader& header);
   ~RecordingWriter();
+  /// One number per column of the header.
   void add(std::span<const float> frame);
   void finish(Outcome outcome);
 

@@ -16,7 +16,8 @@ void Settings::describe(io::SettingsVisitor& visitor) {
 
 void Settings::validate() const {
   const double exact = duration_s / timestep_s;
-  if (exact < 0.5 || exact > 1e9 || std::abs(exact - std::round(exact)) > 1e-6 * exact)
+  const bool whole = exact >= 0.5 && exact <= 1e9 && std::abs(exact - std::round(exact)) <= 1e-6 * exact;
+  if (!whole)  // NaN is none either
     fail(ExitCode::bad_input,
          "trial.duration_s = {}: expected a whole number of timesteps of {} s, at most 1e9", duration_s,
          timestep_s);

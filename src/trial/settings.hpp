@@ -12,7 +12,7 @@ struct Settings {
   double timestep_s = 0.01;
 
   void describe(io::SettingsVisitor& visitor);
-  /// Throws UserError if the duration is not a whole number of timesteps, at least one.
+  /// Throws UserError if the duration is not a whole number of timesteps, at least one and at most 1e9.
   void validate() const;
   /// Steps of a trial that completes.
   int steps() const;

@@ -24,6 +24,8 @@ TEST(Figures, AreOnePerSectionOfThePage) {
       "0,0.5,0.25,0.2,3,100,0,8,300,440000\n",
       "x");
   EXPECT_EQ(names(figure_files(input, tests::walk(0))), Names{"fitness.svg"});
+  for (const auto& name : names(figure_files(input, tests::walk(150))))
+    EXPECT_NE(std::ranges::find(figure_names, name), figure_names.end()) << name;
   auto other_kind = tests::walk(150);
   other_kind.supg.reset();
   EXPECT_EQ(names(figure_files(input, other_kind)),

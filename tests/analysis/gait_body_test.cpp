@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "amble/analysis/kinematics.hpp"
 #include "tests/analysis/fixture.hpp"
 
 namespace amble::analysis {
@@ -15,6 +16,18 @@ TEST(GaitBody, IsReadOffTheRobot) {
   EXPECT_NEAR(body.mass_kg, 1.4, 1e-12);
   EXPECT_NEAR(body.gravity_m_s2, 9.8, 1e-12);
   EXPECT_NEAR(body.leg_length_m, 1.0, 1e-12);
+}
+
+TEST(GaitBody, MeasuresTheLegsOfARobotThatHangsInTheAirAsIfItStood) {
+  RobotModel robot = tests::robot();
+  const auto start_m = robot.bodies[0].position_m;
+  const double bottom_m = geom_bottom_m(
+      robot.geoms[static_cast<std::size_t>(robot.legs[0].foot_geom)],
+      body_poses(robot, {start_m, robot.bodies[0].rotation}, std::vector<double>(robot.joints.size(), 0.0)));
+  robot.bodies[0].position_m.z -= bottom_m;
+  const double standing_m = gait_body(robot).leg_length_m;
+  robot.bodies[0].position_m.z += 0.25;
+  EXPECT_NEAR(gait_body(robot).leg_length_m, standing_m, 1e-12);
 }
 
 TEST(GaitBody, FindsTheLegsByWhereTheFeetStandWhateverTheirNames) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <numbers>
 
 #include "tests/analysis/fixture.hpp"
@@ -77,6 +79,19 @@ TEST(Kinematics, ReadsAFrameOfAMotion) {
   const Vec3 at = geom_centre_m(recorded.robot.geoms[3], poses);
   EXPECT_NEAR(at.x, 0.15 + 0.5 - 0.9, 1e-6);
   EXPECT_NEAR(at.z, 1.0, 1e-6);
+}
+
+TEST(Kinematics, TheLowestPointOfAGeomIsThatOfItsCorners) {
+  const std::vector<BodyPose> poses{{{0.0, 0.0, 2.0}, axis_angle({1.0, 0.0, 0.0}, 0.5 * quarter)}};
+  const double diagonal = std::sqrt(0.5);
+  const auto bottom_m = [&](Shape shape, Vec3 size_m) {
+    return geom_bottom_m({.body = 0, .shape = shape, .size_m = size_m, .position_m = {}, .rotation = {}},
+                         poses);
+  };
+  EXPECT_NEAR(bottom_m(Shape::sphere, {0.3, 0.0, 0.0}), 2.0 - 0.3, 1e-12);
+  EXPECT_NEAR(bottom_m(Shape::capsule, {0.1, 0.4, 0.0}), 2.0 - 0.1 - 0.4 * diagonal, 1e-12);
+  EXPECT_NEAR(bottom_m(Shape::cylinder, {0.1, 0.4, 0.0}), 2.0 - (0.1 + 0.4) * diagonal, 1e-12);
+  EXPECT_NEAR(bottom_m(Shape::box, {0.7, 0.1, 0.4}), 2.0 - (0.1 + 0.4) * diagonal, 1e-12);
 }
 
 }  // namespace

@@ -238,6 +238,26 @@ TEST_F(BadInput, OutputsThatWouldReplaceFilesOfAnotherKind) {
   const auto champion = fs::directory_iterator(fs::path(run_) / "champions")->path().string();
   expect_complaint({"trial", champion, "--record", champion}, ExitCode::bad_input, "is not a recording");
   expect_complaint({"page", run_, "-o", run_ + "/checkpoint.bin"}, ExitCode::bad_input, "is not a page");
+  expect_complaint({"gait", run_, "--json", champion}, ExitCode::bad_input, "is not a gait");
+  expect_complaint({"substrate", config, "-o", champion}, ExitCode::bad_input, "is not a drawing");
+  expect_complaint({"robot", run_ + "/robot.json", "--mjcf", run_ + "/config.toml"}, ExitCode::bad_input,
+                   "is not an MJCF model");
+  fs::create_directories(scratch_ / "figures");
+  spill(scratch_ / "figures/path.svg", "a letter to a friend");
+  expect_complaint({"page", run_, "-o", scratch_ / "page.html", "--figures", scratch_ / "figures"},
+                   ExitCode::bad_input, "is not a figure");
+}
+
+TEST_F(BadInput, RunFoldersWithoutTheirRobotOrManifest) {
+  make_run();
+  const auto robot = slurp(run_ + "/robot.json"), manifest = slurp(run_ + "/manifest.json");
+  spill(run_ + "/robot.json", robot.substr(0, robot.size() / 2));
+  expect_complaint({"resume", run_}, ExitCode::bad_file, "robot.json");
+  fs::remove(run_ + "/robot.json");
+  expect_complaint({"resume", run_}, ExitCode::bad_input, "robot.json is missing");
+  spill(run_ + "/robot.json", robot);
+  fs::remove(run_ + "/manifest.json");
+  expect_complaint({"resume", run_}, ExitCode::io, "manifest.json");
 }
 
 TEST_F(BadInput, ARunMadeShorterThanItIs) {
@@ -289,6 +309,14 @@ TEST_F(BadInput, TrialOfNoWholeNumberOfSteps) {
   expect_complaint({"trial", champion, "--seconds", "1.0001"}, ExitCode::bad_input,
                    "whole number of timesteps");
   expect_complaint({"trial", champion, "--seconds", "-1"}, ExitCode::bad_input, "--seconds");
+  for (const std::string command : {"trial", "gait", "compare"})
+    expect_complaint({command, champion, "--seconds", "nan"}, ExitCode::bad_input, "nan");
+  expect_complaint({"view", champion, "--seconds", "nan", "-o", out_}, ExitCode::bad_input, "nan");
+  const std::string recording = scratch_ / "walk.rec";
+  ASSERT_EQ(amble({"trial", champion, "--record", recording}).exit_code, 0);
+  expect_complaint({"gait", recording, "--seconds", "nan"}, ExitCode::bad_input, "nan");
+  expect_complaint({"view", recording, "--seconds", "3", "-o", out_}, ExitCode::bad_input,
+                   "--seconds: " + recording + " has been made already");
 }
 
 TEST_F(BadInput, GaitOfWhatHasNone) {

@@ -89,7 +89,7 @@ TEST_F(Folder, OfAnotherVersionIsRefusedByThatName) {
   for (const auto& opening :
        {complaint([&] { RunFolder::open(folder_); }), complaint([&] { find_run(folder_); })})
     EXPECT_THAT(opening,
-                HasSubstr("manifest.json: version 1 of the file format; this program reads version 3"));
+                HasSubstr("manifest.json: version 1 of the file format; this program reads version 4"));
 }
 
 TEST_F(Folder, CannotBeAFile) {
@@ -106,6 +106,8 @@ TEST_F(Folder, ThatIsMissingOrNoRunCannotBeResumed) {
   EXPECT_THAT(complaint([&] { RunFolder::open(folder_); }), HasSubstr("no such folder"));
   std::filesystem::create_directories(folder_);
   EXPECT_THAT(complaint([&] { RunFolder::open(folder_); }), HasSubstr("not a run folder"));
+  io::write_file(folder_ / "notes", "x");
+  EXPECT_THAT(complaint([&] { RunFolder::open(folder_ / "notes"); }), HasSubstr("notes: not a folder"));
 }
 
 TEST_F(Folder, ManifestGrowsByEachProcess) {

@@ -89,6 +89,18 @@ TEST(MakeEngine, BatchRefusesChainsThatBranch) {
             "the batch engine cannot simulate chains that branch, as at body 'FL_upper': use engine ode");
 }
 
+TEST(MakeEngine, BatchRefusesAChainOfMoreThanTwelveJoints) {
+  morphology::RobotSpec robot = quadruped();
+  for (int more = 0; more < 10; ++more) {  // the first leg's three and ten in a row below them
+    robot.bodies.push_back(robot.bodies[2]);
+    robot.bodies.back().parent = more == 0 ? 2 : static_cast<int>(robot.bodies.size()) - 2;
+    robot.joints.push_back(robot.joints[0]);
+    robot.joints.back().body = static_cast<int>(robot.bodies.size()) - 1;
+  }
+  EXPECT_THAT(refusal(robot, "batch"),
+              testing::HasSubstr("cannot simulate more than 12 joints in one chain, as at body"));
+}
+
 TEST(MakeEngine, BatchTakesThreeJointsOnOneBody) {
   morphology::RobotSpec robot = quadruped();
   robot.joints[0].body = robot.joints[1].body;
