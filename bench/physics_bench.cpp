@@ -1,9 +1,7 @@
-#include <hwy/highway.h>
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <memory>
 
 #include "amble/experiment/problem.hpp"
@@ -88,14 +86,15 @@ void measure_physics(std::vector<Figure>& figures) {
   figures.push_back({"raw_steps_per_s_batch", batch, "1/s", "one core, paper's quadruped, 20 iterations"});
   figures.push_back({"batch_vs_ode_raw", batch / ode, "1", "steps per second, paper's quadruped"});
   figures.push_back({"batch_vs_mujoco_raw", batch / mujoco, "1", "steps per second, paper's quadruped"});
-  figures.push_back({"batch_vs_ode_raw_authors", steps_per_s("batch", authors) / steps_per_s("ode", authors),
-                     "1", "steps per second, authors' quadruped"});
-  const std::int64_t instructions = hwy::SupportedTargets();
-  if ((instructions & HWY_AVX2) == 0 || (instructions & HWY_AVX3) == 0) return;
-  hwy::SetSupportedTargetsForTest(HWY_AVX2);
-  figures.push_back(
-      {"batch_vs_ode_raw_avx2", steps_per_s("batch", paper) / ode, "1", "the same without AVX-512"});
-  hwy::SetSupportedTargetsForTest(0);
+  const double ode_authors = steps_per_s("ode", authors);
+  figures.push_back({"batch_vs_ode_raw_authors", steps_per_s("batch", authors) / ode_authors, "1",
+                     "steps per second, authors' quadruped"});
+  without_avx512([&] {
+    figures.push_back(
+        {"batch_vs_ode_raw_avx2", steps_per_s("batch", paper) / ode, "1", "the same without AVX-512"});
+    figures.push_back({"batch_vs_ode_raw_authors_avx2", steps_per_s("batch", authors) / ode_authors, "1",
+                       "the same without AVX-512"});
+  });
 }
 
 }  // namespace amble::bench

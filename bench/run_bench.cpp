@@ -54,6 +54,11 @@ void measure_batch_runs(double ode_per_s, std::vector<Figure>& figures) {
       {"batch_vs_ode_end_to_end", one_per_s / ode_per_s, "1", "evaluations per second, one worker"});
   figures.push_back(
       {"outside_physics_share_batch", all.outside_s / all.wall_s, "1", "of wall time, all workers"});
+  without_avx512([&] {
+    const auto narrow = run("batch", generations, 1);
+    figures.push_back({"batch_vs_ode_end_to_end_avx2", narrow.evaluations / narrow.wall_s / ode_per_s, "1",
+                       "the same without AVX-512"});
+  });
   figures.push_back({"evaluations_per_s_batch", one_per_s, "1/s", "end to end, one worker"});
   figures.push_back({"evaluations_per_s_batch_all_workers", all_per_s, "1/s", end_to_end});
   figures.push_back({"steps_per_s_batch_all_workers", all.steps / all.wall_s, "1/s", end_to_end});

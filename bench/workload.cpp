@@ -1,5 +1,9 @@
 #include "bench/workload.hpp"
 
+#include <hwy/highway.h>
+
+#include <cstdint>
+
 #include "amble/neat/population.hpp"
 
 namespace amble::bench {
@@ -23,6 +27,14 @@ std::vector<neat::Genome> evolved_genomes(int count, int inputs, int outputs) {
          population.statistics().mean_links < links_wanted)
     population.advance(std::vector<neat::Fitness>(static_cast<std::size_t>(count), {1.0, 1.0}));
   return {population.genomes().begin(), population.genomes().end()};
+}
+
+void without_avx512(const std::function<void()>& measure) {
+  const std::int64_t instructions = hwy::SupportedTargets();
+  if ((instructions & HWY_AVX2) == 0 || (instructions & HWY_AVX3) == 0) return;
+  hwy::SetSupportedTargetsForTest(HWY_AVX2);
+  measure();
+  hwy::SetSupportedTargetsForTest(0);
 }
 
 }  // namespace amble::bench

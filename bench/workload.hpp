@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,5 +15,8 @@ experiment::Config authors_config(std::vector<std::string> assignments = {});
 /// Genomes of the size that evolution ends with (Morse et al. 2013, sec. 5: 6.4 hidden nodes, 39.7 links): a
 /// population bred at random, with structural mutations made frequent, until its mean is there.
 std::vector<neat::Genome> evolved_genomes(int count, int inputs, int outputs);
+
+/// Measures what AVX2 alone gives, on processors that have AVX-512 too; elsewhere does nothing.
+void without_avx512(const std::function<void()>& measure);
 
 }  // namespace amble::bench
