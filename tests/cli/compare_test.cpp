@@ -65,7 +65,8 @@ TEST_F(Compare, TakesTheMedianOfTrialsUnderNoiseThatEvolutionHasNotMet) {
   const auto under_noise =
       amble({"compare", champion_, "--noise", robust, "--episodes", "3", "--format", "json"});
   ASSERT_EQ(under_noise.exit_code, 0) << under_noise.err;
-  for (const auto& judged : io::Json::parse(under_noise.out)[0]["results"]) {
+  const auto list = io::Json::parse(under_noise.out);
+  for (const auto& judged : list[0]["results"]) {
     std::vector<double> distances_m;
     for (std::size_t e = 0; e < 3; ++e) {
       distances_m.push_back(judged["trials"].at(e)["distance_m"]);
