@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "amble/core/statistics.hpp"
 #include "amble/io/json_file.hpp"
 
 namespace amble::cli {
@@ -55,12 +56,6 @@ Cells row_cells(const ComparedChampion& row) {
                     (judged.engine == row.home ? "" : kept_text(walked_m, home_m(row))) + endings(judged));
   }
   return cells;
-}
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  const std::size_t n = values.size();
-  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
 /// All champions for one length of time.

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <vector>
 
 #include "amble/core/check.hpp"
+#include "amble/core/statistics.hpp"
 
 namespace amble::experiment {
 
@@ -34,14 +34,11 @@ std::string csv_line(const GenerationRow& row) {
 void summarise_trials(std::span<const double> distances_m, std::span<const record::Trajectory> trajectories,
                       GenerationRow& row) {
   AMBLE_CHECK(!distances_m.empty(), "a generation has members");
-  std::vector<double> sorted(distances_m.begin(), distances_m.end());
-  std::ranges::sort(sorted);
-  const std::size_t n = sorted.size();
-  row.best_m = sorted.back();
-  row.median_m = 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]);
+  row.best_m = std::ranges::max(distances_m);
+  row.median_m = median({distances_m.begin(), distances_m.end()});
   double sum = 0.0;
   for (const double distance_m : distances_m) sum += distance_m;
-  row.mean_m = sum / static_cast<double>(n);
+  row.mean_m = sum / static_cast<double>(distances_m.size());
   for (const auto& trajectory : trajectories) {
     row.fell += trajectory.outcome == record::Outcome::fell;
     row.diverged += trajectory.outcome == record::Outcome::diverged;

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <future>
+#include <utility>
 
-#include "amble/core/check.hpp"
+#include "amble/core/statistics.hpp"
 #include "amble/experiment/replay.hpp"
 
 namespace amble::experiment {
@@ -27,12 +28,9 @@ std::optional<Judgement> judge_in(const std::string& engine, const Problem& prob
 }  // namespace
 
 double Judgement::distance_m() const {
-  AMBLE_CHECK(!trials.empty(), "a judgement has a trial");
-  std::vector<double> sorted_m;
-  for (const auto& trial : trials) sorted_m.push_back(trial.distance_m);
-  std::ranges::sort(sorted_m);
-  const std::size_t n = sorted_m.size();
-  return n % 2 == 1 ? sorted_m[n / 2] : 0.5 * (sorted_m[n / 2 - 1] + sorted_m[n / 2]);
+  std::vector<double> distances_m;
+  for (const auto& trial : trials) distances_m.push_back(trial.distance_m);
+  return median(std::move(distances_m));
 }
 
 std::optional<std::vector<Judgement>> judge(const Problem& problem, const neat::Genome& genome,
