@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "amble/core/statistics.hpp"
 #include "amble/experiment/run.hpp"
 #include "bench/benches.hpp"
 #include "bench/workload.hpp"
@@ -67,14 +69,23 @@ void measure_batch_runs(double ode_per_s, std::vector<Figure>& figures) {
 }  // namespace
 
 void measure_runs(std::vector<Figure>& figures) {
-  constexpr int generations = 4;
-  const auto one = run("ode", generations, 1), two = run("ode", generations, 2);
-  const double one_per_s = one.evaluations / one.wall_s, two_per_s = two.evaluations / two.wall_s;
-  figures.push_back({"two_workers_vs_one", two_per_s / one_per_s, "1", "evaluations per second, whole run"});
+  // By turns, and medians: another program that wakes up meanwhile takes from one round only.
+  constexpr int generations = 4, rounds = 3;
+  std::vector<double> ones_per_s, twos_per_s, ratios;
+  Totals two;
+  for (int round = 0; round < rounds; ++round) {
+    const auto one = run("ode", generations, 1);
+    two = run("ode", generations, 2);
+    ones_per_s.push_back(one.evaluations / one.wall_s);
+    twos_per_s.push_back(two.evaluations / two.wall_s);
+    ratios.push_back(twos_per_s.back() / ones_per_s.back());
+  }
+  const double one_per_s = median(ones_per_s);
+  figures.push_back({"two_workers_vs_one", median(ratios), "1", "evaluations per second, whole run"});
   figures.push_back(
       {"outside_physics_share", two.outside_s / two.wall_s, "1", "of wall time, 300 genomes, two workers"});
   figures.push_back({"evaluations_per_s_ode", one_per_s, "1/s", "end to end, one worker"});
-  figures.push_back({"evaluations_per_s_ode_two_workers", two_per_s, "1/s", "end to end"});
+  figures.push_back({"evaluations_per_s_ode_two_workers", median(twos_per_s), "1/s", "end to end"});
   figures.push_back({"steps_per_s_ode_two_workers", two.steps / two.wall_s, "1/s", "end to end"});
   measure_batch_runs(one_per_s, figures);
   figures.push_back(
