@@ -48,7 +48,7 @@ void draw_triggers(Svg& svg, const std::vector<bool>& trigger, double frame_s, c
 }
 
 void draw_rows(Svg& svg, const RobotModel& robot, const Motion& motion, const Scale& time, const Rows& rows,
-               bool with_duty) {
+               bool with_share) {
   for (std::size_t leg = 0; leg < robot.legs.size(); ++leg) {
     const double top = rows.bar_top(leg), middle = top + 0.5 * rows.bar_px + 4.5;
     svg.begin_group(leg_class(static_cast<int>(leg)));
@@ -57,9 +57,9 @@ void draw_rows(Svg& svg, const RobotModel& robot, const Motion& motion, const Sc
     svg.rect({time.lower_px, top, time.upper_px - time.lower_px, rows.bar_px}, "track", 1.5);
     draw_bars(svg, motion.touch[leg], motion.frame_s, time, top, rows.bar_px);
     if (!motion.trigger.empty()) draw_triggers(svg, motion.trigger[leg], motion.frame_s, time, rows, top);
-    if (with_duty)
+    if (with_share)
       svg.text({time.upper_px + 12, middle}, Anchor::start, "value",
-               fmt::format("{:.0f} %", 100.0 * duty_factor(motion.touch[leg])));
+               fmt::format("{:.0f} %", 100.0 * contact_share(motion.touch[leg])));
     svg.end_group();
   }
 }

@@ -17,7 +17,7 @@ std::vector<Stance> stances(const std::vector<bool>& touch, double frame_s) {
   return found;
 }
 
-double duty_factor(const std::vector<bool>& touch) {
+double contact_share(const std::vector<bool>& touch) {
   if (touch.empty()) return 0.0;
   return static_cast<double>(std::ranges::count(touch, true)) / static_cast<double>(touch.size());
 }

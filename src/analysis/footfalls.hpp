@@ -19,7 +19,7 @@ struct Stance {
 std::vector<Stance> stances(const std::vector<bool>& touch, double frame_s);
 
 /// Share of the frames in which the foot touched, in [0, 1].
-double duty_factor(const std::vector<bool>& touch);
+double contact_share(const std::vector<bool>& touch);
 
 /// The frames in which a foot came down: touching, and not in the frame before. The first frame is none of
 /// them.

@@ -12,6 +12,7 @@ Json json_of(const std::optional<double>& value) {
 
 Json json_of(const std::optional<PairPhase>& pair) {
   if (!pair) return nullptr;
+  if (pair->count == 0) return {{"phase", nullptr}, {"resultant", nullptr}, {"count", 0}};
   return {{"phase", pair->phase}, {"resultant", pair->resultant}, {"count", pair->count}};
 }
 
@@ -68,7 +69,7 @@ Json pairs_of(const std::optional<QuadrupedPhases>& phases) {
           {"fore", json_of(std::optional(phases->fore))},
           {"left", json_of(std::optional(phases->left))},
           {"right", json_of(std::optional(phases->right))},
-          {"lateral", phases->lateral}};
+          {"lateral", phases->left.count + phases->right.count > 0 ? Json(phases->lateral) : Json(nullptr)}};
 }
 
 Json seconds_of(const std::vector<double>& gait_seconds) {

@@ -36,6 +36,11 @@ std::string footwork(const GaitReport& report) {
                      *report.duty_factor > 0.5 ? "walking" : "running", *report.duty_factor, stride_s);
 }
 
+/// "0.52 (R 0.97)", or "–" for feet that have not both landed.
+std::string pair_text(const PairPhase& pair) {
+  return pair.count == 0 ? "–" : fmt::format("{:.2f} (R {:.2f})", pair.phase, pair.resultant);
+}
+
 std::string froude(const GaitReport& report) {
   return report.froude ? fmt::format("{:.2g}", *report.froude) : "–";
 }
@@ -53,8 +58,6 @@ void print_legs(const GaitReport& report, Text text) {
     if (leg.touchdowns > 0) return "";
     return leg.contact_share > 0.5 ? "  never lifts" : "  never lands";
   };
-  const std::string reference =
-      report.reference_leg < 0 ? "–" : report.legs[static_cast<std::size_t>(report.reference_leg)].name;
   fmt::format_to(text,
                  "\nleg    lands (sensor)  strides  stride s     sd  duty  ground  phase     R  drift/min\n");
   for (const LegGait& leg : report.legs) {
@@ -66,7 +69,9 @@ void print_legs(const GaitReport& report, Text text) {
                    100.0 * leg.contact_share, number(phase, 2), number(resultant, 2),
                    number(leg.drift_per_min, 3), note(leg));
   }
-  fmt::format_to(text, "phase: touch-downs after those of {}, in its strides\n", reference);
+  if (report.reference_leg >= 0)
+    fmt::format_to(text, "phase: touch-downs after those of {}, in its strides\n",
+                   report.legs[static_cast<std::size_t>(report.reference_leg)].name);
 }
 
 /// Says when the gait changed, if it did. Within merged windows only the seconds tell.
@@ -128,11 +133,8 @@ std::string gait_table(const GaitReport& report) {
   print_legs(report, text);
   if (report.quadruped && report.duty_factor) {
     const QuadrupedPhases& q = *report.quadruped;
-    fmt::format_to(text,
-                   "pairs: hind {:.2f} (R {:.2f}), fore {:.2f} (R {:.2f}); fore after hind, left {:.2f} (R "
-                   "{:.2f}), right {:.2f} (R {:.2f})\n",
-                   q.hind.phase, q.hind.resultant, q.fore.phase, q.fore.resultant, q.left.phase,
-                   q.left.resultant, q.right.phase, q.right.resultant);
+    fmt::format_to(text, "pairs: hind {}, fore {}; fore after hind, left {}, right {}\n", pair_text(q.hind),
+                   pair_text(q.fore), pair_text(q.left), pair_text(q.right));
   }
   print_segments(report, text);
   fmt::format_to(text,

@@ -7,14 +7,14 @@
 
 namespace amble::analysis {
 
-/// What a robot did in one trial. Frame k is the state after step k + 1, so it belongs to time (k + 1) ×
-/// frame_s.
+/// What a robot did in one trial, in the world's frame (docs/CONVENTIONS.md). Frame k is the state after step
+/// k + 1, so it belongs to time (k + 1) × frame_s.
 struct Motion {
   double frame_s = 0.0;
   record::Outcome outcome = record::Outcome::completed;
-  Vec3 com_start_m;  ///< whole-body centre of mass before the first step
-  std::vector<Vec3> root_m;
-  std::vector<Quat> root_rotation;
+  Vec3 com_start_m;                 ///< whole-body centre of mass before the first step
+  std::vector<Vec3> root_m;         ///< origin of the root body
+  std::vector<Quat> root_rotation;  ///< from its frame to the world's
   std::vector<Vec3> com_m;
   std::vector<std::vector<float>> angle_rad;  ///< joint by joint, each frame by frame
   std::vector<std::vector<bool>> touch;       ///< leg by leg

@@ -121,7 +121,7 @@ std::string footfall_section(const Recorded& recorded) {
     text += " A triangle marks a trigger: the foot came down and reset the timer of its leg.";
   std::string silent;
   for (std::size_t leg = 0; leg < recorded.robot.legs.size(); ++leg)
-    if (duty_factor(motion.touch[leg]) == 0.0)
+    if (contact_share(motion.touch[leg]) == 0.0)
       silent += (silent.empty() ? "" : ", ") + recorded.robot.legs[leg].name;
   if (!silent.empty()) text += " Never on the ground: " + silent + ".";
   return section("Footfalls", text,

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "amble/analysis/footfalls.hpp"
-
 namespace amble::analysis {
 
 Summary summarise(const Motion& motion) {
@@ -18,7 +16,6 @@ Summary summarise(const Motion& motion) {
   }
   for (const auto& trigger : motion.trigger)
     summary.triggers.push_back(static_cast<int>(std::ranges::count(trigger, true)));
-  for (const auto& touch : motion.touch) summary.duty_factors.push_back(duty_factor(touch));
   return summary;
 }
 

@@ -12,8 +12,7 @@ struct Summary {
   double seconds = 0.0;     ///< until the time was up or the robot fell
   double mean_speed_m_s = 0.0;
   record::Outcome outcome = record::Outcome::completed;
-  std::vector<int> triggers;         ///< per leg; empty without triggers
-  std::vector<double> duty_factors;  ///< per leg
+  std::vector<int> triggers;  ///< per leg; empty without triggers
 };
 
 Summary summarise(const Motion& motion);

@@ -6,7 +6,7 @@
 
 namespace amble::analysis {
 
-/// A place in a picture: px from the left, px from the top.
+/// A place in a picture: px from the left, px from the top, unless its name ends in another unit.
 struct Point {
   double x = 0.0, y = 0.0;
 

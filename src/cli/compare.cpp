@@ -11,6 +11,7 @@
 
 #include "amble/cli/commands.hpp"
 #include "amble/cli/compare_table.hpp"
+#include "amble/cli/option_checks.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/config.hpp"
 #include "amble/experiment/referees.hpp"
@@ -111,14 +112,17 @@ ExitCode run_compare(const CompareOptions& options) {
 }  // namespace
 
 void add_compare(CLI::App& app, Action& action) {
-  auto* command = app.add_subcommand("compare", "Let champions walk in several physics engines, as a table");
+  auto* command = app.add_subcommand(
+      "compare",
+      "Let champions walk in several physics engines: distances, and their share of that where they evolved");
   auto options = std::make_shared<CompareOptions>();
   command->add_option("INPUT", options->inputs, "Champions (JSON) and run folders (their best champions)")
       ->required();
   command
-      ->add_option("--seconds", options->seconds, "Lengths of trials, e.g. 15,300 (default: as in evolution)")
+      ->add_option("--seconds", options->seconds,
+                   "Lengths of trials, s, e.g. 15,300 (default: as in evolution)")
       ->delimiter(',')
-      ->check(CLI::Range(1e-5, 1e6));
+      ->check(seconds_check());
   command->add_option("--engines", options->engines, "Engines besides the champions' own, e.g. ode,mujoco")
       ->delimiter(',')
       ->capture_default_str();
@@ -132,7 +136,7 @@ void add_compare(CLI::App& app, Action& action) {
   command->add_option("--episodes", options->episodes, "Trials under --noise per champion, length and engine")
       ->capture_default_str()
       ->needs(noise)
-      ->check(CLI::Range(1u, 1000u));
+      ->check(between(1u, 1000u));
   command->callback([options, &action] { action = [options] { return run_compare(*options); }; });
 }
 

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -8,6 +10,8 @@
 #include <thread>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/messages.hpp"
+#include "amble/cli/option_checks.hpp"
 #include "amble/cli/progress.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/run.hpp"
@@ -31,10 +35,11 @@ void add_jobs(CLI::App& command, int& jobs) {
   jobs = processors();
   command.add_option("--jobs", jobs, "Workers; the results do not depend on it")
       ->capture_default_str()
-      ->check(CLI::Range(1, most_jobs));
+      ->check(between(1, most_jobs));
 }
 
 ExitCode execute(experiment::Run run) {
+  std::signal(SIGPIPE, SIG_IGN);  // whoever read the progress may go; the run stays
   const std::string folder = run.paths().folder.string();
   if (run.generation() >= run.config().generations)
     fmt::print("{}: all {} generations are done; more by --generations N\n", folder,
@@ -45,8 +50,8 @@ ExitCode execute(experiment::Run run) {
     status = run.execute(progress, stop_signal());
   }
   if (status == experiment::RunStatus::interrupted) {
-    fmt::print(stderr, "stopped at generation {} of {}; go on by: amble resume {}\n", run.generation(),
-               run.config().generations, folder);
+    say(fmt::format("stopped at generation {} of {}; go on by: amble resume {}\n", run.generation(),
+                    run.config().generations, folder));
     return ExitCode::interrupted;
   }
   fmt::print(
@@ -62,11 +67,16 @@ void add_evolve(CLI::App& app, Action& action) {
   auto options = std::make_shared<EvolveOptions>();
   command->add_option("CONFIG", options->config, "Config file (TOML)")->required();
   command
-      ->add_option("--set", options->overrides.assignments, "Lay key.path=value over the config (repeatable)")
+      ->add_option("--set", options->overrides.assignments,
+                   "Lay key.path=value over the config, e.g. population.size=100 (repeatable)")
       ->allow_extra_args(false);
-  command->add_option("--seed", options->overrides.seed, "Seed of all randomness");
-  command->add_option("--generations", options->overrides.generations, "Generations to evaluate");
-  command->add_option("--out", options->out, "The run folder to make")->required();
+  command->add_option("--seed", options->overrides.seed, "Seed of all randomness (default: the config's)")
+      ->check(between(std::int64_t{0}, experiment::largest_seed));
+  command
+      ->add_option("--generations", options->overrides.generations,
+                   "Generations to evaluate (default: the config's)")
+      ->check(between(1, experiment::most_generations));
+  command->add_option("--out", options->out, "The run folder to make; it must be new or empty")->required();
   add_jobs(*command, options->jobs);
   command->callback([options, &action] {
     action = [options] {
@@ -87,7 +97,7 @@ void add_resume(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   command->add_option("DIR", options->folder, "Run folder")->required();
   command->add_option("--generations", options->generations, "Generations to evaluate in all")
-      ->check(CLI::Range(1, 1000000000));
+      ->check(between(1, experiment::most_generations));
   add_jobs(*command, options->jobs);
   command->callback([options, &action] {
     action = [options] {

@@ -8,6 +8,7 @@
 #include "amble/analysis/recorded_gait.hpp"
 #include "amble/cli/commands.hpp"
 #include "amble/cli/gait_observer.hpp"
+#include "amble/cli/option_checks.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run_folder.hpp"
@@ -47,8 +48,6 @@ std::optional<analysis::GaitReport> measure(const GaitOptions& options) {
     return champion_gait(experiment::find_run(options.path).best_champion(), options);
   if (options.path.extension() == ".json") return champion_gait(options.path, options);
   if (options.engine) fail(ExitCode::bad_input, "--engine: a recording has been made already");
-  if (options.seconds && !(*options.seconds > 0.0))
-    fail(ExitCode::bad_input, "--seconds: {}: expected a positive number", *options.seconds);
   return analysis::recorded_gait(options.path, options.settings, options.seconds);
 }
 
@@ -76,8 +75,8 @@ void add_gait(CLI::App& app, Action& action) {
       ->required();
   command
       ->add_option("--seconds", options->seconds,
-                   "Length of the trial (default: as in its evolution), or of the part of a recording")
-      ->check(CLI::PositiveNumber);
+                   "Length of the trial, s (default: as in its evolution), or of the part of a recording")
+      ->check(seconds_check());
   command->add_option("--engine", options->engine, "Physics engine (default: as in its evolution)");
   command->add_option("--json", options->json, "Write all figures to this file; - prints them instead");
   auto& settings = options->settings;

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/messages.hpp"
 #include "amble/experiment/build_info.hpp"
 
 namespace {
@@ -17,15 +18,15 @@ ExitCode complain(ExitCode code, std::string text) {
   for (char& c : text)
     if (c == '\n') c = ' ';
   while (text.ends_with(' ')) text.pop_back();
-  fmt::print(stderr, "amble: {}\n", text);
+  amble::cli::say(fmt::format("amble: {}\n", text));
   return code;
 }
 
 ExitCode run(int argc, char** argv) {
   CLI::App app("Evolves walking controllers for legged robots.", "amble");
   const auto build = amble::experiment::build_info();
-  app.set_version_flag("--version", fmt::format("amble {} ({}, {}, {})", build.version,
-                                                build.commit.substr(0, 12), build.compiler, build.flags));
+  app.set_version_flag("--version", fmt::format("amble {} ({}, {}, {})", build.version, short_commit(build),
+                                                build.compiler, build.flags));
   app.require_subcommand(1);
   app.footer("Each command explains itself: amble COMMAND --help");
   amble::cli::Action action;
@@ -58,6 +59,7 @@ ExitCode run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  amble::cli::hold_standard_streams();
   ExitCode code = ExitCode::internal;
   try {
     code = run(argc, argv);

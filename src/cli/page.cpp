@@ -53,7 +53,7 @@ std::vector<analysis::Fact> facts(const experiment::Config& config, const experi
                                champion.index, champion.result.distance_m, config.engine)},
       {"Shown", fmt::format("as it walks in the engine {}", shown_in)},
       {"Made by",
-       fmt::format("amble {} ({}), {}", build.version, build.commit.substr(0, 12), build.compiler)}};
+       fmt::format("amble {} ({}), {}", build.version, experiment::short_commit(build), build.compiler)}};
   for (const auto& [engine, judged] : champion.referees)
     facts.insert(facts.end() - 1,
                  {"In the engine " + engine, result_text(judged, champion.result.distance_m)});
@@ -72,7 +72,7 @@ ExitCode make_page(const PageOptions& options) {
   const auto champion_path = paths.best_champion();
   const auto champion = experiment::load_champion(champion_path);
 
-  const ScratchFile recording("page");
+  const ScratchFile recording("walk.rec");
   const auto replay = experiment::replay(champion.problem, champion.genome,
                                          {.seconds = {},
                                           .engine = options.engine,

@@ -5,14 +5,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "amble/cli/messages.hpp"
 #include "amble/core/clock.hpp"
 
 namespace amble::cli {
 namespace {
 
 constexpr double terminal_interval_s = 0.1, plain_interval_s = 5.0;
+
+/// "0.47", "53" or "1513".
+std::string rate_text(double per_s) {
+  return fmt::format("{:.{}f}", per_s, per_s < 9.95 ? 2 : 0);
+}
 
 }  // namespace
 
@@ -27,7 +32,7 @@ ProgressLine::ProgressLine(int first_generation)
     : terminal_(isatty(STDERR_FILENO) != 0), first_generation_(first_generation), start_s_(now_s()) {}
 
 ProgressLine::~ProgressLine() {
-  if (open_) std::fputc('\n', stderr);
+  if (open_) say("\n");
 }
 
 void ProgressLine::on_generation(const experiment::GenerationRow& row, const experiment::Progress& progress,
@@ -41,15 +46,12 @@ void ProgressLine::on_generation(const experiment::GenerationRow& row, const exp
   const double s_per_generation = (now - start_s_) / (done - first_generation_);
   const double left_s = s_per_generation * (config.generations - done);
   const auto line =
-      fmt::format("generation {}/{}  best {:.2f} m  median {:.2f} m  {} species  {:.0f} evaluations/s  {} {}",
+      fmt::format("generation {}/{}  best {:.2f} m  median {:.2f} m  {} species{}  {} evaluations/s  {} {}",
                   done, config.generations, progress.best_m, row.median_m, row.population.species,
-                  static_cast<double>(row.evaluations) / row.wall_s, last ? "took" : "left",
+                  row.diverged > 0 ? fmt::format("  {} diverged", row.diverged) : "",
+                  rate_text(static_cast<double>(row.evaluations) / row.wall_s), last ? "took" : "left",
                   clock_text(last ? now - start_s_ : left_s));
-  if (terminal_)
-    fmt::print(stderr, "\r\033[K{}", line);
-  else
-    fmt::print(stderr, "{}\n", line);
-  std::fflush(stderr);
+  say(terminal_ ? "\r\033[K" + line : line + "\n");
   open_ = terminal_;
 }
 

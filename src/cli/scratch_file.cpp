@@ -1,24 +1,33 @@
 #include "amble/cli/scratch_file.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include <cerrno>
+#include <cstdlib>
+#include <string>
 #include <system_error>
+
+#include "amble/core/error.hpp"
 
 namespace amble::cli {
 namespace {
 
-int made = 0;
+namespace fs = std::filesystem;
+
+fs::path new_folder() {
+  std::string name = (fs::temp_directory_path() / "amble-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr)
+    fail(ExitCode::io, "cannot make folder {}: {}", name, std::generic_category().message(errno));
+  return name;
+}
 
 }  // namespace
 
-ScratchFile::ScratchFile(const std::string& kind)
-    : path_(std::filesystem::temp_directory_path() /
-            fmt::format("amble-{}-{}-{}.rec", kind, getpid(), made++)) {}
+ScratchFile::ScratchFile(const std::string& name) : path_(new_folder() / name) {}
 
 ScratchFile::~ScratchFile() {
   std::error_code none;
-  std::filesystem::remove(path_, none);
+  fs::remove_all(path_.parent_path(), none);
 }
 
 }  // namespace amble::cli

@@ -5,11 +5,12 @@
 
 namespace amble::cli {
 
-/// A name for a file in the system's folder for such; the file is gone with the object, whatever happens.
+/// A name for a file in a new folder that is this user's alone, within the system's for such; both are gone
+/// with the object, though not if the process is killed.
 class ScratchFile {
  public:
-  /// "amble-KIND-PROCESS-NUMBER.rec".
-  explicit ScratchFile(const std::string& kind);
+  /// Throws UserError(ExitCode::io).
+  explicit ScratchFile(const std::string& name);
   ~ScratchFile();
   ScratchFile(const ScratchFile&) = delete;
   ScratchFile& operator=(const ScratchFile&) = delete;

@@ -8,6 +8,7 @@
 
 #include "amble/cli/commands.hpp"
 #include "amble/cli/gait_observer.hpp"
+#include "amble/cli/option_checks.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/io/file.hpp"
@@ -68,8 +69,8 @@ void add_trial(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("trial", "Let a champion walk again, for as long as you like");
   auto options = std::make_shared<TrialOptions>();
   command->add_option("CHAMPION", options->champion, "Champion file (JSON)")->required();
-  command->add_option("--seconds", options->seconds, "Length of the trial (default: as in its evolution)")
-      ->check(CLI::Range(1e-5, 1e6));
+  command->add_option("--seconds", options->seconds, "Length of the trial, s (default: as in its evolution)")
+      ->check(seconds_check());
   command->add_option("--engine", options->engine, "Physics engine (default: as in its evolution)");
   command->add_option("--record", options->record, "Write every step to this recording");
   command
@@ -77,7 +78,7 @@ void add_trial(CLI::App& app, Action& action) {
           "--noise", options->noise,
           "Disturb the trial as in this episode of its evaluation, from 0; higher numbers are noise that "
           "it has not met (default: no noise)")
-      ->check(CLI::Range(0u, most_episodes));
+      ->check(between(0u, most_episodes));
   command->callback([options, &action] { action = [options] { return run_trial(*options); }; });
 }
 

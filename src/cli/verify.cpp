@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
+#include "amble/analysis/generations_csv.hpp"
 #include "amble/cli/commands.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/run_folder.hpp"
@@ -12,25 +15,44 @@
 namespace amble::cli {
 namespace {
 
-ExitCode verify(const std::filesystem::path& folder) {
-  const auto files = experiment::find_run(folder).champion_files();
-  if (files.empty()) fail(ExitCode::bad_input, "{}: no champion yet", folder.string());
-  int differing = 0;
+namespace fs = std::filesystem;
+
+/// Champions that the run has kept, by its table, and that are no longer there.
+std::vector<fs::path> missing_champions(const experiment::RunPaths& paths) {
+  const auto rows = analysis::read_generations(paths.generations);
+  std::vector<fs::path> missing;
+  double best_so_far_m = -1.0;
+  for (std::size_t i = 0; i < rows.count(); ++i) {
+    if (rows.best_m[i] <= best_so_far_m) continue;
+    best_so_far_m = rows.best_m[i];
+    if (const auto file = paths.champion(static_cast<int>(i)); !fs::exists(file)) missing.push_back(file);
+  }
+  return missing;
+}
+
+ExitCode verify(const fs::path& folder) {
+  const auto paths = experiment::find_run(folder);
+  const auto origin = experiment::origin_of(paths);
+  const auto files = paths.champion_files(), missing = missing_champions(paths);
+  if (files.empty() && missing.empty()) fail(ExitCode::bad_input, "{}: no champion yet", folder.string());
+  std::size_t agreeing = 0;
   for (const auto& file : files) {
-    const auto verdict = experiment::verify_champion(file, stop_signal());
+    const auto verdict = experiment::verify_champion(file, stop_signal(), &origin);
     if (!verdict) fail(ExitCode::interrupted, "stopped before all champions were run");
     fmt::print("{} {}\n", file.string(), verdict->text);
-    differing += !verdict->agrees;
+    agreeing += verdict->agrees ? 1 : 0;
   }
-  fmt::print("{} of {} champions agree\n", files.size() - static_cast<std::size_t>(differing), files.size());
-  return differing == 0 ? ExitCode::ok : ExitCode::differs;
+  for (const auto& file : missing) fmt::print("{} missing\n", file.string());
+  const std::size_t all = files.size() + missing.size();
+  fmt::print("{} of {} champions agree\n", agreeing, all);
+  return agreeing == all ? ExitCode::ok : ExitCode::differs;
 }
 
 }  // namespace
 
 void add_verify(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("verify", "Run every champion of a run again and compare step by step");
-  auto folder = std::make_shared<std::filesystem::path>();
+  auto folder = std::make_shared<fs::path>();
   command->add_option("DIR", *folder, "Run folder")->required();
   command->callback([folder, &action] { action = [folder] { return verify(*folder); }; });
 }

@@ -12,6 +12,7 @@
 #include "amble/cli/commands.hpp"
 #include "amble/cli/cppn_graph.hpp"
 #include "amble/cli/gait_observer.hpp"
+#include "amble/cli/option_checks.hpp"
 #include "amble/cli/scratch_file.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/build_info.hpp"
@@ -81,14 +82,14 @@ ExitCode make_view(const ViewOptions& options) {
       continue;
     }
     const fs::path champion = is_run ? experiment::find_run(input).best_champion() : input;
-    auto walker = walk(champion, options, scratch.emplace_back("view"));
+    auto walker = walk(champion, options, scratch.emplace_back("walk.rec"));
     if (!walker) fail(ExitCode::interrupted, "stopped before all champions had walked");
     page.walkers.push_back(std::move(*walker));
   }
   page.title = options.title.value_or(
       page.walkers.size() == 1 ? page.walkers.front().title : fmt::format("{} walkers", page.walkers.size()));
   const auto build = experiment::build_info();
-  page.made_by = fmt::format("amble {} ({})", build.version, build.commit.substr(0, 12));
+  page.made_by = fmt::format("amble {} ({})", build.version, experiment::short_commit(build));
   const std::string html = view::make_page(page);
   if (options.out.has_parent_path()) fs::create_directories(options.out.parent_path());
   io::write_file(options.out, html);
@@ -108,8 +109,9 @@ void add_view(CLI::App& app, Action& action) {
       ->required();
   command->add_option("-o,--out", options->out, "The page to write (HTML)")->required();
   command
-      ->add_option("--seconds", options->seconds, "How long champions walk (default: as in their evolution)")
-      ->check(CLI::PositiveNumber);
+      ->add_option("--seconds", options->seconds,
+                   "How long champions walk, s (default: as in their evolution)")
+      ->check(seconds_check());
   command->add_option("--engine", options->engine,
                       "Physics engine in which champions walk (default: as in their evolution)");
   command->add_option("--title", options->title, "Title of the page");

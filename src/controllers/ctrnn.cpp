@@ -112,13 +112,15 @@ CtrnnArchitecture::CtrnnArchitecture(const CtrnnSettings& settings, const substr
       settings_(settings) {
   const double shortest = layout().lowest(Property::time_constant);
   if (!(shortest > 0.0))
-    fail(ExitCode::bad_input,
-         "controller.substrate.properties: a time constant can be {}: expected more than 0", shortest);
+    fail_setting({"controller.substrate.properties"},
+                 "controller.substrate.properties: a time constant can be {}: expected more than 0",
+                 shortest);
   if (settings.integrator != Integrator::exponential_euler && settings.step > shortest)
-    fail(ExitCode::bad_input,
-         "controller.ctrnn.step = {}: expected at most the shortest time constant, {} (or integrator = "
-         "\"exponential_euler\")",
-         settings.step, shortest);
+    fail_setting(
+        {"controller.ctrnn.step", "controller.ctrnn.integrator"},
+        "controller.ctrnn.step = {}: expected at most the shortest time constant, {} (or integrator = "
+        "\"exponential_euler\")",
+        settings.step, shortest);
 }
 
 std::unique_ptr<Parameters> CtrnnArchitecture::decode(const cppn::Network& network) const {

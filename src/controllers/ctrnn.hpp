@@ -22,10 +22,10 @@ inline constexpr std::array<std::string_view, 2> state_rule_names{"kept", "clear
 struct CtrnnSettings {
   Equation equation = Equation::rate;
   Integrator integrator = Integrator::euler;
-  double step = 1.0;
-  int steps_per_tick = 17;
+  double step = 1.0;        ///< > 0, in the unit of the time constants
+  int steps_per_tick = 17;  ///< ≥ 1
   StateRule state = StateRule::cleared;
-  double slope = 4.9;
+  double slope = 4.9;  ///< of s(x), > 0
 
   void describe(io::SettingsVisitor& visitor);
 };

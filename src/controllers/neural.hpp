@@ -26,7 +26,7 @@ struct NeuralModel {
   std::string kind;
   substrate::Layout layout;
   Wiring wiring;
-  std::vector<JointRange> ranges;
+  std::vector<JointRange> ranges;  ///< of the joints, in control order
   double timestep_s;
   double sine_period_s;
 };

@@ -41,11 +41,12 @@ SupgArchitecture::SupgArchitecture(const SupgSettings& settings, const substrate
       const int other = layout_.driver(joint(leg, type));
       if (layout_.shared(Property::offset, first, other)) continue;
       const auto& nodes = layout_.nodes();
-      fail(ExitCode::bad_input,
-           "controller.substrate.properties: \"{}\" and \"{}\" are SUPGs of leg {} but could get different "
-           "offsets: name in 'zero' the coordinates that tell them apart",
-           nodes[static_cast<std::size_t>(first)].name, nodes[static_cast<std::size_t>(other)].name,
-           leg_names_[static_cast<std::size_t>(leg)]);
+      fail_setting(
+          {"controller.substrate.properties"},
+          "controller.substrate.properties: \"{}\" and \"{}\" are SUPGs of leg {} but could get different "
+          "offsets: name in 'zero' the coordinates that tell them apart",
+          nodes[static_cast<std::size_t>(first)].name, nodes[static_cast<std::size_t>(other)].name,
+          leg_names_[static_cast<std::size_t>(leg)]);
     }
   }
 }

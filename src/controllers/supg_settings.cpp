@@ -36,9 +36,10 @@ int period_ticks(const SupgSettings& settings, double timestep_s) {
   const double ticks = settings.period_s / timestep_s, whole = std::round(ticks);
   // A period written in decimals is rarely a multiple to the last bit.
   if (!(whole >= 2.0 && whole <= 1e5) || std::fabs(ticks - whole) > 1e-9 * whole)
-    fail(ExitCode::bad_input,
-         "controller.supg.period_s = {} is {} ticks of {} s: expected a whole number from 2 to 100000",
-         settings.period_s, ticks, timestep_s);
+    fail_setting(
+        {"controller.supg.period_s", "trial.timestep_s"},
+        "controller.supg.period_s = {} is {} ticks of {} s: expected a whole number from 2 to 100000",
+        settings.period_s, ticks, timestep_s);
   return static_cast<int>(whole);
 }
 

@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace amble {
 
@@ -32,9 +34,29 @@ class UserError : public std::runtime_error {
   ExitCode code_;
 };
 
+/// A UserError of a setting that does not go with other settings, or with the robot. Its text names the key;
+/// whoever has read the settings from somewhere can say where (experiment::Config).
+class SettingError : public UserError {
+ public:
+  /// `keys`: the paths of the settings that could be changed, e.g. "controller.substrate.nodes[2].sensor".
+  SettingError(std::vector<std::string> keys, const std::string& what)
+      : UserError(what), keys_(std::move(keys)) {}
+
+  const std::vector<std::string>& keys() const { return keys_; }
+
+ private:
+  std::vector<std::string> keys_;
+};
+
 template <typename... Args>
 [[noreturn]] void fail(ExitCode code, fmt::format_string<Args...> text, Args&&... args) {
   throw UserError(fmt::format(text, std::forward<Args>(args)...), code);
+}
+
+template <typename... Args>
+[[noreturn]] void fail_setting(std::vector<std::string> keys, fmt::format_string<Args...> text,
+                               Args&&... args) {
+  throw SettingError(std::move(keys), fmt::format(text, std::forward<Args>(args)...));
 }
 
 }  // namespace amble

@@ -52,9 +52,9 @@ inline Quat axis_angle(Vec3 axis, double angle_rad) {
   return {std::cos(0.5 * angle_rad), s * axis.x, s * axis.y, s * axis.z};
 }
 
-/// Rotation about x, y and z in radians such that q = R_z(yaw) R_y(pitch) R_x(roll); pitch in [−π/2, π/2].
+/// Rotation about x, y and z such that q = R_z(yaw) R_y(pitch) R_x(roll); pitch in [−π/2, π/2].
 struct RollPitchYaw {
-  double roll = 0.0, pitch = 0.0, yaw = 0.0;
+  double roll_rad = 0.0, pitch_rad = 0.0, yaw_rad = 0.0;
 };
 RollPitchYaw roll_pitch_yaw(Quat q);
 

@@ -29,7 +29,7 @@ class Stream {
 
   /// Uniform in [0, 1), 53 random bits.
   double uniform();
-  /// Uniform in [low, high).
+  /// Uniform in [low, high), but for rounding, which may give `high`.
   double uniform(double low, double high);
   /// Uniform in {0, …, count − 1}, without modulo bias. `count` > 0.
   std::uint32_t below(std::uint32_t count);

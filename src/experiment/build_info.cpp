@@ -7,6 +7,10 @@
 
 namespace amble::experiment {
 
+std::string short_commit(const BuildInfo& build) {
+  return build.commit.substr(0, 12) + (build.commit.ends_with('+') ? "+" : "");
+}
+
 BuildInfo build_info() {
   return {AMBLE_VERSION, AMBLE_COMMIT, AMBLE_COMPILER, AMBLE_FLAGS};
 }

@@ -11,6 +11,9 @@ struct BuildInfo {
   std::string compiler;  ///< "GNU 12.2.0"
   std::string flags;     ///< those that decide the arithmetic
 };
+/// The commit's first twelve digits, with a "+" behind them if the sources differed from it.
+std::string short_commit(const BuildInfo& build);
+
 BuildInfo build_info();
 
 /// The processor's name as the system gives it.

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
+#include <limits>
 
 #include "amble/core/error.hpp"
 #include "amble/experiment/episodes.hpp"
@@ -44,11 +46,17 @@ io::Json result_json(const TrialResult& result) {
           {"outcome", record::outcome_names[static_cast<std::size_t>(result.outcome)]}};
 }
 
+int count_of(const io::JsonView& view) {
+  const std::int64_t value = view.integer();
+  if (value < 0 || value > std::numeric_limits<int>::max()) view.bad("a whole number from 0 to 2147483647");
+  return static_cast<int>(value);
+}
+
 TrialResult parse_result(const io::JsonView& view) {
   TrialResult result;
-  result.distance_m = view.at("distance_m").number();
-  result.seconds = view.at("seconds").number();
-  result.steps = static_cast<int>(view.at("steps").integer());
+  result.distance_m = view.at("distance_m").finite_number();
+  result.seconds = view.at("seconds").finite_number();
+  result.steps = count_of(view.at("steps"));
   const auto outcome = view.at("outcome").text();
   const auto found = std::ranges::find(record::outcome_names, outcome);
   if (found == record::outcome_names.end()) view.at("outcome").bad("completed, fell or diverged");
@@ -112,6 +120,14 @@ Problem parse_problem(const io::JsonView& root) {
 
 }  // namespace
 
+io::Json problem_json(const Problem& problem) {
+  return {{"cppn", io::settings_to_json(problem.cppn)},
+          {"controller", io::settings_to_json(problem.controller)},
+          {"engine", problem.engine},
+          {"trial", io::settings_to_json(problem.trial)},
+          {"robot", morphology::to_json(problem.robot)}};
+}
+
 TrialResult summarise(const record::Trajectory& trajectory) {
   return {.distance_m = score::distance_m(trajectory),
           .steps = trajectory.steps,
@@ -138,19 +154,11 @@ std::optional<double> share_kept(double distance_m, double of_m) {
 }
 
 std::string champion_text(const Champion& champion) {
-  const Problem& problem = champion.problem;
-  io::Json document{{"experiment", champion.experiment},
-                    {"seed", champion.seed},
-                    {"generation", champion.generation},
-                    {"index", champion.index},
-                    {"result", result_json(champion.result)},
-                    {"genome", neat::to_json(champion.genome)},
-                    {"cppn", io::settings_to_json(problem.cppn)},
-                    {"controller", io::settings_to_json(problem.controller)},
-                    {"engine", problem.engine},
-                    {"trial", io::settings_to_json(problem.trial)},
-                    {"robot", morphology::to_json(problem.robot)},
-                    {"trace", trace_text(champion.trace)}};
+  io::Json document{{"experiment", champion.experiment},      {"seed", champion.seed},
+                    {"generation", champion.generation},      {"index", champion.index},
+                    {"result", result_json(champion.result)}, {"genome", neat::to_json(champion.genome)}};
+  document.update(problem_json(champion.problem));
+  document["trace"] = trace_text(champion.trace);
   if (!champion.episodes.empty()) document["noise"] = noise_json(champion);
   if (!champion.referees.empty()) document["referees"] = referees_json(champion);
   return io::sealed_json(champion_format, champion_version, document);
@@ -162,8 +170,8 @@ LoadedChampion parse_champion(const std::string& text, const std::string& what, 
   try {
     Champion champion{.experiment = root.at("experiment").text(),
                       .seed = root.at("seed").integer(),
-                      .generation = static_cast<int>(root.at("generation").integer()),
-                      .index = static_cast<int>(root.at("index").integer()),
+                      .generation = count_of(root.at("generation")),
+                      .index = count_of(root.at("index")),
                       .problem = parse_problem(root),
                       .genome = neat::genome_from_json(root.at("genome")),
                       .result = parse_result(root.at("result")),

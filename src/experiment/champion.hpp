@@ -57,6 +57,9 @@ struct Champion {
 /// Share of a distance that is kept elsewhere; nothing if there was none to keep.
 std::optional<double> share_kept(double distance_m, double of_m);
 
+/// What a champion file says of how to try it again, but for the noise.
+io::Json problem_json(const Problem& problem);
+
 /// The text of a champion file (docs/FORMATS.md).
 std::string champion_text(const Champion& champion);
 

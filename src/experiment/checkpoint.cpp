@@ -1,5 +1,7 @@
 #include "amble/experiment/checkpoint.hpp"
 
+#include <cmath>
+
 #include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
 #include "amble/io/binary.hpp"
@@ -44,19 +46,13 @@ void save_checkpoint(const std::filesystem::path& path, const Config& config, co
   io::write_file(path, checkpoint_bytes(config, progress, population, search));
 }
 
-void finish_checkpoint(const std::filesystem::path& path) {
+std::vector<std::filesystem::path> unnamed_checkpoints(const std::filesystem::path& path) {
   const std::string beginning = path.filename().string() + std::string(io::temporary_mark);
+  std::vector<std::filesystem::path> found;
   std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(path.parent_path(), none)) {
-    if (!entry.path().filename().string().starts_with(beginning)) continue;
-    try {
-      const std::string bytes = io::read_file(entry.path());
-      io::unseal(magic, version, bytes, entry.path().string());
-      io::write_file(path, bytes);
-    } catch (const UserError&) {
-      // Cut off while it was written: the checkpoint before it counts.
-    }
-  }
+  for (const auto& entry : std::filesystem::directory_iterator(path.parent_path(), none))
+    if (entry.path().filename().string().starts_with(beginning)) found.push_back(entry.path());
+  return found;
 }
 
 Progress load_checkpoint(const std::filesystem::path& path, const Config& config,
@@ -81,6 +77,8 @@ Progress load_progress(std::string_view payload, const std::string& what, neat::
   progress.steps = reader.get<std::uint64_t>();
   progress.wall_s = reader.get<double>();
   progress.csv_bytes = reader.get<std::uint64_t>();
+  if (!std::isfinite(progress.best_m) || !std::isfinite(progress.wall_s))
+    reader.bad("a number that is not finite");
   population.load(reader);
   search.load(reader);
   reader.finish();

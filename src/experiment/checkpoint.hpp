@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "amble/experiment/config.hpp"
 #include "amble/neat/population.hpp"
@@ -28,9 +29,10 @@ std::string checkpoint_bytes(const Config& config, const Progress& progress,
 void save_checkpoint(const std::filesystem::path& path, const Config& config, const Progress& progress,
                      const neat::Population& population, const search::Search& search);
 
-/// Names a checkpoint that a process had written whole under a temporary name (io::AtomicFile) when it was
-/// killed. Call it before temporary files are removed.
-void finish_checkpoint(const std::filesystem::path& path);
+/// What was written, whole or in part, under a temporary name (io::AtomicFile) by a process that was killed
+/// before it could name it `path`. If one is whole, and so are the files that it counts on, it is newer than
+/// `path`.
+std::vector<std::filesystem::path> unnamed_checkpoints(const std::filesystem::path& path);
 
 /// Restores what save_checkpoint wrote. Throws UserError(ExitCode::bad_file): foreign, of another version,
 /// truncated, altered, or written under another config than this (the number of generations may differ).

@@ -1,8 +1,12 @@
 #include "amble/experiment/config.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <memory>
 
 #include "amble/core/error.hpp"
+#include "amble/io/printable.hpp"
 #include "amble/io/toml_settings.hpp"
 #include "amble/physics/engine.hpp"
 #include "amble/score/path_behaviour.hpp"
@@ -18,8 +22,8 @@ void Config::describe(io::SettingsVisitor& visitor) {
   visitor.text("engine", engine, {"physics engine: ode, batch or mujoco", "Morse et al. 2013, sec. 4 (ode)"});
   visitor.texts("referees", referees,
                 {"engines in which each new champion is tried again; its file says how far it comes there"});
-  visitor.integer("seed", seed, {0, 9007199254740992.0}, {"seed of all randomness"});
-  visitor.integer("generations", generations, {1, 1e9},
+  visitor.integer("seed", seed, {0, static_cast<double>(largest_seed)}, {"seed of all randomness"});
+  visitor.integer("generations", generations, {1, most_generations},
                   {"generations to evaluate, the initial one included", "Morse et al. 2013, sec. 4"});
   neat.describe(visitor);
   visitor.table("cppn", cppn, {"the compositional pattern producing network"});
@@ -30,8 +34,10 @@ void Config::describe(io::SettingsVisitor& visitor) {
 }
 
 void Config::validate() const {
-  if (robot.empty()) fail(ExitCode::bad_input, "key 'robot' is missing: expected the path of a robot file");
-  physics::check_engine_name(engine);
+  if (robot.empty()) fail_setting({"robot"}, "'robot' = \"\": expected the path of a robot file");
+  if (!physics::is_engine(engine))
+    fail_setting({"engine"}, "'engine' = \"{}\": expected {}", engine,
+                 fmt::join(physics::engine_names, ", "));
   check_referees();
   neat.validate();
   trial.validate();
@@ -41,12 +47,19 @@ void Config::validate() const {
 
 void Config::check_referees() const {
   for (auto referee = referees.begin(); referee != referees.end(); ++referee) {
-    physics::check_engine_name(*referee, "referees: ");
+    if (!physics::is_engine(*referee))
+      fail_setting({"referees"}, "'referees' names \"{}\": expected {}", *referee,
+                   fmt::join(physics::engine_names, ", "));
     if (*referee == engine)
-      fail(ExitCode::bad_input, "referees: '{}' is the engine of the run itself", *referee);
+      fail_setting({"referees", "engine"}, "'referees' names \"{}\", the engine of the run itself", *referee);
     if (std::find(referees.begin(), referee, *referee) != referee)
-      fail(ExitCode::bad_input, "referees: '{}' is named twice", *referee);
+      fail_setting({"referees"}, "'referees' names \"{}\" twice", *referee);
   }
+}
+
+UserError Config::placed(const SettingError& error) const {
+  const std::string place = where ? where(error.keys()) + ": " : "";
+  return UserError(place + error.what(), error.code());
 }
 
 std::size_t Config::behaviour_length() const {
@@ -59,22 +72,26 @@ std::string Config::to_toml() const {
 }
 
 Config load_config(const std::filesystem::path& path, const Overrides& overrides) {
-  auto document = io::TomlDocument::read(path);
-  for (const auto& assignment : overrides.assignments) document.set(assignment);
-  if (overrides.seed) document.set("seed=" + std::to_string(*overrides.seed));
-  if (overrides.generations) document.set("generations=" + std::to_string(*overrides.generations));
+  const auto document = std::make_shared<io::TomlDocument>(io::TomlDocument::read(path));
+  for (const auto& assignment : overrides.assignments) document->set(assignment);
+  if (overrides.seed) document->set("seed=" + std::to_string(*overrides.seed));
+  if (overrides.generations) document->set("generations=" + std::to_string(*overrides.generations));
 
   Config config;
-  const auto reader = document.reader();
+  config.where = [document](const std::vector<std::string>& keys) { return document->where(keys); };
+  const auto reader = document->reader();
   config.describe(*reader);
   reader->finish();
   try {
     config.validate();
-  } catch (const UserError& error) {
-    fail(error.code(), "{}: {}", path.string(), error.what());
+  } catch (const SettingError& error) {
+    throw config.placed(error);
   }
   const std::filesystem::path robot = config.robot;
-  if (robot.is_relative()) config.robot = (document.folder_of("robot") / robot).lexically_normal().string();
+  if (robot.is_relative()) config.robot = (document->folder_of("robot") / robot).lexically_normal().string();
+  if (!std::filesystem::exists(config.robot))
+    fail(ExitCode::io, "{}: 'robot' = \"{}\": no such file: {}", document->where("robot"),
+         io::printable(robot.string()), io::printable(config.robot));
   return config;
 }
 

@@ -3,11 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "amble/controllers/factory.hpp"
+#include "amble/core/error.hpp"
 #include "amble/cppn/settings.hpp"
 #include "amble/io/settings.hpp"
 #include "amble/neat/settings.hpp"
@@ -16,6 +18,9 @@
 #include "amble/trial/settings.hpp"
 
 namespace amble::experiment {
+
+inline constexpr std::int64_t largest_seed = std::int64_t{1} << 53;  ///< as a JSON number it is exact
+inline constexpr int most_generations = 1'000'000'000;
 
 /// Everything that decides the result of a run, but for the robot's own data. docs/SETTINGS.md lists each key
 /// with its source.
@@ -33,10 +38,15 @@ struct Config {
   trial::Settings trial;
   trial::NoiseSettings noise;
   search::Settings search;
+  /// Where one of these keys was set ("FILE:LINE"), for complaints found later; empty unless read from a
+  /// file.
+  std::function<std::string(const std::vector<std::string>& keys)> where;
 
   void describe(io::SettingsVisitor& visitor);
-  /// Rules that join several settings. Throws UserError naming the keys.
+  /// Rules that join several settings. Throws SettingError.
   void validate() const;
+  /// The same complaint with its place in front, if that is known.
+  UserError placed(const SettingError& error) const;
   /// Numbers in the behaviour that the search judges a trial by; 0 if it wants none.
   std::size_t behaviour_length() const;
   /// The whole config as TOML with comments; reads back to the same values.

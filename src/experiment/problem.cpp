@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/morphology/robot_file.hpp"
@@ -23,7 +24,11 @@ Problem Problem::make(const Config& config, morphology::RobotSpec robot) {
                   .trial = config.trial,
                   .noise = config.noise,
                   .architecture = nullptr};
-  problem.complete();
+  try {
+    problem.complete();
+  } catch (const SettingError& error) {
+    throw config.placed(error);
+  }
   return problem;
 }
 

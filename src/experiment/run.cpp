@@ -16,9 +16,13 @@ namespace {
 
 /// Throws UserError rather than being killed for it after hours.
 void check_memory(const Config& config) {
-  if (config.search.kind == search::Kind::novelty)
+  if (config.search.kind != search::Kind::novelty) return;
+  try {
     config.search.novelty.check_memory(config.behaviour_length(), config.neat.population.size,
                                        search::usable_memory_bytes());
+  } catch (const SettingError& error) {
+    throw config.placed(error);
+  }
 }
 
 /// Throws UserError if the run or one of its referees cannot be.
@@ -79,16 +83,46 @@ Run Run::resume(const std::filesystem::path& folder, std::optional<int> generati
   check_memory(config);
   const auto robot = held.load_robot();
   Run run(std::move(held), config, robot, jobs);
-  run.progress_ = load_checkpoint(run.paths().checkpoint, config, run.population_, *run.search_);
+  const auto archive_bytes = run.restore_newest();
+  run.check_best();
   if (generations && *generations < run.generation())
     fail(ExitCode::bad_input, "{}: {} generations are done already, --generations {} asks for fewer",
          folder.string(), run.generation(), *generations);
-  const auto archive_bytes = restore_archive(run.paths().archive, *run.search_);
   run.csv_ = std::make_unique<io::AppendFile>(run.paths().generations, run.progress_.csv_bytes);
   if (archive_bytes) run.archive_ = std::make_unique<io::AppendFile>(run.paths().archive, *archive_bytes);
-  run.folder_.note_process(config, jobs, run.generation());
+  run.folder_.remove_leftovers();
+  if (run.generation() < config.generations) run.folder_.note_process(config, jobs, run.generation());
   if (generations) run.folder_.save_config(config);
   return run;
+}
+
+std::optional<std::uint64_t> Run::restore(const std::filesystem::path& checkpoint) {
+  search_ = search::make_search(config_.search, config_.behaviour_length());
+  progress_ = load_checkpoint(checkpoint, config_, population_, *search_);
+  return restore_archive(paths().archive, *search_);
+}
+
+std::optional<std::uint64_t> Run::restore_newest() {
+  for (const auto& unnamed : unnamed_checkpoints(paths().checkpoint)) {
+    try {
+      const auto archive_bytes = restore(unnamed);
+      // After a power cut the checkpoint may be on the disk and what it counts on may not.
+      if (std::filesystem::file_size(paths().generations) < progress_.csv_bytes) continue;
+      io::write_file(paths().checkpoint, io::read_file(unnamed));
+      return archive_bytes;
+    } catch (const UserError&) {
+      // Cut off while it was written, or its archive was: the checkpoint before it counts.
+    }
+  }
+  return restore(paths().checkpoint);
+}
+
+void Run::check_best() const {
+  if (progress_.best_generation < 0) return;
+  const auto file = paths().champion(progress_.best_generation);
+  if (!std::filesystem::exists(file))
+    fail(ExitCode::bad_file, "{}: missing, and it is the best of the run so far", file.string());
+  load_champion(file);
 }
 
 RunStatus Run::execute(RunListener& listener, const std::atomic<bool>& stop) {
@@ -124,7 +158,8 @@ RunStatus Run::generations(RunListener& listener, const std::atomic<bool>& stop)
 
     breed(fitness, row);
 
-    row.wall_s = now_s() - std::exchange(last_row_s, now_s());
+    const double row_s = now_s();
+    row.wall_s = row_s - std::exchange(last_row_s, row_s);
     write_down(row);
     listener.on_generation(row, progress_, config_);
   }

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <optional>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "amble/core/error.hpp"
 #include "amble/experiment/build_info.hpp"
-#include "amble/experiment/checkpoint.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
 
@@ -23,12 +25,27 @@ constexpr std::string_view manifest_format = "amble-manifest";
 constexpr int run_version = 4;
 constexpr std::string_view lock_name = ".lock";
 
-/// Left by a process that was killed while it wrote (io::AtomicFile).
+bool is_number(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// The generation of a champion file's name; nothing for any other file.
+std::optional<std::string> generation_digits(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  if (file.extension() != ".json" || !is_number(stem)) return std::nullopt;
+  return stem.substr(std::min(stem.find_first_not_of('0'), stem.size() - 1));
+}
+
+/// Left by a process that was killed while it wrote one of a run's own files (io::AtomicFile).
 bool is_temporary(const fs::path& file) {
   const std::string name = file.filename().string();
   const auto at = name.rfind(io::temporary_mark);
-  return at != std::string::npos &&
-         name.find_first_not_of("0123456789", at + io::temporary_mark.size()) == std::string::npos;
+  if (at == std::string::npos || !is_number(std::string_view(name).substr(at + io::temporary_mark.size())))
+    return false;
+  const fs::path written = file.parent_path() / name.substr(0, at);
+  const RunPaths paths(file.parent_path());
+  return written == paths.config || written == paths.robot || written == paths.manifest ||
+         written == paths.checkpoint || generation_digits(written);
 }
 
 void remove_temporaries(const fs::path& folder) {
@@ -39,15 +56,12 @@ void remove_temporaries(const fs::path& folder) {
 }
 
 /// Whether a run may begin here: nothing is there, or only what a start leaves that was killed before it
-/// wrote its config.
+/// wrote its config; the lock comes first and stays.
 bool holds_nothing(const fs::path& folder) {
+  if (!fs::exists(folder / lock_name)) return fs::is_empty(folder);
   const RunPaths paths(folder);
-  const std::array beginnings{fs::path(folder / lock_name),
-                              paths.robot,
-                              paths.generations,
-                              paths.archive,
-                              paths.checkpoint,
-                              paths.manifest};
+  const std::array beginnings{folder / lock_name, paths.robot,      paths.generations,
+                              paths.archive,      paths.checkpoint, paths.manifest};
   return std::ranges::all_of(fs::directory_iterator(folder), [&](const auto& entry) {
     const fs::path& path = entry.path();
     if (path == paths.champions) return fs::is_directory(path) && fs::is_empty(path);
@@ -60,6 +74,7 @@ void make_folder(const fs::path& folder) {
   fs::create_directories(folder, error);
   if (error) fail(ExitCode::io, "cannot make folder {}: {}", folder.string(), error.message());
   if (!fs::is_directory(folder)) fail(ExitCode::io, "{} is not a folder", folder.string());
+  io::sync_entry(folder);
 }
 
 /// Before anything is made or locked: a folder that is in use stays as it is.
@@ -106,8 +121,12 @@ std::vector<fs::path> RunPaths::champion_files() const {
   std::vector<fs::path> files;
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(champions, none))
-    if (entry.path().extension() == ".json") files.push_back(entry.path());
-  std::ranges::sort(files);
+    if (generation_digits(entry.path())) files.push_back(entry.path());
+  // As numbers: the names have five digits or more.
+  std::ranges::sort(files, {}, [](const fs::path& file) {
+    const std::string digits = *generation_digits(file);
+    return std::pair(digits.size(), digits);
+  });
   return files;
 }
 
@@ -132,7 +151,7 @@ RunFolder RunFolder::create(const fs::path& folder, const morphology::RobotSpec&
   refuse_used_folder(folder);  // again, now that nobody else can fill it
   remove_temporaries(folder);
   make_folder(run.paths_.champions);
-  fs::remove(run.paths_.manifest);
+  for (const auto& left : {run.paths_.manifest, run.paths_.archive}) fs::remove(left);
   io::write_file(run.paths_.robot, robot_file_text(robot));
   return run;
 }
@@ -141,10 +160,12 @@ RunFolder RunFolder::open(const fs::path& folder) {
   find_run(folder);
   RunFolder run(folder);
   make_folder(run.paths_.champions);
-  finish_checkpoint(run.paths_.checkpoint);
-  remove_temporaries(folder);
-  remove_temporaries(run.paths_.champions);
   return run;
+}
+
+void RunFolder::remove_leftovers() const {
+  remove_temporaries(paths_.folder);
+  remove_temporaries(paths_.champions);
 }
 
 RunPaths find_run(const fs::path& folder) {

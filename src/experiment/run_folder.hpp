@@ -19,7 +19,7 @@ struct RunPaths {
   std::filesystem::path folder, config, robot, manifest, generations, archive, checkpoint, champions;
 
   std::filesystem::path champion(int generation) const;
-  /// Champion files in the order of their generations; the last is the best.
+  /// Champion files in the order of their generations; the last is the best. Other files are passed over.
   std::vector<std::filesystem::path> champion_files() const;
   /// Throws UserError if the run has none.
   std::filesystem::path best_champion() const;
@@ -39,8 +39,7 @@ class RunFolder {
   /// Makes the folder and writes robot.json; it becomes a run with save_config(). Throws UserError: the
   /// folder holds a run or anything else, is locked, or cannot be written; then nothing in it was changed.
   static RunFolder create(const std::filesystem::path& folder, const morphology::RobotSpec& robot);
-  /// Takes hold of the folder of an earlier run, and removes the temporary files of a process that was
-  /// killed there. Throws UserError as find_run(), or if it is locked.
+  /// Takes hold of the folder of an earlier run. Throws UserError as find_run(), or if it is locked.
   static RunFolder open(const std::filesystem::path& folder);
 
   const RunPaths& paths() const { return paths_; }
@@ -48,6 +47,8 @@ class RunFolder {
   void save_config(const Config& config) const;
   morphology::RobotSpec load_robot() const;
   void save_champion(const Champion& champion) const;
+  /// Removes the temporary files of a process that was killed here.
+  void remove_leftovers() const;
   /// Adds a line on this process to the manifest.
   void note_process(const Config& config, int jobs, int from_generation) const;
 

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "amble/core/error.hpp"
+#include "amble/experiment/champion.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/json_file.hpp"
 
 namespace amble::experiment {
 namespace {
@@ -68,14 +70,36 @@ std::string agreement(const Champion& champion) {
   return text;
 }
 
+/// Adds what shows, in words, that the champion of a file is not a run's own.
+void compare(const Champion& champion, const std::filesystem::path& path, const Origin& origin,
+             std::vector<std::string>& found) {
+  if (champion.seed != origin.config.seed)
+    found.push_back(fmt::format("its seed is {}, the run's {}", champion.seed, origin.config.seed));
+  if (path.filename() != RunPaths("").champion(champion.generation).filename())
+    found.push_back(fmt::format("it is of generation {}, not of that in its name", champion.generation));
+  const auto own = problem_json(champion.problem), expected = problem_json(origin.problem);
+  for (const auto& [key, value] : expected.items())
+    if (own.at(key) != value) found.push_back(fmt::format("its {} is not the run's", key));
+  if (io::settings_to_json(champion.problem.noise) != io::settings_to_json(origin.problem.noise))
+    found.push_back("its noise is not the run's");
+}
+
 }  // namespace
 
-std::optional<Verdict> verify_champion(const std::filesystem::path& path, const std::atomic<bool>& stop) {
+Origin origin_of(const RunPaths& paths) {
+  Origin origin{.config = load_config(paths.config, {}), .problem = {}};
+  origin.problem = Problem::make(origin.config, load_robot_file(paths.robot));
+  return origin;
+}
+
+std::optional<Verdict> verify_champion(const std::filesystem::path& path, const std::atomic<bool>& stop,
+                                       const Origin* origin) {
   const std::string text = io::read_file(path);
   try {
     const auto [champion, altered] = parse_champion(text, path.string(), io::Altered::accept);
     auto found = differences(champion, stop);
     if (!found) return std::nullopt;
+    if (origin != nullptr) compare(champion, path, *origin, *found);
     if (altered) found->insert(found->begin(), "the file was altered (checksum)");
     if (!found->empty()) return Verdict{false, fmt::format("differs: {}", fmt::join(*found, "; "))};
     return Verdict{true, agreement(champion)};

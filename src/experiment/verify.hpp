@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "amble/experiment/run_folder.hpp"
+
 namespace amble::experiment {
 
 /// What came of running a champion again.
@@ -13,8 +15,18 @@ struct Verdict {
   std::string text;  ///< "agrees: …", "differs: …" with the first step that does, or "unsound: …"
 };
 
-/// Runs the champion of a file again, step by step against its trace. An altered or unsound file is a
-/// verdict, not an error. Nothing if `stop` was set. Throws UserError if the file cannot be read at all.
-std::optional<Verdict> verify_champion(const std::filesystem::path& path, const std::atomic<bool>& stop);
+/// What the champions of a run have in common.
+struct Origin {
+  Config config;
+  Problem problem;
+};
+/// Reads it from the run's folder. Throws UserError.
+Origin origin_of(const RunPaths& paths);
+
+/// Runs the champion of a file again, step by step against its trace. With an `origin` it must be that run's,
+/// of the generation in the file's name. An altered or unsound file is a verdict, not an error. Nothing if
+/// `stop` was set. Throws UserError if the file cannot be read at all.
+std::optional<Verdict> verify_champion(const std::filesystem::path& path, const std::atomic<bool>& stop,
+                                       const Origin* origin = nullptr);
 
 }  // namespace amble::experiment

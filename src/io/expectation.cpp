@@ -3,14 +3,18 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 namespace amble::io {
 namespace {
 
+constexpr double largest = std::numeric_limits<double>::max();
+
 /// " from 0 to 1", or nothing if every value will do.
 std::string bounds(Range range, bool infinity_is_a_value) {
-  const bool below = std::isfinite(range.lowest), above = std::isfinite(range.highest);
-  if ((below && above) || (infinity_is_a_value && (below || above))) {
+  const bool below = std::abs(range.lowest) < largest, above = std::abs(range.highest) < largest;
+  const bool infinity = std::isinf(range.lowest) || std::isinf(range.highest);
+  if ((below && above) || (infinity_is_a_value && infinity && (below || above))) {
     return fmt::format(" from {} to {}", range.lowest, range.highest);
   }
   if (below) return fmt::format(" of at least {}", range.lowest);
@@ -21,7 +25,8 @@ std::string bounds(Range range, bool infinity_is_a_value) {
 }  // namespace
 
 std::string expected_number(Range range) {
-  return "a number" + bounds(range, true);
+  const bool finite = range.lowest == -largest || range.highest == largest;
+  return (finite ? "a finite number" : "a number") + bounds(range, true);
 }
 std::string expected_integer(Range range) {
   return "a whole number" + bounds(range, false);

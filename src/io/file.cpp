@@ -130,6 +130,11 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
   file.commit();
 }
 
+void sync_entry(const std::filesystem::path& path) {
+  // "runs/a/" lies in "runs".
+  if (!sync_folder_of(path.has_filename() ? path : path.parent_path())) fail_to_write(path, errno);
+}
+
 void refuse_to_replace(const std::filesystem::path& path, std::string_view beginning, std::string_view what) {
   if (!std::filesystem::is_regular_file(path)) return;
   const std::string found = InputFile(path).read(beginning.size());

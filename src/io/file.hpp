@@ -57,6 +57,9 @@ class AtomicFile {
 /// One AtomicFile with these contents.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
+/// Makes the name of a new or renamed file or folder survive a power cut. Throws UserError(ExitCode::io).
+void sync_entry(const std::filesystem::path& path);
+
 /// Throws UserError(ExitCode::bad_input) if `path` is a file with contents that do not begin with
 /// `beginning`: it is not what would be written there (`what`, e.g. "a recording"), and so not ours to
 /// replace.

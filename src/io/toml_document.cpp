@@ -157,4 +157,15 @@ std::string TomlDocument::where(std::string_view key_path) const {
   return node == nullptr ? impl_->root.where : node->where;
 }
 
+std::string TomlDocument::where(const std::vector<std::string>& key_paths) const {
+  const TomlNode* found = nullptr;
+  for (const std::string& key_path : key_paths) {
+    const TomlNode* node = impl_->root.find_path(key_path);
+    if (node == nullptr) continue;
+    if (node->from_command_line) return node->where;
+    if (found == nullptr) found = node;
+  }
+  return found == nullptr ? impl_->root.where : found->where;
+}
+
 }  // namespace amble::io

@@ -1,6 +1,7 @@
 #include "amble/io/toml_node.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 #include "amble/io/toml_text.hpp"
 
@@ -13,7 +14,14 @@ const TomlNode* TomlNode::find(std::string_view key) const {
 
 const TomlNode* TomlNode::find_path(std::string_view path) const {
   const std::size_t dot = path.find('.');
-  const TomlNode* child = find(path.substr(0, dot));
+  const std::string_view part = path.substr(0, dot);
+  const std::size_t bracket = part.find('[');
+  const TomlNode* child = find(part.substr(0, bracket));
+  if (child != nullptr && bracket != std::string_view::npos) {
+    std::size_t index = child->items.size();
+    std::from_chars(part.data() + bracket + 1, part.data() + part.size(), index);
+    child = child->kind == Kind::list && index < child->items.size() ? &child->items[index] : nullptr;
+  }
   return child == nullptr || dot == std::string_view::npos ? child : child->find_path(path.substr(dot + 1));
 }
 

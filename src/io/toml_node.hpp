@@ -28,7 +28,7 @@ struct TomlNode {
   std::filesystem::path folder;  ///< of the file; empty: the current one
 
   const TomlNode* find(std::string_view key) const;
-  /// The value at a path of keys ("neat.population"), or null.
+  /// The value at a path of keys ("neat.population", "nodes[2].sensor"), or null.
   const TomlNode* find_path(std::string_view path) const;
   /// Adds or replaces a value of a table.
   void put(std::string_view key, TomlNode value);

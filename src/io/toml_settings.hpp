@@ -42,6 +42,8 @@ class TomlDocument {
   /// "FILE:LINE" of a key ("--set KEY=VALUE" if it came from there; the document's name if the key is
   /// absent), for complaints found later.
   std::string where(std::string_view key_path) const;
+  /// The same of the first of these keys that came from the command line, else of the first that there is.
+  std::string where(const std::vector<std::string>& key_paths) const;
 
  private:
   struct Impl;

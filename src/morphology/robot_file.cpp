@@ -78,6 +78,17 @@ void check_feet(const std::string& what, const RobotSpec& robot) {
   }
 }
 
+void check_height(const std::string& what, const RobotSpec& robot) {
+  const Body& root = robot.bodies[0];
+  const double start_m = (root.position_m + rotate(root.rotation, root.com_m)).z;
+  if (start_m <= robot.fall_height_m)
+    fail(ExitCode::bad_input,
+         "{}: 'fall_height_m' = {}: expected less than {:.3f} m, where the root's centre of mass starts, or "
+         "every "
+         "trial would end at once",
+         what, robot.fall_height_m, start_m);
+}
+
 }  // namespace
 
 RobotSpec load_robot(const std::filesystem::path& path) {
@@ -99,6 +110,7 @@ RobotSpec load_robot(const std::filesystem::path& path) {
 
   check_robot(robot, [&](const std::string& problem) { fail(ExitCode::bad_input, "{}: {}", what, problem); });
   check_feet(what, robot);
+  check_height(what, robot);
   return robot;
 }
 

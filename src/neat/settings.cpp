@@ -138,8 +138,12 @@ void Settings::describe(io::SettingsVisitor& visitor) {
 }
 
 void Settings::validate() const {
-  const auto check = [](bool good, std::string_view key, auto value, std::string_view expected) {
-    if (!good) fail(ExitCode::bad_input, "'{}' = {}: expected {}", key, value, expected);
+  const auto check = [](bool good, std::string key, auto value, std::string_view expected,
+                        std::string other = {}) {
+    if (good) return;
+    std::vector<std::string> keys{key};
+    if (!other.empty()) keys.push_back(std::move(other));
+    fail_setting(std::move(keys), "'{}' = {}: expected {}", key, value, expected);
   };
   const double operators =
       mutation.weights_share + mutation.add_link_share + mutation.add_node_share + mutation.delete_link_share;
@@ -155,11 +159,12 @@ void Settings::validate() const {
   check(std::accumulate(shares.begin(), shares.end(), 0.0) > 0, "genome.activation_shares.bipolar_sigmoid",
         shares[0], "more than 0, because the shares of all other functions are 0");
   check(genome.initial_link_probability > 0 || mutation.add_link_share > 0, "mutation.add_link_share",
-        mutation.add_link_share, "more than 0, because genome.initial_link_probability is 0");
+        mutation.add_link_share, "more than 0, because genome.initial_link_probability is 0",
+        "genome.initial_link_probability");
   check(speciation.target_max >= speciation.target_min, "speciation.target_max", speciation.target_max,
-        fmt::format("at least speciation.target_min = {}", speciation.target_min));
+        fmt::format("at least speciation.target_min = {}", speciation.target_min), "speciation.target_min");
   check(speciation.target_max <= population.size, "speciation.target_max", speciation.target_max,
-        fmt::format("at most population.size = {}", population.size));
+        fmt::format("at most population.size = {}", population.size), "population.size");
 }
 
 }  // namespace amble::neat

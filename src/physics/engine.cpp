@@ -12,8 +12,12 @@
 
 namespace amble::physics {
 
+bool is_engine(std::string_view name) {
+  return std::ranges::find(engine_names, name) != engine_names.end();
+}
+
 void check_engine_name(std::string_view name, std::string_view what) {
-  if (std::ranges::find(engine_names, name) == engine_names.end())
+  if (!is_engine(name))
     fail(ExitCode::bad_input, "{}unknown engine '{}': expected {}", what, name,
          fmt::join(engine_names, ", "));
 }

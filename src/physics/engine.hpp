@@ -78,15 +78,16 @@ class Engine {
   /// Centre of mass of the whole robot.
   virtual Vec3 com_m(int lane) const = 0;
   /// Linear momentum (kg m/s) of the whole robot.
-  virtual Vec3 momentum(int lane) const = 0;
+  virtual Vec3 momentum_kg_m_s(int lane) const = 0;
   /// Hash of all positions and velocities of this lane, to the bit.
   virtual std::uint64_t state_hash(int lane) const = 0;
 };
 
 inline constexpr std::array<std::string_view, 3> engine_names{"ode", "batch", "mujoco"};
 
+bool is_engine(std::string_view name);
 /// Throws UserError unless it is one of engine_names. `what` stands in front of the complaint, e.g.
-/// "referees: ".
+/// "--engines: ".
 void check_engine_name(std::string_view name, std::string_view what = "");
 
 /// Makes the engine of that name. Throws UserError for an unknown name or a robot that the engine cannot

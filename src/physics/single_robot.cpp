@@ -58,9 +58,9 @@ void SingleRobotEngine::check_pushable(int lane) const {
 
 void SingleRobotEngine::sense_attitude(const Quat& rotation) {
   const RollPitchYaw attitude = roll_pitch_yaw(rotation);
-  sensors_.attitude_rad.at(0, 0) = static_cast<float>(attitude.roll);
-  sensors_.attitude_rad.at(1, 0) = static_cast<float>(attitude.pitch);
-  sensors_.attitude_rad.at(2, 0) = static_cast<float>(attitude.yaw);
+  sensors_.attitude_rad.at(0, 0) = static_cast<float>(attitude.roll_rad);
+  sensors_.attitude_rad.at(1, 0) = static_cast<float>(attitude.pitch_rad);
+  sensors_.attitude_rad.at(2, 0) = static_cast<float>(attitude.yaw_rad);
 }
 
 }  // namespace amble::physics

@@ -17,7 +17,7 @@ enum class Outcome : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 3> outcome_names{"completed", "fell", "diverged"};
 
-/// What every trial leaves behind: enough for scoring.
+/// What every trial leaves behind: enough for scoring. In the world's frame (docs/CONVENTIONS.md).
 struct Trajectory {
   Outcome outcome = Outcome::completed;
   int steps = 0;  ///< steps simulated, the last of them included

@@ -48,12 +48,13 @@ void NoveltySettings::describe(io::SettingsVisitor& visitor) {
 
 void NoveltySettings::validate(std::size_t behaviour_length) const {
   if (behaviour_length == 0)
-    fail(ExitCode::bad_input, "search.novelty.path_stride = {}: expected at most the steps of a trial",
-         path_stride);
+    fail_setting({"search.novelty.path_stride", "trial.duration_s"},
+                 "search.novelty.path_stride = {}: expected at most the steps of a trial", path_stride);
   if (behaviour_length > longest_behaviour)
-    fail(ExitCode::bad_input,
-         "search.novelty.path_stride = {}: behaviours of {} numbers; expected at most {}, by a larger stride",
-         path_stride, behaviour_length, longest_behaviour);
+    fail_setting(
+        {"search.novelty.path_stride", "trial.duration_s"},
+        "search.novelty.path_stride = {}: behaviours of {} numbers; expected at most {}, by a larger stride",
+        path_stride, behaviour_length, longest_behaviour);
 }
 
 void NoveltySettings::check_memory(std::size_t behaviour_length, int population, double memory_bytes) const {
@@ -64,11 +65,12 @@ void NoveltySettings::check_memory(std::size_t behaviour_length, int population,
   const double bytes = per_member * archive_limit;
   constexpr double giga = 1e9;
   if (bytes > memory_bytes)
-    fail(ExitCode::bad_input,
-         "search.novelty.archive_limit = {}: that many behaviours of {} numbers need {:.1f} GB; expected at "
-         "most {:.0f}, for the {:.1f} GB that this process may use",
-         archive_limit, behaviour_length, bytes / giga, std::floor(memory_bytes / per_member),
-         memory_bytes / giga);
+    fail_setting(
+        {"search.novelty.archive_limit"},
+        "search.novelty.archive_limit = {}: that many behaviours of {} numbers need {:.1f} GB; expected at "
+        "most {:.0f}, for the {:.1f} GB that this process may use",
+        archive_limit, behaviour_length, bytes / giga, std::floor(memory_bytes / per_member),
+        memory_bytes / giga);
 }
 
 }  // namespace amble::search

@@ -13,8 +13,8 @@ constexpr std::size_t most_links = 1'000'000;
 
 template <typename... Args>
 [[noreturn]] void refuse(const std::string& key, fmt::format_string<Args...> text, Args&&... args) {
-  throw UserError(
-      fmt::format("controller.substrate.{}{}", key, fmt::format(text, std::forward<Args>(args)...)));
+  const std::string path = "controller.substrate." + key;
+  throw SettingError({path}, path + fmt::format(text, std::forward<Args>(args)...));
 }
 
 std::string item(const char* list, std::size_t index, const char* key = nullptr) {

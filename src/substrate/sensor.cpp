@@ -28,13 +28,12 @@ Sensor parse_sensor(std::string_view name, const morphology::RobotSpec& robot, c
   const std::size_t dot = name.find('.');
   const std::string_view what = name.substr(0, dot);
   if (dot == std::string_view::npos || (what != "angle" && what != "touch"))
-    fail(ExitCode::bad_input, "{} = \"{}\": expected angle.JOINT, touch.LEG, roll, pitch, yaw or sine", key,
-         name);
+    fail_setting({key}, "{} = \"{}\": expected angle.JOINT, touch.LEG, roll, pitch, yaw or sine", key, name);
   const std::string_view owner = name.substr(dot + 1);
   const int index = what == "angle" ? index_of(robot.joints, owner) : index_of(robot.legs, owner);
   if (index < 0)
-    fail(ExitCode::bad_input, "{} = \"{}\": the robot has no {} {}", key, name,
-         what == "angle" ? "joint" : "leg", owner);
+    fail_setting({key}, "{} = \"{}\": the robot has no {} {}", key, name, what == "angle" ? "joint" : "leg",
+                 owner);
   return {what == "angle" ? Kind::angle : Kind::touch, index};
 }
 

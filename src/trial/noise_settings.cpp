@@ -36,14 +36,16 @@ void NoiseSettings::describe(io::SettingsVisitor& visitor) {
 
 void NoiseSettings::validate(const Settings& trial) const {
   if (first_undisturbed && episodes < 2)
-    fail(ExitCode::bad_input,
-         "noise.first_undisturbed leaves noise.episodes = {} no noise; expected at least 2", episodes);
+    fail_setting({"noise.first_undisturbed", "noise.episodes"},
+                 "noise.first_undisturbed leaves noise.episodes = {} no noise; expected at least 2",
+                 episodes);
   if (episodes > 1 && !any())
-    fail(ExitCode::bad_input, "noise.episodes = {}: without any noise they would all be the same; expected 1",
-         episodes);
+    fail_setting({"noise.episodes"},
+                 "noise.episodes = {}: without any noise they would all be the same; expected 1", episodes);
   if (push_m_s > 0.0 && push_interval_s < trial.timestep_s)
-    fail(ExitCode::bad_input, "noise.push_interval_s = {}: expected at least one timestep, {} s",
-         push_interval_s, trial.timestep_s);
+    fail_setting({"noise.push_interval_s", "trial.timestep_s"},
+                 "noise.push_interval_s = {}: expected at least one timestep, {} s", push_interval_s,
+                 trial.timestep_s);
 }
 
 bool NoiseSettings::disturbs_start() const {

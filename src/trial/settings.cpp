@@ -18,9 +18,9 @@ void Settings::validate() const {
   const double exact = duration_s / timestep_s;
   const bool whole = exact >= 0.5 && exact <= 1e9 && std::abs(exact - std::round(exact)) <= 1e-6 * exact;
   if (!whole)  // NaN is none either
-    fail(ExitCode::bad_input,
-         "trial.duration_s = {}: expected a whole number of timesteps of {} s, at most 1e9", duration_s,
-         timestep_s);
+    fail_setting({"trial.duration_s", "trial.timestep_s"},
+                 "trial.duration_s = {}: expected a whole number of timesteps of {} s, at most 1e9",
+                 duration_s, timestep_s);
 }
 
 int Settings::steps() const {

@@ -34,8 +34,8 @@ struct Task {
   const Scenario* scenario = nullptr;                         ///< not owned; null: no noise
 };
 
-/// Where trials come from and where their results go. Shared by workers: both functions may be called from
-/// several threads at once.
+/// Where a runner's trials come from and where their results go. Both functions are called from the thread
+/// that runs the trials; a queue that several runners share must guard itself.
 class TaskQueue {
  public:
   virtual ~TaskQueue() = default;

@@ -26,9 +26,9 @@ TEST(Stances, AreNoneForAFootThatNeverTouches) {
 }
 
 TEST(DutyFactor, IsTheShareOfTouchingFrames) {
-  EXPECT_EQ(duty_factor({true, false, false, true}), 0.5);
-  EXPECT_EQ(duty_factor({false, false}), 0.0);
-  EXPECT_EQ(duty_factor({}), 0.0);
+  EXPECT_EQ(contact_share({true, false, false, true}), 0.5);
+  EXPECT_EQ(contact_share({false, false}), 0.0);
+  EXPECT_EQ(contact_share({}), 0.0);
 }
 
 TEST(Touchdowns, AreRisingEdges) {

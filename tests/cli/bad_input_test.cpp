@@ -139,7 +139,7 @@ TEST_F(BadInput, UnknownEngine) {
 
 TEST_F(BadInput, UnknownReferee) {
   expect_complaint({"evolve", config, "--set", "referees=[\"newton\"]", "--out", out_}, ExitCode::bad_input,
-                   "referees: unknown engine 'newton': expected ode, batch, mujoco");
+                   "'referees' names \"newton\": expected ode, batch, mujoco");
 }
 
 TEST_F(BadInput, SubstrateThatDoesNotHoldTogether) {
@@ -170,7 +170,8 @@ TEST_F(BadInput, SettingsThatDoNotFitTogether) {
 }
 
 TEST_F(BadInput, MissingRobot) {
-  expect_complaint({"evolve", config, "--set", "robot=none.toml", "--out", out_}, ExitCode::io, "none.toml");
+  expect_complaint({"evolve", config, "--set", "robot=none.toml", "--out", out_}, ExitCode::io,
+                   "--set robot=none.toml: 'robot' = \"none.toml\": no such file");
 }
 
 class BadRobot : public BadInput {
@@ -200,13 +201,27 @@ TEST_F(BadRobot, WithAJointThatTheSideFileDoesNotName) {
   expect_complaint({"robot", robot_}, ExitCode::bad_input, "FL_");
 }
 
+TEST_F(BadRobot, ThatHasFallenBeforeItStarts) {
+  replace("authors.toml", "fall_height_m = 0.467", "fall_height_m = 5");
+  expect_complaint({"robot", robot_}, ExitCode::bad_input, "'fall_height_m' = 5: expected less than 0.8");
+}
+
 TEST_F(BadRobot, WithAModelThatIsNotThere) {
   fs::remove(scratch_ / "robot/authors.xml");
   expect_complaint({"robot", robot_}, ExitCode::io, "authors.xml");
 }
 
 TEST_F(BadInput, JobsZero) {
-  expect_complaint({"evolve", config, "--jobs", "0", "--out", out_}, ExitCode::bad_input, "--jobs");
+  expect_complaint({"evolve", config, "--jobs", "0", "--out", out_}, ExitCode::bad_input,
+                   "--jobs: 0: expected a number from 1 to 1024");
+}
+
+TEST_F(BadInput, SeedOrGenerationsThatAreNone) {
+  for (const auto* seed : {"-1", "1.5", "one", "99999999999999999999"})
+    expect_complaint({"evolve", config, "--seed", seed, "--out", out_}, ExitCode::bad_input,
+                     std::string("--seed: ") + seed + ": expected a number from 0 to 9007199254740992");
+  expect_complaint({"evolve", config, "--generations", "0", "--out", out_}, ExitCode::bad_input,
+                   "--generations: 0: expected a number from 1 to 1000000000");
 }
 
 TEST_F(BadInput, OutFolderThatHoldsARun) {

@@ -33,9 +33,9 @@ TEST(RollPitchYaw, RecoversRandomAngles) {
                  yaw = stream.uniform(-pi, pi);
     const auto angles = roll_pitch_yaw(axis_angle({0, 0, 1}, yaw) * axis_angle({0, 1, 0}, pitch) *
                                        axis_angle({1, 0, 0}, roll));
-    EXPECT_NEAR(angles.roll, roll, 1e-9);
-    EXPECT_NEAR(angles.pitch, pitch, 1e-9);
-    EXPECT_NEAR(angles.yaw, yaw, 1e-9);
+    EXPECT_NEAR(angles.roll_rad, roll, 1e-9);
+    EXPECT_NEAR(angles.pitch_rad, pitch, 1e-9);
+    EXPECT_NEAR(angles.yaw_rad, yaw, 1e-9);
   }
 }
 

@@ -80,21 +80,6 @@ TEST_F(Checkpoint, RestoresProgressAndPopulation) {
   EXPECT_TRUE(std::ranges::equal(other.genomes(), population_.genomes()));
 }
 
-TEST_F(Checkpoint, WrittenWholeButNotYetNamedCountsAndOneCutOffDoesNot) {
-  population_.advance(some_fitness());
-  const std::string next =
-      checkpoint_bytes(config_, {.best_m = 3.5, .best_generation = 3}, population_, *search_);
-  const auto temporary = path_.string() + std::string(io::temporary_mark) + "4711";
-  for (const std::size_t length : {std::size_t{0}, std::size_t{10}, next.size() - 1}) {
-    io::write_file(temporary, next.substr(0, length));
-    finish_checkpoint(path_);
-    EXPECT_EQ(io::read_file(path_), bytes_) << length;
-  }
-  io::write_file(temporary, next);
-  finish_checkpoint(path_);
-  EXPECT_EQ(io::read_file(path_), next);
-}
-
 TEST_F(Checkpoint, IsRefusedWhenTruncatedAnywhere) {
   for (std::size_t length = 0; length < bytes_.size(); length += 1 + bytes_.size() / 50)
     EXPECT_THAT(complaint(bytes_.substr(0, length)), HasSubstr("checkpoint.bin")) << length;

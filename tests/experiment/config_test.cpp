@@ -119,13 +119,48 @@ TEST(Config, RefereesAreOtherEnginesThanItsOwn) {
   };
   EXPECT_EQ(complaint("referees=[\"mujoco\", \"batch\"]"), "accepted");
   EXPECT_THAT(complaint("engine=newton"),
-              testing::HasSubstr("unknown engine 'newton': expected ode, batch, mujoco"));
+              testing::HasSubstr("--set engine=newton: 'engine' = \"newton\": expected ode, batch, mujoco"));
   EXPECT_THAT(complaint("referees=[\"newton\"]"),
-              testing::HasSubstr("referees: unknown engine 'newton': expected ode, batch, mujoco"));
+              testing::HasSubstr("'referees' names \"newton\": expected ode, batch, mujoco"));
   EXPECT_THAT(complaint("referees=[\"ode\"]"),
-              testing::HasSubstr("referees: 'ode' is the engine of the run itself"));
+              testing::HasSubstr("'referees' names \"ode\", the engine of the run itself"));
   EXPECT_THAT(complaint("referees=[\"mujoco\", \"mujoco\"]"),
-              testing::HasSubstr("referees: 'mujoco' is named twice"));
+              testing::HasSubstr("'referees' names \"mujoco\" twice"));
+}
+
+TEST(Config, ComplaintsOfSettingsThatDoNotGoTogetherNameWhereTheyWereSet) {
+  const TemporaryFolder scratch;
+  const auto complaint = [&](const std::string& lines,
+                             std::vector<std::string> assignments = {}) -> std::string {
+    io::write_file(scratch / "c.toml", "include = [\"" + configs + "authors/supg-novelty.toml\"]\n" + lines);
+    try {
+      const auto config = load_config(scratch / "c.toml",
+                                      {.assignments = std::move(assignments), .seed = {}, .generations = {}});
+      Problem::make(config, load_robot_file(config.robot));
+    } catch (const UserError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  using testing::HasSubstr;
+  EXPECT_THAT(complaint("\nengine = \"newton\"\n"),
+              HasSubstr("c.toml:3: 'engine' = \"newton\": expected ode"));
+  EXPECT_THAT(complaint("referees = [\"ode\"]\n"), HasSubstr("c.toml:2: 'referees' names \"ode\""));
+  EXPECT_THAT(complaint("robot = \"none.toml\"\n"),
+              HasSubstr("c.toml:2: 'robot' = \"none.toml\": no such file"));
+  EXPECT_THAT(complaint("robot = \"\"\n"), HasSubstr("c.toml:2: 'robot' = \"\": expected the path"));
+  EXPECT_THAT(complaint("trial.duration_s = 0.155\n"),
+              HasSubstr("c.toml:2: trial.duration_s = 0.155: expected"));
+  EXPECT_THAT(complaint("", {"trial.timestep_s=0.011"}), HasSubstr("--set trial.timestep_s=0.011: "));
+  EXPECT_THAT(complaint("\n\ncontroller.supg.period_s = 1.0049\n"),
+              HasSubstr("c.toml:4: controller.supg.period_s = 1.0049"));
+  EXPECT_THAT(complaint("controller.substrate.nodes = []\n"), HasSubstr("c.toml:2: controller.substrate."));
+  // What was typed is what is to be changed, even where the message speaks of a default.
+  EXPECT_THAT(
+      complaint("", {"population.size=20"}),
+      HasSubstr("--set population.size=20: 'speciation.target_max' = 30: expected at most population.size"));
+  EXPECT_THAT(complaint("noise.push_m_s = 1\nnoise.push_interval_s = 0.001\n"),
+              HasSubstr("c.toml:3: noise.push_interval_s = 0.001: expected at least one timestep"));
 }
 
 TEST(Config, WithoutARobotIsRefusedByName) {
@@ -135,7 +170,8 @@ TEST(Config, WithoutARobotIsRefusedByName) {
     load_config(scratch / "c.toml", {});
     FAIL() << "accepted";
   } catch (const UserError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("c.toml: key 'robot' is missing"));
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr("c.toml: 'robot' = \"\": expected the path of a robot file"));
   }
 }
 

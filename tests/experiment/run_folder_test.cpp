@@ -10,6 +10,7 @@
 namespace amble::experiment {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 template <typename Call>
@@ -64,6 +65,16 @@ TEST_F(Folder, ThatHoldsAnythingElseIsLeftAlone) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 1);
 }
 
+TEST_F(Folder, ThatNoStartHasLockedIsLeftAloneWhateverItsFilesAreCalled) {
+  for (const auto* name : {"data.tmp.1", "manifest.json", "config.toml.tmp.1"}) {
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+    io::write_file(folder_ / name, "years of work");
+    EXPECT_THAT(creating(), HasSubstr("not empty and not a run")) << name;
+    EXPECT_EQ(io::read_file(folder_ / name), "years of work");
+  }
+}
+
 TEST_F(Folder, WhoseStartWasKilledBeforeItHadAConfigIsTakenAgain) {
   RunFolder::create(folder_, robot_);
   io::write_file(folder_ / "checkpoint.bin", "half");
@@ -76,11 +87,13 @@ TEST_F(Folder, LosesTheTemporaryFilesOfAKilledProcess) {
   begun();
   io::write_file(folder_ / "checkpoint.bin.tmp.4711", "ha");
   io::write_file(folder_ / "champions/00001.json.tmp.4711", "ha");
-  io::write_file(folder_ / "notes.tmp.old", "the user's own");
-  RunFolder::open(folder_);
+  for (const auto& own : {"notes.tmp.old", "data.tmp.1", "checkpoint.bin.tmp.", "champions/00001.txt.tmp.1"})
+    io::write_file(folder_ / own, "the user's own");
+  RunFolder::open(folder_).remove_leftovers();
   EXPECT_FALSE(std::filesystem::exists(folder_ / "checkpoint.bin.tmp.4711"));
-  EXPECT_TRUE(std::filesystem::is_empty(folder_ / "champions"));
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "notes.tmp.old"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "champions/00001.json.tmp.4711"));
+  for (const auto& own : {"notes.tmp.old", "data.tmp.1", "checkpoint.bin.tmp.", "champions/00001.txt.tmp.1"})
+    EXPECT_TRUE(std::filesystem::exists(folder_ / own)) << own;
 }
 
 TEST_F(Folder, OfAnotherVersionIsRefusedByThatName) {
@@ -121,11 +134,14 @@ TEST_F(Folder, ManifestGrowsByEachProcess) {
 
 TEST_F(Folder, ChampionsAreListedInTheOrderOfTheirGenerations) {
   const auto run = begun();
-  for (const int generation : {100, 2, 30}) io::write_file(run.paths().champion(generation), "{}");
-  const auto files = run.paths().champion_files();
-  ASSERT_EQ(files.size(), 3u);
-  EXPECT_EQ(files.front().filename(), "00002.json");
-  EXPECT_EQ(run.paths().best_champion().filename(), "00100.json");
+  for (const int generation : {100'000, 99'999, 0, 2, 30, 2'000'000})
+    io::write_file(run.paths().champion(generation), "{}");
+  io::write_file(folder_ / "champions/zoo.json", "no champion");
+  std::vector<std::string> names;
+  for (const auto& file : run.paths().champion_files()) names.push_back(file.filename());
+  EXPECT_THAT(names, ElementsAre("00000.json", "00002.json", "00030.json", "99999.json", "100000.json",
+                                 "2000000.json"));
+  EXPECT_EQ(run.paths().best_champion().filename(), "2000000.json");
 }
 
 }  // namespace

@@ -80,6 +80,35 @@ TEST_P(EachWay, GoesOnAfterAnInterruptionAsIfThereHadBeenNone) {
   EXPECT_EQ(rest.rows.back().best_so_far_m, whole.rows.back().best_so_far_m);
 }
 
+TEST_P(EachWay, ACheckpointThatIsWholeButNotYetNamedCountsIfTheOtherFilesKeepUpWithIt) {
+  const TemporaryFolder scratch;
+  const RunPaths early(scratch / "early"), late(scratch / "late");
+  Listener first(1), second(2);
+  Run::start(early.folder, config(), 2).execute(first, first.stop);
+  Run::start(late.folder, config(), 2).execute(second, second.stop);
+  const auto next = io::read_file(late.checkpoint);
+  const auto unnamed = early.checkpoint.string() + std::string(io::temporary_mark) + "4711";
+  // Cut off while it was written, and on the disk before the line of its generation was.
+  for (const auto& left : {next.substr(0, 10), next.substr(0, next.size() - 1), next}) {
+    io::write_file(unnamed, left);
+    EXPECT_EQ(Run::resume(early.folder, {}, 1).generation(), 1) << left.size();
+    EXPECT_FALSE(std::filesystem::exists(unnamed));
+  }
+  std::filesystem::copy(
+      late.champions, early.champions,
+      std::filesystem::copy_options::recursive | std::filesystem::copy_options::update_existing);
+  io::write_file(early.generations, io::read_file(late.generations));
+  if (std::filesystem::exists(late.archive)) {
+    io::write_file(unnamed, next);
+    EXPECT_EQ(Run::resume(early.folder, {}, 1).generation(), 1) << "its archive is not there";
+    io::write_file(early.generations, io::read_file(late.generations));
+    io::write_file(early.archive, io::read_file(late.archive));
+  }
+  io::write_file(unnamed, next);
+  EXPECT_EQ(Run::resume(early.folder, {}, 1).generation(), 2);
+  EXPECT_EQ(io::read_file(early.checkpoint), next);
+}
+
 TEST_P(EachWay, CanBeResumedBeforeItsFirstGenerationIsDone) {
   const TemporaryFolder scratch;
   Run::start(scratch / "run", config(), 1);

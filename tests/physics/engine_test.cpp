@@ -118,7 +118,7 @@ TEST_P(Place, PutsTheRobotIntoTheStartPoseOfItsModel) {
     const RootPose root = bench.engine->root_pose(0);
     EXPECT_NEAR(norm(root.position_m - Vec3{0.0, 0.0, 0.88404}), 0.0, single_precision() ? 1e-6 : 0.0);
     EXPECT_EQ(root.rotation, Quat{});
-    EXPECT_EQ(bench.engine->momentum(0), Vec3{});
+    EXPECT_EQ(bench.engine->momentum_kg_m_s(0), Vec3{});
     for (int j = 0; j < 12; ++j) EXPECT_NEAR(bench.angle(j), 0.0, 1e-7);
     for (int row = 0; row < 3; ++row) EXPECT_EQ(bench.engine->sensors().attitude_rad.at(row, 0), 0.0f);
     for (int leg = 0; leg < 4; ++leg) EXPECT_TRUE(bench.touches(leg));

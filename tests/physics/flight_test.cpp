@@ -23,7 +23,7 @@ TEST_P(Flight, AFallingBoxFollowsTheParabolaOfTheIntegrator) {
     const double z0 = bench.engine->com_m(0).z;
     bench.steps(200);
     EXPECT_NEAR(bench.engine->com_m(0).z, z0 - 9.8 * h * h * 200 * 201 / 2, rounding);
-    EXPECT_NEAR(bench.engine->momentum(0).z, -2.0 * 9.8 * h * 200, rounding);
+    EXPECT_NEAR(bench.engine->momentum_kg_m_s(0).z, -2.0 * 9.8 * h * 200, rounding);
     EXPECT_EQ(bench.engine->com_m(0).x, 0.0);
   }
 }
@@ -43,7 +43,7 @@ Vec3 momentum_from_nothing(const char* engine, const char* variant, double h) {
     }
     bench.steps(per_tick);
     for (int j = 0; j < 12; ++j) largest_angle = std::max(largest_angle, std::abs(bench.angle(j)));
-    const Vec3 momentum = bench.engine->momentum(0);
+    const Vec3 momentum = bench.engine->momentum_kg_m_s(0);
     largest_error.x = std::max(largest_error.x, std::abs(momentum.x));
     largest_error.y = std::max(largest_error.y, std::abs(momentum.y));
     largest_error.z = std::max(largest_error.z, std::abs(momentum.z + mass * 9.8 * 0.01 * n));

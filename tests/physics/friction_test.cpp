@@ -35,9 +35,9 @@ TEST_P(Friction, BeyondTheFrictionAngleTheBoxSlidesWithTheAccelerationLeft) {
       const double angle = std::atan(steeper * friction);
       Bench bench(GetParam(), on_slope(angle, friction), 0.001);
       bench.steps(100);
-      const double before = bench.engine->momentum(0).x;
+      const double before = bench.engine->momentum_kg_m_s(0).x;
       bench.steps(900);
-      const double acceleration = (bench.engine->momentum(0).x - before) / (2.0 * 0.9);
+      const double acceleration = (bench.engine->momentum_kg_m_s(0).x - before) / (2.0 * 0.9);
       const double expected = 9.8 * (std::sin(angle) - friction * std::cos(angle));
       EXPECT_NEAR(acceleration, expected, 0.01 * expected) << friction << " " << steeper;
     }
@@ -67,7 +67,7 @@ TEST_P(Friction, ASledComesToRestAfterTheDistanceThatFrictionAllows) {
   const double h = 0.001;
   Bench bench(GetParam(), scene("sled"), h);
   bench.targets.at(0, 0) = bench.targets.at(1, 0) = 1.6f;
-  const auto speed = [&] { return bench.engine->momentum(0).x / 3.0; };
+  const auto speed = [&] { return bench.engine->momentum_kg_m_s(0).x / 3.0; };
 
   int waited = 0;
   while (bench.angle(0) < 1.5707 && waited < 1000) {

@@ -21,10 +21,11 @@ TEST_P(Push, GivesTheRobotItsImpulseInOneStepAndNoMore) {
     Bench bench(GetParam(), weightless(quadruped()), h);
     const Vec3 impulse_n_s{0.7, -0.4, 0.2};
     bench.engine->push(0, impulse_n_s);
-    EXPECT_EQ(norm(bench.engine->momentum(0)), 0.0) << "acts in the step, not before";
+    EXPECT_EQ(norm(bench.engine->momentum_kg_m_s(0)), 0.0) << "acts in the step, not before";
     for (int n = 0; n < 50; ++n) {
       bench.steps(1);
-      ASSERT_NEAR(norm(bench.engine->momentum(0) - impulse_n_s), 0.0, drifting() ? h : rounding(1e3)) << n;
+      ASSERT_NEAR(norm(bench.engine->momentum_kg_m_s(0) - impulse_n_s), 0.0, drifting() ? h : rounding(1e3))
+          << n;
     }
   }
 }
@@ -55,7 +56,7 @@ TEST_P(Push, IsTakenBackByPlacingTheRobotAnew) {
   bench.engine->push(0, {5.0, 0.0, 0.0});
   bench.engine->place(0);
   bench.steps(1);
-  EXPECT_NEAR(norm(bench.engine->momentum(0)), 0.0, rounding(1.0));
+  EXPECT_NEAR(norm(bench.engine->momentum_kg_m_s(0)), 0.0, rounding(1.0));
 }
 
 TEST_P(Push, AddsUpWithAnotherBeforeTheSameStep) {
@@ -63,7 +64,7 @@ TEST_P(Push, AddsUpWithAnotherBeforeTheSameStep) {
   bench.engine->push(0, {0.5, 0.0, 0.0});
   bench.engine->push(0, {0.0, -0.25, 0.0});
   bench.steps(1);
-  EXPECT_NEAR(norm(bench.engine->momentum(0) - Vec3{0.5, -0.25, 0.0}), 0.0,
+  EXPECT_NEAR(norm(bench.engine->momentum_kg_m_s(0) - Vec3{0.5, -0.25, 0.0}), 0.0,
               drifting() ? 1e-3 : rounding(1.0));
 }
 

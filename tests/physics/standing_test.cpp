@@ -21,7 +21,7 @@ TEST_P(Standing, ABoxSinksUntilTheContactSpringsCarryItsWeight) {
     bench.steps(2000);
     const double depth = 2.0 * 9.8 * h * 1e-4 / (4 * 0.2);
     EXPECT_NEAR(0.1 - bench.engine->com_m(0).z, depth, 1e-3 * depth);
-    EXPECT_NEAR(norm(bench.engine->momentum(0)), 0.0, single_precision() ? 1e-6 : 1e-9);
+    EXPECT_NEAR(norm(bench.engine->momentum_kg_m_s(0)), 0.0, single_precision() ? 1e-6 : 1e-9);
   }
 }
 
@@ -35,7 +35,7 @@ TEST_P(Standing, TheQuadrupedStandsStillOnAllFeet) {
       for (int leg = 0; leg < 4; ++leg) ASSERT_TRUE(bench.touches(leg)) << "step " << i;
     }
     // The forces of the ground balance the weight: no momentum comes or goes.
-    EXPECT_NEAR(norm(bench.engine->momentum(0)), 0.0, single_precision() ? 3e-3 : 1e-3);
+    EXPECT_NEAR(norm(bench.engine->momentum_kg_m_s(0)), 0.0, single_precision() ? 3e-3 : 1e-3);
     EXPECT_NEAR(norm(bench.engine->com_m(0) - before), 0.0, 1e-3);
     EXPECT_NEAR(bench.engine->root_com_m(0).z, 0.88404, 1e-3);
   }

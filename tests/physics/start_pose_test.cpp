@@ -30,8 +30,8 @@ TEST_P(PlaceAt, PutsRootJointsAndSensorsWhereTheyWereAskedToBe) {
     bench.engine->place_at(0, pose);
     ASSERT_NEAR(norm(bench.engine->root_pose(0).position_m - pose.root.position_m), 0.0, rounding_m());
     const auto attitude = roll_pitch_yaw(pose.root.rotation);
-    EXPECT_NEAR(static_cast<double>(bench.engine->sensors().attitude_rad.at(0, 0)), attitude.roll, 1e-6);
-    EXPECT_NEAR(static_cast<double>(bench.engine->sensors().attitude_rad.at(1, 0)), attitude.pitch, 1e-6);
+    EXPECT_NEAR(static_cast<double>(bench.engine->sensors().attitude_rad.at(0, 0)), attitude.roll_rad, 1e-6);
+    EXPECT_NEAR(static_cast<double>(bench.engine->sensors().attitude_rad.at(1, 0)), attitude.pitch_rad, 1e-6);
     for (int j = 0; j < 12; ++j)
       ASSERT_NEAR(bench.angle(j), pose.joint_angle_rad[static_cast<std::size_t>(j)], 1e-6)
           << which << ' ' << j;
@@ -57,7 +57,7 @@ TEST_P(PlaceAt, StartsAtRestWithItsJointsWhole) {
   Bench bench(GetParam(), weightless(quadruped()));
   const StartPose pose = some_pose(bench.robot, 1);
   bench.engine->place_at(0, pose);
-  EXPECT_EQ(norm(bench.engine->momentum(0)), 0.0);
+  EXPECT_EQ(norm(bench.engine->momentum_kg_m_s(0)), 0.0);
   for (int j = 0; j < 12; ++j) bench.targets.at(j, 0) = bench.engine->sensors().joint_angle_rad.at(j, 0);
   bench.steps(100);
   for (int j = 0; j < 12; ++j)

@@ -48,7 +48,7 @@ class FakeEngine : public physics::Engine {
   physics::RootPose root_pose(int lane) const override { return {state(lane).position, {}}; }
   Vec3 root_com_m(int lane) const override { return state(lane).position; }
   Vec3 com_m(int lane) const override { return state(lane).position; }
-  Vec3 momentum(int) const override { return {}; }
+  Vec3 momentum_kg_m_s(int) const override { return {}; }
   std::uint64_t state_hash(int lane) const override {
     return static_cast<std::uint64_t>(state(lane).position.x * 1e6);
   }

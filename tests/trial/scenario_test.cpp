@@ -159,10 +159,10 @@ TEST(Scenario, StartsWithinTheStopsAndNeverInTheGround) {
       largest_rad = std::max(largest_rad, std::abs(pose.joint_angle_rad[j]));
     }
     const auto attitude = roll_pitch_yaw(pose.root.rotation);
-    ASSERT_LE(std::abs(attitude.roll), 0.101);
-    ASSERT_LE(std::abs(attitude.pitch), 0.101);
-    ASSERT_NEAR(attitude.yaw, 0.0, 0.006);
-    most_tilt_rad = std::max(most_tilt_rad, std::abs(attitude.roll));
+    ASSERT_LE(std::abs(attitude.roll_rad), 0.101);
+    ASSERT_LE(std::abs(attitude.pitch_rad), 0.101);
+    ASSERT_NEAR(attitude.yaw_rad, 0.0, 0.006);
+    most_tilt_rad = std::max(most_tilt_rad, std::abs(attitude.roll_rad));
     const auto bodies =
         morphology::poses_at(quadruped(), {pose.root.position_m, pose.root.rotation}, pose.joint_angle_rad);
     const double lowest_m = morphology::clearance_m(quadruped(), bodies);

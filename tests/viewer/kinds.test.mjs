@@ -161,7 +161,7 @@ test("a recording without gait figures shows the share of time on the ground", (
                        (text) => text.replace(/"gait":\{"format".*?"cost_of_transport_absolute":[^}]*\}/, '"gait":null'));
   return onPage(page, {}, async (opened) => {
     assert.equal(await opened.locator(".gait tr").count(), 2);
-    assert.match(await opened.locator(".gait").textContent(), /Duty factor50 %/);
+    assert.match(await opened.locator(".gait").textContent(), /On the ground50 %/);
   });
 });
 

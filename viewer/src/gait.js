@@ -36,7 +36,8 @@ export class GaitTable {
     const row = (title, cells) => element("tr", {}, element("th", {}, title), ...cells.map((cell) => element("td", {}, cell)));
     const rows = [element("tr", {}, element("th", {}), ...head)];
     const known = this.gait?.legs;
-    rows.push(row("Duty factor", legs.map((_, leg) => percent(known ? known[leg].duty_factor : this.walk.dutyFactor(leg)))));
+    rows.push(known ? row("Duty factor", known.map((leg) => percent(leg.duty_factor)))
+                    : row("On the ground", legs.map((_, leg) => percent(this.walk.contactShare(leg)))));
     if (known) {
       const of = (value, text) => known.map((leg) => text(value(leg)));
       rows.push(row("Phase", of(({ phase }) => phase?.phase, decimals(2))),

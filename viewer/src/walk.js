@@ -98,7 +98,7 @@ export class Walk {
     return this.comAt(t)[2];
   }
 
-  dutyFactor(leg) {
+  contactShare(leg) {
     if (this.contacts.count === 0) return 0;
     return this.touches[leg].reduce((sum, touch) => sum + (touch > 0.5), 0) / this.contacts.count;
   }

@@ -79,7 +79,7 @@ class LockstepEngine final : public BatchEngine {
     check_lane(lane);
     return robots_.vec3(Rows::com, lane) + robots_.vec3(Rows::com_rest, lane);
   }
-  Vec3 momentum(int lane) const override {
+  Vec3 momentum_kg_m_s(int lane) const override {
     check_lane(lane);
     return mass_kg_ * robots_.vec3(Rows::velocity, lane);
   }

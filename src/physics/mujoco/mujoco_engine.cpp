@@ -109,7 +109,7 @@ class MujocoEngine final : public SingleRobotEngine {
     return vec3(data_->subtree_com + 3 * root_body);
   }
 
-  Vec3 momentum(int lane) const override {
+  Vec3 momentum_kg_m_s(int lane) const override {
     check_lane(lane);
     mj_comVel(model_.get(), data_.get());
     mj_subtreeVel(model_.get(), data_.get());

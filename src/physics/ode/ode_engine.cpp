@@ -128,7 +128,7 @@ class OdeEngine final : public SingleRobotEngine {
     return (1.0 / total_mass_kg_) * sum;
   }
 
-  Vec3 momentum(int lane) const override {
+  Vec3 momentum_kg_m_s(int lane) const override {
     check_lane(lane);
     Vec3 sum;
     for (std::size_t b = 0; b < bodies_.size(); ++b)

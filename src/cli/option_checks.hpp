@@ -1,0 +1,26 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace amble::cli {
+
+/// Complains of an option "VALUE: expected a number from LOWER to UPPER".
+template <typename Number>
+CLI::Validator between(Number lower, Number upper) {
+  const auto complaint = [lower, upper](const std::string& text) {
+    Number value{};
+    if (CLI::detail::lexical_cast(text, value) && value >= lower && value <= upper) return std::string();
+    return fmt::format("{}: expected a number from {} to {}", text, lower, upper);
+  };
+  return CLI::Validator(complaint, "");
+}
+
+/// Of the length of a trial.
+inline CLI::Validator seconds_check() {
+  return between(1e-5, 1e6);
+}
+
+}  // namespace amble::cli
