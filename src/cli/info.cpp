@@ -14,6 +14,7 @@
 #include "amble/experiment/champion.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/printable.hpp"
 #include "amble/record/recording.hpp"
 
 namespace amble::cli {
@@ -21,8 +22,8 @@ namespace {
 
 void print_champion(const experiment::Champion& champion) {
   const auto& problem = champion.problem;
-  fmt::print("experiment  {} (seed {})\ngeneration  {}, genome {}\n", champion.experiment, champion.seed,
-             champion.generation, champion.index);
+  fmt::print("experiment  {} (seed {})\ngeneration  {}, genome {}\n", io::printable(champion.experiment),
+             champion.seed, champion.generation, champion.index);
   fmt::print("robot       {}\ncontroller  {}\nengine      {}\n", problem.robot.name,
              problem.architecture->name(), problem.engine);
   fmt::print("CPPN        {} inputs, {} outputs, {} hidden nodes, {} links\n", problem.cppn_inputs(),
@@ -76,8 +77,8 @@ ExitCode run_info(const std::filesystem::path& folder) {
     evaluations += rows.evaluations[i];
     steps += rows.steps[i];
   }
-  fmt::print("experiment  {} (seed {})\nengine      {}\ngenerations {} of {}\n", config.name, config.seed,
-             config.engine, rows.count(), config.generations);
+  fmt::print("experiment  {} (seed {})\nengine      {}\ngenerations {} of {}\n", io::printable(config.name),
+             config.seed, config.engine, rows.count(), config.generations);
   fmt::print("evaluations {:.0f} ({:.3g} steps)\n", evaluations, steps);
   fmt::print("search      {}", search::kind_names[static_cast<std::size_t>(config.search.kind)]);
   if (!rows.archive.empty())
@@ -117,7 +118,12 @@ ExitCode info(const std::filesystem::path& path) {
     print_champion(experiment::load_champion(path));
     return ExitCode::ok;
   }
-  return recording_info(path);
+  try {
+    return recording_info(path);
+  } catch (const UserError& error) {
+    if (error.code() != ExitCode::bad_file) throw;
+    fail(error.code(), "{} (expected a run folder, a champion in .json, or a recording)", error.what());
+  }
 }
 
 }  // namespace

@@ -79,6 +79,7 @@ void make_folder(const fs::path& folder) {
 
 /// Before anything is made or locked: a folder that is in use stays as it is.
 void refuse_used_folder(const fs::path& folder) {
+  if (folder.empty()) fail(ExitCode::bad_input, "--out: expected the name of a folder");
   if (!fs::exists(folder)) return;
   if (!fs::is_directory(folder))
     fail(ExitCode::bad_input, "--out {}: a file of that name exists", folder.string());

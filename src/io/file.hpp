@@ -33,9 +33,9 @@ inline constexpr std::string_view temporary_mark = ".tmp.";
 
 /// Replaces a file whole or not at all: what is written goes to PATH.tmp.<pid> in the same folder; commit()
 /// syncs that, renames it and syncs the folder. Without commit(), or after a failure (no space, no
-/// permission), the temporary file is removed and an old file is left as it was. What is there and is not a
-/// regular file (a pipe, /dev/stdout) is written to directly. Throws UserError(ExitCode::io) "cannot write
-/// PATH: reason".
+/// permission), the temporary file is removed and an old file is left as it was. A symbolic link is replaced,
+/// not followed. What is there and is not a regular file (a pipe, /dev/stdout) is written to directly. Throws
+/// UserError(ExitCode::io) "cannot write PATH: reason".
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& path);

@@ -68,8 +68,8 @@ class SideFileReader {
   }
 
  private:
-  [[noreturn]] void missing(std::string_view key) const {
-    fail(ExitCode::bad_input, "{}: '{}' is missing", path_, key);
+  [[noreturn]] void missing(std::string_view key, std::string_view expected = "a number") const {
+    fail(ExitCode::bad_input, "{}: '{}' is missing: expected {}", path_, key, expected);
   }
 
   void require(std::string_view key, double number) const {
@@ -90,7 +90,7 @@ class SideFileReader {
                     {"the robot has fallen when the root's centre of mass is lower"});
     reader_->flag("self_collision", side_.self_collision,
                   {"whether bodies that no joint links collide with each other"});
-    if (model.empty()) missing("model");
+    if (model.empty()) missing("model", "the path of an MJCF or URDF file");
     side_.model = document_.folder_of("model") / model;
     if (side_.name.empty()) side_.name = side_.model.stem().string();
     check_names("legs", side_.legs);

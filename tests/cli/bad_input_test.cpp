@@ -345,7 +345,7 @@ TEST_F(BadInput, GaitOfWhatHasNone) {
 
 TEST_F(BadInput, RecordingThatIsNone) {
   spill(scratch_ / "walk.rec", "not a recording");
-  expect_complaint({"info", scratch_ / "walk.rec"}, ExitCode::bad_file, "walk.rec");
+  expect_complaint({"info", scratch_ / "walk.rec"}, ExitCode::bad_file, "(expected a run folder, a champion");
 }
 
 TEST_F(BadInput, ViewOfWhatCannotBeShown) {

@@ -105,6 +105,11 @@ TEST_F(Folder, OfAnotherVersionIsRefusedByThatName) {
                 HasSubstr("manifest.json: version 1 of the file format; this program reads version 4"));
 }
 
+TEST_F(Folder, NeedsAName) {
+  folder_.clear();
+  EXPECT_EQ(creating(), "--out: expected the name of a folder");
+}
+
 TEST_F(Folder, CannotBeAFile) {
   io::write_file(folder_, "x");
   EXPECT_THAT(creating(), HasSubstr("a file of that name exists"));

@@ -63,7 +63,7 @@ TEST(SideFile, HasNoDefaultForAnyPhysicalNumber) {
     EXPECT_NE(text.find(key), std::string::npos) << text;
   }
   EXPECT_EQ(files.complaint([&] { read(files, with(one_leg_toml, "\"velocity\"", "\"torque\"")); }),
-            "s.toml: 'servo.kp_nm_per_rad' is missing");
+            "s.toml: 'servo.kp_nm_per_rad' is missing: expected a number");
 }
 
 TEST(SideFile, RefusesNamesThatClash) {
