@@ -69,7 +69,8 @@ void measure_batch_runs(double ode_per_s, std::vector<Figure>& figures) {
 }  // namespace
 
 void measure_runs(std::vector<Figure>& figures) {
-  // By turns, and medians: another program that wakes up meanwhile takes from one round only.
+  // By turns, and medians: another program that wakes up meanwhile takes from one round only. Shares and
+  // steps are of the last round.
   constexpr int generations = 4, rounds = 3;
   std::vector<double> ones_per_s, twos_per_s, ratios;
   Totals two;

@@ -15,6 +15,7 @@
 #include "amble/experiment/run_folder.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/printable.hpp"
+#include "amble/record/frame_codec.hpp"
 #include "amble/record/recording.hpp"
 
 namespace amble::cli {
@@ -118,12 +119,9 @@ ExitCode info(const std::filesystem::path& path) {
     print_champion(experiment::load_champion(path));
     return ExitCode::ok;
   }
-  try {
-    return recording_info(path);
-  } catch (const UserError& error) {
-    if (error.code() != ExitCode::bad_file) throw;
-    fail(error.code(), "{} (expected a run folder, a champion in .json, or a recording)", error.what());
-  }
+  if (io::InputFile(path).read(record::recording_magic.size()) != record::recording_magic)
+    fail(ExitCode::bad_file, "{}: expected a run folder, a champion in .json, or a recording", path.string());
+  return recording_info(path);
 }
 
 }  // namespace

@@ -3,17 +3,19 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <concepts>
 #include <string>
 
 namespace amble::cli {
 
-/// Complains of an option "VALUE: expected a number from LOWER to UPPER".
+/// Complains of an option "VALUE: expected a number from LOWER to UPPER", or "a whole number".
 template <typename Number>
 CLI::Validator between(Number lower, Number upper) {
   const auto complaint = [lower, upper](const std::string& text) {
     Number value{};
     if (CLI::detail::lexical_cast(text, value) && value >= lower && value <= upper) return std::string();
-    return fmt::format("{}: expected a number from {} to {}", text, lower, upper);
+    return fmt::format("{}: expected a {}number from {} to {}", text, std::integral<Number> ? "whole " : "",
+                       lower, upper);
   };
   return CLI::Validator(complaint, "");
 }

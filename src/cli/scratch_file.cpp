@@ -15,7 +15,10 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path new_folder() {
-  std::string name = (fs::temp_directory_path() / "amble-XXXXXX").string();
+  std::error_code error;
+  const fs::path parent = fs::temp_directory_path(error);
+  if (error) fail(ExitCode::io, "the folder for temporary files (TMPDIR): {}", error.message());
+  std::string name = (parent / "amble-XXXXXX").string();
   if (::mkdtemp(name.data()) == nullptr)
     fail(ExitCode::io, "cannot make folder {}: {}", name, std::generic_category().message(errno));
   return name;

@@ -36,7 +36,7 @@ analysis::Substrate drawn(const substrate::Layout& layout) {
 ExitCode show_substrate(const SubstrateOptions& options) {
   if (!options.out.empty()) io::refuse_to_replace(options.out, "<svg", "a drawing");
   const auto config = experiment::load_config(options.config, options.overrides);
-  const auto problem = experiment::Problem::make(config, experiment::load_robot_file(config.robot));
+  const auto problem = experiment::Problem::make(config, experiment::load_robot(config));
   const substrate::Layout& layout = problem.architecture->layout();
   fmt::print("controller    {}\n{}", problem.architecture->name(),
              substrate::summary(config.controller.substrate, layout));

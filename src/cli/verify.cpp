@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "amble/analysis/generations_csv.hpp"
@@ -18,13 +19,13 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Champions that the run has kept, by its table, and that are no longer there.
-std::vector<fs::path> missing_champions(const experiment::RunPaths& paths) {
-  const auto rows = analysis::read_generations(paths.generations);
+std::vector<fs::path> missing_champions(const experiment::RunPaths& paths,
+                                        const std::vector<double>& best_m) {
   std::vector<fs::path> missing;
   double best_so_far_m = -1.0;
-  for (std::size_t i = 0; i < rows.count(); ++i) {
-    if (rows.best_m[i] <= best_so_far_m) continue;
-    best_so_far_m = rows.best_m[i];
+  for (std::size_t i = 0; i < best_m.size(); ++i) {
+    if (best_m[i] <= best_so_far_m) continue;
+    best_so_far_m = best_m[i];
     if (const auto file = paths.champion(static_cast<int>(i)); !fs::exists(file)) missing.push_back(file);
   }
   return missing;
@@ -32,9 +33,16 @@ std::vector<fs::path> missing_champions(const experiment::RunPaths& paths) {
 
 ExitCode verify(const fs::path& folder) {
   const auto paths = experiment::find_run(folder);
-  const auto origin = experiment::origin_of(paths);
-  const auto files = paths.champion_files(), missing = missing_champions(paths);
-  if (files.empty() && missing.empty()) fail(ExitCode::bad_input, "{}: no champion yet", folder.string());
+  auto origin = experiment::origin_of(paths);
+  std::optional<UserError> no_table;
+  try {
+    origin.best_m = analysis::read_generations(paths.generations).best_m;
+  } catch (const UserError& error) {  // champions can be run again without it
+    no_table = error;
+  }
+  const auto files = paths.champion_files(), missing = missing_champions(paths, origin.best_m);
+  if (files.empty() && missing.empty() && !no_table)
+    fail(ExitCode::bad_input, "{}: no champion yet", folder.string());
   std::size_t agreeing = 0;
   for (const auto& file : files) {
     const auto verdict = experiment::verify_champion(file, stop_signal(), &origin);
@@ -45,6 +53,7 @@ ExitCode verify(const fs::path& folder) {
   for (const auto& file : missing) fmt::print("{} missing\n", file.string());
   const std::size_t all = files.size() + missing.size();
   fmt::print("{} of {} champions agree\n", agreeing, all);
+  if (no_table) throw *no_table;
   return agreeing == all ? ExitCode::ok : ExitCode::differs;
 }
 

@@ -47,11 +47,10 @@ void save_checkpoint(const std::filesystem::path& path, const Config& config, co
 }
 
 std::vector<std::filesystem::path> unnamed_checkpoints(const std::filesystem::path& path) {
-  const std::string beginning = path.filename().string() + std::string(io::temporary_mark);
   std::vector<std::filesystem::path> found;
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator(path.parent_path(), none))
-    if (entry.path().filename().string().starts_with(beginning)) found.push_back(entry.path());
+    if (io::destination_of(entry.path()) == path) found.push_back(entry.path());
   return found;
 }
 

@@ -30,8 +30,7 @@ void save_checkpoint(const std::filesystem::path& path, const Config& config, co
                      const neat::Population& population, const search::Search& search);
 
 /// What was written, whole or in part, under a temporary name (io::AtomicFile) by a process that was killed
-/// before it could name it `path`. If one is whole, and so are the files that it counts on, it is newer than
-/// `path`.
+/// before it could name it `path`.
 std::vector<std::filesystem::path> unnamed_checkpoints(const std::filesystem::path& path);
 
 /// Restores what save_checkpoint wrote. Throws UserError(ExitCode::bad_file): foreign, of another version,

@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "amble/core/error.hpp"
-#include "amble/io/printable.hpp"
 #include "amble/io/toml_settings.hpp"
 #include "amble/physics/engine.hpp"
 #include "amble/score/path_behaviour.hpp"
@@ -89,9 +88,6 @@ Config load_config(const std::filesystem::path& path, const Overrides& overrides
   }
   const std::filesystem::path robot = config.robot;
   if (robot.is_relative()) config.robot = (document->folder_of("robot") / robot).lexically_normal().string();
-  if (!std::filesystem::exists(config.robot))
-    fail(ExitCode::io, "{}: 'robot' = \"{}\": no such file: {}", document->where("robot"),
-         io::printable(robot.string()), io::printable(config.robot));
   return config;
 }
 

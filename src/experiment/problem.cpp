@@ -1,10 +1,13 @@
 #include "amble/experiment/problem.hpp"
 
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
+#include "amble/io/printable.hpp"
 #include "amble/morphology/robot_file.hpp"
 #include "amble/morphology/robot_json.hpp"
 
@@ -72,6 +75,14 @@ morphology::RobotSpec load_robot_file(const std::filesystem::path& path) {
   if (path.extension() != ".json") return morphology::load_robot(path);
   const auto sealed = io::unseal_json("amble-robot", robot_version, io::read_file(path), path.string());
   return morphology::from_json(io::JsonView(sealed.document, path.string()).at("robot"));
+}
+
+morphology::RobotSpec load_robot(const Config& config) {
+  std::error_code error;
+  if (!std::filesystem::exists(config.robot, error) && config.where)
+    fail(ExitCode::io, "{}: 'robot': {}: {}", config.where({"robot"}), io::printable(config.robot),
+         error ? error.message() : "No such file or directory");
+  return load_robot_file(config.robot);
 }
 
 std::string robot_file_text(const morphology::RobotSpec& robot) {

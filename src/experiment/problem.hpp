@@ -49,6 +49,8 @@ struct Problem {
 };
 
 /// A robot file: the TOML side file of a model, or the robot.json of a run folder. Throws UserError.
+/// The robot of a config. Throws UserError; of a file that is not there, with the place that names it.
+morphology::RobotSpec load_robot(const Config& config);
 morphology::RobotSpec load_robot_file(const std::filesystem::path& path);
 /// The text of a robot.json.
 std::string robot_file_text(const morphology::RobotSpec& robot);

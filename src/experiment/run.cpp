@@ -60,7 +60,7 @@ Run::Run(RunFolder folder, const Config& config, const morphology::RobotSpec& ro
 
 Run Run::start(const std::filesystem::path& folder, const Config& config, int jobs) {
   check_memory(config);
-  const auto robot = load_robot_file(config.robot);
+  const auto robot = load_robot(config);
   complain_early(config, robot);  // before anything is written
   Run run(RunFolder::create(folder, robot), config, robot, jobs);
   run.csv_ = std::make_unique<io::AppendFile>(run.paths().generations, 0);
@@ -84,7 +84,6 @@ Run Run::resume(const std::filesystem::path& folder, std::optional<int> generati
   const auto robot = held.load_robot();
   Run run(std::move(held), config, robot, jobs);
   const auto archive_bytes = run.restore_newest();
-  run.check_best();
   if (generations && *generations < run.generation())
     fail(ExitCode::bad_input, "{}: {} generations are done already, --generations {} asks for fewer",
          folder.string(), run.generation(), *generations);
@@ -103,18 +102,26 @@ std::optional<std::uint64_t> Run::restore(const std::filesystem::path& checkpoin
 }
 
 std::optional<std::uint64_t> Run::restore_newest() {
+  auto archive_bytes = restore(paths().checkpoint);
+  const int named = generation();
   for (const auto& unnamed : unnamed_checkpoints(paths().checkpoint)) {
     try {
-      const auto archive_bytes = restore(unnamed);
+      const auto newer_bytes = restore(unnamed);
       // After a power cut the checkpoint may be on the disk and what it counts on may not.
-      if (std::filesystem::file_size(paths().generations) < progress_.csv_bytes) continue;
-      io::write_file(paths().checkpoint, io::read_file(unnamed));
-      return archive_bytes;
+      std::error_code error;
+      const auto csv_bytes = std::filesystem::file_size(paths().generations, error);
+      if (!error && csv_bytes >= progress_.csv_bytes && generation() > named) {
+        check_best();
+        io::write_file(paths().checkpoint, io::read_file(unnamed));
+        return newer_bytes;
+      }
     } catch (const UserError&) {
       // Cut off while it was written, or its archive was: the checkpoint before it counts.
     }
+    archive_bytes = restore(paths().checkpoint);
   }
-  return restore(paths().checkpoint);
+  check_best();
+  return archive_bytes;
 }
 
 void Run::check_best() const {
@@ -122,7 +129,11 @@ void Run::check_best() const {
   const auto file = paths().champion(progress_.best_generation);
   if (!std::filesystem::exists(file))
     fail(ExitCode::bad_file, "{}: missing, and it is the best of the run so far", file.string());
-  load_champion(file);
+  const auto best = load_champion(file);
+  if (best.generation != progress_.best_generation || best.seed != config_.seed ||
+      best.objective_m() != progress_.best_m)
+    fail(ExitCode::bad_file, "{}: not the champion that the run had there: that walked {} m, this one {} m",
+         file.string(), progress_.best_m, best.objective_m());
 }
 
 RunStatus Run::execute(RunListener& listener, const std::atomic<bool>& stop) {

@@ -61,9 +61,10 @@ class Run {
   /// Takes everything back from a checkpoint and what belongs to it. Returns how many bytes of the archive's
   /// file belong to it; nothing without an archive. Throws UserError.
   std::optional<std::uint64_t> restore(const std::filesystem::path& checkpoint);
-  /// The same from the newest one that is whole.
+  /// The same from the newest one that is whole, as are the files that it counts on.
   std::optional<std::uint64_t> restore_newest();
-  /// Throws UserError if the file of the best champion is gone or damaged, which would go unnoticed else.
+  /// Throws UserError if the file of the best champion is gone, damaged or another one, which would go
+  /// unnoticed else.
   void check_best() const;
   /// All files but the champions, in an order from which a run goes on wherever it is cut off. They are
   /// written when it returns, so that nothing is lost with the process, and synced while the next generation

@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <chrono>
 #include <optional>
-#include <string_view>
 #include <system_error>
-#include <utility>
 
 #include "amble/core/error.hpp"
 #include "amble/experiment/build_info.hpp"
@@ -25,27 +24,26 @@ constexpr std::string_view manifest_format = "amble-manifest";
 constexpr int run_version = 4;
 constexpr std::string_view lock_name = ".lock";
 
-bool is_number(std::string_view text) {
-  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+std::string champion_name(int generation) {
+  return fmt::format("{:05}.json", generation);
 }
 
-/// The generation of a champion file's name; nothing for any other file.
-std::optional<std::string> generation_digits(const fs::path& file) {
+/// The generation of a champion's file, by its name; nothing for any other file.
+std::optional<int> generation_of(const fs::path& file) {
   const std::string stem = file.stem().string();
-  if (file.extension() != ".json" || !is_number(stem)) return std::nullopt;
-  return stem.substr(std::min(stem.find_first_not_of('0'), stem.size() - 1));
+  int generation = -1;
+  std::from_chars(stem.data(), stem.data() + stem.size(), generation);
+  if (generation < 0 || file.filename() != champion_name(generation)) return std::nullopt;
+  return generation;
 }
 
-/// Left by a process that was killed while it wrote one of a run's own files (io::AtomicFile).
+/// Left by a process that was killed while it wrote one of a run's own files.
 bool is_temporary(const fs::path& file) {
-  const std::string name = file.filename().string();
-  const auto at = name.rfind(io::temporary_mark);
-  if (at == std::string::npos || !is_number(std::string_view(name).substr(at + io::temporary_mark.size())))
-    return false;
-  const fs::path written = file.parent_path() / name.substr(0, at);
+  const auto written = io::destination_of(file);
+  if (!written) return false;
   const RunPaths paths(file.parent_path());
   return written == paths.config || written == paths.robot || written == paths.manifest ||
-         written == paths.checkpoint || generation_digits(written);
+         written == paths.checkpoint || generation_of(*written);
 }
 
 void remove_temporaries(const fs::path& folder) {
@@ -70,11 +68,13 @@ bool holds_nothing(const fs::path& folder) {
 }
 
 void make_folder(const fs::path& folder) {
+  std::vector<fs::path> missing;
+  for (fs::path at = folder; !at.empty() && !fs::exists(at); at = at.parent_path()) missing.push_back(at);
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) fail(ExitCode::io, "cannot make folder {}: {}", folder.string(), error.message());
   if (!fs::is_directory(folder)) fail(ExitCode::io, "{} is not a folder", folder.string());
-  io::sync_entry(folder);
+  for (const auto& made : missing) io::sync_entry(made);
 }
 
 /// Before anything is made or locked: a folder that is in use stays as it is.
@@ -115,19 +115,16 @@ RunPaths::RunPaths(const fs::path& folder_in)
       champions(folder / "champions") {}
 
 fs::path RunPaths::champion(int generation) const {
-  return champions / fmt::format("{:05}.json", generation);
+  return champions / champion_name(generation);
 }
 
 std::vector<fs::path> RunPaths::champion_files() const {
   std::vector<fs::path> files;
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(champions, none))
-    if (generation_digits(entry.path())) files.push_back(entry.path());
+    if (generation_of(entry.path())) files.push_back(entry.path());
   // As numbers: the names have five digits or more.
-  std::ranges::sort(files, {}, [](const fs::path& file) {
-    const std::string digits = *generation_digits(file);
-    return std::pair(digits.size(), digits);
-  });
+  std::ranges::sort(files, {}, [](const fs::path& file) { return *generation_of(file); });
   return files;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "amble/core/error.hpp"
@@ -80,14 +81,26 @@ void compare(const Champion& champion, const std::filesystem::path& path, const 
   const auto own = problem_json(champion.problem), expected = problem_json(origin.problem);
   for (const auto& [key, value] : expected.items())
     if (own.at(key) != value) found.push_back(fmt::format("its {} is not the run's", key));
-  if (io::settings_to_json(champion.problem.noise) != io::settings_to_json(origin.problem.noise))
+  const auto &noise = champion.problem.noise, &expected_noise = origin.problem.noise;
+  // Without noise a champion's file has no settings of noise.
+  if ((noise.any() || expected_noise.any()) &&
+      io::settings_to_json(noise) != io::settings_to_json(expected_noise))
     found.push_back("its noise is not the run's");
+
+  const auto generation = static_cast<std::size_t>(champion.generation);
+  if (generation >= origin.best_m.size()) return;  // ahead of the table, if the run was killed then
+  const double best_m = origin.best_m[generation];
+  const auto before = std::span(origin.best_m).first(generation);
+  if (std::ranges::any_of(before, [&](double earlier_m) { return earlier_m >= best_m; }))
+    found.push_back("the run kept no champion of its generation");
+  else if (champion.objective_m() != best_m)
+    found.push_back(fmt::format("it walked {} m, the run's {} m", champion.objective_m(), best_m));
 }
 
 }  // namespace
 
 Origin origin_of(const RunPaths& paths) {
-  Origin origin{.config = load_config(paths.config, {}), .problem = {}};
+  Origin origin{.config = load_config(paths.config, {}), .problem = {}, .best_m = {}};
   origin.problem = Problem::make(origin.config, load_robot_file(paths.robot));
   return origin;
 }

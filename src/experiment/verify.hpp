@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "amble/experiment/run_folder.hpp"
 
@@ -15,17 +16,19 @@ struct Verdict {
   std::string text;  ///< "agrees: …", "differs: …" with the first step that does, or "unsound: …"
 };
 
-/// What the champions of a run have in common.
+/// What shows whether a champion is a run's own.
 struct Origin {
   Config config;
   Problem problem;
+  std::vector<double> best_m;  ///< by generation, as far as the run's table goes
 };
-/// Reads it from the run's folder. Throws UserError.
+/// Reads all but the table from the run's folder. Throws UserError.
 Origin origin_of(const RunPaths& paths);
 
 /// Runs the champion of a file again, step by step against its trace. With an `origin` it must be that run's,
-/// of the generation in the file's name. An altered or unsound file is a verdict, not an error. Nothing if
-/// `stop` was set. Throws UserError if the file cannot be read at all.
+/// of the generation in the file's name, and have walked as far as the run's table says. An altered or
+/// unsound file is a verdict, not an error. Nothing if `stop` was set. Throws UserError if the file cannot be
+/// read at all.
 std::optional<Verdict> verify_champion(const std::filesystem::path& path, const std::atomic<bool>& stop,
                                        const Origin* origin = nullptr);
 

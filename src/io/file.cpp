@@ -88,6 +88,16 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t limit_byt
   return bytes;
 }
 
+std::optional<std::filesystem::path> destination_of(const std::filesystem::path& temporary) {
+  const std::string name = temporary.filename().string();
+  const auto at = name.rfind(temporary_mark);
+  if (at == std::string::npos) return std::nullopt;
+  const auto process = std::string_view(name).substr(at + temporary_mark.size());
+  if (process.empty() || process.find_first_not_of("0123456789") != std::string_view::npos)
+    return std::nullopt;
+  return temporary.parent_path() / name.substr(0, at);
+}
+
 AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), written_path_(path) {
   if (!is_special_file(path)) written_path_ += fmt::format("{}{}", temporary_mark, ::getpid());
   fd_ = ::open(written_path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);

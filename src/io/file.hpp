@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -30,6 +31,10 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t limit_byt
 
 /// Between a file's name and the process id in the name of its temporary file.
 inline constexpr std::string_view temporary_mark = ".tmp.";
+
+/// The file that a temporary file was to become, by its name ("a.json" of "a.json.tmp.12"); nothing for any
+/// other file.
+std::optional<std::filesystem::path> destination_of(const std::filesystem::path& temporary);
 
 /// Replaces a file whole or not at all: what is written goes to PATH.tmp.<pid> in the same folder; commit()
 /// syncs that, renames it and syncs the folder. Without commit(), or after a failure (no space, no

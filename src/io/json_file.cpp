@@ -38,7 +38,11 @@ int depth_of(std::string_view text) {
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');
   const std::size_t newline = before.rfind('\n');
   const std::size_t column = newline == std::string_view::npos ? before.size() + 1 : before.size() - newline;
-  fail(ExitCode::bad_file, "{}:{}:{}: not valid JSON", what, line, column);
+  constexpr std::size_t longest_word = 20;
+  const std::string_view rest = text.substr(before.size());
+  const std::string_view word = rest.substr(0, std::max<std::size_t>(1, rest.find_first_of(",]} \t\r\n")));
+  fail(ExitCode::bad_file, "{}:{}:{}: not valid JSON: '{}'", what, line, column,
+       printable(word.substr(0, longest_word)));
 }
 
 std::string checksum_of(const Json& document) {

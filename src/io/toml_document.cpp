@@ -153,19 +153,26 @@ std::filesystem::path TomlDocument::folder_of(std::string_view key_path) const {
 }
 
 std::string TomlDocument::where(std::string_view key_path) const {
-  const TomlNode* node = impl_->root.find_path(key_path);
-  return node == nullptr ? impl_->root.where : node->where;
+  return where(std::vector<std::string>{std::string(key_path)});
 }
 
 std::string TomlDocument::where(const std::vector<std::string>& key_paths) const {
+  const TomlNode& root = impl_->root;
+  const auto rank = [&](const TomlNode& node) {
+    return node.from_command_line ? 2 : node.where.starts_with(root.where + ":") ? 1 : 0;
+  };
   const TomlNode* found = nullptr;
-  for (const std::string& key_path : key_paths) {
-    const TomlNode* node = impl_->root.find_path(key_path);
-    if (node == nullptr) continue;
-    if (node->from_command_line) return node->where;
-    if (found == nullptr) found = node;
+  for (std::string path : key_paths) {
+    const TomlNode* node = root.find_path(path);
+    // Of a key that an item of a list lacks, the item; of an item that a list lacks, the list.
+    for (std::size_t end = path.size();
+         node == nullptr && (end = path.find_last_of("[]", end - 1)) != std::string::npos;) {
+      node = root.find_path(path.substr(0, path[end] == ']' ? end + 1 : end));
+      if (end == 0) break;
+    }
+    if (node != nullptr && (found == nullptr || rank(*node) > rank(*found))) found = node;
   }
-  return found == nullptr ? impl_->root.where : found->where;
+  return found == nullptr ? root.where : found->where;
 }
 
 }  // namespace amble::io

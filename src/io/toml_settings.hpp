@@ -40,9 +40,10 @@ class TomlDocument {
   /// folder, and for keys from the command line.
   std::filesystem::path folder_of(std::string_view key_path) const;
   /// "FILE:LINE" of a key ("--set KEY=VALUE" if it came from there; the document's name if the key is
-  /// absent), for complaints found later.
+  /// absent), for complaints found later. Of a key that an item of a list lacks, that of the item.
   std::string where(std::string_view key_path) const;
-  /// The same of the first of these keys that came from the command line, else of the first that there is.
+  /// The same of the first of these keys that came from the command line, else of the first that stands in
+  /// the document itself, else of the first that stands in a document that it includes.
   std::string where(const std::vector<std::string>& key_paths) const;
 
  private:

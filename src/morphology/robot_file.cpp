@@ -84,8 +84,7 @@ void check_height(const std::string& what, const RobotSpec& robot) {
   if (start_m <= robot.fall_height_m)
     fail(ExitCode::bad_input,
          "{}: 'fall_height_m' = {}: expected less than {:.3f} m, where the root's centre of mass starts, or "
-         "every "
-         "trial would end at once",
+         "every trial would end at once",
          what, robot.fall_height_m, start_m);
 }
 

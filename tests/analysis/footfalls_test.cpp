@@ -25,7 +25,7 @@ TEST(Stances, AreNoneForAFootThatNeverTouches) {
   EXPECT_THAT(stances({}, 0.5), IsEmpty());
 }
 
-TEST(DutyFactor, IsTheShareOfTouchingFrames) {
+TEST(ContactShare, IsTheShareOfTouchingFrames) {
   EXPECT_EQ(contact_share({true, false, false, true}), 0.5);
   EXPECT_EQ(contact_share({false, false}), 0.0);
   EXPECT_EQ(contact_share({}), 0.0);

@@ -171,7 +171,7 @@ TEST_F(BadInput, SettingsThatDoNotFitTogether) {
 
 TEST_F(BadInput, MissingRobot) {
   expect_complaint({"evolve", config, "--set", "robot=none.toml", "--out", out_}, ExitCode::io,
-                   "--set robot=none.toml: 'robot' = \"none.toml\": no such file");
+                   "--set robot=none.toml: 'robot': none.toml: No such file or directory");
 }
 
 class BadRobot : public BadInput {
@@ -213,15 +213,15 @@ TEST_F(BadRobot, WithAModelThatIsNotThere) {
 
 TEST_F(BadInput, JobsZero) {
   expect_complaint({"evolve", config, "--jobs", "0", "--out", out_}, ExitCode::bad_input,
-                   "--jobs: 0: expected a number from 1 to 1024");
+                   "--jobs: 0: expected a whole number from 1 to 1024");
 }
 
 TEST_F(BadInput, SeedOrGenerationsThatAreNone) {
   for (const auto* seed : {"-1", "1.5", "one", "99999999999999999999"})
     expect_complaint({"evolve", config, "--seed", seed, "--out", out_}, ExitCode::bad_input,
-                     std::string("--seed: ") + seed + ": expected a number from 0 to 9007199254740992");
+                     std::string("--seed: ") + seed + ": expected a whole number from 0 to 9007199254740992");
   expect_complaint({"evolve", config, "--generations", "0", "--out", out_}, ExitCode::bad_input,
-                   "--generations: 0: expected a number from 1 to 1000000000");
+                   "--generations: 0: expected a whole number from 1 to 1000000000");
 }
 
 TEST_F(BadInput, OutFolderThatHoldsARun) {
@@ -345,7 +345,8 @@ TEST_F(BadInput, GaitOfWhatHasNone) {
 
 TEST_F(BadInput, RecordingThatIsNone) {
   spill(scratch_ / "walk.rec", "not a recording");
-  expect_complaint({"info", scratch_ / "walk.rec"}, ExitCode::bad_file, "(expected a run folder, a champion");
+  expect_complaint({"info", scratch_ / "walk.rec"}, ExitCode::bad_file,
+                   "walk.rec: expected a run folder, a champion");
 }
 
 TEST_F(BadInput, ViewOfWhatCannotBeShown) {

@@ -97,6 +97,7 @@ TEST_P(EachWay, ACheckpointThatIsWholeButNotYetNamedCountsIfTheOtherFilesKeepUpW
   std::filesystem::copy(
       late.champions, early.champions,
       std::filesystem::copy_options::recursive | std::filesystem::copy_options::update_existing);
+  const auto old = io::read_file(early.checkpoint);
   io::write_file(early.generations, io::read_file(late.generations));
   if (std::filesystem::exists(late.archive)) {
     io::write_file(unnamed, next);
@@ -104,9 +105,18 @@ TEST_P(EachWay, ACheckpointThatIsWholeButNotYetNamedCountsIfTheOtherFilesKeepUpW
     io::write_file(early.generations, io::read_file(late.generations));
     io::write_file(early.archive, io::read_file(late.archive));
   }
+  const auto copy = early.checkpoint.string() + ".tmp.bak";
+  io::write_file(copy, next);
+  EXPECT_EQ(Run::resume(early.folder, {}, 1).generation(), 1) << "a copy that somebody made";
+  EXPECT_TRUE(std::filesystem::exists(copy));
+  io::write_file(early.generations, io::read_file(late.generations));
+  if (std::filesystem::exists(late.archive)) io::write_file(early.archive, io::read_file(late.archive));
+
   io::write_file(unnamed, next);
   EXPECT_EQ(Run::resume(early.folder, {}, 1).generation(), 2);
   EXPECT_EQ(io::read_file(early.checkpoint), next);
+  io::write_file(unnamed, old);
+  EXPECT_EQ(Run::resume(early.folder, {}, 1).generation(), 2) << "an older one";
 }
 
 TEST_P(EachWay, CanBeResumedBeforeItsFirstGenerationIsDone) {

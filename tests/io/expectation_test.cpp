@@ -16,6 +16,7 @@ TEST(Expectation, SaysBoundsAndWhetherInfinityIsAValue) {
   EXPECT_EQ(expected_number({0.5}), "a number from 0.5 to inf");
   EXPECT_EQ(expected_number({-infinity, 3.0}), "a number from -inf to 3");
   EXPECT_EQ(expected_number({}), "a number");
+  EXPECT_EQ(expected_number({0.0, std::numeric_limits<double>::max()}), "a finite number of at least 0");
   EXPECT_EQ(expected_integer({2, 1000000}), "a whole number from 2 to 1000000");
   EXPECT_EQ(expected_integer({1}), "a whole number of at least 1");
   EXPECT_EQ(expected_integer({-infinity, 9}), "a whole number of at most 9");

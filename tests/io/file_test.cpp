@@ -144,6 +144,13 @@ TEST(AtomicFile, ReplacesWhatAKilledProcessOfTheSameNumberLeftBehind) {
   EXPECT_THAT(folder.entries(), ElementsAre("f"));
 }
 
+TEST(DestinationOf, IsKnownOfTemporaryFilesOnly) {
+  EXPECT_EQ(destination_of("runs/1/a.json.tmp.4711"), std::filesystem::path("runs/1/a.json"));
+  EXPECT_EQ(destination_of("a.tmp.1.tmp.2"), std::filesystem::path("a.tmp.1"));
+  for (const auto* other : {"a.json", "a.json.tmp.", "a.json.tmp.bak", "a.json.tmp.1x", "", "a.tmp.-1"})
+    EXPECT_FALSE(destination_of(other)) << other;
+}
+
 TEST(AppendFile, GrowsAndCutsOffWhatLiesBeyondTheCheckpoint) {
   const test::TemporaryFolder folder;
   {

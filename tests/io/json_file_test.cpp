@@ -85,10 +85,10 @@ TEST(SealedJson, TellsForeignFilesAndOtherVersions) {
 }
 
 TEST(SealedJson, NamesLineAndColumnOfASyntaxError) {
-  EXPECT_EQ(refusal("{\n  \"format\": \"champion\",\n  oops\n}"), "c.json:3:3: not valid JSON");
-  EXPECT_EQ(refusal("?"), "c.json:1:1: not valid JSON");
-  EXPECT_EQ(refusal("{} {}"), "c.json:1:4: not valid JSON");
-  EXPECT_EQ(refusal("{\"a\": NaN}"), "c.json:1:7: not valid JSON");
+  EXPECT_EQ(refusal("{\n  \"format\": \"champion\",\n  oops\n}"), "c.json:3:3: not valid JSON: 'oops'");
+  EXPECT_EQ(refusal("?"), "c.json:1:1: not valid JSON: '?'");
+  EXPECT_EQ(refusal("{} {}"), "c.json:1:4: not valid JSON: '{'");
+  EXPECT_EQ(refusal("{\"a\": NaN}"), "c.json:1:7: not valid JSON: 'NaN'");
 }
 
 TEST(SealedJson, TellsEveryTruncation) {

@@ -40,6 +40,10 @@ TEST(TomlInclude, LaterFilesAndTheDocumentItselfOverrideKeyByKey) {
   EXPECT_EQ(document.where("inner.seed"), parts + "/b.toml:4");
   EXPECT_EQ(document.where("elitism"), top.string() + ":2");
   EXPECT_EQ(document.where("colour"), top.string());
+  using Keys = std::vector<std::string>;
+  EXPECT_EQ(document.where(Keys{"colour", "population", "elitism"}), top.string() + ":2") << "its own first";
+  EXPECT_EQ(document.where(Keys{"colour", "population", "inner.seed"}), parts + "/a.toml:1");
+  EXPECT_EQ(document.where(Keys{"colour", "hue"}), top.string());
   EXPECT_EQ(document.folder_of("inner.seed"), folder / "parts");
   EXPECT_EQ(document.folder_of("colour"), folder / "top");
 }
@@ -121,9 +125,21 @@ TEST(TomlSet, OverridesAndMakesTables) {
   EXPECT_EQ(sample.weights, (std::vector<double>{1.0, 2.0}));
   EXPECT_EQ(sample.legs, (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(document.where("population"), "--set population=6");
+  EXPECT_EQ(document.where(std::vector<std::string>{"inner.rate", "population"}), "--set population=6");
   EXPECT_EQ(document.where("inner.rate"), "conf/x.toml:3");
   EXPECT_EQ(document.folder_of("population"), "");
   EXPECT_EQ(document.folder_of("inner.rate"), "conf");
+}
+
+TEST(TomlDocument, SaysWhereAnItemOfAListIsWhenAKeyOfItIsMissing) {
+  const auto document = TomlDocument::parse("[a]\nnodes = [\n  {x = 1},\n  {x = 2, y = [3]},\n]\n", "c.toml");
+  EXPECT_EQ(document.where("a.nodes[1].x"), "c.toml:4");
+  EXPECT_EQ(document.where("a.nodes[1].name"), "c.toml:4");
+  EXPECT_EQ(document.where("a.nodes[1].y[7]"), "c.toml:4");
+  EXPECT_EQ(document.where("a.nodes[9].name"), "c.toml:2");
+  EXPECT_EQ(document.where("a.links[0].from"), "c.toml");
+  EXPECT_EQ(document.where("[]"), "c.toml");
+  EXPECT_EQ(document.where(""), "c.toml");
 }
 
 TEST(TomlSet, LastOneHolds) {

@@ -185,7 +185,7 @@ TEST(RecordingReader, RefusesSoundlySealedHeadersThatMakeNoSense) {
   EXPECT_EQ(refusal(R"({"frame_s": 1, "columns": [1], )" + rest), ": key 'columns[0]' must be text");
   EXPECT_EQ(refusal(R"({"frame_s": 1, "columns": ["a"], "robot": 1})"), ": key 'robot' must be an object");
   EXPECT_EQ(refusal(R"({"frame_s": 1, "columns": ["a"], "robot": {}})"), ": key 'controller' is missing");
-  EXPECT_EQ(refusal("{\n}}"), ":2:2: not valid JSON");
+  EXPECT_EQ(refusal("{\n}}"), ":2:2: not valid JSON: '}'");
 }
 
 TEST(Mutation, Recording) {
