@@ -1,67 +1,13 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "tests/cli/bad_input.hpp"
+
 #include <sys/mount.h>
 #include <unistd.h>
-
-#include <algorithm>
-#include <map>
-
-#include "amble/core/error.hpp"
-#include "tests/cli/process.hpp"
 
 namespace amble::tests {
 namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-using testing::StartsWith;
-
-const std::string source = AMBLE_SOURCE_DIR;
-const std::string config = source + "/configs/authors/supg-objective.toml",
-                  novelty_config = source + "/configs/authors/supg-novelty.toml";
-
-/// Every file below a folder with its text.
-std::map<std::string, std::string> snapshot(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    files[entry.path().string()] = entry.is_regular_file() ? slurp(entry.path()) : "";
-  return files;
-}
-
-class BadInput : public testing::Test {
- protected:
-  /// One line on stderr that holds `words`, the exit code, and no file touched.
-  void expect_complaint(const std::vector<std::string>& arguments, ExitCode code, const std::string& words) {
-    const auto before = snapshot(scratch_.path());
-    const auto finished = amble(arguments);
-    EXPECT_EQ(finished.exit_code, static_cast<int>(code)) << finished.err;
-    EXPECT_THAT(finished.err, StartsWith("amble: "));
-    EXPECT_THAT(finished.err, HasSubstr(words));
-    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
-    auto after = snapshot(scratch_.path());
-    std::erase_if(after, [](const auto& file) { return file.first.ends_with("/.lock"); });
-    auto expected = before;
-    std::erase_if(expected, [](const auto& file) { return file.first.ends_with("/.lock"); });
-    EXPECT_EQ(after, expected);
-  }
-
-  /// A config of its own: that of the authors with more lines at its end.
-  std::string config_with(const std::string& lines) {
-    spill(scratch_ / "c.toml", "include = [\"" + config + "\"]\n" + lines + "\n");
-    return scratch_ / "c.toml";
-  }
-
-  /// A finished run of two generations.
-  void make_run(const std::string& from = config) {
-    const auto run = amble({"evolve", from, "--set", "population.size=40", "--set", "trial.duration_s=1",
-                            "--generations", "2", "--out", run_});
-    ASSERT_EQ(run.exit_code, 0) << run.err;
-  }
-
-  TemporaryFolder scratch_;
-  std::string out_ = scratch_ / "out";
-  std::string run_ = scratch_ / "run";
-};
 
 TEST_F(BadInput, NoCommandOrAnUnknownOne) {
   expect_complaint({}, ExitCode::bad_input, "subcommand");
@@ -172,43 +118,6 @@ TEST_F(BadInput, SettingsThatDoNotFitTogether) {
 TEST_F(BadInput, MissingRobot) {
   expect_complaint({"evolve", config, "--set", "robot=none.toml", "--out", out_}, ExitCode::io,
                    "--set robot=none.toml: 'robot': none.toml: No such file or directory");
-}
-
-class BadRobot : public BadInput {
- protected:
-  BadRobot() { fs::copy(source + "/robots/quadruped", scratch_ / "robot"); }
-  void replace(const std::string& file, const std::string& what, const std::string& with) {
-    auto text = slurp(scratch_ / "robot" / file);
-    const auto at = text.find(what);
-    ASSERT_NE(at, std::string::npos);
-    spill(scratch_ / "robot" / file, text.replace(at, what.size(), with));
-  }
-  std::string robot_ = scratch_ / "robot/authors.toml";
-};
-
-TEST_F(BadRobot, ThatMujocoRefuses) {
-  replace("authors.xml", "<worldbody>", "<worldbody><body><joint/></body>");
-  expect_complaint({"robot", robot_}, ExitCode::bad_input, "authors.xml");
-}
-
-TEST_F(BadRobot, ThatIsNoXml) {
-  replace("authors.xml", "</worldbody>", "");
-  expect_complaint({"robot", robot_}, ExitCode::bad_input, "authors.xml");
-}
-
-TEST_F(BadRobot, WithAJointThatTheSideFileDoesNotName) {
-  replace("authors.xml", "name=\"FL_knee\"", "name=\"FL_elbow\"");
-  expect_complaint({"robot", robot_}, ExitCode::bad_input, "FL_");
-}
-
-TEST_F(BadRobot, ThatHasFallenBeforeItStarts) {
-  replace("authors.toml", "fall_height_m = 0.467", "fall_height_m = 5");
-  expect_complaint({"robot", robot_}, ExitCode::bad_input, "'fall_height_m' = 5: expected less than 0.8");
-}
-
-TEST_F(BadRobot, WithAModelThatIsNotThere) {
-  fs::remove(scratch_ / "robot/authors.xml");
-  expect_complaint({"robot", robot_}, ExitCode::io, "authors.xml");
 }
 
 TEST_F(BadInput, JobsZero) {

@@ -51,7 +51,6 @@ TEST(StandardStreams, ThatCannotBeWrittenDoNotStopARun) {
   const TemporaryFolder scratch;
   EXPECT_EQ(shell(evolve(scratch / "full") + ">/dev/null 2>/dev/full"), ok);
   EXPECT_EQ(shell(evolve(scratch / "output") + ">/dev/full 2>/dev/null"), io);
-  // A reader that goes away after the first line.
   // A reader that goes away.
   const auto code = (scratch / "code").string();
   const auto run = "'" AMBLE_PROGRAM "' " + evolve(scratch / "pipe");
