@@ -7,12 +7,12 @@
 
 #include "amble/analysis/recorded_gait.hpp"
 #include "amble/cli/commands.hpp"
-#include "amble/cli/gait_observer.hpp"
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/io/file.hpp"
+#include "amble/study/gait_observer.hpp"
 
 namespace amble::cli {
 namespace {
@@ -30,7 +30,7 @@ struct GaitOptions {
 /// Lets a champion walk. Nothing if it was stopped.
 std::optional<analysis::GaitReport> champion_gait(const fs::path& path, const GaitOptions& options) {
   const auto champion = experiment::load_champion(path);
-  GaitObserver observer(champion.problem.robot, champion.problem.trial.timestep_s, options.settings);
+  study::GaitObserver observer(champion.problem.robot, champion.problem.trial.timestep_s, options.settings);
   const auto replay = experiment::replay(champion.problem, champion.genome,
                                          {.seconds = options.seconds,
                                           .engine = options.engine,

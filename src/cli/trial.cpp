@@ -7,12 +7,12 @@
 #include <string>
 
 #include "amble/cli/commands.hpp"
-#include "amble/cli/gait_observer.hpp"
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/io/file.hpp"
 #include "amble/record/frame_codec.hpp"
+#include "amble/study/gait_observer.hpp"
 
 namespace amble::cli {
 namespace {
@@ -30,7 +30,7 @@ constexpr std::uint32_t most_episodes = 1000000;
 ExitCode run_trial(const TrialOptions& options) {
   const auto champion = experiment::load_champion(options.champion);
   if (options.record) io::refuse_to_replace(*options.record, record::recording_magic, "a recording");
-  GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
+  study::GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
   experiment::ReplayOptions how{.seconds = options.seconds,
                                 .engine = options.engine,
                                 .record = options.record,

@@ -11,7 +11,6 @@
 #include "amble/analysis/recorded_gait.hpp"
 #include "amble/cli/commands.hpp"
 #include "amble/cli/cppn_graph.hpp"
-#include "amble/cli/gait_observer.hpp"
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/scratch_file.hpp"
 #include "amble/cli/stop_signal.hpp"
@@ -19,6 +18,7 @@
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/io/file.hpp"
+#include "amble/study/gait_observer.hpp"
 #include "amble/view/page.hpp"
 
 namespace amble::cli {
@@ -42,7 +42,7 @@ io::Json gait_of(const analysis::GaitReport& report) {
 std::optional<view::Walker> walk(const fs::path& path, const ViewOptions& options,
                                  const ScratchFile& recording) {
   const auto champion = experiment::load_champion(path);
-  GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
+  study::GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
   const auto replay = experiment::replay(champion.problem, champion.genome,
                                          {.seconds = options.seconds,
                                           .engine = options.engine,

@@ -1,9 +1,9 @@
-#include "amble/cli/gait_observer.hpp"
+#include "amble/study/gait_observer.hpp"
 
 #include "amble/analysis/robot_model.hpp"
 #include "amble/morphology/robot_json.hpp"
 
-namespace amble::cli {
+namespace amble::study {
 namespace {
 
 void copy_lane(const LaneArray& rows, int lane, std::vector<float>& values) {
@@ -27,4 +27,4 @@ void GaitObserver::on_step(int, const physics::Engine& engine, const controllers
       {.com_m = engine.com_m(lane), .touch = touch_, .angle_rad = angle_rad_, .torque_nm = torque_nm_});
 }
 
-}  // namespace amble::cli
+}  // namespace amble::study

@@ -7,7 +7,7 @@
 #include "amble/morphology/robot_spec.hpp"
 #include "amble/trial/trial.hpp"
 
-namespace amble::cli {
+namespace amble::study {
 
 /// Shows every step of a trial to a gait meter.
 class GaitObserver : public trial::Observer {
@@ -22,4 +22,4 @@ class GaitObserver : public trial::Observer {
   std::vector<float> touch_, angle_rad_, torque_nm_;
 };
 
-}  // namespace amble::cli
+}  // namespace amble::study

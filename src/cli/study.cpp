@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "amble/cli/commands.hpp"
+#include "amble/cli/messages.hpp"
+#include "amble/cli/option_checks.hpp"
+#include "amble/cli/stop_signal.hpp"
+#include "amble/cli/study_processes.hpp"
+#include "amble/cli/study_progress.hpp"
+#include "amble/study/fit.hpp"
+#include "amble/study/worker.hpp"
+
+namespace amble::cli {
+namespace {
+
+struct StudyOptions {
+  std::filesystem::path file, out;
+  std::string shard = "1/1";
+  int jobs = 1, workers = 1;
+  bool discard_runs = false, status = false;
+  bool as_child = false;  ///< one of a parent's processes
+};
+
+/// How a study's part stands, and how it ended, for people.
+ExitCode conclude(const study::Plan& plan, const StudyOptions& options, int failed, bool interrupted,
+                  ExitCode failure) {
+  const auto states = study::survey(plan);
+  const auto part = plan.shard(study::Shard::parse(options.shard));
+  const auto done =
+      std::ranges::count_if(part, [&](std::size_t run) { return states[run] == study::RunState::done; });
+  const std::string of_shard = options.shard == "1/1" ? "" : fmt::format(" of shard {}", options.shard);
+  const std::string folder = options.out.string();
+  fmt::print("{} of {} runs{} are done, digest {}\n", done, part.size(), of_shard,
+             ledger::ledger_digest(ledger::Ledger(plan.paths).load_all(plan.study)));
+  if (interrupted) {
+    say(fmt::format("stopped; go on by the same command\n"));
+    return ExitCode::interrupted;
+  }
+  if (failed > 0) {
+    say(fmt::format("{} runs failed; the same command tries them again\n", failed));
+    return failure;
+  }
+  if (done < static_cast<std::ptrdiff_t>(part.size()))
+    say("the rest are in the hands of other processes, or of one that was killed: the same command goes "
+        "on\n");
+  fmt::print("look at it by: amble report {} -o report.html\n", folder);
+  return ExitCode::ok;
+}
+
+ExitCode work_here(const study::Plan& plan, const std::vector<study::RunState>& states,
+                   const StudyOptions& options) {
+  const auto shard = study::Shard::parse(options.shard);
+  std::optional<StudyProgress> progress;
+  if (!options.as_child) progress.emplace(plan, states, shard, 1);
+  StudyReporter reporter(plan, progress ? &*progress : nullptr);
+  const auto result = study::work(
+      plan, states, {.shard = shard, .workers = options.workers, .discard_runs = options.discard_runs},
+      reporter, stop_signal());
+  progress.reset();
+  if (options.as_child) return result.interrupted ? ExitCode::interrupted : result.first_failure;
+  return conclude(plan, options, result.failed, result.interrupted, result.first_failure);
+}
+
+/// The same command for one of several processes.
+std::vector<std::string> child_arguments(const StudyOptions& options) {
+  std::vector<std::string> arguments{"study",     options.file.string(),
+                                     "--out",     options.out.string(),
+                                     "--shard",   options.shard,
+                                     "--workers", std::to_string(options.workers),
+                                     "--jobs",    "1",
+                                     "--child"};
+  if (options.discard_runs) arguments.emplace_back("--discard-runs");
+  return arguments;
+}
+
+ExitCode work_in_processes(const study::Plan& plan, const std::vector<study::RunState>& states,
+                           const StudyOptions& options, int processes) {
+  StudyProgress progress(plan, states, study::Shard::parse(options.shard), processes);
+  ChildProcesses children(
+      std::vector<std::vector<std::string>>(static_cast<std::size_t>(processes), child_arguments(options)));
+  int failed = 0;
+  const auto exits = children.wait(
+      [&](const std::string& line) {
+        StudyEvent event;
+        if (!StudyEvent::parse(line, event) || event.run >= plan.runs.size()) return;
+        failed += event.kind == StudyEvent::Kind::failure;
+        progress.on(event);
+      },
+      stop_signal());
+  ExitCode failure = ExitCode::ok;
+  bool interrupted = stop_signal();
+  for (const auto& exit : exits) {
+    if (exit.signal != 0) {
+      say(fmt::format("a process of the study was ended by signal {}\n", exit.signal));
+      ++failed;
+      failure = ExitCode::internal;
+    } else if (exit.code == static_cast<int>(ExitCode::interrupted)) {
+      interrupted = true;
+    } else if (exit.code != 0 && failure == ExitCode::ok) {
+      failure = static_cast<ExitCode>(exit.code);
+      failed = std::max(failed, 1);
+    }
+  }
+  return conclude(plan, options, failed, interrupted, failure);
+}
+
+ExitCode run_study(const StudyOptions& options) {
+  stop_signal();
+  std::signal(SIGPIPE, SIG_IGN);
+  const auto shard = study::Shard::parse(options.shard);
+  const auto plan = study::make_plan(ledger::load_study(options.file), options.out);
+  const auto states = study::survey(plan);
+  if (options.status) return conclude(plan, options, 0, false, ExitCode::ok);
+  ledger::keep_study(plan.paths, plan.study);
+  for (const auto& stranger : ledger::Ledger(plan.paths).strangers(plan.study))
+    if (!options.as_child) say(fmt::format("{}: no run of this study; passed over\n", stranger.string()));
+  const auto part = plan.shard(shard);
+  const auto open =
+      std::ranges::count_if(part, [&](std::size_t run) { return states[run] != study::RunState::done; });
+  const int processes = std::min(options.jobs, std::max(1, static_cast<int>(open)));
+  if (processes == 1 || options.as_child) return work_here(plan, states, options);
+  return work_in_processes(plan, states, options, processes);
+}
+
+}  // namespace
+
+void add_study(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand(
+      "study", "Compare conditions over many seeds: evolve, test champions, keep a record of each run");
+  auto options = std::make_shared<StudyOptions>();
+  options->jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  command->add_option("FILE", options->file, "Study file (TOML)")->required();
+  command->add_option("--out", options->out, "Folder of the study; goes on with what is there")->required();
+  command->add_option("--jobs", options->jobs, "Processes, each with a run of its own")
+      ->capture_default_str()
+      ->check(between(1, 1024));
+  command->add_option("--workers", options->workers, "Workers within each run")
+      ->capture_default_str()
+      ->check(between(1, 1024));
+  command->add_option("--shard", options->shard, "The I-th of N parts of the study, e.g. 2/8")
+      ->capture_default_str();
+  command->add_flag("--discard-runs", options->discard_runs,
+                    "Remove a run's folder once its record is in the ledger");
+  command->add_flag("--status", options->status, "Only say what is done");
+  command->add_flag("--child", options->as_child)->group("");
+  command->callback([options, &action] { action = [options] { return run_study(*options); }; });
+}
+
+}  // namespace amble::cli

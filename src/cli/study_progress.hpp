@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "amble/study/plan.hpp"
+#include "amble/study/worker.hpp"
+
+namespace amble::cli {
+
+/// What a process tells of its work on a study: one line of text each, so that a parent reads it from a pipe.
+struct StudyEvent {
+  enum class Kind { start, generation, finish, failure };
+  Kind kind = Kind::start;
+  std::size_t run = 0;  ///< index in Plan::runs
+  int generations = 0;  ///< done of this run
+  double best_m = 0.0;  ///< of a run that is finished
+  std::string reason;   ///< of a failure
+
+  std::string line() const;
+  /// Nothing for a line that is none.
+  static bool parse(std::string_view line, StudyEvent& event);
+};
+
+/// Progress over all runs of a study: on a terminal one line that is rewritten, else a line per finished run.
+class StudyProgress {
+ public:
+  /// `processes` work at a time.
+  StudyProgress(const study::Plan& plan, const std::vector<study::RunState>& states,
+                const study::Shard& shard, int processes);
+  ~StudyProgress();
+  StudyProgress(const StudyProgress&) = delete;
+  StudyProgress& operator=(const StudyProgress&) = delete;
+
+  void on(const StudyEvent& event);
+
+ private:
+  struct Pace {
+    double generations = 0.0, seconds = 0.0;
+  };
+
+  void note_pace(std::size_t run, int generations);
+  double left_s() const;
+  std::string summary() const;
+  void print(const std::string& line, bool stays);
+
+  const study::Plan& plan_;
+  int processes_;
+  bool terminal_;
+  double start_s_, last_print_s_ = -1e9;
+  int total_ = 0, done_ = 0, failed_ = 0;
+  std::vector<int> left_;               ///< generations left, by run; 0: done or not of this shard
+  std::map<std::size_t, double> at_s_;  ///< when a run in progress was heard of last
+  std::vector<Pace> pace_;              ///< by condition, as observed here
+  bool open_ = false;
+};
+
+/// Tells each event to a progress display, or writes it as a line for a parent.
+class StudyReporter : public study::Listener {
+ public:
+  StudyReporter(const study::Plan& plan, StudyProgress* progress) : plan_(plan), progress_(progress) {}
+  void on_start(const study::PlannedRun& run, int generations_done) override;
+  void on_generation(const study::PlannedRun& run, int generations_done) override;
+  void on_finish(const study::PlannedRun& run, const ledger::Record& record) override;
+  void on_failure(const study::PlannedRun& run, const std::string& reason) override;
+
+ private:
+  void tell(const StudyEvent& event);
+  std::size_t index_of(const study::PlannedRun& run) const;
+
+  const study::Plan& plan_;
+  StudyProgress* progress_;  ///< null: lines on the standard output
+  double last_line_s_ = -1e9;
+};
+
+}  // namespace amble::cli

@@ -1,0 +1,107 @@
+#include "amble/ledger/claim_spec.hpp"
+
+#include <fmt/format.h>
+
+#include "amble/ledger/measures.hpp"
+#include "amble/ledger/study_spec.hpp"
+
+namespace amble::ledger {
+namespace {
+
+/// Checks of one claim, each with the place of its key.
+class ClaimCheck {
+ public:
+  ClaimCheck(const StudySpec& study, std::size_t index) : study_(study), index_(index) {}
+
+  void that(bool holds, std::string_view key, std::string_view expected) const {
+    if (holds) return;
+    const std::string path = fmt::format("claims[{}].{}", index_, key);
+    throw study_.error_at(path, fmt::format("'{}': expected {}", path, expected));
+  }
+  void condition(std::string_view key, const std::string& name) const {
+    that(study_.find(name) != nullptr, key, fmt::format("the name of a condition, not \"{}\"", name));
+  }
+  void measure(std::string_view key, const std::string& name) const {
+    that(is_measure(study_, name), key,
+         fmt::format("train_m, hidden, links, or TEST.distance_m, .upright_s, .walking_s, .kept, not \"{}\"",
+                     name));
+  }
+
+ private:
+  const StudySpec& study_;
+  std::size_t index_;
+};
+
+void check_ratio(const ClaimSpec& claim, const ClaimCheck& check) {
+  check.that(claim.against.empty() != claim.base_measure.empty(), "against",
+             "either 'against' (a condition) or 'base_measure' for a ratio");
+  if (claim.against.empty())
+    check.measure("base_measure", claim.base_measure);
+  else
+    check.condition("against", claim.against);
+  check.that(claim.at_least > -unbounded || claim.at_most < unbounded, "at_least",
+             "at_least, at_most or both for a ratio");
+}
+
+void check_count(const ClaimSpec& claim, const ClaimCheck& check) {
+  check.that((claim.threshold > -unbounded) != !claim.threshold_condition.empty(), "threshold",
+             "either 'threshold' or 'threshold_condition' for a count");
+  if (!claim.threshold_condition.empty()) check.condition("threshold_condition", claim.threshold_condition);
+  const bool bounded = claim.at_least > -unbounded || claim.at_most < unbounded;
+  check.that(bounded != (claim.runs > 0), "at_least",
+             "either bounds (at_least, at_most) or a published count (successes, runs)");
+  check.that(claim.successes <= claim.runs || claim.runs == 0, "successes", "at most 'runs'");
+}
+
+}  // namespace
+
+void ClaimSpec::describe(io::SettingsVisitor& visitor) {
+  visitor.text("text", text, {"the sentence"});
+  visitor.text("source", source, {"where it was claimed"});
+  visitor.text("figure", figure, {"the published figure, as text"});
+  visitor.choice("kind", kind, claim_kind_names, {"the rule that judges it"});
+  visitor.text("measure", measure, {"what is measured in each run"});
+  visitor.text("condition", condition, {"whose runs it is about"});
+  visitor.text("against", against, {"difference, ratio: the other condition"});
+  visitor.text("base_measure", base_measure, {"ratio: the denominator, in the same condition"});
+  visitor.choice("relation", relation, relation_names, {"difference: what the condition is to the other"});
+  visitor.choice("test", test, two_sample_test_names, {"difference: the test that decides"});
+  visitor.number("alpha", alpha, {1e-9, 0.5}, {"difference, value: level of significance"});
+  visitor.number("at_least", at_least, {}, {"ratio, count: lower bound; -inf: none"});
+  visitor.number("at_most", at_most, {}, {"ratio, count, plateau: upper bound; inf: none"});
+  visitor.number("threshold", threshold, {}, {"count: runs whose measure is at least this; -inf: not given"});
+  visitor.text("threshold_condition", threshold_condition,
+               {"count: the threshold is the mean of the measure in this condition"});
+  visitor.number("mean", mean, {}, {"value: the published mean"});
+  visitor.number("sd", sd, {0.0, unbounded}, {"value: the published standard deviation"});
+  visitor.integer("runs", runs, {0, 1e9}, {"value, count: runs behind the published figure"});
+  visitor.integer("successes", successes, {0, 1e9}, {"count: the published count"});
+  visitor.texts("includes", includes, {"gaits: all of these must occur"});
+  visitor.texts("only", only, {"gaits: nothing else may occur, irregular gaits apart"});
+  visitor.integer("from_generation", from_generation, {0, 1e9}, {"plateau: from when on the gain counts"});
+}
+
+void check_claim(const StudySpec& study, std::size_t index) {
+  const ClaimSpec& claim = study.claims[index];
+  const ClaimCheck check(study, index);
+  check.that(!claim.text.empty(), "text", "a sentence");
+  check.condition("condition", claim.condition);
+  if (claim.kind == ClaimKind::gaits) {
+    check.that(study.find_test(claim.measure) != nullptr, "measure",
+               fmt::format("the name of a test, not \"{}\"", claim.measure));
+    check.that(!claim.includes.empty() || !claim.only.empty(), "includes",
+               "names of gaits here or in 'only'");
+    return;
+  }
+  check.measure("measure", claim.measure);
+  if (claim.kind == ClaimKind::difference) check.condition("against", claim.against);
+  if (claim.kind == ClaimKind::ratio) check_ratio(claim, check);
+  if (claim.kind == ClaimKind::count) check_count(claim, check);
+  if (claim.kind == ClaimKind::value)
+    check.that(claim.sd > 0.0 && claim.runs > 1, "sd", "sd > 0 and runs > 1");
+  if (claim.kind == ClaimKind::plateau)
+    check.that(claim.at_most < unbounded && claim.from_generation > 0, "at_most",
+               "at_most and from_generation for a plateau");
+}
+
+}  // namespace amble::ledger

@@ -1,0 +1,96 @@
+#include "amble/ledger/ledger.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "amble/core/error.hpp"
+#include "amble/core/hash.hpp"
+#include "amble/io/file.hpp"
+
+namespace amble::ledger {
+namespace fs = std::filesystem;
+
+StudyPaths::StudyPaths(const fs::path& folder_in)
+    : folder(folder_in), spec(folder / "study.toml"), records(folder / "ledger"), runs(folder / "runs") {}
+
+fs::path StudyPaths::record(std::string_view condition, std::int64_t seed) const {
+  return records / fmt::format("{}-{:03}.json", condition, seed);
+}
+
+fs::path StudyPaths::run(std::string_view condition, std::int64_t seed) const {
+  return runs / fmt::format("{}-{:03}", condition, seed);
+}
+
+bool Ledger::has(std::string_view condition, std::int64_t seed) const {
+  return fs::exists(paths_.record(condition, seed));
+}
+
+Record Ledger::load(std::string_view condition, std::int64_t seed) const {
+  const fs::path path = paths_.record(condition, seed);
+  Record record = parse_record(io::read_file(path), path.string());
+  if (record.condition != condition || record.seed != seed)
+    fail(ExitCode::bad_file, "{}: the record of {} with seed {}, under another name", path.string(),
+         record.condition, record.seed);
+  return record;
+}
+
+void Ledger::save(const Record& record) const {
+  std::error_code error;
+  fs::create_directories(paths_.records, error);
+  if (error) fail(ExitCode::io, "cannot make folder {}: {}", paths_.records.string(), error.message());
+  io::write_file(paths_.record(record.condition, record.seed), record_text(record));
+}
+
+std::vector<Record> Ledger::load_all(const StudySpec& study) const {
+  std::vector<Record> records;
+  for (const ConditionSpec& condition : study.conditions)
+    for (const std::int64_t seed : study.seeds_of(condition))
+      if (has(condition.name, seed)) records.push_back(load(condition.name, seed));
+  return records;
+}
+
+std::vector<fs::path> Ledger::strangers(const StudySpec& study) const {
+  std::set<fs::path> own;
+  for (const ConditionSpec& condition : study.conditions)
+    for (const std::int64_t seed : study.seeds_of(condition)) own.insert(paths_.record(condition.name, seed));
+  std::vector<fs::path> others;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(paths_.records, none))
+    if (entry.path().extension() == ".json" && !own.contains(entry.path())) others.push_back(entry.path());
+  std::ranges::sort(others);
+  return others;
+}
+
+std::string ledger_digest(const std::vector<Record>& records) {
+  std::string digests;
+  for (const Record& record : records) digests += record.digest();
+  return hex(hash_text(digests));
+}
+
+StudySpec load_kept_study(const StudyPaths& paths) {
+  if (!fs::is_directory(paths.folder)) fail(ExitCode::io, "{}: no such folder", paths.folder.string());
+  if (!fs::exists(paths.spec))
+    fail(ExitCode::bad_input,
+         "{}: not a study (study.toml is missing); make one by: amble study FILE --out {}",
+         paths.folder.string(), paths.folder.string());
+  return load_study(paths.spec);
+}
+
+void keep_study(const StudyPaths& paths, const StudySpec& study) {
+  StudySpec kept = study;
+  const auto from_folder = [&paths](std::string& file) {
+    if (!file.empty()) file = fs::proximate(file, paths.folder).string();
+  };
+  for (ConditionSpec& condition : kept.conditions) from_folder(condition.config);
+  for (TestSpec& test : kept.tests) from_folder(test.noise);
+  const std::string text = kept.to_toml();
+  if (fs::exists(paths.spec) && io::read_file(paths.spec) == text) return;
+  std::error_code error;
+  fs::create_directories(paths.folder, error);
+  if (error) fail(ExitCode::io, "cannot make folder {}: {}", paths.folder.string(), error.message());
+  io::write_file(paths.spec, text);
+}
+
+}  // namespace amble::ledger

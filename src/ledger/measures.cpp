@@ -1,0 +1,78 @@
+#include "amble/ledger/measures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "amble/ledger/study_spec.hpp"
+
+namespace amble::ledger {
+namespace {
+
+struct RunMeasure {
+  std::string_view name, label;
+  double (*value)(const Record&);
+};
+constexpr std::array run_measures{
+    RunMeasure{"train_m", "distance in evolution, m", [](const Record& r) { return r.best_m; }},
+    RunMeasure{"hidden", "hidden nodes of the CPPN", [](const Record& r) { return 1.0 * r.hidden; }},
+    RunMeasure{"links", "links of the CPPN", [](const Record& r) { return 1.0 * r.links; }}};
+
+struct TestMeasure {
+  std::string_view name, label;
+  double (*value)(const Record&, const TestResult&);
+};
+constexpr std::array test_measures{
+    TestMeasure{"distance_m", "distance, m",
+                [](const Record&, const TestResult& t) { return t.distance_m(); }},
+    TestMeasure{"upright_s", "time upright, s",
+                [](const Record&, const TestResult& t) { return t.upright_s(); }},
+    TestMeasure{"walking_s", "time walking, s",
+                [](const Record&, const TestResult& t) { return t.walking_s(); }},
+    TestMeasure{"kept", "distance / distance in evolution", [](const Record& r, const TestResult& t) {
+                  return r.best_m > 0.0 ? t.distance_m() / r.best_m : 0.0;
+                }}};
+
+struct Parts {
+  std::string_view test, measure;
+};
+Parts split(std::string_view name) {
+  const std::size_t dot = name.find('.');
+  if (dot == std::string_view::npos) return {{}, name};
+  return {name.substr(0, dot), name.substr(dot + 1)};
+}
+
+}  // namespace
+
+bool is_measure(const StudySpec& study, std::string_view name) {
+  const auto [test, what] = split(name);
+  if (test.empty()) return std::ranges::find(run_measures, what, &RunMeasure::name) != run_measures.end();
+  return study.find_test(test) != nullptr &&
+         std::ranges::find(test_measures, what, &TestMeasure::name) != test_measures.end();
+}
+
+std::optional<double> measure(const Record& record, std::string_view name) {
+  const auto [test, what] = split(name);
+  if (test.empty()) {
+    const auto found = std::ranges::find(run_measures, what, &RunMeasure::name);
+    if (found == run_measures.end()) return std::nullopt;
+    return found->value(record);
+  }
+  const TestResult* const result = record.find_test(test);
+  const auto found = std::ranges::find(test_measures, what, &TestMeasure::name);
+  if (result == nullptr || found == test_measures.end()) return std::nullopt;
+  return found->value(record, *result);
+}
+
+std::string measure_label(std::string_view name) {
+  const auto [test, what] = split(name);
+  if (test.empty()) {
+    const auto found = std::ranges::find(run_measures, what, &RunMeasure::name);
+    return std::string(found == run_measures.end() ? name : found->label);
+  }
+  const auto found = std::ranges::find(test_measures, what, &TestMeasure::name);
+  return fmt::format("{}: {}", test, found == test_measures.end() ? what : found->label);
+}
+
+}  // namespace amble::ledger

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "amble/ledger/record.hpp"
+
+namespace amble::ledger {
+
+struct StudySpec;
+
+/// Numbers that figures, tests and claims take from a record, by name:
+///
+/// train_m            distance of the champion in evolution, m
+/// hidden, links      hidden nodes and enabled links of its CPPN
+/// TEST.distance_m    in the test of that name (median of its episodes), m
+/// TEST.upright_s     until the robot fell or the test ended, s
+/// TEST.walking_s     until it fell, stood still (score/walking.hpp) or the test ended, s
+/// TEST.kept          distance in the test / distance in evolution
+///
+/// Whether a study's records have a measure of that name.
+bool is_measure(const StudySpec& study, std::string_view name);
+
+/// Nothing if the record has no such test.
+std::optional<double> measure(const Record& record, std::string_view name);
+
+/// "distance in evolution, m"; for axes and tables.
+std::string measure_label(std::string_view name);
+
+}  // namespace amble::ledger

@@ -1,0 +1,187 @@
+#include "amble/ledger/record.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "amble/core/check.hpp"
+#include "amble/core/error.hpp"
+#include "amble/core/hash.hpp"
+#include "amble/core/statistics.hpp"
+
+namespace amble::ledger {
+namespace {
+
+constexpr std::string_view record_format = "amble-study-record";
+constexpr int record_version = 1;
+
+template <typename Value>
+double median_of(const std::vector<EpisodeResult>& episodes, Value EpisodeResult::*value) {
+  std::vector<double> values;
+  for (const EpisodeResult& episode : episodes) values.push_back(episode.*value);
+  return median(std::move(values));
+}
+
+io::Json to_json(const EpisodeResult& episode) {
+  return {{"distance_m", episode.distance_m},
+          {"seconds", episode.seconds},
+          {"walking_s", episode.walking_s},
+          {"outcome", record::outcome_names[static_cast<std::size_t>(episode.outcome)]}};
+}
+
+EpisodeResult episode_from(const io::JsonView& view) {
+  EpisodeResult episode{.distance_m = view.at("distance_m").finite_number(),
+                        .seconds = view.at("seconds").finite_number(),
+                        .walking_s = view.at("walking_s").finite_number()};
+  const auto outcome = view.at("outcome").text();
+  const auto found = std::ranges::find(record::outcome_names, outcome);
+  if (found == record::outcome_names.end()) view.at("outcome").bad("completed, fell or diverged");
+  episode.outcome = static_cast<record::Outcome>(found - record::outcome_names.begin());
+  return episode;
+}
+
+io::Json to_json(const TestResult& test) {
+  io::Json episodes = io::Json::array();
+  for (const EpisodeResult& episode : test.episodes) episodes.push_back(to_json(episode));
+  return {{"name", test.name},
+          {"settings", test.settings},
+          {"engine", test.engine},
+          {"trial_s", test.trial_s},
+          {"episodes", episodes},
+          {"gait", test.gait},
+          {"path_interval_s", test.path_interval_s},
+          {"path_m", test.path_m}};
+}
+
+TestResult test_from(const io::JsonView& view) {
+  TestResult test{.name = view.at("name").text(),
+                  .settings = view.at("settings").text(),
+                  .engine = view.at("engine").text(),
+                  .trial_s = view.at("trial_s").finite_number(),
+                  .episodes = {},
+                  .gait = view.at("gait").text(),
+                  .path_interval_s = view.at("path_interval_s").finite_number(),
+                  .path_m = {}};
+  const auto episodes = view.at("episodes");
+  for (std::size_t i = 0; i < episodes.size(); ++i) test.episodes.push_back(episode_from(episodes.at(i)));
+  if (test.episodes.empty()) episodes.bad("a list of at least one trial");
+  const auto path = view.at("path_m");
+  for (std::size_t i = 0; i < path.size(); ++i) test.path_m.push_back(path.at(i).finite_number());
+  return test;
+}
+
+/// All that depends on study, condition, seed and program alone.
+io::Json results_json(const Record& record) {
+  io::Json curve = io::Json::array(), tests = io::Json::array();
+  for (const CurvePoint& point : record.curve) curve.push_back({point.generation, point.best_m});
+  for (const TestResult& test : record.tests) tests.push_back(to_json(test));
+  return {{"study", record.study},
+          {"condition", record.condition},
+          {"seed", record.seed},
+          {"config", record.config},
+          {"generations", record.generations},
+          {"engine", record.engine},
+          {"evaluations", record.evaluations},
+          {"steps", record.steps},
+          {"best_m", record.best_m},
+          {"best_generation", record.best_generation},
+          {"hidden", record.hidden},
+          {"links", record.links},
+          {"curve", std::move(curve)},
+          {"tests", std::move(tests)},
+          {"champion_file", record.champion_file},
+          {"champion", record.champion}};
+}
+
+io::Json to_json(const Provenance& from) {
+  return {{"version", from.version},   {"commit", from.commit},
+          {"compiler", from.compiler}, {"flags", from.flags},
+          {"cpu", from.cpu},           {"finished_utc", from.finished_utc},
+          {"claims", from.claims},     {"evolution_s", from.evolution_s},
+          {"tests_s", from.tests_s},   {"workers", from.workers}};
+}
+
+int count_from(const io::JsonView& view) {
+  const std::int64_t value = view.integer();
+  if (value < 0 || value > std::numeric_limits<int>::max()) view.bad("a whole number from 0 to 2147483647");
+  return static_cast<int>(value);
+}
+
+Provenance provenance_from(const io::JsonView& view) {
+  return {.version = view.at("version").text(),
+          .commit = view.at("commit").text(),
+          .compiler = view.at("compiler").text(),
+          .flags = view.at("flags").text(),
+          .cpu = view.at("cpu").text(),
+          .finished_utc = view.at("finished_utc").text(),
+          .claims = view.at("claims").text(),
+          .evolution_s = view.at("evolution_s").finite_number(),
+          .tests_s = view.at("tests_s").finite_number(),
+          .workers = count_from(view.at("workers"))};
+}
+
+}  // namespace
+
+double TestResult::distance_m() const {
+  return median_of(episodes, &EpisodeResult::distance_m);
+}
+double TestResult::upright_s() const {
+  return median_of(episodes, &EpisodeResult::seconds);
+}
+double TestResult::walking_s() const {
+  return median_of(episodes, &EpisodeResult::walking_s);
+}
+
+const TestResult* Record::find_test(std::string_view name) const {
+  const auto found = std::ranges::find(tests, name, &TestResult::name);
+  return found == tests.end() ? nullptr : &*found;
+}
+
+double Record::best_after(int generation) const {
+  double best = 0.0;
+  for (const CurvePoint& point : curve)
+    if (point.generation <= generation) best = point.best_m;
+  return best;
+}
+
+std::string Record::digest() const {
+  return hex(hash_text(results_json(*this).dump()));
+}
+
+std::string record_text(const Record& record) {
+  io::Json document = results_json(record);
+  document["digest"] = record.digest();
+  document["provenance"] = to_json(record.provenance);
+  return io::sealed_json(record_format, record_version, document);
+}
+
+Record parse_record(const std::string& text, const std::string& what) {
+  const auto sealed = io::unseal_json(record_format, record_version, text, what);
+  const io::JsonView root(sealed.document, what);
+  Record record{.study = root.at("study").text(),
+                .condition = root.at("condition").text(),
+                .seed = root.at("seed").integer(),
+                .config = root.at("config").text(),
+                .generations = count_from(root.at("generations")),
+                .engine = root.at("engine").text(),
+                .evaluations = static_cast<std::uint64_t>(root.at("evaluations").integer()),
+                .steps = static_cast<std::uint64_t>(root.at("steps").integer()),
+                .best_m = root.at("best_m").finite_number(),
+                .best_generation = count_from(root.at("best_generation")),
+                .hidden = count_from(root.at("hidden")),
+                .links = count_from(root.at("links")),
+                .curve = {},
+                .champion = root.at("champion").raw(),
+                .champion_file = root.at("champion_file").text(),
+                .tests = {},
+                .provenance = provenance_from(root.at("provenance"))};
+  const auto curve = root.at("curve"), tests = root.at("tests");
+  for (std::size_t i = 0; i < curve.size(); ++i)
+    record.curve.push_back(
+        {count_from(curve.at(i).at(std::size_t{0})), curve.at(i).at(std::size_t{1}).finite_number()});
+  for (std::size_t i = 0; i < tests.size(); ++i) record.tests.push_back(test_from(tests.at(i)));
+  if (root.at("digest").text() != record.digest())
+    root.at("digest").bad("the digest of the record's results");
+  return record;
+}
+
+}  // namespace amble::ledger

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "amble/io/json_file.hpp"
+#include "amble/record/trajectory.hpp"
+
+namespace amble::ledger {
+
+/// One trial of a champion.
+struct EpisodeResult {
+  double distance_m = 0.0;
+  double seconds = 0.0;    ///< until it ended
+  double walking_s = 0.0;  ///< score::WalkingMeter
+  record::Outcome outcome = record::Outcome::completed;
+
+  friend bool operator==(const EpisodeResult&, const EpisodeResult&) = default;
+};
+
+/// What one test gave.
+struct TestResult {
+  std::string name;
+  std::string settings;  ///< hash of what defines the test: engine, length, noise, episodes
+  std::string engine;
+  double trial_s = 0.0;                 ///< length of a trial that completes
+  std::vector<EpisodeResult> episodes;  ///< at least one
+  std::string gait;                     ///< of the first episode (analysis/gait_class.hpp); empty: no name
+  double path_interval_s = 0.0;
+  std::vector<double> path_m;  ///< first episode: x0, y0, x1, y1, … from the start, rounded to mm
+
+  double distance_m() const;  ///< median of the episodes
+  double upright_s() const;   ///< median
+  double walking_s() const;   ///< median
+  /// Whether the median episode neither fell nor diverged.
+  bool upright() const { return upright_s() >= trial_s * (1.0 - 1e-9); }
+};
+
+/// A new best of a run.
+struct CurvePoint {
+  int generation = 0;
+  double best_m = 0.0;
+
+  friend bool operator==(const CurvePoint&, const CurvePoint&) = default;
+};
+
+/// Who made a record, when and where. Not part of its digest.
+struct Provenance {
+  std::string version, commit, compiler, flags, cpu;
+  std::string finished_utc;  ///< ISO 8601
+  std::string claims;        ///< StudySpec::claims_hash() at that time
+  double evolution_s = 0.0;  ///< wall time of the run, by one worker unless `workers` says otherwise
+  double tests_s = 0.0;
+  int workers = 1;
+};
+
+/// What is kept of one finished run of a study: enough for its statistics, and to run its champion again.
+struct Record {
+  std::string study, condition;
+  std::int64_t seed = 0;
+  std::string config;  ///< hash of all settings and the robot, without the seed
+  int generations = 0;
+  std::string engine;
+  std::uint64_t evaluations = 0, steps = 0;
+  double best_m = 0.0;  ///< objective of the best genome
+  int best_generation = 0;
+  int hidden = 0, links = 0;      ///< of the champion's CPPN
+  std::vector<CurvePoint> curve;  ///< ascending; the best so far stays until the next point
+  io::Json champion;              ///< a champion file without its traces (docs/FORMATS.md)
+  std::string champion_file;      ///< hash of the champion's file in the run folder, traces included
+  std::vector<TestResult> tests;
+  Provenance provenance;
+
+  const TestResult* find_test(std::string_view name) const;
+  /// The best distance after a generation, m; 0 before the first point.
+  double best_after(int generation) const;
+  /// Hash of all that does not depend on clocks or machines, hexadecimal.
+  std::string digest() const;
+};
+
+std::string record_text(const Record& record);
+/// Throws UserError(ExitCode::bad_file): truncated, altered, of another version.
+Record parse_record(const std::string& text, const std::string& what);
+
+}  // namespace amble::ledger

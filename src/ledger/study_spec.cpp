@@ -1,0 +1,179 @@
+#include "amble/ledger/study_spec.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include "amble/core/hash.hpp"
+#include "amble/io/toml_settings.hpp"
+
+namespace amble::ledger {
+namespace {
+
+constexpr double largest_seed = 0x1p53;
+constexpr double most_generations = 1e9;
+
+bool is_name(std::string_view text) {
+  return !text.empty() && text.size() <= 64 && std::ranges::all_of(text, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  });
+}
+
+/// Keys of an item, e.g. "conditions[2].name".
+std::string item(std::string_view list, std::size_t index, std::string_view key) {
+  return fmt::format("{}[{}].{}", list, index, key);
+}
+
+void check_name(const StudySpec& study, const std::string& key, const std::string& name,
+                std::set<std::string>& names) {
+  if (!is_name(name))
+    throw study.error_at(key,
+                         fmt::format("'{}' = \"{}\": expected 1 to 64 of a-z, 0-9, '-' and '_'", key, name));
+  if (!names.insert(name).second)
+    throw study.error_at(key, fmt::format("'{}' = \"{}\": that name is taken", key, name));
+}
+
+void check_seeds(const StudySpec& study, const std::string& key, const std::vector<double>& seeds) {
+  std::set<double> seen;
+  for (const double seed : seeds) {
+    if (seed != std::floor(seed))
+      throw study.error_at(key, fmt::format("'{}' has {}: expected whole numbers", key, seed));
+    if (!seen.insert(seed).second)
+      throw study.error_at(key, fmt::format("'{}' has the seed {:.0f} twice", key, seed));
+  }
+}
+
+void check_conditions(const StudySpec& study) {
+  if (study.conditions.empty())
+    throw study.error_at("conditions", "no conditions: expected at least one [[conditions]]");
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < study.conditions.size(); ++i) {
+    const ConditionSpec& condition = study.conditions[i];
+    check_name(study, item("conditions", i, "name"), condition.name, names);
+    check_seeds(study, item("conditions", i, "seeds"), condition.seeds);
+    if (condition.config.empty())
+      throw study.error_at(item("conditions", i, "config"),
+                           fmt::format("'{}' is missing: expected the path of a config file",
+                                       item("conditions", i, "config")));
+    if (condition.seeds.empty() && study.seeds.empty())
+      throw study.error_at("seeds", "'seeds' is missing: expected a list of whole numbers");
+  }
+}
+
+void check_condition_names(const StudySpec& study, const std::string& key,
+                           const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    if (study.find(name) == nullptr)
+      throw study.error_at(key, fmt::format("'{}' names \"{}\", which is none of the conditions", key, name));
+}
+
+void check_tests(const StudySpec& study) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < study.tests.size(); ++i) {
+    const TestSpec& test = study.tests[i];
+    check_name(study, item("tests", i, "name"), test.name, names);
+    check_condition_names(study, item("tests", i, "conditions"), test.conditions);
+    if (test.noise.empty() && test.episodes != 1)
+      throw study.error_at(item("tests", i, "episodes"),
+                           fmt::format("'{}' = {}: without noise all trials are the same",
+                                       item("tests", i, "episodes"), test.episodes));
+  }
+}
+
+}  // namespace
+
+void ConditionSpec::describe(io::SettingsVisitor& visitor) {
+  visitor.text("name", name, {"how files and claims call it: a-z, 0-9, '-', '_'"});
+  visitor.text("title", title, {"how figures call it; empty: as its name"});
+  visitor.text("config", config, {"config file, relative to the study file"});
+  visitor.texts("settings", settings,
+                {"\"key.path=value\", laid over the config after the study's settings"});
+  visitor.numbers("seeds", seeds, {0, largest_seed}, {"seeds of its runs; empty: the study's"});
+  visitor.integer("generations", generations, {0, most_generations},
+                  {"generations of its runs; 0: the study's"});
+}
+
+void TestSpec::describe(io::SettingsVisitor& visitor) {
+  visitor.text("name", name, {"how claims call it: a-z, 0-9, '-', '_'"});
+  visitor.text("engine", engine, {"physics engine; empty: the run's own"});
+  visitor.number("seconds", seconds, {1e-5, 1e6}, {"length of the trials, s"});
+  visitor.text("noise", noise, {"config file whose [noise] disturbs the trials; empty: none"});
+  visitor.integer("episodes", episodes, {1, 1000}, {"trials under noise that evolution has not met"});
+  visitor.texts("conditions", conditions, {"conditions whose champions are tested; empty: all"});
+}
+
+bool TestSpec::applies_to(std::string_view condition) const {
+  return conditions.empty() || std::ranges::find(conditions, condition) != conditions.end();
+}
+
+void StudySpec::describe(io::SettingsVisitor& visitor) {
+  visitor.text("name", name, {"what this study is called in its records"});
+  visitor.text("title", title, {"what its report is called"});
+  visitor.numbers("seeds", seeds, {0, largest_seed}, {"one run of each condition per seed"});
+  visitor.integer("generations", generations, {0, most_generations},
+                  {"generations of every run; 0: as in its config"});
+  visitor.texts("settings", settings, {"\"key.path=value\", laid over every config"});
+  visitor.tables("conditions", conditions, {"what is compared"});
+  visitor.tables("tests", tests, {"trials of each run's champion"});
+  visitor.tables("claims", claims, {"sentences to be judged, each with its rule"});
+}
+
+std::vector<std::int64_t> StudySpec::seeds_of(const ConditionSpec& condition) const {
+  std::vector<std::int64_t> whole;
+  for (const double seed : condition.seeds.empty() ? seeds : condition.seeds)
+    whole.push_back(static_cast<std::int64_t>(seed));
+  return whole;
+}
+
+const ConditionSpec* StudySpec::find(std::string_view condition) const {
+  const auto found = std::ranges::find(conditions, condition, &ConditionSpec::name);
+  return found == conditions.end() ? nullptr : &*found;
+}
+
+const TestSpec* StudySpec::find_test(std::string_view test) const {
+  const auto found = std::ranges::find(tests, test, &TestSpec::name);
+  return found == tests.end() ? nullptr : &*found;
+}
+
+std::string StudySpec::to_toml() const {
+  StudySpec copy = *this;
+  return io::settings_to_toml([&copy](io::SettingsVisitor& visitor) { copy.describe(visitor); });
+}
+
+std::string StudySpec::claims_hash() const {
+  std::vector<ClaimSpec> copy = claims;
+  return hex(hash_text(
+      io::settings_to_toml([&copy](io::SettingsVisitor& visitor) { visitor.tables("claims", copy, {""}); })));
+}
+
+UserError StudySpec::error_at(const std::string& key, const std::string& text) const {
+  return UserError(where ? fmt::format("{}: {}", where(key), text) : text);
+}
+
+StudySpec load_study(const std::filesystem::path& path) {
+  const auto document = std::make_shared<io::TomlDocument>(io::TomlDocument::read(path));
+  StudySpec study;
+  study.where = [document](const std::string& key) { return document->where(key); };
+  const auto reader = document->reader();
+  study.describe(*reader);
+  reader->finish();
+  check_seeds(study, "seeds", study.seeds);
+  check_conditions(study);
+  check_tests(study);
+  for (std::size_t i = 0; i < study.claims.size(); ++i) check_claim(study, i);
+
+  const auto resolve = [&document](std::string& file, const std::string& key) {
+    if (!file.empty() && std::filesystem::path(file).is_relative())
+      file = (document->folder_of(key) / file).lexically_normal().string();
+  };
+  for (std::size_t i = 0; i < study.conditions.size(); ++i)
+    resolve(study.conditions[i].config, item("conditions", i, "config"));
+  for (std::size_t i = 0; i < study.tests.size(); ++i)
+    resolve(study.tests[i].noise, item("tests", i, "noise"));
+  return study;
+}
+
+}  // namespace amble::ledger

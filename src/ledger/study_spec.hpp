@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "amble/core/error.hpp"
+#include "amble/io/settings.hpp"
+#include "amble/ledger/claim_spec.hpp"
+
+namespace amble::ledger {
+
+/// One experiment of a study: a config with settings laid over it, run once per seed.
+struct ConditionSpec {
+  std::string name;    ///< in file names and claims: a-z, 0-9, '-', '_'
+  std::string title;   ///< for people; empty: the name
+  std::string config;  ///< config file; relative to the study file until load_study() resolves it
+  std::vector<std::string> settings;  ///< "key.path=value", laid over the config after StudySpec::settings
+  std::vector<double> seeds;          ///< empty: StudySpec::seeds
+  int generations = 0;                ///< 0: StudySpec::generations
+
+  const std::string& label() const { return title.empty() ? name : title; }
+  void describe(io::SettingsVisitor& visitor);
+};
+
+/// A trial of every finished run's champion.
+struct TestSpec {
+  std::string name;
+  std::string engine;  ///< empty: the engine of the run
+  double seconds = 300.0;
+  std::string noise;                    ///< config file whose [noise] disturbs the trials; empty: no noise
+  int episodes = 1;                     ///< trials under noise that evolution has not met; 1 without noise
+  std::vector<std::string> conditions;  ///< names; empty: all
+
+  bool applies_to(std::string_view condition) const;
+  void describe(io::SettingsVisitor& visitor);
+};
+
+/// A comparison of conditions over seeds, the tests of its champions, and the claims it is to judge.
+struct StudySpec {
+  std::string name = "study";
+  std::string title;
+  std::vector<double> seeds;  ///< whole numbers, all different
+  int generations = 0;        ///< 0: as in each config
+  std::vector<std::string> settings;
+  std::vector<ConditionSpec> conditions;
+  std::vector<TestSpec> tests;
+  std::vector<ClaimSpec> claims;
+  /// Where a key was set ("FILE:LINE"), for diagnostics found later; empty unless read from a file.
+  std::function<std::string(const std::string& key)> where;
+
+  void describe(io::SettingsVisitor& visitor);
+  std::vector<std::int64_t> seeds_of(const ConditionSpec& condition) const;
+  const ConditionSpec* find(std::string_view condition) const;
+  const TestSpec* find_test(std::string_view test) const;
+  std::string to_toml() const;
+  /// Hash of the claims and their rules, hexadecimal.
+  std::string claims_hash() const;
+  /// A UserError with the place of a key in front, if that is known.
+  UserError error_at(const std::string& key, const std::string& text) const;
+};
+
+/// Reads and checks a study file. Paths of configs come back such that they can be opened from the current
+/// folder. Throws UserError: syntax, unknown keys, a name or a seed twice, a claim about what is not there.
+StudySpec load_study(const std::filesystem::path& path);
+
+}  // namespace amble::ledger

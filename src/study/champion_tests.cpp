@@ -1,0 +1,105 @@
+#include "amble/study/champion_tests.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "amble/experiment/replay.hpp"
+#include "amble/score/walking.hpp"
+#include "amble/study/gait_observer.hpp"
+#include "amble/trial/observers.hpp"
+
+namespace amble::study {
+namespace {
+
+/// More episodes than any evaluation has (NoiseSettings::episodes): noise that evolution has not met.
+constexpr std::uint32_t first_unmet_episode = 1000;
+constexpr double most_path_samples = 300.0;
+
+/// Measures how long a robot walks, and samples its path.
+class WalkObserver : public trial::Observer {
+ public:
+  WalkObserver(double timestep_s, double interval_s)
+      : timestep_s_(timestep_s),
+        stride_(std::max(1, static_cast<int>(std::lround(interval_s / timestep_s)))) {}
+
+  void on_step(int step, const physics::Engine& engine, const controllers::Batch&, const LaneArray&,
+               int lane) override {
+    const Vec3 com_m = engine.com_m(lane);
+    if (!meter_) {
+      start_m_ = com_m;
+      meter_.emplace(com_m, timestep_s_);
+    }
+    meter_->add(com_m);
+    if (step % stride_ != 0) return;
+    path_m_.push_back(millimetres(com_m.x - start_m_.x));
+    path_m_.push_back(millimetres(com_m.y - start_m_.y));
+  }
+
+  double walking_s() const { return meter_ ? meter_->walking_s() : 0.0; }
+  std::vector<double> path_m() const { return path_m_; }
+
+ private:
+  static double millimetres(double value_m) { return std::round(value_m * 1000.0) / 1000.0; }
+
+  double timestep_s_;
+  int stride_;
+  Vec3 start_m_;
+  std::optional<score::WalkingMeter> meter_;
+  std::vector<double> path_m_;
+};
+
+std::string gait_name(const analysis::GaitReport& report) {
+  if (!report.verdict) return {};
+  return std::string(analysis::gait_names[static_cast<std::size_t>(report.verdict->gait)]);
+}
+
+}  // namespace
+
+std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experiment::Champion& champion,
+                                           const std::atomic<bool>& stop) {
+  experiment::Problem problem = champion.problem;
+  if (!test.spec.engine.empty()) problem.engine = test.spec.engine;
+  const bool noisy = test.noise.any();
+  if (noisy) problem.noise = test.noise;
+
+  const double interval_s = std::max(1.0, std::ceil(test.spec.seconds / most_path_samples));
+  ledger::TestResult result{.name = test.spec.name,
+                            .settings = test.settings_hash(champion.problem.engine),
+                            .engine = problem.engine,
+                            .trial_s = test.spec.seconds,
+                            .episodes = {},
+                            .gait = {},
+                            .path_interval_s = interval_s,
+                            .path_m = {}};
+  for (int episode = 0; episode < test.spec.episodes; ++episode) {
+    GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
+    WalkObserver walk(problem.trial.timestep_s, interval_s);
+    trial::ObserverList observers;
+    observers.add(walk);
+    if (episode == 0) observers.add(gait);
+    experiment::ReplayOptions how{.seconds = test.spec.seconds, .observer = &observers, .trace = false};
+    if (noisy) how.noise = champion.scenario_key(first_unmet_episode + static_cast<std::uint32_t>(episode));
+    const auto replay = experiment::replay(problem, champion.genome, how, stop);
+    if (!replay) return std::nullopt;
+    result.episodes.push_back({.distance_m = replay->result.distance_m,
+                               .seconds = replay->result.seconds,
+                               .walking_s = std::min(walk.walking_s(), replay->result.seconds),
+                               .outcome = replay->result.outcome});
+    if (episode > 0) continue;
+    result.gait = gait_name(gait.finish(replay->result.outcome));
+    result.path_m = walk.path_m();
+  }
+  return result;
+}
+
+io::Json champion_to_json(experiment::Champion champion) {
+  champion.trace.clear();
+  for (auto& episode : champion.episodes) episode.trace.clear();
+  return io::parse_json(experiment::champion_text(champion), "champion");
+}
+
+experiment::Champion champion_from_json(const io::Json& json, const std::string& what) {
+  return experiment::parse_champion(io::json_text(json), what + ": champion").champion;
+}
+
+}  // namespace amble::study

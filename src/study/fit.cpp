@@ -1,0 +1,71 @@
+#include "amble/study/fit.hpp"
+
+#include <fmt/format.h>
+
+#include "amble/core/error.hpp"
+#include "amble/experiment/problem.hpp"
+#include "amble/experiment/run_folder.hpp"
+
+namespace amble::study {
+namespace {
+
+/// Why a record does not fit; empty if it does. `untested` is set if it only lacks a test.
+std::string record_misfit(const PlannedCondition& condition, const ledger::Record& record, bool& untested) {
+  if (record.config != condition.hash) return "made with other settings or another robot";
+  if (record.generations != condition.config.generations)
+    return fmt::format("has {} generations instead of {}", record.generations, condition.config.generations);
+  for (const PlannedTest& test : condition.tests) {
+    const auto* const result = record.find_test(test.spec.name);
+    if (result == nullptr)
+      untested = true;
+    else if (result->settings != test.settings_hash(condition.config.engine))
+      return fmt::format("its test '{}' was another one", test.spec.name);
+  }
+  return {};
+}
+
+std::string folder_misfit(const PlannedCondition& condition, const experiment::RunPaths& paths,
+                          std::int64_t seed) {
+  const auto config = experiment::load_config(paths.config, {});
+  const auto robot = experiment::load_robot_file(paths.robot);
+  if (config.seed != seed) return fmt::format("has the seed {}", config.seed);
+  if (config_hash(config, robot) != condition.hash) return "made with other settings or another robot";
+  if (config.generations != condition.config.generations)
+    return fmt::format("has {} generations instead of {}", config.generations, condition.config.generations);
+  return {};
+}
+
+}  // namespace
+
+std::vector<RunState> survey(const Plan& plan) {
+  const ledger::Ledger ledger(plan.paths);
+  std::vector<RunState> states;
+  std::vector<std::string> misfits;
+  for (const PlannedRun& run : plan.runs) {
+    const PlannedCondition& condition = plan.condition(run);
+    RunState state = RunState::missing;
+    std::string misfit;
+    std::filesystem::path place;
+    if (ledger.has(condition.spec.name, run.seed)) {
+      place = plan.paths.record(condition.spec.name, run.seed);
+      bool untested = false;
+      misfit = record_misfit(condition, ledger.load(condition.spec.name, run.seed), untested);
+      state = untested ? RunState::untested : RunState::done;
+    } else if (experiment::is_run_folder(plan.folder(run))) {
+      place = plan.folder(run);
+      misfit = folder_misfit(condition, experiment::RunPaths(place), run.seed);
+      state = RunState::begun;
+    }
+    if (!misfit.empty()) misfits.push_back(fmt::format("{} ({})", place.string(), misfit));
+    states.push_back(state);
+  }
+  if (!misfits.empty())
+    fail(ExitCode::bad_input,
+         "{} of {} runs no longer fit the study: {}{}; nothing was changed; name another --out, or move them "
+         "away",
+         misfits.size(), plan.runs.size(), misfits.front(),
+         misfits.size() > 1 ? fmt::format(" and {} more", misfits.size() - 1) : "");
+  return states;
+}
+
+}  // namespace amble::study

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "amble/study/plan.hpp"
+
+namespace amble::study {
+
+enum class RunState {
+  missing,   ///< nothing of it is there
+  begun,     ///< a run folder that can be resumed
+  untested,  ///< a record that lacks a test which the study has now
+  done       ///< a record with all tests
+};
+
+/// What is there of each run, in the order of Plan::runs, from the folders alone.
+///
+/// Throws UserError, and touches nothing, if a record or a run folder does not fit the study any more (other
+/// settings, robot, generations or tests): one line that names the first of them and their number. A file
+/// that cannot be read is told likewise.
+std::vector<RunState> survey(const Plan& plan);
+
+}  // namespace amble::study

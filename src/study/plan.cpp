@@ -1,0 +1,145 @@
+#include "amble/study/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "amble/core/error.hpp"
+#include "amble/core/hash.hpp"
+#include "amble/experiment/problem.hpp"
+#include "amble/io/json_file.hpp"
+#include "amble/physics/engine.hpp"
+
+namespace amble::study {
+namespace {
+
+std::string key_of(std::string_view list, std::size_t index, std::string_view key) {
+  return fmt::format("{}[{}].{}", list, index, key);
+}
+
+PlannedTest plan_test(const ledger::StudySpec& study, std::size_t index) {
+  PlannedTest test{.spec = study.tests[index], .noise = {}};
+  if (!test.spec.engine.empty() && !physics::is_engine(test.spec.engine))
+    throw study.error_at(key_of("tests", index, "engine"),
+                         fmt::format("'{}' = \"{}\": expected {}", key_of("tests", index, "engine"),
+                                     test.spec.engine, fmt::join(physics::engine_names, ", ")));
+  if (!test.spec.noise.empty()) {
+    test.noise = experiment::load_config(test.spec.noise, {}).noise;
+    test.noise.first_undisturbed = false;
+    if (!test.noise.any())
+      throw study.error_at(key_of("tests", index, "noise"),
+                           fmt::format("{}: is without noise", test.spec.noise));
+  }
+  return test;
+}
+
+/// Throws UserError where a champion of the condition could not be tested.
+void check_tests(const PlannedCondition& condition) {
+  auto problem = experiment::Problem::make(condition.config, condition.robot);
+  for (const PlannedTest& test : condition.tests) {
+    if (test.spec.engine.empty()) continue;
+    problem.engine = test.spec.engine;
+    try {
+      problem.make_engine();
+    } catch (const UserError& error) {
+      fail(error.code(), "test '{}' of condition '{}': {}", test.spec.name, condition.spec.name,
+           error.what());
+    }
+  }
+}
+
+PlannedCondition plan_condition(const ledger::StudySpec& study, std::size_t index,
+                                const std::vector<PlannedTest>& tests) {
+  const ledger::ConditionSpec& spec = study.conditions[index];
+  experiment::Overrides overrides{.assignments = study.settings, .seed = {}, .generations = {}};
+  overrides.assignments.insert(overrides.assignments.end(), spec.settings.begin(), spec.settings.end());
+  const int generations = spec.generations > 0 ? spec.generations : study.generations;
+  if (generations > 0) overrides.generations = generations;
+  PlannedCondition condition{.spec = spec, .config = {}, .robot = {}, .tests = {}, .hash = {}};
+  try {
+    condition.config = experiment::load_config(spec.config, overrides);
+    condition.robot = experiment::load_robot(condition.config);
+    for (const PlannedTest& test : tests)
+      if (test.spec.applies_to(spec.name)) condition.tests.push_back(test);
+    check_tests(condition);
+  } catch (const UserError& error) {
+    fail(error.code(), "condition '{}': {}", spec.name, error.what());
+  }
+  condition.hash = config_hash(condition.config, condition.robot);
+  return condition;
+}
+
+}  // namespace
+
+std::string PlannedTest::settings_hash(std::string_view home) const {
+  const io::Json definition{{"engine", spec.engine.empty() ? std::string(home) : spec.engine},
+                            {"seconds", spec.seconds},
+                            {"episodes", spec.episodes},
+                            {"noise", io::settings_to_json(noise)}};
+  return hex(hash_text(definition.dump()));
+}
+
+Shard Shard::parse(std::string_view text) {
+  Shard shard{.index = 0, .count = 0};
+  const std::size_t slash = text.find('/');
+  const auto number = [](std::string_view digits, int& value) {
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    return error == std::errc() && end == digits.data() + digits.size();
+  };
+  if (slash == std::string_view::npos || !number(text.substr(0, slash), shard.index) ||
+      !number(text.substr(slash + 1), shard.count) || shard.index < 1 || shard.index > shard.count)
+    fail(ExitCode::bad_input, "--shard {}: expected I/N with 1 <= I <= N, e.g. 2/8", text);
+  return shard;
+}
+
+std::filesystem::path Plan::folder(const PlannedRun& run) const {
+  return paths.run(condition(run).spec.name, run.seed);
+}
+
+std::string Plan::name(const PlannedRun& run) const {
+  return fmt::format("{}, seed {}", condition(run).spec.name, run.seed);
+}
+
+experiment::Config Plan::config(const PlannedRun& run) const {
+  experiment::Config config = condition(run).config;
+  config.seed = run.seed;
+  return config;
+}
+
+std::vector<std::size_t> Plan::shard(const Shard& shard) const {
+  std::vector<std::size_t> part;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (i % static_cast<std::size_t>(shard.count) == static_cast<std::size_t>(shard.index - 1))
+      part.push_back(i);
+  return part;
+}
+
+Plan make_plan(const ledger::StudySpec& study, const std::filesystem::path& folder) {
+  Plan plan{.study = study, .paths = ledger::StudyPaths(folder), .conditions = {}, .runs = {}};
+  std::vector<PlannedTest> tests;
+  for (std::size_t i = 0; i < study.tests.size(); ++i) tests.push_back(plan_test(study, i));
+  std::vector<std::vector<std::int64_t>> seeds;
+  std::size_t most_seeds = 0;
+  for (std::size_t i = 0; i < study.conditions.size(); ++i) {
+    plan.conditions.push_back(plan_condition(study, i, tests));
+    seeds.push_back(study.seeds_of(study.conditions[i]));
+    most_seeds = std::max(most_seeds, seeds.back().size());
+  }
+  for (std::size_t s = 0; s < most_seeds; ++s)
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      const std::size_t condition = (i + s) % seeds.size();
+      if (s < seeds[condition].size()) plan.runs.push_back({condition, seeds[condition][s]});
+    }
+  return plan;
+}
+
+std::string config_hash(const experiment::Config& config, const morphology::RobotSpec& robot) {
+  experiment::Config copy = config;
+  copy.seed = 0;
+  copy.generations = 1;
+  copy.name.clear();
+  copy.robot.clear();
+  return hex(hash_text(copy.to_toml() + experiment::robot_file_text(robot)));
+}
+
+}  // namespace amble::study

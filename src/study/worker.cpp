@@ -1,0 +1,212 @@
+#include "amble/study/worker.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "amble/analysis/generations_csv.hpp"
+#include "amble/core/clock.hpp"
+#include "amble/core/hash.hpp"
+#include "amble/experiment/build_info.hpp"
+#include "amble/experiment/run.hpp"
+#include "amble/io/file.hpp"
+#include "amble/study/champion_tests.hpp"
+
+namespace amble::study {
+namespace {
+
+/// How long, and how often, runs that other processes hold are looked at again before they are left to them:
+/// a process that was killed may take a moment to end.
+constexpr auto patience = std::chrono::seconds(5);
+constexpr auto pause = std::chrono::milliseconds(200);
+constexpr int most_io_failures = 3;  ///< in a row
+
+class RunProgress : public experiment::RunListener {
+ public:
+  RunProgress(const PlannedRun& run, Listener& listener) : run_(run), listener_(listener) {}
+  void on_generation(const experiment::GenerationRow& row, const experiment::Progress&,
+                     const experiment::Config&) override {
+    listener_.on_generation(run_, row.generation + 1);
+  }
+
+ private:
+  const PlannedRun& run_;
+  Listener& listener_;
+};
+
+std::vector<ledger::CurvePoint> curve_of(const std::filesystem::path& generations_csv) {
+  std::vector<ledger::CurvePoint> curve;
+  const auto generations = analysis::read_generations(generations_csv);
+  for (std::size_t i = 0; i < generations.count(); ++i)
+    if (curve.empty() || generations.best_m[i] > curve.back().best_m)
+      curve.push_back({static_cast<int>(i), generations.best_m[i]});
+  return curve;
+}
+
+std::string utc_now() {
+  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
+}
+
+/// One process's work on a study.
+class Worker {
+ public:
+  Worker(const Plan& plan, const WorkOptions& options, Listener& listener, const std::atomic<bool>& stop)
+      : plan_(plan), ledger_(plan.paths), options_(options), listener_(listener), stop_(stop) {}
+
+  enum class Step { done, nothing_to_do, interrupted };
+
+  /// Throws UserError; ExitCode::locked if another process holds the run's folder.
+  Step take(const PlannedRun& run) {
+    const auto& name = plan_.condition(run).spec.name;
+    if (ledger_.has(name, run.seed)) return add_tests(run, ledger_.load(name, run.seed), false);
+    const auto folder = plan_.folder(run);
+    auto evolution = take_hold(run, folder);
+    // Another process may have finished it between the look at the ledger and the lock.
+    if (ledger_.has(name, run.seed)) {
+      discard(folder);
+      return Step::nothing_to_do;
+    }
+    listener_.on_start(run, evolution.generation());
+    RunProgress progress(run, listener_);
+    if (evolution.execute(progress, stop_) == experiment::RunStatus::interrupted) return Step::interrupted;
+    const Step step = add_tests(run, first_record(run, evolution), true);
+    if (step == Step::done) discard(folder);
+    return step;
+  }
+
+ private:
+  experiment::Run take_hold(const PlannedRun& run, const std::filesystem::path& folder) const {
+    if (experiment::is_run_folder(folder))
+      return experiment::Run::resume(folder, std::nullopt, options_.workers);
+    try {
+      return experiment::Run::start(folder, plan_.config(run), options_.workers);
+    } catch (const UserError& error) {
+      // Another process was a moment faster.
+      if (experiment::is_run_folder(folder)) fail(ExitCode::locked, "{}", error.what());
+      throw;
+    }
+  }
+
+  ledger::Record first_record(const PlannedRun& run, const experiment::Run& evolution) const {
+    const PlannedCondition& condition = plan_.condition(run);
+    const auto file = evolution.paths().best_champion();
+    const std::string text = io::read_file(file);
+    const auto champion = experiment::parse_champion(text, file.string()).champion;
+    ledger::Provenance provenance;
+    provenance.evolution_s = evolution.progress().wall_s;
+    provenance.workers = options_.workers;
+    return {.study = plan_.study.name,
+            .condition = condition.spec.name,
+            .seed = run.seed,
+            .config = condition.hash,
+            .generations = evolution.config().generations,
+            .engine = evolution.config().engine,
+            .evaluations = evolution.progress().evaluations,
+            .steps = evolution.progress().steps,
+            .best_m = evolution.progress().best_m,
+            .best_generation = evolution.progress().best_generation,
+            .hidden = champion.genome.count(neat::NodeKind::hidden),
+            .links = champion.genome.enabled_links(),
+            .curve = curve_of(evolution.paths().generations),
+            .champion = champion_to_json(champion),
+            .champion_file = hex(hash_text(text)),
+            .tests = {},
+            .provenance = std::move(provenance)};
+  }
+
+  /// Runs the tests that a record lacks, in the study's order, and writes the record.
+  Step add_tests(const PlannedRun& run, ledger::Record record, bool is_new) {
+    const PlannedCondition& condition = plan_.condition(run);
+    const auto champion =
+        champion_from_json(record.champion, plan_.paths.record(record.condition, run.seed).string());
+    const double start_s = now_s();
+    std::vector<ledger::TestResult> results;
+    for (const PlannedTest& test : condition.tests) {
+      const auto* const old = record.find_test(test.spec.name);
+      auto result = old != nullptr ? std::optional(*old) : run_test(test, champion, stop_);
+      if (!result) return Step::interrupted;
+      results.push_back(std::move(*result));
+    }
+    const bool changed = is_new || results.size() != record.tests.size();
+    record.tests = std::move(results);
+    if (!changed) return Step::nothing_to_do;
+    note_provenance(record, now_s() - start_s);
+    ledger_.save(record);
+    listener_.on_finish(run, record);
+    return Step::done;
+  }
+
+  void note_provenance(ledger::Record& record, double tests_s) const {
+    const auto build = experiment::build_info();
+    auto& provenance = record.provenance;
+    provenance.version = build.version;
+    provenance.commit = build.commit;
+    provenance.compiler = build.compiler;
+    provenance.flags = build.flags;
+    provenance.cpu = experiment::cpu_name();
+    provenance.finished_utc = utc_now();
+    provenance.claims = plan_.study.claims_hash();
+    provenance.tests_s += tests_s;
+  }
+
+  void discard(const std::filesystem::path& folder) const {
+    if (options_.discard_runs) std::filesystem::remove_all(folder);
+  }
+
+  const Plan& plan_;
+  ledger::Ledger ledger_;
+  WorkOptions options_;
+  Listener& listener_;
+  const std::atomic<bool>& stop_;
+};
+
+}  // namespace
+
+WorkResult work(const Plan& plan, const std::vector<RunState>& states, const WorkOptions& options,
+                Listener& listener, const std::atomic<bool>& stop) {
+  std::vector<PlannedRun> open;
+  for (const std::size_t i : plan.shard(options.shard))
+    if (states[i] != RunState::done) open.push_back(plan.runs[i]);
+
+  Worker worker(plan, options, listener, stop);
+  WorkResult result;
+  int io_failures = 0;
+  auto last_progress = std::chrono::steady_clock::now();
+  while (!open.empty()) {
+    std::vector<PlannedRun> locked;
+    for (const PlannedRun& run : open) {
+      try {
+        const auto step = stop ? Worker::Step::interrupted : worker.take(run);
+        if (step == Worker::Step::interrupted) {
+          result.interrupted = true;
+          return result;
+        }
+        result.finished += step == Worker::Step::done;
+        last_progress = std::chrono::steady_clock::now();
+      } catch (const UserError& error) {
+        if (error.code() == ExitCode::locked) {
+          locked.push_back(run);
+          continue;
+        }
+        listener.on_failure(run, error.what());
+        if (result.failed++ == 0) result.first_failure = error.code();
+        // A full disk is full for every run.
+        io_failures = error.code() == ExitCode::io ? io_failures + 1 : 0;
+        if (io_failures == most_io_failures) return result;
+      }
+    }
+    open = std::move(locked);
+    if (open.empty() || std::chrono::steady_clock::now() - last_progress > patience) break;
+    std::this_thread::sleep_for(pause);
+  }
+  result.elsewhere = static_cast<int>(open.size());
+  return result;
+}
+
+}  // namespace amble::study
