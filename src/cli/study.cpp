@@ -15,7 +15,9 @@
 #include "amble/cli/stop_signal.hpp"
 #include "amble/cli/study_processes.hpp"
 #include "amble/cli/study_progress.hpp"
+#include "amble/io/file.hpp"
 #include "amble/study/fit.hpp"
+#include "amble/study/slurm.hpp"
 #include "amble/study/worker.hpp"
 
 namespace amble::cli {
@@ -27,6 +29,8 @@ struct StudyOptions {
   int jobs = 1, workers = 1;
   bool discard_runs = false, status = false;
   bool as_child = false;  ///< one of a parent's processes
+  std::optional<std::filesystem::path> slurm;
+  int slurm_tasks = 20, slurm_minutes = 60;
 };
 
 /// How a study's part stands, and how it ended, for people.
@@ -112,12 +116,28 @@ ExitCode work_in_processes(const study::Plan& plan, const std::vector<study::Run
   return conclude(plan, options, failed, interrupted, failure);
 }
 
+ExitCode write_slurm_script(const study::Plan& plan, const StudyOptions& options) {
+  namespace fs = std::filesystem;
+  io::refuse_to_replace(*options.slurm, "#!/bin/bash", "a batch script");
+  io::write_file(*options.slurm, study::slurm_script({.name = "amble-" + plan.study.name,
+                                                      .program = fs::read_symlink("/proc/self/exe"),
+                                                      .file = fs::absolute(options.file),
+                                                      .out = fs::absolute(options.out),
+                                                      .tasks = options.slurm_tasks,
+                                                      .cpus = options.jobs,
+                                                      .minutes = options.slurm_minutes}));
+  fmt::print("{} runs in {} tasks; submit them by: sbatch {}\n", plan.runs.size(), options.slurm_tasks,
+             options.slurm->string());
+  return ExitCode::ok;
+}
+
 ExitCode run_study(const StudyOptions& options) {
   stop_signal();
   std::signal(SIGPIPE, SIG_IGN);
   const auto shard = study::Shard::parse(options.shard);
   const auto plan = study::make_plan(ledger::load_study(options.file), options.out);
   const auto states = study::survey(plan);
+  if (options.slurm) return write_slurm_script(plan, options);
   if (options.status) return conclude(plan, options, 0, false, ExitCode::ok);
   ledger::keep_study(plan.paths, plan.study);
   for (const auto& stranger : ledger::Ledger(plan.paths).strangers(plan.study))
@@ -150,6 +170,17 @@ void add_study(CLI::App& app, Action& action) {
   command->add_flag("--discard-runs", options->discard_runs,
                     "Remove a run's folder once its record is in the ledger");
   command->add_flag("--status", options->status, "Only say what is done");
+  auto* slurm = command->add_option("--slurm", options->slurm,
+                                    "Only write a Slurm batch script, whose tasks are shards, to this file");
+  command
+      ->add_option("--tasks", options->slurm_tasks, "Tasks of the Slurm array; each takes --jobs processors")
+      ->capture_default_str()
+      ->needs(slurm)
+      ->check(between(1, 100000));
+  command->add_option("--minutes", options->slurm_minutes, "Time limit of a task; longer ones are requeued")
+      ->capture_default_str()
+      ->needs(slurm)
+      ->check(between(3, 100000));
   command->add_flag("--child", options->as_child)->group("");
   command->callback([options, &action] { action = [options] { return run_study(*options); }; });
 }

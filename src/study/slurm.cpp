@@ -1,0 +1,54 @@
+#include "amble/study/slurm.hpp"
+
+#include <fmt/format.h>
+
+#include "amble/core/check.hpp"
+
+namespace amble::study {
+namespace {
+
+/// In single quotes for a shell.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+}  // namespace
+
+std::string slurm_script(const SlurmJob& job) {
+  AMBLE_CHECK(job.tasks > 0 && job.cpus > 0 && job.minutes > 0, "a job has tasks, processors and time");
+  return fmt::format(
+      R"(#!/bin/bash
+# {tasks} tasks, each a shard of the study. Submit with sbatch; submitted again, it does what is left.
+#SBATCH --job-name={name}
+#SBATCH --array=1-{tasks}
+#SBATCH --ntasks=1
+#SBATCH --cpus-per-task={cpus}
+#SBATCH --time={minutes}
+#SBATCH --requeue
+#SBATCH --open-mode=append
+#SBATCH --signal=B:USR1@60
+#SBATCH --output=slurm-%A_%a.out
+
+{program} study {file} --out {out} --shard "$SLURM_ARRAY_TASK_ID/{tasks}" --jobs "${{SLURM_CPUS_PER_TASK:-1}}" &
+child=$!
+out_of_time=
+trap 'out_of_time=1; kill -TERM $child 2>/dev/null' USR1  # a minute before the time limit
+trap 'kill -TERM $child 2>/dev/null' TERM                 # scancel, preemption, requeue
+wait $child
+code=$?
+# A trap ends the first wait; only the second one has the exit code of the program.
+if [ $code -gt 128 ]; then wait $child; code=$?; fi
+# Stopped for lack of time: the run folders hold what is done, and the same task goes on.
+if [ $code = 7 ] && [ "$out_of_time" ]; then
+  scontrol requeue "${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID"
+fi
+exit $code
+)",
+      fmt::arg("name", job.name), fmt::arg("tasks", job.tasks), fmt::arg("cpus", job.cpus),
+      fmt::arg("minutes", job.minutes), fmt::arg("program", quoted(job.program.string())),
+      fmt::arg("file", quoted(job.file.string())), fmt::arg("out", quoted(job.out.string())));
+}
+
+}  // namespace amble::study

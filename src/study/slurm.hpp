@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace amble::study {
+
+/// A Slurm array job whose tasks are the shards of a study.
+struct SlurmJob {
+  std::string name;
+  std::filesystem::path program, file, out;  ///< absolute: tasks begin in any folder, on any node
+  int tasks = 1;                             ///< of the array; shard i of `tasks` each
+  int cpus = 1;                              ///< of a task: as many runs side by side
+  int minutes = 60;                          ///< time limit of a task; one that needs longer is requeued
+};
+
+/// The batch script for sbatch. Each task works on its shard until it is done; a task that nearly runs out of
+/// time is told by USR1 and requeues itself, one that is preempted, or whose node is lost, is requeued by
+/// Slurm; all go on from their run folders. A task that is cancelled stays so. Submitting the script again
+/// does what is left.
+std::string slurm_script(const SlurmJob& job);
+
+}  // namespace amble::study
