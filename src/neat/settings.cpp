@@ -103,6 +103,13 @@ void SpeciationSettings::describe(io::SettingsVisitor& visitor) {
                   {"with fewer species than this the threshold falls", "the authors' code (population 300)"});
   visitor.integer("target_max", target_max, {1, 1e6},
                   {"with more species than this the threshold rises", "the authors' code (population 300)"});
+  visitor.number("first_step_down", first_step_down, probability,
+                 {"first step down of the threshold, as a share of it (at least 0.1): each further one is "
+                  "1.05 times the "
+                  "last, and after stepping over the range half of it, backwards",
+                  hyper_sharp_neat});
+  visitor.number("first_step_up", first_step_up, probability,
+                 {"first step up, likewise", "the authors' code: 0.5; HyperSharpNEAT: 0.01"});
   visitor.integer("corrections_per_generation", corrections_per_generation, {0, 1000},
                   {"steps of the threshold per generation at most (0: it stays as it is)", hyper_sharp_neat});
 }

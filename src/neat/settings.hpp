@@ -87,6 +87,7 @@ struct SpeciationSettings {
   double initial_threshold = 100.0;
   int target_min = 28;
   int target_max = 30;
+  double first_step_down = 0.01, first_step_up = 0.5;
   int corrections_per_generation = 1;
 
   void describe(io::SettingsVisitor& visitor);

@@ -43,7 +43,7 @@ TEST(Settings, AllFieldsAreVisited) {
   json["crossover"]["weaker_genes"] = "one_by_one";
   const auto read = io::settings_from_json<Settings>(io::JsonView(json, "settings"));
   EXPECT_EQ(io::settings_to_json(read), json);
-  EXPECT_EQ(leaves, 1 + 7 + 14 + 4 + 8 + 6);
+  EXPECT_EQ(leaves, 1 + 7 + 14 + 4 + 10 + 6);
   EXPECT_EQ(read.population.size, 301);
   EXPECT_EQ(read.genome.activation_shares[3], 0.125);
   EXPECT_EQ(read.genome.output_activation, Activation::sine);
