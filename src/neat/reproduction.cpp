@@ -77,8 +77,13 @@ class Breeder {
     const bool a_is_fitter = selection_a != selection_b ? selection_a > selection_b : stream.chance(0.5);
     const Genome& genome_a = generation_.genomes[a];
     const Genome& genome_b = generation_.genomes[b];
-    return crossover(a_is_fitter ? genome_a : genome_b, a_is_fitter ? genome_b : genome_a,
-                     settings_.crossover, recurrent_, stream);
+    Genome child = crossover(a_is_fitter ? genome_a : genome_b, a_is_fitter ? genome_b : genome_a,
+                             settings_.crossover, recurrent_, stream);
+    // With InnovationKey::link parents may differ in a node's function.
+    for (NodeGene& node : child.nodes)
+      if (const int index = genome_a.index_of(node.id); index >= 0)
+        node.activation = genome_a.nodes[static_cast<std::size_t>(index)].activation;
+    return child;
   }
 
   const Generation& generation_;
@@ -126,6 +131,7 @@ std::vector<int> places_per_species(const Generation& generation, const Reproduc
 std::vector<Genome> reproduce(const Generation& generation, const Settings& settings, bool recurrent,
                               Innovations& innovations, std::uint64_t seed, std::uint32_t number) {
   const std::vector<int> places = places_per_species(generation, settings.reproduction);
+  innovations.begin_generation();
   Breeder breeder(generation, settings, recurrent, innovations);
   std::vector<Genome> children;
   for (std::size_t s = 0; s < generation.species.size(); ++s) {

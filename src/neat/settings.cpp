@@ -71,6 +71,17 @@ void MutationSettings::describe(io::SettingsVisitor& visitor) {
   visitor.table("weights", weights, {"roulette for how weights change"});
 }
 
+void InnovationSettings::describe(io::SettingsVisitor& visitor) {
+  visitor.choice("scope", scope, innovation_scope_names,
+                 {"where the same structural mutation gets the same number: within one generation, or "
+                  "whenever it occurs in the run",
+                  "the authors' code and Stanley & Miikkulainen 2002, sec. 3.2: generation"});
+  visitor.choice("key", key, innovation_key_names,
+                 {"when new nodes are the same: if they split the same link (then nodes of one id may differ "
+                  "in function), or if they also have the same function",
+                  "the authors' code: link"});
+}
+
 void CrossoverSettings::describe(io::SettingsVisitor& visitor) {
   visitor.choice(
       "weaker_genes", weaker_genes, weaker_genes_names,
@@ -139,6 +150,7 @@ void Settings::describe(io::SettingsVisitor& visitor) {
   visitor.table("population", population, {"the genomes of one generation"});
   visitor.table("genome", genome, {"what a genome looks like, at the start and when it grows"});
   visitor.table("mutation", mutation, {"roulette of the operators that change a genome"});
+  visitor.table("innovations", innovations, {"which structural mutations get the same number"});
   visitor.table("crossover", crossover, {"how two parents make one child"});
   visitor.table("speciation", speciation, {"which genomes share a species"});
   visitor.table("reproduction", reproduction, {"who has how many children"});

@@ -65,6 +65,22 @@ struct MutationSettings {
 enum class WeakerGenes { all_or_none, one_by_one };
 inline constexpr std::array<std::string_view, 2> weaker_genes_names{"all_or_none", "one_by_one"};
 
+/// How long a structural mutation keeps its number: until the next generation is bred, or for ever.
+enum class InnovationScope { generation, run };
+inline constexpr std::array<std::string_view, 2> innovation_scope_names{"generation", "run"};
+
+/// What makes two new nodes the same: the link that they split, or also their function.
+enum class InnovationKey { link, link_and_function };
+inline constexpr std::array<std::string_view, 2> innovation_key_names{"link", "link_and_function"};
+
+/// Which structural mutations get the same number (Stanley & Miikkulainen 2002, sec. 3.2).
+struct InnovationSettings {
+  InnovationScope scope = InnovationScope::generation;
+  InnovationKey key = InnovationKey::link;
+
+  void describe(io::SettingsVisitor& visitor);
+};
+
 struct CrossoverSettings {
   WeakerGenes weaker_genes = WeakerGenes::all_or_none;
   double weaker_genes_probability = 0.1;
@@ -110,6 +126,7 @@ struct Settings {
   PopulationSettings population;
   GenomeSettings genome;
   MutationSettings mutation;
+  InnovationSettings innovations;
   CrossoverSettings crossover;
   SpeciationSettings speciation;
   ReproductionSettings reproduction;

@@ -207,6 +207,28 @@ TEST(Reproduction, CallsTheParentWithTheLargerSelectionTheFitter) {
   EXPECT_NEAR(share_with_two_links(two_structures(0, 0)), 0.5, 0.04);
 }
 
+TEST(Reproduction, GivesTheChildTheFunctionsOfTheParentDrawnFirst) {
+  // Two parents of one structure whose hidden node differs in function. The first parent is drawn by
+  // selection, and so nearly always the fitter; but of two equal ones each comes first in half of the cases.
+  for (const double first_selection : {1.0, 99.0}) {
+    Sample sample;
+    sample.add({{first_selection, 2}, {1, 1}});
+    for (std::size_t i = 0; i < 2; ++i)
+      sample.genomes[i] =
+          sample_genome(1, 1, {{3, NodeKind::hidden, i == 0 ? Activation::sine : Activation::gaussian}},
+                        {{0, 0, 2, 0.1, true}, {1, 0, 3, 1.0, true}, {2, 3, 2, 0.3, true}});
+    Settings settings = only_crossover();
+    settings.reproduction.survival = 1.0;
+    int sines = 0;
+    const int rounds = 2000;
+    for (std::uint32_t number = 1; number <= rounds; ++number)
+      sines += sample.breed(settings, number)[1].nodes.back().activation == Activation::sine;
+    const double share = first_selection / (first_selection + 1.0);
+    EXPECT_NEAR(sines, rounds * share, 5 * std::sqrt(rounds * share * (1.0 - share)) + 1);
+    EXPECT_LT(sines, rounds) << "not always the fitter's";
+  }
+}
+
 TEST(Reproduction, MatesBetweenSpeciesWithTheGivenProbability) {
   Sample sample;
   sample.add(std::vector<Fitness>(10, {1, 2}));
