@@ -134,6 +134,12 @@ void ReproductionSettings::describe(io::SettingsVisitor& visitor) {
       {"share of a species' places in the next generation for unchanged copies of its best by objective "
        "(at least one)",
        morse_2013});
+  visitor.choice(
+      "lone_place", lone_place, lone_place_names,
+      {"what a species with a single place does with it: keep its best by objective (then the population's "
+       "best is never lost), or a mutated child, without an elite",
+       "the authors' code: child; Morse et al. 2013, sec. 4: elite (\"to ensure the objective fitness never "
+       "decreases\")"});
   visitor.number("asexual_probability", asexual_probability, probability,
                  {"probability that a child has one parent and is mutated; else it has two", authors});
   visitor.number("interspecies_probability", interspecies_probability, probability,

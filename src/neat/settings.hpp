@@ -109,9 +109,14 @@ struct SpeciationSettings {
   void describe(io::SettingsVisitor& visitor);
 };
 
+/// What becomes of the only place that a species has in the next generation.
+enum class LonePlace { elite, child };
+inline constexpr std::array<std::string_view, 2> lone_place_names{"elite", "child"};
+
 struct ReproductionSettings {
   double survival = 0.8;
   double elitism = 0.1;
+  LonePlace lone_place = LonePlace::child;
   double asexual_probability = 0.5;
   double interspecies_probability = 0.01;
   int stagnation_generations = 1500;

@@ -86,9 +86,11 @@ TEST_P(Generations, KeepEveryInvariant) {
 
 INSTANTIATE_TEST_SUITE_P(FeedForwardAndRecurrent, Generations, testing::Bool());
 
-TEST(Population, NeverLosesTheBestObjectiveEvenIfSelectionDisagrees) {
+TEST(Population, NeverLosesTheBestObjectiveWithLonePlacesForElitesEvenIfSelectionDisagrees) {
+  Settings settings = small_settings();
+  settings.reproduction.lone_place = LonePlace::elite;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    Population population(small_settings(), 2, 1, true, seed);
+    Population population(settings, 2, 1, true, seed);
     double best_so_far = 0.0;
     for (int generation = 0; generation < 60; ++generation) {
       auto fitness = evaluate(population, weights_near_one_half);
@@ -100,6 +102,22 @@ TEST(Population, NeverLosesTheBestObjectiveEvenIfSelectionDisagrees) {
       population.advance(fitness);
     }
   }
+}
+
+TEST(Population, MayLoseTheBestObjectiveWithLonePlacesForChildren) {
+  Population population(small_settings(), 2, 1, true, 1);
+  double best_so_far = 0.0;
+  int lost = 0;
+  for (int generation = 0; generation < 60; ++generation) {
+    auto fitness = evaluate(population, weights_near_one_half);
+    const double largest = best(fitness);
+    for (Fitness& f : fitness) f.selection = largest - f.objective;
+    lost += largest < best_so_far;
+    best_so_far = largest;
+    population.advance(fitness);
+    ASSERT_EQ(population.genomes().size(), 60u);
+  }
+  EXPECT_GT(lost, 0);
 }
 
 TEST(Population, ComesToItsTargetOfSpecies) {
