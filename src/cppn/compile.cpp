@@ -118,18 +118,19 @@ float to_weight(double weight) {
   return static_cast<float>(std::clamp(weight, -0x1p32, 0x1p32));
 }
 
-void decide_passes(Program& program, const neat::Genome& genome, const Schedule& schedule, bool recurrent) {
-  program.passes = 2 * genome.count(neat::NodeKind::hidden) + 1;
+void decide_passes(Program& program, const neat::Genome& genome, const Schedule& schedule,
+                   const Settings& settings) {
+  program.passes = settings.passes_with(genome.count(neat::NodeKind::hidden));
   int deepest = 0;
   for (std::size_t i = 0; i < genome.nodes.size(); ++i) {
     if (!schedule.kept[i]) continue;
     deepest = std::max(deepest, schedule.depth[i]);
     program.cyclic |= schedule.depth[i] < 0;
   }
-  AMBLE_CHECK(recurrent || !program.cyclic, "a feed-forward CPPN has a cycle");
+  AMBLE_CHECK(settings.recurrent || !program.cyclic, "a feed-forward CPPN has a cycle");
   // A chain of outputs can be longer than the passes of a recurrent CPPN; its last links then see values that
   // have not settled.
-  program.in_place = !program.cyclic && (!recurrent || deepest <= program.passes);
+  program.in_place = !program.cyclic && (!settings.recurrent || deepest <= program.passes);
   if (program.in_place) program.passes = 1;
 }
 
@@ -140,7 +141,7 @@ Program compile(const neat::Genome& genome, const Settings& settings) {
   Program program;
   program.linear = settings.linear;
   program.inputs = genome.count(neat::NodeKind::input);
-  decide_passes(program, genome, schedule, settings.recurrent);
+  decide_passes(program, genome, schedule, settings);
 
   // Bias and inputs are the genome's first nodes, so that their slot is their index.
   std::vector<int> slot_of(genome.nodes.size(), -1);

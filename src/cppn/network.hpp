@@ -44,9 +44,9 @@ class Points {
 /// every vector width. Values are never NaN.
 ///
 /// A node's value is its activation function of the sum, from zero and in order of innovation, of weight ×
-/// source. With Settings::recurrent all nodes start from 0 and are updated together for 2 × hidden nodes + 1
-/// passes (the hidden nodes of the whole genome), as in HyperSharpNEAT; where the links form no cycle, one
-/// pass in topological order gives the same bits.
+/// source. With Settings::recurrent all nodes start from 0 and are updated together for as
+/// many passes as Settings::passes says (of the hidden nodes of the whole genome); where the links form no
+/// cycle, one pass in topological order gives the same bits.
 class Network {
  public:
   /// The genome must be valid (neat::validate). Weights are rounded to single precision and clamped to ±2^32.

@@ -33,10 +33,10 @@ Reference::Reference(const neat::Genome& genome, const Settings& settings)
     const neat::NodeGene& gene = genome.nodes[i];
     input_count_ += gene.kind == neat::NodeKind::input;
     output_count_ += gene.kind == neat::NodeKind::output;
-    passes_ += gene.kind == neat::NodeKind::hidden ? 2 : 0;
     ready[i] = gene.kind == neat::NodeKind::bias || gene.kind == neat::NodeKind::input;
     if (!ready[i]) nodes_.push_back({i, gene.activation, {}});
   }
+  passes_ = settings.passes_with(static_cast<int>(nodes_.size() - output_count_));
   for (Node& node : nodes_)
     for (const neat::LinkGene& link : genome.links)
       if (link.enabled && link.to == genome.nodes[node.index].id)

@@ -16,7 +16,7 @@ class Reference {
   Reference(const neat::Genome& genome, const Settings& settings);
 
   /// `inputs` without the bias. A CPPN without a cycle is evaluated in one pass, sources first; any other in
-  /// 2 × hidden nodes + 1 synchronous passes.
+  /// Settings::passes_with(hidden nodes) synchronous passes.
   void evaluate(std::span<const double> inputs, std::span<double> outputs) const;
 
  private:
@@ -33,7 +33,7 @@ class Reference {
   double next_value(const Node& node, const std::vector<double>& values) const;
 
   std::size_t node_count_, input_count_ = 0, output_count_ = 0;
-  int passes_ = 1;
+  int passes_ = 0;
   bool feed_forward_ = true;
   Linear linear_;
   std::vector<Node> nodes_;  ///< outputs and hidden; sources first if there is no cycle

@@ -12,7 +12,7 @@ namespace amble::experiment {
 namespace {
 
 constexpr std::string_view magic = "AMBLECKP";
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 
 /// Names a config, but for what may change when a run goes on.
 std::uint64_t config_hash(const Config& config) {

@@ -8,8 +8,8 @@
 
 namespace amble::neat {
 
-std::vector<int> allot_places(std::span<const double> shares, int total, std::size_t kept) {
-  AMBLE_CHECK(kept < shares.size() && total > 0, "places are for at least one species");
+std::vector<int> allot_places(std::span<const double> shares, int total, std::optional<std::size_t> kept) {
+  AMBLE_CHECK(kept.value_or(0) < shares.size() && total > 0, "places are for at least one species");
   const double largest = std::ranges::max(shares);
   // Divided by the largest, shares near the limits of double neither overflow nor vanish together.
   std::vector<double> quotas(shares.size(), 1.0);
@@ -34,9 +34,9 @@ std::vector<int> allot_places(std::span<const double> shares, int total, std::si
                            [&](std::size_t a, std::size_t b) { return remainders[a] > remainders[b]; });
   for (std::size_t i = 0; i < static_cast<std::size_t>(left); ++i) ++places[order[i]];
 
-  if (places[kept] == 0) {
+  if (kept && places[*kept] == 0) {
     --*std::ranges::max_element(places);
-    ++places[kept];
+    ++places[*kept];
   }
   return places;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -7,7 +9,7 @@ namespace amble::neat {
 
 /// Divides `total` places among species in proportion to `shares` (finite, ≥ 0, of any size; all equal if all
 /// are zero) by the method of the largest remainder, equal remainders by index: the sum is exactly `total`.
-/// Species `kept` gets at least one place, if need be from the species that got most.
-std::vector<int> allot_places(std::span<const double> shares, int total, std::size_t kept);
+/// Species `kept`, if any, gets at least one place, if need be from the species that got most.
+std::vector<int> allot_places(std::span<const double> shares, int total, std::optional<std::size_t> kept);
 
 }  // namespace amble::neat

@@ -17,6 +17,13 @@ std::vector<NodeGene> united_nodes(const Genome& fitter, const Genome& weaker) {
   return nodes;
 }
 
+/// The link that the child already has between these nodes, under whatever number.
+LinkGene* link_between(Genome& child, std::uint32_t from, std::uint32_t to) {
+  const auto found = std::ranges::find_if(
+      child.links, [&](const LinkGene& link) { return link.from == from && link.to == to; });
+  return found == child.links.end() ? nullptr : &*found;
+}
+
 /// Decides which links of the weaker parent alone the child gets.
 class WeakerLinks {
  public:
@@ -59,7 +66,12 @@ Genome crossover(const Genome& fitter, const Genome& weaker, const CrossoverSett
   WeakerLinks weaker_links(child, fitter, settings, recurrent, stream);
   const auto inherit = [&](LinkGene link) {
     if (!link.enabled) link.enabled = stream.chance(settings.enable_probability);
-    child.links.push_back(link);
+    if (LinkGene* const same = link_between(child, link.from, link.to)) {
+      same->weight = link.weight;
+      same->enabled = link.enabled;
+    } else {
+      child.links.push_back(link);
+    }
   };
 
   auto f = fitter.links.begin();
@@ -72,7 +84,7 @@ Genome crossover(const Genome& fitter, const Genome& weaker, const CrossoverSett
     if (only_fitter) {
       inherit(*f++);
     } else if (only_weaker) {
-      if (weaker_links.take(*w)) inherit(*w);
+      if (weaker_links.take(*w) && link_between(child, w->from, w->to) == nullptr) inherit(*w);
       ++w;
     } else {
       LinkGene link = stream.chance(0.5) ? *f : *w;

@@ -16,7 +16,7 @@ enum class NodeKind : std::uint8_t { bias = 0, input = 1, output = 2, hidden = 3
 inline constexpr std::array<std::string_view, 4> node_kind_names{"bias", "input", "output", "hidden"};
 
 struct NodeGene {
-  std::uint32_t id = 0;  ///< the same structural mutation gets the same id in every genome of a run
+  std::uint32_t id = 0;  ///< given by Innovations
   NodeKind kind = NodeKind::hidden;
   Activation activation = Activation::linear;  ///< bias and inputs: linear, and not applied
   friend bool operator==(const NodeGene&, const NodeGene&) = default;

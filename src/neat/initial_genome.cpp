@@ -18,11 +18,11 @@ Genome initial_genome(const GenomeSettings& settings, int inputs, int outputs, I
       // Every possible link is numbered, also those that this genome does not have.
       const std::uint32_t innovation = innovations.link(from, to);
       if (!stream.chance(settings.initial_link_probability)) continue;
-      genome.links.push_back({.innovation = innovation,
-                              .from = from,
-                              .to = to,
-                              .weight = stream.uniform(-settings.weight_limit, settings.weight_limit),
-                              .enabled = true});
+      insert_link(genome, {.innovation = innovation,
+                           .from = from,
+                           .to = to,
+                           .weight = stream.uniform(-settings.weight_limit, settings.weight_limit),
+                           .enabled = true});
     }
   return genome;
 }

@@ -7,28 +7,34 @@
 
 #include "amble/io/binary.hpp"
 #include "amble/neat/genome.hpp"
+#include "amble/neat/settings.hpp"
 
 namespace amble::neat {
 
-/// The historical markings of a whole run (Stanley & Miikkulainen 2002, sec. 3.2): whichever genome makes a
-/// structural mutation, and in whichever generation, the same mutation gets the same number.
+/// Historical markings (Stanley & Miikkulainen 2002, sec. 3.2): whichever genome makes a structural mutation,
+/// the same mutation gets the same number, in one generation or in a whole run (InnovationSettings::scope).
 ///
 /// - A link is the same if it joins the same ordered pair of nodes.
-/// - A new node is the same if it splits the same link and has the same activation function; so equal ids
-/// mean equal functions
-///   throughout a run. A genome that already has that node (its split link came back and is split again) gets
-///   the next node in line for that split, which is registered in turn.
+/// - A new node is the same if it splits the same link and, with InnovationKey::link_and_function, has the
+///   same activation function: equal ids then mean equal functions. With InnovationKey::link they do not. A
+///   genome that already has that node (its split link came back and is split again) gets the next node in
+///   line for that split, which is registered in turn.
 class Innovations {
  public:
   /// Ids below 1 + inputs + outputs belong to bias, inputs and outputs. No link is known yet.
-  Innovations(int inputs, int outputs);
+  Innovations(int inputs, int outputs, const InnovationSettings& settings = {});
+
+  /// A new generation is going to be bred: with InnovationScope::generation the list is cleared, so that no
+  /// mutation gets a number from before again.
+  void begin_generation();
 
   /// The innovation number of the link from → to.
   std::uint32_t link(std::uint32_t from, std::uint32_t to);
   /// The id of the node that splits link `innovation` of `genome`; the genome has no node of that id.
   std::uint32_t node(std::uint32_t innovation, Activation activation, const Genome& genome);
 
-  /// Whether every node and link of the genome bears the number given here.
+  /// Whether every node and link of the genome bears a number given here, and the one that the list, as far
+  /// as it goes back, gives it.
   bool knows(const Genome& genome) const;
 
   void save(io::BinaryWriter& writer) const;
@@ -38,16 +44,21 @@ class Innovations {
  private:
   struct Split {
     std::uint32_t innovation;
-    Activation activation;
+    Activation activation;  ///< with InnovationKey::link always the same
     friend auto operator<=>(const Split&, const Split&) = default;
   };
   using Ends = std::pair<std::uint32_t, std::uint32_t>;
 
-  bool is_node(std::uint32_t id) const { return id < first_hidden_ + splits_.size(); }
+  void check_loaded(io::BinaryReader& reader) const;
+  Split split_of(std::uint32_t innovation, Activation activation) const;
+  std::size_t next_link() const { return first_link_ + links_.size(); }
+  std::size_t next_node() const { return first_node_ + splits_.size(); }
 
+  InnovationSettings settings_;
   std::uint32_t first_hidden_;
-  std::vector<Ends> links_;    ///< by innovation number
-  std::vector<Split> splits_;  ///< by node id − first_hidden_
+  std::uint32_t first_link_ = 0, first_node_;  ///< the first numbers of the list; those before are forgotten
+  std::vector<Ends> links_;                    ///< by innovation number − first_link_
+  std::vector<Split> splits_;                  ///< by node id − first_node_
   std::map<Ends, std::uint32_t> innovation_of_;
   std::map<Split, std::vector<std::uint32_t>> nodes_of_;  ///< ids in the order of registration
 };

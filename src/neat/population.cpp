@@ -1,6 +1,8 @@
 #include "amble/neat/population.hpp"
 
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
@@ -20,7 +22,7 @@ struct Population::State {
         outputs(output_count),
         recurrent(may_recur),
         seed(run_seed),
-        innovations(input_count, output_count),
+        innovations(input_count, output_count, s.innovations),
         speciation(s.speciation) {}
 
   /// What this is worked out from. save() writes it so that load() can refuse what belongs to another run.
@@ -145,8 +147,19 @@ void Population::State::check_loaded() const {
     validate(genome, inputs, outputs, recurrent);
     if (!innovations.knows(genome)) fail(ExitCode::bad_file, "genome: a number that the run did not give");
   };
-  for (const Genome& genome : genomes) check(genome);
-  for (const Species& species : speciation.species()) check(species.representative);
+  // The list of innovations may be younger than the genomes: their numbers must agree with each other, too.
+  std::map<std::uint32_t, std::pair<std::uint32_t, std::uint32_t>> ends_of;
+  const auto check_all = [&](const Genome& genome) {
+    check(genome);
+    for (const LinkGene& link : genome.links) {
+      const std::pair ends{link.from, link.to};
+      if (ends_of.try_emplace(link.innovation, ends).first->second != ends)
+        fail(ExitCode::bad_file, "genome: innovation {} joins other nodes in another genome",
+             link.innovation);
+    }
+  };
+  for (const Genome& genome : genomes) check_all(genome);
+  for (const Species& species : speciation.species()) check_all(species.representative);
 }
 
 }  // namespace amble::neat

@@ -45,6 +45,14 @@ class Breeder {
     }
   }
 
+  /// A mutated copy of one survivor.
+  Genome mutant(std::size_t species, Stream& stream) {
+    const Survivors& survivors = survivors_[species];
+    Genome child = generation_.genomes[survivors.genomes[survivors.draw(stream)]];
+    mutate(child, settings_, recurrent_, innovations_, stream);
+    return child;
+  }
+
   Genome breed(std::size_t species, Stream& stream) {
     const Survivors& survivors = survivors_[species];
     const std::size_t drawn = survivors.draw(stream);
@@ -77,8 +85,13 @@ class Breeder {
     const bool a_is_fitter = selection_a != selection_b ? selection_a > selection_b : stream.chance(0.5);
     const Genome& genome_a = generation_.genomes[a];
     const Genome& genome_b = generation_.genomes[b];
-    return crossover(a_is_fitter ? genome_a : genome_b, a_is_fitter ? genome_b : genome_a,
-                     settings_.crossover, recurrent_, stream);
+    Genome child = crossover(a_is_fitter ? genome_a : genome_b, a_is_fitter ? genome_b : genome_a,
+                             settings_.crossover, recurrent_, stream);
+    // With InnovationKey::link parents may differ in a node's function.
+    for (NodeGene& node : child.nodes)
+      if (const int index = genome_a.index_of(node.id); index >= 0)
+        node.activation = genome_a.nodes[static_cast<std::size_t>(index)].activation;
+    return child;
   }
 
   const Generation& generation_;
@@ -100,9 +113,10 @@ std::size_t species_of_the_best(const Generation& generation) {
                                   generation.species.begin());
 }
 
-std::size_t elite_count(std::size_t places, std::size_t members, double elitism) {
+std::size_t elite_count(std::size_t places, std::size_t members, const ReproductionSettings& settings) {
+  if (places == 1 && settings.lone_place == LonePlace::child) return 0;
   // The small addend keeps a share such as 0.29 of 100, which binary numbers put just below 29, at 29.
-  const auto share = static_cast<std::size_t>(elitism * static_cast<double>(places) + 1e-9);
+  const auto share = static_cast<std::size_t>(settings.elitism * static_cast<double>(places) + 1e-9);
   return std::min({std::max<std::size_t>(share, 1), members, places});
 }
 
@@ -120,23 +134,26 @@ std::vector<int> places_per_species(const Generation& generation, const Reproduc
     const double mean = sum / static_cast<double>(species.members.size());
     shares.push_back(stagnant ? mean * settings.stagnation_factor : mean);
   }
-  return allot_places(shares, static_cast<int>(generation.genomes.size()), species_of_the_best(generation));
+  const auto total = static_cast<int>(generation.genomes.size());
+  if (settings.lone_place == LonePlace::child) return allot_places(shares, total, std::nullopt);
+  return allot_places(shares, total, species_of_the_best(generation));
 }
 
 std::vector<Genome> reproduce(const Generation& generation, const Settings& settings, bool recurrent,
                               Innovations& innovations, std::uint64_t seed, std::uint32_t number) {
   const std::vector<int> places = places_per_species(generation, settings.reproduction);
+  innovations.begin_generation();
   Breeder breeder(generation, settings, recurrent, innovations);
   std::vector<Genome> children;
   for (std::size_t s = 0; s < generation.species.size(); ++s) {
     const std::vector<int>& members = generation.species[s].members;
     const auto own_places = static_cast<std::size_t>(places[s]);
-    const std::size_t elites = elite_count(own_places, members.size(), settings.reproduction.elitism);
+    const std::size_t elites = elite_count(own_places, members.size(), settings.reproduction);
     for (std::size_t i = 0; i < elites; ++i)
       children.push_back(generation.genomes[static_cast<std::size_t>(members[i])]);
     for (std::size_t i = elites; i < own_places; ++i) {
       Stream stream(seed, Purpose::reproduction, number, static_cast<std::uint32_t>(children.size()));
-      children.push_back(breeder.breed(s, stream));
+      children.push_back(elites == 0 ? breeder.mutant(s, stream) : breeder.breed(s, stream));
     }
   }
   return children;

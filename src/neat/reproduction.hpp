@@ -21,17 +21,20 @@ struct Generation {
 
 /// How many places each species gets in the next generation: in proportion to its members' mean selection
 /// (the fitness sharing of Stanley & Miikkulainen 2002, sec. 3.3), that of a stagnant species multiplied by
-/// stagnation_factor. The species that holds the best objective gets at least one.
+/// stagnation_factor. With LonePlace::elite the species that holds the best objective gets at least one.
 std::vector<int> places_per_species(const Generation& generation, const ReproductionSettings& settings);
 
 /// Breeds as many genomes as there were, species by species. A species' first children are copies of its
 /// elites: the best by objective, elitism × places of them, rounded down, at least one and at most all
-/// members. So the best objective never decreases as long as the same genome earns the same objective.
+/// members. With LonePlace::elite the best objective therefore never decreases as long as the same genome
+/// earns the same objective. With LonePlace::child a species of one place has no elite but a mutated child of
+/// one survivor, and the best can be lost (the authors' code).
 ///
 /// The others are bred from its survivors: survival × members, rounded to the nearest, the best by objective,
 /// at least one. Parents are drawn by roulette on selection. The second parent is another survivor of the
 /// same species, or with interspecies_probability a survivor of another species, each species equally likely.
-/// Of two parents the one with the larger selection is the fitter; a coin decides if they are equal. A
+/// Of two parents the one with the larger selection is the fitter; a coin decides if they are equal. Where
+/// they differ in a node's function the child has that of the parent drawn first (the authors' code). A
 /// species of one survivor has no second parent to offer: the child then has one and is mutated.
 ///
 /// Child i of generation `number` takes its random numbers from Stream(seed, Purpose::reproduction, number,

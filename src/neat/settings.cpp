@@ -71,6 +71,17 @@ void MutationSettings::describe(io::SettingsVisitor& visitor) {
   visitor.table("weights", weights, {"roulette for how weights change"});
 }
 
+void InnovationSettings::describe(io::SettingsVisitor& visitor) {
+  visitor.choice("scope", scope, innovation_scope_names,
+                 {"where the same structural mutation gets the same number: within one generation, or "
+                  "whenever it occurs in the run",
+                  "the authors' code and Stanley & Miikkulainen 2002, sec. 3.2: generation"});
+  visitor.choice("key", key, innovation_key_names,
+                 {"when new nodes are the same: if they split the same link (then nodes of one id may differ "
+                  "in function), or if they also have the same function",
+                  "the authors' code: link"});
+}
+
 void CrossoverSettings::describe(io::SettingsVisitor& visitor) {
   visitor.choice(
       "weaker_genes", weaker_genes, weaker_genes_names,
@@ -103,6 +114,13 @@ void SpeciationSettings::describe(io::SettingsVisitor& visitor) {
                   {"with fewer species than this the threshold falls", "the authors' code (population 300)"});
   visitor.integer("target_max", target_max, {1, 1e6},
                   {"with more species than this the threshold rises", "the authors' code (population 300)"});
+  visitor.number("first_step_down", first_step_down, probability,
+                 {"first step down of the threshold, as a share of it (at least 0.1): each further one is "
+                  "1.05 times the "
+                  "last, and after stepping over the range half of it, backwards",
+                  hyper_sharp_neat});
+  visitor.number("first_step_up", first_step_up, probability,
+                 {"first step up, likewise", "the authors' code: 0.5; HyperSharpNEAT: 0.01"});
   visitor.integer("corrections_per_generation", corrections_per_generation, {0, 1000},
                   {"steps of the threshold per generation at most (0: it stays as it is)", hyper_sharp_neat});
 }
@@ -116,6 +134,12 @@ void ReproductionSettings::describe(io::SettingsVisitor& visitor) {
       {"share of a species' places in the next generation for unchanged copies of its best by objective "
        "(at least one)",
        morse_2013});
+  visitor.choice(
+      "lone_place", lone_place, lone_place_names,
+      {"what a species with a single place does with it: keep its best by objective (then the population's "
+       "best is never lost), or a mutated child, without an elite",
+       "the authors' code: child; Morse et al. 2013, sec. 4: elite (\"to ensure the objective fitness never "
+       "decreases\")"});
   visitor.number("asexual_probability", asexual_probability, probability,
                  {"probability that a child has one parent and is mutated; else it has two", authors});
   visitor.number("interspecies_probability", interspecies_probability, probability,
@@ -132,6 +156,7 @@ void Settings::describe(io::SettingsVisitor& visitor) {
   visitor.table("population", population, {"the genomes of one generation"});
   visitor.table("genome", genome, {"what a genome looks like, at the start and when it grows"});
   visitor.table("mutation", mutation, {"roulette of the operators that change a genome"});
+  visitor.table("innovations", innovations, {"which structural mutations get the same number"});
   visitor.table("crossover", crossover, {"how two parents make one child"});
   visitor.table("speciation", speciation, {"which genomes share a species"});
   visitor.table("reproduction", reproduction, {"who has how many children"});

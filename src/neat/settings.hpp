@@ -65,6 +65,22 @@ struct MutationSettings {
 enum class WeakerGenes { all_or_none, one_by_one };
 inline constexpr std::array<std::string_view, 2> weaker_genes_names{"all_or_none", "one_by_one"};
 
+/// How long a structural mutation keeps its number: until the next generation is bred, or for ever.
+enum class InnovationScope { generation, run };
+inline constexpr std::array<std::string_view, 2> innovation_scope_names{"generation", "run"};
+
+/// What makes two new nodes the same: the link that they split, or also their function.
+enum class InnovationKey { link, link_and_function };
+inline constexpr std::array<std::string_view, 2> innovation_key_names{"link", "link_and_function"};
+
+/// Which structural mutations get the same number (Stanley & Miikkulainen 2002, sec. 3.2).
+struct InnovationSettings {
+  InnovationScope scope = InnovationScope::generation;
+  InnovationKey key = InnovationKey::link;
+
+  void describe(io::SettingsVisitor& visitor);
+};
+
 struct CrossoverSettings {
   WeakerGenes weaker_genes = WeakerGenes::all_or_none;
   double weaker_genes_probability = 0.1;
@@ -87,14 +103,20 @@ struct SpeciationSettings {
   double initial_threshold = 100.0;
   int target_min = 28;
   int target_max = 30;
+  double first_step_down = 0.01, first_step_up = 0.5;
   int corrections_per_generation = 1;
 
   void describe(io::SettingsVisitor& visitor);
 };
 
+/// What becomes of the only place that a species has in the next generation.
+enum class LonePlace { elite, child };
+inline constexpr std::array<std::string_view, 2> lone_place_names{"elite", "child"};
+
 struct ReproductionSettings {
   double survival = 0.8;
   double elitism = 0.1;
+  LonePlace lone_place = LonePlace::child;
   double asexual_probability = 0.5;
   double interspecies_probability = 0.01;
   int stagnation_generations = 1500;
@@ -109,6 +131,7 @@ struct Settings {
   PopulationSettings population;
   GenomeSettings genome;
   MutationSettings mutation;
+  InnovationSettings innovations;
   CrossoverSettings crossover;
   SpeciationSettings speciation;
   ReproductionSettings reproduction;

@@ -10,9 +10,10 @@ bool Threshold::steer(int species, const SpeciationSettings& settings) {
     step_ = 0.0;
     return false;
   }
-  const double direction = species < settings.target_min ? -1.0 : 1.0;
+  const bool down = species < settings.target_min;
+  const double direction = down ? -1.0 : 1.0;
   if (step_ == 0.0)
-    step_ = direction * std::max(0.1, 0.01 * value_);
+    step_ = direction * std::max(0.1, (down ? settings.first_step_down : settings.first_step_up) * value_);
   else
     step_ *= step_ * direction > 0.0 ? 1.05 : -0.5;
 

@@ -6,9 +6,10 @@
 namespace amble::neat {
 
 /// The compatibility threshold, steered so that the number of species comes to the target range
-/// (HyperSharpNEAT's rule): the first step out of the range is the larger of 0.1 and 1 % of the threshold;
-/// each further step on the same side is 1.05 times the last; after stepping over the range it turns round
-/// and is half as long. The threshold stays at or above 0.01.
+/// (HyperSharpNEAT's rule, in which the authors' code raised the first step up): the first step out of the
+/// range is the larger of 0.1 and SpeciationSettings::first_step_down or first_step_up × the threshold; each
+/// further step on the same side is 1.05 times the last; after stepping over the range it turns round and is
+/// half as long. The threshold stays at or above 0.01.
 class Threshold {
  public:
   static constexpr double lowest = 0.01;

@@ -70,7 +70,7 @@ std::vector<neat::Fitness> NoveltySearch::judge(std::span<const Evaluation> gene
     if (!joins(own)) continue;
     archive_.append(newcomers.row(i));
     crowd.admit(i);
-    ++added;
+    if (own > threshold_ || settings_.count_first_members) ++added;
   }
   statistics.archive_members = archive_.rows();
   statistics_ = statistics;

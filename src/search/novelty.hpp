@@ -21,7 +21,8 @@ namespace amble::search {
 /// distances to its nearest neighbours in the archive as it then stands, so it sees those of its own
 /// generation who joined before it; or in the archive and all the rest of its generation. Whoever is both
 /// counts once. If the novelty exceeds the threshold, or the archive is still small, the newcomer joins. At
-/// the end of the generation the threshold adapts to the number of those who joined, for whichever reason.
+/// the end of the generation the threshold adapts to the number of those who joined; those who did so only
+/// because the archive was small count if NoveltySettings::count_first_members says so.
 class NoveltySearch : public Search {
  public:
   NoveltySearch(const NoveltySettings& settings, std::size_t behaviour_length);

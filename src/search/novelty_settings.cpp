@@ -29,6 +29,9 @@ void NoveltySettings::describe(io::SettingsVisitor& visitor) {
                  {"who is more novel than this joins the archive; the value in generation 0", paper});
   visitor.integer("first_members", first_members, {0, 1e6},
                   {"while the archive has fewer members, everyone joins it", authors});
+  visitor.flag("count_first_members", count_first_members,
+               {"whether those who join for that reason alone count as added when the threshold adapts",
+                "the authors' code: false; Lehman's code: true"});
   visitor.integer("raise_above", raise_above, {0, 1e6},
                   {"a generation that adds more members than this raises the threshold", authors});
   visitor.number("raise_factor", raise_factor, {1, 1e3}, {"by this factor", authors});

@@ -29,6 +29,7 @@ struct NoveltySettings {
   int neighbours = 15;
   double threshold = 1000.0;
   int first_members = 15;
+  bool count_first_members = false;
   int raise_above = 4;
   double raise_factor = 1.2;
   int lower_after = 4;

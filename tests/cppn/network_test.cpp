@@ -95,15 +95,26 @@ TEST(Network, ComputesAHandWorkedExample) {
   EXPECT_EQ(evaluate_one(genome, Settings{Linear::identity, true}, {1.0f, 0.5f}), -7.875f);
 }
 
-TEST(Network, RunsACycleTwiceHiddenPlusOnePasses) {
-  // Output = |output + input| grows by the input in each pass; two idle hidden nodes make it 5 passes, none
-  // make it 1.
+constexpr Settings shorter{Linear::absolute, true, Passes::twice_hidden_plus_1};
+
+TEST(Network, RunsACycleAsManyPassesAsTheSettingSays) {
+  // Output = |output + input| grows by the input in each pass. Two idle hidden nodes make it 7 or 5 passes,
+  // none make it 3 or 1.
   neat::Genome genome = small_genome(Activation::linear, Activation::sine, Activation::sine);
   genome.links = {{0, 1, 3, 1.0}, {1, 3, 3, 1.0}};
   EXPECT_TRUE(Network(genome, recurrent).cyclic());
-  EXPECT_EQ(evaluate_one(genome, recurrent, {0.5f, 0.0f}), 2.5f);
+  EXPECT_EQ(evaluate_one(genome, recurrent, {0.5f, 0.0f}), 3.5f);
+  EXPECT_EQ(evaluate_one(genome, shorter, {0.5f, 0.0f}), 2.5f);
   genome.nodes.resize(4);
-  EXPECT_EQ(evaluate_one(genome, recurrent, {0.5f, 0.0f}), 0.5f);
+  EXPECT_EQ(evaluate_one(genome, recurrent, {0.5f, 0.0f}), 1.5f);
+  EXPECT_EQ(evaluate_one(genome, shorter, {0.5f, 0.0f}), 0.5f);
+}
+
+TEST(Network, NeedsNoSetNumberOfPassesWhereTheHiddenNodesFormNoCycle) {
+  neat::Genome genome = small_genome(Activation::sine, Activation::gaussian, Activation::bipolar_sigmoid);
+  genome.links = {{0, 1, 4, 0.7}, {1, 4, 5, -0.9}, {2, 5, 3, 1.1}, {3, 2, 3, 0.4}};
+  EXPECT_EQ(plain::bits(evaluate_one(genome, recurrent, {0.5f, 0.3f})),
+            plain::bits(evaluate_one(genome, shorter, {0.5f, 0.3f})));
 }
 
 TEST(Network, IgnoresDisabledLinks) {
@@ -147,7 +158,8 @@ TEST(Network, EqualsSynchronousPassesForThousandsOfGenomesWithoutCycles) {
     GenomeShape shape{3, 2, static_cast<int>(stream.below(12)), static_cast<int>(stream.below(80)), false};
     const neat::Genome genome = random_genome(shape, stream);
     ASSERT_FALSE(Network(genome, recurrent).cyclic());
-    ASSERT_NO_FATAL_FAILURE(expect_same_as_plain(genome, recurrent, plain::recurrent_passes(genome), points))
+    ASSERT_NO_FATAL_FAILURE(
+        expect_same_as_plain(genome, recurrent, plain::recurrent_passes(genome, recurrent.passes), points))
         << i;
     const int enough = static_cast<int>(genome.nodes.size());
     ASSERT_NO_FATAL_FAILURE(expect_same_as_plain(genome, feed_forward, enough, points)) << i;
@@ -161,25 +173,36 @@ TEST(Network, EqualsSynchronousPassesForThousandsOfGenomesWithCycles) {
   for (int i = 0; i < 3000; ++i) {
     GenomeShape shape{3, 2, static_cast<int>(stream.below(12)), static_cast<int>(stream.below(60)), true};
     const neat::Genome genome = random_genome(shape, stream);
-    const Settings settings{i % 2 == 0 ? Linear::absolute : Linear::identity, true};
-    cyclic += Network(genome, settings).cyclic();
-    ASSERT_NO_FATAL_FAILURE(expect_same_as_plain(genome, settings, plain::recurrent_passes(genome), points))
-        << i;
+    for (const Passes passes : {Passes::twice_hidden_plus_1, Passes::twice_hidden_plus_3}) {
+      const Settings settings{i % 2 == 0 ? Linear::absolute : Linear::identity, true, passes};
+      ASSERT_NO_FATAL_FAILURE(
+          expect_same_as_plain(genome, settings, plain::recurrent_passes(genome, passes), points))
+          << i;
+    }
+    cyclic += Network(genome, recurrent).cyclic();
   }
   EXPECT_GT(cyclic, 1000);
 }
 
 TEST(Network, CutsChainsOfOutputsOffLikeThePasses) {
-  // Without hidden nodes there is one pass, in which the second output still sees the first as 0.
+  // Without hidden nodes there are three passes or one; in the first, an output still sees the others as 0.
   Stream stream(13, Purpose::test);
   const Points points = random_points(2, 3, stream);
+  int cut_off = 0, cut_off_later = 0;
   for (int i = 0; i < 500; ++i) {
     const GenomeShape shape{2, 6, static_cast<int>(stream.below(3)), 40, false};
     const neat::Genome genome = random_genome(shape, stream);
-    ASSERT_NO_FATAL_FAILURE(expect_same_as_plain(genome, recurrent, plain::recurrent_passes(genome), points))
-        << i;
+    for (const Settings& settings : {recurrent, shorter}) {
+      const int passes = plain::recurrent_passes(genome, settings.passes);
+      ASSERT_NO_FATAL_FAILURE(expect_same_as_plain(genome, settings, passes, points)) << i;
+    }
     ASSERT_NO_FATAL_FAILURE(expect_same_as_plain(genome, feed_forward, 10, points)) << i;
+    const std::vector<float> settled = evaluate(Network(genome, feed_forward), points);
+    cut_off += evaluate(Network(genome, shorter), points) != settled;
+    cut_off_later += evaluate(Network(genome, recurrent), points) != settled;
   }
+  EXPECT_GT(cut_off_later, 10);
+  EXPECT_GT(cut_off, cut_off_later);
 }
 
 TEST(Network, GivesTheSameBitsOnEveryInstructionSet) {
@@ -192,7 +215,7 @@ TEST(Network, GivesTheSameBitsOnEveryInstructionSet) {
     const neat::Genome genome = random_genome(shape, stream);
     for_each_target([&] {
       ASSERT_NO_FATAL_FAILURE(
-          expect_same_as_plain(genome, recurrent, plain::recurrent_passes(genome), points))
+          expect_same_as_plain(genome, recurrent, plain::recurrent_passes(genome, recurrent.passes), points))
           << i;
     });
   }

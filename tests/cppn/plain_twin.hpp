@@ -79,8 +79,9 @@ inline std::vector<float> evaluate(const neat::Genome& genome, Linear linear,
   return outputs;
 }
 
-inline int recurrent_passes(const neat::Genome& genome) {
-  return 2 * genome.count(neat::NodeKind::hidden) + 1;
+inline int recurrent_passes(const neat::Genome& genome, Passes passes) {
+  const int hidden = genome.count(neat::NodeKind::hidden);
+  return passes == Passes::twice_hidden_plus_1 ? 2 * hidden + 1 : 2 * hidden + 3;
 }
 
 inline std::uint32_t bits(float value) {

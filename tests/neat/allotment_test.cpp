@@ -35,6 +35,11 @@ TEST(Allotment, KeepsTheNamedSpeciesAlive) {
   EXPECT_EQ(allot({1e300, 1e-300}, 5, 1), (std::vector<int>{4, 1}));
 }
 
+TEST(Allotment, LetsAnySpeciesGoIfNoneIsKept) {
+  EXPECT_EQ(allot_places(std::vector<double>{8, 0, 2}, 10, std::nullopt), (std::vector<int>{8, 0, 2}));
+  EXPECT_EQ(allot_places(std::vector<double>{0, 1}, 5, std::nullopt), (std::vector<int>{0, 5}));
+}
+
 TEST(Allotment, SurvivesSharesAtTheLimitsOfDouble) {
   const double huge = std::numeric_limits<double>::max(), tiny = std::numeric_limits<double>::denorm_min();
   EXPECT_EQ(allot({huge, huge, huge, huge}, 8), (std::vector<int>{2, 2, 2, 2}));

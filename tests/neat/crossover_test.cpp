@@ -145,5 +145,19 @@ TEST(Crossover, OfAGenomeWithItselfIsItself) {
   }
 }
 
+TEST(Crossover, InheritsALinkOfTwoNumbersOnceWithTheSmallerNumberAndTheFittersWeight) {
+  const Genome older = sample_genome(1, 1, {}, {{0, 0, 2, 0.1, true}, {1, 1, 2, 0.2, true}});
+  const Genome newer = sample_genome(1, 1, {}, {{0, 0, 2, 0.1, true}, {7, 1, 2, 0.7, true}});
+  CrossoverSettings settings;
+  settings.weaker_genes_probability = 1.0;
+  Stream stream(104, Purpose::test);
+  EXPECT_EQ(crossover(older, newer, settings, true, stream).links[1], (LinkGene{1, 1, 2, 0.2, true}));
+  EXPECT_EQ(crossover(older, newer, settings, true, stream).links.size(), 2u);
+  EXPECT_EQ(crossover(newer, older, settings, true, stream).links[1], (LinkGene{1, 1, 2, 0.7, true}));
+  EXPECT_EQ(crossover(newer, older, settings, true, stream).links.size(), 2u);
+  settings.weaker_genes_probability = 0.0;
+  EXPECT_EQ(crossover(newer, older, settings, true, stream).links[1], (LinkGene{7, 1, 2, 0.7, true}));
+}
+
 }  // namespace
 }  // namespace amble::neat

@@ -2,19 +2,50 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "amble/neat/mutation.hpp"
 #include "tests/neat/samples.hpp"
 
 namespace amble::neat {
 namespace {
 
+constexpr InnovationSettings whole_run{InnovationScope::run, InnovationKey::link_and_function};
+
 TEST(Innovations, GiveTheSameLinkTheSameNumberForEver) {
-  Innovations innovations(2, 1);
+  Innovations innovations(2, 1, whole_run);
   EXPECT_EQ(innovations.link(0, 3), 0u);
   EXPECT_EQ(innovations.link(1, 3), 1u);
   EXPECT_EQ(innovations.link(0, 3), 0u);
   EXPECT_EQ(innovations.link(3, 3), 2u);
+  innovations.begin_generation();
   EXPECT_EQ(innovations.link(1, 3), 1u);
+  EXPECT_EQ(innovations.link(2, 3), 3u);
+}
+
+TEST(Innovations, GiveNumbersAnewInEachGenerationIfToldSo) {
+  Innovations innovations(2, 1, {InnovationScope::generation, InnovationKey::link_and_function});
+  const Genome none = sample_genome(2, 1, {}, {});
+  EXPECT_EQ(innovations.link(0, 3), 0u);
+  EXPECT_EQ(innovations.link(1, 3), 1u);
+  EXPECT_EQ(innovations.node(0, Activation::sine, none), 4u);
+  innovations.begin_generation();
+  EXPECT_EQ(innovations.link(1, 3), 2u);
+  EXPECT_EQ(innovations.link(1, 3), 2u) << "the same in one generation";
+  EXPECT_EQ(innovations.link(4, 3), 3u) << "nodes of earlier generations stay";
+  EXPECT_EQ(innovations.node(0, Activation::sine, none), 5u) << "links of earlier generations can be split";
+  EXPECT_EQ(innovations.node(0, Activation::sine, none), 5u);
+}
+
+TEST(Innovations, GiveTheSameSplitTheSameNodeWhateverItsFunctionIfTheLinkAloneCounts) {
+  Innovations innovations(2, 1, {InnovationScope::run, InnovationKey::link});
+  const Genome none = sample_genome(2, 1, {}, {});
+  const auto link = innovations.link(0, 3);
+  const auto node = innovations.node(link, Activation::sine, none);
+  EXPECT_EQ(innovations.node(link, Activation::gaussian, none), node);
+  const Genome with_it = sample_genome(2, 1, {{node, NodeKind::hidden, Activation::sine}}, {});
+  EXPECT_NE(innovations.node(link, Activation::gaussian, with_it), node) << "a genome has an id only once";
+  EXPECT_TRUE(innovations.knows(sample_genome(2, 1, {{node, NodeKind::hidden, Activation::gaussian}}, {})));
 }
 
 TEST(Innovations, TellTheDirectionsOfALinkApart) {
@@ -23,7 +54,7 @@ TEST(Innovations, TellTheDirectionsOfALinkApart) {
 }
 
 TEST(Innovations, GiveTheSameSplitTheSameNodeInEveryGenome) {
-  Innovations innovations(2, 1);
+  Innovations innovations(2, 1, whole_run);
   const Genome one = sample_genome(2, 1, {}, {}), other = sample_genome(2, 1, {}, {{0, 0, 3, 1.0, true}});
   const auto link = innovations.link(0, 3), second_link = innovations.link(1, 3);
   const auto node = innovations.node(link, Activation::sine, one);
@@ -35,7 +66,7 @@ TEST(Innovations, GiveTheSameSplitTheSameNodeInEveryGenome) {
 }
 
 TEST(Innovations, GiveAGenomeThatHasTheNodeTheNextOneInLine) {
-  Innovations innovations(2, 1);
+  Innovations innovations(2, 1, whole_run);
   const auto link = innovations.link(0, 3);
   const Genome none = sample_genome(2, 1, {}, {});
   const auto first = innovations.node(link, Activation::sine, none);
@@ -50,7 +81,7 @@ TEST(Innovations, GiveAGenomeThatHasTheNodeTheNextOneInLine) {
 
 TEST(Innovations, KnowTheirOwnNumbersOnly) {
   Stream stream(51, Purpose::test);
-  Innovations innovations(2, 1);
+  Innovations innovations(2, 1, whole_run);
   const Genome genome = grown_genome(2, 1, 60, true, innovations, stream);
   ASSERT_GT(genome.count(NodeKind::hidden), 2);
   EXPECT_TRUE(innovations.knows(genome));
@@ -70,35 +101,57 @@ TEST(Innovations, KnowTheirOwnNumbersOnly) {
   EXPECT_FALSE(innovations.knows(other)) << "equal ids mean equal functions";
 }
 
-TEST(Innovations, ContinueAfterSaveAndLoad) {
+/// What the four combinations of settings have in common.
+class AllInnovations : public testing::TestWithParam<std::tuple<InnovationScope, InnovationKey>> {
+ protected:
+  InnovationSettings settings_{std::get<0>(GetParam()), std::get<1>(GetParam())};
+};
+
+TEST_P(AllInnovations, ContinueAfterSaveAndLoad) {
   Stream stream(52, Purpose::test);
-  Innovations innovations(2, 1);
-  for (int i = 0; i < 20; ++i) grown_genome(2, 1, 30, true, innovations, stream);
+  Innovations innovations(2, 1, settings_);
+  for (int i = 0; i < 20; ++i) {
+    if (i % 8 == 7) innovations.begin_generation();
+    grown_genome(2, 1, 30, true, innovations, stream);
+  }
   io::BinaryWriter writer;
   innovations.save(writer);
-  Innovations loaded(2, 1);
+  Innovations loaded(2, 1, settings_);
   io::BinaryReader reader(writer.bytes(), "file");
   loaded.load(reader);
   reader.finish();
   Stream one(53, Purpose::test), two(53, Purpose::test);
-  for (int i = 0; i < 20; ++i)
+  for (int i = 0; i < 20; ++i) {
     ASSERT_EQ(grown_genome(2, 1, 60, true, innovations, one), grown_genome(2, 1, 60, true, loaded, two));
+    if (i % 7 == 6) {
+      innovations.begin_generation();
+      loaded.begin_generation();
+    }
+  }
   io::BinaryWriter after, loaded_after;
   innovations.save(after);
   loaded.save(loaded_after);
   EXPECT_EQ(after.bytes(), loaded_after.bytes());
 }
 
+INSTANTIATE_TEST_SUITE_P(ScopesAndKeys, AllInnovations,
+                         testing::Combine(testing::Values(InnovationScope::generation, InnovationScope::run),
+                                          testing::Values(InnovationKey::link,
+                                                          InnovationKey::link_and_function)));
+
 TEST(Innovations, RefuseWhatCannotBe) {
-  const auto complaint_about = [](std::initializer_list<std::uint32_t> ends, std::uint32_t split_link) {
+  const auto complaint_about = [](std::initializer_list<std::uint32_t> ends, std::uint32_t split_link,
+                                  InnovationSettings settings = whole_run, std::uint32_t first_link = 0) {
     io::BinaryWriter writer;
     writer.put(std::uint32_t{4});
+    writer.put(first_link);
     writer.put(static_cast<std::uint64_t>(ends.size() / 2));
     for (const auto end : ends) writer.put(end);
+    writer.put(std::uint32_t{4});
     writer.put(std::uint64_t{1});
     writer.put(split_link);
     writer.put(Activation::sine);
-    Innovations innovations(2, 1);
+    Innovations innovations(2, 1, settings);
     io::BinaryReader reader(writer.bytes(), "file");
     return complaint([&] { innovations.load(reader); });
   };
@@ -106,6 +159,14 @@ TEST(Innovations, RefuseWhatCannotBe) {
   EXPECT_NE(complaint_about({0, 3, 0, 3}, 0).find("a link with two innovation numbers"), std::string::npos);
   EXPECT_NE(complaint_about({0, 3, 5, 3}, 0).find("a link that joins unknown nodes"), std::string::npos);
   EXPECT_NE(complaint_about({0, 3, 4, 3}, 2).find("a node that splits an unknown link"), std::string::npos);
+  EXPECT_NE(complaint_about({0, 3, 4, 3}, 0, whole_run, 9).find("begins where it cannot"), std::string::npos);
+  const InnovationSettings generation{InnovationScope::generation, InnovationKey::link_and_function};
+  EXPECT_EQ(complaint_about({0, 3, 4, 3}, 0, generation, 9), "");
+  EXPECT_NE(complaint_about({0, 3, 4, 3}, 0, generation, 0xffffffffu).find("too many innovations"),
+            std::string::npos);
+  EXPECT_NE(complaint_about({0, 3, 4, 3}, 0, {InnovationScope::run, InnovationKey::link})
+                .find("where the link alone counts"),
+            std::string::npos);
 }
 
 }  // namespace

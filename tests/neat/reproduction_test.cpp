@@ -69,11 +69,14 @@ TEST(Places, ArePunishedAfterTooManyGenerationsWithoutImprovement) {
   EXPECT_EQ(places_per_species(sample.generation(), settings), (std::vector<int>{100, 0}));
 }
 
-TEST(Places, KeepTheSpeciesOfTheBestObjective) {
+TEST(Places, KeepTheSpeciesOfTheBestObjectiveWhereALonePlaceIsAnElites) {
   Sample sample;
   sample.add({{5, 1}, {5, 1}, {5, 1}, {5, 1}});
   sample.add({{0, 2}, {0, 1}});  // worth nothing to the search, but it holds the best objective
-  EXPECT_EQ(places_per_species(sample.generation(), {}), (std::vector<int>{5, 1}));
+  ReproductionSettings settings;
+  EXPECT_EQ(places_per_species(sample.generation(), settings), (std::vector<int>{6, 0}));
+  settings.lone_place = LonePlace::elite;
+  EXPECT_EQ(places_per_species(sample.generation(), settings), (std::vector<int>{5, 1}));
 }
 
 TEST(Places, SurviveExtremeSelection) {
@@ -108,6 +111,33 @@ TEST(Reproduction, CopiesTheBestOfASmallSpecies) {
   const auto children = sample.breed({});
   EXPECT_EQ(children[0], sample.genomes[0]);
   EXPECT_EQ(children[3], sample.genomes[3]);
+}
+
+TEST(Reproduction, GivesALonePlaceToTheEliteOrToAMutatedChild) {
+  // 9 : 1 of ten places. The second species holds the best objective.
+  Sample sample;
+  sample.add({{9, 1}, {9, 1}, {9, 1}, {9, 1}, {9, 1}});
+  sample.add({{1, 8}, {1, 7}, {1, 6}, {1, 5}, {1, 4}});
+  Settings settings = only_crossover();
+  settings.reproduction.lone_place = LonePlace::elite;
+  ASSERT_EQ(places_per_species(sample.generation(), settings.reproduction), (std::vector<int>{9, 1}));
+  EXPECT_EQ(sample.breed(settings)[9], sample.genomes[5]);
+
+  settings.reproduction.lone_place = LonePlace::child;
+  settings.mutation.weights.jiggle_limit = 1e-5;  // so that a child still shows its parent
+  settings.mutation.weights.reset_few_share = settings.mutation.weights.reset_one_share = 0;
+  settings.mutation.add_link_share = settings.mutation.add_node_share = 0;
+  std::map<int, int> children_of;
+  for (std::uint32_t number = 1; number <= 400; ++number) {
+    const auto children = sample.breed(settings, number);
+    ASSERT_EQ(children.size(), 10u);
+    EXPECT_EQ(children[0], sample.genomes[0]) << "with more places than one there is an elite";
+    EXPECT_EQ(std::ranges::find(sample.genomes, children[9]), sample.genomes.end()) << "mutated, not crossed";
+    ++children_of[parent_of(children[9])];
+  }
+  ASSERT_EQ(children_of.size(), 4u) << "any of the four survivors";
+  for (const auto& [member, count] : children_of) EXPECT_NEAR(count, 100, 5 * std::sqrt(75.0)) << member;
+  EXPECT_EQ(children_of.begin()->first, 5);
 }
 
 TEST(Reproduction, CopiesNoMoreElitesThanThereAreMembers) {
@@ -205,6 +235,28 @@ TEST(Reproduction, CallsTheParentWithTheLargerSelectionTheFitter) {
   EXPECT_EQ(share_with_two_links(two_structures(2, 1)), 0.0);
   EXPECT_NEAR(share_with_two_links(two_structures(1, 1)), 0.5, 0.04) << "a coin decides";
   EXPECT_NEAR(share_with_two_links(two_structures(0, 0)), 0.5, 0.04);
+}
+
+TEST(Reproduction, GivesTheChildTheFunctionsOfTheParentDrawnFirst) {
+  // Two parents of one structure whose hidden node differs in function. The first parent is drawn by
+  // selection, and so nearly always the fitter; but of two equal ones each comes first in half of the cases.
+  for (const double first_selection : {1.0, 99.0}) {
+    Sample sample;
+    sample.add({{first_selection, 2}, {1, 1}});
+    for (std::size_t i = 0; i < 2; ++i)
+      sample.genomes[i] =
+          sample_genome(1, 1, {{3, NodeKind::hidden, i == 0 ? Activation::sine : Activation::gaussian}},
+                        {{0, 0, 2, 0.1, true}, {1, 0, 3, 1.0, true}, {2, 3, 2, 0.3, true}});
+    Settings settings = only_crossover();
+    settings.reproduction.survival = 1.0;
+    int sines = 0;
+    const int rounds = 2000;
+    for (std::uint32_t number = 1; number <= rounds; ++number)
+      sines += sample.breed(settings, number)[1].nodes.back().activation == Activation::sine;
+    const double share = first_selection / (first_selection + 1.0);
+    EXPECT_NEAR(sines, rounds * share, 5 * std::sqrt(rounds * share * (1.0 - share)) + 1);
+    EXPECT_LT(sines, rounds) << "not always the fitter's";
+  }
 }
 
 TEST(Reproduction, MatesBetweenSpeciesWithTheGivenProbability) {

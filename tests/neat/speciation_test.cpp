@@ -137,33 +137,41 @@ struct Start {
 
 class Steering : public testing::TestWithParam<Start> {};
 
-TEST_P(Steering, ReachesTheTargetAndStaysThere) {
-  // A synthetic population of 300 whose weights drift while its structure and its order of objectives stay.
+/// Numbers of species, generation by generation, of a synthetic population of 300 whose weights drift while
+/// its structure and its order of objectives stay.
+std::vector<int> species_while_weights_drift(const SpeciationSettings& settings, int generations) {
   Stream stream(121, Purpose::test);
-  Innovations innovations(3, 2);
+  Innovations innovations(3, 2, {InnovationScope::run, InnovationKey::link_and_function});
   std::vector<Genome> genomes;
   std::vector<Fitness> fitness(300);
   for (Fitness& f : fitness) {
     genomes.push_back(grown_genome(3, 2, static_cast<int>(stream.below(12)), true, innovations, stream));
     f.objective = stream.uniform();
   }
-  SpeciationSettings settings;
-  settings.initial_threshold = GetParam().threshold;
-  settings.corrections_per_generation = GetParam().corrections;
   Speciation speciation(settings);
-  int on_target = 0;
-  for (int generation = 0; generation < 200; ++generation) {
+  std::vector<int> species;
+  for (int generation = 0; generation < generations; ++generation) {
     speciation.assign(genomes);
-    const auto species = static_cast<int>(speciation.species().size());
-    if (generation >= 100) {
-      on_target += species >= settings.target_min && species <= settings.target_max;
-      EXPECT_GE(species, 25);
-      EXPECT_LE(species, 33);
-    }
+    species.push_back(static_cast<int>(speciation.species().size()));
     speciation.record(genomes, fitness);
     for (Genome& genome : genomes)
       for (LinkGene& link : genome.links)
         if (stream.chance(0.02)) link.weight += stream.uniform(-0.05, 0.05);
+  }
+  return species;
+}
+
+TEST_P(Steering, ReachesTheTargetAndStaysThereBySmallFirstSteps) {
+  SpeciationSettings settings;
+  settings.first_step_up = 0.01;
+  settings.initial_threshold = GetParam().threshold;
+  settings.corrections_per_generation = GetParam().corrections;
+  const std::vector<int> species = species_while_weights_drift(settings, 200);
+  int on_target = 0;
+  for (std::size_t generation = 100; generation < 200; ++generation) {
+    on_target += species[generation] >= settings.target_min && species[generation] <= settings.target_max;
+    EXPECT_GE(species[generation], 25);
+    EXPECT_LE(species[generation], 33);
   }
   EXPECT_GE(on_target, 90) << "of the last hundred generations";
 }
@@ -174,6 +182,18 @@ INSTANTIATE_TEST_SUITE_P(FromBothSides, Steering,
                            return std::string(start.param.threshold > 1 ? "Above" : "Below") +
                                   std::to_string(start.param.corrections);
                          });
+
+TEST(Speciation, MergesSpeciesAgainAndAgainByTheAuthorsFirstStepUp) {
+  for (const double threshold : {100.0, 0.5}) {
+    SpeciationSettings settings;
+    settings.initial_threshold = threshold;
+    const std::vector<int> species = species_while_weights_drift(settings, 200);
+    int merged = 0;
+    for (std::size_t generation = 101; generation < 200; ++generation)
+      merged += species[generation - 1] > settings.target_max && species[generation] < settings.target_min;
+    EXPECT_GE(merged, 1) << "in the last hundred generations";
+  }
+}
 
 TEST(Speciation, ReachesTheTargetSoonerWithMoreCorrections) {
   Stream stream(123, Purpose::test);

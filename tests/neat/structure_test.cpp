@@ -14,8 +14,15 @@ namespace {
 
 constexpr int inputs = 3, outputs = 2;
 
-/// Recurrent or not, what becomes of a split link, how the weaker parent's genes are inherited.
-class RandomStructure : public testing::TestWithParam<std::tuple<bool, SplitLink, WeakerGenes>> {};
+/// Recurrent or not, what becomes of a split link, how the weaker parent's genes are inherited, how long
+/// numbers hold, and for which nodes.
+class RandomStructure : public testing::TestWithParam<
+                            std::tuple<bool, SplitLink, WeakerGenes, InnovationScope, InnovationKey>> {};
+
+bool joins(const Genome& genome, const LinkGene& like) {
+  return std::ranges::any_of(
+      genome.links, [&](const LinkGene& link) { return link.from == like.from && link.to == like.to; });
+}
 
 TEST_P(RandomStructure, StaysValidThroughThousandsOfMutationsAndCrossovers) {
   const bool recurrent = std::get<0>(GetParam());
@@ -27,13 +34,15 @@ TEST_P(RandomStructure, StaysValidThroughThousandsOfMutationsAndCrossovers) {
   settings.crossover.weaker_genes_probability = 0.5;
 
   Stream stream(111, Purpose::test);
-  Innovations innovations(inputs, outputs);
+  const InnovationSettings numbers{std::get<3>(GetParam()), std::get<4>(GetParam())};
+  Innovations innovations(inputs, outputs, numbers);
   std::vector<Genome> pool;
   for (int i = 0; i < 12; ++i)
     pool.push_back(initial_genome(settings.genome, inputs, outputs, innovations, stream));
 
   int crossed = 0, largest = 0;
   for (int round = 0; round < 4000; ++round) {
+    if (round % 20 == 19) innovations.begin_generation();
     Genome& place = pool[stream.below(12)];
     const Genome& mother = pool[stream.below(12)];
     const Genome& father = pool[stream.below(12)];
@@ -41,9 +50,11 @@ TEST_P(RandomStructure, StaysValidThroughThousandsOfMutationsAndCrossovers) {
     if (stream.chance(0.3)) {
       child = crossover(mother, father, settings.crossover, recurrent, stream);
       ++crossed;
-      for (const LinkGene& link : mother.links)
-        ASSERT_TRUE(std::ranges::binary_search(child.links, link.innovation, {}, &LinkGene::innovation))
-            << "the fitter parent's links are all inherited";
+      for (const LinkGene& link : mother.links) {
+        ASSERT_TRUE(joins(child, link)) << "the fitter parent's links are all inherited";
+        ASSERT_TRUE(numbers.scope == InnovationScope::generation ||
+                    std::ranges::binary_search(child.links, link.innovation, {}, &LinkGene::innovation));
+      }
     } else {
       child = mother;
       ASSERT_NE(mutate(child, settings, recurrent, innovations, stream), Mutation::none);
@@ -65,7 +76,9 @@ TEST_P(RandomStructure, StaysValidThroughThousandsOfMutationsAndCrossovers) {
 INSTANTIATE_TEST_SUITE_P(
     AllRules, RandomStructure,
     testing::Combine(testing::Bool(), testing::Values(SplitLink::remove, SplitLink::disable),
-                     testing::Values(WeakerGenes::all_or_none, WeakerGenes::one_by_one)));
+                     testing::Values(WeakerGenes::all_or_none, WeakerGenes::one_by_one),
+                     testing::Values(InnovationScope::generation, InnovationScope::run),
+                     testing::Values(InnovationKey::link, InnovationKey::link_and_function)));
 
 }  // namespace
 }  // namespace amble::neat

@@ -25,12 +25,43 @@ TEST(Threshold, FallsFasterAndFasterWhileThereAreTooFewSpecies) {
   EXPECT_DOUBLE_EQ(threshold.value(), 99.0 - 1.05 - 1.05 * 1.05);
 }
 
-TEST(Threshold, RisesWhileThereAreTooManySpecies) {
+TEST(Threshold, RisesByHalfOfItselfWhileThereAreTooManySpecies) {
   Threshold threshold(5);
   threshold.steer(31, {});
-  EXPECT_DOUBLE_EQ(threshold.value(), 5.1);  // 0.1 is more than 1 % of 5
+  EXPECT_DOUBLE_EQ(threshold.value(), 7.5);
   threshold.steer(31, {});
-  EXPECT_DOUBLE_EQ(threshold.value(), 5.205);
+  EXPECT_DOUBLE_EQ(threshold.value(), 7.5 + 2.5 * 1.05);
+  threshold.steer(27, {});
+  EXPECT_DOUBLE_EQ(threshold.value(), 7.5 + 2.5 * 1.05 - 1.25 * 1.05);
+}
+
+TEST(Threshold, TakesFirstStepsOfTheSizeThatIsSetButNeverBelowATenth) {
+  SpeciationSettings settings;
+  settings.first_step_up = 0.01;
+  settings.first_step_down = 0.2;
+  Threshold small(5), large(50), falling(50), falling_slowly(0.3);
+  small.steer(31, settings);
+  EXPECT_DOUBLE_EQ(small.value(), 5.1) << "0.1 is more than 1 % of 5";
+  small.steer(31, settings);
+  EXPECT_DOUBLE_EQ(small.value(), 5.205);
+  large.steer(31, settings);
+  EXPECT_DOUBLE_EQ(large.value(), 50.5);
+  falling.steer(27, settings);
+  EXPECT_DOUBLE_EQ(falling.value(), 40.0);
+  falling_slowly.steer(27, settings);
+  EXPECT_DOUBLE_EQ(falling_slowly.value(), 0.2);
+}
+
+TEST(Threshold, FollowsTheClosedFormOfAGeometricSeries) {
+  // After n steps on one side: start × (1 ± share × (1.05^n − 1) / 0.05).
+  Threshold up(10), down(1000);
+  for (int n = 1; n <= 12; ++n) {
+    up.steer(31, {});
+    down.steer(1, {});
+    const double steps = (std::pow(1.05, n) - 1.0) / 0.05;
+    EXPECT_NEAR(up.value(), 10 * (1 + 0.5 * steps), 1e-9);
+    EXPECT_NEAR(down.value(), 1000 * (1 - 0.01 * steps), 1e-9);
+  }
 }
 
 TEST(Threshold, TurnsRoundByHalfAStepAfterSteppingOver) {

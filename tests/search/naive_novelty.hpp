@@ -34,7 +34,7 @@ class NaiveNovelty {
       if (members < settings_.archive_limit && (members < settings_.first_members || novelty > threshold)) {
         archive.push_back(generation[i]);
         joined[i] = true;
-        ++added;
+        if (settings_.count_first_members || novelty > threshold) ++added;
       }
     }
     adapt(added);

@@ -102,11 +102,44 @@ TEST(NoveltySearch, RaisesTheThresholdAfterMoreThanFourJoined) {
   for (const int joining : {4, 5}) {
     auto settings = plain_settings();
     settings.first_members = joining;
+    settings.count_first_members = true;
     settings.threshold = 100.0;
     NoveltySearch search(settings, 1);
     judge(search, std::vector<float>(10, 1.0f));
     EXPECT_EQ(search.threshold(), joining > 4 ? 100.0 * 1.2 : 100.0) << joining;
   }
+}
+
+TEST(NoveltySearch, CountsThoseWhoJoinBelowTheThresholdOnlyIfToldSo) {
+  for (const bool count : {false, true}) {
+    auto settings = plain_settings();
+    settings.first_members = 15;
+    settings.count_first_members = count;
+    settings.threshold = 1000.0;
+    NoveltySearch search(settings, 1);
+    judge(search, std::vector<float>(20, 1.0f));
+    EXPECT_EQ(search.archive().rows(), 15u);
+    EXPECT_EQ(search.threshold(), count ? 1000.0 * 1.2 : 1000.0) << "after the first generation";
+    // With or without that one, it is the fourth generation in a row without anybody new that lowers it.
+    double expected = search.threshold();
+    for (int generation = 2; generation <= 5; ++generation) {
+      judge(search, {1.0f});
+      if (generation >= (count ? 5 : 4)) expected *= 0.8;
+      EXPECT_EQ(search.threshold(), expected) << generation;
+    }
+  }
+}
+
+TEST(NoveltySearch, CountsFirstMembersThatExceedTheThreshold) {
+  auto settings = plain_settings();
+  settings.first_members = 15;
+  settings.threshold = 3.0;
+  NoveltySearch search(settings, 1);
+  // 0 joins uncounted; the others do so with novelties of 4 and more.
+  judge(search, {0.0f, 2.0f, 4.0f, 8.0f, 16.0f});
+  EXPECT_EQ(search.threshold(), 3.0) << "four are not more than four";
+  judge(search, {64.0f, 128.0f, 256.0f, 512.0f, 1024.0f});
+  EXPECT_EQ(search.threshold(), 3.0 * 1.2);
 }
 
 TEST(NoveltySearch, LowersTheThresholdFromTheFourthEmptyGenerationOnInEach) {
@@ -122,6 +155,7 @@ TEST(NoveltySearch, LowersTheThresholdFromTheFourthEmptyGenerationOnInEach) {
 TEST(NoveltySearch, CountsEmptyGenerationsAnewAfterOneThatWasNot) {
   auto settings = plain_settings();
   settings.first_members = 1;
+  settings.count_first_members = true;
   settings.threshold = 10.0;
   NoveltySearch search(settings, 1);
   judge(search, {0.0f});
@@ -174,6 +208,7 @@ TEST(NoveltySearch, SelectsByNoveltyAndLeavesTheObjectiveToElitism) {
 TEST(NoveltySearch, ReportsTheThresholdThatItsGenerationHadToExceed) {
   auto settings = plain_settings();
   settings.first_members = 5;
+  settings.count_first_members = true;
   settings.threshold = 50.0;
   NoveltySearch search(settings, 1);
   EXPECT_FALSE(search.novelty_statistics());
@@ -193,6 +228,7 @@ NoveltySettings random_settings(Stream& stream) {
   settings.neighbours = 1 + static_cast<int>(stream.below(20));
   settings.threshold = std::pow(10.0, stream.uniform(-2.0, 4.0));
   settings.first_members = static_cast<int>(stream.below(20));
+  settings.count_first_members = stream.chance(0.5);
   settings.lower_after = 1 + static_cast<int>(stream.below(4));
   settings.lowering = stream.chance(0.5) ? Lowering::each_generation : Lowering::count_anew;
   settings.archive_limit = stream.chance(0.2) ? 1 + static_cast<int>(stream.below(30)) : 1000;
