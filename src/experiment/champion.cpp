@@ -18,7 +18,7 @@ namespace amble::experiment {
 namespace {
 
 constexpr std::string_view champion_format = "amble-champion";
-constexpr int champion_version = 3;
+constexpr int champion_version = 4;
 constexpr std::size_t digits_per_step = 8;
 
 std::string trace_text(const std::vector<std::uint32_t>& trace) {

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::string_view manifest_format = "amble-manifest";
 /// Of the run folder as a whole: raised whenever an older program's run could not go on here.
-constexpr int run_version = 4;
+constexpr int run_version = 5;
 constexpr std::string_view lock_name = ".lock";
 
 std::string champion_name(int generation) {
