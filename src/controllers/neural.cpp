@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "amble/controllers/attitude.hpp"
 #include "amble/core/check.hpp"
 #include "amble/cppn/activation.hpp"
 
@@ -35,7 +36,7 @@ NeuralArchitecture::NeuralArchitecture(std::string_view kind, std::vector<substr
   Wiring wiring = make_wiring(layout);
   model_ = std::make_shared<const NeuralModel>(NeuralModel{std::string(kind), std::move(layout),
                                                            std::move(wiring), joint_ranges(robot), timestep_s,
-                                                           substrate.sine_period_s});
+                                                           substrate.sine_period_s, substrate.attitude});
 }
 
 std::unique_ptr<Parameters> NeuralArchitecture::decode(const cppn::Network& network) const {
@@ -125,13 +126,10 @@ void NeuralBatch::sense(const physics::SensorFrame& sensors) {
         copy(sensors.touch, sensor.index);
         break;
       case Kind::roll:
-        copy(sensors.attitude_rad, 0);
-        break;
       case Kind::pitch:
-        copy(sensors.attitude_rad, 1);
-        break;
       case Kind::yaw:
-        copy(sensors.attitude_rad, 2);
+        sense_attitude(sensor.kind, model_->attitude, sensors.attitude_rad,
+                       {row, static_cast<std::size_t>(lanes_)});
         break;
       case Kind::sine:
         sense_sine(row);

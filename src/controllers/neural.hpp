@@ -29,6 +29,7 @@ struct NeuralModel {
   std::vector<JointRange> ranges;  ///< of the joints, in control order
   double timestep_s;
   double sine_period_s;
+  substrate::Attitude attitude;
 };
 
 /// Controllers made of neurons in a substrate: the parts that static networks and CTRNNs share.

@@ -62,7 +62,11 @@ UserError Config::placed(const SettingError& error) const {
 }
 
 std::size_t Config::behaviour_length() const {
-  return score::path_behaviour_length(trial.steps(), search.path_stride());
+  return score::path_behaviour_length(trial.steps(), path_sampling());
+}
+
+record::PathSampling Config::path_sampling() const {
+  return {.stride = search.path_stride(), .first_step = search.novelty.path_first_step};
 }
 
 std::string Config::to_toml() const {

@@ -13,6 +13,7 @@
 #include "amble/cppn/settings.hpp"
 #include "amble/io/settings.hpp"
 #include "amble/neat/settings.hpp"
+#include "amble/record/trajectory.hpp"
 #include "amble/search/search.hpp"
 #include "amble/trial/noise_settings.hpp"
 #include "amble/trial/settings.hpp"
@@ -49,6 +50,8 @@ struct Config {
   UserError placed(const SettingError& error) const;
   /// Numbers in the behaviour that the search judges a trial by; 0 if it wants none.
   std::size_t behaviour_length() const;
+  /// What the search wants of a trial's path.
+  record::PathSampling path_sampling() const;
   /// The whole config as TOML with comments; reads back to the same values.
   std::string to_toml() const;
 

@@ -85,10 +85,10 @@ struct Workplace {
   std::unique_ptr<controllers::Batch> controllers;
   std::optional<trial::Runner> runner;
 
-  trial::Runner& open(const Problem& problem, int path_stride) {
+  trial::Runner& open(const Problem& problem, const record::PathSampling& path) {
     if (!engine) engine = problem.make_engine();
     if (!controllers) controllers = problem.architecture->make_batch(engine->lanes());
-    if (!runner) runner.emplace(*engine, *controllers, problem.protocol(path_stride));
+    if (!runner) runner.emplace(*engine, *controllers, problem.protocol(path));
     return *runner;
   }
 };
@@ -97,14 +97,15 @@ struct Workplace {
 
 /// What the workers and their employer share. A round is one call of evaluate().
 struct Evaluator::Shared {
-  Shared(const Problem& problem_in, int path_stride_in) : problem(problem_in), path_stride(path_stride_in) {}
+  Shared(const Problem& problem_in, const record::PathSampling& path_in)
+      : problem(problem_in), path(path_in) {}
   ~Shared();
 
   void work();
   void one_round(Workplace& workplace);
 
   const Problem& problem;
-  const int path_stride;
+  const record::PathSampling path;
   std::mutex mutex;
   std::condition_variable wake, finished;
   int round = 0;
@@ -138,7 +139,7 @@ void Evaluator::Shared::one_round(Workplace& workplace) {
   StageTimes own;
   const double start_s = now_s();
   try {
-    trial::Runner& runner = workplace.open(problem, path_stride);
+    trial::Runner& runner = workplace.open(problem, path);
     const std::uint64_t steps_before = runner.steps_simulated();
     const double physics_before_s = runner.physics_s(), control_before_s = runner.control_s();
     WorkerQueue queue(*generation);
@@ -158,8 +159,8 @@ void Evaluator::Shared::one_round(Workplace& workplace) {
   if (--working == 0) finished.notify_one();
 }
 
-Evaluator::Evaluator(const Problem& problem, int path_stride, int jobs)
-    : shared_(std::make_unique<Shared>(problem, path_stride)) {
+Evaluator::Evaluator(const Problem& problem, const record::PathSampling& path, int jobs)
+    : shared_(std::make_unique<Shared>(problem, path)) {
   AMBLE_CHECK(jobs >= 1, "an evaluator needs a worker");
   try {
     for (int i = 0; i < jobs; ++i)

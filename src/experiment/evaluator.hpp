@@ -29,8 +29,8 @@ struct GenerationResult {
 /// worker evaluates what depends on timing; the results do not.
 class Evaluator {
  public:
-  /// `jobs` >= 1 workers. `path_stride`: see trial::Protocol. The problem must outlive the evaluator.
-  Evaluator(const Problem& problem, int path_stride, int jobs);
+  /// `jobs` >= 1 workers. `path`: what of it is recorded. The problem must outlive the evaluator.
+  Evaluator(const Problem& problem, const record::PathSampling& path, int jobs);
   ~Evaluator();
 
   /// One trial per genome and scenario; without scenarios, one without noise per genome. Nothing if `stop`

@@ -50,10 +50,11 @@ std::unique_ptr<controllers::Parameters> Problem::decode(const neat::Genome& gen
   return architecture->decode(cppn::Network(genome, cppn));
 }
 
-trial::Protocol Problem::protocol(int path_stride) const {
+trial::Protocol Problem::protocol(const record::PathSampling& path) const {
   return {.steps = trial.steps(),
           .timestep_s = trial.timestep_s,
-          .path_stride = path_stride,
+          .first_command = trial.first_command,
+          .path = path,
           .fall_height_m = robot.fall_height_m};
 }
 

@@ -42,7 +42,7 @@ struct Problem {
   /// `torques`: see physics::EngineSettings.
   std::unique_ptr<physics::Engine> make_engine(bool torques = false) const;
   std::unique_ptr<controllers::Parameters> decode(const neat::Genome& genome) const;
-  trial::Protocol protocol(int path_stride) const;
+  trial::Protocol protocol(const record::PathSampling& path) const;
   trial::Scenario scenario(const trial::ScenarioKey& key) const;
   /// The scenarios that all genomes of a generation meet, one per episode; empty without noise.
   std::vector<trial::Scenario> scenarios(std::int64_t seed, int generation) const;

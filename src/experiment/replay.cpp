@@ -33,7 +33,7 @@ std::optional<Replay> replay(const Problem& original, const neat::Genome& genome
   std::optional<trial::Scenario> scenario;
   if (options.noise) scenario = problem.scenario(*options.noise);
   trial::OneTask task(std::move(parameters), &observers, scenario ? &*scenario : nullptr);
-  trial::Runner runner(*engine, *controllers, problem.protocol(0));
+  trial::Runner runner(*engine, *controllers, problem.protocol({}));
   runner.run(task, stop);
   if (!task.result()) return std::nullopt;
   if (recording) recording->finish(task.result()->outcome);

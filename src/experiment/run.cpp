@@ -144,7 +144,7 @@ RunStatus Run::execute(RunListener& listener, const std::atomic<bool>& stop) {
 
 // The generation loop: evaluate, judge, keep the best, breed, write down.
 RunStatus Run::generations(RunListener& listener, const std::atomic<bool>& stop) {
-  Evaluator evaluator(*problem_, config_.search.path_stride(), jobs_);
+  Evaluator evaluator(*problem_, config_.path_sampling(), jobs_);
   double last_row_s = now_s();
   while (population_.generation() < config_.generations) {
     const auto scenarios = problem_->scenarios(config_.seed, population_.generation());

@@ -17,16 +17,27 @@ enum class Outcome : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 3> outcome_names{"completed", "fell", "diverged"};
 
+/// When the path of a trial is sampled: once in every `stride` steps, after the first_step-th of them.
+struct PathSampling {
+  int stride = 0;      ///< 0: never
+  int first_step = 1;  ///< 1 … stride
+
+  /// Samples of a trial of so many steps: one per whole stride.
+  int count(int steps) const { return stride > 0 ? steps / stride : 0; }
+  /// Whether there is one after step `step` (from 1) of a trial of `steps` steps.
+  bool at(int step, int steps) const {
+    return stride > 0 && (step - first_step) % stride == 0 && (step - 1) / stride < count(steps);
+  }
+};
+
 /// What every trial leaves behind: enough for scoring. In the world's frame (docs/CONVENTIONS.md).
 struct Trajectory {
   Outcome outcome = Outcome::completed;
   int steps = 0;  ///< steps simulated, the last of them included
   double timestep_s = 0.0;
-  Vec3 com_start_m;     ///< whole-body centre of mass before the first step
-  Vec3 com_end_m;       ///< and after the last
-  int path_stride = 1;  ///< every how many steps the path was sampled
-  std::vector<float>
-      com_path_m;  ///< x0, y0, x1, y1, … after steps stride, 2 × stride, …; relative to com_start_m
+  Vec3 com_start_m;               ///< whole-body centre of mass before the first step
+  Vec3 com_end_m;                 ///< and after the last
+  std::vector<float> com_path_m;  ///< x0, y0, x1, y1, … as sampled (PathSampling), relative to com_start_m
 
   double seconds() const { return steps * timestep_s; }
 };

@@ -4,8 +4,8 @@
 
 namespace amble::score {
 
-std::size_t path_behaviour_length(int steps, int path_stride) {
-  return path_stride > 0 ? 2 * static_cast<std::size_t>(steps / path_stride) : 0;
+std::size_t path_behaviour_length(int steps, const record::PathSampling& sampling) {
+  return 2 * static_cast<std::size_t>(sampling.count(steps));
 }
 
 std::vector<float> path_behaviour(const record::Trajectory& trajectory, std::size_t length) {

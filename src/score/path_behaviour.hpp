@@ -7,8 +7,8 @@
 
 namespace amble::score {
 
-/// Numbers in the behaviour of a trial of so many steps; 0 if `path_stride` is 0.
-std::size_t path_behaviour_length(int steps, int path_stride);
+/// Numbers in the behaviour of a trial of so many steps.
+std::size_t path_behaviour_length(int steps, const record::PathSampling& sampling);
 
 /// What a robot did, for novelty search (Morse et al. 2013, sec. 4): the path of its centre of mass over the
 /// ground, x0, y0, x1, y1, …, m, relative to the start, as it was sampled. A trial that ended early is padded

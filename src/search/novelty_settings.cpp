@@ -13,9 +13,12 @@ constexpr std::string_view authors = "the authors' code", paper = "Morse et al. 
 }  // namespace
 
 void NoveltySettings::describe(io::SettingsVisitor& visitor) {
-  visitor.integer("path_stride", path_stride, {1, 1e6},
-                  {"a behaviour is the path of the centre of mass (x, y), sampled after every so many steps",
-                   "the authors' code: 2; Morse et al. 2013, sec. 4: 1"});
+  visitor.integer(
+      "path_stride", path_stride, {1, 1e6},
+      {"a behaviour is the path of the centre of mass (x, y), sampled once in every so many steps",
+       "the authors' code: 2; Morse et al. 2013, sec. 4: 1"});
+  visitor.integer("path_first_step", path_first_step, {1, 1e6},
+                  {"in which of them, counted from 1; at most path_stride", "the authors' code: 1"});
   visitor.choice("distance", distance, distance_names,
                  {"distance of two behaviours: the sum of squared differences, or its root",
                   "the authors' code: squared; Morse et al. 2013, sec. 4: root (\"Cartesian distance\")"});
@@ -50,6 +53,10 @@ void NoveltySettings::describe(io::SettingsVisitor& visitor) {
 }
 
 void NoveltySettings::validate(std::size_t behaviour_length) const {
+  if (path_first_step > path_stride)
+    fail_setting({"search.novelty.path_first_step", "search.novelty.path_stride"},
+                 "search.novelty.path_first_step = {}: expected at most search.novelty.path_stride, {}",
+                 path_first_step, path_stride);
   if (behaviour_length == 0)
     fail_setting({"search.novelty.path_stride", "trial.duration_s"},
                  "search.novelty.path_stride = {}: expected at most the steps of a trial", path_stride);

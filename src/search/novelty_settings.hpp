@@ -24,6 +24,7 @@ inline constexpr std::array<std::string_view, 2> lowering_names{"each_generation
 /// did.
 struct NoveltySettings {
   int path_stride = 2;
+  int path_first_step = 1;
   Distance distance = Distance::squared;
   Neighbours compare_with = Neighbours::archive;
   int neighbours = 15;

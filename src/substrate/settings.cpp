@@ -56,6 +56,10 @@ void Settings::describe(io::SettingsVisitor& visitor) {
                  {"weight where the output is 1", "HyperSharpNEAT"});
   visitor.number("sine_period_s", sine_period_s, {1e-3, 1e6},
                  {"period of the sensor sine, s", "Morse et al. 2013, sec. 4"});
+  visitor.choice("attitude", attitude, attitude_names,
+                 {"the sensors roll, pitch and yaw say these angles (true_angles), or what comes out of a "
+                  "formula that takes a quaternion's w for its x: −yaw, pitch and −roll, within ± π/2",
+                  "the authors' code: misordered_quaternion"});
   visitor.tables("nodes", nodes, {"the nodes", "Morse et al. 2013, fig. 4, 6, 7"});
   visitor.tables("links", links, {"which nodes are linked", "Morse et al. 2013, fig. 6, 7"});
   visitor.tables("properties", properties,

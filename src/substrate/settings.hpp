@@ -19,6 +19,11 @@ enum class Property {
 inline constexpr std::array<std::string_view, 4> property_names{"pattern", "offset", "bias", "time_constant"};
 inline constexpr std::size_t property_count = property_names.size();
 
+/// What the sensors roll, pitch and yaw say: the angles, or what the authors' code takes for them
+/// (controllers/attitude.hpp).
+enum class Attitude { true_angles, misordered_quaternion };
+inline constexpr std::array<std::string_view, 2> attitude_names{"true_angles", "misordered_quaternion"};
+
 /// A place in the substrate and what stands there: a sensor, a neuron, or a neuron or SUPG that drives a
 /// joint.
 struct NodeSettings {
@@ -61,6 +66,7 @@ struct Settings {
   double expression_threshold = 0.2;     ///< outputs up to this size make no link
   double weight_range = 3.0;             ///< weight where the output is 1
   double sine_period_s = 1.0;            ///< of the sensor "sine"
+  Attitude attitude = Attitude::true_angles;
   std::vector<NodeSettings> nodes;
   std::vector<LinkSettings> links;
   std::vector<PropertySettings> properties;

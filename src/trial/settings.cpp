@@ -12,6 +12,11 @@ void Settings::describe(io::SettingsVisitor& visitor) {
   visitor.number("timestep_s", timestep_s, {1e-5, 0.1},
                  {"one simulation step and one controller update, s",
                   "Morse et al. 2013, sec. 4 (1,500 steps in 15 s)"});
+  visitor.choice(
+      "first_command", first_command, first_command_names,
+      {"the controller acts before the first step, or only after it; then the motors hold the joints "
+       "where they are during the first",
+       "the authors' code: after_first_step"});
 }
 
 void Settings::validate() const {

@@ -23,6 +23,7 @@ void Runner::run(TaskQueue& queue, const std::atomic<bool>& stop) {
   while (busy_ > 0 && !stop.load(std::memory_order_relaxed)) {
     const double before_s = now_s();
     controllers_.step(disturbances_.read(engine_.sensors()), targets_rad_);
+    if (protocol_.first_command == FirstCommand::after_first_step) hold_first_steps();
     disturbances_.act(targets_rad_, engine_);
     const double between_s = now_s();
     engine_.step(targets_rad_);
@@ -56,8 +57,18 @@ void Runner::refill(int lane, TaskQueue& queue) {
   controllers_.load(lane, *slot.task.parameters);
   slot.trajectory = {};
   slot.trajectory.timestep_s = protocol_.timestep_s;
-  slot.trajectory.path_stride = protocol_.path_stride;
   slot.trajectory.com_start_m = slot.last_healthy_com_m = engine_.com_m(lane);
+}
+
+/// Where a trial is in its first step, sets the targets to the angles that the joints have.
+void Runner::hold_first_steps() {
+  const LaneArray& angle_rad = engine_.sensors().joint_angle_rad;
+  for (int lane = 0; lane < engine_.lanes(); ++lane) {
+    const Lane& slot = lanes_[static_cast<std::size_t>(lane)];
+    if (!slot.busy || slot.trajectory.steps > 0) continue;
+    for (int joint = 0; joint < targets_rad_.rows(); ++joint)
+      targets_rad_.at(joint, lane) = angle_rad.at(joint, lane);
+  }
 }
 
 void Runner::after_step(int lane, TaskQueue& queue) {
@@ -79,11 +90,14 @@ std::optional<record::Outcome> Runner::advance(int lane) {
   if (!engine_.healthy(lane)) return record::Outcome::diverged;
 
   slot.last_healthy_com_m = engine_.com_m(lane);
-  if (protocol_.path_stride > 0 && trajectory.steps % protocol_.path_stride == 0) {
+  if (protocol_.path.at(trajectory.steps, protocol_.steps)) {
     const Vec3 moved = slot.last_healthy_com_m - trajectory.com_start_m;
     trajectory.com_path_m.push_back(static_cast<float>(moved.x));
     trajectory.com_path_m.push_back(static_cast<float>(moved.y));
   }
+  // What it did beside the first step does not count: it begins now.
+  if (protocol_.first_command == FirstCommand::after_first_step && trajectory.steps == 1)
+    controllers_.load(lane, *slot.task.parameters);
   if (slot.task.observer)
     slot.task.observer->on_step(trajectory.steps, engine_, controllers_, targets_rad_, lane);
 

@@ -13,6 +13,7 @@
 #include "amble/record/trajectory.hpp"
 #include "amble/trial/disturbances.hpp"
 #include "amble/trial/scenario.hpp"
+#include "amble/trial/settings.hpp"
 
 namespace amble::trial {
 
@@ -48,7 +49,8 @@ class TaskQueue {
 struct Protocol {
   int steps = 1500;
   double timestep_s = 0.01;
-  int path_stride = 0;  ///< every how many steps the path is sampled; 0: not at all
+  FirstCommand first_command = FirstCommand::before_first_step;
+  record::PathSampling path;
   double fall_height_m = 0.0;
 };
 
@@ -78,6 +80,7 @@ class Runner {
   };
 
   void refill(int lane, TaskQueue& queue);
+  void hold_first_steps();
   void after_step(int lane, TaskQueue& queue);
   std::optional<record::Outcome> advance(int lane);
 

@@ -22,7 +22,7 @@ class Pair {
  public:
   Pair(const Settings& settings, const substrate::Settings& substrate, int lanes, Stream& stream)
       : settings_(settings),
-        sine_period_s_(substrate.sine_period_s),
+        substrate_(substrate),
         architecture_(settings, substrate, quadruped(), timestep_s),
         batch_(architecture_.make_batch(lanes)),
         sensors_{LaneArray(joints, lanes), LaneArray(legs, lanes), LaneArray(3, lanes)},
@@ -44,7 +44,7 @@ class Pair {
     auto parameters = architecture_.decode(cppn::Network(genome, {}));
     batch_->load(lane, *parameters);
     plain_[i].emplace(layout, dynamic_cast<const NeuralParameters&>(*parameters).decoded, timestep_s,
-                      sine_period_s_);
+                      substrate_);
     parameters_[i] = std::move(parameters);
   }
 
@@ -52,7 +52,7 @@ class Pair {
     for (LaneArray* rows : {&sensors_.joint_angle_rad, &sensors_.attitude_rad})
       for (int row = 0; row < rows->rows(); ++row)
         for (int lane = 0; lane < rows->lanes(); ++lane)
-          rows->at(row, lane) = static_cast<float>(stream_.uniform(-0.8, 0.8));
+          rows->at(row, lane) = static_cast<float>(stream_.uniform(-3.0, 3.0));
     for (int leg = 0; leg < legs; ++leg)
       for (int lane = 0; lane < batch_->lanes(); ++lane)
         sensors_.touch.at(leg, lane) = stream_.chance(0.5) ? 1.0f : 0.0f;
@@ -87,7 +87,7 @@ class Pair {
   }
 
   Settings settings_;
-  double sine_period_s_;
+  substrate::Settings substrate_;
   Architecture architecture_;
   std::unique_ptr<Batch> batch_;
   physics::SensorFrame sensors_;
@@ -113,6 +113,13 @@ void expect_twins(const Settings& settings, const substrate::Settings& substrate
 TEST(NetworkBatch, EqualsPlainNetworksOnTheSineSubstrate) {
   Stream stream(41, Purpose::test);
   expect_twins<NetworkArchitecture>(NetworkSettings(), substrate::part("sine"), {1, 3, 16, 21}, 12, stream);
+}
+
+TEST(NetworkBatch, EqualsPlainNetworksThatMisreadTheQuaternion) {
+  Stream stream(44, Purpose::test);
+  auto substrate = substrate::part("sine");
+  substrate.attitude = substrate::Attitude::misordered_quaternion;
+  expect_twins<NetworkArchitecture>(NetworkSettings(), substrate, {1, 3, 16, 21}, 12, stream);
 }
 
 TEST(NetworkBatch, EqualsPlainNetworksWithCyclesAndWithFewerPassesThanLevels) {

@@ -22,11 +22,12 @@ struct Senses {
 class PlainNetwork {
  public:
   PlainNetwork(const substrate::Layout& layout, substrate::Decoded decoded, double timestep_s,
-               double sine_period_s)
+               const substrate::Settings& substrate)
       : layout_(layout),
         decoded_(std::move(decoded)),
         timestep_s_(timestep_s),
-        sine_period_s_(sine_period_s),
+        sine_period_s_(substrate.sine_period_s),
+        attitude_(substrate.attitude),
         value_(layout.nodes().size()),
         y_(layout.nodes().size()) {}
 
@@ -82,12 +83,22 @@ class PlainNetwork {
       const auto index = static_cast<std::size_t>(sensor.index);
       if (sensor.kind == Kind::angle) value_[i] = senses.angle_rad[index];
       if (sensor.kind == Kind::touch) value_[i] = senses.touch[index];
-      if (sensor.kind == Kind::roll) value_[i] = senses.attitude_rad[0];
+      const bool swapped = attitude_ == substrate::Attitude::misordered_quaternion;
+      if (sensor.kind == Kind::roll) value_[i] = senses.attitude_rad[swapped ? 2 : 0];
       if (sensor.kind == Kind::pitch) value_[i] = senses.attitude_rad[1];
-      if (sensor.kind == Kind::yaw) value_[i] = senses.attitude_rad[2];
+      if (sensor.kind == Kind::yaw) value_[i] = senses.attitude_rad[swapped ? 0 : 2];
+      if (swapped && (sensor.kind == Kind::roll || sensor.kind == Kind::yaw)) value_[i] = folded(-value_[i]);
       if (sensor.kind == Kind::sine) value_[i] = sine();
     }
     ++tick_;
+  }
+
+  /// Within a right angle, by whole half turns.
+  static float folded(float angle_rad) {
+    constexpr auto pi = static_cast<float>(std::numbers::pi);
+    if (angle_rad > pi / 2) return angle_rad - pi;
+    if (angle_rad < -pi / 2) return angle_rad + pi;
+    return angle_rad;
   }
 
   float sine() const {
@@ -147,6 +158,7 @@ class PlainNetwork {
   const substrate::Layout& layout_;
   substrate::Decoded decoded_;
   double timestep_s_, sine_period_s_;
+  substrate::Attitude attitude_;
   std::vector<float> value_, y_;
   int tick_ = 0;
 };

@@ -65,7 +65,7 @@ TEST(BatchEvaluator, GivesEachGenomeWhatItGetsAloneWhateverTheirOrder) {
   const auto population = small_population(problem);
   const auto scenarios = problem.scenarios(1, 2);
   std::vector<neat::Genome> backwards(population.genomes().rbegin(), population.genomes().rend());
-  Evaluator evaluator(problem, 5, 2);
+  Evaluator evaluator(problem, {.stride = 5}, 2);
   const auto forth = evaluator.evaluate(population.genomes(), never, scenarios);
   const auto back = evaluator.evaluate(backwards, never, scenarios);
   for (std::size_t i = 0; i < backwards.size(); ++i) {
@@ -84,7 +84,7 @@ TEST(BatchEvaluator, GivesEachGenomeWhatItGetsAloneWhateverTheirOrder) {
 TEST(BatchEvaluator, TakesNoneOneSeventeenAndMoreGenomesThanWorkersHaveLanes) {
   const auto problem = batch_problem();
   const auto population = small_population(problem);
-  Evaluator evaluator(problem, 0, 3);
+  Evaluator evaluator(problem, {}, 3);
   const auto all = evaluator.evaluate(population.genomes(), never);
   for (const std::size_t count : {0u, 1u, 17u, 40u}) {
     const auto some = evaluator.evaluate(population.genomes().first(count), never);
@@ -102,7 +102,7 @@ TEST(BatchEvaluator, EndsTrialsOfRobotsThatFallAtOnceAfterOneStepEach) {
   auto problem = batch_problem();
   problem.robot.fall_height_m = 10.0;
   const auto population = small_population(problem);
-  Evaluator evaluator(problem, 0, 2);
+  Evaluator evaluator(problem, {}, 2);
   const auto result = evaluator.evaluate(population.genomes(), never);
   EXPECT_EQ(result->steps, population.genomes().size());
   for (const auto& trajectory : result->trajectories) {
@@ -115,7 +115,7 @@ TEST(BatchEvaluator, CallsRobotsThatExplodeDiverged) {
   auto problem = batch_problem();
   problem.robot.gravity_m_s2.z = -1e30;
   const auto population = small_population(problem);
-  Evaluator evaluator(problem, 5, 2);
+  Evaluator evaluator(problem, {.stride = 5}, 2);
   const auto result = evaluator.evaluate(population.genomes(), never);
   for (const auto& trajectory : result->trajectories) {
     EXPECT_EQ(trajectory.outcome, record::Outcome::diverged);
@@ -160,7 +160,7 @@ TEST(BatchRunner, EndsTheTrialOfAControllerThatGivesNoNumberAndNoOther) {
     mixed.back() = bad;
   }
   GivenTrials expected(good), found(mixed);
-  trial::Runner runner(*engine, *batch, problem.protocol(5));
+  trial::Runner runner(*engine, *batch, problem.protocol({.stride = 5}));
   runner.run(expected, never);
   runner.run(found, never);
   for (std::size_t i = 0; i < 40; ++i) {

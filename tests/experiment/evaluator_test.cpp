@@ -14,7 +14,7 @@ const std::atomic<bool> never{false};
 TEST(Evaluator, GivesWhatOneTrialAfterTheOtherGives) {
   const auto problem = small_problem();
   const auto population = small_population(problem);
-  Evaluator evaluator(problem, 0, 3);
+  Evaluator evaluator(problem, {}, 3);
   const auto result = evaluator.evaluate(population.genomes(), never);
   ASSERT_TRUE(result);
   ASSERT_EQ(result->trajectories.size(), population.genomes().size());
@@ -32,7 +32,7 @@ TEST(Evaluator, GivesEachGenomeATrialPerScenario) {
   ASSERT_EQ(scenarios.size(), 2u);
   std::vector<GenerationResult> results;
   for (const int jobs : {1, 3}) {
-    Evaluator evaluator(problem, 0, jobs);
+    Evaluator evaluator(problem, {}, jobs);
     results.push_back(evaluator.evaluate(population.genomes(), never, scenarios).value());
     EXPECT_EQ(results.back().episodes, 2u);
     ASSERT_EQ(results.back().trajectories.size(), 2 * population.genomes().size());
@@ -57,7 +57,7 @@ TEST(Evaluator, GivesEachGenomeATrialPerScenario) {
 TEST(Evaluator, WorksOnAfterARoundWithNoise) {
   const auto problem = noisy_problem();
   const auto population = small_population(problem);
-  Evaluator evaluator(problem, 0, 2);
+  Evaluator evaluator(problem, {}, 2);
   const auto before = evaluator.evaluate(population.genomes(), never);
   {
     const auto scenarios = problem.scenarios(1, 0);
@@ -74,7 +74,7 @@ TEST(Evaluator, WorksOnAfterARoundWithNoise) {
 TEST(Evaluator, RepeatsItselfRoundAfterRound) {
   const auto problem = small_problem();
   const auto population = small_population(problem);
-  Evaluator evaluator(problem, 2, 2);
+  Evaluator evaluator(problem, {.stride = 2}, 2);
   const auto first = evaluator.evaluate(population.genomes(), never);
   const auto second = evaluator.evaluate(population.genomes(), never);
   for (std::size_t i = 0; i < population.genomes().size(); ++i)
@@ -85,7 +85,7 @@ TEST(Evaluator, RepeatsItselfRoundAfterRound) {
 TEST(Evaluator, GivesNothingWhenItIsStopped) {
   const auto problem = small_problem();
   const auto population = small_population(problem);
-  Evaluator evaluator(problem, 0, 2);
+  Evaluator evaluator(problem, {}, 2);
   const std::atomic<bool> stop{true};
   EXPECT_FALSE(evaluator.evaluate(population.genomes(), stop));
   EXPECT_TRUE(evaluator.evaluate(population.genomes(), never)) << "and works again afterwards";

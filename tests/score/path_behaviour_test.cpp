@@ -32,11 +32,11 @@ TEST(PathBehaviour, OfARobotThatFellBeforeTheFirstSampleIsItsLastPlace) {
 }
 
 TEST(PathBehaviour, HasTwoNumbersPerSampleOfAFullTrial) {
-  EXPECT_EQ(path_behaviour_length(1500, 2), 1500u);
-  EXPECT_EQ(path_behaviour_length(1500, 1), 3000u);
-  EXPECT_EQ(path_behaviour_length(1500, 7), 2u * 214u);
-  EXPECT_EQ(path_behaviour_length(3, 4), 0u);
-  EXPECT_EQ(path_behaviour_length(1500, 0), 0u);
+  EXPECT_EQ(path_behaviour_length(1500, {.stride = 2}), 1500u);
+  EXPECT_EQ(path_behaviour_length(1500, {.stride = 1}), 3000u);
+  EXPECT_EQ(path_behaviour_length(1500, {.stride = 7}), 2u * 214u);
+  EXPECT_EQ(path_behaviour_length(3, {.stride = 4}), 0u);
+  EXPECT_EQ(path_behaviour_length(1500, {}), 0u);
 }
 
 TEST(PathBehaviourDeathTest, IsNeverCutShort) {

@@ -32,10 +32,11 @@ std::string reading(const std::string& line) {
 
 TEST(NoveltySettings, HaveARangeEach) {
   for (const char* line :
-       {"path_stride=0", "neighbours=0", "neighbours=-3", "threshold=0", "threshold=-1", "threshold=nan",
-        "threshold=inf", "first_members=-1", "raise_above=-1", "raise_factor=0.9", "lower_after=0",
-        "lower_factor=1.1", "lower_factor=0", "lowest_threshold=-1", "archive_limit=0", "distance=manhattan",
-        "compare_with=nobody", "lowering=never", "path_stride=1.5"})
+       {"path_stride=0",       "neighbours=0",        "neighbours=-3",   "threshold=0",
+        "threshold=-1",        "threshold=nan",       "threshold=inf",   "first_members=-1",
+        "raise_above=-1",      "raise_factor=0.9",    "lower_after=0",   "lower_factor=1.1",
+        "lower_factor=0",      "lowest_threshold=-1", "archive_limit=0", "distance=manhattan",
+        "compare_with=nobody", "lowering=never",      "path_stride=1.5", "path_first_step=0"})
     EXPECT_NE(reading(line).find("expected"), std::string::npos) << line << ": " << reading(line);
   for (const char* line :
        {"path_stride=1", "neighbours=1", "threshold=0.1", "first_members=0", "raise_above=0",
@@ -55,6 +56,9 @@ TEST(NoveltySettings, RefuseAStrideLongerThanATrialAndBehavioursWithoutBound) {
       "search.novelty.path_stride = 1: behaviours of 2000000 numbers; expected at most 1000000, by a larger "
       "stride");
   EXPECT_EQ(complaint([&] { settings.validate(1000000); }), "");
+  settings.path_first_step = 2;
+  EXPECT_EQ(complaint([&] { settings.validate(1000000); }),
+            "search.novelty.path_first_step = 2: expected at most search.novelty.path_stride, 1");
 }
 
 TEST(NoveltySettings, RefuseAnArchiveLargerThanMemoryAndSayHowLargeItMayBe) {

@@ -24,7 +24,10 @@ class FakeEngine : public physics::Engine {
     frame_.attitude_rad = LaneArray(3, lanes);
   }
   int lanes() const override { return static_cast<int>(states_.size()); }
-  void place(int lane) override { state(lane) = {.placed = true, .position = {0, 0, 1.0}}; }
+  void place(int lane) override {
+    state(lane) = {.placed = true, .position = {0, 0, 1.0}};
+    frame_.joint_angle_rad.at(0, lane) = start_angle_rad;
+  }
   void place_at(int lane, const physics::StartPose& pose) override {
     state(lane) = {.placed = true, .position = pose.root.position_m};
   }
@@ -55,7 +58,8 @@ class FakeEngine : public physics::Engine {
 
   int steps = 0;
   int moved = 0;
-  Vec3 pushed_n_s;  ///< all pushes of all lanes
+  Vec3 pushed_n_s;               ///< all pushes of all lanes
+  float start_angle_rad = 0.0f;  ///< what a joint's sensor says from the start on
 
  private:
   struct State {

@@ -12,8 +12,12 @@ namespace {
 
 const std::atomic<bool> never{false};
 
-Protocol protocol(int steps, double fall_height_m = 0.0, int path_stride = 0) {
-  return {.steps = steps, .timestep_s = 0.01, .path_stride = path_stride, .fall_height_m = fall_height_m};
+Protocol protocol(int steps, double fall_height_m = 0.0, record::PathSampling path = {}) {
+  Protocol protocol;
+  protocol.steps = steps;
+  protocol.path = path;
+  protocol.fall_height_m = fall_height_m;
+  return protocol;
 }
 
 TEST(Runner, StopsACompletedTrialAfterItsLastStep) {
@@ -50,12 +54,60 @@ TEST(Runner, KeepsTheLastHealthyPositionOfATrialThatDiverges) {
   EXPECT_DOUBLE_EQ(trajectory.com_end_m.x, 4.0);
 }
 
-TEST(Runner, SamplesThePathEveryStrideStepsRelativeToTheStart) {
+TEST(Runner, SamplesThePathOnceInEachStrideRelativeToTheStart) {
+  for (const int first_step : {1, 2, 3}) {
+    FakeEngine engine(1);
+    FakeBatch batch(1);
+    Queue queue({FakeParameters(0.25f)});
+    Runner(engine, batch, protocol(7, 0.0, {.stride = 3, .first_step = first_step})).run(queue, never);
+    const float x = 0.25f * static_cast<float>(first_step);
+    EXPECT_EQ(queue.results[0]->com_path_m, (std::vector<float>{x, 0.0f, x + 0.75f, 0.0f})) << first_step;
+  }
+}
+
+Protocol after_first_step(int steps) {
+  Protocol late = protocol(steps, 0.0, {.stride = 1});
+  late.first_command = FirstCommand::after_first_step;
+  return late;
+}
+
+TEST(Runner, HoldsTheJointsInTheFirstStepIfControllersActAfterIt) {
   FakeEngine engine(1);
+  engine.start_angle_rad = 0.125f;
   FakeBatch batch(1);
-  Queue queue({FakeParameters(0.25f)});
-  Runner(engine, batch, protocol(7, 0.0, 3)).run(queue, never);
-  EXPECT_EQ(queue.results[0]->com_path_m, (std::vector<float>{0.75f, 0.0f, 1.5f, 0.0f}));
+  Queue queue({FakeParameters(1.0f), FakeParameters(2.0f)});
+  Runner(engine, batch, after_first_step(3)).run(queue, never);
+  EXPECT_EQ(queue.results[0]->com_path_m, (std::vector<float>{0.125f, 0.0f, 1.125f, 0.0f, 2.125f, 0.0f}));
+  EXPECT_EQ(queue.results[1]->com_path_m, (std::vector<float>{0.125f, 0.0f, 2.125f, 0.0f, 4.125f, 0.0f}));
+}
+
+TEST(Runner, BeginsControllersWithTheirFirstCommand) {
+  for (const auto first : {FirstCommand::before_first_step, FirstCommand::after_first_step}) {
+    FakeEngine engine(1);
+    FakeBatch batch(1);
+    Queue queue({FakeParameters(1.0f, 4)});
+    Protocol late = protocol(100);
+    late.first_command = first;
+    Runner(engine, batch, late).run(queue, never);
+    EXPECT_EQ(queue.results[0]->outcome, record::Outcome::diverged);
+    EXPECT_EQ(queue.results[0]->steps, first == FirstCommand::before_first_step ? 5 : 6);
+  }
+}
+
+TEST(Runner, GivesTrialsThatBeginLateTheSameResultForAnyNumberOfLanes) {
+  std::vector<FakeParameters> tasks;
+  for (int i = 0; i < 37; ++i) tasks.emplace_back(0.125f * static_cast<float>(i), 1 + (i * 7) % 19);
+  std::vector<std::vector<double>> ends;
+  for (const int lanes : {1, 2, 8, 64}) {
+    FakeEngine engine(lanes);
+    engine.start_angle_rad = 0.5f;
+    FakeBatch batch(lanes);
+    Queue queue(tasks);
+    Runner(engine, batch, after_first_step(12)).run(queue, never);
+    ends.emplace_back();
+    for (const auto& result : queue.results) ends.back().push_back(result.value().com_end_m.x);
+  }
+  for (const auto& other : ends) EXPECT_EQ(other, ends.front());
 }
 
 TEST(Runner, RefillsALaneInTheStepAfterItsTrialEnded) {
@@ -102,7 +154,7 @@ TEST(Runner, LetsAScenarioActOnItsTrial) {
   FakeBatch batch(1);
   const auto scenario = some_scenario();
   Queue queue({FakeParameters(1.0f)}, &scenario);
-  Runner(engine, batch, protocol(10, 0.0, 1)).run(queue, never);
+  Runner(engine, batch, protocol(10, 0.0, {.stride = 1})).run(queue, never);
   const auto& trajectory = queue.results[0].value();
   EXPECT_EQ(trajectory.com_start_m, (Vec3{7.0, 0.0, 2.0}));
   EXPECT_DOUBLE_EQ(trajectory.com_end_m.x, 7.0 + 8.0 + 100.0) << "the targets of 10 steps, two of them late";
