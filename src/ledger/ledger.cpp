@@ -83,7 +83,10 @@ void keep_study(const StudyPaths& paths, const StudySpec& study) {
   const auto from_folder = [&paths](std::string& file) {
     if (!file.empty()) file = fs::proximate(file, paths.folder).string();
   };
-  for (ConditionSpec& condition : kept.conditions) from_folder(condition.config);
+  for (ConditionSpec& condition : kept.conditions) {
+    from_folder(condition.config);
+    from_folder(condition.robot);
+  }
   for (TestSpec& test : kept.tests) from_folder(test.noise);
   const std::string text = kept.to_toml();
   if (fs::exists(paths.spec) && io::read_file(paths.spec) == text) return;

@@ -169,8 +169,10 @@ StudySpec load_study(const std::filesystem::path& path) {
     if (!file.empty() && std::filesystem::path(file).is_relative())
       file = (document->folder_of(key) / file).lexically_normal().string();
   };
-  for (std::size_t i = 0; i < study.conditions.size(); ++i)
+  for (std::size_t i = 0; i < study.conditions.size(); ++i) {
     resolve(study.conditions[i].config, item("conditions", i, "config"));
+    resolve(study.conditions[i].robot, item("conditions", i, "robot"));
+  }
   for (std::size_t i = 0; i < study.tests.size(); ++i)
     resolve(study.tests[i].noise, item("tests", i, "noise"));
   return study;

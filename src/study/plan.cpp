@@ -8,6 +8,7 @@
 #include "amble/core/hash.hpp"
 #include "amble/experiment/problem.hpp"
 #include "amble/io/json_file.hpp"
+#include "amble/io/toml_text.hpp"
 #include "amble/physics/engine.hpp"
 
 namespace amble::study {
@@ -53,6 +54,7 @@ PlannedCondition plan_condition(const ledger::StudySpec& study, std::size_t inde
   const ledger::ConditionSpec& spec = study.conditions[index];
   experiment::Overrides overrides{.assignments = study.settings, .seed = {}, .generations = {}};
   overrides.assignments.insert(overrides.assignments.end(), spec.settings.begin(), spec.settings.end());
+  if (!spec.robot.empty()) overrides.assignments.push_back("robot=" + io::toml_quoted(spec.robot));
   const int generations = spec.generations > 0 ? spec.generations : study.generations;
   if (generations > 0) overrides.generations = generations;
   PlannedCondition condition{.spec = spec, .config = {}, .robot = {}, .tests = {}, .hash = {}};
