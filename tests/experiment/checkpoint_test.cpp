@@ -113,12 +113,13 @@ TEST_F(Checkpoint, ReaderThrowsNothingButUserErrorsForDamageUnderAValidChecksum)
       payload[8 + stream.below(static_cast<std::uint32_t>(payload.size() - 8))] =
           static_cast<char>(stream.below(256));
     if (stream.chance(0.3)) payload.resize(stream.below(static_cast<std::uint32_t>(payload.size())));
-    complaint(io::seal("AMBLECKP", 1, payload));
+    complaint(io::seal("AMBLECKP", 2, payload));
   }
 }
 
 TEST_F(Checkpoint, HoldsTheThresholdOfNoveltySearch) {
-  config_ = small_novelty_config({"search.novelty.first_members=40"});
+  config_ =
+      small_novelty_config({"search.novelty.first_members=40", "search.novelty.count_first_members=true"});
   const auto make = [&] { return search::make_search(config_.search, config_.behaviour_length()); };
   const auto search = make();
   const std::vector<float> still(config_.behaviour_length());

@@ -52,15 +52,32 @@ TEST(Config, NoveltyPresetsDifferFromThoseOfTheObjectiveInNothingButSearchAndNam
   }
 }
 
+TEST(Config, PresetsOfNeatAndCppnsAreWhatTextAndCodeSay) {
+  for (const std::string& preset : presets) {
+    const auto config = load_config(configs + preset, {});
+    const bool authors = preset.starts_with("authors/");
+    EXPECT_EQ(config.cppn.recurrent, authors);
+    EXPECT_EQ(config.cppn.passes, cppn::Passes::twice_hidden_plus_3);
+    EXPECT_EQ(config.neat.speciation.first_step_down, 0.01);
+    EXPECT_EQ(config.neat.speciation.first_step_up, authors ? 0.5 : 0.01);
+    EXPECT_EQ(config.neat.innovations.scope, neat::InnovationScope::generation);
+    EXPECT_EQ(config.neat.innovations.key,
+              authors ? neat::InnovationKey::link : neat::InnovationKey::link_and_function);
+    EXPECT_EQ(config.neat.reproduction.lone_place, authors ? neat::LonePlace::child : neat::LonePlace::elite);
+  }
+}
+
 TEST(Config, NoveltyPresetsAreWhatTextAndCodeSay) {
   const auto authors = load_config(configs + "authors/supg-novelty.toml", {});
   EXPECT_EQ(authors.behaviour_length(), 1500u);
   EXPECT_EQ(authors.search.novelty.distance, search::Distance::squared);
   EXPECT_EQ(authors.search.novelty.compare_with, search::Neighbours::archive);
+  EXPECT_FALSE(authors.search.novelty.count_first_members);
   const auto paper = load_config(configs + "paper/supg-novelty.toml", {});
   EXPECT_EQ(paper.behaviour_length(), 3000u);
   EXPECT_EQ(paper.search.novelty.distance, search::Distance::root);
   EXPECT_EQ(paper.search.novelty.compare_with, search::Neighbours::archive_and_population);
+  EXPECT_TRUE(paper.search.novelty.count_first_members);
   for (const auto& config : {authors, paper}) {
     EXPECT_EQ(config.search.novelty.neighbours, 15);
     EXPECT_EQ(config.search.novelty.threshold, 1000.0);

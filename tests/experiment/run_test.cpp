@@ -146,11 +146,12 @@ TEST_P(EachWay, CannotBeMadeShorterThanItIs) {
   EXPECT_EQ(io::read_file(RunPaths(scratch / "run").config), before);
 }
 
-TEST(Run, NeverLosesItsBestDistanceWithoutNoise) {
+TEST(Run, NeverLosesItsBestDistanceWithoutNoiseWhereLonePlacesAreForElites) {
   for (auto config : {small_config(), small_novelty_config()}) {
     const TemporaryFolder scratch;
     Listener listener;
     config.generations = 6;
+    config.neat.reproduction.lone_place = neat::LonePlace::elite;
     Run::start(scratch / "run", config, 2).execute(listener, listener.stop);
     for (std::size_t i = 1; i < listener.rows.size(); ++i)
       EXPECT_GE(listener.rows[i].best_m, listener.rows[i - 1].best_m)

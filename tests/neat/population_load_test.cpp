@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "amble/neat/population.hpp"
 #include "tests/neat/samples.hpp"
@@ -51,6 +52,39 @@ TEST(PopulationLoad, ContinuesToTheBitAsIfNothingHadHappened) {
     EXPECT_EQ(resumed.statistics().compatibility_threshold,
               uninterrupted.statistics().compatibility_threshold);
   }
+}
+
+TEST(PopulationLoad, ContinuesToTheBitWithEveryRuleOfNumbering) {
+  for (const auto scope : {InnovationScope::generation, InnovationScope::run})
+    for (const auto key : {InnovationKey::link, InnovationKey::link_and_function}) {
+      Settings settings = small_settings();
+      settings.innovations = {scope, key};
+      Population uninterrupted(settings, 2, 2, true, 9), resumed(settings, 2, 2, true, 9);
+      advance(uninterrupted, 7);
+      ASSERT_EQ(load(resumed, bytes_of(uninterrupted)), "");
+      advance(uninterrupted, 5);
+      advance(resumed, 5);
+      EXPECT_EQ(bytes_of(resumed), bytes_of(uninterrupted));
+    }
+}
+
+TEST(PopulationLoad, RefusesGenomesWhoseNumbersDisagree) {
+  Population source(small_settings(), 2, 2, true, 9);
+  advance(source, 10);
+  const std::string bytes = bytes_of(source);
+  // An old link, forgotten by the list of this generation: its number is kept and its source becomes another.
+  const LinkGene& link = source.genomes()[0].links[0];
+  std::string altered = bytes;
+  const std::array<std::uint32_t, 3> gene{link.innovation, link.from, link.to};
+  const std::string_view old(reinterpret_cast<const char*>(gene.data()), sizeof gene);
+  const std::size_t at = altered.find(old);
+  ASSERT_NE(at, std::string::npos);
+  altered[at + 4] = static_cast<char>(link.from == 0 ? 1 : 0);
+  Population population(small_settings(), 2, 2, true, 9);
+  const std::string refusal = load(population, altered);
+  EXPECT_TRUE(refusal.find("joins other nodes in another genome") != std::string::npos ||
+              refusal.find("a second time") != std::string::npos)
+      << refusal;
 }
 
 TEST(PopulationLoad, RefusesTheStateOfAnotherRun) {
