@@ -142,9 +142,12 @@ trial::ScenarioKey Champion::scenario_key(std::size_t episode) const {
 }
 
 double Champion::objective_m() const {
-  if (episodes.empty()) return result.distance_m;
+  const auto credited = [this](const TrialResult& trial) {
+    return score::credited_m(trial.distance_m, trial.outcome, problem.trial.fall_factor);
+  };
+  if (episodes.empty()) return credited(result);
   std::vector<double> distances_m;
-  for (const auto& episode : episodes) distances_m.push_back(episode.result.distance_m);
+  for (const auto& episode : episodes) distances_m.push_back(credited(episode.result));
   return experiment::objective_m(problem.noise.score, distances_m);
 }
 

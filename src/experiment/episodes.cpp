@@ -15,11 +15,14 @@ double objective_m(trial::EpisodeScore score, std::span<const double> distances_
   return sum / static_cast<double>(distances_m.size());
 }
 
-std::vector<double> objectives_m(trial::EpisodeScore score, const GenerationResult& result) {
+std::vector<double> objectives_m(trial::EpisodeScore score, double fall_factor,
+                                 const GenerationResult& result) {
   std::vector<double> objectives, distances_m;
   for (std::size_t i = 0; i < result.trajectories.size() / result.episodes; ++i) {
     distances_m.clear();
-    for (const auto& trajectory : result.of_genome(i)) distances_m.push_back(score::distance_m(trajectory));
+    for (const auto& trajectory : result.of_genome(i))
+      distances_m.push_back(
+          score::credited_m(score::distance_m(trajectory), trajectory.outcome, fall_factor));
     objectives.push_back(objective_m(score, distances_m));
   }
   return objectives;

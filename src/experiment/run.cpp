@@ -156,7 +156,7 @@ RunStatus Run::generations(RunListener& listener, const std::atomic<bool>& stop)
     row.population = population_.statistics();
     row.times = result->times;
     row.times.files_s = std::exchange(files_s_, 0.0);
-    const auto distances_m = objectives_m(config_.noise.score, *result);
+    const auto distances_m = objectives_m(config_.noise.score, config_.trial.fall_factor, *result);
     const auto fitness = judge(*result, distances_m, row);
     summarise_trials(distances_m, result->trajectories, row);
     const auto best = static_cast<std::size_t>(std::ranges::max_element(distances_m) - distances_m.begin());

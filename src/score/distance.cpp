@@ -10,4 +10,8 @@ double distance_m(const record::Trajectory& trajectory) {
   return std::sqrt(moved.x * moved.x + moved.y * moved.y);
 }
 
+double credited_m(double distance_m, record::Outcome outcome, double fall_factor) {
+  return outcome == record::Outcome::fell ? fall_factor * distance_m : distance_m;
+}
+
 }  // namespace amble::score

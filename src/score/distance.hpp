@@ -9,4 +9,7 @@ namespace amble::score {
 /// 2013, sec. 4.
 double distance_m(const record::Trajectory& trajectory);
 
+/// What a distance counts for in evolution, m: `fall_factor` of it if the robot fell.
+double credited_m(double distance_m, record::Outcome outcome, double fall_factor);
+
 }  // namespace amble::score

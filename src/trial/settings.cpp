@@ -17,6 +17,9 @@ void Settings::describe(io::SettingsVisitor& visitor) {
       {"the controller acts before the first step, or only after it; then the motors hold the joints "
        "where they are during the first",
        "the authors' code: after_first_step"});
+  visitor.number("fall_factor", fall_factor, {0.0, 1.0},
+                 {"share of the distance that counts in evolution if the robot falls",
+                  "Morse et al. 2013 and the authors' code: all of it (1)"});
 }
 
 void Settings::validate() const {

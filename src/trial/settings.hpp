@@ -17,6 +17,7 @@ struct Settings {
   double duration_s = 15.0;
   double timestep_s = 0.01;
   FirstCommand first_command = FirstCommand::before_first_step;
+  double fall_factor = 1.0;
 
   void describe(io::SettingsVisitor& visitor);
   /// Throws UserError if the duration is not a whole number of timesteps, at least one and at most 1e9.

@@ -27,8 +27,21 @@ TEST(Episodes, BelongToTheirGenomes) {
     trajectory.com_end_m = {walked_m, 0.0, 0.0};
     result.trajectories.push_back(trajectory);
   }
-  EXPECT_EQ(objectives_m(trial::EpisodeScore::mean, result), (std::vector<double>{2.0, 20.0}));
-  EXPECT_EQ(objectives_m(trial::EpisodeScore::worst, result), (std::vector<double>{1.0, 10.0}));
+  EXPECT_EQ(objectives_m(trial::EpisodeScore::mean, 1.0, result), (std::vector<double>{2.0, 20.0}));
+  EXPECT_EQ(objectives_m(trial::EpisodeScore::worst, 1.0, result), (std::vector<double>{1.0, 10.0}));
+}
+
+TEST(Episodes, ThatEndInAFallCountForTheShareThatIsSet) {
+  GenerationResult result;
+  result.episodes = 2;
+  for (const auto outcome : {record::Outcome::fell, record::Outcome::completed}) {
+    record::Trajectory trajectory;
+    trajectory.com_end_m = {4.0, 0.0, 0.0};
+    trajectory.outcome = outcome;
+    result.trajectories.push_back(trajectory);
+  }
+  EXPECT_EQ(objectives_m(trial::EpisodeScore::mean, 0.5, result), (std::vector<double>{3.0}));
+  EXPECT_EQ(objectives_m(trial::EpisodeScore::mean, 0.0, result), (std::vector<double>{2.0}));
 }
 
 }  // namespace

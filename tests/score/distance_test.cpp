@@ -21,5 +21,11 @@ TEST(Distance, IsNothingWhereTheSimulationBrokeDown) {
   EXPECT_EQ(distance_m(trajectory), 60.0);
 }
 
+TEST(Distance, CountsForItsShareOnlyIfTheRobotFell) {
+  EXPECT_EQ(credited_m(4.0, record::Outcome::fell, 0.25), 1.0);
+  EXPECT_EQ(credited_m(0.1 + 0.2, record::Outcome::fell, 1.0), 0.1 + 0.2);
+  EXPECT_EQ(credited_m(4.0, record::Outcome::completed, 0.25), 4.0);
+}
+
 }  // namespace
 }  // namespace amble::score
