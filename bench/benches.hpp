@@ -6,6 +6,8 @@
 
 namespace amble::bench {
 
+/// A tick of each kind of controller.
+void measure_controllers(std::vector<Figure>& figures);
 /// Queries of evolved CPPNs: batched against point by point.
 void measure_cppn(std::vector<Figure>& figures);
 /// Breeding and speciating 300 genomes.

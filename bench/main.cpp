@@ -15,6 +15,7 @@
 int main(int argc, char** argv) {
   using namespace amble;
   std::vector<bench::Figure> figures;
+  bench::measure_controllers(figures);
   bench::measure_cppn(figures);
   bench::measure_neat(figures);
   bench::measure_novelty(figures);

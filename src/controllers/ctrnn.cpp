@@ -17,72 +17,44 @@ class CtrnnBatch final : public NeuralBatch {
       : NeuralBatch(std::move(model), lanes),
         settings_(settings),
         slope_(static_cast<float>(settings.slope)) {
-    for (auto* const rows : {&y_, &bias_, &rate_, &trial_, &k1_, &k2_, &k3_, &k4_})
-      rows->resize(wiring().neurons.size() * stride());
+    const int neurons = wiring().neuron_count();
+    bias_ = rate_ = LaneRows(neurons, lanes);
+    if (rate_equation() && !runge_kutta()) return;
+    trial_ = LaneRows(neurons, lanes);
+    change_ = LaneRows(runge_kutta() ? 4 * neurons : 0, lanes);
+    if (!rate_equation()) y_ = LaneRows(neurons, lanes);
   }
 
  private:
+  bool rate_equation() const { return settings_.equation == Equation::rate; }
+  bool runge_kutta() const { return settings_.integrator == Integrator::rk4; }
+
   void reset(int lane, const NeuralParameters& parameters) override {
     const auto bias = parameters.decoded.of(Property::bias);
     for (int i = 0; i < wiring().neuron_count(); ++i) {
       const auto neuron = static_cast<std::size_t>(i);
-      y_[index(i, lane)] = 0.0f;
-      bias_[index(i, lane)] = bias[static_cast<std::size_t>(wiring().neurons[neuron].node)];
-      rate_[index(i, lane)] = parameters.rates[neuron];
+      bias_.at(i, lane) = bias[static_cast<std::size_t>(wiring().neurons[neuron].node)];
+      rate_.at(i, lane) = parameters.rates[neuron];
+      // The rate equation's state are the neurons' values, which are 0 already.
+      if (!rate_equation()) y_.at(i, lane) = 0.0f;
     }
   }
 
   void advance() override {
-    if (settings_.state == StateRule::cleared) std::ranges::fill(y_, 0.0f);
-    for (int step = 0; step < settings_.steps_per_tick; ++step) {
-      if (settings_.integrator == Integrator::rk4) {
-        runge_kutta_step();
-      } else {
-        find_change(y_, k1_);
-        for (std::size_t i = 0; i < y_.size(); ++i) y_[i] += k1_[i];
-      }
-    }
-    show(y_);
-  }
-
-  void runge_kutta_step() {
-    find_change(y_, k1_);
-    find_change(ahead(k1_, 0.5f), k2_);
-    find_change(ahead(k2_, 0.5f), k3_);
-    find_change(ahead(k3_, 1.0f), k4_);
-    for (std::size_t i = 0; i < y_.size(); ++i)
-      y_[i] += (k1_[i] + 2.0f * k2_[i] + 2.0f * k3_[i] + k4_[i]) * (1.0f / 6.0f);
-  }
-  const std::vector<float>& ahead(const std::vector<float>& change, float share) {
-    for (std::size_t i = 0; i < y_.size(); ++i) trial_[i] = y_[i] + share * change[i];
-    return trial_;
-  }
-
-  /// change = rate × (F(y) − y).
-  void find_change(const std::vector<float>& y, std::vector<float>& change) {
-    show(y);
-    sum(0, wiring().neuron_count(), change);
-    if (settings_.equation == Equation::rate) {
-      for (std::size_t i = 0; i < y.size(); ++i) change[i] -= bias_[i];
-      logistic(change, slope_);
-    }
-    for (std::size_t i = 0; i < y.size(); ++i) change[i] = rate_[i] * (change[i] - y[i]);
-  }
-
-  /// Gives the neurons the values that belong to y.
-  void show(const std::vector<float>& y) {
-    const auto values = neurons(0, wiring().neuron_count());
-    std::ranges::copy(y, values.begin());
-    if (settings_.equation == Equation::rate) return;
-    for (std::size_t i = 0; i < y.size(); ++i) values[i] += bias_[i];
-    logistic(values, slope_);
+    const NeuralRows neural = rows(slope_);
+    float* const y = rate_equation() ? neural.values : y_.data();
+    const CtrnnRows ctrnn{y, bias_.data(), rate_.data(), trial_.data(), change_.data()};
+    const bool cleared = settings_.state == StateRule::cleared;
+    if (rate_equation() && !runge_kutta())
+      return run_rate_euler(neural, ctrnn, settings_.steps_per_tick, cleared);
+    if (cleared) std::fill_n(y, static_cast<std::size_t>(neural.neurons) * neural.stride, 0.0f);
+    run_general(neural, ctrnn, settings_.steps_per_tick, !rate_equation(), runge_kutta());
   }
 
   CtrnnSettings settings_;
   float slope_;
-  /// All of them neuron by neuron of the wiring, over the lanes.
-  std::vector<float> y_, bias_, rate_;
-  std::vector<float> trial_, k1_, k2_, k3_, k4_;
+  /// All of them neuron by neuron of the wiring, and empty where equation and method need none.
+  LaneRows bias_, rate_, y_, trial_, change_;
 };
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "amble/controllers/network.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace amble::controllers {
@@ -12,35 +11,20 @@ class NetworkBatch final : public NeuralBatch {
       : NeuralBatch(std::move(model), lanes),
         slope_(static_cast<float>(settings.slope)),
         passes_(settings.passes),
-        by_level_(!wiring().cyclic && wiring().depth() <= passes_),
-        next_(wiring().neurons.size() * stride()) {}
+        by_level_(!wiring().cyclic && wiring().depth() <= passes_) {}
 
  private:
   void advance() override {
-    if (by_level_) {
-      for (int level = 0; level < wiring().depth(); ++level) advance_level(static_cast<std::size_t>(level));
-    } else {
-      const auto all = neurons(0, wiring().neuron_count());
-      std::ranges::fill(all, 0.0f);
-      for (int pass = 0; pass < passes_; ++pass) {
-        sum(0, wiring().neuron_count(), next_);
-        logistic(next_, slope_);
-        std::ranges::copy(next_, all.begin());
-      }
-    }
-  }
-  void advance_level(std::size_t level) {
-    const int first = wiring().levels[level], last = wiring().levels[level + 1];
-    const auto values = neurons(first, last);
-    sum(first, last, values);
-    logistic(values, slope_);
+    if (by_level_)
+      run_levels(rows(slope_));
+    else
+      run_passes(rows(slope_), passes_);
   }
   void reset(int, const NeuralParameters&) override {}
 
   float slope_;
   int passes_;
   bool by_level_;
-  std::vector<float> next_;
 };
 
 }  // namespace

@@ -22,9 +22,7 @@ const NeuralParameters& as_neural(const Parameters& parameters) {
 }  // namespace
 
 void logistic(std::span<float> values, float slope) {
-  for (float& value : values) value *= slope;
-  cppn::activate(neat::Activation::bipolar_sigmoid, cppn::Linear::identity, values);
-  for (float& value : values) value = 0.5f + 0.5f * value;
+  logistic_array(values.data(), values.size(), slope);
 }
 
 NeuralArchitecture::NeuralArchitecture(std::string_view kind, std::vector<substrate::Property> properties,
@@ -73,11 +71,15 @@ std::string NeuralArchitecture::parameters_json(const Parameters& parameters) co
 }
 
 NeuralBatch::NeuralBatch(std::shared_ptr<const NeuralModel> model, int lanes)
-    : model_(std::move(model)), lanes_(lanes), tick_(static_cast<std::size_t>(lanes)) {
+    : model_(std::move(model)),
+      lanes_(lanes),
+      weights_(static_cast<int>(wiring().links.size()), lanes),
+      expressed_(wiring().links.size()),
+      values_(wiring().slots(), lanes),
+      sensed_(wiring().neuron_count(), lanes),
+      scratch_(wiring().neuron_count(), lanes),
+      tick_(static_cast<std::size_t>(lanes)) {
   AMBLE_CHECK(lanes > 0, "a batch has at least one lane");
-  stride_ = lanes == 1 ? 1 : (static_cast<std::size_t>(lanes) + 3) / 4 * 4;
-  weights_.resize(wiring().links.size() * stride_);
-  values_.resize(static_cast<std::size_t>(wiring().slots()) * stride_);
 }
 
 void NeuralBatch::load(int lane, const Parameters& parameters) {
@@ -85,10 +87,14 @@ void NeuralBatch::load(int lane, const Parameters& parameters) {
   const NeuralParameters& neural = as_neural(parameters);
   AMBLE_CHECK(neural.decoded.weights.size() == model_->layout.links().size(),
               "the parameters belong to another architecture");
-  for (std::size_t k = 0; k < wiring().links.size(); ++k)
-    weights_[index(static_cast<int>(k), lane)] =
-        neural.decoded.weights[static_cast<std::size_t>(wiring().links[k].index)];
-  for (int slot = 0; slot < wiring().slots(); ++slot) values_[index(slot, lane)] = 0.0f;
+  for (std::size_t k = 0; k < wiring().links.size(); ++k) {
+    float& weight = weights_.at(static_cast<int>(k), lane);
+    const float next = neural.decoded.weights[static_cast<std::size_t>(wiring().links[k].index)];
+    expressed_[k] += (next != 0.0f ? 1 : 0) - (weight != 0.0f ? 1 : 0);
+    weight = next;
+  }
+  links_known_ = false;
+  for (int slot = 0; slot < wiring().slots(); ++slot) values_.at(slot, lane) = 0.0f;
   tick_[static_cast<std::size_t>(lane)] = 0;
   reset(lane, neural);
 }
@@ -96,12 +102,12 @@ void NeuralBatch::load(int lane, const Parameters& parameters) {
 void NeuralBatch::step(const physics::SensorFrame& sensors, LaneArray& targets_rad) {
   AMBLE_CHECK(targets_rad.rows() == static_cast<int>(model_->ranges.size()) && targets_rad.lanes() == lanes_,
               "targets must be joints × lanes");
+  if (!std::exchange(links_known_, true)) find_links();
   sense(sensors);
   advance();
   for (int& tick : tick_) ++tick;
   for (int joint = 0; joint < targets_rad.rows(); ++joint) {
-    const float* const value =
-        values_.data() + index(wiring().joint_slots[static_cast<std::size_t>(joint)], 0);
+    const float* const value = values_.row(wiring().joint_slots[static_cast<std::size_t>(joint)]);
     float* const target_rad = targets_rad.row(joint);
     const JointRange& range = model_->ranges[static_cast<std::size_t>(joint)];
     for (int lane = 0; lane < lanes_; ++lane)
@@ -113,7 +119,7 @@ void NeuralBatch::sense(const physics::SensorFrame& sensors) {
   using Kind = substrate::Sensor::Kind;
   for (int slot = 0; slot < wiring().sensor_count(); ++slot) {
     const substrate::Sensor& sensor = wiring().sensors[static_cast<std::size_t>(slot)];
-    float* const row = values_.data() + index(slot, 0);
+    float* const row = values_.row(slot);
     const auto copy = [&](const LaneArray& from, int from_row) {
       AMBLE_CHECK(from_row < from.rows() && from.lanes() == lanes_, "the sensors are of another robot");
       std::copy_n(from.row(from_row), lanes_, row);
@@ -146,14 +152,43 @@ void NeuralBatch::sense_sine(float* row) const {
   cppn::activate(neat::Activation::sine, cppn::Linear::identity, {row, tick_.size()});
 }
 
-std::span<float> NeuralBatch::neurons(int first, int last) {
-  const int before = wiring().sensor_count();
-  return std::span(values_).subspan(index(before + first, 0), index(last - first, 0));
+/// Links that no lane expresses are left out: with finite values their products are zeros, which change no
+/// sum but for the sign of a 0, and that is lost in the logistic function and beside the states y.
+void NeuralBatch::find_links() {
+  const auto offset = [&](int row) {
+    return static_cast<std::uint32_t>(static_cast<std::size_t>(row) * values_.stride());
+  };
+  for (LinkTable* const table : {&sensor_links_, &neuron_links_}) {
+    table->links.clear();
+    table->begin.assign(1, 0);
+  }
+  const int sensors = wiring().sensor_count();
+  for (const Wiring::Neuron& neuron : wiring().neurons) {
+    for (int k = neuron.first_link; k < neuron.first_link + neuron.link_count; ++k) {
+      if (expressed_[static_cast<std::size_t>(k)] == 0) continue;
+      const int source = wiring().links[static_cast<std::size_t>(k)].source_slot;
+      if (source < sensors)
+        sensor_links_.links.push_back({offset(k), offset(source)});
+      else
+        neuron_links_.links.push_back({offset(k), offset(source - sensors)});
+    }
+    for (LinkTable* const table : {&sensor_links_, &neuron_links_})
+      table->begin.push_back(static_cast<int>(table->links.size()));
+  }
 }
 
-void NeuralBatch::sum(int first, int last, std::span<float> sums) const {
-  weighted_sums(wiring(), first, last, weights_.data(), values_.data(), static_cast<int>(stride_),
-                sums.data());
+NeuralRows NeuralBatch::rows(float slope) {
+  return {.from_sensors = sensor_links_,
+          .from_neurons = neuron_links_,
+          .weights = weights_.data(),
+          .sensors = values_.data(),
+          .values = values_.row(wiring().sensor_count()),
+          .sensed = sensed_.data(),
+          .scratch = scratch_.data(),
+          .neurons = wiring().neuron_count(),
+          .lanes = lanes_,
+          .stride = values_.stride(),
+          .slope = slope};
 }
 
 std::vector<std::string> NeuralBatch::state_names() const {
@@ -173,7 +208,7 @@ void NeuralBatch::state(int lane, std::span<float> values) const {
         wiring().sensor_count() + i;
   std::size_t next = 0;
   for (const int slot : slot_of_node)
-    if (slot >= 0) values[next++] = values_[index(slot, lane)];
+    if (slot >= 0) values[next++] = values_.at(slot, lane);
 }
 
 }  // namespace amble::controllers

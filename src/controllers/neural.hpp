@@ -8,11 +8,13 @@
 
 #include "amble/controllers/controller.hpp"
 #include "amble/controllers/joint_range.hpp"
+#include "amble/controllers/lane_rows.hpp"
+#include "amble/controllers/neural_kernel.hpp"
 #include "amble/controllers/wiring.hpp"
 
 namespace amble::controllers {
 
-/// Replaces each value x by 1/(1 + e^(−slope x)), to 1e−7; the same bits on every CPU (cppn/activation.hpp).
+/// Replaces each value x by 1/(1 + e^(−slope x)), to 1e−7 where slope x is exact; the same bits on every CPU.
 void logistic(std::span<float> values, float slope);
 
 /// A decoded network of neurons.
@@ -52,6 +54,9 @@ class NeuralArchitecture : public Architecture {
 /// Networks stepping together. In a tick the sensors are read, the neurons advance(), and the values of the
 /// neurons that drive joints, clamped to 0 … 1, are scaled to the joints' ranges. The state worth recording
 /// is each neuron's value.
+///
+/// A neuron's weighted sum is that over the sensors, then that over the neurons, each in the order of the
+/// layout's links; products are added by fused multiply-add, in single precision.
 class NeuralBatch : public Batch {
  public:
   NeuralBatch(std::shared_ptr<const NeuralModel> model, int lanes);
@@ -69,28 +74,23 @@ class NeuralBatch : public Batch {
   virtual void reset(int lane, const NeuralParameters& parameters) = 0;
 
   const Wiring& wiring() const { return model_->wiring; }
-  /// Lanes per row: 1 or a multiple of 4; those beyond lanes() mean nothing.
-  std::size_t stride() const { return stride_; }
-  std::size_t index(int row, int lane) const {
-    return static_cast<std::size_t>(row) * stride_ + static_cast<std::size_t>(lane);
-  }
-  /// What the nodes say: slot by slot.
-  std::vector<float>& values() { return values_; }
-  /// The values of the neurons [first, last).
-  std::span<float> neurons(int first, int last);
-  /// The weighted sums of the neurons [first, last) from the present values.
-  void sum(int first, int last, std::span<float> sums) const;
+  /// What a kernel works on.
+  NeuralRows rows(float slope);
 
  private:
   void sense(const physics::SensorFrame& sensors);
   void sense_sine(float* row) const;
+  void find_links();
 
   std::shared_ptr<const NeuralModel> model_;
   int lanes_;
-  std::size_t stride_;
-  std::vector<float> weights_;  ///< link by link of the wiring
-  std::vector<float> values_;
-  std::vector<int> tick_;  ///< lane by lane, from 0
+  LaneRows weights_;            ///< link by link of the wiring
+  std::vector<int> expressed_;  ///< link by link: number of lanes in which its weight is not 0
+  bool links_known_ = false;    ///< whether the tables belong to the weights
+  LinkTable sensor_links_, neuron_links_;
+  LaneRows values_;            ///< what the nodes say, slot by slot
+  LaneRows sensed_, scratch_;  ///< neuron by neuron
+  std::vector<int> tick_;      ///< lane by lane, from 0
 };
 
 }  // namespace amble::controllers

@@ -36,21 +36,6 @@ std::vector<int> levels_of(const substrate::Layout& layout) {
   return queue.size() == count ? level : std::vector<int>();
 }
 
-template <int width>
-void sum_lanes(const Wiring& wiring, int first, int last, const float* weights, const float* values,
-               std::size_t stride, float* sums) {
-  for (int i = first; i < last; ++i) {
-    const Wiring::Neuron& neuron = wiring.neurons[at(i)];
-    float sum[width] = {};
-    for (int k = neuron.first_link; k < neuron.first_link + neuron.link_count; ++k) {
-      const float* const weight = weights + at(k) * stride;
-      const float* const value = values + at(wiring.links[at(k)].source_slot) * stride;
-      for (int lane = 0; lane < width; ++lane) sum[lane] += weight[lane] * value[lane];
-    }
-    std::copy_n(sum, width, sums + at(i - first) * stride);
-  }
-}
-
 }  // namespace
 
 Wiring make_wiring(const substrate::Layout& layout) {
@@ -92,17 +77,6 @@ Wiring make_wiring(const substrate::Layout& layout) {
   for (int joint = 0; joint < layout.joint_count(); ++joint)
     wiring.joint_slots.push_back(slot[at(layout.driver(joint))]);
   return wiring;
-}
-
-void weighted_sums(const Wiring& wiring, int first, int last, const float* weights, const float* values,
-                   int stride, float* sums) {
-  const auto lanes = at(stride);
-  if (stride == 1) return sum_lanes<1>(wiring, first, last, weights, values, lanes, sums);
-  std::size_t lane = 0;
-  for (; lane + 16 <= lanes; lane += 16)
-    sum_lanes<16>(wiring, first, last, weights + lane, values + lane, lanes, sums + lane);
-  for (; lane < lanes; lane += 4)
-    sum_lanes<4>(wiring, first, last, weights + lane, values + lane, lanes, sums + lane);
 }
 
 }  // namespace amble::controllers

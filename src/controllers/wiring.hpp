@@ -37,10 +37,4 @@ struct Wiring {
 
 Wiring make_wiring(const substrate::Layout& layout);
 
-/// sums[i] = Σ weight × value of the source for the neurons [first, last), added up from 0 in the order of
-/// the links, in single precision; for each lane by itself. All arrays are row by row over `stride` lanes:
-/// weights link by link, values slot by slot, sums from neuron `first` on. `stride` is 1 or a multiple of 4.
-void weighted_sums(const Wiring& wiring, int first, int last, const float* weights, const float* values,
-                   int stride, float* sums);
-
 }  // namespace amble::controllers

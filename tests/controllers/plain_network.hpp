@@ -1,24 +1,38 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 #include "amble/controllers/ctrnn.hpp"
+#include "amble/controllers/logistic_constants.hpp"
 #include "amble/controllers/network.hpp"
 #include "amble/cppn/activation.hpp"
-#include "tests/controllers/quadruped.hpp"
+#include "amble/morphology/robot_spec.hpp"
 
 namespace amble::controllers {
+
+/// The logistic function of one number, in the operations of logistic-inl.hpp.
+inline float plain_logistic(float x, float slope) {
+  namespace c = constants;
+  const float scale = -(slope * c::log2_e), largest = c::largest_exponent / (slope * c::log2_e);
+  x = std::max(std::min(x, largest), -largest);
+  const float k = std::fma(x, scale, c::rounder) - c::rounder;
+  const float r = std::fma(x, scale, -k);
+  float p = c::e5;
+  for (const float coefficient : {c::e4, c::e3, c::e2, c::e1, c::e0}) p = std::fma(p, r, coefficient);
+  return 1.0f / (1.0f + std::ldexp(p, static_cast<int>(k)));
+}
 
 /// What one robot senses.
 struct Senses {
   std::vector<float> angle_rad, touch, attitude_rad;
 };
 
-/// The slow twin of networks in a substrate: one robot, node by node, link by link, in the order of the
-/// layout.
+/// The slow twin of networks in a substrate: one robot, node by node, link by link, all passes and steps.
 class PlainNetwork {
  public:
   PlainNetwork(const substrate::Layout& layout, substrate::Decoded decoded, double timestep_s,
@@ -37,7 +51,7 @@ class PlainNetwork {
     for (int pass = 0; pass < settings.passes; ++pass) {
       std::vector<float> next = value_;
       for (std::size_t i = 0; i < next.size(); ++i)
-        if (is_neuron(i)) next[i] = logistic_of(sum(i), settings.slope);
+        if (is_neuron(i)) next[i] = logistic_of(sum(i, 0.0f), settings.slope);
       value_ = next;
     }
   }
@@ -46,22 +60,24 @@ class PlainNetwork {
     sense(senses);
     if (settings.state == StateRule::cleared) clear(y_);
     for (int step = 0; step < settings.steps_per_tick; ++step) {
-      const auto k1 = change(settings, y_);
       if (settings.integrator == Integrator::rk4) {
+        const auto k1 = change(settings, y_);
         const auto k2 = change(settings, moved(y_, k1, 0.5f)), k3 = change(settings, moved(y_, k2, 0.5f)),
                    k4 = change(settings, moved(y_, k3, 1.0f));
         for (std::size_t i = 0; i < y_.size(); ++i)
-          y_[i] += (k1[i] + 2.0f * k2[i] + 2.0f * k3[i] + k4[i]) * (1.0f / 6.0f);
+          y_[i] = std::fma(k1[i] + 2.0f * k2[i] + 2.0f * k3[i] + k4[i], 1.0f / 6.0f, y_[i]);
       } else {
-        y_ = moved(y_, k1, 1.0f);
+        const auto pull = pulls(settings, y_);
+        for (std::size_t i = 0; i < y_.size(); ++i)
+          if (is_neuron(i)) y_[i] = std::fma(rate(settings, i), pull[i], y_[i]);
       }
     }
     show(settings, y_);
   }
 
   float value(std::size_t node) const { return value_[node]; }
-  float target_rad(int joint) const {
-    const morphology::Joint its = quadruped().joints[static_cast<std::size_t>(joint)];
+  /// Driven by the node of joint `joint`, whose stops `its` tells.
+  float target_rad(int joint, const morphology::Joint& its) const {
     const auto value = static_cast<double>(value_[static_cast<std::size_t>(layout_.driver(joint))]);
     const double command = value < 0.0 ? 0.0 : value > 1.0 ? 1.0 : value;
     return static_cast<float>(its.lower_rad + (its.upper_rad - its.lower_rad) * command);
@@ -108,18 +124,18 @@ class PlainNetwork {
     return x;
   }
 
-  float sum(std::size_t node) const {
-    float sum = 0.0f;
-    for (std::size_t i = 0; i < layout_.links().size(); ++i)
-      if (layout_.links()[i].target == static_cast<int>(node))
-        sum += decoded_.weights[i] * value_[static_cast<std::size_t>(layout_.links()[i].source)];
+  /// Sensors first, then neurons.
+  float sum(std::size_t node, float sum) const {
+    for (const bool neurons : {false, true})
+      for (std::size_t i = 0; i < layout_.links().size(); ++i) {
+        const auto source = static_cast<std::size_t>(layout_.links()[i].source);
+        if (layout_.links()[i].target == static_cast<int>(node) && is_neuron(source) == neurons)
+          sum = std::fma(decoded_.weights[i], value_[source], sum);
+      }
     return sum;
   }
 
-  static float logistic_of(float x, double slope) {
-    logistic({&x, 1}, static_cast<float>(slope));
-    return x;
-  }
+  static float logistic_of(float x, double slope) { return plain_logistic(x, static_cast<float>(slope)); }
 
   float rate(const CtrnnSettings& settings, std::size_t node) const {
     const double time_constant = decoded_.of(substrate::Property::time_constant)[node];
@@ -137,21 +153,29 @@ class PlainNetwork {
     }
   }
 
-  std::vector<float> change(const CtrnnSettings& settings, const std::vector<float>& y) {
+  std::vector<float> pulls(const CtrnnSettings& settings, const std::vector<float>& y) {
     show(settings, y);
-    std::vector<float> change(y.size());
+    std::vector<float> pull(y.size());
     for (std::size_t i = 0; i < y.size(); ++i) {
       if (!is_neuron(i)) continue;
-      float aim = sum(i);
-      if (settings.equation == Equation::rate)
-        aim = logistic_of(aim - decoded_.of(substrate::Property::bias)[i], settings.slope);
-      change[i] = rate(settings, i) * (aim - y[i]);
+      const float bias = decoded_.of(substrate::Property::bias)[i];
+      const bool of_values = settings.equation == Equation::rate;
+      float aim = sum(i, of_values ? -bias : 0.0f);
+      if (of_values) aim = logistic_of(aim, settings.slope);
+      pull[i] = aim - y[i];
     }
+    return pull;
+  }
+
+  std::vector<float> change(const CtrnnSettings& settings, const std::vector<float>& y) {
+    auto change = pulls(settings, y);
+    for (std::size_t i = 0; i < y.size(); ++i)
+      if (is_neuron(i)) change[i] *= rate(settings, i);
     return change;
   }
 
   static std::vector<float> moved(std::vector<float> y, const std::vector<float>& change, float share) {
-    for (std::size_t i = 0; i < y.size(); ++i) y[i] += share * change[i];
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] = std::fma(share, change[i], y[i]);
     return y;
   }
 

@@ -1,0 +1,83 @@
+// The logistic function on one vector, for each instruction set: included once per target through Highway's
+// foreach_target. Products are added by fused multiply-add, written out, and nothing is approximate beyond
+// rounding and the polynomial: so every instruction set gives the same bits.
+#if defined(AMBLE_CONTROLLERS_LOGISTIC_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef AMBLE_CONTROLLERS_LOGISTIC_INL_HPP
+#undef AMBLE_CONTROLLERS_LOGISTIC_INL_HPP
+#else
+#define AMBLE_CONTROLLERS_LOGISTIC_INL_HPP
+#endif
+
+#include <hwy/highway.h>
+
+#include "amble/controllers/logistic_constants.hpp"
+#include "amble/core/fused.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace amble::controllers::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+namespace c = constants;
+
+/// As many lanes as the machine has, up to a row's 16.
+using Floats = hn::CappedTag<float, 16>;
+using Ints = hn::RebindToSigned<Floats>;
+using V = hn::Vec<Floats>;
+constexpr int width = static_cast<int>(hn::MaxLanes(Floats()));
+
+HWY_INLINE V set(float x) {
+  return hn::Set(Floats(), x);
+}
+HWY_INLINE V load(const float* from) {
+  return hn::Load(Floats(), from);
+}
+HWY_INLINE void store(V v, float* to) {
+  hn::Store(v, Floats(), to);
+}
+
+/// a b + c, rounded once.
+HWY_INLINE V fma(V a, V b, V c) {
+#if HWY_NATIVE_FMA
+  return hn::MulAdd(a, b, c);
+#else
+  HWY_ALIGN float as[width], bs[width], cs[width];
+  store(a, as);
+  store(b, bs);
+  store(c, cs);
+  for (int i = 0; i < width; ++i) cs[i] = fused(as[i], bs[i], cs[i]);
+  return load(cs);
+#endif
+}
+
+/// s(x) = 1/(1 + e^(−slope x)). Once for many vectors, what depends on the slope alone.
+class Logistic {
+ public:
+  explicit HWY_INLINE Logistic(float slope)
+      : scale_(set(-(slope * c::log2_e))), largest_(set(c::largest_exponent / (slope * c::log2_e))) {}
+
+  /// With k + r = −slope log2(e) x, k whole: e^(−slope x) = 2^k 2^r.
+  HWY_INLINE V operator()(V x) const {
+    const Ints i;
+    x = hn::Max(hn::Min(x, largest_), hn::Neg(largest_));
+    const V rounder = set(c::rounder);
+    const V sum = fma(x, scale_, rounder);
+    const V k = hn::Sub(sum, rounder);
+    const V r = fma(x, scale_, hn::Neg(k));
+    V p = fma(set(c::e5), r, set(c::e4));
+    p = fma(p, r, set(c::e3));
+    p = fma(p, r, set(c::e2));
+    p = fma(p, r, set(c::e1));
+    p = fma(p, r, set(c::e0));
+    // The low bits of `sum` are k; shifted up they are added to the exponent of p.
+    const V power = hn::BitCast(Floats(), hn::Add(hn::BitCast(i, p), hn::ShiftLeft<23>(hn::BitCast(i, sum))));
+    return hn::Div(set(1.0f), hn::Add(set(1.0f), power));
+  }
+
+ private:
+  V scale_, largest_;
+};
+
+}  // namespace amble::controllers::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // toggled by HWY_TARGET_TOGGLE
