@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <string>
 
 #include "amble/experiment/problem.hpp"
 #include "amble/morphology/mjcf_writer.hpp"
 #include "amble/morphology/model_file.hpp"
 #include "bench/benches.hpp"
+#include "bench/walkers.hpp"
 #include "bench/workload.hpp"
 
 namespace amble::bench {
@@ -27,24 +30,35 @@ void set_targets(const morphology::RobotSpec& robot, int step, LaneArray& target
   }
 }
 
+/// Fills the targets of all lanes at a step.
+using Targets = std::function<void(int step, LaneArray& targets_rad)>;
+
+Targets swing(const morphology::RobotSpec& robot) {
+  return [&robot](int step, LaneArray& targets_rad) { set_targets(robot, step, targets_rad); };
+}
+
 /// Robot-steps per second of one engine on one core, all lanes busy.
-double steps_per_s(const char* name, const morphology::RobotSpec& robot) {
+double steps_per_s(const char* name, const morphology::RobotSpec& robot, const Targets& targets) {
   const auto engine = physics::make_engine(name, robot, {});
   LaneArray targets_rad(static_cast<int>(robot.joints.size()), engine->lanes());
   const double seconds = seconds_per_call([&] {
     for (int lane = 0; lane < engine->lanes(); ++lane) engine->place(lane);
     for (int step = 0; step < steps; ++step) {
-      set_targets(robot, step, targets_rad);
+      targets(step, targets_rad);
       engine->step(targets_rad);
     }
   });
   return steps * engine->lanes() / seconds;
 }
 
+double steps_per_s(const char* name, const morphology::RobotSpec& robot) {
+  return steps_per_s(name, robot, swing(robot));
+}
+
 /// The same of MuJoCo by itself: mj_step with its own soft contacts and options, but for the limit of 20
 /// iterations, and a damped servo with the same limits of torque. The engine "mujoco" is slower, because it
 /// solves ODE's stiffer equations.
-double mj_steps_per_s(const morphology::RobotSpec& robot) {
+double mj_steps_per_s(const morphology::RobotSpec& robot, const Targets& targets) {
   const auto mjcf = morphology::write_mjcf(robot);
   const auto owned = morphology::compile_mjcf(mjcf.text, "bench");
   mjModel* const model = owned.get();
@@ -55,7 +69,7 @@ double mj_steps_per_s(const morphology::RobotSpec& robot) {
   const double seconds = seconds_per_call([&] {
     mj_resetData(model, data.get());
     for (int step = 0; step < steps; ++step) {
-      set_targets(robot, step, targets_rad);
+      targets(step, targets_rad);
       for (std::size_t place = 0; place < mjcf.joints.size(); ++place) {
         const int joint = mjcf.joints[place], dof = model->jnt_dofadr[place + 1];
         const double error_rad =
@@ -71,12 +85,51 @@ double mj_steps_per_s(const morphology::RobotSpec& robot) {
   return steps / seconds;
 }
 
+/// One engine of one lane takes the walkers one after the other.
+Targets one_by_one(const Walkers& walkers) {
+  return [&walkers, walker = -1](int step, LaneArray& targets_rad) mutable {
+    if (step == 0) walker = (walker + 1) % walker_count;
+    const LaneArray& all = walkers.targets_rad[static_cast<std::size_t>(step)];
+    for (int joint = 0; joint < targets_rad.rows(); ++joint) targets_rad.at(joint, 0) = all.at(joint, walker);
+  };
+}
+
+double walker_us(const Walkers& walkers) {
+  return 1e6 / steps_per_s("batch", walkers.robot, [&](int step, LaneArray& targets_rad) {
+           targets_rad = walkers.targets_rad[static_cast<std::size_t>(step)];
+         });
+}
+
+/// What one step of the authors' robot takes, without and per contact, counted once in the program's
+/// instructions (docs/BATCH.md); a fused multiply-add is two.
+constexpr double step_flop = 18900.0, contact_flop = 3500.0;
+
+void measure_walkers(std::vector<Figure>& figures) {
+  const Walkers walkers = evolve_walkers(steps);
+  const double ode_us = 1e6 / steps_per_s("ode", walkers.robot, one_by_one(walkers)),
+               mujoco_us = 1e6 / mj_steps_per_s(walkers.robot, one_by_one(walkers));
+  const double flop = step_flop + contact_flop * walkers.mean_contacts;
+  const auto tell = [&](const std::string& suffix, const std::string& note) {
+    const double us = walker_us(walkers);
+    figures.push_back(
+        {"batch_us_per_step_walkers" + suffix, us, "us", "per robot, sixteen different SUPGs" + note});
+    figures.push_back(
+        {"batch_vs_ode_walkers" + suffix, ode_us / us, "1", "steps per second, the same walkers" + note});
+    figures.push_back(
+        {"batch_vs_mujoco_walkers" + suffix, mujoco_us / us, "1", "mj_step, the same walkers" + note});
+    figures.push_back({"batch_peak_share" + suffix, flop / (us * 1e-6 * peak_flop_per_s()), "1",
+                       "of the core's fused multiply-adds" + note});
+  };
+  tell("", "");
+  without_avx512([&] { tell("_avx2", ", without AVX-512"); });
+}
+
 }  // namespace
 
 void measure_physics(std::vector<Figure>& figures) {
   const auto paper = experiment::load_robot_file(AMBLE_SOURCE_DIR "/robots/quadruped/paper.toml");
   const auto authors = experiment::load_robot_file(AMBLE_SOURCE_DIR "/robots/quadruped/authors.toml");
-  const double ode = steps_per_s("ode", paper), mujoco = mj_steps_per_s(paper),
+  const double ode = steps_per_s("ode", paper), mujoco = mj_steps_per_s(paper, swing(paper)),
                batch = steps_per_s("batch", paper);
   figures.push_back({"raw_steps_per_s_ode", ode, "1/s", "one core, paper's quadruped, dWorldStep"});
   figures.push_back({"raw_steps_per_s_mujoco", mujoco, "1/s",
@@ -95,6 +148,7 @@ void measure_physics(std::vector<Figure>& figures) {
     figures.push_back({"batch_vs_ode_raw_authors_avx2", steps_per_s("batch", authors) / ode_authors, "1",
                        "the same without AVX-512"});
   });
+  measure_walkers(figures);
 }
 
 }  // namespace amble::bench

@@ -58,10 +58,10 @@ HWY_INLINE void factorise(V* lower, V* inverse, int n) {
   }
 }
 
-/// x ← L_b⁻¹ x.
-HWY_INLINE void solve_base(const BaseFactor& factor, V* x) {
-  for (int i = 0; i < 6; ++i) {
-    for (int k = 0; k < i; ++k) x[i] = fnma(factor.lower[triangle(i, k)], x[k], x[i]);
+/// x ← L_b⁻¹ x, where x is 0 before `first`.
+HWY_INLINE void solve_base(const BaseFactor& factor, V* x, int first = 0) {
+  for (int i = first; i < 6; ++i) {
+    for (int k = first; k < i; ++k) x[i] = fnma(factor.lower[triangle(i, k)], x[k], x[i]);
     x[i] = x[i] * factor.inverse[i];
   }
 }

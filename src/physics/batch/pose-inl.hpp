@@ -32,6 +32,10 @@ struct Pass {
     return batch.model.links[static_cast<std::size_t>(chain.first + j)];
   }
   int pose_row(int link) const { return batch.rows.pose + Rows::pose_size * link; }
+  unsigned char& geom_felt(int geom) const {
+    const std::size_t first = static_cast<std::size_t>(lane / width) * batch.model.geoms.size();
+    return batch.workspace.felt[first + static_cast<std::size_t>(geom)];
+  }
   Mask active() const { return state(Rows::active) > zero(); }
   /// The world's axes in torso axes, as columns: takes world axes to torso axes.
   Columns world() const { return {state3(Rows::axes), state3(Rows::axes + 3), state3(Rows::axes + 6)}; }
@@ -127,7 +131,8 @@ HWY_NOINLINE void find_touch(const Pass& pass) {
   const V3 up = pass.state3(Rows::axes + 6);
   const V com_height = pass.state(Rows::com + 2);
   V contacts = zero();
-  for (const PointGroup& geom : model.geoms) {
+  for (std::size_t g = 0; g < model.geoms.size(); ++g) {
+    const PointGroup& geom = model.geoms[g];
     const Point& any = model.points[static_cast<std::size_t>(geom.first)];
     V3 origin = pass.state3(Rows::origin), tilt = up;
     if (any.chain >= 0) {
@@ -137,14 +142,14 @@ HWY_NOINLINE void find_touch(const Pass& pass) {
     }
     const V height = dot(up, origin, com_height);
     const V lowest = dot(tilt, set(geom.centre_m), height) - set(geom.reach_m);
-    const bool near = !hn::AllFalse(Floats(), hn::And(active, lowest <= zero()));
+    pass.work().near[g] = !hn::AllFalse(Floats(), hn::And(active, lowest <= zero()));
     Mask touches = nowhere();
-    for (int p = geom.first; p < geom.first + geom.count; ++p) {
+    for (int p = geom.first; pass.work().near[g] && p < geom.first + geom.count; ++p) {
       const Point& point = model.points[static_cast<std::size_t>(p)];
-      const V h = near ? dot(tilt, set(point.position_m), height) - set(point.radius_m) : set(1.0f);
+      const V h = dot(tilt, set(point.position_m), height) - set(point.radius_m);
       store(h, pass.scratch(pass.work().heights + p));
       touches = hn::Or(touches, h <= zero());
-      if (near) contacts = contacts + hn::IfThenElseZero(h <= zero(), set(1.0f));
+      contacts = contacts + hn::IfThenElseZero(h <= zero(), set(1.0f));
     }
     if (geom.leg >= 0)
       pass.set_state(pass.batch.rows.touch + geom.leg, hn::IfThenElseZero(touches, set(1.0f)));

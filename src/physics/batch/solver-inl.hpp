@@ -13,14 +13,70 @@ namespace amble::physics::batch::HWY_NAMESPACE {
 
 enum class Bound { joint, cone, stuck };  ///< stuck: contact with infinite friction
 
-/// Impulse of row r within its bounds; `normal` is the impulse of the contact's first row.
+/// How far the impulse of row r, `before` now, moves when it is asked to move by `change`. `normal`: the
+/// impulse of the contact's first row. Lanes without the contact have W = 0 and ask for nothing.
 template <Bound bound>
-HWY_INLINE V bounded(const Block& block, int r, V impulse, V normal) {
-  const V high = block.get(BlockShape::high, r);
-  if constexpr (bound == Bound::joint) return hn::Max(hn::Min(impulse, high), block.get(BlockShape::low, r));
-  if (r == 0) return hn::Min(hn::Max(impulse, zero()), high);
-  const V most = bound == Bound::cone ? high * normal : high;
-  return hn::Max(hn::Min(impulse, most), hn::Neg(most));
+HWY_INLINE V bounded(const Block& block, int r, V change, V before, V normal) {
+  if constexpr (bound == Bound::joint)
+    return hn::Max(hn::Min(change, block.get(BlockShape::high, r) - before),
+                   block.get(BlockShape::low, r) - before);
+  if (r == 0) return hn::Max(change, hn::Neg(before));
+  if constexpr (bound == Bound::stuck) return change;
+  const V most = block.get(BlockShape::high, r) * normal;
+  return hn::Max(hn::Min(change, most - before), hn::Neg(most) - before);
+}
+
+/// The change that row r asks for where the state is 0.
+template <Bound bound>
+HWY_INLINE V wanted_change(const Block& block, int r, V before) {
+  const V softness = block.get(BlockShape::softness, r);
+  if (bound != Bound::joint && r > 0) return hn::Neg(softness * before);
+  return fnma(softness, before, block.get(BlockShape::bias, r));
+}
+
+/// First number of a row's W that is not 0: a joint's own row has no part in joints nearer to the torso.
+template <int n, Bound bound>
+constexpr int first_number(int row) {
+  return bound == Bound::joint && n == 3 ? row : 0;
+}
+
+/// Before each row moves: its impulse, and the change that it asks for as things stand.
+template <int n, int rows, Bound bound>
+HWY_INLINE void measure(const Block& block, const V* joints, const V* base, V* before, V* change) {
+  for (int r = 0; r < rows; ++r) {
+    const float* const w = block.w(r);
+    before[r] = block.get(BlockShape::impulse, r);
+    V near = wanted_change<bound>(block, r, before[r]);
+    for (int i = first_number<n, bound>(r); i < n; ++i) near = fnma(load(w + i * width), joints[i], near);
+    V far = load(w + n * width) * base[0];
+    for (int i = 1; i < 5; ++i) far = fma(load(w + (n + i) * width), base[i], far);
+    near = fnma(load(w + (n + 5) * width), base[5], near);
+    change[r] = near - far;
+  }
+}
+
+/// The changes that the rows get, one after the other; `impulse` becomes what follows.
+template <int rows, Bound bound>
+HWY_INLINE void settle(const Block& block, V* impulse, V* change) {
+  V normal = zero();
+  for (int r = 0; r < rows; ++r) {
+    for (int s = 0; s < r; ++s)
+      change[r] = fnma(block.get(BlockShape::gram, r + s - 1), change[s], change[r]);
+    change[r] = bounded<bound>(block, r, change[r], impulse[r], normal);
+    impulse[r] = impulse[r] + change[r];
+    if (r == 0) normal = impulse[r];
+  }
+}
+
+template <int n, int rows, Bound bound>
+HWY_INLINE void push(const Block& block, const V* impulse, const V* change, V* joints, V* base) {
+  for (int r = 0; r < rows; ++r) {
+    const float* const w = block.w(r);
+    for (int i = first_number<n, bound>(r); i < n; ++i)
+      joints[i] = fma(load(w + i * width), change[r], joints[i]);
+    for (int i = 0; i < 6; ++i) base[i] = fma(load(w + (n + i) * width), change[r], base[i]);
+  }
+  for (int r = 0; r < rows; ++r) block.set(BlockShape::impulse, r, impulse[r]);
 }
 
 /// One visit to a block: exactly Gauss–Seidel row by row, but all rows are measured before the first of them
@@ -28,29 +84,25 @@ HWY_INLINE V bounded(const Block& block, int r, V impulse, V normal) {
 /// two or three instructions of the row before, not for its whole update.
 template <int n, int rows, Bound bound>
 HWY_INLINE void visit(const Block& block, V* joints, V* base) {
-  V before[rows], after[rows], asked[rows];
-  for (int r = 0; r < rows; ++r) before[r] = block.get(BlockShape::impulse, r);
-  for (int r = 0; r < rows; ++r) {
-    const float* const w = block.w(r);
-    V near = fma(block.get(BlockShape::gain, r), before[r], block.get(BlockShape::bias, r));
-    for (int i = 0; i < n; ++i) near = fnma(load(w + i * width), joints[i], near);
-    V far = load(w + n * width) * base[0];
-    for (int i = 1; i < 3; ++i) far = fma(load(w + (n + i) * width), base[i], far);
-    for (int i = 3; i < 6; ++i) near = fnma(load(w + (n + i) * width), base[i], near);
-    asked[r] = near - far;
-    for (int s = 0; s < r; ++s) asked[r] = fma(block.get(BlockShape::gram, r + s - 1), before[s], asked[r]);
-  }
-  for (int r = 0; r < rows; ++r) {
-    for (int s = 0; s < r; ++s) asked[r] = fnma(block.get(BlockShape::gram, r + s - 1), after[s], asked[r]);
-    after[r] = bounded<bound>(block, r, asked[r], after[0]);
-    block.set(BlockShape::impulse, r, after[r]);
-  }
-  for (int r = 0; r < rows; ++r) {
-    const V change = after[r] - before[r];
-    const float* const w = block.w(r);
-    for (int i = 0; i < n; ++i) joints[i] = fma(load(w + i * width), change, joints[i]);
-    for (int i = 0; i < 6; ++i) base[i] = fma(load(w + (n + i) * width), change, base[i]);
-  }
+  V impulse[rows], change[rows];
+  measure<n, rows, bound>(block, joints, base, impulse, change);
+  settle<rows, bound>(block, impulse, change);
+  push<n, rows, bound>(block, impulse, change, joints, base);
+}
+
+/// The same for a chain's three motors and its first contact together.
+template <int n, Bound bound>
+HWY_INLINE void visit_pair(const Block& motors, const Block& contact, V* joints, V* base) {
+  V impulse[3], change[3], touch_impulse[3], touch_change[3];
+  measure<n, 3, Bound::joint>(motors, joints, base, impulse, change);
+  measure<n, 3, bound>(contact, joints, base, touch_impulse, touch_change);
+  settle<3, Bound::joint>(motors, impulse, change);
+  for (int s = 0; s < 3; ++s)
+    for (int r = 0; r < 3; ++r)
+      touch_change[r] = fnma(contact.get(BlockShape::cross, 3 * s + r), change[s], touch_change[r]);
+  settle<3, bound>(contact, touch_impulse, touch_change);
+  push<n, 3, Bound::joint>(motors, impulse, change, joints, base);
+  push<n, 3, bound>(contact, touch_impulse, touch_change, joints, base);
 }
 
 /// visit() for chains of any length.
@@ -61,13 +113,13 @@ HWY_INLINE void visit_any(const Block& block, V* joints, V* base) {
   for (int r = 0; r < rows; ++r) {
     const float* const w = block.w(r);
     const V before = block.get(BlockShape::impulse, r);
-    V asked = fma(block.get(BlockShape::gain, r), before, block.get(BlockShape::bias, r));
-    for (int i = 0; i < n; ++i) asked = fnma(load(w + i * width), joints[i], asked);
-    for (int i = 0; i < 6; ++i) asked = fnma(load(w + (n + i) * width), base[i], asked);
-    const V after = bounded<bound>(block, r, asked, normal);
+    V change = wanted_change<bound>(block, r, before);
+    for (int i = 0; i < n; ++i) change = fnma(load(w + i * width), joints[i], change);
+    for (int i = 0; i < 6; ++i) change = fnma(load(w + (n + i) * width), base[i], change);
+    change = bounded<bound>(block, r, change, before, normal);
+    const V after = before + change;
     if (r == 0) normal = after;
     block.set(BlockShape::impulse, r, after);
-    const V change = after - before;
     for (int i = 0; i < n; ++i) joints[i] = fma(load(w + i * width), change, joints[i]);
     for (int i = 0; i < 6; ++i) base[i] = fma(load(w + (n + i) * width), change, base[i]);
   }
@@ -85,9 +137,18 @@ HWY_INLINE void visit_block(const Block& block, V* joints, V* base) {
 /// Once through all blocks of the torso (N = 0) or of a chain.
 template <int N, Bound contact>
 HWY_INLINE void visit_chain(const Pass& pass, const ChainBlocks& blocks, int n, V* joints, V* base) {
+  if constexpr (N == 3) {
+    if (blocks.paired()) {
+      visit_pair<N, contact>(block_at(pass, blocks.first, N), block_at(pass, blocks.first + 1, N), joints,
+                             base);
+      for (int b = 2; b < blocks.count; ++b)
+        visit<N, 3, contact>(block_at(pass, blocks.first + b, N), joints, base);
+      return;
+    }
+  }
   for (int b = 0; b < blocks.joint_blocks; ++b) {
     const Block block = block_at(pass, blocks.first + b, N >= 0 ? N : n);
-    const int left = n - pass.work().block_point[static_cast<std::size_t>(blocks.first + b)];
+    const int left = n - pass.work().block_joint[static_cast<std::size_t>(blocks.first + b)];
     if (N == 3 || left >= 3) {
       visit_block<N, 3, Bound::joint>(block, joints, base);
     } else if (left == 2) {

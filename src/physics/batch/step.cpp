@@ -27,37 +27,65 @@ HWY_INLINE V plain(V x) {
   return x + zero();
 }
 
+/// Keeps the impulses of a chain's motors and stops for the next step.
+inline void keep_joint_impulses(const Pass& pass, const ChainBlocks& blocks, const Chain& chain) {
+  for (int b = 0; b < blocks.joint_blocks; ++b) {
+    const Block block = block_at(pass, blocks.first + b, chain.count);
+    const int first = pass.work().block_joint[static_cast<std::size_t>(blocks.first + b)];
+    for (int r = 0; r < 3 && first + r < chain.count; ++r)
+      pass.set_state(pass.batch.rows.joint_impulse + chain.first + first + r,
+                     plain(block.get(BlockShape::impulse, r) * block.get(BlockShape::inverse, r)));
+  }
+}
+
+/// Keeps each point's impulses, which stand, no longer scaled, in the blocks that its lanes gave it.
+inline void keep_point_impulses(const Pass& pass, const ChainBlocks& blocks, std::size_t segment, int n) {
+  const Model& model = pass.model();
+  if (blocks.count == blocks.joint_blocks) return;
+  for (int g = model.first_geom[segment]; g < model.first_geom[segment + 1]; ++g) {
+    if (!pass.geom_felt(g)) continue;
+    const PointGroup& geom = model.geoms[static_cast<std::size_t>(g)];
+    for (int p = geom.first; p < geom.first + geom.count; ++p) {
+      const V place = load(pass.scratch(pass.work().places + p));
+      V3 impulse = zero3();
+      for (int b = blocks.joint_blocks; b < blocks.count; ++b) {
+        const Mask here = place == set(static_cast<float>(b - blocks.joint_blocks));
+        const Block block = block_at(pass, blocks.first + b, n);
+        impulse.x = hn::IfThenElse(here, block.get(BlockShape::impulse, 0), impulse.x);
+        impulse.y = hn::IfThenElse(here, block.get(BlockShape::impulse, 1), impulse.y);
+        impulse.z = hn::IfThenElse(here, block.get(BlockShape::impulse, 2), impulse.z);
+      }
+      store3(impulse, pass.row(pass.batch.rows.point_impulse + 3 * p), pass.lane);
+    }
+  }
+}
+
 /// Keeps the impulses for the next step, and adds up what ground and push gave: force × time, and torque ×
 /// time about the centre of mass, both along world axes.
 inline void collect_impulses(const Pass& pass, V3& push, V3& turn) {
   const Model& model = pass.model();
   const Columns world = pass.world();
   push = pass.state3(Rows::push);
-  V3 torque = cross(pass.state3(Rows::origin) + set(model.torso.com_m), world * push);
+  turn = transposed(world, cross(pass.state3(Rows::origin) + set(model.torso.com_m), world * push));
   for (std::size_t segment = 0; segment < pass.work().chain_blocks.size(); ++segment) {
     const ChainBlocks& blocks = pass.work().chain_blocks[segment];
     const Chain chain = segment == 0 ? Chain{} : model.chains[segment - 1];
-    for (int b = 0; b < blocks.count; ++b) {
+    keep_joint_impulses(pass, blocks, chain);
+    for (int b = blocks.joint_blocks; b < blocks.count; ++b) {
       const Block block = block_at(pass, blocks.first + b, chain.count);
-      const int p = pass.work().block_point[static_cast<std::size_t>(blocks.first + b)];
-      const auto impulse = [&](int r) HWY_ATTR {
-        return plain(block.get(BlockShape::impulse, r) * block.get(BlockShape::inverse, r));
-      };
-      if (b < blocks.joint_blocks) {
-        for (int r = 0; r < 3 && p + r < chain.count; ++r)
-          pass.set_state(pass.batch.rows.joint_impulse + chain.first + p + r, impulse(r));
-        continue;
+      V impulse[3];
+      for (int r = 0; r < 3; ++r) {
+        impulse[r] = plain(block.get(BlockShape::impulse, r) * block.get(BlockShape::inverse, r));
+        block.set(BlockShape::impulse, r, impulse[r]);
       }
-      const V3 up{impulse(0), impulse(1), impulse(2)};
-      store3(up, pass.row(pass.batch.rows.point_impulse + 3 * p), pass.lane);
-      const V3 force{up.z, up.y, up.x};
+      const V3 force{impulse[2], impulse[1], impulse[0]};
       const V3 at{block.get(BlockShape::position, 0), block.get(BlockShape::position, 1),
                   block.get(BlockShape::position, 2)};
       push = push + force;
-      torque = cross(at, world * force, torque);
+      turn = cross(at, force, turn);
     }
+    keep_point_impulses(pass, blocks, segment, chain.count);
   }
-  turn = transposed(world, torque);
 }
 
 /// The next state, before it is known which lanes take it.
@@ -95,9 +123,10 @@ HWY_INLINE void turn_torso(const Next& next, V3 turn) {
   next.put3(Rows::rotation + 1, scale * q_next);
 }
 
-/// Speeds of the joints out of Lᵀ ν, and their angles. The largest square of a speed.
+/// Speeds of the joints out of Lᵀ ν (its base's part `base`), and their angles. Adds the squares of the
+/// speeds.
 template <int N>
-HWY_INLINE V turn_joints(const Next& next, std::size_t c, const V* motion, V fastest) {
+HWY_INLINE V turn_joints(const Next& next, std::size_t c, const V* base, V fastest) {
   const Pass& pass = next.pass;
   const Chain& chain = pass.model().chains[c];
   const int n = length<N>(chain);
@@ -105,7 +134,7 @@ HWY_INLINE V turn_joints(const Next& next, std::size_t c, const V* motion, V fas
   V speed[capacity<N>];
   for (int j = n - 1; j >= 0; --j) {
     V x = load(pass.scratch(pass.work().free + chain.first + j));
-    for (int d = 0; d < 6; ++d) x = fnma(load(factor.base(j) + d * width), motion[d], x);
+    for (int d = 0; d < 6; ++d) x = fnma(load(factor.base(j) + d * width), base[d], x);
     for (int i = j + 1; i < n; ++i) x = fnma(load(factor.lower(i, j)), speed[i], x);
     speed[j] = x * load(factor.inverse(j));
     // A sum is not a number as soon as one of its terms is not; a maximum may be one.
@@ -124,9 +153,9 @@ HWY_NOINLINE void integrate(const Pass& pass, const BaseFactor& factor, V* motio
   const Next next{pass, pass.active()};
   V3 push, turn;
   collect_impulses(pass, push, turn);
-  solve_base_transposed(factor, motion);
   V fastest = zero();
   for (std::size_t c = 0; c < model.chains.size(); ++c) fastest = turn_joints<N>(next, c, motion, fastest);
+  solve_base_transposed(factor, motion);
 
   const V3 gained =
       fma(set(1.0f / model.mass_kg), push, set(pass.batch.timestep_s) * set(model.gravity_m_s2));

@@ -15,22 +15,26 @@ struct BlockShape {
   int numbers;  ///< of one W
 
   int field(int index) const { return 3 * numbers + index; }
-  int size() const { return field(27); }
+  int size() const { return field(36); }
 
-  static constexpr int gain = 0;   ///< 1 − softness, of an impulse
-  static constexpr int bias = 3;   ///< speed wanted
-  static constexpr int low = 6;    ///< bounds of the impulse; of a friction row with a coefficient, `high`
-  static constexpr int high = 9;   ///< is its bound per impulse of the normal row
-  static constexpr int gram = 12;  ///< W1 · W0, W2 · W0, W2 · W1
+  static constexpr int softness = 0;  ///< speed given up per impulse
+  static constexpr int bias = 3;      ///< speed wanted
+  static constexpr int low = 6;       ///< bounds of the impulse; of a friction row with a coefficient, `high`
+  static constexpr int high = 9;      ///< is its bound per impulse of the normal row
+  static constexpr int gram = 12;     ///< W1 · W0, W2 · W0, W2 · W1
   static constexpr int impulse = 15;
   static constexpr int root = 18;      ///< what scales an impulse
   static constexpr int inverse = 21;   ///< and its inverse
-  static constexpr int position = 24;  ///< of a contact: from the centre of mass, torso axes
+  static constexpr int position = 24;  ///< of a contact: from the centre of mass, along the world's axes
+  static constexpr int cross = 27;     ///< of a chain's first contact: W · W of its motors, motor by motor
 };
 
 /// The blocks of a chain: joints first, then contacts.
 struct ChainBlocks {
   int first = 0, joint_blocks = 0, count = 0;
+
+  /// Of a chain of three joints: its motors and its first contact are visited together.
+  bool paired() const { return joint_blocks == 1 && count > 1; }
 };
 
 /// Memory for one pass over as many lanes as a vector holds; nothing in it outlives a step but `felt`.
@@ -45,6 +49,7 @@ class Workspace {
       return start;
     };
     heights = take(points);
+    places = take(points);
     inertia = take(9 * links);
     columns = take(6 * links);
     servos = take(4 * links);
@@ -56,8 +61,9 @@ class Workspace {
     void* start = storage_.data();
     std::size_t space = storage_.size() * sizeof(float);
     memory_ = static_cast<float*>(std::align(sizeof(Row), sizeof(float), start, space));
-    block_point.resize(static_cast<std::size_t>(links + points));
-    felt.resize(static_cast<std::size_t>(lanes * points));
+    block_joint.resize(static_cast<std::size_t>(links + points));
+    near.resize(model.geoms.size());
+    felt.resize(lanes * model.geoms.size());
   }
 
   Workspace(const Workspace&) = delete;
@@ -67,17 +73,19 @@ class Workspace {
   float* memory() { return memory_; }
 
   int heights;  ///< by point: of its lowest place over the ground
+  int places;  ///< by point that touches in some lane: which of its chain's contact blocks it has, −1: none
   int inertia;  ///< by link: its own second (6) and first (3) moment of mass about the robot's centre
   int columns;  ///< by link: column of the mass matrix for the base, turning and pushing: 6
   int servos;   ///< by link: speed wanted, lowest and highest impulse, torque that is no row: 4
   int free;     ///< by link: Lᵀ ν of the joints
-  std::vector<int>
-      factors;  ///< by chain: its L, inverses of L's diagonal, L's six rows for the base (by joint)
+  std::vector<int> factors;  ///< by chain: its L, inverses of L's diagonal, L's six rows for the base (by
+                             ///< joint), B, then L_b⁻¹ B
   int blocks;
   BlockShape shape;
   std::vector<ChainBlocks> chain_blocks;  ///< of the torso, then of each chain
-  std::vector<int> block_point;           ///< by block: its point
-  std::vector<unsigned char> felt;        ///< by pass and point: has an impulse of the step before
+  std::vector<int> block_joint;           ///< by block of joints: its first joint
+  std::vector<unsigned char> near;  ///< by geom: may touch the ground in some lane; else it has no heights
+  std::vector<unsigned char> felt;  ///< by pass and geom: a point of it has an impulse of the step before
 
  private:
   int vectors_ = 0;
