@@ -50,15 +50,14 @@ class SupgParameters : public Parameters {
 ///
 /// The SUPGs of a leg share one timer, in ticks; −1 means stopped. In each tick, in this order:
 /// 1. Touch is read. It is a trigger with Trigger::level; with Trigger::edge only if the foot was off the
-/// ground in at least the
-///    trigger_debounce_ticks ticks before. All feet count as touching before tick 1.
-/// 2. The timer is set. Offset::phase: at tick 1 it starts at the offset. Offset::delay: it is stopped for
-/// `offset` ticks and starts
-///    at start_tick in the next. From the tick after this first start on, a trigger sets it to start_tick;
-///    triggers before are ignored. Otherwise it grows by 1; when that reaches the period, Idle::mid stops it,
-///    Idle::hold keeps it at the period, and Idle::wrap sets it to 0.
+///    ground in at least the trigger_debounce_ticks ticks before. All feet count as touching before tick 1.
+/// 2. The timer is set. Offset::phase: before tick 1 it stands at the offset, from which it grows; a trigger
+///    in tick 1 is ignored. Offset::delay: it is stopped for `offset` ticks and starts at start_tick in the
+///    next. From the tick after this first start on, a trigger sets it to start_tick; triggers before are
+///    ignored. Otherwise it grows by 1; when that reaches the period, Idle::mid stops it, Idle::hold keeps it
+///    at the period, and Idle::wrap sets it to 0.
 /// 3. The targets are the patterns at time timer / period; while the timer is stopped, the middle of each
-/// joint's range.
+///    joint's range.
 class SupgArchitecture : public Architecture {
  public:
   /// Throws UserError: a period that is not a whole number of ticks; a substrate that does not fit the robot,

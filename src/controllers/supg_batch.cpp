@@ -55,7 +55,7 @@ void SupgBatch::load(int lane, const Parameters& parameters) {
     timer_[i] = stopped;
     airborne_ticks_[i] = 0;
     wait_ticks_[i] = phase ? 0 : supg->offset_ticks(leg);
-    first_timer_[i] = phase ? supg->offset_ticks(leg) : start_tick_;
+    first_timer_[i] = phase ? after(supg->offset_ticks(leg)) : start_tick_;
     triggered_[i] = 0;
   }
 }

@@ -24,6 +24,10 @@ class SupgBatch : public Batch {
 
  private:
   std::size_t index(int leg, int lane) const { return static_cast<std::size_t>(leg * lanes_ + lane); }
+  /// What a timer that runs becomes in the next tick.
+  std::int32_t after(std::int32_t timer) const {
+    return timer + 1 >= period_ticks_ ? end_of_cycle_ : timer + 1;
+  }
   void update_timers(int leg, const float* touch);
   void write_targets(int leg, LaneArray& targets_rad) const;
 

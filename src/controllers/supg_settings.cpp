@@ -18,10 +18,11 @@ void SupgSettings::describe(io::SettingsVisitor& visitor) {
   visitor.integer("trigger_debounce_ticks", trigger_debounce_ticks, {1, 1000},
                   {"ticks a foot must have been off the ground before its next touch is an edge",
                    "the authors' code: 1"});
-  visitor.choice("offset", offset, offset_names,
-                 {"the evolved offset is the timer's value at the first tick (phase) or a wait before the "
-                  "timer starts (delay)",
-                  "the authors' code: phase; Morse et al. 2013, sec. 3: delay"});
+  visitor.choice(
+      "offset", offset, offset_names,
+      {"the evolved offset is the timer's value before the first tick (phase) or a wait before the "
+       "timer starts (delay)",
+       "the authors' code: phase; Morse et al. 2013, sec. 3: delay"});
   visitor.integer(
       "start_tick", start_tick, {0, 1},
       {"timer value in the tick of a trigger, ticks", "the authors' code: 1; Morse et al. 2013, fig. 3: 0"});

@@ -11,8 +11,8 @@ namespace amble::controllers {
 enum class Trigger { edge, level };
 inline constexpr std::array<std::string_view, 2> trigger_names{"edge", "level"};
 
-/// What the evolved offset of a leg is: the timer's value at the first tick, or how long the leg waits before
-/// its timer starts.
+/// What the evolved offset of a leg is: the timer's value before the first tick, or how long the leg waits
+/// before its timer starts.
 enum class Offset { phase, delay };
 inline constexpr std::array<std::string_view, 2> offset_names{"phase", "delay"};
 

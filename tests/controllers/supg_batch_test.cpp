@@ -68,7 +68,7 @@ TimerStory play(const SupgSettings& settings, int offset_ticks, const std::strin
 // of triggers.
 
 TEST(SupgTimer, StopsAtTheEndOfTheCycleWithMid) {
-  const TimerStory story = play(short_settings(), 3, "####..########.#");
+  const TimerStory story = play(short_settings(), 2, "####..########.#");
   EXPECT_EQ(story.timers, /*                      */ "345---12345----1");
   EXPECT_EQ(story.triggers, /*                    */ "      ^        ^");
 }
@@ -76,7 +76,7 @@ TEST(SupgTimer, StopsAtTheEndOfTheCycleWithMid) {
 TEST(SupgTimer, KeepsItsLastValueWithHold) {
   SupgSettings settings = short_settings();
   settings.idle = Idle::hold;
-  const TimerStory story = play(settings, 3, "####..########.#");
+  const TimerStory story = play(settings, 2, "####..########.#");
   EXPECT_EQ(story.timers, /*              */ "3456661234566661");
   EXPECT_EQ(story.triggers, /*            */ "      ^        ^");
 }
@@ -84,7 +84,7 @@ TEST(SupgTimer, KeepsItsLastValueWithHold) {
 TEST(SupgTimer, BeginsAgainWithWrap) {
   SupgSettings settings = short_settings();
   settings.idle = Idle::wrap;
-  const TimerStory story = play(settings, 3, "####..########.#");
+  const TimerStory story = play(settings, 2, "####..########.#");
   EXPECT_EQ(story.timers, /*              */ "3450121234501231");
   EXPECT_EQ(story.triggers, /*            */ "      ^        ^");
 }
@@ -92,21 +92,30 @@ TEST(SupgTimer, BeginsAgainWithWrap) {
 TEST(SupgTimer, StartsFromZeroWhereTheSettingSaysSo) {
   SupgSettings settings = short_settings();
   settings.start_tick = 0;
-  const TimerStory story = play(settings, 5, "##.#########.#");
+  const TimerStory story = play(settings, 4, "##.#########.#");
   EXPECT_EQ(story.timers, /*              */ "5--012345----0");
   EXPECT_EQ(story.triggers, /*            */ "   ^         ^");
 }
 
+TEST(SupgTimer, EndsItsCycleAtOnceWithTheLargestOffset) {
+  SupgSettings settings = short_settings();
+  EXPECT_EQ(play(settings, period - 1, "###").timers, "---");
+  settings.idle = Idle::hold;
+  EXPECT_EQ(play(settings, period - 1, "###").timers, "666");
+  settings.idle = Idle::wrap;
+  EXPECT_EQ(play(settings, period - 1, "###").timers, "012");
+}
+
 TEST(SupgTimer, IsSetAnewByATriggerInMidCycle) {
   const TimerStory story = play(short_settings(), 1, "#.#.#..#.");
-  EXPECT_EQ(story.timers, /*                      */ "121212312");
+  EXPECT_EQ(story.timers, /*                      */ "231212312");
   EXPECT_EQ(story.triggers, /*                    */ "  ^ ^  ^ ");
 }
 
 TEST(SupgTimer, KnowsNoTriggerOnTickOneHoweverTheFootStands) {
   // A foot on the ground at the start has touched before; one that is up and lands on tick 2 triggers there.
-  EXPECT_EQ(play(short_settings(), 4, "###").timers, "45-");
-  const TimerStory story = play(short_settings(), 4, ".##");
+  EXPECT_EQ(play(short_settings(), 3, "###").timers, "45-");
+  const TimerStory story = play(short_settings(), 3, ".##");
   EXPECT_EQ(story.timers, "412");
   EXPECT_EQ(story.triggers, " ^ ");
 }
@@ -136,7 +145,7 @@ TEST(SupgTimer, AbsorbsATriggerOnTheTickOfItsFirstStart) {
 TEST(SupgTimer, IsHeldAtItsStartWhileTheFootIsDownWithLevel) {
   SupgSettings settings = short_settings();
   settings.trigger = Trigger::level;
-  TimerStory story = play(settings, 3, "##..##.......#");
+  TimerStory story = play(settings, 2, "##..##.......#");
   EXPECT_EQ(story.timers, /*        */ "3123112345---1");
   EXPECT_EQ(story.triggers, /*      */ " ^  ^^       ^");
 
@@ -151,7 +160,7 @@ TEST(SupgTimer, IgnoresContactChatterWithDebounce) {
   settings.trigger_debounce_ticks = 3;
   settings.idle = Idle::wrap;
   const TimerStory story = play(settings, 1, "#.#..#...#.#...");
-  EXPECT_EQ(story.timers, /*              */ "123450123123450");
+  EXPECT_EQ(story.timers, /*              */ "234501234123450");
   EXPECT_EQ(story.triggers, /*            */ "         ^     ");
 }
 
@@ -172,9 +181,9 @@ TEST(SupgTimer, GivesEachLegItsOwnTimerAndOffset) {
   sensors.touch.at(2, 0) = 1.0f;
   batch->step(sensors, targets);  // back left comes down
   batch->state(0, state);
-  EXPECT_EQ(state, (std::vector<float>{2, 3, 1, 5, 0, 0, 1, 0}));
+  EXPECT_EQ(state, (std::vector<float>{3, 4, 1, -1, 0, 0, 1, 0}));
   EXPECT_EQ(targets.at(7, 0), parameters.targets_rad(2, 1)[1]);
-  EXPECT_EQ(targets.at(11, 0), parameters.targets_rad(3, 5)[2]);
+  EXPECT_EQ(targets.at(11, 0), parameters.targets_rad(3, SupgParameters::stopped)[2]);
 }
 
 TEST(SupgBatchDeathTest, RefusesParametersOfAnotherArchitecture) {

@@ -28,6 +28,7 @@ class PlainTimer {
     const int first_tick = settings_.offset == Offset::phase ? 1 : offset_ticks_ + 1;
     if (tick_ == first_tick) {
       timer_ = settings_.offset == Offset::phase ? offset_ticks_ : settings_.start_tick;
+      if (settings_.offset == Offset::phase) go_on();
     } else if (tick_ > first_tick) {
       triggered_ = is_trigger(touching);
       if (triggered_) {

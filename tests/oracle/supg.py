@@ -93,8 +93,12 @@ class Leg:
         if lands and not self.triggered:
             self._note("trigger ignored")
         if self.tick_number == first_start:
-            self.timer = self.settings["start_tick"] if delayed else self.offset_ticks
             self._note("delayed start" if delayed else "start by phase")
+            if delayed:
+                self.timer = self.settings["start_tick"]
+            else:
+                self.timer = self.offset_ticks
+                self._advance()
         elif self.triggered:
             self._note("trigger" if self.timer == STOPPED else "trigger in mid-cycle")
             self.timer = self.settings["start_tick"]
