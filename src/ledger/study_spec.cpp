@@ -89,6 +89,7 @@ void ConditionSpec::describe(io::SettingsVisitor& visitor) {
   visitor.text("name", name, {"how files and claims call it: a-z, 0-9, '-', '_'"});
   visitor.text("title", title, {"how figures call it; empty: as its name"});
   visitor.text("config", config, {"config file, relative to the study file"});
+  visitor.text("robot", robot, {"robot file, relative to the study file; empty: the config's"});
   visitor.texts("settings", settings,
                 {"\"key.path=value\", laid over the config after the study's settings"});
   visitor.numbers("seeds", seeds, {0, largest_seed}, {"seeds of its runs; empty: the study's"});
