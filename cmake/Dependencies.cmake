@@ -12,6 +12,7 @@ pkg_check_modules(ODE REQUIRED IMPORTED_TARGET ode)
 pkg_check_modules(OPENBLAS REQUIRED IMPORTED_TARGET openblas)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
+find_path(BOOST_MATH_INCLUDE_DIR boost/math/distributions.hpp REQUIRED)
 
 if(AMBLE_TESTS)
   find_package(GTest REQUIRED)

@@ -91,7 +91,8 @@ INSTANTIATE_TEST_SUITE_P(Layers, OneDoor,
                                          Library{"<toml++/", {"io/"}}, Library{"<xxhash", {"core/"}},
                                          Library{"<Random123/", {"core/"}},
                                          Library{"<hwy/", {"cppn/", "physics/batch/"}},
-                                         Library{"<zlib", {"record/"}}, Library{"<cblas", {"search/"}}),
+                                         Library{"<zlib", {"record/"}}, Library{"<cblas", {"search/"}},
+                                         Library{"<boost/", {"statistics/"}}),
                          letters_of);
 
 }  // namespace

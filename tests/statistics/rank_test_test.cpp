@@ -1,0 +1,158 @@
+#include "amble/statistics/rank_test.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+
+#include "amble/core/random.hpp"
+#include "tests/statistics/oracles.hpp"
+
+namespace amble::statistics {
+namespace {
+
+using tests::is_near;
+using tests::oracles;
+using tests::Sample;
+
+TEST(MannWhitney, IsThatOfScipy) {
+  for (const auto& set : oracles()["samples"]) {
+    SCOPED_TRACE(set["name"]);
+    const Sample first = set["first"], second = set["second"];
+    const auto& expected = set["tests"]["mann_whitney"];
+    const auto test = mann_whitney(first, second);
+    ASSERT_EQ(test.has_value(), !expected.is_null());
+    if (!test) continue;
+    EXPECT_EQ(test->u1, expected["u1"].get<double>());
+    EXPECT_EQ(test->u1 + test->u2, static_cast<double>(first.size() * second.size()));
+    EXPECT_EQ(test->direction, direction_of(test->u1 - test->u2));
+    EXPECT_TRUE(is_near(test->p, expected["p"]));
+    const auto asymptotic = mann_whitney(first, second, MannWhitneyMethod::asymptotic);
+    EXPECT_TRUE(is_near(asymptotic->p, expected["asymptotic_p"]));
+    if (expected.contains("exact_p")) {
+      const auto exact = mann_whitney(first, second, MannWhitneyMethod::exact);
+      EXPECT_TRUE(is_near(exact->p, expected["exact_p"]));
+    }
+  }
+}
+
+/// All choices of n1 of the first n1 + n2 whole numbers, counted.
+double p_by_enumeration(const Sample& first, std::size_t n2) {
+  const std::size_t n1 = first.size(), n = n1 + n2;
+  const double centre = 0.5 * static_cast<double>(n1 * n2);
+  const auto u_of = [&](auto is_first) {
+    double u = 0.0;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < i; ++j) u += is_first(i) && !is_first(j) ? 1.0 : 0.0;
+    return u;
+  };
+  unsigned seen_bits = 0;
+  for (const double x : first) seen_bits |= 1u << static_cast<unsigned>(x);
+  const double seen = std::abs(u_of([&](std::size_t i) { return (seen_bits >> i & 1u) != 0; }) - centre);
+  double all = 0.0, as_extreme = 0.0;
+  for (unsigned bits = 0; bits < 1u << n; ++bits) {
+    if (std::popcount(bits) != static_cast<int>(n1)) continue;
+    all += 1.0;
+    const double u = u_of([&](std::size_t i) { return (bits >> i & 1u) != 0; });
+    if (std::abs(u - centre) >= seen) as_extreme += 1.0;
+  }
+  return as_extreme / all;
+}
+
+TEST(MannWhitney, IsExactAsAllArrangementsCounted) {
+  Stream stream(4, Purpose::test);
+  for (int i = 0; i < 60; ++i) {
+    const std::size_t n1 = 1 + stream.below(5), n2 = 1 + stream.below(5);
+    Sample first, second;
+    for (std::size_t value = 0; value < n1 + n2; ++value) {
+      const bool to_first = first.size() < n1 && (second.size() == n2 || stream.chance(0.5));
+      (to_first ? first : second).push_back(static_cast<double>(value));
+    }
+    const auto test = mann_whitney(first, second);
+    EXPECT_TRUE(test->exact);
+    EXPECT_NEAR(test->p, p_by_enumeration(first, n2), 1e-13);
+  }
+}
+
+TEST(MannWhitney, IsExactOnlyForSmallSamplesWithoutTies) {
+  const auto first_of = [](int n, double offset) {
+    Sample sample;
+    for (int i = 0; i < n; ++i) sample.push_back(i + offset);
+    return sample;
+  };
+  EXPECT_TRUE(mann_whitney(first_of(8, 0.0), first_of(20, 0.5))->exact);
+  EXPECT_FALSE(mann_whitney(first_of(9, 0.0), first_of(9, 0.5))->exact);
+  EXPECT_FALSE(mann_whitney(first_of(3, 0.0), first_of(3, 0.0))->exact);
+}
+
+TEST(MannWhitney, CannotBeSmallerThanItsSmallestP) {
+  for (int n1 = 1; n1 <= 8; ++n1) {
+    for (int n2 = 1; n2 <= 8; ++n2) {
+      Sample low, high;
+      for (int i = 0; i < n1; ++i) low.push_back(i);
+      for (int i = 0; i < n2; ++i) high.push_back(100 + i);
+      const double least = smallest_mann_whitney_p(low.size(), high.size());
+      EXPECT_NEAR(mann_whitney(low, high)->p, least, 1e-14);
+      EXPECT_EQ(mann_whitney(low, high)->direction, Direction::less);
+    }
+  }
+  EXPECT_NEAR(smallest_mann_whitney_p(3, 3), 0.1, 1e-15);
+  EXPECT_EQ(smallest_mann_whitney_p(1, 1), 1.0);
+}
+
+TEST(MannWhitney, SeesRanksOnlyAndMirrors) {
+  Stream stream(5, Purpose::test);
+  for (int i = 0; i < 500; ++i) {
+    Sample a(1 + stream.below(25)), b(1 + stream.below(25));
+    for (auto* sample : {&a, &b})
+      for (double& x : *sample) x = static_cast<double>(stream.below(30));
+    const auto test = *mann_whitney(a, b), back = *mann_whitney(b, a);
+    EXPECT_EQ(test.p, back.p);
+    EXPECT_EQ(test.u1, back.u2);
+    const auto effect = *vargha_delaney(a, b), mirrored = *vargha_delaney(b, a);
+    EXPECT_NEAR(effect.a12, 1.0 - mirrored.a12, 1e-15);
+    EXPECT_NEAR(effect.interval.lower, 1.0 - mirrored.interval.upper, 1e-12);
+    for (auto* sample : {&a, &b})
+      for (double& x : *sample) x = std::exp(0.3 * x) - 7.0;
+    EXPECT_EQ(mann_whitney(a, b)->p, test.p);
+    EXPECT_EQ(vargha_delaney(a, b)->a12, effect.a12);
+  }
+}
+
+TEST(MannWhitney, SaysNothingOfAnEmptySampleAndFindsNothingInEqualValues) {
+  const Sample none, some{1.0, 1.0, 1.0};
+  EXPECT_FALSE(mann_whitney(none, some));
+  EXPECT_FALSE(vargha_delaney(some, none));
+  EXPECT_EQ(mann_whitney(some, some)->p, 1.0);
+  EXPECT_EQ(mann_whitney(some, some)->direction, Direction::equal);
+  EXPECT_EQ(vargha_delaney(some, some)->a12, 0.5);
+}
+
+TEST(MannWhitneyDeathTest, IsNotExactWithTies) {
+  const Sample tied{1.0, 2.0};
+  EXPECT_DEATH(mann_whitney(tied, tied, MannWhitneyMethod::exact), "knows no ties");
+}
+
+TEST(VarghaDelaney, AgreesWithItsTwinThatCountsPairsAndFindsRoots) {
+  for (const auto& set : oracles()["samples"]) {
+    SCOPED_TRACE(set["name"]);
+    const auto effect = vargha_delaney(Sample(set["first"]), Sample(set["second"]));
+    const auto& expected = set["tests"]["a12"];
+    ASSERT_EQ(effect.has_value(), !expected.is_null());
+    if (!effect) continue;
+    EXPECT_TRUE(is_near(effect->a12, expected["a12"]));
+    EXPECT_TRUE(is_near(effect->interval, expected["lower"], expected["upper"]));
+  }
+}
+
+TEST(VarghaDelaney, StaysUncertainWhereAllOfOneExceedAllOfTheOther) {
+  const Sample low{1.0, 2.0, 3.0, 4.0}, high{5.0, 6.0, 7.0, 8.0};
+  const auto effect = *vargha_delaney(high, low);
+  EXPECT_EQ(effect.a12, 1.0);
+  EXPECT_EQ(effect.interval.upper, 1.0);
+  EXPECT_GT(effect.interval.lower, 0.4);
+  EXPECT_LT(effect.interval.lower, 0.9);
+}
+
+}  // namespace
+}  // namespace amble::statistics
