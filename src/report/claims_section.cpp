@@ -43,9 +43,9 @@ std::string runs_text(const Judgement& judgement) {
 std::string test_cell(const Judgement& judgement) {
   if (judgement.test.empty()) return {};
   std::string cell = escape(judgement.test);
-  if (judgement.p) cell += "<br/>" + escape(p_text(*judgement.p));
+  if (judgement.p) cell += "<br/>" + fmt::format("<span class=\"p\">{}</span>", escape(p_text(*judgement.p)));
   if (judgement.p_holm)
-    cell += fmt::format("<br/><small>Holm {}</small>", escape(p_number(*judgement.p_holm)));
+    cell += fmt::format("<br/><small class=\"p\">Holm {}</small>", escape(p_number(*judgement.p_holm)));
   return cell;
 }
 
@@ -54,32 +54,35 @@ std::string test_cell(const Judgement& judgement) {
 std::string claims_section(const Report& report) {
   const auto& claims = report.data.study.claims;
   if (claims.empty()) return {};
-  TableWriter table({{"", false},
-                     {"Claim", false},
-                     {"Published", false},
-                     {"Here", false},
-                     {"Test", false},
-                     {"Verdict", false}},
+  TableWriter table({{"", false, "index"},
+                     {"Claim", false, "sentence"},
+                     {"Published", false, "published"},
+                     {"Here", false, "here"},
+                     {"Test", false, "test"},
+                     {"Verdict", false, "judged"}},
                     "claims");
+  const bool one_source = std::ranges::all_of(
+      claims, [&](const ledger::ClaimSpec& claim) { return claim.source == claims[0].source; });
   std::size_t family = 0;
   for (std::size_t i = 0; i < claims.size(); ++i) {
     const ledger::ClaimSpec& claim = claims[i];
     const Judgement& judgement = report.judgements[i];
     family += judgement.p_holm.has_value();
     const std::string source =
-        claim.source.empty() ? "" : fmt::format("<br/><small>{}</small>", escape(claim.source));
-    const std::string ours = judgement.ours.empty() ? "" : escape(judgement.ours) + "<br/>";
+        claim.source.empty() || one_source ? "" : fmt::format("<br/><small>{}</small>", escape(claim.source));
+    const std::string ours = judgement.ours.empty() ? "" : tied(escape(judgement.ours)) + "<br/>";
     table.row_of_markup({fmt::format("{}", i + 1),
                          fmt::format("{}{}<span class=\"reason\">{}</span>", escape(claim.text), source,
-                                     escape(judgement.reason)),
-                         escape(claim.figure), fmt::format("{}<small>{}</small>", ours, runs_text(judgement)),
-                         test_cell(judgement),
+                                     tied(escape(judgement.reason))),
+                         tied(escape(claim.figure)),
+                         fmt::format("{}<small>{}</small>", ours, runs_text(judgement)), test_cell(judgement),
                          fmt::format("<span class=\"verdict {}\">{}</span>", css_class(judgement.verdict),
                                      name_of(judgement.verdict))});
   }
   std::string lead =
-      "Each claim is judged by a rule that stands in the study’s file and was written down before the "
-      "runs; docs/STUDIES.md has the rules. Intervals are at 95 % unless the claim has its own level.";
+      "Each claim is judged by the rule that stands with it in the study’s file (docs/STUDIES.md). Intervals "
+      "are at 95 % unless the claim has its own level.";
+  if (one_source && !claims[0].source.empty()) lead = fmt::format("From {}. ", claims[0].source) + lead;
   if (family > 0)
     lead += fmt::format(
         " Claims of differences are one family of {}: significant is what is so after Holm’s adjustment.",

@@ -20,6 +20,9 @@ using analysis::Point;
 using analysis::Scale;
 using analysis::Svg;
 
+/// Room for the median at the end of a panel's title.
+constexpr double value_px = 54.0;
+
 std::vector<Point> line(const BestCurve& curve, const std::vector<double>& values, const Scale& x,
                         const Scale& y, std::size_t stride = 1) {
   std::vector<Point> points;
@@ -28,10 +31,10 @@ std::vector<Point> line(const BestCurve& curve, const std::vector<double>& value
   return points;
 }
 
-void draw_panel(Svg& svg, const Report& report, const BestCurve& curve, const Box& plot, const Scale& x,
-                const Scale& y) {
+void draw_panel(Svg& svg, const Report& report, const BestCurve& curve, const PanelGrid& grid,
+                const Box& plot, const Scale& x, const Scale& y) {
   const bool is_small = plot.width < 200;
-  analysis::draw_y_axis(svg, y, analysis::nice_ticks(y.data, is_small ? 4 : 5), plot.x, plot.right(), "");
+  analysis::draw_y_axis(svg, y, analysis::nice_ticks(y.data, is_small ? 4 : 5), plot.x, plot.right(), " m");
   analysis::draw_x_axis(svg, x, analysis::nice_ticks(x.data, is_small ? 3 : 5, 1.0), plot.bottom(), "");
   for (const BestCurve& other : report.curves)
     if (&other != &curve) svg.polyline(line(other, other.median_m, x, y, 3), "other");
@@ -47,9 +50,7 @@ void draw_panel(Svg& svg, const Report& report, const BestCurve& curve, const Bo
   svg.polygon(band, "band");
   svg.polyline(line(curve, curve.median_m, x, y), "curve");
   svg.end_group();
-  svg.text({plot.x - 26, plot.y - 9}, Anchor::start, "label",
-           fitted(report.label(curve.condition), plot.width + 26 - 56));
-  svg.text({plot.right(), plot.y - 9}, Anchor::end, "value", median + " m");
+  draw_panel_title(svg, grid, plot, report.label(curve.condition), median + " m", value_px);
 }
 
 }  // namespace
@@ -57,7 +58,10 @@ void draw_panel(Svg& svg, const Report& report, const BestCurve& curve, const Bo
 std::string curves_figure(const Report& report, Layout layout) {
   const auto& curves = report.curves;
   AMBLE_CHECK(!curves.empty(), "a curve");
-  const PanelGrid grid = PanelGrid::of(curves.size(), layout);
+  PanelGrid grid = PanelGrid::of(curves.size(), layout);
+  std::vector<std::string> labels;
+  for (const BestCurve& curve : curves) labels.push_back(report.label(curve.condition));
+  grid.make_room(labels, value_px);
   double last = 1.0, best = 0.0;
   for (const BestCurve& curve : curves) {
     last = std::max(last, static_cast<double>(curve.generation.back()));
@@ -69,7 +73,7 @@ std::string curves_figure(const Report& report, Layout layout) {
                       static_cast<int>(last) + 1, curves.size()));
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const Box plot = grid.plot(i);
-    draw_panel(svg, report, curves[i], plot, Scale{generations, plot.x, plot.right()},
+    draw_panel(svg, report, curves[i], grid, plot, Scale{generations, plot.x, plot.right()},
                Scale{distances, plot.bottom(), plot.y});
   }
   return svg.finish();

@@ -13,6 +13,10 @@ namespace amble::report {
 /// Parts of a page as well-formed XML. Arguments named `content` are markup, all other texts are plain and
 /// escaped here.
 
+/// The text with no-break spaces where a line must not end: within "[1.2, 3.4]" and between a number and its
+/// unit. For markup, too.
+std::string tied(std::string_view text);
+
 /// A section with an anchor, a title and a paragraph (none if `lead` is empty).
 std::string section(std::string_view id, std::string_view title, std::string_view lead,
                     std::string_view content);
@@ -28,6 +32,7 @@ std::string folded(std::string_view title, std::string_view content, bool open =
 struct Column {
   std::string title;
   bool is_number = true;
+  std::string css_class = {};
 };
 
 class TableWriter {

@@ -59,6 +59,12 @@ std::string percent_text(double share) {
   return fmt::format("{:.0f} %", 100.0 * share);
 }
 
+std::string share_text(double share, const std::optional<statistics::Interval>& interval) {
+  if (!interval) return percent_text(share);
+  return fmt::format("{} {}", percent_text(share),
+                     interval_text({100.0 * interval->lower, 100.0 * interval->upper}, 0));
+}
+
 std::string unit_of(std::string_view measure) {
   if (measure.ends_with("_m")) return " m";
   if (measure.ends_with("_s")) return " s";

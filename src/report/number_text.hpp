@@ -31,6 +31,9 @@ std::string p_text(double p);
 /// "45 %".
 std::string percent_text(double share);
 
+/// "45 % [23, 68]"; without an interval "45 %".
+std::string share_text(double share, const std::optional<statistics::Interval>& interval);
+
 /// " m", " s" or "" by the name of a measure (ledger/measures.hpp).
 std::string unit_of(std::string_view measure);
 

@@ -58,10 +58,19 @@ std::string survival_part(const Report& report, const SurvivalTable& table) {
     rows.row({report.label(condition.condition), fmt::format("{}", condition.curve.n),
               fmt::format("{}", condition.curve.ended), percent_text(condition.curve.at(table.trial_s)),
               median_text(condition.curve, table.trial_s)});
-  std::string out = subtitle(fmt::format("Still {}, test {}", name_of(table.doing), table.test));
+  std::string out = fmt::format("<h4>Still {}</h4>\n", name_of(table.doing));
   out += paragraph(log_rank_text(table));
   out += figure([&](Layout layout) { return survival_figure(report, table, layout); });
   return out + rows.finish();
+}
+
+/// What there is to say of one test. Tests in other engines are folded: they repeat the others.
+std::string test_part(const Report& report, const std::string& test, std::string_view what,
+                      std::string_view content) {
+  const bool elsewhere =
+      std::ranges::any_of(report.transfers, [&](const Transfer& transfer) { return transfer.test == test; });
+  if (elsewhere) return folded(fmt::format("{} in test {}", what, test), content);
+  return subtitle("Test " + test) + std::string(content);
 }
 
 /// Gaits as columns, conditions as rows; each count with a bar of its share.
@@ -109,17 +118,17 @@ std::string distance_section(const Report& report) {
   for (const ledger::TestSpec& test : report.data.study.tests) {
     const auto rows = test_rows(report, test.name);
     if (rows.empty()) continue;
-    content += subtitle("Test " + test.name) +
-               paragraph(fmt::format("{}. Grey: the same champions’ distance in evolution.",
-                                     test_text(report, test)));
-    content += figure(
-        [&](Layout layout) { return rows_figure(rows, " m", "Distance in test " + test.name, layout); });
+    content +=
+        test_part(report, test.name, "Distance",
+                  paragraph(test_text(report, test) + ". Grey: the same champions’ distance in evolution.") +
+                      figure([&](Layout layout) {
+                        return rows_figure(rows, " m", "Distance in test " + test.name, layout);
+                      }));
   }
-  return section(
-      "distance", "How far they walked",
-      "Distance of each run’s champion in its evolution. Bars are means with Student’s 95 % intervals, "
-      "each point is a run.",
-      content);
+  return section("distance", "How far they walked",
+                 "Distance of each run’s champion in its evolution. Bars are means with Student’s 95 % "
+                 "intervals, each point is a run.",
+                 content);
 }
 
 std::string curves_section(const Report& report) {
@@ -132,15 +141,20 @@ std::string curves_section(const Report& report) {
 
 std::string survival_section(const Report& report) {
   std::string content;
-  for (const SurvivalTable& table : report.survival)
-    if (table.is_long) content += survival_part(report, table);
+  for (const ledger::TestSpec& test : report.data.study.tests) {
+    std::string parts;
+    for (const SurvivalTable& table : report.survival)
+      if (table.is_long && table.test == test.name) parts += survival_part(report, table);
+    if (!parts.empty())
+      content += test_part(report, test.name, "Lasting", paragraph(test_text(report, test) + ".") + parts);
+  }
   if (content.empty()) return {};
-  return section(
-      "survival", "How long they stayed up and walked",
-      "Kaplan–Meier curves of tests longer than evolution’s trials: the share of runs that still stand "
-      "or walk. Upright ends with a fall, walking also by standing still; who lasts to the end of the "
-      "test is censored there.",
-      content);
+  return section("survival", "How long they stayed up and walked",
+                 "Kaplan–Meier curves of tests longer than evolution’s trials: the share of runs that still "
+                 "stand or walk. Upright ends with a fall, walking also by standing still; what lasts to the "
+                 "end of the test is censored there. Medians have the interval of Brookmeyer and Crowley; "
+                 "“–” is an end beyond the test.",
+                 content);
 }
 
 std::string sizes_section(const Report& report) {
@@ -157,7 +171,7 @@ std::string sizes_section(const Report& report) {
 std::string gaits_section(const Report& report) {
   std::string content;
   for (const GaitTable& gaits : report.gaits)
-    content += subtitle("Test " + gaits.test) + gait_table(report, gaits);
+    content += test_part(report, gaits.test, "Gaits", gait_table(report, gaits));
   if (content.empty()) return {};
   return section("gaits", "Gaits", "Runs by the name of their champion’s gait (docs/GAIT.md).", content);
 }
@@ -175,10 +189,9 @@ std::string transfer_section(const Report& report) {
     table.row({report.label(transfer.condition), transfer.test, transfer.home + " → " + transfer.engine,
                fmt::format("{}", transfer.n), number_text(transfer.median_m) + " m",
                transfer.share
-                   ? estimate_text(*transfer.share,
-                                   transfer.share_interval ? std::optional(transfer.share_interval->interval)
-                                                           : std::nullopt,
-                                   "")
+                   ? share_text(*transfer.share, transfer.share_interval
+                                                     ? std::optional(transfer.share_interval->interval)
+                                                     : std::nullopt)
                    : "–",
                transfer.reference == "train_m" ? "evolution"
                : transfer.reference.empty()

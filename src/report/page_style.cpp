@@ -24,7 +24,8 @@ constexpr std::string_view text = R"css(
   :root { --good: #45c2b0; --bad: #ff8a54; --open: #e4b54a; --void: #98a2ad; }
 }
 h3 { margin: 44px 0 0; font-size: 17px; line-height: 1.35; font-weight: 640; }
-h3 + p, section > p + p { max-width: 44rem; margin: 6px 0 0; color: var(--soft); }
+h4 { margin: 26px 0 0; font-size: 15px; font-weight: 600; } h4 + p { margin: 2px 0 0; color: var(--soft); font-size: 14.5px; }
+h3 + p, section > p + p, summary + p { max-width: 44rem; margin: 6px 0 0; color: var(--soft); }
 h3 + figure { margin-top: 14px; }
 figcaption { margin-top: 8px; color: var(--soft); font-size: 13.5px; }
 nav { display: flex; flex-wrap: wrap; gap: 4px 18px; margin-top: 30px; font-size: 14.5px; }
@@ -51,17 +52,18 @@ nav a { color: var(--soft); text-underline-offset: 3px; }
 .data .number { text-align: right; white-space: nowrap; }
 .data small { color: var(--soft); font-size: 12.5px; }
 .data .significant { font-weight: 680; }
-.claims tbody th { width: 2.2rem; font-weight: 450; color: var(--soft); }
-.claims td.sentence { width: 44%; }
-.claims .number { white-space: normal; text-align: left; }
+.claims .index { width: 1.6rem; font-weight: 450; color: var(--soft); }
+.claims .sentence { width: 37%; } .claims .published { width: 13%; } .claims .here { width: 23%; }
+.claims .test { width: 12%; } .claims .judged { white-space: nowrap; }
 .claims .reason { display: block; margin-top: 3px; color: var(--soft); font-size: 13px; }
-.scroll { overflow-x: auto; }
-.matrix { font-size: 12px; } .matrix th, .matrix td { padding: 4px 0 4px 8px; } .matrix tbody th { white-space: nowrap; }
+.claims .p { white-space: nowrap; }
+.scroll { overflow-x: auto; } .pairs .number { white-space: normal; }
+.data.matrix { font-size: 11.5px; } .data.matrix th, .data.matrix td { padding: 4px 0 4px 5px; } .data.matrix tbody th { white-space: nowrap; font-size: 12px; }
 .count { display: block; min-width: 34px; }
 .count i { display: block; height: 4px; margin-top: 3px; margin-left: auto; border-radius: 2px; background: var(--leg); }
 details { margin-top: 18px; border-top: 1px solid var(--hair); padding-top: 12px; }
 summary { cursor: pointer; font-weight: 600; font-size: 15.5px; }
-details table { margin-top: 14px; }
+details .scroll { margin-top: 14px; }
 )css";
 
 constexpr std::string_view phone_and_paper = R"css(
@@ -72,17 +74,19 @@ constexpr std::string_view phone_and_paper = R"css(
   .data tr:last-child { border-bottom: 1px solid var(--hair); }
   .data th, .data td, .data tr:last-child > * { padding: 1px 0; border: 0; }
   .data td { display: grid; grid-template-columns: minmax(7.5rem, 38%) 1fr; gap: 12px; }
-  .data td::before { content: attr(data-title); color: var(--soft); font-size: 13px; }
+  .data td::before { content: attr(data-title); text-align: left; color: var(--soft); font-size: 13px; }
   .data td.number { text-align: right; white-space: normal; } .data tbody th, .data th.number { text-align: left; }
-  .claims td, .claims td.sentence { width: auto; } .claims td.number { text-align: left; }
-  .claims td { grid-template-columns: 5.2rem 1fr; }
-  .claims td.sentence { display: block; } .claims td.sentence::before { content: none; }
-  .claims tbody th { float: left; width: 2rem; } .claims td.sentence { margin-left: 2rem; margin-bottom: 6px; }
-  .claims tr > td:not(.sentence) { margin-left: 2rem; }
-  .scroll .matrix { display: table; } .scroll .matrix thead { display: table-header-group; }
-  .scroll .matrix tbody { display: table-row-group; } .scroll .matrix tr { display: table-row; }
-  .scroll .matrix th, .scroll .matrix td { display: table-cell; padding: 4px 0 4px 8px; border-top: 1px solid var(--hair); }
-  .scroll .matrix td::before { content: none; } .scroll .matrix thead th { text-align: right; }
+  .claims tbody tr { display: flex; flex-direction: column; position: relative; padding-left: 2rem; }
+  .claims .index { position: absolute; left: 0; top: 12px; }
+  .claims td, .claims th, .claims .sentence, .claims .published, .claims .here, .claims .test { width: auto; }
+  .claims td { grid-template-columns: 5rem 1fr; }
+  .claims td.sentence, .claims td.judged { display: block; } .claims td.sentence::before, .claims td.judged::before { content: none; }
+  .claims td.sentence { font-size: 15px; order: 1; } .claims td.judged { order: 2; padding: 4px 0 6px; } .claims td { order: 3; }
+  .data td:has(> div:empty) { display: none; }
+  .data.matrix { display: table; } .data.matrix thead { display: table-header-group; }
+  .data.matrix tbody { display: table-row-group; } .data.matrix tr { display: table-row; }
+  .data.matrix th, .data.matrix td { display: table-cell; padding: 4px 0 4px 8px; border-top: 1px solid var(--hair); }
+  .data.matrix td::before { content: none; } .data.matrix thead th { text-align: right; }
 }
 @media print {
   nav { display: none; }

@@ -7,6 +7,7 @@
 #include "amble/report/html.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/page_sections.hpp"
+#include "amble/report/panels.hpp"
 
 namespace amble::report {
 namespace {
@@ -72,7 +73,8 @@ std::string matrix(const Report& report, const PairTable& pairs) {
   for (std::size_t i = 0; i < conditions.size(); ++i) columns.push_back({fmt::format("{}", i + 1)});
   TableWriter table(columns, "matrix");
   for (std::size_t i = 0; i < conditions.size(); ++i) {
-    std::vector<std::string> cells{fmt::format("{} {}", i + 1, escape(report.label(conditions[i])))};
+    std::vector<std::string> cells{
+        fmt::format("{} {}", i + 1, escape(fitted(report.label(conditions[i]), 150.0)))};
     for (const std::string& other : conditions) {
       const auto found = std::ranges::find_if(pairs.pairs, [&](const Pair& pair) {
         return (pair.first == conditions[i] && pair.second == other) ||
@@ -93,7 +95,7 @@ std::string matrix(const Report& report, const PairTable& pairs) {
              "Row minus column, difference of means; bold: significant at 0.05 by Welch’s test after Holm’s "
              "adjustment.",
              "note") +
-         "<div class=\"scroll\">" + table.finish() + "</div>\n";
+         table.finish();
 }
 
 }  // namespace

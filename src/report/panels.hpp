@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "amble/analysis/layout.hpp"
 #include "amble/analysis/svg.hpp"
@@ -14,6 +15,9 @@ namespace amble::report {
 double label_width_px(std::string_view label);
 /// The label, its end replaced by "…" if it needs more room.
 std::string fitted(std::string_view label, double width_px);
+
+/// The label in at most two lines; the second is fitted.
+std::vector<std::string> two_lines(std::string_view label, double width_px);
 
 /// Small pictures of one size, side by side and in as many rows as they need.
 struct PanelGrid {
@@ -32,6 +36,12 @@ struct PanelGrid {
     grid.panel_height_px = std::clamp(0.6 * grid.panel_width_px, 90.0, 190.0);
     return grid;
   }
+  /// Room for titles of two lines, if any label needs them.
+  void make_room(const std::vector<std::string>& labels, double value_px) {
+    const double room = panel_width_px + left_px - 8.0 - value_px;
+    for (const std::string& label : labels)
+      if (label_width_px(label) > room) top_px = 40.0;
+  }
   double height_px() const { return static_cast<double>(rows) * (top_px + panel_height_px + below_px); }
   /// The plot of a panel, without its title above and its axis below.
   analysis::Box plot(std::size_t index) const {
@@ -40,5 +50,9 @@ struct PanelGrid {
             top_px + row * (top_px + panel_height_px + below_px), panel_width_px, panel_height_px};
   }
 };
+
+/// Name and value of a panel, above its plot; the name in as many as two lines.
+void draw_panel_title(analysis::Svg& svg, const PanelGrid& grid, const analysis::Box& plot,
+                      std::string_view label, std::string_view value, double value_px);
 
 }  // namespace amble::report

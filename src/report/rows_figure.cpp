@@ -20,7 +20,7 @@ using analysis::Scale;
 using analysis::Svg;
 
 constexpr double bar_px = 11.0, points_px = 21.0, point_radius_px = 2.6, row_gap_px = 15.0;
-constexpr double strip_px = bar_px + points_px, label_line_px = 19.0;
+constexpr double strip_px = bar_px + points_px, label_line_px = 19.0, narrow_label_px = 215.0;
 
 struct Frame {
   Layout layout;
@@ -48,7 +48,7 @@ Frame make_frame(const std::vector<StripRow>& rows, Layout layout, bool several)
   const bool wide = layout == Layout::wide;
   double longest = 0.0;
   for (const StripRow& row : rows) longest = std::max(longest, label_width_px(row.label));
-  const double label = wide ? std::clamp(longest, 60.0, 250.0) : 215.0;
+  const double label = wide ? std::clamp(longest, 60.0, 230.0) : narrow_label_px;
   Frame frame{.layout = layout, .label_px = label, .left = 0.0, .right = 0.0, .x = {}};
   frame.left = wide ? label + 16.0 + (several ? 66.0 : 0.0) : 0.0;
   frame.right = width_px(layout) - (wide ? 150.0 : several ? 118.0 : 4.0);
@@ -56,8 +56,15 @@ Frame make_frame(const std::vector<StripRow>& rows, Layout layout, bool several)
   return frame;
 }
 
+/// Room for the name above a row on phones.
+double label_height(const StripRow& row, Layout layout) {
+  if (layout == Layout::wide) return 0.0;
+  const double room = row.strips.size() > 1 ? width_px(layout) : narrow_label_px;
+  return label_line_px + (label_width_px(row.label) > room ? 15.0 : 0.0);
+}
+
 double row_height(const StripRow& row, Layout layout) {
-  return static_cast<double>(row.strips.size()) * strip_px + (layout == Layout::narrow ? label_line_px : 0.0);
+  return static_cast<double>(row.strips.size()) * strip_px + label_height(row, layout);
 }
 
 /// Where each row begins, and at last where the axis is.
@@ -92,7 +99,9 @@ void draw_texts(Svg& svg, const Frame& frame, const StripRow& row, double top) {
   const bool wide = frame.layout == Layout::wide, several = row.strips.size() > 1;
   const double width = width_px(frame.layout);
   if (wide) {
-    svg.text({0, top + 10}, Anchor::start, "label", fitted(row.label, frame.label_px));
+    const auto lines = two_lines(row.label, frame.label_px);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      svg.text({0, top + 10 + 15.0 * static_cast<double>(i)}, Anchor::start, "label", lines[i]);
     for (std::size_t i = 0; i < row.strips.size(); ++i) {
       const double at = top + static_cast<double>(i) * strip_px + 10;
       svg.text({width, at}, Anchor::end, "value", row.strips[i].text);
@@ -100,7 +109,11 @@ void draw_texts(Svg& svg, const Frame& frame, const StripRow& row, double top) {
     }
     return;
   }
-  svg.text({0, top - 6}, Anchor::start, "label", fitted(row.label, frame.label_px));
+  const double label_room = several ? width : frame.label_px;
+  const auto lines = two_lines(row.label, label_room);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    svg.text({0, top - 6 - 15.0 * static_cast<double>(lines.size() - 1 - i)}, Anchor::start, "label",
+             lines[i]);
   if (!several) {
     svg.text({width, top - 6}, Anchor::end, "value", row.strips[0].text);
     return;
@@ -149,7 +162,7 @@ std::string rows_figure(const std::vector<StripRow>& rows, std::string_view unit
   for (const double tick : ticks.values) svg.line({frame.x(tick), 0}, {frame.x(tick), base}, "grid");
   analysis::draw_x_axis(svg, frame.x, ticks, base, unit);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double top = tops[i] + (wide ? 0.0 : label_line_px);
+    const double top = tops[i] + label_height(rows[i], layout);
     for (std::size_t k = 0; k < rows[i].strips.size(); ++k)
       draw_strip(svg, frame, rows[i].strips[k], top + static_cast<double>(k) * strip_px);
     draw_texts(svg, frame, rows[i], top);

@@ -12,13 +12,13 @@
 namespace amble::report {
 namespace {
 
-/// "supg: 3 of 20 runs" of conditions that lack some.
+/// "supg: 3 of 20; sine: 2 of 20", of conditions that lack some.
 std::string missing_runs(const StudyData& data) {
   std::string text;
   for (const ledger::ConditionSpec& condition : data.study.conditions) {
     const std::size_t done = data.runs(condition.name).size(), planned = data.planned(condition.name);
     if (done < planned)
-      text += fmt::format("{}{} {} of {}", text.empty() ? "" : ", ", condition.label(), done, planned);
+      text += fmt::format("{}{}: {} of {}", text.empty() ? "" : "; ", condition.label(), done, planned);
   }
   return text;
 }

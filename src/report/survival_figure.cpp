@@ -21,6 +21,9 @@ using analysis::Svg;
 
 constexpr std::size_t most_overlaid = analysis::leg_colours;
 
+/// Room for the share at the end of a panel's title.
+constexpr double value_px = 48.0;
+
 struct TimeUnit {
   double seconds;
   std::string_view name;
@@ -135,6 +138,9 @@ std::string in_panels(const Report& report, const SurvivalTable& table, Layout l
   PanelGrid grid = PanelGrid::of(table.conditions.size(), layout);
   grid.left_px = 46.0;
   grid.panel_width_px -= 12.0;
+  std::vector<std::string> labels;
+  for (const auto& condition : table.conditions) labels.push_back(report.label(condition.condition));
+  grid.make_room(labels, value_px);
   Svg svg(width_px(layout), grid.height_px(), description(table));
   for (std::size_t i = 0; i < table.conditions.size(); ++i) {
     const auto& condition = table.conditions[i];
@@ -143,10 +149,8 @@ std::string in_panels(const Report& report, const SurvivalTable& table, Layout l
     for (const auto& other : table.conditions)
       if (&other != &condition) svg.polyline(staircase(frame, other.curve), "other");
     draw_curve(svg, report, frame, condition);
-    svg.text({frame.plot.x - 38, frame.plot.y - 9}, Anchor::start, "label",
-             fitted(report.label(condition.condition), frame.plot.width + 38 - 50));
-    svg.text({frame.plot.right(), frame.plot.y - 9}, Anchor::end, "value",
-             percent_text(condition.curve.at(table.trial_s)));
+    draw_panel_title(svg, grid, frame.plot, report.label(condition.condition),
+                     percent_text(condition.curve.at(table.trial_s)), value_px);
   }
   return svg.finish();
 }
@@ -155,7 +159,7 @@ std::string in_panels(const Report& report, const SurvivalTable& table, Layout l
 
 std::string time_text(double time_s) {
   const TimeUnit unit = unit_for(time_s);
-  return number_text(time_s / unit.seconds, time_s < 10.0 * unit.seconds ? 1 : 0) + std::string(unit.name);
+  return analysis::number(time_s / unit.seconds, 1) + std::string(unit.name);
 }
 
 std::string survival_figure(const Report& report, const SurvivalTable& table, Layout layout) {

@@ -32,7 +32,7 @@ void conclude_bounded_count(const ClaimSpec& claim, std::size_t successes, Judge
     judgement.reason = fmt::format("{} of {} runs so far, claimed {}: the {} missing decide.", successes,
                                    judgement.n, claimed, missing);
   else
-    judgement.reason = fmt::format("{} of {} runs, claimed {}.", successes, judgement.n, claimed);
+    judgement.reason = fmt::format("Claimed: {}.", claimed);
 }
 
 void conclude_published_count(const ClaimSpec& claim, const statistics::Count& ours, Judgement& judgement) {
@@ -45,12 +45,12 @@ void conclude_published_count(const ClaimSpec& claim, const statistics::Count& o
   judgement.p = test.p;
   judgement.verdict = agreement_verdict(test.p, count_alpha, inside);
   const auto theirs = *statistics::clopper_pearson(published, confidence);
-  judgement.reason = fmt::format("Published {} of {}, {} [{}, {}]; that share lies {} our interval. {}",
-                                 claim.successes, claim.runs, percent_text(share), percent_text(theirs.lower),
-                                 percent_text(theirs.upper), inside ? "in" : "outside",
-                                 judgement.verdict == Verdict::contradicted
-                                     ? "The shares differ significantly."
-                                     : "No difference was found, which does not prove that there is none.");
+  judgement.reason =
+      fmt::format("Published {} of {}, {}; that share lies {} our interval. {}", claim.successes, claim.runs,
+                  share_text(share, theirs), inside ? "in" : "outside",
+                  judgement.verdict == Verdict::contradicted
+                      ? "The shares differ significantly."
+                      : "No difference was found, which does not prove that there is none.");
 }
 
 /// The threshold of a count; nothing, with the reason, if it cannot be had.
@@ -77,9 +77,8 @@ Judgement judge_count(const StudyData& data, const ClaimSpec& claim) {
   const statistics::Count ours{successes, sample.size()};
   judgement.estimate = static_cast<double>(successes) / static_cast<double>(sample.size());
   judgement.interval = *statistics::clopper_pearson(ours, confidence);
-  judgement.ours =
-      fmt::format("{} of {}, {} [{}, {}]", successes, sample.size(), percent_text(*judgement.estimate),
-                  percent_text(judgement.interval->lower), percent_text(judgement.interval->upper));
+  judgement.ours = fmt::format("{} of {}, {}", successes, sample.size(),
+                               share_text(*judgement.estimate, judgement.interval));
   if (!claim.threshold_condition.empty())
     judgement.ours += fmt::format("; threshold {}{}", number_text(*threshold), unit_of(claim.measure));
   if (claim.runs > 0 && judgement.n < 2)

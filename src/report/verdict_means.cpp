@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "amble/analysis/svg.hpp"
 #include "amble/ledger/measures.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/verdict_kinds.hpp"
@@ -60,11 +61,15 @@ std::string two_means_text(const Judgement& judgement, std::string_view unit) {
                      number_text(*judgement.mean_against, decimals), unit);
 }
 
-/// "at least 8", "1.18 to 1.54".
+/// "at least 8", "1.18 to 1.54"; of a plateau "at most 5 %".
 std::string bounds_text(const ClaimSpec& claim) {
-  if (claim.at_most == ledger::unbounded) return "at least " + number_text(claim.at_least);
-  if (claim.at_least == -ledger::unbounded) return "at most " + number_text(claim.at_most);
-  return number_text(claim.at_least) + " to " + number_text(claim.at_most);
+  const auto text = [&claim](double bound) {
+    return claim.kind == ledger::ClaimKind::plateau ? analysis::number(100.0 * bound) + " %"
+                                                    : analysis::number(bound, 3);
+  };
+  if (claim.at_most == ledger::unbounded) return "at least " + text(claim.at_least);
+  if (claim.at_least == -ledger::unbounded) return "at most " + text(claim.at_most);
+  return text(claim.at_least) + " to " + text(claim.at_most);
 }
 
 /// Verdict and reason from an interval and the claimed range.
@@ -161,11 +166,10 @@ void conclude_difference(const ClaimSpec& claim, Judgement& judgement) {
       direction == statistics::Direction::less      ? "The difference points the other way"
       : direction == statistics::Direction::greater ? "The difference points as claimed"
                                                     : "There is no difference";
-  judgement.reason =
-      direction == statistics::Direction::equal
-          ? std::string(where) + "."
-          : fmt::format("{} and is {}significant at {} after Holm’s adjustment.", where,
-                        significant ? "" : "not ", number_text(claim.alpha, claim.alpha < 0.01 ? 3 : 2));
+  judgement.reason = direction == statistics::Direction::equal
+                         ? std::string(where) + "."
+                         : fmt::format("{} and is {}significant at {} after Holm’s adjustment.", where,
+                                       significant ? "" : "not ", analysis::number(claim.alpha, 9));
   if (claim.relation == ledger::Relation::not_less && judgement.verdict == Verdict::confirmed)
     judgement.reason += " The claim is that the condition does not do worse; it need not do better.";
 }
