@@ -24,5 +24,6 @@ void add_draw(CLI::App& app, Action& action);
 void add_settings(CLI::App& app, Action& action);
 void add_substrate(CLI::App& app, Action& action);
 void add_study(CLI::App& app, Action& action);
+void add_report(CLI::App& app, Action& action);
 
 }  // namespace amble::cli

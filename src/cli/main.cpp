@@ -38,6 +38,7 @@ ExitCode run(int argc, char** argv) {
   amble::cli::add_info(app, action);
   amble::cli::add_robot(app, action);
   amble::cli::add_study(app, action);
+  amble::cli::add_report(app, action);
   amble::cli::add_verify(app, action);
   amble::cli::add_page(app, action);
   amble::cli::add_view(app, action);

@@ -1,0 +1,72 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "amble/cli/commands.hpp"
+#include "amble/io/file.hpp"
+#include "amble/report/csv.hpp"
+#include "amble/report/figures.hpp"
+#include "amble/report/json.hpp"
+#include "amble/report/page.hpp"
+
+namespace amble::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReportOptions {
+  fs::path study, out;
+  std::optional<fs::path> csv, json, figures;
+};
+
+/// A file to be written, and what a file that it may replace begins with.
+struct Output {
+  fs::path path;
+  std::string text, beginning, what;
+};
+
+std::vector<Output> outputs(const report::Report& made, const ReportOptions& options) {
+  std::vector<Output> files{{options.out, report::make_page(made), "<!DOCTYPE html>", "a page"}};
+  if (options.csv)
+    for (const report::Table& table : report::tables(made))
+      files.push_back({*options.csv / (table.name + ".csv"), report::to_csv(table),
+                       report::csv_beginning(table), "a table of a report"});
+  if (options.json)
+    files.push_back({*options.json, report::to_json(made),
+                     fmt::format("{{\n  \"format\": \"{}\"", report::report_format), "a report"});
+  if (options.figures)
+    for (report::FigureFile& figure : report::figure_files(made))
+      files.push_back({*options.figures / figure.name, std::move(figure.svg), "<svg", "a figure"});
+  return files;
+}
+
+ExitCode make_report(const ReportOptions& options) {
+  const auto files = outputs(report::make_report(report::load_study_data(options.study)), options);
+  for (const Output& file : files) io::refuse_to_replace(file.path, file.beginning, file.what);
+  for (const Output& file : files) {
+    if (file.path.has_parent_path()) fs::create_directories(file.path.parent_path());
+    io::write_file(file.path, file.text);
+  }
+  fmt::print("{}\n", fs::absolute(options.out).lexically_normal().string());
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand(
+      "report", "Make a page of a study: claims with verdicts, figures, statistics, from its ledger alone");
+  auto options = std::make_shared<ReportOptions>();
+  command->add_option("DIR", options->study, "Folder of a study")->required();
+  command->add_option("-o,--out", options->out, "The page to write (HTML)")->required();
+  command->add_option("--csv", options->csv, "Also write all numbers as CSV files into this folder");
+  command->add_option("--json", options->json, "Also write them as one JSON document");
+  command->add_option("--figures", options->figures,
+                      "Also write each figure as an SVG file into this folder");
+  command->callback([options, &action] { action = [options] { return make_report(*options); }; });
+}
+
+}  // namespace amble::cli

@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "amble/analysis/svg.hpp"
+#include "amble/report/html.hpp"
+#include "amble/report/number_text.hpp"
+#include "amble/report/page_sections.hpp"
+
+namespace amble::report {
+namespace {
+
+using analysis::escape;
+
+std::string css_class(Verdict verdict) {
+  std::string name(name_of(verdict));
+  std::ranges::replace(name, ' ', '-');
+  return name;
+}
+
+/// How many claims got which verdict, in words and as a bar.
+std::string verdict_counts(const Report& report) {
+  const auto counts = count_verdicts(report.judgements);
+  std::string list = "<ul class=\"verdicts\">", bar = "<div class=\"share\" aria-hidden=\"true\">";
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const std::string name = css_class(static_cast<Verdict>(i));
+    list += fmt::format("<li class=\"{}\"><b>{}</b> <span class=\"verdict {}\">{}</span></li>\n", name,
+                        counts[i], name, verdict_names[i]);
+    if (counts[i] > 0) bar += fmt::format("<i class=\"{}\" style=\"flex: {}\"></i>", name, counts[i]);
+  }
+  return list + "</ul>\n" + bar + "</div>\n";
+}
+
+std::string runs_text(const Judgement& judgement) {
+  const auto of = [](std::size_t n, std::size_t planned) {
+    return n == planned ? fmt::format("{}", n) : fmt::format("{} of {}", n, planned);
+  };
+  std::string text = "n = " + of(judgement.n, judgement.planned);
+  if (judgement.planned_against > 0) text += " and " + of(judgement.n_against, judgement.planned_against);
+  return text;
+}
+
+std::string test_cell(const Judgement& judgement) {
+  if (judgement.test.empty()) return {};
+  std::string cell = escape(judgement.test);
+  if (judgement.p) cell += "<br/>" + fmt::format("<span class=\"p\">{}</span>", escape(p_text(*judgement.p)));
+  if (judgement.p_holm)
+    cell += fmt::format("<br/><small class=\"p\">Holm {}</small>", escape(p_number(*judgement.p_holm)));
+  return cell;
+}
+
+}  // namespace
+
+std::string claims_section(const Report& report) {
+  const auto& claims = report.data.study.claims;
+  if (claims.empty()) return {};
+  TableWriter table({{"", false, "index"},
+                     {"Claim", false, "sentence"},
+                     {"Published", false, "published"},
+                     {"Here", false, "here"},
+                     {"Test", false, "test"},
+                     {"Verdict", false, "judged"}},
+                    "claims");
+  const bool one_source = std::ranges::all_of(
+      claims, [&](const ledger::ClaimSpec& claim) { return claim.source == claims[0].source; });
+  std::size_t family = 0;
+  for (std::size_t i = 0; i < claims.size(); ++i) {
+    const ledger::ClaimSpec& claim = claims[i];
+    const Judgement& judgement = report.judgements[i];
+    family += judgement.p_holm.has_value();
+    const std::string source =
+        claim.source.empty() || one_source ? "" : fmt::format("<br/><small>{}</small>", escape(claim.source));
+    const std::string ours = judgement.ours.empty() ? "" : tied(escape(judgement.ours)) + "<br/>";
+    table.row_of_markup({fmt::format("{}", i + 1),
+                         fmt::format("{}{}<span class=\"reason\">{}</span>", escape(claim.text), source,
+                                     tied(escape(judgement.reason))),
+                         tied(escape(claim.figure)),
+                         fmt::format("{}<small>{}</small>", ours, runs_text(judgement)), test_cell(judgement),
+                         fmt::format("<span class=\"verdict {}\">{}</span>", css_class(judgement.verdict),
+                                     name_of(judgement.verdict))});
+  }
+  std::string lead =
+      "Each claim is judged by the rule that stands with it in the study’s file (docs/STUDIES.md). Intervals "
+      "are at 95 % unless the claim has its own level.";
+  if (one_source && !claims[0].source.empty()) lead = fmt::format("From {}. ", claims[0].source) + lead;
+  if (family > 0)
+    lead += fmt::format(
+        " Claims of differences are one family of {}: significant is what is so after Holm’s adjustment.",
+        counted(family, "test"));
+  return section("claims", "The claims", lead, verdict_counts(report) + table.finish());
+}
+
+}  // namespace amble::report

@@ -1,0 +1,67 @@
+#include "amble/report/figures.hpp"
+
+#include <fmt/format.h>
+
+#include "amble/analysis/page_style.hpp"
+#include "amble/report/curves_figure.hpp"
+#include "amble/report/number_text.hpp"
+#include "amble/report/page_style.hpp"
+#include "amble/report/survival_figure.hpp"
+
+namespace amble::report {
+namespace {
+
+Strip make_strip(const Report& report, const SampleSummary& sample, std::string name, std::string css_class) {
+  return {.name = std::move(name),
+          .css_class = std::move(css_class),
+          .values = report.data.values(sample.condition, sample.measure),
+          .mean = sample.summary.mean,
+          .interval = sample.summary.mean_interval,
+          .text = estimate_text(sample.summary.mean, sample.summary.mean_interval, unit_of(sample.measure))};
+}
+
+}  // namespace
+
+std::vector<StripRow> training_rows(const Report& report) {
+  std::vector<StripRow> rows;
+  for (const ledger::ConditionSpec& condition : report.data.study.conditions)
+    if (const auto* sample = find_summary(report.summaries, "train_m", condition.name))
+      rows.push_back(
+          {condition.label(),
+           {make_strip(report, *sample, "evolution", analysis::leg_class(report.index(condition.name)))}});
+  return rows;
+}
+
+std::vector<StripRow> test_rows(const Report& report, const std::string& test) {
+  std::vector<StripRow> rows;
+  for (const ledger::ConditionSpec& condition : report.data.study.conditions) {
+    const auto* tested = find_summary(report.summaries, test + ".distance_m", condition.name);
+    const auto* trained = find_summary(report.summaries, "train_m", condition.name);
+    if (tested == nullptr || trained == nullptr) continue;
+    rows.push_back(
+        {condition.label(),
+         {make_strip(report, *trained, "evolution", "base"),
+          make_strip(report, *tested, "test", analysis::leg_class(report.index(condition.name)))}});
+  }
+  return rows;
+}
+
+std::vector<FigureFile> figure_files(const Report& report) {
+  using analysis::Layout;
+  std::vector<FigureFile> files;
+  const auto add = [&files](const std::string& name, std::string element) {
+    files.push_back({name + ".svg", standalone_figure(std::move(element))});
+  };
+  if (report.data.records.empty()) return files;
+  add("distance", rows_figure(training_rows(report), " m", "Distance in evolution", Layout::wide));
+  for (const ledger::TestSpec& test : report.data.study.tests)
+    if (const auto rows = test_rows(report, test.name); !rows.empty())
+      add("distance-" + test.name, rows_figure(rows, " m", "Distance in test " + test.name, Layout::wide));
+  add("curves", curves_figure(report, Layout::wide));
+  for (const SurvivalTable& table : report.survival)
+    add(fmt::format("{}-{}", doing_names[static_cast<std::size_t>(table.doing)], table.test),
+        survival_figure(report, table, Layout::wide));
+  return files;
+}
+
+}  // namespace amble::report

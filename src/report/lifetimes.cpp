@@ -1,0 +1,52 @@
+#include "amble/report/lifetimes.hpp"
+
+#include <algorithm>
+
+#include "amble/report/verdict.hpp"
+
+namespace amble::report {
+namespace {
+
+// Times are sums of steps; what ends this close to the end of a test lasted.
+constexpr double slack = 1e-9;
+
+statistics::Lifetime lifetime(const ledger::TestResult& result, Doing doing) {
+  const double time_s = doing == Doing::upright ? result.upright_s() : result.walking_s();
+  return {.time_s = time_s, .ended = time_s < result.trial_s * (1.0 - slack)};
+}
+
+SurvivalTable survival_table(const StudyData& data, const ledger::TestSpec& test, Doing doing) {
+  SurvivalTable table{
+      .test = test.name, .doing = doing, .trial_s = 0.0, .is_long = false, .conditions = {}, .log_rank = {}};
+  for (const ledger::ConditionSpec& condition : data.study.conditions) {
+    ConditionLifetimes lasted{.condition = condition.name, .lifetimes = {}, .curve = {}};
+    for (const ledger::Record* run : data.runs(condition.name))
+      if (const auto* result = run->find_test(test.name)) {
+        lasted.lifetimes.push_back(lifetime(*result, doing));
+        table.trial_s = std::max(table.trial_s, result->trial_s);
+        table.is_long = table.is_long || result->trial_s > training_s(*run).value_or(0.0);
+      }
+    if (const auto curve = statistics::kaplan_meier(lasted.lifetimes, confidence)) {
+      lasted.curve = *curve;
+      table.conditions.push_back(std::move(lasted));
+    }
+  }
+  std::vector<std::vector<statistics::Lifetime>> groups;
+  for (const ConditionLifetimes& condition : table.conditions) groups.push_back(condition.lifetimes);
+  table.log_rank = statistics::log_rank(groups);
+  return table;
+}
+
+}  // namespace
+
+std::vector<SurvivalTable> survival_tables(const StudyData& data) {
+  std::vector<SurvivalTable> tables;
+  for (const ledger::TestSpec& test : data.study.tests)
+    for (const Doing doing : {Doing::upright, Doing::walking}) {
+      SurvivalTable table = survival_table(data, test, doing);
+      if (!table.conditions.empty()) tables.push_back(std::move(table));
+    }
+  return tables;
+}
+
+}  // namespace amble::report

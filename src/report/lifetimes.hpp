@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "amble/report/study_data.hpp"
+#include "amble/statistics/survival.hpp"
+
+namespace amble::report {
+
+/// What a champion keeps doing until it ends or the test does.
+enum class Doing : std::uint8_t {
+  upright,  ///< ends when the robot falls or its simulation diverges
+  walking   ///< ends when it falls, diverges or stands still (score/walking.hpp)
+};
+inline constexpr std::array<std::string_view, 2> doing_names{"upright", "walking"};
+
+struct ConditionLifetimes {
+  std::string condition;
+  std::vector<statistics::Lifetime> lifetimes;  ///< of runs with the test, in the order of seeds
+  statistics::SurvivalCurve curve;
+};
+
+/// How long the champions of all conditions kept doing something in one test.
+struct SurvivalTable {
+  std::string test;
+  Doing doing = Doing::upright;
+  double trial_s = 0.0;  ///< length of the test, at which lifetimes are censored
+  bool is_long = false;  ///< longer than the trials of evolution, as far as these are known
+  std::vector<ConditionLifetimes> conditions;  ///< that have the test
+  /// Over `conditions`; none if fewer than two have the test or nothing ended.
+  std::optional<statistics::LogRank> log_rank;
+};
+
+/// Both doings of every test that any run has. With several episodes in a test, the median of a run's
+/// episodes is its lifetime.
+std::vector<SurvivalTable> survival_tables(const StudyData& data);
+
+}  // namespace amble::report

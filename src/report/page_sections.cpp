@@ -1,0 +1,207 @@
+#include "amble/report/page_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "amble/analysis/svg.hpp"
+#include "amble/report/curves_figure.hpp"
+#include "amble/report/figures.hpp"
+#include "amble/report/html.hpp"
+#include "amble/report/number_text.hpp"
+#include "amble/report/survival_figure.hpp"
+
+namespace amble::report {
+namespace {
+
+using analysis::Layout;
+
+std::string_view name_of(Doing doing) {
+  return doing_names[static_cast<std::size_t>(doing)];
+}
+
+/// "mean (sd)".
+std::string mean_sd(const SampleSummary* sample) {
+  if (sample == nullptr) return "–";
+  const auto& summary = sample->summary;
+  if (!summary.sd) return number_text(summary.mean, 1);
+  return fmt::format("{} ({})", number_text(summary.mean, 1), number_text(*summary.sd, 1));
+}
+
+std::string log_rank_text(const SurvivalTable& table) {
+  if (table.log_rank)
+    return fmt::format("Log-rank test across {} conditions: χ² = {}, {} df, {}.", table.conditions.size(),
+                       number_text(table.log_rank->chi_square), table.log_rank->degrees_of_freedom,
+                       p_text(table.log_rank->p));
+  const bool any_ended =
+      std::ranges::any_of(table.conditions, [](const auto& condition) { return condition.curve.ended > 0; });
+  return any_ended ? "One condition alone: no log-rank test."
+                   : "All runs lasted to the end of the test: nothing to compare.";
+}
+
+/// "47 s [30, 120]"; an end that the band never reaches is beyond the test.
+std::string median_text(const statistics::SurvivalCurve& curve, double trial_s) {
+  if (!curve.median_s) return "beyond " + time_text(trial_s);
+  const auto end = [](const std::optional<double>& value) { return value ? number_text(*value) : "–"; };
+  return fmt::format("{} s [{}, {}]", number_text(*curve.median_s), end(curve.median_lower_s),
+                     end(curve.median_upper_s));
+}
+
+std::string survival_part(const Report& report, const SurvivalTable& table) {
+  const bool upright = table.doing == Doing::upright;
+  TableWriter rows({{"Condition", false},
+                    {"Runs"},
+                    {upright ? "Fell" : "Stopped"},
+                    {"Lasted"},
+                    {upright ? "Median time upright" : "Median time walking"}});
+  for (const ConditionLifetimes& condition : table.conditions)
+    rows.row({report.label(condition.condition), fmt::format("{}", condition.curve.n),
+              fmt::format("{}", condition.curve.ended), percent_text(condition.curve.at(table.trial_s)),
+              median_text(condition.curve, table.trial_s)});
+  std::string out = fmt::format("<h4>Still {}</h4>\n", name_of(table.doing));
+  out += paragraph(log_rank_text(table));
+  out += figure([&](Layout layout) { return survival_figure(report, table, layout); });
+  return out + rows.finish();
+}
+
+/// What there is to say of one test. Tests in other engines are folded: they repeat the others.
+std::string test_part(const Report& report, const std::string& test, std::string_view what,
+                      std::string_view content) {
+  const bool elsewhere =
+      std::ranges::any_of(report.transfers, [&](const Transfer& transfer) { return transfer.test == test; });
+  if (elsewhere) return folded(fmt::format("{} in test {}", what, test), content);
+  return subtitle("Test " + test) + std::string(content);
+}
+
+/// Gaits as columns, conditions as rows; each count with a bar of its share.
+std::string gait_table(const Report& report, const GaitTable& gaits) {
+  std::vector<Column> columns{{"Condition", false}, {"Runs"}};
+  for (const std::string& gait : gaits.gaits) columns.push_back({gait});
+  TableWriter table(columns, "gaits");
+  for (const GaitCounts& counts : gaits.rows) {
+    std::vector<std::string> cells{analysis::escape(report.label(counts.condition)),
+                                   fmt::format("{}", counts.n)};
+    for (const std::string& gait : gaits.gaits) {
+      const std::size_t runs = counts.count(gait);
+      cells.push_back(
+          runs == 0 ? "<span class=\"count\"><small>0</small></span>"
+                    : fmt::format("<span class=\"count {}\">{}<i style=\"width: {}%\"></i></span>",
+                                  analysis::leg_class(report.index(counts.condition)), runs,
+                                  analysis::number(
+                                      100.0 * static_cast<double>(runs) / static_cast<double>(counts.n), 0)));
+    }
+    table.row_of_markup(cells);
+  }
+  return table.finish();
+}
+
+}  // namespace
+
+std::string test_text(const Report& report, const ledger::TestSpec& test) {
+  std::string text = time_text(test.seconds);
+  for (const ledger::Record& record : report.data.records)
+    if (const auto* result = record.find_test(test.name)) {
+      text += " in the engine " + result->engine;
+      break;
+    }
+  if (!test.noise.empty())
+    text += fmt::format(", {} under noise that evolution has not met (median)",
+                        counted(static_cast<std::size_t>(test.episodes), "episode"));
+  return text;
+}
+
+std::string distance_section(const Report& report) {
+  const auto training = training_rows(report);
+  std::string content = figure([&](Layout layout) {
+    return rows_figure(training, " m", "Distance in evolution, all conditions", layout);
+  });
+  for (const ledger::TestSpec& test : report.data.study.tests) {
+    const auto rows = test_rows(report, test.name);
+    if (rows.empty()) continue;
+    content +=
+        test_part(report, test.name, "Distance",
+                  paragraph(test_text(report, test) + ". Grey: the same champions’ distance in evolution.") +
+                      figure([&](Layout layout) {
+                        return rows_figure(rows, " m", "Distance in test " + test.name, layout);
+                      }));
+  }
+  return section("distance", "How far they walked",
+                 "Distance of each run’s champion in its evolution. Bars are means with Student’s 95 % "
+                 "intervals, each point is a run.",
+                 content);
+}
+
+std::string curves_section(const Report& report) {
+  return section(
+      "curves", "How they learned",
+      "Best distance so far over the generations: median and quartiles over the runs of a condition, in "
+      "grey the medians of the others.",
+      figure([&](Layout layout) { return curves_figure(report, layout); }));
+}
+
+std::string survival_section(const Report& report) {
+  std::string content;
+  for (const ledger::TestSpec& test : report.data.study.tests) {
+    std::string parts;
+    for (const SurvivalTable& table : report.survival)
+      if (table.is_long && table.test == test.name) parts += survival_part(report, table);
+    if (!parts.empty())
+      content += test_part(report, test.name, "Lasting", paragraph(test_text(report, test) + ".") + parts);
+  }
+  if (content.empty()) return {};
+  return section("survival", "How long they stayed up and walked",
+                 "Kaplan–Meier curves of tests longer than evolution’s trials: the share of runs that still "
+                 "stand or walk. Upright ends with a fall, walking also by standing still; what lasts to the "
+                 "end of the test is censored there. Medians have the interval of Brookmeyer and Crowley; "
+                 "“–” is an end beyond the test.",
+                 content);
+}
+
+std::string sizes_section(const Report& report) {
+  TableWriter table({{"Condition", false}, {"Runs"}, {"Hidden nodes, mean (sd)"}, {"Links, mean (sd)"}});
+  for (const ledger::ConditionSpec& condition : report.data.study.conditions) {
+    const auto* hidden = find_summary(report.summaries, "hidden", condition.name);
+    const auto* links = find_summary(report.summaries, "links", condition.name);
+    if (hidden != nullptr)
+      table.row({condition.label(), fmt::format("{}", hidden->summary.n), mean_sd(hidden), mean_sd(links)});
+  }
+  return section("sizes", "The champions’ CPPNs", "Hidden nodes and enabled links.", table.finish());
+}
+
+std::string gaits_section(const Report& report) {
+  std::string content;
+  for (const GaitTable& gaits : report.gaits)
+    content += test_part(report, gaits.test, "Gaits", gait_table(report, gaits));
+  if (content.empty()) return {};
+  return section("gaits", "Gaits", "Runs by the name of their champion’s gait (docs/GAIT.md).", content);
+}
+
+std::string transfer_section(const Report& report) {
+  if (report.transfers.empty()) return {};
+  TableWriter table({{"Condition", false},
+                     {"Test", false},
+                     {"Engine", false},
+                     {"Runs"},
+                     {"Median distance"},
+                     {"Share kept, median"},
+                     {"Compared with", false}});
+  for (const Transfer& transfer : report.transfers)
+    table.row({report.label(transfer.condition), transfer.test, transfer.home + " → " + transfer.engine,
+               fmt::format("{}", transfer.n), number_text(transfer.median_m) + " m",
+               transfer.share
+                   ? share_text(*transfer.share, transfer.share_interval
+                                                     ? std::optional(transfer.share_interval->interval)
+                                                     : std::nullopt)
+                   : "–",
+               transfer.reference == "train_m" ? "evolution"
+               : transfer.reference.empty()
+                   ? "–"
+                   : "test " + transfer.reference.substr(0, transfer.reference.find('.'))});
+  return section(
+      "transfer", "In other engines",
+      "The same champions in engines they were not evolved in. The share kept is the median over runs of "
+      "the distance there by the distance at home in trials of the same length, with a BCa interval.",
+      table.finish());
+}
+
+}  // namespace amble::report

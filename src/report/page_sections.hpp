@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "amble/report/report.hpp"
+
+namespace amble::report {
+
+/// The sections of a page, each as markup; empty where there is nothing to show.
+std::string claims_section(const Report& report);
+std::string distance_section(const Report& report);
+std::string curves_section(const Report& report);
+std::string survival_section(const Report& report);
+std::string sizes_section(const Report& report);
+std::string gaits_section(const Report& report);
+std::string transfer_section(const Report& report);
+std::string pairs_section(const Report& report);
+std::string made_section(const Report& report);
+
+/// "test five-min: 300 s in ode, 10 episodes under noise".
+std::string test_text(const Report& report, const ledger::TestSpec& test);
+
+}  // namespace amble::report

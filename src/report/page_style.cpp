@@ -1,0 +1,113 @@
+#include "amble/report/page_style.hpp"
+
+#include <string_view>
+
+#include "amble/analysis/page_style.hpp"
+
+namespace amble::report {
+namespace {
+
+constexpr std::string_view figures = R"css(
+.strip .bar { fill: var(--leg); opacity: .38; }
+.strip .run { fill: var(--leg); opacity: .85; stroke: var(--paper); stroke-width: .6; }
+.strip.base .bar { fill: var(--mid); opacity: .4; } .strip.base .run { fill: var(--mid); }
+.whisker { stroke: var(--ink); stroke-width: 1.5; }
+.strip .band { fill: var(--leg); opacity: .2; }
+.strip .curve { stroke: var(--leg); stroke-width: 2; stroke-linejoin: miter; }
+.other { fill: none; stroke: var(--line); stroke-width: 1; opacity: .8; }
+.lead { stroke: var(--leg); stroke-width: 1; opacity: .7; }
+)css";
+
+constexpr std::string_view text = R"css(
+:root { --good: #00705f; --bad: #b23a06; --open: #7a5b00; --void: #5d6670; }
+@media screen and (prefers-color-scheme: dark) {
+  :root { --good: #45c2b0; --bad: #ff8a54; --open: #e4b54a; --void: #98a2ad; }
+}
+h3 { margin: 44px 0 0; font-size: 17px; line-height: 1.35; font-weight: 640; }
+h4 { margin: 26px 0 0; font-size: 15px; font-weight: 600; } h4 + p { margin: 2px 0 0; color: var(--soft); font-size: 14.5px; }
+h3 + p, section > p + p, summary + p { max-width: 44rem; margin: 6px 0 0; color: var(--soft); }
+h3 + figure { margin-top: 14px; }
+figcaption { margin-top: 8px; color: var(--soft); font-size: 13.5px; }
+nav { display: flex; flex-wrap: wrap; gap: 4px 18px; margin-top: 30px; font-size: 14.5px; }
+nav a { color: var(--soft); text-underline-offset: 3px; }
+.remarks { margin-top: 34px; padding: 14px 18px; background: var(--panel); border-left: 3px solid var(--open); border-radius: 0 8px 8px 0; font-size: 14.5px; }
+.remarks p { margin: 0; } .remarks p + p { margin-top: 8px; }
+.verdicts { display: flex; flex-wrap: wrap; gap: 8px 26px; margin: 20px 0 0; padding: 0; list-style: none; font-size: 17px; }
+.verdicts b { font-size: 26px; font-weight: 640; letter-spacing: -.015em; }
+.share { display: flex; height: 8px; margin-top: 12px; gap: 2px; }
+.share i { border-radius: 2px; background: var(--tone); }
+.confirmed { --tone: var(--good); } .not-confirmed { --tone: var(--open); } .contradicted { --tone: var(--bad); } .not-testable { --tone: var(--line); }
+.not-testable .verdict, .verdicts .not-testable { color: var(--void); }
+.verdict { color: var(--tone); font-weight: 640; white-space: nowrap; }
+.verdict.not-testable { color: var(--void); }
+.verdict::before { display: inline-block; width: 1.3em; }
+.verdict.confirmed::before { content: "\2713"; } .verdict.not-confirmed::before { content: "\25CB"; }
+.verdict.contradicted::before { content: "\2715"; } .verdict.not-testable::before { content: "\2013"; }
+
+.data { font-size: 14px; line-height: 1.45; }
+.data th, .data td { padding: 7px 0 7px 18px; width: auto; color: var(--ink); overflow-wrap: normal; }
+.data th:first-child, .data td:first-child { padding-left: 0; }
+.data thead th { border-top: 0; color: var(--soft); font-size: 13px; font-weight: 450; vertical-align: bottom; padding-bottom: 6px; }
+.data tbody th { font-weight: 550; padding-right: 0; }
+.data .number { text-align: right; white-space: nowrap; }
+.data small { color: var(--soft); font-size: 12.5px; }
+.data .significant { font-weight: 680; }
+.claims .index { width: 1.6rem; font-weight: 450; color: var(--soft); }
+.claims .sentence { width: 37%; } .claims .published { width: 13%; } .claims .here { width: 23%; }
+.claims .test { width: 12%; } .claims .judged { white-space: nowrap; }
+.claims .reason { display: block; margin-top: 3px; color: var(--soft); font-size: 13px; }
+.claims .p { white-space: nowrap; }
+.scroll { overflow-x: auto; } .pairs .number { white-space: normal; }
+.data.matrix { font-size: 11.5px; } .data.matrix th, .data.matrix td { padding: 4px 0 4px 5px; } .data.matrix tbody th { white-space: nowrap; font-size: 12px; }
+.count { display: block; min-width: 34px; }
+.count i { display: block; height: 4px; margin-top: 3px; margin-left: auto; border-radius: 2px; background: var(--leg); }
+details { margin-top: 18px; border-top: 1px solid var(--hair); padding-top: 12px; }
+summary { cursor: pointer; font-weight: 600; font-size: 15.5px; }
+details .scroll { margin-top: 14px; }
+)css";
+
+constexpr std::string_view phone_and_paper = R"css(
+@media screen and (max-width: 700px) {
+  .data thead { display: none; }
+  .data, .data tbody, .data tr, .data th, .data td { display: block; width: auto; }
+  .data tr { padding: 12px 0; border-top: 1px solid var(--hair); }
+  .data tr:last-child { border-bottom: 1px solid var(--hair); }
+  .data th, .data td, .data tr:last-child > * { padding: 1px 0; border: 0; }
+  .data td { display: grid; grid-template-columns: minmax(7.5rem, 38%) 1fr; gap: 12px; }
+  .data td::before { content: attr(data-title); text-align: left; color: var(--soft); font-size: 13px; }
+  .data td.number { text-align: right; white-space: normal; } .data tbody th, .data th.number { text-align: left; }
+  .claims tbody tr { display: flex; flex-direction: column; position: relative; padding-left: 2rem; }
+  .claims .index { position: absolute; left: 0; top: 12px; }
+  .claims td, .claims th, .claims .sentence, .claims .published, .claims .here, .claims .test { width: auto; }
+  .claims td { grid-template-columns: 5rem 1fr; }
+  .claims td.sentence, .claims td.judged { display: block; } .claims td.sentence::before, .claims td.judged::before { content: none; }
+  .claims td.sentence { font-size: 15px; order: 1; } .claims td.judged { order: 2; padding: 4px 0 6px; } .claims td { order: 3; }
+  .data td:has(> div:empty) { display: none; }
+  .data.matrix { display: table; } .data.matrix thead { display: table-header-group; }
+  .data.matrix tbody { display: table-row-group; } .data.matrix tr { display: table-row; }
+  .data.matrix th, .data.matrix td { display: table-cell; padding: 4px 0 4px 8px; border-top: 1px solid var(--hair); }
+  .data.matrix td::before { content: none; } .data.matrix thead th { text-align: right; }
+}
+@media print {
+  nav { display: none; }
+  section { break-inside: auto; } h2, h3 { break-after: avoid; } figure, tr { break-inside: avoid; }
+  details::details-content { content-visibility: visible; display: block; }
+  .data { font-size: 8.5pt; } .data th, .data td { padding-top: 3pt; padding-bottom: 3pt; }
+  .scroll { overflow: visible; }
+}
+)css";
+
+}  // namespace
+
+std::string style_sheet() {
+  std::string sheet = analysis::style_sheet();
+  for (const std::string_view part : {figures, text, phone_and_paper}) sheet += part;
+  return sheet;
+}
+
+std::string standalone_figure(std::string element) {
+  std::string svg = analysis::standalone_svg(std::move(element));
+  return svg.insert(svg.find("</style>"), figures);
+}
+
+}  // namespace amble::report

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "amble/analysis/layout.hpp"
+#include "amble/analysis/svg.hpp"
+
+namespace amble::report {
+
+/// Width of a label (13 px, semibold), estimated: pictures know no fonts.
+double label_width_px(std::string_view label);
+/// The label, its end replaced by "…" if it needs more room.
+std::string fitted(std::string_view label, double width_px);
+
+/// The label in at most two lines; the second is fitted.
+std::vector<std::string> two_lines(std::string_view label, double width_px);
+
+/// Small pictures of one size, side by side and in as many rows as they need.
+struct PanelGrid {
+  std::size_t columns = 1, rows = 1;
+  double panel_width_px = 0.0, panel_height_px = 0.0;
+  double left_px = 34.0, top_px = 24.0, below_px = 30.0, gap_px = 14.0;
+
+  static PanelGrid of(std::size_t count, analysis::Layout layout) {
+    const bool wide = layout == analysis::Layout::wide;
+    PanelGrid grid;
+    const std::size_t most = wide ? (count > 9 ? 4 : 3) : 2;
+    grid.columns = count == 4 && wide ? 2 : std::clamp<std::size_t>(count, 1, most);
+    grid.rows = (count + grid.columns - 1) / grid.columns;
+    const double each = analysis::width_px(layout) / static_cast<double>(grid.columns);
+    grid.panel_width_px = each - grid.left_px - grid.gap_px;
+    grid.panel_height_px = std::clamp(0.6 * grid.panel_width_px, 90.0, 190.0);
+    return grid;
+  }
+  /// Room for titles of two lines, if any label needs them.
+  void make_room(const std::vector<std::string>& labels, double value_px) {
+    const double room = panel_width_px + left_px - 8.0 - value_px;
+    for (const std::string& label : labels)
+      if (label_width_px(label) > room) top_px = 40.0;
+  }
+  double height_px() const { return static_cast<double>(rows) * (top_px + panel_height_px + below_px); }
+  /// The plot of a panel, without its title above and its axis below.
+  analysis::Box plot(std::size_t index) const {
+    const double column = static_cast<double>(index % columns), row = static_cast<double>(index / columns);
+    return {left_px + column * (left_px + panel_width_px + gap_px),
+            top_px + row * (top_px + panel_height_px + below_px), panel_width_px, panel_height_px};
+  }
+};
+
+/// Name and value of a panel, above its plot; the name in as many as two lines.
+void draw_panel_title(analysis::Svg& svg, const PanelGrid& grid, const analysis::Box& plot,
+                      std::string_view label, std::string_view value, double value_px);
+
+}  // namespace amble::report

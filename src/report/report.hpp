@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "amble/report/comparisons.hpp"
+#include "amble/report/curves.hpp"
+#include "amble/report/gait_counts.hpp"
+#include "amble/report/lifetimes.hpp"
+#include "amble/report/study_data.hpp"
+#include "amble/report/transfer.hpp"
+#include "amble/report/verdict.hpp"
+
+namespace amble::report {
+
+/// Every number of a report, computed once: page, tables and figures only show it. The same ledger gives the
+/// same bits.
+struct Report {
+  StudyData data;
+  std::string digest;                ///< of the ledger (ledger::ledger_digest)
+  std::vector<std::string> remarks;  ///< remarks() of the data
+  std::vector<Judgement> judgements;
+  std::vector<SampleSummary> summaries;
+  std::vector<BestCurve> curves;
+  std::vector<SurvivalTable> survival;
+  std::vector<GaitTable> gaits;
+  std::vector<Transfer> transfers;
+  std::vector<PairTable> pairs;
+
+  const std::string& label(std::string_view condition) const;
+  std::string title() const;
+  /// Place of a condition in the study, which is its colour.
+  int index(std::string_view condition) const;
+};
+
+Report make_report(StudyData data);
+
+}  // namespace amble::report

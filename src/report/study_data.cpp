@@ -1,0 +1,155 @@
+#include "amble/report/study_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "amble/core/check.hpp"
+#include "amble/ledger/ledger.hpp"
+#include "amble/ledger/measures.hpp"
+
+namespace amble::report {
+namespace {
+
+/// "supg: 3 of 20; sine: 2 of 20", of conditions that lack some.
+std::string missing_runs(const StudyData& data) {
+  std::string text;
+  for (const ledger::ConditionSpec& condition : data.study.conditions) {
+    const std::size_t done = data.runs(condition.name).size(), planned = data.planned(condition.name);
+    if (done < planned)
+      text += fmt::format("{}{}: {} of {}", text.empty() ? "" : "; ", condition.label(), done, planned);
+  }
+  return text;
+}
+
+/// How many finished runs lack a test that the study has for them.
+std::size_t without_test(const StudyData& data, const ledger::TestSpec& test) {
+  return static_cast<std::size_t>(std::ranges::count_if(data.records, [&](const ledger::Record& record) {
+    return test.applies_to(record.condition) && record.find_test(test.name) == nullptr;
+  }));
+}
+
+/// Whether the values of a function are not all the same.
+template <typename Function>
+bool differs(const std::vector<const ledger::Record*>& runs, Function&& value) {
+  return std::ranges::any_of(runs, [&](const auto* run) { return value(*run) != value(*runs.front()); });
+}
+
+void remark_on_condition(const StudyData& data, const ledger::ConditionSpec& condition,
+                         std::vector<std::string>& remarks) {
+  const auto runs = data.runs(condition.name);
+  if (runs.empty()) return;
+  const auto complain = [&](std::string_view what) {
+    remarks.push_back(fmt::format("{}: runs differ in their {}; they are no sample of one condition.",
+                                  condition.label(), what));
+  };
+  if (differs(runs, [](const ledger::Record& run) { return run.config; })) complain("settings");
+  if (differs(runs, [](const ledger::Record& run) { return run.engine; })) complain("engine");
+  if (differs(runs, [](const ledger::Record& run) { return run.generations; }))
+    complain("number of generations");
+  const int asked = condition.generations > 0 ? condition.generations : data.study.generations;
+  if (asked > 0 && runs.front()->generations != asked)
+    remarks.push_back(fmt::format("{}: the runs have {} generations, the study asks for {}.",
+                                  condition.label(), runs.front()->generations, asked));
+}
+
+void remark_on_test(const StudyData& data, const ledger::TestSpec& test, std::vector<std::string>& remarks) {
+  if (const std::size_t lacking = without_test(data, test); lacking > 0)
+    remarks.push_back(fmt::format("Test {}: {} finished {} not have it yet.", test.name, lacking,
+                                  lacking == 1 ? "run does" : "runs do"));
+  for (const ledger::Record& record : data.records)
+    if (const auto* result = record.find_test(test.name); result && result->trial_s != test.seconds) {
+      remarks.push_back(fmt::format("Test {}: there are trials of {} s, the study asks for {} s.", test.name,
+                                    result->trial_s, test.seconds));
+      return;
+    }
+}
+
+}  // namespace
+
+std::size_t StudyData::planned() const {
+  std::size_t all = 0;
+  for (const ledger::ConditionSpec& condition : study.conditions) all += study.seeds_of(condition).size();
+  return all;
+}
+
+std::size_t StudyData::planned(std::string_view condition) const {
+  const auto* spec = study.find(condition);
+  AMBLE_CHECK(spec != nullptr, "a condition of the study");
+  return study.seeds_of(*spec).size();
+}
+
+std::vector<const ledger::Record*> StudyData::runs(std::string_view condition) const {
+  std::vector<const ledger::Record*> runs;
+  for (const ledger::Record& record : records)
+    if (record.condition == condition) runs.push_back(&record);
+  return runs;
+}
+
+std::vector<double> StudyData::values(std::string_view condition, std::string_view measure) const {
+  std::vector<double> values;
+  for (const ledger::Record* run : runs(condition))
+    if (const auto value = ledger::measure(*run, measure)) values.push_back(*value);
+  return values;
+}
+
+StudyData load_study_data(const std::filesystem::path& folder) {
+  const ledger::StudyPaths paths(folder);
+  StudyData data{.study = ledger::load_kept_study(paths), .records = {}, .strangers = {}};
+  const ledger::Ledger kept(paths);
+  data.records = kept.load_all(data.study);
+  for (const auto& stranger : kept.strangers(data.study))
+    data.strangers.push_back(stranger.filename().string());
+  return data;
+}
+
+std::vector<std::string> measures_of(const ledger::StudySpec& study) {
+  std::vector<std::string> measures{"train_m", "hidden", "links"};
+  for (const ledger::TestSpec& test : study.tests)
+    for (const char* what : {"distance_m", "upright_s", "walking_s", "kept"})
+      measures.push_back(test.name + "." + what);
+  return measures;
+}
+
+std::vector<std::string> distances_of(const ledger::StudySpec& study) {
+  std::vector<std::string> distances{"train_m"};
+  for (const ledger::TestSpec& test : study.tests) distances.push_back(test.name + ".distance_m");
+  return distances;
+}
+
+std::optional<double> training_s(const ledger::Record& record) {
+  const auto trial = record.champion.find("trial");
+  if (trial == record.champion.end() || !trial->is_object()) return std::nullopt;
+  const auto duration = trial->find("duration_s");
+  if (duration == trial->end() || !duration->is_number()) return std::nullopt;
+  return duration->get<double>();
+}
+
+std::vector<std::string> remarks(const StudyData& data) {
+  std::vector<std::string> remarks;
+  if (const std::string missing = missing_runs(data); !missing.empty())
+    remarks.push_back(
+        fmt::format("The study is not finished: {} of {} runs are in ({}). Every number and "
+                    "verdict on this page is of these runs and may change with the others.",
+                    data.records.size(), data.planned(), missing));
+  for (const ledger::ConditionSpec& condition : data.study.conditions)
+    remark_on_condition(data, condition, remarks);
+  for (const ledger::TestSpec& test : data.study.tests) remark_on_test(data, test, remarks);
+  const std::string claims = data.study.claims_hash();
+  const auto older = std::ranges::count_if(
+      data.records, [&](const ledger::Record& record) { return record.provenance.claims != claims; });
+  if (older > 0 && !data.study.claims.empty())
+    remarks.push_back(
+        fmt::format("The claims or their rules were changed after runs had finished: {} of {} "
+                    "records were made when they were others.",
+                    older, data.records.size()));
+  if (!data.strangers.empty())
+    remarks.push_back(fmt::format("The ledger has {} that {} no run of this study and not counted: {}.",
+                                  data.strangers.size() == 1 ? "a file" : "files",
+                                  data.strangers.size() == 1 ? "is" : "are",
+                                  fmt::join(data.strangers, ", ")));
+  return remarks;
+}
+
+}  // namespace amble::report

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "amble/ledger/record.hpp"
+#include "amble/ledger/study_spec.hpp"
+
+namespace amble::report {
+
+/// A study and those of its runs that are finished.
+struct StudyData {
+  ledger::StudySpec study;
+  std::vector<ledger::Record> records;  ///< by condition and seed in the order of the study
+  std::vector<std::string> strangers;   ///< names of files in the ledger that are no run of the study
+
+  std::size_t planned() const;                            ///< runs of all conditions
+  std::size_t planned(std::string_view condition) const;  ///< a condition of the study
+  std::vector<const ledger::Record*> runs(std::string_view condition) const;
+  /// Of all finished runs that have the measure (ledger/measures.hpp), in the order of seeds.
+  std::vector<double> values(std::string_view condition, std::string_view measure) const;
+};
+
+/// Reads DIR/study.toml and DIR/ledger. Throws UserError: no study, a damaged record.
+StudyData load_study_data(const std::filesystem::path& folder);
+
+/// Names of all measures that the study's records have: train_m, hidden, links, then those of its tests.
+std::vector<std::string> measures_of(const ledger::StudySpec& study);
+/// Those of them that are distances in m: train_m and TEST.distance_m.
+std::vector<std::string> distances_of(const ledger::StudySpec& study);
+
+/// Length of the trials in evolution, s, as the champion's file has it; none if it does not say.
+std::optional<double> training_s(const ledger::Record& record);
+
+/// What a reader must know before the numbers: runs that are missing or lack tests, a condition whose records
+/// differ in config, engine or generations, tests of another length than the study asks for, files that do
+/// not belong. Empty if all is well.
+std::vector<std::string> remarks(const StudyData& data);
+
+}  // namespace amble::report

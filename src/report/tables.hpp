@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "amble/report/report.hpp"
+
+namespace amble::report {
+
+/// A number in full precision, a text, or nothing.
+using Cell = std::variant<std::monostate, std::string, double, std::int64_t>;
+
+/// One file of CSV and one list of the JSON document.
+struct Table {
+  std::string name;                 ///< "runs"; the file is runs.csv
+  std::string about;                ///< what a row is
+  std::vector<std::string> header;  ///< the same words in every report, but for the tests of "runs"
+  std::vector<std::vector<Cell>> rows;
+};
+
+/// All numbers of a report, and those of the runs from which they can be computed again: runs, bests, curves,
+/// summary, pairs, survival, log_rank, gaits, transfer, claims.
+std::vector<Table> tables(const Report& report);
+
+}  // namespace amble::report

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "amble/report/study_data.hpp"
+#include "amble/report/verdict_rules.hpp"
+#include "amble/statistics/interval.hpp"
+
+namespace amble::report {
+
+/// Confidence of every interval in a report, unless a claim has a level of its own.
+inline constexpr double confidence = 0.95;
+
+/// What was found of one claim.
+struct Judgement {
+  Verdict verdict = Verdict::not_testable;
+  std::string reason;  ///< why, in a sentence or two
+
+  std::size_t n = 0, planned = 0;                  ///< runs of the condition that speak, of so many
+  std::size_t n_against = 0, planned_against = 0;  ///< of the other condition, 0 if there is none
+  std::string quantity;                          ///< what `estimate` is: "difference of means", "ratio", …
+  std::optional<double> estimate;                ///< in the unit of the measure where it has one
+  std::optional<statistics::Interval> interval;  ///< of the estimate
+  std::optional<double> mean, mean_against;      ///< of the measure, where means are compared
+  std::string test;                              ///< name of the test; empty: none was made
+  std::optional<double> p;                       ///< two-sided
+  std::optional<double> p_holm;                  ///< difference: adjusted over all claims of differences
+  std::string ours;                              ///< the estimate for people, next to the published figure
+};
+
+/// Judges all claims of a study, in their order. Claims of differences are one family: their p values are
+/// adjusted together by Holm's method, those without a test left out.
+std::vector<Judgement> judge(const StudyData& data);
+
+/// How many claims got each verdict, in the order of `verdict_names`.
+std::array<std::size_t, 4> count_verdicts(const std::vector<Judgement>& judgements);
+
+}  // namespace amble::report

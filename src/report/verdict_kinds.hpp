@@ -1,0 +1,25 @@
+#pragma once
+
+#include "amble/report/verdict.hpp"
+
+namespace amble::report {
+
+/// One claim with its numbers and, but for differences, its verdict (docs/STUDIES.md). A difference still
+/// waits for its adjusted p value: conclude_difference().
+Judgement judge_difference(const StudyData& data, const ledger::ClaimSpec& claim);
+Judgement judge_ratio(const StudyData& data, const ledger::ClaimSpec& claim);
+Judgement judge_value(const StudyData& data, const ledger::ClaimSpec& claim);
+Judgement judge_plateau(const StudyData& data, const ledger::ClaimSpec& claim);
+Judgement judge_count(const StudyData& data, const ledger::ClaimSpec& claim);
+Judgement judge_gaits(const StudyData& data, const ledger::ClaimSpec& claim);
+
+/// `judgement` has an estimate, p and p_holm.
+void conclude_difference(const ledger::ClaimSpec& claim, Judgement& judgement);
+
+/// A judgement with how many runs of the condition have the measure.
+Judgement begin_judgement(const StudyData& data, const ledger::ClaimSpec& claim, std::size_t n);
+
+/// "supg: 1 run has the measure, a test needs 2", or nothing if there are enough.
+std::string too_few(const StudyData& data, const std::string& condition, std::size_t n, std::size_t needed);
+
+}  // namespace amble::report

@@ -1,0 +1,240 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "amble/analysis/svg.hpp"
+#include "amble/ledger/measures.hpp"
+#include "amble/report/number_text.hpp"
+#include "amble/report/verdict_kinds.hpp"
+#include "amble/statistics/bootstrap.hpp"
+#include "amble/statistics/descriptive.hpp"
+#include "amble/statistics/rank_test.hpp"
+#include "amble/statistics/t_test.hpp"
+
+namespace amble::report {
+namespace {
+
+using ledger::ClaimSpec;
+using ledger::TwoSampleTest;
+
+/// Two conditions with the runs that speak.
+struct TwoSamples {
+  std::vector<double> first, second;
+};
+
+/// Sample sizes and means; says so if there are too few runs.
+bool begin_two(const StudyData& data, const ClaimSpec& claim, const TwoSamples& samples,
+               Judgement& judgement) {
+  judgement = begin_judgement(data, claim, samples.first.size());
+  judgement.n_against = samples.second.size();
+  judgement.planned_against = data.planned(claim.against);
+  if (!samples.first.empty()) judgement.mean = statistics::mean(samples.first);
+  if (!samples.second.empty()) judgement.mean_against = statistics::mean(samples.second);
+  judgement.reason = too_few(data, claim.condition, judgement.n, 2);
+  if (judgement.reason.empty()) judgement.reason = too_few(data, claim.against, judgement.n_against, 2);
+  return judgement.reason.empty();
+}
+
+void use_t_test(const std::optional<statistics::TTest>& test, Judgement& judgement) {
+  judgement.quantity = "difference of means";
+  if (!test) {
+    judgement.reason =
+        "All runs of each condition have the same value, which leaves the test without a scale.";
+    return;
+  }
+  judgement.p = test->p;
+  judgement.estimate = test->difference;
+  judgement.interval = test->interval;
+}
+
+void use_mann_whitney(const TwoSamples& samples, Judgement& judgement) {
+  judgement.p = statistics::mann_whitney(samples.first, samples.second)->p;
+  const auto superiority = statistics::vargha_delaney(samples.first, samples.second, confidence);
+  judgement.quantity = "A12";
+  judgement.estimate = superiority->a12;
+  judgement.interval = superiority->interval;
+}
+
+std::string two_means_text(const Judgement& judgement, std::string_view unit) {
+  const int decimals = decimals_for({*judgement.mean, *judgement.mean_against});
+  return fmt::format("{}{} against {}{}", number_text(*judgement.mean, decimals), unit,
+                     number_text(*judgement.mean_against, decimals), unit);
+}
+
+/// "at least 8", "1.18 to 1.54"; of a plateau "at most 5 %".
+std::string bounds_text(const ClaimSpec& claim) {
+  const auto text = [&claim](double bound) {
+    return claim.kind == ledger::ClaimKind::plateau ? analysis::number(100.0 * bound) + " %"
+                                                    : analysis::number(bound, 3);
+  };
+  if (claim.at_most == ledger::unbounded) return "at least " + text(claim.at_least);
+  if (claim.at_least == -ledger::unbounded) return "at most " + text(claim.at_most);
+  return text(claim.at_least) + " to " + text(claim.at_most);
+}
+
+/// Verdict and reason from an interval and the claimed range.
+void conclude_bounds(const ClaimSpec& claim, Judgement& judgement) {
+  judgement.verdict = bounds_verdict(*judgement.interval, claim.at_least, claim.at_most);
+  const std::string claimed = bounds_text(claim);
+  if (judgement.verdict == Verdict::confirmed)
+    judgement.reason = fmt::format("The whole interval is in the claimed range ({}).", claimed);
+  else if (judgement.verdict == Verdict::contradicted)
+    judgement.reason = fmt::format("The whole interval is outside the claimed range ({}).", claimed);
+  else {
+    const bool inside = *judgement.estimate >= claim.at_least && *judgement.estimate <= claim.at_most;
+    judgement.reason = fmt::format(
+        "The interval reaches across a bound of the claimed range ({}); the estimate itself lies {} it.",
+        claimed, inside ? "inside" : "outside");
+  }
+}
+
+void use_bootstrap(const std::optional<statistics::BootstrapInterval>& found, Judgement& judgement) {
+  if (!found) {
+    judgement.reason = "The denominator can be zero, which leaves the ratio without an interval.";
+    return;
+  }
+  judgement.estimate = found->estimate;
+  judgement.interval = found->interval;
+}
+
+Judgement judge_ratio_within(const StudyData& data, const ClaimSpec& claim) {
+  std::vector<double> numerators, denominators;
+  for (const ledger::Record* run : data.runs(claim.condition)) {
+    const auto above = ledger::measure(*run, claim.measure),
+               below = ledger::measure(*run, claim.base_measure);
+    if (!above || !below) continue;
+    numerators.push_back(*above);
+    denominators.push_back(*below);
+  }
+  Judgement judgement = begin_judgement(data, claim, numerators.size());
+  judgement.quantity = "ratio of sums";
+  judgement.reason = too_few(data, claim.condition, judgement.n, 2);
+  if (!judgement.reason.empty()) return judgement;
+  judgement.mean = statistics::mean(numerators);
+  judgement.mean_against = statistics::mean(denominators);
+  use_bootstrap(statistics::bootstrap_paired_ratio(numerators, denominators), judgement);
+  return judgement;
+}
+
+Judgement judge_ratio_between(const StudyData& data, const ClaimSpec& claim) {
+  const TwoSamples samples{data.values(claim.condition, claim.measure),
+                           data.values(claim.against, claim.measure)};
+  Judgement judgement;
+  const bool enough = begin_two(data, claim, samples, judgement);
+  judgement.quantity = "ratio of means";
+  if (enough)
+    use_bootstrap(statistics::bootstrap_ratio(samples.first, samples.second, statistics::mean), judgement);
+  return judgement;
+}
+
+}  // namespace
+
+Judgement judge_difference(const StudyData& data, const ClaimSpec& claim) {
+  const TwoSamples samples{data.values(claim.condition, claim.measure),
+                           data.values(claim.against, claim.measure)};
+  Judgement judgement;
+  if (!begin_two(data, claim, samples, judgement)) return judgement;
+  switch (claim.test) {
+    case TwoSampleTest::student:
+      judgement.test = "Student’s t";
+      use_t_test(statistics::student_t_test(samples.first, samples.second, confidence), judgement);
+      break;
+    case TwoSampleTest::welch:
+      judgement.test = "Welch’s t";
+      use_t_test(statistics::welch_t_test(samples.first, samples.second, confidence), judgement);
+      break;
+    case TwoSampleTest::mann_whitney:
+      judgement.test = "Mann–Whitney";
+      use_mann_whitney(samples, judgement);
+      break;
+  }
+  const bool rank_test = claim.test == TwoSampleTest::mann_whitney;
+  judgement.ours = two_means_text(judgement, unit_of(claim.measure));
+  if (judgement.estimate)
+    judgement.ours += fmt::format(
+        "; {} {}", rank_test ? "A12" : "difference",
+        estimate_text(*judgement.estimate, judgement.interval, rank_test ? "" : unit_of(claim.measure)));
+  return judgement;
+}
+
+void conclude_difference(const ClaimSpec& claim, Judgement& judgement) {
+  const double neutral = claim.test == TwoSampleTest::mann_whitney ? 0.5 : 0.0;
+  const auto direction = statistics::direction_of(*judgement.estimate - neutral);
+  judgement.verdict = difference_verdict(claim.relation, direction, *judgement.p_holm, claim.alpha);
+  const bool significant = *judgement.p_holm < claim.alpha;
+  const std::string_view where =
+      direction == statistics::Direction::less      ? "The difference points the other way"
+      : direction == statistics::Direction::greater ? "The difference points as claimed"
+                                                    : "There is no difference";
+  judgement.reason = direction == statistics::Direction::equal
+                         ? std::string(where) + "."
+                         : fmt::format("{} and is {}significant at {} after Holm’s adjustment.", where,
+                                       significant ? "" : "not ", analysis::number(claim.alpha, 9));
+  if (claim.relation == ledger::Relation::not_less && judgement.verdict == Verdict::confirmed)
+    judgement.reason += " The claim is that the condition does not do worse; it need not do better.";
+}
+
+Judgement judge_ratio(const StudyData& data, const ClaimSpec& claim) {
+  Judgement judgement =
+      claim.against.empty() ? judge_ratio_within(data, claim) : judge_ratio_between(data, claim);
+  if (!judgement.interval) return judgement;
+  judgement.ours = estimate_text(*judgement.estimate, judgement.interval, " ×");
+  conclude_bounds(claim, judgement);
+  return judgement;
+}
+
+Judgement judge_value(const StudyData& data, const ClaimSpec& claim) {
+  const auto sample = data.values(claim.condition, claim.measure);
+  Judgement judgement = begin_judgement(data, claim, sample.size());
+  judgement.quantity = "mean";
+  judgement.reason = too_few(data, claim.condition, judgement.n, 2);
+  if (!judgement.reason.empty()) return judgement;
+  const auto moments = *statistics::moments(sample);
+  const statistics::Moments published{static_cast<std::size_t>(claim.runs), claim.mean, claim.sd};
+  const auto test = *statistics::welch_t_test(moments, published, 1.0 - claim.alpha);
+  judgement.test = "Welch’s t";
+  judgement.p = test.p;
+  judgement.mean = judgement.estimate = moments.mean;
+  judgement.interval = *statistics::mean_interval(moments, 1.0 - claim.alpha);
+  const auto theirs = *statistics::mean_interval(published, 1.0 - claim.alpha);
+  const bool inside = judgement.interval->contains(claim.mean);
+  judgement.verdict = agreement_verdict(test.p, claim.alpha, inside);
+  judgement.ours =
+      fmt::format("{}, sd {}", estimate_text(moments.mean, judgement.interval, unit_of(claim.measure)),
+                  number_text(moments.sd));
+  judgement.reason =
+      fmt::format("Published {} {}; the published mean lies {} our interval. {}", number_text(claim.mean),
+                  interval_text(theirs, decimals_for({claim.mean, theirs.lower, theirs.upper})),
+                  inside ? "in" : "outside",
+                  judgement.verdict == Verdict::contradicted
+                      ? "The means differ significantly."
+                      : "No difference was found, which does not prove that there is none.");
+  return judgement;
+}
+
+Judgement judge_plateau(const StudyData& data, const ClaimSpec& claim) {
+  std::vector<double> gains;
+  for (const ledger::Record* run : data.runs(claim.condition)) {
+    const int last = run->generations - 1;
+    if (last <= claim.from_generation) continue;
+    const double best = run->best_after(last);
+    // A run that got nowhere gains nothing.
+    gains.push_back(best > 0.0 ? (best - run->best_after(claim.from_generation)) / best : 0.0);
+  }
+  Judgement judgement = begin_judgement(data, claim, gains.size());
+  judgement.quantity = "mean gain, share of the final best";
+  judgement.reason = too_few(data, claim.condition, data.runs(claim.condition).size(), 2);
+  if (judgement.reason.empty() && gains.size() < 2)
+    judgement.reason = fmt::format("The runs are not longer than {} generations.", claim.from_generation);
+  if (!judgement.reason.empty()) return judgement;
+  const auto found = *statistics::bootstrap(gains, statistics::mean);
+  judgement.estimate = found.estimate;
+  judgement.interval = found.interval;
+  judgement.ours =
+      fmt::format("{} [{}, {}] % of the final best", number_text(100.0 * found.estimate, 1),
+                  number_text(100.0 * found.interval.lower, 1), number_text(100.0 * found.interval.upper, 1));
+  conclude_bounds(claim, judgement);
+  return judgement;
+}
+
+}  // namespace amble::report
