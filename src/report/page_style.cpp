@@ -57,17 +57,22 @@ nav a { color: var(--soft); text-underline-offset: 3px; }
 .claims .test { width: 12%; } .claims .judged { white-space: nowrap; }
 .claims .reason { display: block; margin-top: 3px; color: var(--soft); font-size: 13px; }
 .claims .p { white-space: nowrap; }
-.scroll { overflow-x: auto; } .pairs .number { white-space: normal; }
+.data thead .number { white-space: normal; }
+.scroll { overflow-x: auto; margin-top: 20px; } .scroll > table { margin-top: 0; }
 .data.matrix { font-size: 11.5px; } .data.matrix th, .data.matrix td { padding: 4px 0 4px 5px; } .data.matrix tbody th { white-space: nowrap; font-size: 12px; }
 .count { display: block; min-width: 34px; }
 .count i { display: block; height: 4px; margin-top: 3px; margin-left: auto; border-radius: 2px; background: var(--leg); }
 details { margin-top: 18px; border-top: 1px solid var(--hair); padding-top: 12px; }
 summary { cursor: pointer; font-weight: 600; font-size: 15.5px; }
-details .scroll { margin-top: 14px; }
+details .scroll { margin-top: 14px; } details .scroll + .scroll { margin-top: 30px; }
 )css";
 
 constexpr std::string_view phone_and_paper = R"css(
+@media screen and (max-width: 900px) {
+  .data { font-size: 13px; } .data th, .data td { padding-left: 12px; }
+}
 @media screen and (max-width: 700px) {
+  .data { font-size: 14px; }
   .data thead { display: none; }
   .data, .data tbody, .data tr, .data th, .data td { display: block; width: auto; }
   .data tr { padding: 12px 0; border-top: 1px solid var(--hair); }
@@ -93,7 +98,7 @@ constexpr std::string_view phone_and_paper = R"css(
   section { break-inside: auto; } h2, h3 { break-after: avoid; } figure, tr { break-inside: avoid; }
   details::details-content { content-visibility: visible; display: block; }
   .data { font-size: 8.5pt; } .data th, .data td { padding-top: 3pt; padding-bottom: 3pt; }
-  .scroll { overflow: visible; }
+  .scroll { overflow: visible; } .data th, .data td { padding-left: 9pt; } .data.matrix { font-size: 6pt; } .data.matrix th, .data.matrix td { padding: 2pt 0 2pt 2pt; } .data.matrix tbody th { font-size: 6.5pt; }
 }
 )css";
 

@@ -56,7 +56,7 @@ std::string pair_table(const Report& report, const PairTable& pairs) {
     table.row_of_markup(
         {fmt::format("{} <small>−</small> {}", escape(report.label(pair.first)),
                      escape(report.label(pair.second))),
-         pair.welch ? escape(estimate_text(pair.welch->test.difference, pair.welch->test.interval, "")) : "–",
+         pair.welch ? tied(estimate_text(pair.welch->test.difference, pair.welch->test.interval, "")) : "–",
          p_cell(pair.student), p_cell(pair.welch), p_cell(pair.mann_whitney),
          superiority
              ? fmt::format("{} {}", number_text(superiority->a12, 2), interval_text(superiority->interval, 2))

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
+#include <ranges>
 
 #include "amble/analysis/axis.hpp"
 #include "amble/analysis/svg.hpp"
@@ -82,18 +84,34 @@ std::string end_text(const Report& report, const Frame& frame, const ConditionLi
                      fitted(report.label(condition.condition), 170.0));
 }
 
+/// Places for labels, apart from each other and within the bounds: analysis::spread, then pushed back inside.
+std::vector<double> spread_within(std::vector<double> places, double top, double bottom) {
+  constexpr double gap = 17.0;
+  analysis::spread(places, gap);
+  std::vector<std::size_t> order(places.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return places[i]; });
+  double least = top;
+  for (const std::size_t i : order) {
+    places[i] = std::max(places[i], least);
+    least = places[i] + gap;
+  }
+  double most = bottom;
+  for (const std::size_t i : order | std::views::reverse) {
+    places[i] = std::min(places[i], most);
+    most = places[i] - gap;
+  }
+  return places;
+}
+
 /// Names at the ends of the curves, moved apart, each tied to its end by a thin line.
 void draw_end_labels(Svg& svg, const Report& report, const SurvivalTable& table, const Frame& frame) {
   std::vector<double> places;
   for (const auto& condition : table.conditions)
     places.push_back(frame.y(100.0 * condition.curve.at(frame.trial_s)));
-  auto spread = places;
-  analysis::spread(spread, 17.0);
-  // The pile of labels must not leave the picture.
-  const double lowest = *std::ranges::max_element(spread), over = lowest - (frame.plot.bottom() + 4.0);
-  for (std::size_t i = 0; i < spread.size(); ++i) {
-    const double y = over > 0.0 ? std::min(spread[i], spread[i] - over) : spread[i];
-    const double x = frame.plot.right();
+  const auto labels = spread_within(places, frame.plot.y, frame.plot.bottom() + 4.0);
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const double x = frame.plot.right(), y = labels[i];
     svg.begin_group("strip " + analysis::leg_class(report.index(table.conditions[i].condition)));
     svg.line({x + 2, places[i]}, {x + 16, y}, "lead");
     svg.line({x + 16, y}, {x + 26, y}, "curve");

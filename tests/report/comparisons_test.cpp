@@ -1,0 +1,66 @@
+#include "amble/report/comparisons.hpp"
+
+#include <gtest/gtest.h>
+
+#include "amble/statistics/multiple_tests.hpp"
+#include "tests/report/fixture.hpp"
+
+namespace amble::report {
+namespace {
+
+TEST(Summaries, HaveBootstrapIntervalsOfDistancesOnly) {
+  const StudyData data = small_study();
+  const auto summaries = summarize(data);
+  EXPECT_EQ(summaries.size(), 2u * (3u + 2u * 4u)) << "every measure in both conditions";
+  const auto* distance = find_summary(summaries, "long.distance_m", "a");
+  ASSERT_NE(distance, nullptr);
+  EXPECT_DOUBLE_EQ(distance->summary.mean, 15.0);
+  EXPECT_TRUE(distance->median && distance->interquartile_mean);
+  EXPECT_FALSE(find_summary(summaries, "hidden", "a")->median);
+  EXPECT_EQ(find_summary(summaries, "hidden", "c"), nullptr);
+}
+
+TEST(Summaries, OfOneRunHaveNoIntervals) {
+  StudyData data{.study = sample_study({"a", "b"}, 3), .records = {}, .strangers = {}};
+  add_runs(data, "a", {4.0});
+  const auto summaries = summarize(data);
+  const auto* distance = find_summary(summaries, "train_m", "a");
+  ASSERT_NE(distance, nullptr);
+  EXPECT_EQ(distance->planned, 3u);
+  EXPECT_FALSE(distance->summary.sd || distance->summary.mean_interval || distance->median);
+  EXPECT_EQ(find_summary(summaries, "train_m", "b"), nullptr);
+}
+
+TEST(Pairs, AreAllPairsOfOneMeasureAndEachTestIsAFamily) {
+  const auto tables = compare_pairs(large_study(5, 4));
+  ASSERT_EQ(tables.size(), 3u) << "evolution and two tests";
+  for (const PairTable& table : tables) {
+    ASSERT_EQ(table.pairs.size(), 10u);
+    std::vector<double> student, ranks;
+    for (const Pair& pair : table.pairs) {
+      student.push_back(pair.student->test.p);
+      ranks.push_back(pair.mann_whitney->test.p);
+    }
+    const auto student_holm = statistics::holm(student), ranks_holm = statistics::holm(ranks);
+    for (std::size_t i = 0; i < 10; ++i) {
+      EXPECT_EQ(table.pairs[i].student->p_holm, student_holm[i]);
+      EXPECT_EQ(table.pairs[i].mann_whitney->p_holm, ranks_holm[i]);
+    }
+  }
+}
+
+TEST(Pairs, LeaveOutConditionsWithTooFewRuns) {
+  StudyData data{.study = sample_study({"a", "b", "c"}, 3), .records = {}, .strangers = {}};
+  add_runs(data, "a", {4.0, 5.0});
+  add_runs(data, "b", {4.0});
+  EXPECT_TRUE(compare_pairs(data).empty());
+  add_runs(data, "c", {1.0, 2.0, 3.0});
+  const auto tables = compare_pairs(data);
+  ASSERT_EQ(tables.size(), 1u);
+  ASSERT_EQ(tables[0].pairs.size(), 1u);
+  EXPECT_EQ(tables[0].pairs[0].first + tables[0].pairs[0].second, "ac");
+  EXPECT_EQ(tables[0].pairs[0].superiority->a12, 1.0);
+}
+
+}  // namespace
+}  // namespace amble::report

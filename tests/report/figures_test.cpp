@@ -1,0 +1,133 @@
+#include "amble/report/figures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "amble/report/curves_figure.hpp"
+#include "amble/report/survival_figure.hpp"
+#include "tests/analysis/xml.hpp"
+#include "tests/report/fixture.hpp"
+
+namespace amble::report {
+namespace {
+
+using analysis::Layout;
+using tests::parse_xml;
+using tests::with_class;
+
+TEST(Beeswarm, KeepsPointsApartWhereThereIsRoom) {
+  std::mt19937 random(3);
+  for (int round = 0; round < 200; ++round) {
+    std::vector<double> places(20);
+    for (double& place : places) place = static_cast<double>(random() % 3000) / 10.0;
+    const auto offsets = beeswarm(places, 2.0, 40.0);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        EXPECT_GE(std::hypot(places[i] - places[k], offsets[i] - offsets[k]), 4.0);
+    EXPECT_EQ(offsets, beeswarm(places, 2.0, 40.0));
+  }
+}
+
+TEST(Beeswarm, StaysWithinItsStrip) {
+  for (const double offset : beeswarm(std::vector<double>(50, 7.0), 2.6, 8.0))
+    EXPECT_LE(std::abs(offset), 8.0);
+}
+
+/// The scale of a figure of rows, from its ticks.
+double px_per_unit(const std::vector<tests::XmlElement>& elements) {
+  std::vector<const tests::XmlElement*> ticks;
+  for (const auto& element : elements)
+    if (element.name == "text" && element.attributes.count("class") &&
+        element.attributes.at("class") == "tick" && element.attributes.at("text-anchor") == "middle")
+      ticks.push_back(&element);
+  return (ticks.back()->number("x") - ticks.front()->number("x")) /
+         (std::stod(ticks.back()->text) - std::stod(ticks.front()->text));
+}
+
+TEST(RowsFigure, DrawsMeansIntervalsAndRunsToScale) {
+  const Report report = make_report(small_study());
+  const auto rows = training_rows(report);
+  ASSERT_EQ(rows.size(), 2u);
+  for (const auto layout : {Layout::wide, Layout::narrow}) {
+    const auto elements = parse_xml(rows_figure(rows, " m", "distances", layout));
+    const double scale = px_per_unit(elements);
+    const auto bars = with_class(elements, "bar"), runs = with_class(elements, "run"),
+               whiskers = with_class(elements, "whisker");
+    ASSERT_EQ(bars.size(), 2u);
+    ASSERT_EQ(runs.size(), 6u);
+    ASSERT_EQ(whiskers.size(), 6u);
+    const double zero = bars[0].number("x");
+    EXPECT_NEAR(bars[0].number("width"), 5.0 * scale, 0.02);
+    EXPECT_NEAR(runs[0].number("cx"), zero + 4.0 * scale, 0.02);
+    EXPECT_NEAR(whiskers[0].number("x1"), zero + rows[0].strips[0].interval->lower * scale, 0.02);
+    EXPECT_NEAR(whiskers[0].number("x2"), zero + rows[0].strips[0].interval->upper * scale, 0.02);
+  }
+}
+
+TEST(RowsFigure, OfATestHasEvolutionBesideIt) {
+  const Report report = make_report(small_study());
+  const auto rows = test_rows(report, "long");
+  ASSERT_EQ(rows.size(), 2u);
+  ASSERT_EQ(rows[0].strips.size(), 2u);
+  EXPECT_EQ(rows[0].strips[0].mean, 5.0);
+  EXPECT_EQ(rows[0].strips[1].mean, 15.0);
+}
+
+/// Every text stands within the picture, by a generous estimate of its width.
+void expect_inside(const std::string& svg) {
+  const auto elements = parse_xml(svg);
+  const double width = elements[0].number("width"), height = elements[0].number("height");
+  for (const auto& element : elements) {
+    if (element.name != "text") continue;
+    EXPECT_GE(element.number("x"), 0.0) << element.text;
+    EXPECT_LE(element.number("x"), width) << element.text;
+    EXPECT_GE(element.number("y"), 4.0) << element.text;
+    EXPECT_LE(element.number("y"), height + 1.0) << element.text;
+  }
+}
+
+TEST(Figures, HoldTheirTextsWithTwoConditionsOrTwenty) {
+  for (const int count : {2, 4, 8, 9, 20}) {
+    const Report report = make_report(large_study(count, 3));
+    for (const auto layout : {Layout::wide, Layout::narrow}) {
+      expect_inside(rows_figure(training_rows(report), " m", "", layout));
+      expect_inside(rows_figure(test_rows(report, "long"), " m", "", layout));
+      expect_inside(curves_figure(report, layout));
+      for (const SurvivalTable& table : report.survival)
+        expect_inside(survival_figure(report, table, layout));
+    }
+  }
+}
+
+TEST(SurvivalFigure, StepsDownWhereLifetimesEnd) {
+  const Report report = make_report(small_study());
+  const auto curves =
+      with_class(parse_xml(survival_figure(report, report.survival[0], Layout::wide)), "curve");
+  const auto steps = tests::points(curves.at(1));  // "b": 40, 80 and 120 s of 300 s
+  ASSERT_EQ(steps.size(), 8u);
+  const double left = steps[0].first, width = steps.back().first - left, top = steps[0].second;
+  const double height = steps.back().second - top;
+  EXPECT_NEAR(steps[1].first, left + width * 40.0 / 300.0, 0.1);
+  EXPECT_NEAR(steps[2].second, top + height / 3.0, 0.1);
+  EXPECT_NEAR(steps[5].first, left + width * 120.0 / 300.0, 0.1);
+}
+
+TEST(FigureFiles, StandAlone) {
+  const auto files = figure_files(make_report(small_study()));
+  std::vector<std::string> names;
+  for (const FigureFile& file : files) {
+    names.push_back(file.name);
+    EXPECT_NO_THROW(parse_xml(file.svg)) << file.name;
+    EXPECT_NE(file.svg.find(".whisker"), std::string::npos) << file.name;
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"distance.svg", "distance-long.svg", "distance-ode.svg",
+                                             "curves.svg", "upright-long.svg", "walking-long.svg",
+                                             "upright-ode.svg", "walking-ode.svg"}));
+  EXPECT_TRUE(
+      figure_files(make_report({.study = sample_study({"a"}, 2), .records = {}, .strangers = {}})).empty());
+}
+
+}  // namespace
+}  // namespace amble::report

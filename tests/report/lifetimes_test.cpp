@@ -1,0 +1,65 @@
+#include "amble/report/lifetimes.hpp"
+
+#include <gtest/gtest.h>
+
+#include "amble/report/curves.hpp"
+#include "tests/report/fixture.hpp"
+
+namespace amble::report {
+namespace {
+
+TEST(Lifetimes, AreCensoredAtTheLengthOfTheTest) {
+  const auto tables = survival_tables(small_study());
+  ASSERT_EQ(tables.size(), 4u) << "two tests, two doings";
+  const SurvivalTable& upright = tables[0];
+  EXPECT_EQ(upright.test, "long");
+  EXPECT_EQ(upright.doing, Doing::upright);
+  EXPECT_EQ(upright.trial_s, 300.0);
+  // "a": falls after 40 s, lasts, lasts; "b": falls after 40, 80 and 120 s.
+  EXPECT_EQ(upright.conditions.at(0).curve.ended, 1u);
+  EXPECT_EQ(upright.conditions.at(1).curve.ended, 3u);
+  EXPECT_DOUBLE_EQ(upright.conditions[0].curve.at(300.0), 2.0 / 3.0);
+  EXPECT_EQ(upright.conditions[1].curve.at(120.0), 0.0);
+  ASSERT_TRUE(upright.log_rank);
+  EXPECT_EQ(upright.log_rank->degrees_of_freedom, 1u);
+}
+
+TEST(Lifetimes, OfWalkingEndByStandingStillToo) {
+  const SurvivalTable walking = survival_tables(small_study())[1];
+  EXPECT_EQ(walking.doing, Doing::walking);
+  EXPECT_EQ(walking.conditions.at(0).curve.ended, 3u) << "who stays up walks only 200 s";
+}
+
+TEST(Lifetimes, OfTestsAsLongAsEvolutionAreNotLong) {
+  const auto tables = survival_tables(small_study());
+  EXPECT_TRUE(tables[0].is_long);
+  EXPECT_FALSE(tables[2].is_long) << "15 s, as the trials of evolution";
+  EXPECT_FALSE(tables[2].log_rank) << "nothing ended";
+}
+
+TEST(BestCurves, AreQuartilesOverRuns) {
+  StudyData data{.study = sample_study({"a", "b"}, 3), .records = {}, .strangers = {}};
+  add_runs(data, "a", {2.0, 4.0, 8.0});
+  const auto curves = best_curves(data);
+  ASSERT_EQ(curves.size(), 1u) << "none of a condition without runs";
+  EXPECT_EQ(curves[0].generation.size(), 10u);
+  EXPECT_EQ(curves[0].generation.back(), 9);
+  EXPECT_EQ(curves[0].median_m[5], 2.0);
+  EXPECT_EQ(curves[0].median_m[6], 4.0);
+  EXPECT_EQ(curves[0].lower_quartile_m[9], 3.0);
+  EXPECT_EQ(curves[0].upper_quartile_m[9], 6.0);
+}
+
+TEST(BestCurves, OfLongRunsAreSampledFromFirstToLast) {
+  StudyData data{.study = sample_study({"a"}, 2), .records = {}, .strangers = {}};
+  add_runs(data, "a", {2.0, 4.0});
+  data.records[0].generations = 800;
+  data.records[1].generations = 1000;
+  const auto curve = best_curves(data)[0];
+  EXPECT_EQ(curve.generation.size(), 121u);
+  EXPECT_EQ(curve.generation.front(), 0);
+  EXPECT_EQ(curve.generation.back(), 799) << "as far as the shortest run";
+}
+
+}  // namespace
+}  // namespace amble::report

@@ -1,0 +1,136 @@
+#include "amble/report/page.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "amble/analysis/svg.hpp"
+#include "amble/report/json.hpp"
+#include "amble/report/number_text.hpp"
+#include "amble/report/tables.hpp"
+#include "tests/analysis/xml.hpp"
+#include "tests/report/fixture.hpp"
+
+namespace amble::report {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using tests::parse_xml;
+using tests::with_class;
+
+std::string page(StudyData data) {
+  return make_page(make_report(std::move(data)));
+}
+
+std::vector<std::string> sections(const std::string& html) {
+  std::vector<std::string> found;
+  for (const auto& element : parse_xml(html))
+    if (element.name == "section") found.push_back(element.attributes.at("id"));
+  return found;
+}
+
+TEST(Page, IsWellFormedWithTwoConditionsOrTwenty) {
+  EXPECT_EQ(sections(page(small_study())),
+            (std::vector<std::string>{"claims", "distance", "curves", "survival", "sizes", "gaits",
+                                      "transfer", "pairs", "made"}));
+  EXPECT_NO_THROW(parse_xml(page(large_study(20, 3))));
+  EXPECT_NO_THROW(parse_xml(page(large_study(1, 1))));
+}
+
+TEST(Page, OfAnEmptyLedgerSaysSo) {
+  StudyData data = small_study();
+  data.records.clear();
+  const std::string html = page(data);
+  EXPECT_EQ(sections(html), (std::vector<std::string>{"claims", "made"}));
+  EXPECT_THAT(html, HasSubstr("0 of 6 runs are in"));
+  EXPECT_EQ(count_verdicts(make_report(data).judgements)[3], 6u) << "nothing is testable";
+}
+
+TEST(Page, OfAStudyHalfDoneSaysWhatIsThere) {
+  StudyData data = small_study();
+  data.records.erase(data.records.begin() + 1,
+                     data.records.begin() + 5);  // one run of each condition is left
+  const std::string html = page(data);
+  EXPECT_NO_THROW(parse_xml(html));
+  EXPECT_THAT(html, HasSubstr("2 of 6 runs are in (a: 1 of 3; b: 1 of 3)"));
+  EXPECT_THAT(html, HasSubstr("too few for any test"));
+  EXPECT_THAT(html, HasSubstr("Too few runs: a has 1, 2 are needed."));
+}
+
+TEST(Page, SaysWhetherTheClaimsStoodBeforeTheRuns) {
+  StudyData data = small_study();
+  EXPECT_THAT(page(data), HasSubstr("were the same when each run finished"));
+  data.study.claims[0].alpha = 0.01;
+  EXPECT_THAT(page(data), Not(HasSubstr("were the same when each run finished")));
+  EXPECT_THAT(page(data), HasSubstr("6 of 6 records were made when they were others"));
+}
+
+TEST(Page, EscapesHostileTexts) {
+  const std::string hostile = "</title><script>alert(1)</script>\"'&<b>\x01";
+  StudyData data = small_study();
+  data.study.title = data.study.name = hostile;
+  data.study.settings = {hostile};
+  for (auto& condition : data.study.conditions) condition.title = condition.config = hostile;
+  for (auto& claim : data.study.claims) claim.text = claim.source = claim.figure = hostile;
+  for (ledger::Record& run : data.records) {
+    run.engine = run.config = hostile;
+    auto& made = run.provenance;
+    made.version = made.commit = made.compiler = made.flags = made.cpu = made.finished_utc = hostile;
+    for (auto& test : run.tests) test.gait = test.engine = hostile;
+  }
+  data.strangers = {hostile};
+  const std::string html = page(data);
+  EXPECT_NO_THROW(parse_xml(html));
+  EXPECT_THAT(html, Not(HasSubstr("<script")));
+  EXPECT_THAT(html, Not(HasSubstr("<b>\xEF")));
+}
+
+TEST(Page, AsksForNothingAndRunsNothing) {
+  const std::string html = page(small_study());
+  for (const char* word : {"<script", "http://", "https://", "src=", "url(", "@import", "<link", "<iframe"}) {
+    std::size_t found = 0;
+    for (std::size_t at = 0; (at = html.find(word, at)) != std::string::npos; ++at)
+      found += html.compare(at, 18, "http://www.w3.org/") != 0;
+    EXPECT_EQ(found, 0u) << word;
+  }
+}
+
+TEST(Page, RepeatsToTheByte) {
+  EXPECT_EQ(page(large_study(4, 5)), page(large_study(4, 5)));
+  EXPECT_EQ(to_json(make_report(small_study())), to_json(make_report(small_study())));
+}
+
+TEST(Page, HasTheNumbersOfTheTables) {
+  const Report report = make_report(large_study(3, 6));
+  const std::string html = make_page(report);
+  for (const Table& table : tables(report)) {
+    if (table.name != "pairs" && table.name != "summary") continue;
+    const auto column = [&table](const std::string& title) {
+      return static_cast<std::size_t>(std::ranges::find(table.header, title) - table.header.begin());
+    };
+    const bool pairs = table.name == "pairs";
+    const std::string value = pairs ? "welch_difference" : "mean",
+                      lower = pairs ? "welch_lower" : "mean_lower",
+                      upper = pairs ? "welch_upper" : "mean_upper";
+    for (const auto& row : table.rows) {
+      const auto number = [&](const std::string& title) { return std::get<double>(row[column(title)]); };
+      if (const auto& measure = std::get<std::string>(row[0]); !pairs && !measure.ends_with("_m")) continue;
+      const int decimals = decimals_for({number(value), number(lower), number(upper)});
+      EXPECT_THAT(
+          html, HasSubstr(number_text(number(value), decimals) + " [" + number_text(number(lower), decimals) +
+                          ",\u00A0" + number_text(number(upper), decimals) + "]"));
+      const std::string p = pairs ? p_number(number("student_p")) : "";
+      EXPECT_NE(html.find(analysis::escape(p)), std::string::npos) << p;
+    }
+  }
+}
+
+TEST(Page, ShowsEachVerdictInTheTableOfClaims) {
+  const Report report = make_report(small_study());
+  const auto marks = with_class(parse_xml(make_page(report)), "verdict");
+  ASSERT_EQ(marks.size(), 4u + 6u) << "four counts, six claims";
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(marks[4 + i].text, name_of(report.judgements[i].verdict));
+}
+
+}  // namespace
+}  // namespace amble::report

@@ -1,0 +1,62 @@
+#include "amble/report/study_data.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "amble/core/error.hpp"
+#include "amble/ledger/ledger.hpp"
+#include "tests/io/temporary_folder.hpp"
+#include "tests/report/fixture.hpp"
+
+namespace amble::report {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(StudyData, ComesFromTheFolderAlone) {
+  const test::TemporaryFolder folder;
+  const ledger::StudyPaths paths(std::filesystem::path(folder / "study"));
+  EXPECT_THROW(load_study_data(paths.folder), UserError);
+  const StudyData data = small_study();
+  ledger::keep_study(paths, data.study);
+  EXPECT_TRUE(load_study_data(paths.folder).records.empty());
+  for (const ledger::Record& run : data.records) ledger::Ledger(paths).save(run);
+  const StudyData loaded = load_study_data(paths.folder);
+  EXPECT_EQ(loaded.records.size(), 6u);
+  EXPECT_EQ(loaded.planned(), 6u);
+  EXPECT_THAT(loaded.values("a", "long.distance_m"), ElementsAre(12.0, 15.0, 18.0));
+  EXPECT_EQ(ledger::ledger_digest(loaded.records), ledger::ledger_digest(data.records));
+}
+
+TEST(Remarks, AreNoneOfAFinishedStudy) {
+  EXPECT_THAT(remarks(small_study()), IsEmpty());
+}
+
+TEST(Remarks, TellWhatIsMissing) {
+  StudyData data = small_study();
+  data.records.erase(data.records.begin() + 1);
+  data.records[0].tests.pop_back();
+  EXPECT_THAT(remarks(data), ElementsAre(HasSubstr("5 of 6 runs are in (a: 2 of 3)"),
+                                         "Test ode: 1 finished run does not have it yet."));
+}
+
+TEST(Remarks, TellWhatDoesNotFit) {
+  StudyData data = small_study();
+  data.records[1].config = "another";
+  data.records[4].generations = 12;
+  data.records[5].tests[0].trial_s = 200.0;
+  data.records[5].provenance.claims = "others";
+  data.strangers = {"x-001.json"};
+  EXPECT_THAT(remarks(data), ElementsAre(HasSubstr("a: runs differ in their settings"),
+                                         HasSubstr("b: runs differ in their number of generations"),
+                                         HasSubstr("trials of 200 s, the study asks for 300 s"),
+                                         HasSubstr("1 of 6 records were made when they were others"),
+                                         HasSubstr("x-001.json")));
+}
+
+}  // namespace
+}  // namespace amble::report

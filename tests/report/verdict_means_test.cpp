@@ -1,0 +1,184 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "amble/report/verdict.hpp"
+#include "tests/report/fixture.hpp"
+
+namespace amble::report {
+namespace {
+
+using ledger::ClaimKind;
+using ledger::ClaimSpec;
+using ledger::Relation;
+using ledger::TwoSampleTest;
+using testing::HasSubstr;
+
+class Claims : public testing::Test {
+ protected:
+  Claims() { data_.study = sample_study({"a", "b"}, 5); }
+
+  ClaimSpec& claim(ClaimKind kind) {
+    ClaimSpec claim;
+    claim.kind = kind;
+    claim.text = "so it is";
+    claim.condition = "a";
+    if (kind == ClaimKind::difference) claim.against = "b";
+    data_.study.claims.push_back(claim);
+    return data_.study.claims.back();
+  }
+  Judgement only() const { return judge(data_).at(0); }
+
+  StudyData data_{};
+};
+
+TEST_F(Claims, OfADifferenceIsConfirmedOrContradictedByTheTest) {
+  add_runs(data_, "a", {4.0, 4.1, 4.2, 4.3, 4.4});
+  add_runs(data_, "b", {1.0, 1.1, 1.2, 1.3, 1.4});
+  for (const auto test : {TwoSampleTest::student, TwoSampleTest::welch, TwoSampleTest::mann_whitney}) {
+    data_.study.claims.clear();
+    claim(ClaimKind::difference).test = test;
+    EXPECT_EQ(only().verdict, Verdict::confirmed);
+    std::swap(data_.study.claims[0].condition, data_.study.claims[0].against);
+    EXPECT_EQ(only().verdict, Verdict::contradicted);
+    data_.study.claims[0].relation = Relation::not_less;
+    EXPECT_EQ(only().verdict, Verdict::contradicted);
+    std::swap(data_.study.claims[0].condition, data_.study.claims[0].against);
+    EXPECT_EQ(only().verdict, Verdict::confirmed);
+  }
+}
+
+TEST_F(Claims, OfADifferenceTellsStudentsNumbers) {
+  // Means 4.2 and 1.2, both of variance 0.025: t = 3 / (0.1 √(2 · 0.5)) = 30 with 8 degrees of freedom.
+  add_runs(data_, "a", {4.0, 4.1, 4.2, 4.3, 4.4});
+  add_runs(data_, "b", {1.0, 1.1, 1.2, 1.3, 1.4});
+  claim(ClaimKind::difference);
+  const Judgement judged = only();
+  EXPECT_NEAR(*judged.estimate, 3.0, 1e-12);
+  EXPECT_NEAR(judged.interval->lower, 3.0 - 2.306004 * 0.1, 1e-6);
+  EXPECT_LT(*judged.p, 1e-8);
+  EXPECT_EQ(judged.p, judged.p_holm) << "a family of one";
+  EXPECT_EQ(judged.n, 5u);
+  EXPECT_EQ(judged.n_against, 5u);
+  EXPECT_EQ(judged.ours, "4.20 m against 1.20 m; difference 3.00 m [2.77, 3.23]");
+}
+
+TEST_F(Claims, OfADifferenceThatIsNotSignificantAreNotConfirmed) {
+  add_runs(data_, "a", {1.0, 2.0, 3.0, 4.0, 5.0});
+  add_runs(data_, "b", {0.9, 1.9, 2.9, 3.9, 4.9});
+  claim(ClaimKind::difference);
+  claim(ClaimKind::difference).relation = Relation::not_less;
+  const auto judged = judge(data_);
+  EXPECT_EQ(judged[0].verdict, Verdict::not_confirmed);
+  EXPECT_EQ(judged[1].verdict, Verdict::confirmed);
+  std::swap(data_.study.claims[1].condition, data_.study.claims[1].against);
+  EXPECT_EQ(judge(data_)[1].verdict, Verdict::not_confirmed);
+}
+
+TEST_F(Claims, OfDifferencesAreOneFamily) {
+  data_.study = sample_study({"a", "b", "c"}, 5);
+  add_runs(data_, "a", {1.0, 2.0, 3.0, 4.0, 5.0});
+  add_runs(data_, "b", {3.0, 4.0, 5.0, 6.0, 7.0});  // t = 2, 8 degrees of freedom: p = 0.080516
+  add_runs(data_, "c", {4.5, 5.5, 6.5, 7.5, 8.5});  // t = 3.5 from a, 1.5 from b
+  claim(ClaimKind::difference).condition = "b";
+  data_.study.claims[0].against = "a";
+  claim(ClaimKind::difference).condition = "c";
+  data_.study.claims[1].against = "a";
+  claim(ClaimKind::count).threshold = 0.0;
+  data_.study.claims[2].at_least = 0.0;
+  const auto judged = judge(data_);
+  EXPECT_NEAR(*judged[0].p, 0.080516, 1e-6);
+  EXPECT_NEAR(*judged[1].p, 0.008079, 1e-6);
+  EXPECT_DOUBLE_EQ(*judged[1].p_holm, 2.0 * *judged[1].p) << "the smaller one times two";
+  EXPECT_DOUBLE_EQ(*judged[0].p_holm, *judged[0].p);
+  EXPECT_FALSE(judged[2].p_holm) << "a count is no member";
+}
+
+TEST_F(Claims, OfADifferenceNeedTwoRunsOnEachSide) {
+  add_runs(data_, "a", {1.0, 2.0, 3.0});
+  claim(ClaimKind::difference);
+  EXPECT_EQ(only().verdict, Verdict::not_testable);
+  EXPECT_THAT(only().reason, HasSubstr("No finished run of b"));
+  add_runs(data_, "b", {1.0});
+  EXPECT_EQ(only().verdict, Verdict::not_testable);
+  EXPECT_EQ(only().reason, "Too few runs: b has 1, 2 are needed.");
+  data_.records.pop_back();
+  add_runs(data_, "b", {1.0, 2.0});
+  EXPECT_NE(only().verdict, Verdict::not_testable);
+}
+
+TEST_F(Claims, OfADifferenceWithoutSpreadAreNotTestable) {
+  add_runs(data_, "a", {2.0, 2.0});
+  add_runs(data_, "b", {1.0, 1.0});
+  claim(ClaimKind::difference);
+  EXPECT_EQ(only().verdict, Verdict::not_testable);
+  EXPECT_FALSE(only().p);
+  EXPECT_THAT(only().reason, HasSubstr("same value"));
+}
+
+TEST_F(Claims, OfARatioWithinRunsFollowItsInterval) {
+  add_runs(data_, "a", {4.0, 5.0, 6.0, 7.0});
+  data_.study.tests.resize(1);
+  data_.study.tests[0].name = "long";
+  for (ledger::Record& run : data_.records)
+    add_test(run, "long", (2.9 + 0.1 * static_cast<double>(run.seed % 3)) * run.best_m);
+  auto& ratio = claim(ClaimKind::ratio);
+  ratio.measure = "long.distance_m";
+  ratio.base_measure = "train_m";
+  ratio.at_least = 2.5;
+  EXPECT_EQ(only().verdict, Verdict::confirmed);
+  EXPECT_NEAR(*only().estimate, (3.0 * 4 + 3.1 * 5 + 2.9 * 6 + 3.0 * 7) / 22.0, 1e-12) << "sum over sum";
+  data_.study.claims[0].at_least = 3.5;
+  EXPECT_EQ(only().verdict, Verdict::contradicted);
+  data_.study.claims[0].at_least = 3.0;
+  EXPECT_EQ(only().verdict, Verdict::not_confirmed);
+  EXPECT_THAT(only().reason, HasSubstr("the estimate itself lies outside it"));
+  data_.study.claims[0].at_least = *only().estimate;
+  EXPECT_THAT(only().reason, HasSubstr("the estimate itself lies inside it"));
+}
+
+TEST_F(Claims, OfARatioOverZeroAreNotTestable) {
+  add_runs(data_, "a", {4.0, 5.0, 6.0});
+  add_runs(data_, "b", {0.0, 0.0, 3.0});
+  auto& ratio = claim(ClaimKind::ratio);
+  ratio.against = "b";
+  ratio.at_least = 2.0;
+  EXPECT_EQ(only().verdict, Verdict::not_testable);
+  EXPECT_THAT(only().reason, HasSubstr("denominator"));
+}
+
+TEST_F(Claims, OfAValueAgreeDisagreeOrNeither) {
+  add_runs(data_, "a", {4.0, 5.0, 6.0, 5.0});  // mean 5, sd 0.816, 95 % interval [3.70, 6.30]
+  auto& value = claim(ClaimKind::value);
+  value.sd = 1.0;
+  value.runs = 20;
+  value.mean = 5.2;
+  EXPECT_EQ(only().verdict, Verdict::confirmed);
+  EXPECT_THAT(only().reason, HasSubstr("does not prove"));
+  data_.study.claims[0].mean = 9.0;
+  EXPECT_EQ(only().verdict, Verdict::contradicted);
+  data_.study.claims[0].mean = 6.5;
+  data_.study.claims[0].sd = 6.0;  // so wide that no test finds a difference
+  EXPECT_EQ(only().verdict, Verdict::not_confirmed);
+  EXPECT_THAT(only().reason, HasSubstr("outside our interval"));
+}
+
+TEST_F(Claims, OfAPlateauFollowTheIntervalOfTheGain) {
+  add_runs(data_, "a", {4.0, 5.0, 6.0});  // each has half its distance until generation 6
+  auto& plateau = claim(ClaimKind::plateau);
+  plateau.from_generation = 6;
+  plateau.at_most = 0.05;
+  EXPECT_EQ(only().verdict, Verdict::confirmed);
+  EXPECT_EQ(only().estimate, 0.0);
+  data_.study.claims[0].from_generation = 5;
+  EXPECT_EQ(only().verdict, Verdict::contradicted);
+  EXPECT_EQ(only().estimate, 0.5);
+  data_.records[0].curve = {{0, 4.0}};
+  data_.study.claims[0].at_most = 0.4;
+  EXPECT_EQ(only().verdict, Verdict::not_confirmed);
+  data_.study.claims[0].from_generation = 9;
+  EXPECT_EQ(only().verdict, Verdict::not_testable) << "generation 9 is the last";
+  EXPECT_THAT(only().reason, HasSubstr("not longer than 9 generations"));
+}
+
+}  // namespace
+}  // namespace amble::report
