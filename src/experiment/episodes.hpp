@@ -12,6 +12,7 @@ namespace amble::experiment {
 double objective_m(trial::EpisodeScore score, std::span<const double> distances_m);
 
 /// The objective of each genome of a generation, m.
-std::vector<double> objectives_m(trial::EpisodeScore score, double fall_factor, const GenerationResult& result);
+std::vector<double> objectives_m(trial::EpisodeScore score, double fall_factor,
+                                 const GenerationResult& result);
 
 }  // namespace amble::experiment

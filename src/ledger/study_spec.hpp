@@ -18,7 +18,7 @@ struct ConditionSpec {
   std::string name;    ///< in file names and claims: a-z, 0-9, '-', '_'
   std::string title;   ///< for people; empty: the name
   std::string config;  ///< config file; relative to the study file until load_study() resolves it
-  std::string robot;                  ///< robot file; likewise; empty: the config's
+  std::string robot;   ///< robot file; likewise; empty: the config's
   std::vector<std::string> settings;  ///< "key.path=value", laid over the config after StudySpec::settings
   std::vector<double> seeds;          ///< empty: StudySpec::seeds
   int generations = 0;                ///< 0: StudySpec::generations

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "amble/experiment/build_info.hpp"
 #include "amble/experiment/run.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/lock.hpp"
 #include "amble/study/champion_tests.hpp"
 
 namespace amble::study {
@@ -24,6 +26,8 @@ namespace {
 /// a process that was killed may take a moment to end.
 constexpr auto patience = std::chrono::seconds(5);
 constexpr auto pause = std::chrono::milliseconds(200);
+constexpr auto most_waiting = std::chrono::seconds(60);  ///< for a turn to make a folder
+constexpr auto turn_pause = std::chrono::milliseconds(10);
 constexpr int most_io_failures = 3;  ///< in a row
 
 class RunProgress : public experiment::RunListener {
@@ -82,14 +86,26 @@ class Worker {
 
  private:
   experiment::Run take_hold(const PlannedRun& run, const std::filesystem::path& folder) const {
-    if (experiment::is_run_folder(folder))
-      return experiment::Run::resume(folder, std::nullopt, options_.workers);
-    try {
-      return experiment::Run::start(folder, plan_.config(run), options_.workers);
-    } catch (const UserError& error) {
-      // Another process was a moment faster.
-      if (experiment::is_run_folder(folder)) fail(ExitCode::locked, "{}", error.what());
-      throw;
+    const auto turn = wait_for_turn();
+    return experiment::is_run_folder(folder)
+               ? experiment::Run::resume(folder, std::nullopt, options_.workers)
+               : experiment::Run::start(folder, plan_.config(run), options_.workers);
+  }
+
+  /// Run folders are made and removed by one process at a time: another one would find half a folder.
+  std::unique_ptr<io::FolderLock> wait_for_turn() const {
+    std::error_code error;
+    std::filesystem::create_directories(plan_.paths.runs, error);
+    if (error) fail(ExitCode::io, "cannot make folder {}: {}", plan_.paths.runs.string(), error.message());
+    const auto start = std::chrono::steady_clock::now();
+    while (true) {
+      try {
+        return std::make_unique<io::FolderLock>(plan_.paths.runs);
+      } catch (const UserError& failure) {
+        const bool tired = std::chrono::steady_clock::now() - start > most_waiting;
+        if (failure.code() != ExitCode::locked || tired) throw;
+      }
+      std::this_thread::sleep_for(turn_pause);
     }
   }
 
@@ -156,7 +172,9 @@ class Worker {
   }
 
   void discard(const std::filesystem::path& folder) const {
-    if (options_.discard_runs) std::filesystem::remove_all(folder);
+    if (!options_.discard_runs) return;
+    const auto turn = wait_for_turn();
+    std::filesystem::remove_all(folder);
   }
 
   const Plan& plan_;

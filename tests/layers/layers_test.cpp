@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(Layers, OneDoor,
                                          Library{"<mujoco/", {"morphology/", "physics/mujoco/"}},
                                          Library{"<toml++/", {"io/"}}, Library{"<xxhash", {"core/"}},
                                          Library{"<Random123/", {"core/"}},
-                                         Library{"<hwy/", {"cppn/", "physics/batch/"}},
+                                         Library{"<hwy/", {"controllers/", "cppn/", "physics/batch/"}},
                                          Library{"<zlib", {"record/"}}, Library{"<cblas", {"search/"}},
                                          Library{"<boost/", {"statistics/"}}),
                          letters_of);

@@ -62,7 +62,8 @@ TEST(Record, AlteredIsRefused) {
 }
 
 TEST(Record, MeasuresOfSeveralEpisodesAreMedians) {
-  const TestResult& noisy = sample_record().tests[1];
+  const Record record = sample_record();
+  const TestResult& noisy = record.tests[1];
   EXPECT_EQ(noisy.distance_m(), 3.0);
   EXPECT_EQ(noisy.upright_s(), 9.0);
   EXPECT_EQ(noisy.walking_s(), 9.0);
