@@ -164,7 +164,7 @@ TEST(Bootstrap, SaysNothingWithTooFewValuesOrOverZero) {
 }
 
 TEST(Bootstrap, KeepsFiniteWhereAllResamplesLieOnOneSide) {
-  // The maximum of a resample never exceeds that of the sample; with the sum of both signs it does not equal
+  // The maximum of a resample never exceeds that of the sample.
   // it.
   const Sample sample{1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
   const auto maximum = *bootstrap(sample, [](std::span<const double> x) { return std::ranges::max(x); });
