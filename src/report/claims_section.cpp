@@ -83,7 +83,7 @@ std::string claims_section(const Report& report) {
       "Each claim is judged by the rule that stands with it in the study’s file (docs/STUDIES.md). Intervals "
       "are at 95 % unless the claim has its own level.";
   if (one_source && !claims[0].source.empty()) lead = fmt::format("From {}. ", claims[0].source) + lead;
-  if (family > 0)
+  if (family > 1)
     lead += fmt::format(
         " Claims of differences are one family of {}, whose p values are adjusted by Holm’s method.",
         counted(family, "test"));
