@@ -60,7 +60,7 @@ std::string claims_section(const Report& report) {
                      {"Here", false, "here"},
                      {"Test", false, "test"},
                      {"Verdict", false, "judged"}},
-                    "claims");
+                    "cards claims");
   const bool one_source = std::ranges::all_of(
       claims, [&](const ledger::ClaimSpec& claim) { return claim.source == claims[0].source; });
   std::size_t family = 0;
@@ -83,9 +83,9 @@ std::string claims_section(const Report& report) {
       "Each claim is judged by the rule that stands with it in the study’s file (docs/STUDIES.md). Intervals "
       "are at 95 % unless the claim has its own level.";
   if (one_source && !claims[0].source.empty()) lead = fmt::format("From {}. ", claims[0].source) + lead;
-  if (family > 0)
+  if (family > 1)
     lead += fmt::format(
-        " Claims of differences are one family of {}: significant is what is so after Holm’s adjustment.",
+        " Claims of differences are one family of {}, whose p values are adjusted by Holm’s method.",
         counted(family, "test"));
   return section("claims", "The claims", lead, verdict_counts(report) + table.finish());
 }

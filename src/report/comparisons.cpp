@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "amble/report/verdict.hpp"
+#include "amble/report/levels.hpp"
 #include "amble/statistics/multiple_tests.hpp"
 
 namespace amble::report {
@@ -54,7 +54,8 @@ std::vector<SampleSummary> summarize(const StudyData& data) {
                           .summary = *summary,
                           .median = {},
                           .interquartile_mean = {}};
-      if (std::ranges::find(distances, measure) != distances.end()) {
+      const bool is_distance = std::ranges::find(distances, measure) != distances.end();
+      if (is_distance && values.size() >= fewest_resampled) {
         found.median = statistics::bootstrap(values, statistics::median);
         found.interquartile_mean = statistics::bootstrap(values, statistics::interquartile_mean);
       }

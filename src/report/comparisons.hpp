@@ -17,7 +17,7 @@ struct SampleSummary {
   std::string measure, condition;
   std::size_t planned = 0;      ///< runs of the condition
   statistics::Summary summary;  ///< of at least one run
-  /// BCa intervals of median and interquartile mean; of distances only, and with at least two runs.
+  /// BCa intervals of median and interquartile mean; of distances only, and from fewest_resampled runs on.
   std::optional<statistics::BootstrapInterval> median, interquartile_mean;
 };
 

@@ -23,11 +23,12 @@ using analysis::Svg;
 /// Room for the median at the end of a panel's title.
 constexpr double value_px = 54.0;
 
+/// Every `stride`-th point and the last.
 std::vector<Point> line(const BestCurve& curve, const std::vector<double>& values, const Scale& x,
                         const Scale& y, std::size_t stride = 1) {
   std::vector<Point> points;
-  for (std::size_t i = 0; i < values.size(); i += stride)
-    points.push_back({x(curve.generation[i]), y(values[i])});
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (i % stride == 0 || i + 1 == values.size()) points.push_back({x(curve.generation[i]), y(values[i])});
   return points;
 }
 
@@ -37,7 +38,8 @@ void draw_panel(Svg& svg, const Report& report, const BestCurve& curve, const Pa
   analysis::draw_y_axis(svg, y, analysis::nice_ticks(y.data, is_small ? 4 : 5), plot.x, plot.right(), " m");
   analysis::draw_x_axis(svg, x, analysis::nice_ticks(x.data, is_small ? 3 : 5, 1.0), plot.bottom(), "");
   for (const BestCurve& other : report.curves)
-    if (&other != &curve) svg.polyline(line(other, other.median_m, x, y, 3), "other");
+    if (&other != &curve)
+      svg.polyline(line(other, other.median_m, x, y, other.median_m.size() > 60 ? 3 : 1), "other");
 
   const std::string median = number_text(curve.median_m.back());
   svg.begin_group("strip " + analysis::leg_class(report.index(curve.condition)),

@@ -72,8 +72,7 @@ std::string folded(std::string_view title, std::string_view content, bool open) 
 
 TableWriter::TableWriter(std::vector<Column> columns, std::string_view css_class)
     : columns_(std::move(columns)) {
-  out_ = fmt::format("<div class=\"scroll\"><table class=\"data{}{}\">\n<thead><tr>",
-                     css_class.empty() ? "" : " ", css_class);
+  out_ = fmt::format("<div class=\"scroll\"><table class=\"data {}\">\n<thead><tr>", css_class);
   for (const Column& column : columns_)
     out_ += fmt::format("<th scope=\"col\"{}>{}</th>", class_of(column), escape(column.title));
   out_ += "</tr></thead>\n<tbody>\n";

@@ -27,8 +27,7 @@ std::string figure(const std::function<std::string(analysis::Layout)>& draw, std
 /// A part that the reader opens.
 std::string folded(std::string_view title, std::string_view content, bool open = false);
 
-/// A column of a table. Numbers are right-aligned. On phones each row becomes a card in which every cell
-/// stands behind its column's title.
+/// A column of a table. Numbers are right-aligned.
 struct Column {
   std::string title;
   bool is_number = true;
@@ -37,8 +36,9 @@ struct Column {
 
 class TableWriter {
  public:
-  /// `css_class`: besides "data".
-  explicit TableWriter(std::vector<Column> columns, std::string_view css_class = {});
+  /// `css_class`: "cards", each row of which becomes a card on phones, with every cell behind its column's
+  /// title; "dense" for few and narrow columns, which stay a table there; and names for more style.
+  explicit TableWriter(std::vector<Column> columns, std::string_view css_class = "cards");
   /// The first cell is the row's head. As many as there are columns.
   void row(const std::vector<std::string>& texts);
   /// The same with markup in place of texts.

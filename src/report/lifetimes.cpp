@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "amble/report/verdict.hpp"
+#include "amble/report/levels.hpp"
 
 namespace amble::report {
 namespace {

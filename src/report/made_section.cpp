@@ -92,7 +92,7 @@ std::string tests_table(const Report& report) {
 }
 
 std::string files_table(const Report& report) {
-  TableWriter table({{"File", false}, {"A row is", false}, {"Rows"}});
+  TableWriter table({{"File", false}, {"A row is", false}, {"Rows"}}, "dense");
   for (const Table& file : tables(report))
     table.row({file.name + ".csv", file.about, fmt::format("{}", file.rows.size())});
   return table.finish();

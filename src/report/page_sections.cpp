@@ -53,7 +53,8 @@ std::string survival_part(const Report& report, const SurvivalTable& table) {
                     {"Runs"},
                     {upright ? "Fell" : "Stopped"},
                     {"Lasted"},
-                    {upright ? "Median time upright" : "Median time walking"}});
+                    {upright ? "Median time upright" : "Median time walking"}},
+                   "dense");
   for (const ConditionLifetimes& condition : table.conditions)
     rows.row({report.label(condition.condition), fmt::format("{}", condition.curve.n),
               fmt::format("{}", condition.curve.ended), percent_text(condition.curve.at(table.trial_s)),
@@ -75,12 +76,12 @@ std::string test_part(const Report& report, const std::string& test, std::string
 
 /// Gaits as columns, conditions as rows; each count with a bar of its share.
 std::string gait_table(const Report& report, const GaitTable& gaits) {
-  std::vector<Column> columns{{"Condition", false}, {"Runs"}};
+  std::vector<Column> columns{{"Condition", false}};
   for (const std::string& gait : gaits.gaits) columns.push_back({gait});
-  TableWriter table(columns, "gaits");
+  TableWriter table(columns, "dense");
   for (const GaitCounts& counts : gaits.rows) {
-    std::vector<std::string> cells{analysis::escape(report.label(counts.condition)),
-                                   fmt::format("{}", counts.n)};
+    std::vector<std::string> cells{
+        fmt::format("{} <small>n = {}</small>", analysis::escape(report.label(counts.condition)), counts.n)};
     for (const std::string& gait : gaits.gaits) {
       const std::size_t runs = counts.count(gait);
       cells.push_back(
@@ -146,7 +147,8 @@ std::string survival_section(const Report& report) {
     for (const SurvivalTable& table : report.survival)
       if (table.is_long && table.test == test.name) parts += survival_part(report, table);
     if (!parts.empty())
-      content += test_part(report, test.name, "Lasting", paragraph(test_text(report, test) + ".") + parts);
+      content += test_part(report, test.name, "Time upright and walking",
+                           paragraph(test_text(report, test) + ".") + parts);
   }
   if (content.empty()) return {};
   return section("survival", "How long they stayed up and walked",
@@ -158,7 +160,8 @@ std::string survival_section(const Report& report) {
 }
 
 std::string sizes_section(const Report& report) {
-  TableWriter table({{"Condition", false}, {"Runs"}, {"Hidden nodes, mean (sd)"}, {"Links, mean (sd)"}});
+  TableWriter table({{"Condition", false}, {"Runs"}, {"Hidden nodes, mean (sd)"}, {"Links, mean (sd)"}},
+                    "dense");
   for (const ledger::ConditionSpec& condition : report.data.study.conditions) {
     const auto* hidden = find_summary(report.summaries, "hidden", condition.name);
     const auto* links = find_summary(report.summaries, "links", condition.name);

@@ -60,6 +60,7 @@ nav a { color: var(--soft); text-underline-offset: 3px; }
 .data thead .number { white-space: normal; }
 .scroll { overflow-x: auto; margin-top: 20px; } .scroll > table { margin-top: 0; }
 .data.matrix { font-size: 11.5px; } .data.matrix th, .data.matrix td { padding: 4px 0 4px 5px; } .data.matrix tbody th { white-space: nowrap; font-size: 12px; }
+.data tbody th small { font-weight: 450; white-space: nowrap; }
 .count { display: block; min-width: 34px; }
 .count i { display: block; height: 4px; margin-top: 3px; margin-left: auto; border-radius: 2px; background: var(--leg); }
 details { margin-top: 18px; border-top: 1px solid var(--hair); padding-top: 12px; }
@@ -72,32 +73,29 @@ constexpr std::string_view phone_and_paper = R"css(
   .data { font-size: 13px; } .data th, .data td { padding-left: 12px; }
 }
 @media screen and (max-width: 700px) {
-  .data { font-size: 14px; }
-  .data thead { display: none; }
-  .data, .data tbody, .data tr, .data th, .data td { display: block; width: auto; }
-  .data tr { padding: 12px 0; border-top: 1px solid var(--hair); }
-  .data tr:last-child { border-bottom: 1px solid var(--hair); }
-  .data th, .data td, .data tr:last-child > * { padding: 1px 0; border: 0; }
-  .data td { display: grid; grid-template-columns: minmax(7.5rem, 38%) 1fr; gap: 12px; }
-  .data td::before { content: attr(data-title); text-align: left; color: var(--soft); font-size: 13px; }
-  .data td.number { text-align: right; white-space: normal; } .data tbody th, .data th.number { text-align: left; }
+  .data { font-size: 12.5px; } .data th, .data td { padding-left: 9px; } .dense thead th { font-size: 11.5px; } .dense th, .dense td { padding-left: 6px; } .count { min-width: 22px; }
+  .cards { font-size: 14px; } .cards thead { display: none; }
+  .cards, .cards tbody, .cards tr, .cards th, .cards td { display: block; width: auto; }
+  .cards tr { padding: 12px 0; border-top: 1px solid var(--hair); }
+  .cards tr:last-child { border-bottom: 1px solid var(--hair); }
+  .cards th, .cards td, .cards tr:last-child > * { padding: 1px 0; border: 0; }
+  .cards td { display: grid; grid-template-columns: minmax(7.5rem, 38%) 1fr; gap: 12px; }
+  .cards td::before { content: attr(data-title); text-align: left; color: var(--soft); font-size: 13px; }
+  .cards td.number { white-space: normal; } .cards th.number { text-align: left; }
+  .cards td:has(> div:empty) { display: none; }
   .claims tbody tr { display: flex; flex-direction: column; position: relative; padding-left: 2rem; }
   .claims .index { position: absolute; left: 0; top: 12px; }
   .claims td, .claims th, .claims .sentence, .claims .published, .claims .here, .claims .test { width: auto; }
-  .claims td { grid-template-columns: 5rem 1fr; }
+  .claims td { grid-template-columns: 5rem 1fr; order: 3; }
   .claims td.sentence, .claims td.judged { display: block; } .claims td.sentence::before, .claims td.judged::before { content: none; }
-  .claims td.sentence { font-size: 15px; order: 1; } .claims td.judged { order: 2; padding: 4px 0 6px; } .claims td { order: 3; }
-  .data td:has(> div:empty) { display: none; }
-  .data.matrix { display: table; } .data.matrix thead { display: table-header-group; }
-  .data.matrix tbody { display: table-row-group; } .data.matrix tr { display: table-row; }
-  .data.matrix th, .data.matrix td { display: table-cell; padding: 4px 0 4px 8px; border-top: 1px solid var(--hair); }
-  .data.matrix td::before { content: none; } .data.matrix thead th { text-align: right; }
+  .claims td.sentence { font-size: 15px; order: 1; } .claims td.judged { order: 2; padding: 4px 0 6px; }
 }
 @media print {
+  :root { color-scheme: light; }
   nav { display: none; }
   section { break-inside: auto; } h2, h3 { break-after: avoid; } figure, tr { break-inside: avoid; }
   details::details-content { content-visibility: visible; display: block; }
-  .data { font-size: 8.5pt; } .data th, .data td { padding-top: 3pt; padding-bottom: 3pt; }
+  .data { font-size: 8.5pt; } .data thead th, .data small, .claims .reason { font-size: 8pt; } .data th, .data td { padding-top: 3pt; padding-bottom: 3pt; }
   .scroll { overflow: visible; } .data th, .data td { padding-left: 9pt; } .data.matrix { font-size: 6pt; } .data.matrix th, .data.matrix td { padding: 2pt 0 2pt 2pt; } .data.matrix tbody th { font-size: 6.5pt; }
 }
 )css";

@@ -71,7 +71,7 @@ std::string matrix(const Report& report, const PairTable& pairs) {
   for (const auto& condition : report.data.study.conditions) conditions.push_back(condition.name);
   std::vector<Column> columns{{"", false}};
   for (std::size_t i = 0; i < conditions.size(); ++i) columns.push_back({fmt::format("{}", i + 1)});
-  TableWriter table(columns, "matrix");
+  TableWriter table(columns, "dense matrix");
   for (std::size_t i = 0; i < conditions.size(); ++i) {
     std::vector<std::string> cells{
         fmt::format("{} {}", i + 1, escape(fitted(report.label(conditions[i]), 150.0)))};
@@ -93,8 +93,7 @@ std::string matrix(const Report& report, const PairTable& pairs) {
   }
   return paragraph(
              "Row minus column, difference of means; bold: significant at 0.05 by Welch’s test after Holm’s "
-             "adjustment.",
-             "note") +
+             "adjustment.") +
          table.finish();
 }
 
@@ -123,8 +122,8 @@ std::string pairs_section(const Report& report) {
       "Two-sided tests of all pairs in every distance: Student’s t (the paper’s), Welch’s t, Mann–Whitney. "
       "Below each p value stands the one adjusted by Holm’s method; the family is all pairs of one measure "
       "under one test. A12 is the probability that a run of the first condition beats one of the second. "
-      "The interval of a difference is Welch’s; IQM is the interquartile mean; BCa intervals come from "
-      "10 000 resamples with a fixed seed.",
+      "The interval of a difference is Welch’s; IQM is the interquartile mean; BCa intervals, "
+      "from six runs on, come of 10 000 resamples with a fixed seed.",
       content);
 }
 

@@ -23,7 +23,7 @@ std::vector<std::string> two_lines(std::string_view label, double width_px);
 struct PanelGrid {
   std::size_t columns = 1, rows = 1;
   double panel_width_px = 0.0, panel_height_px = 0.0;
-  double left_px = 34.0, top_px = 24.0, below_px = 30.0, gap_px = 14.0;
+  double left_px = 42.0, top_px = 24.0, below_px = 30.0, gap_px = 14.0;
 
   static PanelGrid of(std::size_t count, analysis::Layout layout) {
     const bool wide = layout == analysis::Layout::wide;

@@ -1,6 +1,7 @@
 #include "amble/report/transfer.hpp"
 
 #include "amble/ledger/measures.hpp"
+#include "amble/report/levels.hpp"
 #include "amble/statistics/descriptive.hpp"
 
 namespace amble::report {
@@ -43,7 +44,8 @@ std::optional<Transfer> transfer(const StudyData& data, const ledger::TestSpec& 
   found.median_m = statistics::median(distances);
   found.n_share = shares.size();
   if (!shares.empty()) found.share = statistics::median(shares);
-  found.share_interval = statistics::bootstrap(shares, statistics::median);
+  if (shares.size() >= fewest_resampled)
+    found.share_interval = statistics::bootstrap(shares, statistics::median);
   return found;
 }
 

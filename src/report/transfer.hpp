@@ -22,7 +22,7 @@ struct Transfer {
   std::size_t n_share = 0;  ///< runs with a reference above 0
   /// Median over runs of distance / reference; with at least one such run.
   std::optional<double> share;
-  std::optional<statistics::BootstrapInterval> share_interval;  ///< BCa
+  std::optional<statistics::BootstrapInterval> share_interval;  ///< BCa; from fewest_resampled runs on
 };
 
 /// Every test in another engine, condition by condition.

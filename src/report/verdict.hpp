@@ -5,14 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "amble/report/levels.hpp"
 #include "amble/report/study_data.hpp"
 #include "amble/report/verdict_rules.hpp"
 #include "amble/statistics/interval.hpp"
 
 namespace amble::report {
-
-/// Confidence of every interval in a report, unless a claim has a level of its own.
-inline constexpr double confidence = 0.95;
 
 /// What was found of one claim.
 struct Judgement {

@@ -62,6 +62,21 @@ std::optional<double> threshold_of(const StudyData& data, const ClaimSpec& claim
   return statistics::mean(others);
 }
 
+/// Which regular gaits occur that should not, or should and do not.
+std::string gaits_misfit(const ClaimSpec& claim, const std::set<std::string>& occurring) {
+  std::vector<std::string> besides, absent;
+  for (const std::string& name : occurring)
+    if (!claim.only.empty() &&
+        std::ranges::none_of(claim.only, [&](const std::string& claimed) { return is_gait(name, claimed); }))
+      besides.push_back(name);
+  for (const std::string& claimed : claim.includes)
+    if (std::ranges::none_of(occurring, [&](const std::string& name) { return is_gait(name, claimed); }))
+      absent.push_back(claimed);
+  std::string text = besides.empty() ? "" : fmt::format("Besides: {}.", fmt::join(besides, ", "));
+  if (!absent.empty()) text += fmt::format("{}Absent: {}.", text.empty() ? "" : " ", fmt::join(absent, ", "));
+  return text;
+}
+
 }  // namespace
 
 Judgement judge_count(const StudyData& data, const ClaimSpec& claim) {
@@ -112,7 +127,7 @@ Judgement judge_gaits(const StudyData& data, const ClaimSpec& claim) {
     judgement.reason =
         claim.only.empty() ? "All gaits that are named occur." : "No other regular gait occurs.";
   else
-    judgement.reason = "The regular gaits that occur are not those that are claimed.";
+    judgement.reason = gaits_misfit(claim, occurring);
   return judgement;
 }
 

@@ -23,15 +23,15 @@ struct TwoSamples {
 };
 
 /// Sample sizes and means; says so if there are too few runs.
-bool begin_two(const StudyData& data, const ClaimSpec& claim, const TwoSamples& samples,
+bool begin_two(const StudyData& data, const ClaimSpec& claim, const TwoSamples& samples, std::size_t fewest,
                Judgement& judgement) {
   judgement = begin_judgement(data, claim, samples.first.size());
   judgement.n_against = samples.second.size();
   judgement.planned_against = data.planned(claim.against);
   if (!samples.first.empty()) judgement.mean = statistics::mean(samples.first);
   if (!samples.second.empty()) judgement.mean_against = statistics::mean(samples.second);
-  judgement.reason = too_few(data, claim.condition, judgement.n, 2);
-  if (judgement.reason.empty()) judgement.reason = too_few(data, claim.against, judgement.n_against, 2);
+  judgement.reason = too_few(data, claim.condition, judgement.n, fewest);
+  if (judgement.reason.empty()) judgement.reason = too_few(data, claim.against, judgement.n_against, fewest);
   return judgement.reason.empty();
 }
 
@@ -47,7 +47,13 @@ void use_t_test(const std::optional<statistics::TTest>& test, Judgement& judgeme
   judgement.interval = test->interval;
 }
 
-void use_mann_whitney(const TwoSamples& samples, Judgement& judgement) {
+void use_mann_whitney(const TwoSamples& samples, double alpha, Judgement& judgement) {
+  const double smallest = statistics::smallest_mann_whitney_p(samples.first.size(), samples.second.size());
+  if (smallest >= alpha) {
+    judgement.reason = fmt::format("Too few runs: with {} and {} no outcome of this test has a p below {}.",
+                                   samples.first.size(), samples.second.size(), p_number(smallest));
+    return;
+  }
   judgement.p = statistics::mann_whitney(samples.first, samples.second)->p;
   const auto superiority = statistics::vargha_delaney(samples.first, samples.second, confidence);
   judgement.quantity = "A12";
@@ -108,7 +114,7 @@ Judgement judge_ratio_within(const StudyData& data, const ClaimSpec& claim) {
   }
   Judgement judgement = begin_judgement(data, claim, numerators.size());
   judgement.quantity = "ratio of sums";
-  judgement.reason = too_few(data, claim.condition, judgement.n, 2);
+  judgement.reason = too_few(data, claim.condition, judgement.n, fewest_resampled);
   if (!judgement.reason.empty()) return judgement;
   judgement.mean = statistics::mean(numerators);
   judgement.mean_against = statistics::mean(denominators);
@@ -120,7 +126,7 @@ Judgement judge_ratio_between(const StudyData& data, const ClaimSpec& claim) {
   const TwoSamples samples{data.values(claim.condition, claim.measure),
                            data.values(claim.against, claim.measure)};
   Judgement judgement;
-  const bool enough = begin_two(data, claim, samples, judgement);
+  const bool enough = begin_two(data, claim, samples, fewest_resampled, judgement);
   judgement.quantity = "ratio of means";
   if (enough)
     use_bootstrap(statistics::bootstrap_ratio(samples.first, samples.second, statistics::mean), judgement);
@@ -133,7 +139,7 @@ Judgement judge_difference(const StudyData& data, const ClaimSpec& claim) {
   const TwoSamples samples{data.values(claim.condition, claim.measure),
                            data.values(claim.against, claim.measure)};
   Judgement judgement;
-  if (!begin_two(data, claim, samples, judgement)) return judgement;
+  if (!begin_two(data, claim, samples, 2, judgement)) return judgement;
   switch (claim.test) {
     case TwoSampleTest::student:
       judgement.test = "Student’s t";
@@ -145,7 +151,7 @@ Judgement judge_difference(const StudyData& data, const ClaimSpec& claim) {
       break;
     case TwoSampleTest::mann_whitney:
       judgement.test = "Mann–Whitney";
-      use_mann_whitney(samples, judgement);
+      use_mann_whitney(samples, claim.alpha, judgement);
       break;
   }
   const bool rank_test = claim.test == TwoSampleTest::mann_whitney;
@@ -166,10 +172,11 @@ void conclude_difference(const ClaimSpec& claim, Judgement& judgement) {
       direction == statistics::Direction::less      ? "The difference points the other way"
       : direction == statistics::Direction::greater ? "The difference points as claimed"
                                                     : "There is no difference";
-  judgement.reason = direction == statistics::Direction::equal
-                         ? std::string(where) + "."
-                         : fmt::format("{} and is {}significant at {} after Holm’s adjustment.", where,
-                                       significant ? "" : "not ", analysis::number(claim.alpha, 9));
+  judgement.reason =
+      direction == statistics::Direction::equal
+          ? std::string(where) + "."
+          : fmt::format("{} {} significant at {} after Holm’s adjustment.", where,
+                        significant ? "and is" : "but is not", analysis::number(claim.alpha, 9));
   if (claim.relation == ledger::Relation::not_less && judgement.verdict == Verdict::confirmed)
     judgement.reason += " The claim is that the condition does not do worse; it need not do better.";
 }
@@ -223,8 +230,8 @@ Judgement judge_plateau(const StudyData& data, const ClaimSpec& claim) {
   }
   Judgement judgement = begin_judgement(data, claim, gains.size());
   judgement.quantity = "mean gain, share of the final best";
-  judgement.reason = too_few(data, claim.condition, data.runs(claim.condition).size(), 2);
-  if (judgement.reason.empty() && gains.size() < 2)
+  judgement.reason = too_few(data, claim.condition, data.runs(claim.condition).size(), fewest_resampled);
+  if (judgement.reason.empty() && gains.size() < fewest_resampled)
     judgement.reason = fmt::format("The runs are not longer than {} generations.", claim.from_generation);
   if (!judgement.reason.empty()) return judgement;
   const auto found = *statistics::bootstrap(gains, statistics::mean);

@@ -93,9 +93,11 @@ TEST(GaitClaims, LookAtTheGaitsOfATest) {
   EXPECT_EQ(one.judged().ours, "pace 1, irregular 1, no name 1");
   one.claim().only = {"trot"};
   EXPECT_EQ(one.judged().verdict, Verdict::contradicted);
+  EXPECT_EQ(one.judged().reason, "Besides: pace.");
   one.claim().only.clear();
   one.claim().includes = {"pace", "trot"};
   EXPECT_EQ(one.judged().verdict, Verdict::contradicted);
+  EXPECT_EQ(one.judged().reason, "Absent: trot.");
   one.data.records[0].tests[0].gait = "irregular";
   EXPECT_EQ(one.judged().verdict, Verdict::not_confirmed);
   for (auto& run : one.data.records) run.tests.clear();

@@ -116,7 +116,7 @@ TEST_F(Claims, OfADifferenceWithoutSpreadAreNotTestable) {
 }
 
 TEST_F(Claims, OfARatioWithinRunsFollowItsInterval) {
-  add_runs(data_, "a", {4.0, 5.0, 6.0, 7.0});
+  add_runs(data_, "a", {4.0, 5.0, 6.0, 7.0, 5.0, 5.0});
   data_.study.tests.resize(1);
   data_.study.tests[0].name = "long";
   for (ledger::Record& run : data_.records)
@@ -126,7 +126,8 @@ TEST_F(Claims, OfARatioWithinRunsFollowItsInterval) {
   ratio.base_measure = "train_m";
   ratio.at_least = 2.5;
   EXPECT_EQ(only().verdict, Verdict::confirmed);
-  EXPECT_NEAR(*only().estimate, (3.0 * 4 + 3.1 * 5 + 2.9 * 6 + 3.0 * 7) / 22.0, 1e-12) << "sum over sum";
+  EXPECT_NEAR(*only().estimate, (3.0 * 4 + 3.1 * 5 + 2.9 * 6 + 3.0 * 7 + 3.1 * 5 + 2.9 * 5) / 32.0, 1e-12)
+      << "sum over sum";
   data_.study.claims[0].at_least = 3.5;
   EXPECT_EQ(only().verdict, Verdict::contradicted);
   data_.study.claims[0].at_least = 3.0;
@@ -137,13 +138,39 @@ TEST_F(Claims, OfARatioWithinRunsFollowItsInterval) {
 }
 
 TEST_F(Claims, OfARatioOverZeroAreNotTestable) {
-  add_runs(data_, "a", {4.0, 5.0, 6.0});
-  add_runs(data_, "b", {0.0, 0.0, 3.0});
+  add_runs(data_, "a", {4.0, 5.0, 6.0, 4.0, 5.0, 6.0});
+  add_runs(data_, "b", {0.0, 0.0, 0.0, 0.0, 0.0, 3.0});
   auto& ratio = claim(ClaimKind::ratio);
   ratio.against = "b";
   ratio.at_least = 2.0;
   EXPECT_EQ(only().verdict, Verdict::not_testable);
   EXPECT_THAT(only().reason, HasSubstr("denominator"));
+}
+
+TEST_F(Claims, ThatNeedABootstrapNeedSixRuns) {
+  add_runs(data_, "a", {4.0, 5.0, 6.0, 4.0, 5.0});
+  add_runs(data_, "b", {1.0, 1.1, 1.2, 1.3, 1.4, 1.5});
+  auto& ratio = claim(ClaimKind::ratio);
+  ratio.against = "b";
+  ratio.at_least = 2.0;
+  claim(ClaimKind::plateau).from_generation = 5;
+  data_.study.claims[1].at_most = 0.9;
+  for (const Judgement& judged : judge(data_)) {
+    EXPECT_EQ(judged.verdict, Verdict::not_testable);
+    EXPECT_EQ(judged.reason, "Too few runs: a has 5, 6 are needed.");
+  }
+  data_.records.insert(data_.records.begin() + 5, sample_run("a", 6, 5.0));
+  for (const Judgement& judged : judge(data_)) EXPECT_EQ(judged.verdict, Verdict::confirmed);
+}
+
+TEST_F(Claims, OfRanksNeedSamplesThatCanReachTheLevel) {
+  add_runs(data_, "a", {4.0, 5.0, 6.0});
+  add_runs(data_, "b", {1.0, 2.0, 3.0});
+  claim(ClaimKind::difference).test = TwoSampleTest::mann_whitney;
+  EXPECT_EQ(only().verdict, Verdict::not_testable) << "3 against 3 stay at p = 0.1";
+  EXPECT_EQ(only().reason, "Too few runs: with 3 and 3 no outcome of this test has a p below 0.10.");
+  data_.study.claims[0].alpha = 0.2;
+  EXPECT_EQ(only().verdict, Verdict::confirmed);
 }
 
 TEST_F(Claims, OfAValueAgreeDisagreeOrNeither) {
@@ -163,7 +190,7 @@ TEST_F(Claims, OfAValueAgreeDisagreeOrNeither) {
 }
 
 TEST_F(Claims, OfAPlateauFollowTheIntervalOfTheGain) {
-  add_runs(data_, "a", {4.0, 5.0, 6.0});  // each has half its distance until generation 6
+  add_runs(data_, "a", {4.0, 5.0, 6.0, 4.0, 5.0, 6.0});  // each has half its distance until generation 6
   auto& plateau = claim(ClaimKind::plateau);
   plateau.from_generation = 6;
   plateau.at_most = 0.05;
@@ -172,7 +199,7 @@ TEST_F(Claims, OfAPlateauFollowTheIntervalOfTheGain) {
   data_.study.claims[0].from_generation = 5;
   EXPECT_EQ(only().verdict, Verdict::contradicted);
   EXPECT_EQ(only().estimate, 0.5);
-  data_.records[0].curve = {{0, 4.0}};
+  for (int i : {0, 1}) data_.records[static_cast<std::size_t>(i)].curve = {{0, 4.0}};
   data_.study.claims[0].at_most = 0.4;
   EXPECT_EQ(only().verdict, Verdict::not_confirmed);
   data_.study.claims[0].from_generation = 9;

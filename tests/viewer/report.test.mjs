@@ -95,12 +95,13 @@ test("in print everything is unfolded, light and within the paper", () =>
     await page.emulateMedia({ media: "print" });
     const folded = page.locator("details:not([open]) table").first();
     assert.ok(await folded.isVisible(), "a folded part is printed");
-    const { sheet, ink } = await page.evaluate(() => ({
+    const { sheet, ink, scheme } = await page.evaluate(() => ({
       sheet: document.documentElement.scrollWidth - document.documentElement.clientWidth,
       ink: getComputedStyle(document.body).color,
+      scheme: getComputedStyle(document.documentElement).colorScheme,
     }));
     assert.ok(sheet <= 0, `wider than the paper by ${sheet} px`);
-    assert.equal(ink, "rgb(22, 25, 29)");
+    assert.deepEqual([ink, scheme], ["rgb(22, 25, 29)", "light"]);
     assert.ok((await page.pdf({ format: "A4" })).length > 20_000);
   }));
 

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstddef>
+
+namespace amble::report {
+
+/// Confidence of every interval in a report, unless a claim has a level of its own.
+inline constexpr double confidence = 0.95;
+
+/// Bootstrap intervals are given from so many runs on. Resamples cannot leave the range of a sample, and the
+/// whole range of n values holds the median with a probability of 1 − 2^(1 − n): below six not even that is
+/// an interval of 95 %.
+inline constexpr std::size_t fewest_resampled = 6;
+
+}  // namespace amble::report
