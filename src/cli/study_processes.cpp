@@ -35,6 +35,7 @@ ChildProcesses::ChildProcesses(const std::vector<std::vector<std::string>>& argu
     std::vector<std::string> words{"amble"};
     words.insert(words.end(), list.begin(), list.end());
     std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
     const pid_t parent = ::getpid(), pid = ::fork();

@@ -17,6 +17,7 @@ constexpr int record_version = 1;
 template <typename Value>
 double median_of(const std::vector<EpisodeResult>& episodes, Value EpisodeResult::*value) {
   std::vector<double> values;
+  values.reserve(episodes.size());
   for (const EpisodeResult& episode : episodes) values.push_back(episode.*value);
   return median(std::move(values));
 }

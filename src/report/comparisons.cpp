@@ -77,6 +77,7 @@ std::vector<PairTable> compare_pairs(const StudyData& data) {
   std::vector<PairTable> tables;
   for (const std::string& measure : distances_of(data.study)) {
     std::vector<std::vector<double>> samples;
+    samples.reserve(conditions.size());
     for (const auto& condition : conditions) samples.push_back(data.values(condition.name, measure));
     PairTable table{.measure = measure, .pairs = {}};
     for (std::size_t i = 0; i < conditions.size(); ++i)

@@ -35,6 +35,7 @@ std::vector<BestCurve> best_curves(const StudyData& data) {
                     .upper_quartile_m = {}};
     for (const int generation : curve.generation) {
       std::vector<double> best;
+      best.reserve(runs.size());
       for (const ledger::Record* run : runs) best.push_back(run->best_after(generation));
       curve.lower_quartile_m.push_back(statistics::quantile(best, 0.25));
       curve.median_m.push_back(statistics::median(best));

@@ -13,7 +13,6 @@
 namespace amble::report {
 namespace {
 
-using analysis::Anchor;
 using analysis::Box;
 using analysis::Layout;
 using analysis::Point;
@@ -62,6 +61,7 @@ std::string curves_figure(const Report& report, Layout layout) {
   AMBLE_CHECK(!curves.empty(), "a curve");
   PanelGrid grid = PanelGrid::of(curves.size(), layout);
   std::vector<std::string> labels;
+  labels.reserve(curves.size());
   for (const BestCurve& curve : curves) labels.push_back(report.label(curve.condition));
   grid.make_room(labels, value_px);
   double last = 1.0, best = 0.0;

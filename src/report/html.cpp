@@ -80,6 +80,7 @@ TableWriter::TableWriter(std::vector<Column> columns, std::string_view css_class
 
 void TableWriter::row(const std::vector<std::string>& texts) {
   std::vector<std::string> contents;
+  contents.reserve(texts.size());
   for (const std::string& text : texts) contents.push_back(tied(escape(text)));
   row_of_markup(contents);
 }

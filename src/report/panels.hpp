@@ -45,7 +45,8 @@ struct PanelGrid {
   double height_px() const { return static_cast<double>(rows) * (top_px + panel_height_px + below_px); }
   /// The plot of a panel, without its title above and its axis below.
   analysis::Box plot(std::size_t index) const {
-    const double column = static_cast<double>(index % columns), row = static_cast<double>(index / columns);
+    const std::size_t line = index / columns;
+    const double column = static_cast<double>(index % columns), row = static_cast<double>(line);
     return {left_px + column * (left_px + panel_width_px + gap_px),
             top_px + row * (top_px + panel_height_px + below_px), panel_width_px, panel_height_px};
   }
