@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <ranges>
 
 #include "amble/analysis/axis.hpp"
 #include "amble/analysis/svg.hpp"
@@ -97,9 +96,9 @@ std::vector<double> spread_within(std::vector<double> places, double top, double
     least = places[i] + gap;
   }
   double most = bottom;
-  for (const std::size_t i : order | std::views::reverse) {
-    places[i] = std::min(places[i], most);
-    most = places[i] - gap;
+  for (auto i = order.rbegin(); i != order.rend(); ++i) {
+    places[*i] = std::min(places[*i], most);
+    most = places[*i] - gap;
   }
   return places;
 }
