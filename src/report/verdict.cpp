@@ -45,6 +45,7 @@ std::string too_few(const StudyData& data, const std::string& condition, std::si
 std::vector<Judgement> judge(const StudyData& data) {
   const auto& claims = data.study.claims;
   std::vector<Judgement> judgements;
+  judgements.reserve(claims.size());
   for (const ledger::ClaimSpec& claim : claims) judgements.push_back(judge_one(data, claim));
 
   std::vector<std::size_t> family;
