@@ -19,8 +19,9 @@ double pairs_won(std::span<const double> first, std::span<const double> second) 
   std::ranges::sort(sorted);
   double won = 0.0;
   for (const double x : first) {
-    const auto equal = std::ranges::equal_range(sorted, x);
-    won += static_cast<double>(equal.begin() - sorted.begin()) + 0.5 * static_cast<double>(equal.size());
+    const auto [first_equal, last_equal] = std::equal_range(sorted.begin(), sorted.end(), x);
+    won += static_cast<double>(first_equal - sorted.begin()) +
+           0.5 * static_cast<double>(last_equal - first_equal);
   }
   return won;
 }

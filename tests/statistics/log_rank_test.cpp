@@ -72,7 +72,7 @@ TEST(LogRank, DependsNeitherOnTheOrderOfGroupsNorOnTheScaleOfTime) {
     if (!test) continue;
     const double observed = std::accumulate(test->observed.begin(), test->observed.end(), 0.0);
     EXPECT_NEAR(std::accumulate(test->expected.begin(), test->expected.end(), 0.0), observed, 1e-10);
-    std::ranges::rotate(groups, groups.begin() + 1);
+    std::rotate(groups.begin(), groups.begin() + 1, groups.end());
     for (auto& group : groups) {
       std::ranges::reverse(group);
       for (auto& life : group) life.time_s *= life.time_s;
