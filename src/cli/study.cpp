@@ -33,7 +33,21 @@ struct StudyOptions {
   int slurm_tasks = 20, slurm_minutes = 60;
 };
 
-/// How a study's part stands, and how it ended, for people.
+/// How much of a study's part is done, begun and neither.
+ExitCode print_status(const study::Plan& plan, const std::vector<study::RunState>& states,
+                      const study::Shard& shard) {
+  const auto part = plan.shard(shard);
+  const auto count = [&](study::RunState state) {
+    return std::ranges::count_if(part, [&](std::size_t run) { return states[run] == state; });
+  };
+  fmt::print("{} of {} runs are done, digest {}\n", count(study::RunState::done), part.size(),
+             ledger::ledger_digest(ledger::Ledger(plan.paths).load_all(plan.study)));
+  fmt::print("{} lack a test, {} are begun, {} not yet\n", count(study::RunState::untested),
+             count(study::RunState::begun), count(study::RunState::missing));
+  return ExitCode::ok;
+}
+
+/// What was reached, and how to go on, for people.
 ExitCode conclude(const study::Plan& plan, const StudyOptions& options, int failed, bool interrupted,
                   ExitCode failure) {
   const auto states = study::survey(plan);
@@ -45,7 +59,7 @@ ExitCode conclude(const study::Plan& plan, const StudyOptions& options, int fail
   fmt::print("{} of {} runs{} are done, digest {}\n", done, part.size(), of_shard,
              ledger::ledger_digest(ledger::Ledger(plan.paths).load_all(plan.study)));
   if (interrupted) {
-    say(fmt::format("stopped; go on by the same command\n"));
+    say("stopped; go on by the same command\n");
     return ExitCode::interrupted;
   }
   if (failed > 0) {
@@ -138,7 +152,7 @@ ExitCode run_study(const StudyOptions& options) {
   const auto plan = study::make_plan(ledger::load_study(options.file), options.out);
   const auto states = study::survey(plan);
   if (options.slurm) return write_slurm_script(plan, options);
-  if (options.status) return conclude(plan, options, 0, false, ExitCode::ok);
+  if (options.status) return print_status(plan, states, shard);
   ledger::keep_study(plan.paths, plan.study);
   for (const auto& stranger : ledger::Ledger(plan.paths).strangers(plan.study))
     if (!options.as_child) say(fmt::format("{}: no run of this study; passed over\n", stranger.string()));

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kinds{"start", "generation", "finish", "failure"};
 constexpr std::string_view mark = "amble-study ";
-constexpr double line_interval_s = 0.2, terminal_interval_s = 0.1, plain_interval_s = 30.0;
+constexpr double line_interval_s = 0.2, redraw_interval_s = 0.1, summary_interval_s = 30.0;
 
 /// Takes the next word off a line.
 std::string_view take_word(std::string_view& line) {
@@ -145,7 +145,7 @@ void StudyProgress::on(const StudyEvent& event) {
       break;
   }
   const double now = now_s();
-  if (now - last_print_s_ < (terminal_ ? terminal_interval_s : plain_interval_s)) return;
+  if (now - last_print_s_ < (terminal_ ? redraw_interval_s : summary_interval_s)) return;
   last_print_s_ = now;
   print(summary(), false);
 }
