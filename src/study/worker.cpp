@@ -167,7 +167,8 @@ class Worker {
     provenance.flags = build.flags;
     provenance.cpu = experiment::cpu_name();
     provenance.finished_utc = utc_now();
-    // The rules as they were when the run's results were first known; a test that is added later changes nothing.
+    // The rules as they were when the run's results were first known; a test that is added later changes
+    // nothing.
     if (provenance.claims.empty()) provenance.claims = plan_.study.claims_hash();
     provenance.tests_s += tests_s;
   }
