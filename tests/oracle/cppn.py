@@ -31,7 +31,7 @@ class Cppn:
         if not self.settings["recurrent"]:
             return len(self.nodes)
         # A file without the key comes from a program that knew no other number.
-        return 2 * self.hidden_count + {"2h+1": 1, "2h+3": 3}[self.settings.get("passes", "2h+1")]
+        return 2 * self.hidden_count + {"2h+1": 1, "2h+3": 3}[self.settings["passes"]]
 
     def has_cycle(self):
         targets = {node: [link["to"] for link in self.links if link["from"] == node] for node in self.nodes}
