@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 #include <hwy/targets.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -10,17 +13,52 @@
 #include "amble/io/file.hpp"
 #include "bench/benches.hpp"
 
-// Measures everything in one run and prints ratios first: amble_bench [--csv FILE]. Run it on a machine that
-// does nothing else.
+namespace {
+
+struct Part {
+  std::string_view name;
+  void (*measure)(std::vector<amble::bench::Figure>&);
+};
+constexpr Part parts[] = {
+    {"controllers", amble::bench::measure_controllers},
+    {"cppn", amble::bench::measure_cppn},
+    {"neat", amble::bench::measure_neat},
+    {"novelty", amble::bench::measure_novelty},
+    {"physics", amble::bench::measure_physics},
+    {"runs", amble::bench::measure_runs},
+};
+
+struct Options {
+  std::string_view csv, only;
+};
+
+/// Nothing if the arguments make no sense.
+std::optional<Options> options_of(int argc, char** argv) {
+  Options options;
+  for (int i = 1; i < argc; i += 2) {
+    const std::string_view name = argv[i];
+    if (i + 1 == argc || (name != "--csv" && name != "--only")) return {};
+    (name == "--csv" ? options.csv : options.only) = argv[i + 1];
+  }
+  const bool known = std::ranges::any_of(parts, [&](const Part& part) { return part.name == options.only; });
+  return options.only.empty() || known ? std::optional(options) : std::nullopt;
+}
+
+}  // namespace
+
+// Measures everything in one run, or one part of it, and prints ratios first. Run it on a machine that does
+// nothing else.
 int main(int argc, char** argv) {
   using namespace amble;
+  const auto options = options_of(argc, argv);
+  if (!options) {
+    fmt::print(stderr,
+               "usage: amble_bench [--csv FILE] [--only controllers|cppn|neat|novelty|physics|runs]\n");
+    return 2;
+  }
   std::vector<bench::Figure> figures;
-  bench::measure_controllers(figures);
-  bench::measure_cppn(figures);
-  bench::measure_neat(figures);
-  bench::measure_novelty(figures);
-  bench::measure_physics(figures);
-  bench::measure_runs(figures);
+  for (const Part& part : parts)
+    if (options->only.empty() || options->only == part.name) part.measure(figures);
   const auto build = experiment::build_info();
   const std::int64_t supported = hwy::SupportedTargets();
   const std::vector<bench::Circumstance> circumstances{
@@ -32,6 +70,5 @@ int main(int argc, char** argv) {
   fmt::print("{}", bench::to_text(figures));
   for (const auto& [name, text] : circumstances) fmt::print("\n{:<16} {}", name, text);
   fmt::print("\n");
-  if (argc == 3 && std::string_view(argv[1]) == "--csv")
-    io::write_file(argv[2], bench::to_csv(figures, circumstances));
+  if (!options->csv.empty()) io::write_file(std::string(options->csv), bench::to_csv(figures, circumstances));
 }

@@ -7,7 +7,7 @@ namespace {
 
 std::string number_text(double value) {
   if (value >= 1e5) return fmt::format("{:.3g}", value);
-  return fmt::format("{:.{}f}", value, value >= 100.0 ? 0 : value >= 10.0 ? 1 : 2);
+  return fmt::format("{:.{}f}", value, value >= 100.0 ? 0 : value >= 10.0 ? 1 : value >= 1.0 ? 2 : 4);
 }
 
 }  // namespace

@@ -10,6 +10,8 @@ namespace amble::controllers {
 /// for a multiple of 16 lanes. Lanes beyond those asked for are 0 until written, and mean nothing.
 class LaneRows {
  public:
+  static constexpr int line_lanes = 16;  ///< lanes of a cache line
+
   LaneRows() = default;
   LaneRows(int rows, int lanes)
       : lines_(static_cast<std::size_t>(lanes + line_lanes - 1) / line_lanes),
@@ -25,7 +27,6 @@ class LaneRows {
   const float* data() const { return reinterpret_cast<const float*>(storage_.data()); }
 
  private:
-  static constexpr int line_lanes = 16;
   struct alignas(64) Line {
     std::array<float, line_lanes> lane{};
   };

@@ -49,6 +49,15 @@ HWY_INLINE V fma(V a, V b, V c) {
 #endif
 }
 
+/// a b − c, rounded once.
+HWY_INLINE V fms(V a, V b, V c) {
+#if HWY_NATIVE_FMA
+  return hn::MulSub(a, b, c);
+#else
+  return fma(a, b, hn::Neg(c));
+#endif
+}
+
 /// s(x) = 1/(1 + e^(−slope x)). Once for many vectors, what depends on the slope alone.
 class Logistic {
  public:
@@ -62,7 +71,7 @@ class Logistic {
     const V rounder = set(c::rounder);
     const V sum = fma(x, scale_, rounder);
     const V k = hn::Sub(sum, rounder);
-    const V r = fma(x, scale_, hn::Neg(k));
+    const V r = fms(x, scale_, k);
     V p = fma(set(c::e5), r, set(c::e4));
     p = fma(p, r, set(c::e3));
     p = fma(p, r, set(c::e2));

@@ -155,32 +155,41 @@ void NeuralBatch::sense_sine(float* row) const {
 /// Links that no lane expresses are left out: with finite values their products are zeros, which change no
 /// sum but for the sign of a 0, and that is lost in the logistic function and beside the states y.
 void NeuralBatch::find_links() {
+  const int sensors = wiring().sensor_count();
+  const auto expressed = [&](const Wiring::Neuron& neuron, bool from_sensors) {
+    std::vector<int> links;
+    for (int k = neuron.first_link; k < neuron.first_link + neuron.link_count; ++k) {
+      const bool senses = wiring().links[static_cast<std::size_t>(k)].source_slot < sensors;
+      if (expressed_[static_cast<std::size_t>(k)] > 0 && senses == from_sensors) links.push_back(k);
+    }
+    return links;
+  };
   const auto offset = [&](int row) {
     return static_cast<std::uint32_t>(static_cast<std::size_t>(row) * values_.stride());
   };
-  for (LinkTable* const table : {&sensor_links_, &neuron_links_}) {
-    table->links.clear();
-    table->begin.assign(1, 0);
-  }
-  const int sensors = wiring().sensor_count();
-  for (const Wiring::Neuron& neuron : wiring().neurons) {
-    for (int k = neuron.first_link; k < neuron.first_link + neuron.link_count; ++k) {
-      if (expressed_[static_cast<std::size_t>(k)] == 0) continue;
-      const int source = wiring().links[static_cast<std::size_t>(k)].source_slot;
-      if (source < sensors)
-        sensor_links_.links.push_back({offset(k), offset(source)});
-      else
-        neuron_links_.links.push_back({offset(k), offset(source - sensors)});
+  for (const bool from_sensors : {true, false}) {
+    SumTable& table = from_sensors ? from_sensors_ : from_neurons_;
+    std::vector<std::pair<int, std::vector<int>>> neurons;
+    for (int n = 0; n < wiring().neuron_count(); ++n)
+      neurons.emplace_back(n, expressed(wiring().neurons[static_cast<std::size_t>(n)], from_sensors));
+    // Neurons of a cycle, and sums over sensors, may come in any order; levels may not.
+    if (wiring().cyclic || from_sensors)
+      std::ranges::stable_sort(neurons, {}, [](const auto& neuron) { return neuron.second.size(); });
+    table.clear(static_cast<int>(wiring().links.size()), lanes_);
+    for (const auto& [n, links] : neurons) {
+      table.add_neuron(offset(n));
+      for (const int k : links)
+        table.add_link(
+            offset(wiring().links[static_cast<std::size_t>(k)].source_slot - (from_sensors ? 0 : sensors)),
+            weights_.row(k), lanes_);
     }
-    for (LinkTable* const table : {&sensor_links_, &neuron_links_})
-      table->begin.push_back(static_cast<int>(table->links.size()));
+    table.join_groups();
   }
 }
 
 NeuralRows NeuralBatch::rows(float slope) {
-  return {.from_sensors = sensor_links_,
-          .from_neurons = neuron_links_,
-          .weights = weights_.data(),
+  return {.from_sensors = from_sensors_,
+          .from_neurons = from_neurons_,
           .sensors = values_.data(),
           .values = values_.row(wiring().sensor_count()),
           .sensed = sensed_.data(),

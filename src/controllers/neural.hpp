@@ -87,7 +87,7 @@ class NeuralBatch : public Batch {
   LaneRows weights_;            ///< link by link of the wiring
   std::vector<int> expressed_;  ///< link by link: number of lanes in which its weight is not 0
   bool links_known_ = false;    ///< whether the tables belong to the weights
-  LinkTable sensor_links_, neuron_links_;
+  SumTable from_sensors_, from_neurons_;
   LaneRows values_;            ///< what the nodes say, slot by slot
   LaneRows sensed_, scratch_;  ///< neuron by neuron
   std::vector<int> tick_;      ///< lane by lane, from 0

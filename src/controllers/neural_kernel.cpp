@@ -14,61 +14,125 @@
 HWY_BEFORE_NAMESPACE();
 namespace amble::controllers::HWY_NAMESPACE {
 
-/// The rows of one vector's lanes.
+/// The rows of one vector's lanes. A neuron is named by where its rows begin.
 struct Pass {
   const NeuralRows& rows;
   int lane;
 
-  template <typename Float>
-  HWY_INLINE Float* at(Float* base, int neuron) const {
-    return base + static_cast<std::size_t>(neuron) * rows.stride + lane;
-  }
-  HWY_INLINE V get(const float* base, int neuron) const { return load(at(base, neuron)); }
-  HWY_INLINE void put(V v, float* base, int neuron) const { store(v, at(base, neuron)); }
+  HWY_INLINE V get(const float* base, std::size_t neuron) const { return load(base + neuron + lane); }
+  HWY_INLINE void put(V v, float* base, std::size_t neuron) const { store(v, base + neuron + lane); }
 
-  /// sum + Σ weight × value, link by link.
-  HWY_INLINE V add(const LinkTable& table, int neuron, const float* values, V sum) const {
-    const float* const weights = rows.weights + lane;
-    values += lane;
-    const LinkTable::Link* link = table.links.data() + table.begin[static_cast<std::size_t>(neuron)];
-    const LinkTable::Link* const end = table.links.data() + table.begin[static_cast<std::size_t>(neuron) + 1];
-    for (; link != end; ++link) sum = fma(load(weights + link->weight), load(values + link->source), sum);
-    return sum;
-  }
-  HWY_INLINE V add_sensors(int neuron, V sum) const {
-    return add(rows.from_sensors, neuron, rows.sensors, sum);
-  }
-  HWY_INLINE V add_neurons(int neuron, const float* values, V sum) const {
-    return add(rows.from_neurons, neuron, values, sum);
+  template <typename Work>
+  HWY_INLINE void for_neurons(Work work) const {
+    const std::size_t end = static_cast<std::size_t>(rows.neurons) * rows.stride;
+    for (std::size_t n = 0; n < end; n += rows.stride) work(n);
   }
   void copy(const float* from, float* to) const {
-    for (int n = 0; n < rows.neurons; ++n) put(get(from, n), to, n);
+    for_neurons([&](std::size_t n) HWY_ATTR { put(get(from, n), to, n); });
   }
 };
+
+/// Where a table is read next.
+struct Cursor {
+  const std::uint32_t* neuron;
+  const std::uint32_t* source;
+  const float* weight;
+};
+
+/// The sums of one group, whose neurons have `known` links each, or `links` if that is negative.
+template <int known, typename Start, typename Work>
+HWY_INLINE void sum_group(const SumTable::Group& group, const float* values, Cursor& at, Start start,
+                          Work work) {
+  const int links = known >= 0 ? known : group.links;
+  Cursor next = at;
+  for (const std::uint32_t* const end = next.neuron + group.neurons; next.neuron != end; ++next.neuron) {
+    const std::size_t neuron = *next.neuron;
+    V sum = start(neuron);
+    for (int k = 0; k < links; ++k)
+      sum = fma(load(next.weight + k * LaneRows::line_lanes), load(values + next.source[k]), sum);
+    next.source += links;
+    next.weight += links * LaneRows::line_lanes;
+    work(neuron, sum);
+  }
+  at = next;
+}
+
+/// work(neuron, start(neuron) + Σ weight × value) for all neurons of a table, link by link.
+template <typename Start, typename Work>
+HWY_INLINE void sums(const SumTable& table, const float* values, int lane, Start start, Work work) {
+  constexpr int line = LaneRows::line_lanes;
+  Cursor at{table.neurons.data(), table.sources.data(),
+            table.weights.row(lane / line * table.capacity) + lane % line};
+  values += lane;
+  for (const SumTable::Group& group : table.groups) {
+    switch (group.links) {
+      case 0:
+        sum_group<0>(group, values, at, start, work);
+        break;
+      case 1:
+        sum_group<1>(group, values, at, start, work);
+        break;
+      case 2:
+        sum_group<2>(group, values, at, start, work);
+        break;
+      case 3:
+        sum_group<3>(group, values, at, start, work);
+        break;
+      case 4:
+        sum_group<4>(group, values, at, start, work);
+        break;
+      case 5:
+        sum_group<5>(group, values, at, start, work);
+        break;
+      case 6:
+        sum_group<6>(group, values, at, start, work);
+        break;
+      default:
+        sum_group<-1>(group, values, at, start, work);
+    }
+  }
+}
 
 template <typename Work>
 HWY_INLINE void for_lanes(const NeuralRows& rows, Work work) {
   for (int lane = 0; lane < rows.lanes; lane += width) work(Pass{rows, lane});
 }
 
+/// Writes the part of the sums that stays during the tick to `sensed`: −bias, or 0 without, and the sensors'.
+template <typename Work>
+HWY_INLINE void sense(const Pass& pass, const float* bias, Work work) {
+  sums(
+      pass.rows.from_sensors, pass.rows.sensors, pass.lane,
+      [&](std::size_t n) HWY_ATTR { return bias ? hn::Sub(set(0.0f), pass.get(bias, n)) : set(0.0f); },
+      [&](std::size_t n, V sum) HWY_ATTR {
+        pass.put(sum, pass.rows.sensed, n);
+        work(n, sum);
+      });
+}
+
 void levels(const NeuralRows& rows) {
   const Logistic logistic(rows.slope);
   for_lanes(rows, [&](const Pass& pass) HWY_ATTR {
-    for (int n = 0; n < rows.neurons; ++n)
-      pass.put(logistic(pass.add_neurons(n, rows.values, pass.add_sensors(n, set(0.0f)))), rows.values, n);
+    sense(pass, nullptr, [](std::size_t, V) HWY_ATTR {});
+    float *const values = rows.values, *const sensed = rows.sensed;
+    sums(
+        rows.from_neurons, values, pass.lane, [=](std::size_t n) HWY_ATTR { return pass.get(sensed, n); },
+        [=](std::size_t n, V sum) HWY_ATTR { pass.put(logistic(sum), values, n); });
   });
 }
 
 /// One pass; whether any value changed by a bit.
 HWY_INLINE bool update(const Pass& pass, const Logistic& logistic, const float* from, float* to) {
   const Ints i;
+  const float* const sensed = pass.rows.sensed;
   auto changed = hn::Zero(i);
-  for (int n = 0; n < pass.rows.neurons; ++n) {
-    const V before = pass.get(from, n);
-    const V after = logistic(pass.add_neurons(n, from, pass.get(pass.rows.sensed, n)));
-    changed = hn::Or(changed, hn::Xor(hn::BitCast(i, before), hn::BitCast(i, after)));
-    pass.put(after, to, n);
-  }
+  sums(
+      pass.rows.from_neurons, from, pass.lane, [&](std::size_t n) HWY_ATTR { return pass.get(sensed, n); },
+      [&](std::size_t n, V sum) HWY_ATTR {
+        const V after = logistic(sum);
+        changed = hn::Or(changed, hn::Xor(hn::BitCast(i, pass.get(from, n)), hn::BitCast(i, after)));
+        pass.put(after, to, n);
+      });
   return !hn::AllTrue(i, hn::Eq(changed, hn::Zero(i)));
 }
 
@@ -77,11 +141,7 @@ void passes(const NeuralRows& rows, int count) {
   for_lanes(rows, [&](const Pass& pass) HWY_ATTR {
     // All neurons are 0 before the first pass, which therefore sums the sensors alone.
     float *from = rows.values, *to = rows.scratch;
-    for (int n = 0; n < rows.neurons; ++n) {
-      const V sum = pass.add_sensors(n, set(0.0f));
-      pass.put(sum, rows.sensed, n);
-      pass.put(logistic(sum), from, n);
-    }
+    sense(pass, nullptr, [&](std::size_t n, V sum) HWY_ATTR { pass.put(logistic(sum), from, n); });
     // A pass depends on the values before it alone: once it leaves them as they are, so do all that follow.
     bool changed = true;
     for (int done = 1; done < count && changed; ++done) {
@@ -93,22 +153,26 @@ void passes(const NeuralRows& rows, int count) {
 }
 
 /// A step of each neuron as soon as its sum is known.
+HWY_INLINE void rate_euler_step(const SumTable& table, const Logistic& logistic, int lane,
+                                const float* sensed, const float* rate, const float* from, float* to) {
+  sums(
+      table, from, lane, [=](std::size_t n) HWY_ATTR { return load(sensed + n + lane); },
+      [=](std::size_t n, V sum) HWY_ATTR {
+        const V y = load(from + n + lane);
+        store(fma(load(rate + n + lane), hn::Sub(logistic(sum), y), y), to + n + lane);
+      });
+}
+
 void rate_euler(const NeuralRows& rows, const CtrnnRows& ctrnn, int steps, bool from_zero) {
   const Logistic logistic(rows.slope);
   for_lanes(rows, [&](const Pass& pass) HWY_ATTR {
     float *from = rows.values, *to = rows.scratch;
-    for (int n = 0; n < rows.neurons; ++n) {
-      const V sum = pass.add_sensors(n, hn::Sub(set(0.0f), pass.get(ctrnn.bias, n)));
-      pass.put(sum, rows.sensed, n);
-      // From y = 0 the first step's sums are those of the sensors, and it leads to rate × s.
+    // From y = 0 the first step's sums are those of the sensors, and it leads to rate × s.
+    sense(pass, ctrnn.bias, [&](std::size_t n, V sum) HWY_ATTR {
       if (from_zero) pass.put(hn::Mul(pass.get(ctrnn.rate, n), logistic(sum)), from, n);
-    }
+    });
     for (int step = from_zero ? 1 : 0; step < steps; ++step) {
-      for (int n = 0; n < rows.neurons; ++n) {
-        const V aim = logistic(pass.add_neurons(n, from, pass.get(rows.sensed, n)));
-        const V y = pass.get(from, n);
-        pass.put(fma(pass.get(ctrnn.rate, n), hn::Sub(aim, y), y), to, n);
-      }
+      rate_euler_step(rows.from_neurons, logistic, pass.lane, rows.sensed, ctrnn.rate, from, to);
       std::swap(from, to);
     }
     if (from != rows.values) pass.copy(from, rows.values);
@@ -129,34 +193,38 @@ struct General {
   /// The neurons' values that belong to y.
   const float* values_of(const float* y) const {
     if (!potential) return y;
-    for (int n = 0; n < pass.rows.neurons; ++n)
+    pass.for_neurons([&](std::size_t n) HWY_ATTR {
       pass.put(logistic(hn::Add(pass.get(y, n), pass.get(ctrnn.bias, n))), pass.rows.values, n);
+    });
     return pass.rows.values;
   }
 
-  /// F(y) − y of a neuron.
-  HWY_INLINE V pull(int n, const float* y, const float* values) const {
-    V aim = pass.add_neurons(n, values, pass.get(pass.rows.sensed, n));
-    if (!potential) aim = logistic(aim);
-    return hn::Sub(aim, pass.get(y, n));
+  /// work(neuron, F(y) − y) for all neurons.
+  template <typename Work>
+  HWY_INLINE void pulls(const float* y, Work work) const {
+    sums(
+        pass.rows.from_neurons, values_of(y), pass.lane,
+        [&](std::size_t n) HWY_ATTR { return pass.get(pass.rows.sensed, n); },
+        [&](std::size_t n, V sum)
+            HWY_ATTR { work(n, hn::Sub(potential ? sum : logistic(sum), pass.get(y, n))); });
   }
 
   void find_change(const float* y, float* to) const {
-    const float* const values = values_of(y);
-    for (int n = 0; n < pass.rows.neurons; ++n)
-      pass.put(hn::Mul(pass.get(ctrnn.rate, n), pull(n, y, values)), to, n);
+    pulls(y,
+          [&](std::size_t n, V pull) HWY_ATTR { pass.put(hn::Mul(pass.get(ctrnn.rate, n), pull), to, n); });
   }
 
   void euler_step() const {
-    const float* const values = values_of(ctrnn.y);
-    for (int n = 0; n < pass.rows.neurons; ++n)
-      pass.put(fma(pass.get(ctrnn.rate, n), pull(n, ctrnn.y, values), pass.get(ctrnn.y, n)), ctrnn.trial, n);
+    pulls(ctrnn.y, [&](std::size_t n, V pull) HWY_ATTR {
+      pass.put(fma(pass.get(ctrnn.rate, n), pull, pass.get(ctrnn.y, n)), ctrnn.trial, n);
+    });
     pass.copy(ctrnn.trial, ctrnn.y);
   }
 
   const float* ahead(int k, float share) const {
-    for (int n = 0; n < pass.rows.neurons; ++n)
+    pass.for_neurons([&](std::size_t n) HWY_ATTR {
       pass.put(fma(set(share), pass.get(change(k), n), pass.get(ctrnn.y, n)), ctrnn.trial, n);
+    });
     return ctrnn.trial;
   }
   void runge_kutta_step() const {
@@ -165,11 +233,11 @@ struct General {
     find_change(ahead(1, 0.5f), change(2));
     find_change(ahead(2, 1.0f), change(3));
     const V two = set(2.0f), sixth = set(1.0f / 6.0f);
-    for (int n = 0; n < pass.rows.neurons; ++n) {
+    pass.for_neurons([&](std::size_t n) HWY_ATTR {
       V sum = fma(two, pass.get(change(1), n), pass.get(change(0), n));
       sum = hn::Add(fma(two, pass.get(change(2), n), sum), pass.get(change(3), n));
       pass.put(fma(sum, sixth, pass.get(ctrnn.y, n)), ctrnn.y, n);
-    }
+    });
   }
 };
 
@@ -177,10 +245,7 @@ void general(const NeuralRows& rows, const CtrnnRows& ctrnn, int steps, bool pot
   const Logistic logistic(rows.slope);
   for_lanes(rows, [&](const Pass& pass) HWY_ATTR {
     const General method{pass, ctrnn, logistic, potential};
-    for (int n = 0; n < rows.neurons; ++n) {
-      const V start = potential ? set(0.0f) : hn::Sub(set(0.0f), pass.get(ctrnn.bias, n));
-      pass.put(pass.add_sensors(n, start), rows.sensed, n);
-    }
+    sense(pass, potential ? nullptr : ctrnn.bias, [](std::size_t, V) HWY_ATTR {});
     for (int step = 0; step < steps; ++step) runge_kutta ? method.runge_kutta_step() : method.euler_step();
     method.values_of(ctrnn.y);
   });

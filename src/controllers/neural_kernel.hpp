@@ -1,27 +1,17 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <vector>
+
+#include "amble/controllers/sum_table.hpp"
 
 /// The neurons' updates of a tick, compiled for several instruction sets; the best that the CPU has is chosen
 /// at run time. docs/CONTROLLERS.md tells why they all give the same bits.
 namespace amble::controllers {
 
-/// The links into each neuron that at least one lane expresses.
-struct LinkTable {
-  struct Link {
-    std::uint32_t weight, source;  ///< where their rows begin, in floats
-  };
-  std::vector<Link> links;
-  std::vector<int> begin;  ///< neuron by neuron, and the end
-};
-
 /// What a tick of all lanes works on. Rows are those of LaneRows: `stride` floats from one to the next.
 struct NeuralRows {
-  const LinkTable& from_sensors;
-  const LinkTable& from_neurons;
-  const float* weights;
+  const SumTable& from_sensors;
+  const SumTable& from_neurons;
   const float* sensors;
   float* values;   ///< of the neurons; levels before levels that they feed
   float* sensed;   ///< scratch, neuron by neuron: the part of their sums that stays during the tick
