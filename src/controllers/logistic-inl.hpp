@@ -64,22 +64,29 @@ class Logistic {
   explicit HWY_INLINE Logistic(float slope)
       : scale_(set(-(slope * c::log2_e))), largest_(set(c::largest_exponent / (slope * c::log2_e))) {}
 
-  /// With k + r = −slope log2(e) x, k whole: e^(−slope x) = 2^k 2^r.
   HWY_INLINE V operator()(V x) const {
+    V one[1] = {x};
+    replace(one);
+    return one[0];
+  }
+
+  /// Several at once, step by step, so that one's operations fill the gaps between another's.
+  /// With k + r = −slope log2(e) x, k whole: e^(−slope x) = 2^k 2^r.
+  template <int count>
+  HWY_INLINE void replace(V (&x)[count]) const {
     const Ints i;
-    x = hn::Max(hn::Min(x, largest_), hn::Neg(largest_));
-    const V rounder = set(c::rounder);
-    const V sum = fma(x, scale_, rounder);
-    const V k = hn::Sub(sum, rounder);
-    const V r = fms(x, scale_, k);
-    V p = fma(set(c::e5), r, set(c::e4));
-    p = fma(p, r, set(c::e3));
-    p = fma(p, r, set(c::e2));
-    p = fma(p, r, set(c::e1));
-    p = fma(p, r, set(c::e0));
+    const V rounder = set(c::rounder), low = hn::Neg(largest_);
+    V sum[count], r[count], p[count];
+    for (int n = 0; n < count; ++n) x[n] = hn::Max(hn::Min(x[n], largest_), low);
+    for (int n = 0; n < count; ++n) sum[n] = fma(x[n], scale_, rounder);
+    for (int n = 0; n < count; ++n) r[n] = fms(x[n], scale_, hn::Sub(sum[n], rounder));
+    for (int n = 0; n < count; ++n) p[n] = fma(set(c::e5), r[n], set(c::e4));
+    for (const float factor : {c::e3, c::e2, c::e1, c::e0})
+      for (int n = 0; n < count; ++n) p[n] = fma(p[n], r[n], set(factor));
     // The low bits of `sum` are k; shifted up they are added to the exponent of p.
-    const V power = hn::BitCast(Floats(), hn::Add(hn::BitCast(i, p), hn::ShiftLeft<23>(hn::BitCast(i, sum))));
-    return hn::Div(set(1.0f), hn::Add(set(1.0f), power));
+    for (int n = 0; n < count; ++n)
+      p[n] = hn::BitCast(Floats(), hn::Add(hn::BitCast(i, p[n]), hn::ShiftLeft<23>(hn::BitCast(i, sum[n]))));
+    for (int n = 0; n < count; ++n) x[n] = hn::Div(set(1.0f), hn::Add(set(1.0f), p[n]));
   }
 
  private:

@@ -102,7 +102,10 @@ void NeuralBatch::load(int lane, const Parameters& parameters) {
 void NeuralBatch::step(const physics::SensorFrame& sensors, LaneArray& targets_rad) {
   AMBLE_CHECK(targets_rad.rows() == static_cast<int>(model_->ranges.size()) && targets_rad.lanes() == lanes_,
               "targets must be joints × lanes");
-  if (!std::exchange(links_known_, true)) find_links();
+  if (!std::exchange(links_known_, true)) {
+    fill(from_sensors_, true);
+    fill(from_neurons_, false);
+  }
   sense(sensors);
   advance();
   for (int& tick : tick_) ++tick;
@@ -154,36 +157,34 @@ void NeuralBatch::sense_sine(float* row) const {
 
 /// Links that no lane expresses are left out: with finite values their products are zeros, which change no
 /// sum but for the sign of a 0, and that is lost in the logistic function and beside the states y.
-void NeuralBatch::find_links() {
-  const int sensors = wiring().sensor_count();
-  const auto expressed = [&](const Wiring::Neuron& neuron, bool from_sensors) {
-    std::vector<int> links;
-    for (int k = neuron.first_link; k < neuron.first_link + neuron.link_count; ++k) {
-      const bool senses = wiring().links[static_cast<std::size_t>(k)].source_slot < sensors;
-      if (expressed_[static_cast<std::size_t>(k)] > 0 && senses == from_sensors) links.push_back(k);
-    }
-    return links;
-  };
+void NeuralBatch::fill(SumTable& table, bool from_sensors) const {
+  const int first_source = from_sensors ? 0 : wiring().sensor_count();
   const auto offset = [&](int row) {
     return static_cast<std::uint32_t>(static_cast<std::size_t>(row) * values_.stride());
   };
-  for (const bool from_sensors : {true, false}) {
-    SumTable& table = from_sensors ? from_sensors_ : from_neurons_;
-    std::vector<std::pair<int, std::vector<int>>> neurons;
-    for (int n = 0; n < wiring().neuron_count(); ++n)
-      neurons.emplace_back(n, expressed(wiring().neurons[static_cast<std::size_t>(n)], from_sensors));
-    // Neurons of a cycle, and sums over sensors, may come in any order; levels may not.
-    if (wiring().cyclic || from_sensors)
-      std::ranges::stable_sort(neurons, {}, [](const auto& neuron) { return neuron.second.size(); });
-    table.clear(static_cast<int>(wiring().links.size()), lanes_);
-    for (const auto& [n, links] : neurons) {
-      table.add_neuron(offset(n));
-      for (const int k : links)
-        table.add_link(
-            offset(wiring().links[static_cast<std::size_t>(k)].source_slot - (from_sensors ? 0 : sensors)),
-            weights_.row(k), lanes_);
+  const auto expressed = [&](int n) {
+    const Wiring::Neuron& neuron = wiring().neurons[static_cast<std::size_t>(n)];
+    std::vector<int> links;
+    for (int k = neuron.first_link; k < neuron.first_link + neuron.link_count; ++k) {
+      const int source = wiring().links[static_cast<std::size_t>(k)].source_slot;
+      if (expressed_[static_cast<std::size_t>(k)] > 0 && (source < wiring().sensor_count()) == from_sensors)
+        links.push_back(k);
     }
-    table.join_groups();
+    return links;
+  };
+  SumTableBuilder builder(table, static_cast<int>(wiring().links.size()), lanes_);
+  for (std::size_t level = 0; level + 1 < wiring().levels.size(); ++level) {
+    std::vector<std::pair<int, std::vector<int>>> neurons;
+    for (int n = wiring().levels[level]; n < wiring().levels[level + 1]; ++n)
+      neurons.emplace_back(n, expressed(n));
+    std::ranges::stable_sort(neurons, {}, [](const auto& neuron) { return neuron.second.size(); });
+    builder.begin_level();
+    for (const auto& [n, links] : neurons) {
+      builder.add_neuron(offset(n), static_cast<int>(links.size()));
+      for (const int k : links)
+        builder.add_link(offset(wiring().links[static_cast<std::size_t>(k)].source_slot - first_source),
+                         weights_.row(k));
+    }
   }
 }
 

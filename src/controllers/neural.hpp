@@ -80,7 +80,7 @@ class NeuralBatch : public Batch {
  private:
   void sense(const physics::SensorFrame& sensors);
   void sense_sine(float* row) const;
-  void find_links();
+  void fill(SumTable& table, bool from_sensors) const;
 
   std::shared_ptr<const NeuralModel> model_;
   int lanes_;

@@ -39,27 +39,44 @@ struct Cursor {
   const float* weight;
 };
 
+/// The next `count` neurons of a group, whose sums do not depend on each other.
+template <int count, typename Start, typename Activate, typename Work>
+HWY_INLINE void sum_some(int links, const float* values, Cursor& at, Start start, Activate activate,
+                         Work work) {
+  std::size_t neurons[count];
+  V sums[count];
+  for (int i = 0; i < count; ++i) {
+    neurons[i] = at.neuron[i];
+    sums[i] = start(neurons[i]);
+  }
+  for (int k = 0; k < links; ++k)
+    for (int i = 0; i < count; ++i)
+      sums[i] = fma(load(at.weight + (i * links + k) * LaneRows::line_lanes),
+                    load(values + at.source[i * links + k]), sums[i]);
+  at.neuron += count;
+  at.source += count * links;
+  at.weight += count * links * LaneRows::line_lanes;
+  activate(sums);
+  for (int i = 0; i < count; ++i) work(neurons[i], sums[i]);
+}
+
 /// The sums of one group, whose neurons have `known` links each, or `links` if that is negative.
-template <int known, typename Start, typename Work>
+template <int known, typename Start, typename Activate, typename Work>
 HWY_INLINE void sum_group(const SumTable::Group& group, const float* values, Cursor& at, Start start,
-                          Work work) {
+                          Activate activate, Work work) {
   const int links = known >= 0 ? known : group.links;
   Cursor next = at;
-  for (const std::uint32_t* const end = next.neuron + group.neurons; next.neuron != end; ++next.neuron) {
-    const std::size_t neuron = *next.neuron;
-    V sum = start(neuron);
-    for (int k = 0; k < links; ++k)
-      sum = fma(load(next.weight + k * LaneRows::line_lanes), load(values + next.source[k]), sum);
-    next.source += links;
-    next.weight += links * LaneRows::line_lanes;
-    work(neuron, sum);
-  }
+  int left = group.neurons;
+  for (; left >= 2; left -= 2) sum_some<2>(links, values, next, start, activate, work);
+  if (left > 0) sum_some<1>(links, values, next, start, activate, work);
   at = next;
 }
 
-/// work(neuron, start(neuron) + Σ weight × value) for all neurons of a table, link by link.
-template <typename Start, typename Work>
-HWY_INLINE void sums(const SumTable& table, const float* values, int lane, Start start, Work work) {
+/// work(neuron, x) for all neurons of a table, x = start(neuron) + Σ weight × value, link by link, as
+/// activate() leaves it: two neurons at a time, so that one's operations fill the gaps between the other's.
+template <typename Start, typename Activate, typename Work>
+HWY_INLINE void for_sums(const SumTable& table, const float* values, int lane, Start start, Activate activate,
+                         Work work) {
   constexpr int line = LaneRows::line_lanes;
   Cursor at{table.neurons.data(), table.sources.data(),
             table.weights.row(lane / line * table.capacity) + lane % line};
@@ -67,30 +84,36 @@ HWY_INLINE void sums(const SumTable& table, const float* values, int lane, Start
   for (const SumTable::Group& group : table.groups) {
     switch (group.links) {
       case 0:
-        sum_group<0>(group, values, at, start, work);
+        sum_group<0>(group, values, at, start, activate, work);
         break;
       case 1:
-        sum_group<1>(group, values, at, start, work);
+        sum_group<1>(group, values, at, start, activate, work);
         break;
       case 2:
-        sum_group<2>(group, values, at, start, work);
+        sum_group<2>(group, values, at, start, activate, work);
         break;
       case 3:
-        sum_group<3>(group, values, at, start, work);
+        sum_group<3>(group, values, at, start, activate, work);
         break;
       case 4:
-        sum_group<4>(group, values, at, start, work);
+        sum_group<4>(group, values, at, start, activate, work);
         break;
       case 5:
-        sum_group<5>(group, values, at, start, work);
+        sum_group<5>(group, values, at, start, activate, work);
         break;
       case 6:
-        sum_group<6>(group, values, at, start, work);
+        sum_group<6>(group, values, at, start, activate, work);
         break;
       default:
-        sum_group<-1>(group, values, at, start, work);
+        sum_group<-1>(group, values, at, start, activate, work);
     }
   }
+}
+
+/// What for_sums() can do with a sum.
+constexpr auto as_it_is = [](auto&) {};
+HWY_INLINE auto by(const Logistic& logistic) {
+  return [&logistic](auto& sums) HWY_ATTR { logistic.replace(sums); };
 }
 
 template <typename Work>
@@ -101,9 +124,10 @@ HWY_INLINE void for_lanes(const NeuralRows& rows, Work work) {
 /// Writes the part of the sums that stays during the tick to `sensed`: −bias, or 0 without, and the sensors'.
 template <typename Work>
 HWY_INLINE void sense(const Pass& pass, const float* bias, Work work) {
-  sums(
+  for_sums(
       pass.rows.from_sensors, pass.rows.sensors, pass.lane,
       [&](std::size_t n) HWY_ATTR { return bias ? hn::Sub(set(0.0f), pass.get(bias, n)) : set(0.0f); },
+      as_it_is,
       [&](std::size_t n, V sum) HWY_ATTR {
         pass.put(sum, pass.rows.sensed, n);
         work(n, sum);
@@ -115,9 +139,9 @@ void levels(const NeuralRows& rows) {
   for_lanes(rows, [&](const Pass& pass) HWY_ATTR {
     sense(pass, nullptr, [](std::size_t, V) HWY_ATTR {});
     float *const values = rows.values, *const sensed = rows.sensed;
-    sums(
+    for_sums(
         rows.from_neurons, values, pass.lane, [=](std::size_t n) HWY_ATTR { return pass.get(sensed, n); },
-        [=](std::size_t n, V sum) HWY_ATTR { pass.put(logistic(sum), values, n); });
+        by(logistic), [=](std::size_t n, V value) HWY_ATTR { pass.put(value, values, n); });
   });
 }
 
@@ -126,10 +150,10 @@ HWY_INLINE bool update(const Pass& pass, const Logistic& logistic, const float* 
   const Ints i;
   const float* const sensed = pass.rows.sensed;
   auto changed = hn::Zero(i);
-  sums(
+  for_sums(
       pass.rows.from_neurons, from, pass.lane, [&](std::size_t n) HWY_ATTR { return pass.get(sensed, n); },
-      [&](std::size_t n, V sum) HWY_ATTR {
-        const V after = logistic(sum);
+      by(logistic),
+      [&](std::size_t n, V after) HWY_ATTR {
         changed = hn::Or(changed, hn::Xor(hn::BitCast(i, pass.get(from, n)), hn::BitCast(i, after)));
         pass.put(after, to, n);
       });
@@ -155,11 +179,11 @@ void passes(const NeuralRows& rows, int count) {
 /// A step of each neuron as soon as its sum is known.
 HWY_INLINE void rate_euler_step(const SumTable& table, const Logistic& logistic, int lane,
                                 const float* sensed, const float* rate, const float* from, float* to) {
-  sums(
-      table, from, lane, [=](std::size_t n) HWY_ATTR { return load(sensed + n + lane); },
-      [=](std::size_t n, V sum) HWY_ATTR {
+  for_sums(
+      table, from, lane, [=](std::size_t n) HWY_ATTR { return load(sensed + n + lane); }, by(logistic),
+      [=](std::size_t n, V aim) HWY_ATTR {
         const V y = load(from + n + lane);
-        store(fma(load(rate + n + lane), hn::Sub(logistic(sum), y), y), to + n + lane);
+        store(fma(load(rate + n + lane), hn::Sub(aim, y), y), to + n + lane);
       });
 }
 
@@ -202,9 +226,9 @@ struct General {
   /// work(neuron, F(y) − y) for all neurons.
   template <typename Work>
   HWY_INLINE void pulls(const float* y, Work work) const {
-    sums(
+    for_sums(
         pass.rows.from_neurons, values_of(y), pass.lane,
-        [&](std::size_t n) HWY_ATTR { return pass.get(pass.rows.sensed, n); },
+        [&](std::size_t n) HWY_ATTR { return pass.get(pass.rows.sensed, n); }, as_it_is,
         [&](std::size_t n, V sum)
             HWY_ATTR { work(n, hn::Sub(potential ? sum : logistic(sum), pass.get(y, n))); });
   }
