@@ -34,7 +34,7 @@ struct StartPose {
 
 struct EngineSettings {
   double timestep_s = 0.01;
-  int iterations = 20;   ///< of the batch engine's constraint solver, fixed
+  int iterations = 0;    ///< of the batch engine's constraint solver, fixed; 0: as suits the friction
   bool torques = false;  ///< keep motor_torque_nm(); it changes no other bit
 };
 

@@ -64,14 +64,14 @@ TEST_P(GoldenRun, GivesTheSameBitsForEver) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Run, GoldenRun,
-                         testing::Values(Golden{"authors/supg-novelty", "5c9bbdeff287a1ac"},
-                                         Golden{"authors/supg-objective", "e3d71f59e64079d6"},
-                                         Golden{"authors/ctrnn-novelty", "a0c53fd08e02da3f"},
-                                         Golden{"authors/sine-objective", "3f03f76cdde97f90"},
-                                         Golden{"paper/supg-novelty", "35f3e0ba7f2320a4"},
-                                         Golden{"paper/ctrnn-objective", "3eb2a773ec8116d9"},
-                                         Golden{"paper/sine-novelty", "254d7a3e9b5d7957"},
-                                         Golden{"robust/supg-objective", "0560d008220287de"}),
+                         testing::Values(Golden{"authors/supg-novelty", "d845546e6e2001d0"},
+                                         Golden{"authors/supg-objective", "392685cb71ae9214"},
+                                         Golden{"authors/ctrnn-novelty", "0045d63eaba3c807"},
+                                         Golden{"authors/sine-objective", "c0695b524719fc88"},
+                                         Golden{"paper/supg-novelty", "3055d4e1a19ba920"},
+                                         Golden{"paper/ctrnn-objective", "44ca20b0bd80484d"},
+                                         Golden{"paper/sine-novelty", "a25bbc790da0efc5"},
+                                         Golden{"robust/supg-objective", "f35a4fc49a82b68d"}),
                          [](const auto& golden) {
                            std::string name = golden.param.config;
                            for (char& c : name)

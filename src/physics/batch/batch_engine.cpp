@@ -20,7 +20,7 @@ class LockstepEngine final : public BatchEngine {
         root_com_m_(robot.bodies[0].com_m),
         mass_kg_(robot.total_mass_kg()),
         timestep_s_(static_cast<float>(settings.timestep_s)),
-        iterations_(settings.iterations),
+        iterations_(settings.iterations > 0 ? settings.iterations : model_.iterations),
         with_torques_(settings.torques),
         torques_nm_(rows_.links, batch::lanes),
         robots_(model_, rows_),

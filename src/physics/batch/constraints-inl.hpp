@@ -64,14 +64,15 @@ struct RowSet {
         w[row][chain.n + d] = fnma(load(chain.base(j) + d * width), w[row][j], w[row][chain.n + d]);
   }
 
-  /// Writes all but W, bounds and impulses; lanes that do not need a row get nothing from it. `softness`: cfm
-  /// per timestep.
-  HWY_INLINE void scale(const Block& block, V softness) {
+  /// Writes all but W, bounds and impulses; lanes that do not need a row get nothing from it.
+  HWY_INLINE void scale(const Pass& pass, const Block& block, float relaxation) {
+    const V softness = set(pass.model().cfm_s_per_kg / pass.batch.timestep_s);
+    const V relaxed = set(1.0f / relaxation);
     V inverse[rows];
     for (int r = 0; r < rows; ++r) {
       V sum = softness;
       for (int i = 0; i < block.numbers; ++i) sum = fma(w[r][i], w[r][i], sum);
-      const V root = hn::Sqrt(sum);
+      const V root = hn::Sqrt(sum * relaxed);
       inverse[r] = hn::IfThenElseZero(needed[r], set(1.0f) / root);
       block.set(BlockShape::softness, r, softness * inverse[r] * inverse[r]);
       block.set(BlockShape::bias, r, wanted[r] * inverse[r]);
@@ -125,7 +126,7 @@ HWY_INLINE bool joint_block(const Pass& pass, const Chain& chain, const ChainFac
     }
     set_of.finish_base(factor, r, j);
   }
-  set_of.scale(block, set(pass.model().cfm_s_per_kg / pass.batch.timestep_s));
+  set_of.scale(pass, block, pass.model().joint_relaxation);
   for (int r = 0; r < rows; ++r) {
     const float* const servo = pass.scratch(pass.work().servos + 4 * (chain.first + first + r));
     // An infinite bound stays so; 0 × root is 0.
@@ -257,7 +258,7 @@ HWY_INLINE void contact_block(const Pass& pass, const Chain* chain, const ChainF
   push_chain<N>(pass, block.get(BlockShape::bias, 1), chain, factor, world, at, rows);
   push_base<N>(pushes, place, factor.n, rows);
   for (int r = 0; r < 3; ++r) rows.finish_base(factor, r);
-  rows.scale(block, set(pass.model().cfm_s_per_kg / pass.batch.timestep_s));
+  rows.scale(pass, block, pass.model().contact_relaxation);
   block.set(BlockShape::position, 0, place.x);
   block.set(BlockShape::position, 1, place.y);
   block.set(BlockShape::position, 2, place.z);

@@ -188,6 +188,10 @@ Model::Model(const RobotSpec& robot)
       friction(static_cast<float>(robot.contact.friction)),
       erp(static_cast<float>(robot.contact.erp)),
       cfm_s_per_kg(static_cast<float>(robot.contact.cfm_s_per_kg)),
+      // The bounds of a friction cone move in every sweep: over-relaxed, feet that stand would chatter.
+      joint_relaxation(1.4f),
+      contact_relaxation(std::isinf(friction) ? 1.4f : 1.0f),
+      iterations(std::isinf(friction) ? 10 : 14),
       legs(static_cast<int>(robot.legs.size())) {
   if (robot.self_collision)
     fail(ExitCode::bad_input,

@@ -70,6 +70,10 @@ struct Model {
   Float3 gravity_m_s2;
   float friction = 0.0f;  ///< may be infinite
   float erp = 0.0f, cfm_s_per_kg = 0.0f;
+  /// Of the constraint solver: over-relaxation and number of sweeps, which differ with the friction
+  /// (docs/BATCH.md, "Solver").
+  float joint_relaxation = 1.0f, contact_relaxation = 1.0f;
+  int iterations = 0;
   int legs = 0;
   int longest_chain = 0;
   bool equal_chains = true;  ///< all have longest_chain links

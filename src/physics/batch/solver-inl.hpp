@@ -1,4 +1,4 @@
-// Projected Gauss–Seidel with a fixed number of iterations, for each instruction set.
+// Projected successive over-relaxation with a fixed number of iterations, for each instruction set.
 #if defined(AMBLE_BATCH_SOLVER_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef AMBLE_BATCH_SOLVER_INL_HPP
 #undef AMBLE_BATCH_SOLVER_INL_HPP
@@ -79,7 +79,7 @@ HWY_INLINE void push(const Block& block, const V* impulse, const V* change, V* j
   for (int r = 0; r < rows; ++r) block.set(BlockShape::impulse, r, impulse[r]);
 }
 
-/// One visit to a block: exactly Gauss–Seidel row by row, but all rows are measured before the first of them
+/// One visit to a block: exactly over-relaxation row by row, but all rows are measured before the first of them
 /// pushes, and their influence on each other is made good with the products of their W: so a row waits for
 /// two or three instructions of the row before, not for its whole update.
 template <int n, int rows, Bound bound>

@@ -10,7 +10,7 @@ namespace amble::physics::batch {
 
 /// A block of up to three constraint rows, as vectors that follow each other: first each row's W = L⁻¹ Jᵀ
 /// (numbers of its chain, then the six of the base), then these. Rows are scaled so that a row's impulse
-/// changes its own speed by one.
+/// changes its own speed by the solver's over-relaxation: what a row lacks is then the change it asks for.
 struct BlockShape {
   int numbers;  ///< of one W
 
