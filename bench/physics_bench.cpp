@@ -102,7 +102,7 @@ double walker_us(const Walkers& walkers) {
 
 /// What one step of the authors' robot takes, without and per contact, counted once in the program's
 /// instructions (docs/BATCH.md); a fused multiply-add is two.
-constexpr double step_flop = 18900.0, contact_flop = 3500.0;
+constexpr double step_flop = 13900.0, contact_flop = 2100.0;
 
 void measure_walkers(std::vector<Figure>& figures) {
   const Walkers walkers = evolve_walkers(steps);
