@@ -62,12 +62,42 @@ HWY_INLINE void add_links(const Program::Link* links, int count, const Tile* sou
   }
 }
 
-void run_pass(const Program& program, int pass, const Tile* source, Tile* target) {
+HWY_INLINE bool same_bits(const float* a, const float* b) {
+  const Floats d;
+  const Ints i;
+  auto differences = hn::Zero(i);
+  for (std::size_t k = 0; k < block; k += hn::Lanes(d))
+    differences =
+        hn::Or(differences, hn::Xor(hn::BitCast(i, hn::Load(d, a + k)), hn::BitCast(i, hn::Load(d, b + k))));
+  return hn::AllTrue(i, hn::Eq(differences, hn::Zero(i)));
+}
+
+/// One pass. Whether each node it computes has the value, to the bit, that it had two passes before.
+bool run_pass(const Program& program, int pass, const Tile* source, Tile* target) {
+  bool repeats = true;
   for (const Program::Node& node : program.nodes) {
     if (pass < node.first_pass || pass > node.last_pass) continue;
     float* values = target[node.slot].value;
+    repeats = repeats && node.first_pass <= pass - 2;
+    Tile before;
+    if (repeats) before = target[node.slot];
     add_links(program.links.data() + node.first_link, node.link_count, source, values);
     activate_values(node.activation, program.linear, values, block);
+    repeats = repeats && same_bits(values, before.value);
+  }
+  return repeats;
+}
+
+/// All passes over one block of points. A pass depends on the values before it alone: once one repeats the
+/// last but one, so do all that follow, and both buffers hold what they would leave there, until a node is
+/// computed for the first time.
+void run_passes(const Program& program, Tile* even, Tile* odd) {
+  for (int pass = 1; pass <= program.passes; ++pass) {
+    if (!run_pass(program, pass, pass % 2 == 1 ? even : odd, pass % 2 == 1 ? odd : even)) continue;
+    int next = program.passes + 1;
+    for (const Program::Node& node : program.nodes)
+      if (node.first_pass > pass) next = std::min(next, node.first_pass);
+    pass = next - 1;
   }
 }
 
@@ -82,8 +112,7 @@ void run(const Program& program, const Points& points, float* results, Tile* scr
       std::memset(even + 1 + program.inputs, 0,
                   sizeof(Tile) * static_cast<std::size_t>(program.slots - 1 - program.inputs));
     }
-    for (int pass = 1; pass <= program.passes; ++pass)
-      run_pass(program, pass, pass % 2 == 1 ? even : odd, pass % 2 == 1 ? odd : even);
+    run_passes(program, even, odd);
     const Tile* const last = program.passes % 2 == 1 ? odd : even;
     for (std::size_t output = 0; output < program.output_slots.size(); ++output)
       std::copy_n(last[program.output_slots[output]].value, block,

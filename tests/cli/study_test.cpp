@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/mount.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -73,6 +74,14 @@ std::string digest(const Finished& finished) {
   return at == std::string::npos ? "none: " + finished.out + finished.err : finished.out.substr(at + 7, 16);
 }
 
+/// Every file of a study's folder.
+std::map<std::string, std::string> all_files(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files[entry.path().string()] = slurp(entry.path());
+  return files;
+}
+
 TEST_F(Study, GivesTheSameLedgerForAnyNumberOfProcessesAndAnyShards) {
   const auto alone = study("alone", {"--jobs", "1"});
   ASSERT_EQ(alone.exit_code, 0) << alone.err;
@@ -143,9 +152,7 @@ TEST_F(Study, AddsATestToFinishedRunsWithoutEvolvingThemAgain) {
 TEST_F(Study, ThatWasChangedSaysWhatNoLongerFitsAndTouchesNothing) {
   ASSERT_EQ(study("s", {"--jobs", "2"}).exit_code, 0);
   fs::remove(record("s", "supg-002"));  // its run folder is there still
-  std::map<std::string, std::string> before;
-  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "s"))
-    if (entry.is_regular_file()) before[entry.path().string()] = slurp(entry.path());
+  const auto before = all_files(folder_ / "s");
   for (const auto& [old, now] :
        std::map<std::string, std::string>{{"generations = 4", "generations = 5"},
                                           {"population.size=30", "population.size=31"},
@@ -156,10 +163,7 @@ TEST_F(Study, ThatWasChangedSaysWhatNoLongerFitsAndTouchesNothing) {
     EXPECT_NE(refused.err.find("runs no longer fit the study"), std::string::npos) << refused.err;
     EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
   }
-  std::map<std::string, std::string> after;
-  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "s"))
-    if (entry.is_regular_file()) after[entry.path().string()] = slurp(entry.path());
-  EXPECT_EQ(after, before);
+  EXPECT_EQ(all_files(folder_ / "s"), before);
 }
 
 TEST_F(Study, NamesARecordThatIsCutInHalf) {
@@ -170,6 +174,44 @@ TEST_F(Study, NamesARecordThatIsCutInHalf) {
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_NE(refused.err.find("sine-003.json"), std::string::npos) << refused.err;
   EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
+}
+
+TEST_F(Study, WithAConfigThatNoLongerParsesNamesItsLineAndLosesNothing) {
+  spill(folder_ / "own.toml", "include = [\"" AMBLE_SOURCE_DIR "/configs/authors/supg-novelty.toml\"]\n");
+  write(replaced(study_toml, "SOURCE/configs/authors/supg-novelty.toml", "own.toml"));
+  ASSERT_EQ(study("s", {"--jobs", "2"}).exit_code, 0);
+  fs::remove(record("s", "supg-002"));
+  const auto before = all_files(folder_ / "s");
+  spill(folder_ / "own.toml", slurp(folder_ / "own.toml") + "seed = = 1\n");
+  const auto refused = study("s", {"--jobs", "2"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("own.toml:2"), std::string::npos) << refused.err;
+  EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
+  EXPECT_EQ(all_files(folder_ / "s"), before);
+}
+
+TEST_F(Study, WithASeedTwiceIsRefusedInOneLine) {
+  write(replaced(study_toml, "[1, 2, 3]", "[1, 2, 1]"));
+  const auto refused = study("s");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("study.toml:2"), std::string::npos) << refused.err;
+  EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
+  EXPECT_FALSE(fs::exists(folder_ / "s"));
+}
+
+TEST_F(Study, OnAFullDiskSaysSoAndGoesOnWhereThereIsRoom) {
+  const auto alone = study("alone", {"--jobs", "1"});
+  const auto disk = folder_ / "disk";
+  fs::create_directories(disk);
+  if (mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=300k") != 0) GTEST_SKIP() << "needs the right to mount";
+  const auto full = study("disk/s", {"--jobs", "2"});
+  EXPECT_EQ(full.exit_code, 4) << full.err;
+  EXPECT_NE(full.err.find("No space left on device"), std::string::npos) << full.err;
+  fs::copy(disk / "s", folder_ / "moved", fs::copy_options::recursive);
+  umount(disk.c_str());
+  const auto rest = study("moved", {"--jobs", "2"});
+  EXPECT_EQ(rest.exit_code, 0) << rest.err;
+  EXPECT_EQ(digest(rest), digest(alone));
 }
 
 TEST_F(Study, ARunThatFailsIsToldAndTheOthersGoOn) {
