@@ -15,8 +15,8 @@ namespace {
 constexpr int lanes = 16, ticks = 300;
 
 /// What sixteen robots that walk in step with nobody could sense.
-physics::SensorFrame sensed(int tick, int joints, int legs) {
-  physics::SensorFrame frame{LaneArray(joints, lanes), LaneArray(legs, lanes), LaneArray(3, lanes)};
+robot::SensorFrame sensed(int tick, int joints, int legs) {
+  robot::SensorFrame frame{LaneArray(joints, lanes), LaneArray(legs, lanes), LaneArray(3, lanes)};
   for (int lane = 0; lane < lanes; ++lane) {
     const auto wave = [&](int row) {
       return std::sin((0.05 + 0.004 * lane) * tick + 1.3 * row + 0.7 * lane);
@@ -45,7 +45,7 @@ double controller_us(const std::string& config_name, std::vector<std::string> as
     batch->load(lane, *parameters.back());
   }
   const auto joints = static_cast<int>(robot.joints.size()), legs = static_cast<int>(robot.legs.size());
-  std::vector<physics::SensorFrame> frames;
+  std::vector<robot::SensorFrame> frames;
   for (int tick = 0; tick < ticks; ++tick) frames.push_back(sensed(tick, joints, legs));
   LaneArray targets_rad(joints, lanes);
   const double seconds = seconds_per_call([&] {

@@ -19,7 +19,7 @@ namespace {
 constexpr int steps = 300;
 
 /// All joints swing through their range, legs a quarter apart: the same targets for every engine.
-void set_targets(const morphology::RobotSpec& robot, int step, LaneArray& targets_rad) {
+void set_targets(const robot::RobotSpec& robot, int step, LaneArray& targets_rad) {
   for (int joint = 0; joint < targets_rad.rows(); ++joint) {
     const auto& spec = robot.joints[static_cast<std::size_t>(joint)];
     const double phase = 2.0 * 3.14159265358979 * (0.01 * step + 0.25 * (joint / 3));
@@ -33,12 +33,12 @@ void set_targets(const morphology::RobotSpec& robot, int step, LaneArray& target
 /// Fills the targets of all lanes at a step.
 using Targets = std::function<void(int step, LaneArray& targets_rad)>;
 
-Targets swing(const morphology::RobotSpec& robot) {
+Targets swing(const robot::RobotSpec& robot) {
   return [&robot](int step, LaneArray& targets_rad) { set_targets(robot, step, targets_rad); };
 }
 
 /// Robot-steps per second of one engine on one core, all lanes busy.
-double steps_per_s(const char* name, const morphology::RobotSpec& robot, const Targets& targets) {
+double steps_per_s(const char* name, const robot::RobotSpec& robot, const Targets& targets) {
   const auto engine = physics::make_engine(name, robot, {});
   LaneArray targets_rad(static_cast<int>(robot.joints.size()), engine->lanes());
   const double seconds = seconds_per_call([&] {
@@ -51,14 +51,14 @@ double steps_per_s(const char* name, const morphology::RobotSpec& robot, const T
   return steps * engine->lanes() / seconds;
 }
 
-double steps_per_s(const char* name, const morphology::RobotSpec& robot) {
+double steps_per_s(const char* name, const robot::RobotSpec& robot) {
   return steps_per_s(name, robot, swing(robot));
 }
 
 /// The same of MuJoCo by itself: mj_step with its own soft contacts and options, but for the limit of 20
 /// iterations, and a damped servo with the same limits of torque. The engine "mujoco" is slower, because it
 /// solves ODE's stiffer equations.
-double mj_steps_per_s(const morphology::RobotSpec& robot, const Targets& targets) {
+double mj_steps_per_s(const robot::RobotSpec& robot, const Targets& targets) {
   const auto mjcf = morphology::write_mjcf(robot);
   const auto owned = morphology::compile_mjcf(mjcf.text, "bench");
   mjModel* const model = owned.get();

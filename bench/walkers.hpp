@@ -3,13 +3,13 @@
 #include <vector>
 
 #include "amble/core/lanes.hpp"
-#include "amble/morphology/robot_spec.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::bench {
 
 /// Sixteen SUPGs of the authors' robot, evolved for a short time from fixed seeds, and what they asked for.
 struct Walkers {
-  morphology::RobotSpec robot;
+  robot::RobotSpec robot;
   std::vector<LaneArray> targets_rad;  ///< by step: joints × 16
   double mean_contacts = 0.0;          ///< points of one robot that touch the ground
 };

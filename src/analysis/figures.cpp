@@ -12,7 +12,7 @@ namespace amble::analysis {
 
 std::vector<FigureFile> figure_files(const PageInput& input, const Recorded& recorded) {
   const Motion& motion = recorded.motion;
-  const RobotModel& robot = recorded.robot;
+  const robot::RobotSpec& robot = recorded.robot;
   std::vector<FigureFile> files;
   const auto add = [&](std::string name, std::string svg) {
     files.push_back({std::move(name), standalone_svg(std::move(svg))});

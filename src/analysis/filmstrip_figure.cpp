@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "amble/analysis/axis.hpp"
-#include "amble/analysis/kinematics.hpp"
 #include "amble/analysis/silhouette.hpp"
 #include "amble/analysis/svg.hpp"
 #include "amble/core/check.hpp"
+#include "amble/robot/pose.hpp"
 
 namespace amble::analysis {
 namespace {
@@ -37,7 +37,7 @@ struct Cell {
 
 /// The camera goes with the robot at constant speed, so that the ground passes by and the trunk's swaying is
 /// seen.
-std::vector<Picture> take_pictures(const RobotModel& robot, const Motion& motion) {
+std::vector<Picture> take_pictures(const robot::RobotSpec& robot, const Motion& motion) {
   const std::vector<int> frames = filmstrip_frames(motion);
   const Camera camera = side_camera(mean_heading(motion, frames.front(), frames.back()));
   const auto along_m = [&](int frame) {
@@ -94,7 +94,7 @@ void draw_ground(Svg& svg, const Picture& picture, const Cell& cell) {
 }
 
 /// Depth of a leg's geoms, mean, away from the camera.
-double leg_depth_m(const RobotModel& robot, const Picture& picture, int leg) {
+double leg_depth_m(const robot::RobotSpec& robot, const Picture& picture, int leg) {
   double sum = 0.0;
   int count = 0;
   for (const Silhouette& outline : picture.outlines)
@@ -116,7 +116,7 @@ void draw_outline(Svg& svg, const Silhouette& outline, const Picture& picture, c
   svg.polygon(corners, css_class);
 }
 
-void draw_robot(Svg& svg, const RobotModel& robot, const Motion& motion, const Picture& picture,
+void draw_robot(Svg& svg, const robot::RobotSpec& robot, const Motion& motion, const Picture& picture,
                 const Cell& cell) {
   double middle_m = 0.0;
   std::vector<double> depth_m;
@@ -156,7 +156,7 @@ std::vector<int> filmstrip_frames(const Motion& motion) {
   return frames;
 }
 
-std::string filmstrip_figure(const RobotModel& robot, const Motion& motion, Layout layout) {
+std::string filmstrip_figure(const robot::RobotSpec& robot, const Motion& motion, Layout layout) {
   AMBLE_CHECK(motion.frames() > 0, "a recording of a walk has a frame");
   const bool wide = layout == Layout::wide;
   const std::vector<Picture> pictures = take_pictures(robot, motion);

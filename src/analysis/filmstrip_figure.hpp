@@ -5,7 +5,7 @@
 
 #include "amble/analysis/layout.hpp"
 #include "amble/analysis/motion.hpp"
-#include "amble/analysis/robot_model.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::analysis {
 
@@ -19,6 +19,6 @@ std::vector<int> filmstrip_frames(const Motion& motion);
 /// Side views of the robot in those frames, over a ground with marks of the distance along its heading. Legs
 /// on the far side are lighter; a foot on the ground is filled. An <svg> element. The motion must have a
 /// frame.
-std::string filmstrip_figure(const RobotModel& robot, const Motion& motion, Layout layout);
+std::string filmstrip_figure(const robot::RobotSpec& robot, const Motion& motion, Layout layout);
 
 }  // namespace amble::analysis

@@ -47,8 +47,8 @@ void draw_triggers(Svg& svg, const std::vector<bool>& trigger, double frame_s, c
   }
 }
 
-void draw_rows(Svg& svg, const RobotModel& robot, const Motion& motion, const Scale& time, const Rows& rows,
-               bool with_share) {
+void draw_rows(Svg& svg, const robot::RobotSpec& robot, const Motion& motion, const Scale& time,
+               const Rows& rows, bool with_share) {
   for (std::size_t leg = 0; leg < robot.legs.size(); ++leg) {
     const double top = rows.bar_top(leg), middle = top + 0.5 * rows.bar_px + 4.5;
     svg.begin_group(leg_class(static_cast<int>(leg)));
@@ -78,7 +78,7 @@ void draw_zoom_guides(Svg& svg, const Scale& whole, const Scale& part, double up
 
 }  // namespace
 
-std::string footfall_figure(const RobotModel& robot, const Motion& motion, Layout layout) {
+std::string footfall_figure(const robot::RobotSpec& robot, const Motion& motion, Layout layout) {
   AMBLE_CHECK(motion.frames() > 0, "a recording of a walk has a frame");
   const bool wide = layout == Layout::wide;
   const double width = width_px(layout), right = width - 56;

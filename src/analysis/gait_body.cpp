@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "amble/analysis/kinematics.hpp"
+#include "amble/robot/pose.hpp"
 
 namespace amble::analysis {
 namespace {
@@ -15,10 +15,10 @@ std::size_t at(int index) {
 
 /// The joint of a leg that is nearest to the root: bodies stand before their children, and joints of one body
 /// in the order of the chain. Nothing for a leg without joints.
-const Joint* hip(const RobotModel& robot, const Leg& leg) {
-  const Joint* first = nullptr;
+const robot::Joint* hip(const robot::RobotSpec& robot, const robot::Leg& leg) {
+  const robot::Joint* first = nullptr;
   for (const int j : leg.joints) {
-    const Joint& joint = robot.joints[at(j)];
+    const robot::Joint& joint = robot.joints[at(j)];
     if (!first || std::pair(joint.body, joint.chain_index) < std::pair(first->body, first->chain_index))
       first = &joint;
   }
@@ -26,16 +26,16 @@ const Joint* hip(const RobotModel& robot, const Leg& leg) {
 }
 
 /// Of a robot whose feet hang in the air in its start pose, as if it had been put down.
-double leg_length_m(const RobotModel& robot, const std::vector<BodyPose>& poses) {
+double leg_length_m(const robot::RobotSpec& robot, const std::vector<robot::Pose>& poses) {
   double clearance_m = std::numeric_limits<double>::infinity();
-  for (const Leg& leg : robot.legs)
-    clearance_m = std::min(clearance_m, geom_bottom_m(robot.geoms[at(leg.foot_geom)], poses));
+  for (const robot::Leg& leg : robot.legs)
+    clearance_m = std::min(clearance_m, robot::bottom_m(robot.geoms[at(leg.foot_geom)], poses));
   double sum_m = 0.0;
   int count = 0;
-  for (const Leg& leg : robot.legs) {
-    const Joint* joint = hip(robot, leg);
+  for (const robot::Leg& leg : robot.legs) {
+    const robot::Joint* joint = hip(robot, leg);
     if (!joint) continue;
-    const BodyPose& pose = poses[at(joint->body)];
+    const robot::Pose& pose = poses[at(joint->body)];
     sum_m += (pose.position_m + rotate(pose.rotation, joint->anchor_m)).z;
     ++count;
   }
@@ -56,22 +56,20 @@ std::optional<QuadrupedLegs> quadruped_legs(const std::vector<Vec3>& feet) {
 
 }  // namespace
 
-GaitBody gait_body(const RobotModel& robot) {
-  const std::vector<double> straight(robot.joints.size(), 0.0);
-  const auto poses =
-      body_poses(robot, BodyPose{robot.bodies[0].position_m, robot.bodies[0].rotation}, straight);
+GaitBody gait_body(const robot::RobotSpec& robot) {
+  const std::vector<robot::Pose> poses = robot::start_poses(robot);
   GaitBody body;
   body.robot = robot.name;
   std::vector<Vec3> feet;
-  for (const Leg& leg : robot.legs) {
+  for (const robot::Leg& leg : robot.legs) {
     body.legs.push_back(leg.name);
-    feet.push_back(geom_centre_m(robot.geoms[at(leg.foot_geom)], poses));
+    feet.push_back(robot::centre_m(robot.geoms[at(leg.foot_geom)], poses));
   }
-  for (const Joint& joint : robot.joints) body.joints.push_back(joint.name);
-  for (const Body& part : robot.bodies) body.mass_kg += part.mass_kg;
+  for (const robot::Joint& joint : robot.joints) body.joints.push_back(joint.name);
+  body.mass_kg = robot.total_mass_kg();
   body.gravity_m_s2 = norm(robot.gravity_m_s2);
   body.leg_length_m = leg_length_m(robot, poses);
-  body.com_start_m = robot.com_at_start_m();
+  body.com_start_m = robot::start_com_m(robot);
   body.quadruped = quadruped_legs(feet);
   return body;
 }

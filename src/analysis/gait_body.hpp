@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "amble/analysis/robot_model.hpp"
 #include "amble/core/math.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::analysis {
 
@@ -30,6 +30,6 @@ struct GaitBody {
   std::optional<QuadrupedLegs> quadruped;
 };
 
-GaitBody gait_body(const RobotModel& robot);
+GaitBody gait_body(const robot::RobotSpec& robot);
 
 }  // namespace amble::analysis

@@ -4,6 +4,7 @@
 
 #include "amble/core/math.hpp"
 #include "amble/record/trajectory.hpp"
+#include "amble/robot/pose.hpp"
 
 namespace amble::analysis {
 
@@ -28,5 +29,8 @@ struct Motion {
   double seconds() const { return frames() * frame_s; }
   double time_s(int frame) const { return (frame + 1) * frame_s; }
 };
+
+/// Frames of all bodies of the robot that moved so, in one frame.
+std::vector<robot::Pose> body_poses(const robot::RobotSpec& robot, const Motion& motion, int frame);
 
 }  // namespace amble::analysis

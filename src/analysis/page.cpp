@@ -34,7 +34,7 @@ std::string note(std::string_view text) {
   return fmt::format("<p class=\"note\">{}</p>\n", escape(text));
 }
 
-std::string leg_keys(const RobotModel& robot) {
+std::string leg_keys(const robot::RobotSpec& robot) {
   std::string keys = "<p class=\"keys\">";
   for (std::size_t leg = 0; leg < robot.legs.size(); ++leg)
     keys += fmt::format("<span class=\"key {}\">{}</span> ", leg_class(static_cast<int>(leg)),
@@ -58,7 +58,8 @@ std::string_view upright_name(record::Outcome outcome) {
   return {};
 }
 
-std::string headline(const Summary& summary, const RobotModel& robot, const std::optional<CppnSize>& cppn) {
+std::string headline(const Summary& summary, const robot::RobotSpec& robot,
+                     const std::optional<CppnSize>& cppn) {
   std::string out = "<dl class=\"numbers\">\n";
   out += headline_number("Distance", fmt::format("{:.2f}", summary.distance_m), "m");
   out += headline_number(upright_name(summary.outcome), fmt::format("{:.1f}", summary.seconds), "s");

@@ -8,11 +8,11 @@
 
 #include "amble/analysis/axis.hpp"
 #include "amble/analysis/footfalls.hpp"
-#include "amble/analysis/kinematics.hpp"
 #include "amble/analysis/silhouette.hpp"
 #include "amble/analysis/summary.hpp"
 #include "amble/analysis/svg.hpp"
 #include "amble/core/check.hpp"
+#include "amble/robot/pose.hpp"
 
 namespace amble::analysis {
 namespace {
@@ -30,22 +30,23 @@ struct Scene {
 };
 
 /// The trunk's geoms as seen from above.
-void add_trunk(const RobotModel& robot, const Motion& motion, int frame, const Camera& camera, Scene& scene) {
+void add_trunk(const robot::RobotSpec& robot, const Motion& motion, int frame, const Camera& camera,
+               Scene& scene) {
   for (Silhouette& outline : silhouettes(robot, body_poses(robot, motion, frame), camera))
     if (robot.leg_of_body(robot.geoms[static_cast<std::size_t>(outline.geom)].body) < 0)
       scene.trunk_m.push_back(std::move(outline.corners_m));
 }
 
-Scene make_scene(const RobotModel& robot, const Motion& motion, const Camera& camera) {
+Scene make_scene(const robot::RobotSpec& robot, const Motion& motion, const Camera& camera) {
   Scene scene;
   const auto project = [&](Vec3 at) { return Point{dot(at, camera.right), dot(at, camera.up)}; };
   scene.path_m.push_back(project(motion.com_start_m));
   for (const Vec3 com_m : motion.com_m) scene.path_m.push_back(project(com_m));
   for (std::size_t leg = 0; leg < robot.legs.size(); ++leg)
     for (const int frame : touchdown_frames(motion.touch[leg])) {
-      const Geom& foot = robot.geoms[static_cast<std::size_t>(robot.legs[leg].foot_geom)];
+      const robot::Geom& foot = robot.geoms[static_cast<std::size_t>(robot.legs[leg].foot_geom)];
       scene.footprints.push_back(
-          {static_cast<int>(leg), project(geom_centre_m(foot, body_poses(robot, motion, frame)))});
+          {static_cast<int>(leg), project(robot::centre_m(foot, body_poses(robot, motion, frame)))});
     }
   for (const int frame : {0, motion.frames() - 1}) add_trunk(robot, motion, frame, camera, scene);
   return scene;
@@ -130,7 +131,7 @@ void draw_ends(Svg& svg, const Map& map, const Scene& scene, const Summary& summ
 
 }  // namespace
 
-std::string path_figure(const RobotModel& robot, const Motion& motion, Layout layout) {
+std::string path_figure(const robot::RobotSpec& robot, const Motion& motion, Layout layout) {
   AMBLE_CHECK(motion.frames() > 0, "a recording of a walk has a frame");
   const Scene scene = make_scene(robot, motion, top_camera(layout == Layout::narrow));
   const Summary summary = summarise(motion);

@@ -47,7 +47,7 @@ struct Grid {
   }
 };
 
-Grid make_grid(const RobotModel& robot, Layout layout) {
+Grid make_grid(const robot::RobotSpec& robot, Layout layout) {
   const bool wide = layout == Layout::wide;
   return {wide,
           robot.legs.size(),
@@ -58,13 +58,13 @@ Grid make_grid(const RobotModel& robot, Layout layout) {
           wide ? 44.0 : 36.0};
 }
 
-std::size_t joint_index(const RobotModel& robot, std::size_t leg, std::size_t type) {
+std::size_t joint_index(const robot::RobotSpec& robot, std::size_t leg, std::size_t type) {
   return static_cast<std::size_t>(robot.legs[leg].joints[type]);
 }
 
 /// Degrees that all joints of a type and their patterns lie in.
-Interval row_range(const RobotModel& robot, const Supg& supg, std::size_t type) {
-  const Joint& first = robot.joints[joint_index(robot, 0, type)];
+Interval row_range(const robot::RobotSpec& robot, const Supg& supg, std::size_t type) {
+  const robot::Joint& first = robot.joints[joint_index(robot, 0, type)];
   Interval range{degrees(first.lower_rad), degrees(first.upper_rad)};
   for (std::size_t leg = 0; leg < robot.legs.size(); ++leg) {
     const std::size_t joint = joint_index(robot, leg, type);
@@ -85,7 +85,7 @@ std::vector<Point> pattern_points(const Supg& supg, std::size_t joint, const Sca
   return points;
 }
 
-void draw_cell(Svg& svg, const RobotModel& robot, const Supg& supg, const Grid& grid, std::size_t leg,
+void draw_cell(Svg& svg, const robot::RobotSpec& robot, const Supg& supg, const Grid& grid, std::size_t leg,
                std::size_t type, const Scale& angle) {
   const Scale time = grid.time(leg, supg);
   const std::size_t own = joint_index(robot, leg, type);
@@ -103,7 +103,7 @@ void draw_cell(Svg& svg, const RobotModel& robot, const Supg& supg, const Grid& 
   svg.polyline(pattern_points(supg, own, time, angle), "curve");
 }
 
-void draw_row(Svg& svg, const RobotModel& robot, const Supg& supg, const Grid& grid, std::size_t type) {
+void draw_row(Svg& svg, const robot::RobotSpec& robot, const Supg& supg, const Grid& grid, std::size_t type) {
   const Scale angle{row_range(robot, supg, type), grid.top(type) + grid.cell_height_px, grid.top(type)};
   svg.text({0, grid.top(type) - 11}, Anchor::start, "title", robot.joint_types[type]);
   const Ticks ticks = nice_ticks(angle.data, 5);
@@ -151,7 +151,7 @@ void draw_strip(Svg& svg, const Supg& supg, const Grid& grid, std::size_t leg, c
   draw_time_axis(svg, supg, grid, leg, base);
 }
 
-void draw_triggers(Svg& svg, const RobotModel& robot, const Supg& supg, const Motion& motion,
+void draw_triggers(Svg& svg, const robot::RobotSpec& robot, const Supg& supg, const Motion& motion,
                    const Grid& grid) {
   const int bins = grid.wide ? 25 : 20;
   std::vector<std::vector<int>> counts;
@@ -172,7 +172,8 @@ void draw_triggers(Svg& svg, const RobotModel& robot, const Supg& supg, const Mo
 
 }  // namespace
 
-std::string pattern_figure(const RobotModel& robot, const Supg& supg, const Motion& motion, Layout layout) {
+std::string pattern_figure(const robot::RobotSpec& robot, const Supg& supg, const Motion& motion,
+                           Layout layout) {
   const Grid grid = make_grid(robot, layout);
   const bool triggers = !motion.trigger.empty() && !motion.timer_ticks.empty();
   Svg svg(width_px(layout), grid.height(triggers),
@@ -194,7 +195,7 @@ std::string pattern_figure(const RobotModel& robot, const Supg& supg, const Moti
   return svg.finish();
 }
 
-std::string pattern_svg(const RobotModel& robot, const Supg& supg) {
+std::string pattern_svg(const robot::RobotSpec& robot, const Supg& supg) {
   return standalone_svg(pattern_figure(robot, supg, {}, Layout::wide));
 }
 

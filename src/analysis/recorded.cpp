@@ -1,4 +1,5 @@
 #include "amble/analysis/recorded.hpp"
+#include "amble/robot/json.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,16 +13,16 @@ namespace {
 /// The columns of a recording that pictures use, by place.
 class FrameLayout {
  public:
-  FrameLayout(const record::RecordingReader& reader, const RobotModel& robot) {
+  FrameLayout(const record::RecordingReader& reader, const robot::RobotSpec& robot) {
     for (const char* name : {"root.x", "root.y", "root.z", "root.qw", "root.qx", "root.qy", "root.qz"})
       root_.push_back(find(reader, name));
     for (const char* name : {"com.x", "com.y", "com.z"}) com_.push_back(find(reader, name));
-    for (const Joint& joint : robot.joints) angle_.push_back(find(reader, "angle." + joint.name));
+    for (const robot::Joint& joint : robot.joints) angle_.push_back(find(reader, "angle." + joint.name));
     const auto& columns = reader.header().columns;
     const auto has = [&](const std::string& name) {
       return std::ranges::find(columns, name) != columns.end();
     };
-    for (const Leg& leg : robot.legs) {
+    for (const robot::Leg& leg : robot.legs) {
       touch_.push_back(find(reader, "touch." + leg.name));
       if (has("timer." + leg.name)) timer_.push_back(find(reader, "timer." + leg.name));
       if (has("trigger." + leg.name)) trigger_.push_back(find(reader, "trigger." + leg.name));
@@ -63,7 +64,7 @@ Recorded read_recorded(const std::filesystem::path& path) {
   record::RecordingReader reader(path);
   const record::RecordingHeader& header = reader.header();
   Recorded recorded;
-  recorded.robot = parse_robot(header.robot_json, path.string() + ": robot");
+  recorded.robot = robot::parse_robot(header.robot_json, path.string() + ": robot");
   const std::string controller = path.string() + ": controller";
   recorded.controller_kind = parse_controller_kind(header.controller_json, controller);
   if (recorded.controller_kind == "supg")
@@ -73,7 +74,7 @@ Recorded read_recorded(const std::filesystem::path& path) {
 
   Motion& motion = recorded.motion;
   motion.frame_s = header.frame_s;
-  motion.com_start_m = recorded.robot.com_at_start_m();
+  motion.com_start_m = robot::start_com_m(recorded.robot);
   const FrameLayout layout(reader, recorded.robot);
   layout.prepare(motion);
   // A frame that is not finite ends what can be drawn; the outcome of such a trial is `diverged`.

@@ -6,14 +6,14 @@
 
 #include "amble/analysis/motion.hpp"
 #include "amble/analysis/network.hpp"
-#include "amble/analysis/robot_model.hpp"
 #include "amble/analysis/supg.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::analysis {
 
 /// A recording, read into memory.
 struct Recorded {
-  RobotModel robot;
+  robot::RobotSpec robot;
   Motion motion;
   std::string controller_kind;
   std::optional<Supg> supg;              ///< for controllers of kind "supg"

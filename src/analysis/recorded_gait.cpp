@@ -1,4 +1,5 @@
 #include "amble/analysis/recorded_gait.hpp"
+#include "amble/robot/json.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +43,7 @@ GaitReport recorded_gait(const std::filesystem::path& path, const GaitSettings& 
                          std::optional<double> seconds) {
   record::RecordingReader reader(path);
   const double frame_s = reader.header().frame_s;
-  const GaitBody body = gait_body(parse_robot(reader.header().robot_json, path.string() + ": robot"));
+  const GaitBody body = gait_body(robot::parse_robot(reader.header().robot_json, path.string() + ": robot"));
   Columns com(reader, "com.", {"x", "y", "z"}), touch(reader, "touch.", body.legs),
       angle(reader, "angle.", body.joints);
   std::optional<Columns> torque;

@@ -15,10 +15,10 @@ Point project(Vec3 at, const Camera& camera) {
 }
 
 /// Points in space whose projection has the geom's outline as hull; in the geom's frame.
-std::vector<Vec3> outline_points(const Geom& geom) {
+std::vector<Vec3> outline_points(const robot::Geom& geom) {
   std::vector<Vec3> points;
   const Vec3 size = geom.size_m;
-  if (geom.shape == Shape::box) {
+  if (geom.shape == robot::Shape::box) {
     for (const double x : {-size.x, size.x})
       for (const double y : {-size.y, size.y})
         for (const double z : {-size.z, size.z}) points.push_back({x, y, z});
@@ -33,7 +33,8 @@ std::vector<Vec3> outline_points(const Geom& geom) {
 }
 
 /// A capsule is the hull of two balls, which look like circles from everywhere.
-std::vector<Point> capsule_points(const Geom& geom, Vec3 centre_m, Quat rotation, const Camera& camera) {
+std::vector<Point> capsule_points(const robot::Geom& geom, Vec3 centre_m, Quat rotation,
+                                  const Camera& camera) {
   std::vector<Point> points;
   for (const double z : {-geom.size_m.y, geom.size_m.y}) {
     const Point end = project(centre_m + rotate(rotation, {0.0, 0.0, z}), camera);
@@ -45,15 +46,15 @@ std::vector<Point> capsule_points(const Geom& geom, Vec3 centre_m, Quat rotation
   return points;
 }
 
-Silhouette silhouette(const Geom& geom, const std::vector<BodyPose>& poses, const Camera& camera) {
-  const Vec3 centre_m = geom_centre_m(geom, poses);
+Silhouette silhouette(const robot::Geom& geom, const std::vector<robot::Pose>& poses, const Camera& camera) {
+  const Vec3 centre_m = robot::centre_m(geom, poses);
   const Quat rotation = poses[static_cast<std::size_t>(geom.body)].rotation * geom.rotation;
   Silhouette result;
   result.centre_m = project(centre_m, camera);
   result.depth_m = dot(centre_m, camera.away);
-  if (geom.shape == Shape::sphere) {
+  if (geom.shape == robot::Shape::sphere) {
     result.radius_m = geom.size_m.x;
-  } else if (geom.shape == Shape::capsule) {
+  } else if (geom.shape == robot::Shape::capsule) {
     result.corners_m = convex_hull(capsule_points(geom, centre_m, rotation, camera));
   } else {
     std::vector<Point> points;
@@ -90,7 +91,7 @@ Vec3 mean_heading(const Motion& motion, int first, int last) {
   return length > 0.0 ? (1.0 / length) * way : Vec3{1.0, 0.0, 0.0};
 }
 
-std::vector<Silhouette> silhouettes(const RobotModel& robot, const std::vector<BodyPose>& poses,
+std::vector<Silhouette> silhouettes(const robot::RobotSpec& robot, const std::vector<robot::Pose>& poses,
                                     const Camera& camera) {
   std::vector<Silhouette> outlines;
   for (std::size_t g = 0; g < robot.geoms.size(); ++g) {

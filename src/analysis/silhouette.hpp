@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "amble/analysis/kinematics.hpp"
 #include "amble/analysis/motion.hpp"
-#include "amble/analysis/robot_model.hpp"
 #include "amble/analysis/svg.hpp"
+#include "amble/robot/pose.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::analysis {
 
@@ -37,7 +37,7 @@ struct Silhouette {
 };
 
 /// Outlines of all geoms, from far to near.
-std::vector<Silhouette> silhouettes(const RobotModel& robot, const std::vector<BodyPose>& poses,
+std::vector<Silhouette> silhouettes(const robot::RobotSpec& robot, const std::vector<robot::Pose>& poses,
                                     const Camera& camera);
 
 /// Convex hull, counter-clockwise (y up), without collinear corners.

@@ -47,7 +47,7 @@ std::string parse_controller_kind(const std::string& controller_json, const std:
   return JsonView(document, what).at("kind").text();
 }
 
-Supg parse_supg(const std::string& controller_json, const RobotModel& robot, const std::string& what) {
+Supg parse_supg(const std::string& controller_json, const robot::RobotSpec& robot, const std::string& what) {
   const io::Json document = io::parse_json(controller_json, what);
   const JsonView json(document, what);
   Supg supg;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "amble/analysis/robot_model.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::analysis {
 
@@ -16,7 +16,8 @@ struct Supg {
   double timestep_s = 0.0;
   Offset offset = Offset::phase;
   std::vector<int> offset_ticks;  ///< per leg
-  /// Joint by joint (RobotModel::joints): the target angle at each tick of the timer, from 0 to period_ticks.
+  /// Joint by joint (robot::RobotSpec::joints): the target angle at each tick of the timer, from 0 to
+  /// period_ticks.
   std::vector<std::vector<double>> patterns_rad;
 
   double period_s() const { return period_ticks * timestep_s; }
@@ -27,6 +28,6 @@ struct Supg {
 std::string parse_controller_kind(const std::string& controller_json, const std::string& what);
 
 /// The patterns of a controller of kind "supg".
-Supg parse_supg(const std::string& controller_json, const RobotModel& robot, const std::string& what);
+Supg parse_supg(const std::string& controller_json, const robot::RobotSpec& robot, const std::string& what);
 
 }  // namespace amble::analysis

@@ -12,7 +12,6 @@
 #include "amble/cli/cppn_graph.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/io/file.hpp"
-#include "amble/morphology/robot_json.hpp"
 
 namespace amble::cli {
 namespace {
@@ -39,7 +38,7 @@ std::string patterns_svg(const experiment::Champion& champion, const fs::path& p
   if (architecture.name() != "supg")
     fail(ExitCode::bad_input, "--patterns: the controller of {} is of kind {}: expected supg, which has them",
          path.string(), architecture.name());
-  const auto robot = analysis::parse_robot(morphology::to_json(champion.problem.robot).dump(), path.string());
+  const robot::RobotSpec& robot = champion.problem.robot;
   const auto controller = architecture.parameters_json(*champion.problem.decode(champion.genome));
   return analysis::pattern_svg(robot, analysis::parse_supg(controller, robot, path.string()));
 }

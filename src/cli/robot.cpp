@@ -7,7 +7,7 @@
 #include "amble/experiment/problem.hpp"
 #include "amble/io/file.hpp"
 #include "amble/morphology/mjcf_writer.hpp"
-#include "amble/morphology/summary.hpp"
+#include "amble/robot/summary.hpp"
 
 namespace amble::cli {
 
@@ -25,7 +25,7 @@ void add_robot(CLI::App& app, Action& action) {
       if (!options->mjcf.empty()) io::refuse_to_replace(options->mjcf, "<mujoco", "an MJCF model");
       const auto robot = experiment::load_robot_file(options->file);
       if (!options->mjcf.empty()) io::write_file(options->mjcf, morphology::write_mjcf(robot).text);
-      fmt::print("{}", morphology::summary(robot));
+      fmt::print("{}", robot::summary(robot));
       return ExitCode::ok;
     };
   });

@@ -9,7 +9,7 @@
 namespace amble::controllers {
 
 /// What the sensor roll, pitch or yaw says in each lane, rad. `attitude_rad` is 3 × lanes: roll, pitch and
-/// yaw of the root (physics::SensorFrame). The same bits on every CPU.
+/// yaw of the root (robot::SensorFrame). The same bits on every CPU.
 ///
 /// substrate::Attitude::true_angles: that angle. Attitude::misordered_quaternion: the authors' code takes its
 /// angles from a quaternion (x, y, z, w) by arc tangents and an arc sine of

@@ -7,8 +7,8 @@
 
 #include "amble/core/lanes.hpp"
 #include "amble/cppn/network.hpp"
-#include "amble/morphology/robot_spec.hpp"
-#include "amble/physics/engine.hpp"
+#include "amble/robot/sensors.hpp"
+#include "amble/robot/spec.hpp"
 #include "amble/substrate/layout.hpp"
 
 namespace amble::controllers {
@@ -32,7 +32,7 @@ class Batch {
   virtual void load(int lane, const Parameters& parameters) = 0;
   /// One tick: reads the sensors, advances the state, writes target angles (rad, joints × lanes) for all
   /// loaded lanes; what it writes for others means nothing. Targets lie within the joints' stops.
-  virtual void step(const physics::SensorFrame& sensors, LaneArray& targets_rad) = 0;
+  virtual void step(const robot::SensorFrame& sensors, LaneArray& targets_rad) = 0;
 
   /// Names of the state variables worth recording (for the SUPG: each leg's timer and trigger), and their
   /// values in a lane.

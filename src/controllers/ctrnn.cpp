@@ -79,7 +79,7 @@ void CtrnnSettings::describe(io::SettingsVisitor& visitor) {
 }
 
 CtrnnArchitecture::CtrnnArchitecture(const CtrnnSettings& settings, const substrate::Settings& substrate,
-                                     const morphology::RobotSpec& robot, double timestep_s)
+                                     const robot::RobotSpec& robot, double timestep_s)
     : NeuralArchitecture("ctrnn", {Property::bias, Property::time_constant}, substrate, robot, timestep_s),
       settings_(settings) {
   const double shortest = layout().lowest(Property::time_constant);

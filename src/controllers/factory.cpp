@@ -20,7 +20,7 @@ void ControllerSettings::describe(io::SettingsVisitor& visitor) {
 }
 
 std::unique_ptr<const Architecture> make_architecture(const ControllerSettings& settings,
-                                                      const morphology::RobotSpec& robot, double timestep_s) {
+                                                      const robot::RobotSpec& robot, double timestep_s) {
   switch (settings.kind) {
     case Kind::supg:
       return std::make_unique<SupgArchitecture>(settings.supg, settings.substrate, robot, timestep_s);

@@ -29,6 +29,6 @@ struct ControllerSettings {
 
 /// Throws UserError where settings and robot do not fit.
 std::unique_ptr<const Architecture> make_architecture(const ControllerSettings& settings,
-                                                      const morphology::RobotSpec& robot, double timestep_s);
+                                                      const robot::RobotSpec& robot, double timestep_s);
 
 }  // namespace amble::controllers

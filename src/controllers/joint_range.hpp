@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "amble/morphology/robot_spec.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::controllers {
 
@@ -15,9 +15,9 @@ struct JointRange {
 };
 
 /// Joint by joint in control order.
-inline std::vector<JointRange> joint_ranges(const morphology::RobotSpec& robot) {
+inline std::vector<JointRange> joint_ranges(const robot::RobotSpec& robot) {
   std::vector<JointRange> ranges;
-  for (const morphology::Joint& joint : robot.joints) ranges.push_back({joint.lower_rad, joint.upper_rad});
+  for (const robot::Joint& joint : robot.joints) ranges.push_back({joint.lower_rad, joint.upper_rad});
   return ranges;
 }
 

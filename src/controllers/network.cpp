@@ -37,8 +37,8 @@ void NetworkSettings::describe(io::SettingsVisitor& visitor) {
 }
 
 NetworkArchitecture::NetworkArchitecture(const NetworkSettings& settings,
-                                         const substrate::Settings& substrate,
-                                         const morphology::RobotSpec& robot, double timestep_s)
+                                         const substrate::Settings& substrate, const robot::RobotSpec& robot,
+                                         double timestep_s)
     : NeuralArchitecture("network", {}, substrate, robot, timestep_s), settings_(settings) {}
 
 std::unique_ptr<Batch> NetworkArchitecture::make_batch(int lanes) const {

@@ -26,8 +26,8 @@ void logistic(std::span<float> values, float slope) {
 }
 
 NeuralArchitecture::NeuralArchitecture(std::string_view kind, std::vector<substrate::Property> properties,
-                                       const substrate::Settings& substrate,
-                                       const morphology::RobotSpec& robot, double timestep_s) {
+                                       const substrate::Settings& substrate, const robot::RobotSpec& robot,
+                                       double timestep_s) {
   substrate::Layout layout(
       substrate, {.kind = kind, .network = true, .properties = std::move(properties), .pattern_ticks = 0},
       robot);
@@ -99,7 +99,7 @@ void NeuralBatch::load(int lane, const Parameters& parameters) {
   reset(lane, neural);
 }
 
-void NeuralBatch::step(const physics::SensorFrame& sensors, LaneArray& targets_rad) {
+void NeuralBatch::step(const robot::SensorFrame& sensors, LaneArray& targets_rad) {
   AMBLE_CHECK(targets_rad.rows() == static_cast<int>(model_->ranges.size()) && targets_rad.lanes() == lanes_,
               "targets must be joints × lanes");
   if (!std::exchange(links_known_, true)) {
@@ -118,7 +118,7 @@ void NeuralBatch::step(const physics::SensorFrame& sensors, LaneArray& targets_r
   }
 }
 
-void NeuralBatch::sense(const physics::SensorFrame& sensors) {
+void NeuralBatch::sense(const robot::SensorFrame& sensors) {
   using Kind = substrate::Sensor::Kind;
   for (int slot = 0; slot < wiring().sensor_count(); ++slot) {
     const substrate::Sensor& sensor = wiring().sensors[static_cast<std::size_t>(slot)];

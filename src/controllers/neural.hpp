@@ -45,8 +45,7 @@ class NeuralArchitecture : public Architecture {
  protected:
   /// Throws UserError where substrate and robot do not fit; `properties` are those that neurons must have.
   NeuralArchitecture(std::string_view kind, std::vector<substrate::Property> properties,
-                     const substrate::Settings& substrate, const morphology::RobotSpec& robot,
-                     double timestep_s);
+                     const substrate::Settings& substrate, const robot::RobotSpec& robot, double timestep_s);
 
   std::shared_ptr<const NeuralModel> model_;
 };
@@ -63,7 +62,7 @@ class NeuralBatch : public Batch {
 
   int lanes() const override { return lanes_; }
   void load(int lane, const Parameters& parameters) override;
-  void step(const physics::SensorFrame& sensors, LaneArray& targets_rad) override;
+  void step(const robot::SensorFrame& sensors, LaneArray& targets_rad) override;
   std::vector<std::string> state_names() const override;
   void state(int lane, std::span<float> values) const override;
 
@@ -78,7 +77,7 @@ class NeuralBatch : public Batch {
   NeuralRows rows(float slope);
 
  private:
-  void sense(const physics::SensorFrame& sensors);
+  void sense(const robot::SensorFrame& sensors);
   void sense_sine(float* row) const;
   void fill(SumTable& table, bool from_sensors) const;
 

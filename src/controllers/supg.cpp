@@ -20,7 +20,7 @@ SupgParameters::SupgParameters(int legs, int types, int period_ticks)
       targets_rad_(static_cast<std::size_t>(legs * (period_ticks + 2) * types)) {}
 
 SupgArchitecture::SupgArchitecture(const SupgSettings& settings, const substrate::Settings& substrate,
-                                   const morphology::RobotSpec& robot, double timestep_s)
+                                   const robot::RobotSpec& robot, double timestep_s)
     : settings_(settings),
       timestep_s_(timestep_s),
       period_ticks_(controllers::period_ticks(settings, timestep_s)),
@@ -34,7 +34,7 @@ SupgArchitecture::SupgArchitecture(const SupgSettings& settings, const substrate
               robot) {
   AMBLE_CHECK(robot.joints.size() == robot.legs.size() * robot.joint_types.size(),
               "a robot has one joint per leg and type");
-  for (const morphology::Leg& leg : robot.legs) leg_names_.push_back(leg.name);
+  for (const robot::Leg& leg : robot.legs) leg_names_.push_back(leg.name);
   for (int leg = 0; leg < legs(); ++leg) {
     const int first = layout_.driver(joint(leg, 0));
     for (int type = 1; type < types(); ++type) {

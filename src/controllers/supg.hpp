@@ -63,7 +63,7 @@ class SupgArchitecture : public Architecture {
   /// Throws UserError: a period that is not a whole number of ticks; a substrate that does not fit the robot,
   /// or in which the SUPGs of a leg could get different offsets.
   SupgArchitecture(const SupgSettings& settings, const substrate::Settings& substrate,
-                   const morphology::RobotSpec& robot, double timestep_s);
+                   const robot::RobotSpec& robot, double timestep_s);
 
   std::string name() const override { return "supg"; }
   const substrate::Layout& layout() const override { return layout_; }

@@ -60,7 +60,7 @@ void SupgBatch::load(int lane, const Parameters& parameters) {
   }
 }
 
-void SupgBatch::step(const physics::SensorFrame& sensors, LaneArray& targets_rad) {
+void SupgBatch::step(const robot::SensorFrame& sensors, LaneArray& targets_rad) {
   AMBLE_CHECK(sensors.touch.rows() == parked_.legs() && sensors.touch.lanes() == lanes_,
               "touch must be legs × lanes");
   AMBLE_CHECK(targets_rad.rows() == parked_.legs() * parked_.types() && targets_rad.lanes() == lanes_,

@@ -18,7 +18,7 @@ class SupgBatch : public Batch {
 
   int lanes() const override { return lanes_; }
   void load(int lane, const Parameters& parameters) override;
-  void step(const physics::SensorFrame& sensors, LaneArray& targets_rad) override;
+  void step(const robot::SensorFrame& sensors, LaneArray& targets_rad) override;
   std::vector<std::string> state_names() const override;
   void state(int lane, std::span<float> values) const override;
 

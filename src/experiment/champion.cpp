@@ -10,8 +10,8 @@
 #include "amble/core/error.hpp"
 #include "amble/experiment/episodes.hpp"
 #include "amble/io/file.hpp"
-#include "amble/morphology/robot_json.hpp"
 #include "amble/neat/genome_json.hpp"
+#include "amble/robot/json.hpp"
 #include "amble/score/distance.hpp"
 
 namespace amble::experiment {
@@ -105,7 +105,7 @@ std::vector<Refereed> parse_referees(const io::JsonView& root) {
 
 Problem parse_problem(const io::JsonView& root) {
   Problem problem{
-      .robot = morphology::from_json(root.at("robot")),
+      .robot = robot::from_json(root.at("robot")),
       .engine = root.at("engine").text(),
       .cppn = io::settings_from_json<cppn::Settings>(root.at("cppn")),
       .controller = io::settings_from_json<controllers::ControllerSettings>(root.at("controller")),
@@ -125,7 +125,7 @@ io::Json problem_json(const Problem& problem) {
           {"controller", io::settings_to_json(problem.controller)},
           {"engine", problem.engine},
           {"trial", io::settings_to_json(problem.trial)},
-          {"robot", morphology::to_json(problem.robot)}};
+          {"robot", robot::to_json(problem.robot)}};
 }
 
 TrialResult summarise(const record::Trajectory& trajectory) {

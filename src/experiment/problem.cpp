@@ -9,7 +9,7 @@
 #include "amble/io/json_file.hpp"
 #include "amble/io/printable.hpp"
 #include "amble/morphology/robot_file.hpp"
-#include "amble/morphology/robot_json.hpp"
+#include "amble/robot/json.hpp"
 
 namespace amble::experiment {
 namespace {
@@ -18,7 +18,7 @@ constexpr int robot_version = 1;
 
 }  // namespace
 
-Problem Problem::make(const Config& config, morphology::RobotSpec robot) {
+Problem Problem::make(const Config& config, robot::RobotSpec robot) {
   robot.bodies[0].position_m.z += config.drop_m;
   Problem problem{.robot = std::move(robot),
                   .engine = config.engine,
@@ -72,13 +72,13 @@ std::vector<trial::Scenario> Problem::scenarios(std::int64_t seed, int generatio
   return all;
 }
 
-morphology::RobotSpec load_robot_file(const std::filesystem::path& path) {
+robot::RobotSpec load_robot_file(const std::filesystem::path& path) {
   if (path.extension() != ".json") return morphology::load_robot(path);
   const auto sealed = io::unseal_json("amble-robot", robot_version, io::read_file(path), path.string());
-  return morphology::from_json(io::JsonView(sealed.document, path.string()).at("robot"));
+  return robot::from_json(io::JsonView(sealed.document, path.string()).at("robot"));
 }
 
-morphology::RobotSpec load_robot(const Config& config) {
+robot::RobotSpec load_robot(const Config& config) {
   std::error_code error;
   if (!std::filesystem::exists(config.robot, error) && config.where)
     fail(ExitCode::io, "{}: 'robot': {}: {}", config.where({"robot"}), io::printable(config.robot),
@@ -86,8 +86,8 @@ morphology::RobotSpec load_robot(const Config& config) {
   return load_robot_file(config.robot);
 }
 
-std::string robot_file_text(const morphology::RobotSpec& robot) {
-  return io::sealed_json("amble-robot", robot_version, {{"robot", morphology::to_json(robot)}});
+std::string robot_file_text(const robot::RobotSpec& robot) {
+  return io::sealed_json("amble-robot", robot_version, {{"robot", robot::to_json(robot)}});
 }
 
 }  // namespace amble::experiment

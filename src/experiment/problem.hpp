@@ -10,8 +10,8 @@
 #include "amble/controllers/factory.hpp"
 #include "amble/cppn/settings.hpp"
 #include "amble/experiment/config.hpp"
-#include "amble/morphology/robot_spec.hpp"
 #include "amble/neat/genome.hpp"
+#include "amble/robot/spec.hpp"
 #include "amble/trial/noise_settings.hpp"
 #include "amble/trial/scenario.hpp"
 #include "amble/trial/settings.hpp"
@@ -22,7 +22,7 @@ namespace amble::experiment {
 /// All that a genome needs to become a trajectory: robot, engine, architecture, trial. Const, shared by all
 /// workers.
 struct Problem {
-  morphology::RobotSpec robot;
+  robot::RobotSpec robot;
   std::string engine;
   cppn::Settings cppn;
   controllers::ControllerSettings controller;
@@ -33,7 +33,7 @@ struct Problem {
   /// `robot` as its file has it; that of the problem starts Config::drop_m higher.
   /// Throws UserError where the parts do not fit together (an engine that cannot simulate the robot, a
   /// controller for other legs).
-  static Problem make(const Config& config, morphology::RobotSpec robot);
+  static Problem make(const Config& config, robot::RobotSpec robot);
   /// Makes `architecture` from the other members and checks that they fit.
   void complete();
 
@@ -50,9 +50,9 @@ struct Problem {
 
 /// A robot file: the TOML side file of a model, or the robot.json of a run folder. Throws UserError.
 /// The robot of a config. Throws UserError; of a file that is not there, with the place that names it.
-morphology::RobotSpec load_robot(const Config& config);
-morphology::RobotSpec load_robot_file(const std::filesystem::path& path);
+robot::RobotSpec load_robot(const Config& config);
+robot::RobotSpec load_robot_file(const std::filesystem::path& path);
 /// The text of a robot.json.
-std::string robot_file_text(const morphology::RobotSpec& robot);
+std::string robot_file_text(const robot::RobotSpec& robot);
 
 }  // namespace amble::experiment

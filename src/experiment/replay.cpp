@@ -1,6 +1,6 @@
 #include "amble/experiment/replay.hpp"
 
-#include "amble/morphology/robot_json.hpp"
+#include "amble/robot/json.hpp"
 #include "amble/trial/observers.hpp"
 
 namespace amble::experiment {
@@ -25,7 +25,7 @@ std::optional<Replay> replay(const Problem& original, const neat::Genome& genome
   if (options.observer) observers.add(*options.observer);
   if (options.record) {
     recording.emplace(*options.record, problem.robot, *engine, *controllers, problem.trial.timestep_s,
-                      morphology::to_json(problem.robot).dump(),
+                      robot::to_json(problem.robot).dump(),
                       problem.architecture->parameters_json(*parameters), options.origin);
     observers.add(*recording);
   }

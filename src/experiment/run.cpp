@@ -26,7 +26,7 @@ void check_memory(const Config& config) {
 }
 
 /// Throws UserError if the run or one of its referees cannot be.
-void complain_early(const Config& config, const morphology::RobotSpec& robot) {
+void complain_early(const Config& config, const robot::RobotSpec& robot) {
   auto problem = Problem::make(config, robot);
   for (const auto& referee : config.referees) {
     problem.engine = referee;
@@ -49,7 +49,7 @@ std::optional<std::uint64_t> restore_archive(const std::filesystem::path& path, 
 
 }  // namespace
 
-Run::Run(RunFolder folder, const Config& config, const morphology::RobotSpec& robot, int jobs)
+Run::Run(RunFolder folder, const Config& config, const robot::RobotSpec& robot, int jobs)
     : folder_(std::move(folder)),
       config_(config),
       problem_(std::make_unique<const Problem>(Problem::make(config, robot))),

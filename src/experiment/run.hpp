@@ -49,7 +49,7 @@ class Run {
   int generation() const { return population_.generation(); }
 
  private:
-  Run(RunFolder folder, const Config& config, const morphology::RobotSpec& robot, int jobs);
+  Run(RunFolder folder, const Config& config, const robot::RobotSpec& robot, int jobs);
 
   /// What these do, and how long it takes, is noted in `row`. The best genome's objective is row.best_m; it
   /// is run again, here and in the referees; false if `stop` was set meanwhile.

@@ -142,7 +142,7 @@ bool is_run_folder(const fs::path& folder) {
 RunFolder::RunFolder(const fs::path& folder)
     : paths_(folder), lock_(std::make_unique<io::FolderLock>(folder)) {}
 
-RunFolder RunFolder::create(const fs::path& folder, const morphology::RobotSpec& robot) {
+RunFolder RunFolder::create(const fs::path& folder, const robot::RobotSpec& robot) {
   refuse_used_folder(folder);
   make_folder(folder);
   RunFolder run(folder);
@@ -186,7 +186,7 @@ void RunFolder::save_config(const Config& config) const {
   io::write_file(paths_.config, saved.to_toml());
 }
 
-morphology::RobotSpec RunFolder::load_robot() const {
+robot::RobotSpec RunFolder::load_robot() const {
   return load_robot_file(paths_.robot);
 }
 

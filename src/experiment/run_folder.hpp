@@ -38,14 +38,14 @@ class RunFolder {
  public:
   /// Makes the folder and writes robot.json; it becomes a run with save_config(). Throws UserError: the
   /// folder holds a run or anything else, is locked, or cannot be written; then nothing in it was changed.
-  static RunFolder create(const std::filesystem::path& folder, const morphology::RobotSpec& robot);
+  static RunFolder create(const std::filesystem::path& folder, const robot::RobotSpec& robot);
   /// Takes hold of the folder of an earlier run. Throws UserError as find_run(), or if it is locked.
   static RunFolder open(const std::filesystem::path& folder);
 
   const RunPaths& paths() const { return paths_; }
   Config load_config() const;
   void save_config(const Config& config) const;
-  morphology::RobotSpec load_robot() const;
+  robot::RobotSpec load_robot() const;
   void save_champion(const Champion& champion) const;
   /// Removes the temporary files of a process that was killed here.
   void remove_leftovers() const;

@@ -38,15 +38,15 @@ std::string numbers(Quat q) {
   return fmt::format("{} {} {} {}", q.w, q.x, q.y, q.z);
 }
 
-std::string size_of(const Geom& geom) {
+std::string size_of(const robot::Geom& geom) {
   switch (geom.shape) {
-    case Shape::sphere:
+    case robot::Shape::sphere:
       return fmt::format(R"(type="sphere" size="{}")", geom.size_m.x);
-    case Shape::capsule:
+    case robot::Shape::capsule:
       return fmt::format(R"(type="capsule" size="{} {}")", geom.size_m.x, geom.size_m.y);
-    case Shape::cylinder:
+    case robot::Shape::cylinder:
       return fmt::format(R"(type="cylinder" size="{} {}")", geom.size_m.x, geom.size_m.y);
-    case Shape::box:
+    case robot::Shape::box:
       return fmt::format(R"(type="box" size="{}")", numbers(geom.size_m));
   }
   return {};
@@ -54,7 +54,7 @@ std::string size_of(const Geom& geom) {
 
 class Writer {
  public:
-  explicit Writer(const RobotSpec& robot) : robot_(robot) {}
+  explicit Writer(const robot::RobotSpec& robot) : robot_(robot) {}
 
   Mjcf write() {
     const double friction = std::isinf(robot_.contact.friction) ? grip : robot_.contact.friction;
@@ -87,7 +87,7 @@ class Writer {
   }
 
   void write_body(int b, int indent) {
-    const Body& body = robot_.bodies[static_cast<std::size_t>(b)];
+    const robot::Body& body = robot_.bodies[static_cast<std::size_t>(b)];
     const std::string margin(static_cast<std::size_t>(indent), ' ');
     mjcf_.bodies.push_back(b);
     line("{}<body {}pos=\"{}\" quat=\"{}\">", margin, name_attribute(body_names_, body.name),
@@ -104,7 +104,7 @@ class Writer {
   }
 
   void write_joint(int j, const std::string& margin) {
-    const Joint& joint = robot_.joints[static_cast<std::size_t>(j)];
+    const robot::Joint& joint = robot_.joints[static_cast<std::size_t>(j)];
     mjcf_.joints.push_back(j);
     line(R"({}  <joint {}type="hinge" pos="{}" axis="{}" limited="true" range="{} {}"/>)", margin,
          name_attribute(joint_names_, joint.name), numbers(joint.anchor_m), numbers(joint.axis),
@@ -112,7 +112,7 @@ class Writer {
   }
 
   void write_geom(int g, const std::string& margin) {
-    const Geom& geom = robot_.geoms[static_cast<std::size_t>(g)];
+    const robot::Geom& geom = robot_.geoms[static_cast<std::size_t>(g)];
     mjcf_.geoms.push_back(g);
     line(R"({}  <geom {}{} pos="{}" quat="{}" rgba="{} {} {} {}"{}/>)", margin,
          name_attribute(geom_names_, geom.name), size_of(geom), numbers(geom.position_m),
@@ -120,14 +120,14 @@ class Writer {
          geom.collides ? "" : R"( contype="0" conaffinity="0")");
   }
 
-  const RobotSpec& robot_;
+  const robot::RobotSpec& robot_;
   Mjcf mjcf_;
   std::set<std::string> body_names_{"world"}, joint_names_, geom_names_{"ground"};
 };
 
 }  // namespace
 
-Mjcf write_mjcf(const RobotSpec& robot) {
+Mjcf write_mjcf(const robot::RobotSpec& robot) {
   return Writer(robot).write();
 }
 

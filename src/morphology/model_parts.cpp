@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "amble/core/error.hpp"
-#include "amble/morphology/pose.hpp"
+#include "amble/robot/pose.hpp"
 
 namespace amble::morphology {
 namespace {
@@ -103,14 +103,14 @@ class Taker {
     }
   }
 
-  Pose pose_in_parent_group(int b) const {
-    const Pose own{vec3(model_.body_pos + 3 * b), quat(model_.body_quat + 4 * b)};
+  robot::Pose pose_in_parent_group(int b) const {
+    const robot::Pose own{vec3(model_.body_pos + 3 * b), quat(model_.body_quat + 4 * b)};
     return b == 1 ? own : pose_in_group_[at(model_.body_parentid[b])] * own;
   }
 
   void add_body(int b) {
-    const Pose pose = pose_in_parent_group(b);
-    Body body;
+    const robot::Pose pose = pose_in_parent_group(b);
+    robot::Body body;
     body.name = body_name(b);
     body.parent = b == 1 ? -1 : group_[at(model_.body_parentid[b])];
     body.position_m = pose.position_m;
@@ -123,8 +123,8 @@ class Taker {
     if (members.empty()) refuse("body '{}' has no mass", body.name);
     if (members.size() == 1) {
       const int m = members[0];
-      const Pose inertia =
-          pose_in_group_[at(m)] * Pose{vec3(model_.body_ipos + 3 * m), quat(model_.body_iquat + 4 * m)};
+      const robot::Pose inertia = pose_in_group_[at(m)] * robot::Pose{vec3(model_.body_ipos + 3 * m),
+                                                                      quat(model_.body_iquat + 4 * m)};
       body.mass_kg = model_.body_mass[m];
       body.com_m = inertia.position_m;
       body.inertia_rotation = inertia.rotation;
@@ -137,7 +137,7 @@ class Taker {
 
   /// Mass, centre and principal moments of several bodies that are fixed to each other (parallel axis
   /// theorem).
-  void combine_masses(const std::vector<int>& members, Body& body) const {
+  void combine_masses(const std::vector<int>& members, robot::Body& body) const {
     Vec3 weighted;
     for (const int m : members) {
       body.mass_kg += model_.body_mass[m];
@@ -147,8 +147,8 @@ class Taker {
 
     std::array<mjtNum, 9> tensor{};
     for (const int m : members) {
-      const Pose own =
-          pose_in_group_[at(m)] * Pose{vec3(model_.body_ipos + 3 * m), quat(model_.body_iquat + 4 * m)};
+      const robot::Pose own = pose_in_group_[at(m)] *
+                              robot::Pose{vec3(model_.body_ipos + 3 * m), quat(model_.body_iquat + 4 * m)};
       const Vec3 lever = own.position_m - body.com_m;
       const std::array<Vec3, 3> axes{rotate(own.rotation, {1, 0, 0}), rotate(own.rotation, {0, 1, 0}),
                                      rotate(own.rotation, {0, 0, 1})};
@@ -186,7 +186,7 @@ class Taker {
     }
     // MuJoCo counts angles from the joint's reference, amble from the start pose.
     const double start = model_.qpos0[model_.jnt_qposadr[j]];
-    Joint joint;
+    robot::Joint joint;
     joint.name = name;
     joint.body = group_[at(b)];
     joint.chain_index = j - model_.body_jntadr[b];
@@ -198,10 +198,10 @@ class Taker {
   }
 
   void add_geom(int g) {
-    static const std::map<int, Shape> shapes{{mjGEOM_SPHERE, Shape::sphere},
-                                             {mjGEOM_CAPSULE, Shape::capsule},
-                                             {mjGEOM_CYLINDER, Shape::cylinder},
-                                             {mjGEOM_BOX, Shape::box}};
+    static const std::map<int, robot::Shape> shapes{{mjGEOM_SPHERE, robot::Shape::sphere},
+                                                    {mjGEOM_CAPSULE, robot::Shape::capsule},
+                                                    {mjGEOM_CYLINDER, robot::Shape::cylinder},
+                                                    {mjGEOM_BOX, robot::Shape::box}};
     const auto shape = shapes.find(model_.geom_type[g]);
     if (shape == shapes.end()) {
       if (!collides(g)) return;
@@ -211,11 +211,11 @@ class Taker {
           name_or_place(g));
     }
     const int b = model_.geom_bodyid[g];
-    const Pose pose =
-        pose_in_group_[at(b)] * Pose{vec3(model_.geom_pos + 3 * g), quat(model_.geom_quat + 4 * g)};
+    const robot::Pose pose =
+        pose_in_group_[at(b)] * robot::Pose{vec3(model_.geom_pos + 3 * g), quat(model_.geom_quat + 4 * g)};
     const float* colour =
         model_.geom_matid[g] < 0 ? model_.geom_rgba + 4 * g : model_.mat_rgba + 4 * model_.geom_matid[g];
-    Geom geom;
+    robot::Geom geom;
     geom.name = name_or_place(g);
     geom.body = group_[at(b)];
     geom.collides = collides(g);
@@ -237,7 +237,7 @@ class Taker {
   const ModelFile& file_;
   const mjModel& model_;
   std::vector<int> group_;
-  std::vector<Pose> pose_in_group_;
+  std::vector<robot::Pose> pose_in_group_;
   ModelParts parts_;
 };
 

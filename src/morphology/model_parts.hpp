@@ -5,16 +5,16 @@
 
 #include "amble/core/math.hpp"
 #include "amble/morphology/model_file.hpp"
-#include "amble/morphology/robot_spec.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::morphology {
 
 /// What a model file says of a robot. Bodies that are fixed to their parent are one rigid body with it, under
 /// the parent's name.
 struct ModelParts {
-  std::vector<Body> bodies;
-  std::vector<Joint> joints;  ///< in the order of the model, without servo
-  std::vector<Geom> geoms;
+  std::vector<robot::Body> bodies;
+  std::vector<robot::Joint> joints;  ///< in the order of the model, without servo
+  std::vector<robot::Geom> geoms;
   Vec3 gravity_m_s2;
 };
 

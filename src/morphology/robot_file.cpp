@@ -7,9 +7,9 @@
 #include "amble/core/error.hpp"
 #include "amble/morphology/model_file.hpp"
 #include "amble/morphology/model_parts.hpp"
-#include "amble/morphology/pose.hpp"
-#include "amble/morphology/robot_check.hpp"
 #include "amble/morphology/side_file.hpp"
+#include "amble/robot/check.hpp"
+#include "amble/robot/pose.hpp"
 
 namespace amble::morphology {
 namespace {
@@ -32,10 +32,11 @@ int index_of(const std::vector<T>& items, const std::string& name) {
 }
 
 /// Puts the model's joints into control order, leg by leg and type by type, and gives them their servos.
-void add_legs(const std::string& what, const SideFile& side, const ModelParts& parts, RobotSpec& robot) {
+void add_legs(const std::string& what, const SideFile& side, const ModelParts& parts,
+              robot::RobotSpec& robot) {
   std::vector<bool> named(parts.joints.size());
   for (std::size_t l = 0; l < side.legs.size(); ++l) {
-    Leg leg;
+    robot::Leg leg;
     leg.name = side.legs[l];
     for (std::size_t t = 0; t < side.joint_types.size(); ++t) {
       const std::string& name = side.names[l].joints[t];
@@ -67,9 +68,9 @@ void add_legs(const std::string& what, const SideFile& side, const ModelParts& p
   }
 }
 
-void check_feet(const std::string& what, const RobotSpec& robot) {
-  for (const Leg& leg : robot.legs) {
-    const double clearance_m = start_clearance_m(robot, leg.foot_geom);
+void check_feet(const std::string& what, const robot::RobotSpec& robot) {
+  for (const robot::Leg& leg : robot.legs) {
+    const double clearance_m = robot::start_clearance_m(robot, leg.foot_geom);
     if (clearance_m < -deepest_foot_m) {
       fail(ExitCode::bad_input,
            "{}: foot '{}' starts {:.3f} m below the ground: raise the root, or set start_height_m", what,
@@ -78,8 +79,8 @@ void check_feet(const std::string& what, const RobotSpec& robot) {
   }
 }
 
-void check_height(const std::string& what, const RobotSpec& robot) {
-  const Body& root = robot.bodies[0];
+void check_height(const std::string& what, const robot::RobotSpec& robot) {
+  const robot::Body& root = robot.bodies[0];
   const double start_m = (root.position_m + rotate(root.rotation, root.com_m)).z;
   if (start_m <= robot.fall_height_m)
     fail(ExitCode::bad_input,
@@ -90,12 +91,12 @@ void check_height(const std::string& what, const RobotSpec& robot) {
 
 }  // namespace
 
-RobotSpec load_robot(const std::filesystem::path& path) {
+robot::RobotSpec load_robot(const std::filesystem::path& path) {
   const SideFile side = read_side_file(path);
   ModelParts parts = take_apart(compile_model(side.model));
   const std::string what = path.string();
 
-  RobotSpec robot;
+  robot::RobotSpec robot;
   robot.name = side.name;
   robot.joint_types = side.joint_types;
   add_legs(what, side, parts, robot);
@@ -107,7 +108,8 @@ RobotSpec load_robot(const std::filesystem::path& path) {
   robot.fall_height_m = side.fall_height_m;
   robot.self_collision = side.self_collision;
 
-  check_robot(robot, [&](const std::string& problem) { fail(ExitCode::bad_input, "{}: {}", what, problem); });
+  robot::check_robot(robot,
+                     [&](const std::string& problem) { fail(ExitCode::bad_input, "{}: {}", what, problem); });
   check_feet(what, robot);
   check_height(what, robot);
   return robot;

@@ -18,7 +18,7 @@ constexpr double largest = std::numeric_limits<double>::max();
 constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<std::string_view, 2> servo_mode_names{"velocity", "torque"};
 
-void visit(io::SettingsVisitor& visitor, Servo& servo) {
+void visit(io::SettingsVisitor& visitor, robot::Servo& servo) {
   visitor.choice("mode", servo.mode, servo_mode_names, {"how the joint follows its target angle"});
   visitor.number("gain_per_s", servo.gain_per_s, {0.0, largest},
                  {"velocity servo: speed aimed at per angle still to go, 1/s"});
@@ -29,7 +29,7 @@ void visit(io::SettingsVisitor& visitor, Servo& servo) {
                  {"torque servo: torque per speed, N m s/rad"});
 }
 
-void visit(io::SettingsVisitor& visitor, Contact& contact) {
+void visit(io::SettingsVisitor& visitor, robot::Contact& contact) {
   visitor.number("friction", contact.friction, {0.0, infinity},
                  {"Coulomb coefficient; inf: no sliding at all"});
   visitor.number("erp", contact.erp, {0.0, 1.0}, {"share of the penetration undone per step"});
@@ -138,12 +138,12 @@ class SideFileReader {
   }
 
   void read_servos() {
-    Servo common{ServoMode::velocity, not_given, not_given, not_given, 0.0};
+    robot::Servo common{robot::ServoMode::velocity, not_given, not_given, not_given, 0.0};
     reader_->begin("servo", {"the motor of every joint"});
     visit(*reader_, common);
     reader_->end();
 
-    std::vector<Servo> by_type(side_.joint_types.size(), common);
+    std::vector<robot::Servo> by_type(side_.joint_types.size(), common);
     reader_->begin("servo_of",
                    {"where motors differ: servo_of.TYPE for a joint type, servo_of.LEG.TYPE for one joint"});
     for (std::size_t t = 0; t < by_type.size(); ++t) read_servo(side_.joint_types[t], by_type[t]);
@@ -158,15 +158,15 @@ class SideFileReader {
     reader_->end();
   }
 
-  void read_servo(std::string_view key, Servo& servo) {
+  void read_servo(std::string_view key, robot::Servo& servo) {
     reader_->begin(key, {"motor of this joint type"});
     visit(*reader_, servo);
     reader_->end();
   }
 
   void require_numbers() {
-    for (Servo& servo : side_.servos) {
-      const bool velocity = servo.mode == ServoMode::velocity;
+    for (robot::Servo& servo : side_.servos) {
+      const bool velocity = servo.mode == robot::ServoMode::velocity;
       require("servo.max_torque_nm", servo.max_torque_nm);
       require(velocity ? "servo.gain_per_s" : "servo.kp_nm_per_rad",
               velocity ? servo.gain_per_s : servo.kp_nm_per_rad);

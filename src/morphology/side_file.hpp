@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "amble/morphology/robot_spec.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::morphology {
 
@@ -21,9 +21,9 @@ struct SideFile {
   std::filesystem::path model;
   std::vector<std::string> legs;
   std::vector<std::string> joint_types;
-  std::vector<LegNames> names;  ///< one per leg
-  std::vector<Servo> servos;    ///< one per joint, in control order
-  Contact contact;
+  std::vector<LegNames> names;       ///< one per leg
+  std::vector<robot::Servo> servos;  ///< one per joint, in control order
+  robot::Contact contact;
   double start_height_m = 0.0;  ///< of the root's frame; 0: as the model has it
   double fall_height_m = 0.0;
   bool self_collision = false;

@@ -22,7 +22,7 @@ void check_engine_name(std::string_view name, std::string_view what) {
          fmt::join(engine_names, ", "));
 }
 
-std::unique_ptr<Engine> make_engine(std::string_view name, const morphology::RobotSpec& robot,
+std::unique_ptr<Engine> make_engine(std::string_view name, const robot::RobotSpec& robot,
                                     const EngineSettings& settings) {
   AMBLE_CHECK(settings.timestep_s > 0.0, "timestep_s");
   AMBLE_CHECK(settings.iterations >= 0, "iterations");

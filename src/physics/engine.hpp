@@ -8,16 +8,10 @@
 
 #include "amble/core/lanes.hpp"
 #include "amble/core/math.hpp"
-#include "amble/morphology/robot_spec.hpp"
+#include "amble/robot/sensors.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::physics {
-
-/// What controllers may know, for all lanes at once. Rows in control order (RobotSpec::joints) and leg order.
-struct SensorFrame {
-  LaneArray joint_angle_rad;  ///< joints × lanes
-  LaneArray touch;            ///< legs × lanes: 1 while the foot touches the ground, else 0
-  LaneArray attitude_rad;     ///< 3 × lanes: roll, pitch, yaw of the root (core/math.hpp)
-};
 
 /// Position of the root's frame in the world, and its rotation (root axes → world axes).
 struct RootPose {
@@ -68,7 +62,7 @@ class Engine {
   /// diverged, its other values mean nothing, and it must be retired.
   virtual bool healthy(int lane) const = 0;
 
-  virtual const SensorFrame& sensors() const = 0;
+  virtual const robot::SensorFrame& sensors() const = 0;
   virtual RootPose root_pose(int lane) const = 0;
   /// What each joint's motor gave in the last step, N m about the joint's axis, child against parent (joints
   /// × lanes); the push of a stop is not in it. Null unless EngineSettings::torques is set.
@@ -92,7 +86,7 @@ void check_engine_name(std::string_view name, std::string_view what = "");
 
 /// Makes the engine of that name. Throws UserError for an unknown name or a robot that the engine cannot
 /// simulate.
-std::unique_ptr<Engine> make_engine(std::string_view name, const morphology::RobotSpec& robot,
+std::unique_ptr<Engine> make_engine(std::string_view name, const robot::RobotSpec& robot,
                                     const EngineSettings& settings);
 
 }  // namespace amble::physics

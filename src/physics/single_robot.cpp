@@ -15,7 +15,7 @@ bool has_nan(const LaneArray& targets_rad) {
 
 }  // namespace
 
-SingleRobotEngine::SingleRobotEngine(const morphology::RobotSpec& robot, const EngineSettings& settings)
+SingleRobotEngine::SingleRobotEngine(const robot::RobotSpec& robot, const EngineSettings& settings)
     : robot_(robot), with_torques_(settings.torques) {
   const int joints = static_cast<int>(robot.joints.size());
   sensors_.joint_angle_rad = LaneArray(joints, 1);

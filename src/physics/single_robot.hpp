@@ -14,11 +14,11 @@ class SingleRobotEngine : public Engine {
   int lanes() const final { return 1; }
   void retire(int lane) final;
   bool healthy(int lane) const final;
-  const SensorFrame& sensors() const final { return sensors_; }
+  const robot::SensorFrame& sensors() const final { return sensors_; }
   const LaneArray* motor_torque_nm() const final { return with_torques_ ? &torques_nm_ : nullptr; }
 
  protected:
-  SingleRobotEngine(const morphology::RobotSpec& robot, const EngineSettings& settings);
+  SingleRobotEngine(const robot::RobotSpec& robot, const EngineSettings& settings);
 
   static void check_lane(int lane);
   /// At the start of a trial.
@@ -29,9 +29,9 @@ class SingleRobotEngine : public Engine {
   void check_pushable(int lane) const;
   void sense_attitude(const Quat& rotation);
 
-  const morphology::RobotSpec robot_;
+  const robot::RobotSpec robot_;
   const bool with_torques_;
-  SensorFrame sensors_;
+  robot::SensorFrame sensors_;
   LaneArray torques_nm_;
   bool stepping_ = false;
   bool healthy_ = true;

@@ -15,7 +15,7 @@ namespace amble::record {
 struct RecordingHeader {
   double frame_s = 0.0;              ///< time between frames
   std::vector<std::string> columns;  ///< names of the float32 numbers of a frame; see standard_columns()
-  std::string robot_json;            ///< morphology::to_json of the robot
+  std::string robot_json;            ///< robot::to_json of the robot
   std::string controller_json;       ///< {"kind": "supg", …}: Architecture::parameters_json
   std::string origin;                ///< the champion it was made from, for titles
 };

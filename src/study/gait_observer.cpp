@@ -1,8 +1,5 @@
 #include "amble/study/gait_observer.hpp"
 
-#include "amble/analysis/robot_model.hpp"
-#include "amble/morphology/robot_json.hpp"
-
 namespace amble::study {
 namespace {
 
@@ -13,10 +10,9 @@ void copy_lane(const LaneArray& rows, int lane, std::vector<float>& values) {
 
 }  // namespace
 
-GaitObserver::GaitObserver(const morphology::RobotSpec& robot, double timestep_s,
+GaitObserver::GaitObserver(const robot::RobotSpec& robot, double timestep_s,
                            const analysis::GaitSettings& settings)
-    : meter_(analysis::gait_body(analysis::parse_robot(morphology::to_json(robot).dump(), robot.name)),
-             timestep_s, settings) {}
+    : meter_(analysis::gait_body(robot), timestep_s, settings) {}
 
 void GaitObserver::on_step(int, const physics::Engine& engine, const controllers::Batch&, const LaneArray&,
                            int lane) {

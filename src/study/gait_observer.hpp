@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "amble/analysis/gait_meter.hpp"
-#include "amble/morphology/robot_spec.hpp"
+#include "amble/robot/spec.hpp"
 #include "amble/trial/trial.hpp"
 
 namespace amble::study {
@@ -12,7 +12,7 @@ namespace amble::study {
 /// Shows every step of a trial to a gait meter.
 class GaitObserver : public trial::Observer {
  public:
-  GaitObserver(const morphology::RobotSpec& robot, double timestep_s, const analysis::GaitSettings& settings);
+  GaitObserver(const robot::RobotSpec& robot, double timestep_s, const analysis::GaitSettings& settings);
   void on_step(int step, const physics::Engine& engine, const controllers::Batch& controllers,
                const LaneArray& targets_rad, int lane) override;
   analysis::GaitReport finish(record::Outcome outcome) { return meter_.finish(outcome); }

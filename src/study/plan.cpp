@@ -135,7 +135,7 @@ Plan make_plan(const ledger::StudySpec& study, const std::filesystem::path& fold
   return plan;
 }
 
-std::string config_hash(const experiment::Config& config, const morphology::RobotSpec& robot) {
+std::string config_hash(const experiment::Config& config, const robot::RobotSpec& robot) {
   experiment::Config copy = config;
   copy.seed = 0;
   copy.generations = 1;

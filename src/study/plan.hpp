@@ -10,7 +10,7 @@
 #include "amble/experiment/config.hpp"
 #include "amble/ledger/ledger.hpp"
 #include "amble/ledger/study_spec.hpp"
-#include "amble/morphology/robot_spec.hpp"
+#include "amble/robot/spec.hpp"
 #include "amble/trial/noise_settings.hpp"
 
 namespace amble::study {
@@ -28,7 +28,7 @@ struct PlannedTest {
 struct PlannedCondition {
   ledger::ConditionSpec spec;
   experiment::Config config;  ///< of any seed
-  morphology::RobotSpec robot;
+  robot::RobotSpec robot;
   std::vector<PlannedTest> tests;
   std::string hash;  ///< config_hash() of it
 };
@@ -72,6 +72,6 @@ Plan make_plan(const ledger::StudySpec& study, const std::filesystem::path& fold
 
 /// Hash of all settings but the seed, the generations and the name, and of the robot: hexadecimal. Two
 /// configs of one hash give the same run for the same seed and generations.
-std::string config_hash(const experiment::Config& config, const morphology::RobotSpec& robot);
+std::string config_hash(const experiment::Config& config, const robot::RobotSpec& robot);
 
 }  // namespace amble::study

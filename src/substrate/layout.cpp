@@ -16,7 +16,7 @@ double on_line(double low, double high, float o) {
 
 }  // namespace
 
-Layout::Layout(const Settings& settings, const Needs& needs, const morphology::RobotSpec& robot) {
+Layout::Layout(const Settings& settings, const Needs& needs, const robot::RobotSpec& robot) {
   LayoutBuilder(*this, settings, needs, robot).build();
 }
 

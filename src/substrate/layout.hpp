@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "amble/cppn/network.hpp"
-#include "amble/morphology/robot_spec.hpp"
+#include "amble/robot/spec.hpp"
 #include "amble/substrate/sensor.hpp"
 #include "amble/substrate/settings.hpp"
 
@@ -59,7 +59,7 @@ struct Decoded {
 class Layout {
  public:
   /// Throws UserError naming the key where settings, robot and controller do not fit.
-  Layout(const Settings& settings, const Needs& needs, const morphology::RobotSpec& robot);
+  Layout(const Settings& settings, const Needs& needs, const robot::RobotSpec& robot);
 
   const std::vector<std::string>& coordinates() const { return coordinates_; }
   const std::vector<std::string>& input_names() const { return input_names_; }

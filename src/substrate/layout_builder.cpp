@@ -116,7 +116,7 @@ void LayoutBuilder::assign_joints() {
     const std::string& name = settings_.nodes[i].joint;
     if (name.empty()) continue;
     const auto joint = std::find_if(robot_.joints.begin(), robot_.joints.end(),
-                                    [&](const morphology::Joint& j) { return j.name == name; });
+                                    [&](const robot::Joint& j) { return j.name == name; });
     if (joint == robot_.joints.end())
       refuse(item("nodes", i, "joint"), " = \"{}\": the robot has no such joint", name);
     layout_.nodes_[i].joint = static_cast<int>(joint - robot_.joints.begin());

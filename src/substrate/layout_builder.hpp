@@ -12,8 +12,7 @@ namespace amble::substrate {
 /// Fills a Layout and refuses what does not fit; used by Layout's constructor only.
 class LayoutBuilder {
  public:
-  LayoutBuilder(Layout& layout, const Settings& settings, const Needs& needs,
-                const morphology::RobotSpec& robot)
+  LayoutBuilder(Layout& layout, const Settings& settings, const Needs& needs, const robot::RobotSpec& robot)
       : layout_(layout), settings_(settings), needs_(needs), robot_(robot) {}
   void build();
 
@@ -43,7 +42,7 @@ class LayoutBuilder {
   Layout& layout_;
   const Settings& settings_;
   const Needs& needs_;
-  const morphology::RobotSpec& robot_;
+  const robot::RobotSpec& robot_;
   bool has_time_ = false;
   std::vector<bool> read_;                             ///< output by output
   std::map<std::pair<int, int>, std::size_t> linked_;  ///< by which item

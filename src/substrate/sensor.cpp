@@ -18,7 +18,7 @@ int index_of(const Items& items, std::string_view name) {
 
 }  // namespace
 
-Sensor parse_sensor(std::string_view name, const morphology::RobotSpec& robot, const std::string& key) {
+Sensor parse_sensor(std::string_view name, const robot::RobotSpec& robot, const std::string& key) {
   using Kind = Sensor::Kind;
   constexpr std::array<std::pair<std::string_view, Kind>, 4> plain{
       {{"roll", Kind::roll}, {"pitch", Kind::pitch}, {"yaw", Kind::yaw}, {"sine", Kind::sine}}};

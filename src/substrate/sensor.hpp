@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "amble/morphology/robot_spec.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::substrate {
 
@@ -25,6 +25,6 @@ struct Sensor {
 
 /// The sensor of that name: angle.JOINT, touch.LEG, roll, pitch, yaw, sine. Throws UserError "KEY = …: …" if
 /// there is no such sensor or the robot lacks the joint or leg.
-Sensor parse_sensor(std::string_view name, const morphology::RobotSpec& robot, const std::string& key);
+Sensor parse_sensor(std::string_view name, const robot::RobotSpec& robot, const std::string& key);
 
 }  // namespace amble::substrate

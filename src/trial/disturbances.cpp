@@ -20,7 +20,7 @@ void add(const LaneArray& offset, LaneArray& values) {
 
 }  // namespace
 
-Disturbances::Disturbances(const physics::SensorFrame& sensors)
+Disturbances::Disturbances(const robot::SensorFrame& sensors)
     : lanes_(static_cast<std::size_t>(sensors.touch.lanes())),
       joint_offset_rad_(sensors.joint_angle_rad.rows(), sensors.touch.lanes()),
       attitude_offset_rad_(sensors.attitude_rad.rows(), sensors.touch.lanes()) {
@@ -42,7 +42,7 @@ void Disturbances::load(int lane, const Scenario* scenario) {
         scenario ? scenario->attitude_sensor_rad[static_cast<std::size_t>(a)] : nothing;
 }
 
-const physics::SensorFrame& Disturbances::read(const physics::SensorFrame& sensors) {
+const robot::SensorFrame& Disturbances::read(const robot::SensorFrame& sensors) {
   if (disturbed_ == 0) return sensors;
   read_ = sensors;
   add(joint_offset_rad_, read_.joint_angle_rad);

@@ -14,13 +14,13 @@ namespace amble::trial {
 class Disturbances {
  public:
   /// `sensors` shows the shape of what is to come.
-  explicit Disturbances(const physics::SensorFrame& sensors);
+  explicit Disturbances(const robot::SensorFrame& sensors);
 
   /// From the next tick on, `scenario` acts on this lane from its beginning; null: nothing does. Not copied.
   void load(int lane, const Scenario* scenario);
 
   /// What the controllers are to read in this tick. Valid until the next call.
-  const physics::SensorFrame& read(const physics::SensorFrame& sensors);
+  const robot::SensorFrame& read(const robot::SensorFrame& sensors);
   /// Delays the targets of this tick and pushes the robots. Once per tick, after read().
   void act(LaneArray& targets_rad, physics::Engine& engine);
 
@@ -37,7 +37,7 @@ class Disturbances {
 
   std::vector<Lane> lanes_;
   LaneArray joint_offset_rad_, attitude_offset_rad_;  ///< shaped as the sensors
-  physics::SensorFrame read_;
+  robot::SensorFrame read_;
   int disturbed_ = 0;  ///< lanes that have a scenario
 };
 

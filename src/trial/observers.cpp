@@ -5,7 +5,7 @@
 namespace amble::trial {
 namespace {
 
-record::RecordingHeader recording_header(const morphology::RobotSpec& robot, bool torques,
+record::RecordingHeader recording_header(const robot::RobotSpec& robot, bool torques,
                                          const controllers::Batch& controllers, double frame_s,
                                          const std::string& robot_json, const std::string& controller_json,
                                          const std::string& origin) {
@@ -49,7 +49,7 @@ void TriggerObserver::on_step(int, const physics::Engine&, const controllers::Ba
   for (std::size_t i = 0; i < columns_.size(); ++i) counts_[i] += state_[columns_[i]] > 0.5f;
 }
 
-RecordingObserver::RecordingObserver(const std::filesystem::path& path, const morphology::RobotSpec& robot,
+RecordingObserver::RecordingObserver(const std::filesystem::path& path, const robot::RobotSpec& robot,
                                      const physics::Engine& engine, const controllers::Batch& controllers,
                                      double frame_s, const std::string& robot_json,
                                      const std::string& controller_json, const std::string& origin)

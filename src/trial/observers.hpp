@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "amble/morphology/robot_spec.hpp"
 #include "amble/record/recording.hpp"
+#include "amble/robot/spec.hpp"
 #include "amble/trial/trial.hpp"
 
 namespace amble::trial {
@@ -45,7 +45,7 @@ class RecordingObserver : public Observer {
  public:
   /// `controller_json` and `robot_json` go into the recording's header; `origin` names the champion. Motor
   /// torques are recorded if the engine tells them.
-  RecordingObserver(const std::filesystem::path& path, const morphology::RobotSpec& robot,
+  RecordingObserver(const std::filesystem::path& path, const robot::RobotSpec& robot,
                     const physics::Engine& engine, const controllers::Batch& controllers, double frame_s,
                     const std::string& robot_json, const std::string& controller_json,
                     const std::string& origin);

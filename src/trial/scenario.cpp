@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "amble/core/random.hpp"
-#include "amble/morphology/pose.hpp"
+#include "amble/robot/pose.hpp"
 
 namespace amble::trial {
 namespace {
 
-using morphology::RobotSpec;
+using robot::RobotSpec;
 
 /// What a stream of a scenario is for. Part of its key: add at the end, never renumber.
 enum class Kind : std::uint32_t { start = 0, push = 1, touch = 2, sensors = 3, latency = 4 };
@@ -34,7 +34,7 @@ double rounded_up(double height_m) {
 }
 
 physics::StartPose draw_start(const NoiseSettings& noise, const RobotSpec& robot, Stream stream) {
-  const auto start = morphology::start_poses(robot);
+  const auto start = robot::start_poses(robot);
   physics::StartPose pose{.root = {start[0].position_m, start[0].rotation}, .joint_angle_rad = {}};
   const double roll_rad = stream.uniform(-noise.start_tilt_rad, noise.start_tilt_rad);
   const double pitch_rad = stream.uniform(-noise.start_tilt_rad, noise.start_tilt_rad);
@@ -45,8 +45,8 @@ physics::StartPose draw_start(const NoiseSettings& noise, const RobotSpec& robot
                                                   std::min(noise.start_joint_rad, joint.upper_rad)));
 
   const auto bodies =
-      morphology::poses_at(robot, {pose.root.position_m, pose.root.rotation}, pose.joint_angle_rad);
-  const double sunk_m = morphology::clearance_m(robot, start) - morphology::clearance_m(robot, bodies);
+      robot::poses_at(robot, {pose.root.position_m, pose.root.rotation}, pose.joint_angle_rad);
+  const double sunk_m = robot::clearance_m(robot, start) - robot::clearance_m(robot, bodies);
   if (sunk_m > 0.0) pose.root.position_m.z += rounded_up(sunk_m);
   pose.root.position_m.z += higher_m;
   return pose;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "amble/core/math.hpp"
-#include "amble/morphology/robot_spec.hpp"
 #include "amble/physics/engine.hpp"
+#include "amble/robot/spec.hpp"
 #include "amble/trial/noise_settings.hpp"
 
 namespace amble::trial {
@@ -50,7 +50,7 @@ struct ScenarioKey {
 /// Start: joints and tilt as drawn, then the root is lifted so that the lowest point is as high over the
 /// ground as in the robot's own start pose (but not below it), plus the height drawn. Pushes: uniform over a
 /// disc in the horizontal plane.
-Scenario draw_scenario(const NoiseSettings& noise, const morphology::RobotSpec& robot, int steps,
+Scenario draw_scenario(const NoiseSettings& noise, const robot::RobotSpec& robot, int steps,
                        double timestep_s, const ScenarioKey& key);
 
 }  // namespace amble::trial

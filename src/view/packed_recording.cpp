@@ -4,9 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "amble/analysis/robot_model.hpp"
 #include "amble/record/frame_codec.hpp"
 #include "amble/record/recording.hpp"
+#include "amble/robot/json.hpp"
+#include "amble/robot/pose.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::view {
 namespace {
@@ -50,7 +52,7 @@ class Table {
   std::vector<float> values_;
 };
 
-Table pose_table(const record::RecordingReader& reader, const analysis::RobotModel& robot) {
+Table pose_table(const record::RecordingReader& reader, const robot::RobotSpec& robot) {
   Table table(reader);
   for (const char* name : {"x", "y", "z", "qw", "qx", "qy", "qz"}) table.require(std::string("root.") + name);
   for (const char* name : {"x", "y", "z"}) table.require(std::string("com.") + name);
@@ -60,7 +62,7 @@ Table pose_table(const record::RecordingReader& reader, const analysis::RobotMod
   return table;
 }
 
-Table contact_table(const record::RecordingReader& reader, const analysis::RobotModel& robot) {
+Table contact_table(const record::RecordingReader& reader, const robot::RobotSpec& robot) {
   Table table(reader);
   for (const auto& leg : robot.legs) table.require("touch." + leg.name);
   for (const auto& leg : robot.legs) table.accept("trigger." + leg.name);
@@ -68,10 +70,10 @@ Table contact_table(const record::RecordingReader& reader, const analysis::Robot
 }
 
 /// The row of time 0: the robot as its file has it, with all else from the first frame (zeros without one).
-std::vector<float> start_row(const analysis::RobotModel& robot, const Table& poses,
+std::vector<float> start_row(const robot::RobotSpec& robot, const Table& poses,
                              const std::vector<float>& first_frame) {
-  const analysis::Body& root = robot.bodies.front();
-  const Vec3 com_m = robot.com_at_start_m();
+  const robot::Body& root = robot.bodies.front();
+  const Vec3 com_m = robot::start_com_m(robot);
   std::vector<float> row;
   for (const double value : {root.position_m.x, root.position_m.y, root.position_m.z, root.rotation.w,
                              root.rotation.x, root.rotation.y, root.rotation.z, com_m.x, com_m.y, com_m.z})
@@ -87,7 +89,7 @@ std::vector<float> start_row(const analysis::RobotModel& robot, const Table& pos
 PackedRecording pack_recording(const std::filesystem::path& path) {
   record::RecordingReader reader(path);
   const record::RecordingHeader& header = reader.header();
-  const auto robot = analysis::parse_robot(header.robot_json, path.string() + ": robot");
+  const auto robot = robot::parse_robot(header.robot_json, path.string() + ": robot");
   const auto frames_per_pose =
       static_cast<std::uint64_t>(std::max(1.0, std::round(pose_interval_s / header.frame_s)));
   Table poses = pose_table(reader, robot), contacts = contact_table(reader, robot);

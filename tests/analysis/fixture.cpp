@@ -1,5 +1,7 @@
 #include "tests/analysis/fixture.hpp"
 
+#include "amble/robot/json.hpp"
+
 #include <nlohmann/json.hpp>
 
 namespace amble::tests {
@@ -9,13 +11,15 @@ using Json = nlohmann::json;
 
 const std::vector<std::string> leg_names{"FL", "FR", "BL", "BR", "L5", "L6", "L7", "L8", "L9"};
 
-Json body_json(const std::string& name, int parent, Json position_m, double mass_kg) {
+Json body_json(const std::string& name, int parent, Json position_m, double mass_kg, Json com_m = {0, 0, 0}) {
   return {{"name", name},
           {"parent", parent},
           {"position_m", std::move(position_m)},
           {"rotation", {1, 0, 0, 0}},
           {"mass_kg", mass_kg},
-          {"com_m", {0, 0, 0}}};
+          {"com_m", std::move(com_m)},
+          {"inertia_kg_m2", {0.01, 0.01, 0.01}},
+          {"inertia_rotation", {1, 0, 0, 0}}};
 }
 
 Json joint_json(const std::string& name, int body, int chain_index, Json axis, double lower_rad,
@@ -26,24 +30,32 @@ Json joint_json(const std::string& name, int body, int chain_index, Json axis, d
           {"anchor_m", {0, 0, 0}},
           {"axis", std::move(axis)},
           {"lower_rad", lower_rad},
-          {"upper_rad", upper_rad}};
+          {"upper_rad", upper_rad},
+          {"servo",
+           {{"mode", "velocity"},
+            {"gain_per_s", 9},
+            {"max_torque_nm", 5},
+            {"kp_nm_per_rad", 0},
+            {"kd_nm_s_per_rad", 0}}}};
 }
 
 Json geom_json(int body, const std::string& shape, Json size_m, Json position_m) {
   return {{"name", shape},
           {"body", body},
+          {"collides", true},
           {"shape", shape},
           {"size_m", std::move(size_m)},
           {"position_m", std::move(position_m)},
-          {"rotation", {1, 0, 0, 0}}};
+          {"rotation", {1, 0, 0, 0}},
+          {"rgba", {0.5, 0.5, 0.5, 1}}};
 }
 
 void add_leg(Json& robot, int leg) {
   const std::string name = leg_names[static_cast<std::size_t>(leg)];
   const double x = 0.5 - 1.0 * (leg / 2), y = leg % 2 == 0 ? 0.2 : -0.2, outward = leg % 2 == 0 ? 1 : -1;
   const int upper = 1 + 2 * leg, lower = upper + 1;
-  robot["bodies"].push_back(body_json(name + "_upper", 0, {x, y, 0}, 0.0));
-  robot["bodies"].push_back(body_json(name + "_lower", upper, {0, 0, -0.5}, 0.1));
+  robot["bodies"].push_back(body_json(name + "_upper", 0, {x, y, 0}, 0.05, {0, 0, -0.5}));
+  robot["bodies"].push_back(body_json(name + "_lower", upper, {0, 0, -0.5}, 0.05));
   robot["geoms"].push_back(geom_json(upper, "capsule", {0.05, 0.2, 0}, {0, 0, -0.25}));
   robot["geoms"].push_back(geom_json(lower, "box", {0.04, 0.04, 0.2}, {0, 0, -0.2}));
   robot["geoms"].push_back(geom_json(lower, "sphere", {0.1, 0, 0}, {0, 0, -0.4}));
@@ -58,16 +70,20 @@ void add_leg(Json& robot, int leg) {
 }  // namespace
 
 std::string robot_json(int legs) {
-  Json json{
-      {"name", "test robot"}, {"joint_types", {"knee", "hip_fb", "hip_io"}}, {"gravity_m_s2", {0, 0, -9.8}}};
+  Json json{{"name", "test robot"},
+            {"joint_types", {"knee", "hip_fb", "hip_io"}},
+            {"contact", {{"friction", 1}, {"erp", 0.2}, {"cfm_s_per_kg", 1e-5}}},
+            {"gravity_m_s2", {0, 0, -9.8}},
+            {"fall_height_m", 0.2},
+            {"self_collision", false}};
   json["bodies"].push_back(body_json("torso", -1, {0, 0, 1}, 1.0));
   json["geoms"].push_back(geom_json(0, "box", {0.5, 0.2, 0.1}, {0, 0, 0}));
   for (int leg = 0; leg < legs; ++leg) add_leg(json, leg);
   return json.dump();
 }
 
-analysis::RobotModel robot(int legs) {
-  return analysis::parse_robot(robot_json(legs), "test");
+robot::RobotSpec robot(int legs) {
+  return robot::parse_robot(robot_json(legs), "test");
 }
 
 std::string supg_json(int legs) {
@@ -97,7 +113,7 @@ analysis::Recorded walk(int frames, int legs) {
   recorded.supg = analysis::parse_supg(supg_json(legs), recorded.robot, "test");
   analysis::Motion& motion = recorded.motion;
   motion.frame_s = 0.1;
-  motion.com_start_m = recorded.robot.com_at_start_m();
+  motion.com_start_m = robot::start_com_m(recorded.robot);
   const auto n = static_cast<std::size_t>(legs);
   motion.angle_rad.resize(3 * n);
   motion.touch.resize(n);

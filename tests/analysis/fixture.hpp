@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "amble/analysis/recorded.hpp"
-#include "amble/analysis/robot_model.hpp"
 #include "amble/analysis/supg.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::tests {
 
@@ -15,7 +15,7 @@ namespace amble::tests {
 /// hip_io; in the chain hip_io comes before hip_fb. All of it weighs 1 kg in the trunk and 0.1 kg in each
 /// lower leg, at its joint.
 std::string robot_json(int legs = 4);
-analysis::RobotModel robot(int legs = 4);
+robot::RobotSpec robot(int legs = 4);
 
 /// The JSON of a SUPG controller for that robot: period 10 ticks of 0.1 s; joint j has the target j × 0.01 +
 /// tick × 0.001 rad; leg l starts at tick l + 1.

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "amble/analysis/kinematics.hpp"
+#include "amble/robot/pose.hpp"
 #include "tests/analysis/fixture.hpp"
 
 namespace amble::analysis {
@@ -19,11 +19,9 @@ TEST(GaitBody, IsReadOffTheRobot) {
 }
 
 TEST(GaitBody, MeasuresTheLegsOfARobotThatHangsInTheAirAsIfItStood) {
-  RobotModel robot = tests::robot();
-  const auto start_m = robot.bodies[0].position_m;
-  const double bottom_m = geom_bottom_m(
-      robot.geoms[static_cast<std::size_t>(robot.legs[0].foot_geom)],
-      body_poses(robot, {start_m, robot.bodies[0].rotation}, std::vector<double>(robot.joints.size(), 0.0)));
+  robot::RobotSpec robot = tests::robot();
+  const double bottom_m = robot::bottom_m(robot.geoms[static_cast<std::size_t>(robot.legs[0].foot_geom)],
+                                          robot::start_poses(robot));
   robot.bodies[0].position_m.z -= bottom_m;
   const double standing_m = gait_body(robot).leg_length_m;
   robot.bodies[0].position_m.z += 0.25;
@@ -31,7 +29,7 @@ TEST(GaitBody, MeasuresTheLegsOfARobotThatHangsInTheAirAsIfItStood) {
 }
 
 TEST(GaitBody, FindsTheLegsByWhereTheFeetStandWhateverTheirNames) {
-  RobotModel robot = tests::robot();
+  robot::RobotSpec robot = tests::robot();
   std::swap(robot.legs[0], robot.legs[3]);
   std::swap(robot.legs[1], robot.legs[3]);
   const auto legs = gait_body(robot).quadruped.value();  // now BR, FL, BL, FR
@@ -45,10 +43,10 @@ TEST(GaitBody, IsAQuadrupedOnlyWithTwoLegsBehindTwo) {
   EXPECT_TRUE(gait_body(tests::robot(4)).quadruped);
   EXPECT_FALSE(gait_body(tests::robot(2)).quadruped);
   EXPECT_FALSE(gait_body(tests::robot(6)).quadruped);
-  RobotModel cross = tests::robot(4);  // one in front, one behind, two at the sides
+  robot::RobotSpec cross = tests::robot(4);  // one in front, one behind, two at the sides
   const double places[4][2] = {{0.5, 0.0}, {0.0, 0.3}, {0.0, -0.3}, {-0.5, 0.0}};
   for (std::size_t leg = 0; leg < 4; ++leg) {
-    Body& upper = cross.bodies[1 + 2 * leg];
+    robot::Body& upper = cross.bodies[1 + 2 * leg];
     upper.position_m = {places[leg][0], places[leg][1], 0.0};
   }
   EXPECT_FALSE(gait_body(cross).quadruped);

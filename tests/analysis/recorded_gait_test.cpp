@@ -34,7 +34,7 @@ class RecordedGait : public testing::Test {
       for (auto& name : record::torque_columns(joints_)) header.columns.push_back(name);
     record::RecordingWriter writer(path_, header);
     const tests::Clockwork feet{.stride = 60, .stance = 36, .offset = {30, 0, 0, 30}};
-    const auto start = robot_.com_at_start_m();
+    const auto start = robot::start_com_m(robot_);
     for (int k = 0; k < 1200; ++k) {
       std::vector<float> frame(header.columns.size());
       const auto put = [&](const std::string& name, double value) {
@@ -53,7 +53,7 @@ class RecordedGait : public testing::Test {
     writer.finish(outcome);
   }
 
-  RobotModel robot_ = tests::robot();
+  robot::RobotSpec robot_ = tests::robot();
   std::vector<std::string> joints_, legs_;
   std::filesystem::path path_;
 };

@@ -15,7 +15,7 @@ namespace {
 class RecordedTest : public testing::Test {
  protected:
   RecordedTest() : path_(std::filesystem::path(testing::TempDir()) / (std::string(test_name()) + ".rec")) {
-    const RobotModel robot = tests::robot();
+    const robot::RobotSpec robot = tests::robot();
     std::vector<std::string> joints, legs;
     for (const auto& joint : robot.joints) joints.push_back(joint.name);
     for (const auto& leg : robot.legs) legs.push_back(leg.name);
@@ -117,7 +117,7 @@ TEST_F(RecordedTest, NamesFileAndPartOfWhatIsWrong) {
   header_.robot_json = "{}";
   write(1, record::Outcome::completed);
   EXPECT_EQ(tests::error_of([&] { read_recorded(path_); }),
-            path_.string() + ": robot: key 'name' is missing");
+            path_.string() + ": robot: key 'legs' is missing");
 }
 
 TEST_F(RecordedTest, NamesAColumnThatIsMissing) {

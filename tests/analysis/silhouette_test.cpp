@@ -15,10 +15,14 @@ namespace {
 using testing::ElementsAre;
 
 /// A single geom as a robot.
-RobotModel one_geom(Shape shape, Vec3 size_m, Quat rotation = {}) {
-  RobotModel robot;
+robot::RobotSpec one_geom(robot::Shape shape, Vec3 size_m, Quat rotation = {}) {
+  robot::RobotSpec robot;
   robot.bodies.resize(1);
-  robot.geoms.push_back({0, shape, size_m, {0, 0, 0}, rotation});
+  robot::Geom geom;
+  geom.shape = shape;
+  geom.size_m = size_m;
+  geom.rotation = rotation;
+  robot.geoms.push_back(geom);
   return robot;
 }
 
@@ -31,7 +35,7 @@ std::pair<Point, Point> bounds(const std::vector<Point>& corners) {
   return {low, high};
 }
 
-Silhouette seen(const RobotModel& robot, const Camera& camera) {
+Silhouette seen(const robot::RobotSpec& robot, const Camera& camera) {
   return silhouettes(robot, {{{1, 2, 3}, {}}}, camera).at(0);
 }
 
@@ -71,7 +75,7 @@ TEST(Camera, FromAboveIsNotMirrored) {
 
 TEST(Silhouette, OfABoxIsItsFace) {
   const auto [low, high] =
-      bounds(seen(one_geom(Shape::box, {0.1, 0.2, 0.3}), side_camera({1, 0, 0})).corners_m);
+      bounds(seen(one_geom(robot::Shape::box, {0.1, 0.2, 0.3}), side_camera({1, 0, 0})).corners_m);
   EXPECT_NEAR(low.x, 0.9, 1e-12);
   EXPECT_NEAR(high.x, 1.1, 1e-12);
   EXPECT_NEAR(low.y, 2.7, 1e-12);
@@ -80,11 +84,12 @@ TEST(Silhouette, OfABoxIsItsFace) {
 
 TEST(Silhouette, OfATurnedBoxHasSixCorners) {
   const Quat turn = axis_angle({0, 0, 1}, 0.5) * axis_angle({1, 0, 0}, 0.7);
-  EXPECT_EQ(seen(one_geom(Shape::box, {0.1, 0.2, 0.3}, turn), side_camera({1, 0, 0})).corners_m.size(), 6u);
+  EXPECT_EQ(seen(one_geom(robot::Shape::box, {0.1, 0.2, 0.3}, turn), side_camera({1, 0, 0})).corners_m.size(),
+            6u);
 }
 
 TEST(Silhouette, OfASphereIsACircle) {
-  const Silhouette sphere = seen(one_geom(Shape::sphere, {0.25, 0, 0}), side_camera({1, 0, 0}));
+  const Silhouette sphere = seen(one_geom(robot::Shape::sphere, {0.25, 0, 0}), side_camera({1, 0, 0}));
   EXPECT_TRUE(sphere.corners_m.empty());
   EXPECT_EQ(sphere.radius_m, 0.25);
   EXPECT_EQ(sphere.centre_m, (Point{1, 3}));
@@ -92,15 +97,15 @@ TEST(Silhouette, OfASphereIsACircle) {
 }
 
 TEST(Silhouette, OfACapsuleIsLongerThanOfACylinderByItsRadii) {
-  for (const Shape shape : {Shape::capsule, Shape::cylinder}) {
+  for (const robot::Shape shape : {robot::Shape::capsule, robot::Shape::cylinder}) {
     const auto [low, high] = bounds(seen(one_geom(shape, {0.1, 0.4, 0}), side_camera({1, 0, 0})).corners_m);
-    EXPECT_NEAR(high.y - low.y, shape == Shape::capsule ? 1.0 : 0.8, 1e-12);
+    EXPECT_NEAR(high.y - low.y, shape == robot::Shape::capsule ? 1.0 : 0.8, 1e-12);
     EXPECT_NEAR(high.x - low.x, 0.2, 1e-12);
   }
 }
 
 TEST(Silhouette, OfAnUprightCylinderFromAboveIsRound) {
-  const auto outline = seen(one_geom(Shape::cylinder, {0.1, 0.4, 0}), top_camera(false)).corners_m;
+  const auto outline = seen(one_geom(robot::Shape::cylinder, {0.1, 0.4, 0}), top_camera(false)).corners_m;
   for (const Point corner : outline) EXPECT_NEAR(std::hypot(corner.x - 1, corner.y - 2), 0.1, 1e-12);
   EXPECT_GE(outline.size(), 16u);
 }

@@ -27,7 +27,7 @@ template <typename Architecture, typename Settings>
 class Pair {
  public:
   Pair(const Settings& settings, const substrate::Settings& substrate, int lanes, Stream& stream,
-       const morphology::RobotSpec& robot = quadruped(), bool load_all = true)
+       const robot::RobotSpec& robot = quadruped(), bool load_all = true)
       : settings_(settings),
         robot_(robot),
         substrate_(substrate),
@@ -101,11 +101,11 @@ class Pair {
   }
 
   Settings settings_;
-  morphology::RobotSpec robot_;
+  robot::RobotSpec robot_;
   substrate::Settings substrate_;
   Architecture architecture_;
   std::unique_ptr<Batch> batch_;
-  physics::SensorFrame sensors_;
+  robot::SensorFrame sensors_;
   LaneArray targets_;
   std::vector<std::unique_ptr<Parameters>> parameters_;
   std::vector<std::optional<PlainNetwork>> plain_;
@@ -179,7 +179,7 @@ constexpr int random_substrates = 25;
 
 /// Networks in random substrates, on one instruction set; some lanes are never loaded.
 void expect_twins_in_random_substrates(int substrates, Stream& stream) {
-  const morphology::RobotSpec robot = one_joint();
+  const robot::RobotSpec robot = one_joint();
   for (int i = 0; i < substrates; ++i) {
     const bool cyclic = stream.chance(0.5), all = stream.chance(0.5);
     const int lanes = stream.chance(0.5) ? 16 : 1;
@@ -281,7 +281,7 @@ TEST(CtrnnBatch, EqualsPlainNetworksForAllSwitchesAndLaneCounts) {
 TEST(CtrnnBatch, StepsWithLanesThatWereNeverLoaded) {
   const CtrnnArchitecture architecture(CtrnnSettings(), substrate::part("ctrnn"), quadruped(), timestep_s);
   const auto batch = architecture.make_batch(16);
-  const physics::SensorFrame sensors{LaneArray(joints, 16), LaneArray(legs, 16), LaneArray(3, 16)};
+  const robot::SensorFrame sensors{LaneArray(joints, 16), LaneArray(legs, 16), LaneArray(3, 16)};
   LaneArray targets(joints, 16);
   for (int tick = 0; tick < 50; ++tick) batch->step(sensors, targets);
   for (int joint = 0; joint < joints; ++joint) EXPECT_LE(std::abs(targets.at(joint, 9)), 0.8f);

@@ -11,11 +11,11 @@
 namespace amble::controllers {
 
 /// A robot with one joint of −1 … 1 rad and one leg.
-inline morphology::RobotSpec one_joint() {
-  morphology::RobotSpec robot;
+inline robot::RobotSpec one_joint() {
+  robot::RobotSpec robot;
   robot.joint_types = {"knee"};
   robot.legs.push_back({"L", 0, {0}});
-  morphology::Joint& joint = robot.joints.emplace_back();
+  robot::Joint& joint = robot.joints.emplace_back();
   joint.name = "L_knee";
   joint.lower_rad = -1.0;
   joint.upper_rad = 1.0;
@@ -49,7 +49,7 @@ class Bench {
     batch_->load(0, *parameters_);
   }
 
-  physics::SensorFrame& sensors() { return sensors_; }
+  robot::SensorFrame& sensors() { return sensors_; }
   /// The neurons' values after one more tick.
   std::vector<float> tick() {
     batch_->step(sensors_, targets_);
@@ -62,7 +62,7 @@ class Bench {
  private:
   std::unique_ptr<Batch> batch_;
   std::unique_ptr<Parameters> parameters_;
-  physics::SensorFrame sensors_;
+  robot::SensorFrame sensors_;
   LaneArray targets_;
 };
 

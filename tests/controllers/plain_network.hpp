@@ -11,7 +11,7 @@
 #include "amble/controllers/logistic_constants.hpp"
 #include "amble/controllers/network.hpp"
 #include "amble/cppn/activation.hpp"
-#include "amble/morphology/robot_spec.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::controllers {
 
@@ -77,7 +77,7 @@ class PlainNetwork {
 
   float value(std::size_t node) const { return value_[node]; }
   /// Driven by the node of joint `joint`, whose stops `its` tells.
-  float target_rad(int joint, const morphology::Joint& its) const {
+  float target_rad(int joint, const robot::Joint& its) const {
     const auto value = static_cast<double>(value_[static_cast<std::size_t>(layout_.driver(joint))]);
     const double command = value < 0.0 ? 0.0 : value > 1.0 ? 1.0 : value;
     return static_cast<float>(its.lower_rad + (its.upper_rad - its.lower_rad) * command);

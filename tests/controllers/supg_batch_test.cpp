@@ -46,7 +46,7 @@ TimerStory play(const SupgSettings& settings, int offset_ticks, const std::strin
   const std::unique_ptr<Batch> batch = architecture.make_batch(1);
   batch->load(0, parameters);
 
-  physics::SensorFrame sensors{LaneArray(legs * types, 1), LaneArray(legs, 1), LaneArray(3, 1)};
+  robot::SensorFrame sensors{LaneArray(legs * types, 1), LaneArray(legs, 1), LaneArray(3, 1)};
   sensors.touch.set_lane(0, 1.0f);
   LaneArray targets(legs * types, 1);
   TimerStory story;
@@ -174,7 +174,7 @@ TEST(SupgTimer, GivesEachLegItsOwnTimerAndOffset) {
             (std::vector<std::string>{"timer.FL", "timer.FR", "timer.BL", "timer.BR", "trigger.FL",
                                       "trigger.FR", "trigger.BL", "trigger.BR"}));
 
-  physics::SensorFrame sensors{LaneArray(legs * types, 1), LaneArray(legs, 1), LaneArray(3, 1)};
+  robot::SensorFrame sensors{LaneArray(legs * types, 1), LaneArray(legs, 1), LaneArray(3, 1)};
   LaneArray targets(legs * types, 1);
   std::vector<float> state(2 * legs);
   batch->step(sensors, targets);  // all feet are up

@@ -151,7 +151,7 @@ TEST(SupgDeathTest, RefusesACppnOfAnotherShape) {
 }
 
 TEST(Supg, RefusesARobotThatItsSubstrateDoesNotFit) {
-  morphology::RobotSpec robot = quadruped();
+  robot::RobotSpec robot = quadruped();
   robot.legs.pop_back();
   robot.joints.resize(9);
   EXPECT_THROW(SupgArchitecture(SupgSettings(), supg_substrate(), robot, timestep_s), UserError);

@@ -123,7 +123,7 @@ class Pair {
   SupgSettings settings_;
   SupgArchitecture architecture_;
   std::unique_ptr<Batch> batch_;
-  physics::SensorFrame sensors_;
+  robot::SensorFrame sensors_;
   LaneArray targets_;
   std::vector<std::unique_ptr<SupgParameters>> parameters_;
   std::vector<std::vector<PlainTimer>> timers_;
@@ -165,7 +165,7 @@ TEST(SupgBatch, EqualsPlainTimersForAllSwitchesAndLaneCounts) {
 TEST(SupgBatch, StepsWithLanesThatWereNeverLoaded) {
   const SupgArchitecture architecture(SupgSettings(), supg_substrate(), quadruped(), timestep_s);
   const std::unique_ptr<Batch> batch = architecture.make_batch(16);
-  const physics::SensorFrame sensors{LaneArray(legs * types, 16), LaneArray(legs, 16), LaneArray(3, 16)};
+  const robot::SensorFrame sensors{LaneArray(legs * types, 16), LaneArray(legs, 16), LaneArray(3, 16)};
   LaneArray targets(legs * types, 16);
   for (int tick = 0; tick < 300; ++tick) batch->step(sensors, targets);
   for (int joint = 0; joint < legs * types; ++joint) EXPECT_TRUE(std::abs(targets.at(joint, 9)) <= 0.8f);

@@ -5,7 +5,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/random.hpp"
-#include "amble/morphology/robot_json.hpp"
+#include "amble/robot/json.hpp"
 #include "tests/experiment/fixture.hpp"
 
 namespace amble::experiment {
@@ -51,7 +51,7 @@ TEST(Champion, ReadsBackToTheBit) {
   EXPECT_EQ(again.generation, 12);
   EXPECT_EQ(again.result.distance_m, champion.result.distance_m);
   EXPECT_EQ(again.result.outcome, record::Outcome::fell);
-  EXPECT_EQ(morphology::to_json(again.problem.robot), morphology::to_json(champion.problem.robot));
+  EXPECT_EQ(robot::to_json(again.problem.robot), robot::to_json(champion.problem.robot));
   EXPECT_EQ(champion_text(again), text);
 }
 

@@ -28,7 +28,7 @@ class Folder : public testing::Test {
   TemporaryFolder scratch_;
   std::filesystem::path folder_ = scratch_ / "run";
   Config config_ = small_config();
-  morphology::RobotSpec robot_ = load_robot_file(config_.robot);
+  robot::RobotSpec robot_ = load_robot_file(config_.robot);
 
   std::string creating() {
     return complaint([&] { RunFolder::create(folder_, robot_); });

@@ -95,8 +95,8 @@ cfm_s_per_kg = 1e-4
 )";
 
 /// Loads the one-legged robot from these two texts, as a user would.
-inline RobotSpec load_one_leg(const Files& files, const std::string& xml = one_leg_xml,
-                              const std::string& toml = one_leg_toml) {
+inline robot::RobotSpec load_one_leg(const Files& files, const std::string& xml = one_leg_xml,
+                                     const std::string& toml = one_leg_toml) {
   files.write("one_leg.xml", xml);
   return load_robot(files.write("one_leg.toml", toml));
 }

@@ -11,37 +11,37 @@
 #include "amble/core/error.hpp"
 #include "amble/morphology/model_parts.hpp"
 #include "amble/morphology/robot_file.hpp"
-#include "amble/morphology/robot_json.hpp"
+#include "amble/robot/json.hpp"
 
 namespace amble::morphology {
 namespace {
 
-RobotSpec load(const std::string& name) {
+robot::RobotSpec load(const std::string& name) {
   return load_robot(std::string(AMBLE_SOURCE_DIR "/") + name + ".toml");
 }
 
 /// What MuJoCo reads from what was written of a robot, in that robot's own order.
-RobotSpec through_mjcf(const RobotSpec& robot) {
+robot::RobotSpec through_mjcf(const robot::RobotSpec& robot) {
   const Mjcf mjcf = write_mjcf(robot);
   ModelFile file;
   file.model = compile_mjcf(mjcf.text, "text");
   const ModelParts parts = take_apart(file);
-  RobotSpec again = robot;
+  robot::RobotSpec again = robot;
   again.gravity_m_s2 = parts.gravity_m_s2;
   for (std::size_t place = 0; place < parts.bodies.size(); ++place) {
-    Body& body = again.bodies[static_cast<std::size_t>(mjcf.bodies[place])];
+    robot::Body& body = again.bodies[static_cast<std::size_t>(mjcf.bodies[place])];
     body = parts.bodies[place];
     if (body.parent >= 0) body.parent = mjcf.bodies[static_cast<std::size_t>(body.parent)];
   }
   for (std::size_t place = 0; place < parts.joints.size(); ++place) {
-    Joint& joint = again.joints[static_cast<std::size_t>(mjcf.joints[place])];
-    const Servo servo = joint.servo;
+    robot::Joint& joint = again.joints[static_cast<std::size_t>(mjcf.joints[place])];
+    const robot::Servo servo = joint.servo;
     joint = parts.joints[place];
     joint.body = mjcf.bodies[static_cast<std::size_t>(joint.body)];
     joint.servo = servo;
   }
   for (std::size_t place = 0; place < parts.geoms.size(); ++place) {
-    Geom& geom = again.geoms[static_cast<std::size_t>(mjcf.geoms[place])];
+    robot::Geom& geom = again.geoms[static_cast<std::size_t>(mjcf.geoms[place])];
     geom = parts.geoms[place];
     geom.body = mjcf.bodies[static_cast<std::size_t>(geom.body)];
   }
@@ -54,25 +54,25 @@ INSTANTIATE_TEST_SUITE_P(MjcfWriter, EachRobot,
                                          "scenes/pendulum"));
 
 TEST_P(EachRobot, IsReadBackByMujocoToTheBit) {
-  const RobotSpec robot = load(GetParam());
+  const robot::RobotSpec robot = load(GetParam());
   EXPECT_EQ(to_json(through_mjcf(robot)).dump(1), to_json(robot).dump(1));
 }
 
 TEST(MjcfWriter, PutsABodyBehindItsParentWhateverTheOrderOfTheRobot) {
   // Upper legs first, then lower legs: MJCF nests them, leg by leg.
-  RobotSpec robot = load("robots/quadruped/paper");
+  robot::RobotSpec robot = load("robots/quadruped/paper");
   const std::vector<int> order{0, 1, 3, 5, 7, 2, 4, 6, 8};
   std::vector<int> now_at(order.size());
   for (std::size_t i = 0; i < order.size(); ++i)
     now_at[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
   const auto moved = [&](int body) { return body < 0 ? body : now_at[static_cast<std::size_t>(body)]; };
-  const std::vector<Body> before = robot.bodies;
+  const std::vector<robot::Body> before = robot.bodies;
   for (std::size_t i = 0; i < order.size(); ++i) {
     robot.bodies[i] = before[static_cast<std::size_t>(order[i])];
     robot.bodies[i].parent = moved(robot.bodies[i].parent);
   }
-  for (Joint& joint : robot.joints) joint.body = moved(joint.body);
-  for (Geom& geom : robot.geoms) geom.body = moved(geom.body);
+  for (robot::Joint& joint : robot.joints) joint.body = moved(joint.body);
+  for (robot::Geom& geom : robot.geoms) geom.body = moved(geom.body);
   EXPECT_EQ(robot.bodies[5].name, "FL_lower");
 
   const Mjcf mjcf = write_mjcf(robot);
@@ -81,11 +81,11 @@ TEST(MjcfWriter, PutsABodyBehindItsParentWhateverTheOrderOfTheRobot) {
 }
 
 TEST(MjcfWriter, AcceptsAnyNames) {
-  RobotSpec robot = load("robots/quadruped/paper");
+  robot::RobotSpec robot = load("robots/quadruped/paper");
   robot.name = R"(<"quadruped"> & 'friends')";
-  for (Body& body : robot.bodies) body.name = "world";
-  for (Geom& geom : robot.geoms) geom.name = "ground";
-  for (Joint& joint : robot.joints) joint.name = "a\"<&";
+  for (robot::Body& body : robot.bodies) body.name = "world";
+  for (robot::Geom& geom : robot.geoms) geom.name = "ground";
+  for (robot::Joint& joint : robot.joints) joint.name = "a\"<&";
   const auto model = compile_mjcf(write_mjcf(robot).text, "text");
   EXPECT_EQ(std::string(model->names), robot.name);
   EXPECT_EQ(model->nbody, 10);
@@ -94,7 +94,7 @@ TEST(MjcfWriter, AcceptsAnyNames) {
 
 TEST(MjcfWriter, LetsLegsCollideOnlyIfTheRobotSaysSo) {
   for (const bool self_collision : {false, true}) {
-    RobotSpec robot = load("robots/quadruped/paper");
+    robot::RobotSpec robot = load("robots/quadruped/paper");
     robot.self_collision = self_collision;
     robot.geoms[0].collides = false;
     const auto model = compile_mjcf(write_mjcf(robot).text, "text");
@@ -110,7 +110,7 @@ TEST(MjcfWriter, LetsLegsCollideOnlyIfTheRobotSaysSo) {
 }
 
 TEST(MjcfWriter, WritesFrictionAsMujocoKnowsIt) {
-  RobotSpec robot = load("scenes/box");
+  robot::RobotSpec robot = load("scenes/box");
   for (const auto& [friction, written, dimensions] :
        {std::tuple{0.5, 0.5, 3}, {0.0, 0.0, 1}, {std::numeric_limits<double>::infinity(), grip, 3}}) {
     robot.contact.friction = friction;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "amble/morphology/pose.hpp"
+#include "amble/robot/pose.hpp"
 #include "tests/morphology/files.hpp"
 
 namespace amble::morphology {
@@ -16,7 +16,7 @@ ModelParts parts_of(const Files& files, const std::string& text, const std::stri
 }
 
 /// Inertia about the centre of mass and along a direction of the body's frame.
-double moment_about(const Body& body, Vec3 direction) {
+double moment_about(const robot::Body& body, Vec3 direction) {
   const Vec3 d = rotate(conjugate(body.inertia_rotation), direction);
   return body.inertia_kg_m2.x * d.x * d.x + body.inertia_kg_m2.y * d.y * d.y +
          body.inertia_kg_m2.z * d.z * d.z;
@@ -35,12 +35,12 @@ TEST(TakeApart, ReadsBodiesJointsAndGeoms) {
   EXPECT_EQ(parts.joints[1].body, 2);
   EXPECT_EQ(parts.joints[1].lower_rad, -0.7);
   ASSERT_EQ(parts.geoms.size(), 4u);
-  EXPECT_EQ(parts.geoms[0].shape, Shape::box);
+  EXPECT_EQ(parts.geoms[0].shape, robot::Shape::box);
   EXPECT_EQ(parts.geoms[0].size_m, (Vec3{0.2, 0.1, 0.05}));
-  EXPECT_EQ(parts.geoms[1].shape, Shape::capsule);
+  EXPECT_EQ(parts.geoms[1].shape, robot::Shape::capsule);
   EXPECT_NEAR(parts.geoms[1].size_m.y, 0.2, 1e-15);
-  EXPECT_EQ(parts.geoms[2].shape, Shape::cylinder);
-  EXPECT_EQ(parts.geoms[3].shape, Shape::sphere);
+  EXPECT_EQ(parts.geoms[2].shape, robot::Shape::cylinder);
+  EXPECT_EQ(parts.geoms[3].shape, robot::Shape::sphere);
   EXPECT_EQ(parts.gravity_m_s2, (Vec3{0.0, 0.0, -9.8}));
 }
 
@@ -56,8 +56,8 @@ TEST(TakeApart, FusesABodyThatIsFixedToItsParent) {
                      type="sphere" pos="0 0 -0.1" size="0.06" mass="0.25"/></body></body>)"));
   ASSERT_EQ(split.bodies.size(), 3u);
   ASSERT_EQ(split.geoms.size(), 4u);
-  const Body& shin = split.bodies[2];
-  const Geom& foot = split.geoms[3];
+  const robot::Body& shin = split.bodies[2];
+  const robot::Geom& foot = split.geoms[3];
   EXPECT_EQ(foot.body, 2);
   EXPECT_DOUBLE_EQ(shin.mass_kg, 0.75);
 

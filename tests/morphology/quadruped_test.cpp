@@ -5,19 +5,19 @@
 #include <string>
 #include <vector>
 
-#include "amble/morphology/pose.hpp"
 #include "amble/morphology/robot_file.hpp"
+#include "amble/robot/pose.hpp"
 
 namespace amble::morphology {
 namespace {
 
-RobotSpec quadruped(const std::string& variant) {
+robot::RobotSpec quadruped(const std::string& variant) {
   return load_robot(std::string(AMBLE_SOURCE_DIR "/robots/quadruped/") + variant + ".toml");
 }
 
 class Quadruped : public testing::TestWithParam<const char*> {
  protected:
-  RobotSpec robot_ = quadruped(GetParam());
+  robot::RobotSpec robot_ = quadruped(GetParam());
 };
 
 TEST_P(Quadruped, HasItsJointsInControlOrder) {
@@ -37,9 +37,9 @@ TEST_P(Quadruped, HasTheRangesAndAxesOfTheConventions) {
   for (std::size_t l = 0; l < 4; ++l) {
     const bool front = l < 2;
     const bool left = l % 2 == 0;
-    const Joint& knee = robot_.joints[3 * l];
-    const Joint& forward_backward = robot_.joints[3 * l + 1];
-    const Joint& in_out = robot_.joints[3 * l + 2];
+    const robot::Joint& knee = robot_.joints[3 * l];
+    const robot::Joint& forward_backward = robot_.joints[3 * l + 1];
+    const robot::Joint& in_out = robot_.joints[3 * l + 2];
     EXPECT_EQ(knee.lower_rad, front ? -0.8 : 0.0);
     EXPECT_EQ(knee.upper_rad, front ? 0.0 : 0.8);
     EXPECT_EQ(knee.axis, (Vec3{0.0, 1.0, 0.0}));
@@ -56,15 +56,15 @@ TEST_P(Quadruped, HasTheRangesAndAxesOfTheConventions) {
 }
 
 TEST_P(Quadruped, StandsFourSquareWithItsFeetOnTheGround) {
-  const auto poses = start_poses(robot_);
+  const auto poses = robot::start_poses(robot_);
   EXPECT_EQ(poses[0].position_m, (Vec3{0.0, 0.0, 0.88404}));
   for (std::size_t l = 0; l < 4; ++l) {
     const int foot = robot_.legs[l].foot_geom;
-    const Geom& geom = robot_.geoms[static_cast<std::size_t>(foot)];
+    const robot::Geom& geom = robot_.geoms[static_cast<std::size_t>(foot)];
     const Vec3 at = poses[static_cast<std::size_t>(geom.body)] * geom.position_m;
     EXPECT_NEAR(at.x, l < 2 ? 0.43333 : -0.43333, 1e-12);
     EXPECT_NEAR(at.y, l % 2 == 0 ? 0.2833 : -0.2833, 1e-12);
-    EXPECT_NEAR(start_clearance_m(robot_, foot), -1e-4, 1e-12);
+    EXPECT_NEAR(robot::start_clearance_m(robot_, foot), -1e-4, 1e-12);
     EXPECT_EQ(geom.size_m.x, 0.0917);
   }
 }
@@ -78,8 +78,8 @@ TEST_P(Quadruped, HasTheMassesAndTheMotorsOfTheAuthors) {
   EXPECT_FALSE(robot_.self_collision);
   EXPECT_EQ(robot_.contact.erp, 0.1);
   EXPECT_EQ(robot_.contact.cfm_s_per_kg, 1e-4);
-  for (const Joint& joint : robot_.joints) {
-    EXPECT_EQ(joint.servo.mode, ServoMode::velocity);
+  for (const robot::Joint& joint : robot_.joints) {
+    EXPECT_EQ(joint.servo.mode, robot::ServoMode::velocity);
     EXPECT_EQ(joint.servo.gain_per_s, 9.0);
     EXPECT_EQ(joint.servo.max_torque_nm, 5.0);
   }
@@ -89,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(Variants, Quadruped, testing::Values("authors", "paper"
                          [](const auto& variant) { return std::string(variant.param); });
 
 TEST(AuthorsQuadruped, HasATorsoOfUnitInertiaAndInfiniteFriction) {
-  const RobotSpec robot = quadruped("authors");
+  const robot::RobotSpec robot = quadruped("authors");
   EXPECT_EQ(robot.bodies[0].inertia_kg_m2, (Vec3{1.0, 1.0, 1.0}));
   EXPECT_TRUE(std::isinf(robot.contact.friction));
 }
@@ -102,7 +102,7 @@ TEST(AuthorsQuadruped, HasLowerLegsOfABoxAndASphere) {
   const double across = 0.5 * (0.01 + 0.1225) / 12 + 0.5 * std::pow(-0.175185 - com, 2) + sphere +
                         0.1 * std::pow(-0.44207 - com, 2);
   const double along = 0.5 * 0.02 / 12 + sphere;
-  const Body lower = quadruped("authors").bodies[2];
+  const robot::Body lower = quadruped("authors").bodies[2];
   EXPECT_NEAR(lower.com_m.z, com, 1e-12);
   EXPECT_NEAR(lower.inertia_kg_m2.x, across, 1e-12);
   EXPECT_NEAR(lower.inertia_kg_m2.y, across, 1e-12);
@@ -110,7 +110,7 @@ TEST(AuthorsQuadruped, HasLowerLegsOfABoxAndASphere) {
 }
 
 TEST(PaperQuadruped, HasASolidTorsoAndFiniteFriction) {
-  const RobotSpec robot = quadruped("paper");
+  const robot::RobotSpec robot = quadruped("paper");
   const Vec3 moments = robot.bodies[0].inertia_kg_m2;
   const std::multiset<double> found{moments.x, moments.y, moments.z};
   const std::vector<double> sorted(found.begin(), found.end());

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "amble/morphology/pose.hpp"
+#include "amble/robot/pose.hpp"
 #include "tests/morphology/files.hpp"
 
 namespace amble::morphology {
@@ -12,7 +12,7 @@ namespace {
 
 TEST(LoadRobot, PutsJointsIntoControlOrderWhateverTheModelsOrder) {
   const Files files;
-  const RobotSpec robot =
+  const robot::RobotSpec robot =
       load_one_leg(files, one_leg_xml, with(one_leg_toml, R"(["hip", "knee"])", R"(["knee", "hip"])"));
   ASSERT_EQ(robot.joints.size(), 2u);
   EXPECT_EQ(robot.joints[0].name, "A_knee");
@@ -27,7 +27,7 @@ TEST(LoadRobot, TakesNamesByPatternOrOneByOne) {
   const Files files;
   std::string xml = with(with(one_leg_xml, "A_hip", "joint_hip_of_A"), "A_knee", "gelenk");
   xml = with(xml, "A_foot", "sole_A");
-  const RobotSpec robot = load_one_leg(files, xml, one_leg_toml + R"(
+  const robot::RobotSpec robot = load_one_leg(files, xml, one_leg_toml + R"(
 [names]
 joint = "joint_{type}_of_{leg}"
 foot = "sole_{leg}"
@@ -39,16 +39,16 @@ knee = "gelenk"
 }
 
 TEST(LoadRobot, AllowsARobotWithoutLegs) {
-  const RobotSpec robot = load_robot(AMBLE_SOURCE_DIR "/scenes/box.toml");
+  const robot::RobotSpec robot = load_robot(AMBLE_SOURCE_DIR "/scenes/box.toml");
   EXPECT_TRUE(robot.joints.empty());
   EXPECT_TRUE(robot.legs.empty());
 }
 
 TEST(LoadRobot, RaisesTheRootToTheStartHeight) {
   const Files files;
-  const RobotSpec robot = load_one_leg(files, one_leg_xml, "start_height_m = 0.96\n" + one_leg_toml);
+  const robot::RobotSpec robot = load_one_leg(files, one_leg_xml, "start_height_m = 0.96\n" + one_leg_toml);
   EXPECT_EQ(robot.bodies[0].position_m.z, 0.96);
-  EXPECT_NEAR(start_clearance_m(robot, robot.legs[0].foot_geom), 0.0, 1e-15);
+  EXPECT_NEAR(robot::start_clearance_m(robot, robot.legs[0].foot_geom), 0.0, 1e-15);
 }
 
 TEST(LoadRobot, RefusesWhereModelAndSideFileDisagree) {

@@ -18,8 +18,8 @@ TEST(SideFile, GivesEveryJointTheCommonServo) {
   const Files files;
   const SideFile side = read(files, one_leg_toml);
   ASSERT_EQ(side.servos.size(), 2u);
-  for (const Servo& servo : side.servos) {
-    EXPECT_EQ(servo.mode, ServoMode::velocity);
+  for (const robot::Servo& servo : side.servos) {
+    EXPECT_EQ(servo.mode, robot::ServoMode::velocity);
     EXPECT_EQ(servo.gain_per_s, 9.0);
     EXPECT_EQ(servo.max_torque_nm, 5.0);
     EXPECT_EQ(servo.kp_nm_per_rad, 0.0);
@@ -42,10 +42,10 @@ kd_nm_s_per_rad = 0.5
   ASSERT_EQ(side.servos.size(), 4u);
   EXPECT_EQ(side.servos[0].max_torque_nm, 5.0);
   EXPECT_EQ(side.servos[1].max_torque_nm, 7.0);
-  EXPECT_EQ(side.servos[1].mode, ServoMode::velocity);
+  EXPECT_EQ(side.servos[1].mode, robot::ServoMode::velocity);
   EXPECT_EQ(side.servos[2].max_torque_nm, 5.0);
   EXPECT_EQ(side.servos[3].max_torque_nm, 7.0);
-  EXPECT_EQ(side.servos[3].mode, ServoMode::torque);
+  EXPECT_EQ(side.servos[3].mode, robot::ServoMode::torque);
   EXPECT_EQ(side.servos[3].kp_nm_per_rad, 30.0);
   EXPECT_EQ(side.servos[3].kd_nm_s_per_rad, 0.5);
   EXPECT_EQ(side.servos[3].gain_per_s, 0.0);

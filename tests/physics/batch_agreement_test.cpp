@@ -9,14 +9,14 @@
 namespace amble::physics {
 namespace {
 
-using morphology::RobotSpec;
+using robot::RobotSpec;
 
 /// Without motors, weight or stops in reach, and with joints that ODE keeps together.
 RobotSpec passive(RobotSpec robot) {
   robot = weightless(std::move(robot));
   robot.contact.cfm_s_per_kg = 1e-10;
-  for (morphology::Joint& joint : robot.joints) {
-    joint.servo = {.mode = morphology::ServoMode::torque, .max_torque_nm = 0.0};
+  for (robot::Joint& joint : robot.joints) {
+    joint.servo = {.mode = robot::ServoMode::torque, .max_torque_nm = 0.0};
     joint.lower_rad = -3.0;
     joint.upper_rad = 3.0;
   }
@@ -35,7 +35,7 @@ RobotSpec biped() {
   const std::vector<Vec3> axes{{0, 0, 1}, {1, 0, 0}, {0, -1, 0}, {0, 0.6, 0.8}, {0, 1, 0}, {-1, 0, 0}};
   for (int leg = 0; leg < 2; ++leg) {
     for (int j = 0; j < 6; ++j) {
-      morphology::Body body = robot.bodies[2];
+      robot::Body body = robot.bodies[2];
       body.parent = j == 0 ? 0 : static_cast<int>(result.bodies.size()) - 1;
       body.position_m = j == 0 ? Vec3{0.05, leg == 0 ? 0.2 : -0.2, -0.1} : Vec3{0.01, 0.02, -0.1};
       body.rotation = axis_angle({0.0, 0.0, 1.0}, 0.3 * j);

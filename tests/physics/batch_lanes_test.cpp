@@ -16,7 +16,7 @@ float target(int gait, int joint, int step) {
 }
 
 /// Where a gait starts and how it is pushed: every second one leans, and is pushed twice.
-void place(Engine& engine, const morphology::RobotSpec& robot, int lane, int gait) {
+void place(Engine& engine, const robot::RobotSpec& robot, int lane, int gait) {
   if (gait % 2 == 0) return engine.place(lane);
   StartPose start{.root = {robot.bodies[0].position_m, axis_angle({0.6, 0.8, 0.0}, 0.004 * gait)},
                   .joint_angle_rad = {}};
@@ -31,7 +31,7 @@ void push(Engine& engine, int lane, int gait, int age) {
 
 /// Every lane on its own walk: `gaits[lane]`, −1: stays empty. Lanes may begin late. One hash per lane over
 /// all its states and torques.
-std::vector<std::uint64_t> walk(const morphology::RobotSpec& robot, const std::vector<int>& gaits,
+std::vector<std::uint64_t> walk(const robot::RobotSpec& robot, const std::vector<int>& gaits,
                                 const std::vector<int>& begin = std::vector<int>(16, 0), int steps = 200) {
   const auto engine = make_engine("batch", robot, {.torques = true});
   std::vector<std::vector<std::uint64_t>> hashes(16);
@@ -129,7 +129,7 @@ TEST(BatchLanes, ALaneThatExplodesLeavesTheOthersAlone) {
 }
 
 TEST(BatchLanes, ForcesBeyondAllNumbersEndTheTrialAndNotTheProcess) {
-  morphology::RobotSpec robot = quadruped();
+  robot::RobotSpec robot = quadruped();
   robot.gravity_m_s2.z = -1e308;
   Bench bench("batch", robot);
   const std::uint64_t start = bench.engine->state_hash(0);
@@ -141,7 +141,7 @@ TEST(BatchLanes, ForcesBeyondAllNumbersEndTheTrialAndNotTheProcess) {
 }
 
 TEST(BatchLanes, AbsurdSpeedIsNotHealthy) {
-  morphology::RobotSpec robot = lifted(scene("box"), 1e6);
+  robot::RobotSpec robot = lifted(scene("box"), 1e6);
   robot.gravity_m_s2 = {0.0, 0.0, -9.8e3};
   Bench bench("batch", robot);
   bench.steps(10);  // 980 m/s

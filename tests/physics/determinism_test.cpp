@@ -30,7 +30,7 @@ ON_EACH_REFEREE(Determinism);
 
 TEST_P(Determinism, ATrialDoesNotDependOnWhatRanBefore) {
   for (const bool self_collision : {false, true}) {
-    morphology::RobotSpec robot = quadruped();
+    robot::RobotSpec robot = quadruped();
     robot.self_collision = self_collision;
     const auto engine = make_engine(GetParam(), robot, {});
     const std::uint64_t first = trial(*engine, 1);
@@ -42,7 +42,7 @@ TEST_P(Determinism, ATrialDoesNotDependOnWhatRanBefore) {
 }
 
 TEST_P(Determinism, TrialsOfSeveralEnginesCanBeInterleaved) {
-  const morphology::RobotSpec robot = quadruped("paper");
+  const robot::RobotSpec robot = quadruped("paper");
   const auto one = make_engine(GetParam(), robot, {});
   const auto two = make_engine(GetParam(), robot, {});
   LaneArray targets(12, 1);
@@ -57,7 +57,7 @@ TEST_P(Determinism, TrialsOfSeveralEnginesCanBeInterleaved) {
 }
 
 TEST_P(Determinism, ThreadsDoNotDisturbEachOther) {
-  const morphology::RobotSpec robot = quadruped();
+  const robot::RobotSpec robot = quadruped();
   constexpr int gaits = 3;
   std::vector<std::uint64_t> alone;
   const auto engine = make_engine(GetParam(), robot, {});
@@ -78,7 +78,7 @@ TEST_P(Determinism, ThreadsDoNotDisturbEachOther) {
 }
 
 TEST_P(Determinism, AnEngineMayBeMadeInOneThreadAndUsedInAnother) {
-  const morphology::RobotSpec robot = quadruped();
+  const robot::RobotSpec robot = quadruped();
   const auto engine = make_engine(GetParam(), robot, {});
   std::uint64_t elsewhere = 0;
   std::jthread([&] { elsewhere = trial(*engine, 1, 50); }).join();

@@ -19,8 +19,8 @@ void poison(Bench& bench) {
 }
 
 /// Forces that overflow inside dWorldStep, where ODE's own checks would end the process.
-morphology::RobotSpec crushed() {
-  morphology::RobotSpec robot = quadruped();
+robot::RobotSpec crushed() {
+  robot::RobotSpec robot = quadruped();
   robot.gravity_m_s2.z = -1e308;
   return robot;
 }
@@ -82,7 +82,7 @@ TEST_P(Divergence, OneEnginesFaultLeavesTheOthersAlone) {
 }
 
 TEST_P(Divergence, AbsurdSpeedIsNotHealthy) {
-  morphology::RobotSpec robot = lifted(scene("box"), 1e6);
+  robot::RobotSpec robot = lifted(scene("box"), 1e6);
   robot.gravity_m_s2 = {0.0, 0.0, -9.8e3};
   Bench bench(GetParam(), robot);
   bench.steps(10);  // 980 m/s

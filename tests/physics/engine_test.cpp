@@ -11,7 +11,7 @@
 namespace amble::physics {
 namespace {
 
-std::string refusal(const morphology::RobotSpec& robot, std::string_view engine = "ode") {
+std::string refusal(const robot::RobotSpec& robot, std::string_view engine = "ode") {
   try {
     make_engine(engine, robot, {});
   } catch (const UserError& error) {
@@ -31,20 +31,20 @@ TEST(MakeEngine, RefusesAnUnknownName) {
 }
 
 TEST(MakeEngine, MujocoRefusesAnImpossibleInertia) {
-  morphology::RobotSpec robot = quadruped();
+  robot::RobotSpec robot = quadruped();
   robot.bodies[0].inertia_kg_m2 = {1.0, 1.0, 3.0};  // no body has more than the sum of the other two
   EXPECT_EQ(refusal(robot, "ode"), "accepted");
   EXPECT_THAT(refusal(robot, "mujoco"), testing::StartsWith("the mujoco engine: MuJoCo refuses the model: "));
 }
 
 TEST(MakeEngine, MujocoTakesWhatOdeHasNoJointFor) {
-  morphology::RobotSpec robot = quadruped();
+  robot::RobotSpec robot = quadruped();
   robot.joints[1].axis = {0.6, 0.8, 0.0};
   EXPECT_EQ(refusal(robot, "mujoco"), "accepted");
 }
 
 TEST(MakeEngine, OdeRefusesThreeJointsOnOneBody) {
-  morphology::RobotSpec robot = quadruped();
+  robot::RobotSpec robot = quadruped();
   robot.joints[0].body = robot.joints[1].body;
   EXPECT_EQ(refusal(robot), "the ode engine cannot put 3 joints on body 'FL_upper': one or two are possible");
 }
@@ -53,7 +53,7 @@ TEST(MakeEngine, OdeRefusesTwoJointsThatDoNotCrossAtARightAngle) {
   const std::string message =
       "the ode engine needs the joints 'FL_hip_io' and 'FL_hip_fb' of body 'FL_upper' to cross at a right "
       "angle";
-  morphology::RobotSpec robot = quadruped();
+  robot::RobotSpec robot = quadruped();
   robot.joints[1].axis = {0.6, 0.8, 0.0};
   EXPECT_EQ(refusal(robot), message);
   robot = quadruped();
@@ -62,35 +62,35 @@ TEST(MakeEngine, OdeRefusesTwoJointsThatDoNotCrossAtARightAngle) {
 }
 
 TEST(MakeEngine, OdeRefusesARangeBeyondHalfATurn) {
-  morphology::RobotSpec robot = scene("pendulum");
+  robot::RobotSpec robot = scene("pendulum");
   robot.joints[0].upper_rad = 3.5;
   EXPECT_EQ(refusal(robot),
             "the ode engine needs the range of joint 'arm_swing' within ± π, not -3 … 3.5 rad");
 }
 
 TEST(MakeEngine, BatchRefusesSelfCollision) {
-  morphology::RobotSpec robot = quadruped();
+  robot::RobotSpec robot = quadruped();
   robot.self_collision = true;
   EXPECT_EQ(refusal(robot, "batch"),
             "the batch engine knows no self-collision: set self_collision = false, or use engine ode");
 }
 
 TEST(MakeEngine, BatchRefusesCylinders) {
-  morphology::RobotSpec robot = quadruped();
-  robot.geoms[3].shape = morphology::Shape::cylinder;
+  robot::RobotSpec robot = quadruped();
+  robot.geoms[3].shape = robot::Shape::cylinder;
   EXPECT_EQ(refusal(robot, "batch"), "the batch engine knows no contact of cylinders, as of geom '" +
                                          robot.geoms[3].name + "': use a capsule, or engine ode");
 }
 
 TEST(MakeEngine, BatchRefusesChainsThatBranch) {
-  morphology::RobotSpec robot = quadruped();
+  robot::RobotSpec robot = quadruped();
   robot.bodies[4].parent = 1;  // a second lower leg on the first upper leg
   EXPECT_EQ(refusal(robot, "batch"),
             "the batch engine cannot simulate chains that branch, as at body 'FL_upper': use engine ode");
 }
 
 TEST(MakeEngine, BatchRefusesAChainOfMoreThanTwelveJoints) {
-  morphology::RobotSpec robot = quadruped();
+  robot::RobotSpec robot = quadruped();
   for (int more = 0; more < 10; ++more) {  // the first leg's three and ten in a row below them
     robot.bodies.push_back(robot.bodies[2]);
     robot.bodies.back().parent = more == 0 ? 2 : static_cast<int>(robot.bodies.size()) - 2;
@@ -102,7 +102,7 @@ TEST(MakeEngine, BatchRefusesAChainOfMoreThanTwelveJoints) {
 }
 
 TEST(MakeEngine, BatchTakesThreeJointsOnOneBody) {
-  morphology::RobotSpec robot = quadruped();
+  robot::RobotSpec robot = quadruped();
   robot.joints[0].body = robot.joints[1].body;
   robot.joints[0].chain_index = 2;
   robot.bodies.erase(robot.bodies.begin() + 2);
@@ -127,7 +127,7 @@ TEST_P(Place, PutsTheRobotIntoTheStartPoseOfItsModel) {
 }
 
 TEST_P(Place, StandsTheRootFrameNotItsCentreOfMassWhereTheModelSays) {
-  morphology::RobotSpec robot = weightless(scene("pendulum"));
+  robot::RobotSpec robot = weightless(scene("pendulum"));
   robot.bodies[0].com_m = {0.1, -0.2, 0.3};
   robot.bodies[0].rotation = axis_angle({0.0, 0.0, 1.0}, 0.5);
   const Bench bench(GetParam(), robot);

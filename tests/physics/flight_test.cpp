@@ -16,7 +16,7 @@ ON_ENGINES(ExactFlight, "ode", "batch");
 
 TEST_P(Flight, AFallingBoxFollowsTheParabolaOfTheIntegrator) {
   // Semi-implicit Euler: after n steps v = −g h n and z = z0 − g h² n (n + 1) / 2, exactly.
-  const morphology::RobotSpec robot = lifted(scene("box"), 50.0);
+  const robot::RobotSpec robot = lifted(scene("box"), 50.0);
   for (const double h : {0.01, 0.001}) {
     Bench bench(GetParam(), robot, h);
     const double rounding = single_precision() ? 2e-4 : 1e-10;

@@ -12,8 +12,8 @@ class Friction : public OnEachEngine {};
 ON_EACH_ENGINE(Friction);
 
 /// The box on a slope of this angle, seen by someone who stands upright on the slope; it falls towards +x.
-morphology::RobotSpec on_slope(double angle_rad, double friction) {
-  morphology::RobotSpec robot = scene("box");
+robot::RobotSpec on_slope(double angle_rad, double friction) {
+  robot::RobotSpec robot = scene("box");
   robot.gravity_m_s2 = {9.8 * std::sin(angle_rad), 0.0, -9.8 * std::cos(angle_rad)};
   robot.contact.friction = friction;
   return robot;
@@ -46,7 +46,7 @@ TEST_P(Friction, BeyondTheFrictionAngleTheBoxSlidesWithTheAccelerationLeft) {
 
 TEST_P(Friction, FrictionIsACoefficientNotAForce) {
   // Ten times the mass must slide just the same.
-  morphology::RobotSpec robot = on_slope(std::atan(0.6), 0.5);
+  robot::RobotSpec robot = on_slope(std::atan(0.6), 0.5);
   robot.bodies[0].mass_kg *= 10.0;
   robot.bodies[0].inertia_kg_m2 = 10.0 * robot.bodies[0].inertia_kg_m2;
   robot.contact.cfm_s_per_kg *= 0.1;

@@ -25,28 +25,28 @@ struct BodyMotion {
 };
 
 /// Speeds of all bodies, joint by joint outwards, in double precision.
-inline std::vector<BodyMotion> body_motions(const morphology::RobotSpec& robot, const FullState& state) {
+inline std::vector<BodyMotion> body_motions(const robot::RobotSpec& robot, const FullState& state) {
   struct Frame {
-    morphology::Pose pose;
+    robot::Pose pose;
     Vec3 velocity, spin;  // of the frame's origin
   };
   std::vector<Frame> frames{
       {{state.root.position_m, state.root.rotation}, state.root_velocity_m_s, state.root_spin_rad_s}};
   for (int b = 1; b < static_cast<int>(robot.bodies.size()); ++b) {
-    const morphology::Body& body = robot.bodies[static_cast<std::size_t>(b)];
+    const robot::Body& body = robot.bodies[static_cast<std::size_t>(b)];
     const Frame& parent = frames[static_cast<std::size_t>(body.parent)];
-    Frame frame{parent.pose * morphology::Pose{body.position_m, body.rotation}, {}, parent.spin};
+    Frame frame{parent.pose * robot::Pose{body.position_m, body.rotation}, {}, parent.spin};
     frame.velocity = parent.velocity + cross(parent.spin, frame.pose.position_m - parent.pose.position_m);
     for (const int j : robot.joints_of_body(b)) {
-      const morphology::Joint& joint = robot.joints[static_cast<std::size_t>(j)];
+      const robot::Joint& joint = robot.joints[static_cast<std::size_t>(j)];
       const Vec3 anchor = frame.pose * joint.anchor_m;
       const Vec3 anchor_velocity = frame.velocity + cross(frame.spin, anchor - frame.pose.position_m);
       frame.spin = frame.spin +
                    state.speed_rad_s[static_cast<std::size_t>(j)] * rotate(frame.pose.rotation, joint.axis);
-      frame.pose = frame.pose *
-                   morphology::Pose{joint.anchor_m,
-                                    axis_angle(joint.axis, state.angle_rad[static_cast<std::size_t>(j)])} *
-                   morphology::Pose{-joint.anchor_m, {}};
+      frame.pose =
+          frame.pose *
+          robot::Pose{joint.anchor_m, axis_angle(joint.axis, state.angle_rad[static_cast<std::size_t>(j)])} *
+          robot::Pose{-joint.anchor_m, {}};
       frame.velocity = anchor_velocity + cross(frame.spin, frame.pose.position_m - anchor);
     }
     frames.push_back(frame);
@@ -62,14 +62,14 @@ inline std::vector<BodyMotion> body_motions(const morphology::RobotSpec& robot, 
 }
 
 /// What a body's turning carries: I ω, world.
-inline Vec3 own_spin(const morphology::Body& body, Quat rotation, Vec3 spin) {
+inline Vec3 own_spin(const robot::Body& body, Quat rotation, Vec3 spin) {
   const Quat principal = rotation * body.inertia_rotation;
   const Vec3 w = rotate(conjugate(principal), spin);
   return rotate(principal,
                 {body.inertia_kg_m2.x * w.x, body.inertia_kg_m2.y * w.y, body.inertia_kg_m2.z * w.z});
 }
 
-inline BatchState batch_state(const morphology::RobotSpec& robot, const FullState& state) {
+inline BatchState batch_state(const robot::RobotSpec& robot, const FullState& state) {
   const auto motions = body_motions(robot, state);
   BatchState result{.com_m = {},
                     .rotation = state.root.rotation,
@@ -99,8 +99,7 @@ inline Vec3 solved(const std::array<Vec3, 3>& m, Vec3 b) {
 }
 
 /// The other way round: the root's velocity out of the robot's momentum.
-inline FullState full_state(const morphology::RobotSpec& robot, const RootPose& root,
-                            const BatchState& state) {
+inline FullState full_state(const robot::RobotSpec& robot, const RootPose& root, const BatchState& state) {
   FullState result{root, {}, {}, state.angle_rad, state.speed_rad_s};
   const BatchState moved = batch_state(robot, result);  // by the joints alone
   FullState still = result;
@@ -135,7 +134,7 @@ inline std::vector<double> solved(std::vector<std::vector<double>> m, std::vecto
 
 /// The speeds of root and joints that come nearest, by kinetic energy, to what the bodies do by themselves:
 /// after a step ODE's bodies move as the joints allowed before it, and the next step begins by this.
-inline FullState nearest(const morphology::RobotSpec& robot, const FullState& pose,
+inline FullState nearest(const robot::RobotSpec& robot, const FullState& pose,
                          const std::vector<BodyMotion>& bodies) {
   const std::size_t joints = robot.joints.size(), count = 6 + joints;
   const auto moving = [&](const std::vector<double>& speeds) {
@@ -168,7 +167,7 @@ inline FullState nearest(const morphology::RobotSpec& robot, const FullState& po
   return moving(solved(mass, momentum));
 }
 
-inline double kinetic_energy(const morphology::RobotSpec& robot, const std::vector<BodyMotion>& motions) {
+inline double kinetic_energy(const robot::RobotSpec& robot, const std::vector<BodyMotion>& motions) {
   double energy = 0.0;
   for (std::size_t b = 0; b < motions.size(); ++b) {
     const BodyMotion& m = motions[b];

@@ -22,7 +22,7 @@ std::vector<double> angles(const Bench& bench) {
 }
 
 Vec3 foot_position(const Bench& bench, int leg) {
-  const morphology::Geom& foot =
+  const robot::Geom& foot =
       bench.robot.geoms[static_cast<std::size_t>(bench.robot.legs[static_cast<std::size_t>(leg)].foot_geom)];
   // Seen from the root: with the root's frame as the world.
   return kinematics(bench.robot, {}, angles(bench))[static_cast<std::size_t>(foot.body)] * foot.position_m;
@@ -32,14 +32,14 @@ TEST_P(Joints, MeasuredAnglesPutTheBodiesWhereTheyAre) {
   // The whole robot's centre of mass, from ODE's bodies, against forward kinematics from root pose and joint
   // angles. A flipped sign, a wrong axis or a wrong order of the hip's two axes moves it by centimetres.
   for (const char* variant : {"authors", "paper"}) {
-    morphology::RobotSpec robot = weightless(quadruped(variant));
+    robot::RobotSpec robot = weightless(quadruped(variant));
     robot.contact.cfm_s_per_kg = 1e-9;  // stiff joints
     Bench bench(GetParam(), robot);
     Stream stream(11, Purpose::test);
     for (int n = 0; n < 1000; ++n) {
       if (n % 100 == 0) {
         for (int j = 0; j < 12; ++j) {
-          const morphology::Joint& joint = bench.robot.joints[static_cast<std::size_t>(j)];
+          const robot::Joint& joint = bench.robot.joints[static_cast<std::size_t>(j)];
           bench.targets.at(j, 0) = static_cast<float>(stream.uniform(joint.lower_rad, joint.upper_rad));
         }
       }
@@ -105,7 +105,7 @@ TEST_P(Joints, APendulumSwingsWithItsPeriod) {
 }
 
 TEST_P(Joints, StopsHold) {
-  morphology::RobotSpec robot = scene("pendulum");
+  robot::RobotSpec robot = scene("pendulum");
   robot.joints[0].lower_rad = -0.1;
   Bench bench(GetParam(), robot);
   double lowest = 0.0;
@@ -120,7 +120,7 @@ TEST_P(Joints, StopsHold) {
 TEST_P(SelfCollision, LetsLegsPassThroughEachOtherUnlessItIsOn) {
   // Left front leg back, left hind leg forward: their feet would cross.
   const auto meeting = [&](bool self_collision) {
-    morphology::RobotSpec robot = weightless(quadruped());
+    robot::RobotSpec robot = weightless(quadruped());
     robot.self_collision = self_collision;
     Bench bench(GetParam(), robot);
     bench.targets.at(1, 0) = 0.8f;
@@ -134,7 +134,7 @@ TEST_P(SelfCollision, LetsLegsPassThroughEachOtherUnlessItIsOn) {
 }
 
 TEST_P(SelfCollision, LeavesStandingAlone) {
-  morphology::RobotSpec robot = quadruped();
+  robot::RobotSpec robot = quadruped();
   robot.self_collision = true;
   Bench with(GetParam(), robot);
   Bench without(GetParam(), quadruped());

@@ -12,7 +12,7 @@ namespace amble::physics {
 /// A robot in ODE that can be put into any state and stepped by either of ODE's solvers.
 class OdeRig {
  public:
-  explicit OdeRig(const morphology::RobotSpec& robot)
+  explicit OdeRig(const robot::RobotSpec& robot)
       : robot_((ode::prepare_thread(), robot)),
         world_(robot_, threading_),
         motors_(robot_, world_),
@@ -82,7 +82,7 @@ class OdeRig {
  private:
   static Vec3 vec3(const dReal* v) { return {v[0], v[1], v[2]}; }
 
-  const morphology::RobotSpec robot_;
+  const robot::RobotSpec robot_;
   ode::Threading threading_;
   ode::World world_;
   ode::Motors motors_;

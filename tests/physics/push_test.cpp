@@ -81,10 +81,9 @@ TEST(PushOfBatch, GivesTheSpinOfItsArm) {
 
 TEST(PushOfBatch, MovesTorsoAndLegsAsInOde) {
   for (const char* variant : {"paper", "authors"}) {
-    morphology::RobotSpec robot = weightless(quadruped(variant));
+    robot::RobotSpec robot = weightless(quadruped(variant));
     robot.contact.cfm_s_per_kg = 1e-10;  // joints of ODE that hold together
-    for (auto& joint : robot.joints)
-      joint.servo = {.mode = morphology::ServoMode::torque, .max_torque_nm = 0.0};
+    for (auto& joint : robot.joints) joint.servo = {.mode = robot::ServoMode::torque, .max_torque_nm = 0.0};
     Bench ode("ode", robot, 1e-4), batch("batch", robot, 1e-4);
     for (Bench* const bench : {&ode, &batch}) {
       bench->engine->push(0, {1.0, 0.6, 0.8});

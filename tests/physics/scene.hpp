@@ -7,27 +7,27 @@
 #include <vector>
 
 #include "amble/core/lanes.hpp"
-#include "amble/morphology/pose.hpp"
 #include "amble/morphology/robot_file.hpp"
 #include "amble/physics/engine.hpp"
+#include "amble/robot/pose.hpp"
 
 namespace amble::physics {
 
-inline morphology::RobotSpec scene(const std::string& name) {
+inline robot::RobotSpec scene(const std::string& name) {
   return morphology::load_robot(std::string(AMBLE_SOURCE_DIR "/scenes/") + name + ".toml");
 }
 
-inline morphology::RobotSpec quadruped(const std::string& variant = "authors") {
+inline robot::RobotSpec quadruped(const std::string& variant = "authors") {
   return morphology::load_robot(std::string(AMBLE_SOURCE_DIR "/robots/quadruped/") + variant + ".toml");
 }
 
 /// The same robot high above the ground.
-inline morphology::RobotSpec lifted(morphology::RobotSpec robot, double by_m) {
+inline robot::RobotSpec lifted(robot::RobotSpec robot, double by_m) {
   robot.bodies[0].position_m.z += by_m;
   return robot;
 }
 
-inline morphology::RobotSpec weightless(morphology::RobotSpec robot) {
+inline robot::RobotSpec weightless(robot::RobotSpec robot) {
   robot = lifted(std::move(robot), 100.0);
   robot.gravity_m_s2 = {};
   return robot;
@@ -35,15 +35,15 @@ inline morphology::RobotSpec weightless(morphology::RobotSpec robot) {
 
 /// An engine with its robot placed, and targets to steer it by.
 struct Bench {
-  morphology::RobotSpec robot;
+  robot::RobotSpec robot;
   std::unique_ptr<Engine> engine;
   LaneArray targets;
   double timestep_s;
 
-  explicit Bench(morphology::RobotSpec spec, double h = 0.01, bool torques = false)
+  explicit Bench(robot::RobotSpec spec, double h = 0.01, bool torques = false)
       : Bench("ode", std::move(spec), h, torques) {}
   /// The robot stands in lane 0, alone.
-  Bench(const std::string& name, morphology::RobotSpec spec, double h = 0.01, bool torques = false)
+  Bench(const std::string& name, robot::RobotSpec spec, double h = 0.01, bool torques = false)
       : robot(std::move(spec)),
         engine(make_engine(name, robot, {.timestep_s = h, .torques = torques})),
         targets(static_cast<int>(robot.joints.size()), engine->lanes()),
@@ -76,19 +76,18 @@ class OnEachEngine : public testing::TestWithParam<const char*> {
 
 /// Forward kinematics: where all bodies are for a pose of the root and joint angles. Independent of any
 /// engine.
-inline std::vector<morphology::Pose> kinematics(const morphology::RobotSpec& robot, const RootPose& root,
-                                                const std::vector<double>& angles_rad) {
-  std::vector<morphology::Pose> poses{{root.position_m, root.rotation}};
+inline std::vector<robot::Pose> kinematics(const robot::RobotSpec& robot, const RootPose& root,
+                                           const std::vector<double>& angles_rad) {
+  std::vector<robot::Pose> poses{{root.position_m, root.rotation}};
   for (int b = 1; b < static_cast<int>(robot.bodies.size()); ++b) {
-    const morphology::Body& body = robot.bodies[static_cast<std::size_t>(b)];
-    morphology::Pose pose =
-        poses[static_cast<std::size_t>(body.parent)] * morphology::Pose{body.position_m, body.rotation};
+    const robot::Body& body = robot.bodies[static_cast<std::size_t>(b)];
+    robot::Pose pose =
+        poses[static_cast<std::size_t>(body.parent)] * robot::Pose{body.position_m, body.rotation};
     for (const int j : robot.joints_of_body(b)) {
-      const morphology::Joint& joint = robot.joints[static_cast<std::size_t>(j)];
-      pose =
-          pose *
-          morphology::Pose{joint.anchor_m, axis_angle(joint.axis, angles_rad[static_cast<std::size_t>(j)])} *
-          morphology::Pose{-joint.anchor_m, {}};
+      const robot::Joint& joint = robot.joints[static_cast<std::size_t>(j)];
+      pose = pose *
+             robot::Pose{joint.anchor_m, axis_angle(joint.axis, angles_rad[static_cast<std::size_t>(j)])} *
+             robot::Pose{-joint.anchor_m, {}};
     }
     poses.push_back(pose);
   }

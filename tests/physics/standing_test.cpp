@@ -14,7 +14,7 @@ ON_EACH_ENGINE(Touch);
 
 TEST_P(Standing, ABoxSinksUntilTheContactSpringsCarryItsWeight) {
   // Four corners, each a spring of erp / (h cfm): depth = m g h cfm / (4 erp).
-  morphology::RobotSpec robot = scene("box");
+  robot::RobotSpec robot = scene("box");
   robot.contact.cfm_s_per_kg = 1e-4;
   for (const double h : {0.01, 0.002}) {
     Bench bench(GetParam(), robot, h);

@@ -13,7 +13,7 @@ class PlaceAt : public OnEachEngine {
 ON_EACH_ENGINE(PlaceAt);
 
 /// A pose in the air, tilted, with every joint somewhere within its stops.
-StartPose some_pose(const morphology::RobotSpec& robot, std::uint32_t which) {
+StartPose some_pose(const robot::RobotSpec& robot, std::uint32_t which) {
   Stream stream(3, Purpose::test, which);
   StartPose pose{.root = {.position_m = {0.4, -0.3, 3.0},
                           .rotation = axis_angle({0.6, 0.0, 0.8}, stream.uniform(-0.5, 0.5))},

@@ -37,8 +37,8 @@ TEST_P(Torques, ChangeNoBitOfTheMotion) {
 TEST_P(Torques, HoldAPendulumAgainstGravity) {
   // 1 kg at 0.5 m from the hinge, at rest 0.2 + 0.5 rad off the vertical: m g l sin(0.7). About +y a positive
   // angle swings the bob to −x, so the motor holds it there with a positive torque.
-  morphology::RobotSpec robot = scene("pendulum");
-  robot.joints[0].servo = {.mode = morphology::ServoMode::velocity, .gain_per_s = 9.0, .max_torque_nm = 50.0};
+  robot::RobotSpec robot = scene("pendulum");
+  robot.joints[0].servo = {.mode = robot::ServoMode::velocity, .gain_per_s = 9.0, .max_torque_nm = 50.0};
   Bench bench(GetParam(), robot, 0.01, true);
   bench.targets.at(0, 0) = 0.5f;
   bench.steps(500);
@@ -48,8 +48,8 @@ TEST_P(Torques, HoldAPendulumAgainstGravity) {
 
 TEST_P(Torques, LiftingAPendulumCostsItsPotentialEnergy) {
   // From rest 0.2 rad off the vertical to rest at 1.2 rad: m g l (cos 0.2 − cos 1.2).
-  morphology::RobotSpec robot = scene("pendulum");
-  robot.joints[0].servo = {.mode = morphology::ServoMode::velocity, .gain_per_s = 2.0, .max_torque_nm = 50.0};
+  robot::RobotSpec robot = scene("pendulum");
+  robot.joints[0].servo = {.mode = robot::ServoMode::velocity, .gain_per_s = 2.0, .max_torque_nm = 50.0};
   Bench bench(GetParam(), robot, 0.001, true);
   bench.targets.at(0, 0) = 1.0f;
   // Over a step a torque does work at the mean of the speeds before and after it; the angle moves at the
@@ -69,7 +69,7 @@ TEST_P(Torques, LiftingAPendulumCostsItsPotentialEnergy) {
 TEST_P(Torques, ReachTheLimitOnEveryAxisOfAQuadrupedFarFromItsTargets) {
   // The legs are light and the gain is high: in the first steps all twelve motors give their 0.2 N m,
   // whatever the bearings carry. Also at stops, where ODE books the motor apart from the stop.
-  morphology::RobotSpec robot = weightless(quadruped());
+  robot::RobotSpec robot = weightless(quadruped());
   for (auto& joint : robot.joints) joint.servo = {.gain_per_s = 90.0, .max_torque_nm = 0.2};
   Bench bench(GetParam(), robot, 0.001, true);
   for (int j = 0; j < 12; ++j)
@@ -83,11 +83,9 @@ TEST_P(Torques, ReachTheLimitOnEveryAxisOfAQuadrupedFarFromItsTargets) {
 }
 
 TEST_P(Torques, OfATorqueServoAreItsLaw) {
-  morphology::RobotSpec robot = weightless(scene("pendulum"));
-  robot.joints[0].servo = {.mode = morphology::ServoMode::torque,
-                           .max_torque_nm = 2.0,
-                           .kp_nm_per_rad = 20.0,
-                           .kd_nm_s_per_rad = 0.0};
+  robot::RobotSpec robot = weightless(scene("pendulum"));
+  robot.joints[0].servo = {
+      .mode = robot::ServoMode::torque, .max_torque_nm = 2.0, .kp_nm_per_rad = 20.0, .kd_nm_s_per_rad = 0.0};
   Bench bench(GetParam(), robot, 0.001, true);
   bench.targets.at(0, 0) = 0.15f;
   for (int n = 0; n < 300; ++n) {

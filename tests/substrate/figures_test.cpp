@@ -21,7 +21,7 @@ struct Line {
   std::string role;
 };
 
-std::string role_of(const Node& node, const morphology::RobotSpec& robot) {
+std::string role_of(const Node& node, const robot::RobotSpec& robot) {
   if (node.joint >= 0) return ">" + robot.joints[static_cast<std::size_t>(node.joint)].name;
   if (!node.sensor) return "";
   const auto index = static_cast<std::size_t>(node.sensor->index);

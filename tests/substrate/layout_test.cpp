@@ -28,8 +28,8 @@ cppn::Network linear_cppn(const std::vector<std::vector<double>>& rows) {
 }
 
 /// One leg with one joint, on a line.
-morphology::RobotSpec hopper() {
-  morphology::RobotSpec robot;
+robot::RobotSpec hopper() {
+  robot::RobotSpec robot;
   robot.joint_types = {"knee"};
   robot.legs.push_back({"L", 0, {0}});
   robot.joints.emplace_back().name = "L_knee";

@@ -13,7 +13,7 @@ namespace amble::trial {
 namespace {
 
 /// Two joints and two legs.
-physics::SensorFrame frame(int lanes) {
+robot::SensorFrame frame(int lanes) {
   return {.joint_angle_rad = LaneArray(2, lanes),
           .touch = LaneArray(2, lanes),
           .attitude_rad = LaneArray(3, lanes)};

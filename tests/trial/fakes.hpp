@@ -46,7 +46,7 @@ class FakeEngine : public physics::Engine {
     }
   }
   bool healthy(int lane) const override { return std::isfinite(state(lane).position.x); }
-  const physics::SensorFrame& sensors() const override { return frame_; }
+  const robot::SensorFrame& sensors() const override { return frame_; }
   const LaneArray* motor_torque_nm() const override { return nullptr; }
   physics::RootPose root_pose(int lane) const override { return {state(lane).position, {}}; }
   Vec3 root_com_m(int lane) const override { return state(lane).position; }
@@ -69,7 +69,7 @@ class FakeEngine : public physics::Engine {
   State& state(int lane) { return states_[static_cast<std::size_t>(lane)]; }
   const State& state(int lane) const { return states_[static_cast<std::size_t>(lane)]; }
   std::vector<State> states_;
-  physics::SensorFrame frame_;
+  robot::SensorFrame frame_;
 };
 
 /// Always the same target; not a number after `bad_after` ticks.
@@ -88,7 +88,7 @@ class FakeBatch : public controllers::Batch {
     loaded_[static_cast<std::size_t>(lane)] = &dynamic_cast<const FakeParameters&>(parameters);
     ticks_[static_cast<std::size_t>(lane)] = 0;
   }
-  void step(const physics::SensorFrame&, LaneArray& targets_rad) override {
+  void step(const robot::SensorFrame&, LaneArray& targets_rad) override {
     for (std::size_t lane = 0; lane < loaded_.size(); ++lane) {
       if (!loaded_[lane]) continue;
       const bool bad = ++ticks_[lane] > loaded_[lane]->bad_after_ticks;

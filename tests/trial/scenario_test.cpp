@@ -7,15 +7,15 @@
 #include <set>
 #include <utility>
 
-#include "amble/morphology/pose.hpp"
 #include "amble/morphology/robot_file.hpp"
+#include "amble/robot/pose.hpp"
 
 namespace amble::trial {
 namespace {
 
 constexpr double h = 0.01;
 
-const morphology::RobotSpec& quadruped() {
+const robot::RobotSpec& quadruped() {
   static const auto robot = morphology::load_robot(AMBLE_SOURCE_DIR "/robots/quadruped/authors.toml");
   return robot;
 }
@@ -147,8 +147,8 @@ TEST(Scenario, FlipsTouchesAsOftenAsItSays) {
 }
 
 TEST(Scenario, StartsWithinTheStopsAndNeverInTheGround) {
-  const auto nominal = morphology::start_poses(quadruped());
-  const double clearance_m = morphology::clearance_m(quadruped(), nominal);
+  const auto nominal = robot::start_poses(quadruped());
+  const double clearance_m = robot::clearance_m(quadruped(), nominal);
   double largest_rad = 0.0, highest_m = 0.0, most_tilt_rad = 0.0;
   for (std::uint32_t episode = 0; episode < 500; ++episode) {
     const auto pose = draw(everything(), episode).start.value();
@@ -164,8 +164,8 @@ TEST(Scenario, StartsWithinTheStopsAndNeverInTheGround) {
     ASSERT_NEAR(attitude.yaw_rad, 0.0, 0.006);
     most_tilt_rad = std::max(most_tilt_rad, std::abs(attitude.roll_rad));
     const auto bodies =
-        morphology::poses_at(quadruped(), {pose.root.position_m, pose.root.rotation}, pose.joint_angle_rad);
-    const double lowest_m = morphology::clearance_m(quadruped(), bodies);
+        robot::poses_at(quadruped(), {pose.root.position_m, pose.root.rotation}, pose.joint_angle_rad);
+    const double lowest_m = robot::clearance_m(quadruped(), bodies);
     ASSERT_GE(lowest_m, clearance_m - 1e-12);
     highest_m = std::max(highest_m, lowest_m - clearance_m);
   }

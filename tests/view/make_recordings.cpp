@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <string>
 
-#include "amble/analysis/kinematics.hpp"
 #include "amble/analysis/recorded.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
+#include "amble/robot/pose.hpp"
 #include "tests/view/synthetic.hpp"
 
 namespace {
@@ -32,7 +32,7 @@ io::Json expectation(const tests::SyntheticWalk& walk, const std::filesystem::pa
   const auto poses = analysis::body_poses(recorded.robot, recorded.motion, frame);
   for (const auto& leg : recorded.robot.legs) {
     const auto& geom = recorded.robot.geoms[static_cast<std::size_t>(leg.foot_geom)];
-    json["feet_m"].push_back(list(analysis::geom_centre_m(geom, poses)));
+    json["feet_m"].push_back(list(robot::centre_m(geom, poses)));
   }
   return json;
 }

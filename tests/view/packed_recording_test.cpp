@@ -1,7 +1,10 @@
-#include "amble/view/packed_recording.hpp"
+#include "amble//view/packed_recording.hpp"
+#include "amble/robot/pose.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -77,7 +80,7 @@ TEST_F(PackedRecordingTest, KeepsContactsOfEveryFrame) {
 TEST_F(PackedRecordingTest, BeginsWithTheStartPoseOfTheRobot) {
   const auto packed = pack({.frames = 10});
   const auto values = unpacked(packed.poses);
-  const Vec3 com_m = tests::robot().com_at_start_m();
+  const Vec3 com_m = amble::robot::start_com_m(tests::robot());
   const std::vector<float> root{0, 0, 1, 1, 0, 0, 0};
   EXPECT_EQ(std::vector<float>(values.begin(), values.begin() + 7), root);
   EXPECT_FLOAT_EQ(values[9], static_cast<float>(com_m.z));
@@ -142,9 +145,9 @@ TEST_F(PackedRecordingTest, RefusesARecordingWithoutAColumnThatItNeeds) {
 
 TEST_F(PackedRecordingTest, RefusesARobotWithoutFeet) {
   auto header = SyntheticWalk{}.header();
-  header.robot_json = tests::robot_json(0);
-  const auto legs = header.robot_json.find("\"joint_types\"");
-  header.robot_json.insert(legs, "\"legs\": [], \"joints\": [], ");
+  auto robot = nlohmann::json::parse(tests::robot_json());
+  robot["legs"] = nlohmann::json::array();
+  header.robot_json = robot.dump();
   record::RecordingWriter writer(path, header);
   writer.finish(record::Outcome::completed);
   EXPECT_EQ(error(), path.string() + ": robot: key 'legs' must be a list with at least one leg");

@@ -13,7 +13,7 @@ using batch::Rows;
 
 class LockstepEngine final : public BatchEngine {
  public:
-  LockstepEngine(const morphology::RobotSpec& robot, const EngineSettings& settings)
+  LockstepEngine(const robot::RobotSpec& robot, const EngineSettings& settings)
       : model_(robot),
         rows_(model_),
         workspace_(model_),
@@ -26,7 +26,7 @@ class LockstepEngine final : public BatchEngine {
         robots_(model_, rows_),
         start_(model_, rows_),
         posed_(model_, rows_) {
-    const morphology::Body& root = robot.bodies[0];
+    const robot::Body& root = robot.bodies[0];
     pose(start_, {.root = {root.position_m, root.rotation},
                   .joint_angle_rad = std::vector<double>(robot.joints.size(), 0.0)});
     for (int lane = 0; lane < batch::lanes; ++lane) {
@@ -66,7 +66,7 @@ class LockstepEngine final : public BatchEngine {
     return robots_.at(Rows::healthy, lane) == 1.0f;
   }
 
-  const SensorFrame& sensors() const override { return robots_.sensors(); }
+  const robot::SensorFrame& sensors() const override { return robots_.sensors(); }
   const LaneArray* motor_torque_nm() const override { return with_torques_ ? &torques_nm_ : nullptr; }
 
   RootPose root_pose(int lane) const override {
@@ -163,7 +163,7 @@ class LockstepEngine final : public BatchEngine {
 
 }  // namespace
 
-std::unique_ptr<BatchEngine> make_batch_engine(const morphology::RobotSpec& robot,
+std::unique_ptr<BatchEngine> make_batch_engine(const robot::RobotSpec& robot,
                                                const EngineSettings& settings) {
   return std::make_unique<LockstepEngine>(robot, settings);
 }

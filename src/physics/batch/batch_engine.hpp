@@ -29,7 +29,6 @@ class BatchEngine : public Engine {
 /// Sixteen robots in lockstep, one per SIMD lane, float32: docs/BATCH.md. Knows serial chains of hinges on
 /// the root, spheres, capsules and boxes against the ground, and no self-collision; throws UserError for
 /// other robots.
-std::unique_ptr<BatchEngine> make_batch_engine(const morphology::RobotSpec& robot,
-                                               const EngineSettings& settings);
+std::unique_ptr<BatchEngine> make_batch_engine(const robot::RobotSpec& robot, const EngineSettings& settings);
 
 }  // namespace amble::physics

@@ -5,17 +5,17 @@
 #include <cmath>
 
 #include "amble/core/error.hpp"
-#include "amble/morphology/pose.hpp"
+#include "amble/robot/pose.hpp"
 
 namespace amble::physics::batch {
 namespace {
 
-using morphology::Body;
-using morphology::Geom;
-using morphology::Joint;
-using morphology::Pose;
-using morphology::RobotSpec;
-using morphology::Shape;
+using robot::Body;
+using robot::Geom;
+using robot::Joint;
+using robot::Pose;
+using robot::RobotSpec;
+using robot::Shape;
 
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);
@@ -50,7 +50,7 @@ MassPart mass_part(const Body& body, const Pose& pose, Vec3 origin) {
 class Builder {
  public:
   Builder(const RobotSpec& robot, Model& model) : robot_(robot), model_(model) {
-    const auto poses = morphology::start_poses(robot);
+    const auto poses = robot::start_poses(robot);
     for (const Pose& pose : poses) poses_.push_back(inverse(poses[0]) * pose);
     places_.resize(robot.bodies.size());
   }
@@ -115,7 +115,7 @@ class Builder {
               .body = {},
               .lower_rad = static_cast<float>(joint.lower_rad),
               .upper_rad = static_cast<float>(joint.upper_rad),
-              .velocity_servo = joint.servo.mode == morphology::ServoMode::velocity,
+              .velocity_servo = joint.servo.mode == robot::ServoMode::velocity,
               .gain_per_s = static_cast<float>(joint.servo.gain_per_s),
               .max_torque_nm = static_cast<float>(joint.servo.max_torque_nm),
               .kp_nm_per_rad = static_cast<float>(joint.servo.kp_nm_per_rad),

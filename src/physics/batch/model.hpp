@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "amble/morphology/robot_spec.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::physics::batch {
 
@@ -58,7 +58,7 @@ struct PointGroup {
 /// A robot as the batch engine sees it: a floating torso with serial chains of hinges, all numbers float32.
 /// Throws UserError for what the engine cannot simulate.
 struct Model {
-  explicit Model(const morphology::RobotSpec& robot);
+  explicit Model(const robot::RobotSpec& robot);
 
   std::vector<Chain> chains;
   std::vector<Link> links;        ///< chain by chain, from the torso outwards

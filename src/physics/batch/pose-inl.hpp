@@ -161,7 +161,7 @@ HWY_NOINLINE void find_touch(const Pass& pass) {
 HWY_NOINLINE void read_sensors(const Pass& pass) {
   const auto put = [&](V v, LaneArray& rows, int row)
                        HWY_ATTR { hn::StoreU(v, Floats(), rows.row(row) + pass.lane); };
-  SensorFrame& sensors = pass.batch.sensors;
+  robot::SensorFrame& sensors = pass.batch.sensors;
   for (int l = 0; l < pass.batch.rows.links; ++l)
     put(pass.state(pass.batch.rows.angle + l), sensors.joint_angle_rad,
         pass.model().links[static_cast<std::size_t>(l)].joint);

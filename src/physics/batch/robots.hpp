@@ -32,8 +32,8 @@ class Robots {
   void copy(int to, const Robots& others, int from);
 
   Row* rows() { return rows_.data(); }
-  SensorFrame& sensors() { return sensors_; }
-  const SensorFrame& sensors() const { return sensors_; }
+  robot::SensorFrame& sensors() { return sensors_; }
+  const robot::SensorFrame& sensors() const { return sensors_; }
 
  private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
@@ -42,7 +42,7 @@ class Robots {
   const Model& model_;
   const Rows& layout_;
   std::vector<Row> rows_;
-  SensorFrame sensors_;
+  robot::SensorFrame sensors_;
 };
 
 }  // namespace amble::physics::batch

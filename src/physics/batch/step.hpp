@@ -15,7 +15,7 @@ struct Batch {
   const Rows& rows;
   Row* state;  ///< rows.count of them
   Workspace& workspace;
-  SensorFrame& sensors;
+  robot::SensorFrame& sensors;
   LaneArray* torques_nm;  ///< of the motors, joints × lanes; null: not asked for
   float timestep_s;
   int iterations;  ///< of the constraint solver

@@ -10,10 +10,10 @@
 namespace amble::physics::mujoco {
 namespace {
 
-using morphology::Geom;
-using morphology::RobotSpec;
-using morphology::ServoMode;
-using morphology::Shape;
+using robot::Geom;
+using robot::RobotSpec;
+using robot::ServoMode;
+using robot::Shape;
 
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);
@@ -27,7 +27,7 @@ std::size_t at(int index) {
 /// each body and joint. They agree for b = 1 / h, k = erp / h², R = cfm / h.
 class Softness {
  public:
-  Softness(const morphology::Contact& contact, double h)
+  Softness(const robot::Contact& contact, double h)
       : damping_(1.0 / h), stiffness_(contact.erp / (h * h)), regularizer_(contact.cfm_s_per_kg / h) {}
 
   /// `reference` and `impedance`: MuJoCo's solref and solimp.

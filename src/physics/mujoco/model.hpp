@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "amble/morphology/model_file.hpp"
-#include "amble/morphology/robot_spec.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::physics::mujoco {
 
@@ -22,6 +22,6 @@ struct Model {
 };
 
 /// Throws UserError for what MuJoCo refuses.
-Model make_model(const morphology::RobotSpec& robot, double timestep_s);
+Model make_model(const robot::RobotSpec& robot, double timestep_s);
 
 }  // namespace amble::physics::mujoco

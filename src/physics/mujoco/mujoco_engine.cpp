@@ -19,9 +19,9 @@
 namespace amble::physics {
 namespace {
 
-using morphology::RobotSpec;
-using morphology::Servo;
-using morphology::ServoMode;
+using robot::RobotSpec;
+using robot::Servo;
+using robot::ServoMode;
 
 /// MuJoCo's ids: the ground is its first geom, the root the only child of its world body.
 constexpr int ground_geom = 0, root_body = 1;
@@ -150,7 +150,7 @@ class MujocoEngine final : public SingleRobotEngine {
   /// Makes the servos pull towards the targets.
   void drive(const LaneArray& targets_rad) {
     for (int j = 0; j < targets_rad.rows(); ++j) {
-      const morphology::Joint& joint = robot_.joints[at(j)];
+      const robot::Joint& joint = robot_.joints[at(j)];
       if (joint.servo.mode == ServoMode::torque)
         data_->qfrc_applied[model_.dof_of[at(j)]] = torque_nm(j, error_rad(j, targets_rad));
     }
@@ -171,7 +171,7 @@ class MujocoEngine final : public SingleRobotEngine {
   }
 
   double error_rad(int j, const LaneArray& targets_rad) const {
-    const morphology::Joint& joint = robot_.joints[at(j)];
+    const robot::Joint& joint = robot_.joints[at(j)];
     const double target_rad =
         std::clamp(static_cast<double>(targets_rad.at(j, 0)), joint.lower_rad, joint.upper_rad);
     return target_rad - data_->qpos[model_.position_of[at(j)]];

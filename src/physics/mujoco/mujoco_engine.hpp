@@ -13,7 +13,6 @@ namespace amble::physics {
 /// impedance would exceed 0.9999 is raised to that. Bodies joined by a joint never collide; of more than 512
 /// contacts the rest is left out. Healthy means: the speeds of the root and of all joints. Throws UserError
 /// for what MuJoCo's compiler refuses.
-std::unique_ptr<Engine> make_mujoco_engine(const morphology::RobotSpec& robot,
-                                           const EngineSettings& settings);
+std::unique_ptr<Engine> make_mujoco_engine(const robot::RobotSpec& robot, const EngineSettings& settings);
 
 }  // namespace amble::physics

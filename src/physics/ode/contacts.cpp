@@ -5,9 +5,9 @@
 namespace amble::physics::ode {
 namespace {
 
-using morphology::Geom;
-using morphology::RobotSpec;
-using morphology::Shape;
+using robot::Geom;
+using robot::RobotSpec;
+using robot::Shape;
 
 double bounding_radius(const Geom& geom) {
   const Vec3 size = geom.size_m;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "amble/core/lanes.hpp"
-#include "amble/morphology/robot_spec.hpp"
 #include "amble/physics/ode/world.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::physics::ode {
 
@@ -14,7 +14,7 @@ namespace amble::physics::ode {
 /// to the bit. (ODE's spaces hand out pairs in an order that depends on what happened before.)
 class Contacts {
  public:
-  Contacts(const morphology::RobotSpec& robot, const World& world);
+  Contacts(const robot::RobotSpec& robot, const World& world);
   ~Contacts();
   Contacts(const Contacts&) = delete;
   Contacts& operator=(const Contacts&) = delete;

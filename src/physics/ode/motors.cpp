@@ -5,9 +5,9 @@
 namespace amble::physics::ode {
 namespace {
 
-using morphology::Joint;
-using morphology::RobotSpec;
-using morphology::ServoMode;
+using robot::Joint;
+using robot::RobotSpec;
+using robot::ServoMode;
 
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "amble/core/lanes.hpp"
-#include "amble/morphology/robot_spec.hpp"
 #include "amble/physics/ode/world.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::physics::ode {
 
@@ -21,7 +21,7 @@ class Motors {
     int second = -1;  ///< about the second axis, −1: a hinge
   };
 
-  Motors(const morphology::RobotSpec& robot, const World& world);
+  Motors(const robot::RobotSpec& robot, const World& world);
 
   /// Reads all angles into `angles_rad` (joints × 1).
   void read(LaneArray& angles_rad);
@@ -41,7 +41,7 @@ class Motors {
   void drive_hinge(const Drive& drive, double target_rad) const;
   void drive_universal(const Drive& drive, double target1_rad, double target2_rad) const;
 
-  const std::vector<morphology::Joint>& joints_;
+  const std::vector<robot::Joint>& joints_;
   std::vector<Drive> drives_;
   std::vector<double> angles_rad_;
 };

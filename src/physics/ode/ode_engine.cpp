@@ -10,18 +10,18 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/hash.hpp"
-#include "amble/morphology/pose.hpp"
 #include "amble/physics/ode/contacts.hpp"
 #include "amble/physics/ode/library.hpp"
 #include "amble/physics/ode/motors.hpp"
 #include "amble/physics/ode/torque_meter.hpp"
 #include "amble/physics/ode/world.hpp"
 #include "amble/physics/single_robot.hpp"
+#include "amble/robot/pose.hpp"
 
 namespace amble::physics {
 namespace {
 
-using morphology::RobotSpec;
+using robot::RobotSpec;
 
 /// State of a body as ODE keeps it, copied once per step: centre of mass, quaternion, velocity, angular
 /// velocity.
@@ -81,8 +81,8 @@ class OdeEngine final : public SingleRobotEngine {
 
   void place_at(int lane, const StartPose& pose) override {
     make_trial(lane);
-    trial_->world.move_to(robot_, morphology::poses_at(robot_, {pose.root.position_m, pose.root.rotation},
-                                                       pose.joint_angle_rad));
+    trial_->world.move_to(
+        robot_, robot::poses_at(robot_, {pose.root.position_m, pose.root.rotation}, pose.joint_angle_rad));
     begin();
   }
 

@@ -11,6 +11,6 @@ namespace amble::physics {
 /// friction is a pyramid along the world's x and y, proportional to the normal force (dContactApprox1).
 /// Bodies joined by a joint never collide. Throws UserError for a body with more than two joints, two joints
 /// that do not cross at a right angle, and a range that reaches beyond ± π.
-std::unique_ptr<Engine> make_ode_engine(const morphology::RobotSpec& robot, const EngineSettings& settings);
+std::unique_ptr<Engine> make_ode_engine(const robot::RobotSpec& robot, const EngineSettings& settings);
 
 }  // namespace amble::physics

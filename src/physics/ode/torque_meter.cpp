@@ -13,7 +13,7 @@ Vec3 vec3(const dReal* v) {
 
 }  // namespace
 
-TorqueMeter::TorqueMeter(const morphology::RobotSpec& robot, const Motors& motors)
+TorqueMeter::TorqueMeter(const robot::RobotSpec& robot, const Motors& motors)
     : motors_(motors),
       feedback_(motors.drives().size()),
       stands_(motors.drives().size()),

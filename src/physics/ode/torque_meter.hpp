@@ -7,8 +7,8 @@
 
 #include "amble/core/lanes.hpp"
 #include "amble/core/math.hpp"
-#include "amble/morphology/robot_spec.hpp"
 #include "amble/physics/ode/motors.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::physics::ode {
 
@@ -16,7 +16,7 @@ namespace amble::physics::ode {
 /// feedback") and the torques that are known beforehand. To ask for them changes no bit of the motion.
 class TorqueMeter {
  public:
-  TorqueMeter(const morphology::RobotSpec& robot, const Motors& motors);
+  TorqueMeter(const robot::RobotSpec& robot, const Motors& motors);
   TorqueMeter(const TorqueMeter&) = delete;
   TorqueMeter& operator=(const TorqueMeter&) = delete;
 

@@ -5,17 +5,17 @@
 #include <numbers>
 
 #include "amble/core/error.hpp"
-#include "amble/morphology/pose.hpp"
+#include "amble/robot/pose.hpp"
 
 namespace amble::physics::ode {
 namespace {
 
-using morphology::Body;
-using morphology::Geom;
-using morphology::Joint;
-using morphology::Pose;
-using morphology::RobotSpec;
-using morphology::Shape;
+using robot::Body;
+using robot::Geom;
+using robot::Joint;
+using robot::Pose;
+using robot::RobotSpec;
+using robot::Shape;
 
 constexpr double tolerance = 1e-6;
 
@@ -121,7 +121,7 @@ void World::move_to(const RobotSpec& robot, const std::vector<Pose>& poses) {
 }
 
 void World::add_bodies(const RobotSpec& robot) {
-  const std::vector<Pose> poses = morphology::start_poses(robot);
+  const std::vector<Pose> poses = robot::start_poses(robot);
   for (std::size_t b = 0; b < robot.bodies.size(); ++b) {
     const dBodyID body = dBodyCreate(world_);
     const dMass mass = mass_of(robot.bodies[b]);
@@ -132,7 +132,7 @@ void World::add_bodies(const RobotSpec& robot) {
 }
 
 void World::add_joints(const RobotSpec& robot) {
-  const std::vector<Pose> poses = morphology::start_poses(robot);
+  const std::vector<Pose> poses = robot::start_poses(robot);
   joints_.assign(robot.bodies.size(), nullptr);
   for (int b = 1; b < static_cast<int>(robot.bodies.size()); ++b) {
     const std::vector<int> chain = robot.joints_of_body(b);

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "amble/core/math.hpp"
-#include "amble/morphology/pose.hpp"
-#include "amble/morphology/robot_spec.hpp"
 #include "amble/physics/ode/library.hpp"
+#include "amble/robot/pose.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::physics::ode {
 
@@ -16,13 +16,13 @@ namespace amble::physics::ode {
 /// can linger.
 class World {
  public:
-  World(const morphology::RobotSpec& robot, const Threading& threading);
+  World(const robot::RobotSpec& robot, const Threading& threading);
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
   /// Moves the robot, at rest, so that the frames of its bodies stand at `poses` in the world.
-  void move_to(const morphology::RobotSpec& robot, const std::vector<morphology::Pose>& poses);
+  void move_to(const robot::RobotSpec& robot, const std::vector<robot::Pose>& poses);
 
   dWorldID id() const { return world_; }
   /// In the order of RobotSpec::bodies.
@@ -34,9 +34,9 @@ class World {
   dGeomID ground() const { return ground_; }
 
  private:
-  void add_bodies(const morphology::RobotSpec& robot);
-  void add_joints(const morphology::RobotSpec& robot);
-  void add_geoms(const morphology::RobotSpec& robot);
+  void add_bodies(const robot::RobotSpec& robot);
+  void add_joints(const robot::RobotSpec& robot);
+  void add_geoms(const robot::RobotSpec& robot);
 
   dWorldID world_;
   dGeomID ground_ = nullptr;
@@ -46,6 +46,6 @@ class World {
 };
 
 /// Throws UserError for what ODE has no joint for; see make_ode_engine().
-void check_joints(const morphology::RobotSpec& robot);
+void check_joints(const robot::RobotSpec& robot);
 
 }  // namespace amble::physics::ode

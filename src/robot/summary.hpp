@@ -2,11 +2,11 @@
 
 #include <string>
 
-#include "amble/morphology/robot_spec.hpp"
+#include "amble/robot/spec.hpp"
 
-namespace amble::morphology {
+namespace amble::robot {
 
 /// What was read from a robot file, as tables to read on a terminal.
 std::string summary(const RobotSpec& robot);
 
-}  // namespace amble::morphology
+}  // namespace amble::robot

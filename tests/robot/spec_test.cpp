@@ -1,11 +1,14 @@
-#include "amble/morphology/robot_spec.hpp"
+#include "amble/robot/spec.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/morphology/files.hpp"
 
-namespace amble::morphology {
+namespace amble::robot {
 namespace {
+
+using morphology::Files;
+using morphology::load_one_leg;
 
 TEST(RobotSpec, SumsTheMassesOfItsBodies) {
   const Files files;
@@ -24,5 +27,16 @@ TEST(RobotSpec, NamesTheJointsOfABodyInTheOrderOfTheChain) {
   EXPECT_TRUE(robot.joints_of_body(0).empty());
 }
 
+TEST(RobotSpec, ABodyThatHangsOnALegBelongsToIt) {
+  const Files files;
+  RobotSpec robot = load_one_leg(files);
+  EXPECT_EQ(robot.leg_of_body(0), -1);
+  const int shank = robot.joints.back().body;
+  EXPECT_EQ(robot.leg_of_body(shank), 0);
+  robot.bodies.push_back(robot.bodies.back());
+  robot.bodies.back().parent = shank;
+  EXPECT_EQ(robot.leg_of_body(static_cast<int>(robot.bodies.size()) - 1), 0);
+}
+
 }  // namespace
-}  // namespace amble::morphology
+}  // namespace amble::robot

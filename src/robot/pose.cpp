@@ -1,4 +1,4 @@
-#include "amble/morphology/pose.hpp"
+#include "amble/robot/pose.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,36 +6,7 @@
 
 #include "amble/core/check.hpp"
 
-namespace amble::morphology {
-namespace {
-
-/// Height of the lowest point of a geom whose body's frame stands at `body`.
-double lowest_point_m(const Geom& geom, const Pose& body) {
-  const Pose pose = body * Pose{geom.position_m, geom.rotation};
-
-  // How far the shape reaches below its centre: the world's z seen from the geom's own axes decides.
-  const Vec3 up = rotate(conjugate(pose.rotation), {0.0, 0.0, 1.0});
-  const Vec3 size = geom.size_m;
-  double reach = 0.0;
-  switch (geom.shape) {
-    case Shape::sphere:
-      reach = size.x;
-      break;
-    case Shape::capsule:
-      reach = size.x + size.y * std::abs(up.z);
-      break;
-    case Shape::cylinder:
-      reach = size.x * std::sqrt(std::max(0.0, 1.0 - up.z * up.z)) + size.y * std::abs(up.z);
-      break;
-    case Shape::box:
-      reach = size.x * std::abs(up.x) + size.y * std::abs(up.y) + size.z * std::abs(up.z);
-      break;
-  }
-  return pose.position_m.z - reach;
-}
-
-}  // namespace
-
+namespace amble::robot {
 std::vector<Pose> start_poses(const RobotSpec& robot) {
   std::vector<Pose> poses;
   poses.reserve(robot.bodies.size());
@@ -64,17 +35,51 @@ std::vector<Pose> poses_at(const RobotSpec& robot, const Pose& root, std::span<c
   return poses;
 }
 
+Vec3 start_com_m(const RobotSpec& robot) {
+  const std::vector<Pose> poses = start_poses(robot);
+  Vec3 moment;
+  for (std::size_t b = 0; b < robot.bodies.size(); ++b)
+    moment = moment + robot.bodies[b].mass_kg * (poses[b] * robot.bodies[b].com_m);
+  return (1.0 / robot.total_mass_kg()) * moment;
+}
+
+Vec3 centre_m(const Geom& geom, std::span<const Pose> poses) {
+  return poses[static_cast<std::size_t>(geom.body)] * geom.position_m;
+}
+
+double bottom_m(const Geom& geom, std::span<const Pose> poses) {
+  const Pose pose = poses[static_cast<std::size_t>(geom.body)] * Pose{geom.position_m, geom.rotation};
+
+  // How far the shape reaches below its centre: the world's z seen from the geom's own axes decides.
+  const Vec3 up = rotate(conjugate(pose.rotation), {0.0, 0.0, 1.0});
+  const Vec3 size = geom.size_m;
+  double reach = 0.0;
+  switch (geom.shape) {
+    case Shape::sphere:
+      reach = size.x;
+      break;
+    case Shape::capsule:
+      reach = size.x + size.y * std::abs(up.z);
+      break;
+    case Shape::cylinder:
+      reach = size.x * std::sqrt(std::max(0.0, 1.0 - up.z * up.z)) + size.y * std::abs(up.z);
+      break;
+    case Shape::box:
+      reach = size.x * std::abs(up.x) + size.y * std::abs(up.y) + size.z * std::abs(up.z);
+      break;
+  }
+  return pose.position_m.z - reach;
+}
+
 double start_clearance_m(const RobotSpec& robot, int geom) {
-  const Geom& shape = robot.geoms[static_cast<std::size_t>(geom)];
-  return lowest_point_m(shape, start_poses(robot)[static_cast<std::size_t>(shape.body)]);
+  return bottom_m(robot.geoms[static_cast<std::size_t>(geom)], start_poses(robot));
 }
 
 double clearance_m(const RobotSpec& robot, std::span<const Pose> poses) {
   double lowest_m = std::numeric_limits<double>::infinity();
   for (const Geom& geom : robot.geoms)
-    if (geom.collides)
-      lowest_m = std::min(lowest_m, lowest_point_m(geom, poses[static_cast<std::size_t>(geom.body)]));
+    if (geom.collides) lowest_m = std::min(lowest_m, bottom_m(geom, poses));
   return lowest_m;
 }
 
-}  // namespace amble::morphology
+}  // namespace amble::robot

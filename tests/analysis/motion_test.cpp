@@ -1,4 +1,4 @@
-#include "amble/analysis/kinematics.hpp"
+#include "amble/analysis/motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,78 +20,65 @@ void expect_near(Vec3 actual, Vec3 expected) {
 }
 
 /// Where the front left foot is, with its knee, hip_fb and hip_io at these angles.
-Vec3 foot(double knee_rad, double fb_rad, double io_rad, const BodyPose& root = {{0, 0, 1}, {}}) {
-  const RobotModel robot = tests::robot();
+Vec3 foot(double knee_rad, double fb_rad, double io_rad, const robot::Pose& root = {{0, 0, 1}, {}}) {
+  const robot::RobotSpec robot = tests::robot();
   std::vector<double> angles(12, 0.0);
   angles[0] = knee_rad;
   angles[1] = fb_rad;
   angles[2] = io_rad;
-  return geom_centre_m(robot.geoms[3], body_poses(robot, root, angles));
+  return robot::centre_m(robot.geoms[3], robot::poses_at(robot, root, angles));
 }
 
 // The hip is at (0.5, 0.2, 1), the upper leg 0.5 m and the lower leg with the foot's centre 0.4 m long.
-TEST(Kinematics, LegsHangStraightAtZero) {
+TEST(Motion, LegsHangStraightAtZero) {
   expect_near(foot(0, 0, 0), {0.5, 0.2, 0.1});
 }
 
-TEST(Kinematics, HipSwingsTheLegBackward) {
+TEST(Motion, HipSwingsTheLegBackward) {
   expect_near(foot(0, quarter, 0), {0.5 - 0.9, 0.2, 1});
 }
 
-TEST(Kinematics, HipSwingsTheLegOutward) {
+TEST(Motion, HipSwingsTheLegOutward) {
   expect_near(foot(0, 0, quarter), {0.5, 0.2 + 0.9, 1});
 }
 
-TEST(Kinematics, KneeBringsTheFootForward) {
+TEST(Motion, KneeBringsTheFootForward) {
   expect_near(foot(-quarter, 0, 0), {0.5 + 0.4, 0.2, 0.5});
 }
 
-TEST(Kinematics, SecondHingeOfABodyIsCarriedByTheFirst) {
+TEST(Motion, SecondHingeOfABodyIsCarriedByTheFirst) {
   // Turned outward first, then backward about its own lateral axis; the other order would end at y = 1.1.
   expect_near(foot(0, quarter, quarter), {0.5 - 0.9, 0.2, 1});
 }
 
-TEST(Kinematics, AnglesOfAChainAddUp) {
+TEST(Motion, AnglesOfAChainAddUp) {
   expect_near(foot(-quarter, quarter, 0), {0.5 - 0.5, 0.2, 1 - 0.4});
 }
 
-TEST(Kinematics, EverythingMovesWithTheRoot) {
+TEST(Motion, EverythingMovesWithTheRoot) {
   // Turned to the left, the front left hip is at (−0.2, 0.5) from the root.
-  const BodyPose root{{10, 20, 3}, axis_angle({0, 0, 1}, quarter)};
+  const robot::Pose root{{10, 20, 3}, axis_angle({0, 0, 1}, quarter)};
   expect_near(foot(0, 0, 0, root), {10 - 0.2, 20 + 0.5, 3 - 0.9});
   expect_near(foot(0, quarter, 0, root), {10 - 0.2, 20 + 0.5 - 0.9, 3});
 }
 
-TEST(Kinematics, AnAnchorStaysWhereItIs) {
-  RobotModel robot = tests::robot();
+TEST(Motion, AnAnchorStaysWhereItIs) {
+  robot::RobotSpec robot = tests::robot();
   robot.joints[0].anchor_m = {0, 0, 0.1};
   std::vector<double> angles(12, 0.0);
   angles[0] = 2 * quarter;
   // The lower leg turns upside down about a point 0.1 m above its frame, which was at z = 0.5.
-  const auto poses = body_poses(robot, {{0, 0, 1}, {}}, angles);
+  const auto poses = robot::poses_at(robot, {{0, 0, 1}, {}}, angles);
   expect_near(poses[2].position_m, {0.5, 0.2, 0.7});
 }
 
-TEST(Kinematics, ReadsAFrameOfAMotion) {
+TEST(Motion, ReadsAFrameOfAMotion) {
   auto recorded = tests::walk(3);
   recorded.motion.angle_rad[1][2] = static_cast<float>(quarter);
   const auto poses = body_poses(recorded.robot, recorded.motion, 2);
-  const Vec3 at = geom_centre_m(recorded.robot.geoms[3], poses);
+  const Vec3 at = robot::centre_m(recorded.robot.geoms[3], poses);
   EXPECT_NEAR(at.x, 0.15 + 0.5 - 0.9, 1e-6);
   EXPECT_NEAR(at.z, 1.0, 1e-6);
-}
-
-TEST(Kinematics, TheLowestPointOfAGeomIsThatOfItsCorners) {
-  const std::vector<BodyPose> poses{{{0.0, 0.0, 2.0}, axis_angle({1.0, 0.0, 0.0}, 0.5 * quarter)}};
-  const double diagonal = std::sqrt(0.5);
-  const auto bottom_m = [&](Shape shape, Vec3 size_m) {
-    return geom_bottom_m({.body = 0, .shape = shape, .size_m = size_m, .position_m = {}, .rotation = {}},
-                         poses);
-  };
-  EXPECT_NEAR(bottom_m(Shape::sphere, {0.3, 0.0, 0.0}), 2.0 - 0.3, 1e-12);
-  EXPECT_NEAR(bottom_m(Shape::capsule, {0.1, 0.4, 0.0}), 2.0 - 0.1 - 0.4 * diagonal, 1e-12);
-  EXPECT_NEAR(bottom_m(Shape::cylinder, {0.1, 0.4, 0.0}), 2.0 - (0.1 + 0.4) * diagonal, 1e-12);
-  EXPECT_NEAR(bottom_m(Shape::box, {0.7, 0.1, 0.4}), 2.0 - (0.1 + 0.4) * diagonal, 1e-12);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "amble/morphology/robot_check.hpp"
+#include "amble/robot/check.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "amble/core/check.hpp"
 
-namespace amble::morphology {
+namespace amble::robot {
 namespace {
 
 bool finite(Vec3 v) {
@@ -139,4 +139,4 @@ void check_robot(const RobotSpec& robot, const std::function<void(const std::str
   Checker(robot, complain).check();
 }
 
-}  // namespace amble::morphology
+}  // namespace amble::robot

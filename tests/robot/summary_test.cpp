@@ -1,12 +1,17 @@
-#include "amble/morphology/summary.hpp"
+#include "amble/robot/summary.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/morphology/files.hpp"
 
-namespace amble::morphology {
+namespace amble::robot {
 namespace {
+
+using morphology::Files;
+using morphology::load_one_leg;
+using morphology::one_leg_xml;
+using morphology::with;
 
 using testing::HasSubstr;
 
@@ -31,4 +36,4 @@ TEST(Summary, ShowsTheAxesOfTurnedBodiesInTheWorld) {
 }
 
 }  // namespace
-}  // namespace amble::morphology
+}  // namespace amble::robot

@@ -6,7 +6,7 @@
 
 #include "amble/core/math.hpp"
 
-namespace amble::morphology {
+namespace amble::robot {
 
 /// Shapes that engines can put into contact. `size_m` of a Geom means: sphere {radius, –, –}; capsule and
 /// cylinder {radius, half length of the straight part along the geom's z, –}; box {half extents}.
@@ -99,6 +99,8 @@ struct RobotSpec {
   double total_mass_kg() const;
   /// Indices into `joints` of the joints of one body, in the order of the chain (Joint::chain_index).
   std::vector<int> joints_of_body(int body) const;
+  /// The leg a body belongs to, or −1 for the trunk: a leg is its joints' bodies and what hangs on them.
+  int leg_of_body(int body) const;
 };
 
-}  // namespace amble::morphology
+}  // namespace amble::robot

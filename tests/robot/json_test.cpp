@@ -1,4 +1,4 @@
-#include "amble/morphology/robot_json.hpp"
+#include "amble/robot/json.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,10 @@
 #include "amble/core/random.hpp"
 #include "amble/morphology/robot_file.hpp"
 
-namespace amble::morphology {
+namespace amble::robot {
 namespace {
+
+using morphology::load_robot;
 
 RobotSpec quadruped() {
   return load_robot(AMBLE_SOURCE_DIR "/robots/quadruped/authors.toml");
@@ -91,4 +93,4 @@ TEST(RobotJson, RefusesWhatIsNotARobot) {
 }
 
 }  // namespace
-}  // namespace amble::morphology
+}  // namespace amble::robot

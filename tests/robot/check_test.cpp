@@ -1,4 +1,4 @@
-#include "amble/morphology/robot_check.hpp"
+#include "amble/robot/check.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,12 @@
 
 #include "tests/morphology/files.hpp"
 
-namespace amble::morphology {
+namespace amble::robot {
 namespace {
+
+using morphology::Files;
+using morphology::load_one_leg;
+using morphology::with;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -87,4 +91,4 @@ TEST(CheckRobot, FindsNumbersThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace amble::morphology
+}  // namespace amble::robot

@@ -1,4 +1,4 @@
-#include "amble/morphology/robot_json.hpp"
+#include "amble/robot/json.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <string_view>
 #include <utility>
 
-#include "amble/morphology/robot_check.hpp"
+#include "amble/robot/check.hpp"
 
-namespace amble::morphology {
+namespace amble::robot {
 namespace {
 
 using io::Json;
@@ -195,4 +195,11 @@ RobotSpec from_json(const JsonView& json) {
   return robot;
 }
 
-}  // namespace amble::morphology
+RobotSpec parse_robot(const std::string& text, const std::string& what) {
+  const io::Json document = io::parse_json(text, what);
+  const JsonView json(document, what);
+  if (json.at("legs").size() == 0) json.at("legs").bad("a list with at least one leg");
+  return from_json(json);
+}
+
+}  // namespace amble::robot

@@ -1,8 +1,8 @@
-#include "amble/morphology/robot_spec.hpp"
+#include "amble/robot/spec.hpp"
 
 #include <algorithm>
 
-namespace amble::morphology {
+namespace amble::robot {
 
 double RobotSpec::total_mass_kg() const {
   double mass = 0.0;
@@ -20,4 +20,12 @@ std::vector<int> RobotSpec::joints_of_body(int body) const {
   return found;
 }
 
-}  // namespace amble::morphology
+int RobotSpec::leg_of_body(int body) const {
+  for (int b = body; b >= 0; b = bodies[static_cast<std::size_t>(b)].parent)
+    for (std::size_t leg = 0; leg < legs.size(); ++leg)
+      for (const int joint : legs[leg].joints)
+        if (joints[static_cast<std::size_t>(joint)].body == b) return static_cast<int>(leg);
+  return -1;
+}
+
+}  // namespace amble::robot

@@ -1,4 +1,4 @@
-#include "amble/morphology/summary.hpp"
+#include "amble/robot/summary.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "amble/morphology/pose.hpp"
+#include "amble/robot/pose.hpp"
 
-namespace amble::morphology {
+namespace amble::robot {
 namespace {
 
 using Row = std::vector<std::string>;
@@ -127,4 +127,4 @@ std::string summary(const RobotSpec& robot) {
   return text;
 }
 
-}  // namespace amble::morphology
+}  // namespace amble::robot

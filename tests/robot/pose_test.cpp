@@ -1,4 +1,4 @@
-#include "amble/morphology/pose.hpp"
+#include "amble/robot/pose.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,11 @@
 
 #include "tests/morphology/files.hpp"
 
-namespace amble::morphology {
+namespace amble::robot {
 namespace {
+
+using morphology::Files;
+using morphology::load_one_leg;
 
 constexpr double quarter = std::numbers::pi / 2;
 
@@ -88,5 +91,34 @@ TEST(StartClearance, IsTheHeightOfTheLowestPointOfEachShape) {
   EXPECT_NEAR(start_clearance_m(robot, 0), 2.25 - 0.3 * std::sin(tilt) - 0.5 * std::cos(tilt), 1e-15);
 }
 
+TEST(Bottom, TheLowestPointOfAGeomIsThatOfItsCorners) {
+  const std::vector<Pose> poses{{{0.0, 0.0, 2.0}, axis_angle({1.0, 0.0, 0.0}, 0.5 * quarter)}};
+  const double diagonal = std::sqrt(0.5);
+  const auto bottom_m = [&](Shape shape, Vec3 size_m) {
+    Geom geom;
+    geom.shape = shape;
+    geom.size_m = size_m;
+    return amble::robot::bottom_m(geom, poses);
+  };
+  EXPECT_NEAR(bottom_m(Shape::sphere, {0.3, 0.0, 0.0}), 2.0 - 0.3, 1e-12);
+  EXPECT_NEAR(bottom_m(Shape::capsule, {0.1, 0.4, 0.0}), 2.0 - 0.1 - 0.4 * diagonal, 1e-12);
+  EXPECT_NEAR(bottom_m(Shape::cylinder, {0.1, 0.4, 0.0}), 2.0 - (0.1 + 0.4) * diagonal, 1e-12);
+  EXPECT_NEAR(bottom_m(Shape::box, {0.7, 0.1, 0.4}), 2.0 - (0.1 + 0.4) * diagonal, 1e-12);
+}
+
+TEST(StartCom, IsWhereTheMassesSay) {
+  // 1 kg at z = 1 and, turned by a quarter about y, 0.5 kg at 0.2 m in front of (0.5, 0, 1).
+  RobotSpec robot;
+  robot.bodies.resize(2);
+  robot.bodies[0].position_m = {0.0, 0.0, 1.0};
+  robot.bodies[0].mass_kg = 1.0;
+  robot.bodies[1].parent = 0;
+  robot.bodies[1].position_m = {0.5, 0.0, 0.0};
+  robot.bodies[1].rotation = axis_angle({0.0, 1.0, 0.0}, quarter);
+  robot.bodies[1].mass_kg = 0.5;
+  robot.bodies[1].com_m = {0.2, 0.0, 0.0};  // along the world's −z
+  EXPECT_NEAR(norm(start_com_m(robot) - Vec3{0.25 / 1.5, 0.0, (1.0 + 0.4) / 1.5}), 0.0, 1e-15);
+}
+
 }  // namespace
-}  // namespace amble::morphology
+}  // namespace amble::robot

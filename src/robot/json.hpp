@@ -1,9 +1,11 @@
 #pragma once
 
-#include "amble/io/json_file.hpp"
-#include "amble/morphology/robot_spec.hpp"
+#include <string>
 
-namespace amble::morphology {
+#include "amble/io/json_file.hpp"
+#include "amble/robot/spec.hpp"
+
+namespace amble::robot {
 
 /// The whole robot as JSON (docs/FORMATS.md), so that a champion or a recording needs no other file. Numbers
 /// read back to the same bits; infinite friction is "inf".
@@ -13,4 +15,7 @@ io::Json to_json(const RobotSpec& robot);
 /// promises.
 RobotSpec from_json(const io::JsonView& json);
 
-}  // namespace amble::morphology
+/// The same from the text in a recording, whose robot has at least one leg. `what` names it in the error.
+RobotSpec parse_robot(const std::string& text, const std::string& what);
+
+}  // namespace amble::robot

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "amble/core/math.hpp"
-#include "amble/morphology/robot_spec.hpp"
+#include "amble/robot/spec.hpp"
 
-namespace amble::morphology {
+namespace amble::robot {
 
 /// Where a frame stands in another: a point or frame given in it becomes one of the outer frame.
 struct Pose {
@@ -23,10 +23,18 @@ std::vector<Pose> start_poses(const RobotSpec& robot);
 /// The same with the root's frame at `root` and the joints at these angles (rad, in control order).
 std::vector<Pose> poses_at(const RobotSpec& robot, const Pose& root, std::span<const double> angles_rad);
 
-/// Height over the ground (negative: depth) of the lowest point of a geom in the start pose.
+/// Centre of mass of the whole robot in the start pose, in the world.
+Vec3 start_com_m(const RobotSpec& robot);
+
+/// Centre of a geom in the world, with the bodies at `poses`.
+Vec3 centre_m(const Geom& geom, std::span<const Pose> poses);
+/// Height over the ground (negative: depth) of a geom's lowest point, with the bodies at `poses`.
+double bottom_m(const Geom& geom, std::span<const Pose> poses);
+
+/// The same in the start pose.
 double start_clearance_m(const RobotSpec& robot, int geom);
 /// Height over the ground of the lowest point of all that collides, with the bodies at `poses`; infinity for
 /// a robot of which nothing collides.
 double clearance_m(const RobotSpec& robot, std::span<const Pose> poses);
 
-}  // namespace amble::morphology
+}  // namespace amble::robot
