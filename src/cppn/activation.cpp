@@ -1,6 +1,6 @@
 #include "amble/cppn/activation.hpp"
 
-#include <cmath>
+#include <bit>
 #include <cstdint>
 #include <numbers>
 
@@ -14,11 +14,11 @@ void activate(neat::Activation function, Linear linear, std::span<float> values)
 }
 
 float sine_angle_of_large(float x) {
-  if (std::isinf(x)) return 0.0f;
+  const auto bits = std::bit_cast<std::uint32_t>(x) & 0x7fffffffu;  // of |x|
+  if (bits >= 0x7f800000u) return 0.0f;
   // |x| = significand × 2^exponent, the significand an integer of 24 bits, the exponent from −11 to 104.
-  int exponent = 0;
-  const auto significand = static_cast<std::uint64_t>(std::ldexp(std::frexp(std::fabs(x), &exponent), 24));
-  exponent -= 24;
+  const std::uint64_t significand = (bits & 0x7fffffu) | 0x800000u;
+  const int exponent = static_cast<int>(bits >> 23) - 150;
 
   // sin(2|x|) makes |x|/π turns. Digits of 2^exponent/π left of the point are whole turns and fall away, as
   // do those of the product.

@@ -40,9 +40,10 @@ void activate_values(neat::Activation function, Linear linear, float* values, st
   }
 }
 
-/// Sums from zero in the order of the links, four vectors at a time because each addition waits for the one
-/// before it.
-HWY_INLINE void add_links(const Program::Link* links, int count, const Tile* source, float* sums) {
+/// Values of one node: sums from zero in the order of the links, then its function. Four vectors at a time,
+/// because each operation waits for the one before it.
+template <Vector (*function)(Vector)>
+HWY_INLINE void compute(const Program::Link* links, int count, const Tile* source, float* values) {
   const Floats d;
   const std::size_t lanes = hn::Lanes(d);
   for (std::size_t i = 0; i < block; i += 4 * lanes) {
@@ -55,50 +56,32 @@ HWY_INLINE void add_links(const Program::Link* links, int count, const Tile* sou
       s2 = hn::Add(s2, hn::Mul(weight, hn::Load(d, from + 2 * lanes)));
       s3 = hn::Add(s3, hn::Mul(weight, hn::Load(d, from + 3 * lanes)));
     }
-    hn::Store(s0, d, sums + i);
-    hn::Store(s1, d, sums + i + lanes);
-    hn::Store(s2, d, sums + i + 2 * lanes);
-    hn::Store(s3, d, sums + i + 3 * lanes);
+    hn::Store(function(s0), d, values + i);
+    hn::Store(function(s1), d, values + i + lanes);
+    hn::Store(function(s2), d, values + i + 2 * lanes);
+    hn::Store(function(s3), d, values + i + 3 * lanes);
   }
 }
 
-HWY_INLINE bool same_bits(const float* a, const float* b) {
-  const Floats d;
-  const Ints i;
-  auto differences = hn::Zero(i);
-  for (std::size_t k = 0; k < block; k += hn::Lanes(d))
-    differences =
-        hn::Or(differences, hn::Xor(hn::BitCast(i, hn::Load(d, a + k)), hn::BitCast(i, hn::Load(d, b + k))));
-  return hn::AllTrue(i, hn::Eq(differences, hn::Zero(i)));
+void compute_node(const Program& program, const Program::Node& node, const Tile* source, float* values) {
+  const Program::Link* const links = program.links.data() + node.first_link;
+  switch (node.activation) {
+    case neat::Activation::bipolar_sigmoid:
+      return compute<bipolar_sigmoid>(links, node.link_count, source, values);
+    case neat::Activation::gaussian:
+      return compute<gaussian>(links, node.link_count, source, values);
+    case neat::Activation::sine:
+      return compute<sine>(links, node.link_count, source, values);
+    case neat::Activation::linear:
+      return program.linear == Linear::absolute ? compute<absolute>(links, node.link_count, source, values)
+                                                : compute<identity>(links, node.link_count, source, values);
+  }
 }
 
-/// One pass. Whether each node it computes has the value, to the bit, that it had two passes before.
-bool run_pass(const Program& program, int pass, const Tile* source, Tile* target) {
-  bool repeats = true;
-  for (const Program::Node& node : program.nodes) {
-    if (pass < node.first_pass || pass > node.last_pass) continue;
-    float* values = target[node.slot].value;
-    repeats = repeats && node.first_pass <= pass - 2;
-    Tile before;
-    if (repeats) before = target[node.slot];
-    add_links(program.links.data() + node.first_link, node.link_count, source, values);
-    activate_values(node.activation, program.linear, values, block);
-    repeats = repeats && same_bits(values, before.value);
-  }
-  return repeats;
-}
-
-/// All passes over one block of points. A pass depends on the values before it alone: once one repeats the
-/// last but one, so do all that follow, and both buffers hold what they would leave there, until a node is
-/// computed for the first time.
-void run_passes(const Program& program, Tile* even, Tile* odd) {
-  for (int pass = 1; pass <= program.passes; ++pass) {
-    if (!run_pass(program, pass, pass % 2 == 1 ? even : odd, pass % 2 == 1 ? odd : even)) continue;
-    int next = program.passes + 1;
-    for (const Program::Node& node : program.nodes)
-      if (node.first_pass > pass) next = std::min(next, node.first_pass);
-    pass = next - 1;
-  }
+void run_pass(const Program& program, int pass, const Tile* source, Tile* target) {
+  for (const Program::Node& node : program.nodes)
+    if (pass >= node.first_pass && pass <= node.last_pass)
+      compute_node(program, node, source, target[node.slot].value);
 }
 
 void run(const Program& program, const Points& points, float* results, Tile* scratch) {
@@ -112,7 +95,8 @@ void run(const Program& program, const Points& points, float* results, Tile* scr
       std::memset(even + 1 + program.inputs, 0,
                   sizeof(Tile) * static_cast<std::size_t>(program.slots - 1 - program.inputs));
     }
-    run_passes(program, even, odd);
+    for (int pass = 1; pass <= program.passes; ++pass)
+      run_pass(program, pass, pass % 2 == 1 ? even : odd, pass % 2 == 1 ? odd : even);
     const Tile* const last = program.passes % 2 == 1 ? odd : even;
     for (std::size_t output = 0; output < program.output_slots.size(); ++output)
       std::copy_n(last[program.output_slots[output]].value, block,
