@@ -13,6 +13,18 @@ if(AMBLE_SANITIZE)
   target_link_options(amble_options INTERFACE -fsanitize=${AMBLE_SANITIZE})
 endif()
 
+# Headers that nearly every source reads, compiled once for all libraries and once for all tests. What a source needs it includes all the
+# same: tools/lint reads it without these.
+option(AMBLE_PRECOMPILED_HEADERS "Compile common headers once" ON)
+if(AMBLE_PRECOMPILED_HEADERS)
+  # GCC 12 forgets that precompiled headers are the system's, and warns of std::string's inside (its bug 105329).
+  target_compile_options(amble_options INTERFACE "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-restrict;-Wno-stringop-overflow;-Wno-stringop-overread>")
+  add_library(amble_common_headers OBJECT ${PROJECT_SOURCE_DIR}/cmake/nothing.cpp)
+  target_link_libraries(amble_common_headers PRIVATE amble_options fmt::fmt nlohmann_json::nlohmann_json)
+  target_precompile_headers(amble_common_headers PRIVATE <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory>
+                            <optional> <span> <string> <string_view> <utility> <vector> <fmt/format.h> <nlohmann/json.hpp>)
+endif()
+
 function(amble_library folder)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target amble_${folder})
@@ -24,7 +36,21 @@ function(amble_library folder)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE $<BUILD_INTERFACE:amble_options> ${ARG_PRIVATE})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${folder})
   set_property(GLOBAL APPEND PROPERTY AMBLE_LIBRARIES ${target})
+  if(AMBLE_PRECOMPILED_HEADERS)
+    target_precompile_headers(${target} REUSE_FROM amble_common_headers)
+  endif()
 endfunction()
+
+# Most of the time it takes to compile the tests goes into GoogleTest's headers, and into optimising what runs once.
+function(amble_test_headers)
+  add_library(amble_test_headers OBJECT ${PROJECT_SOURCE_DIR}/cmake/nothing.cpp)
+  target_link_libraries(amble_test_headers PRIVATE amble_options GTest::gmock GTest::gtest fmt::fmt nlohmann_json::nlohmann_json)
+  target_compile_options(amble_test_headers PRIVATE -O0)
+  target_precompile_headers(amble_test_headers PRIVATE <gmock/gmock.h> <gtest/gtest.h> <algorithm> <array> <cmath> <cstdint> <filesystem>
+                            <functional> <map> <memory> <optional> <span> <string> <string_view> <utility> <vector>
+                            <fmt/format.h> <nlohmann/json.hpp>)
+endfunction()
+
 
 function(amble_test folder)
   cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK" ${ARGN})
@@ -36,9 +62,13 @@ function(amble_test folder)
   if(AMBLE_SANITIZE)
     target_compile_definitions(${target} PRIVATE AMBLE_SANITIZED)
   endif()
-  # Most of the time it takes to compile the tests goes into GoogleTest's headers, and into optimising what runs once.
   target_compile_options(${target} PRIVATE -O0)
-  target_precompile_headers(${target} PRIVATE <gmock/gmock.h> <gtest/gtest.h> <filesystem> <string> <vector>)
+  if(AMBLE_PRECOMPILED_HEADERS)
+    if(NOT TARGET amble_test_headers)
+      amble_test_headers()
+    endif()
+    target_precompile_headers(${target} REUSE_FROM amble_test_headers)
+  endif()
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()

@@ -11,7 +11,7 @@ namespace amble::analysis {
 namespace {
 
 /// A string of the DOT language.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
@@ -30,7 +30,7 @@ std::string cppn_dot(const CppnGraph& graph) {
     const bool terminal = (node.role == CppnRole::bias || node.role == CppnRole::input);
     std::string text = node.name;
     if (!terminal) text += (text.empty() ? "" : "\n") + node.function;
-    dot += fmt::format("  n{} [label={}, shape={}];\n", node.id, quoted(text),
+    dot += fmt::format("  n{} [label={}, shape={}];\n", node.id, in_quotes(text),
                        terminal ? "plaintext" : "ellipse");
     if (terminal) first += fmt::format(" n{};", node.id);
     if (node.role == CppnRole::output) last += fmt::format(" n{};", node.id);
