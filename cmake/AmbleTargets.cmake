@@ -19,6 +19,9 @@ option(AMBLE_PRECOMPILED_HEADERS "Compile common headers once" ON)
 if(AMBLE_PRECOMPILED_HEADERS)
   # GCC 12 forgets that precompiled headers are the system's, and warns of std::string's inside (its bug 105329).
   target_compile_options(amble_options INTERFACE "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-restrict;-Wno-stringop-overflow;-Wno-stringop-overread>")
+  # What ccache asks for.
+  target_compile_options(amble_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
+                                                 "$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
   add_library(amble_common_headers OBJECT ${PROJECT_SOURCE_DIR}/cmake/nothing.cpp)
   target_link_libraries(amble_common_headers PRIVATE amble_options fmt::fmt nlohmann_json::nlohmann_json)
   target_precompile_headers(amble_common_headers PRIVATE <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory>
