@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "amble/core/error.hpp"
 #include "amble/core/random.hpp"
 #include "tests/physics/ode_rig.hpp"
 
@@ -201,6 +202,29 @@ RobotSpec tailed(RobotSpec robot, double mass_kg, double max_torque_nm) {
     robot.joints.push_back(joint);
   }
   return robot;
+}
+
+TEST(BatchAgreement, LimbsHaveUpToTwelveJoints) {
+  const auto with_tail_of = [](int pairs) {
+    RobotSpec robot = quadruped("paper");
+    for (int pair = 0; pair < pairs; ++pair) {
+      robot = tailed(std::move(robot), 0.05, 1.0);
+      if (pair > 0) robot.bodies[robot.bodies.size() - 2].parent = static_cast<int>(robot.bodies.size()) - 3;
+    }
+    return robot;
+  };
+  const auto engine = make_batch_engine(with_tail_of(6), {});
+  engine->place(0);
+  const LaneArray targets(24, engine->lanes());
+  for (int n = 0; n < 50; ++n) engine->step(targets);
+  EXPECT_TRUE(engine->healthy(0));
+  try {
+    make_batch_engine(with_tail_of(7), {});
+    ADD_FAILURE() << "a tail of fourteen joints was accepted";
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("more than 12 joints in one chain"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(BatchAgreement, ATailOfNoWeightChangesNothingForTheLegs) {
