@@ -107,8 +107,8 @@ TEST(Reproduction, CopiesATenthOfTheNextGenerationUnchanged) {
 
 TEST(Reproduction, CopiesAsManyElitesAsTheShareSaysWhereBinaryNumbersFallShort) {
   Sample sample;
-  std::vector<Fitness> members;
-  for (int i = 0; i < 100; ++i) members.push_back({.selection = 1.0, .objective = 100.0 - i});
+  std::vector<Fitness> members(100, {.selection = 1.0, .objective = 0.0});
+  for (std::size_t i = 0; i < 100; ++i) members[i].objective = 100.0 - static_cast<double>(i);
   sample.add(members);
   Settings settings;
   settings.mutation.weights.jiggle_many_probability = settings.mutation.weights.jiggle_few_probability = 1.0;
