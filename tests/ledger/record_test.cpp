@@ -16,9 +16,58 @@ TEST(Record, ReadsBackAsItWasWritten) {
   const std::string text = record_text(record);
   const Record again = parse_record(text, "r.json");
   EXPECT_EQ(record_text(again), text);
+  EXPECT_EQ(again.study, record.study);
+  EXPECT_EQ(again.condition, record.condition);
+  EXPECT_EQ(again.seed, record.seed);
+  EXPECT_EQ(again.config, record.config);
+  EXPECT_EQ(again.generations, record.generations);
+  EXPECT_EQ(again.engine, record.engine);
+  EXPECT_EQ(again.evaluations, record.evaluations);
+  EXPECT_EQ(again.steps, record.steps);
+  EXPECT_EQ(again.best_m, record.best_m);
+  EXPECT_EQ(again.best_generation, record.best_generation);
+  EXPECT_EQ(again.hidden, record.hidden);
+  EXPECT_EQ(again.links, record.links);
   EXPECT_EQ(again.curve, record.curve);
-  EXPECT_EQ(again.tests[1].episodes, record.tests[1].episodes);
+  EXPECT_EQ(again.champion, record.champion);
+  EXPECT_EQ(again.champion_file, record.champion_file);
+}
+
+TEST(Record, ReadsBackTestByTestAndWithItsProvenance) {
+  Record record = sample_record();
+  record.provenance = {.version = "v",
+                       .commit = "c",
+                       .compiler = "g++",
+                       .flags = "-O2",
+                       .cpu = "p",
+                       .finished_utc = "2026-01-01T00:00:00Z",
+                       .claims = "hash",
+                       .evolution_s = 70.5,
+                       .tests_s = 3.25,
+                       .workers = 4};
+  const Record again = parse_record(record_text(record), "r.json");
+  ASSERT_EQ(again.tests.size(), record.tests.size());
+  for (std::size_t i = 0; i < record.tests.size(); ++i) {
+    const TestResult &read = again.tests[i], &written = record.tests[i];
+    EXPECT_EQ(read.name, written.name);
+    EXPECT_EQ(read.settings, written.settings);
+    EXPECT_EQ(read.engine, written.engine);
+    EXPECT_EQ(read.trial_s, written.trial_s);
+    EXPECT_EQ(read.episodes, written.episodes);
+    EXPECT_EQ(read.gait, written.gait);
+    EXPECT_EQ(read.path_interval_s, written.path_interval_s);
+    EXPECT_EQ(read.path_m, written.path_m);
+  }
+  EXPECT_EQ(again.provenance.version, "v");
+  EXPECT_EQ(again.provenance.commit, "c");
+  EXPECT_EQ(again.provenance.compiler, "g++");
+  EXPECT_EQ(again.provenance.flags, "-O2");
+  EXPECT_EQ(again.provenance.cpu, "p");
+  EXPECT_EQ(again.provenance.finished_utc, "2026-01-01T00:00:00Z");
+  EXPECT_EQ(again.provenance.claims, "hash");
   EXPECT_EQ(again.provenance.evolution_s, 70.5);
+  EXPECT_EQ(again.provenance.tests_s, 3.25);
+  EXPECT_EQ(again.provenance.workers, 4);
 }
 
 TEST(Record, DigestIsOfResultsAndNotOfClocksAndMachines) {

@@ -71,6 +71,16 @@ TEST(StudySpec, CopyReadsBackTheSame) {
   EXPECT_EQ(copy.claims_hash(), study.claims_hash());
 }
 
+TEST(StudySpec, NamesHaveUpTo64Characters) {
+  const auto named = [](std::size_t characters) {
+    return diagnostic(replaced(good, "name = \"five\"", "name = \"" + std::string(characters, 'x') + "\""));
+  };
+  const std::string refusal = "expected 1 to 64 of a-z, 0-9, '-' and '_'";
+  EXPECT_NE(named(0).find(refusal), std::string::npos);
+  EXPECT_EQ(named(64).find(refusal), std::string::npos);
+  EXPECT_NE(named(65).find(refusal), std::string::npos);
+}
+
 TEST(StudySpec, MistakesAreNamedWithTheirPlace) {
   EXPECT_EQ(diagnostic(good), "");
   EXPECT_EQ(diagnostic(replaced(good, "seeds = [1, 2]", "seeds = [1, 2, 1]")),

@@ -24,8 +24,9 @@ std::string bytes_of(const Population& population) {
   return writer.bytes();
 }
 
-void advance(Population& population, int generations) {
-  for (int i = 0; i < generations; ++i) population.advance(evaluate(population, weights_near_one_half));
+void advance(Population& population, int generations,
+             double (*objective)(const Genome&) = weights_near_one_half) {
+  for (int i = 0; i < generations; ++i) population.advance(evaluate(population, objective));
 }
 
 std::string load(Population& population, std::string_view bytes) {
@@ -52,6 +53,35 @@ TEST(PopulationLoad, ContinuesToTheBitAsIfNothingHadHappened) {
     EXPECT_EQ(resumed.statistics().compatibility_threshold,
               uninterrupted.statistics().compatibility_threshold);
   }
+}
+
+TEST(PopulationLoad, ContinuesWithSpeciesThatAreStagnantAndOlderThanTheirStagnation) {
+  Settings settings = small_settings();
+  settings.speciation.initial_threshold = 4;
+  settings.reproduction.stagnation_generations = 2;
+  int stagnant = 0, improving = 0;
+  for (int generations = 5; generations <= 30; generations += 5) {
+    Population uninterrupted(settings, 2, 2, true, 9), resumed(settings, 2, 2, true, 9);
+    advance(uninterrupted, generations, weights_in_steps);
+    const auto before = uninterrupted.species();
+    ASSERT_EQ(load(resumed, bytes_of(uninterrupted)), "");
+    const auto after = resumed.species();
+    ASSERT_EQ(after.size(), before.size());
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      EXPECT_EQ(after[i].id, before[i].id);
+      EXPECT_EQ(after[i].size, before[i].size);
+      EXPECT_EQ(after[i].age, before[i].age);
+      EXPECT_EQ(after[i].generations_without_improvement, before[i].generations_without_improvement);
+      const bool is_stagnant = before[i].generations_without_improvement > 2;
+      stagnant += is_stagnant && before[i].age > before[i].generations_without_improvement;
+      improving += !is_stagnant && before[i].age > 2;
+    }
+    advance(uninterrupted, 8, weights_in_steps);
+    advance(resumed, 8, weights_in_steps);
+    EXPECT_TRUE(std::ranges::equal(resumed.genomes(), uninterrupted.genomes())) << generations;
+  }
+  EXPECT_GE(stagnant, 3);
+  EXPECT_GE(improving, 5);
 }
 
 TEST(PopulationLoad, ContinuesToTheBitWithEveryRuleOfNumbering) {

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <ostream>
 
 #include "amble/core/hash.hpp"
 #include "tests/neat/samples.hpp"
@@ -150,6 +152,87 @@ TEST(Population, GivesTheSameGenomesForEver) {
   }
   EXPECT_EQ(hex(hash), "7cf68a7678e709f1");
 }
+
+/// What happened to the species of a population on its way.
+struct SpeciesHistory {
+  int most = 0, stagnant = 0, extinct = 0;
+  std::map<std::uint32_t, int> size;
+
+  void see(const Population& population, int stagnation_generations) {
+    std::map<std::uint32_t, int> now;
+    for (const SpeciesStatistics& species : population.species()) {
+      now[species.id] = species.size;
+      stagnant += species.generations_without_improvement > stagnation_generations &&
+                  species.age > species.generations_without_improvement;
+    }
+    for (const auto& [id, members] : size) extinct += !now.contains(id);
+    most = std::max(most, static_cast<int>(now.size()));
+    size = now;
+  }
+};
+
+std::uint64_t hash_of(const Population& population, std::uint64_t hash) {
+  const double threshold = population.statistics().compatibility_threshold;
+  hash = hash_span(std::span(&threshold, 1), hash);
+  for (const SpeciesStatistics& species : population.species()) {
+    const std::array<int, 4> numbers{static_cast<int>(species.id), species.size, species.age,
+                                     species.generations_without_improvement};
+    hash = hash_span<int>(numbers, hash);
+  }
+  for (const Genome& genome : population.genomes()) {
+    const std::uint64_t own = genome.hash();
+    hash = hash_span(std::span(&own, 1), hash);
+  }
+  return hash;
+}
+
+struct GoldenSpecies {
+  LonePlace lone_place;
+  const char* hash;
+};
+
+void PrintTo(const GoldenSpecies& golden, std::ostream* out) {
+  *out << lone_place_names[static_cast<std::size_t>(golden.lone_place)];
+}
+
+class PopulationOfManySpecies : public testing::TestWithParam<GoldenSpecies> {};
+
+TEST_P(PopulationOfManySpecies, GivesTheSameGenomesForEver) {
+  // As above, a change of these numbers is a change of every run. Here species are many, some stagnate, some
+  // die out, and selection is not the objective.
+  Settings settings = small_settings(90);
+  settings.speciation.initial_threshold = 4;
+  settings.speciation.target_min = 8;
+  settings.speciation.target_max = 12;
+  settings.reproduction.lone_place = GetParam().lone_place;
+  settings.reproduction.stagnation_generations = 4;
+  settings.reproduction.interspecies_probability = 0.1;
+  settings.reproduction.elitism = 0.29;
+  std::uint64_t hash = 0;
+  for (const bool recurrent : {true, false}) {
+    SpeciesHistory history;
+    Population population(settings, 2, 2, recurrent, 2013);
+    for (int generation = 0; generation < 40; ++generation) {
+      auto fitness = evaluate(population, weights_in_steps);
+      for (std::size_t i = 0; i < fitness.size(); ++i)
+        fitness[i].selection = 1.0 / (1.0 + static_cast<double>(population.genomes()[i].links.size() % 5));
+      population.advance(fitness);
+      history.see(population, settings.reproduction.stagnation_generations);
+      hash = hash_of(population, hash);
+    }
+    EXPECT_GE(history.most, 8);
+    EXPECT_GE(history.stagnant, 20) << "species × generations";
+    EXPECT_GE(history.extinct, 5);
+  }
+  EXPECT_EQ(hex(hash), GetParam().hash);
+}
+
+INSTANTIATE_TEST_SUITE_P(LonePlaces, PopulationOfManySpecies,
+                         testing::Values(GoldenSpecies{LonePlace::child, "3d8124e20e869841"},
+                                         GoldenSpecies{LonePlace::elite, "094722561cc5325c"}),
+                         [](const auto& golden) {
+                           return golden.param.lone_place == LonePlace::child ? "ForChildren" : "ForElites";
+                         });
 
 TEST(PopulationDeathTest, AbortsOnFitnessThatIsNoNumber) {
   Population population(small_settings(), 2, 1, true, 1);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "tests/neat/samples.hpp"
 
@@ -104,6 +105,23 @@ TEST(Reproduction, CopiesATenthOfTheNextGenerationUnchanged) {
   EXPECT_NE(children[5], sample.genomes[5]) << "mutated";
 }
 
+TEST(Reproduction, CopiesAsManyElitesAsTheShareSaysWhereBinaryNumbersFallShort) {
+  Sample sample;
+  std::vector<Fitness> members(100, {.selection = 1.0, .objective = 0.0});
+  for (std::size_t i = 0; i < 100; ++i) members[i].objective = 100.0 - static_cast<double>(i);
+  sample.add(members);
+  Settings settings;
+  settings.mutation.weights.jiggle_many_probability = settings.mutation.weights.jiggle_few_probability = 1.0;
+  settings.reproduction.asexual_probability = 1.0;
+  ASSERT_LT(0.29 * 100.0, 29.0);
+  settings.reproduction.elitism = 0.29;
+  const auto children = sample.breed(settings);
+  for (std::size_t i = 0; i < 29; ++i) EXPECT_EQ(children[i], sample.genomes[i]) << i;
+  EXPECT_NE(children[29], sample.genomes[29]);
+  settings.reproduction.elitism = 0.299;
+  EXPECT_NE(sample.breed(settings)[29], sample.genomes[29]) << "rounded down";
+}
+
 TEST(Reproduction, CopiesTheBestOfASmallSpecies) {
   Sample sample;
   sample.add({{1, 9}, {1, 8}, {1, 7}});
@@ -167,12 +185,15 @@ std::map<int, int> genes_given(int members) {
 }
 
 TEST(Reproduction, LetsOnlySurvivorsBeParents) {
-  const auto of_ten = genes_given(10), of_three = genes_given(3), of_four = genes_given(4);
+  const auto of_ten = genes_given(10), of_two = genes_given(2), of_three = genes_given(3),
+             of_four = genes_given(4), of_six = genes_given(6);
   ASSERT_EQ(of_ten.size(), 8u) << "80 % of ten survive, whatever the others' selection";
   for (const auto& [member, count] : of_ten) EXPECT_GT(count, 300) << member;
   EXPECT_FALSE(of_ten.contains(8) || of_ten.contains(9));
   EXPECT_EQ(of_three.size(), 2u) << "2.4 are two";
   EXPECT_EQ(of_four.size(), 3u) << "3.2 are three";
+  EXPECT_EQ(of_two.size(), 2u) << "1.6 are two";
+  EXPECT_EQ(of_six.size(), 5u) << "4.8 are five";
 }
 
 TEST(Reproduction, LetsAtLeastOneSurvive) {
@@ -315,6 +336,25 @@ TEST(Reproduction, GivesEachChildItsOwnRandomNumbers) {
     ASSERT_EQ(first[i].links.size(), second[i].links.size()) << i;
     for (std::size_t g = 0; g < first[i].links.size(); ++g)
       EXPECT_EQ(first[i].links[g].weight, second[i].links[g].weight);
+  }
+}
+
+TEST(Reproduction, GivesNoTwoChildrenOfAGenerationTheSameRandomNumbers) {
+  // Three species alike in everything: nothing but the random numbers tells their children apart.
+  Sample sample;
+  for (int species = 0; species < 3; ++species) sample.add(std::vector<Fitness>(10, {1, 1}));
+  for (Genome& genome : sample.genomes) genome = sample.genomes[0];
+  Settings settings;
+  settings.reproduction.asexual_probability = 1.0;
+  settings.mutation.add_link_share = settings.mutation.add_node_share = 0.0;
+  auto& weights = settings.mutation.weights;  // each weight is changed, and by a number from a continuum
+  weights.jiggle_many_probability = weights.jiggle_few_probability = weights.reset_few_probability = 1.0;
+  const auto children = sample.breed(settings);
+  ASSERT_EQ(children.size(), 30u);
+  std::set<double> seen;
+  for (std::size_t i = 0; i < children.size(); ++i) {
+    if (i % 10 == 0) continue;  // elites
+    EXPECT_TRUE(seen.insert(children[i].links[0].weight).second) << i;
   }
 }
 

@@ -68,6 +68,10 @@ double weights_near_one_half(const Genome& genome) {
   return 1.0 / (1.0 + error) + 0.01 * links;
 }
 
+double weights_in_steps(const Genome& genome) {
+  return std::floor(20.0 * weights_near_one_half(genome)) / 20.0;
+}
+
 namespace {
 
 double activated(Activation activation, double x) {

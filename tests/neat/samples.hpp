@@ -32,6 +32,9 @@ std::vector<Fitness> evaluate(const Population& population,
 /// A smooth objective without transcendental functions: > 0, larger for weights near 0.5 and for more links.
 double weights_near_one_half(const Genome& genome);
 
+/// The same rounded down to whole twentieths, so that species stagnate before they improve.
+double weights_in_steps(const Genome& genome);
+
 /// Outputs of a feed-forward genome, in double precision.
 std::vector<double> feed_forward(const Genome& genome, std::span<const double> inputs);
 

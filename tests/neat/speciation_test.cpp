@@ -244,5 +244,61 @@ TEST(Speciation, PutsEveryGenomeCloseToItsRepresentative) {
   }
 }
 
+TEST(Speciation, ComesBackFieldByFieldAfterSaveAndLoad) {
+  // Species 0 dies out; 1 improves once and then stagnates, so it is older than it is stagnant; 2 is new; the
+  // threshold is on its way, so that its next step depends on the last one.
+  SpeciationSettings settings = unsteered(1.5);
+  settings.corrections_per_generation = 1;
+  settings.target_min = settings.target_max = 3;
+  Speciation speciation(settings);
+  std::vector<Genome> genomes = with_weights({-2.0, 0.0, 0.1});
+  const auto live = [&](const std::vector<double>& objectives) {
+    speciation.assign(genomes);
+    speciation.record(genomes, with_objectives(objectives));
+  };
+  live({1.0, 2.0, 3.0});
+  genomes = with_weights({0.0, 0.1, 0.2});
+  live({1.0, 4.0, 2.0});
+  for (int generation = 0; generation < 3; ++generation) live({3.0, 2.0, 1.0});
+  genomes = with_weights({0.1, 3.0, 0.0});
+  live({-1.0, 7.0, 0.0});
+  const std::vector<Species> before = speciation.species();
+  ASSERT_EQ(before.size(), 2u);
+  ASSERT_EQ(before[0].age, 5);
+  ASSERT_EQ(before[0].generations_without_improvement, 4);
+  ASSERT_EQ(before[0].best_objective, 4.0);
+  ASSERT_EQ(before[1].age, 0);
+  ASSERT_EQ(before[1].best_objective, 7.0);
+  const double threshold = speciation.threshold();
+  ASSERT_NE(threshold, settings.initial_threshold);
+
+  io::BinaryWriter writer;
+  speciation.save(writer);
+  Speciation loaded(settings);
+  const std::string bytes = writer.bytes();
+  io::BinaryReader reader(bytes, "checkpoint");
+  loaded.load(reader, genomes.size());
+  reader.finish();
+
+  EXPECT_EQ(loaded.threshold(), threshold);
+  ASSERT_EQ(loaded.species().size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const Species& species = loaded.species()[i];
+    EXPECT_EQ(species.id, before[i].id);
+    EXPECT_EQ(species.representative, before[i].representative);
+    EXPECT_EQ(species.members, before[i].members);
+    EXPECT_EQ(species.age, before[i].age);
+    EXPECT_EQ(species.generations_without_improvement, before[i].generations_without_improvement);
+    EXPECT_EQ(species.best_objective, before[i].best_objective);
+  }
+  // What cannot be read: the number of the next species, and the threshold's last step.
+  genomes = with_weights({0.1, 3.0, -3.0});
+  speciation.assign(genomes);
+  loaded.assign(genomes);
+  EXPECT_EQ(loaded.threshold(), speciation.threshold());
+  ASSERT_EQ(loaded.species().size(), 3u);
+  EXPECT_EQ(loaded.species()[2].id, before[1].id + 1);
+}
+
 }  // namespace
 }  // namespace amble::neat

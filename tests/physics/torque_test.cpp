@@ -21,6 +21,19 @@ TEST_P(Torques, AreToldOnlyWhenAskedFor) {
   EXPECT_NE(make_engine(GetParam(), quadruped(), {.torques = true})->motor_torque_nm(), nullptr);
 }
 
+TEST_P(Torques, AreZeroFromThePlacingOfARobotToItsFirstStep) {
+  Bench bench(GetParam(), quadruped(), 0.01, true);
+  for (int round = 0; round < 2; ++round) {
+    for (int j = 0; j < 12; ++j) {
+      EXPECT_EQ(torque(bench, j), 0.0) << "round " << round;
+      bench.targets.at(j, 0) = 0.5f;
+    }
+    bench.steps(3);
+    EXPECT_NE(torque(bench, 0), 0.0);
+    bench.engine->place(0);
+  }
+}
+
 TEST_P(Torques, ChangeNoBitOfTheMotion) {
   Bench plain(GetParam(), quadruped()), told(GetParam(), quadruped(), 0.01, true);
   Stream stream(3, Purpose::test);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/io/temporary_folder.hpp"
 #include "tests/search/naive_novelty.hpp"
 #include "tests/search/samples.hpp"
 
@@ -219,6 +220,49 @@ TEST(NoveltySearch, ReportsTheThresholdThatItsGenerationHadToExceed) {
   EXPECT_EQ(search.threshold(), 60.0);
   EXPECT_EQ(statistics->archive_members, 5u);
   EXPECT_EQ(statistics->best_novelty, 16.0 + 9.0 + 4.0 + 1.0);
+}
+
+/// What a process that goes on from `search` and its archive's file has.
+NoveltySearch reloaded(NoveltySearch& search, const NoveltySettings& settings) {
+  const test::TemporaryFolder folder;
+  io::InputFile file(folder.put("archive.bin", search.take_archive_growth()));
+  io::BinaryWriter writer;
+  search.save(writer);
+  const std::string bytes = writer.bytes();
+  NoveltySearch loaded(settings, 1);
+  io::BinaryReader reader(bytes, "checkpoint.bin");
+  loaded.load(reader);
+  reader.finish();
+  loaded.restore_archive(file, "archive.bin");
+  return loaded;
+}
+
+TEST(NoveltySearch, ComesBackFromACheckpointWithItsEmptyGenerations) {
+  for (const auto lowering : {Lowering::each_generation, Lowering::count_anew})
+    for (int empty = 0; empty <= 6; ++empty) {
+      auto settings = plain_settings();
+      settings.first_members = 3;
+      settings.count_first_members = true;
+      settings.lowering = lowering;
+      NoveltySearch search(settings, 1);
+      judge(search, {3.0f, 1.0f, 2.0f});
+      for (int generation = 0; generation < empty; ++generation) judge(search, {1.0f});
+      const double threshold = search.threshold();
+      const std::vector<float> archive{3.0f, 1.0f, 2.0f};
+
+      auto loaded = reloaded(search, settings);
+      EXPECT_EQ(loaded.threshold(), threshold);
+      ASSERT_EQ(loaded.archive().rows(), archive.size());
+      for (std::size_t i = 0; i < archive.size(); ++i) EXPECT_EQ(loaded.archive().row(i)[0], archive[i]);
+      // The generations until the threshold is lowered tell how many empty ones are on the count: it is the
+      // fourth that lowers it.
+      double expected = threshold;
+      for (int generation = empty + 1; generation <= empty + 6; ++generation) {
+        if (lowering == Lowering::each_generation ? generation >= 4 : generation % 4 == 0) expected *= 0.8;
+        judge(loaded, {1.0f});
+        EXPECT_EQ(loaded.threshold(), expected) << empty << " before, " << generation;
+      }
+    }
 }
 
 NoveltySettings random_settings(Stream& stream) {

@@ -76,6 +76,18 @@ TEST(Layout, TurnsOutputsIntoWeightsByThresholdAndRange) {
   EXPECT_FLOAT_EQ(decoded.weights[4], 3.0f);
 }
 
+TEST(Layout, TakesOutputsBeyondOneForOneOnBothSides) {
+  const Layout layout(substrate_of(line), ctrnn_needs(), hopper());
+  for (const double o : {1.0, 1.25, 1.5, 40.0})
+    for (const double sign : {-1.0, 1.0}) {
+      const double x = sign * o;
+      const auto decoded = layout.decode(linear_cppn({{x, 0, 0}, {x, 0, 0}, {x, 0, 0}}));
+      for (const float weight : decoded.weights) EXPECT_FLOAT_EQ(weight, x > 0 ? 3.0f : -3.0f) << x;
+      EXPECT_FLOAT_EQ(decoded.of(Property::bias)[1], x > 0 ? 6.0f : -2.0f) << x;
+      EXPECT_FLOAT_EQ(decoded.of(Property::time_constant)[1], x > 0 ? 61.0f : 1.0f) << x;
+    }
+}
+
 TEST(Layout, ExpressesNoLinkAtTheThresholdItself) {
   auto settings = substrate_of(line);
   settings.expression_threshold = 0.25;

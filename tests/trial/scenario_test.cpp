@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "amble/morphology/robot_file.hpp"
 #include "amble/robot/pose.hpp"
@@ -146,32 +147,137 @@ TEST(Scenario, FlipsTouchesAsOftenAsItSays) {
   EXPECT_LE(last, 100000);
 }
 
-TEST(Scenario, StartsWithinTheStopsAndNeverInTheGround) {
-  const auto nominal = robot::start_poses(quadruped());
-  const double clearance_m = robot::clearance_m(quadruped(), nominal);
-  double largest_rad = 0.0, highest_m = 0.0, most_tilt_rad = 0.0;
-  for (std::uint32_t episode = 0; episode < 500; ++episode) {
-    const auto pose = draw(everything(), episode).start.value();
-    for (std::size_t j = 0; j < pose.joint_angle_rad.size(); ++j) {
+/// Smallest, largest and mean of what was seen.
+struct Range {
+  double smallest = INFINITY, largest = -INFINITY, sum = 0.0;
+  int count = 0;
+
+  void see(double value) {
+    smallest = std::min(smallest, value);
+    largest = std::max(largest, value);
+    sum += value;
+    ++count;
+  }
+};
+
+/// That what was seen is spread over ± `limit`, evenly to both sides: neither end is further than a
+/// fiftieth of the range, and the mean of a uniform distribution has the standard error 2 limit/√(12 n).
+void expect_spread(const Range& seen, double limit) {
+  EXPECT_GE(seen.smallest, -limit);
+  EXPECT_LE(seen.largest, limit);
+  EXPECT_LT(seen.smallest, -0.96 * limit);
+  EXPECT_GT(seen.largest, 0.96 * limit);
+  EXPECT_NEAR(seen.sum / seen.count, 0.0, 5.0 * 2.0 * limit / std::sqrt(12.0 * seen.count));
+}
+
+/// Height of the lowest point over the ground.
+double clearance_m(const physics::StartPose& pose) {
+  const auto bodies =
+      robot::poses_at(quadruped(), {pose.root.position_m, pose.root.rotation}, pose.joint_angle_rad);
+  return robot::clearance_m(quadruped(), bodies);
+}
+
+double nominal_clearance_m() {
+  return robot::clearance_m(quadruped(), robot::start_poses(quadruped()));
+}
+
+TEST(Scenario, TurnsAndBendsTheStartToBothSidesWithinItsLimitsAndTheStops) {
+  auto noise = everything();
+  noise.start_tilt_rad = 0.07;
+  Range roll_rad, pitch_rad;
+  std::vector<Range> joint_rad(quadruped().joints.size());
+  for (std::uint32_t episode = 0; episode < 1000; ++episode) {
+    const auto pose = draw(noise, episode).start.value();
+    const auto attitude = roll_pitch_yaw(pose.root.rotation);
+    roll_rad.see(attitude.roll_rad);
+    pitch_rad.see(attitude.pitch_rad);
+    ASSERT_NEAR(attitude.yaw_rad, 0.0, 0.003);
+    ASSERT_EQ(pose.joint_angle_rad.size(), joint_rad.size());
+    for (std::size_t j = 0; j < joint_rad.size(); ++j) {
       ASSERT_GE(pose.joint_angle_rad[j], quadruped().joints[j].lower_rad);
       ASSERT_LE(pose.joint_angle_rad[j], quadruped().joints[j].upper_rad);
-      ASSERT_LE(std::abs(pose.joint_angle_rad[j]), 0.1);
-      largest_rad = std::max(largest_rad, std::abs(pose.joint_angle_rad[j]));
+      joint_rad[j].see(pose.joint_angle_rad[j]);
     }
-    const auto attitude = roll_pitch_yaw(pose.root.rotation);
-    ASSERT_LE(std::abs(attitude.roll_rad), 0.101);
-    ASSERT_LE(std::abs(attitude.pitch_rad), 0.101);
-    ASSERT_NEAR(attitude.yaw_rad, 0.0, 0.006);
-    most_tilt_rad = std::max(most_tilt_rad, std::abs(attitude.roll_rad));
-    const auto bodies =
-        robot::poses_at(quadruped(), {pose.root.position_m, pose.root.rotation}, pose.joint_angle_rad);
-    const double lowest_m = robot::clearance_m(quadruped(), bodies);
-    ASSERT_GE(lowest_m, clearance_m - 1e-12);
-    highest_m = std::max(highest_m, lowest_m - clearance_m);
   }
-  EXPECT_GT(largest_rad, 0.09);
-  EXPECT_GT(most_tilt_rad, 0.09);
-  EXPECT_GT(highest_m, 0.045);
+  constexpr double limit_rad = 1.01 * 0.07;  // the two turns are about one axis each only if they are small
+  expect_spread(roll_rad, limit_rad);
+  expect_spread(pitch_rad, limit_rad);
+  for (std::size_t j = 0; j < joint_rad.size(); ++j) {
+    SCOPED_TRACE(quadruped().joints[j].name);
+    if (quadruped().joints[j].lower_rad <= -0.1 && quadruped().joints[j].upper_rad >= 0.1)
+      expect_spread(joint_rad[j], 0.1);
+  }
+}
+
+TEST(Scenario, LiftsTheStartJustOutOfTheGround) {
+  auto noise = everything();
+  noise.start_height_m = 0.0;
+  int lifted = 0;
+  for (std::uint32_t episode = 0; episode < 500; ++episode) {
+    const auto pose = draw(noise, episode).start.value();
+    const double lowest_m = clearance_m(pose);
+    ASSERT_GE(lowest_m, nominal_clearance_m() - 1e-12);
+    if (pose.root.position_m.z <= robot::start_poses(quadruped())[0].position_m.z) continue;
+    ASSERT_LE(lowest_m, nominal_clearance_m() + 2e-6) << "lifted by no more than it had sunk";
+    ++lifted;
+  }
+  EXPECT_GT(lifted, 400);
+}
+
+TEST(Scenario, DropsTheStartFromEveryHeightUpToTheLargest) {
+  auto low = everything(), high = everything();
+  low.start_height_m = 0.0;
+  Range higher_m;
+  for (std::uint32_t episode = 0; episode < 500; ++episode)
+    higher_m.see(draw(high, episode).start->root.position_m.z - draw(low, episode).start->root.position_m.z);
+  EXPECT_GE(higher_m.smallest, 0.0);
+  EXPECT_LT(higher_m.smallest, 0.001);
+  EXPECT_GT(higher_m.largest, 0.049);
+  EXPECT_LE(higher_m.largest, 0.05);
+}
+
+TEST(Scenario, OffsetsEachSensorByItsOwnAmount) {
+  std::vector<Range> attitude_rad(3), joint_rad(12);
+  for (std::uint32_t episode = 0; episode < 1000; ++episode) {
+    const auto scenario = draw(everything(), episode, 1);
+    ASSERT_EQ(scenario.attitude_sensor_rad.size(), attitude_rad.size());
+    ASSERT_EQ(scenario.joint_sensor_rad.size(), joint_rad.size());
+    for (std::size_t i = 0; i < 3; ++i) attitude_rad[i].see(scenario.attitude_sensor_rad[i]);
+    for (std::size_t j = 0; j < 12; ++j) joint_rad[j].see(scenario.joint_sensor_rad[j]);
+  }
+  for (const Range& seen : attitude_rad) expect_spread(seen, 0.04);
+  for (const Range& seen : joint_rad) expect_spread(seen, 0.03);
+}
+
+/// One number of each kind of noise, the first that is drawn of it, with mean 0 and variance 1.
+std::vector<double> first_numbers(std::uint32_t episode) {
+  auto noise = everything();
+  noise.touch_flip_probability = 0.5;
+  noise.latency_ticks = 99;
+  const auto scenario = draw(noise, episode, 200);
+  const auto& flips = scenario.touch_flips;
+  const bool flipped = !flips.empty() && flips[0].step == 1 && flips[0].leg == 0;
+  const double roll_rad = roll_pitch_yaw(scenario.start->root.rotation).roll_rad;
+  const double per_uniform = std::sqrt(12.0);  // the variance of a uniform distribution of width 1 is 1/12
+  return {per_uniform * (roll_rad / 0.2), per_uniform * ((scenario.pushes[0].step - 0.5) / 200.0 - 0.5),
+          flipped ? 1.0 : -1.0, per_uniform * (scenario.attitude_sensor_rad[0] / 0.08),
+          per_uniform * ((scenario.latency_ticks + 0.5) / 100.0 - 0.5)};
+}
+
+TEST(Scenario, OfOneEpisodeTellsNothingOfTheOthersNorOneKindOfNoiseOfAnother) {
+  constexpr std::uint32_t episodes = 2000, furthest = 4;
+  std::vector<std::vector<double>> numbers;
+  for (std::uint32_t episode = 0; episode < episodes; ++episode) numbers.push_back(first_numbers(episode));
+  for (std::uint32_t later = 0; later <= furthest; ++later)
+    for (std::size_t a = 0; a < 5; ++a)
+      for (std::size_t b = 0; b < 5; ++b) {
+        double correlation = 0.0;
+        for (std::uint32_t i = 0; i + later < episodes; ++i)
+          correlation += numbers[i][a] * numbers[i + later][b] / (episodes - later);
+        const bool itself = later == 0 && a == b;
+        EXPECT_NEAR(correlation, itself ? 1.0 : 0.0, 5.0 / std::sqrt(episodes - later))
+            << "kinds " << a << " and " << b << ", " << later << " episodes later";
+      }
 }
 
 TEST(Scenario, DrawsEveryLatencyUpToTheLargest) {

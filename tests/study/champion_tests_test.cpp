@@ -1,0 +1,120 @@
+#include "amble/study/champion_tests.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "amble/experiment/replay.hpp"
+#include "amble/score/walking.hpp"
+#include "tests/study/fixture.hpp"
+
+namespace amble::study {
+namespace {
+
+const std::atomic<bool> never{false};
+
+/// A champion of a small run under the noise of the preset `robust`, of two episodes.
+const experiment::Champion& champion() {
+  static const experiment::Champion made = [] {
+    const test::TemporaryFolder folder;
+    auto study = small_study({"noise.episodes=2"});
+    study.conditions = {condition("supg", "robust/supg-objective")};
+    Notes notes;
+    work_on(study, folder.path(), notes);
+    return champion_from_json(notes.records.at(0).champion, "record");
+  }();
+  return made;
+}
+
+ledger::TestResult tested(const ledger::TestSpec& spec) {
+  PlannedTest test{.spec = spec, .noise = {}};
+  if (!spec.noise.empty()) {
+    test.noise = experiment::load_config(spec.noise, {}).noise;
+    test.noise.first_undisturbed = false;
+  }
+  return run_test(test, champion(), never).value();
+}
+
+experiment::TrialResult replayed(double seconds, std::optional<trial::ScenarioKey> noise = {}) {
+  auto problem = champion().problem;
+  problem.noise.first_undisturbed = false;
+  return experiment::replay(problem, champion().genome, {.seconds = seconds, .noise = noise}, never)->result;
+}
+
+TEST(ChampionTest, WithoutNoiseIsTheChampionsOwnTrialOfAnotherLength) {
+  for (const double seconds : {1.0, 6.0}) {
+    const auto result = tested(trial_test("t", seconds));
+    ASSERT_EQ(result.episodes.size(), 1u);
+    const auto expected = replayed(seconds);
+    EXPECT_EQ(result.episodes[0].distance_m, expected.distance_m);
+    EXPECT_EQ(result.episodes[0].seconds, expected.seconds);
+    EXPECT_EQ(result.episodes[0].outcome, expected.outcome);
+    EXPECT_LE(result.episodes[0].walking_s, expected.seconds);
+    EXPECT_EQ(result.engine, "batch");
+    EXPECT_EQ(result.trial_s, seconds);
+  }
+}
+
+TEST(ChampionTest, UnderNoiseMeetsWhatEvolutionHasNotMet) {
+  const auto result = tested(trial_test("t", 1.0, config_file("robust/supg-objective"), 6));
+  ASSERT_EQ(result.episodes.size(), 6u);
+  std::set<double> met{replayed(1.0).distance_m};
+  for (std::uint32_t episode = 0; episode < 100; ++episode)
+    met.insert(replayed(1.0, champion().scenario_key(episode)).distance_m);
+  EXPECT_GT(met.size(), 90u) << "noise tells episodes apart";
+  for (const auto& episode : result.episodes)
+    EXPECT_TRUE(met.insert(episode.distance_m).second) << "neither those of evolution nor one another's";
+}
+
+TEST(ChampionTest, SamplesItsFirstTrialsPathInMillimetresEverySecondOrThreeHundredTimes) {
+  const auto brief = tested(trial_test("t", 6.0));
+  EXPECT_EQ(brief.path_interval_s, 1.0);
+  const double lasted_s = brief.episodes[0].seconds;
+  ASSERT_EQ(brief.path_m.size(), 2 * static_cast<std::size_t>(lasted_s + 1e-9));
+  for (const double value : brief.path_m) EXPECT_NEAR(1000.0 * value, std::round(1000.0 * value), 1e-6);
+  EXPECT_EQ(tested(trial_test("t", 300.0)).path_interval_s, 1.0);
+  EXPECT_EQ(tested(trial_test("t", 301.0)).path_interval_s, 2.0);
+}
+
+TEST(ChampionTest, ShowsGaitAndPathOfTheFirstOfItsEpisodes) {
+  const auto noise = config_file("robust/supg-objective");
+  const auto one = tested(trial_test("t", 8.0, noise, 1)), four = tested(trial_test("t", 8.0, noise, 4));
+  ASSERT_EQ(four.episodes.size(), 4u);
+  EXPECT_EQ(four.episodes[0], one.episodes[0]);
+  EXPECT_EQ(four.path_m, one.path_m);
+  EXPECT_EQ(four.gait, one.gait);
+}
+
+/// Walking time by the centre of mass after each step.
+class Walk : public trial::Observer {
+ public:
+  void on_step(int, const physics::Engine& engine, const controllers::Batch&, const LaneArray&,
+               int lane) override {
+    const Vec3 com_m = engine.com_m(lane);
+    if (!meter_) meter_.emplace(com_m, champion().problem.trial.timestep_s);
+    meter_->add(com_m);
+  }
+  double walking_s() const { return meter_->walking_s(); }
+
+ private:
+  std::optional<score::WalkingMeter> meter_;
+};
+
+TEST(ChampionTest, MeasuresHowLongTheRobotWalks) {
+  Walk walk;
+  const auto replay =
+      experiment::replay(champion().problem, champion().genome, {.seconds = 30.0, .observer = &walk}, never);
+  const auto result = tested(trial_test("t", 30.0));
+  EXPECT_LT(walk.walking_s(), replay->result.seconds) << "for some of the time it does not";
+  EXPECT_EQ(result.episodes[0].walking_s, walk.walking_s());
+}
+
+TEST(ChampionTest, IsGivenUpWhenStopped) {
+  const std::atomic<bool> stopped{true};
+  EXPECT_FALSE(run_test({.spec = trial_test("t", 1.0), .noise = {}}, champion(), stopped));
+}
+
+}  // namespace
+}  // namespace amble::study

@@ -1,0 +1,103 @@
+#include "amble/study/fit.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "amble/experiment/run.hpp"
+#include "tests/study/fixture.hpp"
+
+namespace amble::study {
+namespace {
+
+using testing::HasSubstr;
+
+class Fit : public testing::Test {
+ protected:
+  Fit() { study_.tests = {trial_test("brief", 1.0)}; }
+
+  std::vector<RunState> states(const ledger::StudySpec& study) const {
+    return survey(make_plan(study, folder_.path()));
+  }
+  /// What survey() refuses the folder with.
+  std::string refusal(const ledger::StudySpec& study) const {
+    try {
+      states(study);
+    } catch (const UserError& error) {
+      EXPECT_EQ(error.code(), ExitCode::bad_input);
+      return error.what();
+    }
+    return "";
+  }
+  void finish_all() {
+    Notes notes;
+    work_on(study_, folder_.path(), notes, true);
+  }
+  void begin() {
+    const Plan plan = make_plan(study_, folder_.path());
+    std::filesystem::create_directories(plan.paths.runs);
+    experiment::Run::start(plan.folder(plan.runs[0]), plan.config(plan.runs[0]), 1);
+  }
+
+  const test::TemporaryFolder folder_;
+  ledger::StudySpec study_ = small_study();
+};
+
+using States = std::vector<RunState>;
+
+TEST_F(Fit, RunsAreMissingBegunUntestedOrDone) {
+  study_.seeds = {3, 4};
+  EXPECT_EQ(states(study_), (States{RunState::missing, RunState::missing}));
+  begin();
+  EXPECT_EQ(states(study_), (States{RunState::begun, RunState::missing}));
+  finish_all();
+  EXPECT_EQ(states(study_), (States{RunState::done, RunState::done}));
+  study_.tests.push_back(trial_test("another", 1.0));
+  study_.tests.back().conditions = {"sine"};
+  EXPECT_EQ(states(study_), (States{RunState::untested, RunState::untested}));
+  study_.seeds = {4, 5};
+  EXPECT_EQ(states(study_), (States{RunState::untested, RunState::missing}));
+}
+
+/// All that makes a finished or begun run another one.
+void expect_refusals(const std::function<std::string(const ledger::StudySpec&)>& refusal,
+                     const ledger::StudySpec& study) {
+  EXPECT_EQ(refusal(study), "");
+  for (const int generations : {4, 6}) {
+    auto changed = study;
+    changed.generations = generations;
+    EXPECT_THAT(refusal(changed), HasSubstr("has 5 generations instead of " + std::to_string(generations)));
+  }
+  auto changed = study;
+  changed.settings.push_back("mutation.add_node_share=0.02");
+  EXPECT_THAT(refusal(changed), HasSubstr("made with other settings or another robot"));
+}
+
+TEST_F(Fit, ARecordOfAnotherStudyIsRefused) {
+  finish_all();
+  expect_refusals([this](const auto& study) { return refusal(study); }, study_);
+  auto changed = study_;
+  changed.tests[0].seconds = 2.0;
+  EXPECT_THAT(refusal(changed), HasSubstr("its test 'brief' was another one"));
+}
+
+TEST_F(Fit, ABegunRunOfAnotherStudyIsRefused) {
+  begin();
+  expect_refusals([this](const auto& study) { return refusal(study); }, study_);
+  const ledger::StudyPaths paths(folder_.path());
+  std::filesystem::rename(paths.run("sine", 3), paths.run("sine", 4));
+  study_.seeds = {4};
+  EXPECT_THAT(refusal(study_), HasSubstr("has the seed 3"));
+}
+
+TEST_F(Fit, RefusalsAreCountedAndTheFirstIsNamed) {
+  study_.seeds = {3, 4, 5};
+  finish_all();
+  study_.generations = 6;
+  const auto text = refusal(study_);
+  EXPECT_THAT(text, HasSubstr("3 of 3 runs no longer fit the study: "));
+  EXPECT_THAT(text, HasSubstr("sine-003.json"));
+  EXPECT_THAT(text, HasSubstr(" and 2 more;"));
+}
+
+}  // namespace
+}  // namespace amble::study

@@ -1,0 +1,120 @@
+#include "amble/study/plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "amble/experiment/problem.hpp"
+#include "tests/study/fixture.hpp"
+
+namespace amble::study {
+namespace {
+
+using Runs = std::vector<std::pair<std::size_t, std::int64_t>>;
+
+Runs runs_of(const Plan& plan) {
+  Runs runs;
+  for (const PlannedRun& run : plan.runs) runs.emplace_back(run.condition, run.seed);
+  return runs;
+}
+
+ledger::StudySpec three_conditions() {
+  auto study = small_study();
+  study.seeds = {11, 12, 13};
+  study.conditions = {condition("a", "authors/sine-objective"), condition("b", "authors/supg-objective"),
+                      condition("c", "authors/sine-objective")};
+  study.conditions[2].seeds = {7};
+  return study;
+}
+
+TEST(Plan, GoesSeedBySeedThroughTheConditionsAndBeginsEachWithAnother) {
+  const Plan plan = make_plan(three_conditions(), "out");
+  EXPECT_EQ(runs_of(plan), (Runs{{0, 11}, {1, 11}, {2, 7}, {1, 12}, {0, 12}, {0, 13}, {1, 13}}));
+}
+
+TEST(Plan, IsDividedByItsShardsWithoutGapOrOverlap) {
+  const Plan plan = make_plan(three_conditions(), "out");
+  EXPECT_EQ(plan.shard({2, 3}), (std::vector<std::size_t>{1, 4}));
+  for (int count = 1; count <= 8; ++count) {
+    std::vector<std::size_t> all;
+    for (int index = 1; index <= count; ++index)
+      for (const std::size_t run : plan.shard({index, count})) all.push_back(run);
+    std::ranges::sort(all);
+    EXPECT_EQ(all, (std::vector<std::size_t>{0, 1, 2, 3, 4, 5, 6})) << count;
+  }
+}
+
+TEST(Shard, IsWrittenAsItsIndexFromOneAndTheirCount) {
+  EXPECT_EQ(Shard::parse("2/8").index, 2);
+  EXPECT_EQ(Shard::parse("2/8").count, 8);
+  EXPECT_EQ(Shard::parse("8/8").index, 8);
+  for (const char* text : {"0/8", "9/8", "-1/8", "2", "2/", "/8", "2/8x", "2 /8", "", "1/0"})
+    EXPECT_THROW(Shard::parse(text), UserError) << text;
+}
+
+TEST(Plan, TakesAConditionsOwnGenerationsAndSettingsBeforeTheStudys) {
+  auto study = small_study();
+  study.conditions.push_back(study.conditions[0]);
+  study.conditions[1].name = "other";
+  study.conditions[1].generations = 9;
+  study.conditions[1].settings = {"population.size=44"};
+  const Plan plan = make_plan(study, "out");
+  EXPECT_EQ(plan.conditions[0].config.generations, 5);
+  EXPECT_EQ(plan.conditions[0].config.neat.population.size, 20);
+  EXPECT_EQ(plan.conditions[1].config.generations, 9);
+  EXPECT_EQ(plan.conditions[1].config.neat.population.size, 44);
+  EXPECT_EQ(plan.config({1, 17}).seed, 17);
+}
+
+TEST(Plan, TestsUnderNoiseHaveNoEpisodeWithoutIt) {
+  const test::TemporaryFolder folder;
+  const auto config = folder.put("noise.toml", "include = [\"" + config_file("robust/supg-objective") +
+                                                   "\"]\n[noise]\nfirst_undisturbed = true\n");
+  ASSERT_TRUE(experiment::load_config(config, {}).noise.first_undisturbed);
+  auto study = small_study();
+  study.tests = {trial_test("noisy", 2.0, config, 3)};
+  const Plan plan = make_plan(study, "out");
+  EXPECT_FALSE(plan.conditions[0].tests.at(0).noise.first_undisturbed);
+}
+
+TEST(ConfigHash, IsOfAllThatMakesARunButItsSeedLengthAndName) {
+  const auto robot_file = std::string(AMBLE_SOURCE_DIR) + "/robots/quadruped/paper.toml";
+  const auto hash_with = [](const std::vector<std::string>& settings, int generations = 4) {
+    const auto config =
+        experiment::load_config(config_file("authors/sine-objective"),
+                                {.assignments = settings, .seed = 1, .generations = generations});
+    return config_hash(config, experiment::load_robot(config));
+  };
+  const std::string hash = hash_with({});
+  EXPECT_EQ(hash_with({"name=other"}), hash);
+  EXPECT_EQ(hash_with({"seed=5"}), hash);
+  EXPECT_EQ(hash_with({}, 5), hash);
+  std::set<std::string> others{hash};
+  for (const std::string setting :
+       {"population.size=301", "trial.duration_s=14", "engine=batch", "noise.push_m_s=0.1",
+        "search.kind=novelty", "speciation.first_step_up=0.4"})
+    EXPECT_TRUE(others.insert(hash_with({setting})).second) << setting;
+  EXPECT_TRUE(others.insert(hash_with({"robot=\"" + robot_file + "\""})).second);
+}
+
+TEST(PlannedTest, IsTheSameOnlyWithTheSameEngineLengthEpisodesAndNoise) {
+  const PlannedTest test{.spec = trial_test("t", 10.0), .noise = {}};
+  const std::string hash = test.settings_hash("batch");
+  PlannedTest renamed = test, explicitly = test;
+  renamed.spec.name = "u";
+  explicitly.spec.engine = "batch";
+  EXPECT_EQ(renamed.settings_hash("batch"), hash);
+  EXPECT_EQ(explicitly.settings_hash("ode"), hash) << "the engine that the run has by itself";
+  std::set<std::string> others{hash, test.settings_hash("ode")};
+  EXPECT_EQ(others.size(), 2u);
+  PlannedTest longer = test, more = test, noisy = test;
+  longer.spec.seconds = 10.5;
+  more.spec.episodes = 2;
+  noisy.noise.push_m_s = 0.1;
+  for (const PlannedTest& other : {longer, more, noisy})
+    EXPECT_TRUE(others.insert(other.settings_hash("batch")).second);
+}
+
+}  // namespace
+}  // namespace amble::study

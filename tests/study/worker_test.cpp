@@ -1,0 +1,84 @@
+#include "amble/study/worker.hpp"
+
+#include <gtest/gtest.h>
+
+#include "amble/analysis/generations_csv.hpp"
+#include "amble/study/champion_tests.hpp"
+#include "tests/study/fixture.hpp"
+
+namespace amble::study {
+namespace {
+
+TEST(Worker, RecordsWhatTheRunSays) {
+  const test::TemporaryFolder folder;
+  Notes notes;
+  const auto result = work_on(small_study(), folder.path(), notes);
+  EXPECT_EQ(result.finished, 1);
+  EXPECT_EQ(notes.started, 1);
+  EXPECT_EQ(notes.generations, 5);
+  ASSERT_EQ(notes.records.size(), 1u);
+  const ledger::Record& record = notes.records[0];
+  EXPECT_EQ(record.condition, "sine");
+  EXPECT_EQ(record.seed, 3);
+  EXPECT_EQ(record.generations, 5);
+  EXPECT_EQ(record.evaluations, 5u * 20u);
+
+  const auto rows =
+      analysis::read_generations(ledger::StudyPaths(folder.path()).run("sine", 3) / "generations.csv");
+  ASSERT_EQ(rows.count(), 5u);
+  double steps = 0.0;
+  for (const double of_generation : rows.steps) steps += of_generation;
+  EXPECT_EQ(static_cast<double>(record.steps), steps);
+  // The curve has the generations that were better than all before, and no other.
+  std::vector<ledger::CurvePoint> expected;
+  for (std::size_t i = 0; i < rows.count(); ++i) {
+    bool better = true;
+    for (std::size_t earlier = 0; earlier < i; ++earlier) better &= rows.best_m[i] > rows.best_m[earlier];
+    if (better) expected.push_back({static_cast<int>(i), rows.best_m[i]});
+  }
+  EXPECT_EQ(record.curve, expected);
+  EXPECT_LT(expected.size(), rows.count()) << "some generation only equals the best";
+  EXPECT_EQ(record.best_m, expected.back().best_m);
+  EXPECT_EQ(record.best_generation, expected.back().generation);
+  const auto champion = champion_from_json(record.champion, "record");
+  EXPECT_EQ(champion.result.distance_m, record.best_m);
+  EXPECT_EQ(champion.genome.count(neat::NodeKind::hidden), record.hidden);
+  EXPECT_EQ(champion.genome.enabled_links(), record.links);
+}
+
+TEST(Worker, LeavesFinishedRunsAloneAndAddsTheTestsTheyLack) {
+  const test::TemporaryFolder folder;
+  auto study = small_study();
+  study.tests = {trial_test("brief", 1.0)};
+  Notes first, again, more;
+  EXPECT_EQ(work_on(study, folder.path(), first, true).finished, 1);
+  EXPECT_FALSE(std::filesystem::exists(ledger::StudyPaths(folder.path()).run("sine", 3)));
+  EXPECT_EQ(work_on(study, folder.path(), again).finished, 0);
+  study.tests.push_back(trial_test("longer", 2.0));
+  EXPECT_EQ(work_on(study, folder.path(), more).finished, 1);
+  EXPECT_EQ(more.started, 0) << "nothing is evolved again";
+  const ledger::Record &before = first.records.at(0), &after = more.records.at(0);
+  ASSERT_EQ(after.tests.size(), 2u);
+  EXPECT_EQ(after.tests[0].episodes, before.tests[0].episodes);
+  EXPECT_EQ(after.champion, before.champion);
+  EXPECT_EQ(after.provenance.claims, before.provenance.claims);
+  EXPECT_EQ(ledger::Ledger(ledger::StudyPaths(folder.path())).load("sine", 3).digest(), after.digest());
+}
+
+TEST(Worker, KeepsTheHashOfTheClaimsThatStoodWhenTheRunWasDone) {
+  const test::TemporaryFolder folder;
+  auto study = small_study();
+  study.tests = {trial_test("brief", 1.0)};
+  Notes first, later;
+  work_on(study, folder.path(), first);
+  const std::string claims = study.claims_hash();
+  study.claims.emplace_back().text = "A claim made afterwards.";
+  study.tests.push_back(trial_test("longer", 2.0));
+  ASSERT_NE(study.claims_hash(), claims);
+  work_on(study, folder.path(), later);
+  EXPECT_EQ(first.records.at(0).provenance.claims, claims);
+  EXPECT_EQ(later.records.at(0).provenance.claims, claims);
+}
+
+}  // namespace
+}  // namespace amble::study
