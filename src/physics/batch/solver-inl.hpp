@@ -79,9 +79,9 @@ HWY_INLINE void push(const Block& block, const V* impulse, const V* change, V* j
   for (int r = 0; r < rows; ++r) block.set(BlockShape::impulse, r, impulse[r]);
 }
 
-/// One visit to a block: exactly over-relaxation row by row, but all rows are measured before the first of them
-/// pushes, and their influence on each other is made good with the products of their W: so a row waits for
-/// two or three instructions of the row before, not for its whole update.
+/// One visit to a block: exactly over-relaxation row by row, but all rows are measured before the first of
+/// them pushes, and their influence on each other is made good with the products of their W: so a row waits
+/// for two or three instructions of the row before, not for its whole update.
 template <int n, int rows, Bound bound>
 HWY_INLINE void visit(const Block& block, V* joints, V* base) {
   V impulse[rows], change[rows];
