@@ -1,4 +1,5 @@
 # amble_library(<folder> SOURCES … [PUBLIC …] [PRIVATE …]): one static library per folder of src/, target amble_<folder>.
+# amble_release_options(SOURCES … OPTIONS …): what some sources of a folder are compiled with in release builds, beside the rest.
 # amble_test(<folder> SOURCES … [LINK …]): one GoogleTest program per folder of tests/.
 
 add_library(amble_options INTERFACE)
@@ -44,6 +45,13 @@ function(amble_library folder)
   endif()
 endfunction()
 
+# GCC 12 takes the options of optimisation from a precompiled header and forgets those of the command line, so these sources have none.
+function(amble_release_options)
+  cmake_parse_arguments(ARG "" "" "SOURCES;OPTIONS" ${ARGN})
+  set_property(SOURCE ${ARG_SOURCES} APPEND PROPERTY COMPILE_OPTIONS "$<$<CONFIG:Release>:${ARG_OPTIONS}>")
+  set_property(SOURCE ${ARG_SOURCES} PROPERTY SKIP_PRECOMPILE_HEADERS ON)
+endfunction()
+
 # Most of the time it takes to compile the tests goes into GoogleTest's headers, and into optimising what runs once.
 function(amble_test_headers)
   add_library(amble_test_headers OBJECT ${PROJECT_SOURCE_DIR}/cmake/nothing.cpp)
@@ -53,7 +61,6 @@ function(amble_test_headers)
                             <functional> <map> <memory> <optional> <span> <string> <string_view> <utility> <vector>
                             <fmt/format.h> <nlohmann/json.hpp>)
 endfunction()
-
 
 function(amble_test folder)
   cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK" ${ARGN})
