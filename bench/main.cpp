@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <hwy/targets.h>
 
 #include <algorithm>
@@ -52,8 +53,9 @@ int main(int argc, char** argv) {
   using namespace amble;
   const auto options = options_of(argc, argv);
   if (!options) {
-    fmt::print(stderr,
-               "usage: amble_bench [--csv FILE] [--only controllers|cppn|neat|novelty|physics|runs]\n");
+    std::vector<std::string_view> names;
+    for (const Part& part : parts) names.push_back(part.name);
+    fmt::print(stderr, "usage: amble_bench [--csv FILE] [--only {}]\n", fmt::join(names, "|"));
     return 2;
   }
   std::vector<bench::Figure> figures;

@@ -25,7 +25,6 @@ void check_engine_name(std::string_view name, std::string_view what) {
 std::unique_ptr<Engine> make_engine(std::string_view name, const robot::RobotSpec& robot,
                                     const EngineSettings& settings) {
   AMBLE_CHECK(settings.timestep_s > 0.0, "timestep_s");
-  AMBLE_CHECK(settings.iterations >= 0, "iterations");
   check_engine_name(name);
   if (name == "batch") return make_batch_engine(robot, settings);
   if (name == "mujoco") return make_mujoco_engine(robot, settings);

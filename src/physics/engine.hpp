@@ -28,7 +28,6 @@ struct StartPose {
 
 struct EngineSettings {
   double timestep_s = 0.01;
-  int iterations = 0;    ///< of the batch engine's constraint solver, fixed; 0: as suits the friction
   bool torques = false;  ///< keep motor_torque_nm(); it changes no other bit
 };
 

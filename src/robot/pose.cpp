@@ -7,6 +7,7 @@
 #include "amble/core/check.hpp"
 
 namespace amble::robot {
+
 std::vector<Pose> start_poses(const RobotSpec& robot) {
   std::vector<Pose> poses;
   poses.reserve(robot.bodies.size());

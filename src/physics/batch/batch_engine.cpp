@@ -20,7 +20,6 @@ class LockstepEngine final : public BatchEngine {
         root_com_m_(robot.bodies[0].com_m),
         mass_kg_(robot.total_mass_kg()),
         timestep_s_(static_cast<float>(settings.timestep_s)),
-        iterations_(settings.iterations > 0 ? settings.iterations : model_.iterations),
         with_torques_(settings.torques),
         torques_nm_(rows_.links, batch::lanes),
         robots_(model_, rows_),
@@ -120,8 +119,7 @@ class LockstepEngine final : public BatchEngine {
             .workspace = workspace_,
             .sensors = robots.sensors(),
             .torques_nm = with_torques_ ? &torques_nm_ : nullptr,
-            .timestep_s = timestep_s_,
-            .iterations = iterations_};
+            .timestep_s = timestep_s_};
   }
 
   /// Puts the robot in lane 0 into a pose, at rest.
@@ -153,7 +151,6 @@ class LockstepEngine final : public BatchEngine {
   const Vec3 root_com_m_;
   const double mass_kg_;
   const float timestep_s_;
-  const int iterations_;
   const bool with_torques_;
   LaneArray torques_nm_;
   Robots robots_;

@@ -167,7 +167,7 @@ HWY_NOINLINE void solve(const Pass& pass, V* base_out) {
   const Model& model = pass.model();
   V base[6];
   for (int d = 0; d < 6; ++d) base[d] = base_out[d];
-  for (int iteration = 0; iteration < pass.batch.iterations; ++iteration) {
+  for (int iteration = 0; iteration < model.iterations; ++iteration) {
     V none[1];
     visit_chain<0, contact>(pass, pass.work().chain_blocks[0], 0, none, base);
     for (std::size_t c = 0; c < model.chains.size(); ++c) {

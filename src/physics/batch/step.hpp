@@ -18,7 +18,6 @@ struct Batch {
   robot::SensorFrame& sensors;
   LaneArray* torques_nm;  ///< of the motors, joints × lanes; null: not asked for
   float timestep_s;
-  int iterations;  ///< of the constraint solver
 };
 
 /// Advances all active lanes by one timestep and reads the sensors. Denormal numbers count as zero.
