@@ -28,7 +28,7 @@ constexpr std::uint32_t first_unmet_episode = 1000;
 struct CompareOptions {
   std::vector<std::filesystem::path> inputs;
   std::vector<double> seconds;  ///< none: as in the champion's evolution
-  std::vector<std::string> engines{physics::engine_names.begin(), physics::engine_names.end()};
+  std::vector<std::string> engines{physics::engine_names().begin(), physics::engine_names().end()};
   std::string format = formats[0];
   std::optional<std::filesystem::path> noise;  ///< a config file, for its noise
   std::uint32_t episodes = 10;
@@ -54,7 +54,7 @@ std::vector<std::string> columns(const std::vector<std::string>& asked,
                                  const std::vector<Entrant>& entrants) {
   for (const auto& engine : asked) physics::check_engine_name(engine, "--engines: ");
   std::vector<std::string> engines;
-  for (const auto& name : physics::engine_names)
+  for (const auto& name : physics::engine_names())
     if (std::ranges::count(asked, name) > 0 || std::ranges::any_of(entrants, [&](const Entrant& entrant) {
           return entrant.champion.problem.engine == name;
         }))

@@ -21,15 +21,15 @@ std::string_view function_name(neat::Activation activation, const cppn::Settings
 
 analysis::CppnGraph cppn_graph(const experiment::Champion& champion) {
   const neat::Genome& genome = champion.genome;
-  const substrate::Layout& layout = champion.problem.architecture->layout();
+  const controllers::Architecture& architecture = *champion.problem.architecture;
   analysis::CppnGraph graph;
   std::size_t inputs = 0, outputs = 0;
   for (const neat::NodeGene& node : genome.nodes) {
     const analysis::CppnRole role = roles[static_cast<std::size_t>(node.kind)];
     std::string name;
     if (role == analysis::CppnRole::bias) name = "bias";
-    if (role == analysis::CppnRole::input) name = layout.input_names()[inputs++];
-    if (role == analysis::CppnRole::output) name = layout.output_names()[outputs++];
+    if (role == analysis::CppnRole::input) name = architecture.cppn_inputs()[inputs++];
+    if (role == analysis::CppnRole::output) name = architecture.cppn_outputs()[outputs++];
     graph.nodes.push_back(
         {node.id, role, std::string(function_name(node.activation, champion.problem.cppn)), std::move(name)});
   }

@@ -37,10 +37,13 @@ ExitCode show_substrate(const SubstrateOptions& options) {
   if (!options.out.empty()) io::refuse_to_replace(options.out, "<svg", "a drawing");
   const auto config = experiment::load_config(options.config, options.overrides);
   const auto problem = experiment::Problem::make(config, experiment::load_robot(config));
-  const substrate::Layout& layout = problem.architecture->layout();
+  const substrate::Layout* const layout = problem.architecture->substrate();
+  if (!layout)
+    fail(ExitCode::bad_input, "{}: a controller of kind {} has no substrate", options.config.string(),
+         problem.architecture->name());
   fmt::print("controller    {}\n{}", problem.architecture->name(),
-             substrate::summary(config.controller.substrate, layout));
-  if (!options.out.empty()) io::write_file(options.out, analysis::substrate_svg(drawn(layout)));
+             substrate::summary(config.controller.substrate, *layout));
+  if (!options.out.empty()) io::write_file(options.out, analysis::substrate_svg(drawn(*layout)));
   return ExitCode::ok;
 }
 

@@ -52,10 +52,9 @@ ExitCode run_trial(const TrialOptions& options) {
   fmt::print("outcome   {}\nupright   {:.2f} s\ndistance  {:.3f} m\nspeed     {:.3f} m/s\n",
              record::outcome_names[static_cast<std::size_t>(result.outcome)], result.seconds,
              result.distance_m, result.distance_m / result.seconds);
-  if (!replay->legs.empty()) {
-    fmt::print("triggers ");
-    for (std::size_t i = 0; i < replay->legs.size(); ++i)
-      fmt::print(" {} {}", replay->legs[i], replay->triggers[i]);
+  if (!replay->events.empty()) {
+    fmt::print("events   ");
+    for (const auto& [name, count] : replay->events) fmt::print(" {} {}", name, count);
     fmt::print("\n");
   }
   fmt::print("{}", analysis::gait_summary(gait.finish(result.outcome)));

@@ -39,6 +39,9 @@ class Batch {
   virtual std::vector<std::string> state_names() const = 0;
   /// `values` has as many elements as state_names(), in that order.
   virtual void state(int lane, std::span<float> values) const = 0;
+  /// Those of state_names() that are 1 after a tick in which something happened and 0 else (for the SUPG: the
+  /// triggers), as positions therein: worth counting.
+  virtual std::vector<std::size_t> events() const { return {}; }
 };
 
 /// A kind of controller (SUPG, sine wave, CTRNN) for one robot: knows what its CPPN must look like and how a
@@ -48,8 +51,11 @@ class Architecture {
   virtual ~Architecture() = default;
 
   virtual std::string name() const = 0;
-  /// The substrate; its inputs (bias not counted) and outputs are the CPPN's.
-  virtual const substrate::Layout& layout() const = 0;
+  /// Names of the CPPN's inputs (the bias not among them) and outputs, in order.
+  virtual const std::vector<std::string>& cppn_inputs() const = 0;
+  virtual const std::vector<std::string>& cppn_outputs() const = 0;
+  /// The substrate, for pictures of it; null for controllers without.
+  virtual const substrate::Layout* substrate() const { return nullptr; }
   virtual std::unique_ptr<Parameters> decode(const cppn::Network& network) const = 0;
   virtual std::unique_ptr<Batch> make_batch(int lanes) const = 0;
   /// The parameters as JSON text, for recordings and exports (docs/FORMATS.md).

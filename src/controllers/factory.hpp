@@ -1,7 +1,8 @@
 #pragma once
 
-#include <array>
 #include <memory>
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "amble/controllers/controller.hpp"
@@ -13,12 +14,9 @@
 
 namespace amble::controllers {
 
-enum class Kind { supg, network, ctrnn };
-inline constexpr std::array<std::string_view, 3> kind_names{"supg", "network", "ctrnn"};
-
-/// Which controller, where its nodes stand, and the settings of each kind.
+/// Which architecture, its substrate, and the settings of each.
 struct ControllerSettings {
-  Kind kind = Kind::supg;
+  std::string kind = "supg";  ///< a row of architectures()
   substrate::Settings substrate;
   SupgSettings supg;
   NetworkSettings network;
@@ -27,7 +25,18 @@ struct ControllerSettings {
   void describe(io::SettingsVisitor& visitor);
 };
 
-/// Throws UserError where settings and robot do not fit.
+/// One architecture: all that the rest of the program needs to know of it.
+struct ArchitectureKind {
+  std::string_view name;  ///< value of controller.kind
+  /// Throws UserError where settings and robot do not fit.
+  std::unique_ptr<const Architecture> (*make)(const ControllerSettings& settings,
+                                              const robot::RobotSpec& robot, double timestep_s);
+};
+
+/// All architectures, in the order in which they are listed to users.
+std::span<const ArchitectureKind> architectures();
+
+/// By the row of the settings' kind. Throws UserError where settings and robot do not fit.
 std::unique_ptr<const Architecture> make_architecture(const ControllerSettings& settings,
                                                       const robot::RobotSpec& robot, double timestep_s);
 

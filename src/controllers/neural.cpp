@@ -29,12 +29,11 @@ NeuralArchitecture::NeuralArchitecture(std::string_view kind, std::vector<substr
                                        const substrate::Settings& substrate, const robot::RobotSpec& robot,
                                        double timestep_s) {
   substrate::Layout layout(
-      substrate, {.kind = kind, .network = true, .properties = std::move(properties), .pattern_ticks = 0},
-      robot);
+      substrate, {.kind = kind, .network = true, .properties = properties, .pattern_ticks = 0}, robot);
   Wiring wiring = make_wiring(layout);
-  model_ = std::make_shared<const NeuralModel>(NeuralModel{std::string(kind), std::move(layout),
-                                                           std::move(wiring), joint_ranges(robot), timestep_s,
-                                                           substrate.sine_period_s, substrate.attitude});
+  model_ = std::make_shared<const NeuralModel>(
+      NeuralModel{std::string(kind), std::move(properties), std::move(layout), std::move(wiring),
+                  joint_ranges(robot), timestep_s, substrate.sine_period_s, substrate.attitude});
 }
 
 std::unique_ptr<Parameters> NeuralArchitecture::decode(const cppn::Network& network) const {
@@ -55,10 +54,9 @@ std::string NeuralArchitecture::parameters_json(const Parameters& parameters) co
     const substrate::Node& node = layout().nodes()[i];
     Json entry{{"name", node.name}, {"group", node.group}, {"at", node.at}};
     entry["role"] = node.sensor ? "sensor" : node.joint >= 0 ? "joint" : "hidden";
-    if (name() == "ctrnn" && !node.sensor) {
-      entry["bias"] = decoded.of(substrate::Property::bias)[i];
-      entry["time_constant"] = decoded.of(substrate::Property::time_constant)[i];
-    }
+    for (const substrate::Property property : model_->properties)
+      if (!node.sensor)
+        entry[substrate::property_names[static_cast<std::size_t>(property)]] = decoded.of(property)[i];
     json["nodes"].push_back(std::move(entry));
   }
   for (std::size_t i = 0; i < decoded.weights.size(); ++i) {

@@ -26,6 +26,7 @@ struct NeuralParameters : Parameters {
 /// What all networks of one architecture have in common.
 struct NeuralModel {
   std::string kind;
+  std::vector<substrate::Property> properties;  ///< that neurons have
   substrate::Layout layout;
   Wiring wiring;
   std::vector<JointRange> ranges;  ///< of the joints, in control order
@@ -38,7 +39,10 @@ struct NeuralModel {
 class NeuralArchitecture : public Architecture {
  public:
   std::string name() const override { return model_->kind; }
-  const substrate::Layout& layout() const override { return model_->layout; }
+  const std::vector<std::string>& cppn_inputs() const override { return layout().input_names(); }
+  const std::vector<std::string>& cppn_outputs() const override { return layout().output_names(); }
+  const substrate::Layout* substrate() const override { return &layout(); }
+  const substrate::Layout& layout() const { return model_->layout; }
   std::unique_ptr<Parameters> decode(const cppn::Network& network) const override;
   std::string parameters_json(const Parameters& parameters) const override;
 

@@ -66,7 +66,10 @@ class SupgArchitecture : public Architecture {
                    const robot::RobotSpec& robot, double timestep_s);
 
   std::string name() const override { return "supg"; }
-  const substrate::Layout& layout() const override { return layout_; }
+  const std::vector<std::string>& cppn_inputs() const override { return layout_.input_names(); }
+  const std::vector<std::string>& cppn_outputs() const override { return layout_.output_names(); }
+  const substrate::Layout* substrate() const override { return &layout_; }
+  const substrate::Layout& layout() const { return layout_; }
   std::unique_ptr<Parameters> decode(const cppn::Network& network) const override;
   std::unique_ptr<Batch> make_batch(int lanes) const override;
   std::string parameters_json(const Parameters& parameters) const override;

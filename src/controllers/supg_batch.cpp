@@ -1,6 +1,7 @@
 #include "amble/controllers/supg_batch.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "amble/core/check.hpp"
@@ -115,6 +116,12 @@ std::vector<std::string> SupgBatch::state_names() const {
   for (const std::string& leg : leg_names_) names.push_back("timer." + leg);
   for (const std::string& leg : leg_names_) names.push_back("trigger." + leg);
   return names;
+}
+
+std::vector<std::size_t> SupgBatch::events() const {
+  std::vector<std::size_t> triggers(leg_names_.size());
+  std::iota(triggers.begin(), triggers.end(), leg_names_.size());
+  return triggers;
 }
 
 void SupgBatch::state(int lane, std::span<float> values) const {

@@ -21,6 +21,7 @@ class SupgBatch : public Batch {
   void step(const robot::SensorFrame& sensors, LaneArray& targets_rad) override;
   std::vector<std::string> state_names() const override;
   void state(int lane, std::span<float> values) const override;
+  std::vector<std::size_t> events() const override;
 
  private:
   std::size_t index(int leg, int lane) const { return static_cast<std::size_t>(leg * lanes_ + lane); }

@@ -36,7 +36,7 @@ void Config::validate() const {
   if (robot.empty()) fail_setting({"robot"}, "'robot' = \"\": expected the path of a robot file");
   if (!physics::is_engine(engine))
     fail_setting({"engine"}, "'engine' = \"{}\": expected {}", engine,
-                 fmt::join(physics::engine_names, ", "));
+                 fmt::join(physics::engine_names(), ", "));
   check_referees();
   neat.validate();
   trial.validate();
@@ -49,7 +49,7 @@ void Config::check_referees() const {
   for (auto referee = referees.begin(); referee != referees.end(); ++referee) {
     if (!physics::is_engine(*referee))
       fail_setting({"referees"}, "'referees' names \"{}\": expected {}", *referee,
-                   fmt::join(physics::engine_names, ", "));
+                   fmt::join(physics::engine_names(), ", "));
     if (*referee == engine)
       fail_setting({"referees", "engine"}, "'referees' names \"{}\", the engine of the run itself", *referee);
     if (std::find(referees.begin(), referee, *referee) != referee)

@@ -39,8 +39,8 @@ struct Problem {
   /// Makes `architecture` from the other members and checks that they fit.
   void complete();
 
-  int cppn_inputs() const { return static_cast<int>(architecture->layout().input_names().size()); }
-  int cppn_outputs() const { return static_cast<int>(architecture->layout().output_names().size()); }
+  int cppn_inputs() const { return static_cast<int>(architecture->cppn_inputs().size()); }
+  int cppn_outputs() const { return static_cast<int>(architecture->cppn_outputs().size()); }
   /// `torques`: see physics::EngineSettings; always with them if the score measures energy.
   std::unique_ptr<physics::Engine> make_engine(bool torques = false) const;
   std::unique_ptr<controllers::Parameters> decode(const neat::Genome& genome) const;

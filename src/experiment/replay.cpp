@@ -1,7 +1,6 @@
 #include "amble/experiment/replay.hpp"
 
 #include "amble/robot/json.hpp"
-#include "amble/trial/observers.hpp"
 
 namespace amble::experiment {
 
@@ -17,11 +16,11 @@ std::optional<Replay> replay(const Problem& original, const neat::Genome& genome
   auto parameters = problem.decode(genome);
 
   trial::TraceObserver trace;
-  trial::TriggerObserver triggers(*controllers);
+  trial::EventObserver events(*controllers);
   std::optional<trial::RecordingObserver> recording;
   trial::ObserverList observers;
   if (options.trace) observers.add(trace);
-  observers.add(triggers);
+  observers.add(events);
   if (options.observer) observers.add(*options.observer);
   if (options.record) {
     recording.emplace(*options.record, problem.robot, *engine, *controllers, problem.trial.timestep_s,
@@ -38,8 +37,7 @@ std::optional<Replay> replay(const Problem& original, const neat::Genome& genome
   if (!task.result()) return std::nullopt;
   if (recording) recording->finish(task.result()->outcome);
   return Replay{.result = summarise(problem, *task.result()),
-                .legs = triggers.legs(),
-                .triggers = triggers.counts(),
+                .events = events.counts(),
                 .trace = trace.trace(),
                 .physics_s = runner.physics_s()};
 }

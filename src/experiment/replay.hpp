@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "amble/experiment/champion.hpp"
+#include "amble/trial/observers.hpp"
 #include "amble/trial/trial.hpp"
 
 namespace amble::experiment {
@@ -25,10 +26,9 @@ struct ReplayOptions {
 
 struct Replay {
   TrialResult result;
-  std::vector<std::string> legs;       ///< legs with triggers; empty for controllers without
-  std::vector<std::int64_t> triggers;  ///< per leg
-  std::vector<std::uint32_t> trace;    ///< trial::TraceObserver; empty if not asked for
-  double physics_s = 0.0;              ///< time spent in the engine
+  std::vector<trial::EventCount> events;  ///< of the controller (controllers::Batch::events)
+  std::vector<std::uint32_t> trace;       ///< trial::TraceObserver; empty if not asked for
+  double physics_s = 0.0;                 ///< time spent in the engine
 };
 
 /// One trial of one genome, without noise unless it is asked for. Nothing if `stop` was set before it ended

@@ -79,6 +79,14 @@ class SettingsVisitor {
     value = static_cast<Enum>(index);
   }
 
+  /// A value out of `names`, by its name: for tables to which rows may be added (engines, controllers,
+  /// searches).
+  void name(std::string_view key, std::string& value, std::span<const std::string_view> names, Doc doc) {
+    auto index = static_cast<int>(std::ranges::find(names, value) - names.begin());
+    choice_index(key, index, names, doc);
+    value = names[static_cast<std::size_t>(index)];
+  }
+
   /// A nested settings struct as a table of its own.
   template <typename Settings>
   void table(std::string_view key, Settings& settings, Doc doc) {

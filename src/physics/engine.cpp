@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
@@ -11,24 +12,48 @@
 #include "amble/physics/ode/ode_engine.hpp"
 
 namespace amble::physics {
+namespace {
+
+// The table of engines. A new one is a row here and a folder beside `ode`.
+struct Row {
+  std::string_view name;
+  std::unique_ptr<Engine> (*make)(const robot::RobotSpec& robot, const EngineSettings& settings);
+};
+constexpr std::array engines{
+    Row{"ode", make_ode_engine},
+    Row{"batch",
+        [](const robot::RobotSpec& robot, const EngineSettings& settings) -> std::unique_ptr<Engine> {
+          return make_batch_engine(robot, settings);
+        }},
+    Row{"mujoco", make_mujoco_engine},
+};
+
+constexpr std::array names = [] {
+  std::array<std::string_view, engines.size()> all;
+  std::ranges::transform(engines, all.begin(), &Row::name);
+  return all;
+}();
+
+}  // namespace
+
+std::span<const std::string_view> engine_names() {
+  return names;
+}
 
 bool is_engine(std::string_view name) {
-  return std::ranges::find(engine_names, name) != engine_names.end();
+  return std::ranges::find(names, name) != names.end();
 }
 
 void check_engine_name(std::string_view name, std::string_view what) {
   if (!is_engine(name))
-    fail(ExitCode::bad_input, "{}unknown engine '{}': expected {}", what, name,
-         fmt::join(engine_names, ", "));
+    fail(ExitCode::bad_input, "{}unknown engine '{}': expected {}", what, name, fmt::join(names, ", "));
 }
 
 std::unique_ptr<Engine> make_engine(std::string_view name, const robot::RobotSpec& robot,
                                     const EngineSettings& settings) {
   AMBLE_CHECK(settings.timestep_s > 0.0, "timestep_s");
   check_engine_name(name);
-  if (name == "batch") return make_batch_engine(robot, settings);
-  if (name == "mujoco") return make_mujoco_engine(robot, settings);
-  return make_ode_engine(robot, settings);
+  return std::ranges::find(engines, name, &Row::name)->make(robot, settings);
 }
 
 }  // namespace amble::physics

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -76,8 +76,8 @@ class Engine {
   virtual std::uint64_t state_hash(int lane) const = 0;
 };
 
-inline constexpr std::array<std::string_view, 3> engine_names{"ode", "batch", "mujoco"};
-
+/// In the order in which they are listed to users.
+std::span<const std::string_view> engine_names();
 bool is_engine(std::string_view name);
 /// Throws UserError unless it is one of engine_names. `what` stands in front of the complaint, e.g.
 /// "--engines: ".

@@ -50,12 +50,9 @@ void Settings::describe(io::SettingsVisitor& visitor) {
   std::vector<std::string_view> names;
   names.reserve(kinds.size());
   for (const StrategyKind& row : kinds) names.push_back(row.name);
-  auto index = static_cast<int>(std::ranges::find(names, kind) - names.begin());
-  visitor.choice_index(
-      "kind", index, names,
-      {"what selects parents: the objective itself (distance walked), or novelty of behaviour",
-       "Morse et al. 2013, sec. 4"});
-  kind = names.at(static_cast<std::size_t>(index));
+  visitor.name("kind", kind, names,
+               {"what selects parents: the objective itself (distance walked), or novelty of behaviour",
+                "Morse et al. 2013, sec. 4"});
   visitor.table("novelty", novelty, {"novelty search; without effect under other kinds"});
 }
 

@@ -23,7 +23,7 @@ PlannedTest plan_test(const ledger::StudySpec& study, std::size_t index) {
   if (!test.spec.engine.empty() && !physics::is_engine(test.spec.engine))
     throw study.error_at(key_of("tests", index, "engine"),
                          fmt::format("'{}' = \"{}\": expected {}", key_of("tests", index, "engine"),
-                                     test.spec.engine, fmt::join(physics::engine_names, ", ")));
+                                     test.spec.engine, fmt::join(physics::engine_names(), ", ")));
   if (!test.spec.noise.empty()) {
     test.noise = experiment::load_config(test.spec.noise, {}).noise;
     test.noise.first_undisturbed = false;

@@ -1,7 +1,5 @@
 #include "amble/trial/observers.hpp"
 
-#include <string_view>
-
 namespace amble::trial {
 namespace {
 
@@ -30,23 +28,17 @@ void TraceObserver::on_step(int, const physics::Engine& engine, const controller
   trace_.push_back(static_cast<std::uint32_t>(engine.state_hash(lane)));
 }
 
-TriggerObserver::TriggerObserver(const controllers::Batch& controllers) {
-  constexpr std::string_view prefix = "trigger.";
+EventObserver::EventObserver(const controllers::Batch& controllers) : columns_(controllers.events()) {
   const auto names = controllers.state_names();
   state_.resize(names.size());
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (!names[i].starts_with(prefix)) continue;
-    legs_.push_back(names[i].substr(prefix.size()));
-    columns_.push_back(i);
-  }
-  counts_.resize(legs_.size());
+  for (const std::size_t column : columns_) counts_.push_back({.name = names[column]});
 }
 
-void TriggerObserver::on_step(int, const physics::Engine&, const controllers::Batch& controllers,
-                              const LaneArray&, int lane) {
-  if (legs_.empty()) return;
+void EventObserver::on_step(int, const physics::Engine&, const controllers::Batch& controllers,
+                            const LaneArray&, int lane) {
+  if (columns_.empty()) return;
   controllers.state(lane, state_);
-  for (std::size_t i = 0; i < columns_.size(); ++i) counts_[i] += state_[columns_[i]] > 0.5f;
+  for (std::size_t i = 0; i < columns_.size(); ++i) counts_[i].count += state_[columns_[i]] > 0.5f;
 }
 
 RecordingObserver::RecordingObserver(const std::filesystem::path& path, const robot::RobotSpec& robot,

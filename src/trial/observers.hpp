@@ -23,20 +23,23 @@ class TraceObserver : public Observer {
   std::vector<std::uint32_t> trace_;
 };
 
-/// Counts how often each leg's controller was triggered, from its state "trigger.<LEG>" (the SUPG has it).
-class TriggerObserver : public Observer {
+/// How often something happened in a controller.
+struct EventCount {
+  std::string name;  ///< of a state variable, e.g. "trigger.front_left"
+  std::int64_t count = 0;
+};
+
+/// Counts the events of a controller (controllers::Batch::events).
+class EventObserver : public Observer {
  public:
-  explicit TriggerObserver(const controllers::Batch& controllers);
+  explicit EventObserver(const controllers::Batch& controllers);
   void on_step(int step, const physics::Engine& engine, const controllers::Batch& controllers,
                const LaneArray& targets_rad, int lane) override;
-  /// Leg names and counts; empty for controllers without triggers.
-  const std::vector<std::string>& legs() const { return legs_; }
-  const std::vector<std::int64_t>& counts() const { return counts_; }
+  const std::vector<EventCount>& counts() const { return counts_; }
 
  private:
-  std::vector<std::string> legs_;
   std::vector<std::size_t> columns_;
-  std::vector<std::int64_t> counts_;
+  std::vector<EventCount> counts_;
   std::vector<float> state_;
 };
 

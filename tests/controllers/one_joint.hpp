@@ -42,8 +42,8 @@ class Bench {
  public:
   Bench(const Architecture& architecture, const std::vector<double>& outputs)
       : batch_(architecture.make_batch(1)),
-        parameters_(architecture.decode(
-            constant_cppn(static_cast<int>(architecture.layout().input_names().size()), outputs))),
+        parameters_(
+            architecture.decode(constant_cppn(static_cast<int>(architecture.cppn_inputs().size()), outputs))),
         sensors_{LaneArray(1, 1), LaneArray(1, 1), LaneArray(3, 1)},
         targets_(1, 1) {
     batch_->load(0, *parameters_);

@@ -15,13 +15,14 @@ using Story = std::vector<std::vector<float>>;
 /// Controllers whose recorded state is told beforehand, tick by tick.
 class ToldBatch : public FakeBatch {
  public:
-  ToldBatch(std::vector<std::string> names, Story story)
-      : FakeBatch(1), names_(std::move(names)), story_(std::move(story)) {}
+  ToldBatch(std::vector<std::string> names, Story story, std::vector<std::size_t> events = {})
+      : FakeBatch(1), names_(std::move(names)), story_(std::move(story)), events_(std::move(events)) {}
   void step(const robot::SensorFrame& sensors, LaneArray& targets_rad) override {
     FakeBatch::step(sensors, targets_rad);
     ++tick_;
   }
   std::vector<std::string> state_names() const override { return names_; }
+  std::vector<std::size_t> events() const override { return events_; }
   void state(int, std::span<float> values) const override {
     std::ranges::copy(story_[tick_ - 1], values.begin());
   }
@@ -29,6 +30,7 @@ class ToldBatch : public FakeBatch {
  private:
   std::vector<std::string> names_;
   Story story_;
+  std::vector<std::size_t> events_;
   std::size_t tick_ = 0;
 };
 
@@ -42,21 +44,23 @@ void run(controllers::Batch& batch, Observer& observer, int steps, float target_
   Runner(engine, batch, protocol).run(task, never);
 }
 
-TEST(TriggerObserver, CountsTheTriggersOfEachLegAndNothingElse) {
-  // Timers that run whether or not there is a trigger, and a name that only looks like one.
+TEST(EventObserver, CountsTheEventsOfAControllerAndNothingElse) {
+  // States that are 1 as often without being events.
   ToldBatch batch({"timer.A", "timer.B", "trigger.A", "trigger.B", "untrigger.A"},
-                  {{1, 5, 0, 1, 1}, {2, 6, 0, 1, 1}, {0, 7, 1, 0, 1}, {1, 0, 0, 1, 1}});
-  TriggerObserver observer(batch);
+                  {{1, 5, 0, 1, 1}, {2, 6, 0, 1, 1}, {0, 7, 1, 0, 1}, {1, 0, 0, 1, 1}}, {2, 3});
+  EventObserver observer(batch);
   run(batch, observer, 4);
-  EXPECT_EQ(observer.legs(), (std::vector<std::string>{"A", "B"}));
-  EXPECT_EQ(observer.counts(), (std::vector<std::int64_t>{1, 3}));
+  ASSERT_EQ(observer.counts().size(), 2u);
+  EXPECT_EQ(observer.counts()[0].name, "trigger.A");
+  EXPECT_EQ(observer.counts()[0].count, 1);
+  EXPECT_EQ(observer.counts()[1].name, "trigger.B");
+  EXPECT_EQ(observer.counts()[1].count, 3);
 }
 
-TEST(TriggerObserver, HasNothingToCountForControllersWithoutTriggers) {
+TEST(EventObserver, HasNothingToCountForControllersWithoutEvents) {
   ToldBatch batch({"neuron.a"}, {{1}, {1}});
-  TriggerObserver observer(batch);
+  EventObserver observer(batch);
   run(batch, observer, 2);
-  EXPECT_TRUE(observer.legs().empty());
   EXPECT_TRUE(observer.counts().empty());
 }
 
