@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 
 namespace amble {
 
@@ -24,7 +25,7 @@ void Stream::refill() {
 
 std::uint32_t Stream::next_u32() {
   if (used_ == 4) refill();
-  return block_[static_cast<std::size_t>(used_++)];
+  return block_[to_index(used_++)];
 }
 
 std::uint64_t Stream::next_u64() {

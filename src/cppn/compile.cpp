@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 #include "amble/cppn/program.hpp"
 
 namespace amble::cppn {
@@ -15,10 +16,6 @@ struct Graph {
   Neighbours sources, targets;
 };
 
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
-
 bool is_computed(const neat::NodeGene& node) {
   return node.kind == neat::NodeKind::output || node.kind == neat::NodeKind::hidden;
 }
@@ -28,9 +25,9 @@ Graph graph_of(const neat::Genome& genome, const std::vector<bool>& kept) {
   for (const neat::LinkGene& link : genome.links) {
     const int from = genome.index_of(link.from), to = genome.index_of(link.to);
     AMBLE_CHECK(from >= 0 && to >= 0, "a link names a node that is not in the genome");
-    if (!link.enabled || !kept[at(to)]) continue;
-    graph.sources[at(to)].push_back(from);
-    graph.targets[at(from)].push_back(to);
+    if (!link.enabled || !kept[to_index(to)]) continue;
+    graph.sources[to_index(to)].push_back(from);
+    graph.targets[to_index(from)].push_back(to);
   }
   return graph;
 }
@@ -45,9 +42,9 @@ std::vector<int> distances_to_outputs(const neat::Genome& genome, const Graph& g
   }
   for (std::size_t next = 0; next < queue.size(); ++next) {
     const int node = queue[next];
-    for (const int source : graph.sources[at(node)]) {
-      if (distances[at(source)] >= 0) continue;
-      distances[at(source)] = distances[at(node)] + 1;
+    for (const int source : graph.sources[to_index(node)]) {
+      if (distances[to_index(source)] >= 0) continue;
+      distances[to_index(source)] = distances[to_index(node)] + 1;
       queue.push_back(source);
     }
   }
@@ -65,9 +62,9 @@ std::vector<int> longest_paths(const Neighbours& before, const Neighbours& after
   }
   for (std::size_t next = 0; next < queue.size(); ++next) {
     const int node = queue[next];
-    for (const int follower : after[at(node)]) {
-      lengths[at(follower)] = std::max(lengths[at(follower)], lengths[at(node)] + 1);
-      if (--waits_for[at(follower)] == 0) queue.push_back(follower);
+    for (const int follower : after[to_index(node)]) {
+      lengths[to_index(follower)] = std::max(lengths[to_index(follower)], lengths[to_index(node)] + 1);
+      if (--waits_for[to_index(follower)] == 0) queue.push_back(follower);
     }
   }
   for (std::size_t i = 0; i < before.size(); ++i)
@@ -108,7 +105,7 @@ std::vector<int> evaluation_order(const neat::Genome& genome, const Schedule& sc
   for (std::size_t i = 0; i < genome.nodes.size(); ++i)
     if (schedule.kept[i] && is_computed(genome.nodes[i])) order.push_back(static_cast<int>(i));
   std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return schedule.depth[at(a)] < schedule.depth[at(b)]; });
+                   [&](int a, int b) { return schedule.depth[to_index(a)] < schedule.depth[to_index(b)]; });
   return order;
 }
 
@@ -148,17 +145,17 @@ Program compile(const neat::Genome& genome, const Settings& settings) {
   std::iota(slot_of.begin(), slot_of.begin() + 1 + program.inputs, 0);
   program.slots = 1 + program.inputs;
   const std::vector<int> order = evaluation_order(genome, schedule);
-  for (const int node : order) slot_of[at(node)] = program.slots++;
+  for (const int node : order) slot_of[to_index(node)] = program.slots++;
 
   for (const int index : order) {
-    const neat::NodeGene& gene = genome.nodes[at(index)];
-    const auto [first_pass, last_pass] = schedule.window(at(index), program.passes);
+    const neat::NodeGene& gene = genome.nodes[to_index(index)];
+    const auto [first_pass, last_pass] = schedule.window(to_index(index), program.passes);
     Program::Node node{
-        slot_of[at(index)], static_cast<int>(program.links.size()), 0,
-        gene.activation,    program.in_place ? 1 : first_pass,      program.in_place ? 1 : last_pass};
+        slot_of[to_index(index)], static_cast<int>(program.links.size()), 0,
+        gene.activation,          program.in_place ? 1 : first_pass,      program.in_place ? 1 : last_pass};
     for (const neat::LinkGene& link : genome.links) {
       if (!link.enabled || link.to != gene.id) continue;
-      program.links.push_back({slot_of[at(genome.index_of(link.from))], to_weight(link.weight)});
+      program.links.push_back({slot_of[to_index(genome.index_of(link.from))], to_weight(link.weight)});
       ++node.link_count;
     }
     program.nodes.push_back(node);

@@ -7,6 +7,7 @@
 #define HWY_TARGET_INCLUDE "amble/cppn/kernels.cpp"
 #include <hwy/foreach_target.h>
 
+#include "amble/core/index.hpp"
 #include "amble/cppn/activation-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -88,19 +89,18 @@ void run(const Program& program, const Points& points, float* results, Tile* scr
   Tile* const even = scratch;
   Tile* const odd = program.in_place ? scratch : scratch + program.slots;
   std::fill(even[0].value, even[0].value + block, 1.0f);
-  for (std::size_t first = 0; first < static_cast<std::size_t>(points.capacity()); first += block) {
+  for (std::size_t first = 0; first < to_index(points.capacity()); first += block) {
     for (int i = 0; i < program.inputs; ++i) std::copy_n(points.input(i) + first, block, even[1 + i].value);
     if (!program.in_place) {
       std::copy(even, even + 1 + program.inputs, odd);
-      std::memset(even + 1 + program.inputs, 0,
-                  sizeof(Tile) * static_cast<std::size_t>(program.slots - 1 - program.inputs));
+      std::memset(even + 1 + program.inputs, 0, sizeof(Tile) * to_index(program.slots - 1 - program.inputs));
     }
     for (int pass = 1; pass <= program.passes; ++pass)
       run_pass(program, pass, pass % 2 == 1 ? even : odd, pass % 2 == 1 ? odd : even);
     const Tile* const last = program.passes % 2 == 1 ? odd : even;
     for (std::size_t output = 0; output < program.output_slots.size(); ++output)
       std::copy_n(last[program.output_slots[output]].value, block,
-                  results + output * static_cast<std::size_t>(points.capacity()) + first);
+                  results + output * to_index(points.capacity()) + first);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "amble/core/index.hpp"
 #include "amble/cppn/program.hpp"
 #include "amble/cppn/settings.hpp"
 #include "amble/neat/genome.hpp"
@@ -30,8 +31,7 @@ class Points {
 
  private:
   std::size_t index(int point, int input) const {
-    return static_cast<std::size_t>(input) * static_cast<std::size_t>(capacity_) +
-           static_cast<std::size_t>(point);
+    return to_index(input) * to_index(capacity_) + to_index(point);
   }
 
   int inputs_, count_, capacity_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 #include "amble/cppn/activation.hpp"
 
 namespace amble::cppn {
@@ -40,7 +41,7 @@ Reference::Reference(const neat::Genome& genome, const Settings& settings)
   for (Node& node : nodes_)
     for (const neat::LinkGene& link : genome.links)
       if (link.enabled && link.to == genome.nodes[node.index].id)
-        node.sources.push_back({static_cast<std::size_t>(genome.index_of(link.from)), link.weight});
+        node.sources.push_back({to_index(genome.index_of(link.from)), link.weight});
 
   feed_forward_ = put_sources_first(std::move(ready));
   AMBLE_CHECK(feed_forward_ || settings.recurrent, "a feed-forward CPPN has a cycle");

@@ -11,6 +11,7 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 
 namespace amble::io {
 namespace {
@@ -28,7 +29,7 @@ bool write_all(int fd, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(fd, bytes.data(), bytes.size());
     if (written < 0 && errno != EINTR) return false;
-    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+    if (written > 0) bytes.remove_prefix(to_index(written));
   }
   return true;
 }
@@ -74,7 +75,7 @@ std::string InputFile::read(std::uint64_t count) {
     bytes.resize(have + static_cast<std::size_t>(std::min(piece, count - have)));
     const ssize_t got = ::read(fd_, bytes.data() + have, bytes.size() - have);
     const int error = errno;
-    bytes.resize(have + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+    bytes.resize(have + to_index(std::max<ssize_t>(got, 0)));
     if (got < 0 && error != EINTR) fail(ExitCode::io, "{}: {}", path_.string(), reason(error));
     if (got == 0) break;
   }

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 #include "amble/io/expectation.hpp"
 #include "amble/io/json_file.hpp"
 
@@ -34,8 +35,8 @@ class Writer final : public SettingsVisitor {
     put(key, std::move(list));
   }
   void choice_index(std::string_view key, int& index, std::span<const std::string_view> names, Doc) override {
-    AMBLE_CHECK(index >= 0 && static_cast<std::size_t>(index) < names.size(), "an enum value without a name");
-    put(key, names[static_cast<std::size_t>(index)]);
+    AMBLE_CHECK(index >= 0 && to_index(index) < names.size(), "an enum value without a name");
+    put(key, names[to_index(index)]);
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 #include "amble/substrate/layout_builder.hpp"
 
 namespace amble::substrate {
@@ -46,10 +47,10 @@ double Layout::lowest(Property property) const {
 Decoded Layout::decode(const cppn::Network& network) const {
   AMBLE_CHECK(network.outputs() == static_cast<int>(output_names_.size()),
               "the CPPN has another number of outputs than the substrate");
-  std::vector<float> results(output_names_.size() * static_cast<std::size_t>(points_.capacity()));
+  std::vector<float> results(output_names_.size() * to_index(points_.capacity()));
   network.evaluate(points_, results);
   const auto output_at = [&](int output, int point) {
-    return results[static_cast<std::size_t>(output * points_.capacity() + point)];
+    return results[to_index(output * points_.capacity() + point)];
   };
 
   Decoded decoded;
@@ -60,14 +61,13 @@ Decoded Layout::decode(const cppn::Network& network) const {
     if (excess > 0.0) decoded.weights[i] = static_cast<float>(std::copysign(excess * weight_range_, o));
   }
   for (auto& values : decoded.properties) values.resize(nodes_.size());
-  const auto ticks = static_cast<std::size_t>(pattern_ticks_ + 1);
+  const auto ticks = to_index(pattern_ticks_ + 1);
   if (pattern_ticks_ > 0) decoded.patterns.resize(nodes_.size() * ticks);
   for (const Source& source : sources_) {
-    const auto node = static_cast<std::size_t>(source.node);
+    const auto node = to_index(source.node);
     const bool is_pattern = source.property == Property::pattern;
-    float* const values = is_pattern
-                              ? decoded.patterns.data() + node * ticks
-                              : decoded.properties[static_cast<std::size_t>(source.property)].data() + node;
+    float* const values = is_pattern ? decoded.patterns.data() + node * ticks
+                                     : decoded.properties[to_index(source.property)].data() + node;
     for (std::size_t i = 0; i < (is_pattern ? ticks : 1); ++i)
       values[i] = static_cast<float>(
           source.output < 0 ? source.value

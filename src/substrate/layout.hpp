@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "amble/core/index.hpp"
 #include "amble/cppn/network.hpp"
 #include "amble/robot/spec.hpp"
 #include "amble/substrate/sensor.hpp"
@@ -41,9 +42,7 @@ struct Decoded {
   std::array<std::vector<float>, property_count> properties;
   std::vector<float> patterns;  ///< node by node, tick by tick: 0 … pattern_ticks
 
-  std::span<const float> of(Property property) const {
-    return properties[static_cast<std::size_t>(property)];
-  }
+  std::span<const float> of(Property property) const { return properties[to_index(property)]; }
 };
 
 /// A substrate made ready for many genomes: checked against robot and controller, with all questions that it
@@ -69,7 +68,7 @@ class Layout {
   const std::vector<Link>& links() const { return links_; }
   int joint_count() const { return static_cast<int>(drivers_.size()); }
   /// The node that drives a joint.
-  int driver(int joint) const { return drivers_[static_cast<std::size_t>(joint)]; }
+  int driver(int joint) const { return drivers_[to_index(joint)]; }
   /// Whether two nodes get the same value of a property from every CPPN, because they ask it alike.
   bool shared(Property property, int a, int b) const;
   /// The least value that a property can have.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 
 namespace amble::substrate {
 namespace {
@@ -33,7 +34,7 @@ void check_names(const std::vector<std::string>& names, const char* key) {
 }
 
 std::string_view name_of(Property property) {
-  return property_names[static_cast<std::size_t>(property)];
+  return property_names[to_index(property)];
 }
 
 }  // namespace
@@ -120,7 +121,7 @@ void LayoutBuilder::assign_joints() {
     if (joint == robot_.joints.end())
       refuse(item("nodes", i, "joint"), " = \"{}\": the robot has no such joint", name);
     layout_.nodes_[i].joint = static_cast<int>(joint - robot_.joints.begin());
-    int& driver = layout_.drivers_[static_cast<std::size_t>(layout_.nodes_[i].joint)];
+    int& driver = layout_.drivers_[to_index(layout_.nodes_[i].joint)];
     if (driver >= 0)
       refuse(item("nodes", i, "joint"), " = \"{}\": \"{}\" (nodes[{}]) drives it already", name,
              name_of(driver), driver);
@@ -141,9 +142,9 @@ void LayoutBuilder::add_links() {
     const bool itself = link.from == link.to && is_node(link.from);
     const std::size_t before = layout_.links_.size();
     for (const int source : from) {
-      const auto& at = layout_.nodes_[static_cast<std::size_t>(source)].at;
+      const auto& at = layout_.nodes_[to_index(source)].at;
       for (const int target : to) {
-        const auto& other = layout_.nodes_[static_cast<std::size_t>(target)].at;
+        const auto& other = layout_.nodes_[to_index(target)].at;
         const bool agree =
             std::all_of(same.begin(), same.end(), [&](std::size_t c) { return at[c] == other[c]; });
         if (!agree || (source == target && !itself)) continue;
@@ -182,7 +183,7 @@ void LayoutBuilder::add_properties() {
 void LayoutBuilder::add_property(std::size_t index, int node) {
   const PropertySettings& property = settings_.properties[index];
   const std::string_view what = substrate::name_of(property.property);
-  if (layout_.nodes_[static_cast<std::size_t>(node)].sensor)
+  if (layout_.nodes_[to_index(node)].sensor)
     refuse(item("properties", index, "of"), ": \"{}\" is a sensor and has no {}", name_of(node), what);
   for (const Layout::Source& other : layout_.sources_)
     if (other.node == node && other.property == property.property)
@@ -206,7 +207,7 @@ void LayoutBuilder::check_properties() const {
   for (const Property property : needs_.properties) {
     std::vector<bool> has(layout_.nodes_.size());
     for (const Layout::Source& source : layout_.sources_)
-      if (source.property == property) has[static_cast<std::size_t>(source.node)] = true;
+      if (source.property == property) has[to_index(source.node)] = true;
     for (std::size_t node = 0; node < has.size(); ++node)
       if (!has[node] && !layout_.nodes_[node].sensor)
         refuse("properties", ": \"{}\" has no {}, which a controller of kind {} needs",
@@ -240,7 +241,7 @@ int LayoutBuilder::output_of(const std::string& name, const std::string& key) {
     refuse(key, " = \"{}\": the CPPN has no such output (it has {})", name,
            fmt::join(settings_.outputs, ", "));
   const auto output = found - settings_.outputs.begin();
-  read_[static_cast<std::size_t>(output)] = true;
+  read_[to_index(output)] = true;
   return static_cast<int>(output);
 }
 
@@ -252,13 +253,13 @@ std::vector<std::size_t> LayoutBuilder::coordinates_of(const std::vector<std::st
     if (at == settings_.coordinates.end())
       refuse(key, ": there is no coordinate \"{}\" (there are {})", name,
              fmt::join(settings_.coordinates, ", "));
-    found.push_back(static_cast<std::size_t>(at - settings_.coordinates.begin()));
+    found.push_back(to_index(at - settings_.coordinates.begin()));
   }
   return found;
 }
 
 std::vector<float> LayoutBuilder::place(int node) const {
-  const auto& at = layout_.nodes_[static_cast<std::size_t>(node)].at;
+  const auto& at = layout_.nodes_[to_index(node)].at;
   return {at.begin(), at.end()};
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "amble/core/index.hpp"
 #include "amble/substrate/layout.hpp"
 #include "amble/substrate/query_points.hpp"
 
@@ -37,7 +38,7 @@ class LayoutBuilder {
   std::vector<float> place(int node) const;
   std::vector<float> link_inputs(int source, int target) const;
   std::vector<float> node_inputs(int node, const std::vector<std::size_t>& zero, int tick) const;
-  const std::string& name_of(int node) const { return layout_.nodes_[static_cast<std::size_t>(node)].name; }
+  const std::string& name_of(int node) const { return layout_.nodes_[to_index(node)].name; }
 
   Layout& layout_;
   const Settings& settings_;

@@ -2,6 +2,7 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/hash.hpp"
+#include "amble/core/index.hpp"
 #include "amble/physics/batch/robots.hpp"
 #include "amble/physics/batch/step.hpp"
 
@@ -86,7 +87,7 @@ class LockstepEngine final : public BatchEngine {
   std::uint64_t state_hash(int lane) const override {
     check_lane(lane);
     std::vector<float> values;
-    values.reserve(static_cast<std::size_t>(Rows::active + 2 * rows_.links));
+    values.reserve(to_index(Rows::active + 2 * rows_.links));
     for (int r = 0; r < Rows::active; ++r) values.push_back(robots_.at(r, lane));
     for (int r = rows_.angle; r < rows_.joint_impulse; ++r) values.push_back(robots_.at(r, lane));
     return hash_span<float>(values);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "amble/core/index.hpp"
 #include "amble/physics/batch/factor-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -177,7 +178,7 @@ HWY_INLINE V3 contact_position(const Pass& pass, const Point& point, const Chain
 template <int N>
 HWY_INLINE void assign_contact(const Pass& pass, int p, const Chain* chain, int n, Mask touches,
                                ChainBlocks& blocks, V& used) {
-  const Point& point = pass.model().points[static_cast<std::size_t>(p)];
+  const Point& point = pass.model().points[to_index(p)];
   const V3 at = contact_position<N>(pass, point, chain);
   const V3 before = pass.state3(pass.batch.rows.point_impulse + 3 * p);
   const V height = load(pass.scratch(pass.work().heights + p)), above = set(1.0f), none = zero();
@@ -275,11 +276,10 @@ HWY_INLINE void contact_blocks(const Pass& pass, int segment, const Chain* chain
   const Model& model = pass.model();
   const Mask active = pass.active();
   V used = zero();
-  for (int g = model.first_geom[static_cast<std::size_t>(segment)];
-       g < model.first_geom[static_cast<std::size_t>(segment) + 1]; ++g) {
-    const PointGroup& geom = model.geoms[static_cast<std::size_t>(g)];
+  for (int g = model.first_geom[to_index(segment)]; g < model.first_geom[to_index(segment) + 1]; ++g) {
+    const PointGroup& geom = model.geoms[to_index(g)];
     unsigned char& felt = pass.geom_felt(g);
-    const bool near = pass.work().near[static_cast<std::size_t>(g)];
+    const bool near = pass.work().near[to_index(g)];
     if (!near && !felt) continue;
     bool any = false;
     for (int p = geom.first; p < geom.first + geom.count; ++p) {
@@ -342,7 +342,7 @@ HWY_INLINE void chain_blocks(const Pass& pass, std::size_t c, const BaseFactor& 
         pass.set_state(pass.batch.rows.joint_impulse + chain.first + r, zero());
       continue;
     }
-    pass.work().block_joint[static_cast<std::size_t>(blocks.first + blocks.count)] = j;
+    pass.work().block_joint[to_index(blocks.first + blocks.count)] = j;
     ++blocks.joint_blocks;
     ++blocks.count;
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::physics::batch {
@@ -16,10 +17,6 @@ using robot::Joint;
 using robot::Pose;
 using robot::RobotSpec;
 using robot::Shape;
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 Float3 narrow(Vec3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
@@ -72,7 +69,7 @@ class Builder {
   std::vector<int> children(int parent) const {
     std::vector<int> found;
     for (int b = 1; b < static_cast<int>(robot_.bodies.size()); ++b)
-      if (robot_.bodies[at(b)].parent == parent) found.push_back(b);
+      if (robot_.bodies[to_index(b)].parent == parent) found.push_back(b);
     return found;
   }
 
@@ -84,18 +81,18 @@ class Builder {
       for (const int joint : robot_.joints_of_body(body)) before = add_link(joint, before);
       Link& last = model_.links.back();
       last.has_mass = true;
-      last.body = mass_part(robot_.bodies[at(body)], poses_[at(body)], before);
+      last.body = mass_part(robot_.bodies[to_index(body)], poses_[to_index(body)], before);
       const int count = static_cast<int>(model_.links.size()) - first;
-      places_[at(body)] = {chain, count - 1, before};
+      places_[to_index(body)] = {chain, count - 1, before};
       const auto next = children(body);
       if (next.size() > 1)
         fail(ExitCode::bad_input,
              "the batch engine cannot simulate chains that branch, as at body '{}': use engine ode",
-             robot_.bodies[at(body)].name);
+             robot_.bodies[to_index(body)].name);
       if (count > Model::max_chain)
         fail(ExitCode::bad_input,
              "the batch engine cannot simulate more than {} joints in one chain, as at body '{}'",
-             Model::max_chain, robot_.bodies[at(body)].name);
+             Model::max_chain, robot_.bodies[to_index(body)].name);
       if (next.empty()) {
         model_.chains.push_back({first, count});
         return;
@@ -105,8 +102,8 @@ class Builder {
   }
 
   Vec3 add_link(int index, Vec3 before) {
-    const Joint& joint = robot_.joints[at(index)];
-    const Pose& pose = poses_[at(joint.body)];
+    const Joint& joint = robot_.joints[to_index(index)];
+    const Pose& pose = poses_[to_index(joint.body)];
     const Vec3 origin = pose * joint.anchor_m;
     const Vec3 axis = rotate(pose.rotation, joint.axis);
     Link link{.joint = index,
@@ -122,9 +119,9 @@ class Builder {
               .kd_nm_s_per_rad = static_cast<float>(joint.servo.kd_nm_s_per_rad)};
     const std::array<double, 3> parts{axis.x, axis.y, axis.z};
     for (int k = 0; k < 3; ++k) {
-      if (std::abs(parts[at(k)]) < 1.0 - 1e-12) continue;
+      if (std::abs(parts[to_index(k)]) < 1.0 - 1e-12) continue;
       link.axis = k;
-      link.sign = parts[at(k)] > 0.0 ? 1.0f : -1.0f;
+      link.sign = parts[to_index(k)] > 0.0 ? 1.0f : -1.0f;
     }
     model_.links.push_back(link);
     return origin;
@@ -132,16 +129,16 @@ class Builder {
 
   void add_geoms(int chain) {
     for (int g = 0; g < static_cast<int>(robot_.geoms.size()); ++g) {
-      const Geom& geom = robot_.geoms[at(g)];
-      if (geom.collides && places_[at(geom.body)].chain == chain) add_geom(g);
+      const Geom& geom = robot_.geoms[to_index(g)];
+      if (geom.collides && places_[to_index(geom.body)].chain == chain) add_geom(g);
     }
     model_.first_geom.push_back(static_cast<int>(model_.geoms.size()));
   }
 
   void add_geom(int index) {
-    const Geom& geom = robot_.geoms[at(index)];
-    const Place& place = places_[at(geom.body)];
-    const Pose pose = poses_[at(geom.body)] * Pose{geom.position_m, geom.rotation};
+    const Geom& geom = robot_.geoms[to_index(index)];
+    const Place& place = places_[to_index(geom.body)];
+    const Pose pose = poses_[to_index(geom.body)] * Pose{geom.position_m, geom.rotation};
     PointGroup group{.first = static_cast<int>(model_.points.size()),
                      .centre_m = narrow(pose.position_m - place.origin_m)};
     const auto add = [&](Vec3 offset, double radius) {
@@ -202,8 +199,8 @@ Model::Model(const RobotSpec& robot)
     equal_chains = equal_chains && chain.count == chains[0].count;
     float mass = 0.0f;
     for (int l = chain.first + chain.count - 1; l >= chain.first; --l) {
-      if (links[at(l)].has_mass) mass += links[at(l)].body.mass_kg;
-      links[at(l)].outer_mass_kg = mass;
+      if (links[to_index(l)].has_mass) mass += links[to_index(l)].body.mass_kg;
+      links[to_index(l)].outer_mass_kg = mass;
     }
   }
 }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "amble/core/index.hpp"
 #include "amble/physics/batch/step.hpp"
 #include "amble/physics/batch/trigonometry-inl.hpp"
 #include "amble/physics/batch/vector-inl.hpp"
@@ -28,13 +29,11 @@ struct Pass {
   void set_state(int index, V v) const { store1(v, batch.state[index], lane); }
   void set_state3(int index, V3 v) const { store3(v, batch.state + index, lane); }
   float* scratch(int vector) const { return batch.workspace.memory() + vector * width; }
-  const Link& link(const Chain& chain, int j) const {
-    return batch.model.links[static_cast<std::size_t>(chain.first + j)];
-  }
+  const Link& link(const Chain& chain, int j) const { return batch.model.links[to_index(chain.first + j)]; }
   int pose_row(int link) const { return batch.rows.pose + Rows::pose_size * link; }
   unsigned char& geom_felt(int geom) const {
-    const std::size_t first = static_cast<std::size_t>(lane / width) * batch.model.geoms.size();
-    return batch.workspace.felt[first + static_cast<std::size_t>(geom)];
+    const std::size_t first = to_index(lane / width) * batch.model.geoms.size();
+    return batch.workspace.felt[first + to_index(geom)];
   }
   Mask active() const { return state(Rows::active) > zero(); }
   /// The world's axes in torso axes, as columns: takes world axes to torso axes.
@@ -133,10 +132,10 @@ HWY_NOINLINE void find_touch(const Pass& pass) {
   V contacts = zero();
   for (std::size_t g = 0; g < model.geoms.size(); ++g) {
     const PointGroup& geom = model.geoms[g];
-    const Point& any = model.points[static_cast<std::size_t>(geom.first)];
+    const Point& any = model.points[to_index(geom.first)];
     V3 origin = pass.state3(Rows::origin), tilt = up;
     if (any.chain >= 0) {
-      const int row = pass.pose_row(model.chains[static_cast<std::size_t>(any.chain)].first + any.link);
+      const int row = pass.pose_row(model.chains[to_index(any.chain)].first + any.link);
       origin = pass.state3(row + 9);
       tilt = transposed({pass.state3(row), pass.state3(row + 3), pass.state3(row + 6)}, up);
     }
@@ -145,7 +144,7 @@ HWY_NOINLINE void find_touch(const Pass& pass) {
     pass.work().near[g] = !hn::AllFalse(Floats(), hn::And(active, lowest <= zero()));
     Mask touches = nowhere();
     for (int p = geom.first; pass.work().near[g] && p < geom.first + geom.count; ++p) {
-      const Point& point = model.points[static_cast<std::size_t>(p)];
+      const Point& point = model.points[to_index(p)];
       const V h = dot(tilt, set(point.position_m), height) - set(point.radius_m);
       store(h, pass.scratch(pass.work().heights + p));
       touches = hn::Or(touches, h <= zero());
@@ -164,7 +163,7 @@ HWY_NOINLINE void read_sensors(const Pass& pass) {
   robot::SensorFrame& sensors = pass.batch.sensors;
   for (int l = 0; l < pass.batch.rows.links; ++l)
     put(pass.state(pass.batch.rows.angle + l), sensors.joint_angle_rad,
-        pass.model().links[static_cast<std::size_t>(l)].joint);
+        pass.model().links[to_index(l)].joint);
   for (int leg = 0; leg < pass.model().legs; ++leg)
     put(pass.state(pass.batch.rows.touch + leg), sensors.touch, leg);
   // Entries of the rotation R_z(yaw) R_y(pitch) R_x(roll).

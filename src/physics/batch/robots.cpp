@@ -1,9 +1,11 @@
 #include "amble/physics/batch/robots.hpp"
 
+#include "amble/core/index.hpp"
+
 namespace amble::physics::batch {
 
 Robots::Robots(const Model& model, const Rows& layout)
-    : model_(model), layout_(layout), rows_(index(layout.count)) {
+    : model_(model), layout_(layout), rows_(to_index(layout.count)) {
   sensors_.joint_angle_rad = LaneArray(layout.links, lanes);
   sensors_.touch = LaneArray(model.legs, lanes);
   sensors_.attitude_rad = LaneArray(3, lanes);
@@ -33,7 +35,7 @@ void Robots::put_state(int lane, const BatchState& state) {
   put(Rows::velocity, lane, state.velocity_m_s);
   put(Rows::spin, lane, state.spin_kg_m2_s);
   for (int l = 0; l < layout_.links; ++l) {
-    const std::size_t joint = index(model_.links[index(l)].joint);
+    const std::size_t joint = to_index(model_.links[to_index(l)].joint);
     at(layout_.angle + l, lane) = static_cast<float>(state.angle_rad[joint]);
     at(layout_.speed + l, lane) = static_cast<float>(state.speed_rad_s[joint]);
   }
@@ -45,10 +47,10 @@ BatchState Robots::state(int lane) const {
                    rotation(lane),
                    vec3(Rows::velocity, lane),
                    vec3(Rows::spin, lane),
-                   std::vector<double>(index(layout_.links)),
-                   std::vector<double>(index(layout_.links))};
+                   std::vector<double>(to_index(layout_.links)),
+                   std::vector<double>(to_index(layout_.links))};
   for (int l = 0; l < layout_.links; ++l) {
-    const std::size_t joint = index(model_.links[index(l)].joint);
+    const std::size_t joint = to_index(model_.links[to_index(l)].joint);
     state.angle_rad[joint] = number(layout_.angle + l, lane);
     state.speed_rad_s[joint] = number(layout_.speed + l, lane);
   }

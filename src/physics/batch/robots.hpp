@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "amble/core/index.hpp"
 #include "amble/core/math.hpp"
 #include "amble/physics/batch/batch_engine.hpp"
 #include "amble/physics/batch/step.hpp"
@@ -15,8 +16,8 @@ class Robots {
   /// All of them retired. `model` and `layout` must live longer.
   Robots(const Model& model, const Rows& layout);
 
-  float& at(int row, int lane) { return rows_[index(row)].lane[index(lane)]; }
-  float at(int row, int lane) const { return rows_[index(row)].lane[index(lane)]; }
+  float& at(int row, int lane) { return rows_[to_index(row)].lane[to_index(lane)]; }
+  float at(int row, int lane) const { return rows_[to_index(row)].lane[to_index(lane)]; }
   Vec3 vec3(int row, int lane) const {
     return {number(row, lane), number(row + 1, lane), number(row + 2, lane)};
   }
@@ -36,7 +37,6 @@ class Robots {
   const robot::SensorFrame& sensors() const { return sensors_; }
 
  private:
-  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   double number(int row, int lane) const { return static_cast<double>(at(row, lane)); }
 
   const Model& model_;

@@ -6,6 +6,7 @@
 #define AMBLE_BATCH_SOLVER_INL_HPP
 #endif
 
+#include "amble/core/index.hpp"
 #include "amble/physics/batch/constraints-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -148,7 +149,7 @@ HWY_INLINE void visit_chain(const Pass& pass, const ChainBlocks& blocks, int n, 
   }
   for (int b = 0; b < blocks.joint_blocks; ++b) {
     const Block block = block_at(pass, blocks.first + b, N >= 0 ? N : n);
-    const int left = n - pass.work().block_joint[static_cast<std::size_t>(blocks.first + b)];
+    const int left = n - pass.work().block_joint[to_index(blocks.first + b)];
     if (N == 3 || left >= 3) {
       visit_block<N, 3, Bound::joint>(block, joints, base);
     } else if (left == 2) {

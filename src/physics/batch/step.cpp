@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "amble/core/index.hpp"
 #include "amble/physics/batch/denormals.hpp"
 
 // Instruction sets that would only repeat the code of their neighbours, or have no fixed width.
@@ -31,7 +32,7 @@ HWY_INLINE V plain(V x) {
 inline void keep_joint_impulses(const Pass& pass, const ChainBlocks& blocks, const Chain& chain) {
   for (int b = 0; b < blocks.joint_blocks; ++b) {
     const Block block = block_at(pass, blocks.first + b, chain.count);
-    const int first = pass.work().block_joint[static_cast<std::size_t>(blocks.first + b)];
+    const int first = pass.work().block_joint[to_index(blocks.first + b)];
     for (int r = 0; r < 3 && first + r < chain.count; ++r)
       pass.set_state(pass.batch.rows.joint_impulse + chain.first + first + r,
                      plain(block.get(BlockShape::impulse, r) * block.get(BlockShape::inverse, r)));
@@ -44,7 +45,7 @@ inline void keep_point_impulses(const Pass& pass, const ChainBlocks& blocks, std
   if (blocks.count == blocks.joint_blocks) return;
   for (int g = model.first_geom[segment]; g < model.first_geom[segment + 1]; ++g) {
     if (!pass.geom_felt(g)) continue;
-    const PointGroup& geom = model.geoms[static_cast<std::size_t>(g)];
+    const PointGroup& geom = model.geoms[to_index(g)];
     for (int p = geom.first; p < geom.first + geom.count; ++p) {
       const V place = load(pass.scratch(pass.work().places + p));
       V3 impulse = zero3();
@@ -185,7 +186,7 @@ HWY_NOINLINE void tell_torques(const Pass& pass) {
         load(servo + 2 * width) - load(servo + width) < set(std::numeric_limits<float>::infinity());
     const V impulse = hn::IfThenElseZero(motor, pass.state(pass.batch.rows.joint_impulse + l));
     const V torque = fma(rate, impulse, load(servo + 3 * width));
-    const int joint = pass.model().links[static_cast<std::size_t>(l)].joint;
+    const int joint = pass.model().links[to_index(l)].joint;
     hn::StoreU(torque, Floats(), pass.batch.torques_nm->row(joint) + pass.lane);
   }
 }

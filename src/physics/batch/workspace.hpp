@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "amble/core/index.hpp"
 #include "amble/physics/batch/model.hpp"
 #include "amble/physics/batch/rows.hpp"
 
@@ -57,11 +58,11 @@ class Workspace {
     for (const Chain& chain : model.chains)
       factors.push_back(take(chain.count * (chain.count + 1) / 2 + 7 * chain.count));
     blocks = take((links + points) * shape.size());
-    storage_.resize(static_cast<std::size_t>((vectors_ + 1) * lanes));
+    storage_.resize(to_index((vectors_ + 1) * lanes));
     void* start = storage_.data();
     std::size_t space = storage_.size() * sizeof(float);
     memory_ = static_cast<float*>(std::align(sizeof(Row), sizeof(float), start, space));
-    block_joint.resize(static_cast<std::size_t>(links + points));
+    block_joint.resize(to_index(links + points));
     near.resize(model.geoms.size());
     felt.resize(lanes * model.geoms.size());
   }

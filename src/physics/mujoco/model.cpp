@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "amble/core/index.hpp"
 #include "amble/morphology/mjcf_writer.hpp"
 
 namespace amble::physics::mujoco {
@@ -14,10 +15,6 @@ using robot::Geom;
 using robot::RobotSpec;
 using robot::ServoMode;
 using robot::Shape;
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// Gives MuJoCo's constraints the law of ODE's. ODE solves for the velocity v' after the step
 ///     v' = (erp / h) depth − cfm f,
@@ -83,8 +80,8 @@ void set_options(mjOption& option, double timestep_s) {
 void set_joints(const RobotSpec& robot, const Softness& softness, Model& model) {
   const mjModel& m = *model.mujoco;
   for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j) {
-    const int dof = model.dof_of[at(j)], id = m.dof_jntid[dof];
-    const auto& servo = robot.joints[at(j)].servo;
+    const int dof = model.dof_of[to_index(j)], id = m.dof_jntid[dof];
+    const auto& servo = robot.joints[to_index(j)].servo;
     const double diagonal = m.dof_invweight0[dof];
     softness.give(m.jnt_solref + mjNREF * id, m.jnt_solimp + mjNIMP * id, diagonal);
     softness.give(m.dof_solref + mjNREF * dof, m.dof_solimp + mjNIMP * dof, diagonal);
@@ -111,17 +108,17 @@ Model make_model(const RobotSpec& robot, double timestep_s) {
               .joint_of = {},
               .leg_of = {}};
   mjModel& m = *model.mujoco;
-  model.joint_of.assign(at(m.nv), -1);
-  model.leg_of.assign(at(m.ngeom), -1);
+  model.joint_of.assign(to_index(m.nv), -1);
+  model.leg_of.assign(to_index(m.ngeom), -1);
   for (std::size_t place = 0; place < mjcf.joints.size(); ++place) {
     const int j = mjcf.joints[place];
-    model.position_of[at(j)] = m.jnt_qposadr[place + 1];
-    model.dof_of[at(j)] = m.jnt_dofadr[place + 1];
-    model.joint_of[at(model.dof_of[at(j)])] = j;
+    model.position_of[to_index(j)] = m.jnt_qposadr[place + 1];
+    model.dof_of[to_index(j)] = m.jnt_dofadr[place + 1];
+    model.joint_of[to_index(model.dof_of[to_index(j)])] = j;
   }
   for (std::size_t place = 0; place < mjcf.geoms.size(); ++place) {
     for (int l = 0; l < static_cast<int>(robot.legs.size()); ++l)
-      if (robot.legs[at(l)].foot_geom == mjcf.geoms[place]) model.leg_of[place + 1] = l;
+      if (robot.legs[to_index(l)].foot_geom == mjcf.geoms[place]) model.leg_of[place + 1] = l;
   }
   set_options(m.opt, timestep_s);
   const Softness softness(robot.contact, timestep_s);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "amble/core/index.hpp"
+
 namespace amble::physics::mujoco {
 namespace {
 
@@ -16,21 +18,19 @@ Slip::Slip(double friction, double timestep_s) : friction_(friction), timestep_s
 void Slip::solve(const mjModel* model, mjData* data) {
   mj_fwdConstraint(model, data);
   if (friction_ == 0.0 || std::isinf(friction_)) return;
-  lowered_.assign(static_cast<std::size_t>(data->ncon), 0.0);
+  lowered_.assign(to_index(data->ncon), 0.0);
   for (int i = 0; i < most_corrections && correct(model, data); ++i) mj_fwdConstraint(model, data);
 }
 
 /// Adapts what the solver aims at to its last solution; says whether that made a difference.
 bool Slip::correct(const mjModel* model, mjData* data) {
-  accelerations_.resize(static_cast<std::size_t>(data->nefc));
+  accelerations_.resize(to_index(data->nefc));
   mj_mulJacVec(model, data, accelerations_.data(), data->qacc);
   bool changed = false;
   for (std::size_t c = 0; c < lowered_.size(); ++c) {
     const int row = data->contact[c].efc_address;
     if (row < 0) continue;
-    const auto missed = [&](int r) {
-      return accelerations_[static_cast<std::size_t>(r)] - data->efc_aref[r];
-    };
+    const auto missed = [&](int r) { return accelerations_[to_index(r)] - data->efc_aref[r]; };
     // Tangential rows aim at standing still after this step.
     const double slip = std::hypot(missed(row + 1), missed(row + 2));
     const double lowered = friction_ * slip;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "amble/core/index.hpp"
+
 namespace amble::physics::ode {
 namespace {
 
@@ -25,8 +27,7 @@ double bounding_radius(const Geom& geom) {
 }
 
 bool joined(const RobotSpec& robot, int a, int b) {
-  return a == b || robot.bodies[static_cast<std::size_t>(a)].parent == b ||
-         robot.bodies[static_cast<std::size_t>(b)].parent == a;
+  return a == b || robot.bodies[to_index(a)].parent == b || robot.bodies[to_index(b)].parent == a;
 }
 
 /// So much may rounding spoil a bounding sphere, m.
@@ -43,7 +44,7 @@ Contacts::Contacts(const RobotSpec& robot, const World& world) : world_(world), 
     const Geom& geom = robot.geoms[g];
     if (!geom.collides) continue;
     Collider collider{.geom = world.geoms()[g],
-                      .body = world.bodies()[static_cast<std::size_t>(geom.body)],
+                      .body = world.bodies()[to_index(geom.body)],
                       .radius_m = bounding_radius(geom) + slack_m};
     for (std::size_t l = 0; l < robot.legs.size(); ++l) {
       if (robot.legs[l].foot_geom == static_cast<int>(g)) collider.leg = static_cast<int>(l);
@@ -86,8 +87,8 @@ int Contacts::meet_ground(const Collider& collider) {
 }
 
 void Contacts::meet(const Pair& pair) {
-  const Collider& a = colliders_[static_cast<std::size_t>(pair.a)];
-  const Collider& b = colliders_[static_cast<std::size_t>(pair.b)];
+  const Collider& a = colliders_[to_index(pair.a)];
+  const Collider& b = colliders_[to_index(pair.b)];
   const dReal* at = dGeomGetPosition(a.geom);
   const dReal* bt = dGeomGetPosition(b.geom);
   const Vec3 between{at[0] - bt[0], at[1] - bt[1], at[2] - bt[2]};

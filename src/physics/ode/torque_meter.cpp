@@ -1,11 +1,9 @@
 #include "amble/physics/ode/torque_meter.hpp"
 
+#include "amble/core/index.hpp"
+
 namespace amble::physics::ode {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 Vec3 vec3(const dReal* v) {
   return {v[0], v[1], v[2]};
@@ -27,12 +25,12 @@ void TorqueMeter::before_step(const LaneArray& targets_rad) {
     const Motors::Drive& drive = motors_.drives()[d];
     const Vec3 com = vec3(dBodyGetPosition(dJointGetBody(drive.joint, 0)));
     dVector3 anchor, axis1, axis2{};
-    known_nm_[at(drive.first)] = motors_.torque_beforehand(drive, drive.first, targets_rad);
+    known_nm_[to_index(drive.first)] = motors_.torque_beforehand(drive, drive.first, targets_rad);
     if (drive.second < 0) {
       dJointGetHingeAnchor(drive.joint, anchor);
       dJointGetHingeAxis(drive.joint, axis1);
     } else {
-      known_nm_[at(drive.second)] = motors_.torque_beforehand(drive, drive.second, targets_rad);
+      known_nm_[to_index(drive.second)] = motors_.torque_beforehand(drive, drive.second, targets_rad);
       dJointGetUniversalAnchor(drive.joint, anchor);
       dJointGetUniversalAxis1(drive.joint, axis1);
       dJointGetUniversalAxis2(drive.joint, axis2);
@@ -43,7 +41,7 @@ void TorqueMeter::before_step(const LaneArray& targets_rad) {
 
 void TorqueMeter::after_step(LaneArray& torques_nm) const {
   const auto put = [&](int joint, double solved_nm) {
-    torques_nm.at(joint, 0) = static_cast<float>(known_nm_[at(joint)].value_or(solved_nm));
+    torques_nm.at(joint, 0) = static_cast<float>(known_nm_[to_index(joint)].value_or(solved_nm));
   };
   for (std::size_t d = 0; d < stands_.size(); ++d) {
     const Motors::Drive& drive = motors_.drives()[d];
