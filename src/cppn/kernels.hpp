@@ -19,7 +19,7 @@ inline std::size_t scratch_tiles(const Program& program) {
   return to_index(program.slots) * (program.in_place ? 1 : 2);
 }
 
-/// Network::evaluate, with scratch_tiles(program) tiles whose content does not matter.
+/// Network::evaluate, with scratch_tiles(program) tiles of any content.
 void run_program(const Program& program, const Points& points, float* results, Tile* scratch);
 
 /// activate() on `count` values.

@@ -192,7 +192,7 @@ RobotSpec from_json(const JsonView& json) {
                   .gravity_m_s2 = vec3(json.at("gravity_m_s2")),
                   .fall_height_m = json.at("fall_height_m").number(),
                   .self_collision = json.at("self_collision").flag()};
-  check_robot(robot, [&](const std::string& problem) { json.complain("holds no valid robot: " + problem); });
+  check_robot(robot, [&](const std::string& problem) { json.refuse("holds no valid robot: " + problem); });
   return robot;
 }
 

@@ -22,7 +22,7 @@ std::string item(const char* list, std::size_t index, const char* key = nullptr)
   return key == nullptr ? fmt::format("{}[{}]", list, index) : fmt::format("{}[{}].{}", list, index, key);
 }
 
-/// Names that are there once each and not empty.
+/// Refuses an empty list, empty names and duplicates.
 void check_names(const std::vector<std::string>& names, const char* key) {
   if (names.empty()) refuse(key, " is empty: expected a list of names");
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -40,7 +40,7 @@ std::string_view name_of(Property property) {
 }  // namespace
 
 void LayoutBuilder::build() {
-  take_names();
+  set_names();
   add_nodes();
   assign_joints();
   add_links();
@@ -50,7 +50,7 @@ void LayoutBuilder::build() {
   layout_.points_ = points_.points(static_cast<int>(layout_.input_names_.size()));
 }
 
-void LayoutBuilder::take_names() {
+void LayoutBuilder::set_names() {
   check_names(settings_.coordinates, "coordinates");
   check_names(settings_.outputs, "outputs");
   layout_.coordinates_ = settings_.coordinates;
@@ -84,12 +84,18 @@ void LayoutBuilder::add_nodes() {
       refuse(item("nodes", i, "name"), " = \"{}\": nodes[{}] is called so, too", node.name, first->second);
     const std::vector<float> at(node.at.begin(), node.at.end());
     if (const auto [first, is_new] = places.try_emplace(at, i); !is_new)
-      refuse(item("nodes", i, "at"), ": \"{}\" stands where \"{}\" (nodes[{}]) stands", node.name,
+      refuse(item("nodes", i, "at"), ": \"{}\" has the same coordinates as \"{}\" (nodes[{}])", node.name,
              settings_.nodes[first->second].name, first->second);
     Node& added = layout_.nodes_.emplace_back(Node{node.name, node.group, node.at, std::nullopt, -1});
     if (!node.sensor.empty())
       added.sensor = parse_sensor(node.sensor, robot_, "controller.substrate." + item("nodes", i, "sensor"));
   }
+  check_groups();
+}
+
+void LayoutBuilder::check_groups() const {
+  std::map<std::string, std::size_t> names;
+  for (std::size_t i = 0; i < settings_.nodes.size(); ++i) names.try_emplace(settings_.nodes[i].name, i);
   for (std::size_t i = 0; i < settings_.nodes.size(); ++i) {
     const auto namesake = names.find(settings_.nodes[i].group);
     if (namesake != names.end() && namesake->second != i)
@@ -258,14 +264,14 @@ std::vector<std::size_t> LayoutBuilder::coordinates_of(const std::vector<std::st
   return found;
 }
 
-std::vector<float> LayoutBuilder::place(int node) const {
+std::vector<float> LayoutBuilder::coordinates(int node) const {
   const auto& at = layout_.nodes_[to_index(node)].at;
   return {at.begin(), at.end()};
 }
 
 std::vector<float> LayoutBuilder::link_inputs(int source, int target) const {
-  std::vector<float> inputs = place(source);
-  const std::vector<float> end = place(target);
+  std::vector<float> inputs = coordinates(source);
+  const std::vector<float> end = coordinates(target);
   inputs.insert(inputs.end(), end.begin(), end.end());
   inputs.resize(layout_.input_names_.size());
   return inputs;
@@ -273,7 +279,7 @@ std::vector<float> LayoutBuilder::link_inputs(int source, int target) const {
 
 std::vector<float> LayoutBuilder::node_inputs(int node, const std::vector<std::size_t>& zero,
                                               int tick) const {
-  std::vector<float> inputs = place(node);
+  std::vector<float> inputs = coordinates(node);
   for (const std::size_t coordinate : zero) inputs[coordinate] = 0.0f;
   inputs.resize(layout_.input_names_.size());
   if (has_time_ && tick > 0)

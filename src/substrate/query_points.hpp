@@ -8,7 +8,7 @@
 
 namespace amble::substrate {
 
-/// Collects the points at which a CPPN will be asked; equal ones are asked once.
+/// Collects the points at which a CPPN will be queried; equal points are one.
 class QueryPoints {
  public:
   /// Index of the point with these inputs.

@@ -47,8 +47,8 @@ std::string properties_text(const Settings& settings) {
       continue;
     }
     text += fmt::format("{} to {} by output {}", property.low, property.high, property.output);
-    text += property.zero.empty() ? "\n"
-                                  : fmt::format(", asked for with {} = 0\n", fmt::join(property.zero, ", "));
+    text +=
+        property.zero.empty() ? "\n" : fmt::format(", queried with {} = 0\n", fmt::join(property.zero, ", "));
   }
   return text;
 }

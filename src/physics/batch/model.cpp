@@ -27,7 +27,8 @@ Pose inverse(const Pose& pose) {
   return {-rotate(back, pose.position_m), back};
 }
 
-/// `origin` of the link's frame and the body's pose, both seen from the torso in the start pose.
+/// Inertia of a body about its centre of mass, I = R diag(moments) Rᵀ, in torso axes of the start pose.
+/// `pose` (of the body) and `origin` (of the link's frame) are relative to the torso's frame.
 MassPart mass_part(const Body& body, const Pose& pose, Vec3 origin) {
   const Quat principal = pose.rotation * body.inertia_rotation;
   const std::array<Vec3, 3> axes{rotate(principal, {1, 0, 0}), rotate(principal, {0, 1, 0}),
@@ -49,7 +50,7 @@ class Builder {
   Builder(const RobotSpec& robot, Model& model) : robot_(robot), model_(model) {
     const auto poses = robot::start_poses(robot);
     for (const Pose& pose : poses) poses_.push_back(inverse(poses[0]) * pose);
-    places_.resize(robot.bodies.size());
+    frames_.resize(robot.bodies.size());
   }
 
   void build() {
@@ -61,9 +62,9 @@ class Builder {
   }
 
  private:
-  struct Place {
-    int chain = -1, link = -1;
-    Vec3 origin_m;  ///< of the link's frame, seen from the torso in the start pose
+  struct LinkFrame {
+    int chain = -1, link = -1;  ///< −1: the torso
+    Vec3 origin_m;              ///< of the link's frame, relative to the torso, in the start pose
   };
 
   std::vector<int> children(int parent) const {
@@ -83,7 +84,7 @@ class Builder {
       last.has_mass = true;
       last.body = mass_part(robot_.bodies[to_index(body)], poses_[to_index(body)], before);
       const int count = static_cast<int>(model_.links.size()) - first;
-      places_[to_index(body)] = {chain, count - 1, before};
+      frames_[to_index(body)] = {chain, count - 1, before};
       const auto next = children(body);
       if (next.size() > 1)
         fail(ExitCode::bad_input,
@@ -130,21 +131,21 @@ class Builder {
   void add_geoms(int chain) {
     for (int g = 0; g < static_cast<int>(robot_.geoms.size()); ++g) {
       const Geom& geom = robot_.geoms[to_index(g)];
-      if (geom.collides && places_[to_index(geom.body)].chain == chain) add_geom(g);
+      if (geom.collides && frames_[to_index(geom.body)].chain == chain) add_geom(g);
     }
     model_.first_geom.push_back(static_cast<int>(model_.geoms.size()));
   }
 
   void add_geom(int index) {
     const Geom& geom = robot_.geoms[to_index(index)];
-    const Place& place = places_[to_index(geom.body)];
+    const LinkFrame& frame = frames_[to_index(geom.body)];
     const Pose pose = poses_[to_index(geom.body)] * Pose{geom.position_m, geom.rotation};
     PointGroup group{.first = static_cast<int>(model_.points.size()),
-                     .centre_m = narrow(pose.position_m - place.origin_m)};
+                     .centre_m = narrow(pose.position_m - frame.origin_m)};
     const auto add = [&](Vec3 offset, double radius) {
       model_.points.push_back(
-          {place.chain, place.link, narrow(pose * offset - place.origin_m), static_cast<float>(radius)});
-      group.reach_m = std::max(group.reach_m, static_cast<float>(norm(offset) + radius));
+          {frame.chain, frame.link, narrow(pose * offset - frame.origin_m), static_cast<float>(radius)});
+      group.bounding_radius_m = std::max(group.bounding_radius_m, static_cast<float>(norm(offset) + radius));
     };
     const Vec3 size = geom.size_m;
     switch (geom.shape) {
@@ -164,7 +165,7 @@ class Builder {
              "the batch engine knows no contact of cylinders, as of geom '{}': use a capsule, or engine ode",
              geom.name);
     }
-    group.reach_m *= 1.0001f;  // so much may rounding spoil it
+    group.bounding_radius_m *= 1.0001f;  // margin for rounding
     group.count = static_cast<int>(model_.points.size()) - group.first;
     for (std::size_t l = 0; l < robot_.legs.size(); ++l)
       if (robot_.legs[l].foot_geom == index) group.leg = static_cast<int>(l);
@@ -173,8 +174,8 @@ class Builder {
 
   const RobotSpec& robot_;
   Model& model_;
-  std::vector<Pose> poses_;    ///< of all bodies, seen from the torso in the start pose
-  std::vector<Place> places_;  ///< of all bodies
+  std::vector<Pose> poses_;        ///< of all bodies, relative to the torso, in the start pose
+  std::vector<LinkFrame> frames_;  ///< of all bodies: the link that carries each
 };
 
 }  // namespace
@@ -185,7 +186,7 @@ Model::Model(const RobotSpec& robot)
       friction(static_cast<float>(robot.contact.friction)),
       erp(static_cast<float>(robot.contact.erp)),
       cfm_s_per_kg(static_cast<float>(robot.contact.cfm_s_per_kg)),
-      // The bounds of a friction cone move in every sweep: over-relaxed, feet that stand would chatter.
+      // The bounds of a friction cone change in every sweep: over-relaxed, resting feet would chatter.
       joint_relaxation(1.4f),
       contact_relaxation(std::isinf(friction) ? 1.4f : 1.0f),
       iterations(std::isinf(friction) ? 10 : 14),

@@ -72,7 +72,7 @@ class MujocoEngine final : public SingleRobotEngine {
   void step(const LaneArray& targets_rad) override {
     if (!can_step(targets_rad)) return;
     mj_fwdPosition(model_.get(), data_.get());
-    feel();
+    find_touch();
     mj_fwdVelocity(model_.get(), data_.get());
     drive(targets_rad);
     mj_fwdAcceleration(model_.get(), data_.get());
@@ -85,7 +85,7 @@ class MujocoEngine final : public SingleRobotEngine {
 
   void push(int lane, Vec3 impulse_n_s) override {
     check_pushable(lane);
-    // Acts on the body's centre of mass.
+    // xfrc_applied acts at the body's centre of mass: force = impulse / h, for one step.
     mjtNum* const force_n = data_->xfrc_applied + 6 * root_body;
     const mjtNum impulse[] = {impulse_n_s.x, impulse_n_s.y, impulse_n_s.z};
     mju_addToScl3(force_n, impulse, 1.0 / model_->opt.timestep);
@@ -124,19 +124,19 @@ class MujocoEngine final : public SingleRobotEngine {
   void reset(int lane) {
     check_lane(lane);
     mj_resetData(model_.get(), data_.get());
-    // MuJoCo reports the first warning of each kind into a log file in the current folder.
+    // MuJoCo would write the first warning of each kind to a log file in the current folder.
     for (mjWarningStat& warning : data_->warning) warning.number = 1;
   }
 
   void begin() {
     place_here();
     mj_fwdPosition(model_.get(), data_.get());
-    feel();
+    find_touch();
     read_state();
   }
 
   /// Reads which feet touch the ground.
-  void feel() {
+  void find_touch() {
     sensors_.touch.set_lane(0, 0.0f);
     for (const mjContact& contact : std::span(data_->contact, to_index(data_->ncon))) {
       if (contact.geom1 != ground_geom) continue;
@@ -145,14 +145,15 @@ class MujocoEngine final : public SingleRobotEngine {
     }
   }
 
-  /// Makes the servos pull towards the targets.
+  /// Applies the servos: a torque servo as a generalised force, a velocity servo as a motor.
   void drive(const LaneArray& targets_rad) {
     for (int j = 0; j < targets_rad.rows(); ++j) {
       const robot::Joint& joint = robot_.joints[to_index(j)];
       if (joint.servo.mode == ServoMode::torque)
         data_->qfrc_applied[model_.dof_of[to_index(j)]] = torque_nm(j, error_rad(j, targets_rad));
     }
-    // MuJoCo's friction in a joint brakes to speed 0: −b v. A motor brakes to its own speed.
+    // MuJoCo's dry friction in a joint has a_ref = −b q̇ (efc_KBIP: stiffness, damping b, impedance and its
+    // derivative, by row). A motor has a_ref = −b (q̇ − speed) with speed = gain (target − q).
     for (int row = data_->ne; row < data_->ne + data_->nf; ++row) {
       const int j = model_.joint_of[to_index(data_->efc_id[row])];
       const double speed_rad_s = robot_.joints[to_index(j)].servo.gain_per_s * error_rad(j, targets_rad);
@@ -160,7 +161,8 @@ class MujocoEngine final : public SingleRobotEngine {
     }
   }
 
-  /// What drive() came to, once the constraints are solved.
+  /// The servos' torques, once the constraints are solved: explicit ones, and the forces of the friction
+  /// rows.
   void measure_torques() {
     for (int j = 0; j < torques_nm_.rows(); ++j)
       torques_nm_.at(j, 0) = static_cast<float>(data_->qfrc_applied[model_.dof_of[to_index(j)]]);
@@ -183,6 +185,7 @@ class MujocoEngine final : public SingleRobotEngine {
     return std::clamp(torque, -servo.max_torque_nm, servo.max_torque_nm);
   }
 
+  /// Finite, and not absurdly fast (Engine::healthy).
   bool sane() const {
     double sum = 0.0;  // finite only if every number is
     for (const double x : std::span(data_->qpos, to_index(model_->nq))) sum += x;

@@ -103,7 +103,7 @@ void Motors::drive_hinge(const Drive& drive, double target_rad) const {
 }
 
 void Motors::drive_universal(const Drive& drive, double target1_rad, double target2_rad) const {
-  // An unpowered motor ignores its speed, so both modes can share one joint.
+  // A motor with dParamFMax 0 ignores its speed, so both modes can share one joint.
   dJointSetUniversalParam(drive.joint, dParamVel1, speed_command(drive.first, target1_rad));
   dJointSetUniversalParam(drive.joint, dParamVel2, speed_command(drive.second, target2_rad));
   const bool torque1 = joints_[to_index(drive.first)].servo.mode == ServoMode::torque;

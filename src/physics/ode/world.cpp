@@ -20,7 +20,7 @@ using robot::Shape;
 
 constexpr double tolerance = 1e-6;
 
-/// Puts the frame of a body somewhere in the world.
+/// Moves a body so that its frame has this pose in the world; ODE's own frame is at the centre of mass.
 void set_pose(dBodyID id, const Body& body, const Pose& pose) {
   const Vec3 com = pose * body.com_m;
   const Quat q = pose.rotation;
@@ -29,7 +29,7 @@ void set_pose(dBodyID id, const Body& body, const Pose& pose) {
   dBodySetQuaternion(id, rotation);
 }
 
-/// The inertia tensor in the axes of the body's frame, from its principal moments.
+/// The inertia tensor in the axes of the body's frame, R diag(moments) Rᵀ (kg m²).
 dMass mass_of(const Body& body) {
   const std::array<Vec3, 3> axes{rotate(body.inertia_rotation, {1, 0, 0}),
                                  rotate(body.inertia_rotation, {0, 1, 0}),
@@ -74,7 +74,7 @@ dJointID new_hinge(dWorldID world, dBodyID parent, dBodyID child, Vec3 anchor, V
 }
 
 /// The first axis is fixed to the first attached body, the parent, and the second to the child. ODE measures
-/// both angles of the first body against the second, so the axes are turned round to measure the child
+/// both angles of the first body against the second, so the axes are reversed to measure the child
 /// against the parent.
 dJointID new_universal(dWorldID world, dBodyID parent, dBodyID child, Vec3 anchor, Vec3 axis1, Vec3 axis2,
                        const Joint& joint1, const Joint& joint2) {
@@ -93,7 +93,7 @@ dJointID new_universal(dWorldID world, dBodyID parent, dBodyID child, Vec3 ancho
 }  // namespace
 
 World::World(const RobotSpec& robot, const Threading& threading) : world_(dWorldCreate()) {
-  threading.serve(world_);
+  threading.attach_to(world_);
   dWorldSetGravity(world_, robot.gravity_m_s2.x, robot.gravity_m_s2.y, robot.gravity_m_s2.z);
   dWorldSetAutoDisableFlag(world_, 0);
   // Joints copy these when they are made, so they come first.
@@ -113,7 +113,7 @@ World::~World() {
 }
 
 void World::move_to(const RobotSpec& robot, const std::vector<Pose>& poses) {
-  // Joints measure their angles from the pose in which they were made, so that these come out right.
+  // Joints measure angles from the pose in which they were made, the start pose, so theirs are now right.
   for (std::size_t b = 0; b < bodies_.size(); ++b) set_pose(bodies_[b], robot.bodies[b], poses[b]);
 }
 

@@ -10,11 +10,11 @@
 
 namespace amble::physics::batch {
 
-/// The states of sixteen robots, and what their controllers may know.
-class Robots {
+/// The states of sixteen robots, row by row (StateRows), and the sensors derived from them.
+class LockstepState {
  public:
-  /// All of them retired. `model` and `layout` must live longer.
-  Robots(const Model& model, const Rows& layout);
+  /// All robots are retired. Keeps references to `model` and `layout`.
+  LockstepState(const Model& model, const StateRows& layout);
 
   float& at(int row, int lane) { return rows_[to_index(row)].lane[to_index(lane)]; }
   float at(int row, int lane) const { return rows_[to_index(row)].lane[to_index(lane)]; }
@@ -23,14 +23,14 @@ class Robots {
   }
   void put(int row, int lane, Vec3 v);
   Quat rotation(int lane) const;
-  /// From the torso's axes to the world's.
+  /// A vector in torso axes in world axes.
   Vec3 to_world(int lane, Vec3 v) const;
 
-  /// The state proper; what follows from it is due to derive(). Impulses of the step before are forgotten.
-  void put_state(int lane, const BatchState& state);
-  BatchState state(int lane) const;
-  /// Lane `to` becomes the robot in lane `from` of others, sensors included.
-  void copy(int to, const Robots& others, int from);
+  /// Sets the state itself; derive() must follow. Drops the last step's impulses.
+  void set_state(int lane, const RobotState& state);
+  RobotState state(int lane) const;
+  /// Copies the robot in lane `from` of `others` to lane `to`, sensors included.
+  void copy(int to, const LockstepState& others, int from);
 
   Row* rows() { return rows_.data(); }
   robot::SensorFrame& sensors() { return sensors_; }
@@ -40,7 +40,7 @@ class Robots {
   double number(int row, int lane) const { return static_cast<double>(at(row, lane)); }
 
   const Model& model_;
-  const Rows& layout_;
+  const StateRows& layout_;
   std::vector<Row> rows_;
   robot::SensorFrame sensors_;
 };
