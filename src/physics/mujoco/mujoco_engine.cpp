@@ -70,6 +70,8 @@ class MujocoEngine final : public SingleRobotEngine {
   }
 
   void step(const LaneArray& targets_rad) override {
+    // mj_step in its parts (MuJoCo documentation, "Simulation pipeline"): M(q) and constraints, bias forces,
+    // M q̈ = τ − c + Jᵀ f, then semi-implicit Euler. Between them come the servos and the correction for slip.
     if (!can_step(targets_rad)) return;
     mj_fwdPosition(model_.get(), data_.get());
     find_touch();

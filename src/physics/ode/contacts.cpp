@@ -101,6 +101,7 @@ void Contacts::collide_pair(const Pair& pair) {
 
 void Contacts::add_contacts(int count, dBodyID a, dBodyID b) {
   for (int c = 0; c < count; ++c) {
+    // Normal row: v_n⁺ + cfm f_n = (erp/h) depth, f_n ≥ 0, with the world's erp and cfm.
     dContact contact{};
     contact.surface = surface_;
     contact.geom = found_[c];

@@ -93,6 +93,8 @@ class OdeEngine final : public SingleRobotEngine {
       trial_->contacts.collide(sensors_.touch);
       trial_->motors.drive(targets_rad);
       if (with_torques_) trial_->torques->before_step(targets_rad);
+      // (J M⁻¹ Jᵀ + cfm/h) λ = c/h − J (v/h + M⁻¹ f) with bounds of λ, by Dantzig's pivoting; then v⁺ from
+      // λ, and positions with v⁺ (ODE manual, "Constraint Force Mixing (CFM)" and "World Stepping").
       if (dWorldStep(trial_->world.id(), timestep_s_) == 0) throw ode::Fault("out of memory");
     } catch (const ode::Fault&) {
       healthy_ = false;
