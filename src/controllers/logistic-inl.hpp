@@ -8,10 +8,8 @@
 #define AMBLE_CONTROLLERS_LOGISTIC_INL_HPP
 #endif
 
-#include <hwy/highway.h>
-
 #include "amble/controllers/logistic_constants.hpp"
-#include "amble/core/fused.hpp"
+#include "amble/core/simd-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace amble::controllers::HWY_NAMESPACE {
@@ -19,44 +17,15 @@ namespace amble::controllers::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace c = constants;
 
-/// As many lanes as the machine has, up to a row's 16.
-using Floats = hn::CappedTag<float, 16>;
-using Ints = hn::RebindToSigned<Floats>;
-using V = hn::Vec<Floats>;
-constexpr int width = static_cast<int>(hn::MaxLanes(Floats()));
-
-HWY_INLINE V set(float x) {
-  return hn::Set(Floats(), x);
-}
-HWY_INLINE V load(const float* from) {
-  return hn::Load(Floats(), from);
-}
-HWY_INLINE void store(V v, float* to) {
-  hn::Store(v, Floats(), to);
-}
-
-/// a b + c, rounded once.
-HWY_INLINE V fma(V a, V b, V c) {
-#if HWY_NATIVE_FMA
-  return hn::MulAdd(a, b, c);
-#else
-  HWY_ALIGN float as[width], bs[width], cs[width];
-  store(a, as);
-  store(b, bs);
-  store(c, cs);
-  for (int i = 0; i < width; ++i) cs[i] = fused(as[i], bs[i], cs[i]);
-  return load(cs);
-#endif
-}
-
-/// a b − c, rounded once.
-HWY_INLINE V fms(V a, V b, V c) {
-#if HWY_NATIVE_FMA
-  return hn::MulSub(a, b, c);
-#else
-  return fma(a, b, hn::Neg(c));
-#endif
-}
+using simd::HWY_NAMESPACE::Floats;
+using simd::HWY_NAMESPACE::fma;
+using simd::HWY_NAMESPACE::fms;
+using simd::HWY_NAMESPACE::Ints;
+using simd::HWY_NAMESPACE::load;
+using simd::HWY_NAMESPACE::set;
+using simd::HWY_NAMESPACE::store;
+using simd::HWY_NAMESPACE::V;
+using simd::HWY_NAMESPACE::width;
 
 /// s(x) = 1/(1 + e^(−slope x)). Once for many vectors, what depends on the slope alone.
 class Logistic {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-// Instruction sets that would only repeat the code of their neighbours, or have no fixed width.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_RVV)
+#include "amble/core/simd_targets.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "amble/controllers/neural_kernel.cpp"
 #include <hwy/foreach_target.h>

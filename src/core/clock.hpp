@@ -4,12 +4,12 @@
 
 namespace amble {
 
-/// Seconds of a clock that never goes back; only differences mean something.
+/// Seconds of a monotonic clock; only differences are meaningful.
 inline double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Adds the time that it lives to `seconds`.
+/// Adds its lifetime to `seconds`.
 class Stopwatch {
  public:
   explicit Stopwatch(double& seconds) : seconds_(seconds), start_s_(now_s()) {}

@@ -13,16 +13,16 @@ namespace amble {
 enum class ExitCode : int {
   ok = 0,
   internal = 1,     ///< a defect of amble itself
-  bad_input = 2,    ///< command line, config or robot file: the user can mend it
+  bad_input = 2,    ///< command line, config or robot file: the user can correct it
   bad_file = 3,     ///< a file amble wrote is truncated, altered or of another version
   io = 4,           ///< the system refused: missing file, no permission, disk full
   locked = 5,       ///< another process works in the run folder
   differs = 6,      ///< a champion does not repeat, or its file is unsound
-  interrupted = 7,  ///< stopped by a signal; of a run the checkpoint stands, and `amble resume` goes on
+  interrupted = 7,  ///< stopped by a signal; a run has its checkpoint, from which `amble resume` continues
 };
 
-/// A mistake the user can mend. Becomes one line on stderr ("amble: <what>") and the exit code; never a stack
-/// trace. The text names file, line, key and value where there are such, and what was expected.
+/// A mistake the user can correct. Becomes one line on stderr ("amble: <what>") and the exit code; never a
+/// stack trace. The text names file, line, key and value where known, and what was expected.
 class UserError : public std::runtime_error {
  public:
   explicit UserError(const std::string& what, ExitCode code = ExitCode::bad_input)
@@ -34,8 +34,8 @@ class UserError : public std::runtime_error {
   ExitCode code_;
 };
 
-/// A UserError of a setting that does not go with other settings, or with the robot. Its text names the key;
-/// whoever has read the settings from somewhere can say where (experiment::Config).
+/// A UserError about a setting that is inconsistent with other settings or with the robot. Its text names the
+/// key; the caller that has read the settings adds file and line (experiment::Config).
 class SettingError : public UserError {
  public:
   /// `keys`: the paths of the settings that could be changed, e.g. "controller.substrate.nodes[2].sensor".

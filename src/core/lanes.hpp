@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "amble/core/index.hpp"
+
 namespace amble {
 
 /// `rows` quantities for each of `lanes` robots that advance together, stored quantity by quantity (structure
@@ -10,10 +12,7 @@ namespace amble {
 class LaneArray {
  public:
   LaneArray() = default;
-  LaneArray(int rows, int lanes)
-      : rows_(rows),
-        lanes_(lanes),
-        values_(static_cast<std::size_t>(rows) * static_cast<std::size_t>(lanes)) {}
+  LaneArray(int rows, int lanes) : rows_(rows), lanes_(lanes), values_(to_index(rows) * to_index(lanes)) {}
 
   int rows() const { return rows_; }
   int lanes() const { return lanes_; }
@@ -26,9 +25,7 @@ class LaneArray {
   }
 
  private:
-  std::size_t index(int row, int lane) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(lanes_) + static_cast<std::size_t>(lane);
-  }
+  std::size_t index(int row, int lane) const { return to_index(row) * to_index(lanes_) + to_index(lane); }
 
   int rows_ = 0;
   int lanes_ = 0;

@@ -4,8 +4,7 @@
 
 namespace amble {
 
-/// Three numbers along x, y, z. Units and frame are those of the variable that holds it
-/// (docs/CONVENTIONS.md).
+/// A vector in three dimensions. Its variable's name and comment say unit and frame (docs/CONVENTIONS.md).
 struct Vec3 {
   double x = 0.0, y = 0.0, z = 0.0;
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 
 namespace amble {
 
@@ -24,7 +25,7 @@ void Stream::refill() {
 
 std::uint32_t Stream::next_u32() {
   if (used_ == 4) refill();
-  return block_[static_cast<std::size_t>(used_++)];
+  return block_[to_index(used_++)];
 }
 
 std::uint64_t Stream::next_u64() {
@@ -42,7 +43,7 @@ double Stream::uniform(double low, double high) {
 
 std::uint32_t Stream::below(std::uint32_t count) {
   AMBLE_CHECK(count > 0, "below(0) has no value");
-  // Lemire 2019: multiply, and reject the few products that would favour some values.
+  // Lemire 2019: the high half of x × count, rejecting the products that would favour some values.
   std::uint64_t product = std::uint64_t{next_u32()} * count;
   if (static_cast<std::uint32_t>(product) < count) {
     const std::uint32_t threshold = (0u - count) % count;
@@ -60,6 +61,7 @@ double Stream::normal() {
     has_spare_normal_ = false;
     return spare_normal_;
   }
+  // √(−2 ln u₁) (cos, sin)(2π u₂) with u₁ in (0, 1].
   const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
   const double angle = 2.0 * std::numbers::pi * uniform();
   spare_normal_ = radius * std::sin(angle);

@@ -5,7 +5,7 @@
 
 namespace amble {
 
-/// What a random stream is for. Part of its key, so that a new use of randomness never shifts an old one.
+/// The purpose of a random stream. Part of its key, so that a new use of randomness never shifts an old one.
 /// Values are part of the reproducibility promise: add at the end, never renumber.
 enum class Purpose : std::uint32_t {
   test = 0,
@@ -18,8 +18,8 @@ enum class Purpose : std::uint32_t {
 
 /// A stream of random numbers that depends on its key alone, (seed, purpose, generation, individual), and so
 /// on neither thread nor order of work. Philox4x32-10 (Salmon et al., SC 2011) in counter mode: 2^34 32-bit
-/// numbers per stream. All transforms are our own, because those of the standard library differ between
-/// implementations.
+/// numbers per stream. The transforms to distributions are not those of the standard library, which
+/// differ between implementations.
 class Stream {
  public:
   Stream(std::uint64_t seed, Purpose purpose, std::uint32_t generation = 0, std::uint32_t individual = 0);
@@ -35,7 +35,7 @@ class Stream {
   std::uint32_t below(std::uint32_t count);
   /// True with the given probability in [0, 1].
   bool chance(double probability);
-  /// Standard normal, by Box and Muller's transform (both of a pair are used).
+  /// Standard normal, by the Box–Muller transform (both of a pair are used).
   double normal();
 
  private:

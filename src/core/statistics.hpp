@@ -7,7 +7,7 @@
 
 namespace amble {
 
-/// Of at least one value; the mean of the two in the middle if their number is even.
+/// Median of at least one value; the mean of the two middle ones if their number is even.
 inline double median(std::vector<double> values) {
   AMBLE_CHECK(!values.empty(), "a median needs a value");
   std::ranges::sort(values);

@@ -31,7 +31,7 @@ HWY_INLINE Vector times_plus(Vector a, Vector x, float b) {
   return hn::Add(hn::Mul(a, x), hn::Set(Floats(), b));
 }
 
-/// e^z for z ≤ 0.
+/// e^z = 2^k e^r for z ≤ 0, with z = k ln 2 + r and |r| ≤ ln(2)/2.
 HWY_INLINE Vector exp_of_negative(Vector z) {
   const Floats d;
   const Ints i;
@@ -40,6 +40,7 @@ HWY_INLINE Vector exp_of_negative(Vector z) {
   const Vector k = hn::Sub(sum, hn::Set(d, c::rounder));
   Vector r = hn::Sub(z, hn::Mul(k, hn::Set(d, c::ln2_high)));
   r = hn::Sub(r, hn::Mul(k, hn::Set(d, c::ln2_low)));
+  // e^r = 1 + r + r² P(r).
   Vector p = times_plus(hn::Set(d, c::e6), r, c::e5);
   p = times_plus(p, r, c::e4);
   p = times_plus(p, r, c::e3);
@@ -57,6 +58,7 @@ HWY_INLINE Vector bipolar_sigmoid(Vector x) {
   return hn::CopySign(hn::Div(hn::Sub(one, t), hn::Add(one, t)), x);
 }
 
+/// 2 e^−(2.5 x)² − 1.
 HWY_INLINE Vector gaussian(Vector x) {
   const Floats d;
   const Vector a = hn::Mul(hn::Set(d, 2.5f), x);
@@ -64,7 +66,7 @@ HWY_INLINE Vector gaussian(Vector x) {
   return hn::Sub(hn::Add(e, e), hn::Set(d, 1.0f));
 }
 
-/// Replaces the angles of lanes with large x by those of the slow exact reduction.
+/// Replaces the angles of lanes with |x| > near_sine by those of the slow exact reduction.
 HWY_NOINLINE Vector with_large_angles(Vector x, Vector angle) {
   const Floats d;
   HWY_ALIGN float arguments[hn::MaxLanes(d)], angles[hn::MaxLanes(d)];
@@ -77,6 +79,7 @@ HWY_NOINLINE Vector with_large_angles(Vector x, Vector angle) {
   return hn::Load(d, angles);
 }
 
+/// sin(2 x).
 HWY_INLINE Vector sine(Vector x) {
   const Floats d;
   const Ints i;
@@ -91,6 +94,7 @@ HWY_INLINE Vector sine(Vector x) {
   const auto large = hn::Gt(hn::Abs(x), hn::Set(d, c::near_sine));
   if (HWY_UNLIKELY(!hn::AllFalse(d, large))) r = with_large_angles(x, r);
 
+  // sin r = r + r³ P(r²).
   const Vector r2 = hn::Mul(r, r);
   Vector p = times_plus(hn::Set(d, c::s9), r2, c::s7);
   p = times_plus(p, r2, c::s5);
@@ -98,10 +102,12 @@ HWY_INLINE Vector sine(Vector x) {
   return hn::Add(hn::Mul(hn::Mul(p, r2), r), r);
 }
 
+/// |x|, clamped.
 HWY_INLINE Vector absolute(Vector x) {
   return hn::Min(hn::Abs(x), hn::Set(Floats(), largest_linear));
 }
 
+/// x, clamped.
 HWY_INLINE Vector identity(Vector x) {
   const Floats d;
   return hn::Max(hn::Min(x, hn::Set(d, largest_linear)), hn::Set(d, -largest_linear));

@@ -20,14 +20,14 @@ float sine_angle_of_large(float x) {
   const std::uint64_t significand = (bits & 0x7fffffu) | 0x800000u;
   const int exponent = static_cast<int>(bits >> 23) - 150;
 
-  // sin(2|x|) makes |x|/π turns. Digits of 2^exponent/π left of the point are whole turns and fall away, as
-  // do those of the product.
+  // 2|x| is |x|/π turns (Payne and Hanek 1983). Digits of 2^exponent/π left of the point are whole turns and
+  // are dropped, as are those of the product.
   const int position = 64 + exponent, word = position / 64, shift = position % 64;
   std::uint64_t window = constants::one_over_pi_digits[word] << shift;
   if (shift != 0) window |= constants::one_over_pi_digits[word + 1] >> (64 - shift);
   std::uint64_t turns = significand * window;  // in units of 2^−64 turns
 
-  // The nearest half turn is taken off; an odd one changes the sign.
+  // The nearest multiple of half a turn is subtracted; an odd one changes the sign.
   const bool odd = ((turns + (std::uint64_t{1} << 62)) >> 63) != 0;
   if (odd) turns -= std::uint64_t{1} << 63;
   const double angle =

@@ -27,7 +27,7 @@ inline constexpr float largest_linear = 0x1p64f;
 /// three parts, the first two of 12 bits, so that their products are exact. Beyond, the turn's fraction x/π
 /// is the product of the 24-bit significand with a 64-bit window of the digits of 1/π, modulo 2^64: off by at
 /// most 2^−40 turns. So the error does not grow with |x|. (Above 2^23 neighbouring arguments lie more than a
-/// radian apart, and the value is but a reproducible hash of x.)
+/// radian apart, and the value is only a reproducible hash of x.)
 ///
 /// Made of additions, multiplications and divisions that IEEE 754 rounds correctly, in a fixed order and
 /// never fused: the same bits on every CPU and for every vector width.

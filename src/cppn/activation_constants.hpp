@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-/// Numbers of the activation functions; how they are used is told in activation.hpp and activation-inl.hpp.
+/// Constants of the activation functions; activation.hpp and activation-inl.hpp say how they are used.
 namespace amble::cppn::constants {
 
 /// Added and subtracted again, it rounds |x| < 2^22 to the nearest integer (ties to even), whose low bits are

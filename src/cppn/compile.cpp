@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 #include "amble/cppn/program.hpp"
 
 namespace amble::cppn {
@@ -15,10 +16,6 @@ struct Graph {
   Neighbours sources, targets;
 };
 
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
-
 bool is_computed(const neat::NodeGene& node) {
   return node.kind == neat::NodeKind::output || node.kind == neat::NodeKind::hidden;
 }
@@ -28,14 +25,15 @@ Graph graph_of(const neat::Genome& genome, const std::vector<bool>& kept) {
   for (const neat::LinkGene& link : genome.links) {
     const int from = genome.index_of(link.from), to = genome.index_of(link.to);
     AMBLE_CHECK(from >= 0 && to >= 0, "a link names a node that is not in the genome");
-    if (!link.enabled || !kept[at(to)]) continue;
-    graph.sources[at(to)].push_back(from);
-    graph.targets[at(from)].push_back(to);
+    if (!link.enabled || !kept[to_index(to)]) continue;
+    graph.sources[to_index(to)].push_back(from);
+    graph.targets[to_index(from)].push_back(to);
   }
   return graph;
 }
 
-/// Least number of links from each node to an output; −1 where there is no way.
+/// Number of links on the shortest path from each node to an output, by breadth-first search from the
+/// outputs; −1 where there is none.
 std::vector<int> distances_to_outputs(const neat::Genome& genome, const Graph& graph) {
   std::vector<int> distances(genome.nodes.size(), -1), queue;
   for (std::size_t i = 0; i < genome.nodes.size(); ++i) {
@@ -45,46 +43,48 @@ std::vector<int> distances_to_outputs(const neat::Genome& genome, const Graph& g
   }
   for (std::size_t next = 0; next < queue.size(); ++next) {
     const int node = queue[next];
-    for (const int source : graph.sources[at(node)]) {
-      if (distances[at(source)] >= 0) continue;
-      distances[at(source)] = distances[at(node)] + 1;
+    for (const int source : graph.sources[to_index(node)]) {
+      if (distances[to_index(source)] >= 0) continue;
+      distances[to_index(source)] = distances[to_index(node)] + 1;
       queue.push_back(source);
     }
   }
   return distances;
 }
 
-/// The greatest lengths[start] + number of links over all paths that end at each node; −1 where a cycle makes
-/// them endless.
+/// The greatest lengths[start] + number of links over all paths that end at each node, in topological order
+/// (Kahn 1962); −1 where a cycle makes them unbounded.
 std::vector<int> longest_paths(const Neighbours& before, const Neighbours& after, std::vector<int> lengths) {
-  std::vector<std::size_t> waits_for(before.size());
+  std::vector<std::size_t> open_sources(before.size());
   std::vector<int> queue;
   for (std::size_t i = 0; i < before.size(); ++i) {
-    waits_for[i] = before[i].size();
-    if (waits_for[i] == 0) queue.push_back(static_cast<int>(i));
+    open_sources[i] = before[i].size();
+    if (open_sources[i] == 0) queue.push_back(static_cast<int>(i));
   }
   for (std::size_t next = 0; next < queue.size(); ++next) {
     const int node = queue[next];
-    for (const int follower : after[at(node)]) {
-      lengths[at(follower)] = std::max(lengths[at(follower)], lengths[at(node)] + 1);
-      if (--waits_for[at(follower)] == 0) queue.push_back(follower);
+    for (const int follower : after[to_index(node)]) {
+      lengths[to_index(follower)] = std::max(lengths[to_index(follower)], lengths[to_index(node)] + 1);
+      if (--open_sources[to_index(follower)] == 0) queue.push_back(follower);
     }
   }
   for (std::size_t i = 0; i < before.size(); ++i)
-    if (waits_for[i] != 0) lengths[i] = -1;
+    if (open_sources[i] != 0) lengths[i] = -1;
   return lengths;
 }
 
-/// When each node's value is worth computing, all of them counted in passes or links.
+/// In which passes each node must be computed. Pass t of P sets v_i(t) = f_i(Σ_j w_ij v_j(t − 1)) with v(0) =
+/// 0, and the results are v(P). So a node whose longest path from inputs has `depth` links keeps its value
+/// from pass `depth` on; and v_i(t) reaches an output by a path of P − t links or not at all.
 struct Schedule {
   std::vector<bool> kept;
-  std::vector<int> distance;  ///< shortest way to an output
-  std::vector<int> height;    ///< longest way to an output; −1: endless
-  std::vector<int> depth;     ///< the pass after which the value stays; −1: perhaps never
+  std::vector<int> distance;  ///< links of the shortest path to an output; −1: none
+  std::vector<int> height;    ///< links of the longest path to an output; −1: unbounded (a cycle)
+  std::vector<int> depth;     ///< links of the longest path that ends here; −1: unbounded
 
-  /// Passes in which a node must be computed, of `passes` in all.
+  /// First and last pass, of `passes`, in which a node must be computed.
   std::pair<int, int> window(std::size_t node, int passes) const {
-    if (depth[node] >= 0) return {1, std::min(passes, depth[node] + 1)};  // once into each of the two buffers
+    if (depth[node] >= 0) return {1, std::min(passes, depth[node] + 1)};  // once for each of the two buffers
     return {height[node] >= 0 ? std::max(1, passes - height[node]) : 1, passes - distance[node]};
   }
 };
@@ -102,13 +102,13 @@ Schedule schedule_of(const neat::Genome& genome) {
   return schedule;
 }
 
-/// Computed nodes that are kept, sources before targets as far as there is such an order.
+/// Computed nodes that are kept, by depth: sources before targets where there is no cycle.
 std::vector<int> evaluation_order(const neat::Genome& genome, const Schedule& schedule) {
   std::vector<int> order;
   for (std::size_t i = 0; i < genome.nodes.size(); ++i)
     if (schedule.kept[i] && is_computed(genome.nodes[i])) order.push_back(static_cast<int>(i));
   std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return schedule.depth[at(a)] < schedule.depth[at(b)]; });
+                   [&](int a, int b) { return schedule.depth[to_index(a)] < schedule.depth[to_index(b)]; });
   return order;
 }
 
@@ -128,10 +128,28 @@ void decide_passes(Program& program, const neat::Genome& genome, const Schedule&
     program.cyclic |= schedule.depth[i] < 0;
   }
   AMBLE_CHECK(settings.recurrent || !program.cyclic, "a feed-forward CPPN has a cycle");
-  // A chain of outputs can be longer than the passes of a recurrent CPPN; its last links then see values that
-  // have not settled.
+  // Without a cycle one pass in topological order gives v(P) if P ≥ the greatest depth. A chain of outputs
+  // can be longer than that: its last nodes then see values that are not final.
   program.in_place = !program.cyclic && (!settings.recurrent || deepest <= program.passes);
   if (program.in_place) program.passes = 1;
+}
+
+/// Appends the nodes of `order` and their enabled links, which keep the order of innovation.
+void add_nodes(Program& program, const neat::Genome& genome, const Schedule& schedule,
+               const std::vector<int>& order, const std::vector<int>& slot_of) {
+  for (const int index : order) {
+    const neat::NodeGene& gene = genome.nodes[to_index(index)];
+    const auto [first_pass, last_pass] = schedule.window(to_index(index), program.passes);
+    Program::Node node{
+        slot_of[to_index(index)], static_cast<int>(program.links.size()), 0,
+        gene.activation,          program.in_place ? 1 : first_pass,      program.in_place ? 1 : last_pass};
+    for (const neat::LinkGene& link : genome.links) {
+      if (!link.enabled || link.to != gene.id) continue;
+      program.links.push_back({slot_of[to_index(genome.index_of(link.from))], to_weight(link.weight)});
+      ++node.link_count;
+    }
+    program.nodes.push_back(node);
+  }
 }
 
 }  // namespace
@@ -148,21 +166,9 @@ Program compile(const neat::Genome& genome, const Settings& settings) {
   std::iota(slot_of.begin(), slot_of.begin() + 1 + program.inputs, 0);
   program.slots = 1 + program.inputs;
   const std::vector<int> order = evaluation_order(genome, schedule);
-  for (const int node : order) slot_of[at(node)] = program.slots++;
+  for (const int node : order) slot_of[to_index(node)] = program.slots++;
 
-  for (const int index : order) {
-    const neat::NodeGene& gene = genome.nodes[at(index)];
-    const auto [first_pass, last_pass] = schedule.window(at(index), program.passes);
-    Program::Node node{
-        slot_of[at(index)], static_cast<int>(program.links.size()), 0,
-        gene.activation,    program.in_place ? 1 : first_pass,      program.in_place ? 1 : last_pass};
-    for (const neat::LinkGene& link : genome.links) {
-      if (!link.enabled || link.to != gene.id) continue;
-      program.links.push_back({slot_of[at(genome.index_of(link.from))], to_weight(link.weight)});
-      ++node.link_count;
-    }
-    program.nodes.push_back(node);
-  }
+  add_nodes(program, genome, schedule, order, slot_of);
   for (std::size_t i = 0; i < genome.nodes.size(); ++i)
     if (genome.nodes[i].kind == neat::NodeKind::output) program.output_slots.push_back(slot_of[i]);
   return program;

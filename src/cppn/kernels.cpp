@@ -7,6 +7,7 @@
 #define HWY_TARGET_INCLUDE "amble/cppn/kernels.cpp"
 #include <hwy/foreach_target.h>
 
+#include "amble/core/index.hpp"
 #include "amble/cppn/activation-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -40,8 +41,8 @@ void activate_values(neat::Activation function, Linear linear, float* values, st
   }
 }
 
-/// Values of one node: sums from zero in the order of the links, then its function. Four vectors at a time,
-/// because each operation waits for the one before it.
+/// f(Σ_k w_k v_k) of one node at the points of a block: sums from zero in the order of the links, each
+/// product and sum rounded. Four vectors at a time, because each operation waits for the one before it.
 template <Vector (*function)(Vector)>
 HWY_INLINE void compute(const Program::Link* links, int count, const Tile* source, float* values) {
   const Floats d;
@@ -78,29 +79,31 @@ void compute_node(const Program& program, const Program::Node& node, const Tile*
   }
 }
 
+/// One synchronous pass, v(t) in `target` from v(t − 1) in `source`.
 void run_pass(const Program& program, int pass, const Tile* source, Tile* target) {
   for (const Program::Node& node : program.nodes)
     if (pass >= node.first_pass && pass <= node.last_pass)
       compute_node(program, node, source, target[node.slot].value);
 }
 
+/// All passes, block by block. Two buffers take turns as v(t − 1) and v(t); in place they are the same one.
 void run(const Program& program, const Points& points, float* results, Tile* scratch) {
   Tile* const even = scratch;
   Tile* const odd = program.in_place ? scratch : scratch + program.slots;
   std::fill(even[0].value, even[0].value + block, 1.0f);
-  for (std::size_t first = 0; first < static_cast<std::size_t>(points.capacity()); first += block) {
+  for (std::size_t first = 0; first < to_index(points.capacity()); first += block) {
     for (int i = 0; i < program.inputs; ++i) std::copy_n(points.input(i) + first, block, even[1 + i].value);
+    // v(0) = 0 but for bias and inputs, which both buffers hold.
     if (!program.in_place) {
       std::copy(even, even + 1 + program.inputs, odd);
-      std::memset(even + 1 + program.inputs, 0,
-                  sizeof(Tile) * static_cast<std::size_t>(program.slots - 1 - program.inputs));
+      std::memset(even + 1 + program.inputs, 0, sizeof(Tile) * to_index(program.slots - 1 - program.inputs));
     }
     for (int pass = 1; pass <= program.passes; ++pass)
       run_pass(program, pass, pass % 2 == 1 ? even : odd, pass % 2 == 1 ? odd : even);
     const Tile* const last = program.passes % 2 == 1 ? odd : even;
     for (std::size_t output = 0; output < program.output_slots.size(); ++output)
       std::copy_n(last[program.output_slots[output]].value, block,
-                  results + output * static_cast<std::size_t>(points.capacity()) + first);
+                  results + output * to_index(points.capacity()) + first);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "amble/core/index.hpp"
 #include "amble/cppn/network.hpp"
 #include "amble/cppn/program.hpp"
 
@@ -15,10 +16,10 @@ struct alignas(64) Tile {
 
 /// Number of tiles that run_program needs.
 inline std::size_t scratch_tiles(const Program& program) {
-  return static_cast<std::size_t>(program.slots) * (program.in_place ? 1 : 2);
+  return to_index(program.slots) * (program.in_place ? 1 : 2);
 }
 
-/// Network::evaluate, with scratch_tiles(program) tiles whose content does not matter.
+/// Network::evaluate, with scratch_tiles(program) tiles of any content.
 void run_program(const Program& program, const Points& points, float* results, Tile* scratch);
 
 /// activate() on `count` values.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 #include "amble/cppn/activation.hpp"
 #include "amble/cppn/kernels.hpp"
 
@@ -11,7 +12,7 @@ namespace amble::cppn {
 Points::Points(int inputs, int count)
     : inputs_(inputs), count_(count), capacity_((count + block - 1) / block * block) {
   AMBLE_CHECK(inputs >= 0 && count >= 0, "a CPPN is queried at a natural number of points");
-  values_.resize(static_cast<std::size_t>(inputs_) * static_cast<std::size_t>(capacity_));
+  values_.resize(to_index(inputs_) * to_index(capacity_));
 }
 
 void Points::set(int point, int input, float value) {
@@ -25,7 +26,7 @@ Network::Network(const neat::Genome& genome, const Settings& settings)
 
 void Network::evaluate(const Points& points, std::span<float> results) const {
   AMBLE_CHECK(points.inputs() == inputs(), "the query points have another number of inputs than the CPPN");
-  AMBLE_CHECK(results.size() == program_.output_slots.size() * static_cast<std::size_t>(points.capacity()),
+  AMBLE_CHECK(results.size() == program_.output_slots.size() * to_index(points.capacity()),
               "the results have another size than outputs × capacity");
   // Kept from call to call, because networks are evaluated by the million.
   static thread_local std::vector<Tile> scratch;

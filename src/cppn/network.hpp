@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "amble/core/index.hpp"
 #include "amble/cppn/program.hpp"
 #include "amble/cppn/settings.hpp"
 #include "amble/neat/genome.hpp"
@@ -30,23 +31,22 @@ class Points {
 
  private:
   std::size_t index(int point, int input) const {
-    return static_cast<std::size_t>(input) * static_cast<std::size_t>(capacity_) +
-           static_cast<std::size_t>(point);
+    return to_index(input) * to_index(capacity_) + to_index(point);
   }
 
   int inputs_, count_, capacity_;
   std::vector<float> values_;
 };
 
-/// A genome made ready for many queries: const, shareable between threads. Disabled links and nodes that no
+/// A genome compiled for many queries: const, shareable between threads. Disabled links and nodes that no
 /// output depends on are left out. All arithmetic is IEEE single precision without fused operations in a
 /// fixed order, and the activation functions are our own (activation.hpp): the same bits on every CPU and for
 /// every vector width. Values are never NaN.
 ///
 /// A node's value is its activation function of the sum, from zero and in order of innovation, of weight ×
-/// source. With Settings::recurrent all nodes start from 0 and are updated together for as
-/// many passes as Settings::passes says (of the hidden nodes of the whole genome); where the links form no
-/// cycle, one pass in topological order gives the same bits.
+/// source. With Settings::recurrent all nodes start from 0 and are updated together for the number of passes
+/// of Settings::passes (with the hidden nodes of the whole genome); where the links form no cycle, one pass
+/// in topological order gives the same bits.
 class Network {
  public:
   /// The genome must be valid (neat::validate). Weights are rounded to single precision and clamped to ±2^32.
@@ -59,7 +59,7 @@ class Network {
   bool cyclic() const { return program_.cyclic; }
 
   /// Values of all outputs at all points: outputs × points.capacity() floats, output by output; those beyond
-  /// points.count() mean nothing. `results` must have exactly that size. `points.inputs()` must equal
+  /// points.count() are unspecified. `results` must have exactly that size. `points.inputs()` must equal
   /// inputs().
   void evaluate(const Points& points, std::span<float> results) const;
 

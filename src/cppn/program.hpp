@@ -7,19 +7,19 @@
 
 namespace amble::cppn {
 
-/// A genome translated for evaluation: what cppn::Network runs.
+/// A genome compiled for evaluation by cppn::Network.
 ///
-/// Values live in slots: slot 0 is the bias, 1 … inputs are the inputs, and each computed node has one. Every
-/// pass computes nodes from the values of the pass before, except that a feed-forward program needs one pass
-/// only, in place, because its nodes stand in an order in which sources precede their targets.
+/// Values live in slots: slot 0 is the bias, 1 … inputs are the inputs, and each computed node has one. Each
+/// pass computes nodes from the values of the pass before, v_i(t) = f_i(Σ_j w_ij v_j(t − 1)). A feed-forward
+/// program needs one pass only, in place, because its nodes are in topological order.
 struct Program {
   struct Link {
     int from_slot;
     float weight;
   };
   /// Sum of links [first_link, first_link + link_count), then the activation function. Computed in passes
-  /// first_pass … last_pass: before, nothing depends on it, and after, it no longer changes or nothing
-  /// depends on it.
+  /// first_pass … last_pass: earlier values influence no output, and later ones are the same or influence
+  /// none.
   struct Node {
     int slot;
     int first_link, link_count;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 #include "amble/cppn/activation.hpp"
 
 namespace amble::cppn {
@@ -40,23 +41,23 @@ Reference::Reference(const neat::Genome& genome, const Settings& settings)
   for (Node& node : nodes_)
     for (const neat::LinkGene& link : genome.links)
       if (link.enabled && link.to == genome.nodes[node.index].id)
-        node.sources.push_back({static_cast<std::size_t>(genome.index_of(link.from)), link.weight});
+        node.sources.push_back({to_index(genome.index_of(link.from)), link.weight});
 
   feed_forward_ = put_sources_first(std::move(ready));
   AMBLE_CHECK(feed_forward_ || settings.recurrent, "a feed-forward CPPN has a cycle");
 }
 
 bool Reference::put_sources_first(std::vector<bool> ready) {
-  // Each round moves forward the first node whose sources all stand before it; where there is none, the rest
-  // depends on a cycle.
-  for (auto place = nodes_.begin(); place != nodes_.end(); ++place) {
-    const auto next = std::find_if(place, nodes_.end(), [&](const Node& node) {
+  // Topological order: each round moves the first node whose sources all precede it; where there is none, the
+  // rest depends on a cycle.
+  for (auto position = nodes_.begin(); position != nodes_.end(); ++position) {
+    const auto next = std::find_if(position, nodes_.end(), [&](const Node& node) {
       return std::all_of(node.sources.begin(), node.sources.end(),
                          [&](const Source& s) { return ready[s.node]; });
     });
     if (next == nodes_.end()) return false;
     ready[next->index] = true;
-    std::rotate(place, next, next + 1);
+    std::rotate(position, next, next + 1);
   }
   return true;
 }
@@ -76,6 +77,7 @@ void Reference::evaluate(std::span<const double> inputs, std::span<double> outpu
   if (feed_forward_) {
     for (const Node& node : nodes_) values[node.index] = next_value(node, values);
   } else {
+    // v_i(t) = f_i(Σ_j w_ij v_j(t − 1)).
     std::vector<double> next = values;
     for (int pass = 0; pass < passes_; ++pass) {
       for (const Node& node : nodes_) next[node.index] = next_value(node, values);

@@ -8,9 +8,8 @@
 
 namespace amble::cppn {
 
-/// The plain twin of Network: one point at a time, in double precision, with the functions of <cmath>. It
-/// defines what a CPPN computes and is what Network is tested against and its speed is compared with; nothing
-/// else uses it.
+/// The reference implementation of Network: one point at a time, in double precision, with the functions of
+/// <cmath>. It defines what a CPPN computes; only tests and benchmarks use it.
 class Reference {
  public:
   Reference(const neat::Genome& genome, const Settings& settings);

@@ -7,7 +7,7 @@
 
 namespace amble::cppn {
 
-/// What the activation function "linear" computes: the paper's word, or what the authors' code did (|x|).
+/// What the activation function "linear" computes: |x| as in the authors' code, or x as in the paper.
 enum class Linear { absolute, identity };
 inline constexpr std::array<std::string_view, 2> linear_names{"absolute", "identity"};
 
@@ -22,7 +22,7 @@ struct Settings {
   bool recurrent = true;
   Passes passes = Passes::twice_hidden_plus_3;
 
-  /// Synchronous passes of a recurrent CPPN with so many hidden nodes.
+  /// Synchronous passes of a recurrent CPPN with this number of hidden nodes.
   int passes_with(int hidden_nodes) const {
     return 2 * hidden_nodes + (passes == Passes::twice_hidden_plus_3 ? 3 : 1);
   }

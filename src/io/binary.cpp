@@ -79,7 +79,7 @@ std::uint64_t sealed_size(std::string_view magic, std::uint32_t version, std::st
          version);
   }
   const auto payload_size = header.get<std::uint64_t>();
-  // A length near 2^64 can only come from damage; the sum must not wrap around.
+  // A length near 2^64 is damage; the sum must not wrap around.
   return payload_size > UINT64_MAX - seal_header_size ? UINT64_MAX : payload_size + seal_header_size;
 }
 

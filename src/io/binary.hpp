@@ -33,8 +33,8 @@ class BinaryWriter {
   std::string bytes_;
 };
 
-/// Reads what BinaryWriter wrote. Never reads beyond the end and never allocates more than the bytes that are
-/// there: any mismatch throws UserError(ExitCode::bad_file) "WHAT: truncated at byte N" or the like. `what`
+/// Reads what BinaryWriter wrote. Never reads beyond the end and never allocates more than the remaining
+/// bytes: any mismatch throws UserError(ExitCode::bad_file) "WHAT: truncated at byte N" or the like. `what`
 /// names the file.
 class BinaryReader {
  public:
@@ -87,11 +87,11 @@ inline constexpr std::size_t seal_header_size = 8 + 4 + 8 + 8;
 /// payload.
 std::string seal(std::string_view magic, std::uint32_t version, std::string_view payload);
 /// Checks and removes the wrapping. Throws UserError(ExitCode::bad_file): not such a file, another version,
-/// truncated, or altered (checksum), each in its own words and naming `what`.
+/// truncated, or altered (checksum), each with its own message that names `what`.
 std::string_view unseal(std::string_view magic, std::uint32_t version, std::string_view bytes,
                         const std::string& what);
-/// Size of the whole sealed file, told by its first seal_header_size bytes; throws as unseal() does. For
-/// files in which more follows.
+/// Size of the whole sealed file, from its first seal_header_size bytes; throws as unseal() does. For files
+/// in which more follows.
 std::uint64_t sealed_size(std::string_view magic, std::uint32_t version, std::string_view start,
                           const std::string& what);
 

@@ -9,8 +9,8 @@
 
 namespace amble::io {
 
-// What a setting may be, in the words that complaints, comments in written configs and the table of settings
-// share.
+// Texts for the allowed values of a setting, shared by error messages, comments in written configs and the
+// table of settings.
 
 inline constexpr std::string_view expected_flag = "true or false";
 inline constexpr std::string_view expected_text = "text in quotes";

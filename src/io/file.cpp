@@ -11,6 +11,7 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 
 namespace amble::io {
 namespace {
@@ -28,7 +29,7 @@ bool write_all(int fd, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(fd, bytes.data(), bytes.size());
     if (written < 0 && errno != EINTR) return false;
-    if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+    if (written > 0) bytes.remove_prefix(to_index(written));
   }
   return true;
 }
@@ -38,7 +39,7 @@ bool sync_descriptor(int fd) {
   return ::fsync(fd) == 0 || errno == EINVAL || errno == EROFS;
 }
 
-/// Makes a new or renamed entry of the folder survive a power cut. False, with errno set, on failure.
+/// Syncs a new or renamed entry of the folder. False, with errno set, on failure.
 bool sync_folder_of(const std::filesystem::path& path) {
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   const int fd = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -74,7 +75,7 @@ std::string InputFile::read(std::uint64_t count) {
     bytes.resize(have + static_cast<std::size_t>(std::min(piece, count - have)));
     const ssize_t got = ::read(fd_, bytes.data() + have, bytes.size() - have);
     const int error = errno;
-    bytes.resize(have + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+    bytes.resize(have + to_index(std::max<ssize_t>(got, 0)));
     if (got < 0 && error != EINTR) fail(ExitCode::io, "{}: {}", path_.string(), reason(error));
     if (got == 0) break;
   }
@@ -159,23 +160,24 @@ AppendFile::AppendFile(const std::filesystem::path& path, std::uint64_t keep_byt
   if (fd_ < 0 && errno == ENOENT && keep_bytes > 0)
     fail(ExitCode::bad_file, "{}: missing: {} bytes were expected", path_.string(), keep_bytes);
   if (fd_ < 0) fail_to_write(path_, errno);
-  // The destructor does not run when a constructor throws.
-  const auto close_and_fail = [this](const std::string& message, ExitCode code = ExitCode::io) {
-    ::close(fd_);
-    throw UserError(message, code);
-  };
-  const off_t length = ::lseek(fd_, 0, SEEK_END);
-  if (length < 0) close_and_fail(fmt::format("cannot write {}: {}", path_.string(), reason(errno)));
-  if (static_cast<std::uint64_t>(length) < keep_bytes) {
-    close_and_fail(
-        fmt::format("{}: truncated: it has {} bytes, {} were expected", path_.string(), length, keep_bytes),
-        ExitCode::bad_file);
+  try {
+    cut_back_to(keep_bytes);
+  } catch (...) {
+    ::close(fd_);  // the destructor does not run when a constructor throws
+    throw;
   }
+}
+
+void AppendFile::cut_back_to(std::uint64_t keep_bytes) {
+  const off_t length = ::lseek(fd_, 0, SEEK_END);
+  if (length < 0) fail_to_write(path_, errno);
+  if (static_cast<std::uint64_t>(length) < keep_bytes)
+    fail(ExitCode::bad_file, "{}: truncated: it has {} bytes, {} were expected", path_.string(), length,
+         keep_bytes);
   const auto kept = static_cast<off_t>(keep_bytes);
   if (::ftruncate(fd_, kept) != 0 || ::lseek(fd_, kept, SEEK_SET) != kept || !sync_descriptor(fd_) ||
-      !sync_folder_of(path_)) {
-    close_and_fail(fmt::format("cannot write {}: {}", path_.string(), reason(errno)));
-  }
+      !sync_folder_of(path_))
+    fail_to_write(path_, errno);
 }
 
 AppendFile::~AppendFile() {
@@ -190,7 +192,7 @@ void AppendFile::append(std::string_view bytes) {
 void AppendFile::write(std::string_view bytes) {
   if (!write_all(fd_, bytes)) {
     const int error = errno;
-    // Half a line must not stay: the next append continues after the last whole one.
+    // Remove a partial line: the next append continues after the last whole one.
     const auto whole = static_cast<off_t>(size_);
     if (::ftruncate(fd_, whole) == 0) ::lseek(fd_, whole, SEEK_SET);
     fail_to_write(path_, error);

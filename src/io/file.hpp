@@ -62,12 +62,13 @@ class AtomicFile {
 /// One AtomicFile with these contents.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Makes the name of a new or renamed file or folder survive a power cut. Throws UserError(ExitCode::io).
+/// Syncs the directory entry of a new or renamed file or folder, so that it survives a power failure. Throws
+/// UserError(ExitCode::io).
 void sync_entry(const std::filesystem::path& path);
 
 /// Throws UserError(ExitCode::bad_input) if `path` is a file with contents that do not begin with
-/// `beginning`: it is not what would be written there (`what`, e.g. "a recording"), and so not ours to
-/// replace.
+/// `beginning`: it is not of the kind that would be written (`what`, e.g. "a recording"), and must not be
+/// replaced.
 void refuse_to_replace(const std::filesystem::path& path, std::string_view beginning, std::string_view what);
 
 /// A log that only grows (generations.csv): lines are appended whole and synced. On opening, what lies beyond
@@ -81,13 +82,15 @@ class AppendFile {
   AppendFile& operator=(const AppendFile&) = delete;
 
   void append(std::string_view bytes);
-  /// The two halves of append(): what has been written survives the process, what has been synced a power
-  /// cut. sync() may run in another thread than the next write().
+  /// The two halves of append(): what has been written survives the process, what has been synced a
+  /// power failure. sync() may run in another thread than the next write().
   void write(std::string_view bytes);
   void sync();
   std::uint64_t size() const { return size_; }
 
  private:
+  void cut_back_to(std::uint64_t keep_bytes);
+
   std::filesystem::path path_;
   int fd_ = -1;
   std::uint64_t size_ = 0;

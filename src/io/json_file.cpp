@@ -32,7 +32,7 @@ int depth_of(std::string_view text) {
 }
 
 [[noreturn]] void fail_at(std::string_view text, std::size_t byte, const std::string& what) {
-  // The parser names the last byte it read, counted from 1; one past the end stands for the end itself.
+  // The parser names the last byte it read, counted from 1; one past the last byte is the end of the text.
   if (byte > text.size()) fail(ExitCode::bad_file, "{}: truncated: the JSON ends too early", what);
   const std::string_view before = text.substr(0, byte == 0 ? 0 : byte - 1);
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');

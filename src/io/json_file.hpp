@@ -21,20 +21,20 @@ inline constexpr int json_depth_limit = 64;
 Json parse_json(std::string_view text, const std::string& what);
 
 /// A number as JSON: finite ones as such, infinite ones as the texts "inf" and "-inf". NaN is a programmer's
-/// mistake.
+/// mistake (checked).
 Json json_number(double value);
 
-/// JSON laid out for people: two spaces of indent; lists of plain values, and whatever else is short, on one
-/// line. Numbers read back to the same bits. Numbers that are not finite are a programmer's mistake (see
-/// json_number); invalid UTF-8 becomes U+FFFD.
+/// JSON laid out for people: indented by two spaces; lists of plain values, and everything else that is
+/// short, on one line. Numbers read back to the same bits. Numbers that are not finite are a programmer's
+/// mistake (see json_number); invalid UTF-8 becomes U+FFFD.
 std::string json_text(const Json& json);
 
 /// The text of a JSON document that amble writes: {"format": NAME, "version": V, …document…, "checksum":
-/// "…"}, laid out by json_text. The checksum is the XXH3 of the compact text of all that stands before it, so
-/// that it survives another layout.
+/// "…"}, laid out by json_text. The checksum is the XXH3 of the compact text of everything before it, so that
+/// it does not depend on the layout.
 std::string sealed_json(std::string_view format, int version, const Json& document);
 
-/// What to do when only the checksum is wrong.
+/// What to do if only the checksum is wrong.
 enum class Altered { refuse, accept };
 
 struct SealedJson {
@@ -47,7 +47,7 @@ struct SealedJson {
 SealedJson unseal_json(std::string_view format, int version, const std::string& text, const std::string& what,
                        Altered altered = Altered::refuse);
 
-/// Access with messages: each throws UserError(ExitCode::bad_file) "WHAT: key 'a.b' is missing / must be a
+/// Checked access: each function throws UserError(ExitCode::bad_file) "WHAT: key 'a.b' is missing / must be a
 /// number". Refers to the document, which must outlive it.
 class JsonView {
  public:
@@ -66,7 +66,7 @@ class JsonView {
   /// "WHAT: key 'a.b' must be EXPECTED".
   [[noreturn]] void bad(std::string_view expected) const;
   /// "WHAT: key 'a.b' PROBLEM" ("the document" for the outermost level).
-  [[noreturn]] void complain(std::string_view problem) const;
+  [[noreturn]] void refuse(std::string_view problem) const;
   const Json& raw() const { return *json_; }
 
  private:

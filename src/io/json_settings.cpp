@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 #include "amble/io/expectation.hpp"
 #include "amble/io/json_file.hpp"
 
@@ -34,8 +35,8 @@ class Writer final : public SettingsVisitor {
     put(key, std::move(list));
   }
   void choice_index(std::string_view key, int& index, std::span<const std::string_view> names, Doc) override {
-    AMBLE_CHECK(index >= 0 && static_cast<std::size_t>(index) < names.size(), "an enum value without a name");
-    put(key, names[static_cast<std::size_t>(index)]);
+    AMBLE_CHECK(index >= 0 && to_index(index) < names.size(), "an enum value without a name");
+    put(key, names[to_index(index)]);
   }
 
  private:
@@ -102,11 +103,11 @@ class Reader final : public SettingsReader {
  private:
   struct Table {
     JsonView view;
-    std::vector<std::string> asked;
+    std::vector<std::string> known;  ///< keys visited so far
   };
 
   JsonView get(std::string_view key) {
-    tables_.back().asked.emplace_back(key);
+    tables_.back().known.emplace_back(key);
     return tables_.back().view.at(key);
   }
 
@@ -120,8 +121,8 @@ class Reader final : public SettingsReader {
     const Table& table = tables_.back();
     if (!table.view.raw().is_object()) table.view.bad("an object");
     for (const auto& [key, value] : table.view.raw().items()) {
-      if (std::find(table.asked.begin(), table.asked.end(), key) == table.asked.end()) {
-        table.view.at(key).complain("is unknown");
+      if (std::find(table.known.begin(), table.known.end(), key) == table.known.end()) {
+        table.view.at(key).refuse("is unknown");
       }
     }
   }

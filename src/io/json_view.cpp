@@ -70,10 +70,10 @@ std::string JsonView::text() const {
 }
 
 void JsonView::bad(std::string_view expected) const {
-  complain(fmt::format("must be {}", expected));
+  refuse(fmt::format("must be {}", expected));
 }
 
-void JsonView::complain(std::string_view problem) const {
+void JsonView::refuse(std::string_view problem) const {
   if (path_.empty()) fail(ExitCode::bad_file, "{}: the document {}", what_, problem);
   fail(ExitCode::bad_file, "{}: key '{}' {}", what_, printable(path_), problem);
 }

@@ -4,7 +4,7 @@
 
 namespace amble::io {
 
-/// Holds a folder for one process (flock on FOLDER/.lock; released by the system if the process dies). Throws
+/// Locks a folder for one process (flock on FOLDER/.lock; released by the system if the process dies). Throws
 /// UserError(ExitCode::locked) naming the folder and the holder's process id if another process holds it.
 class FolderLock {
  public:

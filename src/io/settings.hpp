@@ -12,14 +12,14 @@
 
 namespace amble::io {
 
-/// What the documentation says of one setting.
+/// Documentation of one setting.
 struct Doc {
   std::string_view what;         ///< one sentence, with the unit
   std::string_view source = {};  ///< where the number comes from, e.g. "Morse et al. 2013, sec. 4"
 };
 
-/// Closed range of a number: both bounds belong to it. So infinity is a legal value where a bound is
-/// infinite, and only there; give a finite bound where it makes no sense. NaN is in no range.
+/// Closed range of a number: both bounds belong to it. So infinity is allowed where a bound is infinite,
+/// and only there. NaN is in no range.
 struct Range {
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
@@ -32,10 +32,10 @@ class SettingsList {
  public:
   virtual ~SettingsList() = default;
   virtual std::size_t size() const = 0;
-  /// `count` items with default values, in place of all that there were.
+  /// Replaces all items by `count` items with default values.
   virtual void renew(std::size_t count) = 0;
   virtual void describe(std::size_t index, SettingsVisitor& visitor) = 0;
-  /// An item with default values, which does not belong to the list.
+  /// Describes an item with default values that is not in the list.
   virtual void describe_default(SettingsVisitor& visitor) const = 0;
 };
 
@@ -119,7 +119,7 @@ void SettingsVisitor::tables(std::string_view key, std::vector<Settings>& items,
   list(key, settings, doc);
 }
 
-/// A visitor that reads. finish() must be called after the last field: it refuses keys that nobody asked for.
+/// A visitor that reads. finish() must be called after the last field: it refuses keys that were not visited.
 class SettingsReader : public SettingsVisitor {
  public:
   virtual void finish() = 0;

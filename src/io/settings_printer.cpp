@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 #include "amble/io/expectation.hpp"
 #include "amble/io/toml_text.hpp"
 
@@ -38,8 +39,8 @@ void SettingsPrinter::numbers(std::string_view key, std::vector<double>& values,
 
 void SettingsPrinter::choice_index(std::string_view key, int& index, std::span<const std::string_view> names,
                                    Doc doc) {
-  AMBLE_CHECK(index >= 0 && static_cast<std::size_t>(index) < names.size(), "an enum value without a name");
-  put(key, toml_quoted(names[static_cast<std::size_t>(index)]), expected_choice(names), doc);
+  AMBLE_CHECK(index >= 0 && to_index(index) < names.size(), "an enum value without a name");
+  put(key, toml_quoted(names[to_index(index)]), expected_choice(names), doc);
 }
 
 }  // namespace amble::io

@@ -8,7 +8,7 @@
 
 namespace amble::io {
 
-/// Turns every field into TOML text and hands it, with the words for what it may be, to put().
+/// Formats every field as TOML and passes it, with the text for its allowed values, to put().
 class SettingsPrinter : public SettingsVisitor {
  public:
   using SettingsVisitor::integer;

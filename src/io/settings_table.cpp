@@ -52,9 +52,9 @@ class ColumnCollector final : public SettingsPrinter {
                                   std::vector<std::string>(columns_)});
   }
   void put(std::string_view key, std::string value, std::string_view expected, Doc doc) override {
-    Row& its = row(key, expected, doc);
+    Row& target = row(key, expected, doc);
     // The items of a list differ; what is shown is the default of their fields, in the first column.
-    if (!in_list_ || column_ == 0) its.values[column_] = fmt::format("`{}`", value);
+    if (!in_list_ || column_ == 0) target.values[column_] = fmt::format("`{}`", value);
   }
 
   std::vector<Row>& rows_;

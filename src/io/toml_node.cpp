@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <charconv>
 
+#include "amble/core/index.hpp"
 #include "amble/io/toml_text.hpp"
 
 namespace amble::io {
 
 const TomlNode* TomlNode::find(std::string_view key) const {
   const auto found = std::find(keys.begin(), keys.end(), key);
-  return found == keys.end() ? nullptr : &items[static_cast<std::size_t>(found - keys.begin())];
+  return found == keys.end() ? nullptr : &items[to_index(found - keys.begin())];
 }
 
 const TomlNode* TomlNode::find_path(std::string_view path) const {
@@ -28,7 +29,7 @@ const TomlNode* TomlNode::find_path(std::string_view path) const {
 void TomlNode::put(std::string_view key, TomlNode value) {
   const auto found = std::find(keys.begin(), keys.end(), key);
   if (found != keys.end()) {
-    items[static_cast<std::size_t>(found - keys.begin())] = std::move(value);
+    items[to_index(found - keys.begin())] = std::move(value);
   } else {
     keys.emplace_back(key);
     items.push_back(std::move(value));
@@ -46,7 +47,7 @@ void TomlNode::merge(TomlNode table) {
   for (std::size_t i = 0; i < table.keys.size(); ++i) {
     TomlNode& theirs = table.items[i];
     const auto found = std::find(keys.begin(), keys.end(), table.keys[i]);
-    TomlNode* ours = found == keys.end() ? nullptr : &items[static_cast<std::size_t>(found - keys.begin())];
+    TomlNode* ours = found == keys.end() ? nullptr : &items[to_index(found - keys.begin())];
     if (ours != nullptr && ours->kind == Kind::table && theirs.kind == Kind::table) {
       ours->merge(std::move(theirs));
     } else {

@@ -1,4 +1,4 @@
-// The only file that knows the TOML library.
+// The only file that includes the TOML library.
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
@@ -31,7 +31,7 @@ void convert_table(const toml::table& table, TomlNode& result, const Origin& ori
   std::vector<Entry> entries;
   for (const auto& [key, value] : table)
     entries.push_back({key.source().begin, std::string(key.str()), &value});
-  // The library sorts by key; complaints and merging want the order of the file.
+  // The library sorts by key; error messages and merging need the order of the file.
   std::stable_sort(entries.begin(), entries.end(),
                    [](const Entry& a, const Entry& b) { return a.position < b.position; });
   for (const Entry& entry : entries) {
@@ -106,7 +106,7 @@ class PlainCharacters {
         ++at_;
       } else if (multi_line ? text_.substr(at_, 3) == three : text_[at_] == quote || text_[at_] == '\n') {
         at_ += multi_line ? 3 : 1;
-        // Up to two quotes may stand before the closing three.
+        // Up to two quotes may precede the closing three.
         for (int i = 0; multi_line && i < 2 && text_.substr(at_, 1) == three.substr(2); ++i) ++at_;
         return;
       }

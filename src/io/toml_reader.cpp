@@ -34,8 +34,7 @@ std::string_view last_part(std::string_view path) {
   return dot == std::string_view::npos ? path : path.substr(dot + 1);
 }
 
-/// The known key that the user may have meant, or nothing. A key that only stands in the wrong table counts
-/// as one edit.
+/// The known key that the user may have meant, or nothing. A key in the wrong table counts as one edit.
 std::string nearest(std::string_view key, const std::vector<std::string>& known) {
   std::string best;
   std::size_t fewest = 1 + key.size() / 3;
@@ -66,7 +65,7 @@ class TomlReader final : public SettingsReader {
   void begin(std::string_view key, Doc) override {
     const TomlNode* node = get(key);
     if (node != nullptr && node->kind != Kind::table)
-      complain(key, *node, fmt::format("a table [{}]", path_of(key)));
+      refuse(key, *node, fmt::format("a table [{}]", path_of(key)));
     tables_.push_back({path_of(key), node});
   }
   void end() override { tables_.pop_back(); }
@@ -75,26 +74,26 @@ class TomlReader final : public SettingsReader {
     const TomlNode* node = get(key);
     if (node == nullptr) return;
     double found = 0.0;
-    if (!as_number(*node, found) || !in_range(range, found)) complain(key, *node, expected_number(range));
+    if (!as_number(*node, found) || !in_range(range, found)) refuse(key, *node, expected_number(range));
     value = found;
   }
   void integer(std::string_view key, std::int64_t& value, Range range, Doc) override {
     const TomlNode* node = get(key);
     if (node == nullptr) return;
     if (node->kind != Kind::integer || !in_range(range, node->integer))
-      complain(key, *node, expected_integer(range));
+      refuse(key, *node, expected_integer(range));
     value = node->integer;
   }
   void flag(std::string_view key, bool& value, Doc) override {
     const TomlNode* node = get(key);
     if (node == nullptr) return;
-    if (node->kind != Kind::flag) complain(key, *node, expected_flag);
+    if (node->kind != Kind::flag) refuse(key, *node, expected_flag);
     value = node->flag;
   }
   void text(std::string_view key, std::string& value, Doc) override {
     const TomlNode* node = get(key);
     if (node == nullptr) return;
-    if (node->kind != Kind::text) complain(key, *node, expected_text);
+    if (node->kind != Kind::text) refuse(key, *node, expected_text);
     value = node->text;
   }
   void texts(std::string_view key, std::vector<std::string>& values, Doc) override {
@@ -102,7 +101,7 @@ class TomlReader final : public SettingsReader {
     if (node == nullptr) return;
     const auto is_text = [](const TomlNode& item) { return item.kind == Kind::text; };
     if (node->kind != Kind::list || !std::all_of(node->items.begin(), node->items.end(), is_text)) {
-      complain(key, *node, expected_texts);
+      refuse(key, *node, expected_texts);
     }
     values.clear();
     for (const TomlNode& item : node->items) values.push_back(item.text);
@@ -110,11 +109,11 @@ class TomlReader final : public SettingsReader {
   void numbers(std::string_view key, std::vector<double>& values, Range range, Doc) override {
     const TomlNode* node = get(key);
     if (node == nullptr) return;
-    if (node->kind != Kind::list) complain(key, *node, expected_numbers(range));
+    if (node->kind != Kind::list) refuse(key, *node, expected_numbers(range));
     std::vector<double> found(node->items.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
       if (!as_number(node->items[i], found[i]) || !in_range(range, found[i])) {
-        complain(key, *node, expected_numbers(range));
+        refuse(key, *node, expected_numbers(range));
       }
     }
     values = std::move(found);
@@ -124,18 +123,18 @@ class TomlReader final : public SettingsReader {
     if (node == nullptr) return;
     const auto found =
         node->kind == Kind::text ? std::find(names.begin(), names.end(), node->text) : names.end();
-    if (found == names.end()) complain(key, *node, expected_choice(names));
+    if (found == names.end()) refuse(key, *node, expected_choice(names));
     index = static_cast<int>(found - names.begin());
   }
 
   void list(std::string_view key, SettingsList& items, Doc) override {
     const TomlNode* node = get(key);
     if (node == nullptr) return;
-    if (node->kind != Kind::list) complain(key, *node, expected_tables);
+    if (node->kind != Kind::list) refuse(key, *node, expected_tables);
     items.renew(node->items.size());
     for (std::size_t i = 0; i < node->items.size(); ++i) {
       const std::string item = numbered(key, i);
-      if (node->items[i].kind != Kind::table) complain(item, node->items[i], expected_table);
+      if (node->items[i].kind != Kind::table) refuse(item, node->items[i], expected_table);
       tables_.push_back({path_of(item), &node->items[i]});
       items.describe(i, *this);
       tables_.pop_back();
@@ -164,8 +163,8 @@ class TomlReader final : public SettingsReader {
     return table == nullptr ? nullptr : table->find(key);
   }
 
-  [[noreturn]] void complain(std::string_view key, const TomlNode& node, std::string_view expected) const {
-    // What was typed on the command line already names key and value.
+  [[noreturn]] void refuse(std::string_view key, const TomlNode& node, std::string_view expected) const {
+    // The text from the command line already names key and value.
     if (node.from_command_line) fail(ExitCode::bad_input, "{}: expected {}", node.where, expected);
     fail(ExitCode::bad_input, "{}: '{}' = {}: expected {}", node.where, path_of(key), toml_text(node),
          expected);

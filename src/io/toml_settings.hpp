@@ -11,7 +11,7 @@
 
 namespace amble::io {
 
-/// A TOML document with its origin, so that every complaint names "FILE:LINE: key 'a.b' …".
+/// A TOML document with its origin, so that every error message names "FILE:LINE: key 'a.b' …".
 ///
 /// A document may name others: `include = ["../parts/neat.toml"]` (paths relative to the file). They are read
 /// first, in order; later ones, and last the document itself, override key by key. Circles are refused.
@@ -26,24 +26,24 @@ class TomlDocument {
   TomlDocument& operator=(TomlDocument&&) noexcept;
 
   /// Applies "key.path=value" from the command line; the value is TOML, or a bare word, which is a string.
-  /// Later complaints about the key name "--set KEY=VALUE".
+  /// Later error messages about the key name "--set KEY=VALUE".
   void set(std::string_view assignment);
 
-  /// A visitor that reads from the top table. Missing keys keep their values. Types and ranges are checked: a
-  /// complaint names file, line, key, the value and what was expected. finish() names the nearest known key
-  /// beside an unknown one.
+  /// A visitor that reads from the top table. Missing keys keep their values. Types and ranges are checked:
+  /// an error message names file, line, key, the value and what was expected. finish() names the nearest
+  /// known key beside an unknown one.
   using Reader = SettingsReader;
   /// The document must outlive the reader.
   std::unique_ptr<Reader> reader() const;
 
-  /// For text settings that name files: the folder of the file in which the key stands. Empty for the current
+  /// For text settings that name files: the folder of the file that has the key. Empty for the current
   /// folder, and for keys from the command line.
   std::filesystem::path folder_of(std::string_view key_path) const;
   /// "FILE:LINE" of a key ("--set KEY=VALUE" if it came from there; the document's name if the key is
-  /// absent), for complaints found later. Of a key that an item of a list lacks, that of the item.
+  /// absent), for later error messages. For a key that an item of a list lacks, that of the item.
   std::string where(std::string_view key_path) const;
-  /// The same of the first of these keys that came from the command line, else of the first that stands in
-  /// the document itself, else of the first that stands in a document that it includes.
+  /// The same of the first of these keys that came from the command line, else of the first in the
+  /// document itself, else of the first in a document that it includes.
   std::string where(const std::vector<std::string>& key_paths) const;
 
  private:
@@ -65,8 +65,8 @@ enum class SettingsRows {
   differing,  ///< only those in which the columns after the first differ from each other
 };
 /// A Markdown table: key, what it means, allowed values, the value in each column, source. The first column
-/// has the defaults; for a list of tables it also has those of an item's keys, and the others say only how
-/// many items there are.
+/// has the defaults; for a list of tables it also has those of an item's keys, and the others only the
+/// number of items.
 std::string settings_to_markdown(const std::vector<SettingsColumn>& columns,
                                  SettingsRows rows = SettingsRows::all);
 

@@ -5,10 +5,10 @@
 
 namespace amble::io {
 
-/// `text` in quotes, escaped where TOML asks for it.
+/// `text` in quotes, escaped as TOML requires.
 std::string toml_quoted(std::string_view text);
 
-/// Whether a key may stand in TOML without quotes.
+/// Whether a key needs no quotes in TOML.
 bool is_bare_key(std::string_view key);
 
 /// The shortest TOML number that reads back to the same bits; always with a point, an exponent, or "inf".

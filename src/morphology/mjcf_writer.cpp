@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "amble/core/index.hpp"
+
 namespace amble::morphology {
 namespace {
 
@@ -87,8 +89,8 @@ class Writer {
   }
 
   void write_body(int b, int indent) {
-    const robot::Body& body = robot_.bodies[static_cast<std::size_t>(b)];
-    const std::string margin(static_cast<std::size_t>(indent), ' ');
+    const robot::Body& body = robot_.bodies[to_index(b)];
+    const std::string margin(to_index(indent), ' ');
     mjcf_.bodies.push_back(b);
     line("{}<body {}pos=\"{}\" quat=\"{}\">", margin, name_attribute(body_names_, body.name),
          numbers(body.position_m), numbers(body.rotation));
@@ -97,14 +99,14 @@ class Writer {
          numbers(body.inertia_rotation), body.mass_kg, numbers(body.inertia_kg_m2));
     for (const int j : robot_.joints_of_body(b)) write_joint(j, margin);
     for (int g = 0; g < static_cast<int>(robot_.geoms.size()); ++g)
-      if (robot_.geoms[static_cast<std::size_t>(g)].body == b) write_geom(g, margin);
+      if (robot_.geoms[to_index(g)].body == b) write_geom(g, margin);
     for (int child = b + 1; child < static_cast<int>(robot_.bodies.size()); ++child)
-      if (robot_.bodies[static_cast<std::size_t>(child)].parent == b) write_body(child, indent + 2);
+      if (robot_.bodies[to_index(child)].parent == b) write_body(child, indent + 2);
     line("{}</body>", margin);
   }
 
   void write_joint(int j, const std::string& margin) {
-    const robot::Joint& joint = robot_.joints[static_cast<std::size_t>(j)];
+    const robot::Joint& joint = robot_.joints[to_index(j)];
     mjcf_.joints.push_back(j);
     line(R"({}  <joint {}type="hinge" pos="{}" axis="{}" limited="true" range="{} {}"/>)", margin,
          name_attribute(joint_names_, joint.name), numbers(joint.anchor_m), numbers(joint.axis),
@@ -112,7 +114,7 @@ class Writer {
   }
 
   void write_geom(int g, const std::string& margin) {
-    const robot::Geom& geom = robot_.geoms[static_cast<std::size_t>(g)];
+    const robot::Geom& geom = robot_.geoms[to_index(g)];
     mjcf_.geoms.push_back(g);
     line(R"({}  <geom {}{} pos="{}" quat="{}" rgba="{} {} {} {}"{}/>)", margin,
          name_attribute(geom_names_, geom.name), size_of(geom), numbers(geom.position_m),

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::morphology {
@@ -19,10 +20,6 @@ Vec3 vec3(const mjtNum* numbers) {
 Quat quat(const mjtNum* numbers) {
   return {numbers[0], numbers[1], numbers[2], numbers[3]};
 }
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
-
 /// Takes one compiled model apart, step by step.
 class Taker {
  public:
@@ -94,37 +91,37 @@ class Taker {
   /// Which rigid body of the robot each body of the model belongs to, and where it stands in that one's
   /// frame.
   void group_bodies() {
-    group_.assign(at(model_.nbody), -1);
-    pose_in_group_.resize(at(model_.nbody));
+    group_.assign(to_index(model_.nbody), -1);
+    pose_in_group_.resize(to_index(model_.nbody));
     int groups = 0;
     for (int b = 1; b < model_.nbody; ++b) {
-      group_[at(b)] = starts_group(b) ? groups++ : group_[at(model_.body_parentid[b])];
-      if (!starts_group(b)) pose_in_group_[at(b)] = pose_in_parent_group(b);
+      group_[to_index(b)] = starts_group(b) ? groups++ : group_[to_index(model_.body_parentid[b])];
+      if (!starts_group(b)) pose_in_group_[to_index(b)] = pose_in_parent_group(b);
     }
   }
 
   robot::Pose pose_in_parent_group(int b) const {
     const robot::Pose own{vec3(model_.body_pos + 3 * b), quat(model_.body_quat + 4 * b)};
-    return b == 1 ? own : pose_in_group_[at(model_.body_parentid[b])] * own;
+    return b == 1 ? own : pose_in_group_[to_index(model_.body_parentid[b])] * own;
   }
 
   void add_body(int b) {
     const robot::Pose pose = pose_in_parent_group(b);
     robot::Body body;
     body.name = body_name(b);
-    body.parent = b == 1 ? -1 : group_[at(model_.body_parentid[b])];
+    body.parent = b == 1 ? -1 : group_[to_index(model_.body_parentid[b])];
     body.position_m = pose.position_m;
     body.rotation = pose.rotation;
 
     std::vector<int> members;
     for (int m = b; m < model_.nbody; ++m) {
-      if (group_[at(m)] == group_[at(b)] && model_.body_mass[m] > 0.0) members.push_back(m);
+      if (group_[to_index(m)] == group_[to_index(b)] && model_.body_mass[m] > 0.0) members.push_back(m);
     }
     if (members.empty()) refuse("body '{}' has no mass", body.name);
     if (members.size() == 1) {
       const int m = members[0];
-      const robot::Pose inertia = pose_in_group_[at(m)] * robot::Pose{vec3(model_.body_ipos + 3 * m),
-                                                                      quat(model_.body_iquat + 4 * m)};
+      const robot::Pose inertia = pose_in_group_[to_index(m)] * robot::Pose{vec3(model_.body_ipos + 3 * m),
+                                                                            quat(model_.body_iquat + 4 * m)};
       body.mass_kg = model_.body_mass[m];
       body.com_m = inertia.position_m;
       body.inertia_rotation = inertia.rotation;
@@ -141,13 +138,14 @@ class Taker {
     Vec3 weighted;
     for (const int m : members) {
       body.mass_kg += model_.body_mass[m];
-      weighted = weighted + model_.body_mass[m] * (pose_in_group_[at(m)] * vec3(model_.body_ipos + 3 * m));
+      weighted =
+          weighted + model_.body_mass[m] * (pose_in_group_[to_index(m)] * vec3(model_.body_ipos + 3 * m));
     }
     body.com_m = (1.0 / body.mass_kg) * weighted;
 
     std::array<mjtNum, 9> tensor{};
     for (const int m : members) {
-      const robot::Pose own = pose_in_group_[at(m)] *
+      const robot::Pose own = pose_in_group_[to_index(m)] *
                               robot::Pose{vec3(model_.body_ipos + 3 * m), quat(model_.body_iquat + 4 * m)};
       const Vec3 lever = own.position_m - body.com_m;
       const std::array<Vec3, 3> axes{rotate(own.rotation, {1, 0, 0}), rotate(own.rotation, {0, 1, 0}),
@@ -158,7 +156,7 @@ class Taker {
           double moment = model_.body_mass[m] * ((r == c ? dot(lever, lever) : 0.0) - d[r] * d[c]);
           for (std::size_t k = 0; k < 3; ++k) {
             const std::array<double, 3> axis{axes[k].x, axes[k].y, axes[k].z};
-            moment += model_.body_inertia[3 * at(m) + k] * axis[r] * axis[c];
+            moment += model_.body_inertia[3 * to_index(m) + k] * axis[r] * axis[c];
           }
           tensor[3 * r + c] += moment;
         }
@@ -188,7 +186,7 @@ class Taker {
     const double start = model_.qpos0[model_.jnt_qposadr[j]];
     robot::Joint joint;
     joint.name = name;
-    joint.body = group_[at(b)];
+    joint.body = group_[to_index(b)];
     joint.chain_index = j - model_.body_jntadr[b];
     joint.anchor_m = vec3(model_.jnt_pos + 3 * j);
     joint.axis = vec3(model_.jnt_axis + 3 * j);
@@ -211,13 +209,13 @@ class Taker {
           name_or_place(g));
     }
     const int b = model_.geom_bodyid[g];
-    const robot::Pose pose =
-        pose_in_group_[at(b)] * robot::Pose{vec3(model_.geom_pos + 3 * g), quat(model_.geom_quat + 4 * g)};
+    const robot::Pose pose = pose_in_group_[to_index(b)] *
+                             robot::Pose{vec3(model_.geom_pos + 3 * g), quat(model_.geom_quat + 4 * g)};
     const float* colour =
         model_.geom_matid[g] < 0 ? model_.geom_rgba + 4 * g : model_.mat_rgba + 4 * model_.geom_matid[g];
     robot::Geom geom;
     geom.name = name_or_place(g);
-    geom.body = group_[at(b)];
+    geom.body = group_[to_index(b)];
     geom.collides = collides(g);
     geom.shape = shape->second;
     geom.size_m = vec3(model_.geom_size + 3 * g);

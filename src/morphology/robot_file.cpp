@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 #include "amble/morphology/model_file.hpp"
 #include "amble/morphology/model_parts.hpp"
 #include "amble/morphology/side_file.hpp"
@@ -45,11 +46,10 @@ void add_legs(const std::string& what, const SideFile& side, const ModelParts& p
         fail(ExitCode::bad_input, "{}: leg '{}' needs a joint '{}' ({}), but {} has: {}", what, leg.name,
              name, side.joint_types[t], side.model.string(), list_of_names(parts.joints));
       }
-      if (named[static_cast<std::size_t>(j)])
-        fail(ExitCode::bad_input, "{}: joint '{}' is named twice", what, name);
-      named[static_cast<std::size_t>(j)] = true;
+      if (named[to_index(j)]) fail(ExitCode::bad_input, "{}: joint '{}' is named twice", what, name);
+      named[to_index(j)] = true;
       leg.joints.push_back(static_cast<int>(robot.joints.size()));
-      robot.joints.push_back(parts.joints[static_cast<std::size_t>(j)]);
+      robot.joints.push_back(parts.joints[to_index(j)]);
       robot.joints.back().servo = side.servos[l * side.joint_types.size() + t];
     }
     leg.foot_geom = index_of(parts.geoms, side.names[l].foot);
@@ -74,7 +74,7 @@ void check_feet(const std::string& what, const robot::RobotSpec& robot) {
     if (clearance_m < -deepest_foot_m) {
       fail(ExitCode::bad_input,
            "{}: foot '{}' starts {:.3f} m below the ground: raise the root, or set start_height_m", what,
-           robot.geoms[static_cast<std::size_t>(leg.foot_geom)].name, -clearance_m);
+           robot.geoms[to_index(leg.foot_geom)].name, -clearance_m);
     }
   }
 }

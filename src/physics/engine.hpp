@@ -19,8 +19,8 @@ struct RootPose {
   Quat rotation;
 };
 
-/// A pose to start a trial from, at rest. In the robot's own start pose the root stands as in
-/// RobotSpec::bodies[0] and all angles are 0.
+/// A pose to start a trial from, at rest. In the robot's own start pose the root has the
+/// pose of RobotSpec::bodies[0] and all angles are 0.
 struct StartPose {
   RootPose root;
   std::vector<double> joint_angle_rad;  ///< in control order (RobotSpec::joints), within the stops
@@ -28,12 +28,12 @@ struct StartPose {
 
 struct EngineSettings {
   double timestep_s = 0.01;
-  bool torques = false;  ///< keep motor_torque_nm(); it changes no other bit
+  bool torques = false;  ///< measure motor_torque_nm(); changes nothing else
 };
 
 /// Advances up to lanes() copies of one robot in lockstep, one copy per lane, on flat ground at z = 0.
 /// Lanes do not influence each other, not by one bit: a lane's states depend on its own targets alone.
-/// An engine belongs to one thread. Order within step(): collide, move by one timestep, then read the
+/// An engine belongs to one thread. Order within step(): collide, advance by one timestep, then read the
 /// sensors.
 class Engine {
  public:
@@ -41,8 +41,8 @@ class Engine {
 
   virtual int lanes() const = 0;
 
-  /// Puts the robot of this lane into its start pose, at rest, whatever became of it before; its sensors are
-  /// valid at once (all joint angles 0; a foot touches if it is not above the ground).
+  /// Puts the robot of this lane into its start pose, at rest, whatever its state was; its sensors are valid
+  /// at once (all joint angles 0; a foot touches if it is not above the ground).
   virtual void place(int lane) = 0;
   /// The same, but into the given pose. Joint angles are still counted from the robot's own start pose.
   virtual void place_at(int lane, const StartPose& pose) = 0;
@@ -54,7 +54,7 @@ class Engine {
   virtual void step(const LaneArray& targets_rad) = 0;
   /// Pushes the robot of a placed lane: during its next step alone, the force impulse / timestep acts on the
   /// centre of mass of the root body. `impulse_n_s` in N s, world frame. Placing the lane anew before that
-  /// step takes the push back.
+  /// step cancels the push.
   virtual void push(int lane, Vec3 impulse_n_s) = 0;
 
   /// False once a placed lane's state is not finite or absurdly fast (over 1000 m/s or rad/s): its trial has
@@ -63,8 +63,8 @@ class Engine {
 
   virtual const robot::SensorFrame& sensors() const = 0;
   virtual RootPose root_pose(int lane) const = 0;
-  /// What each joint's motor gave in the last step, N m about the joint's axis, child against parent (joints
-  /// × lanes); the push of a stop is not in it. Null unless EngineSettings::torques is set.
+  /// Torque of each joint's motor in the last step, N m about the joint's axis, child against parent (joints
+  /// × lanes), without the reaction of a stop. Null unless EngineSettings::torques is set.
   virtual const LaneArray* motor_torque_nm() const = 0;
   /// Centre of mass of the root body; RobotSpec::fall_height_m refers to it.
   virtual Vec3 root_com_m(int lane) const = 0;
@@ -79,8 +79,7 @@ class Engine {
 /// In the order in which they are listed to users.
 std::span<const std::string_view> engine_names();
 bool is_engine(std::string_view name);
-/// Throws UserError unless it is one of engine_names. `what` stands in front of the complaint, e.g.
-/// "--engines: ".
+/// Throws UserError unless it is one of engine_names. `what` precedes the message, e.g. "--engines: ".
 void check_engine_name(std::string_view name, std::string_view what = "");
 
 /// Makes the engine of that name. Throws UserError for an unknown name or a robot that the engine cannot

@@ -5,10 +5,10 @@
 
 namespace amble::physics {
 
-/// Beyond this a robot has exploded: m/s or rad/s (Engine::healthy).
+/// A robot that is faster has diverged: m/s or rad/s (Engine::healthy).
 inline constexpr double absurd_speed = 1000.0;
 
-/// What engines of one lane have in common: the lane's flags and the arrays that are read from outside.
+/// Common part of engines with one lane: the lane's flags, the sensors and the torques.
 class SingleRobotEngine : public Engine {
  public:
   int lanes() const final { return 1; }
@@ -21,10 +21,10 @@ class SingleRobotEngine : public Engine {
   SingleRobotEngine(const robot::RobotSpec& robot, const EngineSettings& settings);
 
   static void check_lane(int lane);
-  /// At the start of a trial.
+  /// To be called by place() and place_at().
   void place_here();
-  /// Whether there is something to step. NaN among the targets ends the trial as diverged (in ODE it would
-  /// cause a fault, which costs memory).
+  /// Whether the lane is placed and healthy. NaN among the targets ends the trial as diverged (in ODE it
+  /// would cause a Fault, which costs memory).
   bool can_step(const LaneArray& targets_rad);
   void check_pushable(int lane) const;
   void sense_attitude(const Quat& rotation);

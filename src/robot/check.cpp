@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 
 namespace amble::robot {
 namespace {
@@ -53,7 +54,7 @@ class Checker {
   }
 
   void check_body(int b) const {
-    const Body& body = robot_.bodies[static_cast<std::size_t>(b)];
+    const Body& body = robot_.bodies[to_index(b)];
     const Vec3 moments = body.inertia_kg_m2;
     const auto must = [&](bool good, std::string_view problem) { need(good, "body", body.name, problem); };
     must(b == 0 ? body.parent == -1 : body.parent >= 0 && body.parent < b, "must come after its parent");
@@ -102,21 +103,20 @@ class Checker {
           robot_.joints.size());
     }
     for (int l = 0; l < legs; ++l) {
-      const Leg& leg = robot_.legs[static_cast<std::size_t>(l)];
+      const Leg& leg = robot_.legs[to_index(l)];
       const auto must = [&](bool good, std::string_view problem) { need(good, "leg", leg.name, problem); };
       must(leg.foot_geom >= 0 && leg.foot_geom < count(robot_.geoms), "names a foot that is not there");
-      const Geom& foot = robot_.geoms[static_cast<std::size_t>(leg.foot_geom)];
+      const Geom& foot = robot_.geoms[to_index(leg.foot_geom)];
       must(foot.collides, "has a foot that cannot collide");
       must(count(leg.joints) == types, "must have one joint per joint type");
       bool carries_foot = types == 0;
       for (int t = 0; t < types; ++t) {
-        must(leg.joints[static_cast<std::size_t>(t)] == l * types + t, "has joints out of control order");
-        carries_foot =
-            carries_foot || robot_.joints[static_cast<std::size_t>(l * types + t)].body == foot.body;
+        must(leg.joints[to_index(t)] == l * types + t, "has joints out of control order");
+        carries_foot = carries_foot || robot_.joints[to_index(l * types + t)].body == foot.body;
       }
       if (!carries_foot)
         bad("leg '{}': its foot '{}' is on body '{}', which none of its joints moves", leg.name, foot.name,
-            robot_.bodies[static_cast<std::size_t>(foot.body)].name);
+            robot_.bodies[to_index(foot.body)].name);
     }
   }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "amble/core/index.hpp"
 #include "amble/robot/check.hpp"
 
 namespace amble::robot {
@@ -85,7 +86,7 @@ Body read_body(const JsonView& json) {
 }
 
 Json json_of_servo(const Servo& servo) {
-  return {{"mode", servo_mode_names[static_cast<std::size_t>(servo.mode)]},
+  return {{"mode", servo_mode_names[to_index(servo.mode)]},
           {"gain_per_s", servo.gain_per_s},
           {"max_torque_nm", servo.max_torque_nm},
           {"kp_nm_per_rad", servo.kp_nm_per_rad},
@@ -126,7 +127,7 @@ Json json_of_geom(const Geom& geom) {
   return {{"name", geom.name},
           {"body", geom.body},
           {"collides", geom.collides},
-          {"shape", shape_names[static_cast<std::size_t>(geom.shape)]},
+          {"shape", shape_names[to_index(geom.shape)]},
           {"size_m", json_of(geom.size_m)},
           {"position_m", json_of(geom.position_m)},
           {"rotation", json_of(geom.rotation)},
@@ -191,7 +192,7 @@ RobotSpec from_json(const JsonView& json) {
                   .gravity_m_s2 = vec3(json.at("gravity_m_s2")),
                   .fall_height_m = json.at("fall_height_m").number(),
                   .self_collision = json.at("self_collision").flag()};
-  check_robot(robot, [&](const std::string& problem) { json.complain("holds no valid robot: " + problem); });
+  check_robot(robot, [&](const std::string& problem) { json.refuse("holds no valid robot: " + problem); });
   return robot;
 }
 

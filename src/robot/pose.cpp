@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 
 namespace amble::robot {
 
@@ -13,7 +14,7 @@ std::vector<Pose> start_poses(const RobotSpec& robot) {
   poses.reserve(robot.bodies.size());
   for (const Body& body : robot.bodies) {
     const Pose own{body.position_m, body.rotation};
-    poses.push_back(body.parent < 0 ? own : poses[static_cast<std::size_t>(body.parent)] * own);
+    poses.push_back(body.parent < 0 ? own : poses[to_index(body.parent)] * own);
   }
   return poses;
 }
@@ -23,11 +24,11 @@ std::vector<Pose> poses_at(const RobotSpec& robot, const Pose& root, std::span<c
   std::vector<Pose> poses{root};
   poses.reserve(robot.bodies.size());
   for (int b = 1; b < static_cast<int>(robot.bodies.size()); ++b) {
-    const Body& body = robot.bodies[static_cast<std::size_t>(b)];
-    Pose pose = poses[static_cast<std::size_t>(body.parent)] * Pose{body.position_m, body.rotation};
+    const Body& body = robot.bodies[to_index(b)];
+    Pose pose = poses[to_index(body.parent)] * Pose{body.position_m, body.rotation};
     for (const int j : robot.joints_of_body(b)) {
-      const Joint& joint = robot.joints[static_cast<std::size_t>(j)];
-      const Quat turn = axis_angle(joint.axis, angles_rad[static_cast<std::size_t>(j)]);
+      const Joint& joint = robot.joints[to_index(j)];
+      const Quat turn = axis_angle(joint.axis, angles_rad[to_index(j)]);
       // About the anchor, which stays where it is.
       pose = pose * Pose{joint.anchor_m - rotate(turn, joint.anchor_m), turn};
     }
@@ -45,11 +46,11 @@ Vec3 start_com_m(const RobotSpec& robot) {
 }
 
 Vec3 centre_m(const Geom& geom, std::span<const Pose> poses) {
-  return poses[static_cast<std::size_t>(geom.body)] * geom.position_m;
+  return poses[to_index(geom.body)] * geom.position_m;
 }
 
 double bottom_m(const Geom& geom, std::span<const Pose> poses) {
-  const Pose pose = poses[static_cast<std::size_t>(geom.body)] * Pose{geom.position_m, geom.rotation};
+  const Pose pose = poses[to_index(geom.body)] * Pose{geom.position_m, geom.rotation};
 
   // How far the shape reaches below its centre: the world's z seen from the geom's own axes decides.
   const Vec3 up = rotate(conjugate(pose.rotation), {0.0, 0.0, 1.0});
@@ -73,7 +74,7 @@ double bottom_m(const Geom& geom, std::span<const Pose> poses) {
 }
 
 double start_clearance_m(const RobotSpec& robot, int geom) {
-  return bottom_m(robot.geoms[static_cast<std::size_t>(geom)], start_poses(robot));
+  return bottom_m(robot.geoms[to_index(geom)], start_poses(robot));
 }
 
 double clearance_m(const RobotSpec& robot, std::span<const Pose> poses) {

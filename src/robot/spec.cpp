@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "amble/core/index.hpp"
+
 namespace amble::robot {
 
 double RobotSpec::total_mass_kg() const {
@@ -13,18 +15,18 @@ double RobotSpec::total_mass_kg() const {
 std::vector<int> RobotSpec::joints_of_body(int body) const {
   std::vector<int> found;
   for (int j = 0; j < static_cast<int>(joints.size()); ++j) {
-    if (joints[static_cast<std::size_t>(j)].body == body) found.push_back(j);
+    if (joints[to_index(j)].body == body) found.push_back(j);
   }
-  const auto place = [this](int j) { return joints[static_cast<std::size_t>(j)].chain_index; };
+  const auto place = [this](int j) { return joints[to_index(j)].chain_index; };
   std::stable_sort(found.begin(), found.end(), [&](int a, int b) { return place(a) < place(b); });
   return found;
 }
 
 int RobotSpec::leg_of_body(int body) const {
-  for (int b = body; b >= 0; b = bodies[static_cast<std::size_t>(b)].parent)
+  for (int b = body; b >= 0; b = bodies[to_index(b)].parent)
     for (std::size_t leg = 0; leg < legs.size(); ++leg)
       for (const int joint : legs[leg].joints)
-        if (joints[static_cast<std::size_t>(joint)].body == b) return static_cast<int>(leg);
+        if (joints[to_index(joint)].body == b) return static_cast<int>(leg);
   return -1;
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "amble/core/index.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::robot {
@@ -68,8 +69,7 @@ std::string bodies_text(const RobotSpec& robot) {
   std::vector<Row> rows{{"body", "parent", "mass kg", "inertia kg m2", "centre of mass in the world, m"}};
   for (std::size_t b = 0; b < robot.bodies.size(); ++b) {
     const Body& body = robot.bodies[b];
-    const std::string parent =
-        body.parent < 0 ? "-" : robot.bodies[static_cast<std::size_t>(body.parent)].name;
+    const std::string parent = body.parent < 0 ? "-" : robot.bodies[to_index(body.parent)].name;
     rows.push_back({body.name, parent, number(body.mass_kg), numbers(body.inertia_kg_m2),
                     numbers(poses[b] * body.com_m)});
   }
@@ -80,7 +80,7 @@ std::string joints_text(const RobotSpec& robot) {
   const std::vector<Pose> poses = start_poses(robot);
   std::vector<Row> rows{{"joint", "moves", "axis in the world", "range rad", "servo"}};
   for (const Joint& joint : robot.joints) {
-    const auto body = static_cast<std::size_t>(joint.body);
+    const auto body = to_index(joint.body);
     rows.push_back({joint.name, robot.bodies[body].name, numbers(rotate(poses[body].rotation, joint.axis)),
                     number(joint.lower_rad) + " to " + number(joint.upper_rad), servo_text(joint.servo)});
   }
@@ -91,9 +91,8 @@ std::string legs_text(const RobotSpec& robot) {
   std::vector<Row> rows{{"leg", "foot", "over the ground, m", "joints"}};
   for (const Leg& leg : robot.legs) {
     std::string joints;
-    for (const int j : leg.joints)
-      joints += (joints.empty() ? "" : ", ") + robot.joints[static_cast<std::size_t>(j)].name;
-    rows.push_back({leg.name, robot.geoms[static_cast<std::size_t>(leg.foot_geom)].name,
+    for (const int j : leg.joints) joints += (joints.empty() ? "" : ", ") + robot.joints[to_index(j)].name;
+    rows.push_back({leg.name, robot.geoms[to_index(leg.foot_geom)].name,
                     number(start_clearance_m(robot, leg.foot_geom)), joints});
   }
   return table(rows);
@@ -102,7 +101,7 @@ std::string legs_text(const RobotSpec& robot) {
 std::string geoms_text(const RobotSpec& robot) {
   std::vector<Row> rows{{"geom", "body", "shape, m", ""}};
   for (const Geom& geom : robot.geoms) {
-    rows.push_back({geom.name, robot.bodies[static_cast<std::size_t>(geom.body)].name, shape_text(geom),
+    rows.push_back({geom.name, robot.bodies[to_index(geom.body)].name, shape_text(geom),
                     geom.collides ? "" : "only to look at"});
   }
   return table(rows);

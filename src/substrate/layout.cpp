@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 #include "amble/substrate/layout_builder.hpp"
 
 namespace amble::substrate {
 namespace {
 
-/// The value of a straight line that is `low` at −1 and `high` at 1.
-double on_line(double low, double high, float o) {
+/// Linear interpolation: `low` at o = −1, `high` at o = 1, o clamped to that range.
+double interpolated(double low, double high, float o) {
   return 0.5 * (low + high) + 0.5 * (high - low) * std::clamp(static_cast<double>(o), -1.0, 1.0);
 }
 
@@ -46,34 +47,43 @@ double Layout::lowest(Property property) const {
 Decoded Layout::decode(const cppn::Network& network) const {
   AMBLE_CHECK(network.outputs() == static_cast<int>(output_names_.size()),
               "the CPPN has another number of outputs than the substrate");
-  std::vector<float> results(output_names_.size() * static_cast<std::size_t>(points_.capacity()));
+  std::vector<float> results(output_names_.size() * to_index(points_.capacity()));
   network.evaluate(points_, results);
-  const auto output_at = [&](int output, int point) {
-    return results[static_cast<std::size_t>(output * points_.capacity() + point)];
-  };
-
   Decoded decoded;
+  decode_weights(results, decoded);
+  decode_properties(results, decoded);
+  return decoded;
+}
+
+float Layout::output_at(std::span<const float> results, int output, int point) const {
+  return results[to_index(output * points_.capacity() + point)];
+}
+
+void Layout::decode_weights(std::span<const float> results, Decoded& decoded) const {
   decoded.weights.resize(links_.size());
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    const double o = on_line(-1.0, 1.0, output_at(links_[i].output, link_points_[i]));
+    // sign(o) (|o| − t) / (1 − t) × weight_range, or 0.
+    const double o = interpolated(-1.0, 1.0, output_at(results, links_[i].output, link_points_[i]));
     const double excess = (std::fabs(o) - expression_threshold_) / (1.0 - expression_threshold_);
     if (excess > 0.0) decoded.weights[i] = static_cast<float>(std::copysign(excess * weight_range_, o));
   }
+}
+
+void Layout::decode_properties(std::span<const float> results, Decoded& decoded) const {
   for (auto& values : decoded.properties) values.resize(nodes_.size());
-  const auto ticks = static_cast<std::size_t>(pattern_ticks_ + 1);
+  const std::size_t ticks = to_index(pattern_ticks_ + 1);
   if (pattern_ticks_ > 0) decoded.patterns.resize(nodes_.size() * ticks);
   for (const Source& source : sources_) {
-    const auto node = static_cast<std::size_t>(source.node);
+    const std::size_t node = to_index(source.node);
     const bool is_pattern = source.property == Property::pattern;
-    float* const values = is_pattern
-                              ? decoded.patterns.data() + node * ticks
-                              : decoded.properties[static_cast<std::size_t>(source.property)].data() + node;
+    float* const values = is_pattern ? decoded.patterns.data() + node * ticks
+                                     : decoded.properties[to_index(source.property)].data() + node;
     for (std::size_t i = 0; i < (is_pattern ? ticks : 1); ++i)
       values[i] = static_cast<float>(
-          source.output < 0 ? source.value
-                            : on_line(source.low, source.high, output_at(source.output, source.points[i])));
+          source.output < 0
+              ? source.value
+              : interpolated(source.low, source.high, output_at(results, source.output, source.points[i])));
   }
-  return decoded;
 }
 
 }  // namespace amble::substrate

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "amble/core/index.hpp"
 #include "amble/cppn/network.hpp"
 #include "amble/robot/spec.hpp"
 #include "amble/substrate/sensor.hpp"
@@ -14,12 +15,12 @@
 
 namespace amble::substrate {
 
-/// What a kind of controller makes of a substrate.
+/// What a kind of controller needs of a substrate.
 struct Needs {
   std::string_view kind;             ///< for messages
   bool network = true;               ///< whether there are links, sensors and nodes that drive no joint
   std::vector<Property> properties;  ///< that each node but the sensors must have
-  int pattern_ticks = 0;             ///< patterns are asked for at times 0, 1/ticks, …, 1
+  int pattern_ticks = 0;             ///< patterns are queried at times 0, 1/ticks, …, 1
 };
 
 struct Node {
@@ -34,28 +35,26 @@ struct Link {
   int output = 0;              ///< CPPN output that gives the weight
 };
 
-/// What a CPPN says of a substrate: plain numbers, one set per genome.
+/// The numbers that a CPPN gives a substrate: one set per genome.
 struct Decoded {
   std::vector<float> weights;  ///< link by link; 0 where the link is not expressed
   /// Property by property and node by node; 0 where a node lacks it. Patterns are not among them.
   std::array<std::vector<float>, property_count> properties;
   std::vector<float> patterns;  ///< node by node, tick by tick: 0 … pattern_ticks
 
-  std::span<const float> of(Property property) const {
-    return properties[static_cast<std::size_t>(property)];
-  }
+  std::span<const float> of(Property property) const { return properties[to_index(property)]; }
 };
 
-/// A substrate made ready for many genomes: checked against robot and controller, with all questions that it
-/// has for a CPPN laid down once. Const and shared by all workers.
+/// A substrate prepared for many genomes: checked against robot and controller, with the query points
+/// collected once. Const and shared by all workers.
 ///
 /// CPPN inputs: the coordinates of a link's source, then those of its target. For a property of a node these
 /// are the node's own and zeros (Morse et al. 2013, figure 1). Without links there is one set of coordinates.
 /// If a node has a pattern, time in periods is one more input, 0 for everything but patterns.
 ///
-/// Outputs o are cut to −1 … 1. A link's weight is 0 where |o| is at most the expression threshold t, and
-/// else sign(o) (|o| − t)/(1 − t) × weight_range (HyperSharpNEAT). A property is the straight line through
-/// `low` at −1 and `high` at 1.
+/// Outputs o are clamped to −1 … 1. A link's weight is 0 where |o| is at most the expression threshold t, and
+/// else sign(o) (|o| − t)/(1 − t) × weight_range (HyperSharpNEAT). A property is linear in o:
+/// `low` at −1, `high` at 1.
 class Layout {
  public:
   /// Throws UserError naming the key where settings, robot and controller do not fit.
@@ -65,14 +64,14 @@ class Layout {
   const std::vector<std::string>& input_names() const { return input_names_; }
   const std::vector<std::string>& output_names() const { return output_names_; }
   const std::vector<Node>& nodes() const { return nodes_; }
-  /// Item by item of the settings, then source by source; those that lead back follow theirs.
+  /// Item by item of the settings, then source by source; the reverse of a link follows it.
   const std::vector<Link>& links() const { return links_; }
   int joint_count() const { return static_cast<int>(drivers_.size()); }
   /// The node that drives a joint.
-  int driver(int joint) const { return drivers_[static_cast<std::size_t>(joint)]; }
-  /// Whether two nodes get the same value of a property from every CPPN, because they ask it alike.
+  int driver(int joint) const { return drivers_[to_index(joint)]; }
+  /// Whether two nodes get the same value of a property from every CPPN, because they query it alike.
   bool shared(Property property, int a, int b) const;
-  /// The least value that a property can have.
+  /// The least possible value of a property.
   double lowest(Property property) const;
 
   const cppn::Points& points() const { return points_; }
@@ -90,6 +89,10 @@ class Layout {
     std::vector<int> points;  ///< one; for a pattern tick by tick
   };
   const Source& source(Property property, int node) const;
+  /// Of the results of cppn::Network::evaluate().
+  float output_at(std::span<const float> results, int output, int point) const;
+  void decode_weights(std::span<const float> results, Decoded& decoded) const;
+  void decode_properties(std::span<const float> results, Decoded& decoded) const;
 
   std::vector<std::string> coordinates_, input_names_, output_names_;
   double expression_threshold_ = 0.0, weight_range_ = 0.0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 
 namespace amble::substrate {
 namespace {
@@ -21,7 +22,7 @@ std::string item(const char* list, std::size_t index, const char* key = nullptr)
   return key == nullptr ? fmt::format("{}[{}]", list, index) : fmt::format("{}[{}].{}", list, index, key);
 }
 
-/// Names that are there once each and not empty.
+/// Refuses an empty list, empty names and duplicates.
 void check_names(const std::vector<std::string>& names, const char* key) {
   if (names.empty()) refuse(key, " is empty: expected a list of names");
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -33,13 +34,13 @@ void check_names(const std::vector<std::string>& names, const char* key) {
 }
 
 std::string_view name_of(Property property) {
-  return property_names[static_cast<std::size_t>(property)];
+  return property_names[to_index(property)];
 }
 
 }  // namespace
 
 void LayoutBuilder::build() {
-  take_names();
+  set_names();
   add_nodes();
   assign_joints();
   add_links();
@@ -49,7 +50,7 @@ void LayoutBuilder::build() {
   layout_.points_ = points_.points(static_cast<int>(layout_.input_names_.size()));
 }
 
-void LayoutBuilder::take_names() {
+void LayoutBuilder::set_names() {
   check_names(settings_.coordinates, "coordinates");
   check_names(settings_.outputs, "outputs");
   layout_.coordinates_ = settings_.coordinates;
@@ -83,12 +84,18 @@ void LayoutBuilder::add_nodes() {
       refuse(item("nodes", i, "name"), " = \"{}\": nodes[{}] is called so, too", node.name, first->second);
     const std::vector<float> at(node.at.begin(), node.at.end());
     if (const auto [first, is_new] = places.try_emplace(at, i); !is_new)
-      refuse(item("nodes", i, "at"), ": \"{}\" stands where \"{}\" (nodes[{}]) stands", node.name,
+      refuse(item("nodes", i, "at"), ": \"{}\" has the same coordinates as \"{}\" (nodes[{}])", node.name,
              settings_.nodes[first->second].name, first->second);
     Node& added = layout_.nodes_.emplace_back(Node{node.name, node.group, node.at, std::nullopt, -1});
     if (!node.sensor.empty())
       added.sensor = parse_sensor(node.sensor, robot_, "controller.substrate." + item("nodes", i, "sensor"));
   }
+  check_groups();
+}
+
+void LayoutBuilder::check_groups() const {
+  std::map<std::string, std::size_t> names;
+  for (std::size_t i = 0; i < settings_.nodes.size(); ++i) names.try_emplace(settings_.nodes[i].name, i);
   for (std::size_t i = 0; i < settings_.nodes.size(); ++i) {
     const auto namesake = names.find(settings_.nodes[i].group);
     if (namesake != names.end() && namesake->second != i)
@@ -120,7 +127,7 @@ void LayoutBuilder::assign_joints() {
     if (joint == robot_.joints.end())
       refuse(item("nodes", i, "joint"), " = \"{}\": the robot has no such joint", name);
     layout_.nodes_[i].joint = static_cast<int>(joint - robot_.joints.begin());
-    int& driver = layout_.drivers_[static_cast<std::size_t>(layout_.nodes_[i].joint)];
+    int& driver = layout_.drivers_[to_index(layout_.nodes_[i].joint)];
     if (driver >= 0)
       refuse(item("nodes", i, "joint"), " = \"{}\": \"{}\" (nodes[{}]) drives it already", name,
              name_of(driver), driver);
@@ -141,9 +148,9 @@ void LayoutBuilder::add_links() {
     const bool itself = link.from == link.to && is_node(link.from);
     const std::size_t before = layout_.links_.size();
     for (const int source : from) {
-      const auto& at = layout_.nodes_[static_cast<std::size_t>(source)].at;
+      const auto& at = layout_.nodes_[to_index(source)].at;
       for (const int target : to) {
-        const auto& other = layout_.nodes_[static_cast<std::size_t>(target)].at;
+        const auto& other = layout_.nodes_[to_index(target)].at;
         const bool agree =
             std::all_of(same.begin(), same.end(), [&](std::size_t c) { return at[c] == other[c]; });
         if (!agree || (source == target && !itself)) continue;
@@ -182,7 +189,7 @@ void LayoutBuilder::add_properties() {
 void LayoutBuilder::add_property(std::size_t index, int node) {
   const PropertySettings& property = settings_.properties[index];
   const std::string_view what = substrate::name_of(property.property);
-  if (layout_.nodes_[static_cast<std::size_t>(node)].sensor)
+  if (layout_.nodes_[to_index(node)].sensor)
     refuse(item("properties", index, "of"), ": \"{}\" is a sensor and has no {}", name_of(node), what);
   for (const Layout::Source& other : layout_.sources_)
     if (other.node == node && other.property == property.property)
@@ -206,7 +213,7 @@ void LayoutBuilder::check_properties() const {
   for (const Property property : needs_.properties) {
     std::vector<bool> has(layout_.nodes_.size());
     for (const Layout::Source& source : layout_.sources_)
-      if (source.property == property) has[static_cast<std::size_t>(source.node)] = true;
+      if (source.property == property) has[to_index(source.node)] = true;
     for (std::size_t node = 0; node < has.size(); ++node)
       if (!has[node] && !layout_.nodes_[node].sensor)
         refuse("properties", ": \"{}\" has no {}, which a controller of kind {} needs",
@@ -240,7 +247,7 @@ int LayoutBuilder::output_of(const std::string& name, const std::string& key) {
     refuse(key, " = \"{}\": the CPPN has no such output (it has {})", name,
            fmt::join(settings_.outputs, ", "));
   const auto output = found - settings_.outputs.begin();
-  read_[static_cast<std::size_t>(output)] = true;
+  read_[to_index(output)] = true;
   return static_cast<int>(output);
 }
 
@@ -252,19 +259,19 @@ std::vector<std::size_t> LayoutBuilder::coordinates_of(const std::vector<std::st
     if (at == settings_.coordinates.end())
       refuse(key, ": there is no coordinate \"{}\" (there are {})", name,
              fmt::join(settings_.coordinates, ", "));
-    found.push_back(static_cast<std::size_t>(at - settings_.coordinates.begin()));
+    found.push_back(to_index(at - settings_.coordinates.begin()));
   }
   return found;
 }
 
-std::vector<float> LayoutBuilder::place(int node) const {
-  const auto& at = layout_.nodes_[static_cast<std::size_t>(node)].at;
+std::vector<float> LayoutBuilder::coordinates(int node) const {
+  const auto& at = layout_.nodes_[to_index(node)].at;
   return {at.begin(), at.end()};
 }
 
 std::vector<float> LayoutBuilder::link_inputs(int source, int target) const {
-  std::vector<float> inputs = place(source);
-  const std::vector<float> end = place(target);
+  std::vector<float> inputs = coordinates(source);
+  const std::vector<float> end = coordinates(target);
   inputs.insert(inputs.end(), end.begin(), end.end());
   inputs.resize(layout_.input_names_.size());
   return inputs;
@@ -272,7 +279,7 @@ std::vector<float> LayoutBuilder::link_inputs(int source, int target) const {
 
 std::vector<float> LayoutBuilder::node_inputs(int node, const std::vector<std::size_t>& zero,
                                               int tick) const {
-  std::vector<float> inputs = place(node);
+  std::vector<float> inputs = coordinates(node);
   for (const std::size_t coordinate : zero) inputs[coordinate] = 0.0f;
   inputs.resize(layout_.input_names_.size());
   if (has_time_ && tick > 0)

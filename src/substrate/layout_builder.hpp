@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "amble/core/index.hpp"
 #include "amble/substrate/layout.hpp"
 #include "amble/substrate/query_points.hpp"
 
@@ -17,8 +18,9 @@ class LayoutBuilder {
   void build();
 
  private:
-  void take_names();
+  void set_names();
   void add_nodes();
+  void check_groups() const;
   void check_node(std::size_t index) const;
   void assign_joints();
   void add_links();
@@ -28,16 +30,16 @@ class LayoutBuilder {
   void check_properties() const;
   void check_outputs() const;
 
-  /// The nodes that a name stands for: one, or those of a group.
+  /// The nodes with this name or of this group.
   std::vector<int> nodes_of(const std::string& name, const std::string& key) const;
   bool is_node(const std::string& name) const;
   int output_of(const std::string& name, const std::string& key);
   std::vector<std::size_t> coordinates_of(const std::vector<std::string>& names,
                                           const std::string& key) const;
-  std::vector<float> place(int node) const;
+  std::vector<float> coordinates(int node) const;
   std::vector<float> link_inputs(int source, int target) const;
   std::vector<float> node_inputs(int node, const std::vector<std::size_t>& zero, int tick) const;
-  const std::string& name_of(int node) const { return layout_.nodes_[static_cast<std::size_t>(node)].name; }
+  const std::string& name_of(int node) const { return layout_.nodes_[to_index(node)].name; }
 
   Layout& layout_;
   const Settings& settings_;

@@ -3,11 +3,12 @@
 #include <map>
 #include <vector>
 
+#include "amble/core/index.hpp"
 #include "amble/cppn/network.hpp"
 
 namespace amble::substrate {
 
-/// Collects the points at which a CPPN will be asked; equal ones are asked once.
+/// Collects the points at which a CPPN will be queried; equal points are one.
 class QueryPoints {
  public:
   /// Index of the point with these inputs.
@@ -20,8 +21,7 @@ class QueryPoints {
   cppn::Points points(int inputs) const {
     cppn::Points points(inputs, static_cast<int>(in_order_.size()));
     for (std::size_t i = 0; i < in_order_.size(); ++i)
-      for (int k = 0; k < inputs; ++k)
-        points.set(static_cast<int>(i), k, in_order_[i][static_cast<std::size_t>(k)]);
+      for (int k = 0; k < inputs; ++k) points.set(static_cast<int>(i), k, in_order_[i][to_index(k)]);
     return points;
   }
 

@@ -12,7 +12,7 @@ void NodeSettings::describe(io::SettingsVisitor& visitor) {
   visitor.text("name", name,
                {"what the node is called; no other node may be called so, and no group of others"});
   visitor.text("group", group, {"links and properties name nodes by their groups"});
-  visitor.numbers("at", at, coordinate_range, {"where the node stands: one number per coordinate"});
+  visitor.numbers("at", at, coordinate_range, {"the node's position: one number per coordinate"});
   visitor.text(
       "sensor", sensor,
       {"what the node senses: angle.JOINT (rad), touch.LEG (0 or 1), roll, pitch, yaw (rad) or sine; "
@@ -38,7 +38,7 @@ void PropertySettings::describe(io::SettingsVisitor& visitor) {
   visitor.number("high", high, value_range, {"the property where that output is 1 or more"});
   visitor.number("value", value, value_range, {"the property if no output gives it"});
   visitor.texts("zero", zero,
-                {"coordinates that count as 0 when the CPPN is asked for it",
+                {"coordinates that are 0 when the CPPN is queried for it",
                  "Morse et al. 2013, sec. 3, for the SUPG's offset"});
 }
 
@@ -56,14 +56,15 @@ void Settings::describe(io::SettingsVisitor& visitor) {
                  {"weight where the output is 1", "HyperSharpNEAT"});
   visitor.number("sine_period_s", sine_period_s, {1e-3, 1e6},
                  {"period of the sensor sine, s", "Morse et al. 2013, sec. 4"});
-  visitor.choice("attitude", attitude, attitude_names,
-                 {"the sensors roll, pitch and yaw say these angles (true_angles), or what comes out of a "
-                  "formula that takes a quaternion's w for its x: −yaw, pitch and −roll, within ± π/2",
-                  "the authors' code: misordered_quaternion"});
+  visitor.choice(
+      "attitude", attitude, attitude_names,
+      {"the sensors roll, pitch and yaw read these angles (true_angles), or the result of a formula "
+       "that takes a quaternion's w for its x: −yaw, pitch and −roll, within ± π/2",
+       "the authors' code: misordered_quaternion"});
   visitor.tables("nodes", nodes, {"the nodes", "Morse et al. 2013, fig. 4, 6, 7"});
   visitor.tables("links", links, {"which nodes are linked", "Morse et al. 2013, fig. 6, 7"});
   visitor.tables("properties", properties,
-                 {"what the CPPN says of single nodes", "Morse et al. 2013, sec. 2.2"});
+                 {"what the CPPN gives single nodes", "Morse et al. 2013, sec. 2.2"});
 }
 
 }  // namespace amble::substrate

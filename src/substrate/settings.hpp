@@ -9,7 +9,7 @@
 
 namespace amble::substrate {
 
-/// What a CPPN can say of a single node, or a constant stand for.
+/// A property of a single node, which a CPPN or a constant can give.
 enum class Property {
   pattern,        ///< output of a SUPG as a function of its timer, −1 … 1
   offset,         ///< of a SUPG, −1 … 1
@@ -19,13 +19,12 @@ enum class Property {
 inline constexpr std::array<std::string_view, 4> property_names{"pattern", "offset", "bias", "time_constant"};
 inline constexpr std::size_t property_count = property_names.size();
 
-/// What the sensors roll, pitch and yaw say: the angles, or what the authors' code takes for them
+/// What the sensors roll, pitch and yaw read: the angles, or what the authors' code takes for them
 /// (controllers/attitude.hpp).
 enum class Attitude { true_angles, misordered_quaternion };
 inline constexpr std::array<std::string_view, 2> attitude_names{"true_angles", "misordered_quaternion"};
 
-/// A place in the substrate and what stands there: a sensor, a neuron, or a neuron or SUPG that drives a
-/// joint.
+/// A node of the substrate and its coordinates: a sensor, a neuron, or a neuron or SUPG that drives a joint.
 struct NodeSettings {
   std::string name;
   std::string group;       ///< links and properties name nodes by their groups
@@ -53,13 +52,13 @@ struct PropertySettings {
   std::string output;             ///< the CPPN output that gives it; empty: it is `value` for all
   double low = -1.0, high = 1.0;  ///< the property where that output is −1, and where it is 1
   double value = 0.0;
-  std::vector<std::string> zero;  ///< coordinates that count as 0 when the CPPN is asked
+  std::vector<std::string> zero;  ///< coordinates that are 0 when the CPPN is queried
 
   void describe(io::SettingsVisitor& visitor);
 };
 
-/// A HyperNEAT substrate as data: where the nodes of a controller stand, what is linked, and which output of
-/// the CPPN says what (Morse et al. 2013, sec. 2.2 and figures 1, 4, 6, 7).
+/// A HyperNEAT substrate as data: coordinates of a controller's nodes, what is linked, and which output of
+/// the CPPN gives which weight or property (Morse et al. 2013, sec. 2.2 and figures 1, 4, 6, 7).
 struct Settings {
   std::vector<std::string> coordinates;  ///< names, in the order of NodeSettings::at and of the CPPN's inputs
   std::vector<std::string> outputs;      ///< names of the CPPN's outputs, in order

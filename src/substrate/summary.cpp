@@ -6,6 +6,8 @@
 #include <map>
 #include <tuple>
 
+#include "amble/core/index.hpp"
+
 namespace amble::substrate {
 namespace {
 
@@ -39,26 +41,25 @@ std::string properties_text(const Settings& settings) {
   if (settings.properties.empty()) return {};
   std::string text = "\nproperties\n";
   for (const PropertySettings& property : settings.properties) {
-    text +=
-        fmt::format("  {} of {}: ", property_names[static_cast<std::size_t>(property.property)], property.of);
+    text += fmt::format("  {} of {}: ", property_names[to_index(property.property)], property.of);
     if (property.output.empty()) {
       text += fmt::format("{}\n", property.value);
       continue;
     }
     text += fmt::format("{} to {} by output {}", property.low, property.high, property.output);
-    text += property.zero.empty() ? "\n"
-                                  : fmt::format(", asked for with {} = 0\n", fmt::join(property.zero, ", "));
+    text +=
+        property.zero.empty() ? "\n" : fmt::format(", queried with {} = 0\n", fmt::join(property.zero, ", "));
   }
   return text;
 }
 
 std::string links_text(const Layout& layout) {
   const auto& nodes = layout.nodes();
-  const auto node = [&](int index) -> const Node& { return nodes[static_cast<std::size_t>(index)]; };
+  const auto node = [&](int index) -> const Node& { return nodes[to_index(index)]; };
   std::map<std::tuple<std::string, std::string, std::string>, int> counts;
   for (const Link& link : layout.links())
     ++counts[{group_or_name(node(link.source)), group_or_name(node(link.target)),
-              layout.output_names()[static_cast<std::size_t>(link.output)]}];
+              layout.output_names()[to_index(link.output)]}];
   std::string text = fmt::format("\n{} links\n", layout.links().size());
   for (const auto& [groups, count] : counts)
     text += fmt::format("  {:5}  {} -> {}, by output {}\n", count, std::get<0>(groups), std::get<1>(groups),
@@ -67,7 +68,7 @@ std::string links_text(const Layout& layout) {
   const auto width = widest(nodes, [](const Node& n) { return n.name; });
   for (const Link& link : layout.links())
     text += fmt::format("  {:{}}  ->  {:{}}  {}\n", node(link.source).name, width, node(link.target).name,
-                        width, layout.output_names()[static_cast<std::size_t>(link.output)]);
+                        width, layout.output_names()[to_index(link.output)]);
   return text;
 }
 

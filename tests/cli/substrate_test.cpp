@@ -22,7 +22,7 @@ TEST(SubstrateCommand, ListsNodesAndLinksOfTheArchitecturesOfThePaper) {
   EXPECT_THAT(supg.out, HasSubstr("  BR.hip_io  supg  (0.02, 1)  drives BR_hip_io\n"));
   EXPECT_THAT(supg.out, HasSubstr("\n0 links\n"));
   EXPECT_THAT(supg.out,
-              HasSubstr("  offset of supg: -1 to 1 by output offset, asked for with joint_type = 0\n"));
+              HasSubstr("  offset of supg: -1 to 1 by output offset, queried with joint_type = 0\n"));
 
   const auto sine = amble({"substrate", source + "/configs/paper/sine-objective.toml"});
   EXPECT_THAT(sine.out, HasSubstr("    400  input -> hidden, by output weight\n"));

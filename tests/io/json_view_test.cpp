@@ -52,7 +52,7 @@ TEST_F(JsonViewTest, NamesFileKeyAndWhatWasExpected) {
   EXPECT_EQ(refusal([](const auto& v) { v.at("flag").text(); }), "c.json: key 'flag' must be text");
   EXPECT_EQ(refusal([](const auto& v) { v.at("flag").size(); }), "c.json: key 'flag' must be a list");
   EXPECT_EQ(refusal([](const auto& v) { v.size(); }), "c.json: the document must be a list");
-  EXPECT_EQ(refusal([](const auto& v) { v.at("flag").complain("is unknown"); }),
+  EXPECT_EQ(refusal([](const auto& v) { v.at("flag").refuse("is unknown"); }),
             "c.json: key 'flag' is unknown");
 }
 

@@ -63,7 +63,7 @@ FullState thrown(const RobotSpec& robot, std::uint64_t seed) {
   const auto around = [&](double most) { return stream.uniform(-most, most); };
   FullState state{{robot.bodies[0].position_m, axis_angle({0.6, 0.0, 0.8}, around(1.0))}, {}, {}, {}, {}};
   state.root_velocity_m_s = {around(1.0), around(1.0), around(1.0)};
-  state.root_spin_rad_s = {around(2.0), around(2.0), around(2.0)};
+  state.root_angular_velocity_rad_s = {around(2.0), around(2.0), around(2.0)};
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     state.angle_rad.push_back(around(0.5));
     state.speed_rad_s.push_back(around(2.0));
@@ -76,7 +76,7 @@ double flight_difference(const RobotSpec& robot, double h) {
   const auto engine = make_batch_engine(robot, {.timestep_s = h});
   const FullState start = thrown(robot, 3);
   engine->place(0);
-  engine->set_state(0, batch_state(robot, start));
+  engine->set_state(0, robot_state(robot, start));
   OdeRig rig(robot);
   rig.set(body_motions(robot, start));
   const LaneArray none(static_cast<int>(robot.joints.size()), engine->lanes());
@@ -111,7 +111,7 @@ TEST(BatchAgreement, EnergyInFlightIsKeptTheBetterTheShorterTheStep) {
     const auto engine = make_batch_engine(robot, {.timestep_s = h});
     const FullState start = thrown(robot, 5);
     engine->place(0);
-    engine->set_state(0, batch_state(robot, start));
+    engine->set_state(0, robot_state(robot, start));
     const LaneArray none(12, engine->lanes());
     for (int n = 0; n < static_cast<int>(std::lround(0.4 / h)); ++n) engine->step(none);
     const FullState end = full_state(robot, engine->root_pose(0), engine->state(0));
@@ -130,8 +130,8 @@ TEST(BatchAgreement, BothMomentaAreKeptInFlightWhateverTheMotorsDo) {
   engine->place(0);
   FullState start = thrown(robot, 9);
   start.angle_rad.assign(12, 0.0);
-  engine->set_state(0, batch_state(robot, start));
-  const BatchState before = engine->state(0);
+  engine->set_state(0, robot_state(robot, start));
+  const RobotState before = engine->state(0);
   LaneArray targets(12, engine->lanes());
   Stream stream(8, Purpose::test);
   for (int n = 0; n < 300; ++n) {
@@ -139,9 +139,9 @@ TEST(BatchAgreement, BothMomentaAreKeptInFlightWhateverTheMotorsDo) {
       for (int j = 0; j < 12; ++j) targets.at(j, 0) = static_cast<float>(stream.uniform(-0.8, 0.8));
     engine->step(targets);
   }
-  const BatchState after = engine->state(0);
+  const RobotState after = engine->state(0);
   EXPECT_EQ(after.velocity_m_s, before.velocity_m_s);
-  EXPECT_EQ(after.spin_kg_m2_s, before.spin_kg_m2_s);
+  EXPECT_EQ(after.angular_momentum_kg_m2_s, before.angular_momentum_kg_m2_s);
   EXPECT_NEAR(norm(after.com_m - (before.com_m + 3.0 * before.velocity_m_s)), 0.0, 1e-5);
 }
 

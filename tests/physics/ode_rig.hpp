@@ -28,7 +28,8 @@ class OdeRig {
       dBodySetPosition(body, m.com_m.x, m.com_m.y, m.com_m.z);
       dBodySetQuaternion(body, rotation);
       dBodySetLinearVel(body, m.velocity_m_s.x, m.velocity_m_s.y, m.velocity_m_s.z);
-      dBodySetAngularVel(body, m.spin_rad_s.x, m.spin_rad_s.y, m.spin_rad_s.z);
+      dBodySetAngularVel(body, m.angular_velocity_rad_s.x, m.angular_velocity_rad_s.y,
+                         m.angular_velocity_rad_s.z);
     }
   }
 

@@ -68,7 +68,7 @@ TEST_P(Push, AddsUpWithAnotherBeforeTheSameStep) {
               drifting() ? 1e-3 : rounding(1.0));
 }
 
-TEST(PushOfBatch, GivesTheSpinOfItsArm) {
+TEST(PushOfBatch, GivesTheAngularMomentumOfItsArm) {
   const auto engine = make_batch_engine(weightless(quadruped("paper")), {});
   engine->place(0);
   const Vec3 impulse_n_s{1.0, 0.6, 0.8};
@@ -76,7 +76,7 @@ TEST(PushOfBatch, GivesTheSpinOfItsArm) {
   EXPECT_GT(norm(expected), 0.05);
   engine->push(0, impulse_n_s);
   engine->step(LaneArray(12, engine->lanes()));
-  EXPECT_NEAR(norm(engine->state(0).spin_kg_m2_s - expected), 0.0, 1e-5);
+  EXPECT_NEAR(norm(engine->state(0).angular_momentum_kg_m2_s - expected), 0.0, 1e-5);
 }
 
 TEST(PushOfBatch, MovesTorsoAndLegsAsInOde) {

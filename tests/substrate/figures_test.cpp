@@ -106,7 +106,7 @@ TEST(Figure4, IsAskedAtTheQueryPointsOfTheAuthors) {
     expected.insert({leg, 0.0f, 0.0f});  // the offset: type and time count as 0 (section 3)
   }
   EXPECT_EQ(points, expected);
-  EXPECT_EQ(static_cast<int>(points.size()), layout.points().count()) << "none is asked twice";
+  EXPECT_EQ(static_cast<int>(points.size()), layout.points().count()) << "none is queried twice";
   // The SUPGs of a leg share their offset, those of different legs do not.
   const auto driver = [&](int joint) { return layout.driver(joint); };
   EXPECT_TRUE(layout.shared(Property::offset, driver(0), driver(1)));

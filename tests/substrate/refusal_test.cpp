@@ -60,11 +60,11 @@ TEST(BadSubstrate, LinkToANodeThatIsNotThere) {
 
 TEST(BadSubstrate, TwoNodesInOnePlaceOrOfOneName) {
   EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[2].at = s.nodes[1].at; }),
-            "nodes[2].at: \"FL.hidden right\" stands where \"FL.hidden left\" (nodes[1]) stands");
+            "nodes[2].at: \"FL.hidden right\" has the same coordinates as \"FL.hidden left\" (nodes[1])");
   EXPECT_EQ(ctrnn([](Settings& s) {
               s.nodes[2].at = {-1 + 1e-12, 0, -1, 1};
             }),
-            "nodes[2].at: \"FL.hidden right\" stands where \"FL.hidden left\" (nodes[1]) stands")
+            "nodes[2].at: \"FL.hidden right\" has the same coordinates as \"FL.hidden left\" (nodes[1])")
       << "a CPPN cannot tell them apart";
   EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[2].name = "FL.touch"; }),
             "nodes[2].name = \"FL.touch\": nodes[0] is called so, too");

@@ -2,14 +2,15 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/hash.hpp"
-#include "amble/physics/batch/robots.hpp"
+#include "amble/core/index.hpp"
+#include "amble/physics/batch/lockstep_state.hpp"
 #include "amble/physics/batch/step.hpp"
 
 namespace amble::physics {
 namespace {
 
-using batch::Robots;
-using batch::Rows;
+using batch::LockstepState;
+using batch::StateRows;
 
 class LockstepEngine final : public BatchEngine {
  public:
@@ -36,75 +37,76 @@ class LockstepEngine final : public BatchEngine {
 
   int lanes() const override { return batch::lanes; }
 
-  void place(int lane) override { put_down(lane, start_); }
+  void place(int lane) override { copy_into(lane, start_); }
 
   void place_at(int lane, const StartPose& start) override {
     AMBLE_CHECK(start.joint_angle_rad.size() == model_.links.size(), "an angle per joint");
     pose(posed_, start);
-    put_down(lane, posed_);
+    copy_into(lane, posed_);
   }
 
   void retire(int lane) override {
     check_lane(lane);
-    robots_.at(Rows::active, lane) = 0.0f;
+    robots_.at(StateRows::active, lane) = 0.0f;
   }
 
   void step(const LaneArray& targets_rad) override {
     AMBLE_CHECK(targets_rad.rows() == rows_.links && targets_rad.lanes() == batch::lanes, "targets");
-    batch::step(as_batch(robots_), targets_rad);
+    batch::step(arguments_for(robots_), targets_rad);
   }
 
   void push(int lane, Vec3 impulse_n_s) override {
     check_lane(lane);
-    AMBLE_CHECK(robots_.at(Rows::active, lane) == 1.0f, "only a placed robot can be pushed");
-    robots_.put(Rows::push, lane, robots_.vec3(Rows::push, lane) + impulse_n_s);
+    AMBLE_CHECK(robots_.at(StateRows::active, lane) == 1.0f, "only a placed robot can be pushed");
+    robots_.put(StateRows::push_impulse, lane, robots_.vec3(StateRows::push_impulse, lane) + impulse_n_s);
   }
 
   bool healthy(int lane) const override {
     check_lane(lane);
-    return robots_.at(Rows::healthy, lane) == 1.0f;
+    return robots_.at(StateRows::healthy, lane) == 1.0f;
   }
 
   const robot::SensorFrame& sensors() const override { return robots_.sensors(); }
   const LaneArray* motor_torque_nm() const override { return with_torques_ ? &torques_nm_ : nullptr; }
 
   RootPose root_pose(int lane) const override {
-    return {com_m(lane) + robots_.to_world(lane, robots_.vec3(Rows::origin, lane)), robots_.rotation(lane)};
+    return {com_m(lane) + robots_.to_world(lane, robots_.vec3(StateRows::torso_origin, lane)),
+            robots_.rotation(lane)};
   }
   Vec3 root_com_m(int lane) const override {
-    return com_m(lane) + robots_.to_world(lane, robots_.vec3(Rows::origin, lane) + root_com_m_);
+    return com_m(lane) + robots_.to_world(lane, robots_.vec3(StateRows::torso_origin, lane) + root_com_m_);
   }
   Vec3 com_m(int lane) const override {
     check_lane(lane);
-    return robots_.vec3(Rows::com, lane) + robots_.vec3(Rows::com_rest, lane);
+    return robots_.vec3(StateRows::com, lane) + robots_.vec3(StateRows::com_compensation, lane);
   }
   Vec3 momentum_kg_m_s(int lane) const override {
     check_lane(lane);
-    return mass_kg_ * robots_.vec3(Rows::velocity, lane);
+    return mass_kg_ * robots_.vec3(StateRows::velocity, lane);
   }
 
   std::uint64_t state_hash(int lane) const override {
     check_lane(lane);
     std::vector<float> values;
-    values.reserve(static_cast<std::size_t>(Rows::active + 2 * rows_.links));
-    for (int r = 0; r < Rows::active; ++r) values.push_back(robots_.at(r, lane));
+    values.reserve(to_index(StateRows::active + 2 * rows_.links));
+    for (int r = 0; r < StateRows::active; ++r) values.push_back(robots_.at(r, lane));
     for (int r = rows_.angle; r < rows_.joint_impulse; ++r) values.push_back(robots_.at(r, lane));
     return hash_span<float>(values);
   }
 
-  void set_state(int lane, const BatchState& state) override {
+  void set_state(int lane, const RobotState& state) override {
     check_lane(lane);
-    AMBLE_CHECK(robots_.at(Rows::active, lane) == 1.0f, "a lane is placed before its state is set");
-    robots_.put_state(lane, state);
-    batch::derive(as_batch(robots_));
+    AMBLE_CHECK(robots_.at(StateRows::active, lane) == 1.0f, "a lane is placed before its state is set");
+    robots_.set_state(lane, state);
+    batch::derive(arguments_for(robots_));
   }
-  BatchState state(int lane) const override {
+  RobotState state(int lane) const override {
     check_lane(lane);
     return robots_.state(lane);
   }
   int contacts(int lane) const override {
     check_lane(lane);
-    return static_cast<int>(robots_.at(Rows::contacts, lane));
+    return static_cast<int>(robots_.at(StateRows::contacts, lane));
   }
 
  private:
@@ -112,7 +114,7 @@ class LockstepEngine final : public BatchEngine {
     AMBLE_CHECK(lane >= 0 && lane < batch::lanes, "the batch engine has 16 lanes");
   }
 
-  batch::Batch as_batch(Robots& robots) {
+  batch::StepArguments arguments_for(LockstepState& robots) {
     return {.model = model_,
             .rows = rows_,
             .state = robots.rows(),
@@ -122,40 +124,40 @@ class LockstepEngine final : public BatchEngine {
             .timestep_s = timestep_s_};
   }
 
-  /// Puts the robot in lane 0 into a pose, at rest.
-  void pose(Robots& robots, const StartPose& start) {
-    robots.at(Rows::active, 0) = robots.at(Rows::healthy, 0) = 1.0f;
-    BatchState state{.com_m = start.root.position_m,
+  /// Sets the robot in lane 0 to a pose, at rest.
+  void pose(LockstepState& robots, const StartPose& start) {
+    robots.at(StateRows::active, 0) = robots.at(StateRows::healthy, 0) = 1.0f;
+    RobotState state{.com_m = start.root.position_m,
                      .rotation = start.root.rotation,
                      .velocity_m_s = {},
-                     .spin_kg_m2_s = {},
+                     .angular_momentum_kg_m2_s = {},
                      .angle_rad = start.joint_angle_rad,
                      .speed_rad_s = std::vector<double>(start.joint_angle_rad.size(), 0.0)};
-    robots.put_state(0, state);
-    batch::derive(as_batch(robots));
-    // That put the centre of mass where the root's frame belongs.
-    state.com_m = start.root.position_m - robots.to_world(0, robots.vec3(Rows::origin, 0));
-    robots.put_state(0, state);
-    batch::derive(as_batch(robots));
+    robots.set_state(0, state);
+    batch::derive(arguments_for(robots));
+    // Now the centre of mass is where the origin of the root's frame belongs.
+    state.com_m = start.root.position_m - robots.to_world(0, robots.vec3(StateRows::torso_origin, 0));
+    robots.set_state(0, state);
+    batch::derive(arguments_for(robots));
   }
 
-  void put_down(int lane, const Robots& resting) {
+  void copy_into(int lane, const LockstepState& resting) {
     check_lane(lane);
     robots_.copy(lane, resting, 0);
     torques_nm_.set_lane(lane, 0.0f);
   }
 
   const batch::Model model_;
-  const Rows rows_;
+  const StateRows rows_;
   batch::Workspace workspace_;
   const Vec3 root_com_m_;
   const double mass_kg_;
   const float timestep_s_;
   const bool with_torques_;
   LaneArray torques_nm_;
-  Robots robots_;
-  Robots start_;  ///< lane 0: in the start pose
-  Robots posed_;  ///< lane 0: as place_at() was asked last
+  LockstepState robots_;
+  LockstepState start_;  ///< lane 0: in the start pose
+  LockstepState posed_;  ///< lane 0: in the pose of the last place_at()
 };
 
 }  // namespace

@@ -7,28 +7,28 @@
 
 namespace amble::physics {
 
-/// State of one robot in full.
-struct BatchState {
+/// The whole state of one robot in the coordinates that the engine integrates (docs/BATCH.md).
+struct RobotState {
   Vec3 com_m;                                  ///< of the whole robot, world
   Quat rotation;                               ///< of the root
   Vec3 velocity_m_s;                           ///< of the centre of mass, world
-  Vec3 spin_kg_m2_s;                           ///< angular momentum about the centre of mass, world
+  Vec3 angular_momentum_kg_m2_s;               ///< about the centre of mass, world
   std::vector<double> angle_rad, speed_rad_s;  ///< of the joints, in control order
 };
 
-/// An engine whose robots can be put into any state.
+/// An engine whose robots can be set to any state.
 class BatchEngine : public Engine {
  public:
-  /// The lane must be placed. Impulses of the step before, where the solver starts, are forgotten.
-  virtual void set_state(int lane, const BatchState& state) = 0;
-  virtual BatchState state(int lane) const = 0;
-  /// Points that touched the ground at the beginning of the step before.
+  /// The lane must be placed. Drops the last step's impulses, from which the solver would start.
+  virtual void set_state(int lane, const RobotState& state) = 0;
+  virtual RobotState state(int lane) const = 0;
+  /// Number of points that touched the ground at the beginning of the last step.
   virtual int contacts(int lane) const = 0;
 };
 
-/// Sixteen robots in lockstep, one per SIMD lane, float32: docs/BATCH.md. Knows serial chains of hinges on
-/// the root, spheres, capsules and boxes against the ground, and no self-collision; throws UserError for
-/// other robots.
+/// Sixteen robots in lockstep, one per SIMD lane, float32: docs/BATCH.md. Simulates serial chains of hinges
+/// on the root, with spheres, capsules and boxes against the ground, without self-collision; throws UserError
+/// for other robots.
 std::unique_ptr<BatchEngine> make_batch_engine(const robot::RobotSpec& robot, const EngineSettings& settings);
 
 }  // namespace amble::physics

@@ -1,4 +1,4 @@
-// What moves the joints without the solver's doing: inertial forces and servos; for each instruction set.
+// Forces that do not come from the constraint solver: bias forces and servos; for each instruction set.
 #if defined(AMBLE_BATCH_FORCES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef AMBLE_BATCH_FORCES_INL_HPP
 #undef AMBLE_BATCH_FORCES_INL_HPP
@@ -13,101 +13,128 @@
 HWY_BEFORE_NAMESPACE();
 namespace amble::physics::batch::HWY_NAMESPACE {
 
-/// Force that keeps a body of this inertia on its way, while it moves by `motion` and is accelerated by
-/// `rate` (Newton and Euler; Featherstone 2008, eq. 2.63).
-HWY_INLINE Spatial inertial_force(const Symmetric& second, V3 first, V mass, const Spatial& motion,
-                                  const Spatial& rate) {
-  const Spatial momentum{cross(first, motion.push, second * motion.turn),
-                         cross(motion.turn, first, mass * motion.push)};
-  const V3 turn = cross(first, rate.push, second * rate.turn);
-  const V3 push = cross(rate.turn, first, mass * rate.push);
-  return {cross(motion.turn, momentum.turn, cross(motion.push, momentum.push, turn)),
-          cross(motion.turn, momentum.push, push)};
+/// Force on a body of this inertia that moves with `velocity` and `acceleration`, f = I a + v ×* I v (Newton
+/// and Euler; Featherstone 2008, sec. 2.14).
+HWY_INLINE Spatial inertial_force(const Symmetric& inertia, V3 first_moment, V mass, const Spatial& velocity,
+                                  const Spatial& acceleration) {
+  const Spatial momentum{cross(first_moment, velocity.linear, inertia * velocity.angular),
+                         cross(velocity.angular, first_moment, mass * velocity.linear)};
+  const V3 torque = cross(first_moment, acceleration.linear, inertia * acceleration.angular);
+  const V3 force = cross(acceleration.angular, first_moment, mass * acceleration.linear);
+  // (ω, v) ×* (n, f) = (ω × n + v × f, ω × f).
+  return {cross(velocity.angular, momentum.angular, cross(velocity.linear, momentum.linear, torque)),
+          cross(velocity.angular, momentum.linear, force)};
 }
 
-/// The joints' inertial forces while no joint is accelerated and the base's acceleration is zero (recursive
-/// Newton–Euler algorithm, Featherstone 2008, sec. 5.3); their share of the base's is added to `total`.
+/// Recursive Newton–Euler algorithm for one chain with q̈ = 0, the base unaccelerated and no gravity
+/// (Featherstone 2008, sec. 5.3). Outwards v_j = v_p + S_j q̇_j and a_j = a_p + v_p × S_j q̇_j; inwards
+/// f_j = I_j a_j + v_j ×* I_j v_j + f_(j+1). Writes the joints' bias forces C_j = S_jᵀ f_j (N m) and adds the
+/// force that the chain transmits to the base to `total`.
 template <int N>
-HWY_INLINE void inertial_forces(const Pass& pass, const Chain& chain, const Base& base, V* forces,
-                                Spatial& total) {
+HWY_INLINE void chain_bias_forces(const Pass& pass, const Chain& chain, const Base& base, V* forces,
+                                  Spatial& total) {
   const int n = length<N>(chain);
-  Spatial on_link[capacity<N>];
-  Spatial motion = base.motion, rate = no_spatial();
+  Spatial link_force[capacity<N>];
+  Spatial velocity = base.velocity, acceleration = zero_spatial();
   for (int j = 0; j < n; ++j) {
     const Link& link = pass.link(chain, j);
-    const Spatial axis = joint_motion(pass, chain, j);
-    const V speed = pass.state(pass.batch.rows.speed + chain.first + j);
-    const Spatial swept{cross(motion.turn, axis.turn),
-                        cross(motion.turn, axis.push, cross(motion.push, axis.turn))};
-    rate = fma(speed, swept, rate);
-    motion = fma(speed, axis, motion);
-    on_link[j] = no_spatial();
+    const Spatial subspace = motion_subspace(pass, chain, j);
+    const V speed = pass.state(pass.rows().speed + chain.first + j);
+    // v × S = (ω × a, ω × (c × a) + v × a).
+    const Spatial subspace_rate{
+        cross(velocity.angular, subspace.angular),
+        cross(velocity.angular, subspace.linear, cross(velocity.linear, subspace.angular))};
+    acceleration = fma(speed, subspace_rate, acceleration);
+    velocity = fma(speed, subspace, velocity);
+    link_force[j] = zero_spatial();
     if (link.has_mass) {
-      const float* own = pass.scratch(pass.work().inertia + 9 * (chain.first + j));
-      on_link[j] = inertial_force(load_second(own), load_first(own), set(link.body.mass_kg), motion, rate);
+      const float* own = pass.scratch(pass.work().link_inertia + 9 * (chain.first + j));
+      link_force[j] = inertial_force(load_inertia(own), load_first_moment(own), set(link.body.mass_kg),
+                                     velocity, acceleration);
     }
   }
-  Spatial carried = no_spatial();
+  Spatial transmitted = zero_spatial();
   for (int j = n - 1; j >= 0; --j) {
-    carried = carried + on_link[j];
-    forces[j] = dot(joint_motion(pass, chain, j), carried);
+    transmitted = transmitted + link_force[j];
+    forces[j] = dot(motion_subspace(pass, chain, j), transmitted);
   }
-  total = total + carried;
+  total = total + transmitted;
 }
 
-/// All inertial forces, kept as rows `free`, and the drift of the base.
+/// Bias forces of all joints, kept in place of u_joints until unconstrained_chain(), and the bias
+/// acceleration of the base.
 template <int N>
-HWY_NOINLINE void find_inertial_forces(const Pass& pass, Base& base) {
+HWY_NOINLINE void bias_forces(const Pass& pass, Base& base) {
   const Model& model = pass.model();
-  Spatial total = inertial_force(base.torso_second, base.torso_first, set(model.torso.mass_kg), base.motion,
-                                 no_spatial());
+  Spatial total = inertial_force(base.torso_inertia, base.torso_first_moment, set(model.torso.mass_kg),
+                                 base.velocity, zero_spatial());
   for (const Chain& chain : model.chains) {
     V forces[capacity<N> > 0 ? capacity<N> : 1];
-    inertial_forces<N>(pass, chain, base, forces, total);
+    chain_bias_forces<N>(pass, chain, base, forces, total);
     for (int j = 0; j < length<N>(chain); ++j)
-      store(forces[j], pass.scratch(pass.work().free + chain.first + j));
+      store(forces[j], pass.scratch(pass.work().u_joints + chain.first + j));
   }
-  // The momentum is the state and does not drift, so the base must, where the joints go on unaccelerated.
-  base.drift.turn = zero3() - base.inverse * total.turn;
-  base.drift.push = set(-1.0f / model.mass_kg) * total.push;
+  // Momentum is the state and constant without external forces, so with q̈ = 0 the base accelerates by
+  // −M_bb⁻¹ C_b, C_b being the bias force of the whole robot.
+  base.bias_acceleration.angular = zero3() - base.inverse_inertia * total.angular;
+  base.bias_acceleration.linear = set(-1.0f / model.mass_kg) * total.linear;
 }
 
-HWY_INLINE void bound(float* servo, V speed, V low, V high) {
-  store(speed, servo);
-  store(low, servo + width);
-  store(high, servo + 2 * width);
+/// Target velocity (rad/s) and bounds of the impulse (N m s) of a joint's constraint row.
+HWY_INLINE void store_joint_row(float* row, V target, V low, V high) {
+  store(target, row);
+  store(low, row + width);
+  store(high, row + 2 * width);
 }
 
-/// Torque of the servo, and the row that motor or stop add to the solver, as ODE has them
-/// (dxJointLimitMotor): one row for both. At a stop a motor becomes a torque of its full strength, towards
-/// where it wants to go. A target that is not a number becomes such a torque, and the robot diverges.
-HWY_INLINE V drive(const Pass& pass, const LaneArray& targets_rad, const Link& link, int index) {
-  const V angle = pass.state(pass.batch.rows.angle + index),
-          speed = pass.state(pass.batch.rows.speed + index);
-  const V lower = set(link.lower_rad), upper = set(link.upper_rad), none = zero();
-  const V asked = hn::LoadU(Floats(), targets_rad.row(link.joint) + pass.lane);
-  const V target = hn::IfThenElse(asked == asked, hn::Min(hn::Max(asked, lower), upper), asked);
-  const V most = set(link.max_torque_nm);
-  const Mask at_lower = angle <= lower, at_upper = hn::AndNot(at_lower, angle >= upper);
-  const Mask stopped = hn::Or(at_lower, at_upper);
+/// The row of a joint's stop, q̇⁺ = −(erp/h) (q − q_stop) by an impulse towards the range only. Lanes within
+/// the range have bounds of 0.
+struct StopRow {
+  Mask at_upper, stopped;
+  V target, low, high;
+};
+
+HWY_INLINE StopRow stop_row(const Pass& pass, const Link& link, V angle) {
+  const V lower = set(link.lower_rad), upper = set(link.upper_rad);
   const V infinite = set(std::numeric_limits<float>::infinity());
-  const float pull = -pass.model().erp / pass.batch.timestep_s;
+  const float correction = -pass.model().erp / pass.timestep_s();
+  const Mask at_lower = angle <= lower, at_upper = hn::AndNot(at_lower, angle >= upper);
   const V beyond = hn::IfThenElse(at_lower, angle - lower, angle - upper);
-  const V low = hn::IfThenElseZero(at_upper, hn::Neg(infinite)),
-          high = hn::IfThenElseZero(at_lower, infinite);
-  float* const row = pass.scratch(pass.work().servos + 4 * index);
+  return {.at_upper = at_upper,
+          .stopped = hn::Or(at_lower, at_upper),
+          .target = set(correction) * beyond,
+          .low = hn::IfThenElseZero(at_upper, hn::Neg(infinite)),
+          .high = hn::IfThenElseZero(at_lower, infinite)};
+}
+
+/// Writes the constraint row that a joint's motor and stops share, and returns the explicit torque of its
+/// servo (N m), both as in ODE (dxJointLimitMotor::addLimot). At a stop the row is the stop's, and a motor
+/// becomes a torque of its full strength towards its target. A target that is NaN becomes a torque that is
+/// NaN, so that the robot counts as diverged.
+HWY_INLINE V apply_servo(const Pass& pass, const LaneArray& targets_rad, const Link& link, int index) {
+  const V angle = pass.state(pass.rows().angle + index), speed = pass.state(pass.rows().speed + index);
+  const V lower = set(link.lower_rad), upper = set(link.upper_rad), none = zero();
+  const V command = hn::LoadU(Floats(), targets_rad.row(link.joint) + pass.lane);
+  const V target = hn::IfThenElse(command == command, hn::Min(hn::Max(command, lower), upper), command);
+  const V max_torque = set(link.max_torque_nm);
+  const StopRow stop = stop_row(pass, link, angle);
+  float* const row = pass.scratch(pass.work().joint_row + 4 * index);
   if (!link.velocity_servo) {
-    bound(row, set(pull) * beyond, low, high);
+    // τ = kp (target − q) − kd q̇, within ± max_torque.
+    store_joint_row(row, stop.target, stop.low, stop.high);
     const V torque = fnma(set(link.kd_nm_s_per_rad), speed, set(link.kp_nm_per_rad) * (target - angle));
-    return hn::IfThenElse(torque == torque, hn::Min(hn::Max(torque, hn::Neg(most)), most), torque);
+    return hn::IfThenElse(torque == torque, hn::Min(hn::Max(torque, hn::Neg(max_torque)), max_torque),
+                          torque);
   }
-  const V wanted = set(link.gain_per_s) * (target - angle);
-  const V impulse = set(link.max_torque_nm * pass.batch.timestep_s);
-  bound(row, hn::IfThenElse(stopped, set(pull) * beyond, wanted),
-        hn::IfThenElse(stopped, low, hn::Neg(impulse)), hn::IfThenElse(stopped, high, impulse));
-  const Mask upwards = hn::Or(wanted > none, hn::And(wanted == none, at_upper));
-  const V torque = hn::IfThenElseZero(stopped, hn::IfThenElse(upwards, most, hn::Neg(most)));
-  return hn::IfThenElse(asked == asked, torque, asked);
+  // Motor: q̇⁺ = gain (target − q), by an impulse within ± max_torque h.
+  const V motor_speed = set(link.gain_per_s) * (target - angle);
+  const V impulse = set(link.max_torque_nm * pass.timestep_s());
+  store_joint_row(row, hn::IfThenElse(stop.stopped, stop.target, motor_speed),
+                  hn::IfThenElse(stop.stopped, stop.low, hn::Neg(impulse)),
+                  hn::IfThenElse(stop.stopped, stop.high, impulse));
+  const Mask forward = hn::Or(motor_speed > none, hn::And(motor_speed == none, stop.at_upper));
+  const V torque = hn::IfThenElseZero(stop.stopped, hn::IfThenElse(forward, max_torque, hn::Neg(max_torque)));
+  return hn::IfThenElse(command == command, torque, command);
 }
 
 }  // namespace amble::physics::batch::HWY_NAMESPACE

@@ -1,4 +1,8 @@
-// The mass matrix (composite rigid body algorithm) and the base's velocity, for each instruction set.
+// The mass matrix by the composite rigid body algorithm, and the base's velocity; for each instruction set.
+//
+// Spatial vectors are those of Featherstone 2008 (ch. 2), all about the robot's centre of mass in torso axes.
+// A body of mass m, centre c and tensor I_c has there the inertia I = I_c + m (c·c 1 − c cᵀ) (kg m²) and the
+// first moment h = m c (kg m), and maps (ω, v) to the momentum (I ω + h × v, m v − h × ω) (sec. 2.12, 2.13).
 #if defined(AMBLE_BATCH_INERTIA_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef AMBLE_BATCH_INERTIA_INL_HPP
 #undef AMBLE_BATCH_INERTIA_INL_HPP
@@ -11,57 +15,59 @@
 HWY_BEFORE_NAMESPACE();
 namespace amble::physics::batch::HWY_NAMESPACE {
 
-/// A motion or a force about the robot's centre of mass, torso axes: angular velocity and velocity, or torque
-/// and force, or angular and linear momentum.
+/// A spatial vector: angular and linear velocity (rad/s, m/s), torque and force (N m, N), angular and linear
+/// momentum (kg m²/s, kg m/s) or impulse.
 struct Spatial {
-  V3 turn, push;
+  V3 angular, linear;
 };
 
-HWY_INLINE Spatial no_spatial() {
+HWY_INLINE Spatial zero_spatial() {
   return {zero3(), zero3()};
 }
 HWY_INLINE Spatial operator+(const Spatial& a, const Spatial& b) {
-  return {a.turn + b.turn, a.push + b.push};
+  return {a.angular + b.angular, a.linear + b.linear};
 }
 HWY_INLINE Spatial fma(V s, const Spatial& a, const Spatial& c) {
-  return {fma(s, a.turn, c.turn), fma(s, a.push, c.push)};
+  return {fma(s, a.angular, c.angular), fma(s, a.linear, c.linear)};
 }
 HWY_INLINE V dot(const Spatial& a, const Spatial& b) {
-  return dot(a.push, b.push, dot(a.turn, b.turn));
+  return dot(a.linear, b.linear, dot(a.angular, b.angular));
 }
 
-/// What the base (the torso and all that hangs on it) is made of in this step.
+/// Quantities of the floating base, the torso with all chains as they are in this step.
 struct Base {
-  Symmetric inertia;       ///< of the robot about its centre of mass, torso axes
-  Symmetric inverse;       ///< of `inertia`
-  Symmetric torso_second;  ///< the torso's own, and its first moment
-  V3 torso_first;
-  Spatial moved;   ///< momentum that the joints' speeds give
-  Spatial motion;  ///< velocity of the torso, at the centre of mass
-  Spatial drift;   ///< how `motion` would change per second without any force
+  Symmetric inertia;  ///< composite, of the robot: with its mass, M_bb
+  Symmetric inverse_inertia;
+  Symmetric torso_inertia;  ///< of the torso alone, and its first moment
+  V3 torso_first_moment;
+  Spatial joint_momentum;     ///< Σ M_bq,j q̇_j: what the joints' speeds contribute
+  Spatial velocity;           ///< of the torso, at the centre of mass
+  Spatial bias_acceleration;  ///< of the torso, without any force and with q̈ = 0
 };
 
-/// How many vectors of a compile-time length N; −1: known at run time only.
+/// Vectors to reserve for a chain of N joints; N = −1: the length is known at run time only.
 template <int N>
 constexpr int capacity = N >= 0 ? N : Model::max_chain;
 template <int N>
 HWY_INLINE int length(const Chain& chain) {
   return N >= 0 ? N : chain.count;
 }
+/// Index of an entry of a lower triangle that is stored row by row.
 constexpr int triangle(int row, int column) {
   return row * (row + 1) / 2 + column;
 }
 
-/// The joint's motion per unit of speed.
-HWY_INLINE Spatial joint_motion(const Pass& pass, const Chain& chain, int j) {
+/// The joint's motion subspace S_j = (a, c × a), with axis a through c: velocity per unit of its speed.
+HWY_INLINE Spatial motion_subspace(const Pass& pass, const Chain& chain, int j) {
   const int row = pass.pose_row(chain.first + j);
   return {pass.state3(row + 12), pass.state3(row + 15)};
 }
 
-/// Second moment about the robot's centre of a body with its tensor turned by `axes` and centre at `arm`.
-HWY_INLINE Symmetric second_moment(const MassPart& body, const Columns& axes, V3 arm) {
+/// Inertia of a body about the robot's centre of mass, R I_c Rᵀ + m (c·c 1 − c cᵀ), with R = `axes` and
+/// c = `arm` (parallel axes; Featherstone 2008, eq. 2.63).
+HWY_INLINE Symmetric rotational_inertia(const MassPart& body, const Columns& axes, V3 arm) {
   const Float3 m = body.moments_kg_m2, p = body.products_kg_m2;
-  // axes · tensor, by column.
+  // t = R I_c, by column.
   Columns t{set(m.x) * axes.x, set(m.y) * axes.y, set(m.z) * axes.z};
   if (p.x != 0.0f || p.y != 0.0f || p.z != 0.0f) {
     t.x = fma(set(p.y), axes.z, fma(set(p.x), axes.y, t.x));
@@ -83,12 +89,12 @@ HWY_INLINE Symmetric second_moment(const MassPart& body, const Columns& axes, V3
           entry(ty, az, hn::Neg(q.y * arm.z))};
 }
 
-HWY_INLINE void store_inertia(const Symmetric& second, V3 first, float* to) {
-  const V all[9] = {second.xx, second.yy, second.zz, second.xy, second.xz,
-                    second.yz, first.x,   first.y,   first.z};
+HWY_INLINE void store_inertia(const Symmetric& inertia, V3 first_moment, float* to) {
+  const V all[9] = {inertia.xx, inertia.yy,     inertia.zz,     inertia.xy,    inertia.xz,
+                    inertia.yz, first_moment.x, first_moment.y, first_moment.z};
   for (int i = 0; i < 9; ++i) store(all[i], to + i * width);
 }
-HWY_INLINE Symmetric load_second(const float* from) {
+HWY_INLINE Symmetric load_inertia(const float* from) {
   return {load(from),
           load(from + width),
           load(from + 2 * width),
@@ -96,12 +102,12 @@ HWY_INLINE Symmetric load_second(const float* from) {
           load(from + 4 * width),
           load(from + 5 * width)};
 }
-HWY_INLINE V3 load_first(const float* from) {
+HWY_INLINE V3 load_first_moment(const float* from) {
   return {load(from + 6 * width), load(from + 7 * width), load(from + 8 * width)};
 }
 
 HWY_INLINE void store_spatial(const Spatial& s, float* to) {
-  const V all[6] = {s.turn.x, s.turn.y, s.turn.z, s.push.x, s.push.y, s.push.z};
+  const V all[6] = {s.angular.x, s.angular.y, s.angular.z, s.linear.x, s.linear.y, s.linear.z};
   for (int i = 0; i < 6; ++i) store(all[i], to + i * width);
 }
 HWY_INLINE Spatial load_spatial(const float* from) {
@@ -109,38 +115,43 @@ HWY_INLINE Spatial load_spatial(const float* from) {
           {load(from + 3 * width), load(from + 4 * width), load(from + 5 * width)}};
 }
 
-/// Own inertia of each link, columns of the mass matrix, and the chain's own block of it, from the tip
-/// inwards (Featherstone 2008, sec. 6.2).
+/// Composite rigid body algorithm for one chain, from the tip inwards (Featherstone 2008, sec. 6.2). In a
+/// common frame composite inertias are plain sums:
+///   I^c_j = Σ_{i ≥ j} I_i,   F_j = I^c_j S_j,   M_ij = S_iᵀ F_j for i ≤ j,   M_bj = F_j.
+/// Keeps each link's own inertia and F_j, and writes the triangle M_cc where factorise_chain() expects it.
+/// Adds the chain to the base's inertia and to the joints' momentum.
 template <int N>
-HWY_INLINE void weigh_chain(const Pass& pass, std::size_t c, Base& base) {
+HWY_INLINE void chain_mass_matrix(const Pass& pass, std::size_t c, Base& base) {
   const Chain& chain = pass.model().chains[c];
   const int n = length<N>(chain);
   float* const block = pass.scratch(pass.work().factors[c]);
-  Symmetric second{zero(), zero(), zero(), zero(), zero(), zero()};
-  V3 first = zero3();
+  Symmetric inertia{zero(), zero(), zero(), zero(), zero(), zero()};
+  V3 first_moment = zero3();
   for (int j = n - 1; j >= 0; --j) {
     const Link& link = pass.link(chain, j);
     const int row = pass.pose_row(chain.first + j);
     if (link.has_mass) {
       const Columns axes{pass.state3(row), pass.state3(row + 3), pass.state3(row + 6)};
       const V3 arm = pass.state3(row + 9) + axes * set(link.body.com_m);
-      const Symmetric own = second_moment(link.body, axes, arm);
-      const V3 own_first = set(link.body.mass_kg) * arm;
-      store_inertia(own, own_first, pass.scratch(pass.work().inertia + 9 * (chain.first + j)));
-      second = second + own;
-      first = first + own_first;
+      const Symmetric own = rotational_inertia(link.body, axes, arm);
+      const V3 own_first_moment = set(link.body.mass_kg) * arm;
+      store_inertia(own, own_first_moment, pass.scratch(pass.work().link_inertia + 9 * (chain.first + j)));
+      inertia = inertia + own;
+      first_moment = first_moment + own_first_moment;
     }
-    const Spatial motion = joint_motion(pass, chain, j);
-    const Spatial column{second * motion.turn + cross(first, motion.push),
-                         cross(motion.turn, first, set(link.outer_mass_kg) * motion.push)};
-    store_spatial(column, pass.scratch(pass.work().columns + 6 * (chain.first + j)));
-    base.moved = fma(pass.state(pass.batch.rows.speed + chain.first + j), column, base.moved);
+    const Spatial subspace = motion_subspace(pass, chain, j);
+    // F_j = (I ω + h × v, m v + ω × h) with (ω, v) = S_j.
+    const Spatial column{inertia * subspace.angular + cross(first_moment, subspace.linear),
+                         cross(subspace.angular, first_moment, set(link.outer_mass_kg) * subspace.linear)};
+    store_spatial(column, pass.scratch(pass.work().base_column + 6 * (chain.first + j)));
+    base.joint_momentum = fma(pass.state(pass.rows().speed + chain.first + j), column, base.joint_momentum);
     for (int i = 0; i <= j; ++i)
-      store(dot(joint_motion(pass, chain, i), column), block + triangle(j, i) * width);
+      store(dot(motion_subspace(pass, chain, i), column), block + triangle(j, i) * width);
   }
-  base.inertia = base.inertia + second;
+  base.inertia = base.inertia + inertia;
 }
 
+/// By the adjugate: m⁻¹ = adj(m) / det(m).
 HWY_INLINE Symmetric inverse(const Symmetric& m) {
   const Symmetric minors{
       difference_of_products(m.yy, m.zz, m.yz, m.yz), difference_of_products(m.xx, m.zz, m.xz, m.xz),
@@ -151,23 +162,28 @@ HWY_INLINE Symmetric inverse(const Symmetric& m) {
           scale * minors.xy, scale * minors.xz, scale * minors.yz};
 }
 
-/// The mass matrix, and the base's velocity from the robot's momentum.
+/// The mass matrix, and the base's velocity from the robot's momentum. About the centre of mass M_bb is
+/// diag(I, m 1), so
+///   ω = I⁻¹ (L − Σ n_j q̇_j),   v = v_com − (Σ f_j q̇_j) / m,   (n_j, f_j) = F_j
+/// (Featherstone 2008, sec. 2.12; docs/BATCH.md, "State and coordinates").
 template <int N>
-HWY_NOINLINE Base weigh(const Pass& pass) {
+HWY_NOINLINE Base mass_matrix(const Pass& pass) {
   const Model& model = pass.model();
   Base base;
   const V one = set(1.0f), none = zero();
-  const V3 arm = pass.state3(Rows::origin) + set(model.torso.com_m);
-  base.torso_first = set(model.torso.mass_kg) * arm;
-  base.torso_second =
-      second_moment(model.torso, {{one, none, none}, {none, one, none}, {none, none, one}}, arm);
-  base.inertia = base.torso_second;
-  base.moved = no_spatial();
-  for (std::size_t c = 0; c < model.chains.size(); ++c) weigh_chain<N>(pass, c, base);
-  base.inverse = inverse(base.inertia);
+  const V3 arm = pass.state3(StateRows::torso_origin) + set(model.torso.com_m);
+  base.torso_first_moment = set(model.torso.mass_kg) * arm;
+  base.torso_inertia =
+      rotational_inertia(model.torso, {{one, none, none}, {none, one, none}, {none, none, one}}, arm);
+  base.inertia = base.torso_inertia;
+  base.joint_momentum = zero_spatial();
+  for (std::size_t c = 0; c < model.chains.size(); ++c) chain_mass_matrix<N>(pass, c, base);
+  base.inverse_inertia = inverse(base.inertia);
   const Columns world = pass.world();
-  base.motion.turn = base.inverse * (world * pass.state3(Rows::spin) - base.moved.turn);
-  base.motion.push = fnma(set(1.0f / model.mass_kg), base.moved.push, world * pass.state3(Rows::velocity));
+  base.velocity.angular =
+      base.inverse_inertia * (world * pass.state3(StateRows::angular_momentum) - base.joint_momentum.angular);
+  base.velocity.linear =
+      fnma(set(1.0f / model.mass_kg), base.joint_momentum.linear, world * pass.state3(StateRows::velocity));
   return base;
 }
 

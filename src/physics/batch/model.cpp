@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::physics::batch {
@@ -17,10 +18,6 @@ using robot::Pose;
 using robot::RobotSpec;
 using robot::Shape;
 
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
-
 Float3 narrow(Vec3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
@@ -30,7 +27,8 @@ Pose inverse(const Pose& pose) {
   return {-rotate(back, pose.position_m), back};
 }
 
-/// `origin` of the link's frame and the body's pose, both seen from the torso in the start pose.
+/// Inertia of a body about its centre of mass, I = R diag(moments) Rᵀ, in torso axes of the start pose.
+/// `pose` (of the body) and `origin` (of the link's frame) are relative to the torso's frame.
 MassPart mass_part(const Body& body, const Pose& pose, Vec3 origin) {
   const Quat principal = pose.rotation * body.inertia_rotation;
   const std::array<Vec3, 3> axes{rotate(principal, {1, 0, 0}), rotate(principal, {0, 1, 0}),
@@ -52,7 +50,7 @@ class Builder {
   Builder(const RobotSpec& robot, Model& model) : robot_(robot), model_(model) {
     const auto poses = robot::start_poses(robot);
     for (const Pose& pose : poses) poses_.push_back(inverse(poses[0]) * pose);
-    places_.resize(robot.bodies.size());
+    frames_.resize(robot.bodies.size());
   }
 
   void build() {
@@ -64,15 +62,15 @@ class Builder {
   }
 
  private:
-  struct Place {
-    int chain = -1, link = -1;
-    Vec3 origin_m;  ///< of the link's frame, seen from the torso in the start pose
+  struct LinkFrame {
+    int chain = -1, link = -1;  ///< −1: the torso
+    Vec3 origin_m;              ///< of the link's frame, relative to the torso, in the start pose
   };
 
   std::vector<int> children(int parent) const {
     std::vector<int> found;
     for (int b = 1; b < static_cast<int>(robot_.bodies.size()); ++b)
-      if (robot_.bodies[at(b)].parent == parent) found.push_back(b);
+      if (robot_.bodies[to_index(b)].parent == parent) found.push_back(b);
     return found;
   }
 
@@ -84,18 +82,18 @@ class Builder {
       for (const int joint : robot_.joints_of_body(body)) before = add_link(joint, before);
       Link& last = model_.links.back();
       last.has_mass = true;
-      last.body = mass_part(robot_.bodies[at(body)], poses_[at(body)], before);
+      last.body = mass_part(robot_.bodies[to_index(body)], poses_[to_index(body)], before);
       const int count = static_cast<int>(model_.links.size()) - first;
-      places_[at(body)] = {chain, count - 1, before};
+      frames_[to_index(body)] = {chain, count - 1, before};
       const auto next = children(body);
       if (next.size() > 1)
         fail(ExitCode::bad_input,
              "the batch engine cannot simulate chains that branch, as at body '{}': use engine ode",
-             robot_.bodies[at(body)].name);
+             robot_.bodies[to_index(body)].name);
       if (count > Model::max_chain)
         fail(ExitCode::bad_input,
              "the batch engine cannot simulate more than {} joints in one chain, as at body '{}'",
-             Model::max_chain, robot_.bodies[at(body)].name);
+             Model::max_chain, robot_.bodies[to_index(body)].name);
       if (next.empty()) {
         model_.chains.push_back({first, count});
         return;
@@ -105,8 +103,8 @@ class Builder {
   }
 
   Vec3 add_link(int index, Vec3 before) {
-    const Joint& joint = robot_.joints[at(index)];
-    const Pose& pose = poses_[at(joint.body)];
+    const Joint& joint = robot_.joints[to_index(index)];
+    const Pose& pose = poses_[to_index(joint.body)];
     const Vec3 origin = pose * joint.anchor_m;
     const Vec3 axis = rotate(pose.rotation, joint.axis);
     Link link{.joint = index,
@@ -122,9 +120,9 @@ class Builder {
               .kd_nm_s_per_rad = static_cast<float>(joint.servo.kd_nm_s_per_rad)};
     const std::array<double, 3> parts{axis.x, axis.y, axis.z};
     for (int k = 0; k < 3; ++k) {
-      if (std::abs(parts[at(k)]) < 1.0 - 1e-12) continue;
+      if (std::abs(parts[to_index(k)]) < 1.0 - 1e-12) continue;
       link.axis = k;
-      link.sign = parts[at(k)] > 0.0 ? 1.0f : -1.0f;
+      link.sign = parts[to_index(k)] > 0.0 ? 1.0f : -1.0f;
     }
     model_.links.push_back(link);
     return origin;
@@ -132,22 +130,22 @@ class Builder {
 
   void add_geoms(int chain) {
     for (int g = 0; g < static_cast<int>(robot_.geoms.size()); ++g) {
-      const Geom& geom = robot_.geoms[at(g)];
-      if (geom.collides && places_[at(geom.body)].chain == chain) add_geom(g);
+      const Geom& geom = robot_.geoms[to_index(g)];
+      if (geom.collides && frames_[to_index(geom.body)].chain == chain) add_geom(g);
     }
     model_.first_geom.push_back(static_cast<int>(model_.geoms.size()));
   }
 
   void add_geom(int index) {
-    const Geom& geom = robot_.geoms[at(index)];
-    const Place& place = places_[at(geom.body)];
-    const Pose pose = poses_[at(geom.body)] * Pose{geom.position_m, geom.rotation};
+    const Geom& geom = robot_.geoms[to_index(index)];
+    const LinkFrame& frame = frames_[to_index(geom.body)];
+    const Pose pose = poses_[to_index(geom.body)] * Pose{geom.position_m, geom.rotation};
     PointGroup group{.first = static_cast<int>(model_.points.size()),
-                     .centre_m = narrow(pose.position_m - place.origin_m)};
+                     .centre_m = narrow(pose.position_m - frame.origin_m)};
     const auto add = [&](Vec3 offset, double radius) {
       model_.points.push_back(
-          {place.chain, place.link, narrow(pose * offset - place.origin_m), static_cast<float>(radius)});
-      group.reach_m = std::max(group.reach_m, static_cast<float>(norm(offset) + radius));
+          {frame.chain, frame.link, narrow(pose * offset - frame.origin_m), static_cast<float>(radius)});
+      group.bounding_radius_m = std::max(group.bounding_radius_m, static_cast<float>(norm(offset) + radius));
     };
     const Vec3 size = geom.size_m;
     switch (geom.shape) {
@@ -167,7 +165,7 @@ class Builder {
              "the batch engine knows no contact of cylinders, as of geom '{}': use a capsule, or engine ode",
              geom.name);
     }
-    group.reach_m *= 1.0001f;  // so much may rounding spoil it
+    group.bounding_radius_m *= 1.0001f;  // margin for rounding
     group.count = static_cast<int>(model_.points.size()) - group.first;
     for (std::size_t l = 0; l < robot_.legs.size(); ++l)
       if (robot_.legs[l].foot_geom == index) group.leg = static_cast<int>(l);
@@ -176,8 +174,8 @@ class Builder {
 
   const RobotSpec& robot_;
   Model& model_;
-  std::vector<Pose> poses_;    ///< of all bodies, seen from the torso in the start pose
-  std::vector<Place> places_;  ///< of all bodies
+  std::vector<Pose> poses_;        ///< of all bodies, relative to the torso, in the start pose
+  std::vector<LinkFrame> frames_;  ///< of all bodies: the link that carries each
 };
 
 }  // namespace
@@ -188,7 +186,7 @@ Model::Model(const RobotSpec& robot)
       friction(static_cast<float>(robot.contact.friction)),
       erp(static_cast<float>(robot.contact.erp)),
       cfm_s_per_kg(static_cast<float>(robot.contact.cfm_s_per_kg)),
-      // The bounds of a friction cone move in every sweep: over-relaxed, feet that stand would chatter.
+      // The bounds of a friction cone change in every sweep: over-relaxed, resting feet would chatter.
       joint_relaxation(1.4f),
       contact_relaxation(std::isinf(friction) ? 1.4f : 1.0f),
       iterations(std::isinf(friction) ? 10 : 14),
@@ -202,8 +200,8 @@ Model::Model(const RobotSpec& robot)
     equal_chains = equal_chains && chain.count == chains[0].count;
     float mass = 0.0f;
     for (int l = chain.first + chain.count - 1; l >= chain.first; --l) {
-      if (links[at(l)].has_mass) mass += links[at(l)].body.mass_kg;
-      links[at(l)].outer_mass_kg = mass;
+      if (links[to_index(l)].has_mass) mass += links[to_index(l)].body.mass_kg;
+      links[to_index(l)].outer_mass_kg = mass;
     }
   }
 }

@@ -10,31 +10,31 @@ struct Float3 {
   float x = 0.0f, y = 0.0f, z = 0.0f;
 };
 
-/// Mass of a body in the axes of its link's frame.
+/// Mass and inertia of a body in the axes of its link's frame.
 struct MassPart {
   float mass_kg = 0.0f;
   Float3 com_m;
-  Float3 moments_kg_m2;   ///< xx, yy, zz of the tensor about the centre of mass
+  Float3 moments_kg_m2;   ///< xx, yy, zz of the inertia tensor about the centre of mass
   Float3 products_kg_m2;  ///< its elements xy, xz, yz
 };
 
-/// One joint and what turns with it. A link's frame stands at the joint's anchor; in the start pose its axes
-/// are those of the torso. A body with two hinges is two links, the first without mass.
+/// One hinge and the body that it moves. The origin of a link's frame is the joint's anchor; in the start
+/// pose its axes are those of the torso. A body with two hinges is two links, the first without mass.
 struct Link {
-  int joint = 0;         ///< row in control order
-  Float3 from_parent_m;  ///< origin in the frame of the link before (first of a chain: of the torso)
-  int axis = 3;          ///< 0, 1, 2: the joint turns about x, y, z of its frame; 3: about `direction`
-  float sign = 1.0f;     ///< −1: about the negative x, y or z
+  int joint = 0;         ///< index in control order
+  Float3 from_parent_m;  ///< origin in the frame of the parent link (first of a chain: of the torso)
+  int axis = 3;          ///< 0, 1, 2: the joint's axis is x, y, z of its frame; 3: it is `direction`
+  float sign = 1.0f;     ///< −1: it is the negative x, y or z
   Float3 direction;
   bool has_mass = false;
   MassPart body;
-  float outer_mass_kg = 0.0f;  ///< of this link and all behind it
+  float outer_mass_kg = 0.0f;  ///< composite: of this link and all further out
   float lower_rad = 0.0f, upper_rad = 0.0f;
   bool velocity_servo = true;
   float gain_per_s = 0.0f, max_torque_nm = 0.0f, kp_nm_per_rad = 0.0f, kd_nm_s_per_rad = 0.0f;
 };
 
-/// Links that follow each other from the torso outwards.
+/// Consecutive links from the torso outwards.
 struct Chain {
   int first = 0, count = 0;
 };
@@ -42,20 +42,20 @@ struct Chain {
 /// A sphere (or, with radius 0, a corner) that can touch the ground.
 struct Point {
   int chain = -1;  ///< −1: on the torso
-  int link = -1;   ///< place in its chain
+  int link = -1;   ///< index in its chain
   Float3 position_m;
   float radius_m = 0.0f;
 };
 
-/// Points of one geom, which stand together within a sphere.
+/// The points of one geom, and a sphere that encloses them.
 struct PointGroup {
   int first = 0, count = 0;
-  Float3 centre_m;
-  float reach_m = 0.0f;
-  int leg = -1;  ///< whose foot it is, −1: none
+  Float3 centre_m;  ///< of the sphere, in the link's frame
+  float bounding_radius_m = 0.0f;
+  int leg = -1;  ///< the leg whose foot it is, −1: none
 };
 
-/// A robot as the batch engine sees it: a floating torso with serial chains of hinges, all numbers float32.
+/// A robot in the coordinates of the batch engine: a floating torso with serial chains of hinges, float32.
 /// Throws UserError for what the engine cannot simulate.
 struct Model {
   explicit Model(const robot::RobotSpec& robot);
@@ -64,14 +64,14 @@ struct Model {
   std::vector<Link> links;        ///< chain by chain, from the torso outwards
   std::vector<Point> points;      ///< the torso's first, then chain by chain
   std::vector<PointGroup> geoms;  ///< in the order of their points
-  std::vector<int> first_geom;    ///< of the torso (0), then of each chain, then one past the end
+  std::vector<int> first_geom;    ///< index into geoms: of the torso, of each chain, then one past the end
   MassPart torso;                 ///< in the torso's frame
   float mass_kg = 0.0f;           ///< of the whole robot
   Float3 gravity_m_s2;
   float friction = 0.0f;  ///< may be infinite
   float erp = 0.0f, cfm_s_per_kg = 0.0f;
-  /// Of the constraint solver: over-relaxation and number of sweeps, which differ with the friction
-  /// (docs/BATCH.md, "Solver").
+  /// Over-relaxation ω and number of sweeps of the constraint solver, chosen by the friction (docs/BATCH.md,
+  /// "Solver").
   float joint_relaxation = 1.0f, contact_relaxation = 1.0f;
   int iterations = 0;
   int legs = 0;

@@ -1,4 +1,4 @@
-// From the state proper to poses, sensors and touch, for each instruction set.
+// Forward kinematics, contact detection and sensors, from the state of the robots; for each instruction set.
 #if defined(AMBLE_BATCH_POSE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef AMBLE_BATCH_POSE_INL_HPP
 #undef AMBLE_BATCH_POSE_INL_HPP
@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "amble/core/index.hpp"
 #include "amble/physics/batch/step.hpp"
 #include "amble/physics/batch/trigonometry-inl.hpp"
 #include "amble/physics/batch/vector-inl.hpp"
@@ -15,67 +16,77 @@
 HWY_BEFORE_NAMESPACE();
 namespace amble::physics::batch::HWY_NAMESPACE {
 
-/// As many lanes as a vector holds, from `lane` on.
+/// One pass of a step: as many lanes as a vector holds, from `lane` on.
 struct Pass {
-  const Batch& batch;
+  const StepArguments& arguments;
   int lane;
 
-  const Model& model() const { return batch.model; }
-  Workspace& work() const { return batch.workspace; }
-  Row* row(int index) const { return batch.state + index; }
-  V state(int index) const { return load1(batch.state[index], lane); }
-  V3 state3(int index) const { return load3(batch.state + index, lane); }
-  void set_state(int index, V v) const { store1(v, batch.state[index], lane); }
-  void set_state3(int index, V3 v) const { store3(v, batch.state + index, lane); }
-  float* scratch(int vector) const { return batch.workspace.memory() + vector * width; }
+  const Model& model() const { return arguments.model; }
+  const StateRows& rows() const { return arguments.rows; }
+  Workspace& work() const { return arguments.workspace; }
+  float timestep_s() const { return arguments.timestep_s; }
+  Row* row(int index) const { return arguments.state + index; }
+  V state(int index) const { return load1(arguments.state[index], lane); }
+  V3 state3(int index) const { return load3(arguments.state + index, lane); }
+  void set_state(int index, V v) const { store1(v, arguments.state[index], lane); }
+  void set_state3(int index, V3 v) const { store3(v, arguments.state + index, lane); }
+  float* scratch(int vector) const { return arguments.workspace.memory() + vector * width; }
   const Link& link(const Chain& chain, int j) const {
-    return batch.model.links[static_cast<std::size_t>(chain.first + j)];
+    return arguments.model.links[to_index(chain.first + j)];
   }
-  int pose_row(int link) const { return batch.rows.pose + Rows::pose_size * link; }
-  unsigned char& geom_felt(int geom) const {
-    const std::size_t first = static_cast<std::size_t>(lane / width) * batch.model.geoms.size();
-    return batch.workspace.felt[first + static_cast<std::size_t>(geom)];
+  int pose_row(int link) const { return rows().pose + StateRows::pose_size * link; }
+  unsigned char& geom_has_impulse(int geom) const {
+    const std::size_t first = to_index(lane / width) * arguments.model.geoms.size();
+    return arguments.workspace.geom_has_impulse[first + to_index(geom)];
   }
-  Mask active() const { return state(Rows::active) > zero(); }
-  /// The world's axes in torso axes, as columns: takes world axes to torso axes.
-  Columns world() const { return {state3(Rows::axes), state3(Rows::axes + 3), state3(Rows::axes + 6)}; }
+  Mask active() const { return state(StateRows::active) > zero(); }
+  /// The world's axes in torso axes, as columns: the rotation matrix from world to torso axes.
+  Columns world() const {
+    return {state3(StateRows::world_axes), state3(StateRows::world_axes + 3),
+            state3(StateRows::world_axes + 6)};
+  }
 };
 
-HWY_INLINE void turn_pair(V3& u, V3& w, SineCosine angle) {
+/// Rotates two of a frame's axes about the third: u ← u cos + w sin, w ← w cos − u sin.
+HWY_INLINE void rotate_pair(V3& u, V3& w, SineCosine angle) {
   const V3 before = u;
   u = fma(angle.sine, w, angle.cosine * u);
   w = fnma(angle.sine, before, angle.cosine * w);
 }
 
-/// Turns a frame by the angle of its joint; the joint's axis.
-HWY_INLINE V3 turn_frame(Columns& axes, const Link& link, V angle) {
-  SineCosine turned = sine_cosine(angle);
+/// Rotates a frame (`axes`, torso axes) by the angle of its joint, and returns the joint's axis (torso axes).
+HWY_INLINE V3 rotate_frame(Columns& axes, const Link& link, V angle) {
+  SineCosine joint = sine_cosine(angle);
   if (link.axis == 3) {
+    // Rodrigues' rotation formula, R = cos 1 + sin [a]ₓ + (1 − cos) a aᵀ; new axes = before · R.
     const Columns before = axes;
     const V3 a = set(link.direction), axis = before * a;
-    const V versine = set(1.0f) - turned.cosine;
-    const V3 s = turned.sine * a, part = versine * a;
-    axes.x = fma(s.z, before.y, fnma(s.y, before.z, fma(part.x, axis, turned.cosine * before.x)));
-    axes.y = fma(s.x, before.z, fnma(s.z, before.x, fma(part.y, axis, turned.cosine * before.y)));
-    axes.z = fma(s.y, before.x, fnma(s.x, before.y, fma(part.z, axis, turned.cosine * before.z)));
+    const V versine = set(1.0f) - joint.cosine;
+    const V3 s = joint.sine * a, part = versine * a;
+    axes.x = fma(s.z, before.y, fnma(s.y, before.z, fma(part.x, axis, joint.cosine * before.x)));
+    axes.y = fma(s.x, before.z, fnma(s.z, before.x, fma(part.y, axis, joint.cosine * before.y)));
+    axes.z = fma(s.y, before.x, fnma(s.x, before.y, fma(part.z, axis, joint.cosine * before.z)));
     return axis;
   }
   const V sign = set(link.sign);
-  turned.sine = sign * turned.sine;
+  joint.sine = sign * joint.sine;
   if (link.axis == 0) {
-    turn_pair(axes.y, axes.z, turned);
+    rotate_pair(axes.y, axes.z, joint);
     return sign * axes.x;
   }
   if (link.axis == 1) {
-    turn_pair(axes.z, axes.x, turned);
+    rotate_pair(axes.z, axes.x, joint);
     return sign * axes.y;
   }
-  turn_pair(axes.x, axes.y, turned);
+  rotate_pair(axes.x, axes.y, joint);
   return sign * axes.z;
 }
 
-/// Frames of a chain seen from the torso's frame; adds its first moment of mass to `moment`.
-HWY_INLINE void reach_out(const Pass& pass, const Chain& chain, V3& moment) {
+/// Frames of a chain's links relative to the torso's frame, from the torso outwards (Featherstone 2008,
+/// sec. 4.2 and 4.4):
+///   origin_i = origin_p + R_p offset_i,   R_i = R_p R(q_i).
+/// Adds the chain's first moment of mass, Σ m c (kg m), to `moment`.
+HWY_INLINE void chain_kinematics(const Pass& pass, const Chain& chain, V3& moment) {
   const V one = set(1.0f), none = zero();
   Columns axes{{one, none, none}, {none, one, none}, {none, none, one}};
   V3 origin = zero3();
@@ -83,7 +94,7 @@ HWY_INLINE void reach_out(const Pass& pass, const Chain& chain, V3& moment) {
     const Link& link = pass.link(chain, j);
     const V3 offset = set(link.from_parent_m);
     origin = origin + (j == 0 ? offset : axes * offset);
-    const V3 axis = turn_frame(axes, link, pass.state(pass.batch.rows.angle + chain.first + j));
+    const V3 axis = rotate_frame(axes, link, pass.state(pass.rows().angle + chain.first + j));
     const int row = pass.pose_row(chain.first + j);
     pass.set_state3(row, axes.x);
     pass.set_state3(row + 3, axes.y);
@@ -94,29 +105,33 @@ HWY_INLINE void reach_out(const Pass& pass, const Chain& chain, V3& moment) {
   }
 }
 
-HWY_INLINE void world_axes(const Pass& pass) {
-  const V w = pass.state(Rows::rotation);
-  const V3 q = pass.state3(Rows::rotation + 1);
+/// The rotation matrix of the torso's quaternion (w, q), R = (w² − q·q) 1 + 2 q qᵀ + 2 w [q]ₓ, row by row:
+/// the world's axes in torso axes.
+HWY_INLINE void find_world_axes(const Pass& pass) {
+  const V w = pass.state(StateRows::rotation);
+  const V3 q = pass.state3(StateRows::rotation + 1);
   const V one = set(1.0f), two = set(2.0f);
   const V3 d = two * q;
+  // As 1 − 2 (y² + z²), … for a unit quaternion.
   const V xx = d.x * q.x, yy = d.y * q.y, zz = d.z * q.z;
-  pass.set_state3(Rows::axes,
+  pass.set_state3(StateRows::world_axes,
                   {one - (yy + zz), difference_of_products(d.x, q.y, d.z, w), fma(d.y, w, d.x * q.z)});
-  pass.set_state3(Rows::axes + 3,
+  pass.set_state3(StateRows::world_axes + 3,
                   {fma(d.z, w, d.x * q.y), one - (xx + zz), difference_of_products(d.y, q.z, d.x, w)});
-  pass.set_state3(Rows::axes + 6,
+  pass.set_state3(StateRows::world_axes + 6,
                   {difference_of_products(d.x, q.z, d.y, w), fma(d.x, w, d.y * q.z), one - (xx + yy)});
 }
 
-/// Poses of everything, from the centre of mass of the whole robot.
-HWY_NOINLINE void find_pose(const Pass& pass) {
+/// Poses of all links, and the joints' motion subspaces (a, c × a), about the robot's centre of mass.
+HWY_NOINLINE void forward_kinematics(const Pass& pass) {
   const Model& model = pass.model();
-  world_axes(pass);
+  find_world_axes(pass);
   V3 moment = set(model.torso.mass_kg) * set(model.torso.com_m);
-  for (const Chain& chain : model.chains) reach_out(pass, chain, moment);
+  for (const Chain& chain : model.chains) chain_kinematics(pass, chain, moment);
+  // c = (Σ m_i c_i) / m; from here on positions are relative to it.
   const V3 com = set(1.0f / model.mass_kg) * moment;
-  pass.set_state3(Rows::origin, zero3() - com);
-  for (int l = 0; l < pass.batch.rows.links; ++l) {
+  pass.set_state3(StateRows::torso_origin, zero3() - com);
+  for (int l = 0; l < pass.rows().links; ++l) {
     const int row = pass.pose_row(l);
     const V3 origin = pass.state3(row + 9) - com;
     pass.set_state3(row + 9, origin);
@@ -124,50 +139,50 @@ HWY_NOINLINE void find_pose(const Pass& pass) {
   }
 }
 
-/// The heights of all points that may touch the ground; where a foot touches.
-HWY_NOINLINE void find_touch(const Pass& pass) {
+/// Heights above the ground of all points whose geom's bounding sphere reaches it, and which feet touch.
+HWY_NOINLINE void detect_contacts(const Pass& pass) {
   const Model& model = pass.model();
   const Mask active = pass.active();
-  const V3 up = pass.state3(Rows::axes + 6);
-  const V com_height = pass.state(Rows::com + 2);
+  const V3 up = pass.state3(StateRows::world_axes + 6);
+  const V com_height = pass.state(StateRows::com + 2);
   V contacts = zero();
   for (std::size_t g = 0; g < model.geoms.size(); ++g) {
     const PointGroup& geom = model.geoms[g];
-    const Point& any = model.points[static_cast<std::size_t>(geom.first)];
-    V3 origin = pass.state3(Rows::origin), tilt = up;
-    if (any.chain >= 0) {
-      const int row = pass.pose_row(model.chains[static_cast<std::size_t>(any.chain)].first + any.link);
+    const Point& first = model.points[to_index(geom.first)];
+    V3 origin = pass.state3(StateRows::torso_origin), local_up = up;
+    if (first.chain >= 0) {
+      const int row = pass.pose_row(model.chains[to_index(first.chain)].first + first.link);
       origin = pass.state3(row + 9);
-      tilt = transposed({pass.state3(row), pass.state3(row + 3), pass.state3(row + 6)}, up);
+      local_up = transposed({pass.state3(row), pass.state3(row + 3), pass.state3(row + 6)}, up);
     }
+    // z = z_com + up · origin + (Rᵀ up) · p − radius, p in the axes of the link's frame.
     const V height = dot(up, origin, com_height);
-    const V lowest = dot(tilt, set(geom.centre_m), height) - set(geom.reach_m);
-    pass.work().near[g] = !hn::AllFalse(Floats(), hn::And(active, lowest <= zero()));
-    Mask touches = nowhere();
-    for (int p = geom.first; pass.work().near[g] && p < geom.first + geom.count; ++p) {
-      const Point& point = model.points[static_cast<std::size_t>(p)];
-      const V h = dot(tilt, set(point.position_m), height) - set(point.radius_m);
-      store(h, pass.scratch(pass.work().heights + p));
+    const V lowest = dot(local_up, set(geom.centre_m), height) - set(geom.bounding_radius_m);
+    pass.work().geom_may_touch[g] = !hn::AllFalse(Floats(), hn::And(active, lowest <= zero()));
+    Mask touches = no_lanes();
+    for (int p = geom.first; pass.work().geom_may_touch[g] && p < geom.first + geom.count; ++p) {
+      const Point& point = model.points[to_index(p)];
+      const V h = dot(local_up, set(point.position_m), height) - set(point.radius_m);
+      store(h, pass.scratch(pass.work().point_height + p));
       touches = hn::Or(touches, h <= zero());
       contacts = contacts + hn::IfThenElseZero(h <= zero(), set(1.0f));
     }
-    if (geom.leg >= 0)
-      pass.set_state(pass.batch.rows.touch + geom.leg, hn::IfThenElseZero(touches, set(1.0f)));
+    if (geom.leg >= 0) pass.set_state(pass.rows().touch + geom.leg, hn::IfThenElseZero(touches, set(1.0f)));
   }
-  pass.set_state(Rows::contacts, contacts);
+  pass.set_state(StateRows::contacts, contacts);
 }
 
-/// Copies angles, attitude and touch to where controllers look for them.
+/// Copies joint angles and touch to the sensors, and computes roll, pitch and yaw.
 HWY_NOINLINE void read_sensors(const Pass& pass) {
   const auto put = [&](V v, LaneArray& rows, int row)
                        HWY_ATTR { hn::StoreU(v, Floats(), rows.row(row) + pass.lane); };
-  robot::SensorFrame& sensors = pass.batch.sensors;
-  for (int l = 0; l < pass.batch.rows.links; ++l)
-    put(pass.state(pass.batch.rows.angle + l), sensors.joint_angle_rad,
-        pass.model().links[static_cast<std::size_t>(l)].joint);
+  robot::SensorFrame& sensors = pass.arguments.sensors;
+  for (int l = 0; l < pass.rows().links; ++l)
+    put(pass.state(pass.rows().angle + l), sensors.joint_angle_rad, pass.model().links[to_index(l)].joint);
   for (int leg = 0; leg < pass.model().legs; ++leg)
-    put(pass.state(pass.batch.rows.touch + leg), sensors.touch, leg);
-  // Entries of the rotation R_z(yaw) R_y(pitch) R_x(roll).
+    put(pass.state(pass.rows().touch + leg), sensors.touch, leg);
+  // From the entries of R = R_z(yaw) R_y(pitch) R_x(roll): R31 = −sin pitch, R32 / R33 = tan roll,
+  // R21 / R11 = tan yaw.
   const Columns world = pass.world();
   const V one = set(1.0f), sine = hn::Min(hn::Max(hn::Neg(world.z.x), hn::Neg(one)), one);
   put(arc_tangent(world.z.y, world.z.z), sensors.attitude_rad, 0);

@@ -1,4 +1,9 @@
-// Projected successive over-relaxation with a fixed number of iterations, for each instruction set.
+// Projected successive over-relaxation with a fixed number of sweeps; for each instruction set.
+//
+// Row by row, with r = target − (cfm/h) p − Wᵀ u its residual,
+//   p' = clamp(p + r, low, high),   u += W (p' − p):
+// projected Gauss–Seidel (Catto 2005, "Iterative Dynamics with Temporal Coherence") with the scaling
+// of BlockLayout, by which ω / diagonal is 1.
 #if defined(AMBLE_BATCH_SOLVER_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef AMBLE_BATCH_SOLVER_INL_HPP
 #undef AMBLE_BATCH_SOLVER_INL_HPP
@@ -6,181 +11,189 @@
 #define AMBLE_BATCH_SOLVER_INL_HPP
 #endif
 
-#include "amble/physics/batch/constraints-inl.hpp"
+#include "amble/core/index.hpp"
+#include "amble/physics/batch/contacts-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace amble::physics::batch::HWY_NAMESPACE {
 
-enum class Bound { joint, cone, stuck };  ///< stuck: contact with infinite friction
+/// Bounds of a block's impulses: joint: low … high; cone: a contact, p_n ≥ 0 and |p_t| ≤ μ p_n; sticking: a
+/// contact with infinite friction.
+enum class Bound { joint, cone, sticking };
 
-/// How far the impulse of row r, `before` now, moves when it is asked to move by `change`. `normal`: the
-/// impulse of the contact's first row. Lanes without the contact have W = 0 and ask for nothing.
+/// Projection: the change of row r's impulse, which is `before`, that remains of `change` within the bounds.
+/// `normal`: the new impulse of the contact's first row. (In lanes without the contact `change` is 0.)
 template <Bound bound>
-HWY_INLINE V bounded(const Block& block, int r, V change, V before, V normal) {
+HWY_INLINE V projected(const Block& block, int r, V change, V before, V normal) {
   if constexpr (bound == Bound::joint)
-    return hn::Max(hn::Min(change, block.get(BlockShape::high, r) - before),
-                   block.get(BlockShape::low, r) - before);
+    return hn::Max(hn::Min(change, block.get(BlockLayout::high, r) - before),
+                   block.get(BlockLayout::low, r) - before);
   if (r == 0) return hn::Max(change, hn::Neg(before));
-  if constexpr (bound == Bound::stuck) return change;
-  const V most = block.get(BlockShape::high, r) * normal;
-  return hn::Max(hn::Min(change, most - before), hn::Neg(most) - before);
+  if constexpr (bound == Bound::sticking) return change;
+  const V limit = block.get(BlockLayout::high, r) * normal;
+  return hn::Max(hn::Min(change, limit - before), hn::Neg(limit) - before);
 }
 
-/// The change that row r asks for where the state is 0.
+/// Residual of row r at u = 0: target − (cfm/h) p. Friction rows have target 0.
 template <Bound bound>
-HWY_INLINE V wanted_change(const Block& block, int r, V before) {
-  const V softness = block.get(BlockShape::softness, r);
+HWY_INLINE V residual_at_rest(const Block& block, int r, V before) {
+  const V softness = block.get(BlockLayout::softness, r);
   if (bound != Bound::joint && r > 0) return hn::Neg(softness * before);
-  return fnma(softness, before, block.get(BlockShape::bias, r));
+  return fnma(softness, before, block.get(BlockLayout::target, r));
 }
 
-/// First number of a row's W that is not 0: a joint's own row has no part in joints nearer to the torso.
+/// First entry of a row's W that is not 0: column j of L_c⁻¹ is 0 above row j.
 template <int n, Bound bound>
-constexpr int first_number(int row) {
+constexpr int first_entry(int row) {
   return bound == Bound::joint && n == 3 ? row : 0;
 }
 
-/// Before each row moves: its impulse, and the change that it asks for as things stand.
+/// Impulses and residuals of a block's rows at the present u. The parts of joints and base are summed apart,
+/// so that neither sum waits for the other.
 template <int n, int rows, Bound bound>
-HWY_INLINE void measure(const Block& block, const V* joints, const V* base, V* before, V* change) {
+HWY_INLINE void residuals(const Block& block, const V* u_joints, const V* u_base, V* before, V* change) {
   for (int r = 0; r < rows; ++r) {
     const float* const w = block.w(r);
-    before[r] = block.get(BlockShape::impulse, r);
-    V near = wanted_change<bound>(block, r, before[r]);
-    for (int i = first_number<n, bound>(r); i < n; ++i) near = fnma(load(w + i * width), joints[i], near);
-    V far = load(w + n * width) * base[0];
-    for (int i = 1; i < 5; ++i) far = fma(load(w + (n + i) * width), base[i], far);
-    near = fnma(load(w + (n + 5) * width), base[5], near);
-    change[r] = near - far;
+    before[r] = block.get(BlockLayout::impulse, r);
+    V joint_part = residual_at_rest<bound>(block, r, before[r]);
+    for (int i = first_entry<n, bound>(r); i < n; ++i)
+      joint_part = fnma(load(w + i * width), u_joints[i], joint_part);
+    V base_part = load(w + n * width) * u_base[0];
+    for (int i = 1; i < 5; ++i) base_part = fma(load(w + (n + i) * width), u_base[i], base_part);
+    joint_part = fnma(load(w + (n + 5) * width), u_base[5], joint_part);
+    change[r] = joint_part - base_part;
   }
 }
 
-/// The changes that the rows get, one after the other; `impulse` becomes what follows.
+/// The rows' changes one after the other, each residual first reduced by W_r · W_s times the changes before
+/// it (in `change`: first residuals, then changes). Updates `impulse`.
 template <int rows, Bound bound>
-HWY_INLINE void settle(const Block& block, V* impulse, V* change) {
+HWY_INLINE void project(const Block& block, V* impulse, V* change) {
   V normal = zero();
   for (int r = 0; r < rows; ++r) {
     for (int s = 0; s < r; ++s)
-      change[r] = fnma(block.get(BlockShape::gram, r + s - 1), change[s], change[r]);
-    change[r] = bounded<bound>(block, r, change[r], impulse[r], normal);
+      change[r] = fnma(block.get(BlockLayout::gram, r + s - 1), change[s], change[r]);
+    change[r] = projected<bound>(block, r, change[r], impulse[r], normal);
     impulse[r] = impulse[r] + change[r];
     if (r == 0) normal = impulse[r];
   }
 }
 
+/// u += W Δp, and stores the impulses.
 template <int n, int rows, Bound bound>
-HWY_INLINE void push(const Block& block, const V* impulse, const V* change, V* joints, V* base) {
+HWY_INLINE void apply(const Block& block, const V* impulse, const V* change, V* u_joints, V* u_base) {
   for (int r = 0; r < rows; ++r) {
     const float* const w = block.w(r);
-    for (int i = first_number<n, bound>(r); i < n; ++i)
-      joints[i] = fma(load(w + i * width), change[r], joints[i]);
-    for (int i = 0; i < 6; ++i) base[i] = fma(load(w + (n + i) * width), change[r], base[i]);
+    for (int i = first_entry<n, bound>(r); i < n; ++i)
+      u_joints[i] = fma(load(w + i * width), change[r], u_joints[i]);
+    for (int i = 0; i < 6; ++i) u_base[i] = fma(load(w + (n + i) * width), change[r], u_base[i]);
   }
-  for (int r = 0; r < rows; ++r) block.set(BlockShape::impulse, r, impulse[r]);
+  for (int r = 0; r < rows; ++r) block.set(BlockLayout::impulse, r, impulse[r]);
 }
 
-/// One visit to a block: exactly over-relaxation row by row, but all rows are measured before the first of
-/// them pushes, and their influence on each other is made good with the products of their W: so a row waits
-/// for two or three instructions of the row before, not for its whole update.
+/// Relaxes a block: over-relaxation row by row, but with all residuals computed before the first update of u
+/// and corrected by the Gram matrix. So a row waits for two or three instructions of the row before, not for
+/// its whole update.
 template <int n, int rows, Bound bound>
-HWY_INLINE void visit(const Block& block, V* joints, V* base) {
+HWY_INLINE void relax(const Block& block, V* u_joints, V* u_base) {
   V impulse[rows], change[rows];
-  measure<n, rows, bound>(block, joints, base, impulse, change);
-  settle<rows, bound>(block, impulse, change);
-  push<n, rows, bound>(block, impulse, change, joints, base);
+  residuals<n, rows, bound>(block, u_joints, u_base, impulse, change);
+  project<rows, bound>(block, impulse, change);
+  apply<n, rows, bound>(block, impulse, change, u_joints, u_base);
 }
 
 /// The same for a chain's three motors and its first contact together.
 template <int n, Bound bound>
-HWY_INLINE void visit_pair(const Block& motors, const Block& contact, V* joints, V* base) {
-  V impulse[3], change[3], touch_impulse[3], touch_change[3];
-  measure<n, 3, Bound::joint>(motors, joints, base, impulse, change);
-  measure<n, 3, bound>(contact, joints, base, touch_impulse, touch_change);
-  settle<3, Bound::joint>(motors, impulse, change);
+HWY_INLINE void relax_pair(const Block& motors, const Block& contact, V* u_joints, V* u_base) {
+  V impulse[3], change[3], contact_impulse[3], contact_change[3];
+  residuals<n, 3, Bound::joint>(motors, u_joints, u_base, impulse, change);
+  residuals<n, 3, bound>(contact, u_joints, u_base, contact_impulse, contact_change);
+  project<3, Bound::joint>(motors, impulse, change);
   for (int s = 0; s < 3; ++s)
     for (int r = 0; r < 3; ++r)
-      touch_change[r] = fnma(contact.get(BlockShape::cross, 3 * s + r), change[s], touch_change[r]);
-  settle<3, bound>(contact, touch_impulse, touch_change);
-  push<n, 3, Bound::joint>(motors, impulse, change, joints, base);
-  push<n, 3, bound>(contact, touch_impulse, touch_change, joints, base);
+      contact_change[r] = fnma(contact.get(BlockLayout::cross_gram, 3 * s + r), change[s], contact_change[r]);
+  project<3, bound>(contact, contact_impulse, contact_change);
+  apply<n, 3, Bound::joint>(motors, impulse, change, u_joints, u_base);
+  apply<n, 3, bound>(contact, contact_impulse, contact_change, u_joints, u_base);
 }
 
-/// visit() for chains of any length.
+/// relax() for chains of any length, with an update of u after each row.
 template <int rows, Bound bound>
-HWY_INLINE void visit_any(const Block& block, V* joints, V* base) {
-  const int n = block.numbers - 6;
+HWY_INLINE void relax_any_length(const Block& block, V* u_joints, V* u_base) {
+  const int n = block.entries - 6;
   V normal = zero();
   for (int r = 0; r < rows; ++r) {
     const float* const w = block.w(r);
-    const V before = block.get(BlockShape::impulse, r);
-    V change = wanted_change<bound>(block, r, before);
-    for (int i = 0; i < n; ++i) change = fnma(load(w + i * width), joints[i], change);
-    for (int i = 0; i < 6; ++i) change = fnma(load(w + (n + i) * width), base[i], change);
-    change = bounded<bound>(block, r, change, before, normal);
+    const V before = block.get(BlockLayout::impulse, r);
+    V change = residual_at_rest<bound>(block, r, before);
+    for (int i = 0; i < n; ++i) change = fnma(load(w + i * width), u_joints[i], change);
+    for (int i = 0; i < 6; ++i) change = fnma(load(w + (n + i) * width), u_base[i], change);
+    change = projected<bound>(block, r, change, before, normal);
     const V after = before + change;
     if (r == 0) normal = after;
-    block.set(BlockShape::impulse, r, after);
-    for (int i = 0; i < n; ++i) joints[i] = fma(load(w + i * width), change, joints[i]);
-    for (int i = 0; i < 6; ++i) base[i] = fma(load(w + (n + i) * width), change, base[i]);
+    block.set(BlockLayout::impulse, r, after);
+    for (int i = 0; i < n; ++i) u_joints[i] = fma(load(w + i * width), change, u_joints[i]);
+    for (int i = 0; i < 6; ++i) u_base[i] = fma(load(w + (n + i) * width), change, u_base[i]);
   }
 }
 
+/// N: length of the chain, or −1.
 template <int N, int rows, Bound bound>
-HWY_INLINE void visit_block(const Block& block, V* joints, V* base) {
+HWY_INLINE void relax_block(const Block& block, V* u_joints, V* u_base) {
   if constexpr (N >= 0) {
-    visit<N, rows, bound>(block, joints, base);
+    relax<N, rows, bound>(block, u_joints, u_base);
   } else {
-    visit_any<rows, bound>(block, joints, base);
+    relax_any_length<rows, bound>(block, u_joints, u_base);
   }
 }
 
-/// Once through all blocks of the torso (N = 0) or of a chain.
+/// One sweep over the blocks of the torso (N = 0) or of a chain.
 template <int N, Bound contact>
-HWY_INLINE void visit_chain(const Pass& pass, const ChainBlocks& blocks, int n, V* joints, V* base) {
+HWY_INLINE void relax_chain(const Pass& pass, const ChainBlocks& blocks, int n, V* u_joints, V* u_base) {
   if constexpr (N == 3) {
     if (blocks.paired()) {
-      visit_pair<N, contact>(block_at(pass, blocks.first, N), block_at(pass, blocks.first + 1, N), joints,
-                             base);
+      relax_pair<N, contact>(block_at(pass, blocks.first, N), block_at(pass, blocks.first + 1, N), u_joints,
+                             u_base);
       for (int b = 2; b < blocks.count; ++b)
-        visit<N, 3, contact>(block_at(pass, blocks.first + b, N), joints, base);
+        relax<N, 3, contact>(block_at(pass, blocks.first + b, N), u_joints, u_base);
       return;
     }
   }
   for (int b = 0; b < blocks.joint_blocks; ++b) {
     const Block block = block_at(pass, blocks.first + b, N >= 0 ? N : n);
-    const int left = n - pass.work().block_joint[static_cast<std::size_t>(blocks.first + b)];
+    const int left = n - pass.work().block_joint[to_index(blocks.first + b)];
     if (N == 3 || left >= 3) {
-      visit_block<N, 3, Bound::joint>(block, joints, base);
+      relax_block<N, 3, Bound::joint>(block, u_joints, u_base);
     } else if (left == 2) {
-      visit_block<N, 2, Bound::joint>(block, joints, base);
+      relax_block<N, 2, Bound::joint>(block, u_joints, u_base);
     } else {
-      visit_block<N, 1, Bound::joint>(block, joints, base);
+      relax_block<N, 1, Bound::joint>(block, u_joints, u_base);
     }
   }
   for (int b = blocks.joint_blocks; b < blocks.count; ++b)
-    visit_block<N, 3, contact>(block_at(pass, blocks.first + b, N >= 0 ? N : n), joints, base);
+    relax_block<N, 3, contact>(block_at(pass, blocks.first + b, N >= 0 ? N : n), u_joints, u_base);
 }
 
-/// Brings Lᵀ ν (rows `free` and `base`) to what all constraints leave of it.
+/// All sweeps: u (u_joints in the scratch memory and u_base) after the constraints.
 template <int N, Bound contact>
-HWY_NOINLINE void solve(const Pass& pass, V* base_out) {
+HWY_NOINLINE void solve(const Pass& pass, V* u_base_out) {
   const Model& model = pass.model();
-  V base[6];
-  for (int d = 0; d < 6; ++d) base[d] = base_out[d];
-  for (int iteration = 0; iteration < model.iterations; ++iteration) {
+  V u_base[6];
+  for (int d = 0; d < 6; ++d) u_base[d] = u_base_out[d];
+  for (int sweep = 0; sweep < model.iterations; ++sweep) {
     V none[1];
-    visit_chain<0, contact>(pass, pass.work().chain_blocks[0], 0, none, base);
+    relax_chain<0, contact>(pass, pass.work().chain_blocks[0], 0, none, u_base);
     for (std::size_t c = 0; c < model.chains.size(); ++c) {
       const Chain& chain = model.chains[c];
       const int n = length<N>(chain);
-      float* const free = pass.scratch(pass.work().free + chain.first);
-      V joints[capacity<N>];
-      for (int j = 0; j < n; ++j) joints[j] = load(free + j * width);
-      visit_chain<N, contact>(pass, pass.work().chain_blocks[c + 1], n, joints, base);
-      for (int j = 0; j < n; ++j) store(joints[j], free + j * width);
+      float* const u_chain = pass.scratch(pass.work().u_joints + chain.first);
+      V u_joints[capacity<N>];
+      for (int j = 0; j < n; ++j) u_joints[j] = load(u_chain + j * width);
+      relax_chain<N, contact>(pass, pass.work().chain_blocks[c + 1], n, u_joints, u_base);
+      for (int j = 0; j < n; ++j) store(u_joints[j], u_chain + j * width);
     }
   }
-  for (int d = 0; d < 6; ++d) base_out[d] = base[d];
+  for (int d = 0; d < 6; ++d) u_base_out[d] = u_base[d];
 }
 
 }  // namespace amble::physics::batch::HWY_NAMESPACE

@@ -1,15 +1,12 @@
 #include "amble/physics/batch/step.hpp"
 
 #include <cmath>
+#include <limits>
 
+#include "amble/core/index.hpp"
+#include "amble/core/simd_targets.hpp"
 #include "amble/physics/batch/denormals.hpp"
 
-// Instruction sets that would only repeat the code of their neighbours, or have no fixed width.
-#ifdef AMBLE_FEW_INSTRUCTION_SETS
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3 | HWY_AVX3_DL)
-#else
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_RVV)
-#endif
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "amble/physics/batch/step.cpp"
 #include <hwy/foreach_target.h>
@@ -19,81 +16,88 @@
 HWY_BEFORE_NAMESPACE();
 namespace amble::physics::batch::HWY_NAMESPACE {
 
-/// Beyond this a robot has exploded: m/s or rad/s (Engine::healthy).
+/// A robot that is faster has diverged: m/s or rad/s (Engine::healthy).
 constexpr float absurd_speed = 1000.0f;
 
-/// x + 0 turns −0 into 0: a block that is skipped must leave the same bits as a block that does nothing.
-HWY_INLINE V plain(V x) {
+/// x + 0 turns −0 into 0: a block that is skipped must leave the same bits as one whose impulses are 0.
+HWY_INLINE V without_negative_zero(V x) {
   return x + zero();
 }
 
-/// Keeps the impulses of a chain's motors and stops for the next step.
-inline void keep_joint_impulses(const Pass& pass, const ChainBlocks& blocks, const Chain& chain) {
+/// Stores the impulses of a chain's motors and stops, unscaled, for the next step.
+inline void store_joint_impulses(const Pass& pass, const ChainBlocks& blocks, const Chain& chain) {
   for (int b = 0; b < blocks.joint_blocks; ++b) {
     const Block block = block_at(pass, blocks.first + b, chain.count);
-    const int first = pass.work().block_joint[static_cast<std::size_t>(blocks.first + b)];
+    const int first = pass.work().block_joint[to_index(blocks.first + b)];
     for (int r = 0; r < 3 && first + r < chain.count; ++r)
-      pass.set_state(pass.batch.rows.joint_impulse + chain.first + first + r,
-                     plain(block.get(BlockShape::impulse, r) * block.get(BlockShape::inverse, r)));
+      pass.set_state(pass.rows().joint_impulse + chain.first + first + r,
+                     without_negative_zero(block.get(BlockLayout::impulse, r) *
+                                           block.get(BlockLayout::inverse_scale, r)));
   }
 }
 
-/// Keeps each point's impulses, which stand, no longer scaled, in the blocks that its lanes gave it.
-inline void keep_point_impulses(const Pass& pass, const ChainBlocks& blocks, std::size_t segment, int n) {
+/// Stores the impulses of each point for the next step, from the block assigned to it in each lane, where
+/// they are no longer scaled.
+inline void store_point_impulses(const Pass& pass, const ChainBlocks& blocks, std::size_t segment, int n) {
   const Model& model = pass.model();
   if (blocks.count == blocks.joint_blocks) return;
   for (int g = model.first_geom[segment]; g < model.first_geom[segment + 1]; ++g) {
-    if (!pass.geom_felt(g)) continue;
-    const PointGroup& geom = model.geoms[static_cast<std::size_t>(g)];
+    if (!pass.geom_has_impulse(g)) continue;
+    const PointGroup& geom = model.geoms[to_index(g)];
     for (int p = geom.first; p < geom.first + geom.count; ++p) {
-      const V place = load(pass.scratch(pass.work().places + p));
+      const V slot = load(pass.scratch(pass.work().point_slot + p));
       V3 impulse = zero3();
       for (int b = blocks.joint_blocks; b < blocks.count; ++b) {
-        const Mask here = place == set(static_cast<float>(b - blocks.joint_blocks));
+        const Mask here = slot == set(static_cast<float>(b - blocks.joint_blocks));
         const Block block = block_at(pass, blocks.first + b, n);
-        impulse.x = hn::IfThenElse(here, block.get(BlockShape::impulse, 0), impulse.x);
-        impulse.y = hn::IfThenElse(here, block.get(BlockShape::impulse, 1), impulse.y);
-        impulse.z = hn::IfThenElse(here, block.get(BlockShape::impulse, 2), impulse.z);
+        impulse.x = hn::IfThenElse(here, block.get(BlockLayout::impulse, 0), impulse.x);
+        impulse.y = hn::IfThenElse(here, block.get(BlockLayout::impulse, 1), impulse.y);
+        impulse.z = hn::IfThenElse(here, block.get(BlockLayout::impulse, 2), impulse.z);
       }
-      store3(impulse, pass.row(pass.batch.rows.point_impulse + 3 * p), pass.lane);
+      store3(impulse, pass.row(pass.rows().point_impulse + 3 * p), pass.lane);
     }
   }
 }
 
-/// Keeps the impulses for the next step, and adds up what ground and push gave: force × time, and torque ×
-/// time about the centre of mass, both along world axes.
-inline void collect_impulses(const Pass& pass, V3& push, V3& turn) {
+/// Stores all impulses for the next step, and returns the total external impulse of ground and push about the
+/// robot's centre of mass, Σ (r × p, p), world axes (N m s, N s).
+inline Spatial collect_impulses(const Pass& pass) {
   const Model& model = pass.model();
   const Columns world = pass.world();
-  push = pass.state3(Rows::push);
-  turn = transposed(world, cross(pass.state3(Rows::origin) + set(model.torso.com_m), world * push));
+  V3 linear = pass.state3(StateRows::push_impulse);
+  V3 angular =
+      transposed(world, cross(pass.state3(StateRows::torso_origin) + set(model.torso.com_m), world * linear));
   for (std::size_t segment = 0; segment < pass.work().chain_blocks.size(); ++segment) {
     const ChainBlocks& blocks = pass.work().chain_blocks[segment];
     const Chain chain = segment == 0 ? Chain{} : model.chains[segment - 1];
-    keep_joint_impulses(pass, blocks, chain);
+    store_joint_impulses(pass, blocks, chain);
     for (int b = blocks.joint_blocks; b < blocks.count; ++b) {
       const Block block = block_at(pass, blocks.first + b, chain.count);
-      V impulse[3];
+      V row_impulse[3];
       for (int r = 0; r < 3; ++r) {
-        impulse[r] = plain(block.get(BlockShape::impulse, r) * block.get(BlockShape::inverse, r));
-        block.set(BlockShape::impulse, r, impulse[r]);
+        row_impulse[r] = without_negative_zero(block.get(BlockLayout::impulse, r) *
+                                               block.get(BlockLayout::inverse_scale, r));
+        block.set(BlockLayout::impulse, r, row_impulse[r]);
       }
-      const V3 force{impulse[2], impulse[1], impulse[0]};
-      const V3 at{block.get(BlockShape::position, 0), block.get(BlockShape::position, 1),
-                  block.get(BlockShape::position, 2)};
-      push = push + force;
-      turn = cross(at, force, turn);
+      const V3 impulse{row_impulse[2], row_impulse[1], row_impulse[0]};
+      const V3 arm{block.get(BlockLayout::arm, 0), block.get(BlockLayout::arm, 1),
+                   block.get(BlockLayout::arm, 2)};
+      linear = linear + impulse;
+      angular = cross(arm, impulse, angular);
     }
-    keep_point_impulses(pass, blocks, segment, chain.count);
+    store_point_impulses(pass, blocks, segment, chain.count);
   }
+  return {angular, linear};
 }
 
-/// The next state, before it is known which lanes take it.
-struct Next {
+/// Writes the next state in the active lanes only.
+struct NextState {
   const Pass& pass;
   Mask active;
 
-  void put(int row, V v) const { pass.set_state(row, hn::IfThenElse(active, plain(v), pass.state(row))); }
+  void put(int row, V v) const {
+    pass.set_state(row, hn::IfThenElse(active, without_negative_zero(v), pass.state(row)));
+  }
   void put3(int row, V3 v) const {
     put(row, v.x);
     put(row + 1, v.y);
@@ -101,134 +105,142 @@ struct Next {
   }
 };
 
-/// Position + what it lost before + way, and what the sum loses now (two-sum).
-HWY_INLINE void advance(const Next& next, int index, V velocity) {
-  const V high = next.pass.state(Rows::com + index);
-  const V way = fma(set(next.pass.batch.timestep_s), velocity, next.pass.state(Rows::com_rest + index));
-  const V sum = high + way;
+/// x ← x + (h v + e) with the error e of the sums before, which is kept exactly (two-sum; Knuth 1998,
+/// sec. 4.2.2): steps of micrometres are added to metres.
+HWY_INLINE void integrate_position(const NextState& next, int index, V velocity) {
+  const V high = next.pass.state(StateRows::com + index);
+  const V displacement =
+      fma(set(next.pass.timestep_s()), velocity, next.pass.state(StateRows::com_compensation + index));
+  const V sum = high + displacement;
   const V part = sum - high;
-  next.put(Rows::com + index, sum);
-  next.put(Rows::com_rest + index, (high - (sum - part)) + (way - part));
+  next.put(StateRows::com + index, sum);
+  next.put(StateRows::com_compensation + index, (high - (sum - part)) + (displacement - part));
 }
 
-HWY_INLINE void turn_torso(const Next& next, V3 turn) {
+/// q ← normalised q + (h/2) q (0, ω), ω in torso axes (rad/s): one Euler step of the quaternion's derivative
+/// (Featherstone 2008, sec. 4.5; ODE's dxStepBody without finite rotation).
+HWY_INLINE void integrate_rotation(const NextState& next, V3 angular_velocity) {
   const Pass& pass = next.pass;
-  const V3 d = set(0.5f * pass.batch.timestep_s) * turn;
-  const V w = pass.state(Rows::rotation);
-  const V3 q = pass.state3(Rows::rotation + 1);
+  const V3 d = set(0.5f * pass.timestep_s()) * angular_velocity;
+  const V w = pass.state(StateRows::rotation);
+  const V3 q = pass.state3(StateRows::rotation + 1);
   const V w_next = fnma(q.z, d.z, fnma(q.y, d.y, fnma(q.x, d.x, w)));
   const V3 q_next = cross(q, d, fma(w, d, q));
   const V scale = set(1.0f) / hn::Sqrt(dot(q_next, q_next, w_next * w_next));
-  next.put(Rows::rotation, scale * w_next);
-  next.put3(Rows::rotation + 1, scale * q_next);
+  next.put(StateRows::rotation, scale * w_next);
+  next.put3(StateRows::rotation + 1, scale * q_next);
 }
 
-/// Speeds of the joints out of Lᵀ ν (its base's part `base`), and their angles. Adds the squares of the
-/// speeds.
+/// Speeds of a chain's joints after the step by back substitution, L_cᵀ q̇ = u_c − B_cᵀ ν_b, and their angles,
+/// q ← q + h q̇ (semi-implicit Euler). As the base's rows hold L_b⁻¹ B_c, B_cᵀ ν_b is their product with u_b.
+/// Adds the squares of the speeds to `square_sum`.
 template <int N>
-HWY_INLINE V turn_joints(const Next& next, std::size_t c, const V* base, V fastest) {
+HWY_INLINE V integrate_joints(const NextState& next, std::size_t c, const V* u_base, V square_sum) {
   const Pass& pass = next.pass;
   const Chain& chain = pass.model().chains[c];
   const int n = length<N>(chain);
   const ChainFactor factor{pass.scratch(pass.work().factors[c]), n};
   V speed[capacity<N>];
   for (int j = n - 1; j >= 0; --j) {
-    V x = load(pass.scratch(pass.work().free + chain.first + j));
-    for (int d = 0; d < 6; ++d) x = fnma(load(factor.base(j) + d * width), base[d], x);
+    V x = load(pass.scratch(pass.work().u_joints + chain.first + j));
+    for (int d = 0; d < 6; ++d) x = fnma(load(factor.base(j) + d * width), u_base[d], x);
     for (int i = j + 1; i < n; ++i) x = fnma(load(factor.lower(i, j)), speed[i], x);
     speed[j] = x * load(factor.inverse(j));
-    // A sum is not a number as soon as one of its terms is not; a maximum may be one.
-    fastest = fma(speed[j], speed[j], fastest);
-    const int angle = pass.batch.rows.angle + chain.first + j;
-    next.put(angle, fma(set(pass.batch.timestep_s), speed[j], pass.state(angle)));
-    next.put(pass.batch.rows.speed + chain.first + j, speed[j]);
+    // A sum is NaN as soon as one of its terms is; a maximum need not be.
+    square_sum = fma(speed[j], speed[j], square_sum);
+    const int angle = pass.rows().angle + chain.first + j;
+    next.put(angle, fma(set(pass.timestep_s()), speed[j], pass.state(angle)));
+    next.put(pass.rows().speed + chain.first + j, speed[j]);
   }
-  return fastest;
+  return square_sum;
 }
 
-/// Velocities after the constraints, and positions after them.
+/// Semi-implicit Euler: velocities from the solver's u and the external impulses, then positions with the new
+/// velocities. Momentum: v_com += p / m + h g, L += Σ r × p. `u_base` becomes ν_b = L_b⁻ᵀ u_b.
 template <int N>
-HWY_NOINLINE void integrate(const Pass& pass, const BaseFactor& factor, V* motion) {
+HWY_NOINLINE void integrate(const Pass& pass, const BaseFactor& factor, V* u_base) {
   const Model& model = pass.model();
-  const Next next{pass, pass.active()};
-  V3 push, turn;
-  collect_impulses(pass, push, turn);
-  V fastest = zero();
-  for (std::size_t c = 0; c < model.chains.size(); ++c) fastest = turn_joints<N>(next, c, motion, fastest);
-  solve_base_transposed(factor, motion);
+  const NextState next{pass, pass.active()};
+  const Spatial impulse = collect_impulses(pass);
+  V square_sum = zero();
+  for (std::size_t c = 0; c < model.chains.size(); ++c)
+    square_sum = integrate_joints<N>(next, c, u_base, square_sum);
+  solve_base_transposed(factor, u_base);
+  const V3 angular_velocity{u_base[0], u_base[1], u_base[2]};
 
-  const V3 gained =
-      fma(set(1.0f / model.mass_kg), push, set(pass.batch.timestep_s) * set(model.gravity_m_s2));
-  const V3 velocity = pass.state3(Rows::velocity) + gained;
-  next.put3(Rows::velocity, velocity);
-  next.put3(Rows::spin, pass.state3(Rows::spin) + turn);
-  advance(next, 0, velocity.x);
-  advance(next, 1, velocity.y);
-  advance(next, 2, velocity.z);
-  next.put3(Rows::push, zero3());
-  const V3 spin{motion[0], motion[1], motion[2]};
-  turn_torso(next, spin);
+  const V3 velocity_change =
+      fma(set(1.0f / model.mass_kg), impulse.linear, set(pass.timestep_s()) * set(model.gravity_m_s2));
+  const V3 velocity = pass.state3(StateRows::velocity) + velocity_change;
+  next.put3(StateRows::velocity, velocity);
+  next.put3(StateRows::angular_momentum, pass.state3(StateRows::angular_momentum) + impulse.angular);
+  integrate_position(next, 0, velocity.x);
+  integrate_position(next, 1, velocity.y);
+  integrate_position(next, 2, velocity.z);
+  next.put3(StateRows::push_impulse, zero3());
+  integrate_rotation(next, angular_velocity);
 
   const V limit = set(absurd_speed * absurd_speed);
   const float joint_limit = absurd_speed * absurd_speed * static_cast<float>(model.links.size() + 1);
-  Mask sane = hn::And(dot(velocity, velocity) <= limit, dot(spin, spin) <= limit);
-  sane = hn::And(sane, fastest <= set(joint_limit));
-  next.put(Rows::healthy, hn::IfThenElseZero(sane, pass.state(Rows::healthy)));
+  Mask healthy = hn::And(dot(velocity, velocity) <= limit, dot(angular_velocity, angular_velocity) <= limit);
+  healthy = hn::And(healthy, square_sum <= set(joint_limit));
+  next.put(StateRows::healthy, hn::IfThenElseZero(healthy, pass.state(StateRows::healthy)));
 }
 
-/// What the motors gave. Where a servo's row has finite bounds it is the motor's, else that of a stop.
-HWY_NOINLINE void tell_torques(const Pass& pass) {
-  const V rate = set(1.0f / pass.batch.timestep_s);
-  for (int l = 0; l < pass.batch.rows.links; ++l) {
-    const float* const servo = pass.scratch(pass.work().servos + 4 * l);
+/// Torques of the motors in the last step, τ = p / h + explicit torque (N m). A joint's row is the motor's
+/// where its bounds are finite, and else its stop's.
+HWY_NOINLINE void measure_torques(const Pass& pass) {
+  const V rate = set(1.0f / pass.timestep_s());
+  for (int l = 0; l < pass.rows().links; ++l) {
+    const float* const row = pass.scratch(pass.work().joint_row + 4 * l);
     const Mask motor =
-        load(servo + 2 * width) - load(servo + width) < set(std::numeric_limits<float>::infinity());
-    const V impulse = hn::IfThenElseZero(motor, pass.state(pass.batch.rows.joint_impulse + l));
-    const V torque = fma(rate, impulse, load(servo + 3 * width));
-    const int joint = pass.model().links[static_cast<std::size_t>(l)].joint;
-    hn::StoreU(torque, Floats(), pass.batch.torques_nm->row(joint) + pass.lane);
+        load(row + 2 * width) - load(row + width) < set(std::numeric_limits<float>::infinity());
+    const V impulse = hn::IfThenElseZero(motor, pass.state(pass.rows().joint_impulse + l));
+    const V torque = fma(rate, impulse, load(row + 3 * width));
+    const int joint = pass.model().links[to_index(l)].joint;
+    hn::StoreU(torque, Floats(), pass.arguments.torques_nm->row(joint) + pass.lane);
   }
 }
 
+/// One step up to the new state; the numbers are those of docs/BATCH.md, "One step".
 template <int N>
 HWY_INLINE void step_chains(const Pass& pass, const LaneArray& targets_rad) {
-  find_touch(pass);
-  Base base = weigh<N>(pass);
-  find_inertial_forces<N>(pass, base);
+  detect_contacts(pass);             // 1
+  Base base = mass_matrix<N>(pass);  // 2
+  bias_forces<N>(pass, base);        // 3
   BaseFactor factor;
-  V base_free[6];
-  free_motion<N>(pass, targets_rad, base, factor, base_free);
-  all_blocks<N>(pass, factor, base_free);
+  V u_base[6];
+  unconstrained_velocity<N>(pass, targets_rad, base, factor, u_base);  // 4
+  build_blocks<N>(pass, factor, u_base);                               // 5
   if (std::isinf(pass.model().friction)) {
-    solve<N, Bound::stuck>(pass, base_free);
+    solve<N, Bound::sticking>(pass, u_base);
   } else {
-    solve<N, Bound::cone>(pass, base_free);
+    solve<N, Bound::cone>(pass, u_base);
   }
-  integrate<N>(pass, factor, base_free);
+  integrate<N>(pass, factor, u_base);  // 6
 }
 
-/// Chains of three joints, the quadruped's and most hexapods', are worth code of their own.
-void step_lanes(const Batch& batch, const LaneArray& targets_rad) {
-  const bool threes = batch.model.equal_chains && batch.model.longest_chain == 3;
+/// Robots whose chains all have three joints (the quadruped, most hexapods) have code with fixed lengths.
+void step_lanes(const StepArguments& arguments, const LaneArray& targets_rad) {
+  const bool three_joints = arguments.model.equal_chains && arguments.model.longest_chain == 3;
   for (int lane = 0; lane < lanes; lane += width) {
-    const Pass pass{batch, lane};
+    const Pass pass{arguments, lane};
     if (hn::AllFalse(Floats(), pass.active())) continue;
-    if (threes) {
+    if (three_joints) {
       step_chains<3>(pass, targets_rad);
     } else {
       step_chains<-1>(pass, targets_rad);
     }
-    if (batch.torques_nm != nullptr) tell_torques(pass);
-    find_pose(pass);
+    if (arguments.torques_nm != nullptr) measure_torques(pass);
+    forward_kinematics(pass);
     read_sensors(pass);
   }
 }
 
-void derive_lanes(const Batch& batch) {
+void derive_lanes(const StepArguments& arguments) {
   for (int lane = 0; lane < lanes; lane += width) {
-    const Pass pass{batch, lane};
-    find_pose(pass);
-    find_touch(pass);
+    const Pass pass{arguments, lane};
+    forward_kinematics(pass);
+    detect_contacts(pass);
     read_sensors(pass);
   }
 }
@@ -257,14 +269,14 @@ HWY_EXPORT(derive_lanes);
 HWY_EXPORT(sine_cosine_array);
 HWY_EXPORT(arc_tangent_array);
 
-void step(const Batch& batch, const LaneArray& targets_rad) {
+void step(const StepArguments& arguments, const LaneArray& targets_rad) {
   const DenormalsAreZero guard;
-  HWY_DYNAMIC_DISPATCH(step_lanes)(batch, targets_rad);
+  HWY_DYNAMIC_DISPATCH(step_lanes)(arguments, targets_rad);
 }
 
-void derive(const Batch& batch) {
+void derive(const StepArguments& arguments) {
   const DenormalsAreZero guard;
-  HWY_DYNAMIC_DISPATCH(derive_lanes)(batch);
+  HWY_DYNAMIC_DISPATCH(derive_lanes)(arguments);
 }
 
 void sine_cosine(const float* angles_rad, float* sines, float* cosines, int count) {

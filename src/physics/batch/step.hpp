@@ -3,31 +3,31 @@
 #include <vector>
 
 #include "amble/core/lanes.hpp"
-#include "amble/physics/batch/rows.hpp"
+#include "amble/physics/batch/state_rows.hpp"
 #include "amble/physics/batch/workspace.hpp"
 #include "amble/physics/engine.hpp"
 
 namespace amble::physics::batch {
 
-/// What one call works on. Belongs to one thread.
-struct Batch {
+/// What one call of step() or derive() works on. Belongs to one thread.
+struct StepArguments {
   const Model& model;
-  const Rows& rows;
-  Row* state;  ///< rows.count of them
+  const StateRows& rows;
+  Row* state;  ///< rows.count rows
   Workspace& workspace;
   robot::SensorFrame& sensors;
-  LaneArray* torques_nm;  ///< of the motors, joints × lanes; null: not asked for
+  LaneArray* torques_nm;  ///< of the motors, joints × lanes; null: not measured
   float timestep_s;
 };
 
 /// Advances all active lanes by one timestep and reads the sensors. Denormal numbers count as zero.
-void step(const Batch& batch, const LaneArray& targets_rad);
+void step(const StepArguments& arguments, const LaneArray& targets_rad);
 
-/// Derives from the state proper of all lanes whatever follows from it: poses, sensors, touch.
-void derive(const Batch& batch);
+/// Computes what follows from the state of all lanes: poses, touch, sensors.
+void derive(const StepArguments& arguments);
 
-/// sin, cos and atan2 as the engine computes them, for tests: values of `count` angles, in place of y the
-/// atan2(y, x).
+/// sin, cos and atan2 as the engine computes them, for tests. `count` must be a multiple of the vector's
+/// width.
 void sine_cosine(const float* angles_rad, float* sines, float* cosines, int count);
 void arc_tangent(const float* y, const float* x, float* angles_rad, int count);
 

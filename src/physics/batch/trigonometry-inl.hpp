@@ -1,5 +1,5 @@
-// Sine, cosine and arc tangent of several numbers at once, for each instruction set. Own polynomials
-// (interpolated at Chebyshev nodes).
+// Sine, cosine and arc tangent of a vector, for each instruction set. The polynomials are interpolations at
+// Chebyshev nodes.
 #if defined(AMBLE_BATCH_TRIGONOMETRY_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef AMBLE_BATCH_TRIGONOMETRY_INL_HPP
 #undef AMBLE_BATCH_TRIGONOMETRY_INL_HPP
@@ -16,14 +16,15 @@ struct SineCosine {
   V sine, cosine;
 };
 
-/// To 2e-7 within ± 100 rad.
+/// Absolute error below 2e-7 within ± 100 rad.
 HWY_INLINE SineCosine sine_cosine(V angle) {
   const Ints ints;
   const Floats d;
-  // angle = k π/2 + r with r within ± π/4.
+  // angle = k π/2 + r with r within ± π/4; π/2 is subtracted in two parts (Cody and Waite 1980).
   const V k = hn::Round(angle * set(0.636619772f));
   V r = fnma(k, set(1.57079625129699707031f), angle);
   r = fnma(k, set(7.54978941586159635335e-8f), r);
+  // sin r = r + r³ S(r²), cos r = 1 − r²/2 + r⁴ C(r²).
   const V u = r * r;
   const V one = set(1.0f);
   V s = fma(u, set(-1.95878909e-4f), set(8.33274827e-3f));
@@ -32,7 +33,7 @@ HWY_INLINE SineCosine sine_cosine(V angle) {
   V c = fma(u, set(2.45479421e-5f), set(-1.38883030e-3f));
   c = fma(u, c, set(4.16666647e-2f));
   c = fma(u * u, c, fnma(u, set(0.5f), one));
-  // A quarter turn swaps the two and half a turn negates both.
+  // An odd k swaps the two; k mod 4 gives the signs.
   const auto quarters = hn::ConvertTo(ints, k);
   const auto odd = hn::MaskFromVec(hn::BitCast(d, hn::ShiftRight<31>(hn::ShiftLeft<31>(quarters))));
   const auto sign_bit = hn::Set(ints, INT32_MIN);
@@ -42,14 +43,15 @@ HWY_INLINE SineCosine sine_cosine(V angle) {
           hn::Xor(hn::IfThenElse(odd, s, c), hn::BitCast(d, cosine_sign))};
 }
 
-/// atan2(y, x) to 4e-7; 0 where both are 0.
+/// atan2(y, x), absolute error below 4e-7; 0 where both are 0.
 HWY_INLINE V arc_tangent(V y, V x) {
   constexpr float pi = 3.14159265f;
   const V long_side = hn::Max(hn::Abs(x), hn::Abs(y)), short_side = hn::Min(hn::Abs(x), hn::Abs(y));
   V t = short_side / hn::Max(long_side, set(1e-30f));  // 0 … 1
-  // Above tan(π/8) seen from π/4.
+  // Above tan(π/8): atan t = π/4 + atan((t − 1) / (t + 1)).
   const Mask steep = t > set(0.414213562f);
   t = hn::IfThenElse(steep, (t - set(1.0f)) / (t + set(1.0f)), t);
+  // atan t = t + t³ P(t²).
   const V u = t * t;
   V p = fma(u, set(8.52049204e-2f), set(-1.40241428e-1f));
   p = fma(u, p, set(1.99912377e-1f));

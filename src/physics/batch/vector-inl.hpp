@@ -1,6 +1,5 @@
-// Arithmetic on one quantity of several robots at once, for each instruction set: included once per target
-// through Highway's foreach_target. Products are added by fused multiply-add wherever they are added, written
-// out, and nothing here is approximate beyond rounding: so every instruction set gives the same bits.
+// Vectors and matrices in three dimensions, one per lane, for each instruction set (core/simd-inl.hpp). A
+// product that is added is a fused multiply-add, written out: so every instruction set gives the same bits.
 #if defined(AMBLE_BATCH_VECTOR_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef AMBLE_BATCH_VECTOR_INL_HPP
 #undef AMBLE_BATCH_VECTOR_INL_HPP
@@ -8,66 +7,32 @@
 #define AMBLE_BATCH_VECTOR_INL_HPP
 #endif
 
-#include <hwy/highway.h>
-
-#include <cstddef>
-
-#include "amble/core/fused.hpp"
+#include "amble/core/simd-inl.hpp"
 #include "amble/physics/batch/model.hpp"
-#include "amble/physics/batch/rows.hpp"
+#include "amble/physics/batch/state_rows.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace amble::physics::batch::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Floats = hn::CappedTag<float, lanes>;
-using Ints = hn::RebindToSigned<Floats>;
-using V = hn::Vec<Floats>;
-using Mask = hn::Mask<Floats>;
-constexpr int width = static_cast<int>(hn::MaxLanes(Floats()));
+using simd::HWY_NAMESPACE::Floats;
+using simd::HWY_NAMESPACE::fma;
+using simd::HWY_NAMESPACE::fnma;
+using simd::HWY_NAMESPACE::Ints;
+using simd::HWY_NAMESPACE::load;
+using simd::HWY_NAMESPACE::Mask;
+using simd::HWY_NAMESPACE::set;
+using simd::HWY_NAMESPACE::store;
+using simd::HWY_NAMESPACE::V;
+using simd::HWY_NAMESPACE::width;
+using simd::HWY_NAMESPACE::zero;
+static_assert(lanes % 16 == 0, "a vector holds up to 16 lanes");
 
-HWY_INLINE V set(float x) {
-  return hn::Set(Floats(), x);
-}
-HWY_INLINE V zero() {
-  return hn::Zero(Floats());
-}
-HWY_INLINE Mask nowhere() {
+HWY_INLINE Mask no_lanes() {
   return hn::MaskFromVec(zero());
 }
-HWY_INLINE V load(const float* from) {
-  return hn::Load(Floats(), from);
-}
-HWY_INLINE void store(V v, float* to) {
-  hn::Store(v, Floats(), to);
-}
-
-#if HWY_NATIVE_FMA
-/// a b + c, rounded once.
-HWY_INLINE V fma(V a, V b, V c) {
-  return hn::MulAdd(a, b, c);
-}
-#else
-HWY_INLINE V fma(V a, V b, V c) {
-  HWY_ALIGN float as[width], bs[width], cs[width];
-  store(a, as);
-  store(b, bs);
-  store(c, cs);
-  for (int i = 0; i < width; ++i) cs[i] = fused(as[i], bs[i], cs[i]);
-  return load(cs);
-}
-#endif
-
-/// c − a b, rounded once.
-HWY_INLINE V fnma(V a, V b, V c) {
-#if HWY_NATIVE_FMA
-  return hn::NegMulAdd(a, b, c);
-#else
-  return fma(hn::Neg(a), b, c);
-#endif
-}
-/// a b − c d: the second product is rounded before.
+/// a b − c d, the second product rounded on its own.
 HWY_INLINE V difference_of_products(V a, V b, V c, V d) {
   return fnma(c, d, a * b);
 }

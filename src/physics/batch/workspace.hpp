@@ -3,67 +3,71 @@
 #include <memory>
 #include <vector>
 
+#include "amble/core/index.hpp"
 #include "amble/physics/batch/model.hpp"
-#include "amble/physics/batch/rows.hpp"
+#include "amble/physics/batch/state_rows.hpp"
 
 namespace amble::physics::batch {
 
-/// A block of up to three constraint rows, as vectors that follow each other: first each row's W = L⁻¹ Jᵀ
-/// (numbers of its chain, then the six of the base), then these. Rows are scaled so that a row's impulse
-/// changes its own speed by the solver's over-relaxation: what a row lacks is then the change it asks for.
-struct BlockShape {
-  int numbers;  ///< of one W
+/// Layout of a block of up to three constraint rows, counted in vectors: first each row's W = L⁻¹ Jᵀ / s (the
+/// entries of its chain, then the six of the base), then the fields below. A row is scaled by
+/// s = √((|L⁻¹ Jᵀ|² + cfm/h) / ω), so that its diagonal is the over-relaxation ω: a sweep then adds a row's
+/// residual to its scaled impulse as it is.
+struct BlockLayout {
+  int entries;  ///< of one W
 
-  int field(int index) const { return 3 * numbers + index; }
+  int field(int index) const { return 3 * entries + index; }
   int size() const { return field(36); }
 
-  static constexpr int softness = 0;  ///< speed given up per impulse
-  static constexpr int bias = 3;      ///< speed wanted
-  static constexpr int low = 6;       ///< bounds of the impulse; of a friction row with a coefficient, `high`
-  static constexpr int high = 9;      ///< is its bound per impulse of the normal row
+  // Each is the first of three, row by row, unless it says otherwise.
+  static constexpr int softness = 0;  ///< (cfm/h) / s²
+  static constexpr int target = 3;    ///< velocity that the row aims at, / s
+  static constexpr int low = 6;       ///< bounds of the impulse, × s; of a friction row with a finite
+  static constexpr int high = 9;      ///< coefficient, `high` is the bound per scaled normal impulse
   static constexpr int gram = 12;     ///< W1 · W0, W2 · W0, W2 · W1
-  static constexpr int impulse = 15;
-  static constexpr int root = 18;      ///< what scales an impulse
-  static constexpr int inverse = 21;   ///< and its inverse
-  static constexpr int position = 24;  ///< of a contact: from the centre of mass, along the world's axes
-  static constexpr int cross = 27;     ///< of a chain's first contact: W · W of its motors, motor by motor
+  static constexpr int impulse = 15;  ///< N s or N m s, × s
+  static constexpr int scale = 18;    ///< s
+  static constexpr int inverse_scale = 21;
+  static constexpr int arm = 24;  ///< of a contact: from the centre of mass, world axes, m
+  static constexpr int cross_gram =
+      27;  ///< of a chain's first contact: W · W of its motors, motor by motor: 9
 };
 
 /// The blocks of a chain: joints first, then contacts.
 struct ChainBlocks {
   int first = 0, joint_blocks = 0, count = 0;
 
-  /// Of a chain of three joints: its motors and its first contact are visited together.
+  /// Of a chain of three joints: its motors and its first contact are relaxed together.
   bool paired() const { return joint_blocks == 1 && count > 1; }
 };
 
-/// Memory for one pass over as many lanes as a vector holds; nothing in it outlives a step but `felt`.
+/// Scratch memory of one pass over as many lanes as a vector holds. Only geom_has_impulse outlives a step.
 class Workspace {
  public:
   explicit Workspace(const Model& model)
-      : shape{model.longest_chain + 6}, chain_blocks(model.chains.size() + 1) {
+      : block_layout{model.longest_chain + 6}, chain_blocks(model.chains.size() + 1) {
     const int links = static_cast<int>(model.links.size()), points = static_cast<int>(model.points.size());
     const auto take = [this](int vectors) {
       const int start = vectors_;
       vectors_ += vectors;
       return start;
     };
-    heights = take(points);
-    places = take(points);
-    inertia = take(9 * links);
-    columns = take(6 * links);
-    servos = take(4 * links);
-    free = take(links);
+    point_height = take(points);
+    point_slot = take(points);
+    link_inertia = take(9 * links);
+    base_column = take(6 * links);
+    joint_row = take(4 * links);
+    u_joints = take(links);
     for (const Chain& chain : model.chains)
       factors.push_back(take(chain.count * (chain.count + 1) / 2 + 7 * chain.count));
-    blocks = take((links + points) * shape.size());
-    storage_.resize(static_cast<std::size_t>((vectors_ + 1) * lanes));
+    blocks = take((links + points) * block_layout.size());
+    storage_.resize(to_index((vectors_ + 1) * lanes));
     void* start = storage_.data();
     std::size_t space = storage_.size() * sizeof(float);
     memory_ = static_cast<float*>(std::align(sizeof(Row), sizeof(float), start, space));
-    block_joint.resize(static_cast<std::size_t>(links + points));
-    near.resize(model.geoms.size());
-    felt.resize(lanes * model.geoms.size());
+    block_joint.resize(to_index(links + points));
+    geom_may_touch.resize(model.geoms.size());
+    geom_has_impulse.resize(lanes * model.geoms.size());
   }
 
   Workspace(const Workspace&) = delete;
@@ -72,20 +76,23 @@ class Workspace {
   /// Aligned as a Row is.
   float* memory() { return memory_; }
 
-  int heights;  ///< by point: of its lowest place over the ground
-  int places;  ///< by point that touches in some lane: which of its chain's contact blocks it has, −1: none
-  int inertia;  ///< by link: its own second (6) and first (3) moment of mass about the robot's centre
-  int columns;  ///< by link: column of the mass matrix for the base, turning and pushing: 6
-  int servos;   ///< by link: speed wanted, lowest and highest impulse, torque that is no row: 4
-  int free;     ///< by link: Lᵀ ν of the joints
-  std::vector<int> factors;  ///< by chain: its L, inverses of L's diagonal, L's six rows for the base (by
-                             ///< joint), B, then L_b⁻¹ B
-  int blocks;
-  BlockShape shape;
+  // Offsets into memory(), counted in vectors.
+  int point_height;  ///< by point: of its lowest place above the ground, m
+  int point_slot;    ///< by point: index among its chain's contact blocks, by lane; −1: does not touch
+  int link_inertia;  ///< by link: inertia (6) and first moment of mass (3) about the robot's centre of mass
+  int base_column;   ///< by link: its column of M_bq, angular and linear: 6
+  int joint_row;     ///< by link: target velocity, lowest and highest impulse, explicit torque: 4
+  int u_joints;      ///< by link: the joint's entry of u = Lᵀ ν; before, its bias force
+  std::vector<int> factors;  ///< by chain: L_c, inverses of its diagonal, B_c (six by joint), later L_b⁻¹ B_c
+  int blocks;                ///< of constraint rows, block by block
+  BlockLayout block_layout;
+
   std::vector<ChainBlocks> chain_blocks;  ///< of the torso, then of each chain
   std::vector<int> block_joint;           ///< by block of joints: its first joint
-  std::vector<unsigned char> near;  ///< by geom: may touch the ground in some lane; else it has no heights
-  std::vector<unsigned char> felt;  ///< by pass and geom: a point of it has an impulse of the step before
+  /// By geom: whether it may touch the ground in some lane; else its point_height is not computed.
+  std::vector<unsigned char> geom_may_touch;
+  /// By pass and geom: whether one of its points has an impulse of the last step.
+  std::vector<unsigned char> geom_has_impulse;
 
  private:
   int vectors_ = 0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "amble/core/index.hpp"
 #include "amble/morphology/mjcf_writer.hpp"
 
 namespace amble::physics::mujoco {
@@ -15,16 +16,15 @@ using robot::RobotSpec;
 using robot::ServoMode;
 using robot::Shape;
 
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
-
-/// Gives MuJoCo's constraints the law of ODE's. ODE solves for the velocity v' after the step
-///     v' = (erp / h) depth − cfm f,
-/// MuJoCo for the acceleration a with
-///     a = −b v + k depth − R f   and   v' = v + h a,
-/// where R = diagonal (1 − d) / d with an impedance d < 1 and a diagonal that the compiler has estimated for
-/// each body and joint. They agree for b = 1 / h, k = erp / h², R = cfm / h.
+/// Gives MuJoCo's constraints the law of ODE's. ODE solves for the velocity v⁺ after the step (manual, "Soft
+/// constraint and constraint force mixing")
+///     v⁺ = (erp/h) depth − cfm f,
+/// MuJoCo for the acceleration a (documentation, "Computation", "Constraint model": reference acceleration,
+/// impedance and regularizer)
+///     a = a_ref − R f,   a_ref = −b v + k depth,   v⁺ = v + h a,
+/// where R = A (1 − d) / d with an impedance d < 1, A being the diagonal of J M⁻¹ Jᵀ that the compiler has
+/// estimated for each body and joint (invweight0). They agree for
+///     b = 1/h,   k = erp/h²,   R = cfm/h,  hence  d = A / (A + R).
 class Softness {
  public:
   Softness(const robot::Contact& contact, double h)
@@ -33,7 +33,7 @@ class Softness {
   /// `reference` and `impedance`: MuJoCo's solref and solimp.
   void give(mjtNum* reference, mjtNum* impedance, double diagonal) const {
     const double d = std::clamp(diagonal / (diagonal + regularizer_), mjMINIMP, mjMAXIMP);
-    // Negative numbers are taken as −k d and −b d.
+    // Negative numbers in solref are (−stiffness, −damping), which MuJoCo divides by d.
     reference[0] = -stiffness_ * d;
     reference[1] = -damping_ * d;
     impedance[0] = impedance[1] = d;  // at any depth
@@ -43,8 +43,8 @@ class Softness {
   double damping_, stiffness_, regularizer_;
 };
 
-/// Contacts that a geom can have with the ground.
-int most_contacts(const Geom& geom) {
+/// The most contacts that a geom can have with the ground.
+int max_contacts(const Geom& geom) {
   switch (geom.shape) {
     case Shape::sphere:
       return 1;
@@ -57,12 +57,13 @@ int most_contacts(const Geom& geom) {
   return 0;
 }
 
-/// The compiler's own choice wastes memory, and with it time whenever a trial starts.
+/// Adds the sizes of the contact and constraint arrays: those that the compiler would choose cost time
+/// whenever a trial starts.
 std::string with_sizes(std::string text, const RobotSpec& robot) {
-  constexpr int between_legs = 64, most = 512;
+  constexpr int between_legs = 64, limit = 512;
   int contacts = robot.self_collision ? between_legs : 0;
-  for (const Geom& geom : robot.geoms) contacts += geom.collides ? most_contacts(geom) : 0;
-  contacts = std::clamp(contacts, 1, most);
+  for (const Geom& geom : robot.geoms) contacts += geom.collides ? max_contacts(geom) : 0;
+  contacts = std::clamp(contacts, 1, limit);
   const int rows = 2 * static_cast<int>(robot.joints.size()) + 3 * contacts;
   const auto end = text.find("</mujoco>");
   text.insert(end, fmt::format("  <size nconmax=\"{}\" njmax=\"{}\"/>\n", contacts, rows));
@@ -83,12 +84,13 @@ void set_options(mjOption& option, double timestep_s) {
 void set_joints(const RobotSpec& robot, const Softness& softness, Model& model) {
   const mjModel& m = *model.mujoco;
   for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j) {
-    const int dof = model.dof_of[at(j)], id = m.dof_jntid[dof];
-    const auto& servo = robot.joints[at(j)].servo;
+    const int dof = model.dof_of[to_index(j)], id = m.dof_jntid[dof];
+    const auto& servo = robot.joints[to_index(j)].servo;
     const double diagonal = m.dof_invweight0[dof];
     softness.give(m.jnt_solref + mjNREF * id, m.jnt_solimp + mjNIMP * id, diagonal);
     softness.give(m.dof_solref + mjNREF * dof, m.dof_solimp + mjNIMP * dof, diagonal);
-    // A joint with dry friction that drags it towards a speed is a motor.
+    // A motor is dry friction |τ| ≤ frictionloss, which by itself aims at speed 0; MujocoEngine::drive()
+    // moves that to the servo's speed.
     m.dof_frictionloss[dof] = servo.mode == ServoMode::velocity ? servo.max_torque_nm : 0.0;
   }
 }
@@ -97,7 +99,7 @@ void set_geoms(const Softness& softness, const mjModel& m) {
   for (int g = 1; g < m.ngeom; ++g) {
     const double diagonal = m.body_invweight0[2 * m.geom_bodyid[g]];
     softness.give(m.geom_solref + mjNREF * g, m.geom_solimp + mjNIMP * g, diagonal);
-    m.geom_priority[g] = 1;  // over the ground's
+    m.geom_priority[g] = 1;  // its parameters, not the ground's
   }
 }
 
@@ -111,17 +113,17 @@ Model make_model(const RobotSpec& robot, double timestep_s) {
               .joint_of = {},
               .leg_of = {}};
   mjModel& m = *model.mujoco;
-  model.joint_of.assign(at(m.nv), -1);
-  model.leg_of.assign(at(m.ngeom), -1);
+  model.joint_of.assign(to_index(m.nv), -1);
+  model.leg_of.assign(to_index(m.ngeom), -1);
   for (std::size_t place = 0; place < mjcf.joints.size(); ++place) {
     const int j = mjcf.joints[place];
-    model.position_of[at(j)] = m.jnt_qposadr[place + 1];
-    model.dof_of[at(j)] = m.jnt_dofadr[place + 1];
-    model.joint_of[at(model.dof_of[at(j)])] = j;
+    model.position_of[to_index(j)] = m.jnt_qposadr[place + 1];
+    model.dof_of[to_index(j)] = m.jnt_dofadr[place + 1];
+    model.joint_of[to_index(model.dof_of[to_index(j)])] = j;
   }
   for (std::size_t place = 0; place < mjcf.geoms.size(); ++place) {
     for (int l = 0; l < static_cast<int>(robot.legs.size()); ++l)
-      if (robot.legs[at(l)].foot_geom == mjcf.geoms[place]) model.leg_of[place + 1] = l;
+      if (robot.legs[to_index(l)].foot_geom == mjcf.geoms[place]) model.leg_of[place + 1] = l;
   }
   set_options(m.opt, timestep_s);
   const Softness softness(robot.contact, timestep_s);

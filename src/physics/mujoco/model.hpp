@@ -9,13 +9,13 @@
 
 namespace amble::physics::mujoco {
 
-/// A robot as MuJoCo simulates it, and where its parts are in MuJoCo's arrays.
+/// A robot as a MuJoCo model, and the indices of its parts in MuJoCo's arrays.
 struct Model {
   morphology::ModelPointer mujoco;
   std::vector<int> position_of;  ///< by joint: index into qpos
   std::vector<int> dof_of;       ///< by joint: index into qvel
   std::vector<int> joint_of;     ///< by degree of freedom: joint, −1: the root's
-  std::vector<int> leg_of;       ///< by MuJoCo's geom: whose foot it is, −1: none
+  std::vector<int> leg_of;       ///< by MuJoCo's geom: the leg whose foot it is, −1: none
 
   const mjModel* operator->() const { return mujoco.get(); }
   const mjModel* get() const { return mujoco.get(); }

@@ -11,6 +11,7 @@
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
+#include "amble/core/index.hpp"
 #include "amble/morphology/complaints.hpp"
 #include "amble/physics/mujoco/model.hpp"
 #include "amble/physics/mujoco/slip.hpp"
@@ -26,9 +27,6 @@ using robot::ServoMode;
 /// MuJoCo's ids: the ground is its first geom, the root the only child of its world body.
 constexpr int ground_geom = 0, root_body = 1;
 
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 Vec3 vec3(const mjtNum* v) {
   return {v[0], v[1], v[2]};
 }
@@ -72,9 +70,11 @@ class MujocoEngine final : public SingleRobotEngine {
   }
 
   void step(const LaneArray& targets_rad) override {
+    // mj_step in its parts (MuJoCo documentation, "Simulation pipeline"): M(q) and constraints, bias forces,
+    // M q̈ = τ − c + Jᵀ f, then semi-implicit Euler. Between them come the servos and the correction for slip.
     if (!can_step(targets_rad)) return;
     mj_fwdPosition(model_.get(), data_.get());
-    feel();
+    find_touch();
     mj_fwdVelocity(model_.get(), data_.get());
     drive(targets_rad);
     mj_fwdAcceleration(model_.get(), data_.get());
@@ -87,7 +87,7 @@ class MujocoEngine final : public SingleRobotEngine {
 
   void push(int lane, Vec3 impulse_n_s) override {
     check_pushable(lane);
-    // Acts on the body's centre of mass.
+    // xfrc_applied acts at the body's centre of mass: force = impulse / h, for one step.
     mjtNum* const force_n = data_->xfrc_applied + 6 * root_body;
     const mjtNum impulse[] = {impulse_n_s.x, impulse_n_s.y, impulse_n_s.z};
     mju_addToScl3(force_n, impulse, 1.0 / model_->opt.timestep);
@@ -118,76 +118,80 @@ class MujocoEngine final : public SingleRobotEngine {
 
   std::uint64_t state_hash(int lane) const override {
     check_lane(lane);
-    const std::uint64_t of_position = hash_bytes(data_->qpos, at(model_->nq) * sizeof(mjtNum));
-    return hash_bytes(data_->qvel, at(model_->nv) * sizeof(mjtNum), of_position);
+    const std::uint64_t of_position = hash_bytes(data_->qpos, to_index(model_->nq) * sizeof(mjtNum));
+    return hash_bytes(data_->qvel, to_index(model_->nv) * sizeof(mjtNum), of_position);
   }
 
  private:
   void reset(int lane) {
     check_lane(lane);
     mj_resetData(model_.get(), data_.get());
-    // MuJoCo reports the first warning of each kind into a log file in the current folder.
+    // MuJoCo would write the first warning of each kind to a log file in the current folder.
     for (mjWarningStat& warning : data_->warning) warning.number = 1;
   }
 
   void begin() {
     place_here();
     mj_fwdPosition(model_.get(), data_.get());
-    feel();
+    find_touch();
     read_state();
   }
 
   /// Reads which feet touch the ground.
-  void feel() {
+  void find_touch() {
     sensors_.touch.set_lane(0, 0.0f);
-    for (const mjContact& contact : std::span(data_->contact, at(data_->ncon))) {
+    for (const mjContact& contact : std::span(data_->contact, to_index(data_->ncon))) {
       if (contact.geom1 != ground_geom) continue;
-      const int leg = model_.leg_of[at(contact.geom2)];
+      const int leg = model_.leg_of[to_index(contact.geom2)];
       if (leg >= 0) sensors_.touch.at(leg, 0) = 1.0f;
     }
   }
 
-  /// Makes the servos pull towards the targets.
+  /// Applies the servos: a torque servo as a generalised force, a velocity servo as a motor.
   void drive(const LaneArray& targets_rad) {
     for (int j = 0; j < targets_rad.rows(); ++j) {
-      const robot::Joint& joint = robot_.joints[at(j)];
+      const robot::Joint& joint = robot_.joints[to_index(j)];
       if (joint.servo.mode == ServoMode::torque)
-        data_->qfrc_applied[model_.dof_of[at(j)]] = torque_nm(j, error_rad(j, targets_rad));
+        data_->qfrc_applied[model_.dof_of[to_index(j)]] = torque_nm(j, error_rad(j, targets_rad));
     }
-    // MuJoCo's friction in a joint brakes to speed 0: −b v. A motor brakes to its own speed.
+    // MuJoCo's dry friction in a joint has a_ref = −b q̇ (efc_KBIP: stiffness, damping b, impedance and its
+    // derivative, by row). A motor has a_ref = −b (q̇ − speed) with speed = gain (target − q).
     for (int row = data_->ne; row < data_->ne + data_->nf; ++row) {
-      const int j = model_.joint_of[at(data_->efc_id[row])];
-      const double speed_rad_s = robot_.joints[at(j)].servo.gain_per_s * error_rad(j, targets_rad);
+      const int j = model_.joint_of[to_index(data_->efc_id[row])];
+      const double speed_rad_s = robot_.joints[to_index(j)].servo.gain_per_s * error_rad(j, targets_rad);
       data_->efc_aref[row] += data_->efc_KBIP[4 * row + 1] * speed_rad_s;
     }
   }
 
-  /// What drive() came to, once the constraints are solved.
+  /// The servos' torques, once the constraints are solved: explicit ones, and the forces of the friction
+  /// rows.
   void measure_torques() {
     for (int j = 0; j < torques_nm_.rows(); ++j)
-      torques_nm_.at(j, 0) = static_cast<float>(data_->qfrc_applied[model_.dof_of[at(j)]]);
+      torques_nm_.at(j, 0) = static_cast<float>(data_->qfrc_applied[model_.dof_of[to_index(j)]]);
     for (int row = data_->ne; row < data_->ne + data_->nf; ++row)
-      torques_nm_.at(model_.joint_of[at(data_->efc_id[row])], 0) = static_cast<float>(data_->efc_force[row]);
+      torques_nm_.at(model_.joint_of[to_index(data_->efc_id[row])], 0) =
+          static_cast<float>(data_->efc_force[row]);
   }
 
   double error_rad(int j, const LaneArray& targets_rad) const {
-    const robot::Joint& joint = robot_.joints[at(j)];
+    const robot::Joint& joint = robot_.joints[to_index(j)];
     const double target_rad =
         std::clamp(static_cast<double>(targets_rad.at(j, 0)), joint.lower_rad, joint.upper_rad);
-    return target_rad - data_->qpos[model_.position_of[at(j)]];
+    return target_rad - data_->qpos[model_.position_of[to_index(j)]];
   }
 
   double torque_nm(int j, double error_rad) const {
-    const Servo& servo = robot_.joints[at(j)].servo;
+    const Servo& servo = robot_.joints[to_index(j)].servo;
     const double torque =
-        servo.kp_nm_per_rad * error_rad - servo.kd_nm_s_per_rad * data_->qvel[model_.dof_of[at(j)]];
+        servo.kp_nm_per_rad * error_rad - servo.kd_nm_s_per_rad * data_->qvel[model_.dof_of[to_index(j)]];
     return std::clamp(torque, -servo.max_torque_nm, servo.max_torque_nm);
   }
 
+  /// Finite, and not absurdly fast (Engine::healthy).
   bool sane() const {
     double sum = 0.0;  // finite only if every number is
-    for (const double x : std::span(data_->qpos, at(model_->nq))) sum += x;
-    for (const double v : std::span(data_->qvel, at(model_->nv))) sum += v;
+    for (const double x : std::span(data_->qpos, to_index(model_->nq))) sum += x;
+    for (const double v : std::span(data_->qvel, to_index(model_->nv))) sum += v;
     if (!std::isfinite(sum)) return false;
     bool slow = norm(vec3(data_->qvel)) <= absurd_speed && norm(vec3(data_->qvel + 3)) <= absurd_speed;
     for (const int dof : model_.dof_of) slow = slow && std::abs(data_->qvel[dof]) <= absurd_speed;
@@ -200,7 +204,7 @@ class MujocoEngine final : public SingleRobotEngine {
     mj_kinematics(model_.get(), data_.get());
     mj_comPos(model_.get(), data_.get());
     for (int j = 0; j < sensors_.joint_angle_rad.rows(); ++j)
-      sensors_.joint_angle_rad.at(j, 0) = static_cast<float>(data_->qpos[model_.position_of[at(j)]]);
+      sensors_.joint_angle_rad.at(j, 0) = static_cast<float>(data_->qpos[model_.position_of[to_index(j)]]);
     sense_attitude(root_pose(0).rotation);
   }
 

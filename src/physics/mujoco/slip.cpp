@@ -2,12 +2,14 @@
 
 #include <cmath>
 
+#include "amble/core/index.hpp"
+
 namespace amble::physics::mujoco {
 namespace {
 
-constexpr int most_corrections = 5;
-/// A slip speed that changes by less is settled, m/s.
-constexpr double settled_m_s = 1e-6;
+constexpr int max_corrections = 5;
+/// Convergence: the largest change of a normal velocity, m/s.
+constexpr double tolerance_m_s = 1e-6;
 
 }  // namespace
 
@@ -16,25 +18,24 @@ Slip::Slip(double friction, double timestep_s) : friction_(friction), timestep_s
 void Slip::solve(const mjModel* model, mjData* data) {
   mj_fwdConstraint(model, data);
   if (friction_ == 0.0 || std::isinf(friction_)) return;
-  lowered_.assign(static_cast<std::size_t>(data->ncon), 0.0);
-  for (int i = 0; i < most_corrections && correct(model, data); ++i) mj_fwdConstraint(model, data);
+  lowered_.assign(to_index(data->ncon), 0.0);
+  for (int i = 0; i < max_corrections && correct(model, data); ++i) mj_fwdConstraint(model, data);
 }
 
-/// Adapts what the solver aims at to its last solution; says whether that made a difference.
+/// One step of the fixed-point iteration, a_ref,n ← a_ref,n⁰ − μ |J_t a − a_ref,t| in units of acceleration;
+/// false once it has converged.
 bool Slip::correct(const mjModel* model, mjData* data) {
-  accelerations_.resize(static_cast<std::size_t>(data->nefc));
+  accelerations_.resize(to_index(data->nefc));
   mj_mulJacVec(model, data, accelerations_.data(), data->qacc);
   bool changed = false;
   for (std::size_t c = 0; c < lowered_.size(); ++c) {
     const int row = data->contact[c].efc_address;
     if (row < 0) continue;
-    const auto missed = [&](int r) {
-      return accelerations_[static_cast<std::size_t>(r)] - data->efc_aref[r];
-    };
-    // Tangential rows aim at standing still after this step.
-    const double slip = std::hypot(missed(row + 1), missed(row + 2));
+    const auto residual = [&](int r) { return accelerations_[to_index(r)] - data->efc_aref[r]; };
+    // Tangential rows aim at speed 0 after this step, so what they miss is slip / h.
+    const double slip = std::hypot(residual(row + 1), residual(row + 2));
     const double lowered = friction_ * slip;
-    changed = changed || std::abs(lowered - lowered_[c]) * timestep_s_ > settled_m_s;
+    changed = changed || std::abs(lowered - lowered_[c]) * timestep_s_ > tolerance_m_s;
     data->efc_aref[row] += lowered_[c] - lowered;
     lowered_[c] = lowered;
   }

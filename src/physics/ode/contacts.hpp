@@ -20,8 +20,8 @@ class Contacts {
   Contacts& operator=(const Contacts&) = delete;
 
   /// Which feet touch the ground: legs × 1 of 0 or 1.
-  void feel(LaneArray& touch);
-  /// Replaces the contacts of the step before by those of the present pose. Fills `touch` as feel() does.
+  void find_touch(LaneArray& touch);
+  /// Replaces the contacts of the last step by those of the present pose. Fills `touch` as find_touch() does.
   void collide(LaneArray& touch);
 
  private:
@@ -29,14 +29,14 @@ class Contacts {
     dGeomID geom = nullptr;
     dBodyID body = nullptr;
     double radius_m = 0.0;  ///< of the bounding sphere about the geom's centre
-    int leg = -1;           ///< whose foot it is, −1: none
+    int leg = -1;           ///< the leg whose foot it is, −1: none
   };
   struct Pair {
     int a = 0, b = 0;  ///< indices into colliders_
   };
 
-  int meet_ground(const Collider& collider);
-  void meet(const Pair& pair);
+  int collide_with_ground(const Collider& collider);
+  void collide_pair(const Pair& pair);
   void add_contacts(int count, dBodyID a, dBodyID b);
 
   const World& world_;

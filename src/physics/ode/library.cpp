@@ -22,7 +22,7 @@ void initialise_process() {
   dSetDebugHandler(throw_fault);
 }
 
-/// Keeps an implementation that can no longer be freed.
+/// Keeps an implementation that cannot be freed any more until the process ends.
 void abandon(dThreadingImplementationID implementation) {
   static std::mutex mutex;
   static auto* const abandoned = new std::vector<dThreadingImplementationID>;  // outlives every engine
@@ -45,7 +45,7 @@ Threading::~Threading() {
   dThreadingFreeImplementation(implementation_);
 }
 
-void Threading::serve(dWorldID world) const {
+void Threading::attach_to(dWorldID world) const {
   dWorldSetStepThreadingImplementation(world, dThreadingImplementationGetFunctions(implementation_),
                                        implementation_);
 }

@@ -6,7 +6,7 @@
 
 namespace amble::physics::ode {
 
-/// ODE found its numbers beyond repair. Its own answer would be to end the process.
+/// An internal error of ODE, such as a NaN, on which ODE itself would end the process.
 class Fault : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -16,8 +16,8 @@ class Fault : public std::runtime_error {
 /// silent and throw Fault instead of aborting, and the thread's data once per thread.
 void prepare_thread();
 
-/// Runs the steps of one world in the thread that asks for them. ODE's default shares one implementation
-/// among all worlds of the process, which fails an assertion as soon as two threads step.
+/// Runs the steps of one world in the calling thread. ODE's default shares one implementation among all
+/// worlds of the process, which fails an assertion as soon as two threads step.
 class Threading {
  public:
   Threading();
@@ -25,7 +25,7 @@ class Threading {
   Threading(const Threading&) = delete;
   Threading& operator=(const Threading&) = delete;
 
-  void serve(dWorldID world) const;
+  void attach_to(dWorldID world) const;
   /// After a Fault out of a step. The unfinished jobs cannot be freed (ODE would abort), so this
   /// implementation is kept until the process ends, and a new one takes its place. ODE also loses the step's
   /// working memory, some 90 KB per Fault.

@@ -11,7 +11,9 @@
 
 namespace amble::physics::ode {
 
-/// The servos of a robot's joints.
+/// The servos of a robot's joints. A velocity servo is ODE's joint motor (manual, "Stops and motor
+/// parameters"): a constraint q̇⁺ + cfm τ = gain (target − q) with |τ| ≤ max_torque. A torque servo is an
+/// explicit torque τ = kp (target − q) − kd q̇, clamped to ± max_torque.
 class Motors {
  public:
   /// One ODE joint with the motors it carries.
@@ -23,14 +25,15 @@ class Motors {
 
   Motors(const robot::RobotSpec& robot, const World& world);
 
-  /// Reads all angles into `angles_rad` (joints × 1).
+  /// Writes all angles to `angles_rad` (joints × 1).
   void read(LaneArray& angles_rad);
   /// Sets speeds and torques for the next step. Uses the angles of the last read().
   void drive(const LaneArray& targets_rad);
 
   const std::vector<Drive>& drives() const { return drives_; }
-  /// A motor's torque in the next step, N m, as far as it does not depend on the step's solution: that of a
-  /// torque servo, and that of a velocity servo at a stop, where ODE's motor gives all it has.
+  /// A motor's torque in the next step, N m, where it does not depend on the step's solution: that of a
+  /// torque servo, and that of a velocity servo at a stop, where ODE applies max_torque in the direction of
+  /// the wanted speed (dxJointLimitMotor::addLimot).
   std::optional<double> torque_beforehand(const Drive& drive, int joint, const LaneArray& targets_rad) const;
 
  private:

@@ -29,7 +29,7 @@ struct BodyState {
   std::array<double, 3> position_m;
   std::array<double, 4> rotation;
   std::array<double, 3> velocity_m_s;
-  std::array<double, 3> spin_rad_s;
+  std::array<double, 3> angular_velocity_rad_s;
 };
 static_assert(sizeof(BodyState) == 13 * sizeof(double), "hashed as plain doubles");
 
@@ -40,16 +40,17 @@ Quat quat(const std::array<double, 4>& q) {
   return {q[0], q[1], q[2], q[3]};
 }
 
+/// Finite, and not absurdly fast (Engine::healthy).
 bool sane(const BodyState& body) {
   double sum = 0.0;  // finite only if every number is
   for (const double x : body.position_m) sum += x;
   for (const double x : body.rotation) sum += x;
   const double speed = norm(vec3(body.velocity_m_s));
-  const double spin = norm(vec3(body.spin_rad_s));
-  return std::isfinite(sum) && speed <= absurd_speed && spin <= absurd_speed;
+  const double angular_speed = norm(vec3(body.angular_velocity_rad_s));
+  return std::isfinite(sum) && speed <= absurd_speed && angular_speed <= absurd_speed;
 }
 
-/// Everything that belongs to one trial.
+/// All ODE objects of one trial.
 struct Trial {
   ode::World world;
   ode::Motors motors;
@@ -92,6 +93,8 @@ class OdeEngine final : public SingleRobotEngine {
       trial_->contacts.collide(sensors_.touch);
       trial_->motors.drive(targets_rad);
       if (with_torques_) trial_->torques->before_step(targets_rad);
+      // (J M⁻¹ Jᵀ + cfm/h) λ = c/h − J (v/h + M⁻¹ f) with bounds of λ, by Dantzig's pivoting; then v⁺ from
+      // λ, and positions with v⁺ (ODE manual, "Constraint Force Mixing (CFM)" and "World Stepping").
       if (dWorldStep(trial_->world.id(), timestep_s_) == 0) throw ode::Fault("out of memory");
     } catch (const ode::Fault&) {
       healthy_ = false;
@@ -151,7 +154,7 @@ class OdeEngine final : public SingleRobotEngine {
 
   void begin() {
     place_here();
-    trial_->contacts.feel(sensors_.touch);
+    trial_->contacts.find_touch(sensors_.touch);
     read_state();
   }
 
@@ -161,7 +164,7 @@ class OdeEngine final : public SingleRobotEngine {
       std::copy_n(dBodyGetPosition(body), 3, bodies_[b].position_m.begin());
       std::copy_n(dBodyGetQuaternion(body), 4, bodies_[b].rotation.begin());
       std::copy_n(dBodyGetLinearVel(body), 3, bodies_[b].velocity_m_s.begin());
-      std::copy_n(dBodyGetAngularVel(body), 3, bodies_[b].spin_rad_s.begin());
+      std::copy_n(dBodyGetAngularVel(body), 3, bodies_[b].angular_velocity_rad_s.begin());
       healthy_ = healthy_ && sane(bodies_[b]);
     }
     if (!healthy_) return;

@@ -12,29 +12,29 @@
 
 namespace amble::physics::ode {
 
-/// Finds what the motors gave in a step, from the forces that ODE reports for each joint (manual, "Joint
-/// feedback") and the torques that are known beforehand. To ask for them changes no bit of the motion.
+/// The motors' torques in a step, from the forces that ODE reports for each joint (manual, "Joint feedback")
+/// and the torques that are known beforehand. Measuring changes no bit of the motion.
 class TorqueMeter {
  public:
   TorqueMeter(const robot::RobotSpec& robot, const Motors& motors);
   TorqueMeter(const TorqueMeter&) = delete;
   TorqueMeter& operator=(const TorqueMeter&) = delete;
 
-  /// Between Motors::drive() and the step: notes how the joints stand, which is how the solver sees them.
+  /// Between Motors::drive() and the step: notes the frames of the joints, which are those of the solver.
   void before_step(const LaneArray& targets_rad);
   /// After the step: torques in N m, joints × 1.
   void after_step(LaneArray& torques_nm) const;
 
  private:
   /// A joint at the beginning of a step, in the world.
-  struct Stand {
+  struct JointFrame {
     Vec3 anchor_m;  ///< from the centre of mass of the joint's first body
     Vec3 axis1, axis2;
   };
 
   const Motors& motors_;
   std::vector<dJointFeedback> feedback_;         ///< by drive
-  std::vector<Stand> stands_;                    ///< by drive
+  std::vector<JointFrame> frames_;               ///< by drive
   std::vector<std::optional<double>> known_nm_;  ///< by joint
 };
 

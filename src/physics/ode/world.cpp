@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::physics::ode {
@@ -19,11 +20,7 @@ using robot::Shape;
 
 constexpr double tolerance = 1e-6;
 
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
-
-/// Puts the frame of a body somewhere in the world.
+/// Moves a body so that its frame has this pose in the world; ODE's own frame is at the centre of mass.
 void set_pose(dBodyID id, const Body& body, const Pose& pose) {
   const Vec3 com = pose * body.com_m;
   const Quat q = pose.rotation;
@@ -32,7 +29,7 @@ void set_pose(dBodyID id, const Body& body, const Pose& pose) {
   dBodySetQuaternion(id, rotation);
 }
 
-/// The inertia tensor in the axes of the body's frame, from its principal moments.
+/// The inertia tensor in the axes of the body's frame, R diag(moments) Rᵀ (kg m²).
 dMass mass_of(const Body& body) {
   const std::array<Vec3, 3> axes{rotate(body.inertia_rotation, {1, 0, 0}),
                                  rotate(body.inertia_rotation, {0, 1, 0}),
@@ -77,7 +74,7 @@ dJointID new_hinge(dWorldID world, dBodyID parent, dBodyID child, Vec3 anchor, V
 }
 
 /// The first axis is fixed to the first attached body, the parent, and the second to the child. ODE measures
-/// both angles of the first body against the second, so the axes are turned round to measure the child
+/// both angles of the first body against the second, so the axes are reversed to measure the child
 /// against the parent.
 dJointID new_universal(dWorldID world, dBodyID parent, dBodyID child, Vec3 anchor, Vec3 axis1, Vec3 axis2,
                        const Joint& joint1, const Joint& joint2) {
@@ -96,7 +93,7 @@ dJointID new_universal(dWorldID world, dBodyID parent, dBodyID child, Vec3 ancho
 }  // namespace
 
 World::World(const RobotSpec& robot, const Threading& threading) : world_(dWorldCreate()) {
-  threading.serve(world_);
+  threading.attach_to(world_);
   dWorldSetGravity(world_, robot.gravity_m_s2.x, robot.gravity_m_s2.y, robot.gravity_m_s2.z);
   dWorldSetAutoDisableFlag(world_, 0);
   // Joints copy these when they are made, so they come first.
@@ -116,7 +113,7 @@ World::~World() {
 }
 
 void World::move_to(const RobotSpec& robot, const std::vector<Pose>& poses) {
-  // Joints measure their angles from the pose in which they were made, so that these come out right.
+  // Joints measure angles from the pose in which they were made, the start pose, so theirs are now right.
   for (std::size_t b = 0; b < bodies_.size(); ++b) set_pose(bodies_[b], robot.bodies[b], poses[b]);
 }
 
@@ -136,17 +133,17 @@ void World::add_joints(const RobotSpec& robot) {
   joints_.assign(robot.bodies.size(), nullptr);
   for (int b = 1; b < static_cast<int>(robot.bodies.size()); ++b) {
     const std::vector<int> chain = robot.joints_of_body(b);
-    const dBodyID parent = bodies_[at(robot.bodies[at(b)].parent)];
-    const Pose& pose = poses[at(b)];
-    const Joint& first = robot.joints[at(chain[0])];
+    const dBodyID parent = bodies_[to_index(robot.bodies[to_index(b)].parent)];
+    const Pose& pose = poses[to_index(b)];
+    const Joint& first = robot.joints[to_index(chain[0])];
     const Vec3 anchor = pose * first.anchor_m;
     const Vec3 axis = rotate(pose.rotation, first.axis);
     if (chain.size() == 1) {
-      joints_[at(b)] = new_hinge(world_, parent, bodies_[at(b)], anchor, axis, first);
+      joints_[to_index(b)] = new_hinge(world_, parent, bodies_[to_index(b)], anchor, axis, first);
     } else {
-      const Joint& second = robot.joints[at(chain[1])];
-      joints_[at(b)] = new_universal(world_, parent, bodies_[at(b)], anchor, axis,
-                                     rotate(pose.rotation, second.axis), first, second);
+      const Joint& second = robot.joints[to_index(chain[1])];
+      joints_[to_index(b)] = new_universal(world_, parent, bodies_[to_index(b)], anchor, axis,
+                                           rotate(pose.rotation, second.axis), first, second);
     }
   }
 }
@@ -159,9 +156,9 @@ void World::add_geoms(const RobotSpec& robot) {
       continue;
     }
     const dGeomID id = new_geom(geom);
-    const Vec3 offset = geom.position_m - robot.bodies[at(geom.body)].com_m;
+    const Vec3 offset = geom.position_m - robot.bodies[to_index(geom.body)].com_m;
     const dQuaternion rotation{geom.rotation.w, geom.rotation.x, geom.rotation.y, geom.rotation.z};
-    dGeomSetBody(id, bodies_[at(geom.body)]);
+    dGeomSetBody(id, bodies_[to_index(geom.body)]);
     dGeomSetOffsetPosition(id, offset.x, offset.y, offset.z);
     dGeomSetOffsetQuaternion(id, rotation);
     geoms_.push_back(id);
@@ -170,15 +167,15 @@ void World::add_geoms(const RobotSpec& robot) {
 
 void check_joints(const RobotSpec& robot) {
   for (int b = 1; b < static_cast<int>(robot.bodies.size()); ++b) {
-    const std::string& body = robot.bodies[at(b)].name;
+    const std::string& body = robot.bodies[to_index(b)].name;
     const std::vector<int> chain = robot.joints_of_body(b);
     if (chain.size() > 2) {
       fail(ExitCode::bad_input, "the ode engine cannot put {} joints on body '{}': one or two are possible",
            chain.size(), body);
     }
     if (chain.size() < 2) continue;
-    const Joint& first = robot.joints[at(chain[0])];
-    const Joint& second = robot.joints[at(chain[1])];
+    const Joint& first = robot.joints[to_index(chain[0])];
+    const Joint& second = robot.joints[to_index(chain[1])];
     if (norm(first.anchor_m - second.anchor_m) > tolerance ||
         std::abs(dot(first.axis, second.axis)) > tolerance) {
       fail(ExitCode::bad_input,

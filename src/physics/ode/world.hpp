@@ -11,9 +11,9 @@
 
 namespace amble::physics::ode {
 
-/// One robot in its start pose in an ODE world of its own. An ODE body stands at the centre of mass of a
-/// Body, with the axes of the Body's frame. Built anew for every trial, so that nothing of an earlier trial
-/// can linger.
+/// One robot in its start pose in an ODE world of its own. The origin of an ODE body is the centre
+/// of mass of a Body, its axes are those of the Body's frame. Built anew for every trial, so that no state of
+/// an earlier trial remains.
 class World {
  public:
   World(const robot::RobotSpec& robot, const Threading& threading);
@@ -21,7 +21,7 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  /// Moves the robot, at rest, so that the frames of its bodies stand at `poses` in the world.
+  /// Moves the robot, at rest, to `poses` of its bodies' frames in the world.
   void move_to(const robot::RobotSpec& robot, const std::vector<robot::Pose>& poses);
 
   dWorldID id() const { return world_; }
