@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "amble/core/check.hpp"
-#include "amble/core/statistics.hpp"
+#include "amble/statistics/descriptive.hpp"
 
 namespace amble::experiment {
 
@@ -35,7 +35,7 @@ void summarise_trials(std::span<const double> distances_m, std::span<const recor
                       GenerationRow& row) {
   AMBLE_CHECK(!distances_m.empty(), "a generation has members");
   row.best_m = std::ranges::max(distances_m);
-  row.median_m = median({distances_m.begin(), distances_m.end()});
+  row.median_m = statistics::median(distances_m);
   double sum = 0.0;
   for (const double distance_m : distances_m) sum += distance_m;
   row.mean_m = sum / static_cast<double>(distances_m.size());
