@@ -28,7 +28,7 @@ struct GaitOptions {
   gait::Settings settings;
 };
 
-/// Lets a champion walk. Nothing if it was stopped.
+/// Runs a champion and measures its gait. None if interrupted.
 std::optional<gait::Report> champion_gait(const fs::path& path, const GaitOptions& options) {
   const auto champion = experiment::load_champion(path);
   study::GaitObserver observer(champion.problem.robot, champion.problem.trial.timestep_s, options.settings);

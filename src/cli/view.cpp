@@ -39,7 +39,7 @@ io::Json gait_of(const gait::Report& report) {
   return io::parse_json(gait::report_json(report), "gait");
 }
 
-/// Lets a champion walk again. Nothing if it was stopped by a signal.
+/// Runs a champion again. None if interrupted.
 std::optional<view::Walker> walk(const fs::path& path, const ViewOptions& options,
                                  const ScratchFile& recording) {
   const auto champion = experiment::load_champion(path);

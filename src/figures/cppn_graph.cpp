@@ -58,7 +58,7 @@ void spread_evenly(const std::vector<std::size_t>& nodes, std::vector<double>& p
     place[nodes[i]] = (static_cast<double>(i) + 0.5) / static_cast<double>(nodes.size());
 }
 
-/// Sorts a layer by the mean place of the neighbours on one side.
+/// Sorts a layer by the barycentres of the neighbours on one side.
 void sort_layer(const CppnGraph& graph, CppnPlaces& places, std::vector<std::size_t>& nodes,
                 bool by_sources) {
   std::vector<double> sum(graph.nodes.size()), count(graph.nodes.size());

@@ -18,7 +18,7 @@ using namespace graphics;
 constexpr double left_px = 44.0;
 constexpr double top_px = 34.0;
 constexpr double bottom_px = 26.0;
-/// Beyond the end of the cycle, where triggers stand that found the timer stopped.
+/// Width of the last bin, beyond the end of the cycle: triggers while the timer was stopped.
 constexpr double idle_px = 12.0;
 
 double degrees(double angle_rad) {
@@ -119,7 +119,7 @@ void draw_row(Svg& svg, const robot::RobotSpec& robot, const motion::SupgPattern
   }
 }
 
-/// How many triggers came at which place of the timer; the last element counts those that found it stopped.
+/// Number of triggers by the timer's value; the last element counts those while it was stopped.
 std::vector<int> trigger_histogram(const motion::SupgPatterns& supg, const motion::Motion& motion,
                                    std::size_t leg, int bins) {
   std::vector<int> counts(static_cast<std::size_t>(bins) + 1);

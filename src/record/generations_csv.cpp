@@ -68,7 +68,7 @@ double parse_cell(std::string_view cell, std::string_view column, const std::str
   return value;
 }
 
-/// Where a column stands in the header row; the header's size if it does not.
+/// The index of a column in the header row; the header's size if it is missing.
 std::size_t find_column(const std::vector<std::string_view>& header, std::string_view column) {
   return static_cast<std::size_t>(std::ranges::find(header, column) - header.begin());
 }

@@ -9,7 +9,7 @@
 
 namespace amble::study {
 
-/// Shows every step of a trial to a gait meter.
+/// Measures the gait of a trial while it runs.
 class GaitObserver : public trial::Observer {
  public:
   GaitObserver(const robot::RobotSpec& robot, double timestep_s, const gait::Settings& settings);

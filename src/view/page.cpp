@@ -35,7 +35,7 @@ io::Json walker_json(const Walker& walker) {
           {"gait", walker.gait}};
 }
 
-/// JSON that may stand inside an element of HTML: pure ASCII and without "<", which occurs in texts only.
+/// JSON for the content of a <script> element: pure ASCII and without "<", which occurs in strings only.
 std::string script_text(const io::Json& json) {
   std::string text;
   for (const char c : json.dump(-1, ' ', true, io::Json::error_handler_t::replace)) {
@@ -47,7 +47,7 @@ std::string script_text(const io::Json& json) {
   return text;
 }
 
-/// Appends the template up to a mark and what takes the mark's place; returns the rest.
+/// Appends the template up to a mark, then `content` instead of the mark; returns the rest.
 std::string_view fill(std::string_view rest, std::string_view mark, std::string_view content,
                       std::string& page) {
   const auto at = rest.find(mark);
