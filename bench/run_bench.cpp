@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
-#include "amble/core/statistics.hpp"
 #include "amble/experiment/run.hpp"
+#include "amble/statistics/descriptive.hpp"
 #include "bench/benches.hpp"
 #include "bench/workload.hpp"
 
@@ -81,12 +81,14 @@ void measure_runs(std::vector<Figure>& figures) {
     twos_per_s.push_back(two.evaluations / two.wall_s);
     ratios.push_back(twos_per_s.back() / ones_per_s.back());
   }
-  const double one_per_s = median(ones_per_s);
-  figures.push_back({"two_workers_vs_one", median(ratios), "1", "evaluations per second, whole run"});
+  const double one_per_s = statistics::median(ones_per_s);
+  figures.push_back(
+      {"two_workers_vs_one", statistics::median(ratios), "1", "evaluations per second, whole run"});
   figures.push_back(
       {"outside_physics_share", two.outside_s / two.wall_s, "1", "of wall time, 300 genomes, two workers"});
   figures.push_back({"evaluations_per_s_ode", one_per_s, "1/s", "end to end, one worker"});
-  figures.push_back({"evaluations_per_s_ode_two_workers", median(twos_per_s), "1/s", "end to end"});
+  figures.push_back(
+      {"evaluations_per_s_ode_two_workers", statistics::median(twos_per_s), "1/s", "end to end"});
   figures.push_back({"steps_per_s_ode_two_workers", two.steps / two.wall_s, "1/s", "end to end"});
   measure_batch_runs(one_per_s, figures);
   figures.push_back(

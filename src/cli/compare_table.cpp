@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "amble/core/statistics.hpp"
 #include "amble/io/json_file.hpp"
+#include "amble/statistics/descriptive.hpp"
 
 namespace amble::cli {
 namespace {
@@ -71,7 +71,7 @@ Cells summary_cells(const std::vector<ComparedChampion>& rows, double trial_s) {
       ++away;
       kept += share_kept(distances_m.back(), home_m(row)).value_or(0.0) >= enough;
     }
-    cells.push_back(distance_text(median(distances_m)) +
+    cells.push_back(distance_text(statistics::median(distances_m)) +
                     (away > 0 ? fmt::format("; {} of {}", kept, away) : ""));
   }
   return cells;

@@ -8,8 +8,8 @@ namespace amble::cli {
 namespace {
 
 /// By neat::NodeKind.
-constexpr std::array<analysis::CppnRole, 4> roles{analysis::CppnRole::bias, analysis::CppnRole::input,
-                                                  analysis::CppnRole::output, analysis::CppnRole::hidden};
+constexpr std::array<figures::CppnRole, 4> roles{figures::CppnRole::bias, figures::CppnRole::input,
+                                                 figures::CppnRole::output, figures::CppnRole::hidden};
 
 /// What a node computes: "linear" may mean |x|.
 std::string_view function_name(neat::Activation activation, const cppn::Settings& settings) {
@@ -19,17 +19,17 @@ std::string_view function_name(neat::Activation activation, const cppn::Settings
 
 }  // namespace
 
-analysis::CppnGraph cppn_graph(const experiment::Champion& champion) {
+figures::CppnGraph cppn_graph(const experiment::Champion& champion) {
   const neat::Genome& genome = champion.genome;
   const controllers::Architecture& architecture = *champion.problem.architecture;
-  analysis::CppnGraph graph;
+  figures::CppnGraph graph;
   std::size_t inputs = 0, outputs = 0;
   for (const neat::NodeGene& node : genome.nodes) {
-    const analysis::CppnRole role = roles[static_cast<std::size_t>(node.kind)];
+    const figures::CppnRole role = roles[static_cast<std::size_t>(node.kind)];
     std::string name;
-    if (role == analysis::CppnRole::bias) name = "bias";
-    if (role == analysis::CppnRole::input) name = architecture.cppn_inputs()[inputs++];
-    if (role == analysis::CppnRole::output) name = architecture.cppn_outputs()[outputs++];
+    if (role == figures::CppnRole::bias) name = "bias";
+    if (role == figures::CppnRole::input) name = architecture.cppn_inputs()[inputs++];
+    if (role == figures::CppnRole::output) name = architecture.cppn_outputs()[outputs++];
     graph.nodes.push_back(
         {node.id, role, std::string(function_name(node.activation, champion.problem.cppn)), std::move(name)});
   }

@@ -5,12 +5,12 @@
 #include <optional>
 #include <string>
 
-#include "amble/analysis/cppn_dot.hpp"
-#include "amble/analysis/cppn_figure.hpp"
-#include "amble/analysis/pattern_figure.hpp"
 #include "amble/cli/commands.hpp"
 #include "amble/cli/cppn_graph.hpp"
 #include "amble/experiment/run_folder.hpp"
+#include "amble/figures/cppn_dot.hpp"
+#include "amble/figures/cppn_figure.hpp"
+#include "amble/figures/pattern_figure.hpp"
 #include "amble/io/file.hpp"
 
 namespace amble::cli {
@@ -40,7 +40,7 @@ std::string patterns_svg(const experiment::Champion& champion, const fs::path& p
          path.string(), architecture.name());
   const robot::RobotSpec& robot = champion.problem.robot;
   const auto controller = architecture.parameters_json(*champion.problem.decode(champion.genome));
-  return analysis::pattern_svg(robot, analysis::parse_supg(controller, robot, path.string()));
+  return figures::pattern_svg(robot, motion::parse_supg(controller, robot, path.string()));
 }
 
 ExitCode draw(const DrawOptions& options) {
@@ -48,12 +48,12 @@ ExitCode draw(const DrawOptions& options) {
   const fs::path path =
       fs::is_directory(options.path) ? experiment::find_run(options.path).best_champion() : options.path;
   const auto champion = experiment::load_champion(path);
-  const analysis::CppnGraph graph = cppn_graph(champion);
+  const figures::CppnGraph graph = cppn_graph(champion);
   if (options.patterns) io::write_file(*options.patterns, patterns_svg(champion, path));
   if (options.out)
-    io::write_file(*options.out, options.out->extension() == ".svg" ? analysis::cppn_svg(graph)
-                                                                    : analysis::cppn_dot(graph));
-  if (!options.out && !options.patterns) fmt::print("{}", analysis::cppn_dot(graph));
+    io::write_file(*options.out,
+                   options.out->extension() == ".svg" ? figures::cppn_svg(graph) : figures::cppn_dot(graph));
+  if (!options.out && !options.patterns) fmt::print("{}", figures::cppn_dot(graph));
   return ExitCode::ok;
 }
 

@@ -5,12 +5,13 @@
 #include <optional>
 #include <string>
 
-#include "amble/analysis/recorded_gait.hpp"
 #include "amble/cli/commands.hpp"
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run_folder.hpp"
+#include "amble/gait/recorded_gait.hpp"
+#include "amble/gait/report_text.hpp"
 #include "amble/io/file.hpp"
 #include "amble/study/gait_observer.hpp"
 
@@ -24,11 +25,11 @@ struct GaitOptions {
   std::optional<double> seconds;
   std::optional<std::string> engine;
   std::optional<std::string> json;
-  analysis::GaitSettings settings;
+  gait::Settings settings;
 };
 
-/// Lets a champion walk. Nothing if it was stopped.
-std::optional<analysis::GaitReport> champion_gait(const fs::path& path, const GaitOptions& options) {
+/// Runs a champion and measures its gait. None if interrupted.
+std::optional<gait::Report> champion_gait(const fs::path& path, const GaitOptions& options) {
   const auto champion = experiment::load_champion(path);
   study::GaitObserver observer(champion.problem.robot, champion.problem.trial.timestep_s, options.settings);
   const auto replay = experiment::replay(champion.problem, champion.genome,
@@ -43,26 +44,26 @@ std::optional<analysis::GaitReport> champion_gait(const fs::path& path, const Ga
   return observer.finish(replay->result.outcome);
 }
 
-std::optional<analysis::GaitReport> measure(const GaitOptions& options) {
+std::optional<gait::Report> measure(const GaitOptions& options) {
   if (fs::is_directory(options.path))
     return champion_gait(experiment::find_run(options.path).best_champion(), options);
   if (options.path.extension() == ".json") return champion_gait(options.path, options);
   if (options.engine) fail(ExitCode::bad_input, "--engine: a recording has been made already");
-  return analysis::recorded_gait(options.path, options.settings, options.seconds);
+  return gait::recorded_gait(options.path, options.settings, options.seconds);
 }
 
 ExitCode run_gait(const GaitOptions& options) {
   options.settings.validate();
   if (options.json && *options.json != "-")
-    io::refuse_to_replace(*options.json, analysis::gait_json_start, "a gait");
+    io::refuse_to_replace(*options.json, gait::report_json_start, "a gait");
   const auto report = measure(options);
   if (!report) fail(ExitCode::interrupted, "stopped before the end of the trial");
   if (options.json == "-") {
-    fmt::print("{}", analysis::gait_json(*report));
+    fmt::print("{}", gait::report_json(*report));
     return ExitCode::ok;
   }
-  if (options.json) io::write_file(*options.json, analysis::gait_json(*report));
-  fmt::print("{}", analysis::gait_table(*report));
+  if (options.json) io::write_file(*options.json, gait::report_json(*report));
+  fmt::print("{}", gait::report_table(*report));
   return ExitCode::ok;
 }
 

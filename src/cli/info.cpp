@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "amble/analysis/generations_csv.hpp"
 #include "amble/cli/commands.hpp"
 #include "amble/cli/compare_table.hpp"
 #include "amble/cli/progress.hpp"
@@ -16,6 +15,7 @@
 #include "amble/io/file.hpp"
 #include "amble/io/printable.hpp"
 #include "amble/record/frame_codec.hpp"
+#include "amble/record/generations_csv.hpp"
 #include "amble/record/recording.hpp"
 
 namespace amble::cli {
@@ -46,7 +46,7 @@ double sum(const std::vector<double>& values) {
 }
 
 /// Where the wall time of a run went, stage by stage; workers count as their mean.
-void print_stages(const analysis::Generations& rows) {
+void print_stages(const record::Generations& rows) {
   const double wall_s = sum(rows.wall_s);
   if (wall_s <= 0.0 || rows.files_s.empty()) return;
   const auto print = [wall_s](std::string_view stage, double seconds) {
@@ -71,7 +71,7 @@ void print_stages(const analysis::Generations& rows) {
 ExitCode run_info(const std::filesystem::path& folder) {
   const experiment::RunPaths paths = experiment::find_run(folder);
   const auto config = experiment::load_config(paths.config, {});
-  const auto rows = analysis::read_generations(paths.generations);
+  const auto rows = record::read_generations(paths.generations);
   double evaluations = 0.0, steps = 0.0;
   for (std::size_t i = 0; i < rows.count(); ++i) {
     evaluations += rows.evaluations[i];

@@ -1,4 +1,4 @@
-#include "amble/analysis/page.hpp"
+#include "amble/page/page.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "amble/analysis/figures.hpp"
 #include "amble/cli/commands.hpp"
 #include "amble/cli/compare_table.hpp"
 #include "amble/cli/scratch_file.hpp"
@@ -17,6 +16,7 @@
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/io/file.hpp"
+#include "amble/page/figure_files.hpp"
 
 namespace amble::cli {
 namespace {
@@ -35,11 +35,11 @@ std::string noise_text(const trial::NoiseSettings& noise) {
                      trial::episode_score_names[static_cast<std::size_t>(noise.score)], noise.episodes);
 }
 
-std::vector<analysis::Fact> facts(const experiment::Config& config, const experiment::Champion& champion,
-                                  const std::string& shown_in) {
+std::vector<page::Fact> facts(const experiment::Config& config, const experiment::Champion& champion,
+                              const std::string& shown_in) {
   const auto build = experiment::build_info();
   const auto& robot = champion.problem.robot;
-  std::vector<analysis::Fact> facts{
+  std::vector<page::Fact> facts{
       {"Robot",
        fmt::format("{}, {:.1f} kg, {} motors", robot.name, robot.total_mass_kg(), robot.joints.size())},
       {"Engine", fmt::format("{}, steps of {} s", config.engine, config.trial.timestep_s)},
@@ -60,45 +60,55 @@ std::vector<analysis::Fact> facts(const experiment::Config& config, const experi
   return facts;
 }
 
-ExitCode make_page(const PageOptions& options) {
-  const experiment::RunPaths paths = experiment::find_run(options.run);
+void refuse_to_replace_others(const PageOptions& options) {
   io::refuse_to_replace(options.out, "<!DOCTYPE html>", "a page");
-  if (options.figures) {
-    fs::create_directories(*options.figures);
-    for (const auto name : analysis::figure_names)
-      io::refuse_to_replace(*options.figures / name, "<svg", "a figure");
-  }
-  const auto config = experiment::load_config(paths.config, {});
-  const auto champion_path = paths.best_champion();
-  const auto champion = experiment::load_champion(champion_path);
+  if (!options.figures) return;
+  fs::create_directories(*options.figures);
+  for (const auto name : page::figure_names)
+    io::refuse_to_replace(*options.figures / name, "<svg", "a figure");
+}
 
+/// Runs the champion again, without noise, and reads what was recorded.
+motion::RecordedTrial record_again(const experiment::Champion& champion, const fs::path& champion_path,
+                                   const std::optional<std::string>& engine) {
   const ScratchFile recording("walk.rec");
   const auto replay = experiment::replay(champion.problem, champion.genome,
                                          {.seconds = {},
-                                          .engine = options.engine,
+                                          .engine = engine,
                                           .record = recording.path(),
                                           .origin = champion_path.string(),
                                           .noise = {}},
                                          stop_signal());
   if (!replay) fail(ExitCode::interrupted, "stopped before the champion had walked");
+  return motion::read_recorded_trial(recording.path());
+}
 
-  const analysis::PageInput input{
+page::RunPage page_of(const experiment::RunPaths& paths, const experiment::Config& config,
+                      const experiment::Champion& champion, const std::optional<std::string>& engine) {
+  return {
       .title = config.name,
       .subtitle = fmt::format("the champion of {} generations of {}, evolved by amble",
                               champion.generation + 1, config.neat.population.size),
-      .generations = analysis::read_generations(paths.generations),
-      .recording = recording.path(),
-      .cppn =
-          analysis::CppnSize{champion.genome.count(neat::NodeKind::hidden), champion.genome.enabled_links()},
-      .facts = facts(config, champion, options.engine.value_or(config.engine)),
+      .generations = record::read_generations(paths.generations),
+      .cppn = page::CppnSize{champion.genome.count(neat::NodeKind::hidden), champion.genome.enabled_links()},
+      .facts = facts(config, champion, engine.value_or(config.engine)),
       .commands = {fmt::format("amble evolve {} --out AGAIN", paths.config.string()),
-                   fmt::format("amble page AGAIN{} -o page.html",
-                               options.engine ? " --engine " + *options.engine : "")}};
-  const auto recorded = analysis::read_recorded(recording.path());
+                   fmt::format("amble page AGAIN{} -o page.html", engine ? " --engine " + *engine : "")}};
+}
+
+ExitCode make_page(const PageOptions& options) {
+  const experiment::RunPaths paths = experiment::find_run(options.run);
+  refuse_to_replace_others(options);
+  const auto config = experiment::load_config(paths.config, {});
+  const auto champion_path = paths.best_champion();
+  const auto champion = experiment::load_champion(champion_path);
+  const auto recorded = record_again(champion, champion_path, options.engine);
+  const page::RunPage contents = page_of(paths, config, champion, options.engine);
+
   if (options.out.has_parent_path()) fs::create_directories(options.out.parent_path());
-  io::write_file(options.out, analysis::make_page(input, recorded));
+  io::write_file(options.out, page::make_page(contents, recorded));
   if (options.figures)
-    for (const auto& figure : analysis::figure_files(input, recorded))
+    for (const auto& figure : page::figure_files(contents, recorded))
       io::write_file(*options.figures / figure.name, figure.svg);
   fmt::print("{}\n", fs::absolute(options.out).lexically_normal().string());
   return ExitCode::ok;

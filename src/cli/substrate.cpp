@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "amble/analysis/substrate_figure.hpp"
 #include "amble/cli/commands.hpp"
 #include "amble/experiment/problem.hpp"
+#include "amble/figures/substrate_figure.hpp"
 #include "amble/io/file.hpp"
 #include "amble/substrate/summary.hpp"
 
@@ -19,14 +19,13 @@ struct SubstrateOptions {
   experiment::Overrides overrides;
 };
 
-analysis::Substrate drawn(const substrate::Layout& layout) {
-  analysis::Substrate picture{
-      .coordinates = layout.coordinates(), .nodes = {}, .links = {}, .link_kinds = {}};
+figures::Substrate drawn(const substrate::Layout& layout) {
+  figures::Substrate picture{.coordinates = layout.coordinates(), .nodes = {}, .links = {}, .link_kinds = {}};
   for (const substrate::Node& node : layout.nodes())
     picture.nodes.push_back({node.name, node.at,
-                             node.sensor       ? analysis::NodeRole::sensor
-                             : node.joint >= 0 ? analysis::NodeRole::joint
-                                               : analysis::NodeRole::hidden});
+                             node.sensor       ? motion::NodeRole::sensor
+                             : node.joint >= 0 ? motion::NodeRole::joint
+                                               : motion::NodeRole::hidden});
   for (const substrate::Link& link : layout.links())
     picture.links.push_back({link.source, link.target, link.output, 0.5});
   if (!layout.links().empty()) picture.link_kinds = layout.output_names();
@@ -43,7 +42,7 @@ ExitCode show_substrate(const SubstrateOptions& options) {
          problem.architecture->name());
   fmt::print("controller    {}\n{}", problem.architecture->name(),
              substrate::summary(config.controller.substrate, *layout));
-  if (!options.out.empty()) io::write_file(options.out, analysis::substrate_svg(drawn(*layout)));
+  if (!options.out.empty()) io::write_file(options.out, figures::substrate_svg(drawn(*layout)));
   return ExitCode::ok;
 }
 

@@ -10,6 +10,7 @@
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/replay.hpp"
+#include "amble/gait/report_text.hpp"
 #include "amble/io/file.hpp"
 #include "amble/record/frame_codec.hpp"
 #include "amble/study/gait_observer.hpp"
@@ -57,7 +58,7 @@ ExitCode run_trial(const TrialOptions& options) {
     for (const auto& [name, count] : replay->events) fmt::print(" {} {}", name, count);
     fmt::print("\n");
   }
-  fmt::print("{}", analysis::gait_summary(gait.finish(result.outcome)));
+  fmt::print("{}", gait::report_summary(gait.finish(result.outcome)));
   if (options.record) fmt::print("recorded  {}\n", options.record->string());
   return ExitCode::ok;
 }

@@ -8,10 +8,10 @@
 #include <optional>
 #include <vector>
 
-#include "amble/analysis/generations_csv.hpp"
 #include "amble/cli/commands.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/run_folder.hpp"
+#include "amble/record/generations_csv.hpp"
 
 namespace amble::cli {
 namespace {
@@ -35,7 +35,7 @@ ExitCode verify(const fs::path& folder) {
   auto origin = experiment::origin_of(paths);
   std::optional<UserError> no_table;
   try {
-    origin.best = analysis::read_generations(paths.generations).best_m;
+    origin.best = record::read_generations(paths.generations).best_m;
   } catch (const UserError& error) {  // champions can be run again without it
     no_table = error;
   }

@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "amble/analysis/cppn_figure.hpp"
-#include "amble/analysis/recorded_gait.hpp"
 #include "amble/cli/commands.hpp"
 #include "amble/cli/cppn_graph.hpp"
 #include "amble/cli/option_checks.hpp"
@@ -17,6 +15,9 @@
 #include "amble/experiment/build_info.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run_folder.hpp"
+#include "amble/figures/cppn_figure.hpp"
+#include "amble/gait/recorded_gait.hpp"
+#include "amble/gait/report_text.hpp"
 #include "amble/io/file.hpp"
 #include "amble/study/gait_observer.hpp"
 #include "amble/view/page.hpp"
@@ -34,11 +35,11 @@ struct ViewOptions {
   std::optional<std::string> title;
 };
 
-io::Json gait_of(const analysis::GaitReport& report) {
-  return io::parse_json(analysis::gait_json(report), "gait");
+io::Json gait_of(const gait::Report& report) {
+  return io::parse_json(gait::report_json(report), "gait");
 }
 
-/// Lets a champion walk again. Nothing if it was stopped by a signal.
+/// Runs a champion again. None if interrupted.
 std::optional<view::Walker> walk(const fs::path& path, const ViewOptions& options,
                                  const ScratchFile& recording) {
   const auto champion = experiment::load_champion(path);
@@ -57,7 +58,7 @@ std::optional<view::Walker> walk(const fs::path& path, const ViewOptions& option
   return view::Walker{.title = fmt::format("{}, generation {}", champion.experiment, champion.generation) +
                                (judge == home ? "" : fmt::format(", in the engine {}", judge)),
                       .recording = recording.path(),
-                      .cppn_svg = analysis::cppn_figure(cppn_graph(champion)),
+                      .cppn_svg = figures::cppn_figure(cppn_graph(champion)),
                       .gait = gait_of(gait.finish(replay->result.outcome))};
 }
 
@@ -65,13 +66,13 @@ view::Walker recorded(const fs::path& path) {
   return {.title = path.stem().string(),
           .recording = path,
           .cppn_svg = {},
-          .gait = gait_of(analysis::recorded_gait(path, {}))};
+          .gait = gait_of(gait::recorded_gait(path, {}))};
 }
 
 ExitCode make_view(const ViewOptions& options) {
   io::refuse_to_replace(options.out, "<!DOCTYPE html>", "a page");
   std::deque<ScratchFile> scratch;
-  view::PageInput page;
+  view::ReplayPage page;
   for (const fs::path& input : options.inputs) {
     const bool is_run = fs::is_directory(input);
     if (!is_run && input.extension() != ".json") {

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "amble/core/check.hpp"
-#include "amble/core/statistics.hpp"
 #include "amble/record/generation_columns.hpp"
+#include "amble/statistics/descriptive.hpp"
 
 namespace amble::experiment {
 namespace {
@@ -71,7 +71,7 @@ void summarise_trials(std::span<const double> objectives, std::span<const record
                       GenerationRow& row) {
   AMBLE_CHECK(!objectives.empty(), "a generation has members");
   row.best = std::ranges::max(objectives);
-  row.median = median({objectives.begin(), objectives.end()});
+  row.median = statistics::median(objectives);
   double sum = 0.0;
   for (const double objective : objectives) sum += objective;
   row.mean = sum / static_cast<double>(objectives.size());

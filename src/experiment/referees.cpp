@@ -4,8 +4,8 @@
 #include <future>
 #include <utility>
 
-#include "amble/core/statistics.hpp"
 #include "amble/experiment/replay.hpp"
+#include "amble/statistics/descriptive.hpp"
 
 namespace amble::experiment {
 namespace {
@@ -30,7 +30,7 @@ std::optional<Judgement> judge_in(const std::string& engine, const Problem& prob
 double Judgement::distance_m() const {
   std::vector<double> distances_m;
   for (const auto& trial : trials) distances_m.push_back(trial.distance_m);
-  return median(std::move(distances_m));
+  return statistics::median(distances_m);
 }
 
 std::optional<std::vector<Judgement>> judge(const Problem& problem, const neat::Genome& genome,

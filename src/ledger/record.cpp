@@ -6,7 +6,7 @@
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
-#include "amble/core/statistics.hpp"
+#include "amble/statistics/descriptive.hpp"
 
 namespace amble::ledger {
 namespace {
@@ -19,7 +19,7 @@ double median_of(const std::vector<EpisodeResult>& episodes, Value EpisodeResult
   std::vector<double> values;
   values.reserve(episodes.size());
   for (const EpisodeResult& episode : episodes) values.push_back(episode.*value);
-  return median(std::move(values));
+  return statistics::median(values);
 }
 
 io::Json to_json(const EpisodeResult& episode) {

@@ -28,7 +28,7 @@ struct TestResult {
   std::string engine;
   double trial_s = 0.0;                 ///< length of a trial that completes
   std::vector<EpisodeResult> episodes;  ///< at least one
-  std::string gait;                     ///< of the first episode (analysis/gait_class.hpp); empty: no name
+  std::string gait;                     ///< of the first episode (gait/gait.hpp); empty: no name
   double path_interval_s = 0.0;
   std::vector<double> path_m;  ///< first episode: x0, y0, x1, y1, … from the start, rounded to mm
 

@@ -9,29 +9,10 @@
 #include <utility>
 
 #include "amble/core/index.hpp"
+#include "amble/io/xml.hpp"
 
 namespace amble::morphology {
 namespace {
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 std::string numbers(Vec3 v) {
   return fmt::format("{} {} {}", v.x, v.y, v.z);
@@ -60,7 +41,7 @@ class Writer {
 
   Mjcf write() {
     const double friction = std::isinf(robot_.contact.friction) ? grip : robot_.contact.friction;
-    line("<mujoco model=\"{}\">", escaped(robot_.name));
+    line("<mujoco model=\"{}\">", io::escape_xml(robot_.name));
     line("  <compiler angle=\"radian\" inertiafromgeom=\"false\"/>");
     line("  <option gravity=\"{}\" timestep=\"0.01\"/>", numbers(robot_.gravity_m_s2));
     line("  <default>");
@@ -85,7 +66,7 @@ class Writer {
 
   /// The attribute, if the name is one and no other part of the kind has it: MuJoCo wants them unique.
   static std::string name_attribute(std::set<std::string>& used, const std::string& name) {
-    return !name.empty() && used.insert(name).second ? fmt::format("name=\"{}\" ", escaped(name)) : "";
+    return !name.empty() && used.insert(name).second ? fmt::format("name=\"{}\" ", io::escape_xml(name)) : "";
   }
 
   void write_body(int b, int indent) {

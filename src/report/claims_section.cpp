@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "amble/analysis/svg.hpp"
+#include "amble/io/xml.hpp"
 #include "amble/report/html.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/page_sections.hpp"
@@ -10,7 +10,7 @@
 namespace amble::report {
 namespace {
 
-using analysis::escape;
+using io::escape_xml;
 
 std::string css_class(Verdict verdict) {
   std::string name(name_of(verdict));
@@ -42,10 +42,11 @@ std::string runs_text(const Judgement& judgement) {
 
 std::string test_cell(const Judgement& judgement) {
   if (judgement.test.empty()) return {};
-  std::string cell = escape(judgement.test);
-  if (judgement.p) cell += "<br/>" + fmt::format("<span class=\"p\">{}</span>", escape(p_text(*judgement.p)));
+  std::string cell = escape_xml(judgement.test);
+  if (judgement.p)
+    cell += "<br/>" + fmt::format("<span class=\"p\">{}</span>", escape_xml(p_text(*judgement.p)));
   if (judgement.p_holm)
-    cell += fmt::format("<br/><small class=\"p\">Holm {}</small>", escape(p_number(*judgement.p_holm)));
+    cell += fmt::format("<br/><small class=\"p\">Holm {}</small>", escape_xml(p_number(*judgement.p_holm)));
   return cell;
 }
 
@@ -68,13 +69,14 @@ std::string claims_section(const Report& report) {
     const ledger::ClaimSpec& claim = claims[i];
     const Judgement& judgement = report.judgements[i];
     family += judgement.p_holm.has_value();
-    const std::string source =
-        claim.source.empty() || one_source ? "" : fmt::format("<br/><small>{}</small>", escape(claim.source));
-    const std::string ours = judgement.ours.empty() ? "" : tied(escape(judgement.ours)) + "<br/>";
+    const std::string source = claim.source.empty() || one_source
+                                   ? ""
+                                   : fmt::format("<br/><small>{}</small>", escape_xml(claim.source));
+    const std::string ours = judgement.ours.empty() ? "" : tied(escape_xml(judgement.ours)) + "<br/>";
     table.row_of_markup({fmt::format("{}", i + 1),
-                         fmt::format("{}{}<span class=\"reason\">{}</span>", escape(claim.text), source,
-                                     tied(escape(judgement.reason))),
-                         tied(escape(claim.figure)),
+                         fmt::format("{}{}<span class=\"reason\">{}</span>", escape_xml(claim.text), source,
+                                     tied(escape_xml(judgement.reason))),
+                         tied(escape_xml(claim.figure)),
                          fmt::format("{}<small>{}</small>", ours, runs_text(judgement)), test_cell(judgement),
                          fmt::format("<span class=\"verdict {}\">{}</span>", css_class(judgement.verdict),
                                      name_of(judgement.verdict))});

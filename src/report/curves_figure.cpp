@@ -4,20 +4,20 @@
 
 #include <algorithm>
 
-#include "amble/analysis/axis.hpp"
-#include "amble/analysis/svg.hpp"
 #include "amble/core/check.hpp"
+#include "amble/graphics/axis.hpp"
+#include "amble/graphics/svg.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/panels.hpp"
 
 namespace amble::report {
 namespace {
 
-using analysis::Box;
-using analysis::Layout;
-using analysis::Point;
-using analysis::Scale;
-using analysis::Svg;
+using graphics::Box;
+using graphics::Layout;
+using graphics::Point;
+using graphics::Scale;
+using graphics::Svg;
 
 /// Room for the median at the end of a panel's title.
 constexpr double value_px = 54.0;
@@ -34,14 +34,14 @@ std::vector<Point> line(const BestCurve& curve, const std::vector<double>& value
 void draw_panel(Svg& svg, const Report& report, const BestCurve& curve, const PanelGrid& grid,
                 const Box& plot, const Scale& x, const Scale& y) {
   const bool is_small = plot.width < 200;
-  analysis::draw_y_axis(svg, y, analysis::nice_ticks(y.data, is_small ? 4 : 5), plot.x, plot.right(), " m");
-  analysis::draw_x_axis(svg, x, analysis::nice_ticks(x.data, is_small ? 3 : 5, 1.0), plot.bottom(), "");
+  graphics::draw_y_axis(svg, y, graphics::nice_ticks(y.data, is_small ? 4 : 5), plot.x, plot.right(), " m");
+  graphics::draw_x_axis(svg, x, graphics::nice_ticks(x.data, is_small ? 3 : 5, 1.0), plot.bottom(), "");
   for (const BestCurve& other : report.curves)
     if (&other != &curve)
       svg.polyline(line(other, other.median_m, x, y, other.median_m.size() > 60 ? 3 : 1), "other");
 
   const std::string median = number_text(curve.median_m.back());
-  svg.begin_group("strip " + analysis::leg_class(report.index(curve.condition)),
+  svg.begin_group("strip " + graphics::leg_class(report.index(curve.condition)),
                   fmt::format("{}: median {} m after generation {}", report.label(curve.condition), median,
                               curve.generation.back()));
   auto band = line(curve, curve.upper_quartile_m, x, y);
@@ -69,7 +69,7 @@ std::string curves_figure(const Report& report, Layout layout) {
     last = std::max(last, static_cast<double>(curve.generation.back()));
     best = std::max(best, *std::ranges::max_element(curve.upper_quartile_m));
   }
-  const analysis::Interval generations{0.0, last}, distances{0.0, best > 0.0 ? 1.04 * best : 1.0};
+  const graphics::Interval generations{0.0, last}, distances{0.0, best > 0.0 ? 1.04 * best : 1.0};
   Svg svg(width_px(layout), grid.height_px(),
           fmt::format("Best distance so far over {} generations, median and quartiles of {} conditions",
                       static_cast<int>(last) + 1, curves.size()));

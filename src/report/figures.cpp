@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "amble/analysis/page_style.hpp"
+#include "amble/graphics/style_sheet.hpp"
 #include "amble/report/curves_figure.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/page_style.hpp"
@@ -28,7 +28,7 @@ std::vector<StripRow> training_rows(const Report& report) {
     if (const auto* sample = find_summary(report.summaries, "train_m", condition.name))
       rows.push_back(
           {condition.label(),
-           {make_strip(report, *sample, "evolution", analysis::leg_class(report.index(condition.name)))}});
+           {make_strip(report, *sample, "evolution", graphics::leg_class(report.index(condition.name)))}});
   return rows;
 }
 
@@ -41,13 +41,13 @@ std::vector<StripRow> test_rows(const Report& report, const std::string& test) {
     rows.push_back(
         {condition.label(),
          {make_strip(report, *trained, "evolution", "base"),
-          make_strip(report, *tested, "test", analysis::leg_class(report.index(condition.name)))}});
+          make_strip(report, *tested, "test", graphics::leg_class(report.index(condition.name)))}});
   }
   return rows;
 }
 
 std::vector<FigureFile> figure_files(const Report& report) {
-  using analysis::Layout;
+  using graphics::Layout;
   std::vector<FigureFile> files;
   const auto add = [&files](const std::string& name, std::string element) {
     files.push_back({name + ".svg", standalone_figure(std::move(element))});

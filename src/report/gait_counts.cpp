@@ -3,19 +3,18 @@
 #include <algorithm>
 #include <map>
 
-#include "amble/analysis/gait_class.hpp"
+#include "amble/gait/gait.hpp"
 
 namespace amble::report {
 namespace {
 
-const std::string_view irregular_gait =
-    analysis::gait_names[static_cast<std::size_t>(analysis::Gait::irregular)];
+const std::string_view irregular_gait = gait::gait_names[static_cast<std::size_t>(gait::Gait::irregular)];
 
-/// Place of a gait in tables: as analysis has them, then names it does not know, irregular, nameless.
+/// Position of a gait in tables: in the order of gait::gait_names, then unknown names, irregular, nameless.
 std::size_t place(std::string_view gait) {
   const auto known =
-      static_cast<std::size_t>(std::ranges::find(analysis::gait_names, gait) - analysis::gait_names.begin());
-  const std::size_t count = analysis::gait_names.size();
+      static_cast<std::size_t>(std::ranges::find(gait::gait_names, gait) - gait::gait_names.begin());
+  const std::size_t count = gait::gait_names.size();
   if (gait == nameless_gait) return count + 2;
   if (gait == irregular_gait) return count + 1;
   return known;

@@ -10,7 +10,7 @@
 
 namespace amble::report {
 
-/// How runs without a name for their gait are called, e.g. robots that are no quadrupeds.
+/// The name for runs whose gait has none, e.g. those of robots that are not quadrupeds.
 inline constexpr std::string_view nameless_gait = "no name";
 
 /// Whether the name is one of a regular gait (docs/GAIT.md).

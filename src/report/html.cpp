@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <array>
 
-#include "amble/analysis/svg.hpp"
 #include "amble/core/check.hpp"
+#include "amble/io/xml.hpp"
 
 namespace amble::report {
 
-using analysis::escape;
-using analysis::Layout;
+using graphics::Layout;
+using io::escape_xml;
 
 namespace {
 
@@ -45,43 +45,43 @@ std::string tied(std::string_view text) {
 
 std::string section(std::string_view id, std::string_view title, std::string_view lead,
                     std::string_view content) {
-  return fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n{}{}</section>\n", escape(id), escape(title),
+  return fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n{}{}</section>\n", escape_xml(id), escape_xml(title),
                      lead.empty() ? "" : paragraph(lead), content);
 }
 
 std::string paragraph(std::string_view text, std::string_view css_class) {
-  if (css_class.empty()) return fmt::format("<p>{}</p>\n", tied(escape(text)));
-  return fmt::format("<p class=\"{}\">{}</p>\n", css_class, tied(escape(text)));
+  if (css_class.empty()) return fmt::format("<p>{}</p>\n", tied(escape_xml(text)));
+  return fmt::format("<p class=\"{}\">{}</p>\n", css_class, tied(escape_xml(text)));
 }
 
 std::string subtitle(std::string_view text) {
-  return fmt::format("<h3>{}</h3>\n", escape(text));
+  return fmt::format("<h3>{}</h3>\n", escape_xml(text));
 }
 
 std::string figure(const std::function<std::string(Layout)>& draw, std::string_view caption) {
   const std::string below =
-      caption.empty() ? "" : fmt::format("<figcaption>{}</figcaption>", escape(caption));
+      caption.empty() ? "" : fmt::format("<figcaption>{}</figcaption>", escape_xml(caption));
   return fmt::format("<figure><div class=\"wide\">{}</div><div class=\"narrow\">{}</div>{}</figure>\n",
                      draw(Layout::wide), draw(Layout::narrow), below);
 }
 
 std::string folded(std::string_view title, std::string_view content, bool open) {
   return fmt::format("<details{}>\n<summary>{}</summary>\n{}</details>\n", open ? " open=\"open\"" : "",
-                     escape(title), content);
+                     escape_xml(title), content);
 }
 
 TableWriter::TableWriter(std::vector<Column> columns, std::string_view css_class)
     : columns_(std::move(columns)) {
   out_ = fmt::format("<div class=\"scroll\"><table class=\"data {}\">\n<thead><tr>", css_class);
   for (const Column& column : columns_)
-    out_ += fmt::format("<th scope=\"col\"{}>{}</th>", class_of(column), escape(column.title));
+    out_ += fmt::format("<th scope=\"col\"{}>{}</th>", class_of(column), escape_xml(column.title));
   out_ += "</tr></thead>\n<tbody>\n";
 }
 
 void TableWriter::row(const std::vector<std::string>& texts) {
   std::vector<std::string> contents;
   contents.reserve(texts.size());
-  for (const std::string& text : texts) contents.push_back(tied(escape(text)));
+  for (const std::string& text : texts) contents.push_back(tied(escape_xml(text)));
   row_of_markup(contents);
 }
 
@@ -94,8 +94,8 @@ void TableWriter::row_of_markup(const std::vector<std::string>& contents) {
     if (i == 0)
       out_ += fmt::format("<th scope=\"row\"{}>{}</th>", css_class, contents[i]);
     else
-      out_ += fmt::format("<td{} data-title=\"{}\"><div>{}</div></td>", css_class, escape(columns_[i].title),
-                          contents[i]);
+      out_ += fmt::format("<td{} data-title=\"{}\"><div>{}</div></td>", css_class,
+                          escape_xml(columns_[i].title), contents[i]);
   }
   out_ += "</tr>\n";
 }

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "amble/analysis/svg.hpp"
+#include "amble/io/xml.hpp"
 #include "amble/report/html.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/page_sections.hpp"
@@ -13,7 +13,7 @@
 namespace amble::report {
 namespace {
 
-using analysis::escape;
+using io::escape_xml;
 
 /// Whole numbers with runs of neighbours drawn together: "1–20, 25".
 std::string ranges_text(std::vector<std::int64_t> numbers) {
@@ -103,7 +103,7 @@ std::string files_table(const Report& report) {
 std::string made_section(const Report& report) {
   const auto& study = report.data.study;
   std::string content = "<pre>";
-  content += escape(
+  content += escape_xml(
       fmt::format("amble study FILE.toml --out DIR    # or go on with: amble study DIR/study.toml --out DIR\n"
                   "amble report DIR -o report.html --csv FOLDER --json report.json --figures FOLDER\n"));
   content += "</pre>\n";

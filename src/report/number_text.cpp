@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "amble/analysis/axis.hpp"
+#include "amble/graphics/axis.hpp"
 
 namespace amble::report {
 
@@ -20,7 +20,7 @@ int decimals_for(std::initializer_list<double> values) {
 }
 
 std::string number_text(double value, int decimals) {
-  return analysis::label(value, decimals);
+  return graphics::label(value, decimals);
 }
 
 std::string number_text(double value) {

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "amble/analysis/svg.hpp"
+#include "amble/io/xml.hpp"
 #include "amble/report/html.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/page_sections.hpp"
@@ -15,7 +15,7 @@
 namespace amble::report {
 namespace {
 
-using analysis::escape;
+using io::escape_xml;
 
 /// "800" or "300 to 800".
 std::string range_text(const std::set<int>& values) {
@@ -25,8 +25,8 @@ std::string range_text(const std::set<int>& values) {
 }
 
 std::string headline_number(std::string_view name, std::string_view value, std::string_view more = {}) {
-  return fmt::format("<div><dt>{}</dt><dd>{}{}</dd></div>\n", escape(name), escape(value),
-                     more.empty() ? "" : fmt::format(" <small>{}</small>", escape(more)));
+  return fmt::format("<div><dt>{}</dt><dd>{}{}</dd></div>\n", escape_xml(name), escape_xml(value),
+                     more.empty() ? "" : fmt::format(" <small>{}</small>", escape_xml(more)));
 }
 
 std::string headline(const Report& report) {
@@ -69,7 +69,7 @@ std::string header(const Report& report) {
   return fmt::format(
       "<header>\n<p class=\"kicker\">amble report</p>\n<h1>{}</h1>\n<p "
       "class=\"subtitle\">{}</p>\n</header>\n",
-      escape(report.title()), escape(subtitle));
+      escape_xml(report.title()), escape_xml(subtitle));
 }
 
 std::string remarks_box(const Report& report) {
@@ -87,7 +87,8 @@ struct Part {
 std::string contents(const std::vector<Part>& parts) {
   std::string out = "<nav aria-label=\"Contents\">\n";
   for (const Part& part : parts)
-    if (!part.content.empty()) out += fmt::format("<a href=\"#{}\">{}</a>\n", part.anchor, escape(part.name));
+    if (!part.content.empty())
+      out += fmt::format("<a href=\"#{}\">{}</a>\n", part.anchor, escape_xml(part.name));
   return out + "</nav>\n";
 }
 
@@ -114,7 +115,7 @@ std::string make_page(const Report& report) {
       "<meta name=\"viewport\" content=\"width=device-width, "
       "initial-scale=1\"/>\n<title>{}</title>\n<style>{}</style>\n</head>\n"
       "<body>\n<main>\n{}</main>\n</body>\n</html>\n",
-      escape(report.title()), style_sheet(), body);
+      escape_xml(report.title()), style_sheet(), body);
 }
 
 }  // namespace amble::report

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include "amble/analysis/svg.hpp"
+#include "amble/graphics/svg.hpp"
+#include "amble/io/xml.hpp"
 #include "amble/report/curves_figure.hpp"
 #include "amble/report/figures.hpp"
 #include "amble/report/html.hpp"
@@ -14,7 +15,7 @@
 namespace amble::report {
 namespace {
 
-using analysis::Layout;
+using graphics::Layout;
 
 std::string_view name_of(Doing doing) {
   return doing_names[static_cast<std::size_t>(doing)];
@@ -81,14 +82,14 @@ std::string gait_table(const Report& report, const GaitTable& gaits) {
   TableWriter table(columns, "dense");
   for (const GaitCounts& counts : gaits.rows) {
     std::vector<std::string> cells{
-        fmt::format("{} <small>n = {}</small>", analysis::escape(report.label(counts.condition)), counts.n)};
+        fmt::format("{} <small>n = {}</small>", io::escape_xml(report.label(counts.condition)), counts.n)};
     for (const std::string& gait : gaits.gaits) {
       const std::size_t runs = counts.count(gait);
       cells.push_back(
           runs == 0 ? "<span class=\"count\"><small>0</small></span>"
                     : fmt::format("<span class=\"count {}\">{}<i style=\"width: {}%\"></i></span>",
-                                  analysis::leg_class(report.index(counts.condition)), runs,
-                                  analysis::number(
+                                  graphics::leg_class(report.index(counts.condition)), runs,
+                                  graphics::number(
                                       100.0 * static_cast<double>(runs) / static_cast<double>(counts.n), 0)));
     }
     table.row_of_markup(cells);

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "amble/analysis/page_style.hpp"
+#include "amble/graphics/style_sheet.hpp"
 
 namespace amble::report {
 namespace {
@@ -103,13 +103,13 @@ constexpr std::string_view phone_and_paper = R"css(
 }  // namespace
 
 std::string style_sheet() {
-  std::string sheet = analysis::style_sheet();
+  std::string sheet = graphics::style_sheet();
   for (const std::string_view part : {figures, text, phone_and_paper}) sheet += part;
   return sheet;
 }
 
 std::string standalone_figure(std::string element) {
-  std::string svg = analysis::standalone_svg(std::move(element));
+  std::string svg = graphics::standalone_svg(std::move(element));
   return svg.insert(svg.find("</style>"), figures);
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "amble/analysis/svg.hpp"
+#include "amble/io/xml.hpp"
 #include "amble/ledger/measures.hpp"
 #include "amble/report/html.hpp"
 #include "amble/report/number_text.hpp"
@@ -12,7 +12,7 @@
 namespace amble::report {
 namespace {
 
-using analysis::escape;
+using io::escape_xml;
 
 /// More conditions than this get a matrix besides the list of all pairs.
 constexpr std::size_t most_listed = 8;
@@ -40,8 +40,9 @@ std::string summary_table(const Report& report, const std::string& measure) {
 template <typename Test>
 std::string p_cell(const std::optional<AdjustedTest<Test>>& test) {
   if (!test) return "–";
-  return fmt::format("{}<br/><small>Holm </small><span{}>{}</span>", escape(p_number(test->test.p)),
-                     test->p_holm < level ? " class=\"significant\"" : "", escape(p_number(test->p_holm)));
+  return fmt::format("{}<br/><small>Holm </small><span{}>{}</span>", escape_xml(p_number(test->test.p)),
+                     test->p_holm < level ? " class=\"significant\"" : "",
+                     escape_xml(p_number(test->p_holm)));
 }
 
 std::string pair_table(const Report& report, const PairTable& pairs) {
@@ -54,8 +55,8 @@ std::string pair_table(const Report& report, const PairTable& pairs) {
   for (const Pair& pair : pairs.pairs) {
     const auto& superiority = pair.superiority;
     table.row_of_markup(
-        {fmt::format("{} <small>−</small> {}", escape(report.label(pair.first)),
-                     escape(report.label(pair.second))),
+        {fmt::format("{} <small>−</small> {}", escape_xml(report.label(pair.first)),
+                     escape_xml(report.label(pair.second))),
          pair.welch ? tied(estimate_text(pair.welch->test.difference, pair.welch->test.interval, "")) : "–",
          p_cell(pair.student), p_cell(pair.welch), p_cell(pair.mann_whitney),
          superiority
@@ -74,7 +75,7 @@ std::string matrix(const Report& report, const PairTable& pairs) {
   TableWriter table(columns, "dense matrix");
   for (std::size_t i = 0; i < conditions.size(); ++i) {
     std::vector<std::string> cells{
-        fmt::format("{} {}", i + 1, escape(fitted(report.label(conditions[i]), 150.0)))};
+        fmt::format("{} {}", i + 1, escape_xml(fitted(report.label(conditions[i]), 150.0)))};
     for (const std::string& other : conditions) {
       const auto found = std::ranges::find_if(pairs.pairs, [&](const Pair& pair) {
         return (pair.first == conditions[i] && pair.second == other) ||

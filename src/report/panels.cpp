@@ -34,14 +34,14 @@ std::string fitted(std::string_view label, double width_px) {
   return std::string(label) + "…";
 }
 
-void draw_panel_title(analysis::Svg& svg, const PanelGrid& grid, const analysis::Box& plot,
+void draw_panel_title(graphics::Svg& svg, const PanelGrid& grid, const graphics::Box& plot,
                       std::string_view label, std::string_view value, double value_px) {
   const double left = plot.x - grid.left_px + 8.0;
   const auto lines = two_lines(label, plot.right() - left - value_px);
   for (std::size_t i = 0; i < lines.size(); ++i)
-    svg.text({left, plot.y - 10 - 15.0 * static_cast<double>(lines.size() - 1 - i)}, analysis::Anchor::start,
+    svg.text({left, plot.y - 10 - 15.0 * static_cast<double>(lines.size() - 1 - i)}, graphics::Anchor::start,
              "label", lines[i]);
-  svg.text({plot.right(), plot.y - 10}, analysis::Anchor::end, "value", value);
+  svg.text({plot.right(), plot.y - 10}, graphics::Anchor::end, "value", value);
 }
 
 std::vector<std::string> two_lines(std::string_view label, double width_px) {

@@ -29,7 +29,7 @@ struct Report {
 
   const std::string& label(std::string_view condition) const;
   std::string title() const;
-  /// Place of a condition in the study, which is its colour.
+  /// Index of a condition in the study, which decides its colour.
   int index(std::string_view condition) const;
 };
 

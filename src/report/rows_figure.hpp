@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "amble/analysis/layout.hpp"
+#include "amble/graphics/layout.hpp"
 #include "amble/statistics/interval.hpp"
 
 namespace amble::report {
@@ -12,7 +12,7 @@ namespace amble::report {
 /// One sample: a bar up to its mean with the mean's interval, and below the bar each value as a point.
 struct Strip {
   std::string name;       ///< for tooltips; with two strips in a row, written beside the bar
-  std::string css_class;  ///< carries the colour (analysis::leg_class), or "base" for a grey bar
+  std::string css_class;  ///< carries the colour (graphics::leg_class), or "base" for a grey bar
   std::vector<double> values;
   std::optional<double> mean;
   std::optional<statistics::Interval> interval;
@@ -25,14 +25,14 @@ struct StripRow {
   std::vector<Strip> strips;
 };
 
-/// Rows of horizontal bars over one axis that begins at zero, or lower if a value does; `unit` stands behind
-/// the last tick. An <svg> element.
+/// Rows of horizontal bars over one axis that begins at zero, or lower if a value does; `unit` follows the
+/// last tick label. An <svg> element.
 std::string rows_figure(const std::vector<StripRow>& rows, std::string_view unit,
-                        std::string_view description, analysis::Layout layout);
+                        std::string_view description, graphics::Layout layout);
 
-/// How far points of radius `radius_px` at these places along an axis move aside so that they do not
+/// How far points of radius `radius_px` at these positions along an axis move aside so that they do not
 /// overlap: 0 at best, alternately to both sides, at most ±`most_px`, where they overlap if there is no more
-/// room. One offset per place, in the order given.
+/// room. One offset per position, in the order given.
 std::vector<double> beeswarm(const std::vector<double>& places_px, double radius_px, double most_px);
 
 }  // namespace amble::report

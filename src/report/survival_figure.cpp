@@ -5,22 +5,22 @@
 #include <algorithm>
 #include <numeric>
 
-#include "amble/analysis/axis.hpp"
-#include "amble/analysis/svg.hpp"
+#include "amble/graphics/axis.hpp"
+#include "amble/graphics/svg.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/panels.hpp"
 
 namespace amble::report {
 namespace {
 
-using analysis::Anchor;
-using analysis::Box;
-using analysis::Layout;
-using analysis::Point;
-using analysis::Scale;
-using analysis::Svg;
+using graphics::Anchor;
+using graphics::Box;
+using graphics::Layout;
+using graphics::Point;
+using graphics::Scale;
+using graphics::Svg;
 
-constexpr std::size_t most_overlaid = analysis::leg_colours;
+constexpr std::size_t most_overlaid = graphics::leg_colours;
 
 /// Room for the share at the end of a panel's title.
 constexpr double value_px = 48.0;
@@ -64,14 +64,14 @@ std::vector<Point> staircase(const Frame& frame, const statistics::SurvivalCurve
 
 void draw_axes(Svg& svg, const Frame& frame) {
   const bool is_small = frame.plot.width < 200;
-  analysis::draw_y_axis(svg, frame.y, {{0.0, 50.0, 100.0}, 50.0, 0}, frame.plot.x, frame.plot.right(), " %");
-  analysis::draw_x_axis(svg, frame.x, analysis::nice_ticks(frame.x.data, is_small ? 3 : 7),
+  graphics::draw_y_axis(svg, frame.y, {{0.0, 50.0, 100.0}, 50.0, 0}, frame.plot.x, frame.plot.right(), " %");
+  graphics::draw_x_axis(svg, frame.x, graphics::nice_ticks(frame.x.data, is_small ? 3 : 7),
                         frame.plot.bottom(), frame.unit.name);
 }
 
 void draw_curve(Svg& svg, const Report& report, const Frame& frame, const ConditionLifetimes& condition) {
   const double share = condition.curve.at(frame.trial_s);
-  svg.begin_group("strip " + analysis::leg_class(report.index(condition.condition)),
+  svg.begin_group("strip " + graphics::leg_class(report.index(condition.condition)),
                   fmt::format("{}: {} at the end, {}", report.label(condition.condition), percent_text(share),
                               counted(condition.curve.n, "run")));
   svg.polyline(staircase(frame, condition.curve), "curve");
@@ -83,10 +83,10 @@ std::string end_text(const Report& report, const Frame& frame, const ConditionLi
                      fitted(report.label(condition.condition), 170.0));
 }
 
-/// Places for labels, apart from each other and within the bounds: analysis::spread, then pushed back inside.
+/// Places for labels, apart from each other and within the bounds: graphics::spread, then pushed back inside.
 std::vector<double> spread_within(std::vector<double> places, double top, double bottom) {
   constexpr double gap = 17.0;
-  analysis::spread(places, gap);
+  graphics::spread(places, gap);
   std::vector<std::size_t> order(places.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return places[i]; });
@@ -111,7 +111,7 @@ void draw_end_labels(Svg& svg, const Report& report, const SurvivalTable& table,
   const auto labels = spread_within(places, frame.plot.y, frame.plot.bottom() + 4.0);
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const double x = frame.plot.right(), y = labels[i];
-    svg.begin_group("strip " + analysis::leg_class(report.index(table.conditions[i].condition)));
+    svg.begin_group("strip " + graphics::leg_class(report.index(table.conditions[i].condition)));
     svg.line({x + 2, places[i]}, {x + 16, y}, "lead");
     svg.line({x + 16, y}, {x + 26, y}, "curve");
     svg.end_group();
@@ -123,7 +123,7 @@ void draw_end_labels(Svg& svg, const Report& report, const SurvivalTable& table,
 void draw_key(Svg& svg, const Report& report, const SurvivalTable& table, const Frame& frame) {
   double y = frame.plot.bottom() + 46;
   for (const auto& condition : table.conditions) {
-    svg.begin_group("strip " + analysis::leg_class(report.index(condition.condition)));
+    svg.begin_group("strip " + graphics::leg_class(report.index(condition.condition)));
     svg.line({frame.plot.x, y - 4}, {frame.plot.x + 18, y - 4}, "curve");
     svg.end_group();
     svg.text({frame.plot.x + 26, y}, Anchor::start, "label",
@@ -176,7 +176,7 @@ std::string in_panels(const Report& report, const SurvivalTable& table, Layout l
 
 std::string time_text(double time_s) {
   const TimeUnit unit = unit_for(time_s);
-  return analysis::number(time_s / unit.seconds, 1) + std::string(unit.name);
+  return graphics::number(time_s / unit.seconds, 1) + std::string(unit.name);
 }
 
 std::string survival_figure(const Report& report, const SurvivalTable& table, Layout layout) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "amble/analysis/svg.hpp"
+#include "amble/graphics/svg.hpp"
 #include "amble/ledger/measures.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/verdict_kinds.hpp"
@@ -70,8 +70,8 @@ std::string two_means_text(const Judgement& judgement, std::string_view unit) {
 /// "at least 8", "1.18 to 1.54"; of a plateau "at most 5 %".
 std::string bounds_text(const ClaimSpec& claim) {
   const auto text = [&claim](double bound) {
-    return claim.kind == ledger::ClaimKind::plateau ? analysis::number(100.0 * bound) + " %"
-                                                    : analysis::number(bound, 3);
+    return claim.kind == ledger::ClaimKind::plateau ? graphics::number(100.0 * bound) + " %"
+                                                    : graphics::number(bound, 3);
   };
   if (claim.at_most == ledger::unbounded) return "at least " + text(claim.at_least);
   if (claim.at_least == -ledger::unbounded) return "at most " + text(claim.at_most);
@@ -176,7 +176,7 @@ void conclude_difference(const ClaimSpec& claim, Judgement& judgement) {
       direction == statistics::Direction::equal
           ? std::string(where) + "."
           : fmt::format("{} {} significant at {} after Holm’s adjustment.", where,
-                        significant ? "and is" : "but is not", analysis::number(claim.alpha, 9));
+                        significant ? "and is" : "but is not", graphics::number(claim.alpha, 9));
   if (claim.relation == ledger::Relation::not_less && judgement.verdict == Verdict::confirmed)
     judgement.reason += " The claim is that the condition does not do worse; it need not do better.";
 }

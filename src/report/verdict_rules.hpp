@@ -13,7 +13,7 @@
 
 namespace amble::report {
 
-/// What is said of a claim. The rules stand in docs/STUDIES.md.
+/// What is said of a claim. The rules are in docs/STUDIES.md.
 enum class Verdict : std::uint8_t { confirmed, not_confirmed, contradicted, not_testable };
 inline constexpr std::array<std::string_view, 4> verdict_names{"confirmed", "not confirmed", "contradicted",
                                                                "not testable"};

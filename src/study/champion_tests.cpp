@@ -48,9 +48,9 @@ class WalkObserver : public trial::Observer {
   std::vector<double> path_m_;
 };
 
-std::string gait_name(const analysis::GaitReport& report) {
-  if (!report.verdict) return {};
-  return std::string(analysis::gait_names[static_cast<std::size_t>(report.verdict->gait)]);
+std::string gait_name(const gait::Report& report) {
+  if (!report.classification) return {};
+  return std::string(gait::gait_names[static_cast<std::size_t>(report.classification->gait)]);
 }
 
 }  // namespace

@@ -10,9 +10,8 @@ void copy_lane(const LaneArray& rows, int lane, std::vector<float>& values) {
 
 }  // namespace
 
-GaitObserver::GaitObserver(const robot::RobotSpec& robot, double timestep_s,
-                           const analysis::GaitSettings& settings)
-    : meter_(analysis::gait_body(robot), timestep_s, settings) {}
+GaitObserver::GaitObserver(const robot::RobotSpec& robot, double timestep_s, const gait::Settings& settings)
+    : meter_(gait::body_of(robot), timestep_s, settings) {}
 
 void GaitObserver::on_step(int, const physics::Engine& engine, const controllers::Batch&, const LaneArray&,
                            int lane) {

@@ -10,13 +10,13 @@
 #include <thread>
 #include <utility>
 
-#include "amble/analysis/generations_csv.hpp"
 #include "amble/core/clock.hpp"
 #include "amble/core/hash.hpp"
 #include "amble/experiment/build_info.hpp"
 #include "amble/experiment/run.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/lock.hpp"
+#include "amble/record/generations_csv.hpp"
 #include "amble/study/champion_tests.hpp"
 
 namespace amble::study {
@@ -45,7 +45,7 @@ class RunProgress : public experiment::RunListener {
 
 std::vector<ledger::CurvePoint> curve_of(const std::filesystem::path& generations_csv) {
   std::vector<ledger::CurvePoint> curve;
-  const auto generations = analysis::read_generations(generations_csv);
+  const auto generations = record::read_generations(generations_csv);
   for (std::size_t i = 0; i < generations.count(); ++i)
     if (curve.empty() || generations.best_m[i] > curve.back().best_m)
       curve.push_back({static_cast<int>(i), generations.best_m[i]});

@@ -2,9 +2,9 @@
 
 #include <string_view>
 
-#include "amble/analysis/page_style.hpp"
-#include "amble/analysis/svg.hpp"
 #include "amble/core/check.hpp"
+#include "amble/graphics/style_sheet.hpp"
+#include "amble/io/xml.hpp"
 #include "amble/view/base64.hpp"
 #include "amble/view/packed_recording.hpp"
 #include "amble/view/page_template.hpp"
@@ -35,7 +35,7 @@ io::Json walker_json(const Walker& walker) {
           {"gait", walker.gait}};
 }
 
-/// JSON that may stand inside an element of HTML: pure ASCII and without "<", which occurs in texts only.
+/// JSON for the content of a <script> element: pure ASCII and without "<", which occurs in strings only.
 std::string script_text(const io::Json& json) {
   std::string text;
   for (const char c : json.dump(-1, ' ', true, io::Json::error_handler_t::replace)) {
@@ -47,7 +47,7 @@ std::string script_text(const io::Json& json) {
   return text;
 }
 
-/// Appends the template up to a mark and what takes the mark's place; returns the rest.
+/// Appends the template up to a mark, then `content` instead of the mark; returns the rest.
 std::string_view fill(std::string_view rest, std::string_view mark, std::string_view content,
                       std::string& page) {
   const auto at = rest.find(mark);
@@ -59,19 +59,19 @@ std::string_view fill(std::string_view rest, std::string_view mark, std::string_
 
 }  // namespace
 
-std::string make_page(const PageInput& input) {
-  AMBLE_CHECK(!input.walkers.empty(), "a page shows at least one walker");
-  io::Json data{{"title", input.title}, {"made_by", input.made_by}, {"walkers", io::Json::array()}};
-  for (const Walker& walker : input.walkers) data["walkers"].push_back(walker_json(walker));
+std::string make_page(const ReplayPage& page) {
+  AMBLE_CHECK(!page.walkers.empty(), "a page shows at least one walker");
+  io::Json data{{"title", page.title}, {"made_by", page.made_by}, {"walkers", io::Json::array()}};
+  for (const Walker& walker : page.walkers) data["walkers"].push_back(walker_json(walker));
 
-  std::string page;
+  std::string html;
   std::string_view rest = page_template();
-  rest = fill(rest, "<!--amble:title-->", analysis::escape(input.title), page);
-  rest = fill(rest, "<!--amble:palette-->", "<style>" + analysis::shared_style_sheet() + "</style>", page);
+  rest = fill(rest, "<!--amble:title-->", io::escape_xml(page.title), html);
+  rest = fill(rest, "<!--amble:palette-->", "<style>" + graphics::shared_style_sheet() + "</style>", html);
   rest = fill(rest, "<!--amble:data-->",
-              "<script type=\"application/json\" id=\"amble-data\">" + script_text(data) + "</script>", page);
-  page += rest;
-  return page;
+              "<script type=\"application/json\" id=\"amble-data\">" + script_text(data) + "</script>", html);
+  html += rest;
+  return html;
 }
 
 }  // namespace amble::view

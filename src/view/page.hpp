@@ -12,11 +12,12 @@ namespace amble::view {
 struct Walker {
   std::string title;
   std::filesystem::path recording;
-  std::string cppn_svg;  ///< analysis::cppn_figure of its controller; empty: not known
+  std::string cppn_svg;  ///< figures::cppn_figure() of its controller; empty: unknown
   io::Json gait;         ///< "amble-gait" (docs/FORMATS.md); null: the page shows duty factors only
 };
 
-struct PageInput {
+/// The contents of the replay page.
+struct ReplayPage {
   std::string title;
   std::vector<Walker> walkers;  ///< at least one
   std::string made_by;          ///< program and version, for the foot of the page
@@ -24,6 +25,6 @@ struct PageInput {
 
 /// A self-contained page that shows the walkers moving, in 3-D, with diagrams tied to the time: no network,
 /// and nothing needed but a browser (of 2023 or later). Throws UserError as pack_recording() does.
-std::string make_page(const PageInput& input);
+std::string make_page(const ReplayPage& page);
 
 }  // namespace amble::view

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <regex>
@@ -23,19 +24,31 @@ std::set<std::string> words(const std::string& text) {
   return found;
 }
 
-/// The table "folder | in → out | may include" of docs/ARCHITECTURE.md.
-Allowed allowed_includes() {
+struct Row {
+  std::string folder;
+  std::set<std::string> includes;
+};
+
+/// The table "folder | in → out | may include" of docs/ARCHITECTURE.md, from top to bottom.
+std::vector<Row> table() {
   std::ifstream file(std::string(AMBLE_SOURCE_DIR) + "/docs/ARCHITECTURE.md");
   static const std::regex row(R"(\| `([a-z]+)` \|.*\| ([^|]*) \|)");
-  Allowed allowed;
+  std::vector<Row> rows;
   std::set<std::string> above;
   std::smatch match;
   for (std::string line; std::getline(file, line);) {
     if (!std::regex_match(line, match, row)) continue;
-    const std::string folder = match[1];
-    allowed[folder] = match[2].str().starts_with("all") ? above : words(match[2]);
-    allowed[folder].insert(folder);
-    above.insert(folder);
+    rows.push_back({match[1], match[2].str().starts_with("all") ? above : words(match[2])});
+    above.insert(match[1]);
+  }
+  return rows;
+}
+
+Allowed allowed_includes() {
+  Allowed allowed;
+  for (const Row& row : table()) {
+    allowed[row.folder] = row.includes;
+    allowed[row.folder].insert(row.folder);
   }
   return allowed;
 }
@@ -55,6 +68,46 @@ TEST(Layers, NoFolderIncludesWhatItsRowDoesNotName) {
       if (!std::regex_match(line, match, include)) continue;
       EXPECT_TRUE(allowed.at(file.folder).contains(match[1])) << file.path << ": " << line;
     }
+  }
+}
+
+TEST(Layers, ARowNamesOnlyRowsAboveIt) {
+  std::set<std::string> above;
+  for (const Row& row : table()) {
+    for (const auto& folder : row.includes)
+      EXPECT_TRUE(above.contains(folder)) << row.folder << ": " << folder;
+    above.insert(row.folder);
+  }
+}
+
+/// By header ("folder/name.hpp"): the headers of the program that it includes.
+std::map<std::string, std::vector<std::string>> header_includes() {
+  static const std::regex include(R"(\s*#\s*include\s*["<]amble/(.*)[">].*)");
+  const std::filesystem::path root = std::filesystem::path(AMBLE_SOURCE_DIR) / "src";
+  std::map<std::string, std::vector<std::string>> includes;
+  std::smatch match;
+  for (const auto& file : source_files())
+    if (file.path.extension() == ".hpp")
+      for (const auto& line : file.lines)
+        if (std::regex_match(line, match, include))
+          includes[file.path.lexically_relative(root).string()].push_back(match[1]);
+  return includes;
+}
+
+TEST(Layers, NoHeaderIncludesItselfThroughOthers) {
+  const auto includes = header_includes();
+  ASSERT_GE(includes.size(), 50u);
+  for (const auto& [start, direct] : includes) {
+    std::set<std::string> reached;
+    std::vector<std::string> left = direct;
+    while (!left.empty()) {
+      const std::string header = left.back();
+      left.pop_back();
+      if (!reached.insert(header).second) continue;
+      if (const auto found = includes.find(header); found != includes.end())
+        left.insert(left.end(), found->second.begin(), found->second.end());
+    }
+    EXPECT_FALSE(reached.contains(start)) << start;
   }
 }
 

@@ -7,13 +7,13 @@
 
 #include "amble/report/curves_figure.hpp"
 #include "amble/report/survival_figure.hpp"
-#include "tests/analysis/xml.hpp"
+#include "tests/graphics/xml.hpp"
 #include "tests/report/fixture.hpp"
 
 namespace amble::report {
 namespace {
 
-using analysis::Layout;
+using graphics::Layout;
 using tests::parse_xml;
 using tests::with_class;
 

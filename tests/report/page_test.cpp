@@ -3,11 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "amble/analysis/svg.hpp"
+#include "amble/io/xml.hpp"
 #include "amble/report/json.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/tables.hpp"
-#include "tests/analysis/xml.hpp"
+#include "tests/graphics/xml.hpp"
 #include "tests/report/fixture.hpp"
 
 namespace amble::report {
@@ -120,7 +120,7 @@ TEST(Page, HasTheNumbersOfTheTables) {
           html, HasSubstr(number_text(number(value), decimals) + " [" + number_text(number(lower), decimals) +
                           ",\u00A0" + number_text(number(upper), decimals) + "]"));
       const std::string p = pairs ? p_number(number("student_p")) : "";
-      EXPECT_NE(html.find(analysis::escape(p)), std::string::npos) << p;
+      EXPECT_NE(html.find(io::escape_xml(p)), std::string::npos) << p;
     }
   }
 }

@@ -103,6 +103,12 @@ TEST(Quantile, InterpolatesBetweenOrderStatistics) {
   EXPECT_EQ(quantile(sample, 1.0), 40.0);
 }
 
+TEST(Median, IsTheMiddleOneOrTheMeanOfTheTwoInTheMiddle) {
+  EXPECT_EQ(median(Sample{4.0}), 4.0);
+  EXPECT_EQ(median(Sample{9.0, -1.0, 2.0}), 2.0);
+  EXPECT_EQ(median(Sample{8.0, 1.0, 3.0, 2.0}), 2.5);
+}
+
 TEST(MeanInterval, IsWiderForMoreConfidence) {
   const Moments sample{20, 5.0, 2.0};
   const auto narrow = mean_interval(sample, 0.5), wide = mean_interval(sample, 0.99);
@@ -116,6 +122,7 @@ TEST(DescriptiveDeathTest, RefusesWhatIsNoNumber) {
   EXPECT_DEATH(summarize(sample), "finite values only");
   EXPECT_DEATH(moments(sample), "finite values only");
   EXPECT_DEATH(mean({}), "a mean needs a value");
+  EXPECT_DEATH(median({}), "needs a value");
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "amble/analysis/generations_csv.hpp"
+#include "amble/record/generations_csv.hpp"
 #include "amble/study/champion_tests.hpp"
 #include "tests/study/fixture.hpp"
 
@@ -24,7 +24,7 @@ TEST(Worker, RecordsWhatTheRunSays) {
   EXPECT_EQ(record.evaluations, 5u * 20u);
 
   const auto rows =
-      analysis::read_generations(ledger::StudyPaths(folder.path()).run("sine", 3) / "generations.csv");
+      record::read_generations(ledger::StudyPaths(folder.path()).run("sine", 3) / "generations.csv");
   ASSERT_EQ(rows.count(), 5u);
   double steps = 0.0;
   for (const double of_generation : rows.steps) steps += of_generation;

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <string>
 
-#include "amble/analysis/recorded.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
+#include "amble/motion/recorded_trial.hpp"
 #include "amble/robot/pose.hpp"
 #include "tests/view/synthetic.hpp"
 
@@ -28,8 +28,8 @@ io::Json expectation(const tests::SyntheticWalk& walk, const std::filesystem::pa
                 {"feet_m", io::Json::array()}};
   for (std::size_t i = 0; i < 22; ++i)
     json[i < 7 ? "root" : i < 10 ? "com" : "angles"].push_back(number(row[i]));
-  const auto recorded = analysis::read_recorded(path);
-  const auto poses = analysis::body_poses(recorded.robot, recorded.motion, frame);
+  const auto recorded = motion::read_recorded_trial(path);
+  const auto poses = motion::body_poses(recorded.robot, recorded.motion, frame);
   for (const auto& leg : recorded.robot.legs) {
     const auto& geom = recorded.robot.geoms[static_cast<std::size_t>(leg.foot_geom)];
     json["feet_m"].push_back(list(robot::centre_m(geom, poses)));

@@ -11,8 +11,8 @@
 
 #include "amble/io/file.hpp"
 #include "amble/record/frame_codec.hpp"
-#include "tests/analysis/fixture.hpp"
 #include "tests/io/temporary_folder.hpp"
+#include "tests/motion/fixture.hpp"
 #include "tests/view/synthetic.hpp"
 
 namespace amble::view {

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <random>
 
-#include "tests/analysis/fixture.hpp"
+#include "tests/motion/fixture.hpp"
 
 namespace amble::tests {
 namespace {

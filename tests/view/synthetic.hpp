@@ -9,7 +9,7 @@
 
 namespace amble::tests {
 
-/// A made-up trot of the robot of tests/analysis/fixture.hpp, as a recording has it: it moves at `speed_m_s`
+/// A made-up trot of the robot of tests/motion/fixture.hpp, as a recording has it: it moves at `speed_m_s`
 /// along x, its joints swing once a second, and every number that has a fraction carries noise, so that it is
 /// as hard to compress as a measured one. A leg's foot touches in half of each second and triggers when it
 /// comes down.

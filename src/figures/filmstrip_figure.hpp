@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "amble/graphics/layout.hpp"
+#include "amble/motion/motion.hpp"
+#include "amble/robot/spec.hpp"
+
+namespace amble::figures {
+
+/// Most poses of a filmstrip.
+inline constexpr int filmstrip_poses = 10;
+
+/// Evenly spaced frames over the last two seconds of walking. If the robot fell, the last second is left out
+/// as far as the recording is long enough. Fewer than filmstrip_poses if the recording has fewer frames.
+std::vector<int> filmstrip_frames(const motion::Motion& motion);
+
+/// Side views of the robot in those frames, over a ground with marks of the distance along its heading. Legs
+/// on the far side are lighter; a foot on the ground is filled. An <svg> element. The motion must have a
+/// frame.
+std::string filmstrip_figure(const robot::RobotSpec& robot, const motion::Motion& motion,
+                             graphics::Layout layout);
+
+}  // namespace amble::figures

@@ -1,0 +1,128 @@
+#include "amble/figures/fitness_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "amble/core/check.hpp"
+#include "amble/graphics/axis.hpp"
+#include "amble/graphics/svg.hpp"
+
+namespace amble::figures {
+namespace {
+
+using namespace graphics;
+
+struct Curve {
+  std::string_view name;
+  const std::vector<double>& values;
+  std::string_view css_class;
+};
+
+/// A plot's area and scales.
+struct Panel {
+  Box plot;
+  Scale x, y;
+};
+
+Panel make_panel(const Box& plot, const record::Generations& generations, Interval values) {
+  Interval span{generations.generation.front(), generations.generation.back()};
+  if (span.length() <= 0.0) span.upper = span.lower + 1.0;
+  if (values.length() <= 0.0) values.upper = values.lower + 1.0;
+  return {plot, Scale{span, plot.x, plot.right()}, Scale{values, plot.bottom(), plot.y}};
+}
+
+/// From zero, or lower if the data is, to a little above the largest value.
+Interval value_range(std::initializer_list<const std::vector<double>*> columns) {
+  Interval range{0.0, 0.0};
+  for (const auto* column : columns)
+    for (const double value : *column) range = including(range, value);
+  range.upper += 0.06 * range.length();
+  return range;
+}
+
+std::vector<Point> curve_points(const Panel& panel, const record::Generations& generations,
+                                const std::vector<double>& values) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    points.push_back({panel.x(generations.generation[i]), panel.y(values[i])});
+  return points;
+}
+
+void draw_curve(Svg& svg, const Panel& panel, const record::Generations& generations, const Curve& curve) {
+  const auto points = curve_points(panel, generations, curve.values);
+  svg.polyline(points, "curve " + std::string(curve.css_class));
+  svg.circle(points.back(), 3.5, "dot " + std::string(curve.css_class));
+}
+
+void draw_distances(Svg& svg, const record::Generations& generations, const Box& plot) {
+  const std::array<Curve, 3> curves{{{"median", generations.median_m, "median"},
+                                     {"mean", generations.mean_m, "mean"},
+                                     {"best", generations.best_m, "best"}}};
+  const Panel panel = make_panel(
+      plot, generations, value_range({&generations.best_m, &generations.mean_m, &generations.median_m}));
+  draw_y_axis(svg, panel.y, nice_ticks(panel.y.data, 6), plot.x, plot.right(), " m");
+  draw_x_axis(svg, panel.x, nice_ticks(panel.x.data, plot.width > 500 ? 9 : 5, 1.0), plot.bottom(), "");
+  svg.text({plot.right() + 14, plot.bottom() + 19}, Anchor::start, "tick", "generation");
+
+  auto area = curve_points(panel, generations, generations.best_m);
+  area.push_back({area.back().x, panel.y(panel.y.data.lower)});
+  area.push_back({area.front().x, panel.y(panel.y.data.lower)});
+  svg.polygon(area, "under-best");
+
+  std::vector<double> label_px;
+  for (const Curve& curve : curves) {
+    draw_curve(svg, panel, generations, curve);
+    label_px.push_back(panel.y(curve.values.back()));
+  }
+  spread(label_px, 17.0);
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    svg.text({plot.right() + 14, label_px[i] + 4}, Anchor::start, "label " + std::string(curves[i].css_class),
+             fmt::format("{} {} m", curves[i].name, label(curves[i].values.back(), 2)));
+}
+
+void draw_small(Svg& svg, const record::Generations& generations, const Box& plot, std::string_view title,
+                const std::vector<double>& values, int decimals) {
+  const Panel panel = make_panel(plot, generations, value_range({&values}));
+  svg.text({plot.x - 26, plot.y - 12}, Anchor::start, "title", title);
+  svg.text({plot.right(), plot.y - 12}, Anchor::end, "value", label(values.back(), decimals));
+  const Ticks ticks = nice_ticks(panel.y.data, 4, decimals == 0 ? 1.0 : 0.0);
+  draw_y_axis(svg, panel.y, ticks, plot.x, plot.right(), "");
+  draw_x_axis(svg, panel.x, nice_ticks(panel.x.data, plot.width > 150 ? 5 : 3, 1.0), plot.bottom(), "");
+  draw_curve(svg, panel, generations, {title, values, "small"});
+}
+
+}  // namespace
+
+std::string fitness_figure(const record::Generations& generations, Layout layout) {
+  AMBLE_CHECK(generations.count() > 0, "a run has a generation");
+  const bool wide = layout == Layout::wide;
+  const double width = width_px(layout);
+  const double main_height = wide ? 300 : 220, small_height = wide ? 96 : 72;
+  const double small_top = main_height + 90;
+  Svg svg(width, small_top + small_height + 30,
+          fmt::format("Distance walked over {} generations: best {} m, mean {} m, median {} m in the last",
+                      generations.count(), label(generations.best_m.back(), 2),
+                      label(generations.mean_m.back(), 2), label(generations.median_m.back(), 2)));
+  draw_distances(svg, generations, {42, 12, width - 42 - 114, main_height});
+
+  struct Small {
+    std::string_view wide_title, narrow_title;
+    const std::vector<double>& values;
+    int decimals;
+  };
+  const std::array<Small, 3> smalls{{{"Species", "Species", generations.species, 0},
+                                     {"Hidden nodes, mean", "Nodes", generations.mean_hidden, 1},
+                                     {"Links, mean", "Links", generations.mean_links, 1}}};
+  const double gap = wide ? 28 : 10, left = 26;
+  const double each = (width - 2 * gap - 10) / 3 - left;
+  for (std::size_t i = 0; i < smalls.size(); ++i)
+    draw_small(svg, generations,
+               {left + static_cast<double>(i) * (left + each + gap), small_top, each, small_height},
+               wide ? smalls[i].wide_title : smalls[i].narrow_title, smalls[i].values, smalls[i].decimals);
+  return svg.finish();
+}
+
+}  // namespace amble::figures

@@ -1,0 +1,119 @@
+#include "amble/figures/substrate_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "amble/figures/substrate_places.hpp"
+#include "amble/graphics/style_sheet.hpp"
+#include "amble/graphics/svg.hpp"
+
+namespace amble::figures {
+namespace {
+
+using namespace graphics;
+
+constexpr double node_px = 6.0;
+/// With more links than this there are no arrowheads: they would hide the nodes.
+constexpr std::size_t most_arrows = 200;
+constexpr std::array<std::string_view, 3> role_classes{"node-sensor", "node-hidden", "node-joint"};
+constexpr std::array<std::string_view, 3> role_names{"sensor", "hidden", "drives a joint"};
+
+std::string_view class_of(motion::NodeRole role) {
+  return role_classes[static_cast<std::size_t>(role)];
+}
+
+/// A line from the edge of one node to that of the other, and a head at its end.
+void draw_link(Svg& svg, Point from, Point to, double strength, bool with_head) {
+  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  const Point along{(to.x - from.x) / length, (to.y - from.y) / length};
+  const auto at = [&](double from_end_px, double aside_px) {
+    return Point{to.x - along.x * from_end_px - along.y * aside_px,
+                 to.y - along.y * from_end_px + along.x * aside_px};
+  };
+  const Point start{from.x + along.x * node_px, from.y + along.y * node_px};
+  svg.line(start, at(node_px, 0.0), strength > 0.66 ? "link strong" : strength > 0.33 ? "link" : "link weak");
+  if (with_head)
+    svg.polygon(std::array{at(node_px + 1.0, 0.0), at(node_px + 8.0, 3.0), at(node_px + 8.0, -3.0)}, "arrow");
+}
+
+void draw_links(Svg& svg, const Substrate& substrate, const SubstratePlaces& places) {
+  const bool many = substrate.links.size() > most_arrows;
+  for (std::size_t kind = 0; kind < substrate.link_kinds.size(); ++kind) {
+    svg.begin_group(leg_class(static_cast<int>(kind)) + (many ? " many" : ""));
+    for (const SubstrateLink& link : substrate.links) {
+      if (static_cast<std::size_t>(link.kind) != kind) continue;
+      const Point from = places.nodes[static_cast<std::size_t>(link.source)],
+                  to = places.nodes[static_cast<std::size_t>(link.target)];
+      if (link.source == link.target) {
+        svg.circle({from.x + node_px, from.y - node_px}, node_px, "loop");
+      } else if (from != to) {
+        draw_link(svg, from, to, link.strength, !many);
+      }
+    }
+    svg.end_group();
+  }
+}
+
+void draw_node(Svg& svg, Point at, motion::NodeRole role) {
+  if (role == motion::NodeRole::sensor) {
+    svg.rect({at.x - node_px + 1, at.y - node_px + 1, 2 * node_px - 2, 2 * node_px - 2}, class_of(role), 1.5);
+  } else {
+    svg.circle(at, node_px, class_of(role));
+  }
+}
+
+void draw_legend(Svg& svg, const Substrate& substrate) {
+  double x = node_px + 1.0;
+  const auto write = [&](std::string_view text) {
+    svg.text({x + 12.0, 16.0}, Anchor::start, "value", text);
+    x += 12.0 + 7.4 * static_cast<double>(text.size()) + 26.0;
+  };
+  for (std::size_t role = 0; role < role_names.size(); ++role) {
+    const auto has_role = [&](const motion::NetworkNode& node) {
+      return node.role == static_cast<motion::NodeRole>(role);
+    };
+    if (std::ranges::none_of(substrate.nodes, has_role)) continue;
+    draw_node(svg, {x, 12.0}, static_cast<motion::NodeRole>(role));
+    write(role_names[role]);
+  }
+  for (std::size_t kind = 0; kind < substrate.link_kinds.size(); ++kind) {
+    const auto is_kind = [&](const SubstrateLink& link) { return link.kind == static_cast<int>(kind); };
+    if (std::ranges::none_of(substrate.links, is_kind)) continue;
+    svg.begin_group(leg_class(static_cast<int>(kind)));
+    svg.line({x - 8.0, 12.0}, {x + 6.0, 12.0}, "link strong");
+    svg.end_group();
+    write(substrate.link_kinds[kind]);
+  }
+}
+
+}  // namespace
+
+std::string substrate_figure(const Substrate& substrate, Layout layout) {
+  const bool wide = layout == Layout::wide;
+  const SubstratePlaces places = substrate_places(substrate, width_px(layout), wide ? 36.0 : 8.0);
+  Svg svg(places.width_px, places.height_px,
+          fmt::format("Substrate of {} nodes and {} links", substrate.nodes.size(), substrate.links.size()));
+  for (const auto& frame : places.frames) svg.polygon(frame, "plane");
+  draw_links(svg, substrate, places);
+  for (std::size_t i = 0; i < substrate.nodes.size(); ++i)
+    draw_node(svg, places.nodes[i], substrate.nodes[i].role);
+  if (wide) {
+    for (std::size_t i = 0; i < substrate.nodes.size(); ++i)
+      svg.text({places.nodes[i].x + node_px + 2.0, places.nodes[i].y + node_px + 9.0}, Anchor::start,
+               "tiny halo", substrate.nodes[i].name);
+    for (const auto& [at, text] : places.marks) svg.text(at, Anchor::middle, "tick", text);
+    for (const auto& [at, text] : places.titles) svg.text(at, Anchor::start, "tick halo", text);
+    draw_legend(svg, substrate);
+  }
+  return svg.finish();
+}
+
+std::string substrate_svg(const Substrate& substrate) {
+  return standalone_svg(substrate_figure(substrate, Layout::wide));
+}
+
+}  // namespace amble::figures

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+namespace amble::graphics {
+
+/// The style sheet of a page: light and dark, screen, phone and paper. Legs are .leg0 … .leg7, which set
+/// --leg for the elements inside. The sides of a quadruped differ in hue (left blue, right orange), front and
+/// back in lightness (front dark, back light), so that colour-blind readers can tell them apart too.
+std::string style_sheet();
+
+/// For pages with a style of their own: the colours as custom properties (--paper, --ink, --c0 …), light and
+/// dark, and light on paper; and the style of CPPNs (figures/cppn_figure.hpp).
+std::string shared_style_sheet();
+
+/// An <svg> element (svg.hpp) as a file of its own, with the part of the style sheet that figures need:
+/// light, or dark if the viewer prefers that.
+std::string standalone_svg(std::string element);
+
+}  // namespace amble::graphics

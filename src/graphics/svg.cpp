@@ -1,0 +1,129 @@
+#include "amble/graphics/svg.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "amble/core/check.hpp"
+#include "amble/io/xml.hpp"
+
+namespace amble::graphics {
+
+std::string number(double value, int decimals) {
+  AMBLE_CHECK(std::isfinite(value), "figures hold finite numbers");
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+  }
+  return text == "-0" ? "0" : text;
+}
+
+Svg::Svg(double width_px, double height_px, std::string_view description) {
+  out_ = fmt::format(
+      R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" role="img")",
+      number(width_px), number(height_px));
+  out_ += fmt::format(" aria-label=\"{}\">\n", io::escape_xml(description));
+}
+
+void Svg::begin_group(std::string_view name, std::string_view tooltip) {
+  out_ += "<g";
+  css_class(name);
+  out_ += ">\n";
+  if (!tooltip.empty()) out_ += "<title>" + io::escape_xml(tooltip) + "</title>\n";
+  ++open_groups_;
+}
+
+void Svg::end_group() {
+  AMBLE_CHECK(open_groups_ > 0, "no group is open");
+  out_ += "</g>\n";
+  --open_groups_;
+}
+
+void Svg::line(Point from, Point to, std::string_view name) {
+  out_ += "<line";
+  css_class(name);
+  attribute("x1", from.x);
+  attribute("y1", from.y);
+  attribute("x2", to.x);
+  attribute("y2", to.y);
+  out_ += "/>\n";
+}
+
+void Svg::rect(const Box& box, std::string_view name, double corner_px) {
+  out_ += "<rect";
+  css_class(name);
+  attribute("x", box.x);
+  attribute("y", box.y);
+  attribute("width", box.width);
+  attribute("height", box.height);
+  if (corner_px > 0.0) attribute("rx", corner_px);
+  out_ += "/>\n";
+}
+
+void Svg::circle(Point centre, double radius_px, std::string_view name) {
+  out_ += "<circle";
+  css_class(name);
+  attribute("cx", centre.x);
+  attribute("cy", centre.y);
+  attribute("r", radius_px);
+  out_ += "/>\n";
+}
+
+void Svg::bezier(std::span<const Point> chain, std::string_view name, double width_px) {
+  AMBLE_CHECK(chain.size() % 3 == 1, "each curve has two control points and an end");
+  const auto pair = [](Point point) { return number(point.x, 1) + " " + number(point.y, 1); };
+  out_ += "<path";
+  css_class(name);
+  out_ += " d=\"M" + pair(chain[0]);
+  for (std::size_t i = 1; i < chain.size(); ++i) out_ += (i % 3 == 1 ? " C" : " ") + pair(chain[i]);
+  out_ += '"';
+  if (width_px > 0.0) attribute("stroke-width", width_px);
+  out_ += "/>\n";
+}
+
+void Svg::polyline(std::span<const Point> corners, std::string_view name) {
+  out_ += "<polyline";
+  css_class(name);
+  points(corners);
+}
+
+void Svg::polygon(std::span<const Point> corners, std::string_view name) {
+  out_ += "<polygon";
+  css_class(name);
+  points(corners);
+}
+
+void Svg::text(Point at, Anchor anchor, std::string_view name, std::string_view text) {
+  out_ += "<text";
+  css_class(name);
+  attribute("x", at.x);
+  attribute("y", at.y);
+  if (anchor == Anchor::middle) out_ += " text-anchor=\"middle\"";
+  if (anchor == Anchor::end) out_ += " text-anchor=\"end\"";
+  out_ += ">" + io::escape_xml(text) + "</text>\n";
+}
+
+std::string Svg::finish() {
+  AMBLE_CHECK(open_groups_ == 0, "a group is still open");
+  return std::move(out_) + "</svg>\n";
+}
+
+void Svg::attribute(std::string_view name, double value) {
+  out_ += fmt::format(" {}=\"{}\"", name, number(value));
+}
+
+void Svg::css_class(std::string_view name) {
+  if (!name.empty()) out_ += fmt::format(" class=\"{}\"", name);
+}
+
+void Svg::points(std::span<const Point> corners) {
+  out_ += " points=\"";
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (i > 0) out_ += ' ';
+    out_ += number(corners[i].x, 1) + "," + number(corners[i].y, 1);
+  }
+  out_ += "\"/>\n";
+}
+
+}  // namespace amble::graphics

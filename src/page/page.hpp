@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "amble/motion/recorded_trial.hpp"
+#include "amble/record/generations_csv.hpp"
+
+/// The page of a run and its champion: page.hpp writes the HTML, figure_files.hpp its figures as files.
+namespace amble::page {
+
+/// A row of the table at the end of a page.
+struct Fact {
+  std::string label, value;
+};
+
+struct CppnSize {
+  int hidden = 0, links = 0;
+};
+
+/// The contents of a page, besides the recording of the champion. All texts are plain; the page escapes them.
+struct RunPage {
+  std::string title;
+  std::string subtitle;
+  std::optional<record::Generations> generations;  ///< none: the page does not mention the evolution
+  std::optional<CppnSize> cppn;                    ///< of the champion
+  std::vector<Fact> facts;                         ///< settings and provenance
+  std::vector<std::string> commands;               ///< shell commands that make the page again
+};
+
+/// One self-contained HTML page, which is well-formed XML too: no network, no scripts.
+std::string make_page(const RunPage& page, const motion::RecordedTrial& recorded);
+
+}  // namespace amble::page

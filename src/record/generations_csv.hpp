@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace amble::record {
+
+/// The columns of a run's generations.csv that figures need, one element per generation. All have the same
+/// length.
+struct Generations {
+  std::vector<double> generation;
+  std::vector<double> best_m, mean_m, median_m;  ///< distance walked; best of the generation
+  std::vector<double> species;
+  std::vector<double> threshold;  ///< compatibility threshold of the speciation
+  std::vector<double> mean_hidden, mean_links;
+  std::vector<double> evaluations, steps;  ///< of this generation; steps are simulated ticks
+  /// Of novelty search; empty for runs without.
+  std::vector<double> archive, novelty_threshold, best_novelty;
+  /// Where the time went, s; all but wall_s may be empty.
+  std::vector<double> wall_s, physics_s, decode_s, control_s, waiting_s, search_s, referees_s, files_s;
+
+  std::size_t count() const { return generation.size(); }
+};
+
+/// Reads generations.csv by the names in its header row; other columns are passed over. Throws UserError:
+/// ExitCode::io for a file that cannot be read, ExitCode::bad_file for one that is no such table ("FILE:LINE:
+/// column 'best_m' …").
+Generations read_generations(const std::filesystem::path& path);
+
+/// The same from text; `name` is the file's name in messages.
+Generations parse_generations(std::string_view text, const std::string& name);
+
+}  // namespace amble::record

@@ -1,0 +1,99 @@
+#include "amble/figures/cppn_figure.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/figures/cppn_samples.hpp"
+#include "tests/graphics/xml.hpp"
+
+namespace amble::figures {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsSupersetOf;
+using testing::Not;
+using testing::StartsWith;
+
+/// Widths of the lines in groups of this class, in their order, those of the legend left out.
+std::vector<double> widths(const std::vector<tests::XmlElement>& elements, const std::string& css_class) {
+  std::vector<double> found;
+  bool in_link = false;
+  for (const auto& element : elements) {
+    if (element.name == "title") in_link = element.text.find("→") != std::string::npos;
+    if (element.name == "text") in_link = false;
+    if (in_link && element.name == "path" && element.path.size() >= 2 &&
+        element.path[element.path.size() - 2].find(css_class) != std::string::npos)
+      found.push_back(element.number("stroke-width"));
+  }
+  return found;
+}
+
+std::vector<std::string> titles(const std::vector<tests::XmlElement>& elements) {
+  std::vector<std::string> found;
+  for (const auto& element : elements)
+    if (element.name == "title") found.push_back(element.text);
+  return found;
+}
+
+TEST(CppnFigure, DrawsEachNodeAndItsFunction) {
+  const auto elements = tests::parse_xml(cppn_figure(tests::cppn()));
+  EXPECT_EQ(tests::with_class(elements, "neuron").size(), 4u);
+  EXPECT_EQ(tests::with_class(elements, "terminal").size(), 3u);
+  // Two strokes in each of four neurons, and in each of three functions of the legend.
+  EXPECT_EQ(tests::with_class(elements, "glyph").size(), 2u * (4 + 3));
+  EXPECT_THAT(tests::texts(elements),
+              IsSupersetOf({"bias", "leg", "time", "pattern", "offset", "sigmoid", "Gaussian", "sine"}));
+  EXPECT_THAT(tests::texts(elements), Not(Contains("linear"))) << "no node has it";
+  EXPECT_THAT(titles(elements), IsSupersetOf({"pattern: sine", "node 9: gaussian", "leg"}));
+}
+
+TEST(CppnFigure, DrawsWeightsAsWidthsAndSignsAsColours) {
+  const auto elements = tests::parse_xml(cppn_figure(tests::cppn()));
+  // The heaviest, 3, is 6 px wide and comes first; others lie between it and 0.8 px in proportion.
+  EXPECT_THAT(widths(elements, "plus"), testing::ElementsAre(6.0, 2.53, 2.1, 1.67));
+  EXPECT_THAT(widths(elements, "minus"), testing::ElementsAre(3.4));
+  EXPECT_THAT(widths(elements, "off"), testing::ElementsAre(2.1));
+  EXPECT_THAT(titles(elements), IsSupersetOf({"node 12 → pattern: 3.000", "time → node 9: −1.500",
+                                              "leg → offset: 0.750, disabled"}));
+}
+
+TEST(CppnFigure, DrawsCyclesAndLoops) {
+  auto graph = tests::cppn();
+  graph.links.push_back({6, 5, 1.0, true});
+  graph.links.push_back({3, 3, 1.0, true});
+  EXPECT_EQ(tests::with_class(tests::parse_xml(cppn_figure(graph)), "back").size(), 2u);
+}
+
+TEST(CppnFigure, StaysInsideItsPicture) {
+  auto graph = tests::cppn();
+  graph.nodes[1].name = "a_rather_long_name_of_an_input";
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    graph.nodes.push_back({100 + i, CppnRole::hidden, "linear", ""});
+    graph.links.push_back({graph.nodes.size() - 2, graph.nodes.size() - 1, 0.1, true});
+  }
+  const auto elements = tests::parse_xml(cppn_figure(graph));
+  for (const auto& element : elements) {
+    if (element.name != "circle") continue;
+    EXPECT_GE(element.number("cx") - element.number("r"), 0.0);
+    EXPECT_LE(element.number("cx") + element.number("r"), elements.front().number("width"));
+    EXPECT_GE(element.number("cy") - element.number("r"), 0.0);
+    EXPECT_LE(element.number("cy") + element.number("r"), elements.front().number("height"));
+  }
+}
+
+TEST(CppnFigure, TakesACppnWithoutLinksAndNamesWithMarkup) {
+  auto graph = tests::cppn();
+  graph.links.clear();
+  graph.nodes[1].name = "<leg & \"foot\">";
+  EXPECT_THAT(tests::texts(tests::parse_xml(cppn_figure(graph))), Contains("<leg & \"foot\">"));
+}
+
+TEST(CppnFigure, IsAFileOfItsOwnWithItsStyle) {
+  EXPECT_THAT(cppn_svg(tests::cppn()), StartsWith("<svg "));
+  EXPECT_THAT(cppn_svg(tests::cppn()), HasSubstr(".wire.minus path"));
+  EXPECT_THAT(cppn_figure(tests::cppn()), Not(HasSubstr("<style>")));
+}
+
+}  // namespace
+}  // namespace amble::figures

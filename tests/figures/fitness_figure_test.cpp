@@ -1,0 +1,68 @@
+#include "amble/figures/fitness_figure.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/graphics/xml.hpp"
+
+namespace amble::figures {
+namespace {
+
+using graphics::Layout;
+using testing::Contains;
+
+record::Generations table() {
+  record::Generations generations;
+  generations.generation = {0, 1, 2};
+  generations.best_m = {0.5, 1.5, 3.04};
+  generations.mean_m = {0.25, 0.5, 1.0};
+  generations.median_m = {0.1, 0.2, 0.9};
+  generations.species = {1, 20, 29};
+  generations.mean_hidden = {0, 0.5, 1.25};
+  generations.mean_links = {8, 8.5, 9.75};
+  return generations;
+}
+
+class FitnessFigure : public testing::TestWithParam<Layout> {};
+
+TEST_P(FitnessFigure, LabelsEveryCurveWithItsLastValue) {
+  const auto texts = tests::texts(tests::parse_xml(fitness_figure(table(), GetParam())));
+  for (const char* label : {"best 3.04 m", "mean 1.00 m", "median 0.90 m", "29", "1.2", "9.8", "generation"})
+    EXPECT_THAT(texts, Contains(label));
+}
+
+TEST_P(FitnessFigure, DrawsCurvesInProportion) {
+  const auto elements = tests::parse_xml(fitness_figure(table(), GetParam()));
+  EXPECT_EQ(tests::with_class(elements, "curve").size(), 6u);
+  const auto best = tests::points(tests::with_class(elements, "best").at(0));
+  const auto mean = tests::points(tests::with_class(elements, "mean").at(0));
+  ASSERT_EQ(best.size(), 3u);
+  EXPECT_NEAR(best[1].first - best[0].first, best[2].first - best[1].first, 0.11);
+  // best rises by 2.54 m where mean rises by 0.75 m; up is towards zero. Coordinates are rounded to 0.1 px.
+  EXPECT_NEAR((best[0].second - best[2].second) / (mean[0].second - mean[2].second), 2.54 / 0.75, 0.02);
+}
+
+TEST_P(FitnessFigure, TakesASingleGenerationAndNoProgressAtAll) {
+  record::Generations generations;
+  for (auto* column :
+       {&generations.generation, &generations.best_m, &generations.mean_m, &generations.median_m,
+        &generations.species, &generations.mean_hidden, &generations.mean_links})
+    column->push_back(0.0);
+  EXPECT_THAT(tests::texts(tests::parse_xml(fitness_figure(generations, GetParam()))),
+              Contains("best 0.00 m"));
+}
+
+TEST_P(FitnessFigure, ShowsNegativeValues) {
+  record::Generations generations = table();
+  generations.median_m = {-1.0, -0.5, -0.25};
+  const auto elements = tests::parse_xml(fitness_figure(generations, GetParam()));
+  EXPECT_THAT(tests::texts(elements), Contains("median \u22120.25 m"));
+  // The first axis is that of the distances; nothing lies below it.
+  const double base = tests::with_class(elements, "axis").at(0).number("y1");
+  for (const auto& [x, y] : tests::points(tests::with_class(elements, "median").at(0))) EXPECT_LE(y, base);
+}
+
+INSTANTIATE_TEST_SUITE_P(Layouts, FitnessFigure, testing::Values(Layout::wide, Layout::narrow));
+
+}  // namespace
+}  // namespace amble::figures

@@ -1,0 +1,109 @@
+#include "amble/figures/substrate_figure.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "tests/graphics/xml.hpp"
+#include "tests/motion/fixture.hpp"
+
+namespace amble::figures {
+namespace {
+
+using graphics::Layout, graphics::width_px;
+using testing::HasSubstr;
+using testing::IsSupersetOf;
+using testing::Not;
+
+/// All places of a grid of −1, 0, 1 in each coordinate; the first node senses, the last drives a joint.
+Substrate grid(std::size_t coordinates) {
+  Substrate substrate;
+  const std::vector<std::string> names{"layer", "row", "column", "depth", "time"};
+  substrate.coordinates.assign(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(coordinates));
+  const int count = static_cast<int>(std::pow(3, coordinates));
+  for (int i = 0; i < count; ++i) {
+    motion::NetworkNode& node = substrate.nodes.emplace_back();
+    node.name = "node " + std::to_string(i);
+    for (int rest = i; node.at.size() < coordinates; rest /= 3) node.at.push_back(rest % 3 - 1);
+  }
+  substrate.nodes.front().role = motion::NodeRole::sensor;
+  substrate.nodes.back().role = motion::NodeRole::joint;
+  substrate.link_kinds = {"inner", "outer"};
+  substrate.links = {{0, 1, 0, 1.0}, {1, count - 1, 1, 0.1}, {1, 1, 1, 0.5}};
+  return substrate;
+}
+
+/// Middles of the circles that are nodes, and of the boxes of sensors.
+std::set<std::pair<double, double>> node_places(const std::vector<tests::XmlElement>& elements) {
+  std::set<std::pair<double, double>> places;
+  for (const char* role : {"node-hidden", "node-joint"})
+    for (const auto& circle : tests::with_class(elements, role))
+      places.emplace(circle.number("cx"), circle.number("cy"));
+  for (const auto& box : tests::with_class(elements, "node-sensor"))
+    places.emplace(box.number("x") + 0.5 * box.number("width"), box.number("y") + 0.5 * box.number("height"));
+  return places;
+}
+
+TEST(SubstrateFigure, GivesEveryNodeAPlaceOfItsOwnInsideThePicture) {
+  for (std::size_t coordinates = 1; coordinates <= 4; ++coordinates)
+    for (const Layout layout : {Layout::wide, Layout::narrow}) {
+      const Substrate substrate = grid(coordinates);
+      const auto elements = tests::parse_xml(substrate_figure(substrate, layout));
+      const auto places = node_places(elements);
+      // The legend of the wide picture has one of each of the three roles.
+      EXPECT_EQ(places.size(), substrate.nodes.size() + (layout == Layout::wide ? 3 : 0)) << coordinates;
+      for (const auto& [x, y] : places) {
+        EXPECT_GT(x, 0.0);
+        EXPECT_LT(x, width_px(layout));
+        EXPECT_GT(y, 0.0);
+        EXPECT_LT(y, elements.front().number("height"));
+      }
+    }
+}
+
+TEST(SubstrateFigure, DrawsLinksInTheColoursOfTheirKindsWithHeads) {
+  const auto elements = tests::parse_xml(substrate_figure(grid(2), Layout::narrow));
+  const auto links = tests::with_class(elements, "link");
+  ASSERT_EQ(links.size(), 2u);
+  EXPECT_EQ(links[0].path.at(1), "leg0");
+  EXPECT_EQ(links[1].path.at(1), "leg1");
+  EXPECT_EQ(tests::with_class(elements, "strong").size(), 1u);
+  EXPECT_EQ(tests::with_class(elements, "weak").size(), 1u);
+  EXPECT_EQ(tests::with_class(elements, "arrow").size(), 2u);
+  EXPECT_EQ(tests::with_class(elements, "loop").size(), 1u) << "a link to itself";
+}
+
+TEST(SubstrateFigure, PutsAFrameAroundEachPlaneAndModule) {
+  EXPECT_EQ(tests::with_class(tests::parse_xml(substrate_figure(grid(2), Layout::wide)), "plane").size(), 1u);
+  EXPECT_EQ(tests::with_class(tests::parse_xml(substrate_figure(grid(3), Layout::wide)), "plane").size(), 3u);
+  EXPECT_EQ(tests::with_class(tests::parse_xml(substrate_figure(grid(4), Layout::wide)), "plane").size(), 9u);
+}
+
+TEST(SubstrateFigure, NamesNodesPlanesRolesAndKinds) {
+  const auto words = tests::texts(tests::parse_xml(substrate_figure(grid(3), Layout::wide)));
+  EXPECT_THAT(words, IsSupersetOf({"node 0", "node 26", "layer = −1", "layer = 1", "sensor", "hidden",
+                                   "drives a joint", "inner", "outer"}));
+}
+
+TEST(SubstrateFigure, TakesNodesThatAgreeInACoordinate) {
+  Substrate substrate = grid(4);
+  for (motion::NetworkNode& node : substrate.nodes) node.at[0] = node.at[3] = 0.5;
+  tests::parse_xml(substrate_figure(substrate, Layout::wide));
+}
+
+TEST(SubstrateFigure, RefusesMoreCoordinatesThanItCanShow) {
+  EXPECT_EQ(tests::error_of([] { substrate_figure(grid(5), Layout::wide); }),
+            "a substrate with 5 coordinates cannot be drawn: expected at most 4");
+}
+
+TEST(SubstrateFigure, IsAFileOfItsOwnWithItsStyle) {
+  const std::string svg = substrate_svg(grid(2));
+  EXPECT_THAT(svg, HasSubstr("<style>"));
+  EXPECT_THAT(substrate_figure(grid(2), Layout::wide), Not(HasSubstr("<style>")));
+  tests::parse_xml(svg);
+}
+
+}  // namespace
+}  // namespace amble::figures

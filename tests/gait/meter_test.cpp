@@ -1,0 +1,401 @@
+#include "amble/gait/meter.hpp"
+#include "amble/gait/report_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "amble/core/error.hpp"
+#include "amble/core/random.hpp"
+#include "tests/gait/synthetic_gait.hpp"
+#include "tests/motion/fixture.hpp"
+
+namespace amble::gait {
+namespace {
+
+using tests::Clockwork;
+using tests::Feeder;
+
+constexpr Classification named(Gait gait) {
+  return {gait, Irregular::no};
+}
+
+/// 20 s of feet that land at these shares of a stride of 0.8 s, in percent; legs FL, FR, BL, BR.
+Report walk(std::vector<int> percent, int stance_percent = 60) {
+  Clockwork feet{.stride = 80, .stance = stance_percent * 80 / 100, .offset = {}};
+  for (const int share : percent) feet.offset.push_back(share * 80 / 100);
+  Feeder feeder;
+  feeder.walk(feet, 2000);
+  return feeder.finish();
+}
+
+TEST(GaitMeter, NamesSyntheticGaitsOfEveryClass) {
+  // Lateral sequence: left hind, left fore, right hind, right fore.
+  EXPECT_EQ(walk({25, 75, 0, 50}).classification, named(Gait::walk_lateral));
+  EXPECT_EQ(walk({75, 25, 0, 50}).classification, named(Gait::walk_diagonal));
+  EXPECT_EQ(walk({50, 0, 0, 50}).classification, named(Gait::trot));
+  EXPECT_EQ(walk({0, 50, 0, 50}).classification, named(Gait::pace));
+  EXPECT_EQ(walk({50, 50, 0, 0}).classification, named(Gait::bound));
+  EXPECT_EQ(walk({0, 0, 0, 0}).classification, named(Gait::pronk));
+  EXPECT_EQ(walk({60, 80, 0, 20}, 30).classification, named(Gait::gallop));
+  EXPECT_EQ(walk({0, 0, 0, 50}).classification, (Classification{Gait::irregular, Irregular::mixed_pairs}));
+}
+
+TEST(GaitMeter, NamesGaitsFromOneFrameBesideABorderToTheOther) {
+  // A stride of 1.6 s is 160 frames; a sixteenth of it, the tolerance about pace and trot, is 10 frames.
+  const auto at = [](int lateral) {
+    Feeder feeder;
+    feeder.walk({.stride = 160, .stance = 100, .offset = {lateral, lateral + 80, 0, 80}}, 3000);
+    return feeder.finish().classification;
+  };
+  EXPECT_EQ(at(9), named(Gait::pace));
+  EXPECT_EQ(at(11), named(Gait::walk_lateral));
+  EXPECT_EQ(at(69), named(Gait::walk_lateral));
+  EXPECT_EQ(at(71), named(Gait::trot));
+  EXPECT_EQ(at(89), named(Gait::trot));
+  EXPECT_EQ(at(91), named(Gait::walk_diagonal));
+  EXPECT_EQ(at(149), named(Gait::walk_diagonal));
+  EXPECT_EQ(at(151), named(Gait::pace));
+}
+
+TEST(GaitMeter, MeasuresClockworkFeetExactly) {
+  // Strides of 0.8 s with 0.48 s of stance. From 2 s to 20 s the left hind foot lands at 2.4, 3.2, …, 19.2 s:
+  // 22 times, 21 strides.
+  const Report report = walk({25, 75, 0, 50});
+  EXPECT_EQ(report.reference_leg, 2);
+  ASSERT_EQ(report.legs.size(), 4u);
+  const double phases[] = {0.25, 0.75, 0.0, 0.5};
+  for (std::size_t leg = 0; leg < 4; ++leg) {
+    const LegGait& gait = report.legs[leg];
+    EXPECT_NEAR(gait.stride_s.value(), 0.8, 1e-12);
+    EXPECT_NEAR(gait.stride_sd_s.value(), 0.0, 1e-9);
+    EXPECT_NEAR(gait.duty_factor.value(), 0.6, 1e-12);
+    EXPECT_NEAR(gait.phase.value().resultant, 1.0, 1e-12);
+    EXPECT_NEAR(std::remainder(gait.phase->phase - phases[leg], 1.0), 0.0, 1e-12);
+    EXPECT_NEAR(gait.drift_strides.value(), 0.0, 1e-12);
+  }
+  EXPECT_EQ(report.legs[2].touchdowns, 22);
+  EXPECT_EQ(report.legs[2].strides, 21);
+  EXPECT_NEAR(report.duty_factor.value(), 0.6, 1e-12);
+  EXPECT_NEAR(report.stride_s.value(), 0.8, 1e-12);
+  // Windows 2 … 7, 7 … 12 and, with the rest, 12 … 20 s.
+  ASSERT_EQ(report.windows.size(), 3u);
+  EXPECT_DOUBLE_EQ(report.windows[0].start_s, 2.0);
+  EXPECT_DOUBLE_EQ(report.windows[2].end_s, 20.0);
+  EXPECT_DOUBLE_EQ(report.gait_seconds[static_cast<std::size_t>(Gait::walk_lateral)], 18.0);
+}
+
+TEST(GaitMeter, FindsTheSamePhasesForUnevenStridesWithTheirSpread) {
+  // Left fore lands by turns 0.2 and 0.3 of a stride after left hind: mean 0.25, R = cos(2π × 0.05).
+  Feeder feeder;
+  for (int k = 0; k < 4000; ++k) {
+    // Two strides of 1 s; a foot stands for half a second after each of its two touch-downs.
+    const auto stands = [&](int first, int second) {
+      return (k % 200 - first + 200) % 200 < 50 || (k % 200 - second + 200) % 200 < 50 ? 1.0f : 0.0f;
+    };
+    const float hind_left = stands(0, 100), hind_right = stands(50, 150), fore_left = stands(20, 130),
+                fore_right = stands(75, 175);
+    feeder.add({fore_left, fore_right, hind_left, hind_right});
+  }
+  const Report report = feeder.finish();
+  EXPECT_NEAR(report.quadruped->left.phase, 0.25, 1e-12);
+  EXPECT_NEAR(report.quadruped->left.resultant, std::cos(2.0 * std::acos(-1.0) * 0.05), 1e-3);
+  EXPECT_EQ(report.classification, named(Gait::walk_lateral));
+}
+
+TEST(GaitMeter, SeesThroughContactChatter) {
+  // In each stance the sensor drops out for up to three frames, and in each swing it fires once.
+  const Clockwork feet{.stride = 80, .stance = 48, .offset = {20, 60, 0, 40}};
+  Stream stream(7, Purpose::test);
+  Feeder feeder;
+  std::vector<int> dropped(4), fired(4);
+  for (int k = 0; k < 2000; ++k) {
+    auto touch = feet.touch(k);
+    for (std::size_t leg = 0; leg < 4; ++leg) {
+      const int in_stride = ((k - feet.offset[leg]) % 80 + 80) % 80;
+      if (in_stride == 0) dropped[leg] = static_cast<int>(stream.uniform(1.0, 40.0));
+      if (in_stride == 48) fired[leg] = static_cast<int>(stream.uniform(58.0, 70.0));
+      if (in_stride >= dropped[leg] && in_stride < dropped[leg] + 3) touch[leg] = 0.0f;
+      if (in_stride > 5 && in_stride < 40 && in_stride % 9 == 0) touch[leg] = 0.0f;
+      if (in_stride == fired[leg] && in_stride > 48) touch[leg] = 1.0f;
+    }
+    feeder.add(touch);
+  }
+  const Report report = feeder.finish();
+  EXPECT_EQ(report.classification, named(Gait::walk_lateral));
+  for (const LegGait& leg : report.legs) {
+    EXPECT_GT(leg.raw_touchdowns, 4 * leg.touchdowns);
+    EXPECT_NEAR(leg.stride_s.value(), 0.8, 0.001);
+    EXPECT_NEAR(leg.duty_factor.value(), 0.6, 0.001);
+    EXPECT_GT(leg.phase.value().resultant, 0.999);
+  }
+}
+
+TEST(GaitMeter, WithoutDebouncingChatterIsStrides) {
+  const Clockwork feet{.stride = 80, .stance = 48, .offset = {20, 60, 0, 40}};
+  Feeder feeder(4, {.debounce_s = 0.0});
+  for (int k = 0; k < 2000; ++k) {
+    auto touch = feet.touch(k);
+    if (k % 9 == 0) touch[0] = 0.0f;
+    feeder.add(touch);
+  }
+  EXPECT_EQ(feeder.finish().classification, (Classification{Gait::irregular, Irregular::uneven_counts}));
+}
+
+TEST(GaitMeter, SaysWhichFootNeverLandsOrNeverLifts) {
+  const Clockwork feet{.stride = 80, .stance = 48, .offset = {20, 60, 0, 40}};
+  Feeder feeder;
+  for (int k = 0; k < 2000; ++k) {
+    auto touch = feet.touch(k);
+    touch[2] = 0.0f;
+    touch[1] = 1.0f;
+    feeder.add(touch);
+  }
+  const Report report = feeder.finish();
+  EXPECT_EQ(report.classification, (Classification{Gait::irregular, Irregular::few_strides}));
+  EXPECT_EQ(report.reference_leg, 3) << "the right hind foot stands in for the left one";
+  EXPECT_EQ(report.legs[2].touchdowns, 0);
+  EXPECT_EQ(report.legs[2].contact_share, 0.0);
+  EXPECT_EQ(report.legs[1].contact_share, 1.0);
+  for (const std::size_t leg : {1u, 2u}) {
+    EXPECT_FALSE(report.legs[leg].stride_s);
+    EXPECT_FALSE(report.legs[leg].duty_factor);
+    EXPECT_FALSE(report.legs[leg].phase);
+    EXPECT_FALSE(report.legs[leg].drift_strides);
+  }
+  // Left fore lands 0.75 of a stride after the right hind foot.
+  EXPECT_NEAR(report.legs[0].phase.value().phase, 0.75, 1e-12);
+  const std::string table = report_table(report);
+  EXPECT_NE(table.find("never lands"), std::string::npos) << table;
+  EXPECT_NE(table.find("never lifts"), std::string::npos) << table;
+  EXPECT_NE(table.find("pairs: hind –, fore –; fore after hind, left –, "), std::string::npos) << table;
+  EXPECT_NE(report_json(report).find("\"hind\": {\"phase\": null, \"resultant\": null,"), std::string::npos);
+}
+
+TEST(GaitMeter, NamesBothHalvesOfATrialInWhichTheGaitChanges) {
+  Feeder feeder;
+  feeder.walk({.stride = 80, .stance = 48, .offset = {40, 0, 0, 40}}, 3200);  // trot
+  feeder.walk({.stride = 80, .stance = 48, .offset = {0, 40, 0, 40}}, 3000);  // pace
+  const Report report = feeder.finish();
+  // Half of the phases lie at 0.5, half at 0.
+  EXPECT_EQ(report.classification, (Classification{Gait::irregular, Irregular::spread_phases}));
+  // The window of the change holds six strides of the right hind foot, in five of which the right fore foot
+  // lands at 0 and in one, cut short, at 0.5: R = 4/6 < 0.7.
+  const auto segments = segments_of(report);
+  ASSERT_EQ(segments.size(), 3u);
+  EXPECT_EQ(segments[0].classification, named(Gait::trot));
+  EXPECT_DOUBLE_EQ(segments[0].start_s, 2.0);
+  EXPECT_DOUBLE_EQ(segments[0].end_s, 32.0);
+  EXPECT_EQ(segments[1].classification, (Classification{Gait::irregular, Irregular::spread_phases}));
+  EXPECT_DOUBLE_EQ(segments[1].end_s, 37.0);
+  EXPECT_EQ(segments[2].classification, named(Gait::pace));
+  EXPECT_DOUBLE_EQ(segments[2].end_s, 62.0);
+  EXPECT_DOUBLE_EQ(report.gait_seconds[static_cast<std::size_t>(Gait::trot)], 30.0);
+  EXPECT_DOUBLE_EQ(report.gait_seconds[static_cast<std::size_t>(Gait::pace)], 25.0);
+  const std::string table = report_table(report);
+  EXPECT_NE(table.find("      2.0 … 32.0 s  trot\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("\nwindows   trot 30 s pace 25 s irregular 5 s\n"), std::string::npos) << table;
+}
+
+TEST(GaitMeter, WaitsForTheStridesOfASlowGait) {
+  for (const int stride : {130, 160, 240, 400}) {
+    Feeder feeder;
+    feeder.walk({.stride = stride, .stance = stride * 6 / 10, .offset = {stride / 2, 0, 0, stride / 2}},
+                12'000);
+    const Report report = feeder.finish();
+    const auto segments = segments_of(report);
+    ASSERT_EQ(segments.size(), 1u) << stride << "\n" << report_table(report);
+    EXPECT_EQ(segments[0].classification, named(Gait::trot));
+    EXPECT_DOUBLE_EQ(segments[0].start_s, 2.0);
+    EXPECT_DOUBLE_EQ(segments[0].end_s, 120.0);
+    for (const Window& window : report.windows)
+      EXPECT_LT(window.end_s - window.start_s, 2.0 * std::max(5.0, 0.05 * stride)) << stride;
+  }
+}
+
+TEST(GaitMeter, SeesASlowGaitChange) {
+  Feeder feeder;
+  feeder.walk({.stride = 160, .stance = 96, .offset = {80, 0, 0, 80}}, 6000);  // trot
+  feeder.walk({.stride = 160, .stance = 96, .offset = {0, 80, 0, 80}}, 6000);  // pace
+  const Report report = feeder.finish();
+  const auto segments = segments_of(report);
+  ASSERT_GE(segments.size(), 2u);
+  ASSERT_LE(segments.size(), 3u) << "with at most one window in which both are";
+  EXPECT_EQ(segments.front().classification, named(Gait::trot));
+  EXPECT_NEAR(segments.front().end_s, 60.0, 8.0);
+  EXPECT_EQ(segments.back().classification, named(Gait::pace));
+  EXPECT_NEAR(segments.back().start_s, 60.0, 8.0);
+}
+
+TEST(GaitMeter, WaitsForNoFootAtRest) {
+  // Trot in which the left hind foot stops landing at 30 s. It can still end a stride for 5 s after its last
+  // touch-down; from then on windows are of 5 s again.
+  const Clockwork feet{.stride = 80, .stance = 48, .offset = {40, 0, 0, 40}};
+  Feeder feeder;
+  for (int k = 0; k < 6000; ++k) {
+    auto touch = feet.touch(k);
+    if (k >= 3000) touch[2] = 0.0f;
+    feeder.add(touch);
+  }
+  const Report report = feeder.finish();
+  const auto segments = segments_of(report);
+  ASSERT_EQ(segments.size(), 2u);
+  EXPECT_EQ(segments[0].classification, named(Gait::trot));
+  EXPECT_EQ(segments[1].classification, (Classification{Gait::irregular, Irregular::few_strides}));
+  EXPECT_NEAR(segments[1].start_s, 30.0, 5.0);
+  for (std::size_t i = 0; i + 1 < report.windows.size(); ++i) {
+    const Window& window = report.windows[i];
+    EXPECT_LE(window.end_s - window.start_s, window.end_s < 30.0 || window.start_s > 35.0 ? 5.001 : 10.001);
+  }
+}
+
+TEST(GaitMeter, WaitsNoLongerThanFiveWindows) {
+  // The left fore foot lands every 4.5 s beside others that land every 0.8 s: in 10 s two or three times.
+  const Clockwork feet{.stride = 80, .stance = 48, .offset = {40, 0, 0, 40}},
+      limping{.stride = 450, .stance = 200, .offset = {0}};
+  Feeder feeder(4, {.window_s = 2.0});
+  for (int k = 0; k < 10'000; ++k) {
+    auto touch = feet.touch(k);
+    touch[0] = limping.touch(k)[0];
+    feeder.add(touch);
+  }
+  const Report report = feeder.finish();
+  ASSERT_EQ(report.windows.size(), 9u);
+  for (std::size_t i = 1; i + 1 < report.windows.size(); ++i)
+    EXPECT_NEAR(report.windows[i].end_s - report.windows[i].start_s, 10.0, 1e-9);
+  // The last one takes what is left over and may be long enough for the fourth stride.
+  for (std::size_t i = 0; i + 1 < report.windows.size(); ++i)
+    EXPECT_EQ(report.windows[i].classification, (Classification{Gait::irregular, Irregular::few_strides}));
+}
+
+TEST(GaitMeter, SaysWhenItIsBetweenWalkingAndRunning) {
+  // A stride of 2 s is 200 frames.
+  const auto table = [](int stance) {
+    Feeder feeder;
+    feeder.walk({.stride = 200, .stance = stance, .offset = {100, 0, 0, 100}}, 4000);
+    return report_table(feeder.finish());
+  };
+  EXPECT_NE(table(98).find("trot; running (duty factor 0.49), stride 2.00 s\n"), std::string::npos);
+  EXPECT_NE(table(99).find("trot; between walking and running (duty factor 0.495), stride"),
+            std::string::npos);
+  EXPECT_NE(table(100).find("trot; between walking and running (duty factor 0.500), stride"),
+            std::string::npos);
+  EXPECT_NE(table(101).find("trot; between walking and running (duty factor 0.505), stride"),
+            std::string::npos);
+  EXPECT_NE(table(102).find("trot; walking (duty factor 0.51), stride"), std::string::npos);
+}
+
+TEST(GaitMeter, MeasuresHowAPhaseDrifts) {
+  // The left fore foot takes strides of 1.01 s beside others of 1 s: it falls behind by 0.01 of a stride
+  // in 1.01 s, 0.594 per minute. The first window lasts until the left hind foot ends its fourth stride in
+  // frame 700; window means lie from 4.505 s (2 … 7.01) to 54.51 s: 0.495 of a stride.
+  Feeder feeder;
+  const Clockwork feet{.stride = 100, .stance = 60, .offset = {0, 75, 0, 50}},
+      slow{.stride = 101, .stance = 60, .offset = {25}};
+  for (int k = 0; k < 5701; ++k) {
+    auto touch = feet.touch(k);
+    touch[0] = slow.touch(k)[0];
+    feeder.add(touch);
+  }
+  const Report report = feeder.finish();
+  EXPECT_NEAR(report.legs[0].drift_per_min.value(), 0.594, 0.005);
+  EXPECT_NEAR(report.legs[0].drift_strides.value(), 0.495, 0.01);
+  EXPECT_NEAR(report.legs[1].drift_per_min.value(), 0.0, 1e-12);
+}
+
+TEST(GaitMeter, GivesPhasesButNoNameToASixLeggedRobot) {
+  Feeder feeder(6);
+  feeder.walk({.stride = 80, .stance = 44, .offset = {0, 40, 40, 0, 0, 40}}, 2000);
+  const Report report = feeder.finish();
+  EXPECT_FALSE(report.classification);
+  EXPECT_FALSE(report.quadruped);
+  EXPECT_TRUE(report.gait_seconds.empty());
+  EXPECT_TRUE(segments_of(report).empty());
+  EXPECT_EQ(report.reference_leg, 0);
+  EXPECT_NEAR(report.legs[1].phase.value().phase, 0.5, 1e-12);
+  EXPECT_NEAR(std::remainder(report.legs[3].phase.value().phase, 1.0), 0.0, 1e-12);
+  EXPECT_NE(report_table(report).find("no name"), std::string::npos);
+}
+
+TEST(GaitMeter, OfATrialThatEndsAtOnceSaysThatThereWasNothing) {
+  for (const int frames : {0, 1, 5, 150}) {
+    Feeder feeder;
+    feeder.walk({.stride = 80, .stance = 48, .offset = {20, 60, 0, 40}}, frames);
+    const Report report = feeder.finish();
+    EXPECT_EQ(report.classification, (Classification{Gait::irregular, Irregular::few_strides})) << frames;
+    EXPECT_DOUBLE_EQ(report.seconds, 0.01 * frames);
+    EXPECT_EQ(report.reference_leg, -1);
+    EXPECT_TRUE(report.windows.empty());
+    EXPECT_FALSE(report.cost_of_transport_positive);
+    EXPECT_FALSE(report_table(report).empty());
+    EXPECT_FALSE(report_json(report).empty());
+  }
+}
+
+TEST(GaitMeter, KeepsAFixedNumberOfWindowsHoweverLongItLasts) {
+  // From 2 s to 1000 s there are 198 windows of 5 s and one that takes the rest; merged by two they are 100.
+  Feeder feeder;
+  feeder.walk({.stride = 80, .stance = 48, .offset = {20, 60, 0, 40}}, 100'000);
+  const Report report = feeder.finish();
+  EXPECT_EQ(report.windows.size(), 100u);
+  EXPECT_DOUBLE_EQ(report.windows.back().end_s, 1000.0);
+  for (std::size_t i = 1; i < report.windows.size(); ++i)
+    EXPECT_DOUBLE_EQ(report.windows[i].start_s, report.windows[i - 1].end_s);
+  EXPECT_EQ(report.classification, named(Gait::walk_lateral));
+  EXPECT_DOUBLE_EQ(report.gait_seconds[0], 998.0);
+  // The left hind foot lands at 2.4, 3.2, …, 999.2 s.
+  EXPECT_EQ(report.legs[2].strides, 1246);
+}
+
+TEST(GaitMeter, ComputesSpeedFroudeNumberAndCostOfTransport) {
+  // 10 s at 0.5 m/s. Froude: 0.5² / (10 × 0.8) = 0.03125. One joint of 1 N m turns by 0.01 rad a step: 0.01 J
+  // a step, 10 J in all but half of the first step's. Cost: 10 / (5 × 10 × 5) = 0.04.
+  Body body = tests::synthetic_body();
+  body.joints = {"FL.knee"};
+  Meter meter(body, 0.01, {});
+  const std::vector<float> touch(4, 1.0f), torque{1.0f};
+  for (int k = 1; k <= 1000; ++k) {
+    const std::vector<float> angle{static_cast<float>(0.01 * k)};
+    meter.add({.com_m = {0.005 * k, 0.0, 0.6}, .touch = touch, .angle_rad = angle, .torque_nm = torque});
+  }
+  const Report report = meter.finish(record::Outcome::completed);
+  EXPECT_NEAR(report.speed_m_s, 0.5, 1e-12);
+  EXPECT_NEAR(report.path_m, 5.0, 1e-12);
+  EXPECT_NEAR(report.straightness.value(), 1.0, 1e-12);
+  EXPECT_NEAR(report.froude.value(), 0.03125, 1e-12);
+  EXPECT_NEAR(report.work->positive_j, 9.995, 1e-5);
+  EXPECT_NEAR(report.cost_of_transport_positive.value(), 9.995 / 250.0, 1e-7);
+  EXPECT_NEAR(report.cost_of_transport_absolute.value(), 9.995 / 250.0, 1e-7);
+  EXPECT_NEAR(report.windows[0].speed_m_s, 0.5, 1e-9);
+}
+
+TEST(GaitMeter, MeasuresACircleAlongItsPath) {
+  // Once round a circle of 2 m in 20 s, in chords of a second: 20 × 2 × 2 m × sin(9°).
+  Meter meter(tests::synthetic_body(), 0.01, {});
+  const std::vector<float> touch(4, 1.0f);
+  const double pi = std::acos(-1.0);
+  for (int k = 1; k <= 2000; ++k) {
+    const double angle = 2.0 * pi * k / 2000.0;
+    meter.add({.com_m = {2.0 * std::sin(angle), 2.0 - 2.0 * std::cos(angle), 0.6},
+               .touch = touch,
+               .angle_rad = {},
+               .torque_nm = {}});
+  }
+  const Report report = meter.finish(record::Outcome::completed);
+  EXPECT_NEAR(report.path_m, 80.0 * std::sin(pi / 20.0), 1e-9);
+  EXPECT_NEAR(report.straightness.value(), 0.0, 1e-9);
+  EXPECT_NEAR(report.path_speed_m_s, report.path_m / 20.0, 1e-12);
+}
+
+TEST(GaitMeter, RefusesSettingsOutOfRange) {
+  const auto error = [](Settings settings) {
+    return tests::error_of([&] { Meter(tests::synthetic_body(), 0.01, settings); });
+  };
+  EXPECT_EQ(error({.debounce_s = 1.5}), "gait: debounce = 1.5 s: expected 0 to 1 s");
+  EXPECT_EQ(error({.window_s = 0.0}), "gait: window = 0 s: expected 0.1 to 3600 s");
+  EXPECT_EQ(error({.transient_s = -1.0}), "gait: transient = -1 s: expected 0 to 1e6 s");
+}
+
+}  // namespace
+}  // namespace amble::gait

@@ -1,0 +1,103 @@
+#include "amble/gait/strides.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace amble::gait {
+namespace {
+
+/// Rows of '0' and '1', one per leg, all of one length.
+StrideSums watch(const std::vector<std::string>& legs, std::int64_t longest_stride = 1000) {
+  StrideTracker tracker(legs.size(), longest_stride);
+  StrideSums sums(legs.size());
+  for (std::size_t k = 0; k < legs[0].size(); ++k) {
+    std::vector<bool> touch;
+    for (const auto& leg : legs) touch.push_back(leg[k] == '1');
+    tracker.add(touch, sums);
+  }
+  return sums;
+}
+
+TEST(Strides, GoFromTouchDownToTouchDown) {
+  // Lands in frames 3, 9 and 17. Strides of 6 and 8 frames with 2 and 5 frames of stance.
+  const LegSums leg = watch({"11"
+                             "0"
+                             "110000"
+                             "11111000"
+                             "1"})
+                          .legs[0];
+  EXPECT_EQ(leg.touchdowns, 3);
+  EXPECT_EQ(leg.strides, 2);
+  EXPECT_EQ(leg.stride_frames, 14);
+  EXPECT_EQ(leg.squared_stride_frames, 36.0 + 64.0);
+  EXPECT_EQ(leg.stance_frames, 7);
+  EXPECT_EQ(leg.contact_frames, 10);
+}
+
+TEST(Strides, AFootThatStandsFromTheBeginningHasNotLanded) {
+  EXPECT_EQ(watch({"1111110"}).legs[0].touchdowns, 0);
+  EXPECT_EQ(watch({"0000000"}).legs[0].touchdowns, 0);
+}
+
+TEST(Strides, PhasesAreSharesOfTheOtherFootsStride) {
+  // Leg 0 lands in 1, 11 and 21; leg 1 in 4 and 16: phases 0.3 and 0.5.
+  const StrideSums sums =
+      watch({"0111000000"
+             "0111000000"
+             "01",
+             "0000110000"
+             "0000001110"
+             "00"});
+  const CircularSum& phases = sums.phases[0][1];
+  EXPECT_EQ(phases.count(), 2);
+  EXPECT_NEAR(phases.mean(), 0.4, 1e-12);
+  // Leg 1's one stride from 4 to 16 holds leg 0's touch-down in 11, at 7/12.
+  EXPECT_EQ(sums.phases[1][0].count(), 1);
+  EXPECT_NEAR(sums.phases[1][0].mean(), 7.0 / 12.0, 1e-12);
+}
+
+TEST(Strides, FeetThatLandTogetherHavePhaseZeroOncePerStride) {
+  const StrideSums sums = watch({"01100110011001", "01000100010001"});
+  EXPECT_EQ(sums.legs[0].strides, 3);
+  EXPECT_EQ(sums.phases[0][1].count(), 3);
+  EXPECT_NEAR(sums.phases[0][1].mean(), 0.0, 1e-12);
+  EXPECT_EQ(sums.phases[1][0].count(), 3);
+}
+
+TEST(Strides, ALongRestIsNoStride) {
+  const std::string legs = "01001001" + std::string(20, '1') + "001001";
+  EXPECT_EQ(watch({legs}, 100).legs[0].strides, 4);
+  EXPECT_EQ(watch({legs}, 10).legs[0].strides, 3);
+}
+
+TEST(Strides, AFootThatFluttersDuringOneStrideIsInNoStepWithIt) {
+  std::string slow = "01" + std::string(99, '0') + "1", flutter;
+  for (int k = 0; k < 51; ++k) flutter += "01";
+  const StrideSums sums = watch({slow, flutter});
+  EXPECT_EQ(sums.legs[0].strides, 1);
+  EXPECT_EQ(sums.phases[0][1].count(), 0);
+  EXPECT_EQ(sums.legs[1].strides, 50);
+}
+
+TEST(Strides, OfTwoStretchesMergeToThoseOfTheWhole) {
+  const std::vector<std::string> legs{"0110011001100110", "0011001100110011"};
+  const StrideSums whole = watch(legs);
+  StrideTracker tracker(2, 1000);
+  StrideSums first(2), second(2);
+  for (std::size_t k = 0; k < legs[0].size(); ++k)
+    tracker.add({legs[0][k] == '1', legs[1][k] == '1'}, k < 7 ? first : second);
+  first.merge(second);
+  EXPECT_EQ(first.frames, whole.frames);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(first.legs[i].strides, whole.legs[i].strides);
+    EXPECT_EQ(first.legs[i].stride_frames, whole.legs[i].stride_frames);
+    EXPECT_EQ(first.legs[i].stance_frames, whole.legs[i].stance_frames);
+    EXPECT_EQ(first.legs[i].contact_frames, whole.legs[i].contact_frames);
+    EXPECT_EQ(first.phases[i][1 - i].count(), whole.phases[i][1 - i].count());
+    EXPECT_NEAR(first.phases[i][1 - i].mean(), whole.phases[i][1 - i].mean(), 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace amble::gait

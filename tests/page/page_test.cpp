@@ -1,0 +1,161 @@
+#include "amble/page/page.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "tests/graphics/xml.hpp"
+#include "tests/motion/fixture.hpp"
+
+namespace amble::page {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+RunPage input() {
+  RunPage page;
+  page.title = "A <walker> & more";
+  page.subtitle = "by \"evolution\"";
+  page.cppn = CppnSize{7, 41};
+  page.facts = {{"Seed", "1"}, {"Config", "a<b>.toml"}};
+  page.commands = {"amble evolve a.toml --out runs/1 && amble page runs/1"};
+  page.generations = record::parse_generations(
+      "generation,best_m,mean_m,median_m,species,threshold,mean_hidden,mean_links,evaluations,steps\n"
+      "0,0.5,0.25,0.2,3,100,0,8,300,440000\n1,1.5,0.5,0.4,5,90,0.5,9,300,450000\n",
+      "x");
+  return page;
+}
+
+/// Texts of the headline numbers, by their names.
+std::map<std::string, std::string> headline(const std::string& page) {
+  std::map<std::string, std::string> numbers;
+  std::string name;
+  for (const auto& element : tests::parse_xml(page)) {
+    if (element.name == "dt") name = element.text;
+    if (element.name == "dd") numbers[name] = element.text;
+  }
+  return numbers;
+}
+
+TEST(Page, IsWellFormedWhateverTheTexts) {
+  const auto elements = tests::parse_xml(make_page(input(), tests::walk(150)));
+  const auto text_of = [&](const std::string& name) {
+    for (const auto& element : elements)
+      if (element.name == name) return element.text;
+    return std::string("none");
+  };
+  EXPECT_EQ(text_of("title"), "A <walker> & more");
+  EXPECT_EQ(text_of("h1"), "A <walker> & more");
+  EXPECT_EQ(text_of("pre"), "amble evolve a.toml --out runs/1 && amble page runs/1\n");
+}
+
+TEST(Page, NeedsNeitherNetworkNorScripts) {
+  const std::string page = make_page(input(), tests::walk(150));
+  for (const char* word :
+       {"<script", "<link", "<img", "<iframe", "url(", "@import", "src=", "href=", "javascript"})
+    EXPECT_THAT(page, Not(HasSubstr(word)));
+  // The only addresses are names of XML namespaces.
+  std::size_t addresses = 0, namespaces = 0;
+  for (std::size_t at = 0; (at = page.find("http", at)) != std::string::npos; ++at) ++addresses;
+  for (std::size_t at = 0; (at = page.find("xmlns=\"http://www.w3.org/", at)) != std::string::npos; ++at)
+    ++namespaces;
+  EXPECT_EQ(addresses, namespaces);
+}
+
+TEST(Page, GivesTheNumbersOfTheRecording) {
+  // 15 s at 0.5 m/s.
+  const std::string page = make_page(input(), tests::walk(150));
+  const auto numbers = headline(page);
+  EXPECT_EQ(numbers.at("Distance"), "7.50 ");
+  EXPECT_EQ(numbers.at("Upright, full time"), "15.0 ");
+  EXPECT_EQ(numbers.at("Mean speed"), "0.50 ");
+  EXPECT_EQ(numbers.at("CPPN"), "7 ");
+  EXPECT_THAT(page, HasSubstr("<h2>Seen from above: 7.50 m</h2>"));
+  EXPECT_THAT(
+      page, HasSubstr("Distance walked over 2 generations: 600 evaluations, 890\u202f000 simulated steps."));
+  // Leg 0 comes down every 0.4 s from 0.5 s on: 37 times until 14.9 s.
+  EXPECT_THAT(page, HasSubstr("<span class=\"key leg0\"><small>FL</small> 37</span>"));
+}
+
+TEST(Page, SaysHowTheTrialEnded) {
+  motion::RecordedTrial recorded = tests::walk(23);
+  recorded.motion.outcome = record::Outcome::fell;
+  EXPECT_EQ(headline(make_page(input(), recorded)).at("Upright, then fell"), "2.3 ");
+  recorded.motion.outcome = record::Outcome::diverged;
+  EXPECT_EQ(headline(make_page(input(), recorded)).at("Until it diverged"), "2.3 ");
+}
+
+TEST(Page, HoldsEveryFigureInBothLayouts) {
+  const auto elements = tests::parse_xml(make_page(input(), tests::walk(150)));
+  int pictures = 0;
+  for (const auto& element : elements) pictures += element.name == "svg";
+  EXPECT_EQ(pictures, 10);
+  EXPECT_EQ(tests::with_class(elements, "wide").size(), 5u);
+  EXPECT_EQ(tests::with_class(elements, "narrow").size(), 5u);
+}
+
+TEST(Page, DoesWithoutGenerationsFactsAndCommands) {
+  RunPage bare;
+  bare.title = "t";
+  const std::string page = make_page(bare, tests::walk(20));
+  tests::parse_xml(page);
+  EXPECT_THAT(page, Not(HasSubstr("How it learned")));
+  EXPECT_THAT(page, Not(HasSubstr("How this was made")));
+}
+
+TEST(Page, SaysSoIfNoGenerationIsFinished) {
+  RunPage page = input();
+  page.generations = record::Generations{};
+  EXPECT_THAT(make_page(page, tests::walk(20)), HasSubstr("No generation has been finished yet."));
+}
+
+TEST(Page, DrawsTheNetworkOfAControllerWithoutTimers) {
+  motion::RecordedTrial recorded = tests::walk(20);
+  recorded.controller_kind = "ctrnn";
+  recorded.network = motion::parse_network(tests::network_json(), "test");
+  recorded.supg.reset();
+  recorded.motion.timer_ticks.clear();
+  recorded.motion.trigger.clear();
+  const std::string page = make_page(input(), recorded);
+  tests::parse_xml(page);
+  EXPECT_THAT(page, HasSubstr("2 of 4 possible links are expressed."));
+  EXPECT_THAT(page, Not(HasSubstr("Temporal patterns")));
+  EXPECT_THAT(page, Not(HasSubstr("<dt>Triggers</dt>")));
+}
+
+TEST(Page, SaysSoIfItCannotDrawTheController) {
+  motion::RecordedTrial recorded = tests::walk(20);
+  recorded.controller_kind = "spring";
+  recorded.supg.reset();
+  EXPECT_THAT(make_page(input(), recorded), HasSubstr("of kind “spring”, which is not drawn"));
+}
+
+TEST(Page, SaysSoIfAFootNeverTouches) {
+  motion::RecordedTrial recorded = tests::walk(20);
+  recorded.motion.touch[1].assign(20, false);
+  recorded.motion.touch[3].assign(20, false);
+  EXPECT_THAT(make_page(input(), recorded), HasSubstr("Never on the ground: FR, BR."));
+  EXPECT_THAT(make_page(input(), tests::walk(20)), Not(HasSubstr("Never on the ground")));
+}
+
+TEST(Page, SaysSoIfNothingWasRecorded) {
+  const std::string page = make_page(input(), tests::walk(0));
+  tests::parse_xml(page);
+  EXPECT_THAT(page, HasSubstr("No step was recorded"));
+}
+
+TEST(Page, TakesOneFrameAndOtherLegCounts) {
+  for (const int legs : {1, 2, 6, 9})
+    for (const int frames : {1, 2, 30}) tests::parse_xml(make_page(input(), tests::walk(frames, legs)));
+}
+
+TEST(Page, IsTheSameForTheSameInput) {
+  EXPECT_EQ(make_page(input(), tests::walk(40)), make_page(input(), tests::walk(40)));
+}
+
+}  // namespace
+}  // namespace amble::page
