@@ -9,10 +9,12 @@ AMBLE_FUZZ_TARGET(bytes) {
   experiment::Config config;
   config.neat.population.size = 4;
   config.neat.speciation.target_min = config.neat.speciation.target_max = 2;
-  neat::Population population(config.neat, 3, 2, true, 1);
-  const auto search = search::make_search(config.search, config.behaviour_length());
+  const search::SearchSpace space{
+      .neat = config.neat, .inputs = 3, .outputs = 2, .recurrent = true, .seed = 1, .behaviour_length = 0};
+  const auto strategy = search::strategy_kind(config.search).make(config.search, space);
 
-  experiment::load_progress(bytes, "payload", population, *search);
+  experiment::load_progress(bytes, "payload", *strategy);
   // What was accepted is a population to go on with.
-  population.advance(std::vector<neat::Fitness>(population.genomes().size(), neat::Fitness{1.0, 1.0}));
+  strategy->tell(
+      std::vector<search::Evaluation>(strategy->ask().size(), {.objective = 1.0, .behaviour = {}}));
 }

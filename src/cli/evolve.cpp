@@ -54,9 +54,9 @@ ExitCode execute(experiment::Run run) {
                     run.config().generations, folder));
     return ExitCode::interrupted;
   }
-  fmt::print(
-      "best distance {:.3f} m (generation {}), {} evaluations\nlook at it by: amble page {} -o page.html\n",
-      run.progress().best_m, run.progress().best_generation, run.progress().evaluations, folder);
+  fmt::print("best {} {:.3f} (generation {}), {} evaluations\nlook at it by: amble page {} -o page.html\n",
+             run.config().score.is_distance() ? "distance" : "score", run.progress().best,
+             run.progress().best_generation, run.progress().evaluations, folder);
   return ExitCode::ok;
 }
 

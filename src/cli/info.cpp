@@ -35,7 +35,7 @@ void print_champion(const experiment::Champion& champion) {
   for (const auto& [engine, judged] : champion.referees)
     fmt::print("in {:<8} {}\n", engine, result_text(judged, champion.result.distance_m));
   if (champion.episodes.empty()) return;
-  fmt::print("under noise {:.3f} m, {} of", champion.objective_m(),
+  fmt::print("under noise {:.3f} m, {} of", champion.objective(),
              trial::episode_score_names[static_cast<std::size_t>(problem.noise.score)]);
   for (const auto& episode : champion.episodes) fmt::print(" {:.3f}", episode.result.distance_m);
   fmt::print("\n");
@@ -62,11 +62,10 @@ void print_stages(const record::Generations& rows) {
   stage("genomes to controllers", rows.decode_s);
   stage("controllers, noise", rows.control_s);
   stage("waiting for others", rows.waiting_s);
-  stage("search", rows.judge_s);
-  stage("breeding", rows.breed_s);
+  stage("search", rows.search_s);
   if (sum(rows.referees_s) > 0.0) stage("referees", rows.referees_s);
   stage("files", rows.files_s);
-  print("books", rest_s);
+  print("overhead", rest_s);
 }
 
 ExitCode run_info(const std::filesystem::path& folder) {
@@ -81,7 +80,7 @@ ExitCode run_info(const std::filesystem::path& folder) {
   fmt::print("experiment  {} (seed {})\nengine      {}\ngenerations {} of {}\n", io::printable(config.name),
              config.seed, config.engine, rows.count(), config.generations);
   fmt::print("evaluations {:.0f} ({:.3g} steps)\n", evaluations, steps);
-  fmt::print("search      {}", search::kind_names[static_cast<std::size_t>(config.search.kind)]);
+  fmt::print("search      {}", config.search.kind);
   if (!rows.archive.empty())
     fmt::print(": archive of {:.0f} behaviours, threshold {:.4g} in the last generation", rows.archive.back(),
                rows.novelty_threshold.back());

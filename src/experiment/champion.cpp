@@ -12,7 +12,7 @@
 #include "amble/io/file.hpp"
 #include "amble/neat/genome_json.hpp"
 #include "amble/robot/json.hpp"
-#include "amble/score/distance.hpp"
+#include "amble/score/score.hpp"
 
 namespace amble::experiment {
 namespace {
@@ -39,11 +39,14 @@ std::vector<std::uint32_t> parse_trace(const io::JsonView& view) {
   return trace;
 }
 
+/// The score is written where it is not the distance.
 io::Json result_json(const TrialResult& result) {
-  return {{"distance_m", result.distance_m},
-          {"seconds", result.seconds},
-          {"steps", result.steps},
-          {"outcome", record::outcome_names[static_cast<std::size_t>(result.outcome)]}};
+  io::Json json{{"distance_m", result.distance_m},
+                {"seconds", result.seconds},
+                {"steps", result.steps},
+                {"outcome", record::outcome_names[static_cast<std::size_t>(result.outcome)]}};
+  if (result.score) json["score"] = *result.score;
+  return json;
 }
 
 int count_of(const io::JsonView& view) {
@@ -55,6 +58,7 @@ int count_of(const io::JsonView& view) {
 TrialResult parse_result(const io::JsonView& view) {
   TrialResult result;
   result.distance_m = view.at("distance_m").finite_number();
+  if (view.has("score")) result.score = view.at("score").finite_number();
   result.seconds = view.at("seconds").finite_number();
   result.steps = count_of(view.at("steps"));
   const auto outcome = view.at("outcome").text();
@@ -111,9 +115,11 @@ Problem parse_problem(const io::JsonView& root) {
       .controller = io::settings_from_json<controllers::ControllerSettings>(root.at("controller")),
       .trial = io::settings_from_json<trial::Settings>(root.at("trial")),
       .noise = {},
+      .score = {},
       .architecture = nullptr};
   if (root.has("noise"))
     problem.noise = io::settings_from_json<trial::NoiseSettings>(root.at("noise").at("settings"));
+  if (root.has("score")) problem.score = io::settings_from_json<score::Settings>(root.at("score"));
   problem.complete();
   return problem;
 }
@@ -121,18 +127,22 @@ Problem parse_problem(const io::JsonView& root) {
 }  // namespace
 
 io::Json problem_json(const Problem& problem) {
-  return {{"cppn", io::settings_to_json(problem.cppn)},
-          {"controller", io::settings_to_json(problem.controller)},
-          {"engine", problem.engine},
-          {"trial", io::settings_to_json(problem.trial)},
-          {"robot", robot::to_json(problem.robot)}};
+  io::Json json{{"cppn", io::settings_to_json(problem.cppn)},
+                {"controller", io::settings_to_json(problem.controller)},
+                {"engine", problem.engine},
+                {"trial", io::settings_to_json(problem.trial)},
+                {"robot", robot::to_json(problem.robot)}};
+  if (!problem.score.is_distance()) json["score"] = io::settings_to_json(problem.score);
+  return json;
 }
 
-TrialResult summarise(const record::Trajectory& trajectory) {
-  return {.distance_m = score::distance_m(trajectory),
-          .steps = trajectory.steps,
-          .seconds = trajectory.seconds(),
-          .outcome = trajectory.outcome};
+TrialResult summarise(const Problem& problem, const record::Trajectory& trajectory) {
+  TrialResult result{.distance_m = score::distance_m(trajectory),
+                     .steps = trajectory.steps,
+                     .seconds = trajectory.seconds(),
+                     .outcome = trajectory.outcome};
+  if (!problem.score.is_distance()) result.score = problem.scorer().of(trajectory);
+  return result;
 }
 
 trial::ScenarioKey Champion::scenario_key(std::size_t episode) const {
@@ -141,14 +151,14 @@ trial::ScenarioKey Champion::scenario_key(std::size_t episode) const {
           .episode = static_cast<std::uint32_t>(episode)};
 }
 
-double Champion::objective_m() const {
+double Champion::objective() const {
   const auto credited = [this](const TrialResult& trial) {
-    return score::credited_m(trial.distance_m, trial.outcome, problem.trial.fall_factor);
+    return score::credited(trial.value(), trial.outcome, problem.trial.fall_factor);
   };
   if (episodes.empty()) return credited(result);
-  std::vector<double> distances_m;
-  for (const auto& episode : episodes) distances_m.push_back(credited(episode.result));
-  return experiment::objective_m(problem.noise.score, distances_m);
+  std::vector<double> scores;
+  for (const auto& episode : episodes) scores.push_back(credited(episode.result));
+  return experiment::objective(problem.noise.score, scores);
 }
 
 std::optional<double> share_kept(double distance_m, double of_m) {

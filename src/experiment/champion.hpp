@@ -16,11 +16,14 @@ namespace amble::experiment {
 /// What a trial came to.
 struct TrialResult {
   double distance_m = 0.0;
+  std::optional<double> score = {};  ///< by Problem::score; nothing where that is the distance
   int steps = 0;
   double seconds = 0.0;
   record::Outcome outcome = record::Outcome::completed;
+
+  double value() const { return score.value_or(distance_m); }
 };
-TrialResult summarise(const record::Trajectory& trajectory);
+TrialResult summarise(const Problem& problem, const record::Trajectory& trajectory);
 
 /// One of the trials under noise that made a genome a champion.
 struct NoisyTrial {
@@ -50,8 +53,8 @@ struct Champion {
 
   /// Names the noise of an episode; beyond those that made it a champion, noise that it has not met.
   trial::ScenarioKey scenario_key(std::size_t episode) const;
-  /// By what it became the champion, m: what its episodes make of it, or its distance without noise.
-  double objective_m() const;
+  /// By what it became the champion: what its episodes make of it, or its score without noise.
+  double objective() const;
 };
 
 /// Share of a distance that is kept elsewhere; nothing if there was none to keep.

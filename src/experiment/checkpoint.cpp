@@ -1,5 +1,7 @@
 #include "amble/experiment/checkpoint.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "amble/core/error.hpp"
@@ -12,38 +14,32 @@ namespace amble::experiment {
 namespace {
 
 constexpr std::string_view magic = "AMBLECKP";
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 
-/// Names a config, but for what may change when a run goes on.
+/// Of a run, but for what may change when it goes on.
 std::uint64_t config_hash(const Config& config) {
-  Config copy = config;
-  copy.generations = 1;
-  copy.robot.clear();
-  io::Json values = io::Json::object();
-  copy.describe(*io::json_writer(values));
-  return hash_text(values.dump());
+  return hash_text(fmt::format("{} {} {}", config.seed, config.name, config.identity().dump()));
 }
 
 }  // namespace
 
 std::string checkpoint_bytes(const Config& config, const Progress& progress,
-                             const neat::Population& population, const search::Search& search) {
+                             const search::Strategy& strategy) {
   io::BinaryWriter writer;
   writer.put(config_hash(config));
-  writer.put(progress.best_m);
+  writer.put(progress.best);
   writer.put(static_cast<std::int32_t>(progress.best_generation));
   writer.put(progress.evaluations);
   writer.put(progress.steps);
   writer.put(progress.wall_s);
   writer.put(progress.csv_bytes);
-  population.save(writer);
-  search.save(writer);
+  strategy.save(writer);
   return io::seal(magic, version, writer.bytes());
 }
 
 void save_checkpoint(const std::filesystem::path& path, const Config& config, const Progress& progress,
-                     const neat::Population& population, const search::Search& search) {
-  io::write_file(path, checkpoint_bytes(config, progress, population, search));
+                     const search::Strategy& strategy) {
+  io::write_file(path, checkpoint_bytes(config, progress, strategy));
 }
 
 std::vector<std::filesystem::path> unnamed_checkpoints(const std::filesystem::path& path) {
@@ -55,7 +51,7 @@ std::vector<std::filesystem::path> unnamed_checkpoints(const std::filesystem::pa
 }
 
 Progress load_checkpoint(const std::filesystem::path& path, const Config& config,
-                         neat::Population& population, search::Search& search) {
+                         search::Strategy& strategy) {
   const std::string what = path.string();
   const std::string bytes = io::read_file(path);
   const std::string_view payload = io::unseal(magic, version, bytes, what);
@@ -63,23 +59,21 @@ Progress load_checkpoint(const std::filesystem::path& path, const Config& config
     fail(ExitCode::bad_file,
          "{}: written under another config.toml than the one beside it; restore that, or start a new run",
          what);
-  return load_progress(payload.substr(sizeof(std::uint64_t)), what, population, search);
+  return load_progress(payload.substr(sizeof(std::uint64_t)), what, strategy);
 }
 
-Progress load_progress(std::string_view payload, const std::string& what, neat::Population& population,
-                       search::Search& search) {
+Progress load_progress(std::string_view payload, const std::string& what, search::Strategy& strategy) {
   io::BinaryReader reader(payload, what);
   Progress progress;
-  progress.best_m = reader.get<double>();
+  progress.best = reader.get<double>();
   progress.best_generation = reader.get<std::int32_t>();
   progress.evaluations = reader.get<std::uint64_t>();
   progress.steps = reader.get<std::uint64_t>();
   progress.wall_s = reader.get<double>();
   progress.csv_bytes = reader.get<std::uint64_t>();
-  if (!std::isfinite(progress.best_m) || !std::isfinite(progress.wall_s))
+  if (!std::isfinite(progress.best) || !std::isfinite(progress.wall_s))
     reader.bad("a number that is not finite");
-  population.load(reader);
-  search.load(reader);
+  strategy.load(reader);
   reader.finish();
   return progress;
 }

@@ -7,14 +7,13 @@
 #include <vector>
 
 #include "amble/experiment/config.hpp"
-#include "amble/neat/population.hpp"
-#include "amble/search/search.hpp"
+#include "amble/search/strategy.hpp"
 
 namespace amble::experiment {
 
 /// How far a run has come.
 struct Progress {
-  double best_m = -1.0;  ///< best distance so far; −1 before the first generation
+  double best = -1.0;  ///< best objective so far; −1 before the first generation
   int best_generation = -1;
   std::uint64_t evaluations = 0;
   std::uint64_t steps = 0;
@@ -24,10 +23,10 @@ struct Progress {
 
 /// All that a run needs to go on, to the bit, as the bytes of a file.
 std::string checkpoint_bytes(const Config& config, const Progress& progress,
-                             const neat::Population& population, const search::Search& search);
+                             const search::Strategy& strategy);
 /// Writes them, atomically.
 void save_checkpoint(const std::filesystem::path& path, const Config& config, const Progress& progress,
-                     const neat::Population& population, const search::Search& search);
+                     const search::Strategy& strategy);
 
 /// What was written, whole or in part, under a temporary name (io::AtomicFile) by a process that was killed
 /// before it could name it `path`.
@@ -35,11 +34,9 @@ std::vector<std::filesystem::path> unnamed_checkpoints(const std::filesystem::pa
 
 /// Restores what save_checkpoint wrote. Throws UserError(ExitCode::bad_file): foreign, of another version,
 /// truncated, altered, or written under another config than this (the number of generations may differ).
-Progress load_checkpoint(const std::filesystem::path& path, const Config& config,
-                         neat::Population& population, search::Search& search);
+Progress load_checkpoint(const std::filesystem::path& path, const Config& config, search::Strategy& strategy);
 
 /// The part of load_checkpoint behind the seal and the config's hash.
-Progress load_progress(std::string_view payload, const std::string& what, neat::Population& population,
-                       search::Search& search);
+Progress load_progress(std::string_view payload, const std::string& what, search::Strategy& strategy);
 
 }  // namespace amble::experiment

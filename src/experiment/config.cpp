@@ -8,7 +8,6 @@
 #include "amble/core/error.hpp"
 #include "amble/io/toml_settings.hpp"
 #include "amble/physics/engine.hpp"
-#include "amble/score/path_behaviour.hpp"
 
 namespace amble::experiment {
 
@@ -29,6 +28,7 @@ void Config::describe(io::SettingsVisitor& visitor) {
   visitor.table("controller", controller, {"how a CPPN becomes a controller"});
   visitor.table("trial", trial, {"one trial of one controller"});
   visitor.table("noise", noise, {"noise in trials, and how many of them make an evaluation; off by default"});
+  visitor.table("score", score, {"what makes a gait good"});
   visitor.table("search", search, {"what selects parents"});
 }
 
@@ -41,7 +41,8 @@ void Config::validate() const {
   neat.validate();
   trial.validate();
   noise.validate(trial);
-  if (search.kind == search::Kind::novelty) search.novelty.validate(behaviour_length());
+  score.validate();
+  search::strategy_kind(search).validate(search, make_behaviour()->length());
 }
 
 void Config::check_referees() const {
@@ -61,12 +62,24 @@ UserError Config::placed(const SettingError& error) const {
   return UserError(place + error.what(), error.code());
 }
 
-std::size_t Config::behaviour_length() const {
-  return score::path_behaviour_length(trial.steps(), path_sampling());
+std::unique_ptr<const score::Behaviour> Config::make_behaviour() const {
+  return score::make_behaviour(
+      search::strategy_kind(search).behaviour,
+      {.steps = trial.steps(),
+       .path = {.stride = search.novelty.path_stride, .first_step = search.novelty.path_first_step}});
 }
 
-record::PathSampling Config::path_sampling() const {
-  return {.stride = search.path_stride(), .first_step = search.novelty.path_first_step};
+io::Json Config::identity() const {
+  Config copy = *this;
+  copy.name.clear();
+  copy.robot.clear();
+  copy.seed = 0;
+  copy.generations = 1;
+  io::Json values = io::Json::object();
+  copy.describe(*io::json_writer(values));
+  // Tables that came later are left out where they say nothing, so that results from before still fit.
+  if (copy.score.is_distance()) values.erase("score");
+  return values;
 }
 
 std::string Config::to_toml() const {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,10 +12,13 @@
 #include "amble/controllers/factory.hpp"
 #include "amble/core/error.hpp"
 #include "amble/cppn/settings.hpp"
+#include "amble/io/json_file.hpp"
 #include "amble/io/settings.hpp"
 #include "amble/neat/settings.hpp"
 #include "amble/record/trajectory.hpp"
-#include "amble/search/search.hpp"
+#include "amble/score/behaviour.hpp"
+#include "amble/score/score.hpp"
+#include "amble/search/strategies.hpp"
 #include "amble/trial/noise_settings.hpp"
 #include "amble/trial/settings.hpp"
 
@@ -38,20 +42,22 @@ struct Config {
   controllers::ControllerSettings controller;
   trial::Settings trial;
   trial::NoiseSettings noise;
+  score::Settings score;
   search::Settings search;
-  /// Where one of these keys was set ("FILE:LINE"), for complaints found later; empty unless read from a
+  /// Where one of these keys was set ("FILE:LINE"), for errors found later; empty unless read from a
   /// file.
   std::function<std::string(const std::vector<std::string>& keys)> where;
 
   void describe(io::SettingsVisitor& visitor);
   /// Rules that join several settings. Throws SettingError.
   void validate() const;
-  /// The same complaint with its place in front, if that is known.
+  /// The same error with its place in front, if that is known.
   UserError placed(const SettingError& error) const;
-  /// Numbers in the behaviour that the search judges a trial by; 0 if it wants none.
-  std::size_t behaviour_length() const;
-  /// What the search wants of a trial's path.
-  record::PathSampling path_sampling() const;
+  /// What the search compares trials by.
+  std::unique_ptr<const score::Behaviour> make_behaviour() const;
+  /// All settings but the seed, and but for `name`, `robot` and `generations`, which change no evaluation, as
+  /// values without comments: equal for configs that give the same run for the same seed and robot.
+  io::Json identity() const;
   /// The whole config as TOML with comments; reads back to the same values.
   std::string to_toml() const;
 

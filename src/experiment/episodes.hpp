@@ -8,11 +8,10 @@
 
 namespace amble::experiment {
 
-/// What the distances (m, at least one) of an evaluation's episodes make of a genome.
-double objective_m(trial::EpisodeScore score, std::span<const double> distances_m);
+/// What the scores (at least one) of an evaluation's episodes make of a genome.
+double objective(trial::EpisodeScore combined, std::span<const double> scores);
 
-/// The objective of each genome of a generation, m.
-std::vector<double> objectives_m(trial::EpisodeScore score, double fall_factor,
-                                 const GenerationResult& result);
+/// The objective of each genome of a generation, by the problem's score; Morse et al. 2013, sec. 4: m.
+std::vector<double> objectives(const Problem& problem, const GenerationResult& result);
 
 }  // namespace amble::experiment

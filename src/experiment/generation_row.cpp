@@ -1,44 +1,80 @@
 #include "amble/experiment/generation_row.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "amble/core/check.hpp"
+#include "amble/record/generation_columns.hpp"
 #include "amble/statistics/descriptive.hpp"
 
 namespace amble::experiment {
+namespace {
 
-std::string csv_header() {
-  std::string header =
-      "generation,best_m,best_so_far_m,mean_m,median_m,species,threshold,mean_hidden,mean_links,"
-      "best_hidden,best_links,fell,diverged,archive,novelty_threshold,best_novelty,evaluations,steps,"
-      "wall_s,outside_s";
-  for (const Stage& stage : stages) header.append(",").append(stage.column);
-  return header + "\n";
+using Cells = std::vector<std::pair<std::string_view, std::string>>;
+
+/// Column by column, in the file's order.
+Cells cells_of(const GenerationRow& row) {
+  namespace column = record::column;
+  Cells cells;
+  const auto add = [&cells](std::string_view name, auto value) {
+    cells.emplace_back(name, fmt::format("{}", value));
+  };
+  const auto add_time = [&cells](std::string_view name, double seconds) {
+    cells.emplace_back(name, fmt::format("{:.6f}", seconds));
+  };
+  add(column::generation, row.generation);
+  add(column::best, row.best);
+  add(column::best_so_far, row.best_so_far);
+  add(column::mean, row.mean);
+  add(column::median, row.median);
+  add(column::best_hidden, row.best_hidden);
+  add(column::best_links, row.best_links);
+  add(column::fell, row.fell);
+  add(column::diverged, row.diverged);
+  add(column::evaluations, row.evaluations);
+  add(column::steps, row.steps);
+  for (const auto& [name, value] : row.search) add(name, value);
+  add_time(column::wall_s, row.wall_s);
+  add_time(column::outside_s, row.outside_s());
+  for (const Stage& stage : stages) add_time(stage.column, row.times.*stage.seconds);
+  return cells;
 }
 
-std::string csv_line(const GenerationRow& row) {
-  const auto novelty = row.novelty ? fmt::format("{},{},{}", row.novelty->archive_members,
-                                                 row.novelty->threshold, row.novelty->best_novelty)
-                                   : std::string(",,");
-  auto line = fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{:.6f},{:.6f}", row.generation,
-                          row.best_m, row.best_so_far_m, row.mean_m, row.median_m, row.population.species,
-                          row.population.compatibility_threshold, row.population.mean_hidden,
-                          row.population.mean_links, row.best_hidden, row.best_links, row.fell, row.diverged,
-                          novelty, row.evaluations, row.steps, row.wall_s, row.outside_s());
-  for (const Stage& stage : stages) line += fmt::format(",{:.6f}", row.times.*stage.seconds);
+std::string line_of(const Cells& cells, auto member) {
+  std::string line;
+  for (const auto& cell : cells) {
+    if (!line.empty()) line += ',';
+    line += cell.*member;
+  }
   return line + "\n";
 }
 
-void summarise_trials(std::span<const double> distances_m, std::span<const record::Trajectory> trajectories,
+}  // namespace
+
+std::optional<double> GenerationRow::reading(std::string_view name) const {
+  const auto found = std::ranges::find(search, name, &search::Reading::name);
+  return found == search.end() ? std::nullopt : std::optional(found->value);
+}
+
+std::string csv_header(std::span<const search::Reading> search) {
+  GenerationRow row;
+  row.search.assign(search.begin(), search.end());
+  return line_of(cells_of(row), &Cells::value_type::first);
+}
+
+std::string csv_line(const GenerationRow& row) {
+  return line_of(cells_of(row), &Cells::value_type::second);
+}
+
+void summarise_trials(std::span<const double> objectives, std::span<const record::Trajectory> trajectories,
                       GenerationRow& row) {
-  AMBLE_CHECK(!distances_m.empty(), "a generation has members");
-  row.best_m = std::ranges::max(distances_m);
-  row.median_m = statistics::median(distances_m);
+  AMBLE_CHECK(!objectives.empty(), "a generation has members");
+  row.best = std::ranges::max(objectives);
+  row.median = statistics::median(objectives);
   double sum = 0.0;
-  for (const double distance_m : distances_m) sum += distance_m;
-  row.mean_m = sum / static_cast<double>(distances_m.size());
+  for (const double objective : objectives) sum += objective;
+  row.mean = sum / static_cast<double>(objectives.size());
   for (const auto& trajectory : trajectories) {
     row.fell += trajectory.outcome == record::Outcome::fell;
     row.diverged += trajectory.outcome == record::Outcome::diverged;

@@ -1,5 +1,6 @@
 #include "amble/experiment/problem.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -26,6 +27,7 @@ Problem Problem::make(const Config& config, robot::RobotSpec robot) {
                   .controller = config.controller,
                   .trial = config.trial,
                   .noise = config.noise,
+                  .score = config.score,
                   .architecture = nullptr};
   try {
     problem.complete();
@@ -38,16 +40,23 @@ Problem Problem::make(const Config& config, robot::RobotSpec robot) {
 void Problem::complete() {
   trial.validate();
   noise.validate(trial);
+  score.validate();
   architecture = controllers::make_architecture(controller, robot, trial.timestep_s);
   make_engine();  // complains of what the engine cannot simulate
 }
 
 std::unique_ptr<physics::Engine> Problem::make_engine(bool torques) const {
-  return physics::make_engine(engine, robot, {.timestep_s = trial.timestep_s, .torques = torques});
+  const bool needed = torques || scorer().measures().energy;
+  return physics::make_engine(engine, robot, {.timestep_s = trial.timestep_s, .torques = needed});
 }
 
 std::unique_ptr<controllers::Parameters> Problem::decode(const neat::Genome& genome) const {
   return architecture->decode(cppn::Network(genome, cppn));
+}
+
+score::Score Problem::scorer() const {
+  return score::Score(score, trial.steps() * trial.timestep_s,
+                      robot.total_mass_kg() * std::abs(robot.gravity_m_s2.z));
 }
 
 trial::Protocol Problem::protocol(const record::PathSampling& path) const {
@@ -55,6 +64,7 @@ trial::Protocol Problem::protocol(const record::PathSampling& path) const {
           .timestep_s = trial.timestep_s,
           .first_command = trial.first_command,
           .path = path,
+          .measures = scorer().measures(),
           .fall_height_m = robot.fall_height_m};
 }
 

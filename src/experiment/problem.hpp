@@ -12,6 +12,7 @@
 #include "amble/experiment/config.hpp"
 #include "amble/neat/genome.hpp"
 #include "amble/robot/spec.hpp"
+#include "amble/score/score.hpp"
 #include "amble/trial/noise_settings.hpp"
 #include "amble/trial/scenario.hpp"
 #include "amble/trial/settings.hpp"
@@ -28,6 +29,7 @@ struct Problem {
   controllers::ControllerSettings controller;
   trial::Settings trial;
   trial::NoiseSettings noise;
+  score::Settings score;
   std::shared_ptr<const controllers::Architecture> architecture;
 
   /// `robot` as its file has it; that of the problem starts Config::drop_m higher.
@@ -39,18 +41,19 @@ struct Problem {
 
   int cppn_inputs() const { return static_cast<int>(architecture->layout().input_names().size()); }
   int cppn_outputs() const { return static_cast<int>(architecture->layout().output_names().size()); }
-  /// `torques`: see physics::EngineSettings.
+  /// `torques`: see physics::EngineSettings; always with them if the score measures energy.
   std::unique_ptr<physics::Engine> make_engine(bool torques = false) const;
   std::unique_ptr<controllers::Parameters> decode(const neat::Genome& genome) const;
+  score::Score scorer() const;
   trial::Protocol protocol(const record::PathSampling& path) const;
   trial::Scenario scenario(const trial::ScenarioKey& key) const;
   /// The scenarios that all genomes of a generation meet, one per episode; empty without noise.
   std::vector<trial::Scenario> scenarios(std::int64_t seed, int generation) const;
 };
 
-/// A robot file: the TOML side file of a model, or the robot.json of a run folder. Throws UserError.
-/// The robot of a config. Throws UserError; of a file that is not there, with the place that names it.
+/// The robot of a config. Throws UserError; if its file is missing, with the place that names it.
 robot::RobotSpec load_robot(const Config& config);
+/// A robot file: the TOML side file of a model, or the robot.json of a run folder. Throws UserError.
 robot::RobotSpec load_robot_file(const std::filesystem::path& path);
 /// The text of a robot.json.
 std::string robot_file_text(const robot::RobotSpec& robot);

@@ -37,7 +37,7 @@ std::optional<Replay> replay(const Problem& original, const neat::Genome& genome
   runner.run(task, stop);
   if (!task.result()) return std::nullopt;
   if (recording) recording->finish(task.result()->outcome);
-  return Replay{.result = summarise(*task.result()),
+  return Replay{.result = summarise(problem, *task.result()),
                 .legs = triggers.legs(),
                 .triggers = triggers.counts(),
                 .trace = trace.trace(),

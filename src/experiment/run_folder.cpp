@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::string_view manifest_format = "amble-manifest";
 /// Of the run folder as a whole: raised whenever an older program's run could not go on here.
-constexpr int run_version = 5;
+constexpr int run_version = 6;
 constexpr std::string_view lock_name = ".lock";
 
 std::string champion_name(int generation) {
@@ -46,6 +46,11 @@ bool is_temporary(const fs::path& file) {
          written == paths.checkpoint || generation_of(*written);
 }
 
+/// Where a search keeps what only grows (search::Strategy::logs).
+bool is_log(const fs::path& file) {
+  return file.filename().string().starts_with("archive") && file.extension() == ".bin";
+}
+
 void remove_temporaries(const fs::path& folder) {
   std::vector<fs::path> left;
   for (const auto& entry : fs::directory_iterator(folder))
@@ -58,12 +63,12 @@ void remove_temporaries(const fs::path& folder) {
 bool holds_nothing(const fs::path& folder) {
   if (!fs::exists(folder / lock_name)) return fs::is_empty(folder);
   const RunPaths paths(folder);
-  const std::array beginnings{folder / lock_name, paths.robot,      paths.generations,
-                              paths.archive,      paths.checkpoint, paths.manifest};
+  const std::array beginnings{folder / lock_name, paths.robot, paths.generations, paths.checkpoint,
+                              paths.manifest};
   return std::ranges::all_of(fs::directory_iterator(folder), [&](const auto& entry) {
     const fs::path& path = entry.path();
     if (path == paths.champions) return fs::is_directory(path) && fs::is_empty(path);
-    return is_temporary(path) || std::ranges::find(beginnings, path) != beginnings.end();
+    return is_temporary(path) || is_log(path) || std::ranges::find(beginnings, path) != beginnings.end();
   });
 }
 
@@ -110,7 +115,6 @@ RunPaths::RunPaths(const fs::path& folder_in)
       robot(folder / "robot.json"),
       manifest(folder / "manifest.json"),
       generations(folder / "generations.csv"),
-      archive(folder / "archive.bin"),
       checkpoint(folder / "checkpoint.bin"),
       champions(folder / "champions") {}
 
@@ -149,7 +153,11 @@ RunFolder RunFolder::create(const fs::path& folder, const robot::RobotSpec& robo
   refuse_used_folder(folder);  // again, now that nobody else can fill it
   remove_temporaries(folder);
   make_folder(run.paths_.champions);
-  for (const auto& left : {run.paths_.manifest, run.paths_.archive}) fs::remove(left);
+  fs::remove(run.paths_.manifest);
+  std::vector<fs::path> logs;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (is_log(entry.path())) logs.push_back(entry.path());
+  for (const auto& log : logs) fs::remove(log);
   io::write_file(run.paths_.robot, robot_file_text(robot));
   return run;
 }

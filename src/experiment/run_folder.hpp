@@ -16,7 +16,7 @@ namespace amble::experiment {
 /// Where the files of a run are (docs/FORMATS.md).
 struct RunPaths {
   explicit RunPaths(const std::filesystem::path& folder);
-  std::filesystem::path folder, config, robot, manifest, generations, archive, checkpoint, champions;
+  std::filesystem::path folder, config, robot, manifest, generations, checkpoint, champions;
 
   std::filesystem::path champion(int generation) const;
   /// Champion files in the order of their generations; the last is the best. Other files are passed over.

@@ -6,31 +6,30 @@
 namespace amble::experiment {
 
 /// Where the wall time of a generation goes, in seconds. What the workers do counts as their mean. What is
-/// left over goes to books: trajectories, statistics, the champion's re-run but for its physics.
+/// left over is overhead: trajectories, statistics, the champion's re-run but for its physics.
 struct StageTimes {
   double physics_s = 0.0;   ///< in the engine
   double decode_s = 0.0;    ///< from genomes to controllers
   double control_s = 0.0;   ///< controllers, and noise
   double waiting_s = 0.0;   ///< of workers that found no more trials for others that had one
-  double judge_s = 0.0;     ///< the search: from behaviours to fitness
-  double breed_s = 0.0;     ///< NEAT
+  double search_s = 0.0;    ///< the search: from evaluations to the next candidates
   double referees_s = 0.0;  ///< trials of champions in the referees
   double files_s = 0.0;     ///< written and synced
 };
 
 struct Stage {
   std::string_view column;  ///< of generations.csv
+  std::string_view name;    ///< for people
   double StageTimes::*seconds;
 };
-inline constexpr std::array<Stage, 8> stages{{
-    {"physics_s", &StageTimes::physics_s},
-    {"decode_s", &StageTimes::decode_s},
-    {"control_s", &StageTimes::control_s},
-    {"waiting_s", &StageTimes::waiting_s},
-    {"judge_s", &StageTimes::judge_s},
-    {"breed_s", &StageTimes::breed_s},
-    {"referees_s", &StageTimes::referees_s},
-    {"files_s", &StageTimes::files_s},
+inline constexpr std::array<Stage, 7> stages{{
+    {"physics_s", "physics", &StageTimes::physics_s},
+    {"decode_s", "genomes to controllers", &StageTimes::decode_s},
+    {"control_s", "controllers, noise", &StageTimes::control_s},
+    {"waiting_s", "waiting for others", &StageTimes::waiting_s},
+    {"search_s", "search", &StageTimes::search_s},
+    {"referees_s", "referees", &StageTimes::referees_s},
+    {"files_s", "files", &StageTimes::files_s},
 }};
 
 }  // namespace amble::experiment

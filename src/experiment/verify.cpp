@@ -65,7 +65,7 @@ std::string agreement(const Champion& champion) {
   std::string text =
       fmt::format("agrees: {:.3f} m, {} steps", champion.result.distance_m, champion.result.steps);
   if (!champion.episodes.empty())
-    text += fmt::format("; under noise {:.3f} m ({} of {})", champion.objective_m(),
+    text += fmt::format("; under noise {:.3f} m ({} of {})", champion.objective(),
                         trial::episode_score_names[static_cast<std::size_t>(champion.problem.noise.score)],
                         champion.episodes.size());
   return text;
@@ -88,19 +88,19 @@ void compare(const Champion& champion, const std::filesystem::path& path, const 
     found.push_back("its noise is not the run's");
 
   const auto generation = static_cast<std::size_t>(champion.generation);
-  if (generation >= origin.best_m.size()) return;  // ahead of the table, if the run was killed then
-  const double best_m = origin.best_m[generation];
-  const auto before = std::span(origin.best_m).first(generation);
-  if (std::ranges::any_of(before, [&](double earlier_m) { return earlier_m >= best_m; }))
+  if (generation >= origin.best.size()) return;  // ahead of the table, if the run was killed then
+  const double best = origin.best[generation];
+  const auto before = std::span(origin.best).first(generation);
+  if (std::ranges::any_of(before, [&](double earlier) { return earlier >= best; }))
     found.push_back("the run kept no champion of its generation");
-  else if (champion.objective_m() != best_m)
-    found.push_back(fmt::format("it walked {} m, the run's {} m", champion.objective_m(), best_m));
+  else if (champion.objective() != best)
+    found.push_back(fmt::format("it walked {} m, the run's {} m", champion.objective(), best));
 }
 
 }  // namespace
 
 Origin origin_of(const RunPaths& paths) {
-  Origin origin{.config = load_config(paths.config, {}), .problem = {}, .best_m = {}};
+  Origin origin{.config = load_config(paths.config, {}), .problem = {}, .best = {}};
   origin.problem = Problem::make(origin.config, load_robot_file(paths.robot));
   return origin;
 }

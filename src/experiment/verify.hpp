@@ -20,7 +20,7 @@ struct Verdict {
 struct Origin {
   Config config;
   Problem problem;
-  std::vector<double> best_m;  ///< by generation, as far as the run's table goes
+  std::vector<double> best;  ///< objective by generation, as far as the run's table goes
 };
 /// Reads all but the table from the run's folder. Throws UserError.
 Origin origin_of(const RunPaths& paths);

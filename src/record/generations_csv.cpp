@@ -14,21 +14,21 @@ namespace {
 
 using Column = std::vector<double> Generations::*;
 
-constexpr std::array<std::pair<std::string_view, Column>, 10> columns{{
+constexpr std::array<std::pair<std::string_view, Column>, 6> columns{{
     {"generation", &Generations::generation},
-    {"best_m", &Generations::best_m},
-    {"mean_m", &Generations::mean_m},
-    {"median_m", &Generations::median_m},
-    {"species", &Generations::species},
-    {"threshold", &Generations::threshold},
-    {"mean_hidden", &Generations::mean_hidden},
-    {"mean_links", &Generations::mean_links},
+    {"best", &Generations::best_m},
+    {"mean", &Generations::mean_m},
+    {"median", &Generations::median_m},
     {"evaluations", &Generations::evaluations},
     {"steps", &Generations::steps},
 }};
 
 /// Columns that may be absent, or whose cells may be empty in every row.
-constexpr std::array<std::pair<std::string_view, Column>, 12> optional_columns{{
+constexpr std::array<std::pair<std::string_view, Column>, 15> optional_columns{{
+    {"species", &Generations::species},
+    {"threshold", &Generations::threshold},
+    {"mean_hidden", &Generations::mean_hidden},
+    {"mean_links", &Generations::mean_links},
     {"archive", &Generations::archive},
     {"novelty_threshold", &Generations::novelty_threshold},
     {"best_novelty", &Generations::best_novelty},
@@ -37,8 +37,7 @@ constexpr std::array<std::pair<std::string_view, Column>, 12> optional_columns{{
     {"decode_s", &Generations::decode_s},
     {"control_s", &Generations::control_s},
     {"waiting_s", &Generations::waiting_s},
-    {"judge_s", &Generations::judge_s},
-    {"breed_s", &Generations::breed_s},
+    {"search_s", &Generations::search_s},
     {"referees_s", &Generations::referees_s},
     {"files_s", &Generations::files_s},
 }};
@@ -70,7 +69,11 @@ double parse_cell(std::string_view cell, std::string_view column, const std::str
 
 /// The index of a column in the header row; the header's size if it is missing.
 std::size_t find_column(const std::vector<std::string_view>& header, std::string_view column) {
-  return static_cast<std::size_t>(std::ranges::find(header, column) - header.begin());
+  const auto found = std::ranges::find(header, column);
+  if (found != header.end()) return static_cast<std::size_t>(found - header.begin());
+  // As it was called in run folders up to version 5.
+  const std::string earlier = std::string(column) + "_m";
+  return static_cast<std::size_t>(std::ranges::find(header, earlier) - header.begin());
 }
 
 void parse_row(const std::vector<std::string_view>& header, const std::vector<std::string_view>& cells,

@@ -20,8 +20,7 @@ struct Generations {
   /// Of novelty search; empty for runs without.
   std::vector<double> archive, novelty_threshold, best_novelty;
   /// Where the time went, s; all but wall_s may be empty.
-  std::vector<double> wall_s, physics_s, decode_s, control_s, waiting_s, judge_s, breed_s, referees_s,
-      files_s;
+  std::vector<double> wall_s, physics_s, decode_s, control_s, waiting_s, search_s, referees_s, files_s;
 
   std::size_t count() const { return generation.size(); }
 };

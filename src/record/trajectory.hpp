@@ -30,6 +30,17 @@ struct PathSampling {
   }
 };
 
+/// What a trial measures beside its path, because it costs time.
+struct Measures {
+  bool energy = false, uprightness = false;
+
+  Measures& operator|=(const Measures& other) {
+    energy |= other.energy;
+    uprightness |= other.uprightness;
+    return *this;
+  }
+};
+
 /// What every trial leaves behind: enough for scoring. In the world's frame (docs/CONVENTIONS.md).
 struct Trajectory {
   Outcome outcome = Outcome::completed;
@@ -38,6 +49,10 @@ struct Trajectory {
   Vec3 com_start_m;               ///< whole-body centre of mass before the first step
   Vec3 com_end_m;                 ///< and after the last
   std::vector<float> com_path_m;  ///< x0, y0, x1, y1, … as sampled (PathSampling), relative to com_start_m
+  /// Measures::energy: Σ |torque × change of angle| over motors and steps, J.
+  double energy_j = 0.0;
+  /// Measures::uprightness: sum over steps of the cosine between the root's z axis and the vertical.
+  double upright_steps = 0.0;
 
   double seconds() const { return steps * timestep_s; }
 };

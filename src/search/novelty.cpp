@@ -60,22 +60,27 @@ std::vector<neat::Fitness> NoveltySearch::judge(std::span<const Evaluation> gene
 
   Crowd crowd(archive_, newcomers, settings_.compare_with == Neighbours::archive_and_population);
   std::vector<neat::Fitness> fitness;
-  NoveltyStatistics statistics{.threshold = threshold_};
+  last_threshold_ = threshold_;
+  best_novelty_ = 0.0;
   int added = 0;
   for (std::size_t i = 0; i < generation.size(); ++i) {
     const double own = novelty(nearest_squared_distances(newcomers.row(i), crowd.around(i),
                                                          static_cast<std::size_t>(settings_.neighbours)));
     fitness.push_back({.selection = own, .objective = generation[i].objective});
-    statistics.best_novelty = std::max(statistics.best_novelty, own);
+    best_novelty_ = std::max(best_novelty_, own);
     if (!joins(own)) continue;
     archive_.append(newcomers.row(i));
     crowd.admit(i);
     if (own > threshold_ || settings_.count_first_members) ++added;
   }
-  statistics.archive_members = archive_.rows();
-  statistics_ = statistics;
   adapt_threshold(added);
   return fitness;
+}
+
+std::vector<Reading> NoveltySearch::readings() const {
+  return {{"archive", static_cast<double>(archive_.rows())},
+          {"novelty_threshold", last_threshold_},
+          {"best_novelty", best_novelty_}};
 }
 
 double NoveltySearch::novelty(std::span<const double> squared_distances) const {

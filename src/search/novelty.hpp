@@ -2,15 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "amble/search/archive_log.hpp"
 #include "amble/search/behaviours.hpp"
+#include "amble/search/criterion.hpp"
 #include "amble/search/novelty_settings.hpp"
-#include "amble/search/search.hpp"
 
 namespace amble::search {
 
@@ -23,7 +22,7 @@ namespace amble::search {
 /// counts once. If the novelty exceeds the threshold, or the archive is still small, the newcomer joins. At
 /// the end of the generation the threshold adapts to the number of those who joined; those who did so only
 /// because the archive was small count if NoveltySettings::count_first_members says so.
-class NoveltySearch : public Search {
+class NoveltySearch : public Criterion {
  public:
   NoveltySearch(const NoveltySettings& settings, std::size_t behaviour_length);
 
@@ -33,7 +32,8 @@ class NoveltySearch : public Search {
   bool has_archive() const override { return true; }
   std::string take_archive_growth() override { return log_.take_growth(archive_); }
   std::uint64_t restore_archive(io::InputFile& file, const std::string& what) override;
-  std::optional<NoveltyStatistics> novelty_statistics() const override { return statistics_; }
+  /// archive: members after the generation; novelty_threshold: that they had to exceed; best_novelty.
+  std::vector<Reading> readings() const override;
 
   const Behaviours& archive() const { return archive_; }
   /// For the next generation.
@@ -49,7 +49,7 @@ class NoveltySearch : public Search {
   ArchiveLog log_;
   double threshold_;
   int empty_generations_ = 0;
-  std::optional<NoveltyStatistics> statistics_;
+  double last_threshold_ = 0.0, best_novelty_ = 0.0;  ///< of the generation judged last
 };
 
 }  // namespace amble::search

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "amble/search/search.hpp"
+#include "amble/search/criterion.hpp"
 
 namespace amble::search {
 
 /// Selects by the objective itself (the fitness-driven runs of Morse et al. 2013, sec. 4). Has no state.
-class ObjectiveSearch : public Search {
+class ObjectiveSearch : public Criterion {
  public:
   std::vector<neat::Fitness> judge(std::span<const Evaluation> generation) override;
   void save(io::BinaryWriter&) const override {}

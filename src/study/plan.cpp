@@ -136,12 +136,7 @@ Plan make_plan(const ledger::StudySpec& study, const std::filesystem::path& fold
 }
 
 std::string config_hash(const experiment::Config& config, const robot::RobotSpec& robot) {
-  experiment::Config copy = config;
-  copy.seed = 0;
-  copy.generations = 1;
-  copy.name.clear();
-  copy.robot.clear();
-  return hex(hash_text(copy.to_toml() + experiment::robot_file_text(robot)));
+  return hex(hash_text(config.identity().dump() + experiment::robot_file_text(robot)));
 }
 
 }  // namespace amble::study

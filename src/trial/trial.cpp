@@ -1,5 +1,6 @@
 #include "amble/trial/trial.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "amble/core/check.hpp"
@@ -15,6 +16,7 @@ Runner::Runner(physics::Engine& engine, controllers::Batch& controllers, const P
       disturbances_(engine.sensors()),
       lanes_(static_cast<std::size_t>(engine.lanes())) {
   AMBLE_CHECK(controllers.lanes() == engine.lanes(), "one controller per robot");
+  AMBLE_CHECK(!protocol.measures.energy || engine.motor_torque_nm(), "energy is measured by torques");
 }
 
 // The step loop: sense and decide, move (noise may meddle with both), then see what became of each robot.
@@ -58,6 +60,12 @@ void Runner::refill(int lane, TaskQueue& queue) {
   slot.trajectory = {};
   slot.trajectory.timestep_s = protocol_.timestep_s;
   slot.trajectory.com_start_m = slot.last_healthy_com_m = engine_.com_m(lane);
+  if (protocol_.measures.energy) {
+    slot.angle_rad.clear();
+    const LaneArray& angle_rad = engine_.sensors().joint_angle_rad;
+    for (int joint = 0; joint < angle_rad.rows(); ++joint)
+      slot.angle_rad.push_back(angle_rad.at(joint, lane));
+  }
 }
 
 /// Where a trial is in its first step, sets the targets to the angles that the joints have.
@@ -95,6 +103,7 @@ std::optional<record::Outcome> Runner::advance(int lane) {
     trajectory.com_path_m.push_back(static_cast<float>(moved.x));
     trajectory.com_path_m.push_back(static_cast<float>(moved.y));
   }
+  measure(lane);
   // What it did beside the first step does not count: it begins now.
   if (protocol_.first_command == FirstCommand::after_first_step && trajectory.steps == 1)
     controllers_.load(lane, *slot.task.parameters);
@@ -104,6 +113,26 @@ std::optional<record::Outcome> Runner::advance(int lane) {
   if (engine_.root_com_m(lane).z < protocol_.fall_height_m) return record::Outcome::fell;
   if (trajectory.steps == protocol_.steps) return record::Outcome::completed;
   return std::nullopt;
+}
+
+/// Adds what scores need of this step to the lane's trajectory.
+void Runner::measure(int lane) {
+  Lane& slot = lanes_[static_cast<std::size_t>(lane)];
+  if (protocol_.measures.uprightness) {
+    // R_zz of the rotation matrix, from the quaternion.
+    const Quat q = engine_.root_pose(lane).rotation;
+    slot.trajectory.upright_steps += 1.0 - 2.0 * (q.x * q.x + q.y * q.y);
+  }
+  if (!protocol_.measures.energy) return;
+  // Work of each motor in this step: τ Δq, braking counted like driving.
+  const LaneArray& angle_rad = engine_.sensors().joint_angle_rad;
+  const LaneArray& torque_nm = *engine_.motor_torque_nm();
+  for (int joint = 0; joint < angle_rad.rows(); ++joint) {
+    double& before_rad = slot.angle_rad[static_cast<std::size_t>(joint)];
+    const double now_rad = angle_rad.at(joint, lane);
+    slot.trajectory.energy_j += std::abs(torque_nm.at(joint, lane) * (now_rad - before_rad));
+    before_rad = now_rad;
+  }
 }
 
 }  // namespace amble::trial

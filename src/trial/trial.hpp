@@ -51,6 +51,7 @@ struct Protocol {
   double timestep_s = 0.01;
   FirstCommand first_command = FirstCommand::before_first_step;
   record::PathSampling path;
+  record::Measures measures;  ///< energy: only with an engine that has motor torques
   double fall_height_m = 0.0;
 };
 
@@ -76,6 +77,7 @@ class Runner {
     Task task;
     record::Trajectory trajectory;
     Vec3 last_healthy_com_m;
+    std::vector<double> angle_rad;  ///< after the last step; only where energy is measured
     bool busy = false;
   };
 
@@ -83,6 +85,7 @@ class Runner {
   void hold_first_steps();
   void after_step(int lane, TaskQueue& queue);
   std::optional<record::Outcome> advance(int lane);
+  void measure(int lane);
 
   physics::Engine& engine_;
   controllers::Batch& controllers_;

@@ -11,7 +11,7 @@
 #include "amble/experiment/replay.hpp"
 #include "amble/io/file.hpp"
 #include "amble/record/recording.hpp"
-#include "amble/score/distance.hpp"
+#include "amble/score/score.hpp"
 #include "tests/experiment/fixture.hpp"
 
 // Whole generations and runs in the batch engine.
@@ -39,7 +39,7 @@ std::string small_run(const std::filesystem::path& folder, int jobs) {
   const auto config = small_novelty_config({"engine=batch", "noise.push_m_s=0.2"});
   EXPECT_EQ(Run::start(folder, config, jobs).execute(listener, listener.stop), RunStatus::finished);
   const RunPaths paths(folder);
-  std::string all = io::read_file(paths.archive);
+  std::string all = io::read_file(folder / "archive.bin");
   for (const auto& file : paths.champion_files()) all += io::read_file(file);
   for (auto row : listener.rows) {
     row.wall_s = 0.0;

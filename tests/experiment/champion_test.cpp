@@ -109,10 +109,10 @@ TEST(Champion, KeepsAShareOfAnyDistanceButNone) {
 
 TEST(Champion, IsJudgedByWhatItsEpisodesMakeOfIt) {
   auto champion = noisy_champion();
-  EXPECT_EQ(champion.objective_m(), 0.3);
+  EXPECT_EQ(champion.objective(), 0.3);
   champion.problem.noise.score = trial::EpisodeScore::worst;
-  EXPECT_EQ(champion.objective_m(), 0.1);
-  EXPECT_EQ(some_champion().objective_m(), 0.1 + 0.2) << "without noise by its distance";
+  EXPECT_EQ(champion.objective(), 0.1);
+  EXPECT_EQ(some_champion().objective(), 0.1 + 0.2) << "without noise by its distance";
 }
 
 TEST(Champion, WithoutNoiseSaysNothingOfIt) {

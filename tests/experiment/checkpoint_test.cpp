@@ -7,6 +7,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/random.hpp"
+#include "amble/experiment/run_state.hpp"
 #include "amble/io/file.hpp"
 #include "tests/experiment/fixture.hpp"
 
@@ -15,40 +16,34 @@ namespace {
 
 using testing::HasSubstr;
 
+/// A score for each candidate, the same in every generation.
+void advance(search::Strategy& strategy) {
+  std::vector<search::Evaluation> evaluations;
+  for (std::size_t i = 0; i < strategy.ask().size(); ++i)
+    evaluations.push_back({.objective = static_cast<double>(i % 7), .behaviour = {}});
+  strategy.tell(evaluations);
+}
+
 class Checkpoint : public testing::Test {
  protected:
   Checkpoint() {
-    for (int i = 0; i < 3; ++i) population_.advance(some_fitness());
-    save_checkpoint(path_, config_,
-                    {.best_m = 2.5,
-                     .best_generation = 1,
-                     .evaluations = 120,
-                     .steps = 9999,
-                     .wall_s = 1.5,
-                     .csv_bytes = 321},
-                    population_, *search_);
+    for (int i = 0; i < 3; ++i) advance(*state_.strategy);
+    state_.progress = {.best = 2.5,
+                       .best_generation = 1,
+                       .evaluations = 120,
+                       .steps = 9999,
+                       .wall_s = 1.5,
+                       .csv_bytes = 321};
+    save_checkpoint(path_, config_, state_.progress, *state_.strategy);
     bytes_ = io::read_file(path_);
-  }
-
-  std::vector<neat::Fitness> some_fitness() const {
-    std::vector<neat::Fitness> fitness;
-    for (std::size_t i = 0; i < population_.genomes().size(); ++i) {
-      const auto value = static_cast<double>(i % 7);
-      fitness.push_back({value, value});
-    }
-    return fitness;
-  }
-
-  Progress load(neat::Population& population) const {
-    return load_checkpoint(path_, config_, population, *search_);
   }
 
   /// The message when these bytes are loaded; "" if they are accepted.
   std::string complaint(const std::string& bytes) {
     io::write_file(path_, bytes);
-    auto population = small_population(problem_);
+    const RunState other(config_, problem_);
     try {
-      load(population);
+      load_checkpoint(path_, config_, *other.strategy);
     } catch (const UserError& error) {
       EXPECT_EQ(error.code(), ExitCode::bad_file);
       return error.what();
@@ -60,24 +55,23 @@ class Checkpoint : public testing::Test {
   std::filesystem::path path_ = scratch_ / "checkpoint.bin";
   Config config_ = small_config();
   Problem problem_ = small_problem();
-  neat::Population population_ = small_population(problem_);
-  std::unique_ptr<search::Search> search_ = search::make_search(config_.search, config_.behaviour_length());
+  RunState state_ = RunState(config_, problem_);
   std::string bytes_;
 };
 
 TEST_F(Checkpoint, RestoresProgressAndPopulation) {
-  auto other = small_population(problem_);
-  const auto progress = load(other);
-  EXPECT_EQ(progress.best_m, 2.5);
+  const RunState other(config_, problem_);
+  const auto progress = load_checkpoint(path_, config_, *other.strategy);
+  EXPECT_EQ(progress.best, 2.5);
   EXPECT_EQ(progress.best_generation, 1);
   EXPECT_EQ(progress.evaluations, 120u);
   EXPECT_EQ(progress.steps, 9999u);
   EXPECT_EQ(progress.csv_bytes, 321u);
-  EXPECT_EQ(other.generation(), 3);
-  ASSERT_TRUE(std::ranges::equal(other.genomes(), population_.genomes()));
-  other.advance(some_fitness());
-  population_.advance(some_fitness());
-  EXPECT_TRUE(std::ranges::equal(other.genomes(), population_.genomes()));
+  EXPECT_EQ(other.strategy->round(), 3);
+  ASSERT_TRUE(std::ranges::equal(other.strategy->ask(), state_.strategy->ask()));
+  advance(*other.strategy);
+  advance(*state_.strategy);
+  EXPECT_TRUE(std::ranges::equal(other.strategy->ask(), state_.strategy->ask()));
 }
 
 TEST_F(Checkpoint, IsRefusedWhenTruncatedAnywhere) {
@@ -113,28 +107,30 @@ TEST_F(Checkpoint, ReaderThrowsNothingButUserErrorsForDamageUnderAValidChecksum)
       payload[8 + stream.below(static_cast<std::uint32_t>(payload.size() - 8))] =
           static_cast<char>(stream.below(256));
     if (stream.chance(0.3)) payload.resize(stream.below(static_cast<std::uint32_t>(payload.size())));
-    complaint(io::seal("AMBLECKP", 2, payload));
+    complaint(io::seal("AMBLECKP", 3, payload));
   }
 }
 
 TEST_F(Checkpoint, HoldsTheThresholdOfNoveltySearch) {
   config_ =
       small_novelty_config({"search.novelty.first_members=40", "search.novelty.count_first_members=true"});
-  const auto make = [&] { return search::make_search(config_.search, config_.behaviour_length()); };
-  const auto search = make();
-  const std::vector<float> still(config_.behaviour_length());
-  search->judge(std::vector<search::Evaluation>(40, {.objective = 0.0, .behaviour = still}));
-  io::write_file(scratch_ / "archive.bin", search->take_archive_growth());
-  save_checkpoint(path_, config_, {}, population_, *search);
+  const RunState first(config_, problem_), second(config_, problem_);
+  const std::vector<float> still(config_.make_behaviour()->length());
+  const std::vector<search::Evaluation> evaluations(40, {.objective = 0.0, .behaviour = still});
+  first.strategy->tell(evaluations);
+  io::write_file(scratch_ / "archive.bin", first.strategy->take_log_growth(0));
+  save_checkpoint(path_, config_, {}, *first.strategy);
 
-  const auto again = make();
-  auto population = small_population(problem_);
-  load_checkpoint(path_, config_, population, *again);
+  load_checkpoint(path_, config_, *second.strategy);
   io::InputFile file(scratch_ / "archive.bin");
-  again->restore_archive(file, "archive.bin");
-  again->judge(std::vector<search::Evaluation>(1, {.objective = 0.0, .behaviour = still}));
-  EXPECT_EQ(again->novelty_statistics()->threshold, 0.5 * 1.2);
-  EXPECT_EQ(again->novelty_statistics()->archive_members, 40u);
+  second.strategy->restore_log(0, file, "archive.bin");
+  second.strategy->tell(evaluations);
+  const auto told = second.strategy->readings();
+  const auto value = [&told](std::string_view name) {
+    return std::ranges::find(told, name, &search::Reading::name)->value;
+  };
+  EXPECT_EQ(value("novelty_threshold"), 0.5 * 1.2);
+  EXPECT_EQ(value("archive"), 40.0);
 }
 
 }  // namespace

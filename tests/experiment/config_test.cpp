@@ -44,7 +44,7 @@ TEST(Config, NoveltyPresetsDifferFromThoseOfTheObjectiveInNothingButSearchAndNam
   for (const std::string preset : {"authors/", "paper/"}) {
     const auto objective = load_config(configs + preset + "supg-objective.toml", {});
     auto novelty = load_config(configs + preset + "supg-novelty.toml", {});
-    EXPECT_EQ(novelty.search.kind, search::Kind::novelty);
+    EXPECT_EQ(novelty.search.kind, "novelty");
     EXPECT_NE(novelty.name, objective.name);
     novelty.search = objective.search;
     novelty.name = objective.name;
@@ -69,12 +69,12 @@ TEST(Config, PresetsOfNeatAndCppnsAreWhatTextAndCodeSay) {
 
 TEST(Config, NoveltyPresetsAreWhatTextAndCodeSay) {
   const auto authors = load_config(configs + "authors/supg-novelty.toml", {});
-  EXPECT_EQ(authors.behaviour_length(), 1500u);
+  EXPECT_EQ(authors.make_behaviour()->length(), 1500u);
   EXPECT_EQ(authors.search.novelty.distance, search::Distance::squared);
   EXPECT_EQ(authors.search.novelty.compare_with, search::Neighbours::archive);
   EXPECT_FALSE(authors.search.novelty.count_first_members);
   const auto paper = load_config(configs + "paper/supg-novelty.toml", {});
-  EXPECT_EQ(paper.behaviour_length(), 3000u);
+  EXPECT_EQ(paper.make_behaviour()->length(), 3000u);
   EXPECT_EQ(paper.search.novelty.distance, search::Distance::root);
   EXPECT_EQ(paper.search.novelty.compare_with, search::Neighbours::archive_and_population);
   EXPECT_TRUE(paper.search.novelty.count_first_members);

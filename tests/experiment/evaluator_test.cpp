@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "amble/experiment/replay.hpp"
-#include "amble/score/distance.hpp"
+#include "amble/score/score.hpp"
 #include "tests/experiment/fixture.hpp"
 
 namespace amble::experiment {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "amble/experiment/run.hpp"
+#include "amble/neat/population.hpp"
 #include "tests/io/temporary_folder.hpp"
 
 namespace amble::experiment {

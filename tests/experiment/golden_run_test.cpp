@@ -70,22 +70,16 @@ Hashes run_hashes(const Golden& golden) {
   EXPECT_EQ(Run::start(scratch / "run", config, 1).execute(listener, listener.stop), RunStatus::finished);
   std::uint64_t hash = 0, thresholds = 0;
   for (const GenerationRow& row : listener.rows) {
-    const auto novelty = row.novelty.value_or(search::NoveltyStatistics{});
-    const std::array<double, 9> numbers{row.best_m,
-                                        row.mean_m,
-                                        row.median_m,
-                                        row.population.compatibility_threshold,
-                                        row.population.mean_links,
-                                        row.population.mean_hidden,
-                                        static_cast<double>(row.population.species),
-                                        static_cast<double>(novelty.archive_members),
-                                        novelty.best_novelty};
+    const auto told = [&row](std::string_view name) { return row.reading(name).value_or(0.0); };
+    const std::array<double, 9> numbers{row.best,          row.mean,           row.median,
+                                        told("threshold"), told("mean_links"), told("mean_hidden"),
+                                        told("species"),   told("archive"),    told("best_novelty")};
     hash = hash_span<double>(numbers, hash);
-    thresholds = hash_span<double>(std::array{novelty.threshold}, thresholds);
+    thresholds = hash_span<double>(std::array{told("novelty_threshold")}, thresholds);
   }
   for (const auto& file : RunPaths(scratch / "run").champion_files())
     hash = hash_span<std::uint32_t>(load_champion(file).trace, hash);
-  const auto archive = RunPaths(scratch / "run").archive;
+  const auto archive = scratch / "run/archive.bin";
   return {hex(hash), std::filesystem::exists(archive) ? archive_hash(archive, thresholds) : ""};
 }
 

@@ -102,7 +102,7 @@ TEST_F(Folder, OfAnotherVersionIsRefusedByThatName) {
   for (const auto& opening :
        {complaint([&] { RunFolder::open(folder_); }), complaint([&] { find_run(folder_); })})
     EXPECT_THAT(opening,
-                HasSubstr("manifest.json: version 1 of the file format; this program reads version 5"));
+                HasSubstr("manifest.json: version 1 of the file format; this program reads version 6"));
 }
 
 TEST_F(Folder, NeedsAName) {

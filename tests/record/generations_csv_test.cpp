@@ -60,13 +60,13 @@ TEST(GenerationsCsv, TakesColumnsOfNoveltySearchFilledEmptyOrAbsent) {
 
 TEST(GenerationsCsv, NamesFileLineAndColumnOfWhatIsWrong) {
   EXPECT_EQ(error_of(""), "runs/1/generations.csv:1: expected a row of column names, found an empty file");
-  EXPECT_EQ(error_of("generation,mean_m\n"), "runs/1/generations.csv:1: column 'best_m' is missing");
+  EXPECT_EQ(error_of("generation,mean_m\n"), "runs/1/generations.csv:1: column 'best' is missing");
   EXPECT_EQ(error_of(header + "\n0,1,2,3,4,5,6,7,8,9\n1,x,2,3,4,5,6,7,8,9\n"),
-            "runs/1/generations.csv:3: column 'best_m': expected a number, found 'x'");
+            "runs/1/generations.csv:3: column 'best': expected a number, found 'x'");
   EXPECT_EQ(error_of(header + "\n0,1,2,3,4,5,6,7,8,9 \n"),
             "runs/1/generations.csv:2: column 'steps': expected a number, found '9 '");
   EXPECT_EQ(error_of(header + "\n0,1,nan,3,4,5,6,7,8,9\n"),
-            "runs/1/generations.csv:2: column 'mean_m': expected a number, found 'nan'");
+            "runs/1/generations.csv:2: column 'mean': expected a number, found 'nan'");
   EXPECT_EQ(error_of(header + "\n0,1,2\n"), "runs/1/generations.csv:2: expected 10 columns, found 3");
   EXPECT_EQ(error_of(header + "\n\n"), "runs/1/generations.csv:2: expected 10 columns, found 1");
 }

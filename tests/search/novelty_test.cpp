@@ -212,14 +212,20 @@ TEST(NoveltySearch, ReportsTheThresholdThatItsGenerationHadToExceed) {
   settings.count_first_members = true;
   settings.threshold = 50.0;
   NoveltySearch search(settings, 1);
-  EXPECT_FALSE(search.novelty_statistics());
+  const auto names = [&search] {
+    std::vector<std::string_view> columns;
+    for (const Reading& reading : search.readings()) columns.push_back(reading.name);
+    return columns;
+  };
+  EXPECT_THAT(names(), ElementsAre("archive", "novelty_threshold", "best_novelty"))
+      << "columns of a table, known before the first generation";
   judge(search, {0.0f, 1.0f, 2.0f, 3.0f, 4.0f});
-  const auto statistics = search.novelty_statistics();
-  ASSERT_TRUE(statistics);
-  EXPECT_EQ(statistics->threshold, 50.0);
+  EXPECT_THAT(names(), ElementsAre("archive", "novelty_threshold", "best_novelty"));
+  const auto told = search.readings();
+  EXPECT_EQ(told[0].value, 5.0);
+  EXPECT_EQ(told[1].value, 50.0);
   EXPECT_EQ(search.threshold(), 60.0);
-  EXPECT_EQ(statistics->archive_members, 5u);
-  EXPECT_EQ(statistics->best_novelty, 16.0 + 9.0 + 4.0 + 1.0);
+  EXPECT_EQ(told[2].value, 16.0 + 9.0 + 4.0 + 1.0);
 }
 
 /// What a process that goes on from `search` and its archive's file has.

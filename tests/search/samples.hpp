@@ -6,7 +6,7 @@
 
 #include "amble/core/random.hpp"
 #include "amble/search/behaviours.hpp"
-#include "amble/search/search.hpp"
+#include "amble/search/evaluation.hpp"
 
 namespace amble::search {
 

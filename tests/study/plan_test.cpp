@@ -93,7 +93,7 @@ TEST(ConfigHash, IsOfAllThatMakesARunButItsSeedLengthAndName) {
   std::set<std::string> others{hash};
   for (const std::string setting :
        {"population.size=301", "trial.duration_s=14", "engine=batch", "noise.push_m_s=0.1",
-        "search.kind=novelty", "speciation.first_step_up=0.4"})
+        "search.kind=novelty", "speciation.first_step_up=0.4", "score.terms=[{quantity=\"forward\"}]"})
     EXPECT_TRUE(others.insert(hash_with({setting})).second) << setting;
   EXPECT_TRUE(others.insert(hash_with({"robot=\"" + robot_file + "\""})).second);
 }

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <memory>
+
+#include "amble/experiment/checkpoint.hpp"
+#include "amble/experiment/config.hpp"
+#include "amble/experiment/problem.hpp"
+#include "amble/search/strategy.hpp"
+
+namespace amble::experiment {
+
+/// A run between two generations: what a checkpoint holds.
+struct RunState {
+  /// Before the first generation.
+  RunState(const Config& config, const Problem& problem);
+
+  Progress progress;
+  std::unique_ptr<search::Strategy> strategy;
+};
+
+/// Throws UserError if the config's search could need more memory than this process may use, rather than
+/// being killed for it after hours.
+void check_memory(const Config& config, const Problem& problem);
+
+}  // namespace amble::experiment

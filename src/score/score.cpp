@@ -1,0 +1,179 @@
+#include "amble/score/score.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "amble/core/check.hpp"
+#include "amble/core/error.hpp"
+
+namespace amble::score {
+namespace {
+
+double distance(const record::Trajectory& trajectory, const Context&) {
+  return distance_m(trajectory);
+}
+
+/// Displacement along the direction of the settings.
+double forward(const record::Trajectory& trajectory, const Context& context) {
+  const Vec3 moved = trajectory.com_end_m - trajectory.com_start_m;
+  const double x = context.settings.direction[0], y = context.settings.direction[1];
+  return (moved.x * x + moved.y * y) / std::sqrt(x * x + y * y);
+}
+
+/// 1 where the mean forward speed is the one wanted, falling to 0 at standing still and at twice that speed.
+double speed_kept(const record::Trajectory& trajectory, const Context& context) {
+  const double wanted_m_s = context.settings.speed_m_s;
+  const double speed_m_s = forward(trajectory, context) / context.duration_s;
+  return std::max(0.0, 1.0 - std::abs(speed_m_s - wanted_m_s) / wanted_m_s);
+}
+
+/// Inverse of the cost of transport: weight × distance / energy, no unit. 0 for a robot that spent nothing.
+double economy(const record::Trajectory& trajectory, const Context& context) {
+  if (trajectory.energy_j <= 0.0) return 0.0;
+  return context.weight_n * distance_m(trajectory) / trajectory.energy_j;
+}
+
+double uprightness(const record::Trajectory& trajectory, const Context&) {
+  return trajectory.steps > 0 ? trajectory.upright_steps / trajectory.steps : 0.0;
+}
+
+double upright_time(const record::Trajectory& trajectory, const Context& context) {
+  return trajectory.seconds() / context.duration_s;
+}
+
+// The table of quantities. A new one is a row here; if trials must measure something for it, also a member of
+// record::Measures and record::Trajectory.
+constexpr std::array table{
+    Quantity{"distance", "m", "in a straight line over the ground, any direction", {}, distance},
+    Quantity{"forward", "m", "displacement along direction; backwards counts negative", {}, forward},
+    Quantity{"speed_kept",
+             "",
+             "1 at a mean forward speed of speed_m_s, 0 at none and at twice that",
+             {},
+             speed_kept},
+    Quantity{"economy",
+             "",
+             "weight times distance over the motors' energy: the inverse cost of transport",
+             {.energy = true},
+             economy},
+    Quantity{"uprightness",
+             "",
+             "mean cosine of the angle between the root's z axis and the vertical",
+             {.uprightness = true},
+             uprightness},
+    Quantity{"upright_time", "", "share of the trial's length before a fall", {}, upright_time},
+};
+
+const Quantity* find(std::string_view name) {
+  const auto row = std::ranges::find(table, name, &Quantity::name);
+  return row == table.end() ? nullptr : &*row;
+}
+
+std::string names() {
+  std::vector<std::string_view> all;
+  all.reserve(table.size());
+  for (const Quantity& quantity : table) all.push_back(quantity.name);
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
+void check_quantity(std::string_view list, const std::string& name) {
+  if (!find(name))
+    fail_setting({fmt::format("score.{}", list)}, "score.{}: quantity \"{}\": expected {}", list, name,
+                 names());
+}
+
+constexpr double unbounded = 1e9;
+
+}  // namespace
+
+void Term::describe(io::SettingsVisitor& visitor) {
+  visitor.text("quantity", quantity,
+               {"distance, forward, speed_kept, economy, uprightness or upright_time", "docs/SCORES.md"});
+  visitor.number("weight", weight, {-1e6, 1e6}, {"what one unit of it is worth"});
+}
+
+void Limit::describe(io::SettingsVisitor& visitor) {
+  visitor.text("quantity", quantity, {"as in score.terms"});
+  visitor.number("least", least, {-unbounded, unbounded}, {"not below this"});
+  visitor.number("most", most, {-unbounded, unbounded}, {"not above this"});
+}
+
+void Settings::describe(io::SettingsVisitor& visitor) {
+  visitor.tables("terms", terms,
+                 {"the score is the sum of these, at least 0", "Morse et al. 2013, sec. 4: distance"});
+  visitor.tables("limits", limits, {"what a trial must keep to"});
+  visitor.number("breach_factor", breach_factor, {0.0, 1.0},
+                 {"share of the score that a trial keeps which breaks a limit"});
+  visitor.numbers("direction", direction, {-1e6, 1e6},
+                  {"which way is forward: x, y in the world's frame, of any length"});
+  visitor.number("speed_m_s", speed_m_s, {1e-6, 1e3}, {"speed wanted by speed_kept, m/s"});
+}
+
+void Settings::validate() const {
+  if (direction.size() != 2 || (direction[0] == 0.0 && direction[1] == 0.0))
+    fail_setting({"score.direction"}, "score.direction: expected two numbers, not both 0");
+  if (terms.empty()) fail_setting({"score.terms"}, "score.terms: expected at least one term");
+  for (const Term& term : terms) check_quantity("terms", term.quantity);
+  for (const Limit& limit : limits) {
+    check_quantity("limits", limit.quantity);
+    if (!(limit.least <= limit.most))
+      fail_setting({"score.limits"}, "score.limits: {}: least = {} is above most = {}", limit.quantity,
+                   limit.least, limit.most);
+  }
+}
+
+bool Settings::is_distance() const {
+  return limits.empty() && terms.size() == 1 && terms[0].quantity == "distance" && terms[0].weight == 1.0;
+}
+
+std::span<const Quantity> quantities() {
+  return table;
+}
+
+std::string_view unit(const Settings& settings) {
+  const auto is_length = [](const Term& term) {
+    return find(term.quantity) && find(term.quantity)->unit == "m";
+  };
+  return std::ranges::all_of(settings.terms, is_length) ? "m" : "";
+}
+
+double distance_m(const record::Trajectory& trajectory) {
+  if (trajectory.outcome == record::Outcome::diverged) return 0.0;
+  const Vec3 moved = trajectory.com_end_m - trajectory.com_start_m;
+  return std::sqrt(moved.x * moved.x + moved.y * moved.y);
+}
+
+double credited(double value, record::Outcome outcome, double fall_factor) {
+  return outcome == record::Outcome::fell ? fall_factor * value : value;
+}
+
+Score::Score(const Settings& settings, double duration_s, double weight_n)
+    : settings_(settings), duration_s_(duration_s), weight_n_(weight_n) {
+  settings_.validate();
+}
+
+double Score::of(const record::Trajectory& trajectory) const {
+  if (trajectory.outcome == record::Outcome::diverged) return 0.0;
+  if (settings_.is_distance()) return distance_m(trajectory);
+  const Context context{.settings = settings_, .duration_s = duration_s_, .weight_n = weight_n_};
+  double sum = 0.0;
+  for (const Term& term : settings_.terms) sum += term.weight * find(term.quantity)->of(trajectory, context);
+  for (const Limit& limit : settings_.limits) {
+    const double value = find(limit.quantity)->of(trajectory, context);
+    if (value < limit.least || value > limit.most) sum *= settings_.breach_factor;
+  }
+  return std::max(0.0, sum);
+}
+
+record::Measures Score::measures() const {
+  record::Measures all;
+  const auto add = [&all](const std::string& quantity) { all |= find(quantity)->measures; };
+  for (const Term& term : settings_.terms) add(term.quantity);
+  for (const Limit& limit : settings_.limits) add(limit.quantity);
+  return all;
+}
+
+}  // namespace amble::score

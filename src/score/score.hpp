@@ -1,0 +1,85 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "amble/io/settings.hpp"
+#include "amble/record/trajectory.hpp"
+
+namespace amble::score {
+
+/// Distance from start to end of a trial, m, in a straight line over the ground, whatever the direction
+/// (Morse et al. 2013, sec. 4); 0 if it diverged.
+double distance_m(const record::Trajectory& trajectory);
+
+/// What a trial is worth if the robot fell in it: `fall_factor` of the value; else all of it.
+double credited(double value, record::Outcome outcome, double fall_factor);
+
+/// One quantity in a score, and how much of it counts.
+struct Term {
+  std::string quantity = "distance";
+  double weight = 1.0;
+  void describe(io::SettingsVisitor& visitor);
+};
+
+/// What a quantity must keep to.
+struct Limit {
+  std::string quantity = "uprightness";
+  double least = -1e9;
+  double most = 1e9;
+  void describe(io::SettingsVisitor& visitor);
+};
+
+/// What makes a gait good. The default is the paper's: distance in a straight line, nothing else.
+struct Settings {
+  std::vector<Term> terms{Term()};
+  std::vector<Limit> limits = {};
+  double breach_factor = 0.0;
+  std::vector<double> direction{1.0, 0.0};  ///< x, y in the world's frame, of any length
+  double speed_m_s = 0.5;
+
+  void describe(io::SettingsVisitor& visitor);
+  /// Throws SettingError for a quantity that does not exist, and for limits that nothing can keep.
+  void validate() const;
+  /// Whether a score by these settings is distance_m(), to the bit.
+  bool is_distance() const;
+};
+
+/// What a score needs to know beside the trajectory.
+struct Context {
+  const Settings& settings;
+  double duration_s = 0.0;  ///< of a trial that completes
+  double weight_n = 0.0;    ///< of the robot
+};
+
+/// A quantity of a trial that scores and limits can name: a row of the table in score.cpp.
+struct Quantity {
+  std::string_view name, unit, what;
+  record::Measures measures;  ///< what trials must measure for it
+  double (*of)(const record::Trajectory& trajectory, const Context& context);
+};
+std::span<const Quantity> quantities();
+
+/// Scores trials: Σ weight × quantity, at least 0. A trial that breaks a limit is worth breach_factor of
+/// that, one that diverged 0.
+class Score {
+ public:
+  /// The settings must be valid; `weight_n` is the robot's, `duration_s` that of a trial that completes.
+  Score(const Settings& settings, double duration_s, double weight_n);
+
+  /// Finite, ≥ 0.
+  double of(const record::Trajectory& trajectory) const;
+  /// What trials must measure for it.
+  record::Measures measures() const;
+
+ private:
+  Settings settings_;
+  double duration_s_, weight_n_;
+};
+
+/// "m" where the score is a length; "" where its terms have different units.
+std::string_view unit(const Settings& settings);
+
+}  // namespace amble::score

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "amble/io/binary.hpp"
+#include "amble/io/file.hpp"
+#include "amble/neat/fitness.hpp"
+#include "amble/search/evaluation.hpp"
+#include "amble/search/reading.hpp"
+
+namespace amble::search {
+
+/// By what generational NEAT selects parents: turns the evaluations of a generation into fitness. Belongs to
+/// one thread. All state is in save() and load(), but for an archive, which has a file of its own that only
+/// grows.
+class Criterion {
+ public:
+  virtual ~Criterion() = default;
+
+  /// Fitness of each genome of a generation, in order.
+  virtual std::vector<neat::Fitness> judge(std::span<const Evaluation> generation) = 0;
+  virtual void save(io::BinaryWriter& writer) const = 0;
+  virtual void load(io::BinaryReader& reader) = 0;
+
+  /// Whether there is an archive to be kept in a file. If not, the next two are never called.
+  virtual bool has_archive() const { return false; }
+  /// Bytes to append to that file since the last call. To be called before save().
+  virtual std::string take_archive_growth() { return {}; }
+  /// After load(): reads the archive back; returns how many bytes of the file belong to it. Throws
+  /// UserError(bad_file) "WHAT: …".
+  virtual std::uint64_t restore_archive(io::InputFile& /*file*/, const std::string& /*what*/) { return 0; }
+
+  /// What it has to say of the generation it judged last; the same names in every generation, also before
+  /// the first.
+  virtual std::vector<Reading> readings() const { return {}; }
+};
+
+}  // namespace amble::search

@@ -1,0 +1,72 @@
+#include "amble/search/strategies.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "amble/core/check.hpp"
+#include "amble/search/generational.hpp"
+#include "amble/search/novelty.hpp"
+#include "amble/search/objective.hpp"
+
+namespace amble::search {
+namespace {
+
+std::unique_ptr<Strategy> generational(const SearchSpace& space, std::unique_ptr<Criterion> criterion) {
+  return std::make_unique<GenerationalSearch>(
+      neat::Population(space.neat, space.inputs, space.outputs, space.recurrent, space.seed),
+      std::move(criterion));
+}
+
+std::unique_ptr<Strategy> make_objective(const Settings&, const SearchSpace& space) {
+  return generational(space, std::make_unique<ObjectiveSearch>());
+}
+
+std::unique_ptr<Strategy> make_novelty(const Settings& settings, const SearchSpace& space) {
+  return generational(space, std::make_unique<NoveltySearch>(settings.novelty, space.behaviour_length));
+}
+
+void validate_novelty(const Settings& settings, std::size_t behaviour_length) {
+  settings.novelty.validate(behaviour_length);
+}
+
+void check_novelty_memory(const Settings& settings, const SearchSpace& space, double memory_bytes) {
+  settings.novelty.check_memory(space.behaviour_length, space.neat.population.size, memory_bytes);
+}
+
+void any(const Settings&, std::size_t) {}
+void any_memory(const Settings&, const SearchSpace&, double) {}
+
+// The table of strategies. A new one is a row here, a class derived from Strategy, and, if it has settings, a
+// member of Settings with its line in Settings::describe.
+constexpr std::array kinds{
+    StrategyKind{"objective", "", make_objective, any, any_memory},
+    StrategyKind{"novelty", "path", make_novelty, validate_novelty, check_novelty_memory},
+};
+
+}  // namespace
+
+void Settings::describe(io::SettingsVisitor& visitor) {
+  std::vector<std::string_view> names;
+  names.reserve(kinds.size());
+  for (const StrategyKind& row : kinds) names.push_back(row.name);
+  auto index = static_cast<int>(std::ranges::find(names, kind) - names.begin());
+  visitor.choice_index(
+      "kind", index, names,
+      {"what selects parents: the objective itself (distance walked), or novelty of behaviour",
+       "Morse et al. 2013, sec. 4"});
+  kind = names.at(static_cast<std::size_t>(index));
+  visitor.table("novelty", novelty, {"novelty search; without effect under other kinds"});
+}
+
+std::span<const StrategyKind> strategies() {
+  return kinds;
+}
+
+const StrategyKind& strategy_kind(const Settings& settings) {
+  const auto row = std::ranges::find(kinds, settings.kind, &StrategyKind::name);
+  AMBLE_CHECK(row != kinds.end(), "search.kind is one of the table's");
+  return *row;
+}
+
+}  // namespace amble::search

@@ -1,0 +1,92 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "amble/experiment/replay.hpp"
+#include "amble/io/file.hpp"
+#include "tests/experiment/fixture.hpp"
+
+// Runs whose score is not the distance.
+namespace amble::experiment {
+namespace {
+
+const std::atomic<bool> never{false};
+
+/// The slow twin of what a trial measures: from the engine's own state after each step.
+class Twin : public trial::Observer {
+ public:
+  void on_step(int step, const physics::Engine& engine, const controllers::Batch&, const LaneArray&,
+               int lane) override {
+    const Quat q = engine.root_pose(lane).rotation;
+    const Vec3 up = rotate(q, {0.0, 0.0, 1.0});
+    upright += up.z;
+    const LaneArray& angle_rad = engine.sensors().joint_angle_rad;
+    before_rad.resize(static_cast<std::size_t>(angle_rad.rows()), 0.0);  // at the start all are 0
+    for (int joint = 0; joint < angle_rad.rows(); ++joint) {
+      double& before = before_rad[static_cast<std::size_t>(joint)];
+      energy_j += std::abs(engine.motor_torque_nm()->at(joint, lane) * (angle_rad.at(joint, lane) - before));
+      before = angle_rad.at(joint, lane);
+    }
+    steps = step;
+  }
+  double upright = 0.0, energy_j = 0.0;
+  int steps = 0;
+  std::vector<double> before_rad;
+};
+
+class ScoreInEachEngine : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Engine, ScoreInEachEngine, testing::Values("ode", "batch", "mujoco"),
+                         [](const auto& engine) { return std::string(engine.param); });
+
+TEST_P(ScoreInEachEngine, IsOfWhatItsTrialMeasured) {
+  Problem problem = small_problem(small_config({std::string("engine=") + GetParam()}));
+  const auto population = small_population(problem);
+  const auto score_of = [&](const std::string& quantity, Twin& twin) {
+    problem.score.terms = {{.quantity = quantity}};
+    return replay(problem, population.genomes()[3], {.observer = &twin}, never)->result;
+  };
+  Twin upright, energy;
+  const auto leaning = score_of("uprightness", upright);
+  EXPECT_NEAR(leaning.score.value(), upright.upright / upright.steps, 1e-6);
+  EXPECT_LT(leaning.score.value(), 1.0);
+  const auto economical = score_of("economy", energy);
+  const double weight_n = problem.robot.total_mass_kg() * 9.8;
+  EXPECT_GT(energy.energy_j, 0.01);
+  EXPECT_NEAR(economical.score.value(), weight_n * economical.distance_m / energy.energy_j,
+              1e-9 * economical.score.value());
+  EXPECT_EQ(leaning.distance_m, economical.distance_m) << "measuring changes no bit";
+}
+
+TEST(ScoredRun, SelectsAndKeepsChampionsByItsScoreAndGoesOnAfterAnInterruption) {
+  const TemporaryFolder scratch;
+  const auto config =
+      small_config({"engine=batch", "score.direction=[0, 1]",
+                    "score.terms=[{quantity=\"forward\"}, {quantity=\"economy\", weight=0.1}]",
+                    "score.limits=[{quantity=\"uprightness\", least=0.5}]"});
+  Listener whole, part(1), rest;
+  Run::start(scratch / "whole", config, 2).execute(whole, whole.stop);
+  Run::start(scratch / "part", config, 1).execute(part, part.stop);
+  Run::resume(scratch / "part", {}, 2).execute(rest, rest.stop);
+  const auto file = RunPaths(scratch / "whole").best_champion();
+  const auto champion = load_champion(file);
+  EXPECT_EQ(champion.objective(), whole.rows.back().best_so_far);
+  EXPECT_EQ(champion.problem.score.limits.at(0).least, 0.5);
+  EXPECT_NE(champion.objective(), champion.result.distance_m);
+  EXPECT_EQ(io::read_file(RunPaths(scratch / "part").best_champion()), io::read_file(file));
+  const auto again = replay(champion.problem, champion.genome, {}, never);
+  EXPECT_EQ(again->result.score, champion.result.score);
+}
+
+TEST(ScoredRun, OfTheDistanceAloneIsTheRunWithoutAScore) {
+  const TemporaryFolder scratch;
+  Listener listener;
+  Run::start(scratch / "plain", small_config({"engine=batch"}), 2).execute(listener, listener.stop);
+  Run::start(scratch / "named", small_config({"engine=batch", "score.terms=[{quantity=\"distance\"}]"}), 2)
+      .execute(listener, listener.stop);
+  EXPECT_EQ(io::read_file(RunPaths(scratch / "plain").best_champion()),
+            io::read_file(RunPaths(scratch / "named").best_champion()));
+}
+
+}  // namespace
+}  // namespace amble::experiment

@@ -1,0 +1,63 @@
+#include "amble/score/behaviour.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace amble::score {
+namespace {
+
+using testing::ElementsAre;
+
+record::Trajectory short_walk() {
+  record::Trajectory trajectory;
+  trajectory.outcome = record::Outcome::fell;
+  trajectory.com_start_m = {1.0, 1.0, 0.8};
+  trajectory.com_end_m = {1.75, 0.5, 0.2};
+  trajectory.com_path_m = {0.25f, -0.25f};
+  return trajectory;
+}
+
+/// Of a trial of so many steps, each of which is sampled.
+PathBehaviour of_steps(int steps) {
+  return PathBehaviour({.steps = steps, .path = {.stride = 1}});
+}
+
+TEST(PathBehaviour, IsThePathAsItWasSampled) {
+  EXPECT_THAT(of_steps(1).of(short_walk()), ElementsAre(0.25f, -0.25f));
+}
+
+TEST(PathBehaviour, OfATrialThatEndedEarlyIsPaddedWithItsLastPlace) {
+  EXPECT_THAT(of_steps(3).of(short_walk()), ElementsAre(0.25f, -0.25f, 0.75f, -0.5f, 0.75f, -0.5f));
+}
+
+TEST(PathBehaviour, OfARobotThatFellBeforeTheFirstSampleIsItsLastPlace) {
+  auto trajectory = short_walk();
+  trajectory.com_path_m.clear();
+  EXPECT_THAT(of_steps(1).of(trajectory), ElementsAre(0.75f, -0.5f));
+}
+
+TEST(PathBehaviour, HasTwoNumbersPerSampleOfAFullTrial) {
+  const auto length = [](int steps, const record::PathSampling& path) {
+    return PathBehaviour({.steps = steps, .path = path}).length();
+  };
+  EXPECT_EQ(length(1500, {.stride = 2}), 1500u);
+  EXPECT_EQ(length(1500, {.stride = 1}), 3000u);
+  EXPECT_EQ(length(1500, {.stride = 7}), 2u * 214u);
+  EXPECT_EQ(length(3, {.stride = 4}), 0u);
+  EXPECT_EQ(length(1500, {}), 0u);
+}
+
+TEST(PathBehaviourDeathTest, IsNeverCutShort) {
+  EXPECT_DEATH(of_steps(0).of(short_walk()), "no longer than trials");
+}
+
+TEST(Behaviour, IsMadeByItsNameAndHasNoNumbersWithoutOne) {
+  const BehaviourSettings settings{.steps = 10, .path = {.stride = 2}};
+  EXPECT_EQ(make_behaviour("path", settings)->length(), 10u);
+  EXPECT_EQ(make_behaviour("path", settings)->path().stride, 2);
+  EXPECT_EQ(make_behaviour("", settings)->path().stride, 0) << "nothing is recorded for it";
+  EXPECT_TRUE(make_behaviour("", settings)->of(short_walk()).empty());
+}
+
+}  // namespace
+}  // namespace amble::score
