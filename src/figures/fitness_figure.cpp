@@ -118,10 +118,12 @@ std::string fitness_figure(const record::Generations& generations, Layout layout
                                      {"Links, mean", "Links", generations.mean_links, 1}}};
   const double gap = wide ? 28 : 10, left = 26;
   const double each = (width - 2 * gap - 10) / 3 - left;
-  for (std::size_t i = 0; i < smalls.size(); ++i)
-    draw_small(svg, generations,
-               {left + static_cast<double>(i) * (left + each + gap), small_top, each, small_height},
-               wide ? smalls[i].wide_title : smalls[i].narrow_title, smalls[i].values, smalls[i].decimals);
+  int shown = 0;
+  for (const Small& small : smalls) {
+    if (small.values.empty()) continue;  // a search without such a column
+    draw_small(svg, generations, {left + shown++ * (left + each + gap), small_top, each, small_height},
+               wide ? small.wide_title : small.narrow_title, small.values, small.decimals);
+  }
   return svg.finish();
 }
 

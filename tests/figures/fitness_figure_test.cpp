@@ -52,6 +52,15 @@ TEST_P(FitnessFigure, TakesASingleGenerationAndNoProgressAtAll) {
               Contains("best 0.00 m"));
 }
 
+TEST_P(FitnessFigure, LeavesOutColumnsThatTheSearchDoesNotHave) {
+  record::Generations generations = table();
+  generations.species.clear();
+  generations.mean_links.clear();
+  const auto elements = tests::parse_xml(fitness_figure(generations, GetParam()));
+  EXPECT_EQ(tests::with_class(elements, "small").size(), 2u) << "curve and dot of the hidden nodes";
+  EXPECT_THAT(tests::texts(elements), Contains("1.2"));
+}
+
 TEST_P(FitnessFigure, ShowsNegativeValues) {
   record::Generations generations = table();
   generations.median_m = {-1.0, -0.5, -0.25};
