@@ -12,6 +12,7 @@
 #include "amble/figures/cppn_figure.hpp"
 #include "amble/figures/pattern_figure.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/json_file.hpp"
 
 namespace amble::cli {
 namespace {
@@ -35,11 +36,11 @@ void refuse_unless_ours(const DrawOptions& options) {
 
 std::string patterns_svg(const experiment::Champion& champion, const fs::path& path) {
   const controllers::Architecture& architecture = *champion.problem.architecture;
-  if (architecture.name() != "supg")
-    fail(ExitCode::bad_input, "--patterns: the controller of {} is of kind {}: expected supg, which has them",
-         path.string(), architecture.name());
   const robot::RobotSpec& robot = champion.problem.robot;
   const auto controller = architecture.parameters_json(*champion.problem.decode(champion.genome));
+  if (!io::parse_json(controller, path.string()).contains("patterns_rad"))
+    fail(ExitCode::bad_input, "--patterns: the controller of {} is of kind {}: expected supg, which has them",
+         path.string(), architecture.name());
   return figures::pattern_svg(robot, motion::parse_supg(controller, robot, path.string()));
 }
 

@@ -35,7 +35,7 @@ ExitCode verify(const fs::path& folder) {
   auto origin = experiment::origin_of(paths);
   std::optional<UserError> no_table;
   try {
-    origin.best = record::read_generations(paths.generations).best_m;
+    origin.best = record::read_generations(paths.generations).best;
   } catch (const UserError& error) {  // champions can be run again without it
     no_table = error;
   }

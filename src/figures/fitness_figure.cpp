@@ -58,16 +58,16 @@ void draw_curve(Svg& svg, const Panel& panel, const record::Generations& generat
 }
 
 void draw_distances(Svg& svg, const record::Generations& generations, const Box& plot) {
-  const std::array<Curve, 3> curves{{{"median", generations.median_m, "median"},
-                                     {"mean", generations.mean_m, "mean"},
-                                     {"best", generations.best_m, "best"}}};
-  const Panel panel = make_panel(
-      plot, generations, value_range({&generations.best_m, &generations.mean_m, &generations.median_m}));
+  const std::array<Curve, 3> curves{{{"median", generations.median, "median"},
+                                     {"mean", generations.mean, "mean"},
+                                     {"best", generations.best, "best"}}};
+  const Panel panel =
+      make_panel(plot, generations, value_range({&generations.best, &generations.mean, &generations.median}));
   draw_y_axis(svg, panel.y, nice_ticks(panel.y.data, 6), plot.x, plot.right(), " m");
   draw_x_axis(svg, panel.x, nice_ticks(panel.x.data, plot.width > 500 ? 9 : 5, 1.0), plot.bottom(), "");
   svg.text({plot.right() + 14, plot.bottom() + 19}, Anchor::start, "tick", "generation");
 
-  auto area = curve_points(panel, generations, generations.best_m);
+  auto area = curve_points(panel, generations, generations.best);
   area.push_back({area.back().x, panel.y(panel.y.data.lower)});
   area.push_back({area.front().x, panel.y(panel.y.data.lower)});
   svg.polygon(area, "under-best");
@@ -104,8 +104,8 @@ std::string fitness_figure(const record::Generations& generations, Layout layout
   const double small_top = main_height + 90;
   Svg svg(width, small_top + small_height + 30,
           fmt::format("Distance walked over {} generations: best {} m, mean {} m, median {} m in the last",
-                      generations.count(), label(generations.best_m.back(), 2),
-                      label(generations.mean_m.back(), 2), label(generations.median_m.back(), 2)));
+                      generations.count(), label(generations.best.back(), 2),
+                      label(generations.mean.back(), 2), label(generations.median.back(), 2)));
   draw_distances(svg, generations, {42, 12, width - 42 - 114, main_height});
 
   struct Small {

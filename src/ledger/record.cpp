@@ -12,7 +12,7 @@ namespace amble::ledger {
 namespace {
 
 constexpr std::string_view record_format = "amble-study-record";
-constexpr int record_version = 1;
+constexpr int record_version = 2;
 
 template <typename Value>
 double median_of(const std::vector<EpisodeResult>& episodes, Value EpisodeResult::*value) {

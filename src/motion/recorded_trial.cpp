@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "amble/io/json_file.hpp"
 #include "amble/record/recording.hpp"
 #include "amble/robot/json.hpp"
 
@@ -66,11 +67,13 @@ RecordedTrial read_recorded_trial(const std::filesystem::path& path) {
   RecordedTrial recorded;
   recorded.robot = robot::parse_robot(header.robot_json, path.string() + ": robot");
   const std::string controller = path.string() + ": controller";
-  recorded.controller_kind = parse_controller_kind(header.controller_json, controller);
-  if (recorded.controller_kind == "supg")
+  const io::Json document = io::parse_json(header.controller_json, controller);
+  const io::JsonView parameters(document, controller);
+  recorded.controller_kind = parameters.at("kind").text();
+  // What a controller has decides what can be shown of it, not its kind.
+  if (parameters.has("patterns_rad"))
     recorded.supg = parse_supg(header.controller_json, recorded.robot, controller);
-  if (recorded.controller_kind == "network" || recorded.controller_kind == "ctrnn")
-    recorded.network = parse_network(header.controller_json, controller);
+  if (parameters.has("nodes")) recorded.network = parse_network(header.controller_json, controller);
 
   Motion& motion = recorded.motion;
   motion.frame_s = header.frame_s;

@@ -16,8 +16,8 @@ struct RecordedTrial {
   robot::RobotSpec robot;
   Motion motion;
   std::string controller_kind;
-  std::optional<SupgPatterns> supg;      ///< for controllers of kind "supg"
-  std::optional<NeuralNetwork> network;  ///< for controllers of kind "network" and "ctrnn"
+  std::optional<SupgPatterns> supg;      ///< of controllers that have patterns
+  std::optional<NeuralNetwork> network;  ///< of controllers that have nodes and links
 };
 
 /// Frames from the first that is not finite on are left out. Throws UserError: the file is missing or

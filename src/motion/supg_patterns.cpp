@@ -42,11 +42,6 @@ std::vector<double> read_pattern(const JsonView& json, int period_ticks) {
 
 }  // namespace
 
-std::string parse_controller_kind(const std::string& controller_json, const std::string& what) {
-  const io::Json document = io::parse_json(controller_json, what);
-  return JsonView(document, what).at("kind").text();
-}
-
 SupgPatterns parse_supg(const std::string& controller_json, const robot::RobotSpec& robot,
                         const std::string& what) {
   const io::Json document = io::parse_json(controller_json, what);

@@ -23,11 +23,8 @@ struct SupgPatterns {
   double period_s() const { return period_ticks * timestep_s; }
 };
 
-/// The kind of a controller, from a recording's controller_json. This and parse_supg() throw
+/// From a recording's controller_json, of a controller that has "patterns_rad". Throws
 /// UserError(ExitCode::bad_file) naming `what`: not JSON, or a key is missing or has a bad value.
-std::string parse_controller_kind(const std::string& controller_json, const std::string& what);
-
-/// The patterns of a controller of kind "supg".
 SupgPatterns parse_supg(const std::string& controller_json, const robot::RobotSpec& robot,
                         const std::string& what);
 

@@ -8,6 +8,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
+#include "amble/record/generation_columns.hpp"
 
 namespace amble::record {
 namespace {
@@ -15,12 +16,12 @@ namespace {
 using Column = std::vector<double> Generations::*;
 
 constexpr std::array<std::pair<std::string_view, Column>, 6> columns{{
-    {"generation", &Generations::generation},
-    {"best", &Generations::best_m},
-    {"mean", &Generations::mean_m},
-    {"median", &Generations::median_m},
-    {"evaluations", &Generations::evaluations},
-    {"steps", &Generations::steps},
+    {column::generation, &Generations::generation},
+    {column::best, &Generations::best},
+    {column::mean, &Generations::mean},
+    {column::median, &Generations::median},
+    {column::evaluations, &Generations::evaluations},
+    {column::steps, &Generations::steps},
 }};
 
 /// Columns that may be absent, or whose cells may be empty in every row.
@@ -32,7 +33,7 @@ constexpr std::array<std::pair<std::string_view, Column>, 15> optional_columns{{
     {"archive", &Generations::archive},
     {"novelty_threshold", &Generations::novelty_threshold},
     {"best_novelty", &Generations::best_novelty},
-    {"wall_s", &Generations::wall_s},
+    {column::wall_s, &Generations::wall_s},
     {"physics_s", &Generations::physics_s},
     {"decode_s", &Generations::decode_s},
     {"control_s", &Generations::control_s},

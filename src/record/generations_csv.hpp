@@ -12,7 +12,7 @@ namespace amble::record {
 /// length.
 struct Generations {
   std::vector<double> generation;
-  std::vector<double> best_m, mean_m, median_m;  ///< distance walked; best of the generation
+  std::vector<double> best, mean, median;  ///< distance walked; best of the generation
   std::vector<double> species;
   std::vector<double> threshold;  ///< compatibility threshold of the speciation
   std::vector<double> mean_hidden, mean_links;
@@ -27,7 +27,7 @@ struct Generations {
 
 /// Reads generations.csv by the names in its header row; other columns are passed over. Throws UserError:
 /// ExitCode::io for a file that cannot be read, ExitCode::bad_file for one that is no such table ("FILE:LINE:
-/// column 'best_m' …").
+/// column 'best' …").
 Generations read_generations(const std::filesystem::path& path);
 
 /// The same from text; `name` is the file's name in messages.

@@ -14,9 +14,9 @@ using testing::Contains;
 record::Generations table() {
   record::Generations generations;
   generations.generation = {0, 1, 2};
-  generations.best_m = {0.5, 1.5, 3.04};
-  generations.mean_m = {0.25, 0.5, 1.0};
-  generations.median_m = {0.1, 0.2, 0.9};
+  generations.best = {0.5, 1.5, 3.04};
+  generations.mean = {0.25, 0.5, 1.0};
+  generations.median = {0.1, 0.2, 0.9};
   generations.species = {1, 20, 29};
   generations.mean_hidden = {0, 0.5, 1.25};
   generations.mean_links = {8, 8.5, 9.75};
@@ -44,9 +44,8 @@ TEST_P(FitnessFigure, DrawsCurvesInProportion) {
 
 TEST_P(FitnessFigure, TakesASingleGenerationAndNoProgressAtAll) {
   record::Generations generations;
-  for (auto* column :
-       {&generations.generation, &generations.best_m, &generations.mean_m, &generations.median_m,
-        &generations.species, &generations.mean_hidden, &generations.mean_links})
+  for (auto* column : {&generations.generation, &generations.best, &generations.mean, &generations.median,
+                       &generations.species, &generations.mean_hidden, &generations.mean_links})
     column->push_back(0.0);
   EXPECT_THAT(tests::texts(tests::parse_xml(fitness_figure(generations, GetParam()))),
               Contains("best 0.00 m"));
@@ -63,7 +62,7 @@ TEST_P(FitnessFigure, LeavesOutColumnsThatTheSearchDoesNotHave) {
 
 TEST_P(FitnessFigure, ShowsNegativeValues) {
   record::Generations generations = table();
-  generations.median_m = {-1.0, -0.5, -0.25};
+  generations.median = {-1.0, -0.5, -0.25};
   const auto elements = tests::parse_xml(fitness_figure(generations, GetParam()));
   EXPECT_THAT(tests::texts(elements), Contains("median \u22120.25 m"));
   // The first axis is that of the distances; nothing lies below it.

@@ -112,7 +112,7 @@ TEST_F(RecordedTest, TakesARecordingWithoutFrames) {
 }
 
 TEST_F(RecordedTest, NamesFileAndPartOfWhatIsWrong) {
-  header_.controller_json = "{\"kind\": \"supg\"}";
+  header_.controller_json = "{\"kind\": \"supg\", \"patterns_rad\": []}";
   write(1, record::Outcome::completed);
   EXPECT_EQ(tests::error_of([&] { read_recorded_trial(path_); }),
             path_.string() + ": controller: key 'period_ticks' is missing");

@@ -46,11 +46,5 @@ TEST(SupgPatterns, NamesWhatIsWrong) {
             "walk.rec: controller: key 'patterns_rad[3][4]' must be a finite number");
 }
 
-TEST(ControllerKind, IsReadFromJson) {
-  EXPECT_EQ(parse_controller_kind("{\"kind\": \"ctrnn\"}", "x"), "ctrnn");
-  EXPECT_EQ(tests::error_of([] { parse_controller_kind("{}", "walk.rec: controller"); }),
-            "walk.rec: controller: key 'kind' is missing");
-}
-
 }  // namespace
 }  // namespace amble::motion

@@ -20,7 +20,7 @@ TEST(Figures, AreOnePerSectionOfThePage) {
   EXPECT_EQ(names(figure_files(input, tests::walk(150))),
             (Names{"filmstrip.svg", "footfalls.svg", "patterns.svg", "path.svg"}));
   input.generations = record::parse_generations(
-      "generation,best_m,mean_m,median_m,species,threshold,mean_hidden,mean_links,evaluations,steps\n"
+      "generation,best,mean,median,species,threshold,mean_hidden,mean_links,evaluations,steps\n"
       "0,0.5,0.25,0.2,3,100,0,8,300,440000\n",
       "x");
   EXPECT_EQ(names(figure_files(input, tests::walk(0))), Names{"fitness.svg"});

@@ -24,7 +24,7 @@ RunPage input() {
   page.facts = {{"Seed", "1"}, {"Config", "a<b>.toml"}};
   page.commands = {"amble evolve a.toml --out runs/1 && amble page runs/1"};
   page.generations = record::parse_generations(
-      "generation,best_m,mean_m,median_m,species,threshold,mean_hidden,mean_links,evaluations,steps\n"
+      "generation,best,mean,median,species,threshold,mean_hidden,mean_links,evaluations,steps\n"
       "0,0.5,0.25,0.2,3,100,0,8,300,440000\n1,1.5,0.5,0.4,5,90,0.5,9,300,450000\n",
       "x");
   return page;

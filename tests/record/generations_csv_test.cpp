@@ -11,7 +11,7 @@ namespace {
 using testing::ElementsAre;
 
 const std::string header =
-    "generation,best_m,mean_m,median_m,species,threshold,mean_hidden,mean_links,evaluations,steps";
+    "generation,best,mean,median,species,threshold,mean_hidden,mean_links,evaluations,steps";
 
 std::string error_of(const std::string& text) {
   return tests::error_of([&] { parse_generations(text, "runs/1/generations.csv"); });
@@ -19,15 +19,15 @@ std::string error_of(const std::string& text) {
 
 TEST(GenerationsCsv, ReadsColumnsByNameInAnyOrder) {
   const auto table = parse_generations(
-      "steps,wall_s,generation,best_m,mean_m,median_m,species,threshold,mean_hidden,mean_links,evaluations\n"
+      "steps,wall_s,generation,best,mean,median,species,threshold,mean_hidden,mean_links,evaluations\n"
       "450000,0.5,0,0.25,0.125,-0.5,3,100,0,8,300\n"
       "440000,0.75,1,1e0,0.5,0.25,4,90,0.5,8.5,301\n",
       "x");
   ASSERT_EQ(table.count(), 2u);
   EXPECT_THAT(table.generation, ElementsAre(0, 1));
-  EXPECT_THAT(table.best_m, ElementsAre(0.25, 1));
-  EXPECT_THAT(table.mean_m, ElementsAre(0.125, 0.5));
-  EXPECT_THAT(table.median_m, ElementsAre(-0.5, 0.25));
+  EXPECT_THAT(table.best, ElementsAre(0.25, 1));
+  EXPECT_THAT(table.mean, ElementsAre(0.125, 0.5));
+  EXPECT_THAT(table.median, ElementsAre(-0.5, 0.25));
   EXPECT_THAT(table.species, ElementsAre(3, 4));
   EXPECT_THAT(table.threshold, ElementsAre(100, 90));
   EXPECT_THAT(table.mean_hidden, ElementsAre(0, 0.5));
@@ -36,6 +36,15 @@ TEST(GenerationsCsv, ReadsColumnsByNameInAnyOrder) {
   EXPECT_THAT(table.steps, ElementsAre(450000, 440000));
   EXPECT_THAT(table.wall_s, ElementsAre(0.5, 0.75));
   EXPECT_TRUE(table.physics_s.empty());
+}
+
+TEST(GenerationsCsv, KnowsTheNamesOfRunFoldersUpToVersionFive) {
+  const auto table = parse_generations(
+      "generation,best_m,best_so_far_m,mean_m,median_m,species,evaluations,steps\n0,4,4,2,1,3,300,450000\n",
+      "x");
+  EXPECT_THAT(table.best, ElementsAre(4));
+  EXPECT_THAT(table.mean, ElementsAre(2));
+  EXPECT_THAT(table.median, ElementsAre(1));
 }
 
 TEST(GenerationsCsv, TakesAHeaderAloneAndLinesEndingInCarriageReturns) {
@@ -60,7 +69,7 @@ TEST(GenerationsCsv, TakesColumnsOfNoveltySearchFilledEmptyOrAbsent) {
 
 TEST(GenerationsCsv, NamesFileLineAndColumnOfWhatIsWrong) {
   EXPECT_EQ(error_of(""), "runs/1/generations.csv:1: expected a row of column names, found an empty file");
-  EXPECT_EQ(error_of("generation,mean_m\n"), "runs/1/generations.csv:1: column 'best' is missing");
+  EXPECT_EQ(error_of("generation,mean\n"), "runs/1/generations.csv:1: column 'best' is missing");
   EXPECT_EQ(error_of(header + "\n0,1,2,3,4,5,6,7,8,9\n1,x,2,3,4,5,6,7,8,9\n"),
             "runs/1/generations.csv:3: column 'best': expected a number, found 'x'");
   EXPECT_EQ(error_of(header + "\n0,1,2,3,4,5,6,7,8,9 \n"),

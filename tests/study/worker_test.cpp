@@ -33,8 +33,8 @@ TEST(Worker, RecordsWhatTheRunSays) {
   std::vector<ledger::CurvePoint> expected;
   for (std::size_t i = 0; i < rows.count(); ++i) {
     bool better = true;
-    for (std::size_t earlier = 0; earlier < i; ++earlier) better &= rows.best_m[i] > rows.best_m[earlier];
-    if (better) expected.push_back({static_cast<int>(i), rows.best_m[i]});
+    for (std::size_t earlier = 0; earlier < i; ++earlier) better &= rows.best[i] > rows.best[earlier];
+    if (better) expected.push_back({static_cast<int>(i), rows.best[i]});
   }
   EXPECT_EQ(record.curve, expected);
   EXPECT_LT(expected.size(), rows.count()) << "some generation only equals the best";

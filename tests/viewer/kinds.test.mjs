@@ -119,9 +119,9 @@ test("a recording without a step gives a page that says so and shows the start p
     assert.equal(await page.evaluate(() => window.amble.time()), 0);
   }));
 
-test("another kind of controller is named, and has no timers", () => {
+test("a controller without patterns is named by its kind, and has no timers", () => {
   const page = changed(makePage("walk2.html", recording("walk.rec")), "ctrnn.html",
-                       (text) => text.replace('"kind":"supg"', '"kind":"ctrnn"'));
+                       (text) => text.replace('"kind":"supg"', '"kind":"ctrnn"').replace('"patterns_rad":', '"others":'));
   return onPage(page, {}, async (opened) => {
     assert.match(await opened.locator("#analysis").textContent(), /of kind “ctrnn”/);
     assert.equal(await opened.locator(".patterns").count(), 0);

@@ -24,7 +24,7 @@ export class Walk {
     this.debounce_s = this.gait?.settings.debounce_s ?? 0;
     this.footfalls();
     this.triggers = triggers && triggers.map((trigger) => onsets(trigger, contacts.step_s));
-    this.supg = this.controller.kind === "supg" ? this.controller : null;
+    this.supg = this.controller.patterns_rad ? this.controller : null;
   }
 
   /** Stances as the gait figures count them, [from, to] in seconds, and when there was chatter in and between them. */
