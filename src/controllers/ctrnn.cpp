@@ -9,8 +9,6 @@
 namespace amble::controllers {
 namespace {
 
-using substrate::Property;
-
 class CtrnnBatch final : public NeuralBatch {
  public:
   CtrnnBatch(std::shared_ptr<const NeuralModel> model, const CtrnnSettings& settings, int lanes)
@@ -30,7 +28,7 @@ class CtrnnBatch final : public NeuralBatch {
   bool runge_kutta() const { return settings_.integrator == Integrator::rk4; }
 
   void reset(int lane, const NeuralParameters& parameters) override {
-    const auto bias = parameters.decoded.of(Property::bias);
+    const auto bias = parameters.decoded.of(bias_property);
     for (int i = 0; i < wiring().neuron_count(); ++i) {
       const auto neuron = static_cast<std::size_t>(i);
       bias_.at(i, lane) = bias[static_cast<std::size_t>(wiring().neurons[neuron].node)];
@@ -80,9 +78,10 @@ void CtrnnSettings::describe(io::SettingsVisitor& visitor) {
 
 CtrnnArchitecture::CtrnnArchitecture(const CtrnnSettings& settings, const substrate::Settings& substrate,
                                      const robot::RobotSpec& robot, double timestep_s)
-    : NeuralArchitecture("ctrnn", {Property::bias, Property::time_constant}, substrate, robot, timestep_s),
+    : NeuralArchitecture("ctrnn", {std::string(bias_property), std::string(time_constant_property)},
+                         substrate, robot, timestep_s),
       settings_(settings) {
-  const double shortest = layout().lowest(Property::time_constant);
+  const double shortest = layout().lowest(time_constant_property);
   if (!(shortest > 0.0))
     fail_setting({"controller.substrate.properties"},
                  "controller.substrate.properties: a time constant can be {}: expected more than 0",
@@ -98,7 +97,7 @@ CtrnnArchitecture::CtrnnArchitecture(const CtrnnSettings& settings, const substr
 std::unique_ptr<Parameters> CtrnnArchitecture::decode(const cppn::Network& network) const {
   auto parameters = std::make_unique<NeuralParameters>();
   parameters->decoded = layout().decode(network);
-  const auto time_constants = parameters->decoded.of(Property::time_constant);
+  const auto time_constants = parameters->decoded.of(time_constant_property);
   for (const Wiring::Neuron& neuron : model_->wiring.neurons)
     parameters->rates.push_back(static_cast<float>(
         settings_.step / static_cast<double>(time_constants[static_cast<std::size_t>(neuron.node)])));

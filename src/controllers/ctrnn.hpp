@@ -7,6 +7,9 @@
 
 namespace amble::controllers {
 
+/// Of a neuron; the unit of time is that of CtrnnSettings::step.
+inline constexpr std::string_view bias_property = "bias", time_constant_property = "time_constant";
+
 /// Which differential equation the neurons follow (CtrnnArchitecture).
 enum class Equation { rate, potential };
 inline constexpr std::array<std::string_view, 2> equation_names{"rate", "potential"};

@@ -25,7 +25,7 @@ void logistic(std::span<float> values, float slope) {
   logistic_array(values.data(), values.size(), slope);
 }
 
-NeuralArchitecture::NeuralArchitecture(std::string_view kind, std::vector<substrate::Property> properties,
+NeuralArchitecture::NeuralArchitecture(std::string_view kind, std::vector<std::string> properties,
                                        const substrate::Settings& substrate, const robot::RobotSpec& robot,
                                        double timestep_s) {
   substrate::Layout layout(
@@ -54,9 +54,8 @@ std::string NeuralArchitecture::parameters_json(const Parameters& parameters) co
     const substrate::Node& node = layout().nodes()[i];
     Json entry{{"name", node.name}, {"group", node.group}, {"at", node.at}};
     entry["role"] = node.sensor ? "sensor" : node.joint >= 0 ? "joint" : "hidden";
-    for (const substrate::Property property : model_->properties)
-      if (!node.sensor)
-        entry[substrate::property_names[static_cast<std::size_t>(property)]] = decoded.of(property)[i];
+    for (const std::string& property : model_->properties)
+      if (!node.sensor) entry[property] = decoded.of(property)[i];
     json["nodes"].push_back(std::move(entry));
   }
   for (std::size_t i = 0; i < decoded.weights.size(); ++i) {

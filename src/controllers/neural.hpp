@@ -26,7 +26,7 @@ struct NeuralParameters : Parameters {
 /// What all networks of one architecture have in common.
 struct NeuralModel {
   std::string kind;
-  std::vector<substrate::Property> properties;  ///< that neurons have
+  std::vector<std::string> properties;  ///< that neurons have
   substrate::Layout layout;
   Wiring wiring;
   std::vector<JointRange> ranges;  ///< of the joints, in control order
@@ -48,7 +48,7 @@ class NeuralArchitecture : public Architecture {
 
  protected:
   /// Throws UserError where substrate and robot do not fit; `properties` are those that neurons must have.
-  NeuralArchitecture(std::string_view kind, std::vector<substrate::Property> properties,
+  NeuralArchitecture(std::string_view kind, std::vector<std::string> properties,
                      const substrate::Settings& substrate, const robot::RobotSpec& robot, double timestep_s);
 
   std::shared_ptr<const NeuralModel> model_;

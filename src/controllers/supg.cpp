@@ -10,8 +10,6 @@
 
 namespace amble::controllers {
 
-using substrate::Property;
-
 SupgParameters::SupgParameters(int legs, int types, int period_ticks)
     : legs_(legs),
       types_(types),
@@ -29,7 +27,7 @@ SupgArchitecture::SupgArchitecture(const SupgSettings& settings, const substrate
       layout_(substrate,
               {.kind = "supg",
                .network = false,
-               .properties = {Property::pattern, Property::offset},
+               .properties = {std::string(substrate::pattern_property), std::string(offset_property)},
                .pattern_ticks = period_ticks_},
               robot) {
   AMBLE_CHECK(robot.joints.size() == robot.legs.size() * robot.joint_types.size(),
@@ -39,7 +37,7 @@ SupgArchitecture::SupgArchitecture(const SupgSettings& settings, const substrate
     const int first = layout_.driver(joint(leg, 0));
     for (int type = 1; type < types(); ++type) {
       const int other = layout_.driver(joint(leg, type));
-      if (layout_.shared(Property::offset, first, other)) continue;
+      if (layout_.shared(offset_property, first, other)) continue;
       const auto& nodes = layout_.nodes();
       fail_setting(
           {"controller.substrate.properties"},
@@ -62,7 +60,7 @@ SupgParameters SupgArchitecture::blank() const {
 
 std::unique_ptr<Parameters> SupgArchitecture::decode(const cppn::Network& network) const {
   const substrate::Decoded decoded = layout_.decode(network);
-  const auto offsets = decoded.of(Property::offset);
+  const auto offsets = decoded.of(offset_property);
   auto parameters = std::make_unique<SupgParameters>(blank());
   for (int leg = 0; leg < legs(); ++leg) {
     const auto a = static_cast<double>(offsets[static_cast<std::size_t>(layout_.driver(joint(leg, 0)))]);

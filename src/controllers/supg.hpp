@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "amble/controllers/controller.hpp"
@@ -10,6 +11,9 @@
 #include "amble/substrate/layout.hpp"
 
 namespace amble::controllers {
+
+/// Of a SUPG's node, −1 … 1; SupgArchitecture says what it means.
+inline constexpr std::string_view offset_property = "offset";
 
 /// A decoded SUPG controller: for each joint the target angle at each value of its leg's timer, and the
 /// offset of each leg. The CPPN is asked once for all of them and not again while the robot walks.

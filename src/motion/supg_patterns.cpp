@@ -10,10 +10,10 @@ namespace {
 
 using io::JsonView;
 
-Offset read_offset(const JsonView& json) {
+bool read_starts_at_offset(const JsonView& json) {
   const std::string name = json.text();
-  if (name == "phase") return Offset::phase;
-  if (name == "delay") return Offset::delay;
+  if (name == "phase") return true;
+  if (name == "delay") return false;
   json.bad("phase or delay");
 }
 
@@ -49,7 +49,7 @@ SupgPatterns parse_supg(const std::string& controller_json, const robot::RobotSp
   SupgPatterns supg;
   supg.period_ticks = static_cast<int>(read_period_ticks(json.at("period_ticks")));
   supg.timestep_s = read_timestep_s(json.at("timestep_s"));
-  supg.offset = read_offset(json.at("offset"));
+  supg.starts_at_offset = read_starts_at_offset(json.at("offset"));
   const JsonView offsets = json.at("offset_ticks");
   if (offsets.size() != robot.legs.size()) offsets.bad("a number for each leg");
   for (std::size_t leg = 0; leg < offsets.size(); ++leg)

@@ -7,14 +7,11 @@
 
 namespace amble::motion {
 
-/// The meaning of a leg's offset: the timer starts at that tick, or starts that many ticks later.
-enum class Offset { phase, delay };
-
 /// The temporal patterns of a SUPG controller (Morse et al. 2013, sec. 3).
 struct SupgPatterns {
   int period_ticks = 0;
   double timestep_s = 0.0;
-  Offset offset = Offset::phase;
+  bool starts_at_offset = true;   ///< whether a leg's timer starts at its offset, or after that many ticks
   std::vector<int> offset_ticks;  ///< per leg
   /// [joint][tick] in the order of robot::RobotSpec::joints: the target angle at each tick of the timer, from
   /// 0 to period_ticks.

@@ -146,9 +146,8 @@ std::string controller_section(const motion::RecordedTrial& recorded) {
                    note(fmt::format("The controller of this champion is of kind “{}”, which is not drawn.",
                                     recorded.controller_kind)));
   const motion::SupgPatterns& supg = *recorded.supg;
-  const std::string_view offset = supg.offset == motion::Offset::phase
-                                      ? "where the leg’s timer starts"
-                                      : "how long the leg waits before its timer starts";
+  const std::string_view offset = supg.starts_at_offset ? "where the leg’s timer starts"
+                                                        : "how long the leg waits before its timer starts";
   return section(
       "Temporal patterns",
       fmt::format("Target angle of each joint over the {} s of its leg’s timer. Shaded: the joint’s range. "

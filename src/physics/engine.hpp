@@ -31,6 +31,9 @@ struct EngineSettings {
   bool torques = false;  ///< measure motor_torque_nm(); changes nothing else
 };
 
+/// A robot that is faster has diverged: m/s or rad/s (Engine::healthy).
+inline constexpr double absurd_speed = 1000.0;
+
 /// Advances up to lanes() copies of one robot in lockstep, one copy per lane, on flat ground at z = 0.
 /// Lanes do not influence each other, not by one bit: a lane's states depend on its own targets alone.
 /// An engine belongs to one thread. Order within step(): collide, advance by one timestep, then read the

@@ -5,9 +5,6 @@
 
 namespace amble::physics {
 
-/// A robot that is faster has diverged: m/s or rad/s (Engine::healthy).
-inline constexpr double absurd_speed = 1000.0;
-
 /// Common part of engines with one lane: the lane's flags, the sensors and the torques.
 class SingleRobotEngine : public Engine {
  public:

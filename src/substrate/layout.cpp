@@ -21,25 +21,37 @@ Layout::Layout(const Settings& settings, const Needs& needs, const robot::RobotS
   LayoutBuilder(*this, settings, needs, robot).build();
 }
 
-const Layout::Source& Layout::source(Property property, int node) const {
-  const auto found = std::find_if(sources_.begin(), sources_.end(), [&](const Source& source) {
-    return source.property == property && source.node == node;
-  });
+std::span<const float> Decoded::of(std::string_view property) const {
+  const auto found = std::ranges::find(properties, property, &Values::property);
+  AMBLE_CHECK(found != properties.end(), "a property that the controller needs");
+  return found->by_node;
+}
+
+int Layout::property_index(std::string_view property) const {
+  const auto found = std::ranges::find(properties_, property);
+  AMBLE_CHECK(found != properties_.end(), "a property that the controller needs");
+  return static_cast<int>(found - properties_.begin());
+}
+
+const Layout::Source& Layout::source(std::string_view property, int node) const {
+  const int index = property_index(property);
+  const auto found = std::ranges::find_if(
+      sources_, [&](const Source& source) { return source.property == index && source.node == node; });
   AMBLE_CHECK(found != sources_.end(), "the node lacks this property");
   return *found;
 }
 
-bool Layout::shared(Property property, int a, int b) const {
+bool Layout::shared(std::string_view property, int a, int b) const {
   const Source &one = source(property, a), &other = source(property, b);
   if (one.output != other.output) return false;
   if (one.output < 0) return one.value == other.value;
   return one.points == other.points && one.low == other.low && one.high == other.high;
 }
 
-double Layout::lowest(Property property) const {
+double Layout::lowest(std::string_view property) const {
   double lowest = INFINITY;
   for (const Source& source : sources_)
-    if (source.property == property)
+    if (source.property == property_index(property))
       lowest = std::min(lowest, source.output < 0 ? source.value : std::min(source.low, source.high));
   return lowest;
 }
@@ -70,15 +82,18 @@ void Layout::decode_weights(std::span<const float> results, Decoded& decoded) co
 }
 
 void Layout::decode_properties(std::span<const float> results, Decoded& decoded) const {
-  for (auto& values : decoded.properties) values.resize(nodes_.size());
+  for (const std::string& property : properties_) {
+    const std::size_t numbers = property == pattern_property ? 0 : nodes_.size();
+    decoded.properties.push_back({property, std::vector<float>(numbers)});
+  }
   const std::size_t ticks = to_index(pattern_ticks_ + 1);
   if (pattern_ticks_ > 0) decoded.patterns.resize(nodes_.size() * ticks);
   for (const Source& source : sources_) {
     const std::size_t node = to_index(source.node);
-    const bool is_pattern = source.property == Property::pattern;
-    float* const values = is_pattern ? decoded.patterns.data() + node * ticks
-                                     : decoded.properties[to_index(source.property)].data() + node;
-    for (std::size_t i = 0; i < (is_pattern ? ticks : 1); ++i)
+    float* const values = source.pattern
+                              ? decoded.patterns.data() + node * ticks
+                              : decoded.properties[to_index(source.property)].by_node.data() + node;
+    for (std::size_t i = 0; i < (source.pattern ? ticks : 1); ++i)
       values[i] = static_cast<float>(
           source.output < 0
               ? source.value

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,10 +16,10 @@ namespace amble::substrate {
 
 /// What a kind of controller needs of a substrate.
 struct Needs {
-  std::string_view kind;             ///< for messages
-  bool network = true;               ///< whether there are links, sensors and nodes that drive no joint
-  std::vector<Property> properties;  ///< that each node but the sensors must have
-  int pattern_ticks = 0;             ///< patterns are queried at times 0, 1/ticks, …, 1
+  std::string_view kind;                ///< for messages
+  bool network = true;                  ///< whether there are links, sensors and nodes that drive no joint
+  std::vector<std::string> properties;  ///< that each node but the sensors must have
+  int pattern_ticks = 0;                ///< patterns are queried at times 0, 1/ticks, …, 1
 };
 
 struct Node {
@@ -37,12 +36,18 @@ struct Link {
 
 /// The numbers that a CPPN gives a substrate: one set per genome.
 struct Decoded {
-  std::vector<float> weights;  ///< link by link; 0 where the link is not expressed
-  /// Property by property and node by node; 0 where a node lacks it. Patterns are not among them.
-  std::array<std::vector<float>, property_count> properties;
-  std::vector<float> patterns;  ///< node by node, tick by tick: 0 … pattern_ticks
+  /// A property of all nodes.
+  struct Values {
+    std::string property;
+    std::vector<float> by_node;  ///< 0 where a node lacks it
+  };
 
-  std::span<const float> of(Property property) const { return properties[to_index(property)]; }
+  std::vector<float> weights;      ///< link by link; 0 where the link is not expressed
+  std::vector<Values> properties;  ///< as Needs::properties; empty for patterns
+  std::vector<float> patterns;     ///< node by node, tick by tick: 0 … pattern_ticks
+
+  /// By node. A property that the controller does not need is a programmer's mistake.
+  std::span<const float> of(std::string_view property) const;
 };
 
 /// A substrate prepared for many genomes: checked against robot and controller, with the query points
@@ -70,9 +75,9 @@ class Layout {
   /// The node that drives a joint.
   int driver(int joint) const { return drivers_[to_index(joint)]; }
   /// Whether two nodes get the same value of a property from every CPPN, because they query it alike.
-  bool shared(Property property, int a, int b) const;
+  bool shared(std::string_view property, int a, int b) const;
   /// The least possible value of a property.
-  double lowest(Property property) const;
+  double lowest(std::string_view property) const;
 
   const cppn::Points& points() const { return points_; }
   Decoded decode(const cppn::Network& network) const;
@@ -83,12 +88,14 @@ class Layout {
   /// A property of one node.
   struct Source {
     int node = 0;
-    Property property = Property::bias;
+    int property = 0;  ///< of properties_
+    bool pattern = false;
     int output = -1;  ///< −1: none, the property is `value`
     double low = 0.0, high = 0.0, value = 0.0;
     std::vector<int> points;  ///< one; for a pattern tick by tick
   };
-  const Source& source(Property property, int node) const;
+  const Source& source(std::string_view property, int node) const;
+  int property_index(std::string_view property) const;
   /// Of the results of cppn::Network::evaluate().
   float output_at(std::span<const float> results, int output, int point) const;
   void decode_weights(std::span<const float> results, Decoded& decoded) const;
@@ -97,6 +104,7 @@ class Layout {
   std::vector<std::string> coordinates_, input_names_, output_names_;
   double expression_threshold_ = 0.0, weight_range_ = 0.0;
   int pattern_ticks_ = 0;
+  std::vector<std::string> properties_;
   std::vector<Node> nodes_;
   std::vector<Link> links_;
   std::vector<int> link_points_;  ///< link by link

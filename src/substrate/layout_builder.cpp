@@ -33,10 +33,6 @@ void check_names(const std::vector<std::string>& names, const char* key) {
   }
 }
 
-std::string_view name_of(Property property) {
-  return property_names[to_index(property)];
-}
-
 }  // namespace
 
 void LayoutBuilder::build() {
@@ -58,6 +54,7 @@ void LayoutBuilder::set_names() {
   layout_.expression_threshold_ = settings_.expression_threshold;
   layout_.weight_range_ = settings_.weight_range;
   layout_.pattern_ticks_ = needs_.pattern_ticks;
+  layout_.properties_ = needs_.properties;
   read_.resize(settings_.outputs.size());
   if (!needs_.network && !settings_.links.empty())
     refuse("links", ": a controller of kind {} has no links", needs_.kind);
@@ -69,7 +66,7 @@ void LayoutBuilder::set_names() {
         layout_.input_names_.push_back(fmt::format("{}.{}", end, name));
   }
   has_time_ = std::any_of(settings_.properties.begin(), settings_.properties.end(),
-                          [](const PropertySettings& p) { return p.property == Property::pattern; });
+                          [](const PropertySettings& p) { return p.property == pattern_property; });
   if (has_time_) layout_.input_names_.push_back("time");
 }
 
@@ -175,12 +172,12 @@ void LayoutBuilder::add_link(std::size_t index, int source, int target, int outp
 void LayoutBuilder::add_properties() {
   for (std::size_t i = 0; i < settings_.properties.size(); ++i) {
     const PropertySettings& property = settings_.properties[i];
-    if (std::find(needs_.properties.begin(), needs_.properties.end(), property.property) ==
-        needs_.properties.end())
+    if (std::ranges::count(needs_.properties, property.property) == 0)
       refuse(item("properties", i, "property"),
-             " = \"{}\": nodes of a controller of kind {} have no such property",
-             substrate::name_of(property.property), needs_.kind);
-    if (property.property == Property::pattern && property.output.empty())
+             " = \"{}\": nodes of a controller of kind {} have no such property{}{}", property.property,
+             needs_.kind, needs_.properties.empty() ? "" : ": expected ",
+             fmt::join(needs_.properties, " or "));
+    if (property.property == pattern_property && property.output.empty())
       refuse(item("properties", i, "output"), " is missing: a pattern is not constant");
     for (const int node : nodes_of(property.of, item("properties", i, "of"))) add_property(i, node);
   }
@@ -188,36 +185,38 @@ void LayoutBuilder::add_properties() {
 
 void LayoutBuilder::add_property(std::size_t index, int node) {
   const PropertySettings& property = settings_.properties[index];
-  const std::string_view what = substrate::name_of(property.property);
+  const std::string& what = property.property;
+  const int index_of_property = layout_.property_index(what);
   if (layout_.nodes_[to_index(node)].sensor)
     refuse(item("properties", index, "of"), ": \"{}\" is a sensor and has no {}", name_of(node), what);
   for (const Layout::Source& other : layout_.sources_)
-    if (other.node == node && other.property == property.property)
+    if (other.node == node && other.property == index_of_property)
       refuse(item("properties", index), ": the {} of \"{}\" is given already", what, name_of(node));
 
   Layout::Source& source = layout_.sources_.emplace_back();
   source.node = node;
-  source.property = property.property;
+  source.property = index_of_property;
+  source.pattern = what == pattern_property;
   source.low = property.low;
   source.high = property.high;
   source.value = property.value;
   const auto zero = coordinates_of(property.zero, item("properties", index, "zero"));
   if (property.output.empty()) return;
   source.output = output_of(property.output, item("properties", index, "output"));
-  const int last_tick = property.property == Property::pattern ? needs_.pattern_ticks : 0;
+  const int last_tick = source.pattern ? needs_.pattern_ticks : 0;
   for (int tick = 0; tick <= last_tick; ++tick)
     source.points.push_back(points_.add(node_inputs(node, zero, tick)));
 }
 
 void LayoutBuilder::check_properties() const {
-  for (const Property property : needs_.properties) {
+  for (const std::string& property : needs_.properties) {
     std::vector<bool> has(layout_.nodes_.size());
     for (const Layout::Source& source : layout_.sources_)
-      if (source.property == property) has[to_index(source.node)] = true;
+      if (source.property == layout_.property_index(property)) has[to_index(source.node)] = true;
     for (std::size_t node = 0; node < has.size(); ++node)
       if (!has[node] && !layout_.nodes_[node].sensor)
         refuse("properties", ": \"{}\" has no {}, which a controller of kind {} needs",
-               layout_.nodes_[node].name, substrate::name_of(property), needs_.kind);
+               layout_.nodes_[node].name, property, needs_.kind);
   }
 }
 

@@ -32,7 +32,8 @@ void LinkSettings::describe(io::SettingsVisitor& visitor) {
 
 void PropertySettings::describe(io::SettingsVisitor& visitor) {
   visitor.text("of", of, {"group or node"});
-  visitor.choice("property", property, property_names, {"what is given"});
+  visitor.text("property", property,
+               {"what is given: pattern or offset (supg), bias or time_constant (ctrnn)"});
   visitor.text("output", output, {"CPPN output that gives it; empty: it is `value` everywhere"});
   visitor.number("low", low, value_range, {"the property where that output is −1 or less"});
   visitor.number("high", high, value_range, {"the property where that output is 1 or more"});

@@ -9,15 +9,9 @@
 
 namespace amble::substrate {
 
-/// A property of a single node, which a CPPN or a constant can give.
-enum class Property {
-  pattern,        ///< output of a SUPG as a function of its timer, −1 … 1
-  offset,         ///< of a SUPG, −1 … 1
-  bias,           ///< of a neuron
-  time_constant,  ///< of a neuron; the unit is the controller's
-};
-inline constexpr std::array<std::string_view, 4> property_names{"pattern", "offset", "bias", "time_constant"};
-inline constexpr std::size_t property_count = property_names.size();
+/// The property of a node that is a function of time, −1 … 1 of a SUPG. All other properties are numbers, and
+/// their names those that the controller gives them (Needs::properties).
+inline constexpr std::string_view pattern_property = "pattern";
 
 /// What the sensors roll, pitch and yaw read: the angles, or what the authors' code takes for them
 /// (controllers/attitude.hpp).
@@ -48,7 +42,7 @@ struct LinkSettings {
 /// A property of all nodes of a group.
 struct PropertySettings {
   std::string of;  ///< a group, or one node
-  Property property = Property::bias;
+  std::string property = "bias";
   std::string output;             ///< the CPPN output that gives it; empty: it is `value` for all
   double low = -1.0, high = 1.0;  ///< the property where that output is −1, and where it is 1
   double value = 0.0;

@@ -41,7 +41,7 @@ std::string properties_text(const Settings& settings) {
   if (settings.properties.empty()) return {};
   std::string text = "\nproperties\n";
   for (const PropertySettings& property : settings.properties) {
-    text += fmt::format("  {} of {}: ", property_names[to_index(property.property)], property.of);
+    text += fmt::format("  {} of {}: ", property.property, property.of);
     if (property.output.empty()) {
       text += fmt::format("{}\n", property.value);
       continue;

@@ -146,7 +146,7 @@ substrate::Settings random_substrate(bool cyclic, bool ctrnn, Stream& stream) {
     if (ctrnn && node.sensor.empty()) {
       substrate::PropertySettings bias{.of = node.name, .output = "bias", .zero = {}};
       settings.properties.push_back(bias);
-      bias.property = substrate::Property::time_constant;
+      bias.property = "time_constant";
       bias.output = "tau";
       bias.low = 1.0;
       bias.high = 61.0;

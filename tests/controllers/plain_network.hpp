@@ -138,7 +138,7 @@ class PlainNetwork {
   static float logistic_of(float x, double slope) { return plain_logistic(x, static_cast<float>(slope)); }
 
   float rate(const CtrnnSettings& settings, std::size_t node) const {
-    const double time_constant = decoded_.of(substrate::Property::time_constant)[node];
+    const double time_constant = decoded_.of("time_constant")[node];
     auto x = static_cast<float>(settings.step / time_constant);
     if (settings.integrator != Integrator::exponential_euler) return x;
     cppn::activate(neat::Activation::bipolar_sigmoid, cppn::Linear::identity, {&x, 1});
@@ -148,7 +148,7 @@ class PlainNetwork {
   void show(const CtrnnSettings& settings, const std::vector<float>& y) {
     for (std::size_t i = 0; i < y.size(); ++i) {
       if (!is_neuron(i)) continue;
-      const float bias = decoded_.of(substrate::Property::bias)[i];
+      const float bias = decoded_.of("bias")[i];
       value_[i] = settings.equation == Equation::rate ? y[i] : logistic_of(y[i] + bias, settings.slope);
     }
   }
@@ -158,7 +158,7 @@ class PlainNetwork {
     std::vector<float> pull(y.size());
     for (std::size_t i = 0; i < y.size(); ++i) {
       if (!is_neuron(i)) continue;
-      const float bias = decoded_.of(substrate::Property::bias)[i];
+      const float bias = decoded_.of("bias")[i];
       const bool of_values = settings.equation == Equation::rate;
       float aim = sum(i, of_values ? -bias : 0.0f);
       if (of_values) aim = logistic_of(aim, settings.slope);

@@ -20,7 +20,7 @@ TEST(SupgPatterns, IsReadFromJson) {
   const SupgPatterns supg = parse_supg(tests::supg_json(), tests::robot(), "x");
   EXPECT_EQ(supg.period_ticks, 10);
   EXPECT_DOUBLE_EQ(supg.period_s(), 1.0);
-  EXPECT_EQ(supg.offset, Offset::phase);
+  EXPECT_TRUE(supg.starts_at_offset);
   EXPECT_EQ(supg.offset_ticks, (std::vector<int>{1, 2, 3, 4}));
   ASSERT_EQ(supg.patterns_rad.size(), 12u);
   EXPECT_DOUBLE_EQ(supg.patterns_rad[11][10], 0.12);

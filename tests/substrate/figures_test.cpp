@@ -109,9 +109,9 @@ TEST(Figure4, IsAskedAtTheQueryPointsOfTheAuthors) {
   EXPECT_EQ(static_cast<int>(points.size()), layout.points().count()) << "none is queried twice";
   // The SUPGs of a leg share their offset, those of different legs do not.
   const auto driver = [&](int joint) { return layout.driver(joint); };
-  EXPECT_TRUE(layout.shared(Property::offset, driver(0), driver(1)));
-  EXPECT_TRUE(layout.shared(Property::offset, driver(9), driver(11)));
-  EXPECT_FALSE(layout.shared(Property::offset, driver(2), driver(3)));
+  EXPECT_TRUE(layout.shared("offset", driver(0), driver(1)));
+  EXPECT_TRUE(layout.shared("offset", driver(9), driver(11)));
+  EXPECT_FALSE(layout.shared("offset", driver(2), driver(3)));
 }
 
 TEST(Figure6, HasThreePlanesOfRowsOfLegs) {

@@ -32,13 +32,13 @@ inline Settings substrate_of(const std::string& toml) {
 }
 
 inline Needs supg_needs(int ticks = 100) {
-  return {"supg", false, {Property::pattern, Property::offset}, ticks};
+  return {"supg", false, {"pattern", "offset"}, ticks};
 }
 inline Needs network_needs() {
   return {"network", true, {}, 0};
 }
 inline Needs ctrnn_needs() {
-  return {"ctrnn", true, {Property::bias, Property::time_constant}, 0};
+  return {"ctrnn", true, {"bias", "time_constant"}, 0};
 }
 
 }  // namespace amble::substrate

@@ -83,8 +83,8 @@ TEST(Layout, TakesOutputsBeyondOneForOneOnBothSides) {
       const double x = sign * o;
       const auto decoded = layout.decode(linear_cppn({{x, 0, 0}, {x, 0, 0}, {x, 0, 0}}));
       for (const float weight : decoded.weights) EXPECT_FLOAT_EQ(weight, x > 0 ? 3.0f : -3.0f) << x;
-      EXPECT_FLOAT_EQ(decoded.of(Property::bias)[1], x > 0 ? 6.0f : -2.0f) << x;
-      EXPECT_FLOAT_EQ(decoded.of(Property::time_constant)[1], x > 0 ? 61.0f : 1.0f) << x;
+      EXPECT_FLOAT_EQ(decoded.of("bias")[1], x > 0 ? 6.0f : -2.0f) << x;
+      EXPECT_FLOAT_EQ(decoded.of("time_constant")[1], x > 0 ? 61.0f : 1.0f) << x;
     }
 }
 
@@ -105,13 +105,13 @@ TEST(Layout, AsksForPropertiesWithTheOtherCoordinatesZero) {
   // bias: o = 0.5 + x1 + 100 x2 with x2 = 0, so 0.75 and 1; on the line from −2 at −1 to 6 at 1 that is 5
   // and 6. time constant: o = 0.5 + x1 with x1 counting as 0, so 31 + 30 × 0.5 = 46.
   const auto decoded = layout.decode(linear_cppn({{0, 0, 0}, {0.5, 1, 100}, {0.5, 1, 0}}));
-  EXPECT_FLOAT_EQ(decoded.of(Property::bias)[1], 5.0f);
-  EXPECT_FLOAT_EQ(decoded.of(Property::bias)[2], 6.0f);
-  EXPECT_FLOAT_EQ(decoded.of(Property::time_constant)[1], 46.0f);
-  EXPECT_FLOAT_EQ(decoded.of(Property::time_constant)[2], 7.0f);
-  EXPECT_EQ(decoded.of(Property::bias)[0], 0.0f) << "a sensor has none";
-  EXPECT_EQ(layout.lowest(Property::time_constant), 1.0);
-  EXPECT_EQ(layout.lowest(Property::bias), -2.0);
+  EXPECT_FLOAT_EQ(decoded.of("bias")[1], 5.0f);
+  EXPECT_FLOAT_EQ(decoded.of("bias")[2], 6.0f);
+  EXPECT_FLOAT_EQ(decoded.of("time_constant")[1], 46.0f);
+  EXPECT_FLOAT_EQ(decoded.of("time_constant")[2], 7.0f);
+  EXPECT_EQ(decoded.of("bias")[0], 0.0f) << "a sensor has none";
+  EXPECT_EQ(layout.lowest("time_constant"), 1.0);
+  EXPECT_EQ(layout.lowest("bias"), -2.0);
 }
 
 TEST(Layout, AsksForPatternsTickByTick) {
@@ -130,7 +130,7 @@ properties = [
   ASSERT_EQ(decoded.patterns.size(), 5u);
   for (std::size_t tick = 0; tick < 5; ++tick)
     EXPECT_FLOAT_EQ(decoded.patterns[tick], -0.25f + 0.25f * static_cast<float>(tick));
-  EXPECT_FLOAT_EQ(decoded.of(Property::offset)[0], 0.25f);
+  EXPECT_FLOAT_EQ(decoded.of("offset")[0], 0.25f);
 }
 
 TEST(Layout, LinksOnlyPairsThatAgreeInTheNamedCoordinates) {

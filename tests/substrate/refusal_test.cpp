@@ -123,8 +123,9 @@ TEST(BadSubstrate, WrongCoordinates) {
 }
 
 TEST(BadSubstrate, PropertyThatTheControllerDoesNotKnowOrThatIsMissing) {
-  EXPECT_EQ(supg([](Settings& s) { s.properties[1].property = Property::bias; }),
-            "properties[1].property = \"bias\": nodes of a controller of kind supg have no such property");
+  EXPECT_EQ(supg([](Settings& s) { s.properties[1].property = "bias"; }),
+            "properties[1].property = \"bias\": nodes of a controller of kind supg have no such property: "
+            "expected pattern or offset");
   EXPECT_EQ(supg([](Settings& s) { s.properties.pop_back(); }),
             "properties: \"FL.knee\" has no offset, which a controller of kind supg needs");
   EXPECT_EQ(ctrnn([](Settings& s) { s.properties.erase(s.properties.begin() + 1); }),

@@ -16,9 +16,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace amble::physics::batch::HWY_NAMESPACE {
 
-/// A robot that is faster has diverged: m/s or rad/s (Engine::healthy).
-constexpr float absurd_speed = 1000.0f;
-
 /// x + 0 turns −0 into 0: a block that is skipped must leave the same bits as one whose impulses are 0.
 HWY_INLINE V without_negative_zero(V x) {
   return x + zero();
@@ -179,8 +176,9 @@ HWY_NOINLINE void integrate(const Pass& pass, const BaseFactor& factor, V* u_bas
   next.put3(StateRows::push_impulse, zero3());
   integrate_rotation(next, angular_velocity);
 
-  const V limit = set(absurd_speed * absurd_speed);
-  const float joint_limit = absurd_speed * absurd_speed * static_cast<float>(model.links.size() + 1);
+  constexpr auto fastest = static_cast<float>(absurd_speed);
+  const V limit = set(fastest * fastest);
+  const float joint_limit = fastest * fastest * static_cast<float>(model.links.size() + 1);
   Mask healthy = hn::And(dot(velocity, velocity) <= limit, dot(angular_velocity, angular_velocity) <= limit);
   healthy = hn::And(healthy, square_sum <= set(joint_limit));
   next.put(StateRows::healthy, hn::IfThenElseZero(healthy, pass.state(StateRows::healthy)));
