@@ -22,9 +22,6 @@ namespace amble::cli {
 namespace {
 
 constexpr std::array formats{"text", "markdown", "json"};
-/// More episodes than any evaluation has (NoiseSettings::episodes).
-constexpr std::uint32_t first_unmet_episode = 1000;
-
 struct CompareOptions {
   std::vector<std::filesystem::path> inputs;
   std::vector<double> seconds;  ///< none: as in the champion's evolution
@@ -73,7 +70,7 @@ void disturb(std::vector<Entrant>& entrants, const std::filesystem::path& config
 /// Noise that evolution has not met: its episodes have lower numbers.
 std::vector<trial::ScenarioKey> unmet_noise(const experiment::Champion& champion, std::uint32_t episodes) {
   std::vector<trial::ScenarioKey> keys;
-  for (std::uint32_t e = 0; e < episodes; ++e) keys.push_back(champion.scenario_key(first_unmet_episode + e));
+  for (std::uint32_t e = 0; e < episodes; ++e) keys.push_back(champion.unmet_scenario_key(e));
   return keys;
 }
 

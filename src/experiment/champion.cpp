@@ -151,6 +151,11 @@ trial::ScenarioKey Champion::scenario_key(std::size_t episode) const {
           .episode = static_cast<std::uint32_t>(episode)};
 }
 
+trial::ScenarioKey Champion::unmet_scenario_key(std::size_t episode) const {
+  constexpr std::size_t first = 1000;  // evaluations have at most so many episodes (NoiseSettings), from 0
+  return scenario_key(first + episode);
+}
+
 double Champion::objective() const {
   const auto credited = [this](const TrialResult& trial) {
     return score::credited(trial.value(), trial.outcome, problem.trial.fall_factor);

@@ -51,8 +51,10 @@ struct Champion {
   std::vector<NoisyTrial> episodes;     ///< Problem::noise; empty if there is none
   std::vector<Refereed> referees = {};  ///< in the order of Config::referees; empty if there are none
 
-  /// Names the noise of an episode; beyond those that made it a champion, noise that it has not met.
+  /// Names the noise of an episode that made it a champion.
   trial::ScenarioKey scenario_key(std::size_t episode) const;
+  /// Names noise that it has not met.
+  trial::ScenarioKey unmet_scenario_key(std::size_t episode) const;
   /// By what it became the champion: what its episodes make of it, or its score without noise.
   double objective() const;
 };

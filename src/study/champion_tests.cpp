@@ -11,8 +11,6 @@
 namespace amble::study {
 namespace {
 
-/// More episodes than any evaluation has (NoiseSettings::episodes): noise that evolution has not met.
-constexpr std::uint32_t first_unmet_episode = 1000;
 constexpr double most_path_samples = 300.0;
 
 /// Measures how long a robot walks, and samples its path.
@@ -78,7 +76,7 @@ std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experi
     observers.add(walk);
     if (episode == 0) observers.add(gait);
     experiment::ReplayOptions how{.seconds = test.spec.seconds, .observer = &observers, .trace = false};
-    if (noisy) how.noise = champion.scenario_key(first_unmet_episode + static_cast<std::uint32_t>(episode));
+    if (noisy) how.noise = champion.unmet_scenario_key(static_cast<std::size_t>(episode));
     const auto replay = experiment::replay(problem, champion.genome, how, stop);
     if (!replay) return std::nullopt;
     result.episodes.push_back({.distance_m = replay->result.distance_m,
