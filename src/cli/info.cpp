@@ -21,6 +21,12 @@
 namespace amble::cli {
 namespace {
 
+/// With the unit of the score, if it has one.
+std::string score_text(double value, const score::Settings& score) {
+  const auto unit = score::unit(score);
+  return fmt::format("{:.3f}{}{}", value, unit.empty() ? "" : " ", unit);
+}
+
 void print_champion(const experiment::Champion& champion) {
   const auto& problem = champion.problem;
   fmt::print("experiment  {} (seed {})\ngeneration  {}, genome {}\n", io::printable(champion.experiment),
@@ -32,12 +38,13 @@ void print_champion(const experiment::Champion& champion) {
              champion.genome.enabled_links());
   fmt::print("result      {:.3f} m in {:.2f} s, {}\n", champion.result.distance_m, champion.result.seconds,
              record::outcome_names[static_cast<std::size_t>(champion.result.outcome)]);
+  if (champion.result.score) fmt::print("score       {:.3f}\n", *champion.result.score);
   for (const auto& [engine, judged] : champion.referees)
     fmt::print("in {:<8} {}\n", engine, result_text(judged, champion.result.distance_m));
   if (champion.episodes.empty()) return;
-  fmt::print("under noise {:.3f} m, {} of", champion.objective(),
+  fmt::print("under noise {}, {} of", score_text(champion.objective(), problem.score),
              trial::episode_score_names[static_cast<std::size_t>(problem.noise.score)]);
-  for (const auto& episode : champion.episodes) fmt::print(" {:.3f}", episode.result.distance_m);
+  for (const auto& episode : champion.episodes) fmt::print(" {:.3f}", episode.result.value());
   fmt::print("\n");
 }
 
@@ -81,7 +88,7 @@ ExitCode run_info(const std::filesystem::path& folder) {
              config.seed, config.engine, rows.count(), config.generations);
   fmt::print("evaluations {:.0f} ({:.3g} steps)\n", evaluations, steps);
   fmt::print("search      {}", config.search.kind);
-  if (!rows.archive.empty())
+  if (!rows.archive.empty() && !rows.novelty_threshold.empty())
     fmt::print(": archive of {:.0f} behaviours, threshold {:.4g} in the last generation", rows.archive.back(),
                rows.novelty_threshold.back());
   fmt::print("\n");

@@ -34,6 +34,9 @@ void compare(const Recorded& old, const Replay& again, double timestep_s, std::v
   if (old.result.distance_m != again.result.distance_m)
     found.push_back(fmt::format("{}distance {} m recorded, {} m now", old.prefix, old.result.distance_m,
                                 again.result.distance_m));
+  if (old.result.score != again.result.score)
+    found.push_back(
+        fmt::format("{}score {} recorded, {} now", old.prefix, old.result.value(), again.result.value()));
   if (old.result.outcome != again.result.outcome || old.result.steps != again.result.steps) {
     const auto words = [](const TrialResult& result) {
       return fmt::format("{} after {} steps", record::outcome_names[static_cast<std::size_t>(result.outcome)],
@@ -65,7 +68,8 @@ std::string agreement(const Champion& champion) {
   std::string text =
       fmt::format("agrees: {:.3f} m, {} steps", champion.result.distance_m, champion.result.steps);
   if (!champion.episodes.empty())
-    text += fmt::format("; under noise {:.3f} m ({} of {})", champion.objective(),
+    text += fmt::format("; under noise {:.3f}{} ({} of {})", champion.objective(),
+                        champion.problem.score.is_distance() ? " m" : "",
                         trial::episode_score_names[static_cast<std::size_t>(champion.problem.noise.score)],
                         champion.episodes.size());
   return text;
@@ -80,7 +84,9 @@ void compare(const Champion& champion, const std::filesystem::path& path, const 
     found.push_back(fmt::format("it is of generation {}, not of that in its name", champion.generation));
   const auto own = problem_json(champion.problem), expected = problem_json(origin.problem);
   for (const auto& [key, value] : expected.items())
-    if (own.at(key) != value) found.push_back(fmt::format("its {} is not the run's", key));
+    if (own.value(key, io::Json()) != value) found.push_back(fmt::format("its {} is not the run's", key));
+  for (const auto& [key, value] : own.items())
+    if (!expected.contains(key)) found.push_back(fmt::format("its {} is not the run's", key));
   const auto &noise = champion.problem.noise, &expected_noise = origin.problem.noise;
   // Without noise a champion's file has no settings of noise.
   if ((noise.any() || expected_noise.any()) &&
@@ -94,7 +100,7 @@ void compare(const Champion& champion, const std::filesystem::path& path, const 
   if (std::ranges::any_of(before, [&](double earlier) { return earlier >= best; }))
     found.push_back("the run kept no champion of its generation");
   else if (champion.objective() != best)
-    found.push_back(fmt::format("it walked {} m, the run's {} m", champion.objective(), best));
+    found.push_back(fmt::format("it reached {}, the run's {}", champion.objective(), best));
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ TEST_F(VerifyRun, DoesNotTakeAChampionOfAnotherRunForItsOwn) {
   first_of("other", {"--seed", "2"});
   expect_difference("00000.json differs: its seed is 2, the run's 1");
   first_of("heavier", {"--set", "genome.weight_limit=7"});
-  expect_difference("00000.json differs: it walked ");
+  expect_difference("00000.json differs: it reached ");
 }
 
 TEST_F(VerifyRun, AgreesWhateverTheSettingsOfNoiseThatThereIsNot) {

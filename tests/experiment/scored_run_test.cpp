@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "amble/experiment/replay.hpp"
+#include "amble/experiment/verify.hpp"
 #include "amble/io/file.hpp"
 #include "tests/experiment/fixture.hpp"
 
@@ -76,6 +79,23 @@ TEST(ScoredRun, SelectsAndKeepsChampionsByItsScoreAndGoesOnAfterAnInterruption) 
   EXPECT_EQ(io::read_file(RunPaths(scratch / "part").best_champion()), io::read_file(file));
   const auto again = replay(champion.problem, champion.genome, {}, never);
   EXPECT_EQ(again->result.score, champion.result.score);
+}
+
+TEST(ScoredRun, TellsItsChampionsFromThoseOfRunsWithAnotherScore) {
+  const TemporaryFolder scratch;
+  Listener listener;
+  Run::start(scratch / "plain", small_config({"engine=batch"}), 2).execute(listener, listener.stop);
+  Run::start(scratch / "scored", small_config({"engine=batch", "score.terms=[{quantity=\"uprightness\"}]"}),
+             2)
+      .execute(listener, listener.stop);
+  for (const auto& [own, other] : {std::pair{"plain", "scored"}, {"scored", "plain"}}) {
+    const RunPaths paths(scratch / own);
+    const auto origin = origin_of(paths);
+    EXPECT_TRUE(verify_champion(paths.champion(0), never, &origin)->agrees);
+    const auto foreign = verify_champion(RunPaths(scratch / other).champion(0), never, &origin);
+    EXPECT_FALSE(foreign->agrees);
+    EXPECT_NE(foreign->text.find("its score is not the run's"), std::string::npos) << foreign->text;
+  }
 }
 
 TEST(ScoredRun, OfTheDistanceAloneIsTheRunWithoutAScore) {

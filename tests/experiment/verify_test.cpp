@@ -81,6 +81,14 @@ TEST_F(Verify, NamesAnotherDistance) {
   EXPECT_THAT(verdict().text, HasSubstr("distance 123 m recorded"));
 }
 
+TEST_F(Verify, NamesAnotherScore) {
+  champion_.problem.score.terms = {{.quantity = "uprightness"}};
+  champion_.result = replay(champion_.problem, champion_.genome, {}, never)->result;
+  EXPECT_TRUE(verdict().agrees);
+  champion_.result.score = champion_.result.score.value() + 0.25;
+  EXPECT_THAT(verdict().text, HasSubstr("score "));
+}
+
 TEST_F(Verify, SeesAGenomeThatIsNotTheOneThatWalked) {
   champion_.genome = small_population(champion_.problem).genomes()[1];
   EXPECT_THAT(verdict().text, HasSubstr("first differing step"));
