@@ -90,9 +90,9 @@ constexpr double unbounded = 1e9;
 }  // namespace
 
 void Term::describe(io::SettingsVisitor& visitor) {
-  visitor.text("quantity", quantity,
-               {"distance, forward, speed_kept, economy, uprightness or upright_time", "docs/SCORES.md"});
-  visitor.number("weight", weight, {-1e6, 1e6}, {"what one unit of it is worth"});
+  static const std::string what = "one of " + names() + " (docs/SCORES.md)";
+  visitor.text("quantity", quantity, {what});
+  visitor.number("weight", weight, {-1e6, 1e6}, {"value of one unit of it"});
 }
 
 void Limit::describe(io::SettingsVisitor& visitor) {
@@ -106,7 +106,7 @@ void Settings::describe(io::SettingsVisitor& visitor) {
                  {"the score is the sum of these, at least 0", "Morse et al. 2013, sec. 4: distance"});
   visitor.tables("limits", limits, {"what a trial must keep to"});
   visitor.number("breach_factor", breach_factor, {0.0, 1.0},
-                 {"share of the score that a trial keeps which breaks a limit"});
+                 {"share of the score kept by a trial that breaks a limit"});
   visitor.numbers("direction", direction, {-1e6, 1e6},
                   {"which way is forward: x, y in the world's frame, of any length"});
   visitor.number("speed_m_s", speed_m_s, {1e-6, 1e3}, {"speed wanted by speed_kept, m/s"});

@@ -13,7 +13,6 @@ namespace {
 TEST(MakeArchitecture, MakesTheKindThatTheSettingsName) {
   const std::pair<const char*, const char*> kinds[] = {
       {"supg", "supg"}, {"network", "sine"}, {"ctrnn", "ctrnn"}};
-  EXPECT_EQ(architectures().size(), std::size(kinds));
   for (const auto& [kind, part] : kinds) {
     ControllerSettings settings;
     settings.kind = kind;

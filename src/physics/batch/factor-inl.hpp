@@ -105,8 +105,8 @@ HWY_INLINE ChainFactor factorise_chain(const Pass& pass, std::size_t c, BaseFact
 }
 
 /// The joints' entries of u after a step without constraints, in place of their bias forces:
-///   u_c = L_cᵀ q̇ + B_cᵀ ν_b + y_c,   y_c = h L_c⁻¹ (τ − C_q − M_qb a_b),
-/// a_b being the base's bias acceleration, which is in no other place: the base's next velocity follows from
+///   u_c = L_cᵀ q̇ + B_cᵀ (ν_b + h g) + y_c,   y_c = h L_c⁻¹ (τ − C_q − M_qb a_b),
+/// a_b being the base's bias acceleration, which enters nowhere else: the base's next velocity follows from
 /// the momentum. Adds B_c y_c to `reaction`, what the chain's torques exert on the base.
 template <int N>
 HWY_INLINE void unconstrained_chain(const Pass& pass, const LaneArray& targets_rad, std::size_t c,

@@ -186,7 +186,7 @@ Model::Model(const RobotSpec& robot)
       friction(static_cast<float>(robot.contact.friction)),
       erp(static_cast<float>(robot.contact.erp)),
       cfm_s_per_kg(static_cast<float>(robot.contact.cfm_s_per_kg)),
-      // The bounds of a friction cone change in every sweep: over-relaxed, resting feet would chatter.
+      // The bounds of a friction pyramid change in every sweep: over-relaxed, resting feet would chatter.
       joint_relaxation(1.4f),
       contact_relaxation(std::isinf(friction) ? 1.4f : 1.0f),
       iterations(std::isinf(friction) ? 10 : 14),

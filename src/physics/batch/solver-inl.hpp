@@ -1,9 +1,9 @@
 // Projected successive over-relaxation with a fixed number of sweeps; for each instruction set.
 //
 // Row by row, with r = target − (cfm/h) p − Wᵀ u its residual,
-//   p' = clamp(p + r, low, high),   u += W (p' − p):
-// projected Gauss–Seidel (Catto 2005, "Iterative Dynamics with Temporal Coherence") with the scaling
-// of BlockLayout, by which ω / diagonal is 1.
+//   p' = clamp(p + (ω / d) r, low, high),   u += W (p' − p),
+// d its diagonal and ω the relaxation factor; ω = 1 is projected Gauss–Seidel (Catto 2009, "Modeling and
+// Solving Constraints"). Rows are scaled so that ω / d = 1 (BlockLayout).
 #if defined(AMBLE_BATCH_SOLVER_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef AMBLE_BATCH_SOLVER_INL_HPP
 #undef AMBLE_BATCH_SOLVER_INL_HPP
@@ -17,9 +17,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace amble::physics::batch::HWY_NAMESPACE {
 
-/// Bounds of a block's impulses: joint: low … high; cone: a contact, p_n ≥ 0 and |p_t| ≤ μ p_n; sticking: a
-/// contact with infinite friction.
-enum class Bound { joint, cone, sticking };
+/// Bounds of a block's impulses: joint: low … high; pyramid: a contact, p_n ≥ 0 and |p_t| ≤ μ p_n; sticking:
+/// a contact with infinite friction.
+enum class Bound { joint, pyramid, sticking };
 
 /// Projection: the change of row r's impulse, which is `before`, that remains of `change` within the bounds.
 /// `normal`: the new impulse of the contact's first row. (In lanes without the contact `change` is 0.)

@@ -212,7 +212,7 @@ HWY_INLINE void step_chains(const Pass& pass, const LaneArray& targets_rad) {
   if (std::isinf(pass.model().friction)) {
     solve<N, Bound::sticking>(pass, u_base);
   } else {
-    solve<N, Bound::cone>(pass, u_base);
+    solve<N, Bound::pyramid>(pass, u_base);
   }
   integrate<N>(pass, factor, u_base);  // 6
 }
