@@ -92,7 +92,7 @@ constexpr double unbounded = 1e9;
 void Term::describe(io::SettingsVisitor& visitor) {
   visitor.text("quantity", quantity,
                {"distance, forward, speed_kept, economy, uprightness or upright_time", "docs/SCORES.md"});
-  visitor.number("weight", weight, {-1e6, 1e6}, {"what one unit of it is worth"});
+  visitor.number("weight", weight, {-1e6, 1e6}, {"weight of one unit of it"});
 }
 
 void Limit::describe(io::SettingsVisitor& visitor) {

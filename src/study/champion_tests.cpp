@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "amble/core/index.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/score/walking.hpp"
 #include "amble/study/gait_observer.hpp"
@@ -50,7 +51,7 @@ class WalkObserver : public trial::Observer {
 
 std::string gait_name(const gait::Report& report) {
   if (!report.classification) return {};
-  return std::string(gait::gait_names[static_cast<std::size_t>(report.classification->gait)]);
+  return std::string(gait::gait_names[to_index(report.classification->gait)]);
 }
 
 }  // namespace
