@@ -44,9 +44,10 @@ DistanceEstimates::DistanceEstimates(const Behaviours& a, const Behaviours& b)
       products_(multiply(a, b)) {
   AMBLE_CHECK(a.length() == b.length() && a.length() <= longest_behaviour, "behaviours have one length");
   const double n = static_cast<double>(a.length());
-  // A float32 dot product of n terms, summed in any order and fused or not, has an error of at most γ_n |a| |b|,
-  // γ_n = n u / (1 − n u) (Higham, Accuracy and Stability of Numerical Algorithms, 2002, sec. 3.1), plus
-  // underflow. It enters the distance with a factor of 2; 1 % more covers the rounding of the norms.
+  // A float32 dot product of n terms, summed in any order and fused or not, has an error of at most
+  // γ_n |a| |b|, γ_n = n u / (1 − n u) (Higham, Accuracy and Stability of Numerical Algorithms, 2002,
+  // sec. 3.1), plus underflow. It enters the distance with a factor of 2; 1 % more covers the rounding of the
+  // norms.
   const double nu = n * unit_roundoff<float>;
   float_error_ = 2.02 * nu / (1.0 - nu);
   underflow_ = 2.0 * n * static_cast<double>(std::numeric_limits<float>::min());
