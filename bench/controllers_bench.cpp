@@ -14,7 +14,7 @@ namespace {
 
 constexpr int lanes = 16, ticks = 300;
 
-/// What sixteen robots that walk in step with nobody could sense.
+/// Sensor values of sixteen robots that walk out of phase with each other.
 robot::SensorFrame sensed(int tick, int joints, int legs) {
   robot::SensorFrame frame{LaneArray(joints, lanes), LaneArray(legs, lanes), LaneArray(3, lanes)};
   for (int lane = 0; lane < lanes; ++lane) {

@@ -4,7 +4,7 @@
 #include "amble/experiment/problem.hpp"
 #include "bench/workload.hpp"
 
-// The parts one by one, for who works on one of them. amble_bench is the table that counts.
+// Benchmarks of single parts, for work on one of them. amble_bench measures the published figures.
 namespace amble::bench {
 namespace {
 

@@ -9,7 +9,7 @@
 namespace amble::bench {
 namespace {
 
-constexpr std::size_t members = 3000, newcomers = 300, samples = 750;
+constexpr std::size_t members = 3000, candidates = 300, samples = 750;
 constexpr int neighbours = 15;
 
 using Paths = std::vector<std::vector<float>>;
@@ -48,11 +48,11 @@ std::vector<search::Evaluation> evaluations(const Paths& paths) {
 /// What one would write first: every distance in double precision, then the nearest.
 std::vector<double> naive_novelties(const Paths& archive, const Paths& generation) {
   std::vector<double> novelties, distances(archive.size());
-  for (const auto& newcomer : generation) {
+  for (const auto& candidate : generation) {
     for (std::size_t member = 0; member < archive.size(); ++member) {
       double sum = 0.0;
-      for (std::size_t i = 0; i < newcomer.size(); ++i) {
-        const double difference = static_cast<double>(newcomer[i]) - static_cast<double>(archive[member][i]);
+      for (std::size_t i = 0; i < candidate.size(); ++i) {
+        const double difference = static_cast<double>(candidate[i]) - static_cast<double>(archive[member][i]);
         sum += difference * difference;
       }
       distances[member] = sum;
@@ -68,7 +68,7 @@ std::vector<double> naive_novelties(const Paths& archive, const Paths& generatio
 }  // namespace
 
 void measure_novelty(std::vector<Figure>& figures) {
-  const Paths archive = some_paths(members), generation = some_paths(newcomers);
+  const Paths archive = some_paths(members), generation = some_paths(candidates);
   // Filled to its limit by the first generation, the archive stays as it is while it is measured.
   search::NoveltySettings settings;
   settings.neighbours = neighbours;
@@ -79,14 +79,14 @@ void measure_novelty(std::vector<Figure>& figures) {
 
   const auto judged = search.judge(evaluations(generation));
   const auto expected = naive_novelties(archive, generation);
-  for (std::size_t i = 0; i < newcomers; ++i)
+  for (std::size_t i = 0; i < candidates; ++i)
     AMBLE_CHECK(std::abs(judged[i].selection - expected[i]) <= 1e-12 * expected[i], "both find the same");
 
   const double seconds = seconds_per_call([&] { search.judge(evaluations(generation)); });
   const double naive_s = seconds_per_call([&] { naive_novelties(archive, generation); }, 0.3, 3);
   figures.push_back({"novelty_vs_naive", naive_s / seconds, "1", "judging a generation, over plain loops"});
   figures.push_back({"novelty_generation_ms", seconds * 1e3, "ms",
-                     "300 newcomers, archive of 3,000, behaviours of 1,500 numbers; one core"});
+                     "300 candidates, archive of 3,000, behaviours of 1,500 numbers; one core"});
   figures.push_back({"novelty_naive_generation_ms", naive_s * 1e3, "ms", "double precision"});
 }
 

@@ -10,10 +10,10 @@ namespace amble::bench {
 
 /// One measured figure.
 struct Figure {
-  std::string name;  ///< a word with its unit's sense, e.g. "raw_steps_per_s_ode"
+  std::string name;  ///< with its unit, e.g. "raw_steps_per_s_ode"
   double value = 0.0;
   std::string unit;  ///< "1" for ratios
-  std::string note;  ///< what it says, for people
+  std::string note;  ///< description
 };
 
 /// What a figure depends on besides the program: processor, compiler.

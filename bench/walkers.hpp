@@ -7,7 +7,7 @@
 
 namespace amble::bench {
 
-/// Sixteen SUPGs of the authors' robot, evolved for a short time from fixed seeds, and what they asked for.
+/// Sixteen SUPGs of the authors' robot, evolved for a short time from fixed seeds, and their targets.
 struct Walkers {
   robot::RobotSpec robot;
   std::vector<LaneArray> targets_rad;  ///< by step: joints × 16

@@ -2,7 +2,7 @@
 #include "amble/experiment/champion.hpp"
 #include "fuzz/target.hpp"
 
-// The checksum is not asked for: it would keep the fuzzer from what lies behind it.
+// The checksum is not verified: it would keep the fuzzer from the code behind it.
 AMBLE_FUZZ_TARGET(bytes) {
   using namespace amble::experiment;
   const Champion champion = parse_champion(bytes, "c.json", amble::io::Altered::accept).champion;

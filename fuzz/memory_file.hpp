@@ -10,7 +10,7 @@
 
 namespace amble::fuzz {
 
-/// A file in memory, for readers that want a path.
+/// A file in memory, for readers that need a path.
 class MemoryFile {
  public:
   explicit MemoryFile(const std::string& bytes) : fd_(::memfd_create("input", 0)) {

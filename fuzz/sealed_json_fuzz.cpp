@@ -3,7 +3,7 @@
 #include "fuzz/target.hpp"
 #include "tests/io/random_sample.hpp"
 
-// The checksum is not asked for: it would keep the fuzzer from what lies behind it.
+// The checksum is not verified: it would keep the fuzzer from the code behind it.
 AMBLE_FUZZ_TARGET(bytes) {
   using namespace amble;
   const io::Json document = io::unseal_json("sample", 1, bytes, "x.json", io::Altered::accept).document;

@@ -7,8 +7,8 @@
 #include "amble/core/error.hpp"
 
 /// The body of a fuzzer: `AMBLE_FUZZ_TARGET(bytes) { read(bytes); }` with `const std::string& bytes`. A
-/// UserError is what a damaged file deserves; any other exception, a failed check or a sanitizer's complaint
-/// is a finding.
+/// UserError is the expected response to a damaged file; any other exception, a failed check or a sanitizer's
+/// report is a finding.
 #define AMBLE_FUZZ_TARGET(bytes)                                                     \
   static void fuzz_target(const std::string& bytes);                                 \
   extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size); \

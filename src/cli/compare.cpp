@@ -31,58 +31,59 @@ struct CompareOptions {
   std::uint32_t episodes = 10;
 };
 
-struct Entrant {
+struct NamedChampion {
   std::string name;
   experiment::Champion champion;
 };
 
-std::vector<Entrant> load(const std::vector<std::filesystem::path>& inputs) {
-  std::vector<Entrant> entrants;
+std::vector<NamedChampion> load(const std::vector<std::filesystem::path>& inputs) {
+  std::vector<NamedChampion> champions;
   for (const auto& input : inputs) {
     const bool is_run = std::filesystem::is_directory(input);
     const auto path = is_run ? experiment::find_run(input).best_champion() : input;
-    entrants.push_back({input.string(), experiment::load_champion(path)});
+    champions.push_back({input.string(), experiment::load_champion(path)});
   }
-  return entrants;
+  return champions;
 }
 
-/// Those asked for, and every champion's own, which the others are compared to.
-std::vector<std::string> columns(const std::vector<std::string>& asked,
-                                 const std::vector<Entrant>& entrants) {
-  for (const auto& engine : asked) physics::check_engine_name(engine, "--engines: ");
+/// The requested engines and every champion's own, with which the others are compared.
+std::vector<std::string> columns(const std::vector<std::string>& requested,
+                                 const std::vector<NamedChampion>& champions) {
+  for (const auto& engine : requested) physics::check_engine_name(engine, "--engines: ");
   std::vector<std::string> engines;
   for (const auto& name : physics::engine_names())
-    if (std::ranges::count(asked, name) > 0 || std::ranges::any_of(entrants, [&](const Entrant& entrant) {
-          return entrant.champion.problem.engine == name;
-        }))
+    if (std::ranges::count(requested, name) > 0 ||
+        std::ranges::any_of(
+            champions, [&](const NamedChampion& named) { return named.champion.problem.engine == name; }))
       engines.emplace_back(name);
   return engines;
 }
 
-/// Puts the champions into this noise, whatever they were evolved under.
-void disturb(std::vector<Entrant>& entrants, const std::filesystem::path& config) {
+/// Sets the noise of all champions, whatever they were evolved under.
+void disturb(std::vector<NamedChampion>& champions, const std::filesystem::path& config) {
   auto noise = experiment::load_config(config, {}).noise;
   if (!noise.any()) fail(ExitCode::bad_input, "--noise: {} is without noise", config.string());
   noise.first_undisturbed = false;
-  for (auto& entrant : entrants) entrant.champion.problem.noise = noise;
+  for (auto& named : champions) named.champion.problem.noise = noise;
 }
 
-/// Noise that evolution has not met: its episodes have lower numbers.
-std::vector<trial::ScenarioKey> unmet_noise(const experiment::Champion& champion, std::uint32_t episodes) {
+/// Noise that evolution has not used: its episodes have lower numbers.
+std::vector<trial::ScenarioKey> unseen_noise(const experiment::Champion& champion, std::uint32_t episodes) {
   std::vector<trial::ScenarioKey> keys;
-  for (std::uint32_t e = 0; e < episodes; ++e) keys.push_back(champion.unmet_scenario_key(e));
+  for (std::uint32_t e = 0; e < episodes; ++e) keys.push_back(champion.unseen_scenario_key(e));
   return keys;
 }
 
-ComparedChampion compare(const Entrant& entrant, double seconds, const std::vector<std::string>& engines,
+ComparedChampion compare(const NamedChampion& named, double seconds, const std::vector<std::string>& engines,
                          const CompareOptions& options) {
-  const auto& [name, champion] = entrant;
-  experiment::RefereeOptions how{.seconds = seconds, .jobs = static_cast<int>(engines.size())};
-  if (options.noise) how.noise = unmet_noise(champion, options.episodes);
+  const auto& [name, champion] = named;
+  experiment::RefereeOptions referee_options{.seconds = seconds, .jobs = static_cast<int>(engines.size())};
+  if (options.noise) referee_options.noise = unseen_noise(champion, options.episodes);
   try {
-    auto judged = experiment::judge(champion.problem, champion.genome, engines, how, stop_signal());
-    if (!judged) fail(ExitCode::interrupted, "stopped before all champions had walked");
-    return {.name = name, .home = champion.problem.engine, .trial_s = seconds, .in = std::move(*judged)};
+    auto results = experiment::try_in_engines(champion.problem, champion.genome, engines, referee_options,
+                                              stop_signal());
+    if (!results) fail(ExitCode::interrupted, "stopped before all champions had walked");
+    return {.name = name, .home = champion.problem.engine, .trial_s = seconds, .in = std::move(*results)};
   } catch (const UserError& error) {
     if (error.code() == ExitCode::interrupted) throw;
     fail(error.code(), "{}: {} (--engines chooses engines)", name, error.what());
@@ -90,14 +91,14 @@ ComparedChampion compare(const Entrant& entrant, double seconds, const std::vect
 }
 
 ExitCode run_compare(const CompareOptions& options) {
-  auto entrants = load(options.inputs);
-  if (options.noise) disturb(entrants, *options.noise);
-  const auto engines = columns(options.engines, entrants);
+  auto champions = load(options.inputs);
+  if (options.noise) disturb(champions, *options.noise);
+  const auto engines = columns(options.engines, champions);
   std::vector<ComparedChampion> rows;
-  for (const auto& entrant : entrants) {
+  for (const auto& named : champions) {
     auto lengths_s = options.seconds;
-    if (lengths_s.empty()) lengths_s.push_back(entrant.champion.problem.trial.duration_s);
-    for (const double length_s : lengths_s) rows.push_back(compare(entrant, length_s, engines, options));
+    if (lengths_s.empty()) lengths_s.push_back(named.champion.problem.trial.duration_s);
+    for (const double length_s : lengths_s) rows.push_back(compare(named, length_s, engines, options));
   }
   const auto text = options.format == "json"       ? compare_json(rows)
                     : options.format == "markdown" ? compare_markdown(rows)

@@ -4,13 +4,14 @@
 
 #include <algorithm>
 
+#include "amble/core/index.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/statistics/descriptive.hpp"
 
 namespace amble::cli {
 namespace {
 
-using experiment::Judgement;
+using experiment::EngineResult;
 using experiment::share_kept;
 using experiment::TrialResult;
 
@@ -20,11 +21,11 @@ constexpr double enough = 0.7;
 using Cells = std::vector<std::string>;
 
 double home_m(const ComparedChampion& row) {
-  return std::ranges::find(row.in, row.home, &Judgement::engine)->distance_m();
+  return std::ranges::find(row.in, row.home, &EngineResult::engine)->distance_m();
 }
 
 std::string_view outcome_name(const TrialResult& result) {
-  return record::outcome_names[static_cast<std::size_t>(result.outcome)];
+  return record::outcome_names[to_index(result.outcome)];
 }
 
 std::string ending(const TrialResult& result) {
@@ -32,11 +33,11 @@ std::string ending(const TrialResult& result) {
   return fmt::format(", {} at {:.2f} s", outcome_name(result), result.seconds);
 }
 
-std::string endings(const Judgement& judged) {
-  if (judged.trials.size() == 1) return ending(judged.trials.front());
+std::string endings(const EngineResult& result) {
+  if (result.trials.size() == 1) return ending(result.trials.front());
   const auto early = std::ranges::count_if(
-      judged.trials, [](const TrialResult& trial) { return trial.outcome != record::Outcome::completed; });
-  return early > 0 ? fmt::format(", {} of {} ended early", early, judged.trials.size()) : "";
+      result.trials, [](const TrialResult& trial) { return trial.outcome != record::Outcome::completed; });
+  return early > 0 ? fmt::format(", {} of {} ended early", early, result.trials.size()) : "";
 }
 
 std::string distance_text(double distance_m) {
@@ -50,10 +51,10 @@ std::string kept_text(double distance_m, double of_m) {
 
 Cells row_cells(const ComparedChampion& row) {
   Cells cells{row.name, row.home, fmt::format("{:g} s", row.trial_s)};
-  for (const auto& judged : row.in) {
-    const double walked_m = judged.distance_m();
+  for (const auto& result : row.in) {
+    const double walked_m = result.distance_m();
     cells.push_back(distance_text(walked_m) +
-                    (judged.engine == row.home ? "" : kept_text(walked_m, home_m(row))) + endings(judged));
+                    (result.engine == row.home ? "" : kept_text(walked_m, home_m(row))) + endings(result));
   }
   return cells;
 }
@@ -124,14 +125,14 @@ std::string compare_json(const std::vector<ComparedChampion>& rows) {
   io::Json list = io::Json::array();
   for (const auto& row : rows) {
     io::Json results = io::Json::array();
-    for (const auto& judged : row.in) {
+    for (const auto& result : row.in) {
       io::Json trials = io::Json::array();
-      for (const auto& trial : judged.trials)
+      for (const auto& trial : result.trials)
         trials.push_back(
             {{"distance_m", trial.distance_m}, {"seconds", trial.seconds}, {"outcome", outcome_name(trial)}});
       results.push_back(
-          {{"engine", judged.engine}, {"distance_m", judged.distance_m()}, {"trials", std::move(trials)}});
-      if (const auto kept = share_kept(judged.distance_m(), home_m(row))) results.back()["kept"] = *kept;
+          {{"engine", result.engine}, {"distance_m", result.distance_m()}, {"trials", std::move(trials)}});
+      if (const auto kept = share_kept(result.distance_m(), home_m(row))) results.back()["kept"] = *kept;
     }
     list.push_back({{"champion", row.name},
                     {"evolved_in", row.home},

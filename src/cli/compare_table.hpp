@@ -7,15 +7,15 @@
 
 namespace amble::cli {
 
-/// One champion, tried for one length of time in several engines.
+/// One champion with trials of one length in several engines.
 struct ComparedChampion {
   std::string name;
   std::string home;  ///< the engine in which it evolved
   double trial_s = 0.0;
-  std::vector<experiment::Judgement> in;  ///< its home among them; the same engines in every row
+  std::vector<experiment::EngineResult> in;  ///< including its home; the same engines in every row
 };
 
-/// Columns for people; the last lines sum up if there are several champions: per engine the median distance,
+/// An aligned table; the last lines summarise several champions: per engine the median distance,
 /// and how many champions kept at least 70 % of what they walk at home. Of several trials of a champion
 /// the median distance counts.
 std::string compare_text(const std::vector<ComparedChampion>& rows);
@@ -24,7 +24,7 @@ std::string compare_markdown(const std::vector<ComparedChampion>& rows);
 /// An array, one object per row (docs/FORMATS.md).
 std::string compare_json(const std::vector<ComparedChampion>& rows);
 
-/// "3.412 m, 87 %, fell at 7.31 s": what it walked, the share of `home_m`, and the end if it came early.
+/// "3.412 m, 87 %, fell at 7.31 s": distance, share of `home_m`, and the outcome if it ended early.
 std::string result_text(const experiment::TrialResult& result, double home_m);
 
 }  // namespace amble::cli

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "amble/core/index.hpp"
+
 namespace amble::cli {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr std::array<figures::CppnRole, 4> roles{figures::CppnRole::bias, figure
 /// What a node computes: "linear" may mean |x|.
 std::string_view function_name(neat::Activation activation, const cppn::Settings& settings) {
   if (activation == neat::Activation::linear && settings.linear == cppn::Linear::absolute) return "|x|";
-  return neat::activation_names[static_cast<std::size_t>(activation)];
+  return neat::activation_names[to_index(activation)];
 }
 
 }  // namespace
@@ -25,7 +27,7 @@ figures::CppnGraph cppn_graph(const experiment::Champion& champion) {
   figures::CppnGraph graph;
   std::size_t inputs = 0, outputs = 0;
   for (const neat::NodeGene& node : genome.nodes) {
-    const figures::CppnRole role = roles[static_cast<std::size_t>(node.kind)];
+    const figures::CppnRole role = roles[to_index(node.kind)];
     std::string name;
     if (role == figures::CppnRole::bias) name = "bias";
     if (role == figures::CppnRole::input) name = architecture.cppn_inputs()[inputs++];
@@ -34,8 +36,8 @@ figures::CppnGraph cppn_graph(const experiment::Champion& champion) {
         {node.id, role, std::string(function_name(node.activation, champion.problem.cppn)), std::move(name)});
   }
   for (const neat::LinkGene& link : genome.links)
-    graph.links.push_back({static_cast<std::size_t>(genome.index_of(link.from)),
-                           static_cast<std::size_t>(genome.index_of(link.to)), link.weight, link.enabled});
+    graph.links.push_back({to_index(genome.index_of(link.from)), to_index(genome.index_of(link.to)),
+                           link.weight, link.enabled});
   return graph;
 }
 

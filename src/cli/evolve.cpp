@@ -39,7 +39,7 @@ void add_jobs(CLI::App& command, int& jobs) {
 }
 
 ExitCode execute(experiment::Run run) {
-  std::signal(SIGPIPE, SIG_IGN);  // whoever read the progress may go; the run stays
+  std::signal(SIGPIPE, SIG_IGN);  // the run goes on if the reader of its progress ends
   const std::string folder = run.paths().folder.string();
   if (run.generation() >= run.config().generations)
     fmt::print("{}: all {} generations are done; more by --generations N\n", folder,
@@ -50,8 +50,8 @@ ExitCode execute(experiment::Run run) {
     status = run.execute(progress, stop_signal());
   }
   if (status == experiment::RunStatus::interrupted) {
-    say(fmt::format("stopped at generation {} of {}; go on by: amble resume {}\n", run.generation(),
-                    run.config().generations, folder));
+    print_message(fmt::format("stopped at generation {} of {}; go on by: amble resume {}\n", run.generation(),
+                              run.config().generations, folder));
     return ExitCode::interrupted;
   }
   fmt::print("best {} {:.3f} (generation {}), {} evaluations\nlook at it by: amble page {} -o page.html\n",

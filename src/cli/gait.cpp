@@ -88,7 +88,7 @@ void add_gait(CLI::App& app, Action& action) {
   command
       ->add_option(
           "--window", settings.window_s,
-          "The gait is named anew for each part that lasts so long and holds 4 strides of each foot, s")
+          "Least length of the windows in which the gait is classified; each has 4 strides of each foot, s")
       ->capture_default_str();
   command->callback([options, &action] { action = [options] { return run_gait(*options); }; });
 }

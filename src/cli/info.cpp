@@ -10,6 +10,7 @@
 #include "amble/cli/commands.hpp"
 #include "amble/cli/compare_table.hpp"
 #include "amble/cli/progress.hpp"
+#include "amble/core/index.hpp"
 #include "amble/experiment/champion.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/io/file.hpp"
@@ -37,13 +38,13 @@ void print_champion(const experiment::Champion& champion) {
              problem.cppn_outputs(), champion.genome.count(neat::NodeKind::hidden),
              champion.genome.enabled_links());
   fmt::print("result      {:.3f} m in {:.2f} s, {}\n", champion.result.distance_m, champion.result.seconds,
-             record::outcome_names[static_cast<std::size_t>(champion.result.outcome)]);
+             record::outcome_names[to_index(champion.result.outcome)]);
   if (champion.result.score) fmt::print("score       {:.3f}\n", *champion.result.score);
   for (const auto& [engine, judged] : champion.referees)
     fmt::print("in {:<8} {}\n", engine, result_text(judged, champion.result.distance_m));
   if (champion.episodes.empty()) return;
   fmt::print("under noise {}, {} of", score_text(champion.objective(), problem.score),
-             trial::episode_score_names[static_cast<std::size_t>(problem.noise.score)]);
+             trial::episode_score_names[to_index(problem.noise.score)]);
   for (const auto& episode : champion.episodes) fmt::print(" {:.3f}", episode.result.value());
   fmt::print("\n");
 }
@@ -52,7 +53,7 @@ double sum(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// Where the wall time of a run went, stage by stage; workers count as their mean.
+/// Wall time of a run by stage; of workers, the mean.
 void print_stages(const record::Generations& rows) {
   const double wall_s = sum(rows.wall_s);
   if (wall_s <= 0.0 || rows.files_s.empty()) return;
@@ -99,7 +100,7 @@ ExitCode run_info(const std::filesystem::path& folder) {
     fmt::print("\nbest: {}\n", champions.back().string());
     print_champion(experiment::load_champion(champions.back()));
   }
-  if (rows.count() < static_cast<std::size_t>(config.generations))
+  if (rows.count() < to_index(config.generations))
     fmt::print("\ngo on by: amble resume {}\n", folder.string());
   return ExitCode::ok;
 }
@@ -112,8 +113,7 @@ ExitCode recording_info(const std::filesystem::path& path) {
   fmt::print("recording of {}\n{} frames, {} s apart: {}\n{}\n{} columns:", reader.header().origin,
              reader.frames_read(), reader.header().frame_s,
              clock_text(static_cast<double>(reader.frames_read()) * reader.header().frame_s),
-             record::outcome_names[static_cast<std::size_t>(reader.outcome())],
-             reader.header().columns.size());
+             record::outcome_names[to_index(reader.outcome())], reader.header().columns.size());
   for (const auto& column : reader.header().columns) fmt::print(" {}", column);
   fmt::print("\n");
   return ExitCode::ok;

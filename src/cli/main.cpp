@@ -13,12 +13,12 @@ namespace {
 
 using amble::ExitCode;
 
-ExitCode complain(ExitCode code, std::string text) {
+ExitCode report(ExitCode code, std::string text) {
   // One line, whatever a library may have put into its message.
   for (char& c : text)
     if (c == '\n') c = ' ';
   while (text.ends_with(' ')) text.pop_back();
-  amble::cli::say(fmt::format("amble: {}\n", text));
+  amble::cli::print_message(fmt::format("amble: {}\n", text));
   return code;
 }
 
@@ -52,8 +52,8 @@ ExitCode run(int argc, char** argv) {
     return ExitCode::ok;
   } catch (const CLI::ParseError& error) {
     if (argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty())
-      return complain(ExitCode::bad_input, fmt::format("unknown command '{}' (amble --help)", argv[1]));
-    return complain(ExitCode::bad_input, std::string(error.what()) + " (amble --help)");
+      return report(ExitCode::bad_input, fmt::format("unknown command '{}' (amble --help)", argv[1]));
+    return report(ExitCode::bad_input, std::string(error.what()) + " (amble --help)");
   }
   return action();
 }
@@ -61,17 +61,17 @@ ExitCode run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  amble::cli::hold_standard_streams();
+  amble::cli::reserve_standard_streams();
   ExitCode code = ExitCode::internal;
   try {
     code = run(argc, argv);
-    if (std::fflush(stdout) != 0) code = complain(ExitCode::io, "cannot write to the standard output");
+    if (std::fflush(stdout) != 0) code = report(ExitCode::io, "cannot write to the standard output");
   } catch (const amble::UserError& error) {
-    code = complain(error.code(), error.what());
+    code = report(error.code(), error.what());
   } catch (const std::system_error& error) {  // of files: permissions, a full device
-    code = complain(ExitCode::io, error.what());
+    code = report(ExitCode::io, error.what());
   } catch (const std::exception& error) {
-    code = complain(ExitCode::internal, fmt::format("defect: {}", error.what()));
+    code = report(ExitCode::internal, fmt::format("defect: {}", error.what()));
   }
   return static_cast<int>(code);
 }

@@ -4,13 +4,12 @@
 
 namespace amble::cli {
 
-/// To the standard error, at once. What cannot be written there is lost: a log that is full is no reason to
-/// stop a run.
-void say(std::string_view text);
+/// Writes to the standard error, unbuffered. Write errors are ignored: a full log must not stop a run.
+void print_message(std::string_view text);
 
-/// Gives each of the three standard streams that the caller has closed a place of its own, which refuses what
-/// does not belong there; else the next file to be opened would take it, and messages would end up in that
-/// file. To be called before any file is opened.
-void hold_standard_streams();
+/// Opens each of the three standard streams that the caller has closed on /dev/null, such that access fails;
+/// otherwise the next file to be opened would get its descriptor, and messages would end up in that file. To
+/// be called before any file is opened.
+void reserve_standard_streams();
 
 }  // namespace amble::cli

@@ -8,19 +8,19 @@
 
 namespace amble::cli {
 
-/// Complains of an option "VALUE: expected a number from LOWER to UPPER", or "a whole number".
+/// Rejects an option with "VALUE: expected a number from LOWER to UPPER", or "a whole number".
 template <typename Number>
 CLI::Validator between(Number lower, Number upper) {
-  const auto complaint = [lower, upper](const std::string& text) {
+  const auto error = [lower, upper](const std::string& text) {
     Number value{};
     if (CLI::detail::lexical_cast(text, value) && value >= lower && value <= upper) return std::string();
     return fmt::format("{}: expected a {}number from {} to {}", text, std::integral<Number> ? "whole " : "",
                        lower, upper);
   };
-  return CLI::Validator(complaint, "");
+  return CLI::Validator(error, "");
 }
 
-/// Of the length of a trial.
+/// Check of the length of a trial.
 inline CLI::Validator seconds_check() {
   return between(1e-5, 1e6);
 }

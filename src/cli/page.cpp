@@ -1,4 +1,5 @@
 #include "amble/page/page.hpp"
+#include "amble/core/index.hpp"
 
 #include <fmt/format.h>
 
@@ -32,7 +33,7 @@ struct PageOptions {
 std::string noise_text(const trial::NoiseSettings& noise) {
   if (!noise.any()) return "none";
   return fmt::format("{} of {} episodes; what is shown walked without",
-                     trial::episode_score_names[static_cast<std::size_t>(noise.score)], noise.episodes);
+                     trial::episode_score_names[to_index(noise.score)], noise.episodes);
 }
 
 std::vector<page::Fact> facts(const experiment::Config& config, const experiment::Champion& champion,

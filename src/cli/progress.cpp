@@ -32,7 +32,7 @@ ProgressLine::ProgressLine(int first_generation)
     : terminal_(isatty(STDERR_FILENO) != 0), first_generation_(first_generation), start_s_(now_s()) {}
 
 ProgressLine::~ProgressLine() {
-  if (open_) say("\n");
+  if (open_) print_message("\n");
 }
 
 void ProgressLine::on_generation(const experiment::GenerationRow& row, const experiment::Progress& progress,
@@ -47,7 +47,7 @@ void ProgressLine::on_generation(const experiment::GenerationRow& row, const exp
   const double left_s = s_per_generation * (config.generations - done);
   const auto unit = score::unit(config.score);
   const std::string space = unit.empty() ? "" : " ";
-  const auto species = row.reading("species");
+  const auto species = row.metric("species");
   const auto line =
       fmt::format("generation {}/{}  best {:.2f}{}{}  median {:.2f}{}{}{}{}  {} evaluations/s  {} {}", done,
                   config.generations, progress.best, space, unit, row.median, space, unit,
@@ -55,7 +55,7 @@ void ProgressLine::on_generation(const experiment::GenerationRow& row, const exp
                   row.diverged > 0 ? fmt::format("  {} diverged", row.diverged) : "",
                   rate_text(static_cast<double>(row.evaluations) / row.wall_s), last ? "took" : "left",
                   clock_text(last ? now - start_s_ : left_s));
-  say(terminal_ ? "\r\033[K" + line : line + "\n");
+  print_message(terminal_ ? "\r\033[K" + line : line + "\n");
   open_ = terminal_;
 }
 

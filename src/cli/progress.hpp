@@ -6,8 +6,8 @@
 
 namespace amble::cli {
 
-/// Tells how a run goes: on a terminal one line that rewrites itself, else a plain line now and then. To
-/// stderr.
+/// Shows the progress of a run on stderr: on a terminal one line that is rewritten, else a plain line from
+/// time to time.
 class ProgressLine : public experiment::RunListener {
  public:
   explicit ProgressLine(int first_generation);
@@ -17,7 +17,7 @@ class ProgressLine : public experiment::RunListener {
 
  private:
   bool terminal_;
-  bool open_ = false;  ///< a rewritten line stands without its end
+  bool open_ = false;  ///< a rewritten line has no newline yet
   int first_generation_;
   double start_s_;
   double last_print_s_ = 0.0;

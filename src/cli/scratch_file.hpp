@@ -5,8 +5,8 @@
 
 namespace amble::cli {
 
-/// A name for a file in a new folder that is this user's alone, within the system's for such; both are gone
-/// with the object, though not if the process is killed.
+/// A path for a file in a new private folder within the system's folder for temporary files; both are removed
+/// by the destructor.
 class ScratchFile {
  public:
   /// Throws UserError(ExitCode::io).

@@ -15,6 +15,7 @@
 #include "amble/cli/stop_signal.hpp"
 #include "amble/cli/study_processes.hpp"
 #include "amble/cli/study_progress.hpp"
+#include "amble/core/index.hpp"
 #include "amble/io/file.hpp"
 #include "amble/study/fit.hpp"
 #include "amble/study/slurm.hpp"
@@ -47,7 +48,7 @@ ExitCode print_status(const study::Plan& plan, const std::vector<study::RunState
   return ExitCode::ok;
 }
 
-/// What was reached, and how to go on, for people.
+/// Prints what was done and how to continue.
 ExitCode conclude(const study::Plan& plan, const StudyOptions& options, int failed, bool interrupted,
                   ExitCode failure) {
   const auto states = study::survey(plan);
@@ -59,16 +60,15 @@ ExitCode conclude(const study::Plan& plan, const StudyOptions& options, int fail
   fmt::print("{} of {} runs{} are done, digest {}\n", done, part.size(), of_shard,
              ledger::ledger_digest(ledger::Ledger(plan.paths).load_all(plan.study)));
   if (interrupted) {
-    say("stopped; go on by the same command\n");
+    print_message("stopped; go on by the same command\n");
     return ExitCode::interrupted;
   }
   if (failed > 0) {
-    say(fmt::format("{} runs failed; the same command tries them again\n", failed));
+    print_message(fmt::format("{} runs failed; the same command tries them again\n", failed));
     return failure;
   }
   if (done < static_cast<std::ptrdiff_t>(part.size()))
-    say("the rest are in the hands of other processes, or of one that was killed: the same command goes "
-        "on\n");
+    print_message("other processes work on the rest, or were killed: the same command continues\n");
   fmt::print("look at it by: amble report {} -o report.html\n", folder);
   return ExitCode::ok;
 }
@@ -103,7 +103,7 @@ ExitCode work_in_processes(const study::Plan& plan, const std::vector<study::Run
                            const StudyOptions& options, int processes) {
   StudyProgress progress(plan, states, study::Shard::parse(options.shard), processes);
   ChildProcesses children(
-      std::vector<std::vector<std::string>>(static_cast<std::size_t>(processes), child_arguments(options)));
+      std::vector<std::vector<std::string>>(to_index(processes), child_arguments(options)));
   int failed = 0;
   const auto exits = children.wait(
       [&](const std::string& line) {
@@ -117,7 +117,7 @@ ExitCode work_in_processes(const study::Plan& plan, const std::vector<study::Run
   bool interrupted = stop_signal();
   for (const auto& exit : exits) {
     if (exit.signal != 0) {
-      say(fmt::format("a process of the study was ended by signal {}\n", exit.signal));
+      print_message(fmt::format("a process of the study was ended by signal {}\n", exit.signal));
       ++failed;
       failure = ExitCode::internal;
     } else if (exit.code == static_cast<int>(ExitCode::interrupted)) {
@@ -154,8 +154,9 @@ ExitCode run_study(const StudyOptions& options) {
   if (options.slurm) return write_slurm_script(plan, options);
   if (options.status) return print_status(plan, states, shard);
   ledger::keep_study(plan.paths, plan.study);
-  for (const auto& stranger : ledger::Ledger(plan.paths).strangers(plan.study))
-    if (!options.as_child) say(fmt::format("{}: no run of this study; passed over\n", stranger.string()));
+  for (const auto& unknown : ledger::Ledger(plan.paths).unknown_files(plan.study))
+    if (!options.as_child)
+      print_message(fmt::format("{}: no run of this study; passed over\n", unknown.string()));
   const auto part = plan.shard(shard);
   const auto open =
       std::ranges::count_if(part, [&](std::size_t run) { return states[run] != study::RunState::done; });

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 
 namespace amble::cli {
 namespace {
@@ -66,7 +67,7 @@ void ChildProcesses::read_lines(Child& child, const std::function<void(const std
     ::close(std::exchange(child.out, -1));
     return;
   }
-  child.unread.append(bytes.data(), static_cast<std::size_t>(count));
+  child.unread.append(bytes.data(), to_index(count));
   for (std::size_t end; (end = child.unread.find('\n')) != std::string::npos;) {
     on_line(child.unread.substr(0, end));
     child.unread.erase(0, end + 1);
@@ -75,10 +76,10 @@ void ChildProcesses::read_lines(Child& child, const std::function<void(const std
 
 std::vector<ChildProcesses::Exit> ChildProcesses::wait(
     const std::function<void(const std::string& line)>& on_line, const std::atomic<bool>& stop) {
-  bool told = false;
+  bool signalled = false;
   const auto reading = [](const Child& child) { return child.out >= 0; };
   while (std::ranges::any_of(children_, reading)) {
-    if (stop && !std::exchange(told, true))
+    if (stop && !std::exchange(signalled, true))
       for (const Child& child : children_) ::kill(child.pid, SIGTERM);
     std::vector<pollfd> polled;
     for (const Child& child : children_) polled.push_back({.fd = child.out, .events = POLLIN, .revents = 0});

@@ -9,23 +9,23 @@
 
 namespace amble::cli {
 
-/// Copies of this program that work side by side. Each gets a signal when this process ends, however it ends.
+/// Child processes that run this program in parallel. Each gets a signal when this process ends in any way.
 class ChildProcesses {
  public:
   /// `arguments` of each, without the program's name. Throws UserError(ExitCode::io).
   explicit ChildProcesses(const std::vector<std::vector<std::string>>& arguments);
-  /// Ends those that still run.
+  /// Terminates those that still run.
   ~ChildProcesses();
   ChildProcesses(const ChildProcesses&) = delete;
   ChildProcesses& operator=(const ChildProcesses&) = delete;
 
   struct Exit {
     int code = 0;    ///< exit code, if `signal` is 0
-    int signal = 0;  ///< that ended it
+    int signal = 0;  ///< that terminated it
   };
 
-  /// Passes on what the children write to their standard output, line by line, until all have ended; `stop`
-  /// is passed on to them. Returns how they ended, in order.
+  /// Forwards the children's standard output, line by line, until all have ended; forwards `stop` to them.
+  /// Returns how they ended, in order.
   std::vector<Exit> wait(const std::function<void(const std::string& line)>& on_line,
                          const std::atomic<bool>& stop);
 

@@ -11,6 +11,7 @@
 #include "amble/cli/messages.hpp"
 #include "amble/cli/progress.hpp"
 #include "amble/core/clock.hpp"
+#include "amble/core/index.hpp"
 #include "amble/io/printable.hpp"
 
 namespace amble::cli {
@@ -38,8 +39,8 @@ bool take_number(std::string_view& line, Number& value) {
 }  // namespace
 
 std::string StudyEvent::line() const {
-  return fmt::format("{}{} {} {} {} {}\n", mark, kinds[static_cast<std::size_t>(kind)], run, generations,
-                     best_m, io::printable(reason));
+  return fmt::format("{}{} {} {} {} {}\n", mark, kinds[to_index(kind)], run, generations, best_m,
+                     io::printable(reason));
 }
 
 bool StudyEvent::parse(std::string_view line, StudyEvent& event) {
@@ -73,7 +74,7 @@ StudyProgress::StudyProgress(const study::Plan& plan, const std::vector<study::R
 }
 
 StudyProgress::~StudyProgress() {
-  if (open_) say("\n");
+  if (open_) print_message("\n");
 }
 
 void StudyProgress::note_pace(std::size_t run, int generations) {
@@ -151,8 +152,8 @@ void StudyProgress::on(const StudyEvent& event) {
 }
 
 void StudyProgress::print(const std::string& line, bool stays) {
-  if (!terminal_) return say(line + "\n");
-  say("\r\033[K" + line + (stays ? "\n" : ""));
+  if (!terminal_) return print_message(line + "\n");
+  print_message("\r\033[K" + line + (stays ? "\n" : ""));
   open_ = !stays;
 }
 
@@ -160,10 +161,10 @@ std::size_t StudyReporter::index_of(const study::PlannedRun& run) const {
   const auto same = [&run](const study::PlannedRun& other) {
     return other.condition == run.condition && other.seed == run.seed;
   };
-  return static_cast<std::size_t>(std::ranges::find_if(plan_.runs, same) - plan_.runs.begin());
+  return to_index(std::ranges::find_if(plan_.runs, same) - plan_.runs.begin());
 }
 
-void StudyReporter::tell(const StudyEvent& event) {
+void StudyReporter::send(const StudyEvent& event) {
   if (progress_ != nullptr) return progress_->on(event);
   const double now = now_s();
   if (event.kind == StudyEvent::Kind::generation && now - last_line_s_ < line_interval_s) return;
@@ -173,19 +174,19 @@ void StudyReporter::tell(const StudyEvent& event) {
 }
 
 void StudyReporter::on_start(const study::PlannedRun& run, int generations_done) {
-  tell(
+  send(
       {.kind = StudyEvent::Kind::start, .run = index_of(run), .generations = generations_done, .reason = {}});
 }
 
 void StudyReporter::on_generation(const study::PlannedRun& run, int generations_done) {
-  tell({.kind = StudyEvent::Kind::generation,
+  send({.kind = StudyEvent::Kind::generation,
         .run = index_of(run),
         .generations = generations_done,
         .reason = {}});
 }
 
 void StudyReporter::on_finish(const study::PlannedRun& run, const ledger::Record& record) {
-  tell({.kind = StudyEvent::Kind::finish,
+  send({.kind = StudyEvent::Kind::finish,
         .run = index_of(run),
         .generations = record.generations,
         .best_m = record.best_m,
@@ -193,7 +194,7 @@ void StudyReporter::on_finish(const study::PlannedRun& run, const ledger::Record
 }
 
 void StudyReporter::on_failure(const study::PlannedRun& run, const std::string& reason) {
-  tell({.kind = StudyEvent::Kind::failure, .run = index_of(run), .reason = reason});
+  send({.kind = StudyEvent::Kind::failure, .run = index_of(run), .reason = reason});
 }
 
 }  // namespace amble::cli

@@ -11,7 +11,7 @@
 
 namespace amble::cli {
 
-/// What a process tells of its work on a study: one line of text each, so that a parent reads it from a pipe.
+/// An event of a process that works on a study: one line of text each, which its parent reads from a pipe.
 struct StudyEvent {
   enum class Kind { start, generation, finish, failure };
   Kind kind = Kind::start;
@@ -21,14 +21,14 @@ struct StudyEvent {
   std::string reason;   ///< of a failure
 
   std::string line() const;
-  /// Nothing for a line that is none.
+  /// False for a line that is not an event.
   static bool parse(std::string_view line, StudyEvent& event);
 };
 
 /// Progress over all runs of a study: on a terminal one line that is rewritten, else a line per finished run.
 class StudyProgress {
  public:
-  /// `processes` work at a time.
+  /// `processes`: number of parallel processes.
   StudyProgress(const study::Plan& plan, const std::vector<study::RunState>& states,
                 const study::Shard& shard, int processes);
   ~StudyProgress();
@@ -53,12 +53,12 @@ class StudyProgress {
   double start_s_, last_print_s_ = -1e9;
   int total_ = 0, done_ = 0, failed_ = 0;
   std::vector<int> left_;               ///< generations left, by run; 0: done or not of this shard
-  std::map<std::size_t, double> at_s_;  ///< when a run in progress was heard of last
+  std::map<std::size_t, double> at_s_;  ///< time of a run's last event
   std::vector<Pace> pace_;              ///< by condition, as observed here
   bool open_ = false;
 };
 
-/// Tells each event to a progress display, or writes it as a line for a parent.
+/// Passes each event to a progress display, or writes it as a line for a parent.
 class StudyReporter : public study::Listener {
  public:
   StudyReporter(const study::Plan& plan, StudyProgress* progress) : plan_(plan), progress_(progress) {}
@@ -68,7 +68,7 @@ class StudyReporter : public study::Listener {
   void on_failure(const study::PlannedRun& run, const std::string& reason) override;
 
  private:
-  void tell(const StudyEvent& event);
+  void send(const StudyEvent& event);
   std::size_t index_of(const study::PlannedRun& run) const;
 
   const study::Plan& plan_;

@@ -9,6 +9,7 @@
 #include "amble/cli/commands.hpp"
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/stop_signal.hpp"
+#include "amble/core/index.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/gait/report_text.hpp"
 #include "amble/io/file.hpp"
@@ -51,8 +52,8 @@ ExitCode run_trial(const TrialOptions& options) {
   const auto& judge = options.engine.value_or(home);
   fmt::print("engine    {}{}\n", judge, judge == home ? "" : fmt::format(" (evolved in {})", home));
   fmt::print("outcome   {}\nupright   {:.2f} s\ndistance  {:.3f} m\nspeed     {:.3f} m/s\n",
-             record::outcome_names[static_cast<std::size_t>(result.outcome)], result.seconds,
-             result.distance_m, result.distance_m / result.seconds);
+             record::outcome_names[to_index(result.outcome)], result.seconds, result.distance_m,
+             result.distance_m / result.seconds);
   if (!replay->events.empty()) {
     fmt::print("events   ");
     for (const auto& [name, count] : replay->events) fmt::print(" {} {}", name, count);

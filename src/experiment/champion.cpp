@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 #include "amble/experiment/episodes.hpp"
 #include "amble/io/file.hpp"
 #include "amble/neat/genome_json.hpp"
@@ -44,7 +45,7 @@ io::Json result_json(const TrialResult& result) {
   io::Json json{{"distance_m", result.distance_m},
                 {"seconds", result.seconds},
                 {"steps", result.steps},
-                {"outcome", record::outcome_names[static_cast<std::size_t>(result.outcome)]}};
+                {"outcome", record::outcome_names[to_index(result.outcome)]}};
   if (result.score) json["score"] = *result.score;
   return json;
 }
@@ -98,8 +99,8 @@ io::Json referees_json(const Champion& champion) {
   return list;
 }
 
-std::vector<Refereed> parse_referees(const io::JsonView& root) {
-  std::vector<Refereed> referees;
+std::vector<RefereeResult> parse_referees(const io::JsonView& root) {
+  std::vector<RefereeResult> referees;
   if (!root.has("referees")) return referees;
   const auto list = root.at("referees");
   for (std::size_t i = 0; i < list.size(); ++i)
@@ -151,7 +152,7 @@ trial::ScenarioKey Champion::scenario_key(std::size_t episode) const {
           .episode = static_cast<std::uint32_t>(episode)};
 }
 
-trial::ScenarioKey Champion::unmet_scenario_key(std::size_t episode) const {
+trial::ScenarioKey Champion::unseen_scenario_key(std::size_t episode) const {
   constexpr std::size_t first = 1000;  // evaluations have at most so many episodes (NoiseSettings), from 0
   return scenario_key(first + episode);
 }

@@ -13,10 +13,10 @@
 
 namespace amble::experiment {
 
-/// What a trial came to.
+/// The result of a trial.
 struct TrialResult {
   double distance_m = 0.0;
-  std::optional<double> score = {};  ///< by Problem::score; nothing where that is the distance
+  std::optional<double> score = {};  ///< by Problem::score; nothing if that is the distance
   int steps = 0;
   double seconds = 0.0;
   record::Outcome outcome = record::Outcome::completed;
@@ -31,14 +31,14 @@ struct NoisyTrial {
   std::vector<std::uint32_t> trace;
 };
 
-/// What a champion's genome came to in another engine than its own, without noise.
-struct Refereed {
+/// A trial of a champion in another engine than its own, without noise.
+struct RefereeResult {
   std::string engine;
   TrialResult result;
 };
 
-/// A genome worth keeping, with all that is needed to run it again: robot, controller, trial, engine.
-/// Self-contained.
+/// The best genome of a run so far, with all that is needed to run it again: robot, controller, trial,
+/// engine. Self-contained.
 struct Champion {
   std::string experiment;  ///< Config::name of its run
   std::int64_t seed = 0;
@@ -46,23 +46,24 @@ struct Champion {
   int index = 0;  ///< in its population
   Problem problem;
   neat::Genome genome;
-  TrialResult result;                   ///< of its trial without noise
-  std::vector<std::uint32_t> trace;     ///< trial::TraceObserver of that trial: one hash per step
-  std::vector<NoisyTrial> episodes;     ///< Problem::noise; empty if there is none
-  std::vector<Refereed> referees = {};  ///< in the order of Config::referees; empty if there are none
+  TrialResult result;                        ///< of its trial without noise
+  std::vector<std::uint32_t> trace;          ///< trial::TraceObserver of that trial: one hash per step
+  std::vector<NoisyTrial> episodes;          ///< Problem::noise; empty if there is none
+  std::vector<RefereeResult> referees = {};  ///< in the order of Config::referees; empty if there are none
 
-  /// Names the noise of an episode that made it a champion.
+  /// Key of the noise of an episode that made it a champion.
   trial::ScenarioKey scenario_key(std::size_t episode) const;
-  /// Names noise that it has not met.
-  trial::ScenarioKey unmet_scenario_key(std::size_t episode) const;
-  /// By what it became the champion: what its episodes make of it, or its score without noise.
+  /// Key of noise that evolution has not used.
+  trial::ScenarioKey unseen_scenario_key(std::size_t episode) const;
+  /// The objective that made it the champion: of its episodes, or its score without noise.
   double objective() const;
 };
 
-/// Share of a distance that is kept elsewhere; nothing if there was none to keep.
+/// distance_m / of_m, the share of a distance kept in another engine or test; nothing if of_m is not
+/// positive.
 std::optional<double> share_kept(double distance_m, double of_m);
 
-/// What a champion file says of how to try it again, but for the noise.
+/// The settings under which a champion is run again, as in its file, without the noise.
 io::Json problem_json(const Problem& problem);
 
 /// The text of a champion file (docs/FORMATS.md).
@@ -70,11 +71,10 @@ std::string champion_text(const Champion& champion);
 
 struct LoadedChampion {
   Champion champion;
-  bool altered = false;  ///< the checksum did not fit (only where that is accepted)
+  bool altered = false;  ///< the checksum does not match (only where that is accepted)
 };
 
-/// Throws UserError: (bad_file) foreign, truncated, altered, of another version, or a genome that is not
-/// sound.
+/// Throws UserError: (bad_file) foreign, truncated, altered, of another version, or an invalid genome.
 LoadedChampion parse_champion(const std::string& text, const std::string& what,
                               io::Altered altered = io::Altered::refuse);
 Champion load_champion(const std::filesystem::path& path);

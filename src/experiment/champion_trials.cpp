@@ -4,6 +4,7 @@
 
 #include "amble/core/clock.hpp"
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 #include "amble/experiment/referees.hpp"
 #include "amble/experiment/replay.hpp"
 
@@ -19,7 +20,7 @@ bool try_at_home(Champion& champion, StageTimes& times, const std::atomic<bool>&
   champion.trace = undisturbed->trace;
   times.physics_s += undisturbed->physics_s;
   if (!problem.noise.any()) return true;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(problem.noise.episodes); ++i) {
+  for (std::size_t i = 0; i < to_index(problem.noise.episodes); ++i) {
     const auto again = replay(problem, champion.genome, {.noise = champion.scenario_key(i)}, stop);
     if (!again) return false;
     champion.episodes.push_back({again->result, again->trace});
@@ -49,7 +50,7 @@ std::optional<Champion> try_champion(const Config& config, const Problem& proble
          score::unit(config.score));
   if (!config.referees.empty()) {
     const Stopwatch watch(times.referees_s);
-    auto judged = ask_referees(problem, champion.genome, config.referees, jobs, stop);
+    auto judged = run_referees(problem, champion.genome, config.referees, jobs, stop);
     if (!judged) return std::nullopt;
     champion.referees = std::move(*judged);
   }

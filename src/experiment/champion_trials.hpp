@@ -17,9 +17,9 @@ struct NewBest {
   double objective = 0.0;
 };
 
-/// Runs it again, without noise, in the episodes that it was evaluated in, and in the config's referees, and
-/// keeps what came of that. Adds to `times`. Nothing if `stop` was set meanwhile. Throws UserError(differs)
-/// if it does not reach its objective again.
+/// Runs it again without noise, in the episodes of its evaluation, and in the config's referees, and returns
+/// the results. Adds to `times`. Nothing if `stop` was set meanwhile. Throws UserError(differs) if it does
+/// not reach its objective again.
 std::optional<Champion> try_champion(const Config& config, const Problem& problem, const NewBest& best,
                                      int jobs, StageTimes& times, const std::atomic<bool>& stop);
 

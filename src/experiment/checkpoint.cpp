@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view magic = "AMBLECKP";
 constexpr std::uint32_t version = 3;
 
-/// Of a run, but for what may change when it goes on.
+/// Hash of a run's config without what may change on resume.
 std::uint64_t config_hash(const Config& config) {
   return hash_text(fmt::format("{} {} {}", config.seed, config.name, config.identity().dump()));
 }

@@ -11,32 +11,32 @@
 
 namespace amble::experiment {
 
-/// How far a run has come.
+/// Progress of a run.
 struct Progress {
   double best = -1.0;  ///< best objective so far; −1 before the first generation
   int best_generation = -1;
   std::uint64_t evaluations = 0;
   std::uint64_t steps = 0;
   double wall_s = 0.0;          ///< over all processes that worked on the run
-  std::uint64_t csv_bytes = 0;  ///< length of generations.csv at this moment
+  std::uint64_t csv_bytes = 0;  ///< length of generations.csv
 };
 
-/// All that a run needs to go on, to the bit, as the bytes of a file.
+/// All state that a run needs to continue, to the bit, as the bytes of a file.
 std::string checkpoint_bytes(const Config& config, const Progress& progress,
                              const search::Strategy& strategy);
 /// Writes them, atomically.
 void save_checkpoint(const std::filesystem::path& path, const Config& config, const Progress& progress,
                      const search::Strategy& strategy);
 
-/// What was written, whole or in part, under a temporary name (io::AtomicFile) by a process that was killed
-/// before it could name it `path`.
+/// Temporary files (io::AtomicFile), complete or not, of a process that was killed before it renamed one to
+/// `path`.
 std::vector<std::filesystem::path> unnamed_checkpoints(const std::filesystem::path& path);
 
 /// Restores what save_checkpoint wrote. Throws UserError(ExitCode::bad_file): foreign, of another version,
 /// truncated, altered, or written under another config than this (the number of generations may differ).
 Progress load_checkpoint(const std::filesystem::path& path, const Config& config, search::Strategy& strategy);
 
-/// The part of load_checkpoint behind the seal and the config's hash.
+/// The part of load_checkpoint after the seal and the config's hash.
 Progress load_progress(std::string_view payload, const std::string& what, search::Strategy& strategy);
 
 }  // namespace amble::experiment

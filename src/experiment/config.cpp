@@ -15,11 +15,11 @@ void Config::describe(io::SettingsVisitor& visitor) {
   visitor.text("name", name, {"what this experiment is called in files and figures"});
   visitor.text("robot", robot, {"robot file, relative to the config file"});
   visitor.number("drop_m", drop_m, {0.0, 1.0},
-                 {"each trial starts with the robot let go so high above its start pose, m",
+                 {"each trial starts with the robot dropped from this height above its start pose, m",
                   "Morse et al. 2013 and the authors' code: feet on the ground (0)"});
   visitor.text("engine", engine, {"physics engine: ode, batch or mujoco", "Morse et al. 2013, sec. 4 (ode)"});
   visitor.texts("referees", referees,
-                {"engines in which each new champion is tried again; its file says how far it comes there"});
+                {"engines in which each new champion is run again; its file records the distances there"});
   visitor.integer("seed", seed, {0, static_cast<double>(largest_seed)}, {"seed of all randomness"});
   visitor.integer("generations", generations, {1, most_generations},
                   {"generations to evaluate, the initial one included", "Morse et al. 2013, sec. 4"});
@@ -77,7 +77,7 @@ io::Json Config::identity() const {
   copy.generations = 1;
   io::Json values = io::Json::object();
   copy.describe(*io::json_writer(values));
-  // Tables that came later are left out where they say nothing, so that results from before still fit.
+  // Later tables are omitted at their defaults, so that earlier results still match.
   if (copy.score.is_distance()) values.erase("score");
   return values;
 }

@@ -27,12 +27,12 @@ namespace amble::experiment {
 inline constexpr std::int64_t largest_seed = std::int64_t{1} << 53;  ///< as a JSON number it is exact
 inline constexpr int most_generations = 1'000'000'000;
 
-/// Everything that decides the result of a run, but for the robot's own data. docs/SETTINGS.md lists each key
-/// with its source.
+/// Everything that determines the result of a run, except the robot's own data. docs/SETTINGS.md lists each
+/// key with its source.
 struct Config {
   std::string name = "unnamed";
   std::string robot;    ///< robot file (TOML side file, or robot.json of a run folder)
-  double drop_m = 0.0;  ///< every trial starts with the robot so high above its start pose
+  double drop_m = 0.0;  ///< height above the start pose at which every trial starts
   std::string engine = "ode";
   std::vector<std::string> referees;  ///< engines in which each new champion is tried again
   std::int64_t seed = 1;
@@ -44,18 +44,17 @@ struct Config {
   trial::NoiseSettings noise;
   score::Settings score;
   search::Settings search;
-  /// Where one of these keys was set ("FILE:LINE"), for errors found later; empty unless read from a
-  /// file.
+  /// Where one of these keys was set ("FILE:LINE"), for errors found later; empty unless read from a file.
   std::function<std::string(const std::vector<std::string>& keys)> where;
 
   void describe(io::SettingsVisitor& visitor);
-  /// Rules that join several settings. Throws SettingError.
+  /// Rules that involve several settings. Throws SettingError.
   void validate() const;
-  /// The same error with its place in front, if that is known.
+  /// The error with its location prepended, if that is known.
   UserError placed(const SettingError& error) const;
-  /// What the search compares trials by.
+  /// The behaviour that the search compares.
   std::unique_ptr<const score::Behaviour> make_behaviour() const;
-  /// All settings but the seed, and but for `name`, `robot` and `generations`, which change no evaluation, as
+  /// All settings but the seed, and but `name`, `robot` and `generations`, which change no evaluation, as
   /// values without comments: equal for configs that give the same run for the same seed and robot.
   io::Json identity() const;
   /// The whole config as TOML with comments; reads back to the same values.
@@ -65,14 +64,14 @@ struct Config {
   void check_referees() const;
 };
 
-/// What the command line may lay over a config file.
+/// Overrides of a config file on the command line.
 struct Overrides {
   std::vector<std::string> assignments;  ///< "key.path=value", in order
   std::optional<std::int64_t> seed;
   std::optional<int> generations;
 };
 
-/// Reads, overrides, checks. `robot` comes back as a path that can be opened from here. Throws UserError.
+/// Reads, overrides, checks. `robot` becomes a path relative to the current folder. Throws UserError.
 Config load_config(const std::filesystem::path& path, const Overrides& overrides);
 
 }  // namespace amble::experiment

@@ -8,7 +8,7 @@
 
 namespace amble::experiment {
 
-/// What the scores (at least one) of an evaluation's episodes make of a genome.
+/// The objective of a genome from the scores (at least one) of its episodes.
 double objective(trial::EpisodeScore combined, std::span<const double> scores);
 
 /// The objective of each genome of a generation, by the problem's score; Morse et al. 2013, sec. 4: m.

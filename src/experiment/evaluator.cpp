@@ -15,7 +15,8 @@
 namespace amble::experiment {
 namespace {
 
-/// A generation that all workers share: hands out genomes by rising index, and collects results.
+/// The generation being evaluated, shared by all workers: dispenses genomes by rising index, collects
+/// results.
 class Generation {
  public:
   Generation(const Problem& problem_in, std::span<const neat::Genome> genomes_in,
@@ -73,14 +74,14 @@ class WorkerQueue : public trial::TaskQueue {
   }
 
   Generation& generation_;
-  std::size_t genome_ = 0, episode_;  ///< whose and which trial comes next; past the last: a new genome's
+  std::size_t genome_ = 0, episode_;  ///< of the next trial; past the last episode: of a new genome
   std::shared_ptr<const controllers::Parameters> parameters_;
   double decode_s_ = 0.0;
 };
 
-/// What a worker works with; made by itself, in its first round. The runner lives as long as the controllers:
-/// a lane that stays empty for a round still holds its last parameters.
-struct Workplace {
+/// Engine, controllers and runner of one worker, created by its thread in the first round. They are kept for
+/// all rounds: a lane that stays empty for a round still refers to its last parameters.
+struct WorkerContext {
   std::unique_ptr<physics::Engine> engine;
   std::unique_ptr<controllers::Batch> controllers;
   std::optional<trial::Runner> runner;
@@ -95,14 +96,14 @@ struct Workplace {
 
 }  // namespace
 
-/// What the workers and their employer share. A round is one call of evaluate().
+/// State shared by evaluate() and the workers. A round is one call of evaluate().
 struct Evaluator::Shared {
   Shared(const Problem& problem_in, const record::PathSampling& path_in)
       : problem(problem_in), path(path_in) {}
   ~Shared();
 
   void work();
-  void one_round(Workplace& workplace);
+  void one_round(WorkerContext& context);
 
   const Problem& problem;
   const record::PathSampling path;
@@ -115,13 +116,13 @@ struct Evaluator::Shared {
   const std::atomic<bool>* stop = nullptr;
   std::uint64_t steps = 0;
   StageTimes times;     ///< sums over the workers, without waiting
-  double busy_s = 0.0;  ///< the same, of their whole rounds
+  double busy_s = 0.0;  ///< sum of the durations of their rounds
   std::exception_ptr failure;
   std::vector<std::jthread> workers;
 };
 
 void Evaluator::Shared::work() {
-  Workplace workplace;
+  WorkerContext context;
   for (int seen = 0;;) {
     {
       std::unique_lock lock(mutex);
@@ -129,17 +130,17 @@ void Evaluator::Shared::work() {
       if (quit) return;
       seen = round;
     }
-    one_round(workplace);
+    one_round(context);
   }
 }
 
-void Evaluator::Shared::one_round(Workplace& workplace) {
+void Evaluator::Shared::one_round(WorkerContext& context) {
   std::exception_ptr caught;
   std::uint64_t own_steps = 0;
   StageTimes own;
   const double start_s = now_s();
   try {
-    trial::Runner& runner = workplace.open(problem, path);
+    trial::Runner& runner = context.open(problem, path);
     const std::uint64_t steps_before = runner.steps_simulated();
     const double physics_before_s = runner.physics_s(), control_before_s = runner.control_s();
     WorkerQueue queue(*generation);
@@ -172,7 +173,7 @@ Evaluator::Evaluator(const Problem& problem, const record::PathSampling& path, i
 
 Evaluator::~Evaluator() = default;
 
-/// The workers, declared last, are waited for after this.
+/// Signals the workers to quit; the jthreads, declared last, are joined after this.
 Evaluator::Shared::~Shared() {
   {
     const std::lock_guard lock(mutex);

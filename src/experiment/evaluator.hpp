@@ -18,7 +18,7 @@ struct GenerationResult {
   std::vector<record::Trajectory> trajectories;
   std::size_t episodes = 1;  ///< trials per genome
   std::uint64_t steps = 0;
-  StageTimes times;  ///< those that workers have
+  StageTimes times;  ///< the stages of workers
 
   std::span<const record::Trajectory> of_genome(std::size_t index) const {
     return std::span(trajectories).subspan(index * episodes, episodes);
@@ -26,10 +26,10 @@ struct GenerationResult {
 };
 
 /// Evaluates populations on several threads, each with an engine and a batch of controllers of its own. Which
-/// worker evaluates what depends on timing; the results do not.
+/// worker evaluates which genome depends on timing; the results do not.
 class Evaluator {
  public:
-  /// `jobs` >= 1 workers. `path`: what of it is recorded. The problem must outlive the evaluator.
+  /// `jobs` ≥ 1 workers. `path`: the sampling of paths. The problem must outlive the evaluator.
   Evaluator(const Problem& problem, const record::PathSampling& path, int jobs);
   ~Evaluator();
 

@@ -52,12 +52,12 @@ std::string line_of(const Cells& cells, auto member) {
 
 }  // namespace
 
-std::optional<double> GenerationRow::reading(std::string_view name) const {
-  const auto found = std::ranges::find(search, name, &search::Reading::name);
+std::optional<double> GenerationRow::metric(std::string_view name) const {
+  const auto found = std::ranges::find(search, name, &search::Metric::name);
   return found == search.end() ? std::nullopt : std::optional(found->value);
 }
 
-std::string csv_header(std::span<const search::Reading> search) {
+std::string csv_header(std::span<const search::Metric> search) {
   GenerationRow row;
   row.search.assign(search.begin(), search.end());
   return line_of(cells_of(row), &Cells::value_type::first);

@@ -9,7 +9,7 @@
 
 #include "amble/experiment/stage_times.hpp"
 #include "amble/record/trajectory.hpp"
-#include "amble/search/reading.hpp"
+#include "amble/search/metric.hpp"
 
 namespace amble::experiment {
 
@@ -21,17 +21,17 @@ struct GenerationRow {
   int best_hidden = 0, best_links = 0;                             ///< of this generation's best genome
   int fell = 0, diverged = 0;                                      ///< trials
   std::uint64_t evaluations = 0, steps = 0;                        ///< of this generation
-  std::vector<search::Reading> search;                             ///< what the search tells
+  std::vector<search::Metric> search;                              ///< columns of the search
   double wall_s = 0.0;                                             ///< since the row before
-  StageTimes times;  ///< of which; files are those of the row before
+  StageTimes times;  ///< part of it; files_s is of the row before
 
   double outside_s() const { return wall_s - times.physics_s - times.referees_s; }
-  /// What the search tells under this name; nothing if it tells nothing of the kind.
-  std::optional<double> reading(std::string_view name) const;
+  /// The search's metric of this name; nothing if it has none.
+  std::optional<double> metric(std::string_view name) const;
 };
 
-/// Names of the columns for a search that tells these, one line.
-std::string csv_header(std::span<const search::Reading> search);
+/// Names of the columns for a search with these metrics, one line.
+std::string csv_header(std::span<const search::Metric> search);
 std::string csv_line(const GenerationRow& row);
 
 /// The columns that come from the trials: best, mean, median, fell, diverged.

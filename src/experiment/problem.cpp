@@ -42,7 +42,7 @@ void Problem::complete() {
   noise.validate(trial);
   score.validate();
   architecture = controllers::make_architecture(controller, robot, trial.timestep_s);
-  make_engine();  // complains of what the engine cannot simulate
+  make_engine();  // throws if the engine cannot simulate the robot
 }
 
 std::unique_ptr<physics::Engine> Problem::make_engine(bool torques) const {

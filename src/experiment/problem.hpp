@@ -20,7 +20,7 @@
 
 namespace amble::experiment {
 
-/// All that a genome needs to become a trajectory: robot, engine, architecture, trial. Const, shared by all
+/// Everything that maps a genome to a trajectory: robot, engine, architecture, trial. Const, shared by all
 /// workers.
 struct Problem {
   robot::RobotSpec robot;
@@ -32,9 +32,8 @@ struct Problem {
   score::Settings score;
   std::shared_ptr<const controllers::Architecture> architecture;
 
-  /// `robot` as its file has it; that of the problem starts Config::drop_m higher.
-  /// Throws UserError where the parts do not fit together (an engine that cannot simulate the robot, a
-  /// controller for other legs).
+  /// `robot` as in its file; the problem's robot starts Config::drop_m higher. Throws UserError if the parts
+  /// do not fit together (an engine that cannot simulate the robot, a controller for other legs).
   static Problem make(const Config& config, robot::RobotSpec robot);
   /// Makes `architecture` from the other members and checks that they fit.
   void complete();
@@ -47,7 +46,7 @@ struct Problem {
   score::Score scorer() const;
   trial::Protocol protocol(const record::PathSampling& path) const;
   trial::Scenario scenario(const trial::ScenarioKey& key) const;
-  /// The scenarios that all genomes of a generation meet, one per episode; empty without noise.
+  /// The scenarios of a generation, the same for all genomes, one per episode; empty without noise.
   std::vector<trial::Scenario> scenarios(std::int64_t seed, int generation) const;
 };
 

@@ -26,8 +26,8 @@ Recovery restore(const RunPaths& paths, const std::filesystem::path& checkpoint,
   return recovery;
 }
 
-/// Throws UserError if the file of the best champion is gone, damaged or another one, which would go
-/// unnoticed else.
+/// Throws UserError if the file of the best champion is missing, damaged or another one, which nothing else
+/// would detect.
 void check_best(const RunPaths& paths, const Config& config, const Progress& progress) {
   if (progress.best_generation < 0) return;
   const auto file = paths.champion(progress.best_generation);
@@ -41,7 +41,7 @@ void check_best(const RunPaths& paths, const Config& config, const Progress& pro
          progress.best, score::unit(config.score), best.objective(), score::unit(config.score));
 }
 
-/// After a power cut a checkpoint may be on the disk and what it counts on may not.
+/// After a power cut a checkpoint may be on the disk, but not the files that it refers to.
 bool has_its_table(const RunPaths& paths, const Recovery& recovery) {
   std::error_code error;
   const auto csv_bytes = std::filesystem::file_size(paths.generations, error);

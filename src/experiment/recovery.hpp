@@ -8,15 +8,15 @@
 
 namespace amble::experiment {
 
-/// What an interrupted run goes on from.
+/// The state from which an interrupted run continues.
 struct Recovery {
   RunState state;
-  std::vector<std::uint64_t> log_bytes;  ///< how much of each of the search's logs belongs to it
+  std::vector<std::uint64_t> log_bytes;  ///< length of each of the search's logs at that state
 };
 
-/// Reads it from the newest checkpoint of a run folder that is whole, as are the files that it counts on: a
-/// process may have been killed after writing a checkpoint and before naming it. Such a one is then given its
-/// name. Throws UserError: no sound checkpoint or log, or the best champion's file is gone or another one.
+/// Reads it from the newest checkpoint of a run folder that is complete, as are the files that it refers to.
+/// A process may have been killed after writing a checkpoint and before renaming it; it is then renamed.
+/// Throws UserError: no valid checkpoint or log, or the best champion's file is missing or another one.
 Recovery recover(const RunPaths& paths, const Config& config, const Problem& problem);
 
 }  // namespace amble::experiment

@@ -11,13 +11,13 @@ namespace amble::experiment {
 
 struct RefereeOptions {
   std::optional<double> seconds = {};  ///< length of the trials; nothing: as in the problem
-  int jobs = 1;                        ///< at least 1; more: the engines work side by side
+  int jobs = 1;                        ///< at least 1; more: the engines run in parallel
   /// One trial under the problem's noise for each of these; none: one trial without noise.
   std::vector<trial::ScenarioKey> noise = {};
 };
 
-/// What one genome came to in one engine.
-struct Judgement {
+/// The trials of one genome in one engine.
+struct EngineResult {
   std::string engine;
   std::vector<TrialResult> trials;  ///< at least one, in the order of RefereeOptions::noise
 
@@ -25,15 +25,16 @@ struct Judgement {
   double distance_m() const;
 };
 
-/// Tries a genome in each of the engines. Nothing if `stop` was set before all were done.
-/// Throws UserError for an engine that is unknown or cannot simulate the robot.
-std::optional<std::vector<Judgement>> judge(const Problem& problem, const neat::Genome& genome,
-                                            const std::vector<std::string>& engines,
-                                            const RefereeOptions& options, const std::atomic<bool>& stop);
+/// Runs trials of a genome in each of the engines. Nothing if `stop` was set before all were done. Throws
+/// UserError for an engine that is unknown or cannot simulate the robot.
+std::optional<std::vector<EngineResult>> try_in_engines(const Problem& problem, const neat::Genome& genome,
+                                                        const std::vector<std::string>& engines,
+                                                        const RefereeOptions& options,
+                                                        const std::atomic<bool>& stop);
 
-/// The same without noise, as champion files keep it.
-std::optional<std::vector<Refereed>> ask_referees(const Problem& problem, const neat::Genome& genome,
-                                                  const std::vector<std::string>& engines, int jobs,
-                                                  const std::atomic<bool>& stop);
+/// One trial per engine, without noise, as champion files store it.
+std::optional<std::vector<RefereeResult>> run_referees(const Problem& problem, const neat::Genome& genome,
+                                                       const std::vector<std::string>& engines, int jobs,
+                                                       const std::atomic<bool>& stop);
 
 }  // namespace amble::experiment

@@ -5,6 +5,7 @@
 
 #include "amble/core/clock.hpp"
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 #include "amble/experiment/champion_trials.hpp"
 #include "amble/experiment/episodes.hpp"
 #include "amble/experiment/recovery.hpp"
@@ -109,7 +110,7 @@ RunStatus Run::generations(RunListener& listener, const std::atomic<bool>& stop)
 
 bool Run::keep_best(std::span<const neat::Genome> candidates, std::span<const double> objectives,
                     GenerationRow& row, const std::atomic<bool>& stop) {
-  const auto best = static_cast<std::size_t>(std::ranges::max_element(objectives) - objectives.begin());
+  const auto best = to_index(std::ranges::max_element(objectives) - objectives.begin());
   const neat::Genome& genome = candidates[best];
   row.best_hidden = genome.count(neat::NodeKind::hidden);
   row.best_links = genome.enabled_links();
@@ -136,12 +137,12 @@ void Run::tell(const GenerationResult& result, std::span<const double> objective
   std::vector<search::Evaluation> evaluations;
   behaviours.reserve(objectives.size());
   for (std::size_t i = 0; i < objectives.size(); ++i) {
-    // Its behaviour is that of its first episode: a mean of paths would be nobody's path.
+    // The behaviour of a genome is that of its first episode: a mean of paths would not be a path.
     behaviours.push_back(behaviour_->of(result.of_genome(i).front()));
     evaluations.push_back({.objective = objectives[i], .behaviour = behaviours.back()});
   }
   state_.strategy->tell(evaluations);
-  row.search = state_.strategy->readings();
+  row.search = state_.strategy->metrics();
 }
 
 }  // namespace amble::experiment

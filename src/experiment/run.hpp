@@ -17,7 +17,7 @@
 
 namespace amble::experiment {
 
-/// Hears how a run goes. Called from the thread of Run::execute.
+/// Receives the progress of a run. Called from the thread of Run::execute.
 class RunListener {
  public:
   virtual ~RunListener() = default;
@@ -27,17 +27,17 @@ class RunListener {
 enum class RunStatus { finished, interrupted };
 
 /// One evolutionary run in its folder. After every generation its files are written, with a checkpoint from
-/// which the run goes on to the same bits as if it had never stopped.
+/// which the run continues to the same bits as if it had never stopped.
 class Run {
  public:
-  /// A new run by `jobs` workers, at least 1; the results do not depend on their number. Throws UserError;
-  /// then nothing was written over.
+  /// A new run with `jobs` workers, at least 1; the results do not depend on their number. Throws UserError;
+  /// then no existing file was changed.
   static Run start(const std::filesystem::path& folder, const Config& config, int jobs);
-  /// Goes on with an old one, to `generations` if given. Throws UserError.
+  /// Continues an existing run, to `generations` if given. Throws UserError.
   static Run resume(const std::filesystem::path& folder, std::optional<int> generations, int jobs);
 
-  /// Until all generations are done, or `stop` is set: then the generation in flight is dropped and the last
-  /// checkpoint remains.
+  /// Runs until all generations are done, or `stop` is set: then the generation in flight is discarded and
+  /// the last checkpoint remains.
   RunStatus execute(RunListener& listener, const std::atomic<bool>& stop);
 
   const Config& config() const { return config_; }
@@ -51,7 +51,7 @@ class Run {
       RunFiles files, int jobs);
 
   RunStatus generations(RunListener& listener, const std::atomic<bool>& stop);
-  /// Keeps the best of a generation if it is better than all before; false if `stop` was set meanwhile.
+  /// Saves the best of a generation if it is better than all before; false if `stop` was set meanwhile.
   bool keep_best(std::span<const neat::Genome> candidates, std::span<const double> objectives,
                  GenerationRow& row, const std::atomic<bool>& stop);
   void tell(const GenerationResult& result, std::span<const double> objectives, GenerationRow& row);

@@ -17,7 +17,7 @@ RunFiles::RunFiles(const RunPaths& paths, const search::Strategy& strategy, std:
 
 RunFiles RunFiles::start(const RunPaths& paths, const Config& config, RunState& state) {
   RunFiles files(paths, *state.strategy, 0, std::vector<std::uint64_t>(state.strategy->logs().size(), 0));
-  files.table_->append(csv_header(state.strategy->readings()));
+  files.table_->append(csv_header(state.strategy->metrics()));
   state.progress.csv_bytes = files.table_->size();
   for (std::size_t i = 0; i < files.logs_.size(); ++i)
     files.logs_[i]->append(state.strategy->take_log_growth(i));
@@ -41,7 +41,7 @@ void RunFiles::write(const GenerationRow& row, const Config& config, RunState& s
     if (const auto growth = state.strategy->take_log_growth(i); !growth.empty()) logs_[i]->write(growth);
   auto checkpoint = std::make_unique<io::AtomicFile>(checkpoint_);
   checkpoint->write(checkpoint_bytes(config, state.progress, *state.strategy));
-  // What the checkpoint counts on must be on the disk before it.
+  // The files that the checkpoint refers to must be on the disk before it.
   std::vector<io::AppendFile*> before{table_.get()};
   for (const auto& log : logs_) before.push_back(log.get());
   settling_ = std::async(std::launch::async, [before = std::move(before), file = std::move(checkpoint)] {

@@ -15,18 +15,18 @@
 namespace amble::experiment {
 
 /// The files of a run that are written after every generation: its table, the logs of its search, its
-/// checkpoint. They are written in an order from which a run goes on wherever it is cut off.
+/// checkpoint. They are written in an order that allows a run to continue wherever it is interrupted.
 class RunFiles {
  public:
-  /// Those of a new run, with what belongs to them before the first generation. Throws UserError.
+  /// The files of a new run, with their content before the first generation. Throws UserError.
   static RunFiles start(const RunPaths& paths, const Config& config, RunState& state);
-  /// Those of an earlier run; what goes beyond the state that was recovered is cut off. `log_bytes`: how much
-  /// of each log belongs to it. Throws UserError.
+  /// The files of an earlier run, truncated to the recovered state. `log_bytes`: length of each log in that
+  /// state. Throws UserError.
   static RunFiles resume(const RunPaths& paths, const RunState& state,
                          std::span<const std::uint64_t> log_bytes);
 
-  /// Adds a generation and brings `state.progress` up to date. What it writes cannot be lost with the process
-  /// when it returns; it is synced while the next generation is evaluated. Throws UserError.
+  /// Adds a generation and updates `state.progress`. When it returns, what it wrote survives the process; it
+  /// is synced while the next generation is evaluated. Throws UserError.
   void write(const GenerationRow& row, const Config& config, RunState& state);
   /// Waits until what write() wrote is on the disk. Throws UserError.
   void settle();

@@ -150,7 +150,7 @@ RunFolder RunFolder::create(const fs::path& folder, const robot::RobotSpec& robo
   refuse_used_folder(folder);
   make_folder(folder);
   RunFolder run(folder);
-  refuse_used_folder(folder);  // again, now that nobody else can fill it
+  refuse_used_folder(folder);  // again, now that it is locked
   remove_temporaries(folder);
   make_folder(run.paths_.champions);
   fs::remove(run.paths_.manifest);

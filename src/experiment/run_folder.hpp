@@ -19,7 +19,7 @@ struct RunPaths {
   std::filesystem::path folder, config, robot, manifest, generations, checkpoint, champions;
 
   std::filesystem::path champion(int generation) const;
-  /// Champion files in the order of their generations; the last is the best. Other files are passed over.
+  /// Champion files in the order of their generations; the last is the best. Other files are ignored.
   std::vector<std::filesystem::path> champion_files() const;
   /// Throws UserError if the run has none.
   std::filesystem::path best_champion() const;
@@ -33,13 +33,13 @@ struct ProcessNote {
   int from_generation = 0;
 };
 
-/// A run folder held by this process alone.
+/// A run folder locked by this process.
 class RunFolder {
  public:
   /// Makes the folder and writes robot.json; it becomes a run with save_config(). Throws UserError: the
   /// folder holds a run or anything else, is locked, or cannot be written; then nothing in it was changed.
   static RunFolder create(const std::filesystem::path& folder, const robot::RobotSpec& robot);
-  /// Takes hold of the folder of an earlier run. Throws UserError as find_run(), or if it is locked.
+  /// Locks the folder of an earlier run. Throws UserError as find_run(), or if it is locked.
   static RunFolder open(const std::filesystem::path& folder);
 
   const RunPaths& paths() const { return paths_; }

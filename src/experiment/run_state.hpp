@@ -9,7 +9,7 @@
 
 namespace amble::experiment {
 
-/// A run between two generations: what a checkpoint holds.
+/// A run between two generations: the content of a checkpoint.
 struct RunState {
   /// Before the first generation.
   RunState(const Config& config, const Problem& problem);
@@ -18,8 +18,8 @@ struct RunState {
   std::unique_ptr<search::Strategy> strategy;
 };
 
-/// Throws UserError if the config's search could need more memory than this process may use, rather than
-/// being killed for it after hours.
+/// Throws UserError if the config's search could need more memory than this process may use, which could
+/// otherwise kill it after hours.
 void check_memory(const Config& config, const Problem& problem);
 
 }  // namespace amble::experiment

@@ -5,13 +5,13 @@
 
 namespace amble::experiment {
 
-/// Where the wall time of a generation goes, in seconds. What the workers do counts as their mean. What is
-/// left over is overhead: trajectories, statistics, the champion's re-run but for its physics.
+/// Wall time of a generation by stage, in seconds; of stages of workers, the mean. The rest is overhead:
+/// trajectories, statistics, the champion's re-run except its physics.
 struct StageTimes {
   double physics_s = 0.0;   ///< in the engine
   double decode_s = 0.0;    ///< from genomes to controllers
   double control_s = 0.0;   ///< controllers, and noise
-  double waiting_s = 0.0;   ///< of workers that found no more trials for others that had one
+  double waiting_s = 0.0;   ///< of workers without a trial for those that had one
   double search_s = 0.0;    ///< the search: from evaluations to the next candidates
   double referees_s = 0.0;  ///< trials of champions in the referees
   double files_s = 0.0;     ///< written and synced
@@ -19,7 +19,7 @@ struct StageTimes {
 
 struct Stage {
   std::string_view column;  ///< of generations.csv
-  std::string_view name;    ///< for people
+  std::string_view name;    ///< as displayed
   double StageTimes::*seconds;
 };
 inline constexpr std::array<Stage, 7> stages{{

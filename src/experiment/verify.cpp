@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 #include "amble/experiment/champion.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/io/file.hpp"
@@ -16,14 +17,14 @@
 namespace amble::experiment {
 namespace {
 
-/// A trial as it stands in a champion's file.
+/// A trial recorded in a champion's file.
 struct Recorded {
   const TrialResult& result;
   const std::vector<std::uint32_t>& trace;
-  std::string prefix;  ///< for words about it
+  std::string prefix;  ///< of messages about it
 };
 
-/// Adds what differs between a recorded trial and the same run again, in words; nothing if they agree.
+/// Appends descriptions of the differences between a recorded trial and its repetition.
 void compare(const Recorded& old, const Replay& again, double timestep_s, std::vector<std::string>& found) {
   const auto [old_end, new_end] = std::ranges::mismatch(old.trace, again.trace);
   if (old_end != old.trace.end() || new_end != again.trace.end()) {
@@ -39,14 +40,13 @@ void compare(const Recorded& old, const Replay& again, double timestep_s, std::v
         fmt::format("{}score {} recorded, {} now", old.prefix, old.result.value(), again.result.value()));
   if (old.result.outcome != again.result.outcome || old.result.steps != again.result.steps) {
     const auto words = [](const TrialResult& result) {
-      return fmt::format("{} after {} steps", record::outcome_names[static_cast<std::size_t>(result.outcome)],
-                         result.steps);
+      return fmt::format("{} after {} steps", record::outcome_names[to_index(result.outcome)], result.steps);
     };
     found.push_back(fmt::format("{}{} recorded, {} now", old.prefix, words(old.result), words(again.result)));
   }
 }
 
-/// Runs all trials of a champion again; what differs. Nothing if `stop` was set.
+/// Runs all trials of a champion again; returns descriptions of the differences. Nothing if `stop` was set.
 std::optional<std::vector<std::string>> differences(const Champion& champion, const std::atomic<bool>& stop) {
   std::vector<std::string> found;
   const double timestep_s = champion.problem.trial.timestep_s;
@@ -70,12 +70,12 @@ std::string agreement(const Champion& champion) {
   if (!champion.episodes.empty())
     text += fmt::format("; under noise {:.3f}{} ({} of {})", champion.objective(),
                         champion.problem.score.is_distance() ? " m" : "",
-                        trial::episode_score_names[static_cast<std::size_t>(champion.problem.noise.score)],
+                        trial::episode_score_names[to_index(champion.problem.noise.score)],
                         champion.episodes.size());
   return text;
 }
 
-/// Adds what shows, in words, that the champion of a file is not a run's own.
+/// Appends descriptions of what shows that a champion is not of the run `origin`.
 void compare(const Champion& champion, const std::filesystem::path& path, const Origin& origin,
              std::vector<std::string>& found) {
   if (champion.seed != origin.config.seed)
@@ -93,7 +93,7 @@ void compare(const Champion& champion, const std::filesystem::path& path, const 
       io::settings_to_json(noise) != io::settings_to_json(expected_noise))
     found.push_back("its noise is not the run's");
 
-  const auto generation = static_cast<std::size_t>(champion.generation);
+  const auto generation = to_index(champion.generation);
   if (generation >= origin.best.size()) return;  // ahead of the table, if the run was killed then
   const double best = origin.best[generation];
   const auto before = std::span(origin.best).first(generation);
@@ -111,8 +111,8 @@ Origin origin_of(const RunPaths& paths) {
   return origin;
 }
 
-std::optional<Verdict> verify_champion(const std::filesystem::path& path, const std::atomic<bool>& stop,
-                                       const Origin* origin) {
+std::optional<Verification> verify_champion(const std::filesystem::path& path, const std::atomic<bool>& stop,
+                                            const Origin* origin) {
   const std::string text = io::read_file(path);
   try {
     const auto [champion, altered] = parse_champion(text, path.string(), io::Altered::accept);
@@ -120,10 +120,10 @@ std::optional<Verdict> verify_champion(const std::filesystem::path& path, const 
     if (!found) return std::nullopt;
     if (origin != nullptr) compare(champion, path, *origin, *found);
     if (altered) found->insert(found->begin(), "the file was altered (checksum)");
-    if (!found->empty()) return Verdict{false, fmt::format("differs: {}", fmt::join(*found, "; "))};
-    return Verdict{true, agreement(champion)};
+    if (!found->empty()) return Verification{false, fmt::format("differs: {}", fmt::join(*found, "; "))};
+    return Verification{true, agreement(champion)};
   } catch (const UserError& error) {
-    return Verdict{false, fmt::format("unsound: {}", error.what())};
+    return Verification{false, fmt::format("unsound: {}", error.what())};
   }
 }
 

@@ -10,13 +10,13 @@
 
 namespace amble::experiment {
 
-/// What came of running a champion again.
-struct Verdict {
+/// The result of running a champion again.
+struct Verification {
   bool agrees = false;
   std::string text;  ///< "agrees: …", "differs: …" with the first step that does, or "unsound: …"
 };
 
-/// What shows whether a champion is a run's own.
+/// The run that a champion is checked against.
 struct Origin {
   Config config;
   Problem problem;
@@ -27,9 +27,9 @@ Origin origin_of(const RunPaths& paths);
 
 /// Runs the champion of a file again, step by step against its trace. With an `origin` it must be that run's,
 /// of the generation in the file's name, and have walked as far as the run's table says. An altered or
-/// unsound file is a verdict, not an error. Nothing if `stop` was set. Throws UserError if the file cannot be
+/// unsound file is a result, not an error. Nothing if `stop` was set. Throws UserError if the file cannot be
 /// read at all.
-std::optional<Verdict> verify_champion(const std::filesystem::path& path, const std::atomic<bool>& stop,
-                                       const Origin* origin = nullptr);
+std::optional<Verification> verify_champion(const std::filesystem::path& path, const std::atomic<bool>& stop,
+                                            const Origin* origin = nullptr);
 
 }  // namespace amble::experiment

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 #include "amble/figures/silhouette.hpp"
 #include "amble/graphics/axis.hpp"
 #include "amble/graphics/svg.hpp"
@@ -41,9 +42,7 @@ struct Cell {
 std::vector<Picture> take_pictures(const robot::RobotSpec& robot, const motion::Motion& motion) {
   const std::vector<int> frames = filmstrip_frames(motion);
   const Camera camera = side_camera(mean_heading(motion, frames.front(), frames.back()));
-  const auto along_m = [&](int frame) {
-    return dot(motion.com_m[static_cast<std::size_t>(frame)], camera.right);
-  };
+  const auto along_m = [&](int frame) { return dot(motion.com_m[to_index(frame)], camera.right); };
   const double first_m = along_m(frames.front()), last_m = along_m(frames.back());
   const double start_m = dot(motion.com_start_m, camera.right);
   std::vector<Picture> pictures;
@@ -99,7 +98,7 @@ double leg_depth_m(const robot::RobotSpec& robot, const Picture& picture, int le
   double sum = 0.0;
   int count = 0;
   for (const Silhouette& outline : picture.outlines)
-    if (robot.leg_of_body(robot.geoms[static_cast<std::size_t>(outline.geom)].body) == leg) {
+    if (robot.leg_of_body(robot.geoms[to_index(outline.geom)].body) == leg) {
       sum += outline.depth_m;
       ++count;
     }
@@ -126,14 +125,14 @@ void draw_robot(Svg& svg, const robot::RobotSpec& robot, const motion::Motion& m
     middle_m += depth_m.back() / static_cast<double>(robot.legs.size());
   }
   for (const Silhouette& outline : picture.outlines) {
-    const int leg = robot.leg_of_body(robot.geoms[static_cast<std::size_t>(outline.geom)].body);
+    const int leg = robot.leg_of_body(robot.geoms[to_index(outline.geom)].body);
     if (leg < 0) {
       draw_outline(svg, outline, picture, cell, "trunk");
       continue;
     }
-    const auto l = static_cast<std::size_t>(leg);
+    const auto l = to_index(leg);
     const bool foot = robot.legs[l].foot_geom == outline.geom;
-    const bool touching = foot && motion.touch[l][static_cast<std::size_t>(picture.frame)];
+    const bool touching = foot && motion.touch[l][to_index(picture.frame)];
     svg.begin_group(leg_class(leg) + (depth_m[l] > middle_m ? " far" : ""));
     draw_outline(svg, outline, picture, cell, touching ? "foot-down" : foot ? "foot" : "limb");
     svg.end_group();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 #include "amble/figures/silhouette.hpp"
 #include "amble/graphics/axis.hpp"
 #include "amble/graphics/svg.hpp"
@@ -34,7 +35,7 @@ struct Scene {
 void add_trunk(const robot::RobotSpec& robot, const motion::Motion& motion, int frame, const Camera& camera,
                Scene& scene) {
   for (Silhouette& outline : silhouettes(robot, motion::body_poses(robot, motion, frame), camera))
-    if (robot.leg_of_body(robot.geoms[static_cast<std::size_t>(outline.geom)].body) < 0)
+    if (robot.leg_of_body(robot.geoms[to_index(outline.geom)].body) < 0)
       scene.trunk_m.push_back(std::move(outline.corners_m));
 }
 
@@ -45,7 +46,7 @@ Scene make_scene(const robot::RobotSpec& robot, const motion::Motion& motion, co
   for (const Vec3 com_m : motion.com_m) scene.path_m.push_back(project(com_m));
   for (std::size_t leg = 0; leg < robot.legs.size(); ++leg)
     for (const int frame : motion::touchdown_frames(motion.touch[leg])) {
-      const robot::Geom& foot = robot.geoms[static_cast<std::size_t>(robot.legs[leg].foot_geom)];
+      const robot::Geom& foot = robot.geoms[to_index(robot.legs[leg].foot_geom)];
       scene.footprints.push_back(
           {static_cast<int>(leg), project(robot::centre_m(foot, motion::body_poses(robot, motion, frame)))});
     }

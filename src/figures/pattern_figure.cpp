@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "amble/core/index.hpp"
 #include "amble/graphics/axis.hpp"
 #include "amble/graphics/style_sheet.hpp"
 #include "amble/graphics/svg.hpp"
@@ -61,7 +62,7 @@ Grid make_grid(const robot::RobotSpec& robot, Layout layout) {
 }
 
 std::size_t joint_index(const robot::RobotSpec& robot, std::size_t leg, std::size_t type) {
-  return static_cast<std::size_t>(robot.legs[leg].joints[type]);
+  return to_index(robot.legs[leg].joints[type]);
 }
 
 /// Degrees: the range of all joints of a type and their patterns.
@@ -122,11 +123,11 @@ void draw_row(Svg& svg, const robot::RobotSpec& robot, const motion::SupgPattern
 /// Number of triggers by the timer's value; the last element counts those while it was stopped.
 std::vector<int> trigger_histogram(const motion::SupgPatterns& supg, const motion::Motion& motion,
                                    std::size_t leg, int bins) {
-  std::vector<int> counts(static_cast<std::size_t>(bins) + 1);
+  std::vector<int> counts(to_index(bins) + 1);
   for (const auto& ticks : motion::timer_at_triggers(motion.trigger[leg], motion.timer_ticks[leg])) {
     const int bin =
         ticks ? std::clamp(static_cast<int>(*ticks * bins / supg.period_ticks), 0, bins - 1) : bins;
-    ++counts[static_cast<std::size_t>(bin)];
+    ++counts[to_index(bin)];
   }
   return counts;
 }

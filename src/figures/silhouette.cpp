@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "amble/core/index.hpp"
+
 namespace amble::figures {
 namespace {
 
@@ -50,7 +52,7 @@ std::vector<Point> capsule_points(const robot::Geom& geom, Vec3 centre_m, Quat r
 
 Silhouette silhouette(const robot::Geom& geom, const std::vector<robot::Pose>& poses, const Camera& camera) {
   const Vec3 centre_m = robot::centre_m(geom, poses);
-  const Quat rotation = poses[static_cast<std::size_t>(geom.body)].rotation * geom.rotation;
+  const Quat rotation = poses[to_index(geom.body)].rotation * geom.rotation;
   Silhouette result;
   result.centre_m = project(centre_m, camera);
   result.depth_m = dot(centre_m, camera.away);
@@ -80,7 +82,7 @@ Camera side_camera(Vec3 heading) {
 }
 
 Vec3 mean_heading(const motion::Motion& motion, int first, int last) {
-  const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(last);
+  const auto a = to_index(first), b = to_index(last);
   Vec3 way = motion.com_m[b] - motion.com_m[a];
   way.z = 0.0;
   constexpr double hardly_m = 0.05;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "amble/core/index.hpp"
 #include "amble/figures/substrate_places.hpp"
 #include "amble/graphics/style_sheet.hpp"
 #include "amble/graphics/svg.hpp"
@@ -23,7 +24,7 @@ constexpr std::array<std::string_view, 3> role_classes{"node-sensor", "node-hidd
 constexpr std::array<std::string_view, 3> role_names{"sensor", "hidden", "drives a joint"};
 
 std::string_view class_of(motion::NodeRole role) {
-  return role_classes[static_cast<std::size_t>(role)];
+  return role_classes[to_index(role)];
 }
 
 /// A line from the edge of one node to that of the other, and a head at its end.
@@ -45,9 +46,8 @@ void draw_links(Svg& svg, const Substrate& substrate, const SubstratePlaces& pla
   for (std::size_t kind = 0; kind < substrate.link_kinds.size(); ++kind) {
     svg.begin_group(leg_class(static_cast<int>(kind)) + (many ? " many" : ""));
     for (const SubstrateLink& link : substrate.links) {
-      if (static_cast<std::size_t>(link.kind) != kind) continue;
-      const Point from = places.nodes[static_cast<std::size_t>(link.source)],
-                  to = places.nodes[static_cast<std::size_t>(link.target)];
+      if (to_index(link.kind) != kind) continue;
+      const Point from = places.nodes[to_index(link.source)], to = places.nodes[to_index(link.target)];
       if (link.source == link.target) {
         svg.circle({from.x + node_px, from.y - node_px}, node_px, "loop");
       } else if (from != to) {

@@ -4,21 +4,18 @@
 #include <array>
 #include <limits>
 
+#include "amble/core/index.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::gait {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// The joint of a leg that is nearest to the root: bodies precede their children, and the joints of one body
 /// are in the order of the chain. Null for a leg without joints.
 const robot::Joint* hip(const robot::RobotSpec& robot, const robot::Leg& leg) {
   const robot::Joint* first = nullptr;
   for (const int j : leg.joints) {
-    const robot::Joint& joint = robot.joints[at(j)];
+    const robot::Joint& joint = robot.joints[to_index(j)];
     if (!first || std::pair(joint.body, joint.chain_index) < std::pair(first->body, first->chain_index))
       first = &joint;
   }
@@ -29,13 +26,13 @@ const robot::Joint* hip(const robot::RobotSpec& robot, const robot::Leg& leg) {
 double leg_length_m(const robot::RobotSpec& robot, const std::vector<robot::Pose>& poses) {
   double clearance_m = std::numeric_limits<double>::infinity();
   for (const robot::Leg& leg : robot.legs)
-    clearance_m = std::min(clearance_m, robot::bottom_m(robot.geoms[at(leg.foot_geom)], poses));
+    clearance_m = std::min(clearance_m, robot::bottom_m(robot.geoms[to_index(leg.foot_geom)], poses));
   double sum_m = 0.0;
   int count = 0;
   for (const robot::Leg& leg : robot.legs) {
     const robot::Joint* joint = hip(robot, leg);
     if (!joint) continue;
-    const robot::Pose& pose = poses[at(joint->body)];
+    const robot::Pose& pose = poses[to_index(joint->body)];
     sum_m += (pose.position_m + rotate(pose.rotation, joint->anchor_m)).z;
     ++count;
   }
@@ -45,11 +42,12 @@ double leg_length_m(const robot::RobotSpec& robot, const std::vector<robot::Pose
 std::optional<QuadrupedLegs> quadruped_legs(const std::vector<Vec3>& feet) {
   if (feet.size() != 4) return std::nullopt;
   std::array<int, 4> order{0, 1, 2, 3};
-  std::ranges::stable_sort(order, [&](int a, int b) { return feet[at(a)].x > feet[at(b)].x; });
-  if (feet[at(order[1])].x <= feet[at(order[2])].x) return std::nullopt;
+  std::ranges::stable_sort(order, [&](int a, int b) { return feet[to_index(a)].x > feet[to_index(b)].x; });
+  if (feet[to_index(order[1])].x <= feet[to_index(order[2])].x) return std::nullopt;
   for (const std::size_t left : {std::size_t{0}, std::size_t{2}}) {
-    if (feet[at(order[left])].y < feet[at(order[left + 1])].y) std::swap(order[left], order[left + 1]);
-    if (feet[at(order[left])].y <= feet[at(order[left + 1])].y) return std::nullopt;
+    if (feet[to_index(order[left])].y < feet[to_index(order[left + 1])].y)
+      std::swap(order[left], order[left + 1]);
+    if (feet[to_index(order[left])].y <= feet[to_index(order[left + 1])].y) return std::nullopt;
   }
   return QuadrupedLegs{order[0], order[1], order[2], order[3]};
 }
@@ -63,7 +61,7 @@ Body body_of(const robot::RobotSpec& robot) {
   std::vector<Vec3> feet;
   for (const robot::Leg& leg : robot.legs) {
     body.legs.push_back(leg.name);
-    feet.push_back(robot::centre_m(robot.geoms[at(leg.foot_geom)], poses));
+    feet.push_back(robot::centre_m(robot.geoms[to_index(leg.foot_geom)], poses));
   }
   for (const robot::Joint& joint : robot.joints) body.joints.push_back(joint.name);
   body.mass_kg = robot.total_mass_kg();

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 
+#include "amble/core/index.hpp"
+
 namespace amble::gait {
 
 // A stance is confirmed at the latest 2 × debounce − 2 frames after its first: when a gap of debounce − 1
 // frames began just before it was long enough.
 ContactFilter::ContactFilter(int debounce_frames)
-    : debounce_frames_(std::max(debounce_frames, 1)),
-      debounced_(static_cast<std::size_t>(2 * debounce_frames_ - 1)) {}
+    : debounce_frames_(std::max(debounce_frames, 1)), debounced_(to_index(2 * debounce_frames_ - 1)) {}
 
 std::optional<bool> ContactFilter::add(bool touch) {
   const std::int64_t frame = frames_++;
@@ -41,7 +42,7 @@ std::vector<bool> ContactFilter::finish() const {
 }
 
 std::size_t ContactFilter::slot(std::int64_t frame) const {
-  return static_cast<std::size_t>(frame % static_cast<std::int64_t>(debounced_.size()));
+  return to_index(frame % static_cast<std::int64_t>(debounced_.size()));
 }
 
 std::vector<bool> debounced(const std::vector<bool>& touch, int debounce_frames) {

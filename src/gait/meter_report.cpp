@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "amble/core/index.hpp"
 #include "amble/gait/meter.hpp"
 
 namespace amble::gait {
@@ -9,10 +10,6 @@ namespace {
 
 /// With two windows the regression line would always fit exactly.
 constexpr std::int64_t min_drift_windows = 3;
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 std::optional<double> duty_factor(const LegSums& leg) {
   if (leg.strides == 0) return std::nullopt;
@@ -24,8 +21,8 @@ PairPhase pair_phase(const CircularSum& sum) {
 }
 
 std::optional<PairPhase> known_phase(const StrideSums& sums, int reference, std::size_t leg) {
-  if (reference < 0 || sums.phases[at(reference)][leg].count() == 0) return std::nullopt;
-  return pair_phase(sums.phases[at(reference)][leg]);
+  if (reference < 0 || sums.phases[to_index(reference)][leg].count() == 0) return std::nullopt;
+  return pair_phase(sums.phases[to_index(reference)][leg]);
 }
 
 /// Mean over the legs that have a value; none if no leg has.
@@ -48,7 +45,7 @@ std::optional<double> mean(const std::vector<LegGait>& legs, Get get) {
 std::optional<QuadrupedPhases> Meter::quadruped_phases(const StrideSums& sums) const {
   if (!body_.quadruped) return std::nullopt;
   const auto [fore_left, fore_right, hind_left, hind_right] = *body_.quadruped;
-  const auto sum = [&](int leg, int other) { return sums.phases[at(leg)][at(other)]; };
+  const auto sum = [&](int leg, int other) { return sums.phases[to_index(leg)][to_index(other)]; };
   CircularSum lateral = sum(hind_left, fore_left);
   lateral.merge(sum(hind_right, fore_right));
   QuadrupedPhases phases{.hind = pair_phase(sum(hind_left, hind_right)),
@@ -76,7 +73,7 @@ int Meter::reference_leg() const {
     for (std::size_t leg = 0; leg < body_.legs.size(); ++leg) order.push_back(static_cast<int>(leg));
   for (const std::int64_t enough : {min_strides, std::int64_t{1}})
     for (const int leg : order)
-      if (total_.legs[at(leg)].strides >= enough) return leg;
+      if (total_.legs[to_index(leg)].strides >= enough) return leg;
   return -1;
 }
 
@@ -99,7 +96,7 @@ LegGait Meter::leg_gait(std::size_t leg, int reference) const {
   }
   gait.phase = known_phase(total_, reference, leg);
   if (reference >= 0) {
-    const PhaseDrift& drift = drifts_[at(reference)][leg];
+    const PhaseDrift& drift = drifts_[to_index(reference)][leg];
     if (drift.count() >= min_drift_windows) {
       gait.drift_strides = drift.turns();
       gait.drift_per_min = 60.0 * drift.turns_per_s();

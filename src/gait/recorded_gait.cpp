@@ -1,4 +1,5 @@
 #include "amble/gait/recorded_gait.hpp"
+#include "amble/core/index.hpp"
 #include "amble/robot/json.hpp"
 
 #include <algorithm>
@@ -17,8 +18,7 @@ class Columns {
   Columns(const record::RecordingReader& reader, const std::string& prefix,
           const std::vector<std::string>& names)
       : values_(names.size()) {
-    for (const std::string& name : names)
-      indices_.push_back(static_cast<std::size_t>(reader.column(prefix + name)));
+    for (const std::string& name : names) indices_.push_back(to_index(reader.column(prefix + name)));
   }
   std::span<const float> of(const std::vector<float>& frame) {
     for (std::size_t i = 0; i < indices_.size(); ++i) values_[i] = frame[indices_[i]];

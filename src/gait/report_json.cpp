@@ -1,3 +1,4 @@
+#include "amble/core/index.hpp"
 #include "amble/gait/report_text.hpp"
 
 #include "amble/io/json_file.hpp"
@@ -18,12 +19,12 @@ Json json_of(const std::optional<PairPhase>& pair) {
 }
 
 Json name_of(const std::optional<Classification>& classification) {
-  return classification ? Json(gait_names[static_cast<std::size_t>(classification->gait)]) : Json(nullptr);
+  return classification ? Json(gait_names[to_index(classification->gait)]) : Json(nullptr);
 }
 
 Json reason_of(const std::optional<Classification>& classification) {
   if (!classification || classification->reason == Irregular::no) return nullptr;
-  return irregular_names[static_cast<std::size_t>(classification->reason)];
+  return irregular_names[to_index(classification->reason)];
 }
 
 Json json_of(const LegGait& leg) {
@@ -93,7 +94,7 @@ Json json_of(const Settings& settings) {
 std::string report_json(const Report& report) {
   Json json{{"format", "amble-gait"}, {"version", 1}};
   json["robot"] = report.robot;
-  json["outcome"] = record::outcome_names[static_cast<std::size_t>(report.outcome)];
+  json["outcome"] = record::outcome_names[to_index(report.outcome)];
   json["seconds"] = report.seconds;
   json["settings"] = json_of(report.settings);
 
@@ -103,9 +104,8 @@ std::string report_json(const Report& report) {
   json["pairs"] = pairs_of(report.quadruped);
   json["duty_factor"] = json_of(report.duty_factor);
   json["stride_s"] = json_of(report.stride_s);
-  json["reference_leg"] = report.reference_leg < 0
-                              ? Json(nullptr)
-                              : Json(report.legs[static_cast<std::size_t>(report.reference_leg)].name);
+  json["reference_leg"] =
+      report.reference_leg < 0 ? Json(nullptr) : Json(report.legs[to_index(report.reference_leg)].name);
   json["legs"] = list_of(report.legs, json_of);
   json["segments"] = list_of(segments_of(report), json_of);
   json["windows"] = list_of(report.windows, json_of);

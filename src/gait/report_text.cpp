@@ -6,6 +6,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "amble/core/index.hpp"
+
 namespace amble::gait {
 namespace {
 
@@ -15,9 +17,9 @@ using Text = std::back_insert_iterator<std::string>;
 
 std::string words(const std::optional<Classification>& classification) {
   if (!classification) return "no name (gaits are named for four legs, two behind two)";
-  std::string name(gait_names[static_cast<std::size_t>(classification->gait)]);
+  std::string name(gait_names[to_index(classification->gait)]);
   if (classification->reason == Irregular::no) return name;
-  return fmt::format("{} ({})", name, irregular_names[static_cast<std::size_t>(classification->reason)]);
+  return fmt::format("{} ({})", name, irregular_names[to_index(classification->reason)]);
 }
 
 /// "0.57", or "–" without a value.
@@ -72,7 +74,7 @@ void print_legs(const Report& report, Text text) {
   }
   if (report.reference_leg >= 0)
     fmt::format_to(text, "phase: touch-downs after those of {}, in its strides\n",
-                   report.legs[static_cast<std::size_t>(report.reference_leg)].name);
+                   report.legs[to_index(report.reference_leg)].name);
 }
 
 /// When the gait changed, if it did. Within merged windows only the total times are known.
@@ -116,7 +118,7 @@ std::string report_table(const Report& report) {
   std::string table;
   Text text(table);
   fmt::format_to(text, "robot      {}, {:.2f} s, {}\n", report.robot, report.seconds,
-                 record::outcome_names[static_cast<std::size_t>(report.outcome)]);
+                 record::outcome_names[to_index(report.outcome)]);
   fmt::format_to(text, "gait       {}; {}\n", words(report.classification), footwork(report));
   print_legs(report, text);
   if (report.quadruped && report.duty_factor) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 
 namespace amble::gait {
 
@@ -22,7 +23,7 @@ void StrideSums::merge(const StrideSums& later) {
 
 std::optional<std::int64_t> StrideTracker::Foot::last_touchdown() const {
   if (touchdowns == 0) return std::nullopt;
-  return landed_at[static_cast<std::size_t>(touchdowns - 1) % remembered];
+  return landed_at[to_index(touchdowns - 1) % remembered];
 }
 
 StrideTracker::StrideTracker(std::size_t legs, std::int64_t longest_stride_frames)
@@ -39,7 +40,7 @@ void StrideTracker::add(const std::vector<bool>& touch, StrideSums& sums) {
   for (std::size_t leg = 0; leg < feet_.size(); ++leg) {
     Foot& foot = feet_[leg];
     if (frame_ > 0 && touch[leg] && !foot.touch) {
-      foot.landed_at[static_cast<std::size_t>(foot.touchdowns++) % remembered] = frame_;
+      foot.landed_at[to_index(foot.touchdowns++) % remembered] = frame_;
       foot.stance_frames = 0;
     }
     foot.touch = touch[leg];
@@ -71,7 +72,7 @@ void StrideTracker::add_phases(std::size_t leg, std::int64_t begin, StrideSums& 
   const auto length = static_cast<double>(frame_ - begin);
   for (std::size_t other = 0; other < feet_.size(); ++other) {
     const auto& landed_at = feet_[other].landed_at;
-    const auto known = std::min<std::size_t>(static_cast<std::size_t>(feet_[other].touchdowns), remembered);
+    const auto known = std::min<std::size_t>(to_index(feet_[other].touchdowns), remembered);
     // A foot that lands more often in one stride than is remembered has no phase relative to this one.
     if (known == remembered && std::ranges::min(landed_at) > begin) continue;
     for (std::size_t i = 0; i < known; ++i)

@@ -9,7 +9,7 @@
 
 namespace amble::gait {
 
-/// Sums of one foot over a part of a trial. A stride goes from touch-down to touch-down and belongs to the
+/// Sums of one foot over a part of a trial. A stride goes from touch-down to touch-down and is counted in the
 /// part in which it ends.
 struct LegSums {
   std::int64_t contact_frames = 0;

@@ -3,11 +3,12 @@
 #include <numeric>
 #include <utility>
 
+#include "amble/core/index.hpp"
+
 namespace amble::gait {
 
 void ClassificationTally::add(Classification classification, std::int64_t frames) {
-  frames_[static_cast<std::size_t>(classification.gait)][static_cast<std::size_t>(classification.reason)] +=
-      frames;
+  frames_[to_index(classification.gait)][to_index(classification.reason)] += frames;
 }
 
 void ClassificationTally::merge(const ClassificationTally& other) {
@@ -30,7 +31,7 @@ std::optional<Classification> ClassificationTally::longest() const {
 }
 
 std::int64_t ClassificationTally::frames(Gait gait) const {
-  const auto& reasons = frames_[static_cast<std::size_t>(gait)];
+  const auto& reasons = frames_[to_index(gait)];
   return std::accumulate(reasons.begin(), reasons.end(), std::int64_t{0});
 }
 

@@ -51,7 +51,7 @@ std::vector<Record> Ledger::load_all(const StudySpec& study) const {
   return records;
 }
 
-std::vector<fs::path> Ledger::strangers(const StudySpec& study) const {
+std::vector<fs::path> Ledger::unknown_files(const StudySpec& study) const {
   std::set<fs::path> own;
   for (const ConditionSpec& condition : study.conditions)
     for (const std::int64_t seed : study.seeds_of(condition)) own.insert(paths_.record(condition.name, seed));

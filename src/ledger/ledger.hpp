@@ -30,16 +30,16 @@ class Ledger {
   /// Throws UserError naming the file: missing, truncated, altered, or the record of another run.
   Record load(std::string_view condition, std::int64_t seed) const;
   void save(const Record& record) const;
-  /// All records that belong to the study, by condition and seed in the order of the study.
+  /// All records of the study, by condition and seed in the order of the study.
   std::vector<Record> load_all(const StudySpec& study) const;
-  /// Files of records that belong to no run of the study, sorted.
-  std::vector<std::filesystem::path> strangers(const StudySpec& study) const;
+  /// Files of records of no run of the study, sorted.
+  std::vector<std::filesystem::path> unknown_files(const StudySpec& study) const;
 
  private:
   StudyPaths paths_;
 };
 
-/// Hash of the digests of records, in their order, hexadecimal: equal for equal results, whoever made them.
+/// Hash of the digests of records, in their order, hexadecimal: equal for equal results on any machine.
 std::string ledger_digest(const std::vector<Record>& records);
 
 /// The study of a folder, from the copy that `amble study` keeps there. Throws UserError if there is none.

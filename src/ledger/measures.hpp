@@ -16,7 +16,7 @@ struct StudySpec;
 /// hidden, links      hidden nodes and enabled links of its CPPN
 /// TEST.distance_m    in the test of that name (median of its episodes), m
 /// TEST.upright_s     until the robot fell or the test ended, s
-/// TEST.walking_s     until it fell, stood still (score/walking.hpp) or the test ended, s
+/// TEST.walking_s     until it fell, stopped (score/walking.hpp) or the test ended, s
 /// TEST.kept          distance in the test / distance in evolution
 ///
 /// Whether a study's records have a measure of that name.

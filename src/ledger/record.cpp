@@ -6,6 +6,7 @@
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
+#include "amble/core/index.hpp"
 #include "amble/statistics/descriptive.hpp"
 
 namespace amble::ledger {
@@ -26,7 +27,7 @@ io::Json to_json(const EpisodeResult& episode) {
   return {{"distance_m", episode.distance_m},
           {"seconds", episode.seconds},
           {"walking_s", episode.walking_s},
-          {"outcome", record::outcome_names[static_cast<std::size_t>(episode.outcome)]}};
+          {"outcome", record::outcome_names[to_index(episode.outcome)]}};
 }
 
 EpisodeResult episode_from(const io::JsonView& view) {

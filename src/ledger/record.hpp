@@ -21,7 +21,7 @@ struct EpisodeResult {
   friend bool operator==(const EpisodeResult&, const EpisodeResult&) = default;
 };
 
-/// What one test gave.
+/// The result of one test.
 struct TestResult {
   std::string name;
   std::string settings;  ///< hash of what defines the test: engine, length, noise, episodes
@@ -47,7 +47,7 @@ struct CurvePoint {
   friend bool operator==(const CurvePoint&, const CurvePoint&) = default;
 };
 
-/// Who made a record, when and where. Not part of its digest.
+/// Program, machine and times of a record. Not part of its digest.
 struct Provenance {
   std::string version, commit, compiler, flags, cpu;
   std::string finished_utc;  ///< ISO 8601
@@ -57,7 +57,7 @@ struct Provenance {
   int workers = 1;
 };
 
-/// What is kept of one finished run of a study: enough for its statistics, and to run its champion again.
+/// The record of one finished run of a study: enough for its statistics, and to run its champion again.
 struct Record {
   std::string study, condition;
   std::int64_t seed = 0;

@@ -33,14 +33,14 @@ struct TestSpec {
   std::string engine;  ///< empty: the engine of the run
   double seconds = 300.0;
   std::string noise;                    ///< config file whose [noise] disturbs the trials; empty: no noise
-  int episodes = 1;                     ///< trials under noise that evolution has not met; 1 without noise
+  int episodes = 1;                     ///< trials under noise that evolution has not used; 1 without noise
   std::vector<std::string> conditions;  ///< names; empty: all
 
   bool applies_to(std::string_view condition) const;
   void describe(io::SettingsVisitor& visitor);
 };
 
-/// A comparison of conditions over seeds, the tests of its champions, and the claims it is to judge.
+/// A comparison of conditions over seeds, the tests of its champions, and its claims.
 struct StudySpec {
   std::string name = "study";
   std::string title;

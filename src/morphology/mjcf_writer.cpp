@@ -45,7 +45,7 @@ class Writer {
     line("  <compiler angle=\"radian\" inertiafromgeom=\"false\"/>");
     line("  <option gravity=\"{}\" timestep=\"0.01\"/>", numbers(robot_.gravity_m_s2));
     line("  <default>");
-    // Legs meet the ground (contype 1), and each other only where both attributes are set.
+    // Legs collide with the ground (contype 1), and with each other only where both attributes are set.
     line("    <geom contype=\"{}\" conaffinity=\"1\" condim=\"{}\" friction=\"{}\"/>",
          robot_.self_collision ? 1 : 0, friction > 0.0 ? 3 : 1, friction);
     line("  </default>");
@@ -64,7 +64,7 @@ class Writer {
     mjcf_.text += '\n';
   }
 
-  /// The attribute, if the name is one and no other part of the kind has it: MuJoCo wants them unique.
+  /// The attribute, if the name is one and no other part of the kind has it: MuJoCo requires unique names.
   static std::string name_attribute(std::set<std::string>& used, const std::string& name) {
     return !name.empty() && used.insert(name).second ? fmt::format("name=\"{}\" ", io::escape_xml(name)) : "";
   }

@@ -8,20 +8,20 @@
 namespace amble::morphology {
 
 /// A robot as an MJCF model (the XML format of MuJoCo), with a ground plane at z = 0. MuJoCo numbers what it
-/// reads in the order of the text; the lists say which part of the RobotSpec is at which place.
-/// The world's ground is MuJoCo's geom 0, the root's free joint its joint 0 and the world its body 0, so the
-/// part at place i has MuJoCo's number i + 1.
+/// reads in the order of the text; the lists map that order to indices of the RobotSpec. The world's ground
+/// is MuJoCo's geom 0, the root's free joint its joint 0 and the world its body 0, so the part at position i
+/// has MuJoCo's number i + 1.
 struct Mjcf {
   std::string text;
   std::vector<int> bodies, joints, geoms;
 };
 
 /// Writes bodies, inertias, joints with their ranges, geoms and friction; all numbers read back to the same
-/// bits. Load it with a TOML side file and it is the same robot again. MJCF has no place for the servos,
-/// the fall height and the contact's erp and cfm. Infinite friction is written as `grip`.
+/// bits. Loaded with a TOML side file it is the same robot. MJCF cannot express the servos, the fall height
+/// and the contact's erp and cfm. Infinite friction is written as `grip`.
 Mjcf write_mjcf(const robot::RobotSpec& robot);
 
-/// Coefficient of friction that stands for infinity in MuJoCo.
+/// Coefficient of friction that represents infinity in MuJoCo.
 inline constexpr double grip = 1e4;
 
 }  // namespace amble::morphology

@@ -10,7 +10,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
-#include "amble/morphology/complaints.hpp"
+#include "amble/morphology/mujoco_handlers.hpp"
 
 namespace amble::morphology {
 namespace {
@@ -22,7 +22,7 @@ std::string one_line(std::string text) {
 }
 
 /// MuJoCo fuses a URDF's root link into the world, and its mass is lost, unless the compiler option
-/// fusestatic is off. That option belongs into an element <mujoco>, which most URDF files do not have.
+/// fusestatic is off. That option goes into an element <mujoco>, which most URDF files do not have.
 std::string with_root_kept(std::string text, const std::filesystem::path& path) {
   if (text.find("<mujoco") != std::string::npos) {
     if (text.find("fusestatic=\"false\"") == std::string::npos) {
@@ -61,16 +61,16 @@ class MemoryFile {
 };
 
 ModelPointer load(const std::filesystem::path& path, const mjVFS* files, const std::string& what) {
-  const ComplaintsCaught caught;
-  std::array<char, 1000> complaint{};
+  const ScopedMujocoHandlers handlers;
+  std::array<char, 1000> message{};
   ModelPointer model;
   try {
-    model.reset(mj_loadXML(path.c_str(), files, complaint.data(), static_cast<int>(complaint.size())));
-  } catch (const FatalComplaint& fatal) {
-    std::snprintf(complaint.data(), complaint.size(), "%s", fatal.what());
+    model.reset(mj_loadXML(path.c_str(), files, message.data(), static_cast<int>(message.size())));
+  } catch (const MujocoError& fatal) {
+    std::snprintf(message.data(), message.size(), "%s", fatal.what());
   }
   if (model == nullptr) {
-    fail(ExitCode::bad_input, "{}: MuJoCo refuses the model: {}", what, one_line(complaint.data()));
+    fail(ExitCode::bad_input, "{}: MuJoCo refuses the model: {}", what, one_line(message.data()));
   }
   return model;
 }

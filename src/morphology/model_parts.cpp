@@ -20,12 +20,13 @@ Vec3 vec3(const mjtNum* numbers) {
 Quat quat(const mjtNum* numbers) {
   return {numbers[0], numbers[1], numbers[2], numbers[3]};
 }
-/// Takes one compiled model apart, step by step.
-class Taker {
- public:
-  explicit Taker(const ModelFile& file) : file_(file), model_(*file.model) {}
 
-  ModelParts take() {
+/// Extracts the parts of one compiled model, step by step.
+class PartsExtractor {
+ public:
+  explicit PartsExtractor(const ModelFile& file) : file_(file), model_(*file.model) {}
+
+  ModelParts extract() {
     refuse_loops();
     refuse_obstacles();
     check_root();
@@ -88,8 +89,7 @@ class Taker {
 
   bool starts_group(int b) const { return b == 1 || model_.body_jntnum[b] > 0; }
 
-  /// Which rigid body of the robot each body of the model belongs to, and where it stands in that one's
-  /// frame.
+  /// Assigns each body of the model to a rigid body of the robot, with its pose in that body's frame.
   void group_bodies() {
     group_.assign(to_index(model_.nbody), -1);
     pose_in_group_.resize(to_index(model_.nbody));
@@ -241,8 +241,8 @@ class Taker {
 
 }  // namespace
 
-ModelParts take_apart(const ModelFile& file) {
-  return Taker(file).take();
+ModelParts extract_parts(const ModelFile& file) {
+  return PartsExtractor(file).extract();
 }
 
 }  // namespace amble::morphology

@@ -9,8 +9,8 @@
 
 namespace amble::morphology {
 
-/// What a model file says of a robot. Bodies that are fixed to their parent are one rigid body with it, under
-/// the parent's name.
+/// The parts of a robot that a model file defines. Bodies that are fixed to their parent are one rigid body
+/// with it, under the parent's name.
 struct ModelParts {
   std::vector<robot::Body> bodies;
   std::vector<robot::Joint> joints;  ///< in the order of the model, without servo
@@ -18,11 +18,11 @@ struct ModelParts {
   Vec3 gravity_m_s2;
 };
 
-/// Takes a compiled model apart. A geom without a name gets that of its body in the model, with ".0", ".1", …
-/// behind it where there are several. Left out: geoms of the world (the ground is amble's own) and decorative
-/// geoms whose shape amble does not know. Throws UserError for what amble cannot simulate: more than one
-/// robot, a root that is not free, joints other than limited hinges, closed loops, tendons, colliding meshes
-/// and other shapes, obstacles in the world.
-ModelParts take_apart(const ModelFile& file);
+/// Extracts the parts from a compiled model. A geom without a name gets that of its body in the model, with
+/// ".0", ".1", … appended where there are several. Left out: geoms of the world (the ground is amble's own)
+/// and decorative geoms whose shape amble does not know. Throws UserError for what amble cannot simulate:
+/// more than one robot, a root that is not free, joints other than limited hinges, closed loops, tendons,
+/// colliding meshes and other shapes, obstacles in the world.
+ModelParts extract_parts(const ModelFile& file);
 
 }  // namespace amble::morphology

@@ -93,7 +93,7 @@ void check_height(const std::string& what, const robot::RobotSpec& robot) {
 
 robot::RobotSpec load_robot(const std::filesystem::path& path) {
   const SideFile side = read_side_file(path);
-  ModelParts parts = take_apart(compile_model(side.model));
+  ModelParts parts = extract_parts(compile_model(side.model));
   const std::string what = path.string();
 
   robot::RobotSpec robot;
@@ -102,7 +102,7 @@ robot::RobotSpec load_robot(const std::filesystem::path& path) {
   add_legs(what, side, parts, robot);
   robot.bodies = std::move(parts.bodies);
   robot.geoms = std::move(parts.geoms);
-  if (side.start_height_m > 0.0) robot.bodies[0].position_m.z = side.start_height_m;
+  if (side.root_height_m > 0.0) robot.bodies[0].position_m.z = side.root_height_m;
   robot.contact = side.contact;
   robot.gravity_m_s2 = parts.gravity_m_s2;
   robot.fall_height_m = side.fall_height_m;

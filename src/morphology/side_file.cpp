@@ -14,7 +14,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double largest = std::numeric_limits<double>::max();
-/// Stands for a number that the file has not given. No physical number has a default in the code.
+/// Marks a number that the file does not give. No physical number has a default in the code.
 constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<std::string_view, 2> servo_mode_names{"velocity", "torque"};
 
@@ -59,7 +59,7 @@ class SideFileReader {
     read_top();
     read_names();
     read_servos();
-    reader_->begin("contact", {"how bodies meet the ground and each other"});
+    reader_->begin("contact", {"contacts of bodies with the ground and each other"});
     visit(*reader_, side_.contact);
     reader_->end();
     reader_->finish();
@@ -84,7 +84,7 @@ class SideFileReader {
     reader_->text("model", model, {"its MJCF or URDF file, relative to this file"});
     reader_->texts("legs", side_.legs, {"names of the legs, in control order"});
     reader_->texts("joint_types", side_.joint_types, {"names of the joint types, in control order"});
-    reader_->number("start_height_m", side_.start_height_m, {0.0, largest},
+    reader_->number("start_height_m", side_.root_height_m, {0.0, largest},
                     {"height of the root's frame in the start pose; 0: as the model has it"});
     reader_->number("fall_height_m", side_.fall_height_m, {-largest, largest},
                     {"the robot has fallen when the root's centre of mass is lower"});

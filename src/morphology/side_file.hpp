@@ -8,14 +8,14 @@
 
 namespace amble::morphology {
 
-/// What a leg's parts are called in the model.
+/// Names of a leg's parts in the model.
 struct LegNames {
   std::string foot;
   std::vector<std::string> joints;  ///< one per joint type
 };
 
-/// What the TOML file beside a model says of a robot: all that MJCF and URDF have no word for.
-/// robots/README.md describes it key by key.
+/// The TOML file beside a model: all that MJCF and URDF cannot express. robots/README.md describes it key by
+/// key.
 struct SideFile {
   std::string name;
   std::filesystem::path model;
@@ -24,7 +24,7 @@ struct SideFile {
   std::vector<LegNames> names;       ///< one per leg
   std::vector<robot::Servo> servos;  ///< one per joint, in control order
   robot::Contact contact;
-  double start_height_m = 0.0;  ///< of the root's frame; 0: as the model has it
+  double root_height_m = 0.0;  ///< of the root's frame; 0: as the model has it
   double fall_height_m = 0.0;
   bool self_collision = false;
 };

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 
 namespace amble::neat {
 
@@ -25,14 +26,13 @@ std::vector<int> allot_places(std::span<const double> shares, int total, std::op
     remainders.push_back(exact - std::floor(exact));
   }
   const int left = total - std::accumulate(places.begin(), places.end(), 0);
-  AMBLE_CHECK(left >= 0 && static_cast<std::size_t>(left) <= places.size(),
-              "rounding down loses less than one each");
+  AMBLE_CHECK(left >= 0 && to_index(left) <= places.size(), "rounding down loses less than one each");
 
   std::vector<std::size_t> order(places.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order,
                            [&](std::size_t a, std::size_t b) { return remainders[a] > remainders[b]; });
-  for (std::size_t i = 0; i < static_cast<std::size_t>(left); ++i) ++places[order[i]];
+  for (std::size_t i = 0; i < to_index(left); ++i) ++places[order[i]];
 
   if (kept && places[*kept] == 0) {
     --*std::ranges::max_element(places);

@@ -11,10 +11,10 @@ namespace amble::neat {
 /// - Links of both: the weight of one parent, each with probability 1/2.
 /// - Links of the fitter alone: inherited. Links of the weaker alone: by CrossoverSettings::weaker_genes.
 /// - A link that is disabled in a parent that has it is enabled with `enable_probability`, else disabled.
-/// - A link between nodes that a link of another number already joins, which happens where numbers are given
-///   anew in each generation, does not come twice: the smaller number stays, with the fitter's weight (the
-///   authors' code).
-/// - Nodes: those of bias, inputs and outputs, and the hidden ones that a link of the child touches;
+/// - Of two links of different numbers between the same nodes, which occur where numbers are given anew in
+/// each
+///   generation, the child gets one: the smaller number, with the fitter's weight (the authors' code).
+/// - Nodes: those of bias, inputs and outputs, and the hidden ones at an end of a link of the child;
 ///   a node of both has the fitter's function.
 ///
 /// Without `recurrent` both parents must be free of cycles, and so is the child: its links of the fitter

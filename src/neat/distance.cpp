@@ -18,7 +18,7 @@ double compatibility_distance(const Genome& a, const Genome& b, const DistanceSe
       i->innovation < j->innovation ? ++i : ++j;
     }
   }
-  // One list is at its end: what the other has left is newer than all of it.
+  // One list is exhausted: the rest of the other is newer than all of it (excess).
   const auto excess = (a.links.end() - i) + (b.links.end() - j);
 
   double genes = 1.0;

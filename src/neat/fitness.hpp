@@ -2,12 +2,12 @@
 
 namespace amble::neat {
 
-/// What a search says of one genome.
+/// The evaluation of one genome by a search.
 struct Fitness {
-  double selection =
-      0.0;  ///< finite, ≥ 0: decides offspring counts and the roulette (novelty, or the objective itself)
-  double objective =
-      0.0;  ///< finite; ranks the members of a species: elites and survival cut (Morse et al. 2013, sec. 4)
+  /// Finite, ≥ 0: decides offspring counts and the roulette (novelty, or the objective itself).
+  double selection = 0.0;
+  /// Finite: ranks the members of a species, for elites and survival (Morse et al. 2013, sec. 4).
+  double objective = 0.0;
 };
 
 }  // namespace amble::neat

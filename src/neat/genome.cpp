@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "amble/core/hash.hpp"
+#include "amble/core/index.hpp"
 #include "amble/neat/genome_binary.hpp"
 
 namespace amble::neat {
@@ -39,8 +40,8 @@ void insert_link(Genome& genome, const LinkGene& link) {
 void remove_unlinked_hidden_nodes(Genome& genome) {
   std::vector<bool> linked(genome.nodes.size());
   for (const LinkGene& link : genome.links) {
-    linked[static_cast<std::size_t>(genome.index_of(link.from))] = true;
-    linked[static_cast<std::size_t>(genome.index_of(link.to))] = true;
+    linked[to_index(genome.index_of(link.from))] = true;
+    linked[to_index(genome.index_of(link.to))] = true;
   }
   std::size_t index = 0;
   std::erase_if(genome.nodes,

@@ -30,8 +30,8 @@ struct LinkGene {
   friend bool operator==(const LinkGene&, const LinkGene&) = default;
 };
 
-/// A CPPN as NEAT evolves it. Nodes stand in the order bias, inputs, outputs, hidden, each group by rising id
-/// (ids of bias, inputs and outputs are 0, 1, …, so that node index = id for them). Links stand by rising
+/// A CPPN as NEAT evolves it. Nodes are in the order bias, inputs, outputs, hidden, each group by rising id
+/// (ids of bias, inputs and outputs are 0, 1, …, so that node index = id for them). Links are sorted by
 /// innovation number; no two join the same ordered pair of nodes.
 struct Genome {
   std::vector<NodeGene> nodes;
@@ -46,17 +46,17 @@ struct Genome {
   friend bool operator==(const Genome&, const Genome&) = default;
 };
 
-/// Puts a gene where its number belongs. The genome must not have it yet.
+/// Inserts a gene at the position given by its number. The genome must not have it yet.
 void insert_node(Genome& genome, const NodeGene& node);
 void insert_link(Genome& genome, const LinkGene& link);
 
-/// Drops the hidden nodes that no link, enabled or not, touches.
+/// Removes the hidden nodes without any link, enabled or not.
 void remove_unlinked_hidden_nodes(Genome& genome);
 
-/// Throws UserError (ExitCode::bad_file) naming the first thing that is wrong: order, unknown node, duplicate
-/// link, a weight that is not finite, a link into an input, a link that closes a cycle where `recurrent` is
-/// false, and so on. Disabled links count as links here, because crossover may enable them. Expects `inputs`
-/// (bias not counted) and `outputs` nodes.
+/// Throws UserError (ExitCode::bad_file) naming the first error: order, unknown node, duplicate link, a
+/// weight that is not finite, a link into an input, a link that closes a cycle where `recurrent` is false,
+/// and so on. Disabled links count as links here, because crossover may enable them. Expects `inputs` (bias
+/// not counted) and `outputs` nodes.
 void validate(const Genome& genome, int inputs, int outputs, bool recurrent);
 
 }  // namespace amble::neat

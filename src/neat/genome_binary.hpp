@@ -10,8 +10,8 @@ namespace amble::neat {
 
 /// The genome as bytes, weights to the bit.
 void save(const Genome& genome, io::BinaryWriter& writer);
-/// Reads what save() wrote; throws UserError(ExitCode::bad_file). Whether the genes fit together is for
-/// validate() to say.
+/// Reads what save() wrote; throws UserError(ExitCode::bad_file). validate() checks whether the genes are
+/// consistent.
 Genome load_genome(io::BinaryReader& reader);
 
 void save(std::span<const Genome> genomes, io::BinaryWriter& writer);

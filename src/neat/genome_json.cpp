@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "amble/core/index.hpp"
+
 namespace amble::neat {
 namespace {
 
@@ -30,8 +32,8 @@ io::Json to_json(const Genome& genome) {
   io::Json nodes = io::Json::array(), links = io::Json::array();
   for (const NodeGene& node : genome.nodes)
     nodes.push_back({{"id", node.id},
-                     {"kind", node_kind_names[static_cast<std::size_t>(node.kind)]},
-                     {"activation", activation_names[static_cast<std::size_t>(node.activation)]}});
+                     {"kind", node_kind_names[to_index(node.kind)]},
+                     {"activation", activation_names[to_index(node.activation)]}});
   for (const LinkGene& link : genome.links)
     links.push_back({{"innovation", link.innovation},
                      {"from", link.from},

@@ -10,8 +10,8 @@ namespace amble::neat {
 io::Json to_json(const Genome& genome);
 
 /// Reads what to_json wrote. Throws UserError (ExitCode::bad_file) naming the key: missing, of the wrong
-/// type, a number that is not finite or out of range, an unknown name. Whether the genes fit together is for
-/// validate() to say.
+/// type, a number that is not finite or out of range, an unknown name. validate() checks whether the genes
+/// are consistent.
 Genome genome_from_json(const io::JsonView& json);
 
 }  // namespace amble::neat

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "amble/core/index.hpp"
+
 namespace amble::neat {
 
 Graph::Graph(const Genome& genome) : targets_(genome.nodes.size()) {
@@ -15,19 +17,19 @@ Graph Graph::without_links(const Genome& genome) {
 }
 
 void Graph::add(int from, int to) {
-  targets_[static_cast<std::size_t>(from)].push_back(to);
+  targets_[to_index(from)].push_back(to);
 }
 
 std::vector<bool> Graph::reachable_from(int node) const {
   std::vector<bool> reached(targets_.size());
   std::vector<int> open{node};
-  reached[static_cast<std::size_t>(node)] = true;
+  reached[to_index(node)] = true;
   while (!open.empty()) {
     const int current = open.back();
     open.pop_back();
-    for (const int next : targets_[static_cast<std::size_t>(current)]) {
-      if (reached[static_cast<std::size_t>(next)]) continue;
-      reached[static_cast<std::size_t>(next)] = true;
+    for (const int next : targets_[to_index(current)]) {
+      if (reached[to_index(next)]) continue;
+      reached[to_index(next)] = true;
       open.push_back(next);
     }
   }
@@ -35,24 +37,24 @@ std::vector<bool> Graph::reachable_from(int node) const {
 }
 
 bool Graph::would_close_cycle(int from, int to) const {
-  return reachable_from(to)[static_cast<std::size_t>(from)];
+  return reachable_from(to)[to_index(from)];
 }
 
 bool Graph::has_cycle() const {
-  // Take away nodes without incoming links until none is left; what remains then lies on or behind a cycle.
+  // Remove nodes without incoming links until none is left; the rest are on a cycle or downstream of one.
   std::vector<int> incoming(targets_.size());
   for (const auto& targets : targets_)
-    for (const int to : targets) ++incoming[static_cast<std::size_t>(to)];
+    for (const int to : targets) ++incoming[to_index(to)];
   std::vector<int> open;
   for (std::size_t i = 0; i < incoming.size(); ++i)
     if (incoming[i] == 0) open.push_back(static_cast<int>(i));
   std::size_t removed = 0;
   while (!open.empty()) {
-    const auto current = static_cast<std::size_t>(open.back());
+    const auto current = to_index(open.back());
     open.pop_back();
     ++removed;
     for (const int to : targets_[current])
-      if (--incoming[static_cast<std::size_t>(to)] == 0) open.push_back(to);
+      if (--incoming[to_index(to)] == 0) open.push_back(to);
   }
   return removed < targets_.size();
 }

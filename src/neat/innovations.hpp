@@ -11,8 +11,8 @@
 
 namespace amble::neat {
 
-/// Historical markings (Stanley & Miikkulainen 2002, sec. 3.2): whichever genome makes a structural mutation,
-/// the same mutation gets the same number, in one generation or in a whole run (InnovationSettings::scope).
+/// Historical markings (Stanley & Miikkulainen 2002, sec. 3.2): equal structural mutations of any genomes
+/// get the same number, in one generation or in a whole run (InnovationSettings::scope).
 ///
 /// - A link is the same if it joins the same ordered pair of nodes.
 /// - A new node is the same if it splits the same link and, with InnovationKey::link_and_function, has the
@@ -21,11 +21,11 @@ namespace amble::neat {
 ///   line for that split, which is registered in turn.
 class Innovations {
  public:
-  /// Ids below 1 + inputs + outputs belong to bias, inputs and outputs. No link is known yet.
+  /// Ids below 1 + inputs + outputs are those of bias, inputs and outputs. No link is known yet.
   Innovations(int inputs, int outputs, const InnovationSettings& settings = {});
 
-  /// A new generation is going to be bred: with InnovationScope::generation the list is cleared, so that no
-  /// mutation gets a number from before again.
+  /// To be called before a generation is bred: with InnovationScope::generation the list is cleared, so that
+  /// no earlier number is used again.
   void begin_generation();
 
   /// The innovation number of the link from → to.
@@ -33,8 +33,8 @@ class Innovations {
   /// The id of the node that splits link `innovation` of `genome`; the genome has no node of that id.
   std::uint32_t node(std::uint32_t innovation, Activation activation, const Genome& genome);
 
-  /// Whether every node and link of the genome bears a number given here, and the one that the list, as far
-  /// as it goes back, gives it.
+  /// Whether every node and link of the genome has a number given here that agrees with the list, as far as
+  /// the list goes back.
   bool knows(const Genome& genome) const;
 
   void save(io::BinaryWriter& writer) const;

@@ -1,6 +1,7 @@
 #include <utility>
 #include <vector>
 
+#include "amble/core/index.hpp"
 #include "amble/neat/graph.hpp"
 #include "amble/neat/mutation.hpp"
 
@@ -13,8 +14,7 @@ std::vector<std::pair<std::size_t, std::size_t>> free_pairs(const Genome& genome
   const Graph graph(genome);
   std::vector<std::vector<bool>> taken(count, std::vector<bool>(count));
   for (const LinkGene& link : genome.links)
-    taken[static_cast<std::size_t>(genome.index_of(link.to))]
-         [static_cast<std::size_t>(genome.index_of(link.from))] = true;
+    taken[to_index(genome.index_of(link.to))][to_index(genome.index_of(link.from))] = true;
 
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (std::size_t to = 0; to < count; ++to) {

@@ -24,7 +24,7 @@ bool apply(Mutation mutation, Genome& genome, const Settings& settings, bool rec
     case Mutation::none:
       break;
   }
-  AMBLE_CHECK(false, "the roulette holds operators only");
+  AMBLE_CHECK(false, "the roulette contains operators only");
   return false;
 }
 

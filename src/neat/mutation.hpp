@@ -9,16 +9,16 @@ namespace amble::neat {
 
 enum class Mutation { weights = 0, add_link = 1, add_node = 2, delete_link = 3, none = 4 };
 
-/// Applies one operator, drawn by the shares of MutationSettings (HyperSharpNEAT). An operator that finds
-/// nothing to do leaves the roulette and another is drawn; if none can do anything the genome stays as it is.
-/// Returns the operator that worked.
+/// Applies one operator, drawn by the shares of MutationSettings (HyperSharpNEAT). An operator that does not
+/// apply is removed from the roulette and another is drawn; if none applies, the genome is unchanged. Returns
+/// the operator that was applied.
 Mutation mutate(Genome& genome, const Settings& settings, bool recurrent, Innovations& innovations,
                 Stream& stream);
 
-// The operators. Each returns false, and leaves the genome as it was, if there is nothing it can do.
+// The operators. Each returns false, and leaves the genome unchanged, if it does not apply.
 
 /// Changes weights in one of the five ways of WeightMutationSettings, links disabled or not; they stay within
-/// ±`weight_limit`. Cannot work on a genome without links.
+/// ±`weight_limit`. Does not apply to a genome without links.
 bool mutate_weights(Genome& genome, const WeightMutationSettings& settings, double weight_limit,
                     Stream& stream);
 
@@ -32,7 +32,7 @@ bool add_link(Genome& genome, double weight_limit, bool recurrent, Innovations& 
 /// the old weight. The old link is removed or disabled.
 bool add_node(Genome& genome, const Settings& settings, Innovations& innovations, Stream& stream);
 
-/// Deletes a link, each equally likely, and the hidden nodes that are left without any.
+/// Deletes a link, each equally likely, and the hidden nodes that have no link left.
 bool delete_link(Genome& genome, Stream& stream);
 
 }  // namespace amble::neat

@@ -6,6 +6,7 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 #include "amble/core/random.hpp"
 #include "amble/neat/genome_binary.hpp"
 #include "amble/neat/initial_genome.hpp"
@@ -25,7 +26,7 @@ struct Population::State {
         innovations(input_count, output_count, s.innovations),
         speciation(s.speciation) {}
 
-  /// What this is worked out from. save() writes it so that load() can refuse what belongs to another run.
+  /// Inputs of the constructor. save() writes them so that load() can refuse the state of another run.
   Settings settings;
   int inputs, outputs;
   bool recurrent;
@@ -135,13 +136,12 @@ void Population::State::read(io::BinaryReader& reader) {
   generation = reader.get<int>();
   if (generation < 0) reader.bad("a negative generation");
   genomes = load_genomes(reader);
-  if (genomes.size() != static_cast<std::size_t>(settings.population.size))
-    reader.bad("another population size");
+  if (genomes.size() != to_index(settings.population.size)) reader.bad("another population size");
   innovations.load(reader);
   speciation.load(reader, genomes.size());
 }
 
-/// Throws UserError unless all genomes are valid and bear the numbers of this run.
+/// Throws UserError unless all genomes are valid and have the numbers of this run.
 void Population::State::check_loaded() const {
   const auto check = [&](const Genome& genome) {
     validate(genome, inputs, outputs, recurrent);

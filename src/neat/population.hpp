@@ -12,7 +12,7 @@
 
 namespace amble::neat {
 
-/// What a generation looked like when it was speciated.
+/// Statistics of a generation when it was speciated.
 struct PopulationStatistics {
   int species = 0;
   double compatibility_threshold = 0.0;
@@ -28,8 +28,8 @@ struct SpeciesStatistics {
   int generations_without_improvement = 0;  ///< of its best objective, before this generation
 };
 
-/// A NEAT population, generation by generation. Everything it does depends on settings, seed, and the fitness
-/// it was given, to the bit; all state is in save() and load().
+/// A NEAT population, generation by generation. Its behaviour depends on settings, seed, and the fitness
+/// given to it alone, to the bit; save() and load() cover all state.
 class Population {
  public:
   /// Generation 0: genomes without hidden nodes, linked as the settings say, weights random. The settings
@@ -47,7 +47,7 @@ class Population {
   std::vector<SpeciesStatistics> species() const;
 
   /// Breeds the next generation from the fitness of this one, in the order of genomes(). Infinite fitness,
-  /// NaN and a negative selection are programmer's mistakes.
+  /// NaN and a negative selection fail an AMBLE_CHECK.
   void advance(std::span<const Fitness> fitness);
 
   void save(io::BinaryWriter& writer) const;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 #include "amble/neat/allotment.hpp"
 #include "amble/neat/crossover.hpp"
 #include "amble/neat/mutation.hpp"
@@ -20,7 +21,7 @@ struct Survivors {
 
   /// The index in these lists of one drawn by roulette.
   std::size_t draw(Stream& stream) const { return roulette(selection, stream); }
-  /// The same without the one at index `but`; there must be another.
+  /// The same, but not the one at index `but`; there must be another.
   std::size_t draw_other(std::size_t but, Stream& stream) const {
     std::vector<double> others = selection;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(but));
@@ -35,10 +36,10 @@ class Breeder {
       : generation_(generation), settings_(settings), recurrent_(recurrent), innovations_(innovations) {
     for (const Species& species : generation.species) {
       const double share = settings.reproduction.survival * static_cast<double>(species.members.size());
-      const auto count = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(share)));
+      const auto count = std::max<std::size_t>(1, to_index(std::lround(share)));
       Survivors& survivors = survivors_.emplace_back();
       for (std::size_t i = 0; i < count; ++i) {
-        const auto member = static_cast<std::size_t>(species.members[i]);
+        const auto member = to_index(species.members[i]);
         survivors.genomes.push_back(member);
         survivors.selection.push_back(generation.fitness[member].selection);
       }
@@ -90,7 +91,7 @@ class Breeder {
     // With InnovationKey::link parents may differ in a node's function.
     for (NodeGene& node : child.nodes)
       if (const int index = genome_a.index_of(node.id); index >= 0)
-        node.activation = genome_a.nodes[static_cast<std::size_t>(index)].activation;
+        node.activation = genome_a.nodes[to_index(index)].activation;
     return child;
   }
 
@@ -109,8 +110,7 @@ std::size_t species_of_the_best(const Generation& generation) {
   const auto holds_it = [&](const Species& species) {
     return std::ranges::count(species.members, index) > 0;
   };
-  return static_cast<std::size_t>(std::ranges::find_if(generation.species, holds_it) -
-                                  generation.species.begin());
+  return to_index(std::ranges::find_if(generation.species, holds_it) - generation.species.begin());
 }
 
 std::size_t elite_count(std::size_t places, std::size_t members, const ReproductionSettings& settings) {
@@ -129,7 +129,7 @@ std::vector<int> places_per_species(const Generation& generation, const Reproduc
     // In units of the largest selection, so that no sum overflows.
     double sum = 0.0;
     for (const int member : species.members)
-      if (largest > 0.0) sum += generation.fitness[static_cast<std::size_t>(member)].selection / largest;
+      if (largest > 0.0) sum += generation.fitness[to_index(member)].selection / largest;
     const bool stagnant = species.generations_without_improvement > settings.stagnation_generations;
     const double mean = sum / static_cast<double>(species.members.size());
     shares.push_back(stagnant ? mean * settings.stagnation_factor : mean);
@@ -147,10 +147,9 @@ std::vector<Genome> reproduce(const Generation& generation, const Settings& sett
   std::vector<Genome> children;
   for (std::size_t s = 0; s < generation.species.size(); ++s) {
     const std::vector<int>& members = generation.species[s].members;
-    const auto own_places = static_cast<std::size_t>(places[s]);
+    const auto own_places = to_index(places[s]);
     const std::size_t elites = elite_count(own_places, members.size(), settings.reproduction);
-    for (std::size_t i = 0; i < elites; ++i)
-      children.push_back(generation.genomes[static_cast<std::size_t>(members[i])]);
+    for (std::size_t i = 0; i < elites; ++i) children.push_back(generation.genomes[to_index(members[i])]);
     for (std::size_t i = elites; i < own_places; ++i) {
       Stream stream(seed, Purpose::reproduction, number, static_cast<std::uint32_t>(children.size()));
       children.push_back(elites == 0 ? breeder.mutant(s, stream) : breeder.breed(s, stream));

@@ -21,7 +21,7 @@ struct Generation {
 
 /// How many places each species gets in the next generation: in proportion to its members' mean selection
 /// (the fitness sharing of Stanley & Miikkulainen 2002, sec. 3.3), that of a stagnant species multiplied by
-/// stagnation_factor. With LonePlace::elite the species that holds the best objective gets at least one.
+/// stagnation_factor. With LonePlace::elite the species with the best objective gets at least one.
 std::vector<int> places_per_species(const Generation& generation, const ReproductionSettings& settings);
 
 /// Breeds as many genomes as there were, species by species. A species' first children are copies of its
@@ -33,9 +33,9 @@ std::vector<int> places_per_species(const Generation& generation, const Reproduc
 /// The others are bred from its survivors: survival × members, rounded to the nearest, the best by objective,
 /// at least one. Parents are drawn by roulette on selection. The second parent is another survivor of the
 /// same species, or with interspecies_probability a survivor of another species, each species equally likely.
-/// Of two parents the one with the larger selection is the fitter; a coin decides if they are equal. Where
-/// they differ in a node's function the child has that of the parent drawn first (the authors' code). A
-/// species of one survivor has no second parent to offer: the child then has one and is mutated.
+/// Of two parents the one with the larger selection is the fitter; if they are equal, it is drawn at random.
+/// Where they differ in a node's function the child has that of the parent drawn first (the authors' code). A
+/// species of one survivor has no second parent: the child then has one and is mutated.
 ///
 /// Child i of generation `number` takes its random numbers from Stream(seed, Purpose::reproduction, number,
 /// i) alone.

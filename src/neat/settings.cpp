@@ -159,7 +159,7 @@ void Settings::describe(io::SettingsVisitor& visitor) {
   visitor.table("innovations", innovations, {"which structural mutations get the same number"});
   visitor.table("crossover", crossover, {"how two parents make one child"});
   visitor.table("speciation", speciation, {"which genomes share a species"});
-  visitor.table("reproduction", reproduction, {"who has how many children"});
+  visitor.table("reproduction", reproduction, {"numbers of offspring, survival, elitism"});
 }
 
 void Settings::validate() const {

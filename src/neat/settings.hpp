@@ -9,7 +9,7 @@
 namespace amble::neat {
 
 // The defaults are the numbers of Morse et al. 2013 and of the authors' code, which builds on HyperSharpNEAT.
-// settings.cpp says for each what it means, its unit and its source.
+// settings.cpp documents the meaning, unit and source of each.
 
 struct PopulationSettings {
   int size = 300;
@@ -17,7 +17,7 @@ struct PopulationSettings {
   void describe(io::SettingsVisitor& visitor);
 };
 
-/// What a genome looks like, at the start and when it grows.
+/// Structure of genomes, initially and as they grow.
 struct GenomeSettings {
   double weight_limit = 1.5;
   double initial_link_probability = 1.0;
@@ -28,8 +28,8 @@ struct GenomeSettings {
   void describe(io::SettingsVisitor& visitor);
 };
 
-/// What happens to one genome's weights when the operator "weights" is drawn: one of five kinds of change.
-/// Jiggling adds a uniform number within ±jiggle_limit, resetting draws the weight anew.
+/// Changes to a genome's weights by the operator "weights": one of five kinds is drawn. Jiggling adds a
+/// uniform number within ±jiggle_limit, resetting draws the weight anew.
 struct WeightMutationSettings {
   double jiggle_limit = 0.05;
   double jiggle_many_share = 0.125, jiggle_many_probability = 0.5;
@@ -41,7 +41,7 @@ struct WeightMutationSettings {
   void describe(io::SettingsVisitor& visitor);
 };
 
-/// What becomes of the link that a new node splits.
+/// Treatment of the link that a new node splits.
 enum class SplitLink {
   remove,  ///< deleted (the authors' code)
   disable  ///< kept, but disabled (Stanley & Miikkulainen 2002, sec. 3.1)
@@ -69,7 +69,7 @@ inline constexpr std::array<std::string_view, 2> weaker_genes_names{"all_or_none
 enum class InnovationScope { generation, run };
 inline constexpr std::array<std::string_view, 2> innovation_scope_names{"generation", "run"};
 
-/// What makes two new nodes the same: the link that they split, or also their function.
+/// What identifies a new node: the link that it splits, or also its function.
 enum class InnovationKey { link, link_and_function };
 inline constexpr std::array<std::string_view, 2> innovation_key_names{"link", "link_and_function"};
 
@@ -109,7 +109,7 @@ struct SpeciationSettings {
   void describe(io::SettingsVisitor& visitor);
 };
 
-/// What becomes of the only place that a species has in the next generation.
+/// How a species with a single place in the next generation fills it.
 enum class LonePlace { elite, child };
 inline constexpr std::array<std::string_view, 2> lone_place_names{"elite", "child"};
 
@@ -125,7 +125,7 @@ struct ReproductionSettings {
   void describe(io::SettingsVisitor& visitor);
 };
 
-/// All that NEAT is told. Its tables are meant to stand at the top of a config: population.size,
+/// All settings of NEAT. Their tables are at the top level of a config: population.size,
 /// mutation.add_link_share, …
 struct Settings {
   PopulationSettings population;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 #include "amble/neat/distance.hpp"
 #include "amble/neat/genome_binary.hpp"
 
@@ -26,7 +27,7 @@ Speciation::Grouping Speciation::group(std::span<const Genome> genomes) const {
       return compatibility_distance(*representative, genomes[i], settings_.distance) < threshold_.value();
     };
     const auto found = std::ranges::find_if(representatives, close);
-    const auto index = static_cast<std::size_t>(found - representatives.begin());
+    const auto index = to_index(found - representatives.begin());
     if (found == representatives.end()) {
       representatives.push_back(&genomes[i]);
       grouping.members.emplace_back();
@@ -51,9 +52,7 @@ void Speciation::assign(std::span<const Genome> genomes) {
       next.push_back(std::move(species_[i]));
       ++next.back().age;
     } else {
-      next.push_back({.id = next_id_++,
-                      .representative = genomes[static_cast<std::size_t>(members.front())],
-                      .members = {}});
+      next.push_back({.id = next_id_++, .representative = genomes[to_index(members.front())], .members = {}});
     }
     next.back().members = std::move(members);
   }
@@ -62,13 +61,13 @@ void Speciation::assign(std::span<const Genome> genomes) {
 
 void Speciation::record(std::span<const Genome> genomes, std::span<const Fitness> fitness) {
   AMBLE_CHECK(genomes.size() == fitness.size(), "one fitness per genome");
-  const auto objective = [&](int i) { return fitness[static_cast<std::size_t>(i)].objective; };
+  const auto objective = [&](int i) { return fitness[to_index(i)].objective; };
   for (Species& species : species_) {
     std::ranges::sort(species.members, [&](int a, int b) {
       return objective(a) != objective(b) ? objective(a) > objective(b) : a < b;
     });
     const int best = species.members.front();
-    species.representative = genomes[static_cast<std::size_t>(best)];
+    species.representative = genomes[to_index(best)];
     if (objective(best) > species.best_objective) {
       species.best_objective = objective(best);
       species.generations_without_improvement = 0;
@@ -110,7 +109,7 @@ void Speciation::load(io::BinaryReader& reader, std::size_t genomes) {
         species.generations_without_improvement < 0 || std::isnan(species.best_objective))
       reader.bad("a species that cannot be");
     for (const int member : species.members) {
-      const auto i = static_cast<std::size_t>(member);
+      const auto i = to_index(member);
       if (member < 0 || i >= genomes || placed[i]) reader.bad("a genome of no species or of two");
       placed[i] = true;
       ++members;

@@ -22,11 +22,11 @@ struct Species {
   double best_objective = -std::numeric_limits<double>::infinity();  ///< over its whole life
 };
 
-/// Which genome belongs to which species, generation by generation (Stanley & Miikkulainen 2002, sec. 3.3).
+/// Assigns genomes to species, generation by generation (Stanley & Miikkulainen 2002, sec. 3.3).
 ///
 /// Each genome joins the first species, oldest first, whose representative is closer than the threshold, or
-/// founds a new one. Then the threshold is steered towards the target number of species and all genomes are
-/// sorted anew, at most corrections_per_generation times. A species without members is extinct.
+/// founds a new one. Then the threshold is adjusted towards the target number of species and all genomes are
+/// assigned anew, at most corrections_per_generation times. A species without members is extinct.
 ///
 /// Improvement is measured by the objective, because it can be compared between generations, which novelty
 /// cannot.
@@ -34,11 +34,10 @@ class Speciation {
  public:
   explicit Speciation(const SpeciationSettings& settings);
 
-  /// Sorts the genomes of a new generation into species.
+  /// Assigns the genomes of a new generation to species.
   void assign(std::span<const Genome> genomes);
-  /// Takes note of what the generation achieved: members are put in the order of their objective (equal ones
-  /// by index), the best becomes the representative, best_objective and generations_without_improvement are
-  /// brought up to date.
+  /// Records the fitness of the generation: sorts members by objective (equal ones by index), makes the best
+  /// the representative, and updates best_objective and generations_without_improvement.
   void record(std::span<const Genome> genomes, std::span<const Fitness> fitness);
 
   const std::vector<Species>& species() const { return species_; }
@@ -46,12 +45,12 @@ class Speciation {
 
   void save(io::BinaryWriter& writer) const;
   /// Replaces the state by what save() wrote. Throws UserError(ExitCode::bad_file), also unless each of
-  /// `genomes` genomes is a member of exactly one species. Whether the representatives are valid genomes is
-  /// for the caller to check.
+  /// `genomes` genomes is a member of exactly one species. The caller checks whether the representatives are
+  /// valid genomes.
   void load(io::BinaryReader& reader, std::size_t genomes);
 
  private:
-  /// Which genomes are together: the groups of `species_` first, some perhaps empty, then new ones.
+  /// A partition of the genomes: the groups of `species_` first, some perhaps empty, then new ones.
   struct Grouping {
     std::vector<std::vector<int>> members;
     int occupied() const;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 #include "amble/neat/genome.hpp"
 #include "amble/neat/graph.hpp"
 
@@ -13,22 +14,21 @@ constexpr ExitCode bad = ExitCode::bad_file;
 
 void validate_node(const Genome& genome, std::size_t i, int inputs, int outputs) {
   const NodeGene& node = genome.nodes[i];
-  const auto first_output = static_cast<std::size_t>(1 + inputs);
-  const auto first_hidden = first_output + static_cast<std::size_t>(outputs);
+  const auto first_output = to_index(1 + inputs);
+  const auto first_hidden = first_output + to_index(outputs);
   const NodeKind kind = i == 0             ? NodeKind::bias
                         : i < first_output ? NodeKind::input
                         : i < first_hidden ? NodeKind::output
                                            : NodeKind::hidden;
   if (node.kind != kind)
-    fail(bad, "genome: node {} of the list must be of kind {}", i,
-         node_kind_names[static_cast<std::size_t>(kind)]);
+    fail(bad, "genome: node {} of the list must be of kind {}", i, node_kind_names[to_index(kind)]);
   if (i < first_hidden && node.id != i)
     fail(bad, "genome: node {} of the list has id {}, expected {}", i, node.id, i);
   if (i >= first_hidden &&
       (node.id < first_hidden || (i > first_hidden && node.id <= genome.nodes[i - 1].id)))
     fail(bad, "genome: hidden node {} is out of order: ids must rise from at least {}", node.id,
          first_hidden);
-  if (static_cast<std::size_t>(node.activation) >= activation_names.size())
+  if (to_index(node.activation) >= activation_names.size())
     fail(bad, "genome: node {} has an unknown activation function", node.id);
   if (i < first_output && node.activation != Activation::linear)
     fail(bad, "genome: node {} must have the activation linear, as bias and inputs do", node.id);
@@ -41,7 +41,7 @@ void validate_link(const Genome& genome, std::size_t i) {
   for (const auto id : {link.from, link.to})
     if (genome.index_of(id) < 0)
       fail(bad, "genome: link {} names node {}, which is not there", link.innovation, id);
-  const NodeKind target = genome.nodes[static_cast<std::size_t>(genome.index_of(link.to))].kind;
+  const NodeKind target = genome.nodes[to_index(genome.index_of(link.to))].kind;
   if (target == NodeKind::bias || target == NodeKind::input)
     fail(bad, "genome: link {} leads into node {}, which is the bias or an input", link.innovation, link.to);
   if (!std::isfinite(link.weight))
@@ -51,7 +51,7 @@ void validate_link(const Genome& genome, std::size_t i) {
 }  // namespace
 
 void validate(const Genome& genome, int inputs, int outputs, bool recurrent) {
-  const std::size_t fixed = 1 + static_cast<std::size_t>(inputs) + static_cast<std::size_t>(outputs);
+  const std::size_t fixed = 1 + to_index(inputs) + to_index(outputs);
   if (genome.nodes.size() < fixed)
     fail(bad, "genome: {} nodes, expected at least {}: bias, {} inputs, {} outputs", genome.nodes.size(),
          fixed, inputs, outputs);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string_view>
 
+#include "amble/core/index.hpp"
 #include "amble/figures/figures.hpp"
 #include "amble/graphics/style_sheet.hpp"
 #include "amble/graphics/svg.hpp"
@@ -99,7 +100,7 @@ double sum(const std::vector<double>& values) {
 std::string grouped(double count) {
   std::string digits = fmt::format("{:.0f}", count);
   for (std::ptrdiff_t at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
-    digits.insert(static_cast<std::size_t>(at), "\u202f");
+    digits.insert(to_index(at), "\u202f");
   return digits;
 }
 

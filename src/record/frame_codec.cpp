@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t number_size = sizeof(float);
 
-/// Where, among the sorted bytes, stands byte `byte` (0: the lowest) of a number.
+/// Position among the sorted bytes of byte `byte` (0: the lowest) of a number.
 std::size_t sorted_position(std::size_t byte, std::size_t column, std::size_t frame, std::size_t columns,
                             std::size_t frames) {
   return ((number_size - 1 - byte) * columns + column) * frames + frame;

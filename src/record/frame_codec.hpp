@@ -23,8 +23,7 @@ inline constexpr std::size_t end_size = 8 + 1;
 std::uint64_t chunk_checksum(std::string_view bytes, std::uint32_t chunk, std::uint32_t frames);
 
 /// Deflates whole frames of `columns` numbers each. The bytes of the numbers are sorted first: all highest
-/// bytes, column by column, then the next lower ones, …; neighbours then resemble each other, and the result
-/// is much smaller.
+/// bytes, column by column, then the next lower ones, …, which compresses much better.
 std::string compress_frames(const std::vector<float>& frames, std::size_t columns);
 
 /// Undoes compress_frames. False if the bytes are not exactly `count` frames.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 #include "amble/io/file.hpp"
 #include "amble/record/generation_columns.hpp"
 
@@ -71,10 +72,10 @@ double parse_cell(std::string_view cell, std::string_view column, const std::str
 /// The index of a column in the header row; the header's size if it is missing.
 std::size_t find_column(const std::vector<std::string_view>& header, std::string_view column) {
   const auto found = std::ranges::find(header, column);
-  if (found != header.end()) return static_cast<std::size_t>(found - header.begin());
+  if (found != header.end()) return to_index(found - header.begin());
   // As it was called in run folders up to version 5.
   const std::string earlier = std::string(column) + "_m";
-  return static_cast<std::size_t>(std::ranges::find(header, earlier) - header.begin());
+  return to_index(std::ranges::find(header, earlier) - header.begin());
 }
 
 void parse_row(const std::vector<std::string_view>& header, const std::vector<std::string_view>& cells,

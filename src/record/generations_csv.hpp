@@ -25,9 +25,9 @@ struct Generations {
   std::size_t count() const { return generation.size(); }
 };
 
-/// Reads generations.csv by the names in its header row; other columns are passed over. Throws UserError:
-/// ExitCode::io for a file that cannot be read, ExitCode::bad_file for one that is no such table ("FILE:LINE:
-/// column 'best' …").
+/// Reads generations.csv by the names in its header row; other columns are ignored. Throws UserError:
+/// ExitCode::io for a file that cannot be read, ExitCode::bad_file for one that is not such a table
+/// ("FILE:LINE: column 'best' …").
 Generations read_generations(const std::filesystem::path& path);
 
 /// The same from text; `name` is the file's name in messages.

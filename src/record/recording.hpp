@@ -11,7 +11,7 @@
 
 namespace amble::record {
 
-/// What a recording says of itself before its frames (docs/FORMATS.md).
+/// The header of a recording (docs/FORMATS.md).
 struct RecordingHeader {
   double frame_s = 0.0;              ///< time between frames
   std::vector<std::string> columns;  ///< names of the float32 numbers of a frame; see standard_columns()
@@ -26,8 +26,8 @@ struct RecordingHeader {
 std::vector<std::string> standard_columns(const std::vector<std::string>& joints,
                                           const std::vector<std::string>& legs);
 
-/// The columns that follow the standard ones where the engine tells motor torques (N m): torque.NAME, joint
-/// by joint.
+/// The columns that follow the standard ones if the engine has motor torques (N m): torque.NAME, joint by
+/// joint.
 std::vector<std::string> torque_columns(const std::vector<std::string>& joints);
 
 /// Writes a recording chunk by chunk, so that memory does not grow with its length. The file appears under

@@ -123,7 +123,7 @@ bool RecordingReader::next(std::vector<float>& frame) {
 }
 
 Outcome RecordingReader::outcome() const {
-  AMBLE_CHECK(impl_->ended, "the outcome stands at the end of a recording");
+  AMBLE_CHECK(impl_->ended, "the outcome is at the end of a recording");
   return impl_->outcome;
 }
 

@@ -9,11 +9,11 @@
 
 namespace amble::record {
 
-/// How a trial ended. Physics is never an error.
+/// How a trial ended. A diverged simulation is an outcome, not an error.
 enum class Outcome : std::uint8_t {
   completed = 0,  ///< ran its full time
   fell = 1,       ///< the root's centre of mass came below RobotSpec::fall_height_m
-  diverged = 2,  ///< the simulation gave values that are not finite, or absurd; the last healthy state counts
+  diverged = 2,   ///< values not finite, or absurdly large; the last healthy state counts
 };
 inline constexpr std::array<std::string_view, 3> outcome_names{"completed", "fell", "diverged"};
 
@@ -30,7 +30,7 @@ struct PathSampling {
   }
 };
 
-/// What a trial measures beside its path, because it costs time.
+/// Optional measurements of a trial, which cost time.
 struct Measures {
   bool energy = false, uprightness = false;
 
@@ -41,7 +41,7 @@ struct Measures {
   }
 };
 
-/// What every trial leaves behind: enough for scoring. In the world's frame (docs/CONVENTIONS.md).
+/// The result of a trial, sufficient for scoring. In the world's frame (docs/CONVENTIONS.md).
 struct Trajectory {
   Outcome outcome = Outcome::completed;
   int steps = 0;  ///< steps simulated, the last of them included

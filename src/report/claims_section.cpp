@@ -82,7 +82,7 @@ std::string claims_section(const Report& report) {
                                      name_of(judgement.verdict))});
   }
   std::string lead =
-      "Each claim is judged by the rule that stands with it in the study’s file (docs/STUDIES.md). Intervals "
+      "Each claim is judged by the rule given with it in the study’s file (docs/STUDIES.md). Intervals "
       "are at 95 % unless the claim has its own level.";
   if (one_source && !claims[0].source.empty()) lead = fmt::format("From {}. ", claims[0].source) + lead;
   if (family > 1)

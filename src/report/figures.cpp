@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "amble/core/index.hpp"
 #include "amble/graphics/style_sheet.hpp"
 #include "amble/report/curves_figure.hpp"
 #include "amble/report/number_text.hpp"
@@ -59,7 +60,7 @@ std::vector<FigureFile> figure_files(const Report& report) {
       add("distance-" + test.name, rows_figure(rows, " m", "Distance in test " + test.name, Layout::wide));
   add("curves", curves_figure(report, Layout::wide));
   for (const SurvivalTable& table : report.survival)
-    add(fmt::format("{}-{}", doing_names[static_cast<std::size_t>(table.doing)], table.test),
+    add(fmt::format("{}-{}", activity_names[to_index(table.activity)], table.test),
         survival_figure(report, table, Layout::wide));
   return files;
 }

@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <map>
 
+#include "amble/core/index.hpp"
 #include "amble/gait/gait.hpp"
 
 namespace amble::report {
 namespace {
 
-const std::string_view irregular_gait = gait::gait_names[static_cast<std::size_t>(gait::Gait::irregular)];
+const std::string_view irregular_gait = gait::gait_names[to_index(gait::Gait::irregular)];
 
 /// Position of a gait in tables: in the order of gait::gait_names, then unknown names, irregular, nameless.
 std::size_t place(std::string_view gait) {
-  const auto known =
-      static_cast<std::size_t>(std::ranges::find(gait::gait_names, gait) - gait::gait_names.begin());
+  const auto known = to_index(std::ranges::find(gait::gait_names, gait) - gait::gait_names.begin());
   const std::size_t count = gait::gait_names.size();
   if (gait == nameless_gait) return count + 2;
   if (gait == irregular_gait) return count + 1;

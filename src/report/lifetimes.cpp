@@ -10,19 +10,23 @@ namespace {
 // Times are sums of steps; what ends this close to the end of a test lasted.
 constexpr double slack = 1e-9;
 
-statistics::Lifetime lifetime(const ledger::TestResult& result, Doing doing) {
-  const double time_s = doing == Doing::upright ? result.upright_s() : result.walking_s();
+statistics::Lifetime lifetime(const ledger::TestResult& result, Activity activity) {
+  const double time_s = activity == Activity::upright ? result.upright_s() : result.walking_s();
   return {.time_s = time_s, .ended = time_s < result.trial_s * (1.0 - slack)};
 }
 
-SurvivalTable survival_table(const StudyData& data, const ledger::TestSpec& test, Doing doing) {
-  SurvivalTable table{
-      .test = test.name, .doing = doing, .trial_s = 0.0, .is_long = false, .conditions = {}, .log_rank = {}};
+SurvivalTable survival_table(const StudyData& data, const ledger::TestSpec& test, Activity activity) {
+  SurvivalTable table{.test = test.name,
+                      .activity = activity,
+                      .trial_s = 0.0,
+                      .is_long = false,
+                      .conditions = {},
+                      .log_rank = {}};
   for (const ledger::ConditionSpec& condition : data.study.conditions) {
     ConditionLifetimes lasted{.condition = condition.name, .lifetimes = {}, .curve = {}};
     for (const ledger::Record* run : data.runs(condition.name))
       if (const auto* result = run->find_test(test.name)) {
-        lasted.lifetimes.push_back(lifetime(*result, doing));
+        lasted.lifetimes.push_back(lifetime(*result, activity));
         table.trial_s = std::max(table.trial_s, result->trial_s);
         table.is_long = table.is_long || result->trial_s > training_s(*run).value_or(0.0);
       }
@@ -42,8 +46,8 @@ SurvivalTable survival_table(const StudyData& data, const ledger::TestSpec& test
 std::vector<SurvivalTable> survival_tables(const StudyData& data) {
   std::vector<SurvivalTable> tables;
   for (const ledger::TestSpec& test : data.study.tests)
-    for (const Doing doing : {Doing::upright, Doing::walking}) {
-      SurvivalTable table = survival_table(data, test, doing);
+    for (const Activity activity : {Activity::upright, Activity::walking}) {
+      SurvivalTable table = survival_table(data, test, activity);
       if (!table.conditions.empty()) tables.push_back(std::move(table));
     }
   return tables;

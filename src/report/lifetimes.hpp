@@ -12,12 +12,12 @@
 
 namespace amble::report {
 
-/// What a champion keeps doing until it ends or the test does.
-enum class Doing : std::uint8_t {
+/// The state of a champion whose duration is a lifetime, censored at the end of the test.
+enum class Activity : std::uint8_t {
   upright,  ///< ends when the robot falls or its simulation diverges
-  walking   ///< ends when it falls, diverges or stands still (score/walking.hpp)
+  walking   ///< ends when it falls, diverges or stops (score/walking.hpp)
 };
-inline constexpr std::array<std::string_view, 2> doing_names{"upright", "walking"};
+inline constexpr std::array<std::string_view, 2> activity_names{"upright", "walking"};
 
 struct ConditionLifetimes {
   std::string condition;
@@ -25,10 +25,10 @@ struct ConditionLifetimes {
   statistics::SurvivalCurve curve;
 };
 
-/// How long the champions of all conditions kept doing something in one test.
+/// Lifetimes of the champions of all conditions in one test.
 struct SurvivalTable {
   std::string test;
-  Doing doing = Doing::upright;
+  Activity activity = Activity::upright;
   double trial_s = 0.0;  ///< length of the test, at which lifetimes are censored
   bool is_long = false;  ///< longer than the trials of evolution, as far as these are known
   std::vector<ConditionLifetimes> conditions;  ///< that have the test
@@ -36,7 +36,7 @@ struct SurvivalTable {
   std::optional<statistics::LogRank> log_rank;
 };
 
-/// Both doings of every test that any run has. With several episodes in a test, the median of a run's
+/// Both activities in every test that any run has. With several episodes in a test, the median of a run's
 /// episodes is its lifetime.
 std::vector<SurvivalTable> survival_tables(const StudyData& data);
 

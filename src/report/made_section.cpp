@@ -116,7 +116,7 @@ std::string made_section(const Report& report) {
   content +=
       subtitle("Where the numbers are") +
       paragraph(
-          "Every number on this page stands in these tables, in full precision; runs.csv and bests.csv have "
+          "Every number on this page is in these tables, in full precision; runs.csv and bests.csv have "
           "what the others are computed from. The JSON document has the same tables.") +
       files_table(report);
   return section(

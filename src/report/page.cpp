@@ -50,7 +50,7 @@ std::string headline(const Report& report) {
   return out + "</dl>\n";
 }
 
-/// Whether the claims stood before the runs.
+/// Says so if the claims were the same when each run finished.
 std::string claims_text(const Report& report) {
   const auto& data = report.data;
   if (data.study.claims.empty() || data.records.empty()) return {};

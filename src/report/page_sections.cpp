@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "amble/core/index.hpp"
 #include "amble/graphics/svg.hpp"
 #include "amble/io/xml.hpp"
 #include "amble/report/curves_figure.hpp"
@@ -17,8 +18,8 @@ namespace {
 
 using graphics::Layout;
 
-std::string_view name_of(Doing doing) {
-  return doing_names[static_cast<std::size_t>(doing)];
+std::string_view name_of(Activity activity) {
+  return activity_names[to_index(activity)];
 }
 
 /// "mean (sd)".
@@ -49,7 +50,7 @@ std::string median_text(const statistics::SurvivalCurve& curve, double trial_s) 
 }
 
 std::string survival_part(const Report& report, const SurvivalTable& table) {
-  const bool upright = table.doing == Doing::upright;
+  const bool upright = table.activity == Activity::upright;
   TableWriter rows({{"Condition", false},
                     {"Runs"},
                     {upright ? "Fell" : "Stopped"},
@@ -60,7 +61,7 @@ std::string survival_part(const Report& report, const SurvivalTable& table) {
     rows.row({report.label(condition.condition), fmt::format("{}", condition.curve.n),
               fmt::format("{}", condition.curve.ended), percent_text(condition.curve.at(table.trial_s)),
               median_text(condition.curve, table.trial_s)});
-  std::string out = fmt::format("<h4>Still {}</h4>\n", name_of(table.doing));
+  std::string out = fmt::format("<h4>Still {}</h4>\n", name_of(table.activity));
   out += paragraph(log_rank_text(table));
   out += figure([&](Layout layout) { return survival_figure(report, table, layout); });
   return out + rows.finish();
@@ -108,7 +109,7 @@ std::string test_text(const Report& report, const ledger::TestSpec& test) {
     }
   if (!test.noise.empty())
     text += fmt::format(", {} under noise that evolution has not met (median)",
-                        counted(static_cast<std::size_t>(test.episodes), "episode"));
+                        counted(to_index(test.episodes), "episode"));
   return text;
 }
 
@@ -152,12 +153,13 @@ std::string survival_section(const Report& report) {
                            paragraph(test_text(report, test) + ".") + parts);
   }
   if (content.empty()) return {};
-  return section("survival", "How long they stayed up and walked",
-                 "Kaplan–Meier curves of tests longer than evolution’s trials: the share of runs that still "
-                 "stand or walk. Upright ends with a fall, walking also by standing still; what lasts to the "
-                 "end of the test is censored there. Medians have the interval of Brookmeyer and Crowley; "
-                 "“–” is an end beyond the test.",
-                 content);
+  return section(
+      "survival", "How long they stayed up and walked",
+      "Kaplan–Meier curves of tests longer than evolution’s trials: the share of runs still "
+      "upright or walking. Upright ends with a fall, walking also by standing still; what lasts to the "
+      "end of the test is censored there. Medians have the interval of Brookmeyer and Crowley; "
+      "“–” is an end beyond the test.",
+      content);
 }
 
 std::string sizes_section(const Report& report) {

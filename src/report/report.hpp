@@ -13,7 +13,7 @@
 
 namespace amble::report {
 
-/// Every number of a report, computed once: page, tables and figures only show it. The same ledger gives the
+/// All numbers of a report, computed once: page, tables and figures only show them. The same ledger gives the
 /// same bits.
 struct Report {
   StudyData data;

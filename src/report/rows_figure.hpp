@@ -16,7 +16,7 @@ struct Strip {
   std::vector<double> values;
   std::optional<double> mean;
   std::optional<statistics::Interval> interval;
-  std::string text;  ///< the mean for people
+  std::string text;  ///< the mean as displayed
 };
 
 /// A condition.

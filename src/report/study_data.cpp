@@ -6,6 +6,7 @@
 #include <set>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 #include "amble/ledger/ledger.hpp"
 #include "amble/ledger/measures.hpp"
 
@@ -25,7 +26,7 @@ std::string missing_runs(const StudyData& data) {
 
 /// How many finished runs lack a test that the study has for them.
 std::size_t without_test(const StudyData& data, const ledger::TestSpec& test) {
-  return static_cast<std::size_t>(std::ranges::count_if(data.records, [&](const ledger::Record& record) {
+  return to_index(std::ranges::count_if(data.records, [&](const ledger::Record& record) {
     return test.applies_to(record.condition) && record.find_test(test.name) == nullptr;
   }));
 }
@@ -40,18 +41,18 @@ void remark_on_condition(const StudyData& data, const ledger::ConditionSpec& con
                          std::vector<std::string>& remarks) {
   const auto runs = data.runs(condition.name);
   if (runs.empty()) return;
-  const auto complain = [&](std::string_view what) {
+  const auto remark = [&](std::string_view what) {
     remarks.push_back(fmt::format("{}: runs differ in their {}; they are no sample of one condition.",
                                   condition.label(), what));
   };
-  if (differs(runs, [](const ledger::Record& run) { return run.config; })) complain("settings");
-  if (differs(runs, [](const ledger::Record& run) { return run.engine; })) complain("engine");
+  if (differs(runs, [](const ledger::Record& run) { return run.config; })) remark("settings");
+  if (differs(runs, [](const ledger::Record& run) { return run.engine; })) remark("engine");
   if (differs(runs, [](const ledger::Record& run) { return run.generations; }))
-    complain("number of generations");
-  const int asked = condition.generations > 0 ? condition.generations : data.study.generations;
-  if (asked > 0 && runs.front()->generations != asked)
+    remark("number of generations");
+  const int expected = condition.generations > 0 ? condition.generations : data.study.generations;
+  if (expected > 0 && runs.front()->generations != expected)
     remarks.push_back(fmt::format("{}: the runs have {} generations, the study asks for {}.",
-                                  condition.label(), runs.front()->generations, asked));
+                                  condition.label(), runs.front()->generations, expected));
 }
 
 void remark_on_test(const StudyData& data, const ledger::TestSpec& test, std::vector<std::string>& remarks) {
@@ -96,11 +97,11 @@ std::vector<double> StudyData::values(std::string_view condition, std::string_vi
 
 StudyData load_study_data(const std::filesystem::path& folder) {
   const ledger::StudyPaths paths(folder);
-  StudyData data{.study = ledger::load_kept_study(paths), .records = {}, .strangers = {}};
+  StudyData data{.study = ledger::load_kept_study(paths), .records = {}, .unknown_files = {}};
   const ledger::Ledger kept(paths);
   data.records = kept.load_all(data.study);
-  for (const auto& stranger : kept.strangers(data.study))
-    data.strangers.push_back(stranger.filename().string());
+  for (const auto& unknown : kept.unknown_files(data.study))
+    data.unknown_files.push_back(unknown.filename().string());
   return data;
 }
 
@@ -144,11 +145,11 @@ std::vector<std::string> remarks(const StudyData& data) {
         fmt::format("The claims or their rules were changed after runs had finished: {} of {} "
                     "records were made when they were others.",
                     older, data.records.size()));
-  if (!data.strangers.empty())
+  if (!data.unknown_files.empty())
     remarks.push_back(fmt::format("The ledger has {} that {} no run of this study and not counted: {}.",
-                                  data.strangers.size() == 1 ? "a file" : "files",
-                                  data.strangers.size() == 1 ? "is" : "are",
-                                  fmt::join(data.strangers, ", ")));
+                                  data.unknown_files.size() == 1 ? "a file" : "files",
+                                  data.unknown_files.size() == 1 ? "is" : "are",
+                                  fmt::join(data.unknown_files, ", ")));
   return remarks;
 }
 

@@ -15,8 +15,8 @@ namespace amble::report {
 /// A study and those of its runs that are finished.
 struct StudyData {
   ledger::StudySpec study;
-  std::vector<ledger::Record> records;  ///< by condition and seed in the order of the study
-  std::vector<std::string> strangers;   ///< names of files in the ledger that are no run of the study
+  std::vector<ledger::Record> records;     ///< by condition and seed in the order of the study
+  std::vector<std::string> unknown_files;  ///< in the ledger, of no run of the study; names
 
   std::size_t planned() const;                            ///< runs of all conditions
   std::size_t planned(std::string_view condition) const;  ///< a condition of the study
@@ -37,8 +37,8 @@ std::vector<std::string> distances_of(const ledger::StudySpec& study);
 std::optional<double> training_s(const ledger::Record& record);
 
 /// What a reader must know before the numbers: runs that are missing or lack tests, a condition whose records
-/// differ in config, engine or generations, tests of another length than the study asks for, files that do
-/// not belong. Empty if all is well.
+/// differ in config, engine or generations, tests of another length than in the study, unknown files. Empty
+/// if there is nothing to remark.
 std::vector<std::string> remarks(const StudyData& data);
 
 }  // namespace amble::report

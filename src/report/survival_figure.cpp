@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "amble/core/index.hpp"
 #include "amble/graphics/axis.hpp"
 #include "amble/graphics/svg.hpp"
 #include "amble/report/number_text.hpp"
@@ -134,9 +135,8 @@ void draw_key(Svg& svg, const Report& report, const SurvivalTable& table, const 
 }
 
 std::string description(const SurvivalTable& table) {
-  return fmt::format("Share of runs still {} over {} of test {}",
-                     doing_names[static_cast<std::size_t>(table.doing)], time_text(table.trial_s),
-                     table.test);
+  return fmt::format("Share of runs still {} over {} of test {}", activity_names[to_index(table.activity)],
+                     time_text(table.trial_s), table.test);
 }
 
 std::string overlaid(const Report& report, const SurvivalTable& table, Layout layout) {

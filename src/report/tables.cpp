@@ -1,5 +1,6 @@
 #include "amble/report/tables.hpp"
 
+#include "amble/core/index.hpp"
 #include "amble/ledger/measures.hpp"
 
 namespace amble::report {
@@ -145,7 +146,7 @@ Table survival_table(const Report& report) {
   for (const SurvivalTable& survival : report.survival)
     for (const ConditionLifetimes& condition : survival.conditions)
       for (const statistics::SurvivalStep& step : condition.curve.steps) {
-        Row row{survival.test,       std::string(doing_names[static_cast<std::size_t>(survival.doing)]),
+        Row row{survival.test,       std::string(activity_names[to_index(survival.activity)]),
                 condition.condition, step.time_s,
                 cell(step.at_risk),  cell(step.ended),
                 cell(step.censored), step.survival};
@@ -165,7 +166,7 @@ Table log_rank_table(const Report& report) {
     for (std::size_t i = 0; i < survival.conditions.size(); ++i) {
       const ConditionLifetimes& condition = survival.conditions[i];
       const auto& test = survival.log_rank;
-      table.rows.push_back({survival.test, std::string(doing_names[static_cast<std::size_t>(survival.doing)]),
+      table.rows.push_back({survival.test, std::string(activity_names[to_index(survival.activity)]),
                             condition.condition, survival.trial_s, cell(condition.curve.n),
                             cell(condition.curve.ended), test ? Cell(test->expected[i]) : Cell(),
                             cell(condition.curve.median_s), cell(condition.curve.median_lower_s),
@@ -217,7 +218,7 @@ Table claims_table(const Report& report) {
             claim.text,
             claim.source,
             claim.figure,
-            std::string(ledger::claim_kind_names[static_cast<std::size_t>(claim.kind)]),
+            std::string(ledger::claim_kind_names[to_index(claim.kind)]),
             claim.measure,
             claim.condition,
             against.empty() ? claim.threshold_condition : against,

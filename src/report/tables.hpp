@@ -17,7 +17,7 @@ using Cell = std::variant<std::monostate, std::string, double, std::int64_t>;
 struct Table {
   std::string name;                 ///< "runs"; the file is runs.csv
   std::string about;                ///< what a row is
-  std::vector<std::string> header;  ///< the same words in every report, but for the tests of "runs"
+  std::vector<std::string> header;  ///< the same in every report, but for the tests of "runs"
   std::vector<std::vector<Cell>> rows;
 };
 

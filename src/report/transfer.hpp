@@ -9,13 +9,13 @@
 
 namespace amble::report {
 
-/// Champions of one condition in an engine that they were not evolved in.
+/// Champions of one condition in an engine other than that of their evolution.
 struct Transfer {
   std::string test, condition;
   std::string home, engine;  ///< where they evolved, and where they were tried
   double trial_s = 0.0;
-  /// What the distance is compared with: a test of the same length in the home engine, or train_m if the
-  /// test is as long as the trials of evolution. Empty if there is neither.
+  /// The measure that the distance is compared with: a test of the same length in the home engine, or train_m
+  /// if the test is as long as the trials of evolution. Empty if there is neither.
   std::string reference;
   std::size_t n = 0;  ///< runs with the test
   double median_m = 0.0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "amble/core/index.hpp"
 #include "amble/report/verdict_kinds.hpp"
 #include "amble/statistics/multiple_tests.hpp"
 
@@ -65,7 +66,7 @@ std::vector<Judgement> judge(const StudyData& data) {
 
 std::array<std::size_t, 4> count_verdicts(const std::vector<Judgement>& judgements) {
   std::array<std::size_t, 4> counts{};
-  for (const Judgement& judgement : judgements) ++counts[static_cast<std::size_t>(judgement.verdict)];
+  for (const Judgement& judgement : judgements) ++counts[to_index(judgement.verdict)];
   return counts;
 }
 

@@ -12,12 +12,12 @@
 
 namespace amble::report {
 
-/// What was found of one claim.
+/// The result of judging one claim.
 struct Judgement {
   Verdict verdict = Verdict::not_testable;
   std::string reason;  ///< why, in a sentence or two
 
-  std::size_t n = 0, planned = 0;                  ///< runs of the condition that speak, of so many
+  std::size_t n = 0, planned = 0;                  ///< runs of the condition that were used, of so many
   std::size_t n_against = 0, planned_against = 0;  ///< of the other condition, 0 if there is none
   std::string quantity;                          ///< what `estimate` is: "difference of means", "ratio", …
   std::optional<double> estimate;                ///< in the unit of the measure where it has one
@@ -26,7 +26,7 @@ struct Judgement {
   std::string test;                              ///< name of the test; empty: none was made
   std::optional<double> p;                       ///< two-sided
   std::optional<double> p_holm;                  ///< difference: adjusted over all claims of differences
-  std::string ours;                              ///< the estimate for people, next to the published figure
+  std::string ours;                              ///< the estimate as displayed next to the published figure
 };
 
 /// Judges all claims of a study, in their order. Claims of differences are one family: their p values are

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "amble/core/index.hpp"
 #include "amble/report/gait_counts.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/verdict_kinds.hpp"
@@ -87,8 +88,8 @@ Judgement judge_count(const StudyData& data, const ClaimSpec& claim) {
   if (!judgement.reason.empty()) return judgement;
   const auto threshold = threshold_of(data, claim, judgement.reason);
   if (!threshold) return judgement;
-  const auto successes = static_cast<std::size_t>(
-      std::ranges::count_if(sample, [&](double value) { return value >= *threshold; }));
+  const auto successes =
+      to_index(std::ranges::count_if(sample, [&](double value) { return value >= *threshold; }));
   const statistics::Count ours{successes, sample.size()};
   judgement.estimate = static_cast<double>(successes) / static_cast<double>(sample.size());
   judgement.interval = *statistics::clopper_pearson(ours, confidence);

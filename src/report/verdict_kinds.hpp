@@ -4,8 +4,8 @@
 
 namespace amble::report {
 
-/// One claim with its numbers and, but for differences, its verdict (docs/STUDIES.md). A difference still
-/// waits for its adjusted p value: conclude_difference().
+/// One claim with its numbers and, but for differences, its verdict (docs/STUDIES.md). The verdict on a
+/// difference needs its adjusted p value: conclude_difference().
 Judgement judge_difference(const StudyData& data, const ledger::ClaimSpec& claim);
 Judgement judge_ratio(const StudyData& data, const ledger::ClaimSpec& claim);
 Judgement judge_value(const StudyData& data, const ledger::ClaimSpec& claim);

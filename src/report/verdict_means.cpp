@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "amble/core/index.hpp"
 #include "amble/graphics/svg.hpp"
 #include "amble/ledger/measures.hpp"
 #include "amble/report/number_text.hpp"
@@ -17,7 +18,7 @@ namespace {
 using ledger::ClaimSpec;
 using ledger::TwoSampleTest;
 
-/// Two conditions with the runs that speak.
+/// Two conditions with the runs that are used.
 struct TwoSamples {
   std::vector<double> first, second;
 };
@@ -197,7 +198,7 @@ Judgement judge_value(const StudyData& data, const ClaimSpec& claim) {
   judgement.reason = too_few(data, claim.condition, judgement.n, 2);
   if (!judgement.reason.empty()) return judgement;
   const auto moments = *statistics::moments(sample);
-  const statistics::Moments published{static_cast<std::size_t>(claim.runs), claim.mean, claim.sd};
+  const statistics::Moments published{to_index(claim.runs), claim.mean, claim.sd};
   const auto test = *statistics::welch_t_test(moments, published, 1.0 - claim.alpha);
   judgement.test = "Welch’s t";
   judgement.p = test.p;

@@ -8,17 +8,18 @@
 #include <string_view>
 #include <vector>
 
+#include "amble/core/index.hpp"
 #include "amble/ledger/claim_spec.hpp"
 #include "amble/statistics/interval.hpp"
 
 namespace amble::report {
 
-/// What is said of a claim. The rules are in docs/STUDIES.md.
+/// The verdict on a claim. The rules are in docs/STUDIES.md.
 enum class Verdict : std::uint8_t { confirmed, not_confirmed, contradicted, not_testable };
 inline constexpr std::array<std::string_view, 4> verdict_names{"confirmed", "not confirmed", "contradicted",
                                                                "not testable"};
 inline std::string_view name_of(Verdict verdict) {
-  return verdict_names[static_cast<std::size_t>(verdict)];
+  return verdict_names[to_index(verdict)];
 }
 
 /// `direction`: where the condition's sample lies with respect to the other; `p`: two-sided, adjusted.
@@ -26,8 +27,8 @@ inline std::string_view name_of(Verdict verdict) {
 Verdict difference_verdict(ledger::Relation relation, statistics::Direction direction, double p,
                            double alpha);
 
-/// Of an interval and bounds, which belong to what is claimed: wholly inside, wholly on one side of the
-/// claimed range, or across a bound.
+/// Of an interval and the claimed range, bounds included: wholly inside, wholly on one side, or across a
+/// bound.
 Verdict bounds_verdict(const statistics::Interval& interval, double at_least, double at_most);
 
 /// Agreement with a published figure. Contradicted: a test finds a difference, p < alpha. Confirmed: it finds

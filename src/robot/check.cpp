@@ -23,8 +23,8 @@ bool unit(Quat q) {
 
 class Checker {
  public:
-  Checker(const RobotSpec& robot, const std::function<void(const std::string&)>& complain)
-      : robot_(robot), complain_(complain) {}
+  Checker(const RobotSpec& robot, const std::function<void(const std::string&)>& report)
+      : robot_(robot), report_(report) {}
 
   void check() const {
     if (robot_.bodies.empty()) bad("the robot has no body");
@@ -45,8 +45,8 @@ class Checker {
 
   template <typename... Args>
   void bad(fmt::format_string<Args...> text, Args&&... args) const {
-    complain_(fmt::format(text, std::forward<Args>(args)...));
-    AMBLE_CHECK(false, "complain must throw");
+    report_(fmt::format(text, std::forward<Args>(args)...));
+    AMBLE_CHECK(false, "report must throw");
   }
 
   void need(bool good, std::string_view kind, const std::string& name, std::string_view problem) const {
@@ -130,13 +130,13 @@ class Checker {
   }
 
   const RobotSpec& robot_;
-  const std::function<void(const std::string&)>& complain_;
+  const std::function<void(const std::string&)>& report_;
 };
 
 }  // namespace
 
-void check_robot(const RobotSpec& robot, const std::function<void(const std::string&)>& complain) {
-  Checker(robot, complain).check();
+void check_robot(const RobotSpec& robot, const std::function<void(const std::string&)>& report) {
+  Checker(robot, report).check();
 }
 
 }  // namespace amble::robot

@@ -11,8 +11,8 @@ namespace amble::robot {
 /// read back to the same bits; infinite friction is "inf".
 io::Json to_json(const RobotSpec& robot);
 
-/// Throws UserError(ExitCode::bad_file) for a missing or wrong key, and for a robot that breaks RobotSpec's
-/// promises.
+/// Throws UserError(ExitCode::bad_file) for a missing or wrong key, and for a robot that violates RobotSpec's
+/// invariants.
 RobotSpec from_json(const io::JsonView& json);
 
 /// The same from the text in a recording, whose robot has at least one leg. `what` names it in the error.

@@ -8,7 +8,7 @@
 
 namespace amble::robot {
 
-/// Where a frame stands in another: a point or frame given in it becomes one of the outer frame.
+/// Pose of a frame in an outer frame; the product maps points and frames given in it to the outer frame.
 struct Pose {
   Vec3 position_m;
   Quat rotation;

@@ -4,7 +4,7 @@
 
 namespace amble::robot {
 
-/// What controllers may know, for all lanes at once. Rows in control order (RobotSpec::joints) and leg order.
+/// The inputs of controllers, for all lanes at once. Rows in control order (RobotSpec::joints) and leg order.
 struct SensorFrame {
   LaneArray joint_angle_rad;  ///< joints × lanes
   LaneArray touch;            ///< legs × lanes: 1 while the foot touches the ground, else 0

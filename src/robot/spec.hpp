@@ -16,7 +16,7 @@ enum class Shape { sphere, capsule, cylinder, box };
 struct Geom {
   std::string name;
   int body = 0;
-  bool collides = true;  ///< false: only to look at
+  bool collides = true;  ///< false: visual only
   Shape shape = Shape::sphere;
   Vec3 size_m;
   Vec3 position_m;  ///< centre, in the body's frame
@@ -24,8 +24,8 @@ struct Geom {
   std::array<float, 4> rgba{0.7f, 0.7f, 0.7f, 1.0f};
 };
 
-/// A rigid body. Its frame stands at `position_m`, `rotation` in the parent's frame while all joints are at
-/// zero; for the root (parent −1) in the world, which is the start pose.
+/// A rigid body. `position_m` and `rotation` are the pose of its frame in the parent's frame while all joints
+/// are at zero; of the root (parent −1) in the world: the start pose.
 struct Body {
   std::string name;
   int parent = -1;  ///< always smaller than the body's own index
@@ -38,9 +38,11 @@ struct Body {
 };
 
 enum class ServoMode {
-  velocity,  ///< aims at the speed gain × (target − angle), with at most max_torque (the authors' ODE joint
-             ///< motor)
-  torque,  ///< applies kp × (target − angle) − kd × speed, clamped to ± max_torque
+  /// Drives the joint at the speed gain × (target − angle), with at most max_torque (the authors' ODE joint
+  /// motor).
+  velocity,
+  /// Applies kp × (target − angle) − kd × speed, clamped to ± max_torque.
+  torque,
 };
 
 /// How a joint follows its target angle.
@@ -53,8 +55,8 @@ struct Servo {
 };
 
 /// A motorised hinge between `body` and its parent. Its angle is 0 in the start pose and grows by the
-/// right-hand rule about `axis` as `body` turns against its parent. A body with two joints carries them in
-/// the order of the chain: the first is fixed to the parent, the second to the body.
+/// right-hand rule about `axis` as `body` turns against its parent. A body with two joints has them in the
+/// order of the chain: the first is next to the parent, the second to the body.
 struct Joint {
   std::string name;
   int body = 0;
@@ -71,19 +73,19 @@ struct Leg {
   std::vector<int> joints;  ///< one per joint type, in the order of RobotSpec::joint_types
 };
 
-/// How bodies meet the ground (and each other). erp and cfm as in ODE (manual, "Soft constraints"): with
-/// timestep h a contact is a spring of erp / (h cfm) N/m and a damper of (1 − erp) / cfm N s/m. The ODE
+/// Contact of bodies with the ground (and each other). erp and cfm as in ODE (manual, "Soft constraints"):
+/// with timestep h a contact is a spring of erp / (h cfm) N/m and a damper of (1 − erp) / cfm N s/m. The ODE
 /// engine gives both numbers to all constraints of its world, joints included, as the authors' program did.
 struct Contact {
   double friction = 0.0;  ///< Coulomb coefficient; infinity: no sliding at all
   double erp = 0.0;       ///< share of the penetration undone per step, in (0, 1]
-  double cfm_s_per_kg =
-      0.0;  ///< softness, ODE's constraint force mixing: yielding velocity per force, m/s per N
+  /// Softness, ODE's constraint force mixing: yielding velocity per force, m/s per N.
+  double cfm_s_per_kg = 0.0;
 };
 
-/// All that is known of a robot: const, shared by all workers, independent of any engine.
-/// Joints stand in control order, leg by leg and type by type: joint index = leg × joint_types.size() + type.
-/// That is the order of motors, targets, angles, and rows of every table in amble.
+/// All that is known of a robot: const, shared by all workers, independent of any engine. Joints are in
+/// control order, leg by leg and type by type: joint index = leg × joint_types.size() + type. That is the
+/// order of motors, targets, angles, and rows of every table in amble.
 struct RobotSpec {
   std::string name;
   std::vector<Body> bodies;  ///< bodies[0] is the root ("torso"), free to move
@@ -99,7 +101,7 @@ struct RobotSpec {
   double total_mass_kg() const;
   /// Indices into `joints` of the joints of one body, in the order of the chain (Joint::chain_index).
   std::vector<int> joints_of_body(int body) const;
-  /// The leg a body belongs to, or −1 for the trunk: a leg is its joints' bodies and what hangs on them.
+  /// The leg that a body is part of, or −1 for the trunk: a leg is its joints' bodies and their descendants.
   int leg_of_body(int body) const;
 };
 

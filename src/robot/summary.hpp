@@ -6,7 +6,7 @@
 
 namespace amble::robot {
 
-/// What was read from a robot file, as tables to read on a terminal.
+/// The robot as tables of plain text.
 std::string summary(const RobotSpec& robot);
 
 }  // namespace amble::robot

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 
 namespace amble::score {
 namespace {
@@ -29,7 +30,7 @@ constexpr std::array behaviours{Row{"", make<NoBehaviour>}, Row{"path", make<Pat
 }  // namespace
 
 PathBehaviour::PathBehaviour(const BehaviourSettings& settings)
-    : path_(settings.path), length_(2 * static_cast<std::size_t>(settings.path.count(settings.steps))) {}
+    : path_(settings.path), length_(2 * to_index(settings.path.count(settings.steps))) {}
 
 std::vector<float> PathBehaviour::of(const record::Trajectory& trajectory) const {
   AMBLE_CHECK(trajectory.com_path_m.size() <= length_, "paths are no longer than trials");

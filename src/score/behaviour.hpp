@@ -9,20 +9,20 @@
 
 namespace amble::score {
 
-/// What a robot did in a trial, as a vector of numbers that searches compare: a behaviour characterization
-/// (Lehman & Stanley 2011). Const, shared by all threads.
+/// Behaviour characterization of a trial: a vector of numbers that searches compare (Lehman & Stanley 2011).
+/// Const, shared by all threads.
 class Behaviour {
  public:
   virtual ~Behaviour() = default;
   /// Numbers in the vector, the same for every trial.
   virtual std::size_t length() const = 0;
-  /// What of the path must be recorded for it.
+  /// Sampling of the path that it needs.
   virtual record::PathSampling path() const { return {}; }
-  /// Throws nothing; a trial that ended early has as many numbers.
+  /// Of the same length also for trials that ended early.
   virtual std::vector<float> of(const record::Trajectory& trajectory) const = 0;
 };
 
-/// What behaviours are made from.
+/// Parameters of behaviours.
 struct BehaviourSettings {
   int steps = 0;              ///< of a trial that completes
   record::PathSampling path;  ///< how "path" samples it
@@ -43,7 +43,7 @@ class PathBehaviour : public Behaviour {
 };
 
 /// By its name in the table of behaviour.cpp, which search::StrategyKind::behaviour refers to; "" is the
-/// behaviour without numbers. An unknown name is a programmer's mistake.
+/// behaviour without numbers. AMBLE_CHECK: the name is known.
 std::unique_ptr<const Behaviour> make_behaviour(std::string_view name, const BehaviourSettings& settings);
 
 }  // namespace amble::score

@@ -14,17 +14,17 @@ namespace amble::score {
 /// (Morse et al. 2013, sec. 4); 0 if it diverged.
 double distance_m(const record::Trajectory& trajectory);
 
-/// What a trial is worth if the robot fell in it: `fall_factor` of the value; else all of it.
+/// The value of a trial in which the robot may have fallen: times `fall_factor` if it did.
 double credited(double value, record::Outcome outcome, double fall_factor);
 
-/// One quantity in a score, and how much of it counts.
+/// One quantity in a score and its weight.
 struct Term {
   std::string quantity = "distance";
   double weight = 1.0;
   void describe(io::SettingsVisitor& visitor);
 };
 
-/// What a quantity must keep to.
+/// Bounds on a quantity.
 struct Limit {
   std::string quantity = "uprightness";
   double least = -1e9;
@@ -32,7 +32,7 @@ struct Limit {
   void describe(io::SettingsVisitor& visitor);
 };
 
-/// What makes a gait good. The default is the paper's: distance in a straight line, nothing else.
+/// Definition of a score. The default is the paper's: distance in a straight line alone.
 struct Settings {
   std::vector<Term> terms{Term()};
   std::vector<Limit> limits = {};
@@ -41,13 +41,13 @@ struct Settings {
   double speed_m_s = 0.5;
 
   void describe(io::SettingsVisitor& visitor);
-  /// Throws SettingError for a quantity that does not exist, and for limits that nothing can keep.
+  /// Throws SettingError for a quantity that does not exist, and for limits that no trial can meet.
   void validate() const;
   /// Whether a score by these settings is distance_m(), to the bit.
   bool is_distance() const;
 };
 
-/// What a score needs to know beside the trajectory.
+/// What a score depends on besides the trajectory.
 struct Context {
   const Settings& settings;
   double duration_s = 0.0;  ///< of a trial that completes
@@ -57,13 +57,13 @@ struct Context {
 /// A quantity of a trial that scores and limits can name: a row of the table in score.cpp.
 struct Quantity {
   std::string_view name, unit, what;
-  record::Measures measures;  ///< what trials must measure for it
+  record::Measures measures;  ///< measurements of trials that it needs
   double (*of)(const record::Trajectory& trajectory, const Context& context);
 };
 std::span<const Quantity> quantities();
 
-/// Scores trials: Σ weight × quantity, at least 0. A trial that breaks a limit is worth breach_factor of
-/// that, one that diverged 0.
+/// Scores trials: Σ weight × quantity, at least 0; times breach_factor for a trial that violates a limit, 0
+/// for one that diverged.
 class Score {
  public:
   /// The settings must be valid; `weight_n` is the robot's, `duration_s` that of a trial that completes.
@@ -71,7 +71,7 @@ class Score {
 
   /// Finite, ≥ 0.
   double of(const record::Trajectory& trajectory) const;
-  /// What trials must measure for it.
+  /// Measurements of trials that it needs.
   record::Measures measures() const;
 
  private:

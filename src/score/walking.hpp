@@ -7,8 +7,8 @@
 
 namespace amble::score {
 
-/// What standing still means: staying within `radius_m` for `window_s`. A robot that stands is upright and
-/// does not walk; slower than radius / window, 2.5 cm/s, is standing.
+/// Standing still is staying within `radius_m` for `window_s`: upright, but slower than radius / window, 2.5
+/// cm/s.
 struct StandingRule {
   double window_s = 10.0;
   double radius_m = 0.25;
@@ -16,7 +16,7 @@ struct StandingRule {
 
 /// How long a robot walks: until the beginning of the first window in which its centre of mass, projected on
 /// the ground and sampled ten times a second, stays within the radius of where it was at that beginning.
-/// Memory holds one window, whatever the length of the trial.
+/// Keeps one window in memory, whatever the length of the trial.
 class WalkingMeter {
  public:
   /// `frame_s`: time between calls of add(), > 0.

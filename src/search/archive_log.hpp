@@ -10,22 +10,21 @@
 
 namespace amble::search {
 
-/// An archive's way to the disk: a file that only grows, to which each generation appends its new members
-/// (docs/FORMATS.md). Every member is followed by a checksum over all members so far, and the last of these
-/// stands in the checkpoint: so the checkpoint stays small, and still only goes with this very archive.
+/// Persists an archive in an append-only file, to which each generation appends its new members
+/// (docs/FORMATS.md). Every member is followed by a checksum over all members so far, and the checkpoint
+/// contains the last of these: it stays small, and still fits this archive only.
 class ArchiveLog {
  public:
   explicit ArchiveLog(std::size_t length) : length_(length) {}
 
-  /// Bytes to append to the file for what joined the archive since the last call; the first ones are the
-  /// header.
+  /// Bytes to append to the file for the members added since the last call; initially with the header.
   std::string take_growth(const Behaviours& archive);
 
-  /// How far the file had come; restore() then reads so much of it.
+  /// Number of members and checksum; restore() reads that part of the file.
   void save(io::BinaryWriter& writer) const;
   void load(io::BinaryReader& reader, std::size_t most_members);
-  /// Fills the empty `archive` from the file, and returns how many of its bytes count. What lies beyond is
-  /// not read. Throws UserError(bad_file) "WHAT: …": foreign, truncated, altered.
+  /// Fills the empty `archive` from the file, and returns the length of the part that was read; anything
+  /// after it is ignored. Throws UserError(bad_file) "WHAT: …": foreign, truncated, altered.
   std::uint64_t restore(io::InputFile& file, const std::string& what, Behaviours& archive) const;
 
   std::size_t members() const { return members_; }

@@ -6,7 +6,7 @@
 
 namespace amble::search {
 
-/// Behaviour vectors of one length, row after row, float32: what a matrix product wants.
+/// Behaviour vectors of one length as a row-major float32 matrix, for BLAS.
 class Behaviours {
  public:
   /// Address space for `capacity` rows is taken at once, so rows never move; memory is used as rows come in.
@@ -14,7 +14,7 @@ class Behaviours {
 
   std::size_t rows() const { return squared_norms_.size(); }
   std::size_t length() const { return length_; }
-  /// Programmer's mistakes: another length, numbers that are not finite, more rows than `capacity`.
+  /// AMBLE_CHECK: the length, finite numbers, at most `capacity` rows.
   void append(std::span<const float> row);
 
   std::span<const float> row(std::size_t r) const { return {values_.data() + r * length_, length_}; }

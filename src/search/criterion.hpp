@@ -9,13 +9,12 @@
 #include "amble/io/file.hpp"
 #include "amble/neat/fitness.hpp"
 #include "amble/search/evaluation.hpp"
-#include "amble/search/reading.hpp"
+#include "amble/search/metric.hpp"
 
 namespace amble::search {
 
-/// By what generational NEAT selects parents: turns the evaluations of a generation into fitness. Belongs to
-/// one thread. All state is in save() and load(), but for an archive, which has a file of its own that only
-/// grows.
+/// Selection criterion of generational NEAT: turns the evaluations of a generation into fitness. Not thread
+/// safe. save() and load() cover all state but an archive, which has an append-only file of its own.
 class Criterion {
  public:
   virtual ~Criterion() = default;
@@ -25,17 +24,16 @@ class Criterion {
   virtual void save(io::BinaryWriter& writer) const = 0;
   virtual void load(io::BinaryReader& reader) = 0;
 
-  /// Whether there is an archive to be kept in a file. If not, the next two are never called.
+  /// Whether there is an archive to be kept in a file; if not, the next two are never called.
   virtual bool has_archive() const { return false; }
   /// Bytes to append to that file since the last call. To be called before save().
   virtual std::string take_archive_growth() { return {}; }
-  /// After load(): reads the archive back; returns how many bytes of the file belong to it. Throws
-  /// UserError(bad_file) "WHAT: …".
+  /// After load(): reads the archive back; returns its length in the file, bytes. Throws UserError(bad_file)
+  /// "WHAT: …".
   virtual std::uint64_t restore_archive(io::InputFile& /*file*/, const std::string& /*what*/) { return 0; }
 
-  /// What it has to say of the generation it judged last; the same names in every generation, also before
-  /// the first.
-  virtual std::vector<Reading> readings() const { return {}; }
+  /// Statistics of the generation judged last; the same names in every generation, also before the first.
+  virtual std::vector<Metric> metrics() const { return {}; }
 };
 
 }  // namespace amble::search

@@ -44,22 +44,24 @@ DistanceEstimates::DistanceEstimates(const Behaviours& a, const Behaviours& b)
       products_(multiply(a, b)) {
   AMBLE_CHECK(a.length() == b.length() && a.length() <= longest_behaviour, "behaviours have one length");
   const double n = static_cast<double>(a.length());
-  // A dot product of n terms, summed in any order and fused or not, is off by at most n u / (1 − n u) |a| |b|
-  // (Higham, Accuracy and Stability of Numerical Algorithms, 2002, sec. 3.1), and by what underflows. It
-  // counts twice; the hundredth covers the rounding of the norms.
+  // A float32 dot product of n terms, summed in any order and fused or not, has an error of at most
+  // γ_n |a| |b|, γ_n = n u / (1 − n u) (Higham, Accuracy and Stability of Numerical Algorithms, 2002,
+  // sec. 3.1), plus underflow. It enters the distance with a factor of 2; 1 % more covers the rounding of the
+  // norms.
   const double nu = n * unit_roundoff<float>;
   float_error_ = 2.02 * nu / (1.0 - nu);
   underflow_ = 2.0 * n * static_cast<double>(std::numeric_limits<float>::min());
-  // By the same rule for double precision: n for either norm, 2 n for the exact distance, which is at most
-  // 2 (|a|² + |b|²), and a few for putting the three terms together.
+  // The same bound in double precision, in units of u (|a|² + |b|²): n for the norms, 2 n for the exact
+  // distance, which is at most 2 (|a|² + |b|²), and a few for the sum of the three terms.
   double_error_ = 4.0 * (n + 4.0) * unit_roundoff<double>;
 }
 
 Bounds DistanceEstimates::between(std::size_t row_a, std::size_t row_b) const {
   const double norm_a = squared_norms_a_[row_a], norm_b = squared_norms_b_[row_b];
   const auto product = static_cast<double>(products_[row_a * squared_norms_b_.size() + row_b]);
-  // Once a sum has overflowed it stays infinite or not a number: then nothing is known.
+  // After an overflow the product is infinite or NaN and bounds nothing.
   if (!std::isfinite(product)) return {0.0, std::numeric_limits<double>::infinity()};
+  // |a − b|² = |a|² + |b|² − 2 a·b, ± the error bounds of the constructor.
   const double estimate = norm_a + norm_b - 2.0 * product;
   const double slack =
       float_error_ * std::sqrt(norm_a * norm_b) + double_error_ * (norm_a + norm_b) + underflow_;

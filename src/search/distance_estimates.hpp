@@ -7,7 +7,7 @@
 
 namespace amble::search {
 
-/// Numbers that a squared distance, as exact_squared_distance() computes it, is not below and not above.
+/// Lower and upper bound of a squared distance as exact_squared_distance() computes it.
 struct Bounds {
   double lower = 0.0, upper = 0.0;
 };
@@ -16,12 +16,11 @@ struct Bounds {
 inline constexpr std::size_t longest_behaviour = 1000000;
 
 /// Bounds on the squared distances |a|² + |b|² − 2ab between every row of `a` and every row of `b`, from one
-/// matrix product (OpenBLAS). Their last bits depend on CPU and library, so they may only say whose exact
-/// distance need not be computed.
+/// matrix product (OpenBLAS). Their last bits depend on CPU and library, so they may only exclude rows whose
+/// exact distance is then not computed.
 ///
-/// While the product is computed, OpenBLAS is held to one thread: it would otherwise take all cores of the
-/// machine, whatever number of workers the user asked for. The number of threads belongs to the whole process
-/// and is put back afterwards.
+/// OpenBLAS is limited to one thread during the product; otherwise it would use all cores, whatever `--jobs`
+/// says. The number of threads is global to the process and is restored afterwards.
 class DistanceEstimates {
  public:
   DistanceEstimates(const Behaviours& a, const Behaviours& b);

@@ -4,10 +4,10 @@
 
 namespace amble::search {
 
-/// What became of one candidate: how good it was, and what it did.
+/// The result of evaluating one candidate.
 struct Evaluation {
-  double objective = 0.0;            ///< ≥ 0, finite; more is better
-  std::span<const float> behaviour;  ///< same length for all; empty where the search compares none
+  double objective = 0.0;            ///< finite, ≥ 0; higher is better
+  std::span<const float> behaviour;  ///< same length for all; empty if the search needs none
 };
 
 }  // namespace amble::search

@@ -15,14 +15,14 @@ void GenerationalSearch::tell(std::span<const Evaluation> evaluations) {
   population_.advance(criterion_->judge(evaluations));
 }
 
-std::vector<Reading> GenerationalSearch::readings() const {
-  std::vector<Reading> readings{{"species", static_cast<double>(statistics_.species)},
-                                {"threshold", statistics_.compatibility_threshold},
-                                {"mean_hidden", statistics_.mean_hidden},
-                                {"mean_links", statistics_.mean_links}};
-  const auto more = criterion_->readings();
-  readings.insert(readings.end(), more.begin(), more.end());
-  return readings;
+std::vector<Metric> GenerationalSearch::metrics() const {
+  std::vector<Metric> metrics{{"species", static_cast<double>(statistics_.species)},
+                              {"threshold", statistics_.compatibility_threshold},
+                              {"mean_hidden", statistics_.mean_hidden},
+                              {"mean_links", statistics_.mean_links}};
+  const auto more = criterion_->metrics();
+  metrics.insert(metrics.end(), more.begin(), more.end());
+  return metrics;
 }
 
 void GenerationalSearch::save(io::BinaryWriter& writer) const {

@@ -20,7 +20,7 @@ class GenerationalSearch : public Strategy {
   std::span<const neat::Genome> ask() const override { return population_.genomes(); }
   void tell(std::span<const Evaluation> evaluations) override;
 
-  std::vector<Reading> readings() const override;
+  std::vector<Metric> metrics() const override;
   void save(io::BinaryWriter& writer) const override;
   void load(io::BinaryReader& reader) override;
 
@@ -33,7 +33,7 @@ class GenerationalSearch : public Strategy {
  private:
   neat::Population population_;
   std::unique_ptr<Criterion> criterion_;
-  neat::PopulationStatistics statistics_;  ///< of the generation told last
+  neat::PopulationStatistics statistics_;  ///< of the last completed generation
 };
 
 }  // namespace amble::search

@@ -8,16 +8,15 @@
 
 namespace amble::search {
 
-/// Somebody who may be among the nearest.
-struct Candidate {
+/// A behaviour that may be among the nearest, with bounds on its distance.
+struct Reference {
   Bounds squared_distance;
   std::span<const float> behaviour;
 };
 
-/// Exact squared distances from `from` to the `count` nearest of the candidates, ascending; fewer if there
-/// are fewer. The bounds only save work: whatever they are, as long as they hold, the result is the same to
-/// the bit.
+/// Exact squared distances from `from` to the `count` nearest references, ascending; fewer if there are
+/// fewer. The bounds only save work: any valid bounds give the same result to the bit.
 std::vector<double> nearest_squared_distances(std::span<const float> from,
-                                              std::span<const Candidate> candidates, std::size_t count);
+                                              std::span<const Reference> references, std::size_t count);
 
 }  // namespace amble::search

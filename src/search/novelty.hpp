@@ -16,12 +16,12 @@ namespace amble::search {
 /// Novelty search (Lehman & Stanley 2011; Morse et al. 2013, sec. 4): selects by how far a behaviour is from
 /// its nearest neighbours among earlier ones. Elitism goes by the objective (neat::Fitness).
 ///
-/// A generation is judged in index order, after all its trials. A newcomer's novelty is the sum of the
-/// distances to its nearest neighbours in the archive as it then stands, so it sees those of its own
-/// generation who joined before it; or in the archive and all the rest of its generation. Whoever is both
-/// counts once. If the novelty exceeds the threshold, or the archive is still small, the newcomer joins. At
-/// the end of the generation the threshold adapts to the number of those who joined; those who did so only
-/// because the archive was small count if NoveltySettings::count_first_members says so.
+/// A generation is judged in index order, after all its trials. The novelty of a candidate is the sum of the
+/// distances to its nearest neighbours in the current archive, which includes the candidates of its own
+/// generation added before it; or in the archive and the rest of its generation, without duplicates. A
+/// candidate is added to the archive if its novelty exceeds the threshold or the archive is still small. At
+/// the end of the generation the threshold adapts to the number of candidates added; those added only because
+/// the archive was small count if NoveltySettings::count_first_members is set.
 class NoveltySearch : public Criterion {
  public:
   NoveltySearch(const NoveltySettings& settings, std::size_t behaviour_length);
@@ -32,8 +32,8 @@ class NoveltySearch : public Criterion {
   bool has_archive() const override { return true; }
   std::string take_archive_growth() override { return log_.take_growth(archive_); }
   std::uint64_t restore_archive(io::InputFile& file, const std::string& what) override;
-  /// archive: members after the generation; novelty_threshold: that they had to exceed; best_novelty.
-  std::vector<Reading> readings() const override;
+  /// archive: members after the generation; novelty_threshold: which they had to exceed; best_novelty.
+  std::vector<Metric> metrics() const override;
 
   const Behaviours& archive() const { return archive_; }
   /// For the next generation.

@@ -23,23 +23,23 @@ void NoveltySettings::describe(io::SettingsVisitor& visitor) {
                  {"distance of two behaviours: the sum of squared differences, or its root",
                   "the authors' code: squared; Morse et al. 2013, sec. 4: root (\"Cartesian distance\")"});
   visitor.choice("compare_with", compare_with, neighbours_names,
-                 {"among whom the nearest neighbours are looked for",
+                 {"the behaviours among which the nearest neighbours are searched",
                   "the authors' code: archive; Lehman & Stanley 2011: archive_and_population"});
   visitor.integer(
       "neighbours", neighbours, {1, 1e6},
       {"novelty is the sum of the distances to so many nearest neighbours; absent ones count 0", paper});
   visitor.number("threshold", threshold, {1e-9, 1e12},
-                 {"who is more novel than this joins the archive; the value in generation 0", paper});
+                 {"a candidate of higher novelty is added to the archive; the value in generation 0", paper});
   visitor.integer("first_members", first_members, {0, 1e6},
-                  {"while the archive has fewer members, everyone joins it", authors});
+                  {"while the archive has fewer members, every candidate is added", authors});
   visitor.flag("count_first_members", count_first_members,
-               {"whether those who join for that reason alone count as added when the threshold adapts",
+               {"whether candidates added for that reason alone count when the threshold adapts",
                 "the authors' code: false; Lehman's code: true"});
   visitor.integer("raise_above", raise_above, {0, 1e6},
                   {"a generation that adds more members than this raises the threshold", authors});
   visitor.number("raise_factor", raise_factor, {1, 1e3}, {"by this factor", authors});
   visitor.integer("lower_after", lower_after, {1, 1e6},
-                  {"the threshold is lowered when so many generations in a row have added nobody",
+                  {"the threshold is lowered when so many generations in a row have added no candidate",
                    "the authors' code: 4; Lehman's code: 10"});
   visitor.choice("lowering", lowering, lowering_names,
                  {"and then again in each further such generation, or after as many more",
@@ -49,7 +49,7 @@ void NoveltySettings::describe(io::SettingsVisitor& visitor) {
   visitor.number("lowest_threshold", lowest_threshold, {0, 1e12},
                  {"but not below this", "the authors' code: none; Lehman's code: 0.25"});
   visitor.integer("archive_limit", archive_limit, {1, 1e9},
-                  {"an archive of so many members takes nobody in"});
+                  {"most members of the archive; then none is added"});
 }
 
 void NoveltySettings::validate(std::size_t behaviour_length) const {
@@ -68,8 +68,8 @@ void NoveltySettings::validate(std::size_t behaviour_length) const {
 }
 
 void NoveltySettings::check_memory(std::size_t behaviour_length, int population, double memory_bytes) const {
-  // A member is its behaviour, its norm (held twice while a generation is judged), and a product with each
-  // newcomer.
+  // A member needs its behaviour, its norm (twice while a generation is judged), and a product with each
+  // candidate.
   const double per_member = static_cast<double>(behaviour_length) * sizeof(float) + 2.0 * sizeof(double) +
                             static_cast<double>(population) * sizeof(float);
   const double bytes = per_member * archive_limit;

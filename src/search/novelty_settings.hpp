@@ -11,12 +11,12 @@ namespace amble::search {
 enum class Distance { squared, root };
 inline constexpr std::array<std::string_view, 2> distance_names{"squared", "root"};
 
-/// Whom a newcomer's novelty is measured against.
+/// The behaviours that a candidate's novelty is measured against.
 enum class Neighbours { archive, archive_and_population };
 inline constexpr std::array<std::string_view, 2> neighbours_names{"archive", "archive_and_population"};
 
-/// Once so many generations in a row have added nobody to the archive: is the threshold lowered in each
-/// further one, or are so many counted anew?
+/// After the threshold was lowered because so many generations in a row added no candidate: whether each
+/// further such generation lowers it again, or the count starts anew.
 enum class Lowering { each_generation, count_anew };
 inline constexpr std::array<std::string_view, 2> lowering_names{"each_generation", "count_anew"};
 
@@ -40,10 +40,10 @@ struct NoveltySettings {
   int archive_limit = 50000;
 
   void describe(io::SettingsVisitor& visitor);
-  /// Throws UserError where these settings do not go with behaviours of so many numbers.
+  /// Throws UserError where these settings do not fit behaviours of this length.
   void validate(std::size_t behaviour_length) const;
-  /// Throws UserError where a full archive and a generation of `population` newcomers would not fit into
-  /// `memory_bytes`. For those who run the search: a config may be read on a smaller machine.
+  /// Throws UserError where a full archive and a generation of `population` candidates would not fit into
+  /// `memory_bytes`. For running a search only: a config may be read on a smaller machine.
   void check_memory(std::size_t behaviour_length, int population, double memory_bytes) const;
 };
 

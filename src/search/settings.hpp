@@ -8,7 +8,7 @@
 
 namespace amble::search {
 
-/// How genomes are searched for: which row of strategies.cpp, and the settings of those that have any.
+/// The search strategy, a row of strategies.cpp, and the settings of each.
 struct Settings {
   std::string kind = "objective";
   NoveltySettings novelty;

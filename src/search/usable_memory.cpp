@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of the whole, the rest is for what else runs.
+/// Share of the whole; the rest is for other processes.
 constexpr double usable_share = 0.8;
 
 double machine_memory_bytes() {
@@ -31,7 +31,7 @@ fs::path group_of_process(const fs::path& process_groups) {
 
 double usable_memory_bytes(const fs::path& process_groups, const fs::path& groups) {
   double bytes = machine_memory_bytes();
-  // The limits of all groups above hold, too. "max", which is no number, means none.
+  // The limits of all groups above apply, too. "max", which is no number, means none.
   for (fs::path group = group_of_process(process_groups);; group = group.parent_path()) {
     double limit_bytes = 0.0;
     if (std::ifstream(groups / group / "memory.max") >> limit_bytes) bytes = std::min(bytes, limit_bytes);

@@ -27,7 +27,7 @@ struct BootstrapInterval {
   double standard_error = 0.0;   ///< standard deviation over the resamples
   double bias_correction = 0.0;  ///< z0
   double acceleration = 0.0;     ///< a; 0 where leaving out any one value changes nothing
-  /// All resamples gave one number, so the interval has no width: it says nothing of other samples.
+  /// All resamples gave one number, so the interval has no width and no meaning for other samples.
   bool degenerate = false;
 };
 
@@ -62,15 +62,14 @@ std::optional<BootstrapInterval> bootstrap_paired_ratio(std::span<const double> 
                                                         std::span<const double> denominators,
                                                         const BootstrapOptions& options = {});
 
-/// Which elements of one sample a resample has: ascending indices, an element that was drawn twice stands
-/// there twice.
+/// Which elements of one sample a resample has: ascending indices, an element drawn twice is there twice.
 using Picks = std::vector<std::uint32_t>;
 
 /// A function of one resample per sample, in the order of the sizes.
 using PickStatistic = std::function<double(std::span<const Picks>)>;
 
-/// The general form, for whatever the others do not cover (differences of paired ratios, say): samples of
-/// these sizes, known to the caller only. Their order is the caller's, too.
+/// The general form, for cases that the others do not cover (e.g. differences of paired ratios): samples of
+/// these sizes, whose values and order only the caller knows.
 std::optional<BootstrapInterval> bootstrap_picks(std::span<const std::size_t> sizes,
                                                  const PickStatistic& statistic,
                                                  const BootstrapOptions& options = {});

@@ -8,8 +8,8 @@
 
 namespace amble::statistics {
 
-/// Everywhere in this folder a sample is finite numbers in any order; anything else is the caller's mistake
-/// and aborts (AMBLE_CHECK). Too few values for a statistic is no mistake: the result is then empty.
+/// Everywhere in this folder a sample is finite numbers in any order; anything else fails an AMBLE_CHECK.
+/// With too few values for a statistic the result is empty.
 void check_finite(std::span<const double> sample);
 
 /// Arithmetic mean of at least one value. Exactly x if all values are x, so that equal values have no spread.

@@ -24,14 +24,14 @@ struct MannWhitney {
 
 /// Mann and Whitney's U test (1947); the exact distribution by their recurrence, the normal approximation as
 /// in Hollander, Wolfe & Chicken, Nonparametric Statistical Methods, 3rd ed., sec. 4.1. p is 1 if all values
-/// are equal. None if a sample is empty; whether few values can show anything says smallest_mann_whitney_p.
-/// `exact` with ties aborts. Time of the exact distribution grows with (n1 n2)².
+/// are equal. None if a sample is empty; smallest_mann_whitney_p gives the limit of small samples. `exact`
+/// with ties aborts. Time of the exact distribution grows with (n1 n2)².
 std::optional<MannWhitney> mann_whitney(std::span<const double> first, std::span<const double> second,
                                         MannWhitneyMethod method = MannWhitneyMethod::automatic);
 
 /// The least two-sided p that any samples of these sizes can have in the exact test, 2 / C(n1 + n2, n1) and
-/// at most 1. If that is above the level asked for, the samples are too small to show anything: 3 against 3
-/// stay at 0.1.
+/// at most 1. If that is above the required level, the samples are too small for significance: 0.1 for 3
+/// against 3.
 double smallest_mann_whitney_p(std::size_t n1, std::size_t n2);
 
 /// How probably a value of the first sample exceeds one of the second.

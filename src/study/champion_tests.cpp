@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "amble/core/index.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/score/walking.hpp"
 #include "amble/study/gait_observer.hpp"
@@ -48,7 +49,7 @@ class WalkObserver : public trial::Observer {
 
 std::string gait_name(const gait::Report& report) {
   if (!report.classification) return {};
-  return std::string(gait::gait_names[static_cast<std::size_t>(report.classification->gait)]);
+  return std::string(gait::gait_names[to_index(report.classification->gait)]);
 }
 
 }  // namespace
@@ -76,7 +77,7 @@ std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experi
     observers.add(walk);
     if (episode == 0) observers.add(gait);
     experiment::ReplayOptions how{.seconds = test.spec.seconds, .observer = &observers, .trace = false};
-    if (noisy) how.noise = champion.unmet_scenario_key(static_cast<std::size_t>(episode));
+    if (noisy) how.noise = champion.unseen_scenario_key(static_cast<std::size_t>(episode));
     const auto replay = experiment::replay(problem, champion.genome, how, stop);
     if (!replay) return std::nullopt;
     result.episodes.push_back({.distance_m = replay->result.distance_m,

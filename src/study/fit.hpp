@@ -8,17 +8,17 @@
 namespace amble::study {
 
 enum class RunState {
-  missing,   ///< nothing of it is there
+  missing,   ///< neither record nor run folder
   begun,     ///< a run folder that can be resumed
-  untested,  ///< a record that lacks a test which the study has now
+  untested,  ///< a record that lacks a test of the study
   done       ///< a record with all tests
 };
 
-/// What is there of each run, in the order of Plan::runs, from the folders alone.
+/// The state of each run, in the order of Plan::runs, from the folders alone.
 ///
-/// Throws UserError, and touches nothing, if a record or a run folder does not fit the study any more (other
+/// Throws UserError, and changes nothing, if a record or a run folder does not fit the study any more (other
 /// settings, robot, generations or tests): one line that names the first of them and their number. A file
-/// that cannot be read is told likewise.
+/// that cannot be read is reported likewise.
 std::vector<RunState> survey(const Plan& plan);
 
 }  // namespace amble::study

@@ -6,6 +6,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
+#include "amble/core/index.hpp"
 #include "amble/experiment/problem.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/toml_text.hpp"
@@ -111,8 +112,7 @@ experiment::Config Plan::config(const PlannedRun& run) const {
 std::vector<std::size_t> Plan::shard(const Shard& shard) const {
   std::vector<std::size_t> part;
   for (std::size_t i = 0; i < runs.size(); ++i)
-    if (i % static_cast<std::size_t>(shard.count) == static_cast<std::size_t>(shard.index - 1))
-      part.push_back(i);
+    if (i % to_index(shard.count) == to_index(shard.index - 1)) part.push_back(i);
   return part;
 }
 

@@ -15,7 +15,7 @@
 
 namespace amble::study {
 
-/// A test with everything that its files say.
+/// A test with the files that it names read.
 struct PlannedTest {
   ledger::TestSpec spec;
   trial::NoiseSettings noise;  ///< that of TestSpec::noise

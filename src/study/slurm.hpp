@@ -14,10 +14,10 @@ struct SlurmJob {
   int minutes = 60;                          ///< time limit of a task; one that needs longer is requeued
 };
 
-/// The batch script for sbatch. Each task works on its shard until it is done; a task that nearly runs out of
-/// time is told by USR1 and requeues itself, one that is preempted, or whose node is lost, is requeued by
-/// Slurm; all go on from their run folders. A task that is cancelled stays so. Submitting the script again
-/// does what is left.
+/// The batch script for sbatch. Each task works on its shard until it is done; a task near its time limit
+/// gets USR1 and requeues itself, one that is preempted, or whose node is lost, is requeued by Slurm; all
+/// continue from their run folders. A cancelled task is not requeued. Submitting the script again does the
+/// rest.
 std::string slurm_script(const SlurmJob& job);
 
 }  // namespace amble::study

@@ -22,8 +22,8 @@
 namespace amble::study {
 namespace {
 
-/// How long, and how often, runs that other processes hold are looked at again before they are left to them:
-/// a process that was killed may take a moment to end.
+/// How long, and how often, locked runs are tried again before they are left to other processes: a process
+/// that was killed may take a moment to end.
 constexpr auto patience = std::chrono::seconds(5);
 constexpr auto pause = std::chrono::milliseconds(200);
 constexpr auto most_waiting = std::chrono::seconds(60);  ///< for a turn to make a folder

@@ -11,7 +11,7 @@
 
 namespace amble::study {
 
-/// Hears how a study goes. Called from the thread of work().
+/// Receives the progress of a study. Called from the thread of work().
 class Listener {
  public:
   virtual ~Listener() = default;
@@ -29,15 +29,15 @@ struct WorkOptions {
 
 struct WorkResult {
   int finished = 0;   ///< by this call
-  int failed = 0;     ///< told to the listener; the others went on
-  int elsewhere = 0;  ///< in the hands of other processes when this one had nothing else to do
+  int failed = 0;     ///< reported to the listener; the others continued
+  int elsewhere = 0;  ///< locked by other processes when this one had nothing else to do
   bool interrupted = false;
   ExitCode first_failure = ExitCode::ok;
 };
 
-/// Does what is left to do of a shard, run after run: evolution, tests, record. Runs whose folders are locked
-/// are another process's work and left to it, so several processes may work on one study. A run that fails
-/// does not stop the others, unless the disk refuses files of several runs in a row. Ends early, with
+/// Does the unfinished runs of a shard, one after another: evolution, tests, record. Runs whose folders are
+/// locked are left to the process that locked them, so several processes may work on one study. A run that
+/// fails does not stop the others, unless the disk refuses files of several runs in a row. Ends early, with
 /// resumable run folders, if `stop` is set. `states` are those of survey().
 WorkResult work(const Plan& plan, const std::vector<RunState>& states, const WorkOptions& options,
                 Listener& listener, const std::atomic<bool>& stop);

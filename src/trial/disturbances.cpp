@@ -2,14 +2,15 @@
 
 #include <utility>
 
+#include "amble/core/index.hpp"
+
 namespace amble::trial {
 namespace {
 
-/// Added to a number, leaves it as it is to the bit; +0 would turn −0 into +0.
-constexpr float nothing = -0.0f;
+/// Leaves any number that it is added to unchanged to the bit; +0 would turn −0 into +0.
+constexpr float no_offset = -0.0f;
 
-/// Adds `offset` to `values`. Row by row over the lanes, so that the compiler makes it a few SIMD
-/// instructions.
+/// Adds `offset` to `values`, row by row over the lanes, which the compiler vectorises.
 void add(const LaneArray& offset, LaneArray& values) {
   for (int r = 0; r < values.rows(); ++r) {
     const float* const from = offset.row(r);
@@ -21,25 +22,23 @@ void add(const LaneArray& offset, LaneArray& values) {
 }  // namespace
 
 Disturbances::Disturbances(const robot::SensorFrame& sensors)
-    : lanes_(static_cast<std::size_t>(sensors.touch.lanes())),
+    : lanes_(to_index(sensors.touch.lanes())),
       joint_offset_rad_(sensors.joint_angle_rad.rows(), sensors.touch.lanes()),
       attitude_offset_rad_(sensors.attitude_rad.rows(), sensors.touch.lanes()) {
   for (int lane = 0; lane < sensors.touch.lanes(); ++lane) load(lane, nullptr);
 }
 
 void Disturbances::load(int lane, const Scenario* scenario) {
-  Lane& slot = lanes_[static_cast<std::size_t>(lane)];
+  Lane& slot = lanes_[to_index(lane)];
   disturbed_ += (scenario != nullptr) - (slot.scenario != nullptr);
   slot.scenario = scenario;
   slot.step = 0;
   slot.next_push = slot.next_flip = 0;
-  slot.late_rad.clear();
+  slot.delayed_rad.clear();
   for (int j = 0; j < joint_offset_rad_.rows(); ++j)
-    joint_offset_rad_.at(j, lane) =
-        scenario ? scenario->joint_sensor_rad[static_cast<std::size_t>(j)] : nothing;
+    joint_offset_rad_.at(j, lane) = scenario ? scenario->joint_sensor_rad[to_index(j)] : no_offset;
   for (int a = 0; a < attitude_offset_rad_.rows(); ++a)
-    attitude_offset_rad_.at(a, lane) =
-        scenario ? scenario->attitude_sensor_rad[static_cast<std::size_t>(a)] : nothing;
+    attitude_offset_rad_.at(a, lane) = scenario ? scenario->attitude_sensor_rad[to_index(a)] : no_offset;
 }
 
 const robot::SensorFrame& Disturbances::read(const robot::SensorFrame& sensors) {
@@ -76,14 +75,14 @@ void Disturbances::act(LaneArray& targets_rad, physics::Engine& engine) {
   }
 }
 
-/// Swaps the targets of this tick for those of `latency` ticks ago, which stand where they belong in the
-/// ring.
+/// Swaps the targets of this tick for those of `latency` ticks ago, at this tick's place in the ring buffer.
 void Disturbances::delay(Lane& lane, int index, LaneArray& targets_rad) {
-  const auto latency = static_cast<std::size_t>(lane.scenario->latency_ticks);
-  const auto joints = static_cast<std::size_t>(targets_rad.rows());
-  lane.late_rad.resize(latency * joints);  // zeros at first
-  float* const late_rad = lane.late_rad.data() + static_cast<std::size_t>(lane.step) % latency * joints;
-  for (std::size_t j = 0; j < joints; ++j) std::swap(targets_rad.at(static_cast<int>(j), index), late_rad[j]);
+  const auto latency = to_index(lane.scenario->latency_ticks);
+  const auto joints = to_index(targets_rad.rows());
+  lane.delayed_rad.resize(latency * joints);  // zeros at first
+  float* const delayed_rad = lane.delayed_rad.data() + to_index(lane.step) % latency * joints;
+  for (std::size_t j = 0; j < joints; ++j)
+    std::swap(targets_rad.at(static_cast<int>(j), index), delayed_rad[j]);
 }
 
 }  // namespace amble::trial

@@ -9,17 +9,17 @@
 
 namespace amble::trial {
 
-/// Lets scenarios act on the lanes of a runner. Stands between sensors and controllers, and between
-/// controllers and engine. While no lane has a scenario, both calls return at once.
+/// Applies scenarios to the lanes of a runner: to sensors before controllers read them, and to targets and
+/// robots before the engine steps. Without any scenario both calls return at once.
 class Disturbances {
  public:
-  /// `sensors` shows the shape of what is to come.
+  /// `sensors` gives the number of lanes, joints and angles.
   explicit Disturbances(const robot::SensorFrame& sensors);
 
-  /// From the next tick on, `scenario` acts on this lane from its beginning; null: nothing does. Not copied.
+  /// From the next tick on, `scenario` applies to this lane, from its beginning; null: none. Not copied.
   void load(int lane, const Scenario* scenario);
 
-  /// What the controllers are to read in this tick. Valid until the next call.
+  /// The sensors as controllers read them in this tick. Valid until the next call.
   const robot::SensorFrame& read(const robot::SensorFrame& sensors);
   /// Delays the targets of this tick and pushes the robots. Once per tick, after read().
   void act(LaneArray& targets_rad, physics::Engine& engine);
@@ -27,9 +27,9 @@ class Disturbances {
  private:
   struct Lane {
     const Scenario* scenario = nullptr;
-    int step = 0;  ///< that is about to be taken, from 1
+    int step = 0;  ///< the next one, from 1
     std::size_t next_push = 0, next_flip = 0;
-    std::vector<float> late_rad;  ///< joints × latency: targets on their way, a ring over the latency
+    std::vector<float> delayed_rad;  ///< joints × latency: delayed targets, a ring buffer over ticks
   };
 
   void flip_touches(Lane& lane, int index);

@@ -8,13 +8,13 @@
 
 namespace amble::trial {
 
-/// What the distances of several episodes make of a controller.
+/// How the scores of several episodes are combined.
 enum class EpisodeScore { mean, worst };
 inline constexpr std::array<std::string_view, 2> episode_score_names{"mean", "worst"};
 
-/// Noise against controllers that live on the quirks of one simulator (Jakobi, Husbands & Harvey 1995): what
-/// works in every one of several disturbed trials ("episodes") does not hang on a detail. All amounts are 0
-/// by default: no noise. Each is drawn uniformly; trial/scenario.hpp says how.
+/// Noise against controllers that exploit the quirks of one simulator (Jakobi, Husbands & Harvey 1995): what
+/// works in each of several disturbed trials ("episodes") does not depend on a detail. All amounts are 0 by
+/// default: no noise. Each is drawn uniformly; see trial/scenario.hpp.
 struct NoiseSettings {
   int episodes = 1;
   EpisodeScore score = EpisodeScore::mean;

@@ -47,7 +47,7 @@ class EventObserver : public Observer {
 class RecordingObserver : public Observer {
  public:
   /// `controller_json` and `robot_json` go into the recording's header; `origin` names the champion. Motor
-  /// torques are recorded if the engine tells them.
+  /// torques are recorded if the engine reports them.
   RecordingObserver(const std::filesystem::path& path, const robot::RobotSpec& robot,
                     const physics::Engine& engine, const controllers::Batch& controllers, double frame_s,
                     const std::string& robot_json, const std::string& controller_json,
@@ -62,7 +62,7 @@ class RecordingObserver : public Observer {
   std::vector<float> frame_;
 };
 
-/// Passes every step on to several observers, in order.
+/// Forwards every step to several observers, in order.
 class ObserverList : public Observer {
  public:
   void add(Observer& observer) { observers_.push_back(&observer); }

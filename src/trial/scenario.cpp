@@ -11,7 +11,7 @@ namespace {
 
 using robot::RobotSpec;
 
-/// What a stream of a scenario is for. Part of its key: add at the end, never renumber.
+/// Purposes of a scenario's streams. Part of their keys: add at the end, never renumber.
 enum class Kind : std::uint32_t { start = 0, push = 1, touch = 2, sensors = 3, latency = 4 };
 constexpr std::uint32_t most_kinds = 16;
 

@@ -11,14 +11,14 @@
 
 namespace amble::trial {
 
-/// Everything that noise does to one trial, drawn beforehand. Steps count from 1, as in Observer::on_step.
+/// All noise of one trial, drawn beforehand. Steps count from 1, as in Observer::on_step.
 struct Scenario {
   struct Push {
     int step = 0;      ///< acts during this step
     Vec3 impulse_n_s;  ///< physics::Engine::push
   };
   struct TouchFlip {
-    int step = 0;  ///< what the controller reads just before this step
+    int step = 0;  ///< in what the controller reads before this step
     int leg = 0;
   };
 
@@ -27,15 +27,15 @@ struct Scenario {
   std::vector<TouchFlip> touch_flips;       ///< by rising step
   std::vector<float> joint_sensor_rad;      ///< added to what is read; per joint
   std::vector<float> attitude_sensor_rad;   ///< the same for roll, pitch and yaw
-  int latency_ticks = 0;                    ///< until the first targets arrive, those of angle 0 stand
+  int latency_ticks = 0;                    ///< until the first targets arrive, targets are 0
 };
 
 /// Names a scenario: the same key and settings give the same scenario, to the bit.
 ///
-/// It names no individual on purpose. All genomes of a generation meet the same scenarios (common random
-/// numbers; Law, Simulation Modeling and Analysis, sec. 11.2): so they are compared by what they do, not by
-/// their luck, and the best of a generation is not just the one that was pushed least. The next generation
-/// meets others, so nobody can adapt to one scenario, not even an elite.
+/// It contains no genome on purpose: all genomes of a generation have the same scenarios (common random
+/// numbers; Law, Simulation Modeling and Analysis, sec. 11.2), which removes the variance between scenarios
+/// from their comparison. The next generation has others, so that genomes, elites included, cannot adapt to
+/// one scenario.
 struct ScenarioKey {
   std::uint64_t seed = 0;
   std::uint32_t generation = 0;

@@ -7,8 +7,8 @@
 
 namespace amble::trial {
 
-/// When a controller first acts. After the first step: its tick 1 reads what the robot senses after step 1
-/// and commands step 2. In step 1 the motors hold each joint where it is, with all their torque.
+/// When a controller first acts. After the first step: its tick 1 reads the sensors after step 1 and commands
+/// step 2. In step 1 the motors hold each joint where it is, with all their torque.
 enum class FirstCommand { before_first_step, after_first_step };
 inline constexpr std::array<std::string_view, 2> first_command_names{"before_first_step", "after_first_step"};
 

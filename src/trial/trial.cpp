@@ -5,6 +5,7 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/clock.hpp"
+#include "amble/core/index.hpp"
 
 namespace amble::trial {
 
@@ -14,12 +15,13 @@ Runner::Runner(physics::Engine& engine, controllers::Batch& controllers, const P
       protocol_(protocol),
       targets_rad_(engine.sensors().joint_angle_rad.rows(), engine.lanes()),
       disturbances_(engine.sensors()),
-      lanes_(static_cast<std::size_t>(engine.lanes())) {
+      lanes_(to_index(engine.lanes())) {
   AMBLE_CHECK(controllers.lanes() == engine.lanes(), "one controller per robot");
   AMBLE_CHECK(!protocol.measures.energy || engine.motor_torque_nm(), "energy is measured by torques");
 }
 
-// The step loop: sense and decide, move (noise may meddle with both), then see what became of each robot.
+// The step loop: sensors → controllers → targets (noise applies to both), engine step, then evaluate each
+// lane.
 void Runner::run(TaskQueue& queue, const std::atomic<bool>& stop) {
   for (int lane = 0; lane < engine_.lanes(); ++lane) refill(lane, queue);
   while (busy_ > 0 && !stop.load(std::memory_order_relaxed)) {
@@ -33,12 +35,12 @@ void Runner::run(TaskQueue& queue, const std::atomic<bool>& stop) {
     physics_s_ += now_s() - between_s;
 
     for (int lane = 0; lane < engine_.lanes(); ++lane)
-      if (lanes_[static_cast<std::size_t>(lane)].busy) after_step(lane, queue);
+      if (lanes_[to_index(lane)].busy) after_step(lane, queue);
   }
 }
 
 void Runner::refill(int lane, TaskQueue& queue) {
-  Lane& slot = lanes_[static_cast<std::size_t>(lane)];
+  Lane& slot = lanes_[to_index(lane)];
   busy_ -= std::exchange(slot.busy, false);
   auto task = queue.next();
   slot.busy = task.has_value();
@@ -68,11 +70,11 @@ void Runner::refill(int lane, TaskQueue& queue) {
   }
 }
 
-/// Where a trial is in its first step, sets the targets to the angles that the joints have.
+/// Sets the targets of lanes in their first step to the present joint angles.
 void Runner::hold_first_steps() {
   const LaneArray& angle_rad = engine_.sensors().joint_angle_rad;
   for (int lane = 0; lane < engine_.lanes(); ++lane) {
-    const Lane& slot = lanes_[static_cast<std::size_t>(lane)];
+    const Lane& slot = lanes_[to_index(lane)];
     if (!slot.busy || slot.trajectory.steps > 0) continue;
     for (int joint = 0; joint < targets_rad_.rows(); ++joint)
       targets_rad_.at(joint, lane) = angle_rad.at(joint, lane);
@@ -80,7 +82,7 @@ void Runner::hold_first_steps() {
 }
 
 void Runner::after_step(int lane, TaskQueue& queue) {
-  Lane& slot = lanes_[static_cast<std::size_t>(lane)];
+  Lane& slot = lanes_[to_index(lane)];
   const auto outcome = advance(lane);
   if (!outcome) return;
   slot.trajectory.outcome = *outcome;
@@ -89,9 +91,9 @@ void Runner::after_step(int lane, TaskQueue& queue) {
   refill(lane, queue);
 }
 
-/// Books one step of a lane; says how its trial ended, if it did.
+/// Accounts for one step of a lane; returns the outcome of its trial if it has ended.
 std::optional<record::Outcome> Runner::advance(int lane) {
-  Lane& slot = lanes_[static_cast<std::size_t>(lane)];
+  Lane& slot = lanes_[to_index(lane)];
   record::Trajectory& trajectory = slot.trajectory;
   ++trajectory.steps;
   ++steps_simulated_;
@@ -104,7 +106,7 @@ std::optional<record::Outcome> Runner::advance(int lane) {
     trajectory.com_path_m.push_back(static_cast<float>(moved.y));
   }
   measure(lane);
-  // What it did beside the first step does not count: it begins now.
+  // Its output for the first step was not used: it starts now.
   if (protocol_.first_command == FirstCommand::after_first_step && trajectory.steps == 1)
     controllers_.load(lane, *slot.task.parameters);
   if (slot.task.observer)
@@ -117,7 +119,7 @@ std::optional<record::Outcome> Runner::advance(int lane) {
 
 /// Adds what scores need of this step to the lane's trajectory.
 void Runner::measure(int lane) {
-  Lane& slot = lanes_[static_cast<std::size_t>(lane)];
+  Lane& slot = lanes_[to_index(lane)];
   if (protocol_.measures.uprightness) {
     // R_zz of the rotation matrix, from the quaternion.
     const Quat q = engine_.root_pose(lane).rotation;
@@ -128,7 +130,7 @@ void Runner::measure(int lane) {
   const LaneArray& angle_rad = engine_.sensors().joint_angle_rad;
   const LaneArray& torque_nm = *engine_.motor_torque_nm();
   for (int joint = 0; joint < angle_rad.rows(); ++joint) {
-    double& before_rad = slot.angle_rad[static_cast<std::size_t>(joint)];
+    double& before_rad = slot.angle_rad[to_index(joint)];
     const double now_rad = angle_rad.at(joint, lane);
     slot.trajectory.energy_j += std::abs(torque_nm.at(joint, lane) * (now_rad - before_rad));
     before_rad = now_rad;

@@ -17,17 +17,17 @@
 
 namespace amble::trial {
 
-/// Looks on while one lane's trial runs. Called from the thread that runs it.
+/// Observes the trial of one lane. Called from the thread that runs it.
 class Observer {
  public:
   virtual ~Observer() = default;
-  /// After every step of a robot that is healthy, the last included. `step` counts from 1. `targets_rad` are
-  /// those of this step.
+  /// After every step in which the simulation stayed healthy, the last included. `step` counts from 1.
+  /// `targets_rad` are those of this step.
   virtual void on_step(int step, const physics::Engine& engine, const controllers::Batch& controllers,
                        const LaneArray& targets_rad, int lane) = 0;
 };
 
-/// A controller that waits for its trial.
+/// A trial to be run.
 struct Task {
   std::size_t index = 0;                                      ///< given back with the result
   std::shared_ptr<const controllers::Parameters> parameters;  ///< may be shared by several trials
@@ -36,7 +36,7 @@ struct Task {
 };
 
 /// Where a runner's trials come from and where their results go. Both functions are called from the thread
-/// that runs the trials; a queue that several runners share must guard itself.
+/// that runs the trials; a queue that several runners share must be thread safe.
 class TaskQueue {
  public:
   virtual ~TaskQueue() = default;
@@ -45,7 +45,7 @@ class TaskQueue {
   virtual void done(std::size_t index, record::Trajectory trajectory) = 0;
 };
 
-/// How trials run.
+/// Parameters of all trials of a runner.
 struct Protocol {
   int steps = 1500;
   double timestep_s = 0.01;
@@ -56,9 +56,8 @@ struct Protocol {
 };
 
 /// Runs trials on one engine, as many at a time as it has lanes; a lane whose trial has ended takes the next
-/// task at once. What a trial gives depends on its own controller and scenario alone, not on lane, company or
-/// order.
-/// Belongs to one thread.
+/// task at once. The result of a trial depends on its own controller and scenario alone, not on its lane, the
+/// other lanes or the order. Not thread safe.
 class Runner {
  public:
   Runner(physics::Engine& engine, controllers::Batch& controllers, const Protocol& protocol);

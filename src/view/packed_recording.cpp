@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "amble/core/index.hpp"
 #include "amble/record/frame_codec.hpp"
 #include "amble/record/recording.hpp"
 #include "amble/robot/json.hpp"
@@ -22,7 +23,7 @@ class Table {
 
   /// Throws UserError if the recording has no such column.
   void require(const std::string& name) {
-    indices_.push_back(static_cast<std::size_t>(reader_.column(name)));
+    indices_.push_back(to_index(reader_.column(name)));
     names_.push_back(name);
   }
   void accept(const std::string& name) {

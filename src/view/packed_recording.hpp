@@ -9,16 +9,16 @@
 
 namespace amble::view {
 
-/// Numbers at even times, for the page: `count` rows, the first at `first_s`.
+/// Numbers at equal intervals of time, for the page: `count` rows, the first at `first_s`.
 struct PackedFrames {
   std::vector<std::string> columns;
   double first_s = 0.0, step_s = 0.0;
   std::size_t count = 0;
-  std::string
-      bytes;  ///< record::compress_frames of all rows: a zlib stream of float32, as recorded to the bit
+  /// record::compress_frames of all rows: a zlib stream of float32, the recorded bits.
+  std::string bytes;
 };
 
-/// What the page keeps of a recording.
+/// The part of a recording that the page contains.
 struct PackedRecording {
   std::string robot_json, controller_json, origin;
   double seconds = 0.0;  ///< until the time was up or the robot fell

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 #include "amble/graphics/style_sheet.hpp"
 #include "amble/io/xml.hpp"
 #include "amble/view/base64.hpp"
@@ -26,7 +27,7 @@ io::Json walker_json(const Walker& walker) {
   return {{"title", walker.title},
           {"origin", recording.origin},
           {"seconds", recording.seconds},
-          {"outcome", record::outcome_names[static_cast<std::size_t>(recording.outcome)]},
+          {"outcome", record::outcome_names[to_index(recording.outcome)]},
           {"robot", io::parse_json(recording.robot_json, what)},
           {"controller", io::parse_json(recording.controller_json, what)},
           {"poses", frames_json(recording.poses)},

@@ -24,7 +24,7 @@ struct ReplayPage {
 };
 
 /// A self-contained page that shows the walkers moving, in 3-D, with diagrams tied to the time: no network,
-/// and nothing needed but a browser (of 2023 or later). Throws UserError as pack_recording() does.
+/// any browser of 2023 or later. Throws UserError as pack_recording() does.
 std::string make_page(const ReplayPage& page);
 
 }  // namespace amble::view

@@ -2,7 +2,9 @@
 
 #include <cstddef>
 
-// The assembler puts the file into the program as it is.
+#include "amble/core/index.hpp"
+
+// The assembler includes the file unchanged.
 asm(R"asm(
   .pushsection .rodata
   .global amble_view_page_begin
@@ -22,7 +24,7 @@ extern const char amble_view_page_end[];
 namespace amble::view {
 
 std::string_view page_template() {
-  return {amble_view_page_begin, static_cast<std::size_t>(amble_view_page_end - amble_view_page_begin)};
+  return {amble_view_page_begin, to_index(amble_view_page_end - amble_view_page_begin)};
 }
 
 }  // namespace amble::view

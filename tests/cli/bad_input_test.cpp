@@ -100,7 +100,7 @@ TEST_F(BadInput, SubstrateThatDoesNotHoldTogether) {
                    ExitCode::bad_input,
                    "c.toml:4: unknown key 'controller.substrate.nodes[0].nam' (did you mean "
                    "'controller.substrate.nodes[0].name'?)");
-  // A substrate for another robot, and a figure that is asked for another time constant than it has.
+  // A substrate for another robot, and a figure for another time constant than it has.
   expect_complaint({"evolve", ctrnn, "--set", "controller.ctrnn.step=2", "--out", out_}, ExitCode::bad_input,
                    "controller.ctrnn.step = 2: expected at most the shortest time constant, 1");
 }

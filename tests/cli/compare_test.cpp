@@ -38,7 +38,7 @@ class Compare : public testing::Test {
   std::string run_ = scratch_ / "run", champion_;
 };
 
-TEST_F(Compare, MakesATableOfTheEnginesAskedForAndTheChampionsOwn) {
+TEST_F(Compare, MakesATableOfTheRequestedEnginesAndTheChampionsOwn) {
   const auto table = amble({"compare", champion_, run_, "--engines", "mujoco"});
   ASSERT_EQ(table.exit_code, 0) << table.err;
   EXPECT_THAT(table.out, HasSubstr("in batch "));
@@ -89,7 +89,7 @@ TEST_F(Compare, RefusesANoiseThatIsNoneAndEpisodesWithoutNoise) {
             static_cast<int>(ExitCode::bad_input));
 }
 
-TEST_F(Compare, TheAskedForEngineIsShownByViewAndPage) {
+TEST_F(Compare, TheRequestedEngineIsShownByViewAndPage) {
   const std::string view = scratch_ / "view.html", page = scratch_ / "page.html";
   EXPECT_EQ(amble({"view", run_, "--engine", "ode", "-o", view}).exit_code, 0);
   EXPECT_THAT(slurp(view), HasSubstr(", in the engine ode"));

@@ -143,7 +143,7 @@ TEST(Verify, AgreesOnAnUntouchedRunAndNamesTheStepAfterOneWeightIsAltered) {
       << altered.out;
 }
 
-TEST_P(RunOnEngine, MeetsNoiseOnlyWhereItIsAskedForAndIsVerified) {
+TEST_P(RunOnEngine, HasNoiseOnlyWhereItIsSetAndIsVerified) {
   const TemporaryFolder scratch;
   auto arguments = evolve(scratch / "noisy", 2, 2, GetParam());
   arguments[1] = std::string(AMBLE_SOURCE_DIR) + "/configs/robust/supg-objective.toml";

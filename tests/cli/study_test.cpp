@@ -214,7 +214,7 @@ TEST_F(Study, OnAFullDiskSaysSoAndGoesOnWhereThereIsRoom) {
   EXPECT_EQ(digest(rest), digest(alone));
 }
 
-TEST_F(Study, ARunThatFailsIsToldAndTheOthersGoOn) {
+TEST_F(Study, ARunThatFailsIsReportedAndTheOthersContinue) {
   ASSERT_EQ(study("s", {"--jobs", "1", "--shard", "1/6"}).exit_code, 0);
   // A run folder whose checkpoint is gone can neither go on nor begin anew.
   const auto folder = folder_ / "s" / "runs" / "supg-001";

@@ -30,7 +30,7 @@ Champion some_champion() {
 }
 
 /// The message of the UserError that parsing throws; "" if it throws none.
-std::string complaint(const std::string& text) {
+std::string error_of(const std::string& text) {
   try {
     parse_champion(text, "c.json");
   } catch (const UserError& error) {
@@ -95,7 +95,7 @@ TEST(Champion, CarriesWhatItsRefereesSaidUnderItsSeal) {
 
   auto altered = text;
   altered.replace(altered.find("0.7,"), 3, "0.8");
-  EXPECT_THAT(complaint(altered), HasSubstr("checksum"));
+  EXPECT_THAT(error_of(altered), HasSubstr("checksum"));
 }
 
 TEST(Champion, WithoutRefereesSaysNothingOfThem) {
@@ -122,7 +122,7 @@ TEST(Champion, WithoutNoiseSaysNothingOfIt) {
 TEST(Champion, WithoutAnEpisodeThatItsNoiseAsksForIsRefused) {
   auto champion = noisy_champion();
   champion.episodes.pop_back();
-  EXPECT_THAT(complaint(champion_text(champion)), HasSubstr("as many as settings.episodes"));
+  EXPECT_THAT(error_of(champion_text(champion)), HasSubstr("as many as settings.episodes"));
 }
 
 TEST(Champion, IsRefusedAfterAnyChangeOfItsText) {
@@ -130,15 +130,15 @@ TEST(Champion, IsRefusedAfterAnyChangeOfItsText) {
   auto altered = text;
   const auto digit = altered.find('.', altered.find("\"weight\": ")) + 1;
   altered[digit] = altered[digit] == '3' ? '4' : '3';
-  EXPECT_THAT(complaint(altered), StartsWith("c.json: "));
-  EXPECT_THAT(complaint(altered), HasSubstr("checksum"));
+  EXPECT_THAT(error_of(altered), StartsWith("c.json: "));
+  EXPECT_THAT(error_of(altered), HasSubstr("checksum"));
   EXPECT_TRUE(parse_champion(altered, "c.json", io::Altered::accept).altered);
 }
 
 TEST(Champion, IsRefusedWhenTruncatedAnywhere) {
   const auto text = champion_text(some_champion());
   for (std::size_t length = 0; length + 2 < text.size(); length += 97)
-    EXPECT_THAT(complaint(text.substr(0, length)), StartsWith("c.json"));
+    EXPECT_THAT(error_of(text.substr(0, length)), StartsWith("c.json"));
 }
 
 TEST(Champion, WithAWeightThatIsNoFiniteNumberIsRefused) {
@@ -159,16 +159,16 @@ TEST(Champion, WithAWeightThatIsNoFiniteNumberIsRefused) {
 TEST(Champion, OfAnUnsoundGenomeIsRefusedEvenIfTheChecksumFits) {
   auto champion = some_champion();
   champion.genome.links.front().to = 12345;
-  EXPECT_THAT(complaint(champion_text(champion)), StartsWith("c.json: "));
+  EXPECT_THAT(error_of(champion_text(champion)), StartsWith("c.json: "));
   champion = some_champion();
   champion.genome.nodes.pop_back();
-  EXPECT_THAT(complaint(champion_text(champion)), StartsWith("c.json: "));
+  EXPECT_THAT(error_of(champion_text(champion)), StartsWith("c.json: "));
 }
 
 TEST(Champion, OfAnUnknownEngineIsRefused) {
   auto champion = some_champion();
   champion.problem.engine = "newton";
-  EXPECT_THAT(complaint(champion_text(champion)), HasSubstr("newton"));
+  EXPECT_THAT(error_of(champion_text(champion)), HasSubstr("newton"));
 }
 
 TEST(Champion, ReaderThrowsNothingButUserErrorsUnderRandomDamage) {

@@ -39,7 +39,7 @@ class Checkpoint : public testing::Test {
   }
 
   /// The message when these bytes are loaded; "" if they are accepted.
-  std::string complaint(const std::string& bytes) {
+  std::string error_of(const std::string& bytes) {
     io::write_file(path_, bytes);
     const RunState other(config_, problem_);
     try {
@@ -76,25 +76,25 @@ TEST_F(Checkpoint, RestoresProgressAndPopulation) {
 
 TEST_F(Checkpoint, IsRefusedWhenTruncatedAnywhere) {
   for (std::size_t length = 0; length < bytes_.size(); length += 1 + bytes_.size() / 50)
-    EXPECT_THAT(complaint(bytes_.substr(0, length)), HasSubstr("checkpoint.bin")) << length;
+    EXPECT_THAT(error_of(bytes_.substr(0, length)), HasSubstr("checkpoint.bin")) << length;
 }
 
 TEST_F(Checkpoint, IsRefusedWhenAnyByteIsAltered) {
   for (std::size_t at = 0; at < bytes_.size(); at += 1 + bytes_.size() / 50) {
     auto altered = bytes_;
     altered[at] = static_cast<char>(altered[at] ^ 1);
-    EXPECT_THAT(complaint(altered), HasSubstr("checkpoint.bin")) << at;
+    EXPECT_THAT(error_of(altered), HasSubstr("checkpoint.bin")) << at;
   }
 }
 
 TEST_F(Checkpoint, OfAnotherConfigIsRefused) {
   config_.neat.mutation.add_node_share = 0.02;
-  EXPECT_THAT(complaint(bytes_), HasSubstr("written under another config.toml"));
+  EXPECT_THAT(error_of(bytes_), HasSubstr("written under another config.toml"));
 }
 
 TEST_F(Checkpoint, MayBeContinuedForMoreGenerations) {
   config_.generations = 500;
-  EXPECT_EQ(complaint(bytes_), "");
+  EXPECT_EQ(error_of(bytes_), "");
 }
 
 TEST_F(Checkpoint, ReaderThrowsNothingButUserErrorsForDamageUnderAValidChecksum) {
@@ -107,7 +107,7 @@ TEST_F(Checkpoint, ReaderThrowsNothingButUserErrorsForDamageUnderAValidChecksum)
       payload[8 + stream.below(static_cast<std::uint32_t>(payload.size() - 8))] =
           static_cast<char>(stream.below(256));
     if (stream.chance(0.3)) payload.resize(stream.below(static_cast<std::uint32_t>(payload.size())));
-    complaint(io::seal("AMBLECKP", 3, payload));
+    error_of(io::seal("AMBLECKP", 3, payload));
   }
 }
 
@@ -125,9 +125,9 @@ TEST_F(Checkpoint, HoldsTheThresholdOfNoveltySearch) {
   io::InputFile file(scratch_ / "archive.bin");
   second.strategy->restore_log(0, file, "archive.bin");
   second.strategy->tell(evaluations);
-  const auto told = second.strategy->readings();
-  const auto value = [&told](std::string_view name) {
-    return std::ranges::find(told, name, &search::Reading::name)->value;
+  const auto metrics = second.strategy->metrics();
+  const auto value = [&metrics](std::string_view name) {
+    return std::ranges::find(metrics, name, &search::Metric::name)->value;
   };
   EXPECT_EQ(value("novelty_threshold"), 0.5 * 1.2);
   EXPECT_EQ(value("archive"), 40.0);

@@ -125,7 +125,7 @@ TEST(Config, TakesOverridesInOrderAndBareWordsAsText) {
 }
 
 TEST(Config, RefereesAreOtherEnginesThanItsOwn) {
-  const auto complaint = [](const std::string& assignment) -> std::string {
+  const auto error_of = [](const std::string& assignment) -> std::string {
     try {
       load_config(configs + "authors/supg-objective.toml",
                   {.assignments = {assignment}, .seed = {}, .generations = {}});
@@ -134,21 +134,21 @@ TEST(Config, RefereesAreOtherEnginesThanItsOwn) {
     }
     return "accepted";
   };
-  EXPECT_EQ(complaint("referees=[\"mujoco\", \"batch\"]"), "accepted");
-  EXPECT_THAT(complaint("engine=newton"),
+  EXPECT_EQ(error_of("referees=[\"mujoco\", \"batch\"]"), "accepted");
+  EXPECT_THAT(error_of("engine=newton"),
               testing::HasSubstr("--set engine=newton: 'engine' = \"newton\": expected ode, batch, mujoco"));
-  EXPECT_THAT(complaint("referees=[\"newton\"]"),
+  EXPECT_THAT(error_of("referees=[\"newton\"]"),
               testing::HasSubstr("'referees' names \"newton\": expected ode, batch, mujoco"));
-  EXPECT_THAT(complaint("referees=[\"ode\"]"),
+  EXPECT_THAT(error_of("referees=[\"ode\"]"),
               testing::HasSubstr("'referees' names \"ode\", the engine of the run itself"));
-  EXPECT_THAT(complaint("referees=[\"mujoco\", \"mujoco\"]"),
+  EXPECT_THAT(error_of("referees=[\"mujoco\", \"mujoco\"]"),
               testing::HasSubstr("'referees' names \"mujoco\" twice"));
 }
 
-TEST(Config, ComplaintsOfSettingsThatDoNotGoTogetherNameWhereTheyWereSet) {
+TEST(Config, ErrorsOfIncompatibleSettingsNameWhereTheyWereSet) {
   const TemporaryFolder scratch;
-  const auto complaint = [&](const std::string& lines,
-                             std::vector<std::string> assignments = {}) -> std::string {
+  const auto error_of = [&](const std::string& lines,
+                            std::vector<std::string> assignments = {}) -> std::string {
     io::write_file(scratch / "c.toml", "include = [\"" + configs + "authors/supg-novelty.toml\"]\n" + lines);
     try {
       const auto config = load_config(scratch / "c.toml",
@@ -160,28 +160,27 @@ TEST(Config, ComplaintsOfSettingsThatDoNotGoTogetherNameWhereTheyWereSet) {
     return "accepted";
   };
   using testing::HasSubstr;
-  EXPECT_THAT(complaint("\nengine = \"newton\"\n"),
+  EXPECT_THAT(error_of("\nengine = \"newton\"\n"),
               HasSubstr("c.toml:3: 'engine' = \"newton\": expected ode"));
-  EXPECT_THAT(complaint("referees = [\"ode\"]\n"), HasSubstr("c.toml:2: 'referees' names \"ode\""));
-  EXPECT_THAT(complaint("robot = \"none.toml\"\n"),
+  EXPECT_THAT(error_of("referees = [\"ode\"]\n"), HasSubstr("c.toml:2: 'referees' names \"ode\""));
+  EXPECT_THAT(error_of("robot = \"none.toml\"\n"),
               testing::MatchesRegex(".*c.toml:2: 'robot': .*none.toml: No such file or directory"));
-  EXPECT_THAT(complaint("robot = \"\"\n"), HasSubstr("c.toml:2: 'robot' = \"\": expected the path"));
-  EXPECT_THAT(complaint("trial.duration_s = 0.155\n"),
+  EXPECT_THAT(error_of("robot = \"\"\n"), HasSubstr("c.toml:2: 'robot' = \"\": expected the path"));
+  EXPECT_THAT(error_of("trial.duration_s = 0.155\n"),
               HasSubstr("c.toml:2: trial.duration_s = 0.155: expected"));
-  EXPECT_THAT(complaint("", {"trial.timestep_s=0.011"}), HasSubstr("--set trial.timestep_s=0.011: "));
-  EXPECT_THAT(complaint("\n\ncontroller.supg.period_s = 1.0049\n"),
+  EXPECT_THAT(error_of("", {"trial.timestep_s=0.011"}), HasSubstr("--set trial.timestep_s=0.011: "));
+  EXPECT_THAT(error_of("\n\ncontroller.supg.period_s = 1.0049\n"),
               HasSubstr("c.toml:4: controller.supg.period_s = 1.0049"));
-  EXPECT_THAT(complaint("controller.substrate.nodes = []\n"), HasSubstr("c.toml:2: controller.substrate."));
+  EXPECT_THAT(error_of("controller.substrate.nodes = []\n"), HasSubstr("c.toml:2: controller.substrate."));
   // Of the keys that are at odds, the one that the config itself sets, and not the file that it includes.
-  EXPECT_THAT(complaint("trial.timestep_s = 0.011\n"),
-              HasSubstr("c.toml:2: trial.duration_s = 15: expected"));
-  EXPECT_THAT(complaint("[controller.substrate]\nnodes = [\n  { at = [0.0, 0.0] },\n]\n"),
+  EXPECT_THAT(error_of("trial.timestep_s = 0.011\n"), HasSubstr("c.toml:2: trial.duration_s = 15: expected"));
+  EXPECT_THAT(error_of("[controller.substrate]\nnodes = [\n  { at = [0.0, 0.0] },\n]\n"),
               HasSubstr("c.toml:4: controller.substrate.nodes[0].name"));
   // What was typed is what is to be changed, even where the message speaks of a default.
   EXPECT_THAT(
-      complaint("", {"population.size=20"}),
+      error_of("", {"population.size=20"}),
       HasSubstr("--set population.size=20: 'speciation.target_max' = 30: expected at most population.size"));
-  EXPECT_THAT(complaint("noise.push_m_s = 1\nnoise.push_interval_s = 0.001\n"),
+  EXPECT_THAT(error_of("noise.push_m_s = 1\nnoise.push_interval_s = 0.001\n"),
               HasSubstr("c.toml:3: noise.push_interval_s = 0.001: expected at least one timestep"));
 }
 

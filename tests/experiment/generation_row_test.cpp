@@ -60,8 +60,8 @@ TEST(GenerationRow, HasTheColumnsOfItsSearchBetweenItsOwnAndItsTimes) {
   EXPECT_NE(csv_header(row.search).find(",steps,archive,novelty_threshold,best_novelty,wall_s,"),
             std::string::npos);
   EXPECT_NE(csv_header({}).find(",steps,wall_s,"), std::string::npos);
-  EXPECT_EQ(row.reading("archive"), 17.0);
-  EXPECT_FALSE(row.reading("species"));
+  EXPECT_EQ(row.metric("archive"), 17.0);
+  EXPECT_FALSE(row.metric("species"));
 }
 
 TEST(GenerationRow, EndsWithItsTimes) {

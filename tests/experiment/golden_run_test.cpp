@@ -70,12 +70,18 @@ Hashes run_hashes(const Golden& golden) {
   EXPECT_EQ(Run::start(scratch / "run", config, 1).execute(listener, listener.stop), RunStatus::finished);
   std::uint64_t hash = 0, thresholds = 0;
   for (const GenerationRow& row : listener.rows) {
-    const auto told = [&row](std::string_view name) { return row.reading(name).value_or(0.0); };
-    const std::array<double, 9> numbers{row.best,          row.mean,           row.median,
-                                        told("threshold"), told("mean_links"), told("mean_hidden"),
-                                        told("species"),   told("archive"),    told("best_novelty")};
+    const auto metric_of = [&row](std::string_view name) { return row.metric(name).value_or(0.0); };
+    const std::array<double, 9> numbers{row.best,
+                                        row.mean,
+                                        row.median,
+                                        metric_of("threshold"),
+                                        metric_of("mean_links"),
+                                        metric_of("mean_hidden"),
+                                        metric_of("species"),
+                                        metric_of("archive"),
+                                        metric_of("best_novelty")};
     hash = hash_span<double>(numbers, hash);
-    thresholds = hash_span<double>(std::array{told("novelty_threshold")}, thresholds);
+    thresholds = hash_span<double>(std::array{metric_of("novelty_threshold")}, thresholds);
   }
   for (const auto& file : RunPaths(scratch / "run").champion_files())
     hash = hash_span<std::uint32_t>(load_champion(file).trace, hash);

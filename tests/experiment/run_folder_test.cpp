@@ -14,7 +14,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 template <typename Call>
-std::string complaint(Call call) {
+std::string error_of(Call call) {
   try {
     call();
   } catch (const UserError& error) {
@@ -31,7 +31,7 @@ class Folder : public testing::Test {
   robot::RobotSpec robot_ = load_robot_file(config_.robot);
 
   std::string creating() {
-    return complaint([&] { RunFolder::create(folder_, robot_); });
+    return error_of([&] { RunFolder::create(folder_, robot_); });
   }
   RunFolder begun() {
     auto run = RunFolder::create(folder_, robot_);
@@ -100,7 +100,7 @@ TEST_F(Folder, OfAnotherVersionIsRefusedByThatName) {
   begun();
   io::write_file(folder_ / "manifest.json", io::sealed_json("amble-manifest", 1, {{"name", "old"}}));
   for (const auto& opening :
-       {complaint([&] { RunFolder::open(folder_); }), complaint([&] { find_run(folder_); })})
+       {error_of([&] { RunFolder::open(folder_); }), error_of([&] { find_run(folder_); })})
     EXPECT_THAT(opening,
                 HasSubstr("manifest.json: version 1 of the file format; this program reads version 6"));
 }
@@ -117,15 +117,15 @@ TEST_F(Folder, CannotBeAFile) {
 
 TEST_F(Folder, IsHeldByOneAtATime) {
   const auto held = begun();
-  EXPECT_THAT(complaint([&] { RunFolder::open(folder_); }), HasSubstr("in use"));
+  EXPECT_THAT(error_of([&] { RunFolder::open(folder_); }), HasSubstr("in use"));
 }
 
 TEST_F(Folder, ThatIsMissingOrNoRunCannotBeResumed) {
-  EXPECT_THAT(complaint([&] { RunFolder::open(folder_); }), HasSubstr("no such folder"));
+  EXPECT_THAT(error_of([&] { RunFolder::open(folder_); }), HasSubstr("no such folder"));
   std::filesystem::create_directories(folder_);
-  EXPECT_THAT(complaint([&] { RunFolder::open(folder_); }), HasSubstr("not a run folder"));
+  EXPECT_THAT(error_of([&] { RunFolder::open(folder_); }), HasSubstr("not a run folder"));
   io::write_file(folder_ / "notes", "x");
-  EXPECT_THAT(complaint([&] { RunFolder::open(folder_ / "notes"); }), HasSubstr("notes: not a folder"));
+  EXPECT_THAT(error_of([&] { RunFolder::open(folder_ / "notes"); }), HasSubstr("notes: not a folder"));
 }
 
 TEST_F(Folder, ManifestGrowsByEachProcess) {

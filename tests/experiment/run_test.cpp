@@ -191,9 +191,9 @@ TEST(NoveltyRun, FillsItsArchiveAndReportsIt) {
   ASSERT_EQ(listener.rows.size(), 3u);
   std::size_t before = 0;
   for (const auto& row : listener.rows) {
-    const auto members = static_cast<std::size_t>(row.reading("archive").value());
+    const auto members = static_cast<std::size_t>(row.metric("archive").value());
     EXPECT_GT(members, before);
-    EXPECT_GT(row.reading("best_novelty").value(), row.reading("novelty_threshold").value());
+    EXPECT_GT(row.metric("best_novelty").value(), row.metric("novelty_threshold").value());
     before = members;
   }
   EXPECT_EQ(config.make_behaviour()->length(), 100u);
@@ -222,7 +222,7 @@ TEST(ObjectiveRun, KeepsNoArchiveAndRecordsNoPaths) {
   EXPECT_EQ(config.make_behaviour()->length(), 0u);
   Run::start(scratch / "run", config, 1).execute(listener, listener.stop);
   EXPECT_FALSE(std::filesystem::exists(scratch / "run/archive.bin"));
-  EXPECT_FALSE(listener.rows.front().reading("archive"));
+  EXPECT_FALSE(listener.rows.front().metric("archive"));
 }
 
 TEST(RefereedRun, TriesEachChampionInTheRefereesAndIsTheSameRunOtherwise) {

@@ -24,7 +24,7 @@ class Verify : public testing::Test {
     champion_.trace = trial->trace;
   }
 
-  Verdict verdict() {
+  Verification verification() {
     io::write_file(path_, champion_text(champion_));
     return verify_champion(path_, never).value();
   }
@@ -43,7 +43,7 @@ class Verify : public testing::Test {
 };
 
 TEST_F(Verify, AgreesWithAnHonestChampion) {
-  const auto found = verdict();
+  const auto found = verification();
   EXPECT_TRUE(found.agrees) << found.text;
   EXPECT_THAT(found.text, StartsWith("agrees: "));
 }
@@ -58,40 +58,40 @@ TEST_F(Verify, RunsTheEpisodesOfAChampionAgainUnderTheirNoise) {
   }
   EXPECT_NE(champion_.episodes[0].trace, champion_.trace) << "noise is felt";
   EXPECT_NE(champion_.episodes[0].trace, champion_.episodes[1].trace);
-  EXPECT_THAT(verdict().text, HasSubstr("; under noise "));
-  EXPECT_TRUE(verdict().agrees);
+  EXPECT_THAT(verification().text, HasSubstr("; under noise "));
+  EXPECT_TRUE(verification().agrees);
 
   champion_.episodes[1].trace[4] ^= 1;
-  EXPECT_EQ(verdict().text, "differs: under noise 1: first differing step 5 (t = 0.05 s)");
+  EXPECT_EQ(verification().text, "differs: under noise 1: first differing step 5 (t = 0.05 s)");
   champion_.episodes[1].trace[4] ^= 1;
   ++champion_.generation;
-  EXPECT_THAT(verdict().text, StartsWith("differs: under noise 0: first differing step 1 "))
+  EXPECT_THAT(verification().text, StartsWith("differs: under noise 0: first differing step 1 "))
       << "noise of another generation";
 }
 
 TEST_F(Verify, NamesTheFirstStepThatDiffers) {
   champion_.trace[41] ^= 1;
-  const auto found = verdict();
+  const auto found = verification();
   EXPECT_FALSE(found.agrees);
   EXPECT_EQ(found.text, "differs: first differing step 42 (t = 0.42 s)");
 }
 
 TEST_F(Verify, NamesAnotherDistance) {
   champion_.result.distance_m = 123.0;
-  EXPECT_THAT(verdict().text, HasSubstr("distance 123 m recorded"));
+  EXPECT_THAT(verification().text, HasSubstr("distance 123 m recorded"));
 }
 
 TEST_F(Verify, NamesAnotherScore) {
   champion_.problem.score.terms = {{.quantity = "uprightness"}};
   champion_.result = replay(champion_.problem, champion_.genome, {}, never)->result;
-  EXPECT_TRUE(verdict().agrees);
+  EXPECT_TRUE(verification().agrees);
   champion_.result.score = champion_.result.score.value() + 0.25;
-  EXPECT_THAT(verdict().text, HasSubstr("score "));
+  EXPECT_THAT(verification().text, HasSubstr("score "));
 }
 
 TEST_F(Verify, SeesAGenomeThatIsNotTheOneThatWalked) {
   champion_.genome = small_population(champion_.problem).genomes()[1];
-  EXPECT_THAT(verdict().text, HasSubstr("first differing step"));
+  EXPECT_THAT(verification().text, HasSubstr("first differing step"));
 }
 
 TEST_F(Verify, CallsADamagedFileUnsound) {

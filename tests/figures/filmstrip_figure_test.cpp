@@ -51,7 +51,7 @@ TEST(FilmstripFigure, FillsTheFeetThatTouch) {
   EXPECT_EQ(tests::with_class(elements, "trunk").size(), 10u);
 }
 
-TEST(FilmstripFigure, StandsTheFeetOnTheGroundLine) {
+TEST(FilmstripFigure, PutsTheFeetOnTheGroundLine) {
   // The lowest point of a foot's sphere is at z = 1 − 0.9 − 0.1 = 0.
   const motion::RecordedTrial recorded = tests::walk(60);
   const auto elements = tests::parse_xml(filmstrip_figure(recorded.robot, recorded.motion, Layout::wide));

@@ -9,7 +9,7 @@ namespace amble::gait {
 namespace {
 
 TEST(GaitBody, IsReadOffTheRobot) {
-  // The fixture's robot: 1 kg and four lower legs of 0.1 kg; its hips stand 1 m over the ground.
+  // The fixture's robot: 1 kg and four lower legs of 0.1 kg; its hips are 1 m above the ground.
   const Body body = body_of(tests::robot());
   EXPECT_EQ(body.legs, (std::vector<std::string>{"FL", "FR", "BL", "BR"}));
   EXPECT_EQ(body.joints.size(), 12u);
@@ -28,7 +28,7 @@ TEST(GaitBody, MeasuresTheLegsOfARobotThatHangsInTheAirAsIfItStood) {
   EXPECT_NEAR(body_of(robot).leg_length_m, standing_m, 1e-12);
 }
 
-TEST(GaitBody, FindsTheLegsByWhereTheFeetStandWhateverTheirNames) {
+TEST(GaitBody, FindsTheLegsByThePositionsOfTheFeetWhateverTheirNames) {
   robot::RobotSpec robot = tests::robot();
   std::swap(robot.legs[0], robot.legs[3]);
   std::swap(robot.legs[1], robot.legs[3]);

@@ -90,12 +90,12 @@ TEST(GaitMeter, FindsTheSamePhasesForUnevenStridesWithTheirSpread) {
   // Left fore lands by turns 0.2 and 0.3 of a stride after left hind: mean 0.25, R = cos(2π × 0.05).
   Feeder feeder;
   for (int k = 0; k < 4000; ++k) {
-    // Two strides of 1 s; a foot stands for half a second after each of its two touch-downs.
-    const auto stands = [&](int first, int second) {
+    // Two strides of 1 s; a foot is on the ground for half a second after each of its two touch-downs.
+    const auto stance = [&](int first, int second) {
       return (k % 200 - first + 200) % 200 < 50 || (k % 200 - second + 200) % 200 < 50 ? 1.0f : 0.0f;
     };
-    const float hind_left = stands(0, 100), hind_right = stands(50, 150), fore_left = stands(20, 130),
-                fore_right = stands(75, 175);
+    const float hind_left = stance(0, 100), hind_right = stance(50, 150), fore_left = stance(20, 130),
+                fore_right = stance(75, 175);
     feeder.add({fore_left, fore_right, hind_left, hind_right});
   }
   const Report report = feeder.finish();
@@ -154,7 +154,7 @@ TEST(GaitMeter, SaysWhichFootNeverLandsOrNeverLifts) {
   }
   const Report report = feeder.finish();
   EXPECT_EQ(report.classification, (Classification{Gait::irregular, Irregular::few_strides}));
-  EXPECT_EQ(report.reference_leg, 3) << "the right hind foot stands in for the left one";
+  EXPECT_EQ(report.reference_leg, 3) << "the right hind foot replaces the left one";
   EXPECT_EQ(report.legs[2].touchdowns, 0);
   EXPECT_EQ(report.legs[2].contact_share, 0.0);
   EXPECT_EQ(report.legs[1].contact_share, 1.0);

@@ -26,7 +26,7 @@ inline gait::Body synthetic_body(int legs = 4) {
   return body;
 }
 
-/// Feet that step like clockwork: leg l stands in frame k if (k − offset[l]) mod stride < stance.
+/// Feet that step like clockwork: leg l is on the ground in frame k if (k − offset[l]) mod stride < stance.
 struct Clockwork {
   int stride = 100, stance = 60;
   std::vector<int> offset;  ///< frames

@@ -85,7 +85,7 @@ TEST(Spread, MovesApartOnlyWhatIsTooClose) {
   EXPECT_THAT(positions, ElementsAre(DoubleNear(96, 1e-6), DoubleNear(20, 1e-6), DoubleNear(106, 1e-6)));
 }
 
-TEST(Spread, KeepsTheOrderOfACrowd) {
+TEST(Spread, KeepsTheOrderOfManyLabels) {
   std::vector<double> positions{5, 5, 5, 5};
   spread(positions, 10);
   for (std::size_t i = 1; i < positions.size(); ++i) EXPECT_GE(positions[i] - positions[i - 1], 10 - 1e-3);

@@ -57,9 +57,9 @@ TEST(Ledger, FilesOfNoRunOfTheStudyAreNamed) {
   const StudyPaths paths(folder.path());
   Ledger(paths).save(sample_record("supg", 7));
   Ledger(paths).save(sample_record("supg", 99));
-  const auto strangers = Ledger(paths).strangers(sample_study());
-  ASSERT_EQ(strangers.size(), 1u);
-  EXPECT_EQ(strangers[0], paths.record("supg", 99));
+  const auto unknown_files = Ledger(paths).unknown_files(sample_study());
+  ASSERT_EQ(unknown_files.size(), 1u);
+  EXPECT_EQ(unknown_files[0], paths.record("supg", 99));
   EXPECT_EQ(Ledger(paths).load_all(sample_study()).size(), 1u);
 }
 

@@ -30,7 +30,7 @@ class Files {
   std::filesystem::path path(const std::string& name) const { return folder_ / name; }
 
   /// The line that a user reads when `action` fails, without this folder's name in it.
-  std::string complaint(const std::function<void()>& action) const {
+  std::string error_of(const std::function<void()>& action) const {
     try {
       action();
     } catch (const UserError& error) {

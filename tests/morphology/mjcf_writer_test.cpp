@@ -25,7 +25,7 @@ robot::RobotSpec through_mjcf(const robot::RobotSpec& robot) {
   const Mjcf mjcf = write_mjcf(robot);
   ModelFile file;
   file.model = compile_mjcf(mjcf.text, "text");
-  const ModelParts parts = take_apart(file);
+  const ModelParts parts = extract_parts(file);
   robot::RobotSpec again = robot;
   again.gravity_m_s2 = parts.gravity_m_s2;
   for (std::size_t place = 0; place < parts.bodies.size(); ++place) {
@@ -120,7 +120,7 @@ TEST(MjcfWriter, WritesFrictionAsMujocoKnowsIt) {
   }
 }
 
-TEST(CompileMjcf, ComplainsInOneLine) {
+TEST(CompileMjcf, RefusesInOneLine) {
   try {
     compile_mjcf("<mujoco><worldbody><body/></worldbody>", "the text");
     FAIL() << "accepted";

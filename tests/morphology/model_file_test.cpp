@@ -23,27 +23,27 @@ TEST(CompileModel, SaysThatAFileIsMissing) {
 
 TEST(CompileModel, PassesOnWhatMujocoSaysInOneLine) {
   const Files files;
-  const auto complaint = [&](const std::string& text) {
+  const auto error_of = [&](const std::string& text) {
     const auto path = files.write("bad.xml", text);
-    return files.complaint([&] { compile_model(path); });
+    return files.error_of([&] { compile_model(path); });
   };
   for (const std::string& text :
        {std::string("no xml at all"), with(one_leg_xml, "<worldbody>", "<wordbody>"),
         with(one_leg_xml, "type=\"box\"", "type=\"bux\""), with(one_leg_xml, "mass=\"3\"", "mass=\"-3\""),
         with(one_leg_xml, "</mujoco>", "")}) {
-    const std::string line = complaint(text);
+    const std::string line = error_of(text);
     EXPECT_EQ(line.find("bad.xml: MuJoCo refuses the model: "), 0u) << line;
     EXPECT_EQ(line.find('\n'), std::string::npos) << line;
     EXPECT_GT(line.size(), 45u) << line;
   }
-  EXPECT_NE(complaint(with(one_leg_xml, "type=\"box\"", "type=\"bux\"")).find("bux"), std::string::npos);
-  EXPECT_EQ(complaint("").find("bad.xml: MuJoCo refuses the model: "), 0u);
+  EXPECT_NE(error_of(with(one_leg_xml, "type=\"box\"", "type=\"bux\"")).find("bux"), std::string::npos);
+  EXPECT_EQ(error_of("").find("bad.xml: MuJoCo refuses the model: "), 0u);
 }
 
 TEST(CompileModel, RefusesAMovingBodyWithoutMass) {
   const Files files;
   const auto path = files.write("bad.xml", with(one_leg_xml, "mass=\"1\"", "mass=\"0\""));
-  const std::string line = files.complaint([&] { compile_model(path); });
+  const std::string line = files.error_of([&] { compile_model(path); });
   EXPECT_NE(line.find("mass and inertia of moving bodies must be larger than mjMINVAL"), std::string::npos)
       << line;
 }
@@ -57,14 +57,14 @@ TEST(CompileModel, KeepsTheRootLinkOfAUrdf) {
   ASSERT_EQ(compiled.model->nbody, 2);
   EXPECT_EQ(compiled.model->body_mass[1], 2.0);
 
-  const auto complaint = [&](const std::string& text) {
+  const auto error_of = [&](const std::string& text) {
     const auto path = files.write("r.urdf", text);
-    return files.complaint([&] { compile_model(path); });
+    return files.error_of([&] { compile_model(path); });
   };
   EXPECT_EQ(
-      complaint(with(urdf, "<link", "<mujoco><compiler/></mujoco><link")),
+      error_of(with(urdf, "<link", "<mujoco><compiler/></mujoco><link")),
       "r.urdf: the element <mujoco> must hold <compiler fusestatic=\"false\"/>, or the root link is lost");
-  EXPECT_EQ(complaint("<nothing/>"), "r.urdf: a URDF needs an element <robot>");
+  EXPECT_EQ(error_of("<nothing/>"), "r.urdf: a URDF needs an element <robot>");
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace amble::morphology {
 namespace {
 
 ModelParts parts_of(const Files& files, const std::string& text, const std::string& name = "m.xml") {
-  return take_apart(compile_model(files.write(name, text)));
+  return extract_parts(compile_model(files.write(name, text)));
 }
 
 /// Inertia about the centre of mass and along a direction of the body's frame.
@@ -22,7 +22,7 @@ double moment_about(const robot::Body& body, Vec3 direction) {
          body.inertia_kg_m2.z * d.z * d.z;
 }
 
-TEST(TakeApart, ReadsBodiesJointsAndGeoms) {
+TEST(ExtractParts, ReadsBodiesJointsAndGeoms) {
   const Files files;
   const ModelParts parts = parts_of(files, one_leg_xml);
   ASSERT_EQ(parts.bodies.size(), 3u);
@@ -44,7 +44,7 @@ TEST(TakeApart, ReadsBodiesJointsAndGeoms) {
   EXPECT_EQ(parts.gravity_m_s2, (Vec3{0.0, 0.0, -9.8}));
 }
 
-TEST(TakeApart, FusesABodyThatIsFixedToItsParent) {
+TEST(ExtractParts, FusesABodyThatIsFixedToItsParent) {
   const Files files;
   const ModelParts whole = parts_of(files, one_leg_xml);
   // The same foot as a body of its own, turned and without a joint.
@@ -79,7 +79,7 @@ TEST(TakeApart, FusesABodyThatIsFixedToItsParent) {
   EXPECT_EQ(whole.bodies[2].mass_kg, 0.75);
 }
 
-TEST(TakeApart, CountsAnglesFromTheStartPose) {
+TEST(ExtractParts, CountsAnglesFromTheStartPose) {
   const Files files;
   const ModelParts parts =
       parts_of(files, with(one_leg_xml, R"(range="-0.7 0")", R"(range="-0.7 0" ref="-0.2")"));
@@ -87,7 +87,7 @@ TEST(TakeApart, CountsAnglesFromTheStartPose) {
   EXPECT_DOUBLE_EQ(parts.joints[1].upper_rad, 0.2);
 }
 
-TEST(TakeApart, NamesGeomsThatHaveNoName) {
+TEST(ExtractParts, NamesGeomsThatHaveNoName) {
   const Files files;
   std::string text = with(one_leg_xml, "name=\"thigh\" type", "type");
   text = with(with(text, "name=\"shin\" type", "type"), "name=\"A_foot\" type", "type");
@@ -97,7 +97,7 @@ TEST(TakeApart, NamesGeomsThatHaveNoName) {
   EXPECT_EQ(parts.geoms[3].name, "shin.1");
 }
 
-TEST(TakeApart, LeavesOutTheGroundAndDecorationItCannotShow) {
+TEST(ExtractParts, LeavesOutTheGroundAndDecorationItCannotShow) {
   const Files files;
   const std::string decorated = with(
       with(
@@ -113,7 +113,7 @@ TEST(TakeApart, LeavesOutTheGroundAndDecorationItCannotShow) {
   EXPECT_TRUE(parts.geoms[4].collides);
 }
 
-TEST(TakeApart, FreesTheRootOfAUrdf) {
+TEST(ExtractParts, FreesTheRootOfAUrdf) {
   const Files files;
   const std::string inertia = R"(<inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/>)";
   const ModelParts parts = parts_of(files,
@@ -144,51 +144,50 @@ TEST(TakeApart, FreesTheRootOfAUrdf) {
   EXPECT_EQ(parts.geoms[0].position_m, (Vec3{0.0, 0.0, -0.3}));
 }
 
-TEST(TakeApart, RefusesWhatItCannotSimulateInOneLine) {
+TEST(ExtractParts, RefusesWhatItCannotSimulateInOneLine) {
   const Files files;
-  const auto complaint = [&](std::string_view from, std::string_view to) {
-    return files.complaint([&] { parts_of(files, with(one_leg_xml, from, to)); });
+  const auto error_of = [&](std::string_view from, std::string_view to) {
+    return files.error_of([&] { parts_of(files, with(one_leg_xml, from, to)); });
   };
-  EXPECT_EQ(complaint("type=\"hinge\" axis", "type=\"slide\" axis"),
+  EXPECT_EQ(error_of("type=\"hinge\" axis", "type=\"slide\" axis"),
             "m.xml: joint 'A_hip': only hinges are supported, no ball, slide or free joints");
-  EXPECT_EQ(complaint(R"(type="hinge" axis="0 1 0" limited="true" range="-0.5 0.5")", "type=\"ball\""),
+  EXPECT_EQ(error_of(R"(type="hinge" axis="0 1 0" limited="true" range="-0.5 0.5")", "type=\"ball\""),
             "m.xml: joint 'A_hip': only hinges are supported, no ball, slide or free joints");
-  EXPECT_EQ(complaint(R"(limited="true" range="-0.7 0")", ""),
+  EXPECT_EQ(error_of(R"(limited="true" range="-0.7 0")", ""),
             "m.xml: joint 'A_knee' has no limits: give it a range (MJCF: limited=\"true\" range=\"…\"; URDF: "
             "type=\"revolute\")");
-  EXPECT_EQ(complaint("name=\"A_knee\"", ""), "m.xml: body 'shin' has a joint without a name");
-  EXPECT_EQ(complaint("<freejoint name=\"root\"/>", ""),
+  EXPECT_EQ(error_of("name=\"A_knee\"", ""), "m.xml: body 'shin' has a joint without a name");
+  EXPECT_EQ(error_of("<freejoint name=\"root\"/>", ""),
             "m.xml: the root body 'torso' must be free to move: give it a <freejoint/> and no other joint");
-  EXPECT_EQ(complaint("<freejoint name=\"root\"/>", R"(<joint name="rail" type="slide"/>)"),
+  EXPECT_EQ(error_of("<freejoint name=\"root\"/>", R"(<joint name="rail" type="slide"/>)"),
             "m.xml: the root body 'torso' must be free to move: give it a <freejoint/> and no other joint");
   EXPECT_EQ(
-      complaint("<worldbody>", R"(<worldbody><body name="table"><geom type="box" size="1 1 1"/></body>)"),
+      error_of("<worldbody>", R"(<worldbody><body name="table"><geom type="box" size="1 1 1"/></body>)"),
       "m.xml: expected one body in the world, the robot's root, but found 2");
-  EXPECT_EQ(complaint("<worldbody>", R"(<worldbody><geom name="step" type="box" size="1 1 1"/>)"),
+  EXPECT_EQ(error_of("<worldbody>", R"(<worldbody><geom name="step" type="box" size="1 1 1"/>)"),
             "m.xml: geom 'step' of the world: the only ground is the plane z = 0, without obstacles");
   EXPECT_EQ(
-      complaint("<worldbody>", R"(<worldbody><geom name="ramp" type="plane" size="1 1 1" euler="0 0.1 0"/>)"),
+      error_of("<worldbody>", R"(<worldbody><geom name="ramp" type="plane" size="1 1 1" euler="0 0.1 0"/>)"),
       "m.xml: geom 'ramp' of the world: the only ground is the plane z = 0, without obstacles");
   EXPECT_EQ(
-      complaint(
+      error_of(
           "</worldbody>",
           R"(</worldbody><equality><connect name="loop" body1="shin" body2="torso" anchor="0 0 0"/></equality>)"),
       "m.xml: equality constraint 'loop': robots with closed loops are not supported");
   EXPECT_EQ(
-      complaint(
-          "</worldbody>",
-          R"(</worldbody><tendon><fixed name="sinew"><joint joint="A_hip" coef="1"/></fixed></tendon>)"),
+      error_of("</worldbody>",
+               R"(</worldbody><tendon><fixed name="sinew"><joint joint="A_hip" coef="1"/></fixed></tendon>)"),
       "m.xml: tendon 'sinew': tendons are not supported");
   EXPECT_EQ(
-      complaint("type=\"sphere\" pos=\"0 0 -0.4\" size=\"0.06\"", "type=\"ellipsoid\" size=\"0.1 0.2 0.3\""),
+      error_of("type=\"sphere\" pos=\"0 0 -0.4\" size=\"0.06\"", "type=\"ellipsoid\" size=\"0.1 0.2 0.3\""),
       "m.xml: geom 'A_foot': only spheres, capsules, cylinders and boxes can collide; a mesh must be "
       "decoration "
       "(contype=\"0\" conaffinity=\"0\")");
 }
 
-TEST(TakeApart, LeavesAFreeJointInMidChainToMujoco) {
+TEST(ExtractParts, LeavesAFreeJointInMidChainToMujoco) {
   const Files files;
-  const std::string line = files.complaint([&] {
+  const std::string line = files.error_of([&] {
     parts_of(files, with(one_leg_xml,
                          R"(<joint name="A_knee" type="hinge" axis="0 1 0" limited="true" range="-0.7 0"/>)",
                          "<freejoint/>"));

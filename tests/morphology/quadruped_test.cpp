@@ -55,7 +55,7 @@ TEST_P(Quadruped, HasTheRangesAndAxesOfTheConventions) {
   }
 }
 
-TEST_P(Quadruped, StandsFourSquareWithItsFeetOnTheGround) {
+TEST_P(Quadruped, StartsUprightWithItsFeetOnTheGround) {
   const auto poses = robot::start_poses(robot_);
   EXPECT_EQ(poses[0].position_m, (Vec3{0.0, 0.0, 0.88404}));
   for (std::size_t l = 0; l < 4; ++l) {

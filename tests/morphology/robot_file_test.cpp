@@ -53,52 +53,52 @@ TEST(LoadRobot, RaisesTheRootToTheStartHeight) {
 
 TEST(LoadRobot, RefusesWhereModelAndSideFileDisagree) {
   const Files files;
-  const auto complaint = [&](std::string_view from, std::string_view to) {
-    return files.complaint([&] { load_one_leg(files, one_leg_xml, with(one_leg_toml, from, to)); });
+  const auto error_of = [&](std::string_view from, std::string_view to) {
+    return files.error_of([&] { load_one_leg(files, one_leg_xml, with(one_leg_toml, from, to)); });
   };
-  EXPECT_EQ(complaint(R"(["hip", "knee"])", R"(["hip", "ankle"])"),
+  EXPECT_EQ(error_of(R"(["hip", "knee"])", R"(["hip", "ankle"])"),
             "one_leg.toml: leg 'A' needs a joint 'A_ankle' (ankle), but one_leg.xml has: A_hip, A_knee");
-  EXPECT_EQ(complaint(R"(["hip", "knee"])", R"(["hip"])"),
+  EXPECT_EQ(error_of(R"(["hip", "knee"])", R"(["hip"])"),
             "one_leg.toml: joint 'A_knee' of one_leg.xml belongs to no leg: every joint must be named by "
             "legs and joint_types");
-  EXPECT_EQ(complaint(R"(["A"])", R"(["A", "B"])"),
+  EXPECT_EQ(error_of(R"(["A"])", R"(["A", "B"])"),
             "one_leg.toml: leg 'B' needs a joint 'B_hip' (hip), but one_leg.xml has: A_hip, A_knee");
-  EXPECT_EQ(complaint("[servo]", "[names]\njoint = \"A_hip\"\n[servo]"),
+  EXPECT_EQ(error_of("[servo]", "[names]\njoint = \"A_hip\"\n[servo]"),
             "one_leg.toml: joint 'A_hip' is named twice");
   EXPECT_EQ(
-      complaint("[servo]", "[names]\nfoot = \"{leg}_toe\"\n[servo]"),
+      error_of("[servo]", "[names]\nfoot = \"{leg}_toe\"\n[servo]"),
       "one_leg.toml: leg 'A' needs a foot geom 'A_toe', but one_leg.xml has: torso, thigh, shin, A_foot");
-  EXPECT_EQ(complaint("[servo]", "[names.A]\nfoot = \"torso\"\n[servo]"),
+  EXPECT_EQ(error_of("[servo]", "[names.A]\nfoot = \"torso\"\n[servo]"),
             "one_leg.toml: leg 'A': its foot 'torso' is on body 'torso', which none of its joints moves");
 }
 
 TEST(LoadRobot, RefusesAStartPoseOutsideTheRangeOrUnderground) {
   const Files files;
-  const auto complaint = [&](std::string_view from, std::string_view to) {
-    return files.complaint([&] { load_one_leg(files, with(one_leg_xml, from, to)); });
+  const auto error_of = [&](std::string_view from, std::string_view to) {
+    return files.error_of([&] { load_one_leg(files, with(one_leg_xml, from, to)); });
   };
-  EXPECT_EQ(complaint("range=\"-0.7 0\"", "range=\"-0.7 -0.1\""),
+  EXPECT_EQ(error_of("range=\"-0.7 0\"", "range=\"-0.7 -0.1\""),
             "one_leg.toml: joint 'A_knee': the start pose, angle 0, lies outside its range -0.7 … -0.1 rad");
   EXPECT_EQ(
-      complaint("pos=\"0 0 1\"", "pos=\"0 0 0.9\""),
+      error_of("pos=\"0 0 1\"", "pos=\"0 0 0.9\""),
       "one_leg.toml: foot 'A_foot' starts 0.060 m below the ground: raise the root, or set start_height_m");
-  EXPECT_EQ(complaint("name=\"A_foot\"", "name=\"A_foot\" contype=\"0\" conaffinity=\"0\""),
+  EXPECT_EQ(error_of("name=\"A_foot\"", "name=\"A_foot\" contype=\"0\" conaffinity=\"0\""),
             "one_leg.toml: leg 'A' has a foot that cannot collide");
 }
 
 TEST(LoadRobot, WantsTheTomlFileNotTheModel) {
   const Files files;
   const auto path = files.write("one_leg.xml", one_leg_xml);
-  EXPECT_EQ(files.complaint([&] { load_robot(path); }),
+  EXPECT_EQ(files.error_of([&] { load_robot(path); }),
             "one_leg.xml: a robot is named by its TOML file, which names the model (robots/README.md)");
 }
 
 TEST(LoadRobot, SaysWhichFileIsMissing) {
   const Files files;
-  const std::string line = files.complaint(
+  const std::string line = files.error_of(
       [&] { load_robot(files.write("r.toml", with(one_leg_toml, "one_leg.xml", "gone.xml"))); });
   EXPECT_EQ(line.find("gone.xml: "), 0u) << line;
-  EXPECT_EQ(files.complaint([&] { load_robot(files.path("absent.toml")); }).find("absent.toml: "), 0u);
+  EXPECT_EQ(files.error_of([&] { load_robot(files.path("absent.toml")); }).find("absent.toml: "), 0u);
 }
 
 }  // namespace

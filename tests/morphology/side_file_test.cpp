@@ -56,40 +56,40 @@ TEST(SideFile, HasNoDefaultForAnyPhysicalNumber) {
   for (const char* line :
        {"fall_height_m = 0.5\n", "gain_per_s = 9.0\n", "max_torque_nm = 5.0\n", "friction = inf\n",
         "erp = 0.1\n", "cfm_s_per_kg = 1e-4\n", "model = \"one_leg.xml\"\n"}) {
-    const std::string text = files.complaint([&] { read(files, with(one_leg_toml, line, "")); });
+    const std::string text = files.error_of([&] { read(files, with(one_leg_toml, line, "")); });
     EXPECT_EQ(text.find("s.toml: '"), 0u) << text;
     EXPECT_NE(text.find("' is missing"), std::string::npos) << text;
     const std::string key = std::string(line).substr(0, std::string_view(line).find(' '));
     EXPECT_NE(text.find(key), std::string::npos) << text;
   }
-  EXPECT_EQ(files.complaint([&] { read(files, with(one_leg_toml, "\"velocity\"", "\"torque\"")); }),
+  EXPECT_EQ(files.error_of([&] { read(files, with(one_leg_toml, "\"velocity\"", "\"torque\"")); }),
             "s.toml: 'servo.kp_nm_per_rad' is missing: expected a number");
 }
 
 TEST(SideFile, RefusesNamesThatClash) {
   const Files files;
-  const auto complaint = [&](std::string_view from, std::string_view to) {
-    return files.complaint([&] { read(files, with(one_leg_toml, from, to)); });
+  const auto error_of = [&](std::string_view from, std::string_view to) {
+    return files.error_of([&] { read(files, with(one_leg_toml, from, to)); });
   };
-  EXPECT_EQ(complaint(R"(["A"])", R"(["A", "A"])"), "s.toml:3: 'legs' names 'A' twice");
-  EXPECT_EQ(complaint(R"("knee"])", R"("foot"])"), "s.toml:4: 'joint_types' must not use the name 'foot'");
-  EXPECT_EQ(complaint(R"(["A"])", R"([""])"), "s.toml:3: 'legs' must not use the name ''");
-  EXPECT_EQ(complaint(R"(["A"])", R"(["hip"])"), "s.toml:3: 'legs' and 'joint_types' both name 'hip'");
+  EXPECT_EQ(error_of(R"(["A"])", R"(["A", "A"])"), "s.toml:3: 'legs' names 'A' twice");
+  EXPECT_EQ(error_of(R"("knee"])", R"("foot"])"), "s.toml:4: 'joint_types' must not use the name 'foot'");
+  EXPECT_EQ(error_of(R"(["A"])", R"([""])"), "s.toml:3: 'legs' must not use the name ''");
+  EXPECT_EQ(error_of(R"(["A"])", R"(["hip"])"), "s.toml:3: 'legs' and 'joint_types' both name 'hip'");
 }
 
 TEST(SideFile, NamesTheLineOfABadValue) {
   const Files files;
-  const auto complaint = [&](std::string_view from, std::string_view to) {
-    return files.complaint([&] { read(files, with(one_leg_toml, from, to)); });
+  const auto error_of = [&](std::string_view from, std::string_view to) {
+    return files.error_of([&] { read(files, with(one_leg_toml, from, to)); });
   };
-  EXPECT_EQ(complaint("erp = 0.1", "erp = 1.5").find("s.toml:15: 'contact.erp'"), 0u)
-      << complaint("erp = 0.1", "erp = 1.5");
-  EXPECT_EQ(complaint("gain_per_s = 9.0", "gain_per_s = \"fast\"").find("s.toml:10: 'servo.gain_per_s'"), 0u);
-  EXPECT_EQ(complaint("mode = \"velocity\"", "mode = \"position\"").find("s.toml:9: 'servo.mode'"), 0u);
-  EXPECT_EQ(complaint("erp = 0.1", "epr = 0.1").find("s.toml:15: unknown key 'contact.epr'"), 0u)
-      << complaint("erp = 0.1", "epr = 0.1");
-  EXPECT_EQ(complaint("friction = inf", "friction = nan").find("s.toml:14: 'contact.friction'"), 0u);
-  EXPECT_EQ(complaint("max_torque_nm = 5.0", "max_torque_nm = inf").find("s.toml:11: 'servo.max_torque_nm'"),
+  EXPECT_EQ(error_of("erp = 0.1", "erp = 1.5").find("s.toml:15: 'contact.erp'"), 0u)
+      << error_of("erp = 0.1", "erp = 1.5");
+  EXPECT_EQ(error_of("gain_per_s = 9.0", "gain_per_s = \"fast\"").find("s.toml:10: 'servo.gain_per_s'"), 0u);
+  EXPECT_EQ(error_of("mode = \"velocity\"", "mode = \"position\"").find("s.toml:9: 'servo.mode'"), 0u);
+  EXPECT_EQ(error_of("erp = 0.1", "epr = 0.1").find("s.toml:15: unknown key 'contact.epr'"), 0u)
+      << error_of("erp = 0.1", "epr = 0.1");
+  EXPECT_EQ(error_of("friction = inf", "friction = nan").find("s.toml:14: 'contact.friction'"), 0u);
+  EXPECT_EQ(error_of("max_torque_nm = 5.0", "max_torque_nm = inf").find("s.toml:11: 'servo.max_torque_nm'"),
             0u);
 }
 

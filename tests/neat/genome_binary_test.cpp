@@ -30,7 +30,7 @@ TEST(GenomeBinary, RefusesEveryTruncation) {
   const std::string bytes = bytes_of(sample_genome(1, 1, {}, {{0, 0, 2, 0.5, true}, {1, 1, 2, 0.5, false}}));
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     io::BinaryReader reader(std::string_view(bytes).substr(0, size), "file");
-    EXPECT_NE(complaint([&] { load_genome(reader); }).find("file: truncated"), std::string::npos) << size;
+    EXPECT_NE(error_of([&] { load_genome(reader); }).find("file: truncated"), std::string::npos) << size;
   }
 }
 
@@ -38,7 +38,7 @@ TEST(GenomeBinary, RefusesUnknownEnumsAndHalfEnabledLinks) {
   const std::string good = bytes_of(sample_genome(0, 1, {}, {{0, 0, 1, 0.5, true}}));
   const auto complaint_about = [](const std::string& bytes) {
     io::BinaryReader reader(bytes, "file");
-    return complaint([&] { load_genome(reader); });
+    return error_of([&] { load_genome(reader); });
   };
   std::string bytes = good;
   bytes[8 + 4] = 4;  // the first node's kind

@@ -13,7 +13,7 @@ Genome small() {
 }
 
 std::string complaint_about(const io::Json& json) {
-  return complaint([&] { genome_from_json(io::JsonView(json, "file.json")); });
+  return error_of([&] { genome_from_json(io::JsonView(json, "file.json")); });
 }
 
 TEST(GenomeJson, IsTheDocumentedText) {

@@ -23,7 +23,7 @@ TEST(Innovations, GiveTheSameLinkTheSameNumberForEver) {
   EXPECT_EQ(innovations.link(2, 3), 3u);
 }
 
-TEST(Innovations, GiveNumbersAnewInEachGenerationIfToldSo) {
+TEST(Innovations, GiveNumbersAnewInEachGenerationIfSet) {
   Innovations innovations(2, 1, {InnovationScope::generation, InnovationKey::link_and_function});
   const Genome none = sample_genome(2, 1, {}, {});
   EXPECT_EQ(innovations.link(0, 3), 0u);
@@ -153,7 +153,7 @@ TEST(Innovations, RefuseWhatCannotBe) {
     writer.put(Activation::sine);
     Innovations innovations(2, 1, settings);
     io::BinaryReader reader(writer.bytes(), "file");
-    return complaint([&] { innovations.load(reader); });
+    return error_of([&] { innovations.load(reader); });
   };
   EXPECT_EQ(complaint_about({0, 3, 4, 3}, 0), "");
   EXPECT_NE(complaint_about({0, 3, 0, 3}, 0).find("a link with two innovation numbers"), std::string::npos);

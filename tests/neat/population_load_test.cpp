@@ -30,7 +30,7 @@ void advance(Population& population, int generations,
 }
 
 std::string load(Population& population, std::string_view bytes) {
-  return complaint([&] {
+  return error_of([&] {
     io::BinaryReader reader(bytes, "checkpoint");
     population.load(reader);
     reader.finish();

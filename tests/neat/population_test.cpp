@@ -62,7 +62,7 @@ TEST_P(Generations, KeepEveryInvariant) {
     ASSERT_EQ(population.generation(), generation);
     ASSERT_EQ(population.genomes().size(), 60u);
     for (const Genome& genome : population.genomes()) {
-      ASSERT_EQ(complaint([&] { validate(genome, 2, 2, recurrent); }), "");
+      ASSERT_EQ(error_of([&] { validate(genome, 2, 2, recurrent); }), "");
       ASSERT_TRUE(all_hidden_nodes_are_linked(genome));
       for (const NodeGene& node : genome.nodes)
         ASSERT_EQ(activation_of.try_emplace(node.id, node.activation).first->second, node.activation)

@@ -309,7 +309,7 @@ TEST(Reproduction, MutatesWhereThereIsNoSecondParent) {
   for (std::size_t i = 1; i < 4; ++i) EXPECT_NE(children[i], sample.genomes[0]);
 }
 
-TEST(Reproduction, MutatesChildrenOfTwoParentsOnlyIfToldSo) {
+TEST(Reproduction, MutatesChildrenOfTwoParentsOnlyIfSet) {
   Sample sample;
   sample.add(std::vector<Fitness>(20, {1, 1}));
   const auto is_a_copy = [&](const Genome& child) {

@@ -122,7 +122,7 @@ std::vector<double> feed_forward(const Genome& genome, std::span<const double> i
   return outputs;
 }
 
-std::string complaint(const std::function<void()>& action) {
+std::string error_of(const std::function<void()>& action) {
   try {
     action();
   } catch (const UserError& error) {

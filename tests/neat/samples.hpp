@@ -39,6 +39,6 @@ double weights_in_steps(const Genome& genome);
 std::vector<double> feed_forward(const Genome& genome, std::span<const double> inputs);
 
 /// What the UserError says that `action` throws, or "" if it throws none.
-std::string complaint(const std::function<void()>& action);
+std::string error_of(const std::function<void()>& action);
 
 }  // namespace amble::neat

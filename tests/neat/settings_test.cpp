@@ -63,7 +63,7 @@ TEST(Settings, AllFieldsAreVisited) {
 std::string complaint_about(void (*spoil)(Settings&)) {
   Settings settings;
   spoil(settings);
-  return complaint([&] { settings.validate(); });
+  return error_of([&] { settings.validate(); });
 }
 
 TEST(Settings, RefuseWhatDoesNotFitTogetherNamingTheKey) {

@@ -59,7 +59,7 @@ TEST_P(RandomStructure, StaysValidThroughThousandsOfMutationsAndCrossovers) {
       child = mother;
       ASSERT_NE(mutate(child, settings, recurrent, innovations, stream), Mutation::none);
     }
-    ASSERT_EQ(complaint([&] { validate(child, inputs, outputs, recurrent); }), "");
+    ASSERT_EQ(error_of([&] { validate(child, inputs, outputs, recurrent); }), "");
     ASSERT_TRUE(innovations.knows(child)) << "the same numbers for the same genes";
     ASSERT_TRUE(all_hidden_nodes_are_linked(child));
     ASSERT_TRUE(std::ranges::all_of(child.links, [&](const LinkGene& link) {

@@ -114,7 +114,7 @@ TEST(Threshold, RefusesValuesThatCannotBe) {
     writer.put(step);
     io::BinaryReader reader(writer.bytes(), "file");
     Threshold threshold(1);
-    EXPECT_NE(complaint([&] { threshold.load(reader); }), "");
+    EXPECT_NE(error_of([&] { threshold.load(reader); }), "");
   }
 }
 

@@ -28,7 +28,7 @@ class Validate : public testing::TestWithParam<Defect> {};
 TEST_P(Validate, RefusesWithTheReason) {
   Genome genome = good();
   GetParam().make(genome);
-  EXPECT_EQ(complaint([&] { validate(genome, 2, 1, false); }), GetParam().message);
+  EXPECT_EQ(error_of([&] { validate(genome, 2, 1, false); }), GetParam().message);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -77,20 +77,20 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& defect) { return std::string(defect.param.name); });
 
 TEST(Validate, AcceptsAGoodGenome) {
-  EXPECT_EQ(complaint([] { validate(good(), 2, 1, false); }), "");
-  EXPECT_EQ(complaint([] { validate(sample_genome(0, 1, {}, {}), 0, 1, false); }), "");
+  EXPECT_EQ(error_of([] { validate(good(), 2, 1, false); }), "");
+  EXPECT_EQ(error_of([] { validate(sample_genome(0, 1, {}, {}), 0, 1, false); }), "");
 }
 
 TEST(Validate, AcceptsCyclesWhereNetworksAreRecurrent) {
   Genome genome = good();
   genome.links.push_back({8, 9, 7, 0.1, true});
   genome.links.push_back({9, 3, 3, 0.1, true});
-  EXPECT_EQ(complaint([&] { validate(genome, 2, 1, true); }), "");
+  EXPECT_EQ(error_of([&] { validate(genome, 2, 1, true); }), "");
 }
 
 TEST(Validate, RefusesAnotherNumberOfInputsOrOutputs) {
-  EXPECT_NE(complaint([] { validate(good(), 1, 1, false); }), "");
-  EXPECT_NE(complaint([] { validate(good(), 2, 2, false); }), "");
+  EXPECT_NE(error_of([] { validate(good(), 1, 1, false); }), "");
+  EXPECT_NE(error_of([] { validate(good(), 2, 2, false); }), "");
 }
 
 TEST(Validate, CallsItABadFile) {

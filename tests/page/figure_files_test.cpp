@@ -32,7 +32,7 @@ TEST(Figures, AreOnePerSectionOfThePage) {
             (Names{"filmstrip.svg", "fitness.svg", "footfalls.svg", "path.svg"}));
 }
 
-TEST(Figures, StandAloneWithTheirOwnStyle) {
+TEST(Figures, AreSelfContainedWithTheirOwnStyle) {
   for (const auto& file : figure_files({}, tests::walk(150))) {
     const auto elements = tests::parse_xml(file.svg);
     ASSERT_GE(elements.size(), 2u) << file.name;

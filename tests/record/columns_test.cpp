@@ -6,7 +6,7 @@
 namespace amble::record {
 namespace {
 
-TEST(StandardColumns, StandInTheDocumentedOrder) {
+TEST(StandardColumns, AreInTheDocumentedOrder) {
   EXPECT_THAT(standard_columns({"FL.knee", "FL.hip"}, {"FL"}),
               testing::ElementsAre("root.x", "root.y", "root.z", "root.qw", "root.qx", "root.qy", "root.qz",
                                    "com.x", "com.y", "com.z", "angle.FL.knee", "angle.FL.hip",

@@ -20,7 +20,7 @@ TEST(Summaries, HaveBootstrapIntervalsOfDistancesOnly) {
 }
 
 TEST(Summaries, OfOneRunHaveNoIntervals) {
-  StudyData data{.study = sample_study({"a", "b"}, 3), .records = {}, .strangers = {}};
+  StudyData data{.study = sample_study({"a", "b"}, 3), .records = {}, .unknown_files = {}};
   add_runs(data, "a", {4.0});
   const auto summaries = summarize(data);
   const auto* distance = find_summary(summaries, "train_m", "a");
@@ -49,7 +49,7 @@ TEST(Pairs, AreAllPairsOfOneMeasureAndEachTestIsAFamily) {
 }
 
 TEST(Pairs, LeaveOutConditionsWithTooFewRuns) {
-  StudyData data{.study = sample_study({"a", "b", "c"}, 3), .records = {}, .strangers = {}};
+  StudyData data{.study = sample_study({"a", "b", "c"}, 3), .records = {}, .unknown_files = {}};
   add_runs(data, "a", {4.0, 5.0});
   add_runs(data, "b", {4.0});
   EXPECT_TRUE(compare_pairs(data).empty());

@@ -104,8 +104,8 @@ TEST(GaitClaims, LookAtTheGaitsOfATest) {
   EXPECT_EQ(one.judged().verdict, Verdict::not_testable);
 }
 
-TEST(GaitCounts, StandInTheOrderOfTheDocumentation) {
-  StudyData data{.study = sample_study({"a"}, 5), .records = {}, .strangers = {}};
+TEST(GaitCounts, AreInTheOrderOfTheDocumentation) {
+  StudyData data{.study = sample_study({"a"}, 5), .records = {}, .unknown_files = {}};
   data.study.tests.resize(1);
   data.study.tests[0].name = "long";
   add_runs(data, "a", {1.0, 1.0, 1.0, 1.0, 1.0});

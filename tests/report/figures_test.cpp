@@ -75,7 +75,7 @@ TEST(RowsFigure, OfATestHasEvolutionBesideIt) {
   EXPECT_EQ(rows[0].strips[1].mean, 15.0);
 }
 
-/// Every text stands within the picture, by a generous estimate of its width.
+/// Every text is within the picture, by a generous estimate of its width.
 void expect_inside(const std::string& svg) {
   const auto elements = parse_xml(svg);
   const double width = elements[0].number("width"), height = elements[0].number("height");
@@ -114,7 +114,7 @@ TEST(SurvivalFigure, StepsDownWhereLifetimesEnd) {
   EXPECT_NEAR(steps[5].first, left + width * 120.0 / 300.0, 0.1);
 }
 
-TEST(FigureFiles, StandAlone) {
+TEST(FigureFiles, AreSelfContained) {
   const auto files = figure_files(make_report(small_study()));
   std::vector<std::string> names;
   for (const FigureFile& file : files) {
@@ -125,8 +125,8 @@ TEST(FigureFiles, StandAlone) {
   EXPECT_EQ(names, (std::vector<std::string>{"distance.svg", "distance-long.svg", "distance-ode.svg",
                                              "curves.svg", "upright-long.svg", "walking-long.svg",
                                              "upright-ode.svg", "walking-ode.svg"}));
-  EXPECT_TRUE(
-      figure_files(make_report({.study = sample_study({"a"}, 2), .records = {}, .strangers = {}})).empty());
+  EXPECT_TRUE(figure_files(make_report({.study = sample_study({"a"}, 2), .records = {}, .unknown_files = {}}))
+                  .empty());
 }
 
 }  // namespace

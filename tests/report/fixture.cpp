@@ -106,7 +106,7 @@ void add_runs(StudyData& data, const std::string& condition, const std::vector<d
 }
 
 StudyData small_study() {
-  StudyData data{.study = sample_study({"a", "b"}, 3), .records = {}, .strangers = {}};
+  StudyData data{.study = sample_study({"a", "b"}, 3), .records = {}, .unknown_files = {}};
   data.study.tests = {test_spec("long", "", 300.0), test_spec("ode", "ode", 15.0)};
   data.study.claims = all_kinds();
   add_runs(data, "a", {4.0, 5.0, 6.0});
@@ -124,7 +124,7 @@ StudyData small_study() {
 StudyData large_study(int count, int runs) {
   std::vector<std::string> names;
   for (int i = 0; i < count; ++i) names.push_back(fmt::format("c{}", i));
-  StudyData data{.study = sample_study(names, runs), .records = {}, .strangers = {}};
+  StudyData data{.study = sample_study(names, runs), .records = {}, .unknown_files = {}};
   data.study.tests = {test_spec("long", "", 300.0), test_spec("ode", "ode", 15.0)};
   std::mt19937 random(7);
   const auto uniform = [&random](double lower, double upper) {

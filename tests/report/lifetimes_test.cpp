@@ -10,10 +10,10 @@ namespace {
 
 TEST(Lifetimes, AreCensoredAtTheLengthOfTheTest) {
   const auto tables = survival_tables(small_study());
-  ASSERT_EQ(tables.size(), 4u) << "two tests, two doings";
+  ASSERT_EQ(tables.size(), 4u) << "two tests, two activities";
   const SurvivalTable& upright = tables[0];
   EXPECT_EQ(upright.test, "long");
-  EXPECT_EQ(upright.doing, Doing::upright);
+  EXPECT_EQ(upright.activity, Activity::upright);
   EXPECT_EQ(upright.trial_s, 300.0);
   // "a": falls after 40 s, lasts, lasts; "b": falls after 40, 80 and 120 s.
   EXPECT_EQ(upright.conditions.at(0).curve.ended, 1u);
@@ -26,7 +26,7 @@ TEST(Lifetimes, AreCensoredAtTheLengthOfTheTest) {
 
 TEST(Lifetimes, OfWalkingEndByStandingStillToo) {
   const SurvivalTable walking = survival_tables(small_study())[1];
-  EXPECT_EQ(walking.doing, Doing::walking);
+  EXPECT_EQ(walking.activity, Activity::walking);
   EXPECT_EQ(walking.conditions.at(0).curve.ended, 3u) << "who stays up walks only 200 s";
 }
 
@@ -38,7 +38,7 @@ TEST(Lifetimes, OfTestsAsLongAsEvolutionAreNotLong) {
 }
 
 TEST(BestCurves, AreQuartilesOverRuns) {
-  StudyData data{.study = sample_study({"a", "b"}, 3), .records = {}, .strangers = {}};
+  StudyData data{.study = sample_study({"a", "b"}, 3), .records = {}, .unknown_files = {}};
   add_runs(data, "a", {2.0, 4.0, 8.0});
   const auto curves = best_curves(data);
   ASSERT_EQ(curves.size(), 1u) << "none of a condition without runs";
@@ -51,7 +51,7 @@ TEST(BestCurves, AreQuartilesOverRuns) {
 }
 
 TEST(BestCurves, OfLongRunsAreSampledFromFirstToLast) {
-  StudyData data{.study = sample_study({"a"}, 2), .records = {}, .strangers = {}};
+  StudyData data{.study = sample_study({"a"}, 2), .records = {}, .unknown_files = {}};
   add_runs(data, "a", {2.0, 4.0});
   data.records[0].generations = 800;
   data.records[1].generations = 1000;

@@ -78,7 +78,7 @@ TEST(Page, EscapesHostileTexts) {
     made.version = made.commit = made.compiler = made.flags = made.cpu = made.finished_utc = hostile;
     for (auto& test : run.tests) test.gait = test.engine = hostile;
   }
-  data.strangers = {hostile};
+  data.unknown_files = {hostile};
   const std::string html = page(data);
   EXPECT_NO_THROW(parse_xml(html));
   EXPECT_THAT(html, Not(HasSubstr("<script")));

@@ -50,7 +50,7 @@ TEST(Remarks, TellWhatDoesNotFit) {
   data.records[4].generations = 12;
   data.records[5].tests[0].trial_s = 200.0;
   data.records[5].provenance.claims = "others";
-  data.strangers = {"x-001.json"};
+  data.unknown_files = {"x-001.json"};
   EXPECT_THAT(remarks(data), ElementsAre(HasSubstr("a: runs differ in their settings"),
                                          HasSubstr("b: runs differ in their number of generations"),
                                          HasSubstr("trials of 200 s, the study asks for 300 s"),

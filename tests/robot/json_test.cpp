@@ -26,7 +26,7 @@ RobotSpec through_text(const RobotSpec& robot) {
 
 TEST(RobotJson, ReadsBackTheSameRobotToTheBit) {
   RobotSpec robot = quadruped();
-  // Numbers that no short decimal stands for.
+  // Numbers without a short decimal form.
   Stream stream(3, Purpose::test);
   for (Body& body : robot.bodies) {
     body.mass_kg *= stream.uniform(0.5, 2.0);
@@ -62,7 +62,7 @@ TEST(RobotJson, WritesInfiniteFrictionAsInf) {
 }
 
 TEST(RobotJson, RefusesWhatIsNotARobot) {
-  const auto complaint = [](const std::function<void(io::Json&)>& change) -> std::string {
+  const auto error_of = [](const std::function<void(io::Json&)>& change) -> std::string {
     io::Json json = to_json(quadruped());
     change(json);
     try {
@@ -73,22 +73,22 @@ TEST(RobotJson, RefusesWhatIsNotARobot) {
     }
     return "accepted";
   };
-  EXPECT_EQ(complaint([](io::Json& j) { j.erase("gravity_m_s2"); }),
+  EXPECT_EQ(error_of([](io::Json& j) { j.erase("gravity_m_s2"); }),
             "FILE: key 'robot.gravity_m_s2' is missing");
-  EXPECT_EQ(complaint([](io::Json& j) { j["gravity_m_s2"].push_back(1.0); }),
+  EXPECT_EQ(error_of([](io::Json& j) { j["gravity_m_s2"].push_back(1.0); }),
             "FILE: key 'robot.gravity_m_s2' must be an array of 3 numbers");
-  EXPECT_EQ(complaint([](io::Json& j) { j["geoms"][0]["shape"] = "blob"; }),
-            complaint([](io::Json& j) { j["geoms"][0]["shape"] = "blub"; }));
-  EXPECT_NE(complaint([](io::Json& j) {
+  EXPECT_EQ(error_of([](io::Json& j) { j["geoms"][0]["shape"] = "blob"; }),
+            error_of([](io::Json& j) { j["geoms"][0]["shape"] = "blub"; }));
+  EXPECT_NE(error_of([](io::Json& j) {
               j["geoms"][0]["shape"] = "blob";
             }).find("must be one of sphere, capsule, cylinder, box"),
             std::string::npos);
-  EXPECT_EQ(complaint([](io::Json& j) { j["bodies"][1]["mass_kg"] = -1.0; }),
+  EXPECT_EQ(error_of([](io::Json& j) { j["bodies"][1]["mass_kg"] = -1.0; }),
             "FILE: key 'robot' holds no valid robot: body 'FL_upper' must have a positive mass");
-  EXPECT_EQ(complaint([](io::Json& j) { j["bodies"][1]["mass_kg"] = "inf"; }),
+  EXPECT_EQ(error_of([](io::Json& j) { j["bodies"][1]["mass_kg"] = "inf"; }),
             "FILE: key 'robot' holds no valid robot: body 'FL_upper' must have a positive mass");
   EXPECT_EQ(
-      complaint([](io::Json& j) { j["joints"][0]["body"] = 900; }),
+      error_of([](io::Json& j) { j["joints"][0]["body"] = 900; }),
       "FILE: key 'robot' holds no valid robot: joint 'FL_knee' names a body that is not there, or the root");
 }
 

@@ -51,7 +51,7 @@ TEST(PosesAt, TurnABodyAboutTheAnchorOfItsJoint) {
   robot.joints.resize(1);
   robot.joints[0].body = 1;
   robot.joints[0].axis = {0.0, 1.0, 0.0};
-  robot.joints[0].anchor_m = {0.0, 0.0, 1.0};  // where the root's frame stands
+  robot.joints[0].anchor_m = {0.0, 0.0, 1.0};  // the origin of the root's frame
   const double turned[]{quarter};
   const auto poses = poses_at(robot, {{5.0, 0.0, 2.0}, {}}, turned);
   EXPECT_NEAR(norm(poses[1].position_m - Vec3{4.0, 0.0, 2.0}), 0.0, 1e-15) << "down turns to back about +y";

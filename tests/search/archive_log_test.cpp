@@ -54,7 +54,7 @@ class ArchiveFile : public testing::Test {
   }
 
   /// The message of the UserError; "" if all is well.
-  std::string complaint(const std::string& checkpoint, const std::string& bytes) const {
+  std::string error_of(const std::string& checkpoint, const std::string& bytes) const {
     NoveltySearch search(settings(), length);
     try {
       restore(search, checkpoint, bytes);
@@ -112,7 +112,7 @@ TEST_F(ArchiveFile, IsRefusedWhenTruncatedAnywhere) {
   run(search, 0, 2);
   const auto saved = checkpoint(search);
   for (std::size_t size = 0; size < file_.size(); ++size)
-    ASSERT_THAT(complaint(saved, file_.substr(0, size)), HasSubstr("archive.bin: truncated")) << size;
+    ASSERT_THAT(error_of(saved, file_.substr(0, size)), HasSubstr("archive.bin: truncated")) << size;
 }
 
 TEST_F(ArchiveFile, IsRefusedWhenAnyByteIsAltered) {
@@ -122,7 +122,7 @@ TEST_F(ArchiveFile, IsRefusedWhenAnyByteIsAltered) {
   for (std::size_t at = 0; at < file_.size(); ++at) {
     auto altered = file_;
     altered[at] = static_cast<char>(altered[at] ^ 0x40);
-    ASSERT_THAT(complaint(saved, altered), testing::StartsWith("archive.bin: ")) << at;
+    ASSERT_THAT(error_of(saved, altered), testing::StartsWith("archive.bin: ")) << at;
   }
 }
 
@@ -132,7 +132,7 @@ TEST_F(ArchiveFile, IsRefusedWhenMembersChangedPlaces) {
   auto swapped = file_;
   std::swap_ranges(swapped.begin() + header_bytes, swapped.begin() + header_bytes + record_bytes,
                    swapped.begin() + header_bytes + record_bytes);
-  EXPECT_EQ(complaint(checkpoint(search), swapped),
+  EXPECT_EQ(error_of(checkpoint(search), swapped),
             "archive.bin: altered: the checksum of member 0 does not fit");
 }
 
@@ -142,8 +142,8 @@ TEST_F(ArchiveFile, OfAnotherRunIsRefused) {
   const auto saved = checkpoint(search);
   file_.clear();
   run(other, 7, 12);
-  EXPECT_EQ(complaint(saved, file_), "archive.bin: not the archive that the checkpoint was written with");
-  EXPECT_EQ(complaint(saved, longer.take_archive_growth()),
+  EXPECT_EQ(error_of(saved, file_), "archive.bin: not the archive that the checkpoint was written with");
+  EXPECT_EQ(error_of(saved, longer.take_archive_growth()),
             "archive.bin: behaviours of 8 numbers, this run's have 6");
 }
 
@@ -151,11 +151,11 @@ TEST_F(ArchiveFile, OfAnotherKindOrVersionIsRefused) {
   NoveltySearch search(settings(), length);
   run(search, 0, 1);
   const auto saved = checkpoint(search);
-  EXPECT_EQ(complaint(saved, "generation,best_m\n"),
+  EXPECT_EQ(error_of(saved, "generation,best_m\n"),
             "archive.bin: not a file of this kind: it does not begin with AMBLEARC");
   auto newer = file_;
   newer[8] = 9;
-  EXPECT_EQ(complaint(saved, newer),
+  EXPECT_EQ(error_of(saved, newer),
             "archive.bin: version 9 of the file format; this program reads version 1");
 }
 
@@ -170,7 +170,7 @@ TEST_F(ArchiveFile, AndStateThrowNothingButUserErrorsUnderRandomDamage) {
     for (std::uint32_t i = 0; i < 1 + stream.below(4); ++i)
       damaged[stream.below(static_cast<std::uint32_t>(damaged.size()))] =
           static_cast<char>(stream.below(256));
-    complaint(state, bytes);
+    error_of(state, bytes);
   }
 }
 

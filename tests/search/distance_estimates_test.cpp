@@ -50,7 +50,7 @@ TEST(DistanceEstimates, KnowNothingOnceFloatsOverflow) {
   EXPECT_TRUE(std::isinf(upper));
 }
 
-TEST(DistanceEstimates, TakeNobodysThreadsAway) {
+TEST(DistanceEstimates, RestoreTheNumberOfThreads) {
   Stream stream(3, Purpose::test);
   const auto a = to_behaviours(random_rows(Shape::normal, 4, 10, stream));
   const int before = openblas_get_num_threads();

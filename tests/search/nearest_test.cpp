@@ -36,27 +36,27 @@ TEST(Nearest, IsTheSameToTheBitWhateverTheBoundsAreAsLongAsTheyHold) {
     const auto from = random_row(shape, 9, stream);
     const auto rows = random_rows(shape, stream.below(30), 9, stream);
     const std::size_t count = 1 + stream.below(20);
-    std::vector<Candidate> candidates;
+    std::vector<Reference> references;
     std::vector<double> expected;
     for (const auto& row : rows) {
       expected.push_back(exact_squared_distance(from, row));
-      candidates.push_back({some_bounds(expected.back(), stream), row});
+      references.push_back({some_bounds(expected.back(), stream), row});
     }
     std::ranges::sort(expected);
     expected.resize(std::min(expected.size(), count));
-    ASSERT_EQ(nearest_squared_distances(from, candidates, count), expected) << round;
+    ASSERT_EQ(nearest_squared_distances(from, references, count), expected) << round;
   }
 }
 
 TEST(Nearest, DoesNotMeasureWhoIsCertainlyFarther) {
-  // Whoever is measured in vain would break this: behaviours of another length.
+  // Computing a distance that is not needed would fail: behaviours of another length.
   const std::vector<float> from{0.0f}, near{1.0f}, unmeasurable{5.0f, 5.0f};
-  const std::vector<Candidate> candidates{
+  const std::vector<Reference> references{
       {{2.0, 9.0}, unmeasurable}, {{0.5, 1.5}, near}, {{1.6, 1.7}, unmeasurable}};
-  EXPECT_THAT(nearest_squared_distances(from, candidates, 1), testing::ElementsAre(1.0));
+  EXPECT_THAT(nearest_squared_distances(from, references, 1), testing::ElementsAre(1.0));
 }
 
-TEST(Nearest, OfNobodyAreNone) {
+TEST(Nearest, OfNoReferencesAreNone) {
   const std::vector<float> from{0.0f};
   EXPECT_TRUE(nearest_squared_distances(from, {}, 3).empty());
 }

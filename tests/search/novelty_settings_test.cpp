@@ -9,7 +9,7 @@ namespace amble::search {
 namespace {
 
 template <typename Call>
-std::string complaint(Call call) {
+std::string error_of(Call call) {
   try {
     call();
   } catch (const UserError& error) {
@@ -20,7 +20,7 @@ std::string complaint(Call call) {
 }
 
 std::string reading(const std::string& line) {
-  return complaint([&] {
+  return error_of([&] {
     NoveltySettings settings;
     auto document = io::TomlDocument::parse("", "c.toml");
     document.set(line);
@@ -48,16 +48,16 @@ TEST(NoveltySettings, HaveARangeEach) {
 TEST(NoveltySettings, RefuseAStrideLongerThanATrialAndBehavioursWithoutBound) {
   NoveltySettings settings;
   settings.path_stride = 2000;
-  EXPECT_EQ(complaint([&] { settings.validate(0); }),
+  EXPECT_EQ(error_of([&] { settings.validate(0); }),
             "search.novelty.path_stride = 2000: expected at most the steps of a trial");
   settings.path_stride = 1;
   EXPECT_EQ(
-      complaint([&] { settings.validate(2000000); }),
+      error_of([&] { settings.validate(2000000); }),
       "search.novelty.path_stride = 1: behaviours of 2000000 numbers; expected at most 1000000, by a larger "
       "stride");
-  EXPECT_EQ(complaint([&] { settings.validate(1000000); }), "");
+  EXPECT_EQ(error_of([&] { settings.validate(1000000); }), "");
   settings.path_first_step = 2;
-  EXPECT_EQ(complaint([&] { settings.validate(1000000); }),
+  EXPECT_EQ(error_of([&] { settings.validate(1000000); }),
             "search.novelty.path_first_step = 2: expected at most search.novelty.path_stride, 1");
 }
 
@@ -66,14 +66,14 @@ TEST(NoveltySettings, RefuseAnArchiveLargerThanMemoryAndSayHowLargeItMayBe) {
   settings.archive_limit = 1000000;
   // 1500 floats, two doubles and 300 floats: 7216 bytes for each member.
   EXPECT_EQ(
-      complaint([&] { settings.check_memory(1500, 300, 4e9); }),
+      error_of([&] { settings.check_memory(1500, 300, 4e9); }),
       "search.novelty.archive_limit = 1000000: that many behaviours of 1500 numbers need 7.2 GB; expected at "
       "most 554323, for the 4.0 GB that this process may use");
-  EXPECT_EQ(complaint([&] { settings.check_memory(1500, 300, 7.216e9); }), "");
+  EXPECT_EQ(error_of([&] { settings.check_memory(1500, 300, 7.216e9); }), "");
   settings.archive_limit = 554323;
-  EXPECT_EQ(complaint([&] { settings.check_memory(1500, 300, 4e9); }), "");
+  EXPECT_EQ(error_of([&] { settings.check_memory(1500, 300, 4e9); }), "");
   settings.archive_limit = 554324;
-  EXPECT_NE(complaint([&] { settings.check_memory(1500, 300, 4e9); }), "");
+  EXPECT_NE(error_of([&] { settings.check_memory(1500, 300, 4e9); }), "");
 }
 
 }  // namespace

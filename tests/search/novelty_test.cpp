@@ -15,7 +15,7 @@ namespace {
 
 using testing::ElementsAre;
 
-/// Nobody joins but by the rule under test, and behaviours are single numbers.
+/// Candidates are added by the rule under test only, and behaviours are single numbers.
 NoveltySettings plain_settings() {
   NoveltySettings settings;
   settings.threshold = 1e9;
@@ -32,7 +32,7 @@ std::vector<double> judge(NoveltySearch& search, const std::vector<float>& posit
   return novelties;
 }
 
-TEST(NoveltySearch, LetsTheFirstMembersJoinWhateverTheirNoveltyAndNobodyAfterThem) {
+TEST(NoveltySearch, AddsTheFirstMembersWhateverTheirNoveltyAndNoneAfterThem) {
   auto settings = plain_settings();
   settings.first_members = 15;
   NoveltySearch search(settings, 1);
@@ -111,7 +111,7 @@ TEST(NoveltySearch, RaisesTheThresholdAfterMoreThanFourJoined) {
   }
 }
 
-TEST(NoveltySearch, CountsThoseWhoJoinBelowTheThresholdOnlyIfToldSo) {
+TEST(NoveltySearch, CountsCandidatesAddedBelowTheThresholdOnlyIfSet) {
   for (const bool count : {false, true}) {
     auto settings = plain_settings();
     settings.first_members = 15;
@@ -183,7 +183,7 @@ TEST(NoveltySearch, FollowsLehmansRulesWithLehmansNumbers) {
   }
 }
 
-TEST(NoveltySearch, TakesNobodyIntoAFullArchive) {
+TEST(NoveltySearch, AddsNoneToAFullArchive) {
   auto settings = plain_settings();
   settings.first_members = 15;
   settings.archive_limit = 3;
@@ -214,18 +214,18 @@ TEST(NoveltySearch, ReportsTheThresholdThatItsGenerationHadToExceed) {
   NoveltySearch search(settings, 1);
   const auto names = [&search] {
     std::vector<std::string_view> columns;
-    for (const Reading& reading : search.readings()) columns.push_back(reading.name);
+    for (const Metric& reading : search.metrics()) columns.push_back(reading.name);
     return columns;
   };
   EXPECT_THAT(names(), ElementsAre("archive", "novelty_threshold", "best_novelty"))
       << "columns of a table, known before the first generation";
   judge(search, {0.0f, 1.0f, 2.0f, 3.0f, 4.0f});
   EXPECT_THAT(names(), ElementsAre("archive", "novelty_threshold", "best_novelty"));
-  const auto told = search.readings();
-  EXPECT_EQ(told[0].value, 5.0);
-  EXPECT_EQ(told[1].value, 50.0);
+  const auto metrics = search.metrics();
+  EXPECT_EQ(metrics[0].value, 5.0);
+  EXPECT_EQ(metrics[1].value, 50.0);
   EXPECT_EQ(search.threshold(), 60.0);
-  EXPECT_EQ(told[2].value, 16.0 + 9.0 + 4.0 + 1.0);
+  EXPECT_EQ(metrics[2].value, 16.0 + 9.0 + 4.0 + 1.0);
 }
 
 /// What a process that goes on from `search` and its archive's file has.

@@ -119,7 +119,7 @@ TEST(Bootstrap, FollowsShiftAndScale) {
   }
 }
 
-TEST(Bootstrap, TakesTenThousandResamplesUnlessToldOtherwise) {
+TEST(Bootstrap, TakesTenThousandResamplesByDefault) {
   int calls = 0;
   const Sample sample{1.0, 2.0, 4.0, 7.0};
   bootstrap(sample, [&](std::span<const double> resample) { return ++calls, mean(resample); });
@@ -171,7 +171,7 @@ TEST(Bootstrap, KeepsFiniteWhereAllResamplesLieOnOneSide) {
   EXPECT_EQ(maximum.interval.upper, 6.0);
   int calls = 0;
   const auto above = *bootstrap(sample, [&](std::span<const double> x) {
-    return calls++ == 0 ? 100.0 : mean(x);  // the estimate is asked for first
+    return calls++ == 0 ? 100.0 : mean(x);  // the estimate is computed first
   });
   EXPECT_TRUE(std::isfinite(above.bias_correction));
   EXPECT_TRUE(std::isfinite(above.interval.lower));

@@ -65,7 +65,7 @@ TEST(Worker, LeavesFinishedRunsAloneAndAddsTheTestsTheyLack) {
   EXPECT_EQ(ledger::Ledger(ledger::StudyPaths(folder.path())).load("sine", 3).digest(), after.digest());
 }
 
-TEST(Worker, KeepsTheHashOfTheClaimsThatStoodWhenTheRunWasDone) {
+TEST(Worker, KeepsTheHashOfTheClaimsAtTheEndOfTheRun) {
   const test::TemporaryFolder folder;
   auto study = small_study();
   study.tests = {trial_test("brief", 1.0)};

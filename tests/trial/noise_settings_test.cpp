@@ -9,7 +9,7 @@
 namespace amble::trial {
 namespace {
 
-std::string complaint(const NoiseSettings& noise) {
+std::string error_of(const NoiseSettings& noise) {
   try {
     noise.validate({});
   } catch (const UserError& error) {
@@ -22,7 +22,7 @@ TEST(NoiseSettings, AreOffByDefault) {
   const NoiseSettings noise;
   EXPECT_FALSE(noise.any());
   EXPECT_EQ(noise.episodes, 1);
-  EXPECT_EQ(complaint(noise), "");
+  EXPECT_EQ(error_of(noise), "");
 }
 
 TEST(NoiseSettings, AreOnWithAnyAmount) {
@@ -45,26 +45,26 @@ TEST(NoiseSettings, AreOnWithAnyAmount) {
 TEST(NoiseSettings, RefuseEpisodesThatWouldAllBeTheSame) {
   NoiseSettings noise;
   noise.episodes = 3;
-  EXPECT_EQ(complaint(noise), "noise.episodes = 3: without any noise they would all be the same; expected 1");
+  EXPECT_EQ(error_of(noise), "noise.episodes = 3: without any noise they would all be the same; expected 1");
   noise.latency_ticks = 1;
-  EXPECT_EQ(complaint(noise), "");
+  EXPECT_EQ(error_of(noise), "");
 }
 
 TEST(NoiseSettings, RefuseASingleEpisodeThatWouldBeUndisturbed) {
   NoiseSettings noise;
   noise.latency_ticks = 1;
   noise.first_undisturbed = true;
-  EXPECT_EQ(complaint(noise),
+  EXPECT_EQ(error_of(noise),
             "noise.first_undisturbed leaves noise.episodes = 1 no noise; expected at least 2");
   noise.episodes = 2;
-  EXPECT_EQ(complaint(noise), "");
+  EXPECT_EQ(error_of(noise), "");
 }
 
 TEST(NoiseSettings, RefusePushesMoreOftenThanSteps) {
   NoiseSettings noise;
   noise.push_m_s = 0.1;
   noise.push_interval_s = 0.005;
-  EXPECT_EQ(complaint(noise), "noise.push_interval_s = 0.005: expected at least one timestep, 0.01 s");
+  EXPECT_EQ(error_of(noise), "noise.push_interval_s = 0.005: expected at least one timestep, 0.01 s");
 }
 
 }  // namespace

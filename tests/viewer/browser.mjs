@@ -25,21 +25,21 @@ export function launch({ gl = true } = {}) {
   return chromium.launch({ executablePath: CHROMIUM, args });
 }
 
-/** Opens a page, standing still at `at_s` (null: as a reader would, playing). `complaints` collects what goes wrong. */
+/** Opens a page, standing still at `at_s` (null: as a reader would, playing). `problems` collects what goes wrong. */
 export async function open(browser, path, { at_s = 0, ...context } = {}) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...context });
   page.setDefaultTimeout(60_000);
-  const complaints = [];
+  const problems = [];
   const url = pathToFileURL(path).href + (at_s === null ? "" : `#t=${at_s}`);
-  page.on("console", (message) => complaints.push(`console ${message.type()}: ${message.text()}`));
-  page.on("pageerror", (error) => complaints.push(`error: ${error.message}`));
+  page.on("console", (message) => problems.push(`console ${message.type()}: ${message.text()}`));
+  page.on("pageerror", (error) => problems.push(`error: ${error.message}`));
   page.on("request", (request) => {
     if (request.url().split("#")[0] !== url.split("#")[0] && !request.url().startsWith("data:"))
-      complaints.push(`request: ${request.url()}`);
+      problems.push(`request: ${request.url()}`);
   });
   await page.goto(url);
   await page.waitForFunction(() => window.amble || !document.getElementById("trouble").hidden);
-  return { page, complaints };
+  return { page, problems };
 }
 
 /** The stage as numbers: how many colours it has, and a sum that changes with the picture. */
@@ -64,7 +64,7 @@ export const pictureOf = (page, which = "#stage canvas") =>
 
 export const time = (page) => page.evaluate(() => window.amble.time());
 
-/** Where the cursors of all diagrams in sight stand, and the places of the timers in the patterns. */
+/** Positions of the cursors of all diagrams in sight, and the places of the timers in the patterns. */
 export const cursors = (page) =>
   page.evaluate(() => {
     window.amble.render();
@@ -74,6 +74,6 @@ export const cursors = (page) =>
     };
   });
 
-/** Waits until the page has drawn what was asked of it. */
+/** Waits until the page has drawn the requested state. */
 export const settled = (page) =>
   page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done)))));

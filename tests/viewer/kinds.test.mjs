@@ -12,10 +12,10 @@ before(async () => (browser = await launch()));
 after(() => browser.close());
 
 async function onPage(path, options, steps) {
-  const { page, complaints } = await open(browser, path, options);
+  const { page, problems } = await open(browser, path, options);
   try {
     await steps(page);
-    assert.deepEqual(complaints, []);
+    assert.deepEqual(problems, []);
   } finally {
     await page.close();
   }
@@ -195,7 +195,7 @@ test("the page of a champion has its CPPN and the cost of transport", () =>
     assert.match(await page.locator(".gait-box").textContent(), /the motors’ positive work \/ \(weight × way\)/);
   }));
 
-test("champions of two kinds stand side by side, each with its own CPPN and diagrams", () =>
+test("champions of two kinds are side by side, each with its own CPPN and diagrams", () =>
   onPage(championsPage("kinds.html", "supg-objective", "ctrnn-objective"), {}, async (page) => {
     assert.deepEqual(await page.evaluate(() => window.amble.walkers.map((title) => title.split("-")[0])), ["supg", "ctrnn"]);
     const first = await pictureOf(page);

@@ -15,10 +15,10 @@ after(() => browser.close());
 
 /** Runs `steps` on a freshly opened page, on which nothing may go wrong. */
 async function onPage(options, steps) {
-  const { page, complaints } = await open(browser, walk, options);
+  const { page, problems } = await open(browser, walk, options);
   try {
     await steps(page);
-    assert.deepEqual(complaints, []);
+    assert.deepEqual(problems, []);
   } finally {
     await page.close();
   }
@@ -196,12 +196,12 @@ test("render-video.mjs makes a picture, and says in a line what is missing", () 
   const made = render({}, picture, "--at", "5", "--size", "320x200");
   assert.equal(made.status, 0, made.stderr);
   assert.equal(readFileSync(picture).subarray(1, 4).toString(), "PNG");
-  for (const [environment, out, complaint] of [
+  for (const [environment, out, expected] of [
     [{ PATH: "" }, video, /^render-video: ffmpeg is missing .*\n$/],
     [{ CHROMIUM: "/no/browser" }, picture, /^render-video: \/no\/browser is missing .*\n$/],
   ]) {
     const failed = render(environment, out);
     assert.equal(failed.status, 2);
-    assert.match(failed.stderr, complaint);
+    assert.match(failed.stderr, expected);
   }
 });

@@ -24,17 +24,17 @@ after(() => browser.close());
 /** Runs `steps` on a freshly opened page that may say nothing and ask for nothing. */
 async function onPage(options, steps) {
   const page = await browser.newPage(options);
-  const complaints = [];
+  const problems = [];
   const url = pathToFileURL(path).href;
-  page.on("console", (message) => complaints.push(`console ${message.type()}: ${message.text()}`));
-  page.on("pageerror", (error) => complaints.push(`error: ${error.message}`));
+  page.on("console", (message) => problems.push(`console ${message.type()}: ${message.text()}`));
+  page.on("pageerror", (error) => problems.push(`error: ${error.message}`));
   page.on("request", (request) => {
-    if (request.url() !== url) complaints.push(`request: ${request.url()}`);
+    if (request.url() !== url) problems.push(`request: ${request.url()}`);
   });
   try {
     await page.goto(url);
     await steps(page);
-    assert.deepEqual(complaints, []);
+    assert.deepEqual(problems, []);
   } finally {
     await page.close();
   }

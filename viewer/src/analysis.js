@@ -11,7 +11,7 @@ function drawing(svg) {
   const box = element("div", { class: "scroll cppn-box" });
   box.innerHTML = svg;
   const picture = box.firstElementChild;
-  picture.style.minWidth = `${0.65 * picture.width.baseVal.value}px`; // or nobody could read it on a phone
+  picture.style.minWidth = `${0.65 * picture.width.baseVal.value}px`; // for legibility on a phone
   return box;
 }
 const note = (text) => element("p", { class: "note" }, text);

@@ -8,7 +8,7 @@ const decimals = (count) => (value) => (value == null ? "–" : number(value, co
 
 const nameOf = ({ gait, irregular_reason: reason }) => (gait ?? "no name") + (reason ? ` (${reason})` : "");
 
-/** The duty factor parts walking from running; who is on the border is said to be there. */
+/** The duty factor parts walking from running; a value at the limit is named as such. */
 function footwork({ duty_factor: duty, stride_s }) {
   if (duty == null) return "no strides";
   const border = Math.abs(duty - 0.5) < 0.005;

@@ -65,7 +65,7 @@ export class Ground {
   }
 
   /**
-   * Brings marks to where the camera looks. The numbers stand on the left (side 1) or right (−1) of y = `way_m` and at
+   * Brings marks to where the camera looks. The numbers are on the left (side 1) or right (−1) of y = `way_m` and at
    * least `away_m` from it, `size` times as large as seen from nearby; they read upright from the other side. They keep
    * still while way_m stays near.
    */

@@ -166,7 +166,7 @@ class Pen {
     const { context } = this;
     const first = Math.max(0, Math.floor((this.from_s - frames.first_s) / frames.step_s));
     const last = Math.min(frames.count - 1, Math.ceil((this.to_s - frames.first_s) / frames.step_s));
-    // Where more than two rows fall on a px, their least and greatest stand for all.
+    // Where more than two rows fall on a px, their least and greatest represent all.
     const stride = Math.max(1, Math.floor((last - first) / (2 * (this.right - this.left))));
     context.save();
     context.beginPath();

@@ -12,7 +12,7 @@
 #include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"
-#include "amble/morphology/complaints.hpp"
+#include "amble/morphology/mujoco_handlers.hpp"
 #include "amble/physics/mujoco/model.hpp"
 #include "amble/physics/mujoco/slip.hpp"
 #include "amble/physics/single_robot.hpp"
@@ -36,10 +36,10 @@ struct DeleteData {
 };
 
 std::unique_ptr<mjData, DeleteData> new_data(const mjModel* model) {
-  const morphology::ComplaintsCaught caught;
+  const morphology::ScopedMujocoHandlers handlers;
   try {
     return std::unique_ptr<mjData, DeleteData>(mj_makeData(model));
-  } catch (const morphology::FatalComplaint& fatal) {
+  } catch (const morphology::MujocoError& fatal) {
     fail(ExitCode::bad_input, "the mujoco engine: {}", fatal.what());
   }
 }

@@ -1,4 +1,4 @@
-#include "amble/morphology/complaints.hpp"
+#include "amble/morphology/mujoco_handlers.hpp"
 
 #include <mujoco/mujoco.h>
 
@@ -7,24 +7,24 @@
 namespace amble::morphology {
 namespace {
 
-std::mutex& one_for_all() {
+std::mutex& handler_mutex() {
   static std::mutex mutex;
   return mutex;
 }
 
-void throw_complaint(const char* text) {
-  throw FatalComplaint(text);
+void throw_error(const char* text) {
+  throw MujocoError(text);
 }
 void ignore_warning(const char*) {}
 
 }  // namespace
 
-ComplaintsCaught::ComplaintsCaught()
-    : lock_(one_for_all()),
-      error_(std::exchange(mju_user_error, throw_complaint)),
+ScopedMujocoHandlers::ScopedMujocoHandlers()
+    : lock_(handler_mutex()),
+      error_(std::exchange(mju_user_error, throw_error)),
       warning_(std::exchange(mju_user_warning, ignore_warning)) {}
 
-ComplaintsCaught::~ComplaintsCaught() {
+ScopedMujocoHandlers::~ScopedMujocoHandlers() {
   mju_user_error = error_;
   mju_user_warning = warning_;
 }

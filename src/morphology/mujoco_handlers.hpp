@@ -1,0 +1,30 @@
+#pragma once
+
+#include <mutex>
+#include <stdexcept>
+
+namespace amble::morphology {
+
+/// A fatal error of MuJoCo, after which its default handler ends the process.
+class MujocoError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Replaces MuJoCo's error and warning handlers within a scope: errors throw MujocoError, warnings (by
+/// default written to a log file in the current folder) are dropped. The handlers are global to the process,
+/// so a mutex admits one scope at a time; the previous handlers are restored at its end.
+class ScopedMujocoHandlers {
+ public:
+  ScopedMujocoHandlers();
+  ~ScopedMujocoHandlers();
+  ScopedMujocoHandlers(const ScopedMujocoHandlers&) = delete;
+  ScopedMujocoHandlers& operator=(const ScopedMujocoHandlers&) = delete;
+
+ private:
+  std::lock_guard<std::mutex> lock_;
+  void (*error_)(const char*);
+  void (*warning_)(const char*);
+};
+
+}  // namespace amble::morphology
