@@ -36,8 +36,8 @@ inline constexpr double absurd_speed = 1000.0;
 
 /// Advances up to lanes() copies of one robot in lockstep, one copy per lane, on flat ground at z = 0.
 /// Lanes do not influence each other, not by one bit: a lane's states depend on its own targets alone.
-/// An engine belongs to one thread. Order within step(): collide, advance by one timestep, then read the
-/// sensors.
+/// An engine belongs to one thread. Order within step(): find touches and contacts, advance by one
+/// timestep, then read joint angles and attitude: touch is that of the pose before the step.
 class Engine {
  public:
   virtual ~Engine() = default;

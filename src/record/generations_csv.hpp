@@ -12,11 +12,10 @@ namespace amble::record {
 /// length.
 struct Generations {
   std::vector<double> generation;
-  std::vector<double> best, mean, median;  ///< distance walked; best of the generation
-  std::vector<double> species;
-  std::vector<double> threshold;  ///< compatibility threshold of the speciation
-  std::vector<double> mean_hidden, mean_links;
+  std::vector<double> best, mean, median;  ///< objective; best of the generation
   std::vector<double> evaluations, steps;  ///< of this generation; steps are simulated ticks
+  /// Of NEAT; empty for searches without. threshold: compatibility threshold of the speciation.
+  std::vector<double> species, threshold, mean_hidden, mean_links;
   /// Of novelty search; empty for runs without.
   std::vector<double> archive, novelty_threshold, best_novelty;
   /// Where the time went, s; all but wall_s may be empty.

@@ -9,7 +9,7 @@ void NoiseSettings::describe(io::SettingsVisitor& visitor) {
       "episodes", episodes, {1, 1000},
       {"trials per evaluation, each with noise of its own, the same for all genomes of a generation"});
   visitor.choice("score", score, episode_score_names,
-                 {"what counts of the distances of an evaluation's episodes"});
+                 {"what counts of the scores of an evaluation's episodes"});
   visitor.flag("first_undisturbed", first_undisturbed,
                {"whether the first episode is without noise, so that no gait comes to need it"});
   visitor.number(
