@@ -22,12 +22,6 @@
 namespace amble::cli {
 namespace {
 
-/// With the unit of the score, if it has one.
-std::string score_text(double value, const score::Settings& score) {
-  const auto unit = score::unit(score);
-  return fmt::format("{:.3f}{}{}", value, unit.empty() ? "" : " ", unit);
-}
-
 void print_champion(const experiment::Champion& champion) {
   const auto& problem = champion.problem;
   fmt::print("experiment  {} (seed {})\ngeneration  {}, genome {}\n", io::printable(champion.experiment),
@@ -43,7 +37,8 @@ void print_champion(const experiment::Champion& champion) {
   for (const auto& [engine, judged] : champion.referees)
     fmt::print("in {:<8} {}\n", engine, result_text(judged, champion.result.distance_m));
   if (champion.episodes.empty()) return;
-  fmt::print("under noise {}, {} of", score_text(champion.objective(), problem.score),
+  fmt::print("under noise {}, {} of",
+             score::with_unit(fmt::format("{:.3f}", champion.objective()), problem.score),
              trial::episode_score_names[to_index(problem.noise.score)]);
   for (const auto& episode : champion.episodes) fmt::print(" {:.3f}", episode.result.value());
   fmt::print("\n");

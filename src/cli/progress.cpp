@@ -45,16 +45,16 @@ void ProgressLine::on_generation(const experiment::GenerationRow& row, const exp
 
   const double s_per_generation = (now - start_s_) / (done - first_generation_);
   const double left_s = s_per_generation * (config.generations - done);
-  const auto unit = score::unit(config.score);
-  const std::string space = unit.empty() ? "" : " ";
+  const auto text = [&config](double score) {
+    return score::with_unit(fmt::format("{:.2f}", score), config.score);
+  };
   const auto species = row.metric("species");
-  const auto line =
-      fmt::format("generation {}/{}  best {:.2f}{}{}  median {:.2f}{}{}{}{}  {} evaluations/s  {} {}", done,
-                  config.generations, progress.best, space, unit, row.median, space, unit,
-                  species ? fmt::format("  {:.0f} species", *species) : "",
-                  row.diverged > 0 ? fmt::format("  {} diverged", row.diverged) : "",
-                  rate_text(static_cast<double>(row.evaluations) / row.wall_s), last ? "took" : "left",
-                  clock_text(last ? now - start_s_ : left_s));
+  const auto line = fmt::format("generation {}/{}  best {}  median {}{}{}  {} evaluations/s  {} {}", done,
+                                config.generations, text(progress.best), text(row.median),
+                                species ? fmt::format("  {:.0f} species", *species) : "",
+                                row.diverged > 0 ? fmt::format("  {} diverged", row.diverged) : "",
+                                rate_text(static_cast<double>(row.evaluations) / row.wall_s),
+                                last ? "took" : "left", clock_text(last ? now - start_s_ : left_s));
   print_message(terminal_ ? "\r\033[K" + line : line + "\n");
   open_ = terminal_;
 }

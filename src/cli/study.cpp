@@ -35,16 +35,16 @@ struct StudyOptions {
 };
 
 /// How much of a study's part is done, begun and neither.
-ExitCode print_status(const study::Plan& plan, const std::vector<study::RunState>& states,
+ExitCode print_status(const study::Plan& plan, const std::vector<study::RunStatus>& states,
                       const study::Shard& shard) {
   const auto part = plan.shard(shard);
-  const auto count = [&](study::RunState state) {
+  const auto count = [&](study::RunStatus state) {
     return std::ranges::count_if(part, [&](std::size_t run) { return states[run] == state; });
   };
-  fmt::print("{} of {} runs are done, digest {}\n", count(study::RunState::done), part.size(),
+  fmt::print("{} of {} runs are done, digest {}\n", count(study::RunStatus::done), part.size(),
              ledger::ledger_digest(ledger::Ledger(plan.paths).load_all(plan.study)));
-  fmt::print("{} lack a test, {} are begun, {} not yet\n", count(study::RunState::untested),
-             count(study::RunState::begun), count(study::RunState::missing));
+  fmt::print("{} lack a test, {} are begun, {} not yet\n", count(study::RunStatus::untested),
+             count(study::RunStatus::begun), count(study::RunStatus::missing));
   return ExitCode::ok;
 }
 
@@ -54,7 +54,7 @@ ExitCode conclude(const study::Plan& plan, const StudyOptions& options, int fail
   const auto states = study::survey(plan);
   const auto part = plan.shard(study::Shard::parse(options.shard));
   const auto done =
-      std::ranges::count_if(part, [&](std::size_t run) { return states[run] == study::RunState::done; });
+      std::ranges::count_if(part, [&](std::size_t run) { return states[run] == study::RunStatus::done; });
   const std::string of_shard = options.shard == "1/1" ? "" : fmt::format(" of shard {}", options.shard);
   const std::string folder = options.out.string();
   fmt::print("{} of {} runs{} are done, digest {}\n", done, part.size(), of_shard,
@@ -73,7 +73,7 @@ ExitCode conclude(const study::Plan& plan, const StudyOptions& options, int fail
   return ExitCode::ok;
 }
 
-ExitCode work_here(const study::Plan& plan, const std::vector<study::RunState>& states,
+ExitCode work_here(const study::Plan& plan, const std::vector<study::RunStatus>& states,
                    const StudyOptions& options) {
   const auto shard = study::Shard::parse(options.shard);
   std::optional<StudyProgress> progress;
@@ -99,7 +99,7 @@ std::vector<std::string> child_arguments(const StudyOptions& options) {
   return arguments;
 }
 
-ExitCode work_in_processes(const study::Plan& plan, const std::vector<study::RunState>& states,
+ExitCode work_in_processes(const study::Plan& plan, const std::vector<study::RunStatus>& states,
                            const StudyOptions& options, int processes) {
   StudyProgress progress(plan, states, study::Shard::parse(options.shard), processes);
   ChildProcesses children(
@@ -159,7 +159,7 @@ ExitCode run_study(const StudyOptions& options) {
       print_message(fmt::format("{}: no run of this study; passed over\n", unknown.string()));
   const auto part = plan.shard(shard);
   const auto open =
-      std::ranges::count_if(part, [&](std::size_t run) { return states[run] != study::RunState::done; });
+      std::ranges::count_if(part, [&](std::size_t run) { return states[run] != study::RunStatus::done; });
   const int processes = std::min(options.jobs, std::max(1, static_cast<int>(open)));
   if (processes == 1 || options.as_child) return work_here(plan, states, options);
   return work_in_processes(plan, states, options, processes);

@@ -56,7 +56,7 @@ bool StudyEvent::parse(std::string_view line, StudyEvent& event) {
   return true;
 }
 
-StudyProgress::StudyProgress(const study::Plan& plan, const std::vector<study::RunState>& states,
+StudyProgress::StudyProgress(const study::Plan& plan, const std::vector<study::RunStatus>& states,
                              const study::Shard& shard, int processes)
     : plan_(plan),
       processes_(processes),
@@ -66,9 +66,9 @@ StudyProgress::StudyProgress(const study::Plan& plan, const std::vector<study::R
       pace_(plan.conditions.size()) {
   for (const std::size_t run : plan.shard(shard)) {
     ++total_;
-    if (states[run] == study::RunState::done)
+    if (states[run] == study::RunStatus::done)
       ++done_;
-    else if (states[run] != study::RunState::untested)
+    else if (states[run] != study::RunStatus::untested)
       left_[run] = plan.condition(plan.runs[run]).config.generations;
   }
 }

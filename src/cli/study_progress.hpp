@@ -29,7 +29,7 @@ struct StudyEvent {
 class StudyProgress {
  public:
   /// `processes`: number of parallel processes.
-  StudyProgress(const study::Plan& plan, const std::vector<study::RunState>& states,
+  StudyProgress(const study::Plan& plan, const std::vector<study::RunStatus>& states,
                 const study::Shard& shard, int processes);
   ~StudyProgress();
   StudyProgress(const StudyProgress&) = delete;

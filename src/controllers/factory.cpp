@@ -2,13 +2,19 @@
 
 #include <algorithm>
 #include <array>
-#include <vector>
+#include <string_view>
 
 #include "amble/controllers/supg.hpp"
 #include "amble/core/check.hpp"
 
 namespace amble::controllers {
 namespace {
+
+struct ArchitectureKind {
+  std::string_view name;  ///< value of controller.kind
+  std::unique_ptr<const Architecture> (*make)(const ControllerSettings& settings,
+                                              const robot::RobotSpec& robot, double timestep_s);
+};
 
 /// Makes a Kind from the substrate and its own settings.
 template <typename Kind, auto own_settings>
@@ -28,11 +34,8 @@ constexpr std::array kinds{
 }  // namespace
 
 void ControllerSettings::describe(io::SettingsVisitor& visitor) {
-  std::vector<std::string_view> names;
-  names.reserve(kinds.size());
-  for (const ArchitectureKind& row : kinds) names.push_back(row.name);
-  visitor.name(
-      "kind", kind, names,
+  visitor.row_name(
+      "kind", kind, kinds,
       {"architecture of the controller: single-unit pattern generators (supg), static neurons "
        "(network; with a sine among the sensors the sine wave architecture) or continuous-time neurons "
        "(ctrnn)",
@@ -43,10 +46,6 @@ void ControllerSettings::describe(io::SettingsVisitor& visitor) {
   visitor.table("supg", supg, {"single-unit pattern generators", "Morse et al. 2013, sec. 3"});
   visitor.table("network", network, {"static neurons", "Morse et al. 2013, sec. 4"});
   visitor.table("ctrnn", ctrnn, {"continuous-time recurrent neural networks", "Morse et al. 2013, sec. 4"});
-}
-
-std::span<const ArchitectureKind> architectures() {
-  return kinds;
 }
 
 std::unique_ptr<const Architecture> make_architecture(const ControllerSettings& settings,

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <memory>
-#include <span>
 #include <string>
-#include <string_view>
 
 #include "amble/controllers/controller.hpp"
 #include "amble/controllers/ctrnn.hpp"
@@ -16,7 +14,7 @@ namespace amble::controllers {
 
 /// Which architecture, its substrate, and the settings of each.
 struct ControllerSettings {
-  std::string kind = "supg";  ///< a row of architectures()
+  std::string kind = "supg";  ///< a row of the table in factory.cpp
   substrate::Settings substrate;
   SupgSettings supg;
   NetworkSettings network;
@@ -24,17 +22,6 @@ struct ControllerSettings {
 
   void describe(io::SettingsVisitor& visitor);
 };
-
-/// One architecture: all that the rest of the program needs to know of it.
-struct ArchitectureKind {
-  std::string_view name;  ///< value of controller.kind
-  /// Throws UserError where settings and robot do not fit.
-  std::unique_ptr<const Architecture> (*make)(const ControllerSettings& settings,
-                                              const robot::RobotSpec& robot, double timestep_s);
-};
-
-/// All architectures, in the order in which they are listed to users.
-std::span<const ArchitectureKind> architectures();
 
 /// By the row of the settings' kind. Throws UserError where settings and robot do not fit.
 std::unique_ptr<const Architecture> make_architecture(const ControllerSettings& settings,

@@ -1,5 +1,7 @@
 #include "amble/experiment/champion_trials.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "amble/core/clock.hpp"
@@ -45,9 +47,9 @@ std::optional<Champion> try_champion(const Config& config, const Problem& proble
   if (!try_at_home(champion, times, stop)) return std::nullopt;
   if (champion.objective() != best.objective)
     fail(ExitCode::differs,
-         "generation {}: the champion reached {} {}, and {} {} when run again: the engine does not repeat",
-         best.generation, best.objective, score::unit(config.score), champion.objective(),
-         score::unit(config.score));
+         "generation {}: the champion reached {}, and {} when run again: the engine does not repeat",
+         best.generation, score::with_unit(fmt::format("{}", best.objective), config.score),
+         score::with_unit(fmt::format("{}", champion.objective()), config.score));
   if (!config.referees.empty()) {
     const Stopwatch watch(times.referees_s);
     auto judged = run_referees(problem, champion.genome, config.referees, jobs, stop);

@@ -1,5 +1,7 @@
 #include "amble/experiment/recovery.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "amble/core/error.hpp"
@@ -36,9 +38,9 @@ void check_best(const RunPaths& paths, const Config& config, const Progress& pro
   const auto best = load_champion(file);
   if (best.generation != progress.best_generation || best.seed != config.seed ||
       best.objective() != progress.best)
-    fail(ExitCode::bad_file,
-         "{}: not the champion that the run had there: that reached {} {}, this one {} {}", file.string(),
-         progress.best, score::unit(config.score), best.objective(), score::unit(config.score));
+    fail(ExitCode::bad_file, "{}: not the champion that the run had there: that reached {}, this one {}",
+         file.string(), score::with_unit(fmt::format("{}", progress.best), config.score),
+         score::with_unit(fmt::format("{}", best.objective()), config.score));
 }
 
 /// After a power cut a checkpoint may be on the disk, but not the files that it refers to.

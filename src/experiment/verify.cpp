@@ -68,8 +68,8 @@ std::string agreement(const Champion& champion) {
   std::string text =
       fmt::format("agrees: {:.3f} m, {} steps", champion.result.distance_m, champion.result.steps);
   if (!champion.episodes.empty())
-    text += fmt::format("; under noise {:.3f}{} ({} of {})", champion.objective(),
-                        champion.problem.score.is_distance() ? " m" : "",
+    text += fmt::format("; under noise {} ({} of {})",
+                        score::with_unit(fmt::format("{:.3f}", champion.objective()), champion.problem.score),
                         trial::episode_score_names[to_index(champion.problem.noise.score)],
                         champion.episodes.size());
   return text;

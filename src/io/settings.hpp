@@ -79,9 +79,13 @@ class SettingsVisitor {
     value = static_cast<Enum>(index);
   }
 
-  /// A value out of `names`, by its name: for tables to which rows may be added (engines, controllers,
-  /// searches).
-  void name(std::string_view key, std::string& value, std::span<const std::string_view> names, Doc doc) {
+  /// The name of one of `rows`, each of which has a `name`: for tables to which rows may be added
+  /// (controllers, searches).
+  template <typename Rows>
+  void row_name(std::string_view key, std::string& value, const Rows& rows, Doc doc) {
+    std::vector<std::string_view> names;
+    names.reserve(rows.size());
+    for (const auto& row : rows) names.push_back(row.name);
     auto index = static_cast<int>(std::ranges::find(names, value) - names.begin());
     choice_index(key, index, names, doc);
     value = names[static_cast<std::size_t>(index)];

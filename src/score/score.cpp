@@ -12,11 +12,12 @@
 namespace amble::score {
 namespace {
 
+/// In a straight line over the ground, in any direction.
 double distance(const record::Trajectory& trajectory, const Context&) {
   return distance_m(trajectory);
 }
 
-/// Displacement along the direction of the settings.
+/// Displacement along the direction of the settings; backwards counts negative.
 double forward(const record::Trajectory& trajectory, const Context& context) {
   const Vec3 moved = trajectory.com_end_m - trajectory.com_start_m;
   const double x = context.settings.direction[0], y = context.settings.direction[1];
@@ -36,10 +37,12 @@ double economy(const record::Trajectory& trajectory, const Context& context) {
   return context.weight_n * distance_m(trajectory) / trajectory.energy_j;
 }
 
+/// Mean cosine of the angle between the root's z axis and the vertical.
 double uprightness(const record::Trajectory& trajectory, const Context&) {
   return trajectory.steps > 0 ? trajectory.upright_steps / trajectory.steps : 0.0;
 }
 
+/// Share of the trial's length before a fall.
 double upright_time(const record::Trajectory& trajectory, const Context& context) {
   return trajectory.seconds() / context.duration_s;
 }
@@ -47,24 +50,12 @@ double upright_time(const record::Trajectory& trajectory, const Context& context
 // The table of quantities. A new one is a row here; if trials must measure something for it, also a member of
 // record::Measures and record::Trajectory.
 constexpr std::array table{
-    Quantity{"distance", "m", "in a straight line over the ground, any direction", {}, distance},
-    Quantity{"forward", "m", "displacement along direction; backwards counts negative", {}, forward},
-    Quantity{"speed_kept",
-             "",
-             "1 at a mean forward speed of speed_m_s, 0 at none and at twice that",
-             {},
-             speed_kept},
-    Quantity{"economy",
-             "",
-             "weight times distance over the motors' energy: the inverse cost of transport",
-             {.energy = true},
-             economy},
-    Quantity{"uprightness",
-             "",
-             "mean cosine of the angle between the root's z axis and the vertical",
-             {.uprightness = true},
-             uprightness},
-    Quantity{"upright_time", "", "share of the trial's length before a fall", {}, upright_time},
+    Quantity{"distance", "m", {}, distance},
+    Quantity{"forward", "m", {}, forward},
+    Quantity{"speed_kept", "", {}, speed_kept},
+    Quantity{"economy", "", {.energy = true}, economy},
+    Quantity{"uprightness", "", {.uprightness = true}, uprightness},
+    Quantity{"upright_time", "", {}, upright_time},
 };
 
 const Quantity* find(std::string_view name) {
@@ -133,11 +124,11 @@ std::span<const Quantity> quantities() {
   return table;
 }
 
-std::string_view unit(const Settings& settings) {
+std::string with_unit(std::string_view number, const Settings& settings) {
   const auto is_length = [](const Term& term) {
     return find(term.quantity) && find(term.quantity)->unit == "m";
   };
-  return std::ranges::all_of(settings.terms, is_length) ? "m" : "";
+  return fmt::format("{}{}", number, std::ranges::all_of(settings.terms, is_length) ? " m" : "");
 }
 
 double distance_m(const record::Trajectory& trajectory) {

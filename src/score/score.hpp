@@ -56,7 +56,7 @@ struct Context {
 
 /// A quantity of a trial that scores and limits can name: a row of the table in score.cpp.
 struct Quantity {
-  std::string_view name, unit, what;
+  std::string_view name, unit;
   record::Measures measures;  ///< measurements of trials that it needs
   double (*of)(const record::Trajectory& trajectory, const Context& context);
 };
@@ -79,7 +79,7 @@ class Score {
   double duration_s_, weight_n_;
 };
 
-/// "m" where the score is a length; "" where its terms have different units.
-std::string_view unit(const Settings& settings);
+/// A score, already formatted, with its unit: " m" where all terms are lengths, nothing where they are not.
+std::string with_unit(std::string_view number, const Settings& settings);
 
 }  // namespace amble::score

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <vector>
 
 #include "amble/core/check.hpp"
 #include "amble/search/generational.hpp"
@@ -47,17 +46,10 @@ constexpr std::array kinds{
 }  // namespace
 
 void Settings::describe(io::SettingsVisitor& visitor) {
-  std::vector<std::string_view> names;
-  names.reserve(kinds.size());
-  for (const StrategyKind& row : kinds) names.push_back(row.name);
-  visitor.name("kind", kind, names,
-               {"what selects parents: the objective itself (distance walked), or novelty of behaviour",
-                "Morse et al. 2013, sec. 4"});
+  visitor.row_name("kind", kind, kinds,
+                   {"what selects parents: the objective itself (distance walked), or novelty of behaviour",
+                    "Morse et al. 2013, sec. 4"});
   visitor.table("novelty", novelty, {"novelty search; without effect under other kinds"});
-}
-
-std::span<const StrategyKind> strategies() {
-  return kinds;
 }
 
 const StrategyKind& strategy_kind(const Settings& settings) {

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <string_view>
 
 #include "amble/neat/settings.hpp"
@@ -34,8 +33,6 @@ struct StrategyKind {
   void (*check_memory)(const Settings& settings, const SearchSpace& space, double memory_bytes);
 };
 
-/// All strategies, in the order in which they are listed to users.
-std::span<const StrategyKind> strategies();
 /// The row of the settings' kind. AMBLE_CHECK: the kind is known, as describe() ensures.
 const StrategyKind& strategy_kind(const Settings& settings);
 

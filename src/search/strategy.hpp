@@ -21,6 +21,11 @@ namespace amble::search {
 /// Not thread safe. Its behaviour depends on its settings, its seed and the evaluations alone, to the bit.
 /// save() and load() cover all state but logs: append-only files for data that would make every checkpoint
 /// large (archives).
+///
+/// A strategy that breeds genomes itself (neat/mutation.hpp, neat/crossover.hpp) owns the neat::Innovations
+/// they share: begin_generation() before each round, and part of save() and load(). Its random numbers come
+/// from streams of a Purpose of its own (core/random.hpp), keyed by round and candidate; nothing of them
+/// needs saving then.
 class Strategy {
  public:
   virtual ~Strategy() = default;

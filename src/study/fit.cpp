@@ -37,24 +37,24 @@ std::string folder_misfit(const PlannedCondition& condition, const experiment::R
 
 }  // namespace
 
-std::vector<RunState> survey(const Plan& plan) {
+std::vector<RunStatus> survey(const Plan& plan) {
   const ledger::Ledger ledger(plan.paths);
-  std::vector<RunState> states;
+  std::vector<RunStatus> states;
   std::vector<std::string> misfits;
   for (const PlannedRun& run : plan.runs) {
     const PlannedCondition& condition = plan.condition(run);
-    RunState state = RunState::missing;
+    RunStatus state = RunStatus::missing;
     std::string misfit;
     std::filesystem::path place;
     if (ledger.has(condition.spec.name, run.seed)) {
       place = plan.paths.record(condition.spec.name, run.seed);
       bool untested = false;
       misfit = record_misfit(condition, ledger.load(condition.spec.name, run.seed), untested);
-      state = untested ? RunState::untested : RunState::done;
+      state = untested ? RunStatus::untested : RunStatus::done;
     } else if (experiment::is_run_folder(plan.folder(run))) {
       place = plan.folder(run);
       misfit = folder_misfit(condition, experiment::RunPaths(place), run.seed);
-      state = RunState::begun;
+      state = RunStatus::begun;
     }
     if (!misfit.empty()) misfits.push_back(fmt::format("{} ({})", place.string(), misfit));
     states.push_back(state);

@@ -7,7 +7,7 @@
 
 namespace amble::study {
 
-enum class RunState {
+enum class RunStatus {
   missing,   ///< neither record nor run folder
   begun,     ///< a run folder that can be resumed
   untested,  ///< a record that lacks a test of the study
@@ -19,6 +19,6 @@ enum class RunState {
 /// Throws UserError, and changes nothing, if a record or a run folder does not fit the study any more (other
 /// settings, robot, generations or tests): one line that names the first of them and their number. A file
 /// that cannot be read is reported likewise.
-std::vector<RunState> survey(const Plan& plan);
+std::vector<RunStatus> survey(const Plan& plan);
 
 }  // namespace amble::study

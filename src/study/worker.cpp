@@ -188,11 +188,11 @@ class Worker {
 
 }  // namespace
 
-WorkResult work(const Plan& plan, const std::vector<RunState>& states, const WorkOptions& options,
+WorkResult work(const Plan& plan, const std::vector<RunStatus>& states, const WorkOptions& options,
                 Listener& listener, const std::atomic<bool>& stop) {
   std::vector<PlannedRun> open;
   for (const std::size_t i : plan.shard(options.shard))
-    if (states[i] != RunState::done) open.push_back(plan.runs[i]);
+    if (states[i] != RunStatus::done) open.push_back(plan.runs[i]);
 
   Worker worker(plan, options, listener, stop);
   WorkResult result;

@@ -39,7 +39,7 @@ struct WorkResult {
 /// locked are left to the process that locked them, so several processes may work on one study. A run that
 /// fails does not stop the others, unless the disk refuses files of several runs in a row. Ends early, with
 /// resumable run folders, if `stop` is set. `states` are those of survey().
-WorkResult work(const Plan& plan, const std::vector<RunState>& states, const WorkOptions& options,
+WorkResult work(const Plan& plan, const std::vector<RunStatus>& states, const WorkOptions& options,
                 Listener& listener, const std::atomic<bool>& stop);
 
 }  // namespace amble::study

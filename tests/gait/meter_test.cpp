@@ -60,8 +60,8 @@ TEST(GaitMeter, NamesGaitsFromOneFrameBesideABorderToTheOther) {
 }
 
 TEST(GaitMeter, MeasuresClockworkFeetExactly) {
-  // Strides of 0.8 s with 0.48 s of stance. From 2 s to 20 s the left hind foot lands at 2.4, 3.2, …, 19.2 s:
-  // 22 times, 21 strides.
+  // 0.48 s of each 0.8 s on the ground. From 2 s on the left hind foot lands at 2.4, 3.2, …, 19.2 s: 21
+  // strides.
   const Report report = walk({25, 75, 0, 50});
   EXPECT_EQ(report.reference_leg, 2);
   ASSERT_EQ(report.legs.size(), 4u);

@@ -53,7 +53,7 @@ TEST(Score, IsTheDistanceByDefaultToTheBit) {
   EXPECT_TRUE(Settings().is_distance());
   EXPECT_EQ(Score({}, 15.0, 100.0).of(walk()), distance_m(walk()));
   EXPECT_FALSE(Score({}, 15.0, 100.0).measures().energy);
-  EXPECT_EQ(unit({}), "m");
+  EXPECT_EQ(with_unit("3.5", {}), "3.5 m");
 }
 
 TEST(Score, KnowsEachOfItsQuantities) {
@@ -73,7 +73,7 @@ TEST(Score, IsASumOfWeightedTermsAndNeverNegative) {
   Settings settings;
   settings.terms = {{"distance", 2.0}, {"uprightness", 4.0}, {"forward", -1.0}};
   EXPECT_DOUBLE_EQ(Score(settings, 15.0, 100.0).of(walk()), 10.0 + 2.0 - 3.0);
-  EXPECT_EQ(unit(settings), "");
+  EXPECT_EQ(with_unit("3.5", settings), "3.5");
   EXPECT_TRUE(Score(settings, 15.0, 100.0).measures().uprightness);
   settings.terms = {{"forward", -1.0}};
   EXPECT_EQ(Score(settings, 15.0, 100.0).of(walk()), 0.0);

@@ -15,7 +15,7 @@ class Fit : public testing::Test {
  protected:
   Fit() { study_.tests = {trial_test("brief", 1.0)}; }
 
-  std::vector<RunState> states(const ledger::StudySpec& study) const {
+  std::vector<RunStatus> states(const ledger::StudySpec& study) const {
     return survey(make_plan(study, folder_.path()));
   }
   /// What survey() refuses the folder with.
@@ -42,20 +42,20 @@ class Fit : public testing::Test {
   ledger::StudySpec study_ = small_study();
 };
 
-using States = std::vector<RunState>;
+using States = std::vector<RunStatus>;
 
 TEST_F(Fit, RunsAreMissingBegunUntestedOrDone) {
   study_.seeds = {3, 4};
-  EXPECT_EQ(states(study_), (States{RunState::missing, RunState::missing}));
+  EXPECT_EQ(states(study_), (States{RunStatus::missing, RunStatus::missing}));
   begin();
-  EXPECT_EQ(states(study_), (States{RunState::begun, RunState::missing}));
+  EXPECT_EQ(states(study_), (States{RunStatus::begun, RunStatus::missing}));
   finish_all();
-  EXPECT_EQ(states(study_), (States{RunState::done, RunState::done}));
+  EXPECT_EQ(states(study_), (States{RunStatus::done, RunStatus::done}));
   study_.tests.push_back(trial_test("another", 1.0));
   study_.tests.back().conditions = {"sine"};
-  EXPECT_EQ(states(study_), (States{RunState::untested, RunState::untested}));
+  EXPECT_EQ(states(study_), (States{RunStatus::untested, RunStatus::untested}));
   study_.seeds = {4, 5};
-  EXPECT_EQ(states(study_), (States{RunState::untested, RunState::missing}));
+  EXPECT_EQ(states(study_), (States{RunStatus::untested, RunStatus::missing}));
 }
 
 /// All that makes a finished or begun run another one.
