@@ -6,18 +6,21 @@
 
 namespace amble::controllers {
 
-/// A joint's stops, rad.
+/// A joint's range of targets, rad (robot::Joint::command_range); of zero width if it is not driven.
 struct JointRange {
   double lower_rad = 0.0, upper_rad = 0.0;
 
-  /// The target of a command: 0 is the lower stop, 1 the upper.
+  /// The target of a command: 0 is the lower end, 1 the upper.
   float at(double command) const { return static_cast<float>(lower_rad + (upper_rad - lower_rad) * command); }
 };
 
 /// Joint by joint in control order.
 inline std::vector<JointRange> joint_ranges(const robot::RobotSpec& robot) {
   std::vector<JointRange> ranges;
-  for (const robot::Joint& joint : robot.joints) ranges.push_back({joint.lower_rad, joint.upper_rad});
+  for (const robot::Joint& joint : robot.joints) {
+    const robot::AngleRange command = joint.command_range();
+    ranges.push_back({command.lower_rad, command.upper_rad});
+  }
   return ranges;
 }
 

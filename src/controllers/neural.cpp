@@ -107,9 +107,14 @@ void NeuralBatch::step(const robot::SensorFrame& sensors, LaneArray& targets_rad
   advance();
   for (int& tick : tick_) ++tick;
   for (int joint = 0; joint < targets_rad.rows(); ++joint) {
-    const float* const value = values_.row(wiring().joint_slots[static_cast<std::size_t>(joint)]);
+    const int slot = wiring().joint_slots[static_cast<std::size_t>(joint)];
     float* const target_rad = targets_rad.row(joint);
     const JointRange& range = model_->ranges[static_cast<std::size_t>(joint)];
+    if (slot < 0) {  // a joint that is held
+      std::fill_n(target_rad, lanes_, range.at(0.0));
+      continue;
+    }
+    const float* const value = values_.row(slot);
     for (int lane = 0; lane < lanes_; ++lane)
       target_rad[lane] = range.at(std::clamp(static_cast<double>(value[lane]), 0.0, 1.0));
   }

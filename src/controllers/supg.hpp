@@ -28,8 +28,8 @@ class SupgParameters : public Parameters {
   int offset_ticks(int leg) const { return offset_ticks_[static_cast<std::size_t>(leg)]; }
   void set_offset_ticks(int leg, int ticks) { offset_ticks_[static_cast<std::size_t>(leg)] = ticks; }
 
-  /// Target angles (rad) of the leg's joints, type by type, at a value of its timer: 0 … period_ticks, or
-  /// `stopped`.
+  /// Target angles (rad) of the leg's joints, type by type (unused where the leg has none of the type), at a
+  /// value of its timer: 0 … period_ticks, or `stopped`.
   static constexpr int stopped = -1;
   const float* targets_rad(int leg, int timer) const { return targets_rad_.data() + index(leg, timer); }
   float* targets_rad(int leg, int timer) { return targets_rad_.data() + index(leg, timer); }
@@ -45,8 +45,14 @@ class SupgParameters : public Parameters {
                                     ///< tick lies together
 };
 
-/// Single-unit pattern generators: one per joint, each with a pattern over one period that its leg's trigger
-/// starts anew (Morse et al. 2013, sec. 3).
+/// Which joint of RobotSpec::joints each entry of a SupgParameters is for.
+struct SupgJoints {
+  std::vector<int> of_legs;  ///< leg by leg, type by type; −1: the leg has none of that type
+  std::vector<int> others;   ///< that belong to no leg, so that no SUPG drives them
+};
+
+/// Single-unit pattern generators: one per driven joint, each with a pattern over one period that its leg's
+/// trigger starts anew (Morse et al. 2013, sec. 3).
 ///
 /// Each node of the substrate is a SUPG with two properties. Its `pattern` becomes the command
 /// (pattern + 1)/2, clamped to 0 … 1, and is scaled to the joint's range. Its `offset` a becomes
@@ -81,10 +87,11 @@ class SupgArchitecture : public Architecture {
   int period_ticks() const { return period_ticks_; }
 
  private:
-  int joint(int leg, int type) const { return leg * types() + type; }
-  const JointRange& range(int leg, int type) const {
-    return ranges_[static_cast<std::size_t>(joint(leg, type))];
-  }
+  int joint(int leg, int type) const { return joints_.of_legs[to_index(leg * types() + type)]; }
+  /// The node of the substrate that drives it; −1: none does.
+  int driver(int leg, int type) const { return joint(leg, type) < 0 ? -1 : layout_.driver(joint(leg, type)); }
+  /// The first node that drives a joint of the leg, whose offset is the leg's; −1: none does.
+  int first_driver(int leg) const;
   int legs() const { return static_cast<int>(leg_names_.size()); }
   int types() const { return static_cast<int>(joint_types_.size()); }
   /// With every target in the middle of its range and every offset 1.
@@ -94,6 +101,7 @@ class SupgArchitecture : public Architecture {
   double timestep_s_;
   int period_ticks_;
   std::vector<std::string> leg_names_, joint_types_;
+  SupgJoints joints_;
   std::vector<JointRange> ranges_;  ///< in control order
   substrate::Layout layout_;
 };

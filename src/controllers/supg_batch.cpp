@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
 
 namespace amble::controllers {
 namespace {
@@ -25,14 +26,15 @@ std::int32_t end_of_cycle(Idle idle, int period_ticks) {
 
 }  // namespace
 
-SupgBatch::SupgBatch(const SupgSettings& settings, std::vector<std::string> leg_names, SupgParameters parked,
-                     int lanes)
+SupgBatch::SupgBatch(const SupgSettings& settings, std::vector<std::string> leg_names, SupgJoints joints,
+                     SupgParameters parked, int lanes)
     : offset_(settings.offset),
       start_tick_(settings.start_tick),
       period_ticks_(parked.period_ticks()),
       airborne_ticks_needed_(settings.trigger == Trigger::level ? 0 : settings.trigger_debounce_ticks),
       end_of_cycle_(end_of_cycle(settings.idle, parked.period_ticks())),
       leg_names_(std::move(leg_names)),
+      joints_(std::move(joints)),
       parked_(std::move(parked)),
       lanes_(lanes) {
   AMBLE_CHECK(lanes > 0, "a batch has at least one lane");
@@ -64,12 +66,12 @@ void SupgBatch::load(int lane, const Parameters& parameters) {
 void SupgBatch::step(const robot::SensorFrame& sensors, LaneArray& targets_rad) {
   AMBLE_CHECK(sensors.touch.rows() == parked_.legs() && sensors.touch.lanes() == lanes_,
               "touch must be legs × lanes");
-  AMBLE_CHECK(targets_rad.rows() == parked_.legs() * parked_.types() && targets_rad.lanes() == lanes_,
-              "targets must be joints × lanes");
+  AMBLE_CHECK(targets_rad.lanes() == lanes_, "targets must be joints × lanes");
   for (int leg = 0; leg < parked_.legs(); ++leg) {
     update_timers(leg, sensors.touch.row(leg));
     write_targets(leg, targets_rad);
   }
+  for (const int joint : joints_.others) std::fill_n(targets_rad.row(joint), lanes_, 0.0f);
 }
 
 void SupgBatch::update_timers(int leg, const float* touch) {
@@ -102,12 +104,14 @@ void SupgBatch::update_timers(int leg, const float* touch) {
 void SupgBatch::write_targets(int leg, LaneArray& targets_rad) const {
   const std::ptrdiff_t types = parked_.types(), lanes = lanes_;
   const std::ptrdiff_t from = parked_.targets_rad(leg, 0) - parked_.targets_rad(0, 0);
-  float* const first_row = targets_rad.row(leg * parked_.types());
   const std::int32_t* const timer = timer_.data() + index(leg, 0);
   const float* const* const tables = tables_.data();
-  for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) {
-    const float* const targets = tables[lane] + from + timer[lane] * types;
-    for (std::ptrdiff_t type = 0; type < types; ++type) first_row[type * lanes + lane] = targets[type];
+  for (std::ptrdiff_t type = 0; type < types; ++type) {
+    const int joint = joints_.of_legs[to_index(leg * types + type)];
+    if (joint < 0) continue;
+    float* const row = targets_rad.row(joint);
+    for (std::ptrdiff_t lane = 0; lane < lanes; ++lane)
+      row[lane] = tables[lane][from + timer[lane] * types + type];
   }
 }
 

@@ -13,8 +13,8 @@ namespace amble::controllers {
 class SupgBatch : public Batch {
  public:
   /// `parked` is what runs in lanes that have not been loaded.
-  SupgBatch(const SupgSettings& settings, std::vector<std::string> leg_names, SupgParameters parked,
-            int lanes);
+  SupgBatch(const SupgSettings& settings, std::vector<std::string> leg_names, SupgJoints joints,
+            SupgParameters parked, int lanes);
 
   int lanes() const override { return lanes_; }
   void load(int lane, const Parameters& parameters) override;
@@ -37,6 +37,7 @@ class SupgBatch : public Batch {
   std::int32_t airborne_ticks_needed_;  ///< for a touch to be a trigger
   std::int32_t end_of_cycle_;           ///< what the timer becomes on reaching the period
   std::vector<std::string> leg_names_;
+  SupgJoints joints_;
   SupgParameters parked_;
   int lanes_;
 

@@ -74,8 +74,10 @@ Wiring make_wiring(const substrate::Layout& layout) {
     neuron.link_count = static_cast<int>(its.size());
     wiring.links.insert(wiring.links.end(), its.begin(), its.end());
   }
-  for (int joint = 0; joint < layout.joint_count(); ++joint)
-    wiring.joint_slots.push_back(slot[at(layout.driver(joint))]);
+  for (int joint = 0; joint < layout.joint_count(); ++joint) {
+    const int driver = layout.driver(joint);
+    wiring.joint_slots.push_back(driver < 0 ? -1 : slot[at(driver)]);
+  }
   return wiring;
 }
 

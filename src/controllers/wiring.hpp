@@ -22,7 +22,7 @@ struct Wiring {
   std::vector<substrate::Sensor> sensors;  ///< slot by slot
   std::vector<Neuron> neurons;             ///< slot sensors.size() + index
   std::vector<Link> links;
-  std::vector<int> joint_slots;  ///< the slot that drives each joint
+  std::vector<int> joint_slots;  ///< the slot that drives each joint; −1: it is held
   /// Where each level of neurons begins, and the end. The sources of a level lie in the levels before it.
   /// If the links form a cycle, there is one level of all neurons in the order of the layout.
   std::vector<int> levels;

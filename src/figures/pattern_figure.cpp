@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <optional>
 
 #include "amble/core/index.hpp"
 #include "amble/graphics/axis.hpp"
@@ -61,22 +62,29 @@ Grid make_grid(const robot::RobotSpec& robot, Layout layout) {
           wide ? 44.0 : 36.0};
 }
 
-std::size_t joint_index(const robot::RobotSpec& robot, std::size_t leg, std::size_t type) {
-  return to_index(robot.legs[leg].joints[type]);
+/// The joint of that type; none if the leg has none.
+std::optional<std::size_t> joint_index(const robot::RobotSpec& robot, std::size_t leg, std::size_t type) {
+  const int joint = robot.legs[leg].joints[type];
+  return joint < 0 ? std::nullopt : std::optional(to_index(joint));
 }
 
 /// Degrees: the range of all joints of a type and their patterns.
 Interval row_range(const robot::RobotSpec& robot, const motion::SupgPatterns& supg, std::size_t type) {
-  const robot::Joint& first = robot.joints[joint_index(robot, 0, type)];
-  Interval range{degrees(first.lower_rad), degrees(first.upper_rad)};
+  std::optional<Interval> range;
+  const auto include = [&](double angle_rad) {
+    const double angle = degrees(angle_rad);
+    range = range ? including(*range, angle) : Interval{angle, angle};
+  };
   for (std::size_t leg = 0; leg < robot.legs.size(); ++leg) {
-    const std::size_t joint = joint_index(robot, leg, type);
-    range = including(range, degrees(robot.joints[joint].lower_rad));
-    range = including(range, degrees(robot.joints[joint].upper_rad));
-    for (const double angle_rad : supg.patterns_rad[joint]) range = including(range, degrees(angle_rad));
+    const auto joint = joint_index(robot, leg, type);
+    if (!joint) continue;
+    include(robot.joints[*joint].command_range().lower_rad);
+    include(robot.joints[*joint].command_range().upper_rad);
+    for (const double angle_rad : supg.patterns_rad[*joint]) include(angle_rad);
   }
-  if (range.length() <= 0.0) range.upper = range.lower + 1.0;
-  return range;
+  if (!range) return {0.0, 1.0};
+  if (range->length() <= 0.0) range->upper = range->lower + 1.0;
+  return *range;
 }
 
 std::vector<Point> pattern_points(const motion::SupgPatterns& supg, std::size_t joint, const Scale& time,
@@ -91,19 +99,20 @@ std::vector<Point> pattern_points(const motion::SupgPatterns& supg, std::size_t 
 void draw_cell(Svg& svg, const robot::RobotSpec& robot, const motion::SupgPatterns& supg, const Grid& grid,
                std::size_t leg, std::size_t type, const Scale& angle) {
   const Scale time = grid.time(leg, supg);
-  const std::size_t own = joint_index(robot, leg, type);
-  const double upper = angle(degrees(robot.joints[own].upper_rad)),
-               lower = angle(degrees(robot.joints[own].lower_rad));
+  const auto own = joint_index(robot, leg, type);
+  if (!own) return;
+  const robot::AngleRange command = robot.joints[*own].command_range();
+  const double upper = angle(degrees(command.upper_rad)), lower = angle(degrees(command.lower_rad));
   svg.rect({time.lower_px, upper, time.upper_px - time.lower_px, lower - upper}, "range", 2);
   for (const double tick : nice_ticks(angle.data, 5).values)
     svg.line({time.lower_px, angle(tick)}, {time.upper_px, angle(tick)}, tick == 0.0 ? "axis" : "grid");
   // The other legs in grey, for comparison.
   for (std::size_t other = 0; other < robot.legs.size(); ++other)
-    if (other != leg)
-      svg.polyline(pattern_points(supg, joint_index(robot, other, type), time, angle), "ghost");
+    if (const auto joint = joint_index(robot, other, type); joint && other != leg)
+      svg.polyline(pattern_points(supg, *joint, time, angle), "ghost");
   const double start = time(supg.offset_ticks[leg] * supg.timestep_s);
   svg.line({start, angle.upper_px}, {start, angle.lower_px}, "offset");
-  svg.polyline(pattern_points(supg, own, time, angle), "curve");
+  svg.polyline(pattern_points(supg, *own, time, angle), "curve");
 }
 
 void draw_row(Svg& svg, const robot::RobotSpec& robot, const motion::SupgPatterns& supg, const Grid& grid,

@@ -20,6 +20,7 @@ Point project(Vec3 at, const Camera& camera) {
 
 /// Points, in the geom's frame, whose projections have the geom's outline as their hull.
 std::vector<Vec3> outline_points(const robot::Geom& geom) {
+  if (geom.shape == robot::Shape::mesh) return geom.vertices_m;
   std::vector<Vec3> points;
   const Vec3 size = geom.size_m;
   if (geom.shape == robot::Shape::box) {

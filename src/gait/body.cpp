@@ -15,6 +15,7 @@ namespace {
 const robot::Joint* hip(const robot::RobotSpec& robot, const robot::Leg& leg) {
   const robot::Joint* first = nullptr;
   for (const int j : leg.joints) {
+    if (j < 0) continue;
     const robot::Joint& joint = robot.joints[to_index(j)];
     if (!first || std::pair(joint.body, joint.chain_index) < std::pair(first->body, first->chain_index))
       first = &joint;

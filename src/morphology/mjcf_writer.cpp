@@ -1,7 +1,9 @@
 #include "amble/morphology/mjcf_writer.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <set>
@@ -13,6 +15,9 @@
 
 namespace amble::morphology {
 namespace {
+
+/// An angle that no joint reaches.
+constexpr double no_stop_rad = 1e6;
 
 std::string numbers(Vec3 v) {
   return fmt::format("{} {} {}", v.x, v.y, v.z);
@@ -31,6 +36,8 @@ std::string size_of(const robot::Geom& geom) {
       return fmt::format(R"(type="cylinder" size="{} {}")", geom.size_m.x, geom.size_m.y);
     case robot::Shape::box:
       return fmt::format(R"(type="box" size="{}")", numbers(geom.size_m));
+    case robot::Shape::mesh:
+      return R"(type="mesh")";
   }
   return {};
 }
@@ -49,6 +56,7 @@ class Writer {
     line("    <geom contype=\"{}\" conaffinity=\"1\" condim=\"{}\" friction=\"{}\"/>",
          robot_.self_collision ? 1 : 0, friction > 0.0 ? 3 : 1, friction);
     line("  </default>");
+    write_meshes();
     line("  <worldbody>");
     line(R"(    <geom name="ground" type="plane" size="0 0 1" contype="1" conaffinity="0"/>)");
     write_body(0, 4);
@@ -67,6 +75,27 @@ class Writer {
   /// The attribute, if the name is one and no other part of the kind has it: MuJoCo requires unique names.
   static std::string name_attribute(std::set<std::string>& used, const std::string& name) {
     return !name.empty() && used.insert(name).second ? fmt::format("name=\"{}\" ", io::escape_xml(name)) : "";
+  }
+
+  static std::string mesh_name(int geom) { return fmt::format("mesh{}", geom); }
+
+  void write_meshes() {
+    const auto is_mesh = [](const robot::Geom& geom) { return geom.shape == robot::Shape::mesh; };
+    if (std::ranges::none_of(robot_.geoms, is_mesh)) return;
+    line("  <asset>");
+    for (int g = 0; g < static_cast<int>(robot_.geoms.size()); ++g) {
+      const robot::Geom& geom = robot_.geoms[to_index(g)];
+      if (!is_mesh(geom)) continue;
+      std::string vertices, faces;
+      for (const Vec3 vertex : geom.vertices_m) vertices += numbers(vertex) + " ";
+      for (const auto& face : geom.triangles) faces += fmt::format("{} ", fmt::join(face, " "));
+      line(R"(    <mesh name="{}" vertex="{}" face="{}"/>)", mesh_name(g), vertices, faces);
+    }
+    line("  </asset>");
+  }
+
+  static std::string positive_attribute(std::string_view name, double value) {
+    return value > 0.0 ? fmt::format(R"( {}="{}")", name, value) : "";
   }
 
   void write_body(int b, int indent) {
@@ -89,16 +118,30 @@ class Writer {
   void write_joint(int j, const std::string& margin) {
     const robot::Joint& joint = robot_.joints[to_index(j)];
     mjcf_.joints.push_back(j);
-    line(R"({}  <joint {}type="hinge" pos="{}" axis="{}" limited="true" range="{} {}"/>)", margin,
-         name_attribute(joint_names_, joint.name), numbers(joint.anchor_m), numbers(joint.axis),
-         joint.lower_rad, joint.upper_rad);
+    std::string name = joint.name;
+    for (int k = 0; name.empty() || !joint_names_.insert(name).second; ++k)
+      name = fmt::format("{}.{}", joint.name, j + k);
+    mjcf_.joint_names.push_back(name);
+    // MuJoCo has no range that is open at one end.
+    const auto stop = [](double angle_rad) { return std::clamp(angle_rad, -no_stop_rad, no_stop_rad); };
+    const bool limited = std::isfinite(joint.lower_rad) || std::isfinite(joint.upper_rad);
+    line(R"({}  <joint name="{}" type="hinge" pos="{}" axis="{}"{}{}{}{}/>)", margin, io::escape_xml(name),
+         numbers(joint.anchor_m), numbers(joint.axis),
+         limited
+             ? fmt::format(R"( limited="true" range="{} {}")", stop(joint.lower_rad), stop(joint.upper_rad))
+             : R"( limited="false")",
+         positive_attribute("armature", joint.armature_kg_m2),
+         positive_attribute("damping", joint.damping_nm_s_per_rad),
+         positive_attribute("frictionloss", joint.friction_loss_nm));
   }
 
   void write_geom(int g, const std::string& margin) {
     const robot::Geom& geom = robot_.geoms[to_index(g)];
     mjcf_.geoms.push_back(g);
-    line(R"({}  <geom {}{} pos="{}" quat="{}" rgba="{} {} {} {}"{}/>)", margin,
-         name_attribute(geom_names_, geom.name), size_of(geom), numbers(geom.position_m),
+    const std::string mesh =
+        geom.shape == robot::Shape::mesh ? fmt::format(R"( mesh="{}")", mesh_name(g)) : std::string();
+    line(R"({}  <geom {}{}{} pos="{}" quat="{}" rgba="{} {} {} {}"{}/>)", margin,
+         name_attribute(geom_names_, geom.name), size_of(geom), mesh, numbers(geom.position_m),
          numbers(geom.rotation), geom.rgba[0], geom.rgba[1], geom.rgba[2], geom.rgba[3],
          geom.collides ? "" : R"( contype="0" conaffinity="0")");
   }

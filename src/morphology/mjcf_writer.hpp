@@ -14,6 +14,7 @@ namespace amble::morphology {
 struct Mjcf {
   std::string text;
   std::vector<int> bodies, joints, geoms;
+  std::vector<std::string> joint_names;  ///< unique, as in the text; in the order of `joints`
 };
 
 /// Writes bodies, inertias, joints with their ranges, geoms and friction; all numbers read back to the same

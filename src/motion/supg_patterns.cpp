@@ -55,7 +55,7 @@ SupgPatterns parse_supg(const std::string& controller_json, const robot::RobotSp
   for (std::size_t leg = 0; leg < offsets.size(); ++leg)
     supg.offset_ticks.push_back(static_cast<int>(offsets.at(leg).integer()));
   const JsonView patterns = json.at("patterns_rad");
-  if (patterns.size() != robot.joints.size()) patterns.bad("a list for each joint");
+  if (patterns.size() != robot.leg_joint_count()) patterns.bad("a list for each joint of a leg");
   for (std::size_t joint = 0; joint < patterns.size(); ++joint)
     supg.patterns_rad.push_back(read_pattern(patterns.at(joint), supg.period_ticks));
   return supg;

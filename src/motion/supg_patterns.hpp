@@ -13,8 +13,8 @@ struct SupgPatterns {
   double timestep_s = 0.0;
   bool starts_at_offset = true;   ///< whether a leg's timer starts at its offset, or after that many ticks
   std::vector<int> offset_ticks;  ///< per leg
-  /// [joint][tick] in the order of robot::RobotSpec::joints: the target angle at each tick of the timer, from
-  /// 0 to period_ticks.
+  /// [joint][tick] in the order of robot::RobotSpec::joints, of those that belong to legs: the target angle
+  /// at each tick of the timer, from 0 to period_ticks.
   std::vector<std::vector<double>> patterns_rad;
 
   double period_s() const { return period_ticks * timestep_s; }

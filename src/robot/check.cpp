@@ -73,8 +73,21 @@ class Checker {
     must(geom.body >= 0 && geom.body < count(robot_.bodies), "names a body that is not there");
     must(finite(geom.position_m) && unit(geom.rotation), "must have a finite position and a unit rotation");
     must(finite(size) && size.x > 0.0, "must have a positive size");
-    must(geom.shape == Shape::sphere || size.y > 0.0, "must have a positive length");
+    const bool round = geom.shape == Shape::sphere || geom.shape == Shape::mesh;
+    must(round || size.y > 0.0, "must have a positive length");
     must(geom.shape != Shape::box || size.z > 0.0, "must have a positive height");
+    if (geom.shape == Shape::mesh) check_mesh(geom);
+  }
+
+  void check_mesh(const Geom& geom) const {
+    const auto must = [&](bool good, std::string_view problem) { need(good, "geom", geom.name, problem); };
+    must(geom.vertices_m.size() >= 4 && geom.triangles.size() >= 4, "must have at least four corners");
+    for (const Vec3 vertex : geom.vertices_m)
+      must(finite(vertex) && norm(vertex) <= geom.size_m.x, "must have its vertices within its radius");
+    for (const auto& triangle : geom.triangles)
+      for (const int corner : triangle)
+        must(corner >= 0 && corner < count(geom.vertices_m),
+             "has a triangle with a corner that is not there");
   }
 
   void check_joint(const Joint& joint) const {
@@ -83,6 +96,12 @@ class Checker {
     must(finite(joint.anchor_m), "must have a finite anchor");
     must(finite(joint.axis) && std::abs(norm(joint.axis) - 1.0) < 1e-6, "must have an axis of length 1");
     must(joint.lower_rad < joint.upper_rad, "must have a lower stop below its upper stop");
+    const AngleRange command = joint.command_range();
+    must(std::isfinite(command.lower_rad) && std::isfinite(command.upper_rad),
+         "has no stops, so it needs a range of command");
+    must(joint.lower_rad <= command.lower_rad && command.lower_rad <= command.upper_rad &&
+             command.upper_rad <= joint.upper_rad,
+         "must have a range of command within its stops");
     if (!(joint.lower_rad <= 0.0 && joint.upper_rad >= 0.0)) {
       bad("joint '{}': the start pose, angle 0, lies outside its range {} … {} rad", joint.name,
           joint.lower_rad, joint.upper_rad);
@@ -93,31 +112,36 @@ class Checker {
       must(std::isfinite(number) && number >= 0.0,
            "must have servo numbers that are finite and not negative");
     }
+    for (const double number : {joint.armature_kg_m2, joint.damping_nm_s_per_rad, joint.friction_loss_nm})
+      must(std::isfinite(number) && number >= 0.0,
+           "must have armature, damping and friction loss that are finite and not negative");
   }
 
   void check_legs() const {
-    const int types = count(robot_.joint_types);
-    const int legs = count(robot_.legs);
-    if (count(robot_.joints) != legs * types) {
-      bad("{} legs with {} joints each need {} joints, not {}", legs, types, legs * types,
-          robot_.joints.size());
+    int next = 0;  // joint in control order
+    for (const Leg& leg : robot_.legs) check_leg(leg, next);
+    for (; next < count(robot_.joints); ++next) {
+      const Joint& joint = robot_.joints[to_index(next)];
+      need(!joint.driven(), "joint", joint.name, "belongs to no leg, so it cannot be driven");
     }
-    for (int l = 0; l < legs; ++l) {
-      const Leg& leg = robot_.legs[to_index(l)];
-      const auto must = [&](bool good, std::string_view problem) { need(good, "leg", leg.name, problem); };
-      must(leg.foot_geom >= 0 && leg.foot_geom < count(robot_.geoms), "names a foot that is not there");
-      const Geom& foot = robot_.geoms[to_index(leg.foot_geom)];
-      must(foot.collides, "has a foot that cannot collide");
-      must(count(leg.joints) == types, "must have one joint per joint type");
-      bool carries_foot = types == 0;
-      for (int t = 0; t < types; ++t) {
-        must(leg.joints[to_index(t)] == l * types + t, "has joints out of control order");
-        carries_foot = carries_foot || robot_.joints[to_index(l * types + t)].body == foot.body;
-      }
-      if (!carries_foot)
-        bad("leg '{}': its foot '{}' is on body '{}', which none of its joints moves", leg.name, foot.name,
-            robot_.bodies[to_index(foot.body)].name);
+  }
+
+  void check_leg(const Leg& leg, int& next) const {
+    const auto must = [&](bool good, std::string_view problem) { need(good, "leg", leg.name, problem); };
+    must(leg.foot_geom >= 0 && leg.foot_geom < count(robot_.geoms), "names a foot that is not there");
+    const Geom& foot = robot_.geoms[to_index(leg.foot_geom)];
+    must(foot.collides, "has a foot that cannot collide");
+    must(leg.joints.size() == robot_.joint_types.size(), "must have a joint, or none, for each joint type");
+    bool carries_foot = leg.joints.empty();
+    for (const int joint : leg.joints) {
+      if (joint == -1) continue;
+      must(joint == next && next < count(robot_.joints), "has joints out of control order");
+      carries_foot = carries_foot || robot_.joints[to_index(next)].body == foot.body;
+      ++next;
     }
+    if (!carries_foot)
+      bad("leg '{}': its foot '{}' is on body '{}', which none of its joints moves", leg.name, foot.name,
+          robot_.bodies[to_index(foot.body)].name);
   }
 
   void check_contact() const {

@@ -16,7 +16,7 @@ namespace {
 using io::Json;
 using io::JsonView;
 
-constexpr std::array<std::string_view, 4> shape_names{"sphere", "capsule", "cylinder", "box"};
+constexpr std::array<std::string_view, 5> shape_names{"sphere", "capsule", "cylinder", "box", "mesh"};
 constexpr std::array<std::string_view, 2> servo_mode_names{"velocity", "torque"};
 
 Json json_of(Vec3 v) {
@@ -101,37 +101,65 @@ Servo read_servo(const JsonView& json) {
           .kd_nm_s_per_rad = json.at("kd_nm_s_per_rad").number()};
 }
 
+/// Members of a joint that are left out where they are 0.
+constexpr std::array<std::pair<const char*, double Joint::*>, 3> passive_members{
+    {{"armature_kg_m2", &Joint::armature_kg_m2},
+     {"damping_nm_s_per_rad", &Joint::damping_nm_s_per_rad},
+     {"friction_loss_nm", &Joint::friction_loss_nm}}};
+
 Json json_of_joint(const Joint& joint) {
-  return {{"name", joint.name},
-          {"body", joint.body},
-          {"chain_index", joint.chain_index},
-          {"anchor_m", json_of(joint.anchor_m)},
-          {"axis", json_of(joint.axis)},
-          {"lower_rad", joint.lower_rad},
-          {"upper_rad", joint.upper_rad},
-          {"servo", json_of_servo(joint.servo)}};
+  Json json{{"name", joint.name},
+            {"body", joint.body},
+            {"chain_index", joint.chain_index},
+            {"anchor_m", json_of(joint.anchor_m)},
+            {"axis", json_of(joint.axis)},
+            {"lower_rad", io::json_number(joint.lower_rad)},
+            {"upper_rad", io::json_number(joint.upper_rad)},
+            {"servo", json_of_servo(joint.servo)}};
+  if (joint.command) json["command_rad"] = {joint.command->lower_rad, joint.command->upper_rad};
+  for (const auto& [key, member] : passive_members)
+    if (joint.*member != 0.0) json[key] = joint.*member;
+  return json;
 }
 
 Joint read_joint(const JsonView& json) {
-  return {.name = json.at("name").text(),
-          .body = index(json.at("body")),
-          .chain_index = index(json.at("chain_index")),
-          .anchor_m = vec3(json.at("anchor_m")),
-          .axis = vec3(json.at("axis")),
-          .lower_rad = json.at("lower_rad").number(),
-          .upper_rad = json.at("upper_rad").number(),
-          .servo = read_servo(json.at("servo"))};
+  Joint joint{.name = json.at("name").text(),
+              .body = index(json.at("body")),
+              .chain_index = index(json.at("chain_index")),
+              .anchor_m = vec3(json.at("anchor_m")),
+              .axis = vec3(json.at("axis")),
+              .lower_rad = json.at("lower_rad").number(),
+              .upper_rad = json.at("upper_rad").number(),
+              .servo = read_servo(json.at("servo"))};
+  if (json.has("command_rad")) {
+    const JsonView range = json.at("command_rad");
+    if (range.size() != 2) range.bad("an array of 2 numbers");
+    joint.command = AngleRange{range.at(std::size_t{0}).number(), range.at(1).number()};
+  }
+  for (const auto& [key, member] : passive_members)
+    if (json.has(key)) joint.*member = json.at(key).number();
+  return joint;
 }
 
 Json json_of_geom(const Geom& geom) {
-  return {{"name", geom.name},
-          {"body", geom.body},
-          {"collides", geom.collides},
-          {"shape", shape_names[to_index(geom.shape)]},
-          {"size_m", json_of(geom.size_m)},
-          {"position_m", json_of(geom.position_m)},
-          {"rotation", json_of(geom.rotation)},
-          {"rgba", geom.rgba}};
+  Json json{{"name", geom.name},
+            {"body", geom.body},
+            {"collides", geom.collides},
+            {"shape", shape_names[to_index(geom.shape)]},
+            {"size_m", json_of(geom.size_m)},
+            {"position_m", json_of(geom.position_m)},
+            {"rotation", json_of(geom.rotation)},
+            {"rgba", geom.rgba}};
+  if (geom.shape == Shape::mesh) {
+    json["vertices_m"] = array_of(geom.vertices_m, [](Vec3 vertex) { return json_of(vertex); });
+    json["triangles"] = geom.triangles;
+  }
+  return json;
+}
+
+std::array<int, 3> read_triangle(const JsonView& json) {
+  if (json.size() != 3) json.bad("an array of 3 indices");
+  return {index(json.at(std::size_t{0})), index(json.at(1)), index(json.at(2))};
 }
 
 Geom read_geom(const JsonView& json) {
@@ -145,6 +173,10 @@ Geom read_geom(const JsonView& json) {
   const JsonView rgba = json.at("rgba");
   if (rgba.size() != geom.rgba.size()) rgba.bad("an array of 4 numbers");
   for (std::size_t i = 0; i < geom.rgba.size(); ++i) geom.rgba[i] = static_cast<float>(rgba.at(i).number());
+  if (geom.shape == Shape::mesh) {
+    geom.vertices_m = list<Vec3>(json.at("vertices_m"), vec3);
+    geom.triangles = list<std::array<int, 3>>(json.at("triangles"), read_triangle);
+  }
   return geom;
 }
 

@@ -19,20 +19,27 @@ std::vector<Pose> start_poses(const RobotSpec& robot) {
   return poses;
 }
 
+Pose pose_along(const RobotSpec& robot, int body, const Pose& parent, std::span<const double> angles_rad,
+                std::size_t hinges) {
+  const Body& its = robot.bodies[to_index(body)];
+  Pose pose = parent * Pose{its.position_m, its.rotation};
+  const std::vector<int> chain = robot.joints_of_body(body);
+  for (std::size_t i = 0; i < std::min(hinges, chain.size()); ++i) {
+    const Joint& joint = robot.joints[to_index(chain[i])];
+    const Quat turn = axis_angle(joint.axis, angles_rad[to_index(chain[i])]);
+    // About the anchor, which stays where it is.
+    pose = pose * Pose{joint.anchor_m - rotate(turn, joint.anchor_m), turn};
+  }
+  return pose;
+}
+
 std::vector<Pose> poses_at(const RobotSpec& robot, const Pose& root, std::span<const double> angles_rad) {
   AMBLE_CHECK(angles_rad.size() == robot.joints.size(), "one angle per joint");
   std::vector<Pose> poses{root};
   poses.reserve(robot.bodies.size());
   for (int b = 1; b < static_cast<int>(robot.bodies.size()); ++b) {
-    const Body& body = robot.bodies[to_index(b)];
-    Pose pose = poses[to_index(body.parent)] * Pose{body.position_m, body.rotation};
-    for (const int j : robot.joints_of_body(b)) {
-      const Joint& joint = robot.joints[to_index(j)];
-      const Quat turn = axis_angle(joint.axis, angles_rad[to_index(j)]);
-      // About the anchor, which stays where it is.
-      pose = pose * Pose{joint.anchor_m - rotate(turn, joint.anchor_m), turn};
-    }
-    poses.push_back(pose);
+    const Pose& parent = poses[to_index(robot.bodies[to_index(b)].parent)];
+    poses.push_back(pose_along(robot, b, parent, angles_rad, robot.joints.size()));
   }
   return poses;
 }
@@ -68,6 +75,10 @@ double bottom_m(const Geom& geom, std::span<const Pose> poses) {
       break;
     case Shape::box:
       reach = size.x * std::abs(up.x) + size.y * std::abs(up.y) + size.z * std::abs(up.z);
+      break;
+    case Shape::mesh:
+      reach = -norm(size);
+      for (const Vec3 vertex : geom.vertices_m) reach = std::max(reach, -dot(up, vertex));
       break;
   }
   return pose.position_m.z - reach;

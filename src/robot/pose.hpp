@@ -23,6 +23,11 @@ std::vector<Pose> start_poses(const RobotSpec& robot);
 /// The same with the root's frame at `root` and the joints at these angles (rad, in control order).
 std::vector<Pose> poses_at(const RobotSpec& robot, const Pose& root, std::span<const double> angles_rad);
 
+/// Pose of a body's frame after the first `hinges` of its joints, those further out being at zero; `parent`
+/// is the pose of its parent's frame.
+Pose pose_along(const RobotSpec& robot, int body, const Pose& parent, std::span<const double> angles_rad,
+                std::size_t hinges);
+
 /// Centre of mass of the whole robot in the start pose, in the world.
 Vec3 start_com_m(const RobotSpec& robot);
 

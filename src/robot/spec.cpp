@@ -12,6 +12,13 @@ double RobotSpec::total_mass_kg() const {
   return mass;
 }
 
+std::size_t RobotSpec::leg_joint_count() const {
+  std::size_t count = 0;
+  for (const Leg& leg : legs)
+    count += to_index(std::ranges::count_if(leg.joints, [](int joint) { return joint >= 0; }));
+  return count;
+}
+
 std::vector<int> RobotSpec::joints_of_body(int body) const {
   std::vector<int> found;
   for (int j = 0; j < static_cast<int>(joints.size()); ++j) {
@@ -23,10 +30,19 @@ std::vector<int> RobotSpec::joints_of_body(int body) const {
 }
 
 int RobotSpec::leg_of_body(int body) const {
+  // The legs whose feet it carries.
+  int carried = -1;
+  for (std::size_t leg = 0; leg < legs.size(); ++leg) {
+    int b = geoms[to_index(legs[leg].foot_geom)].body;
+    while (b > body) b = bodies[to_index(b)].parent;
+    if (b != body) continue;
+    if (carried >= 0) return -1;
+    carried = static_cast<int>(leg);
+  }
   for (int b = body; b >= 0; b = bodies[to_index(b)].parent)
     for (std::size_t leg = 0; leg < legs.size(); ++leg)
       for (const int joint : legs[leg].joints)
-        if (joints[to_index(joint)].body == b) return static_cast<int>(leg);
+        if (joint >= 0 && joints[to_index(joint)].body == b) return static_cast<int>(leg);
   return -1;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,8 +10,10 @@
 namespace amble::robot {
 
 /// Shapes that engines can put into contact. `size_m` of a Geom means: sphere {radius, –, –}; capsule and
-/// cylinder {radius, half length of the straight part along the geom's z, –}; box {half extents}.
-enum class Shape { sphere, capsule, cylinder, box };
+/// cylinder {radius, half length of the straight part along the geom's z, –}; box {half extents}; mesh
+/// {radius about the geom's origin that encloses all vertices, –, –}. A mesh collides as the convex hull of
+/// its vertices.
+enum class Shape { sphere, capsule, cylinder, box, mesh };
 
 /// A piece of a body's surface. Carries no mass: that is in Body.
 struct Geom {
@@ -22,6 +25,10 @@ struct Geom {
   Vec3 position_m;  ///< centre, in the body's frame
   Quat rotation;    ///< geom axes → body axes
   std::array<float, 4> rgba{0.7f, 0.7f, 0.7f, 1.0f};
+  /// Of a mesh: vertices in the geom's axes, and its surface, each triangle counter-clockwise as seen from
+  /// outside. If it collides, exactly those of the convex hull.
+  std::vector<Vec3> vertices_m = {};
+  std::vector<std::array<int, 3>> triangles = {};
 };
 
 /// A rigid body. `position_m` and `rotation` are the pose of its frame in the parent's frame while all joints
@@ -54,23 +61,41 @@ struct Servo {
   double kd_nm_s_per_rad = 0.0;
 };
 
+struct AngleRange {
+  double lower_rad = 0.0, upper_rad = 0.0;
+};
+
 /// A motorised hinge between `body` and its parent. Its angle is 0 in the start pose and grows by the
 /// right-hand rule about `axis` as `body` turns against its parent. A body with two joints has them in the
 /// order of the chain: the first is next to the parent, the second to the body.
+///
+/// With angle q and torque τ of its servo, the joint's equation of motion has, beside what the bodies give,
+/// armature q̈ = τ − damping q̇ − friction, |friction| ≤ friction_loss, which opposes q̇ (MuJoCo's <joint>
+/// attributes of these names).
 struct Joint {
   std::string name;
   int body = 0;
   int chain_index = 0;                      ///< place among the joints of its body, counted from the parent
   Vec3 anchor_m;                            ///< in the frame of `body`
   Vec3 axis;                                ///< unit vector in the frame of `body`, at zero angles
-  double lower_rad = 0.0, upper_rad = 0.0;  ///< stops; targets are scaled to this range
+  double lower_rad = 0.0, upper_rad = 0.0;  ///< stops; ± infinity: none
+  /// Range of the targets that controllers give, finite and within the stops; none: from stop to stop. If its
+  /// width is 0 no controller drives the joint: its servo holds it there.
+  std::optional<AngleRange> command = std::nullopt;
   Servo servo;
+  double armature_kg_m2 = 0.0;  ///< inertia of the motor's rotor, times the gear ratio squared
+  double damping_nm_s_per_rad = 0.0;
+  double friction_loss_nm = 0.0;
+
+  AngleRange command_range() const { return command.value_or(AngleRange{lower_rad, upper_rad}); }
+  /// Whether controllers give it targets.
+  bool driven() const { return !command || command->lower_rad < command->upper_rad; }
 };
 
 struct Leg {
   std::string name;
   int foot_geom = 0;        ///< its contact with the ground is the leg's touch sensor
-  std::vector<int> joints;  ///< one per joint type, in the order of RobotSpec::joint_types
+  std::vector<int> joints;  ///< by joint type (RobotSpec::joint_types); −1: the leg has none of that type
 };
 
 /// Contact of bodies with the ground (and each other). erp and cfm as in ODE (manual, "Soft constraints"):
@@ -84,8 +109,9 @@ struct Contact {
 };
 
 /// All that is known of a robot: const, shared by all workers, independent of any engine. Joints are in
-/// control order, leg by leg and type by type: joint index = leg × joint_types.size() + type. That is the
-/// order of motors, targets, angles, and rows of every table in amble.
+/// control order: leg by leg and type by type, without gaps, then those that belong to no leg (head, spine,
+/// tail), which are not driven. That is the order of motors, targets, angles, and rows of every table in
+/// amble.
 struct RobotSpec {
   std::string name;
   std::vector<Body> bodies;  ///< bodies[0] is the root ("torso"), free to move
@@ -99,9 +125,12 @@ struct RobotSpec {
   bool self_collision = false;
 
   double total_mass_kg() const;
+  /// Number of joints that belong to legs: the first of `joints`.
+  std::size_t leg_joint_count() const;
   /// Indices into `joints` of the joints of one body, in the order of the chain (Joint::chain_index).
   std::vector<int> joints_of_body(int body) const;
-  /// The leg that a body is part of, or −1 for the trunk: a leg is its joints' bodies and their descendants.
+  /// The leg that a body is part of, or −1 for the trunk: a leg is its joints' bodies and their descendants,
+  /// without bodies that carry feet of several legs (a spine that turns with a leg).
   int leg_of_body(int body) const;
 };
 

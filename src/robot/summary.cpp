@@ -49,6 +49,17 @@ std::string servo_text(const Servo& servo) {
                      number(servo.kd_nm_s_per_rad), number(servo.max_torque_nm));
 }
 
+std::string passive_text(const Joint& joint) {
+  std::string text;
+  const auto add = [&](std::string_view what, double value, std::string_view unit) {
+    if (value != 0.0) text += fmt::format("{}{} {} {}", text.empty() ? "" : ", ", what, number(value), unit);
+  };
+  add("armature", joint.armature_kg_m2, "kg m2");
+  add("damping", joint.damping_nm_s_per_rad, "N m s/rad");
+  add("friction loss", joint.friction_loss_nm, "N m");
+  return text;
+}
+
 std::string shape_text(const Geom& geom) {
   const Vec3 size = geom.size_m;
   switch (geom.shape) {
@@ -60,6 +71,8 @@ std::string shape_text(const Geom& geom) {
       return fmt::format("cylinder, radius {}, length {}", number(size.x), number(2 * size.y));
     case Shape::box:
       return fmt::format("box, {} x {} x {}", number(2 * size.x), number(2 * size.y), number(2 * size.z));
+    case Shape::mesh:
+      return fmt::format("mesh, {} vertices within {}", geom.vertices_m.size(), number(size.x));
   }
   return {};
 }
@@ -78,11 +91,14 @@ std::string bodies_text(const RobotSpec& robot) {
 
 std::string joints_text(const RobotSpec& robot) {
   const std::vector<Pose> poses = start_poses(robot);
-  std::vector<Row> rows{{"joint", "moves", "axis in the world", "range rad", "servo"}};
+  std::vector<Row> rows{{"joint", "moves", "axis in the world", "range rad", "command rad", "servo", ""}};
   for (const Joint& joint : robot.joints) {
     const auto body = to_index(joint.body);
+    const AngleRange command = joint.command_range();
     rows.push_back({joint.name, robot.bodies[body].name, numbers(rotate(poses[body].rotation, joint.axis)),
-                    number(joint.lower_rad) + " to " + number(joint.upper_rad), servo_text(joint.servo)});
+                    number(joint.lower_rad) + " to " + number(joint.upper_rad),
+                    joint.driven() ? number(command.lower_rad) + " to " + number(command.upper_rad) : "held",
+                    servo_text(joint.servo), passive_text(joint)});
   }
   return table(rows);
 }
@@ -91,7 +107,8 @@ std::string legs_text(const RobotSpec& robot) {
   std::vector<Row> rows{{"leg", "foot", "over the ground, m", "joints"}};
   for (const Leg& leg : robot.legs) {
     std::string joints;
-    for (const int j : leg.joints) joints += (joints.empty() ? "" : ", ") + robot.joints[to_index(j)].name;
+    for (const int j : leg.joints)
+      if (j >= 0) joints += (joints.empty() ? "" : ", ") + robot.joints[to_index(j)].name;
     rows.push_back({leg.name, robot.geoms[to_index(leg.foot_geom)].name,
                     number(start_clearance_m(robot, leg.foot_geom)), joints});
   }

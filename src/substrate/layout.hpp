@@ -72,7 +72,7 @@ class Layout {
   /// Item by item of the settings, then source by source; the reverse of a link follows it.
   const std::vector<Link>& links() const { return links_; }
   int joint_count() const { return static_cast<int>(drivers_.size()); }
-  /// The node that drives a joint.
+  /// The node that drives a joint; −1: it is held (robot::Joint::driven).
   int driver(int joint) const { return drivers_[to_index(joint)]; }
   /// Whether two nodes get the same value of a property from every CPPN, because they query it alike.
   bool shared(std::string_view property, int a, int b) const;
@@ -108,7 +108,7 @@ class Layout {
   std::vector<Node> nodes_;
   std::vector<Link> links_;
   std::vector<int> link_points_;  ///< link by link
-  std::vector<int> drivers_;      ///< joint by joint
+  std::vector<int> drivers_;      ///< joint by joint; −1: none
   std::vector<Source> sources_;
   cppn::Points points_{0, 0};
 };

@@ -123,6 +123,8 @@ void LayoutBuilder::assign_joints() {
                                     [&](const robot::Joint& j) { return j.name == name; });
     if (joint == robot_.joints.end())
       refuse(item("nodes", i, "joint"), " = \"{}\": the robot has no such joint", name);
+    if (!joint->driven())
+      refuse(item("nodes", i, "joint"), " = \"{}\": the robot's file has that joint held, not driven", name);
     layout_.nodes_[i].joint = static_cast<int>(joint - robot_.joints.begin());
     int& driver = layout_.drivers_[to_index(layout_.nodes_[i].joint)];
     if (driver >= 0)
@@ -131,7 +133,7 @@ void LayoutBuilder::assign_joints() {
     driver = static_cast<int>(i);
   }
   for (std::size_t joint = 0; joint < robot_.joints.size(); ++joint)
-    if (layout_.drivers_[joint] < 0)
+    if (layout_.drivers_[joint] < 0 && robot_.joints[joint].driven())
       refuse("nodes", ": no node drives the robot's joint {}", robot_.joints[joint].name);
 }
 

@@ -72,6 +72,59 @@ TEST(Supg, DecodesAGenomeIntoHandComputedAngles) {
   }
 }
 
+/// The quadruped without its front right leg's middle joint, and with a head that is held.
+robot::RobotSpec limping() {
+  robot::RobotSpec robot = quadruped();
+  robot.joints.erase(robot.joints.begin() + 4);
+  robot.legs[1].joints = {3, -1, 4};
+  robot.legs[2].joints = {5, 6, 7};
+  robot.legs[3].joints = {8, 9, 10};
+  robot::Joint& head = robot.joints.emplace_back();
+  head.name = "head";
+  head.lower_rad = -1.0;
+  head.upper_rad = 1.0;
+  head.command = robot::AngleRange{};
+  return robot;
+}
+
+TEST(Supg, LeavesOutAJointThatALegLacksAndHoldsThoseOfNoLeg) {
+  auto substrate = supg_substrate();
+  std::erase_if(substrate.nodes, [](const auto& node) { return node.joint == "FR_hip_fb"; });
+  const SupgArchitecture architecture(SupgSettings(), substrate, limping(), timestep_s);
+  const SupgArchitecture whole(SupgSettings(), supg_substrate(), quadruped(), timestep_s);
+  const auto network = linear_cppn({0.1, 5.0, 0.25, 0.5}, {0.3, 1.0, 0.0, 0.0});
+  const auto parameters = architecture.decode(network), all = whole.decode(network);
+
+  const auto batch = architecture.make_batch(2), reference = whole.make_batch(2);
+  batch->load(1, *parameters);
+  reference->load(1, *all);
+  robot::SensorFrame sensors{.joint_angle_rad = {}, .touch = LaneArray(4, 2), .attitude_rad = {}};
+  LaneArray targets(12, 2), expected(12, 2);
+  targets.set_lane(1, 9.0f);
+  for (int tick = 0; tick < 250; ++tick) {
+    for (int leg = 0; leg < 4; ++leg) sensors.touch.at(leg, 1) = (tick / (20 + leg)) % 2 == 0 ? 1.0f : 0.0f;
+    batch->step(sensors, targets);
+    reference->step(sensors, expected);
+    for (int row = 0; row < 11; ++row)
+      ASSERT_EQ(targets.at(row, 1), expected.at(row < 4 ? row : row + 1, 1)) << tick << " " << row;
+    ASSERT_EQ(targets.at(11, 1), 0.0f);
+  }
+  EXPECT_EQ(nlohmann::json::parse(architecture.parameters_json(*parameters))["patterns_rad"].size(), 11u);
+}
+
+TEST(Supg, RefusesANodeThatDrivesAHeldJoint) {
+  auto robot = quadruped();
+  robot.joints[4].command = robot::AngleRange{0.1, 0.1};
+  try {
+    SupgArchitecture(SupgSettings(), supg_substrate(), robot, timestep_s);
+    FAIL() << "accepted";
+  } catch (const UserError& error) {
+    EXPECT_STREQ(error.what(),
+                 "controller.substrate.nodes[4].joint = \"FR_hip_fb\": the robot's file has that joint held, "
+                 "not driven");
+  }
+}
+
 TEST(Supg, ClampsCommandsToTheStops) {
   const SupgArchitecture architecture(SupgSettings(), supg_substrate(), quadruped(), timestep_s);
   // pattern = −3 + 6 time: at the lower stop until time = 1/3, at the upper from 2/3 on.

@@ -38,7 +38,7 @@ TEST(SupgPatterns, NamesWhatIsWrong) {
   EXPECT_EQ(error_after([](auto& json) { json["offset_ticks"].push_back(1); }),
             "walk.rec: controller: key 'offset_ticks' must be a number for each leg");
   EXPECT_EQ(error_after([](auto& json) { json["patterns_rad"].erase(0); }),
-            "walk.rec: controller: key 'patterns_rad' must be a list for each joint");
+            "walk.rec: controller: key 'patterns_rad' must be a list for each joint of a leg");
   EXPECT_EQ(
       error_after([](auto& json) { json["patterns_rad"][3].erase(0); }),
       "walk.rec: controller: key 'patterns_rad[3]' must be a number for each tick from 0 to period_ticks");

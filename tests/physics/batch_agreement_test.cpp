@@ -204,7 +204,7 @@ RobotSpec tailed(RobotSpec robot, double mass_kg, double max_torque_nm) {
   return robot;
 }
 
-TEST(BatchAgreement, LimbsHaveUpToTwelveJoints) {
+TEST(BatchAgreement, LimbsHaveUpToTwentyFourJoints) {
   const auto with_tail_of = [](int pairs) {
     RobotSpec robot = quadruped("paper");
     for (int pair = 0; pair < pairs; ++pair) {
@@ -213,16 +213,16 @@ TEST(BatchAgreement, LimbsHaveUpToTwelveJoints) {
     }
     return robot;
   };
-  const auto engine = make_batch_engine(with_tail_of(6), {});
+  const auto engine = make_batch_engine(with_tail_of(12), {});
   engine->place(0);
-  const LaneArray targets(24, engine->lanes());
+  const LaneArray targets(36, engine->lanes());
   for (int n = 0; n < 50; ++n) engine->step(targets);
   EXPECT_TRUE(engine->healthy(0));
   try {
-    make_batch_engine(with_tail_of(7), {});
-    ADD_FAILURE() << "a tail of fourteen joints was accepted";
+    make_batch_engine(with_tail_of(13), {});
+    ADD_FAILURE() << "a tail of 26 joints was accepted";
   } catch (const UserError& error) {
-    EXPECT_NE(std::string(error.what()).find("more than 12 joints in one chain"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("more than 24 joints in one chain"), std::string::npos)
         << error.what();
   }
 }

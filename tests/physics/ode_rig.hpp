@@ -12,10 +12,10 @@ namespace amble::physics {
 /// A robot in ODE that can be put into any state and stepped by either of ODE's solvers.
 class OdeRig {
  public:
-  explicit OdeRig(const robot::RobotSpec& robot)
+  explicit OdeRig(const robot::RobotSpec& robot, double timestep_s = 0.01)
       : robot_((ode::prepare_thread(), robot)),
         world_(robot_, threading_),
-        motors_(robot_, world_),
+        motors_(robot_, world_, timestep_s),
         contacts_(robot_, world_),
         angles_(static_cast<int>(robot.joints.size()), 1),
         touch_(static_cast<int>(robot.legs.size()), 1) {}

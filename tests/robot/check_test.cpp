@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "amble/core/index.hpp"
 #include "tests/morphology/files.hpp"
 
 namespace amble::robot {
@@ -73,11 +74,39 @@ TEST(CheckRobot, FindsGeomsAndJointsThatCannotBe) {
 
 TEST(CheckRobot, FindsLegsThatDoNotFit) {
   EXPECT_EQ(problem_after([](RobotSpec& r) { r.joint_types.pop_back(); }),
-            "1 legs with 1 joints each need 1 joints, not 2");
+            "leg 'A' must have a joint, or none, for each joint type");
   EXPECT_EQ(problem_after([](RobotSpec& r) { std::swap(r.legs[0].joints[0], r.legs[0].joints[1]); }),
             "leg 'A' has joints out of control order");
   EXPECT_EQ(problem_after([](RobotSpec& r) { r.legs[0].foot_geom = -1; }),
             "leg 'A' names a foot that is not there");
+  EXPECT_EQ(problem_after([](RobotSpec& r) {
+              r.geoms[to_index(r.legs[0].foot_geom)].body = 1;
+              r.legs[0].joints[1] = -1;
+            }),
+            "joint 'A_knee' belongs to no leg, so it cannot be driven");
+}
+
+TEST(CheckRobot, TakesLegsThatLackAJointAndJointsThatAreHeld) {
+  EXPECT_EQ(problem_after([](RobotSpec& r) {
+              r.geoms[to_index(r.legs[0].foot_geom)].body = 1;
+              r.legs[0].joints[1] = -1;
+              r.joints[1].command = AngleRange{};
+            }),
+            "");
+}
+
+TEST(CheckRobot, FindsRangesOfCommandThatDoNotFit) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const std::string outside = "joint 'A_hip' must have a range of command within its stops";
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.joints[0].command = AngleRange{-0.6, 0.2}; }), outside);
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.joints[0].command = AngleRange{0.2, 0.1}; }), outside);
+  EXPECT_EQ(problem_after([&](RobotSpec& r) { r.joints[0].upper_rad = infinity; }),
+            "joint 'A_hip' has no stops, so it needs a range of command");
+  EXPECT_EQ(problem_after([&](RobotSpec& r) {
+              r.joints[0].upper_rad = infinity;
+              r.joints[0].command = AngleRange{-0.5, 2.0};
+            }),
+            "");
 }
 
 TEST(CheckRobot, FindsNumbersThatCannotBe) {

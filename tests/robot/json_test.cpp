@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
 
 #include "amble/core/error.hpp"
@@ -54,6 +55,37 @@ TEST(RobotJson, ReadsBackTheSameRobotToTheBit) {
   }
   EXPECT_EQ(again.joints[3].servo.mode, ServoMode::torque);
   EXPECT_EQ(again.joints_of_body(1), robot.joints_of_body(1));
+}
+
+TEST(RobotJson, KeepsWhatOnlySomeRobotsHave) {
+  RobotSpec robot = quadruped();
+  const std::string before = to_json(robot).dump();
+  for (const char* key : {"command_rad", "armature", "damping", "friction_loss", "vertices_m"})
+    EXPECT_EQ(before.find(key), std::string::npos) << key;  // so that its hash is what it was
+
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Joint& joint = robot.joints[3];
+  joint.upper_rad = infinity;
+  joint.command = AngleRange{-0.1, 1.0 / 3.0};
+  joint.armature_kg_m2 = 0.1 / 3.0;
+  joint.damping_nm_s_per_rad = 0.2 / 3.0;
+  joint.friction_loss_nm = 0.4 / 3.0;
+  Geom& geom = robot.geoms[0];
+  geom.shape = Shape::mesh;
+  geom.vertices_m = {{0, 0, 1.0 / 3.0}, {0.1, 0, 0}, {0, 0.1, 0}, {-0.1, -0.1, 0}};
+  geom.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+  geom.size_m = {0.34, 0, 0};
+
+  const RobotSpec again = through_text(robot);
+  EXPECT_EQ(to_json(again).dump(), to_json(robot).dump());
+  EXPECT_EQ(again.joints[3].upper_rad, infinity);
+  ASSERT_TRUE(again.joints[3].command);
+  EXPECT_EQ(again.joints[3].command->upper_rad, 1.0 / 3.0);
+  EXPECT_EQ(again.joints[3].armature_kg_m2, 0.1 / 3.0);
+  EXPECT_EQ(again.joints[3].damping_nm_s_per_rad, 0.2 / 3.0);
+  EXPECT_EQ(again.joints[3].friction_loss_nm, 0.4 / 3.0);
+  EXPECT_EQ(again.geoms[0].vertices_m, geom.vertices_m);
+  EXPECT_EQ(again.geoms[0].triangles, geom.triangles);
 }
 
 TEST(RobotJson, WritesInfiniteFrictionAsInf) {

@@ -1,4 +1,5 @@
 // The temporal patterns of a SUPG: target angle over the timer, and where the timer is now.
+import { rangeOf } from "./joints.js";
 import { element, legClass, svgElement } from "./theme.js";
 
 const WIDTH = 160, HEIGHT = 74, PAD = 5;
@@ -25,7 +26,8 @@ export class Patterns {
   panel(leg, row, title) {
     const { robot, supg } = this.walk;
     const joint = robot.legs[leg].joints[row];
-    const { lower_rad, upper_rad } = robot.joints[joint];
+    if (joint < 0) return element("div", { class: "panel" });
+    const [lower_rad, upper_rad] = rangeOf(robot.joints[joint]);
     const y = (angle) => PAD + (HEIGHT - 2 * PAD) * (1 - (angle - lower_rad) / (upper_rad - lower_rad || 1));
     const points = supg.patterns_rad[joint].map((angle, tick) => `${this.x(tick).toFixed(1)},${y(angle).toFixed(1)}`);
     const offset = this.x(supg.offset_ticks[leg]);

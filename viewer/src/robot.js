@@ -1,10 +1,20 @@
 // The robot's own geometry, moved by its joints.
 import {
-  BoxGeometry, CapsuleGeometry, CylinderGeometry, Group, Mesh, MeshLambertMaterial, SphereGeometry, Vector3,
+  BoxGeometry, BufferGeometry, CapsuleGeometry, CylinderGeometry, Float32BufferAttribute, Group, Mesh, MeshLambertMaterial,
+  SphereGeometry, Vector3,
 } from "three";
 import { colour, legColour, walkerColour } from "./theme.js";
 
-function geometryOf({ shape, size_m }) {
+/** Flat faces: no two triangles share a vertex. */
+function meshGeometry({ vertices_m, triangles }) {
+  const corners = triangles.flatMap((triangle) => triangle.flatMap((corner) => vertices_m[corner]));
+  const geometry = new BufferGeometry().setAttribute("position", new Float32BufferAttribute(corners, 3));
+  geometry.computeVertexNormals();
+  return geometry;
+}
+
+function geometryOf(geom) {
+  const { shape, size_m } = geom;
   const [a, b, c] = size_m;
   switch (shape) {
     case "sphere": return new SphereGeometry(a, 24, 16);
@@ -12,6 +22,7 @@ function geometryOf({ shape, size_m }) {
     // three's axis is y, ours z
     case "capsule": return new CapsuleGeometry(a, 2 * b, 6, 20).rotateX(Math.PI / 2);
     case "cylinder": return new CylinderGeometry(a, a, 2 * b, 24).rotateX(Math.PI / 2);
+    case "mesh": return meshGeometry(geom);
   }
   throw new Error(`unknown shape ${shape}`);
 }
@@ -23,10 +34,16 @@ const place = (object, position, rotation) => {
   return object;
 };
 
-/** The leg that a body belongs to, or −1 for the trunk. */
+const carries = (robot, body, other) => {
+  while (other > body) other = robot.bodies[other].parent;
+  return other === body;
+};
+
+/** The leg that a body belongs to, or −1 for the trunk, to which bodies with feet of several legs belong, too. */
 function legOfBody(robot, body) {
+  if (robot.legs.filter(({ foot_geom }) => carries(robot, body, robot.geoms[foot_geom].body)).length > 1) return -1;
   for (let b = body; b >= 0; b = robot.bodies[b].parent) {
-    const leg = robot.legs.findIndex(({ joints }) => joints.some((joint) => robot.joints[joint].body === b));
+    const leg = robot.legs.findIndex(({ joints }) => joints.some((joint) => robot.joints[joint]?.body === b));
     if (leg >= 0) return leg;
   }
   return -1;

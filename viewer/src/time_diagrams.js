@@ -1,4 +1,5 @@
 // The diagrams over time: footfalls, timers, joints, speed and height.
+import { rangeOf } from "./joints.js";
 import { Plot, niceAxis, number } from "./plot.js";
 import { legColour, walkerLineColour } from "./theme.js";
 
@@ -51,14 +52,13 @@ export function timerPlot(walk, window, clock) {
 }
 
 /** "−0.8 … 0", in rad. */
-const rangeText = ({ lower_rad, upper_rad }) =>
-  [lower_rad, upper_rad].map((angle) => number(angle, 2).replace(/\.?0+$/, "")).join(" … ");
+const rangeText = (range) => range.map((angle) => number(angle, 2).replace(/\.?0+$/, "")).join(" … ");
 
 /** A plot for each leg, and one for the joints of none, if there are any. */
 export function jointPlots(walk, window, clock) {
   const { joints, legs } = walk.robot;
   const others = joints.map((_, j) => j).filter((j) => !legs.some((leg) => leg.joints.includes(j)));
-  const groups = [...legs.map((leg, i) => [leg.joints, () => legColour(i)]), [others, () => "--ink"]];
+  const groups = [...legs.map((leg, i) => [leg.joints.filter((j) => j >= 0), () => legColour(i)]), [others, () => "--ink"]];
   return groups.filter(([members]) => members.length > 0).map(([members, css]) => jointPlot(walk, members, css, window, clock));
 }
 
@@ -66,14 +66,14 @@ export function jointPlots(walk, window, clock) {
 function jointPlot(walk, members, css, window, clock) {
   return new Plot("Joint angles and targets", members.length * JOINT_ROW, window, clock, (pen) => {
     members.forEach((j, row) => {
-      const joint = walk.robot.joints[j], { name, lower_rad, upper_rad } = joint;
+      const joint = walk.robot.joints[j], { name } = joint, range = rangeOf(joint), [lower_rad, upper_rad] = range;
       const top = row * JOINT_ROW + 4, height = JOINT_ROW - 8;
       const y = (angle) => top + height * (1 - (angle - lower_rad) / (upper_rad - lower_rad || 1));
       const [first, ...rest] = name.split("_");
       const lines = top + height / 2 - (rest.length ? 13 : 7);
       pen.rowLabel(first, lines, css());
       if (rest.length) pen.text(rest.join(" "), 0, lines + 14, { size: 11.5 });
-      pen.text(rangeText(joint), 0, lines + (rest.length ? 27 : 14), { size: 10.5 });
+      pen.text(rangeText(range), 0, lines + (rest.length ? 27 : 14), { size: 10.5 });
       pen.rect(pen.left, pen.right, top, height, "--panel");
       pen.curve(walk.angles[j], walk.poses, y, css(), 2.2);
       pen.curve(walk.targets[j], walk.poses, y, "--ink", 1, { steps: true });

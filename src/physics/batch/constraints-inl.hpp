@@ -1,8 +1,9 @@
-// Constraint rows in blocks, and the blocks of motors and stops; for each instruction set.
+// Constraint rows in blocks, and the blocks of joints; for each instruction set.
 //
-// Each row is J ν⁺ + (cfm/h) p = target with bounds of its impulse p: ODE's soft constraints (manual,
-// "Constraint Force Mixing (CFM)"; docs/BATCH.md, "Constraint rows"). Of J the solver needs W = L⁻¹ Jᵀ: by
-// forward substitution the chain's part is W_c = L_c⁻¹ J_cᵀ, the base's W_b = L_b⁻¹ (J_bᵀ − B_c W_c).
+// Each row is J ν⁺ + softness p = target (softness cfm/h but for torque servos) with bounds of its impulse p:
+// ODE's soft constraints (manual, "Constraint Force Mixing (CFM)"; docs/BATCH.md, "Constraint rows"). Of J
+// the solver needs W = L⁻¹ Jᵀ: by forward substitution the chain's part is W_c = L_c⁻¹ J_cᵀ, the base's W_b =
+// L_b⁻¹ (J_bᵀ − B_c W_c).
 #if defined(AMBLE_BATCH_CONSTRAINTS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef AMBLE_BATCH_CONSTRAINTS_INL_HPP
 #undef AMBLE_BATCH_CONSTRAINTS_INL_HPP
@@ -36,6 +37,7 @@ template <int N, int rows>
 struct ConstraintRows {
   V w[rows][capacity<N> + 6];
   V target[rows];
+  V softness[rows];  ///< velocity per impulse
   Mask enabled[rows];
 
   /// Completes W_b of a row from L_b⁻¹ J_bᵀ, which it holds, and W_c: W_b −= (L_b⁻¹ B_c) W_c.
@@ -45,18 +47,17 @@ struct ConstraintRows {
         w[row][chain.n + d] = fnma(load(chain.base(j) + d * width), w[row][j], w[row][chain.n + d]);
   }
 
-  /// Scales the rows by 1/s, s = √((Wᵀ W + cfm/h) / ω), and writes all fields but bounds and impulses. Lanes
-  /// without the row get W = 0 and target 0: there it has no effect.
-  HWY_INLINE void scale(const Pass& pass, const Block& block, float relaxation) {
-    const V softness = set(pass.model().cfm_s_per_kg / pass.timestep_s());
+  /// Scales the rows by 1/s, s = √((Wᵀ W + softness) / ω), and writes all fields but bounds and impulses.
+  /// Lanes without the row get W = 0 and target 0: there it has no effect.
+  HWY_INLINE void scale(const Block& block, float relaxation) {
     const V inverse_relaxation = set(1.0f / relaxation);
     V inverse_scale[rows];
     for (int r = 0; r < rows; ++r) {
-      V sum = softness;
+      V sum = softness[r];
       for (int i = 0; i < block.entries; ++i) sum = fma(w[r][i], w[r][i], sum);
       const V scale = hn::Sqrt(sum * inverse_relaxation);
       inverse_scale[r] = hn::IfThenElseZero(enabled[r], set(1.0f) / scale);
-      block.set(BlockLayout::softness, r, softness * inverse_scale[r] * inverse_scale[r]);
+      block.set(BlockLayout::softness, r, softness[r] * inverse_scale[r] * inverse_scale[r]);
       block.set(BlockLayout::target, r, target[r] * inverse_scale[r]);
       block.set(BlockLayout::scale, r, scale);
       block.set(BlockLayout::inverse_scale, r, inverse_scale[r]);
@@ -84,8 +85,8 @@ struct ConstraintRows {
   }
 };
 
-/// Builds the block of motors and stops of up to three joints of a chain, from `first` on; false if no lane
-/// has such a row. J is the unit vector of the joint, so W_c is a column of L_c⁻¹ and J_b = 0.
+/// Builds a block of up to three joint rows of a chain, from row `first` on; false if no lane has such a row.
+/// J is the unit vector of the joint, so W_c is a column of L_c⁻¹ and J_b = 0.
 template <int N, int rows>
 HWY_INLINE bool joint_block(const Pass& pass, const Chain& chain, const ChainFactor& factor, int first,
                             const Block& block, V* u_joints, V* u_base) {
@@ -93,14 +94,15 @@ HWY_INLINE bool joint_block(const Pass& pass, const Chain& chain, const ChainFac
   Mask enabled = no_lanes();
   ConstraintRows<N, rows> row_set;
   for (int r = 0; r < rows; ++r) {
-    const float* const joint_row = pass.scratch(pass.work().joint_row + 4 * (chain.first + first + r));
+    const float* const joint_row = pass.joint_row(chain, first + r);
     row_set.enabled[r] = load(joint_row + width) < load(joint_row + 2 * width);
     row_set.target[r] = load(joint_row);
+    row_set.softness[r] = load(joint_row + 4 * width);
     enabled = hn::Or(enabled, row_set.enabled[r]);
   }
   if (hn::AllFalse(Floats(), hn::And(enabled, pass.active()))) return false;
   for (int r = 0; r < rows; ++r) {
-    const int j = first + r;
+    const int j = N >= 0 ? first + r : pass.row_of(chain, first + r).link;
     V* const w = row_set.w[r];
     for (int i = 0; i < n + 6; ++i) w[i] = zero();
     w[j] = load(factor.inverse(j));
@@ -110,38 +112,40 @@ HWY_INLINE bool joint_block(const Pass& pass, const Chain& chain, const ChainFac
     }
     row_set.finish_base(factor, r, j);
   }
-  row_set.scale(pass, block, pass.model().joint_relaxation);
+  row_set.scale(block, pass.model().joint_relaxation);
   for (int r = 0; r < rows; ++r) {
-    const float* const joint_row = pass.scratch(pass.work().joint_row + 4 * (chain.first + first + r));
+    const float* const joint_row = pass.joint_row(chain, first + r);
     // Bounds times s; an infinite one stays infinite, and 0 × s is 0.
     const V scale = block.get(BlockLayout::scale, r);
     const V low = load(joint_row + width) * scale, high = load(joint_row + 2 * width) * scale;
     block.set(BlockLayout::low, r, low);
     block.set(BlockLayout::high, r, high);
-    const V before = pass.state(pass.rows().joint_impulse + chain.first + first + r) * scale;
+    const V before = pass.state(pass.rows().joint_impulse + chain.first_row + first + r) * scale;
     block.set(BlockLayout::impulse, r, hn::Max(hn::Min(before, high), low));
   }
   row_set.warm_start(block, u_joints, u_base);
   return true;
 }
 
-/// Blocks of a chain's motors and stops, three joints each.
+/// Blocks of a chain's joint rows, three rows each.
 template <int N>
 HWY_INLINE void joint_blocks(const Pass& pass, const Chain& chain, const ChainFactor& factor,
                              ChainBlocks& blocks, V* u_joints, V* u_base) {
-  const int n = length<N>(chain);
-  for (int j = 0; j < n; j += 3) {
+  const int n = length<N>(chain), row_count = N >= 0 ? N : chain.row_count;
+  blocks.joint_rows = row_count;
+  for (int first = 0; first < row_count; first += 3) {
     const Block block = block_at(pass, blocks.first + blocks.count, n);
-    const int rows = n - j < 3 ? n - j : 3;
+    const int rows = row_count - first < 3 ? row_count - first : 3;
     bool any = false;
-    if (rows == 3) any = joint_block<N, 3>(pass, chain, factor, j, block, u_joints, u_base);
-    if (rows == 2) any = joint_block<N, 2>(pass, chain, factor, j, block, u_joints, u_base);
-    if (rows == 1) any = joint_block<N, 1>(pass, chain, factor, j, block, u_joints, u_base);
+    if (rows == 3) any = joint_block<N, 3>(pass, chain, factor, first, block, u_joints, u_base);
+    if (rows == 2) any = joint_block<N, 2>(pass, chain, factor, first, block, u_joints, u_base);
+    if (rows == 1) any = joint_block<N, 1>(pass, chain, factor, first, block, u_joints, u_base);
     if (!any) {
-      for (int r = j; r < j + rows; ++r) pass.set_state(pass.rows().joint_impulse + chain.first + r, zero());
+      for (int r = first; r < first + rows; ++r)
+        pass.set_state(pass.rows().joint_impulse + chain.first_row + r, zero());
       continue;
     }
-    pass.work().block_joint[to_index(blocks.first + blocks.count)] = j;
+    pass.work().block_joint[to_index(blocks.first + blocks.count)] = first;
     ++blocks.joint_blocks;
     ++blocks.count;
   }

@@ -110,7 +110,9 @@ HWY_INLINE void contact_rows_of_chain(const Pass& pass, V link, const Chain* cha
                                       const Columns& world, V3 position, ConstraintRows<N, 3>& rows) {
   for (int j = 0; j < factor.n; ++j) {
     const Spatial subspace = motion_subspace(pass, *chain, j);
-    const Mask carries = link >= set(static_cast<float>(j));
+    Mask carries = link >= set(static_cast<float>(j));
+    if constexpr (N < 0)
+      carries = hn::And(carries, link <= set(static_cast<float>(pass.link(*chain, j).last)));
     const V3 velocity = cross(subspace.angular, position, subspace.linear);
     V3 w{hn::IfThenElseZero(carries, dot(world.z, velocity)),
          hn::IfThenElseZero(carries, dot(world.y, velocity)),
@@ -158,10 +160,11 @@ HWY_INLINE void contact_block(const Pass& pass, const Chain* chain, const ChainF
   rows.target[0] = set(-pass.model().erp / pass.timestep_s()) * height;
   rows.target[1] = rows.target[2] = zero();
   for (Mask& enabled : rows.enabled) enabled = touches;
+  for (V& softness : rows.softness) softness = set(pass.model().cfm_s_per_kg / pass.timestep_s());
   contact_rows_of_chain<N>(pass, block.get(BlockLayout::target, 1), chain, factor, world, position, rows);
   contact_rows_of_base<N>(wrenches, arm, factor.n, rows);
   for (int r = 0; r < 3; ++r) rows.finish_base(factor, r);
-  rows.scale(pass, block, pass.model().contact_relaxation);
+  rows.scale(block, pass.model().contact_relaxation);
   block.set(BlockLayout::arm, 0, arm.x);
   block.set(BlockLayout::arm, 1, arm.y);
   block.set(BlockLayout::arm, 2, arm.z);

@@ -121,8 +121,9 @@ HWY_INLINE void unconstrained_chain(const Pass& pass, const LaneArray& targets_r
     const int index = chain.first + j;
     float* const row = pass.scratch(pass.work().u_joints + index);
     const Spatial column = load_spatial(pass.scratch(pass.work().base_column + 6 * index));
-    const V torque = apply_servo(pass, targets_rad, pass.link(chain, j), index);
-    store(torque, pass.scratch(pass.work().joint_row + 4 * index + 3));
+    float* const joint_row = pass.joint_row(chain, j);
+    const V torque = apply_servo(pass, targets_rad, pass.link(chain, j), index, joint_row);
+    store(torque, joint_row + 3 * width);
     // Forward substitution of y, and the rows of L_cᵀ and B_cᵀ.
     V x = h * (torque - (load(row) + dot(column, base.bias_acceleration)));
     for (int k = 0; k < j; ++k) x = fnma(load(factor.lower(j, k)), y[k], x);
@@ -136,6 +137,9 @@ HWY_INLINE void unconstrained_chain(const Pass& pass, const LaneArray& targets_r
     }
     store(sum, row);
   }
+  if constexpr (N < 0)
+    for (int r = n; r < chain.row_count; ++r)
+      apply_friction(pass, pass.link(chain, pass.row_of(chain, r).link), pass.joint_row(chain, r));
 }
 
 /// Factorises M, and computes u = Lᵀ ν after a step without constraints. Base: with gravity g (which

@@ -28,37 +28,42 @@ HWY_INLINE Spatial inertial_force(const Symmetric& inertia, V3 first_moment, V m
 
 /// Recursive Newton–Euler algorithm for one chain with q̈ = 0, the base unaccelerated and no gravity
 /// (Featherstone 2008, sec. 5.3). Outwards v_j = v_p + S_j q̇_j and a_j = a_p + v_p × S_j q̇_j; inwards
-/// f_j = I_j a_j + v_j ×* I_j v_j + f_(j+1). Writes the joints' bias forces C_j = S_jᵀ f_j (N m) and adds the
-/// force that the chain transmits to the base to `total`.
+/// f_j = I_j a_j + v_j ×* I_j v_j + Σ f_child. Writes the joints' bias forces C_j = S_jᵀ f_j + damping q̇_j
+/// (N m) and adds the force that the chain transmits to the base to `total`.
 template <int N>
 HWY_INLINE void chain_bias_forces(const Pass& pass, const Chain& chain, const Base& base, V* forces,
                                   Spatial& total) {
   const int n = length<N>(chain);
-  Spatial link_force[capacity<N>];
-  Spatial velocity = base.velocity, acceleration = zero_spatial();
+  Spatial link_force[capacity<N>], link_velocity[capacity<N>], link_acceleration[capacity<N>];
   for (int j = 0; j < n; ++j) {
     const Link& link = pass.link(chain, j);
+    const int parent = parent_of<N>(link, j);
     const Spatial subspace = motion_subspace(pass, chain, j);
     const V speed = pass.state(pass.rows().speed + chain.first + j);
+    const Spatial before = parent < 0 ? base.velocity : link_velocity[parent];
     // v × S = (ω × a, ω × (c × a) + v × a).
     const Spatial subspace_rate{
-        cross(velocity.angular, subspace.angular),
-        cross(velocity.angular, subspace.linear, cross(velocity.linear, subspace.angular))};
-    acceleration = fma(speed, subspace_rate, acceleration);
-    velocity = fma(speed, subspace, velocity);
+        cross(before.angular, subspace.angular),
+        cross(before.angular, subspace.linear, cross(before.linear, subspace.angular))};
+    link_acceleration[j] = fma(speed, subspace_rate, parent < 0 ? zero_spatial() : link_acceleration[parent]);
+    link_velocity[j] = fma(speed, subspace, before);
     link_force[j] = zero_spatial();
     if (link.has_mass) {
       const float* own = pass.scratch(pass.work().link_inertia + 9 * (chain.first + j));
       link_force[j] = inertial_force(load_inertia(own), load_first_moment(own), set(link.body.mass_kg),
-                                     velocity, acceleration);
+                                     link_velocity[j], link_acceleration[j]);
     }
   }
-  Spatial transmitted = zero_spatial();
   for (int j = n - 1; j >= 0; --j) {
-    transmitted = transmitted + link_force[j];
-    forces[j] = dot(motion_subspace(pass, chain, j), transmitted);
+    const Link& link = pass.link(chain, j);
+    const int parent = parent_of<N>(link, j);
+    forces[j] = dot(motion_subspace(pass, chain, j), link_force[j]);
+    if (link.damping_nm_s_per_rad != 0.0f)
+      forces[j] =
+          fma(set(link.damping_nm_s_per_rad), pass.state(pass.rows().speed + chain.first + j), forces[j]);
+    Spatial& outer = parent < 0 ? total : link_force[parent];
+    outer = outer + link_force[j];
   }
-  total = total + transmitted;
 }
 
 /// Bias forces of all joints, kept in place of u_joints until unconstrained_chain(), and the bias
@@ -80,11 +85,12 @@ HWY_NOINLINE void bias_forces(const Pass& pass, Base& base) {
   base.bias_acceleration.linear = set(-1.0f / model.mass_kg) * total.linear;
 }
 
-/// Target velocity (rad/s) and bounds of the impulse (N m s) of a joint's constraint row.
-HWY_INLINE void store_joint_row(float* row, V target, V low, V high) {
+/// Target velocity (rad/s), bounds of the impulse (N m s) and softness of a joint's constraint row.
+HWY_INLINE void store_joint_row(float* row, V target, V low, V high, V softness) {
   store(target, row);
   store(low, row + width);
   store(high, row + 2 * width);
+  store(softness, row + 4 * width);
 }
 
 /// The row of a joint's stop, q̇⁺ = −(erp/h) (q − q_stop) by an impulse towards the range only. Lanes within
@@ -107,34 +113,58 @@ HWY_INLINE StopRow stop_row(const Pass& pass, const Link& link, V angle) {
           .high = hn::IfThenElseZero(at_lower, infinite)};
 }
 
+/// What a servo aims at: its row is q̇⁺ + softness p = speed, |p| ≤ max_impulse.
+struct ServoRow {
+  V speed;            ///< rad/s
+  float max_impulse;  ///< N m s
+  float softness;     ///< velocity per impulse, rad/s per N m s
+  V torque_at_stop;   ///< N m
+};
+
+/// Velocity servo: speed gain (target − q), as soft as all of ODE's rows. Torque servo, with the angle and
+/// speed at the end of the step (backward Euler), so that it is stable however stiff it is:
+///   τ = kp (target − q − h q̇⁺) − kd q̇⁺ = k (speed − q̇⁺),   k = kp h + kd,   speed = kp (target − q) / k.
+HWY_INLINE ServoRow servo_row(const Pass& pass, const Link& link, V error, Mask at_upper) {
+  const float h = pass.timestep_s();
+  const V max_torque = set(link.max_torque_nm), none = zero();
+  if (link.velocity_servo) {
+    // ODE's motor pushes with full strength while its joint is at a stop (dxJointLimitMotor::addLimot).
+    const V speed = set(link.gain_per_s) * error;
+    const Mask forward = hn::Or(speed > none, hn::And(speed == none, at_upper));
+    return {speed, link.max_torque_nm * h, pass.model().cfm_s_per_kg / h,
+            hn::IfThenElse(forward, max_torque, hn::Neg(max_torque))};
+  }
+  const float k = link.kp_nm_per_rad * h + link.kd_nm_s_per_rad;
+  if (k == 0.0f) return {none, 0.0f, 0.0f, none};
+  const V torque = set(link.kp_nm_per_rad) * error;
+  return {set(link.kp_nm_per_rad / k) * error, link.max_torque_nm * h, 1.0f / (k * h),
+          hn::Min(hn::Max(torque, hn::Neg(max_torque)), max_torque)};
+}
+
 /// Writes the constraint row that a joint's motor and stops share, and returns the explicit torque of its
-/// servo (N m), both as in ODE (dxJointLimitMotor::addLimot). At a stop the row is the stop's, and a motor
-/// becomes a torque of its full strength towards its target. A target that is NaN becomes a torque that is
-/// NaN, so that the robot counts as diverged.
-HWY_INLINE V apply_servo(const Pass& pass, const LaneArray& targets_rad, const Link& link, int index) {
-  const V angle = pass.state(pass.rows().angle + index), speed = pass.state(pass.rows().speed + index);
-  const V lower = set(link.lower_rad), upper = set(link.upper_rad), none = zero();
+/// servo (N m). At a stop the row is the stop's, and the servo becomes an explicit torque towards its target,
+/// as in ODE. A target that is NaN becomes a torque that is NaN, so that the robot counts as diverged.
+HWY_INLINE V apply_servo(const Pass& pass, const LaneArray& targets_rad, const Link& link, int index,
+                         float* row) {
+  const V angle = pass.state(pass.rows().angle + index);
+  const V lower = set(link.lower_rad), upper = set(link.upper_rad);
   const V command = hn::LoadU(Floats(), targets_rad.row(link.joint) + pass.lane);
   const V target = hn::IfThenElse(command == command, hn::Min(hn::Max(command, lower), upper), command);
-  const V max_torque = set(link.max_torque_nm);
   const StopRow stop = stop_row(pass, link, angle);
-  float* const row = pass.scratch(pass.work().joint_row + 4 * index);
-  if (!link.velocity_servo) {
-    // τ = kp (target − q) − kd q̇, within ± max_torque.
-    store_joint_row(row, stop.target, stop.low, stop.high);
-    const V torque = fnma(set(link.kd_nm_s_per_rad), speed, set(link.kp_nm_per_rad) * (target - angle));
-    return hn::IfThenElse(torque == torque, hn::Min(hn::Max(torque, hn::Neg(max_torque)), max_torque),
-                          torque);
-  }
-  // Motor: q̇⁺ = gain (target − q), by an impulse within ± max_torque h.
-  const V motor_speed = set(link.gain_per_s) * (target - angle);
-  const V impulse = set(link.max_torque_nm * pass.timestep_s());
-  store_joint_row(row, hn::IfThenElse(stop.stopped, stop.target, motor_speed),
+  const ServoRow servo = servo_row(pass, link, target - angle, stop.at_upper);
+  const V impulse = set(servo.max_impulse), stiff = set(pass.model().cfm_s_per_kg / pass.timestep_s());
+  store_joint_row(row, hn::IfThenElse(stop.stopped, stop.target, servo.speed),
                   hn::IfThenElse(stop.stopped, stop.low, hn::Neg(impulse)),
-                  hn::IfThenElse(stop.stopped, stop.high, impulse));
-  const Mask forward = hn::Or(motor_speed > none, hn::And(motor_speed == none, stop.at_upper));
-  const V torque = hn::IfThenElseZero(stop.stopped, hn::IfThenElse(forward, max_torque, hn::Neg(max_torque)));
-  return hn::IfThenElse(command == command, torque, command);
+                  hn::IfThenElse(stop.stopped, stop.high, impulse),
+                  hn::IfThenElse(stop.stopped, stiff, set(servo.softness)));
+  return hn::IfThenElse(command == command, hn::IfThenElseZero(stop.stopped, servo.torque_at_stop), command);
+}
+
+/// The row of a joint's dry friction, q̇⁺ = 0 by an impulse within ± friction_loss h.
+HWY_INLINE void apply_friction(const Pass& pass, const Link& link, float* row) {
+  const V impulse = set(link.friction_loss_nm * pass.timestep_s());
+  store_joint_row(row, zero(), hn::Neg(impulse), impulse, set(pass.model().cfm_s_per_kg / pass.timestep_s()));
+  store(zero(), row + 3 * width);
 }
 
 }  // namespace amble::physics::batch::HWY_NAMESPACE

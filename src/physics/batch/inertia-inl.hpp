@@ -52,6 +52,11 @@ template <int N>
 HWY_INLINE int length(const Chain& chain) {
   return N >= 0 ? N : chain.count;
 }
+/// The link's parent in its chain, −1: the torso. Chains of N links do not branch.
+template <int N>
+HWY_INLINE int parent_of(const Link& link, int j) {
+  return N >= 0 ? j - 1 : link.parent;
+}
 /// Index of an entry of a lower triangle that is stored row by row.
 constexpr int triangle(int row, int column) {
   return row * (row + 1) / 2 + column;
@@ -117,7 +122,9 @@ HWY_INLINE Spatial load_spatial(const float* from) {
 
 /// Composite rigid body algorithm for one chain, from the tip inwards (Featherstone 2008, sec. 6.2). In a
 /// common frame composite inertias are plain sums:
-///   I^c_j = Σ_{i ≥ j} I_i,   F_j = I^c_j S_j,   M_ij = S_iᵀ F_j for i ≤ j,   M_bj = F_j.
+///   I^c_j = I_j + Σ I^c_child,   F_j = I^c_j S_j,   M_ij = S_iᵀ F_j for all i that carry j,   M_bj = F_j,
+/// and M_ij = 0 where neither carries the other. The diagonal also has the armature, and h × damping: so
+/// damping acts on the speed at the end of the step (unconstrained_chain()).
 /// Keeps each link's own inertia and F_j, and writes the triangle M_cc where factorise_chain() expects it.
 /// Adds the chain to the base's inertia and to the joints' momentum.
 template <int N>
@@ -125,30 +132,45 @@ HWY_INLINE void chain_mass_matrix(const Pass& pass, std::size_t c, Base& base) {
   const Chain& chain = pass.model().chains[c];
   const int n = length<N>(chain);
   float* const block = pass.scratch(pass.work().factors[c]);
-  Symmetric inertia{zero(), zero(), zero(), zero(), zero(), zero()};
-  V3 first_moment = zero3();
+  // Composite inertias and first moments; those of what a link carries are added before its own.
+  const V none = zero();
+  Symmetric inertia[capacity<N>];
+  V3 first_moment[capacity<N>];
+  for (int j = 0; j < n; ++j) {
+    inertia[j] = {none, none, none, none, none, none};
+    first_moment[j] = zero3();
+  }
   for (int j = n - 1; j >= 0; --j) {
     const Link& link = pass.link(chain, j);
-    const int row = pass.pose_row(chain.first + j);
+    const int row = pass.pose_row(chain.first + j), parent = parent_of<N>(link, j);
     if (link.has_mass) {
       const Columns axes{pass.state3(row), pass.state3(row + 3), pass.state3(row + 6)};
       const V3 arm = pass.state3(row + 9) + axes * set(link.body.com_m);
       const Symmetric own = rotational_inertia(link.body, axes, arm);
       const V3 own_first_moment = set(link.body.mass_kg) * arm;
       store_inertia(own, own_first_moment, pass.scratch(pass.work().link_inertia + 9 * (chain.first + j)));
-      inertia = inertia + own;
-      first_moment = first_moment + own_first_moment;
+      inertia[j] = inertia[j] + own;
+      first_moment[j] = first_moment[j] + own_first_moment;
     }
     const Spatial subspace = motion_subspace(pass, chain, j);
     // F_j = (I ω + h × v, m v + ω × h) with (ω, v) = S_j.
-    const Spatial column{inertia * subspace.angular + cross(first_moment, subspace.linear),
-                         cross(subspace.angular, first_moment, set(link.outer_mass_kg) * subspace.linear)};
+    const Spatial column{inertia[j] * subspace.angular + cross(first_moment[j], subspace.linear),
+                         cross(subspace.angular, first_moment[j], set(link.outer_mass_kg) * subspace.linear)};
     store_spatial(column, pass.scratch(pass.work().base_column + 6 * (chain.first + j)));
     base.joint_momentum = fma(pass.state(pass.rows().speed + chain.first + j), column, base.joint_momentum);
-    for (int i = 0; i <= j; ++i)
+    if constexpr (N < 0)
+      for (int i = 0; i < j; ++i) store(none, block + triangle(j, i) * width);
+    const V added = set(link.armature_kg_m2 + pass.timestep_s() * link.damping_nm_s_per_rad);
+    store(dot(subspace, column) + added, block + triangle(j, j) * width);
+    for (int i = parent; i >= 0; i = parent_of<N>(pass.link(chain, i), i))
       store(dot(motion_subspace(pass, chain, i), column), block + triangle(j, i) * width);
+    if (parent >= 0) {
+      inertia[parent] = inertia[parent] + inertia[j];
+      first_moment[parent] = first_moment[parent] + first_moment[j];
+    } else {
+      base.inertia = base.inertia + inertia[j];
+    }
   }
-  base.inertia = base.inertia + inertia;
 }
 
 /// By the adjugate: m⁻¹ = adj(m) / det(m).

@@ -75,31 +75,43 @@ class Builder {
   }
 
   void add_chain(int body) {
+    Chain chain{.first = static_cast<int>(model_.links.size()),
+                .count = 0,
+                .first_row = static_cast<int>(model_.joint_rows.size())};
+    add_branch(body, -1, {});
+    chain.count = static_cast<int>(model_.links.size()) - chain.first;
+    if (chain.count > Model::max_chain)
+      fail(ExitCode::bad_input,
+           "the batch engine cannot simulate more than {} joints in one chain, as at body '{}': use engine "
+           "ode",
+           Model::max_chain, robot_.bodies[to_index(body)].name);
+    for (const bool friction : {false, true})
+      for (int l = 0; l < chain.count; ++l)
+        if (!friction || model_.links[to_index(chain.first + l)].friction_loss_nm > 0.0f)
+          model_.joint_rows.push_back({l, friction});
+    chain.row_count = static_cast<int>(model_.joint_rows.size()) - chain.first_row;
+    model_.chains.push_back(chain);
+  }
+
+  /// Adds the links of a body and of all that it carries. `parent` is the link, in the chain to come, whose
+  /// frame has its origin at `before`, relative to the torso.
+  void add_branch(int body, int parent, Vec3 before) {
     const int chain = static_cast<int>(model_.chains.size());
-    const int first = static_cast<int>(model_.links.size());
-    Vec3 before;
-    for (;;) {
-      for (const int joint : robot_.joints_of_body(body)) before = add_link(joint, before);
-      Link& last = model_.links.back();
-      last.has_mass = true;
-      last.body = mass_part(robot_.bodies[to_index(body)], poses_[to_index(body)], before);
-      const int count = static_cast<int>(model_.links.size()) - first;
-      frames_[to_index(body)] = {chain, count - 1, before};
-      const auto next = children(body);
-      if (next.size() > 1)
-        fail(ExitCode::bad_input,
-             "the batch engine cannot simulate chains that branch, as at body '{}': use engine ode",
-             robot_.bodies[to_index(body)].name);
-      if (count > Model::max_chain)
-        fail(ExitCode::bad_input,
-             "the batch engine cannot simulate more than {} joints in one chain, as at body '{}'",
-             Model::max_chain, robot_.bodies[to_index(body)].name);
-      if (next.empty()) {
-        model_.chains.push_back({first, count});
-        return;
-      }
-      body = next[0];
+    const int first = chain == 0 ? 0 : model_.chains.back().first + model_.chains.back().count;
+    const auto next_link = [&] { return static_cast<int>(model_.links.size()) - first; };
+    const int first_link = next_link();
+    for (const int joint : robot_.joints_of_body(body)) {
+      before = add_link(joint, before);
+      model_.links.back().parent = parent;
+      parent = next_link() - 1;
     }
+    const int own_links = next_link() - first_link;
+    Link& last = model_.links.back();
+    last.has_mass = true;
+    last.body = mass_part(robot_.bodies[to_index(body)], poses_[to_index(body)], before);
+    frames_[to_index(body)] = {chain, parent, before};
+    for (const int child : children(body)) add_branch(child, parent, before);
+    for (int l = 0; l < own_links; ++l) model_.links[to_index(first + first_link + l)].last = next_link() - 1;
   }
 
   Vec3 add_link(int index, Vec3 before) {
@@ -117,7 +129,10 @@ class Builder {
               .gain_per_s = static_cast<float>(joint.servo.gain_per_s),
               .max_torque_nm = static_cast<float>(joint.servo.max_torque_nm),
               .kp_nm_per_rad = static_cast<float>(joint.servo.kp_nm_per_rad),
-              .kd_nm_s_per_rad = static_cast<float>(joint.servo.kd_nm_s_per_rad)};
+              .kd_nm_s_per_rad = static_cast<float>(joint.servo.kd_nm_s_per_rad),
+              .armature_kg_m2 = static_cast<float>(joint.armature_kg_m2),
+              .damping_nm_s_per_rad = static_cast<float>(joint.damping_nm_s_per_rad),
+              .friction_loss_nm = static_cast<float>(joint.friction_loss_nm)};
     const std::array<double, 3> parts{axis.x, axis.y, axis.z};
     for (int k = 0; k < 3; ++k) {
       if (std::abs(parts[to_index(k)]) < 1.0 - 1e-12) continue;
@@ -160,6 +175,9 @@ class Builder {
           add({corner & 1 ? size.x : -size.x, corner & 2 ? size.y : -size.y, corner & 4 ? size.z : -size.z},
               0.0);
         break;
+      case Shape::mesh:
+        for (const Vec3 vertex : geom.vertices_m) add(vertex, 0.0);
+        break;
       case Shape::cylinder:
         fail(ExitCode::bad_input,
              "the batch engine knows no contact of cylinders, as of geom '{}': use a capsule, or engine ode",
@@ -197,11 +215,12 @@ Model::Model(const RobotSpec& robot)
   Builder(robot, *this).build();
   for (const Chain& chain : chains) {
     longest_chain = std::max(longest_chain, chain.count);
-    equal_chains = equal_chains && chain.count == chains[0].count;
-    float mass = 0.0f;
-    for (int l = chain.first + chain.count - 1; l >= chain.first; --l) {
-      if (links[to_index(l)].has_mass) mass += links[to_index(l)].body.mass_kg;
-      links[to_index(l)].outer_mass_kg = mass;
+    plain_chains = plain_chains && chain.count == chains[0].count && chain.row_count == chain.count;
+    for (int l = chain.count - 1; l >= 0; --l) {
+      Link& link = links[to_index(chain.first + l)];
+      if (link.has_mass) link.outer_mass_kg += link.body.mass_kg;
+      if (link.parent >= 0) links[to_index(chain.first + link.parent)].outer_mass_kg += link.outer_mass_kg;
+      plain_chains = plain_chains && link.parent == l - 1;
     }
   }
 }

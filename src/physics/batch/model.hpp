@@ -22,21 +22,32 @@ struct MassPart {
 /// pose its axes are those of the torso. A body with two hinges is two links, the first without mass.
 struct Link {
   int joint = 0;         ///< index in control order
-  Float3 from_parent_m;  ///< origin in the frame of the parent link (first of a chain: of the torso)
+  int parent = -1;       ///< its parent's index in the chain; −1: the torso
+  int last = 0;          ///< index in the chain of the last link that it carries; itself if it carries none
+  Float3 from_parent_m;  ///< origin in the frame of the parent
   int axis = 3;          ///< 0, 1, 2: the joint's axis is x, y, z of its frame; 3: it is `direction`
   float sign = 1.0f;     ///< −1: it is the negative x, y or z
   Float3 direction;
   bool has_mass = false;
   MassPart body;
-  float outer_mass_kg = 0.0f;  ///< composite: of this link and all further out
+  float outer_mass_kg = 0.0f;  ///< composite: of this link and all that it carries
   float lower_rad = 0.0f, upper_rad = 0.0f;
   bool velocity_servo = true;
   float gain_per_s = 0.0f, max_torque_nm = 0.0f, kp_nm_per_rad = 0.0f, kd_nm_s_per_rad = 0.0f;
+  float armature_kg_m2 = 0.0f, damping_nm_s_per_rad = 0.0f, friction_loss_nm = 0.0f;
 };
 
-/// Consecutive links from the torso outwards.
+/// A constraint row of a joint: of its motor and stops, or of its dry friction.
+struct JointRow {
+  int link = 0;  ///< index in its chain
+  bool friction = false;
+};
+
+/// The links on one hinge of the torso, and all that they carry, parents before children and what a link
+/// carries right behind it: from the torso outwards if the chain does not branch.
 struct Chain {
-  int first = 0, count = 0;
+  int first = 0, count = 0;          ///< links
+  int first_row = 0, row_count = 0;  ///< joint rows: one per link in order, then those of friction
 };
 
 /// A sphere (or, with radius 0, a corner) that can touch the ground.
@@ -55,18 +66,19 @@ struct PointGroup {
   int leg = -1;  ///< the leg whose foot it is, −1: none
 };
 
-/// A robot in the coordinates of the batch engine: a floating torso with serial chains of hinges, float32.
+/// A robot in the coordinates of the batch engine: a floating torso with chains of hinges, float32.
 /// Throws UserError for what the engine cannot simulate.
 struct Model {
   explicit Model(const robot::RobotSpec& robot);
 
   std::vector<Chain> chains;
-  std::vector<Link> links;        ///< chain by chain, from the torso outwards
-  std::vector<Point> points;      ///< the torso's first, then chain by chain
-  std::vector<PointGroup> geoms;  ///< in the order of their points
-  std::vector<int> first_geom;    ///< index into geoms: of the torso, of each chain, then one past the end
-  MassPart torso;                 ///< in the torso's frame
-  float mass_kg = 0.0f;           ///< of the whole robot
+  std::vector<Link> links;           ///< chain by chain
+  std::vector<JointRow> joint_rows;  ///< chain by chain
+  std::vector<Point> points;         ///< the torso's first, then chain by chain
+  std::vector<PointGroup> geoms;     ///< in the order of their points
+  std::vector<int> first_geom;       ///< index into geoms: of the torso, of each chain, then one past the end
+  MassPart torso;                    ///< in the torso's frame
+  float mass_kg = 0.0f;              ///< of the whole robot
   Float3 gravity_m_s2;
   float friction = 0.0f;  ///< may be infinite
   float erp = 0.0f, cfm_s_per_kg = 0.0f;
@@ -76,9 +88,9 @@ struct Model {
   int iterations = 0;
   int legs = 0;
   int longest_chain = 0;
-  bool equal_chains = true;  ///< all have longest_chain links
+  bool plain_chains = true;  ///< all have longest_chain links, do not branch, and have no friction in joints
 
-  static constexpr int max_chain = 12;
+  static constexpr int max_chain = 24;
 };
 
 }  // namespace amble::physics::batch

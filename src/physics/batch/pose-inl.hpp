@@ -34,6 +34,12 @@ struct Pass {
   const Link& link(const Chain& chain, int j) const {
     return arguments.model.links[to_index(chain.first + j)];
   }
+  const JointRow& row_of(const Chain& chain, int r) const {
+    return arguments.model.joint_rows[to_index(chain.first_row + r)];
+  }
+  float* joint_row(const Chain& chain, int r) const {
+    return scratch(arguments.workspace.joint_row + joint_row_size * (chain.first_row + r));
+  }
   int pose_row(int link) const { return rows().pose + StateRows::pose_size * link; }
   unsigned char& geom_has_impulse(int geom) const {
     const std::size_t first = to_index(lane / width) * arguments.model.geoms.size();
@@ -93,6 +99,11 @@ HWY_INLINE void chain_kinematics(const Pass& pass, const Chain& chain, V3& momen
   for (int j = 0; j < chain.count; ++j) {
     const Link& link = pass.link(chain, j);
     const V3 offset = set(link.from_parent_m);
+    if (link.parent != j - 1) {  // where the chain branches
+      const int parent = pass.pose_row(chain.first + link.parent);
+      axes = {pass.state3(parent), pass.state3(parent + 3), pass.state3(parent + 6)};
+      origin = pass.state3(parent + 9);
+    }
     origin = origin + (j == 0 ? offset : axes * offset);
     const V3 axis = rotate_frame(axes, link, pass.state(pass.rows().angle + chain.first + j));
     const int row = pass.pose_row(chain.first + j);

@@ -161,7 +161,7 @@ HWY_INLINE void relax_chain(const Pass& pass, const ChainBlocks& blocks, int n, 
   }
   for (int b = 0; b < blocks.joint_blocks; ++b) {
     const Block block = block_at(pass, blocks.first + b, N >= 0 ? N : n);
-    const int left = n - pass.work().block_joint[to_index(blocks.first + b)];
+    const int left = blocks.joint_rows - pass.work().block_joint[to_index(blocks.first + b)];
     if (N == 3 || left >= 3) {
       relax_block<N, 3, Bound::joint>(block, u_joints, u_base);
     } else if (left == 2) {

@@ -39,7 +39,7 @@ struct StateRows {
       : links(static_cast<int>(model.links.size())),
         speed(angle + links),
         joint_impulse(speed + links),
-        point_impulse(joint_impulse + links),
+        point_impulse(joint_impulse + static_cast<int>(model.joint_rows.size())),
         pose(point_impulse + 3 * static_cast<int>(model.points.size())),
         touch(pose + pose_size * links),
         count(touch + model.legs) {}
@@ -47,7 +47,7 @@ struct StateRows {
   int links;
   int angle = joints;  ///< by link, rad
   int speed;           ///< by link, rad/s
-  int joint_impulse;   ///< by link: of motor or stop in the last step, N m s
+  int joint_impulse;   ///< by joint row (Model::joint_rows) in the last step, N m s
   int point_impulse;   ///< by point: of the ground in the last step along the world's z, y, x, N s: 3
   int pose;            ///< by link, torso axes: axes of its frame as columns (9), its origin (3), and the
                        ///< joint's motion subspace: its axis (3) and origin × axis (3)

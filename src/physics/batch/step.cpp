@@ -21,13 +21,13 @@ HWY_INLINE V without_negative_zero(V x) {
   return x + zero();
 }
 
-/// Stores the impulses of a chain's motors and stops, unscaled, for the next step.
+/// Stores the impulses of a chain's joint rows, unscaled, for the next step.
 inline void store_joint_impulses(const Pass& pass, const ChainBlocks& blocks, const Chain& chain) {
   for (int b = 0; b < blocks.joint_blocks; ++b) {
     const Block block = block_at(pass, blocks.first + b, chain.count);
     const int first = pass.work().block_joint[to_index(blocks.first + b)];
-    for (int r = 0; r < 3 && first + r < chain.count; ++r)
-      pass.set_state(pass.rows().joint_impulse + chain.first + first + r,
+    for (int r = 0; r < 3 && first + r < blocks.joint_rows; ++r)
+      pass.set_state(pass.rows().joint_impulse + chain.first_row + first + r,
                      without_negative_zero(block.get(BlockLayout::impulse, r) *
                                            block.get(BlockLayout::inverse_scale, r)));
   }
@@ -188,15 +188,16 @@ HWY_NOINLINE void integrate(const Pass& pass, const BaseFactor& factor, V* u_bas
 /// where its bounds are finite, and else its stop's.
 HWY_NOINLINE void measure_torques(const Pass& pass) {
   const V rate = set(1.0f / pass.timestep_s());
-  for (int l = 0; l < pass.rows().links; ++l) {
-    const float* const row = pass.scratch(pass.work().joint_row + 4 * l);
-    const Mask motor =
-        load(row + 2 * width) - load(row + width) < set(std::numeric_limits<float>::infinity());
-    const V impulse = hn::IfThenElseZero(motor, pass.state(pass.rows().joint_impulse + l));
-    const V torque = fma(rate, impulse, load(row + 3 * width));
-    const int joint = pass.model().links[to_index(l)].joint;
-    hn::StoreU(torque, Floats(), pass.arguments.torques_nm->row(joint) + pass.lane);
-  }
+  for (const Chain& chain : pass.model().chains)
+    for (int j = 0; j < chain.count; ++j) {
+      const float* const row = pass.joint_row(chain, j);
+      const Mask motor =
+          load(row + 2 * width) - load(row + width) < set(std::numeric_limits<float>::infinity());
+      const V impulse =
+          hn::IfThenElseZero(motor, pass.state(pass.rows().joint_impulse + chain.first_row + j));
+      const V torque = fma(rate, impulse, load(row + 3 * width));
+      hn::StoreU(torque, Floats(), pass.arguments.torques_nm->row(pass.link(chain, j).joint) + pass.lane);
+    }
 }
 
 /// One step up to the new state; the numbers are those of docs/BATCH.md, "One step".
@@ -219,7 +220,7 @@ HWY_INLINE void step_chains(const Pass& pass, const LaneArray& targets_rad) {
 
 /// Robots whose chains all have three joints (the quadruped, most hexapods) have code with fixed lengths.
 void step_lanes(const StepArguments& arguments, const LaneArray& targets_rad) {
-  const bool three_joints = arguments.model.equal_chains && arguments.model.longest_chain == 3;
+  const bool three_joints = arguments.model.plain_chains && arguments.model.longest_chain == 3;
   for (int lane = 0; lane < lanes; lane += width) {
     const Pass pass{arguments, lane};
     if (hn::AllFalse(Floats(), pass.active())) continue;

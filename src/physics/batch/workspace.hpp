@@ -36,17 +36,21 @@ struct BlockLayout {
 /// The blocks of a chain: joints first, then contacts.
 struct ChainBlocks {
   int first = 0, joint_blocks = 0, count = 0;
+  int joint_rows = 0;  ///< of the chain; a block has three of them, the last perhaps fewer
 
   /// Of a chain of three joints: its motors and its first contact are relaxed together.
   bool paired() const { return joint_blocks == 1 && count > 1; }
 };
+
+constexpr int joint_row_size = 5;
 
 /// Scratch memory of one pass over as many lanes as a vector holds. Only geom_has_impulse outlives a step.
 class Workspace {
  public:
   explicit Workspace(const Model& model)
       : block_layout{model.longest_chain + 6}, chain_blocks(model.chains.size() + 1) {
-    const int links = static_cast<int>(model.links.size()), points = static_cast<int>(model.points.size());
+    const int links = static_cast<int>(model.links.size()), points = static_cast<int>(model.points.size()),
+              rows = static_cast<int>(model.joint_rows.size());
     const auto take = [this](int vectors) {
       const int start = vectors_;
       vectors_ += vectors;
@@ -56,16 +60,16 @@ class Workspace {
     point_slot = take(points);
     link_inertia = take(9 * links);
     base_column = take(6 * links);
-    joint_row = take(4 * links);
+    joint_row = take(joint_row_size * rows);
     u_joints = take(links);
     for (const Chain& chain : model.chains)
       factors.push_back(take(chain.count * (chain.count + 1) / 2 + 7 * chain.count));
-    blocks = take((links + points) * block_layout.size());
+    blocks = take((rows + points) * block_layout.size());
     storage_.resize(to_index((vectors_ + 1) * lanes));
     void* start = storage_.data();
     std::size_t space = storage_.size() * sizeof(float);
     memory_ = static_cast<float*>(std::align(sizeof(Row), sizeof(float), start, space));
-    block_joint.resize(to_index(links + points));
+    block_joint.resize(to_index(rows + points));
     geom_may_touch.resize(model.geoms.size());
     geom_has_impulse.resize(lanes * model.geoms.size());
   }
@@ -81,14 +85,15 @@ class Workspace {
   int point_slot;    ///< by point: index among its chain's contact blocks, by lane; −1: does not touch
   int link_inertia;  ///< by link: inertia (6) and first moment of mass (3) about the robot's centre of mass
   int base_column;   ///< by link: its column of M_bq, angular and linear: 6
-  int joint_row;     ///< by link: target velocity, lowest and highest impulse, explicit torque: 4
+  int joint_row;     ///< by joint row: target velocity, lowest and highest impulse, explicit torque,
+                     ///< softness (velocity per impulse): joint_row_size
   int u_joints;      ///< by link: the joint's entry of u = Lᵀ ν; before, its bias force
   std::vector<int> factors;  ///< by chain: L_c, inverses of its diagonal, B_c (six by joint), later L_b⁻¹ B_c
   int blocks;                ///< of constraint rows, block by block
   BlockLayout block_layout;
 
   std::vector<ChainBlocks> chain_blocks;  ///< of the torso, then of each chain
-  std::vector<int> block_joint;           ///< by block of joints: its first joint
+  std::vector<int> block_joint;           ///< by block of joints: its first row, counted in its chain
   /// By geom: whether it may touch the ground in some lane; else its point_height is not computed.
   std::vector<unsigned char> geom_may_touch;
   /// By pass and geom: whether one of its points has an impulse of the last step.

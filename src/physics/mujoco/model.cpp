@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "amble/core/index.hpp"
+#include "amble/io/xml.hpp"
 #include "amble/morphology/mjcf_writer.hpp"
 
 namespace amble::physics::mujoco {
@@ -13,7 +14,6 @@ namespace {
 
 using robot::Geom;
 using robot::RobotSpec;
-using robot::ServoMode;
 using robot::Shape;
 
 /// Gives MuJoCo's constraints the law of ODE's. ODE solves for the velocity v⁺ after the step (manual, "Soft
@@ -52,21 +52,31 @@ int max_contacts(const Geom& geom) {
       return 2;
     case Shape::cylinder:
     case Shape::box:
+    case Shape::mesh:
       return 4;
   }
   return 0;
 }
 
-/// Adds the sizes of the contact and constraint arrays: those that the compiler would choose cost time
-/// whenever a trial starts.
-std::string with_sizes(std::string text, const RobotSpec& robot) {
+/// Adds the sizes of the contact and constraint arrays (those that the compiler would choose cost time
+/// whenever a trial starts), and dry friction of joints: as friction of a tendon along each, because that of
+/// the joint itself is its servo (set_joints()).
+std::string completed(const morphology::Mjcf& mjcf, const RobotSpec& robot) {
   constexpr int between_legs = 64, limit = 512;
   int contacts = robot.self_collision ? between_legs : 0;
   for (const Geom& geom : robot.geoms) contacts += geom.collides ? max_contacts(geom) : 0;
   contacts = std::clamp(contacts, 1, limit);
-  const int rows = 2 * static_cast<int>(robot.joints.size()) + 3 * contacts;
-  const auto end = text.find("</mujoco>");
-  text.insert(end, fmt::format("  <size nconmax=\"{}\" njmax=\"{}\"/>\n", contacts, rows));
+  std::string tendons;
+  for (std::size_t place = 0; place < mjcf.joints.size(); ++place) {
+    const double friction_nm = robot.joints[to_index(mjcf.joints[place])].friction_loss_nm;
+    if (friction_nm > 0.0)
+      tendons += fmt::format(R"(<fixed name="{0}" frictionloss="{1}"><joint joint="{0}" coef="1"/></fixed>)",
+                             io::escape_xml(mjcf.joint_names[place]), friction_nm);
+  }
+  const int rows = 3 * static_cast<int>(robot.joints.size()) + 3 * contacts;
+  std::string text = mjcf.text;
+  if (!tendons.empty()) text.insert(text.find("</mujoco>"), "  <tendon>" + tendons + "</tendon>\n");
+  text.insert(text.find("</mujoco>"), fmt::format("  <size nconmax=\"{}\" njmax=\"{}\"/>\n", contacts, rows));
   return text;
 }
 
@@ -81,18 +91,23 @@ void set_options(mjOption& option, double timestep_s) {
   option.disableflags |= mjDSBL_PASSIVE | mjDSBL_ACTUATION | mjDSBL_SENSOR;
 }
 
-void set_joints(const RobotSpec& robot, const Softness& softness, Model& model) {
+void set_joints(const RobotSpec& robot, const Softness& softness, double timestep_s, Model& model) {
   const mjModel& m = *model.mujoco;
   for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j) {
     const int dof = model.dof_of[to_index(j)], id = m.dof_jntid[dof];
-    const auto& servo = robot.joints[to_index(j)].servo;
+    const robot::Joint& joint = robot.joints[to_index(j)];
     const double diagonal = m.dof_invweight0[dof];
     softness.give(m.jnt_solref + mjNREF * id, m.jnt_solimp + mjNIMP * id, diagonal);
     softness.give(m.dof_solref + mjNREF * dof, m.dof_solimp + mjNIMP * dof, diagonal);
-    // A motor is dry friction |τ| ≤ frictionloss, which by itself aims at speed 0; MujocoEngine::drive()
+    // A servo is dry friction |τ| ≤ frictionloss, which by itself aims at speed 0; MujocoEngine::drive()
     // moves that to the servo's speed.
-    m.dof_frictionloss[dof] = servo.mode == ServoMode::velocity ? servo.max_torque_nm : 0.0;
+    m.dof_frictionloss[dof] = joint.servo.max_torque_nm;
+    // Damping at the speed after the step, in all constraints: (M + h D) q̈ = … − D q̇.
+    m.dof_armature[dof] += timestep_s * joint.damping_nm_s_per_rad;
+    m.dof_damping[dof] = 0.0;
   }
+  for (int t = 0; t < m.ntendon; ++t)
+    softness.give(m.tendon_solref_fri + mjNREF * t, m.tendon_solimp_fri + mjNIMP * t, m.tendon_invweight0[t]);
 }
 
 void set_geoms(const Softness& softness, const mjModel& m) {
@@ -107,7 +122,7 @@ void set_geoms(const Softness& softness, const mjModel& m) {
 
 Model make_model(const RobotSpec& robot, double timestep_s) {
   const auto mjcf = morphology::write_mjcf(robot);
-  Model model{.mujoco = morphology::compile_mjcf(with_sizes(mjcf.text, robot), "the mujoco engine"),
+  Model model{.mujoco = morphology::compile_mjcf(completed(mjcf, robot), "the mujoco engine"),
               .position_of = std::vector<int>(robot.joints.size()),
               .dof_of = std::vector<int>(robot.joints.size()),
               .joint_of = {},
@@ -127,7 +142,7 @@ Model make_model(const RobotSpec& robot, double timestep_s) {
   }
   set_options(m.opt, timestep_s);
   const Softness softness(robot.contact, timestep_s);
-  set_joints(robot, softness, model);
+  set_joints(robot, softness, timestep_s, model);
   set_geoms(softness, m);
   return model;
 }

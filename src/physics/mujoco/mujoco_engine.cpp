@@ -147,30 +147,51 @@ class MujocoEngine final : public SingleRobotEngine {
     }
   }
 
-  /// Applies the servos: a torque servo as a generalised force, a velocity servo as a motor.
+  /// Applies the servos by moving their rows' a_ref, and the joints' damping −d q̇ (set_joints()).
   void drive(const LaneArray& targets_rad) {
     for (int j = 0; j < targets_rad.rows(); ++j) {
-      const robot::Joint& joint = robot_.joints[to_index(j)];
-      if (joint.servo.mode == ServoMode::torque)
-        data_->qfrc_applied[model_.dof_of[to_index(j)]] = torque_nm(j, error_rad(j, targets_rad));
+      const int dof = model_.dof_of[to_index(j)];
+      data_->qfrc_applied[dof] = -robot_.joints[to_index(j)].damping_nm_s_per_rad * data_->qvel[dof];
     }
-    // MuJoCo's dry friction in a joint has a_ref = −b q̇ (efc_KBIP: stiffness, damping b, impedance and its
-    // derivative, by row). A motor has a_ref = −b (q̇ − speed) with speed = gain (target − q).
-    for (int row = data_->ne; row < data_->ne + data_->nf; ++row) {
-      const int j = model_.joint_of[to_index(data_->efc_id[row])];
-      const double speed_rad_s = robot_.joints[to_index(j)].servo.gain_per_s * error_rad(j, targets_rad);
-      data_->efc_aref[row] += data_->efc_KBIP[4 * row + 1] * speed_rad_s;
-    }
+    for_servo_rows([&](int row, int j) {
+      const Servo& servo = robot_.joints[to_index(j)].servo;
+      if (servo.mode == ServoMode::velocity) {
+        // MuJoCo's dry friction in a joint has a_ref = −b q̇ (efc_KBIP: stiffness, damping b, impedance and
+        // its derivative, by row). A motor has a_ref = −b (q̇ − speed) with speed = gain (target − q).
+        const double speed_rad_s = servo.gain_per_s * error_rad(j, targets_rad);
+        data_->efc_aref[row] += data_->efc_KBIP[4 * row + 1] * speed_rad_s;
+      } else {
+        drive_stiffly(row, j, error_rad(j, targets_rad));
+      }
+    });
   }
 
-  /// The servos' torques, once the constraints are solved: explicit ones, and the forces of the friction
-  /// rows.
-  void measure_torques() {
-    for (int j = 0; j < torques_nm_.rows(); ++j)
-      torques_nm_.at(j, 0) = static_cast<float>(data_->qfrc_applied[model_.dof_of[to_index(j)]]);
+  /// A torque servo by backward Euler, τ = kp (target − q − h q̇⁺) − kd q̇⁺ = k (speed − q̇⁺) with
+  /// k = kp h + kd and speed = kp (target − q) / k. As q̇⁺ = q̇ + h a, that is
+  ///   a = a_ref − R τ,   R = 1 / (k h),   a_ref = (speed − q̇) / h.
+  void drive_stiffly(int row, int j, double error_rad) {
+    const Servo& servo = robot_.joints[to_index(j)].servo;
+    const double h = model_->opt.timestep, k = servo.kp_nm_per_rad * h + servo.kd_nm_s_per_rad;
+    // Without any strength, R as good as infinite.
+    const double stiffness = std::max(k * h, mjMINVAL);
+    const double speed_rad_s = k > 0.0 ? servo.kp_nm_per_rad * error_rad / k : 0.0;
+    data_->efc_R[row] = 1.0 / stiffness;
+    data_->efc_D[row] = stiffness;
+    data_->efc_aref[row] = (speed_rad_s - data_->qvel[model_.dof_of[to_index(j)]]) / h;
+  }
+
+  /// Calls use(row, joint) for the rows of servos among MuJoCo's constraints.
+  template <typename Use>
+  void for_servo_rows(Use use) {
     for (int row = data_->ne; row < data_->ne + data_->nf; ++row)
-      torques_nm_.at(model_.joint_of[to_index(data_->efc_id[row])], 0) =
-          static_cast<float>(data_->efc_force[row]);
+      if (data_->efc_type[row] == mjCNSTR_FRICTION_DOF)
+        use(row, model_.joint_of[to_index(data_->efc_id[row])]);
+  }
+
+  /// The servos' torques, once the constraints are solved.
+  void measure_torques() {
+    for (int j = 0; j < torques_nm_.rows(); ++j) torques_nm_.at(j, 0) = 0.0f;
+    for_servo_rows([&](int row, int j) { torques_nm_.at(j, 0) = static_cast<float>(data_->efc_force[row]); });
   }
 
   double error_rad(int j, const LaneArray& targets_rad) const {
@@ -178,13 +199,6 @@ class MujocoEngine final : public SingleRobotEngine {
     const double target_rad =
         std::clamp(static_cast<double>(targets_rad.at(j, 0)), joint.lower_rad, joint.upper_rad);
     return target_rad - data_->qpos[model_.position_of[to_index(j)]];
-  }
-
-  double torque_nm(int j, double error_rad) const {
-    const Servo& servo = robot_.joints[to_index(j)].servo;
-    const double torque =
-        servo.kp_nm_per_rad * error_rad - servo.kd_nm_s_per_rad * data_->qvel[model_.dof_of[to_index(j)]];
-    return std::clamp(torque, -servo.max_torque_nm, servo.max_torque_nm);
   }
 
   /// Finite, and not absurdly fast (Engine::healthy).

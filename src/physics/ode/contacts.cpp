@@ -15,6 +15,7 @@ double bounding_radius(const Geom& geom) {
   const Vec3 size = geom.size_m;
   switch (geom.shape) {
     case Shape::sphere:
+    case Shape::mesh:
       return size.x;
     case Shape::capsule:
       return size.x + size.y;

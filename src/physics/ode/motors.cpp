@@ -1,6 +1,8 @@
 #include "amble/physics/ode/motors.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "amble/core/index.hpp"
 
@@ -11,63 +13,111 @@ using robot::Joint;
 using robot::RobotSpec;
 using robot::ServoMode;
 
-/// A torque servo leaves ODE's joint motor unpowered.
-double motor_limit(const Joint& joint) {
-  return joint.servo.mode == ServoMode::velocity ? joint.servo.max_torque_nm : 0.0;
+constexpr double turn_rad = 2.0 * std::numbers::pi;
+
+void set(dJointID bearing, int axis, int parameter, double value) {
+  if (axis == 0)
+    dJointSetHingeParam(bearing, parameter, value);
+  else
+    dJointSetUniversalParam(bearing, parameter + dParamGroup * (axis - 1), value);
 }
 
 }  // namespace
 
-Motors::Motors(const RobotSpec& robot, const World& world)
-    : joints_(robot.joints), angles_rad_(robot.joints.size(), 0.0) {
-  for (int b = 1; b < static_cast<int>(robot.bodies.size()); ++b) {
-    const std::vector<int> chain = robot.joints_of_body(b);
-    Drive drive{.joint = world.joints()[to_index(b)], .first = chain[0]};
-    if (chain.size() == 1) {
-      dJointSetHingeParam(drive.joint, dParamFMax, motor_limit(joints_[to_index(chain[0])]));
-    } else {
-      drive.second = chain[1];
-      dJointSetUniversalParam(drive.joint, dParamFMax1, motor_limit(joints_[to_index(chain[0])]));
-      dJointSetUniversalParam(drive.joint, dParamFMax2, motor_limit(joints_[to_index(chain[1])]));
-    }
-    drives_.push_back(drive);
+Motors::Motors(const RobotSpec& robot, const World& world, double timestep_s)
+    : joints_(robot.joints),
+      bearings_(world.bearings()),
+      timestep_s_(timestep_s),
+      axes_(robot.joints.size()),
+      angles_rad_(robot.joints.size(), 0.0) {
+  for (const Bearing& bearing : bearings_) {
+    add_axis(world, bearing, bearing.second < 0 ? 0 : 1);
+    if (bearing.second >= 0) add_axis(world, bearing, 2);
   }
+}
+
+void Motors::add_axis(const World& world, const Bearing& bearing, int number) {
+  const int j = number == 2 ? bearing.second : bearing.first;
+  const Joint& joint = joints_[to_index(j)];
+  Axis& axis = axes_[to_index(j)];
+  axis = {.bearing = bearing.id, .number = number};
+  axis.many_turns = joint.lower_rad <= -std::numbers::pi || joint.upper_rad >= std::numbers::pi;
+  const bool velocity = joint.servo.mode == ServoMode::velocity;
+  const bool idle = !velocity && stiffness(j) == 0.0;
+  set(axis.bearing, number, dParamFMax, idle ? 0.0 : joint.servo.max_torque_nm);
+  if (!velocity && !idle) set(axis.bearing, number, dParamCFM, 1.0 / stiffness(j));
+  const double inertia = joint.armature_kg_m2 / timestep_s_ + joint.damping_nm_s_per_rad;
+  if (inertia > 0.0) axis.inertia = new_motor(world, axis, dInfinity, 1.0 / inertia);
+  if (joint.friction_loss_nm > 0.0) new_motor(world, axis, joint.friction_loss_nm, dWorldGetCFM(world.id()));
+}
+
+dJointID Motors::new_motor(const World& world, const Axis& axis, double max_torque_nm,
+                           double softness) const {
+  const dJointID motor = dJointCreateAMotor(world.id(), nullptr);
+  // Child first, parent second, as in a hinge; the axes of a universal joint are reversed (world.cpp).
+  const bool hinge = axis.number == 0;
+  const dBodyID child = dJointGetBody(axis.bearing, hinge ? 0 : 1),
+                parent = dJointGetBody(axis.bearing, hinge ? 1 : 0);
+  dVector3 along{};
+  if (axis.number == 0) dJointGetHingeAxis(axis.bearing, along);
+  if (axis.number == 1) dJointGetUniversalAxis1(axis.bearing, along);
+  if (axis.number == 2) dJointGetUniversalAxis2(axis.bearing, along);
+  const double sign = hinge ? 1.0 : -1.0;
+  const int fixed_to = axis.number == 1 ? 2 : 1;  // the first axis of a universal joint turns with the parent
+  dJointAttach(motor, child, parent);
+  dJointSetAMotorNumAxes(motor, 1);
+  dJointSetAMotorAxis(motor, 0, fixed_to, sign * along[0], sign * along[1], sign * along[2]);
+  dJointSetAMotorParam(motor, dParamFMax, max_torque_nm);
+  dJointSetAMotorParam(motor, dParamCFM, softness);
+  dJointSetAMotorParam(motor, dParamVel, 0.0);
+  return motor;
 }
 
 void Motors::read(LaneArray& angles_rad) {
-  for (const Drive& drive : drives_) {
-    if (drive.second < 0) {
-      angles_rad_[to_index(drive.first)] = dJointGetHingeAngle(drive.joint);
-    } else {
-      dJointGetUniversalAngles(drive.joint, &angles_rad_[to_index(drive.first)],
-                               &angles_rad_[to_index(drive.second)]);
-    }
+  for (std::size_t j = 0; j < axes_.size(); ++j) {
+    const auto& [bearing, number, inertia, many_turns] = axes_[j];
+    double angle_rad = number == 0   ? dJointGetHingeAngle(bearing)
+                       : number == 1 ? dJointGetUniversalAngle1(bearing)
+                                     : dJointGetUniversalAngle2(bearing);
+    // ODE's angle is in ± π; the joint has not turned by more than π since the last step.
+    if (many_turns) angle_rad += turn_rad * std::round((angles_rad_[j] - angle_rad) / turn_rad);
+    angles_rad_[j] = angle_rad;
+    angles_rad.at(static_cast<int>(j), 0) = static_cast<float>(angle_rad);
   }
-  for (int j = 0; j < angles_rad.rows(); ++j)
-    angles_rad.at(j, 0) = static_cast<float>(angles_rad_[to_index(j)]);
 }
 
 void Motors::drive(const LaneArray& targets_rad) {
-  for (const Drive& drive : drives_) {
-    if (drive.second < 0) {
-      drive_hinge(drive, target(drive.first, targets_rad));
-    } else {
-      drive_universal(drive, target(drive.first, targets_rad), target(drive.second, targets_rad));
-    }
+  for (int j = 0; j < static_cast<int>(axes_.size()); ++j) {
+    const Axis& axis = axes_[to_index(j)];
+    if (axis.many_turns) watch_stops(j);
+    drive_joint(j, target(j, targets_rad));
+    if (axis.inertia == nullptr) continue;
+    // −(a/h) (q̇⁺ − q̇) − d q̇⁺ = −(a/h + d) (q̇⁺ − speed).
+    const Joint& joint = joints_[to_index(j)];
+    const double inertia = joint.armature_kg_m2 / timestep_s_;
+    dJointSetAMotorParam(axis.inertia, dParamVel,
+                         inertia / (inertia + joint.damping_nm_s_per_rad) * rate_rad_s(axis));
   }
 }
 
-std::optional<double> Motors::torque_beforehand(const Drive& drive, int joint,
-                                                const LaneArray& targets_rad) const {
+/// Gives ODE the stops that lie within the turn that it sees the joint in.
+void Motors::watch_stops(int joint) const {
+  const Axis& axis = axes_[to_index(joint)];
   const Joint& spec = joints_[to_index(joint)];
+  const double turns_rad = turn_rad * std::round(angles_rad_[to_index(joint)] / turn_rad);
+  const double lower_rad = spec.lower_rad - turns_rad, upper_rad = spec.upper_rad - turns_rad;
+  set(axis.bearing, axis.number, dParamLoStop, lower_rad > -std::numbers::pi ? lower_rad : -dInfinity);
+  set(axis.bearing, axis.number, dParamHiStop, upper_rad < std::numbers::pi ? upper_rad : dInfinity);
+}
+
+std::optional<double> Motors::torque_beforehand(int joint, const LaneArray& targets_rad) const {
+  if (!at_stop(joint)) return std::nullopt;
   const double target_rad = target(joint, targets_rad), angle_rad = angles_rad_[to_index(joint)];
-  if (spec.servo.mode == ServoMode::torque)
-    return torque_command(joint, target_rad, rate_rad_s(drive, joint));
-  const bool at_lower = angle_rad <= spec.lower_rad, at_upper = angle_rad >= spec.upper_rad;
-  if (!at_lower && !at_upper) return std::nullopt;
-  const double speed = speed_command(joint, target_rad);
-  const bool forward = speed > 0.0 || (speed == 0.0 && !at_lower);
-  return forward ? spec.servo.max_torque_nm : -spec.servo.max_torque_nm;
+  const auto& servo = joints_[to_index(joint)].servo;
+  if (servo.mode == ServoMode::torque) return torque_at_stop(joint, target_rad);
+  const double speed = servo.gain_per_s * (target_rad - angle_rad);
+  const bool forward = speed > 0.0 || (speed == 0.0 && !(angle_rad <= joints_[to_index(joint)].lower_rad));
+  return forward ? servo.max_torque_nm : -servo.max_torque_nm;
 }
 
 double Motors::target(int joint, const LaneArray& targets_rad) const {
@@ -75,44 +125,46 @@ double Motors::target(int joint, const LaneArray& targets_rad) const {
                     joints_[to_index(joint)].upper_rad);
 }
 
-double Motors::rate_rad_s(const Drive& drive, int joint) const {
-  if (drive.second < 0) return dJointGetHingeAngleRate(drive.joint);
-  return joint == drive.first ? dJointGetUniversalAngle1Rate(drive.joint)
-                              : dJointGetUniversalAngle2Rate(drive.joint);
+bool Motors::at_stop(int joint) const {
+  const double angle_rad = angles_rad_[to_index(joint)];
+  return angle_rad <= joints_[to_index(joint)].lower_rad || angle_rad >= joints_[to_index(joint)].upper_rad;
 }
 
-double Motors::speed_command(int joint, double target_rad) const {
-  return joints_[to_index(joint)].servo.gain_per_s * (target_rad - angles_rad_[to_index(joint)]);
-}
-
-double Motors::torque_command(int joint, double target_rad, double speed_rad_s) const {
+double Motors::torque_at_stop(int joint, double target_rad) const {
   const auto& servo = joints_[to_index(joint)].servo;
-  if (servo.mode == ServoMode::velocity) return 0.0;
-  const double torque =
-      servo.kp_nm_per_rad * (target_rad - angles_rad_[to_index(joint)]) - servo.kd_nm_s_per_rad * speed_rad_s;
-  return std::clamp(torque, -servo.max_torque_nm, servo.max_torque_nm);
+  return std::clamp(servo.kp_nm_per_rad * (target_rad - angles_rad_[to_index(joint)]), -servo.max_torque_nm,
+                    servo.max_torque_nm);
 }
 
-void Motors::drive_hinge(const Drive& drive, double target_rad) const {
-  if (joints_[to_index(drive.first)].servo.mode == ServoMode::velocity) {
-    dJointSetHingeParam(drive.joint, dParamVel, speed_command(drive.first, target_rad));
-  } else {
-    dJointAddHingeTorque(drive.joint,
-                         torque_command(drive.first, target_rad, rate_rad_s(drive, drive.first)));
-  }
+double Motors::rate_rad_s(const Axis& axis) const {
+  if (axis.number == 0) return dJointGetHingeAngleRate(axis.bearing);
+  return axis.number == 1 ? dJointGetUniversalAngle1Rate(axis.bearing)
+                          : dJointGetUniversalAngle2Rate(axis.bearing);
 }
 
-void Motors::drive_universal(const Drive& drive, double target1_rad, double target2_rad) const {
-  // A motor with dParamFMax 0 ignores its speed, so both modes can share one joint.
-  dJointSetUniversalParam(drive.joint, dParamVel1, speed_command(drive.first, target1_rad));
-  dJointSetUniversalParam(drive.joint, dParamVel2, speed_command(drive.second, target2_rad));
-  const bool torque1 = joints_[to_index(drive.first)].servo.mode == ServoMode::torque;
-  const bool torque2 = joints_[to_index(drive.second)].servo.mode == ServoMode::torque;
-  if (torque1 || torque2) {
-    dJointAddUniversalTorques(drive.joint,
-                              torque_command(drive.first, target1_rad, rate_rad_s(drive, drive.first)),
-                              torque_command(drive.second, target2_rad, rate_rad_s(drive, drive.second)));
+double Motors::stiffness(int joint) const {
+  const auto& servo = joints_[to_index(joint)].servo;
+  return servo.kp_nm_per_rad * timestep_s_ + servo.kd_nm_s_per_rad;
+}
+
+void Motors::drive_joint(int joint, double target_rad) const {
+  const auto& [bearing, number, inertia, many_turns] = axes_[to_index(joint)];
+  const auto& servo = joints_[to_index(joint)].servo;
+  const double error_rad = target_rad - angles_rad_[to_index(joint)];
+  if (servo.mode == ServoMode::velocity) {
+    set(bearing, number, dParamVel, servo.gain_per_s * error_rad);
+    return;
   }
+  if (stiffness(joint) == 0.0) return;
+  const bool stopped = at_stop(joint);
+  set(bearing, number, dParamFMax, stopped ? 0.0 : servo.max_torque_nm);
+  set(bearing, number, dParamVel, servo.kp_nm_per_rad * error_rad / stiffness(joint));
+  if (!stopped) return;
+  const double torque_nm = torque_at_stop(joint, target_rad);
+  if (number == 0)
+    dJointAddHingeTorque(bearing, torque_nm);
+  else
+    dJointAddUniversalTorques(bearing, number == 1 ? torque_nm : 0.0, number == 2 ? torque_nm : 0.0);
 }
 
 }  // namespace amble::physics::ode

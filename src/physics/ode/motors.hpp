@@ -11,41 +11,57 @@
 
 namespace amble::physics::ode {
 
-/// The servos of a robot's joints. A velocity servo is ODE's joint motor (manual, "Stops and motor
-/// parameters"): a constraint q̇⁺ + cfm τ = gain (target − q) with |τ| ≤ max_torque. A torque servo is an
-/// explicit torque τ = kp (target − q) − kd q̇, clamped to ± max_torque.
+/// What acts in a robot's joints: servos, armature, damping and dry friction.
+///
+/// Servos are ODE's joint motors (manual, "Stops and motor parameters"), a constraint
+///   q̇⁺ + softness τ = speed with |τ| ≤ max_torque.
+/// A velocity servo has speed = gain (target − q) and the world's cfm. A torque servo takes the angle and
+/// speed at the end of a step h (backward Euler), so that it is stable however stiff it is:
+///   τ = kp (target − q − h q̇⁺) − kd q̇⁺ = (speed − q̇⁺) / softness,   1/softness = kp h + kd,
+///   speed = softness kp (target − q).
+/// At a stop it is the explicit torque kp (target − q) within ± max_torque.
+///
+/// Armature and damping are such constraints without bounds, −(armature/h) (q̇⁺ − q̇) − damping q̇⁺, and dry
+/// friction is one with |τ| ≤ friction_loss and speed 0, by motors of their own (dJointTypeAMotor).
 class Motors {
  public:
-  /// One ODE joint with the motors it carries.
-  struct Drive {
-    dJointID joint = nullptr;
-    int first = -1;   ///< index of the joint about ODE's first (or only) axis
-    int second = -1;  ///< about the second axis, −1: a hinge
-  };
-
-  Motors(const robot::RobotSpec& robot, const World& world);
+  Motors(const robot::RobotSpec& robot, const World& world, double timestep_s);
 
   /// Writes all angles to `angles_rad` (joints × 1).
   void read(LaneArray& angles_rad);
   /// Sets speeds and torques for the next step. Uses the angles of the last read().
   void drive(const LaneArray& targets_rad);
 
-  const std::vector<Drive>& drives() const { return drives_; }
-  /// A motor's torque in the next step, N m, where it does not depend on the step's solution: that of a
-  /// torque servo, and that of a velocity servo at a stop, where ODE applies max_torque in the direction of
-  /// the wanted speed (dxJointLimitMotor::addLimot).
-  std::optional<double> torque_beforehand(const Drive& drive, int joint, const LaneArray& targets_rad) const;
+  const std::vector<Bearing>& bearings() const { return bearings_; }
+  /// A servo's torque in the next step, N m, where it does not depend on the step's solution, at a stop: the
+  /// explicit torque of a torque servo, and for a velocity servo max_torque in the direction of the wanted
+  /// speed, which is what ODE applies (dxJointLimitMotor::addLimot).
+  std::optional<double> torque_beforehand(int joint, const LaneArray& targets_rad) const;
 
  private:
+  /// The axis of a joint of the robot.
+  struct Axis {
+    dJointID bearing = nullptr;
+    int number = 0;              ///< 0: of a hinge; 1, 2: of a universal joint
+    dJointID inertia = nullptr;  ///< motor of armature and damping; null: none
+    bool many_turns = false;     ///< its stops are beyond ± π: set anew before each step
+  };
+
+  void add_axis(const World& world, const Bearing& bearing, int number);
+  dJointID new_motor(const World& world, const Axis& axis, double max_torque_nm, double softness) const;
+  void watch_stops(int joint) const;
   double target(int joint, const LaneArray& targets_rad) const;
-  double rate_rad_s(const Drive& drive, int joint) const;
-  double speed_command(int joint, double target_rad) const;
-  double torque_command(int joint, double target_rad, double speed_rad_s) const;
-  void drive_hinge(const Drive& drive, double target_rad) const;
-  void drive_universal(const Drive& drive, double target1_rad, double target2_rad) const;
+  bool at_stop(int joint) const;
+  double torque_at_stop(int joint, double target_rad) const;
+  double rate_rad_s(const Axis& axis) const;
+  /// kp h + kd.
+  double stiffness(int joint) const;
+  void drive_joint(int joint, double target_rad) const;
 
   const std::vector<robot::Joint>& joints_;
-  std::vector<Drive> drives_;
+  const std::vector<Bearing>& bearings_;
+  double timestep_s_;
+  std::vector<Axis> axes_;  ///< by joint
   std::vector<double> angles_rad_;
 };
 

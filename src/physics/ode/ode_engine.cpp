@@ -57,8 +57,8 @@ struct Trial {
   ode::Contacts contacts;
   std::optional<ode::TorqueMeter> torques;
 
-  Trial(const RobotSpec& robot, const ode::Threading& threading, bool with_torques)
-      : world(robot, threading), motors(robot, world), contacts(robot, world) {
+  Trial(const RobotSpec& robot, const ode::Threading& threading, double timestep_s, bool with_torques)
+      : world(robot, threading), motors(robot, world, timestep_s), contacts(robot, world) {
     if (with_torques) torques.emplace(robot, motors);
   }
 };
@@ -70,7 +70,6 @@ class OdeEngine final : public SingleRobotEngine {
         timestep_s_(settings.timestep_s),
         total_mass_kg_(robot.total_mass_kg()),
         bodies_(robot.bodies.size()) {
-    ode::check_joints(robot);
     ode::prepare_thread();
     threading_.emplace();
   }
@@ -82,8 +81,7 @@ class OdeEngine final : public SingleRobotEngine {
 
   void place_at(int lane, const StartPose& pose) override {
     make_trial(lane);
-    trial_->world.move_to(
-        robot_, robot::poses_at(robot_, {pose.root.position_m, pose.root.rotation}, pose.joint_angle_rad));
+    trial_->world.move_to(robot_, {pose.root.position_m, pose.root.rotation}, pose.joint_angle_rad);
     begin();
   }
 
@@ -149,7 +147,7 @@ class OdeEngine final : public SingleRobotEngine {
     check_lane(lane);
     ode::prepare_thread();
     trial_.reset();
-    trial_.emplace(robot_, *threading_, with_torques_);
+    trial_.emplace(robot_, *threading_, timestep_s_, with_torques_);
   }
 
   void begin() {

@@ -33,8 +33,8 @@ class TorqueMeter {
   };
 
   const Motors& motors_;
-  std::vector<dJointFeedback> feedback_;         ///< by drive
-  std::vector<JointFrame> frames_;               ///< by drive
+  std::vector<dJointFeedback> feedback_;         ///< by bearing
+  std::vector<JointFrame> frames_;               ///< by bearing
   std::vector<std::optional<double>> known_nm_;  ///< by joint
 };
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/robot/pose.hpp"
 
@@ -19,6 +18,8 @@ using robot::RobotSpec;
 using robot::Shape;
 
 constexpr double tolerance = 1e-6;
+/// Mass and inertia of a body between two hinges, relative to the body behind them.
+constexpr double intermediate_share = 1e-3;
 
 /// Moves a body so that its frame has this pose in the world; ODE's own frame is at the centre of mass.
 void set_pose(dBodyID id, const Body& body, const Pose& pose) {
@@ -46,6 +47,29 @@ dMass mass_of(const Body& body) {
   return mass;
 }
 
+/// About `centre`, because ODE takes a polygon whose corners turn clockwise about the origin for faulty.
+ConvexArrays convex_arrays(const Geom& geom, Vec3 centre) {
+  ConvexArrays arrays;
+  for (const Vec3 vertex : geom.vertices_m)
+    for (const double x : {vertex.x - centre.x, vertex.y - centre.y, vertex.z - centre.z})
+      arrays.points.push_back(x);
+  for (const auto& [a, b, c] : geom.triangles) {
+    const auto corner = [&](int vertex) { return geom.vertices_m[to_index(vertex)] - centre; };
+    const Vec3 normal = cross(corner(b) - corner(a), corner(c) - corner(a));
+    const Vec3 unit = (1.0 / norm(normal)) * normal;
+    for (const double x : {unit.x, unit.y, unit.z, dot(unit, corner(a))}) arrays.planes.push_back(x);
+    for (const int entry : {3, a, b, c}) arrays.polygons.push_back(static_cast<unsigned>(entry));
+  }
+  return arrays;
+}
+
+dGeomID new_convex(const ConvexArrays& arrays) {
+  return dCreateConvex(nullptr, arrays.planes.data(), static_cast<unsigned>(arrays.planes.size() / 4),
+                       arrays.points.data(), static_cast<unsigned>(arrays.points.size() / 3),
+                       arrays.polygons.data());
+}
+
+/// A shape that is not a mesh.
 dGeomID new_geom(const Geom& geom) {
   const Vec3 size = geom.size_m;
   switch (geom.shape) {
@@ -57,8 +81,15 @@ dGeomID new_geom(const Geom& geom) {
       return dCreateCylinder(nullptr, size.x, 2.0 * size.y);
     case Shape::box:
       return dCreateBox(nullptr, 2.0 * size.x, 2.0 * size.y, 2.0 * size.z);
+    case Shape::mesh:
+      break;
   }
   return nullptr;
+}
+
+/// Whether ODE can watch the joint's stops itself: it knows angles from −π to π.
+bool has_stops_within_a_turn(const Joint& joint) {
+  return joint.lower_rad > -std::numbers::pi && joint.upper_rad < std::numbers::pi;
 }
 
 /// A hinge's angle is that of the first attached body against the second.
@@ -68,8 +99,10 @@ dJointID new_hinge(dWorldID world, dBodyID parent, dBodyID child, Vec3 anchor, V
   dJointAttach(hinge, child, parent);
   dJointSetHingeAnchor(hinge, anchor.x, anchor.y, anchor.z);
   dJointSetHingeAxis(hinge, axis.x, axis.y, axis.z);
-  dJointSetHingeParam(hinge, dParamLoStop, joint.lower_rad);
-  dJointSetHingeParam(hinge, dParamHiStop, joint.upper_rad);
+  if (has_stops_within_a_turn(joint)) {
+    dJointSetHingeParam(hinge, dParamLoStop, joint.lower_rad);
+    dJointSetHingeParam(hinge, dParamHiStop, joint.upper_rad);
+  }
   return hinge;
 }
 
@@ -88,6 +121,15 @@ dJointID new_universal(dWorldID world, dBodyID parent, dBodyID child, Vec3 ancho
   dJointSetUniversalParam(universal, dParamLoStop2, joint2.lower_rad);
   dJointSetUniversalParam(universal, dParamHiStop2, joint2.upper_rad);
   return universal;
+}
+
+bool are_universal(const RobotSpec& robot, const std::vector<int>& joints) {
+  if (joints.size() != 2) return false;
+  const Joint& first = robot.joints[to_index(joints[0])];
+  const Joint& second = robot.joints[to_index(joints[1])];
+  return norm(first.anchor_m - second.anchor_m) <= tolerance &&
+         std::abs(dot(first.axis, second.axis)) <= tolerance && has_stops_within_a_turn(first) &&
+         has_stops_within_a_turn(second);
 }
 
 }  // namespace
@@ -112,9 +154,14 @@ World::~World() {
   dWorldDestroy(world_);
 }
 
-void World::move_to(const RobotSpec& robot, const std::vector<Pose>& poses) {
+void World::move_to(const RobotSpec& robot, const Pose& root, std::span<const double> angles_rad) {
   // Joints measure angles from the pose in which they were made, the start pose, so theirs are now right.
+  const std::vector<Pose> poses = robot::poses_at(robot, root, angles_rad);
   for (std::size_t b = 0; b < bodies_.size(); ++b) set_pose(bodies_[b], robot.bodies[b], poses[b]);
+  for (const auto& [id, body, hinges] : intermediates_) {
+    const Body& its = robot.bodies[to_index(body)];
+    set_pose(id, its, robot::pose_along(robot, body, poses[to_index(its.parent)], angles_rad, hinges));
+  }
 }
 
 void World::add_bodies(const RobotSpec& robot) {
@@ -130,21 +177,47 @@ void World::add_bodies(const RobotSpec& robot) {
 
 void World::add_joints(const RobotSpec& robot) {
   const std::vector<Pose> poses = robot::start_poses(robot);
-  joints_.assign(robot.bodies.size(), nullptr);
   for (int b = 1; b < static_cast<int>(robot.bodies.size()); ++b) {
     const std::vector<int> chain = robot.joints_of_body(b);
-    const dBodyID parent = bodies_[to_index(robot.bodies[to_index(b)].parent)];
     const Pose& pose = poses[to_index(b)];
-    const Joint& first = robot.joints[to_index(chain[0])];
-    const Vec3 anchor = pose * first.anchor_m;
-    const Vec3 axis = rotate(pose.rotation, first.axis);
-    if (chain.size() == 1) {
-      joints_[to_index(b)] = new_hinge(world_, parent, bodies_[to_index(b)], anchor, axis, first);
-    } else {
-      const Joint& second = robot.joints[to_index(chain[1])];
-      joints_[to_index(b)] = new_universal(world_, parent, bodies_[to_index(b)], anchor, axis,
-                                           rotate(pose.rotation, second.axis), first, second);
+    if (!are_universal(robot, chain)) {
+      add_hinges(robot, b, chain, pose);
+      continue;
     }
+    const Joint& first = robot.joints[to_index(chain[0])];
+    const Joint& second = robot.joints[to_index(chain[1])];
+    const dBodyID parent = bodies_[to_index(robot.bodies[to_index(b)].parent)];
+    bearings_.push_back(
+        {new_universal(world_, parent, bodies_[to_index(b)], pose * first.anchor_m,
+                       rotate(pose.rotation, first.axis), rotate(pose.rotation, second.axis), first, second),
+         chain[0], chain[1]});
+  }
+}
+
+void World::add_hinges(const RobotSpec& robot, int body, const std::vector<int>& joints, const Pose& pose) {
+  const Body& its = robot.bodies[to_index(body)];
+  const dBodyID last = bodies_[to_index(body)];
+  if (joints.size() > 1) {
+    dMass mass = mass_of(its);
+    dMassAdjust(&mass, its.mass_kg * (1.0 - intermediate_share * static_cast<double>(joints.size() - 1)));
+    dBodySetMass(last, &mass);
+  }
+  dBodyID parent = bodies_[to_index(its.parent)];
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const Joint& joint = robot.joints[to_index(joints[i])];
+    dBodyID child = last;
+    if (i + 1 < joints.size()) {
+      child = dBodyCreate(world_);
+      dMass mass = mass_of(its);
+      dMassAdjust(&mass, its.mass_kg * intermediate_share);
+      dBodySetMass(child, &mass);
+      set_pose(child, its, pose);
+      intermediates_.push_back({child, body, i + 1});
+    }
+    bearings_.push_back(
+        {new_hinge(world_, parent, child, pose * joint.anchor_m, rotate(pose.rotation, joint.axis), joint),
+         joints[i], -1});
+    parent = child;
   }
 }
 
@@ -155,39 +228,22 @@ void World::add_geoms(const RobotSpec& robot) {
       geoms_.push_back(nullptr);
       continue;
     }
-    const dGeomID id = new_geom(geom);
-    const Vec3 offset = geom.position_m - robot.bodies[to_index(geom.body)].com_m;
+    Vec3 centre;
+    dGeomID id = nullptr;
+    if (geom.shape == Shape::mesh) {
+      for (const Vec3 vertex : geom.vertices_m)
+        centre = centre + (1.0 / static_cast<double>(geom.vertices_m.size())) * vertex;
+      id = new_convex(convexes_.emplace_back(convex_arrays(geom, centre)));
+    } else {
+      id = new_geom(geom);
+    }
+    const Vec3 offset =
+        geom.position_m + rotate(geom.rotation, centre) - robot.bodies[to_index(geom.body)].com_m;
     const dQuaternion rotation{geom.rotation.w, geom.rotation.x, geom.rotation.y, geom.rotation.z};
     dGeomSetBody(id, bodies_[to_index(geom.body)]);
     dGeomSetOffsetPosition(id, offset.x, offset.y, offset.z);
     dGeomSetOffsetQuaternion(id, rotation);
     geoms_.push_back(id);
-  }
-}
-
-void check_joints(const RobotSpec& robot) {
-  for (int b = 1; b < static_cast<int>(robot.bodies.size()); ++b) {
-    const std::string& body = robot.bodies[to_index(b)].name;
-    const std::vector<int> chain = robot.joints_of_body(b);
-    if (chain.size() > 2) {
-      fail(ExitCode::bad_input, "the ode engine cannot put {} joints on body '{}': one or two are possible",
-           chain.size(), body);
-    }
-    if (chain.size() < 2) continue;
-    const Joint& first = robot.joints[to_index(chain[0])];
-    const Joint& second = robot.joints[to_index(chain[1])];
-    if (norm(first.anchor_m - second.anchor_m) > tolerance ||
-        std::abs(dot(first.axis, second.axis)) > tolerance) {
-      fail(ExitCode::bad_input,
-           "the ode engine needs the joints '{}' and '{}' of body '{}' to cross at a right angle", first.name,
-           second.name, body);
-    }
-  }
-  for (const Joint& joint : robot.joints) {
-    if (joint.lower_rad <= -std::numbers::pi || joint.upper_rad >= std::numbers::pi) {
-      fail(ExitCode::bad_input, "the ode engine needs the range of joint '{}' within ± π, not {} … {} rad",
-           joint.name, joint.lower_rad, joint.upper_rad);
-    }
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <ode/ode.h>
 
+#include <deque>
+#include <span>
 #include <vector>
 
 #include "amble/core/math.hpp"
@@ -11,9 +13,25 @@
 
 namespace amble::physics::ode {
 
-/// One robot in its start pose in an ODE world of its own. The origin of an ODE body is the centre
-/// of mass of a Body, its axes are those of the Body's frame. Built anew for every trial, so that no state of
-/// an earlier trial remains.
+/// A convex hull as ODE wants it: planes (unit normal, distance), points, and polygons (number of corners,
+/// corners). ODE keeps pointers to these.
+struct ConvexArrays {
+  std::vector<dReal> planes, points;
+  std::vector<unsigned> polygons;
+};
+
+/// An ODE joint and the robot's joints that it is.
+struct Bearing {
+  dJointID id = nullptr;
+  int first = -1;   ///< index in RobotSpec::joints of the one about ODE's first (or only) axis
+  int second = -1;  ///< about the second axis; −1: a hinge
+};
+
+/// One robot in its start pose in an ODE world of its own. Two joints of a body that cross at a right angle
+/// are a universal joint. Otherwise a body with several joints is a chain of hinges with bodies between them
+/// that take a thousandth of its mass and inertia each: ODE has no massless bodies. The origin of an ODE body
+/// is the centre of mass of a Body, its axes are those of the Body's frame. Built anew for every trial, so
+/// that no state of an earlier trial remains.
 class World {
  public:
   World(const robot::RobotSpec& robot, const Threading& threading);
@@ -21,14 +39,13 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  /// Moves the robot, at rest, to `poses` of its bodies' frames in the world.
-  void move_to(const robot::RobotSpec& robot, const std::vector<robot::Pose>& poses);
+  /// Moves the robot, at rest: its root's frame to `root`, its joints to these angles (rad).
+  void move_to(const robot::RobotSpec& robot, const robot::Pose& root, std::span<const double> angles_rad);
 
   dWorldID id() const { return world_; }
   /// In the order of RobotSpec::bodies.
   const std::vector<dBodyID>& bodies() const { return bodies_; }
-  /// By body: the hinge or universal joint to its parent; null for the root.
-  const std::vector<dJointID>& joints() const { return joints_; }
+  const std::vector<Bearing>& bearings() const { return bearings_; }
   /// In the order of RobotSpec::geoms; null for those that do not collide.
   const std::vector<dGeomID>& geoms() const { return geoms_; }
   dGeomID ground() const { return ground_; }
@@ -36,16 +53,23 @@ class World {
  private:
   void add_bodies(const robot::RobotSpec& robot);
   void add_joints(const robot::RobotSpec& robot);
+  void add_hinges(const robot::RobotSpec& robot, int body, const std::vector<int>& joints,
+                  const robot::Pose& pose);
   void add_geoms(const robot::RobotSpec& robot);
 
   dWorldID world_;
   dGeomID ground_ = nullptr;
   std::vector<dBodyID> bodies_;
-  std::vector<dJointID> joints_;
+  /// A body between two hinges of `body`, of which it follows the first `hinges`.
+  struct Intermediate {
+    dBodyID id;
+    int body;
+    std::size_t hinges;
+  };
+  std::vector<Intermediate> intermediates_;
+  std::vector<Bearing> bearings_;
   std::vector<dGeomID> geoms_;
+  std::deque<ConvexArrays> convexes_;
 };
-
-/// Throws UserError for what ODE has no joint for; see make_ode_engine().
-void check_joints(const robot::RobotSpec& robot);
 
 }  // namespace amble::physics::ode
