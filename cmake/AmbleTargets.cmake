@@ -1,5 +1,6 @@
 # amble_library(<folder> SOURCES … [PUBLIC …] [PRIVATE …]): one static library per folder of src/, target amble_<folder>.
 # amble_release_options(SOURCES … OPTIONS …): what some sources of a folder are compiled with in release builds, beside the rest.
+# amble_compile_apart(SOURCE …): sources not to be compiled together with others of their folder.
 # amble_test(<folder> SOURCES … [LINK …]): one GoogleTest program per folder of tests/.
 
 add_library(amble_options INTERFACE)
@@ -29,6 +30,20 @@ if(AMBLE_PRECOMPILED_HEADERS)
                             <optional> <span> <string> <string_view> <utility> <vector> <fmt/format.h> <nlohmann/json.hpp>)
 endif()
 
+# Most of the rest of compiling is headers again: the sources of a folder are compiled together, up to so many in one unit, because a
+# change of one of them then compiles all of these anew. tools/lint and the sanitizers' builds compile each by itself.
+set(AMBLE_UNITY_SOURCES 12 CACHE STRING "Sources of a folder to compile as one (1: each by itself)")
+function(amble_unity target)
+  if(AMBLE_UNITY_SOURCES GREATER 1 AND NOT AMBLE_SANITIZE)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${AMBLE_UNITY_SOURCES})
+  endif()
+endfunction()
+
+# Sources that include themselves once per instruction set, or have private names in common with another.
+function(amble_compile_apart)
+  set_property(SOURCE ${ARGN} PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 function(amble_library folder)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target amble_${folder})
@@ -43,6 +58,7 @@ function(amble_library folder)
   if(AMBLE_PRECOMPILED_HEADERS)
     target_precompile_headers(${target} REUSE_FROM amble_common_headers)
   endif()
+  amble_unity(${target})
 endfunction()
 
 # GCC 12 takes the options of optimisation from a precompiled header and forgets those of the command line, so these sources have none.
@@ -50,6 +66,7 @@ function(amble_release_options)
   cmake_parse_arguments(ARG "" "" "SOURCES;OPTIONS" ${ARGN})
   set_property(SOURCE ${ARG_SOURCES} APPEND PROPERTY COMPILE_OPTIONS "$<$<CONFIG:Release>:${ARG_OPTIONS}>")
   set_property(SOURCE ${ARG_SOURCES} PROPERTY SKIP_PRECOMPILE_HEADERS ON)
+  amble_compile_apart(${ARG_SOURCES})
 endfunction()
 
 # Most of the time it takes to compile the tests goes into GoogleTest's headers, and into optimising what runs once.
@@ -73,6 +90,7 @@ function(amble_test folder)
     target_compile_definitions(${target} PRIVATE AMBLE_SANITIZED)
   endif()
   target_compile_options(${target} PRIVATE -O0)
+  amble_unity(${target})
   if(AMBLE_PRECOMPILED_HEADERS)
     if(NOT TARGET amble_test_headers)
       amble_test_headers()

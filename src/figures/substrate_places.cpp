@@ -14,7 +14,7 @@ namespace {
 
 using namespace graphics;
 
-constexpr double margin_px = 56.0;
+constexpr double places_margin_px = 56.0;
 
 double coordinate(const motion::NetworkNode& node, std::size_t axis) {
   return axis < node.at.size() ? node.at[axis] : 0.0;
@@ -59,8 +59,8 @@ SubstratePlaces in_a_plane(const Substrate& substrate, double width_px, double t
   places.height_px = top_px + height_px + 40.0;
   const Box box{1.0, top_px, width_px - 2.0, height_px};
   const auto xs = distinct(substrate, 0), ys = distinct(substrate, 1);
-  const Scale x = stretch(xs, box.x + 1.6 * margin_px, box.right() - 1.6 * margin_px);
-  const Scale y = stretch(ys, box.bottom() - margin_px, box.y + margin_px);
+  const Scale x = stretch(xs, box.x + 1.6 * places_margin_px, box.right() - 1.6 * places_margin_px);
+  const Scale y = stretch(ys, box.bottom() - places_margin_px, box.y + places_margin_px);
   for (const motion::NetworkNode& node : substrate.nodes)
     places.nodes.push_back({x(coordinate(node, 0)), y(coordinate(node, 1))});
   places.frames.push_back(corners(box));
@@ -122,7 +122,7 @@ SubstratePlaces in_modules(const Substrate& substrate, double width_px, double t
   for (const motion::NetworkNode& node : substrate.nodes) {
     const Box own = box(coordinate(node, 2), coordinate(node, 3));
     const Scale x = stretch(xs, own.x + 0.1 * module_px, own.right() - 0.2 * module_px);
-    const Scale y = stretch(ys, own.bottom() - 0.7 * margin_px, own.y + 0.9 * margin_px);
+    const Scale y = stretch(ys, own.bottom() - 0.7 * places_margin_px, own.y + 0.9 * places_margin_px);
     places.nodes.push_back({x(coordinate(node, 0)), y(coordinate(node, 1))});
     if (!framed.emplace(coordinate(node, 2), coordinate(node, 3)).second) continue;
     places.frames.push_back(corners(own));

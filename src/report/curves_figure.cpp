@@ -20,7 +20,7 @@ using graphics::Scale;
 using graphics::Svg;
 
 /// Room for the median at the end of a panel's title.
-constexpr double value_px = 54.0;
+constexpr double median_width_px = 54.0;
 
 /// Every `stride`-th point and the last.
 std::vector<Point> line(const BestCurve& curve, const std::vector<double>& values, const Scale& x,
@@ -51,7 +51,7 @@ void draw_panel(Svg& svg, const Report& report, const BestCurve& curve, const Pa
   svg.polygon(band, "band");
   svg.polyline(line(curve, curve.median_m, x, y), "curve");
   svg.end_group();
-  draw_panel_title(svg, grid, plot, report.label(curve.condition), median + " m", value_px);
+  draw_panel_title(svg, grid, plot, report.label(curve.condition), median + " m", median_width_px);
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ std::string curves_figure(const Report& report, Layout layout) {
   std::vector<std::string> labels;
   labels.reserve(curves.size());
   for (const BestCurve& curve : curves) labels.push_back(report.label(curve.condition));
-  grid.make_room(labels, value_px);
+  grid.make_room(labels, median_width_px);
   double last = 1.0, best = 0.0;
   for (const BestCurve& curve : curves) {
     last = std::max(last, static_cast<double>(curve.generation.back()));

@@ -24,7 +24,7 @@ using graphics::Svg;
 constexpr std::size_t most_overlaid = graphics::leg_colours;
 
 /// Room for the share at the end of a panel's title.
-constexpr double value_px = 48.0;
+constexpr double share_width_px = 48.0;
 
 struct TimeUnit {
   double seconds;
@@ -36,7 +36,7 @@ TimeUnit unit_for(double trial_s) {
   return {3600.0, " h"};
 }
 
-struct Frame {
+struct SurvivalFrame {
   Box plot;
   double trial_s = 1.0;
   TimeUnit unit{1.0, ""};
@@ -45,14 +45,14 @@ struct Frame {
   double at(double time_s) const { return x(time_s / unit.seconds); }
 };
 
-Frame make_frame(const Box& plot, double trial_s) {
+SurvivalFrame make_frame(const Box& plot, double trial_s) {
   const TimeUnit unit = unit_for(trial_s);
   return {plot, trial_s, unit, Scale{{0.0, trial_s / unit.seconds}, plot.x, plot.right()},
           Scale{{0.0, 100.0}, plot.bottom(), plot.y}};
 }
 
 /// Constant between its steps, from 100 % at 0 to the end of the test.
-std::vector<Point> staircase(const Frame& frame, const statistics::SurvivalCurve& curve) {
+std::vector<Point> staircase(const SurvivalFrame& frame, const statistics::SurvivalCurve& curve) {
   std::vector<Point> points{{frame.at(0.0), frame.y(100.0)}};
   for (const statistics::SurvivalStep& step : curve.steps) {
     if (step.ended == 0) continue;
@@ -63,14 +63,15 @@ std::vector<Point> staircase(const Frame& frame, const statistics::SurvivalCurve
   return points;
 }
 
-void draw_axes(Svg& svg, const Frame& frame) {
+void draw_axes(Svg& svg, const SurvivalFrame& frame) {
   const bool is_small = frame.plot.width < 200;
   graphics::draw_y_axis(svg, frame.y, {{0.0, 50.0, 100.0}, 50.0, 0}, frame.plot.x, frame.plot.right(), " %");
   graphics::draw_x_axis(svg, frame.x, graphics::nice_ticks(frame.x.data, is_small ? 3 : 7),
                         frame.plot.bottom(), frame.unit.name);
 }
 
-void draw_curve(Svg& svg, const Report& report, const Frame& frame, const ConditionLifetimes& condition) {
+void draw_curve(Svg& svg, const Report& report, const SurvivalFrame& frame,
+                const ConditionLifetimes& condition) {
   const double share = condition.curve.at(frame.trial_s);
   svg.begin_group("strip " + graphics::leg_class(report.index(condition.condition)),
                   fmt::format("{}: {} at the end, {}", report.label(condition.condition), percent_text(share),
@@ -79,7 +80,7 @@ void draw_curve(Svg& svg, const Report& report, const Frame& frame, const Condit
   svg.end_group();
 }
 
-std::string end_text(const Report& report, const Frame& frame, const ConditionLifetimes& condition) {
+std::string end_text(const Report& report, const SurvivalFrame& frame, const ConditionLifetimes& condition) {
   return fmt::format("{} {}", percent_text(condition.curve.at(frame.trial_s)),
                      fitted(report.label(condition.condition), 170.0));
 }
@@ -105,7 +106,7 @@ std::vector<double> spread_within(std::vector<double> places, double top, double
 }
 
 /// Names at the ends of the curves, moved apart, each tied to its end by a thin line.
-void draw_end_labels(Svg& svg, const Report& report, const SurvivalTable& table, const Frame& frame) {
+void draw_end_labels(Svg& svg, const Report& report, const SurvivalTable& table, const SurvivalFrame& frame) {
   std::vector<double> places;
   for (const auto& condition : table.conditions)
     places.push_back(frame.y(100.0 * condition.curve.at(frame.trial_s)));
@@ -121,7 +122,7 @@ void draw_end_labels(Svg& svg, const Report& report, const SurvivalTable& table,
 }
 
 /// Names below the picture, a line each.
-void draw_key(Svg& svg, const Report& report, const SurvivalTable& table, const Frame& frame) {
+void draw_key(Svg& svg, const Report& report, const SurvivalTable& table, const SurvivalFrame& frame) {
   double y = frame.plot.bottom() + 46;
   for (const auto& condition : table.conditions) {
     svg.begin_group("strip " + graphics::leg_class(report.index(condition.condition)));
@@ -144,7 +145,7 @@ std::string overlaid(const Report& report, const SurvivalTable& table, Layout la
   const double width = width_px(layout), height = wide ? 230 : 170;
   const double key = wide ? 0.0 : 26.0 + 19.0 * static_cast<double>(table.conditions.size());
   Svg svg(width, 12 + height + 30 + key, description(table));
-  const Frame frame = make_frame({50, 12, width - 50 - (wide ? 240.0 : 10.0), height}, table.trial_s);
+  const SurvivalFrame frame = make_frame({50, 12, width - 50 - (wide ? 240.0 : 10.0), height}, table.trial_s);
   draw_axes(svg, frame);
   for (const auto& condition : table.conditions) draw_curve(svg, report, frame, condition);
   wide ? draw_end_labels(svg, report, table, frame) : draw_key(svg, report, table, frame);
@@ -157,17 +158,17 @@ std::string in_panels(const Report& report, const SurvivalTable& table, Layout l
   grid.panel_width_px -= 12.0;
   std::vector<std::string> labels;
   for (const auto& condition : table.conditions) labels.push_back(report.label(condition.condition));
-  grid.make_room(labels, value_px);
+  grid.make_room(labels, share_width_px);
   Svg svg(width_px(layout), grid.height_px(), description(table));
   for (std::size_t i = 0; i < table.conditions.size(); ++i) {
     const auto& condition = table.conditions[i];
-    const Frame frame = make_frame(grid.plot(i), table.trial_s);
+    const SurvivalFrame frame = make_frame(grid.plot(i), table.trial_s);
     draw_axes(svg, frame);
     for (const auto& other : table.conditions)
       if (&other != &condition) svg.polyline(staircase(frame, other.curve), "other");
     draw_curve(svg, report, frame, condition);
     draw_panel_title(svg, grid, frame.plot, report.label(condition.condition),
-                     percent_text(condition.curve.at(table.trial_s)), value_px);
+                     percent_text(condition.curve.at(table.trial_s)), share_width_px);
   }
   return svg.finish();
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/graphics/xml.hpp"
 #include "tests/motion/fixture.hpp"
 
