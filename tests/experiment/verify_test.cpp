@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "amble/experiment/replay.hpp"
 #include "amble/io/file.hpp"
 #include "tests/experiment/fixture.hpp"
@@ -67,6 +69,31 @@ TEST_F(Verify, RunsTheEpisodesOfAChampionAgainUnderTheirNoise) {
   ++champion_.generation;
   EXPECT_THAT(verification().text, StartsWith("differs: under noise 0: first differing step 1 "))
       << "noise of another generation";
+}
+
+TEST_F(Verify, KnowsWhichGenerationsOfTheRunHaveAChampion) {
+  // Only one that is better than all before it.
+  champion_.generation = 2;
+  path_ = scratch_ / "00002.json";
+  io::write_file(path_, champion_text(champion_));
+  const double own = champion_.objective();
+  Origin origin{.config = small_config(), .problem = small_problem(), .best = {}};
+  const auto text = [&](double first, double second, double third) {
+    origin.best = {first, second, third, own + 2.0};
+    return verify_champion(path_, never, &origin).value().text;
+  };
+  for (const double less : {0.0, std::nextafter(own, 0.0)}) {
+    EXPECT_THAT(text(less, 0.0, own), StartsWith("agrees: "));
+    EXPECT_THAT(text(0.0, less, own), StartsWith("agrees: "));
+  }
+  EXPECT_THAT(text(0.0, 0.0, std::nextafter(own, 0.0)), HasSubstr("it reached "));
+  for (const double not_less : {own, std::nextafter(own, 2.0 * own), own + 1.0}) {
+    EXPECT_EQ(text(not_less, 0.0, own), "differs: the run kept no champion of its generation");
+    EXPECT_EQ(text(0.0, not_less, own), "differs: the run kept no champion of its generation");
+  }
+  origin.best.resize(2);
+  EXPECT_THAT(verify_champion(path_, never, &origin).value().text, StartsWith("agrees: "))
+      << "ahead of the run's table";
 }
 
 TEST_F(Verify, NamesTheFirstStepThatDiffers) {

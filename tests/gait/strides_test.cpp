@@ -35,6 +35,20 @@ TEST(Strides, GoFromTouchDownToTouchDown) {
   EXPECT_EQ(leg.contact_frames, 10);
 }
 
+TEST(Strides, AreAtMostAsLongAsTheLongest) {
+  // Touch-downs in frames 1 and 1 + length, each of one frame.
+  for (std::size_t longest = 2; longest <= 30; ++longest) {
+    for (std::size_t length = 2; length <= 35; ++length) {
+      const std::string leg = "01" + std::string(length - 1, '0') + "1";
+      const StrideSums sums = watch({leg}, static_cast<std::int64_t>(longest));
+      EXPECT_EQ(sums.legs[0].touchdowns, 2);
+      EXPECT_EQ(sums.legs[0].strides, length <= longest ? 1 : 0) << length << " of at most " << longest;
+      EXPECT_EQ(sums.legs[0].stride_frames, length <= longest ? static_cast<std::int64_t>(length) : 0);
+      EXPECT_EQ(sums.phases[0][0].count(), length <= longest ? 1 : 0);
+    }
+  }
+}
+
 TEST(Strides, AFootThatStandsFromTheBeginningHasNotLanded) {
   EXPECT_EQ(watch({"1111110"}).legs[0].touchdowns, 0);
   EXPECT_EQ(watch({"0000000"}).legs[0].touchdowns, 0);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "amble/core/hash.hpp"
+#include "amble/physics/batch/batch_engine.hpp"
 #include "tests/physics/scene.hpp"
 
 namespace amble::physics {
@@ -64,8 +65,7 @@ std::vector<std::uint64_t> walk(const robot::RobotSpec& robot, const std::vector
 const std::vector<int> in_order{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
 TEST(BatchLanes, AWalkIsTheSameInEveryLaneAndCompany) {
-  for (const char* variant : {"paper", "authors"}) {
-    const auto robot = quadruped(variant);
+  for (const auto& robot : {quadruped("paper"), quadruped("authors"), limping(quadruped("paper"))}) {
     const auto together = walk(robot, in_order);
     for (std::size_t a = 0; a < 16; ++a)
       for (std::size_t b = 0; b < a; ++b) ASSERT_NE(together[a], together[b]);
@@ -94,7 +94,8 @@ TEST(BatchLanes, ALaneThatIsRefilledMidwayDisturbsNobodyAndIsNotDisturbed) {
 
 TEST(BatchLanes, EveryInstructionSetGivesTheSameBits) {
   const std::int64_t all = hwy::SupportedTargets();
-  for (const auto& robot : {quadruped("paper"), quadruped("authors"), scene("sled")}) {
+  for (const auto& robot :
+       {quadruped("paper"), quadruped("authors"), limping(quadruped("paper")), scene("sled")}) {
     const auto best = walk(robot, in_order, std::vector<int>(16, 0), 120);
     int compared = 0;
     for (const std::int64_t set :
@@ -126,6 +127,38 @@ TEST(BatchLanes, ALaneThatExplodesLeavesTheOthersAlone) {
     return engine->state_hash(4);
   };
   EXPECT_EQ(run(std::numeric_limits<float>::quiet_NaN()), run(0.1f));
+}
+
+TEST(BatchLanes, TheHashOfALaneSeesEveryNumberOfItsState) {
+  const auto robot = quadruped("paper");
+  const auto engine = make_batch_engine(robot, {});
+  engine->place(5);
+  LaneArray targets(12, 16);
+  for (int j = 0; j < 12; ++j) targets.at(j, 5) = target(1, j, 7);
+  for (int n = 0; n < 20; ++n) engine->step(targets);
+  const RobotState state = engine->state(5);
+  const auto numbers = [](RobotState& of) {
+    std::vector<double*> all;
+    for (Vec3* v : {&of.com_m, &of.velocity_m_s, &of.angular_momentum_kg_m2_s})
+      all.insert(all.end(), {&v->x, &v->y, &v->z});
+    all.insert(all.end(), {&of.rotation.w, &of.rotation.x, &of.rotation.y, &of.rotation.z});
+    for (auto* values : {&of.angle_rad, &of.speed_rad_s})
+      for (double& value : *values) all.push_back(&value);
+    return all;
+  };
+  engine->set_state(5, state);
+  std::vector<std::uint64_t> hashes{engine->state_hash(5)};
+  RobotState other = state;
+  for (std::size_t k = 0; k < numbers(other).size(); ++k) {
+    other = state;
+    *numbers(other)[k] += 1e-5;
+    engine->set_state(5, other);
+    EXPECT_EQ(std::ranges::count(hashes, engine->state_hash(5)), 0) << "number " << k;
+    hashes.push_back(engine->state_hash(5));
+  }
+  EXPECT_EQ(hashes.size(), 1u + 13u + 24u);
+  engine->set_state(5, state);
+  EXPECT_EQ(engine->state_hash(5), hashes[0]);
 }
 
 TEST(BatchLanes, ForcesBeyondAllNumbersEndTheTrialAndNotTheProcess) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <thread>
 #include <vector>
@@ -89,6 +90,21 @@ TEST_P(Divergence, AbsurdSpeedIsNotHealthy) {
   EXPECT_TRUE(bench.engine->healthy(0));
   bench.steps(1);  // 1078 m/s
   EXPECT_FALSE(bench.engine->healthy(0));
+}
+
+TEST_P(Divergence, AnAbsurdSpeedOfAJointIsNotHealthyThoughTheRootHardlyMoves) {
+  // A motor without limits turns the arm at gain × (target − angle) in one step; the stand has 10 t.
+  for (const double speed_rad_s : {900.0, -900.0, 2000.0, -2000.0}) {
+    robot::RobotSpec robot = weightless(scene("pendulum"));
+    robot.joints[0].servo = {
+        .mode = robot::ServoMode::velocity, .gain_per_s = std::abs(speed_rad_s), .max_torque_nm = 1e9};
+    Bench bench(GetParam(), robot);
+    bench.targets.at(0, 0) = speed_rad_s > 0.0 ? 1.0f : -1.0f;
+    const Vec3 root_before_m = bench.engine->root_com_m(0);
+    bench.steps(1);
+    EXPECT_EQ(bench.engine->healthy(0), std::abs(speed_rad_s) < absurd_speed) << speed_rad_s;
+    EXPECT_LT(norm(bench.engine->root_com_m(0) - root_before_m), 0.01) << speed_rad_s;
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,6 +31,17 @@ inline robot::RobotSpec lifted(robot::RobotSpec robot, double by_m) {
 inline robot::RobotSpec weightless(robot::RobotSpec robot) {
   robot = lifted(std::move(robot), 100.0);
   robot.gravity_m_s2 = {};
+  return robot;
+}
+
+/// With a first leg that no motor moves, between stops that it reaches.
+inline robot::RobotSpec limping(robot::RobotSpec robot) {
+  for (const int j : robot.legs[0].joints) {
+    robot::Joint& joint = robot.joints[static_cast<std::size_t>(j)];
+    joint.lower_rad = std::max(joint.lower_rad, -0.3);
+    joint.upper_rad = std::min(joint.upper_rad, 0.2);
+    joint.servo = {.mode = robot::ServoMode::torque, .max_torque_nm = 5.0};
+  }
   return robot;
 }
 

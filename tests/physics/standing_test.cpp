@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/physics/scene.hpp"
@@ -22,6 +23,33 @@ TEST_P(Standing, ABoxSinksUntilTheContactSpringsCarryItsWeight) {
     const double depth = 2.0 * 9.8 * h * 1e-4 / (4 * 0.2);
     EXPECT_NEAR(0.1 - bench.engine->com_m(0).z, depth, 1e-3 * depth);
     EXPECT_NEAR(norm(bench.engine->momentum_kg_m_s(0)), 0.0, single_precision() ? 1e-6 : 1e-9);
+  }
+}
+
+TEST_P(Standing, ABallBouncesByTheLawOfSoftContacts) {
+  // In contact v⁺ + cfm f = (erp/h) depth with f ≥ 0 (ODE manual, "Soft constraint"), and m (v⁺ − v) =
+  // h (f − m g): step by step, from the fall to rest, for contacts from hard to as yielding as the ball.
+  const double h = 0.01, mass = 2.0;
+  for (const double cfm : {1e-4, 1e-3, 5e-3, 2e-2}) {
+    robot::RobotSpec robot = lifted(scene("box"), 0.1);
+    robot.geoms[0].shape = robot::Shape::sphere;
+    robot.contact.cfm_s_per_kg = cfm;
+    robot.contact.erp = 0.6;
+    Bench bench(GetParam(), robot, h);
+    double above_m = 0.1, speed = 0.0;
+    int in_contact = 0;
+    for (int n = 0; n < 100; ++n) {
+      const double falling = speed - 9.8 * h;
+      const bool touches = above_m <= 0.0;
+      const double force = touches ? std::max(0.0, (-0.6 / h * above_m - falling) / (cfm + h / mass)) : 0.0;
+      speed = falling + h / mass * force;
+      above_m += h * speed;
+      in_contact += touches ? 1 : 0;
+      bench.steps(1);
+      ASSERT_NEAR(bench.engine->momentum_kg_m_s(0).z, mass * speed, 2e-4) << cfm << ' ' << n;
+      ASSERT_NEAR(bench.engine->com_m(0).z - 0.1, above_m, 2e-5) << cfm << ' ' << n;
+    }
+    EXPECT_GT(in_contact, 10) << cfm;
   }
 }
 

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "amble/core/random.hpp"
 #include "tests/physics/scene.hpp"
 
@@ -76,6 +79,37 @@ TEST_P(PlaceAt, FindsTheFeetOnTheGroundOrNot) {
   pose.root.rotation = axis_angle({0.0, 1.0, 0.0}, -0.05);
   bench.engine->place_at(0, pose);
   for (int leg = 0; leg < 4; ++leg) EXPECT_EQ(bench.touches(leg), leg >= 2) << leg;
+}
+
+TEST_P(PlaceAt, FindsAFootOfAnyShapeAndTiltOnTheGroundWhereItsLowestPointIsNotAboveIt) {
+  std::vector<robot::Shape> shapes{robot::Shape::sphere, robot::Shape::capsule, robot::Shape::box};
+  if (!single_precision()) shapes.push_back(robot::Shape::cylinder);
+  Stream stream(5, Purpose::test);
+  for (const robot::Shape shape : shapes) {
+    robot::RobotSpec robot = quadruped();
+    for (const robot::Leg& leg : robot.legs) {
+      robot::Geom& foot = robot.geoms[static_cast<std::size_t>(leg.foot_geom)];
+      foot.shape = shape;
+      foot.size_m = {0.05, 0.06, 0.02};
+      foot.rotation = axis_angle({0.0, 0.6, 0.8}, 0.7);
+    }
+    Bench bench(GetParam(), robot);
+    for (int n = 0; n < 300; ++n) {
+      const double z = stream.uniform(-1.0, 1.0), turn = stream.uniform(0.0, 2.0 * std::numbers::pi);
+      const Vec3 axis{std::sqrt(1.0 - z * z) * std::cos(turn), std::sqrt(1.0 - z * z) * std::sin(turn), z};
+      StartPose pose{.root = {{}, axis_angle(axis, stream.uniform(-3.0, 3.0))}, .joint_angle_rad = {}};
+      for (const auto& joint : robot.joints)
+        pose.joint_angle_rad.push_back(stream.uniform(joint.lower_rad, joint.upper_rad));
+      const auto poses =
+          robot::poses_at(robot, {pose.root.position_m, pose.root.rotation}, pose.joint_angle_rad);
+      const auto foot = static_cast<std::size_t>(robot.legs[static_cast<std::size_t>(n % 4)].foot_geom);
+      for (const double above_m : {-1e-4, 1e-4, 0.3}) {
+        pose.root.position_m.z = above_m - robot::bottom_m(robot.geoms[foot], poses);
+        bench.engine->place_at(0, pose);
+        ASSERT_EQ(bench.touches(n % 4), above_m < 0.0) << "shape " << static_cast<int>(shape) << ", " << n;
+      }
+    }
+  }
 }
 
 TEST_P(PlaceAt, LeavesNothingBehindForTheNextTrial) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "amble/core/random.hpp"
 #include "tests/physics/scene.hpp"
@@ -107,6 +108,31 @@ TEST_P(Torques, OfATorqueServoAreItsLaw) {
     const double expected = std::clamp(20.0 * (static_cast<double>(0.15f) - bench.angle(0)), -2.0, 2.0);
     ASSERT_NEAR(torque(bench, 0), expected, 1e-4) << n;
   }
+}
+
+TEST_P(Torques, AreZeroWithoutAMotorWhateverStopsAndGroundDo) {
+  // A leg dangles from a quadruped that stumbles about: what a stop gave, in this step or in the one before,
+  // is no torque of a motor.
+  Bench bench(GetParam(), limping(quadruped()), 0.01, true);
+  Stream stream(4, Purpose::test);
+  int at_stops = 0, left_stops = 0;
+  std::vector<bool> was_at_stop(3);
+  for (int n = 0; n < 400; ++n) {
+    for (int j = 0; n % 20 == 0 && j < 12; ++j)
+      bench.targets.at(j, 0) = static_cast<float>(stream.uniform(-0.8, 0.8));
+    bench.steps(1);
+    ASSERT_TRUE(bench.engine->healthy(0));
+    for (int j = 0; j < 3; ++j) {
+      ASSERT_NEAR(torque(bench, j), 0.0, 1e-6) << n << ' ' << j;
+      const robot::Joint& joint = bench.robot.joints[static_cast<std::size_t>(j)];
+      const bool at_stop = bench.angle(j) <= joint.lower_rad || bench.angle(j) >= joint.upper_rad;
+      at_stops += at_stop ? 1 : 0;
+      left_stops += was_at_stop[static_cast<std::size_t>(j)] && !at_stop ? 1 : 0;
+      was_at_stop[static_cast<std::size_t>(j)] = at_stop;
+    }
+  }
+  EXPECT_GT(at_stops, 50);
+  EXPECT_GT(left_stops, 10);
 }
 
 }  // namespace

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "tests/report/fixture.hpp"
 
 namespace amble::report {
@@ -25,6 +29,45 @@ TEST(Transfers, CompareWithTheSameLengthAtHome) {
   EXPECT_EQ(found[2].test, "long-ode");
   EXPECT_EQ(found[2].reference, "long.distance_m");
   EXPECT_DOUBLE_EQ(*found[2].share, 0.5) << "of 3 × the distance in evolution";
+}
+
+TEST(Transfers, CompareOnlyWithATestAtHomeThatIsTheSameInAllElse) {
+  struct AtHome {
+    std::string engine, noise;
+    double seconds;
+    int episodes;
+  };
+  const AtHome same{"batch", "hills.toml", 60.0, 5};
+  const std::vector<AtHome> others{{"mujoco", "hills.toml", 60.0, 5}, {"batch", "", 60.0, 5},
+                                   {"batch", "wind.toml", 60.0, 5},   {"batch", "hills.toml", 59.0, 5},
+                                   {"batch", "hills.toml", 60.0, 1},  {"batch", "hills.toml", 60.0, 6}};
+  StudyData data = small_study();
+  data.study.tests.clear();
+  for (ledger::Record& run : data.records) run.tests.clear();
+  const auto add = [&](const std::string& name, const AtHome& how, double distance_m) {
+    ledger::TestSpec test;
+    test.name = name;
+    test.engine = how.engine;
+    test.noise = how.noise;
+    test.seconds = how.seconds;
+    test.episodes = how.episodes;
+    data.study.tests.push_back(test);
+    for (ledger::Record& run : data.records)
+      add_test(run, name, distance_m, how.seconds, how.seconds, how.seconds, "trot", how.engine);
+  };
+  const auto share_of_abroad = [&]() -> std::optional<double> {
+    for (const Transfer& transfer : transfers(data))
+      if (transfer.test == "abroad") return transfer.share;
+    return {};
+  };
+  add("abroad", {"ode", "hills.toml", 60.0, 5}, 3.0);
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    add("other" + std::to_string(i), others[i], 100.0);
+    EXPECT_FALSE(share_of_abroad()) << i;
+  }
+  add("same", same, 4.0);
+  ASSERT_TRUE(share_of_abroad());
+  EXPECT_DOUBLE_EQ(*share_of_abroad(), 0.75);
 }
 
 TEST(Transfers, WithoutAReferenceHaveNoShare) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -48,6 +49,29 @@ TEST(Walking, IgnoresHeight) {
 TEST(Walking, IsNotCutByAPauseShorterThanTheWindow) {
   const auto path = [](double t) { return Vec3{0.3 * (t < 20.0 ? t : t < 28.0 ? 20.0 : t - 8.0), 0.0, 0.5}; };
   EXPECT_DOUBLE_EQ(walking_s(60.0, path), 60.0);
+}
+
+/// Walking time over 20 s of a robot that rushes along x but for one rest, from step `begin` to step `end`.
+double walking_with_rest_s(double step_s, long begin, long end) {
+  WalkingMeter meter({100.0, 0.0, 0.5}, step_s, {.window_s = 3.0});
+  for (long i = 1; i <= std::lround(20.0 / step_s); ++i)
+    meter.add({5.0 * static_cast<double>(i < begin ? i - begin : std::max(0L, i - end)), 0.0, 0.5});
+  return meter.walking_s();
+}
+
+TEST(Walking, EndsInARestAsLongAsTheWindowWhateverTheRoundingOfTimes) {
+  // Rests from one sample to another, 30 samples later: as numbers such times differ by a little more or less
+  // than 3 s.
+  for (const double step_s : {0.1, 0.02, 0.01, 0.001}) {
+    const long sample = std::lround(0.1 / step_s);
+    for (long k = 1; k <= 150; ++k) {
+      ASSERT_NEAR(walking_with_rest_s(step_s, k * sample, (k + 30) * sample), 0.1 * static_cast<double>(k),
+                  1e-9)
+          << step_s;
+      ASSERT_NEAR(walking_with_rest_s(step_s, k * sample, (k + 29) * sample), 20.0, 1e-9)
+          << step_s << ", one sample less, from " << k;
+    }
+  }
 }
 
 TEST(Walking, OfATrialShorterThanTheWindowIsAllOfIt) {

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "amble/core/random.hpp"
 #include "tests/substrate/fixture.hpp"
 
 namespace amble::substrate {
@@ -112,6 +114,29 @@ TEST(Layout, AsksForPropertiesWithTheOtherCoordinatesZero) {
   EXPECT_EQ(decoded.of("bias")[0], 0.0f) << "a sensor has none";
   EXPECT_EQ(layout.lowest("time_constant"), 1.0);
   EXPECT_EQ(layout.lowest("bias"), -2.0);
+}
+
+TEST(Layout, KnowsTheLowestValueThatAnyCppnCanGive) {
+  // Ranges and constants of two nodes, rising and falling: the least of what outputs of ±1 and beyond give.
+  Stream stream(6, Purpose::test);
+  for (int n = 0; n < 1000; ++n) {
+    auto settings = substrate_of(line);
+    for (auto& property : settings.properties) {
+      property.low = stream.uniform(-5.0, 5.0);
+      property.high = stream.uniform(-5.0, 5.0);
+      property.value = stream.uniform(-5.0, 5.0);
+    }
+    const Layout layout(settings, ctrnn_needs(), hopper());
+    for (const char* property : {"bias", "time_constant"}) {
+      double lowest = INFINITY;
+      for (const double o : {-1.0, 1.0, -7.0, 7.0}) {
+        const auto decoded = layout.decode(linear_cppn({{0, 0, 0}, {o, 0, 0}, {o, 0, 0}}));
+        for (const std::size_t neuron : {std::size_t{1}, std::size_t{2}})
+          lowest = std::min(lowest, static_cast<double>(decoded.of(property)[neuron]));
+      }
+      ASSERT_NEAR(layout.lowest(property), lowest, 1e-6) << property << ' ' << n;
+    }
+  }
 }
 
 TEST(Layout, AsksForPatternsTickByTick) {
