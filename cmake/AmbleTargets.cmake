@@ -36,6 +36,8 @@ set(AMBLE_UNITY_SOURCES 12 CACHE STRING "Sources of a folder to compile as one (
 function(amble_unity target)
   if(AMBLE_UNITY_SOURCES GREATER 1 AND NOT AMBLE_SANITIZE)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${AMBLE_UNITY_SOURCES})
+    # A private name of one source is no shadow over the locals of another.
+    target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-shadow;-Wshadow=local>")
   endif()
 endfunction()
 

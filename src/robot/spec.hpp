@@ -48,7 +48,9 @@ enum class ServoMode {
   /// Drives the joint at the speed gain × (target − angle), with at most max_torque (the authors' ODE joint
   /// motor).
   velocity,
-  /// Applies kp × (target − angle) − kd × speed, clamped to ± max_torque.
+  /// Applies kp × (target − angle) − kd × speed, clamped to ± max_torque, with the angle and speed at the end
+  /// of the step (backward Euler): stable however stiff it is. At a stop, in the engines ode and batch,
+  /// kp × (target − angle) with the angle at its beginning.
   torque,
 };
 

@@ -44,13 +44,6 @@ TEST(MakeEngine, BatchRefusesSelfCollision) {
             "the batch engine knows no self-collision: set self_collision = false, or use engine ode");
 }
 
-TEST(MakeEngine, BatchRefusesCylinders) {
-  robot::RobotSpec robot = quadruped();
-  robot.geoms[3].shape = robot::Shape::cylinder;
-  EXPECT_EQ(refusal(robot, "batch"), "the batch engine knows no contact of cylinders, as of geom '" +
-                                         robot.geoms[3].name + "': use a capsule, or engine ode");
-}
-
 TEST(MakeEngine, BatchRefusesAChainOfMoreThanTwentyFourJoints) {
   robot::RobotSpec robot = quadruped();
   for (int more = 0; more < 22; ++more) {  // the first leg's three and 22 in a row below them

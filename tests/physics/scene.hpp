@@ -45,6 +45,18 @@ inline robot::RobotSpec limping(robot::RobotSpec robot) {
   return robot;
 }
 
+/// Makes a geom an uneven pyramid on four corners, about 0.1 m wide.
+inline void become_pyramid(robot::Geom& geom) {
+  geom.shape = robot::Shape::mesh;
+  geom.vertices_m = {{0.0, 0.01, 0.06},
+                     {0.05, 0.05, -0.03},
+                     {-0.06, 0.05, -0.03},
+                     {-0.05, -0.05, -0.03},
+                     {0.05, -0.04, -0.03}};
+  geom.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}, {1, 4, 3}, {1, 3, 2}};
+  geom.size_m = {0.1, 0.0, 0.0};
+}
+
 /// An engine with its robot placed, and targets to steer it by.
 struct Bench {
   robot::RobotSpec robot;

@@ -82,16 +82,16 @@ TEST_P(PlaceAt, FindsTheFeetOnTheGroundOrNot) {
 }
 
 TEST_P(PlaceAt, FindsAFootOfAnyShapeAndTiltOnTheGroundWhereItsLowestPointIsNotAboveIt) {
-  std::vector<robot::Shape> shapes{robot::Shape::sphere, robot::Shape::capsule, robot::Shape::box};
-  if (!single_precision()) shapes.push_back(robot::Shape::cylinder);
   Stream stream(5, Purpose::test);
-  for (const robot::Shape shape : shapes) {
+  for (const robot::Shape shape : {robot::Shape::sphere, robot::Shape::capsule, robot::Shape::box,
+                                   robot::Shape::cylinder, robot::Shape::mesh}) {
     robot::RobotSpec robot = quadruped();
     for (const robot::Leg& leg : robot.legs) {
       robot::Geom& foot = robot.geoms[static_cast<std::size_t>(leg.foot_geom)];
       foot.shape = shape;
       foot.size_m = {0.05, 0.06, 0.02};
       foot.rotation = axis_angle({0.0, 0.6, 0.8}, 0.7);
+      if (shape == robot::Shape::mesh) become_pyramid(foot);
     }
     Bench bench(GetParam(), robot);
     for (int n = 0; n < 300; ++n) {

@@ -60,13 +60,16 @@ HWY_INLINE void bound_contact(const Pass& pass, Mask touches, const Block& block
 /// Where a point touches the ground, relative to the centre of mass, torso axes (m): its lowest place.
 template <int N>
 HWY_INLINE V3 contact_position(const Pass& pass, const Point& point, const Chain* chain) {
-  V3 position = pass.state3(StateRows::torso_origin) + set(point.position_m);
-  if (N != 0) {
+  const V3 up = pass.state3(StateRows::world_axes + 6);
+  V3 position;
+  if (N == 0) {
+    position = pass.state3(StateRows::torso_origin) + point_position(point, up);
+  } else {
     const int row = pass.pose_row(chain->first + point.link);
     const Columns axes{pass.state3(row), pass.state3(row + 3), pass.state3(row + 6)};
-    position = pass.state3(row + 9) + axes * set(point.position_m);
+    position = pass.state3(row + 9) + axes * point_position(point, transposed(axes, up));
   }
-  return fnma(set(point.radius_m), pass.state3(StateRows::world_axes + 6), position);
+  return fnma(set(point.radius_m), up, position);
 }
 
 /// Assigns a touching point to each lane's next free block, and stores there what contact_block() needs: its

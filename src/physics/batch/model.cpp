@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
@@ -17,6 +18,8 @@ using robot::Joint;
 using robot::Pose;
 using robot::RobotSpec;
 using robot::Shape;
+
+constexpr double third_of_a_turn = 2.0 * std::numbers::pi / 3.0;
 
 Float3 narrow(Vec3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
@@ -179,9 +182,18 @@ class Builder {
         for (const Vec3 vertex : geom.vertices_m) add(vertex, 0.0);
         break;
       case Shape::cylinder:
-        fail(ExitCode::bad_input,
-             "the batch engine knows no contact of cylinders, as of geom '{}': use a capsule, or engine ode",
-             geom.name);
+        for (const double end : {-size.y, size.y})
+          for (const double angle : {0.0, third_of_a_turn, -third_of_a_turn}) {
+            add({0.0, 0.0, end}, 0.0);
+            Point& point = model_.points.back();
+            point.rim_radius_m = static_cast<float>(size.x);
+            point.rim_axis = narrow(rotate(pose.rotation, {0.0, 0.0, 1.0}));
+            point.rim_start = narrow(rotate(pose.rotation, {1.0, 0.0, 0.0}));
+            point.rim_cosine = static_cast<float>(std::cos(angle));
+            point.rim_sine = static_cast<float>(std::sin(angle));
+          }
+        group.bounding_radius_m = static_cast<float>(std::hypot(size.x, size.y));
+        break;
     }
     group.bounding_radius_m *= 1.0001f;  // margin for rounding
     group.count = static_cast<int>(model_.points.size()) - group.first;

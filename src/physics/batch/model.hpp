@@ -50,12 +50,16 @@ struct Chain {
   int first_row = 0, row_count = 0;  ///< joint rows: one per link in order, then those of friction
 };
 
-/// A sphere (or, with radius 0, a corner) that can touch the ground.
+/// A sphere (or, with radius 0, a corner) that can touch the ground; or a point of a cylinder's rim: of each
+/// rim three, the lowest and those a third of the circle from it, which carry a cylinder that stands upright.
 struct Point {
-  int chain = -1;  ///< −1: on the torso
-  int link = -1;   ///< index in its chain
-  Float3 position_m;
+  int chain = -1;     ///< −1: on the torso
+  int link = -1;      ///< index in its chain
+  Float3 position_m;  ///< of a rim: its centre
   float radius_m = 0.0f;
+  float rim_radius_m = 0.0f;   ///< 0: no rim
+  Float3 rim_axis, rim_start;  ///< unit vectors: the cylinder's axis, and one at a right angle to it
+  float rim_cosine = 1.0f, rim_sine = 0.0f;  ///< of the angle from the lowest point
 };
 
 /// The points of one geom, and a sphere that encloses them.

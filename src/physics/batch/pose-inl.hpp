@@ -150,6 +150,26 @@ HWY_NOINLINE void forward_kinematics(const Pass& pass) {
   }
 }
 
+/// Position of a point in its link's frame, where `up` points upwards: of a rim about the centre c and the
+/// axis a, c + R d, d = −(up − (up · a) a) / |…| being the direction down along the rim, turned about a.
+HWY_INLINE V3 point_position(const Point& point, V3 up) {
+  const V3 centre = set(point.position_m);
+  if (point.rim_radius_m == 0.0f) return centre;
+  const V3 axis = set(point.rim_axis);
+  const V along = dot(up, axis);
+  const V3 down = fma(along, axis, zero3() - up);
+  const V square = dot(down, down);
+  // Of a cylinder that is upright but for rounding, every point of the rim is as low.
+  const Mask upright = square < set(1e-8f);
+  const V scale = set(1.0f) / hn::Sqrt(hn::IfThenElse(upright, set(1.0f), square));
+  const V3 start = set(point.rim_start);
+  const V3 lowest{hn::IfThenElse(upright, start.x, scale * down.x),
+                  hn::IfThenElse(upright, start.y, scale * down.y),
+                  hn::IfThenElse(upright, start.z, scale * down.z)};
+  const V3 direction = fma(set(point.rim_cosine), lowest, set(point.rim_sine) * cross(axis, lowest));
+  return fma(set(point.rim_radius_m), direction, centre);
+}
+
 /// Heights above the ground of all points whose geom's bounding sphere reaches it, and which feet touch.
 HWY_NOINLINE void detect_contacts(const Pass& pass) {
   const Model& model = pass.model();
@@ -173,7 +193,7 @@ HWY_NOINLINE void detect_contacts(const Pass& pass) {
     Mask touches = no_lanes();
     for (int p = geom.first; pass.work().geom_may_touch[g] && p < geom.first + geom.count; ++p) {
       const Point& point = model.points[to_index(p)];
-      const V h = dot(local_up, set(point.position_m), height) - set(point.radius_m);
+      const V h = dot(local_up, point_position(point, local_up), height) - set(point.radius_m);
       store(h, pass.scratch(pass.work().point_height + p));
       touches = hn::Or(touches, h <= zero());
       contacts = contacts + hn::IfThenElseZero(h <= zero(), set(1.0f));

@@ -128,11 +128,16 @@ HWY_INLINE void integrate_rotation(const NextState& next, V3 angular_velocity) {
   next.put3(StateRows::rotation + 1, scale * q_next);
 }
 
+/// Squares of the joints' speeds. A sum is NaN as soon as one of its terms is; a maximum need not be.
+struct JointSpeeds {
+  V sum = zero(), largest = zero();
+};
+
 /// Speeds of a chain's joints after the step by back substitution, L_cᵀ q̇ = u_c − B_cᵀ ν_b, and their angles,
 /// q ← q + h q̇ (semi-implicit Euler). As the base's rows hold L_b⁻¹ B_c, B_cᵀ ν_b is their product with u_b.
-/// Adds the squares of the speeds to `square_sum`.
+/// Adds the squares of the speeds to `speeds`.
 template <int N>
-HWY_INLINE V integrate_joints(const NextState& next, std::size_t c, const V* u_base, V square_sum) {
+HWY_INLINE void integrate_joints(const NextState& next, std::size_t c, const V* u_base, JointSpeeds& speeds) {
   const Pass& pass = next.pass;
   const Chain& chain = pass.model().chains[c];
   const int n = length<N>(chain);
@@ -143,13 +148,13 @@ HWY_INLINE V integrate_joints(const NextState& next, std::size_t c, const V* u_b
     for (int d = 0; d < 6; ++d) x = fnma(load(factor.base(j) + d * width), u_base[d], x);
     for (int i = j + 1; i < n; ++i) x = fnma(load(factor.lower(i, j)), speed[i], x);
     speed[j] = x * load(factor.inverse(j));
-    // A sum is NaN as soon as one of its terms is; a maximum need not be.
-    square_sum = fma(speed[j], speed[j], square_sum);
+    const V square = speed[j] * speed[j];
+    speeds.sum = speeds.sum + square;
+    speeds.largest = hn::Max(speeds.largest, square);
     const int angle = pass.rows().angle + chain.first + j;
     next.put(angle, fma(set(pass.timestep_s()), speed[j], pass.state(angle)));
     next.put(pass.rows().speed + chain.first + j, speed[j]);
   }
-  return square_sum;
 }
 
 /// Semi-implicit Euler: velocities from the solver's u and the external impulses, then positions with the new
@@ -159,9 +164,8 @@ HWY_NOINLINE void integrate(const Pass& pass, const BaseFactor& factor, V* u_bas
   const Model& model = pass.model();
   const NextState next{pass, pass.active()};
   const Spatial impulse = collect_impulses(pass);
-  V square_sum = zero();
-  for (std::size_t c = 0; c < model.chains.size(); ++c)
-    square_sum = integrate_joints<N>(next, c, u_base, square_sum);
+  JointSpeeds speeds;
+  for (std::size_t c = 0; c < model.chains.size(); ++c) integrate_joints<N>(next, c, u_base, speeds);
   solve_base_transposed(factor, u_base);
   const V3 angular_velocity{u_base[0], u_base[1], u_base[2]};
 
@@ -178,9 +182,8 @@ HWY_NOINLINE void integrate(const Pass& pass, const BaseFactor& factor, V* u_bas
 
   constexpr auto fastest = static_cast<float>(absurd_speed);
   const V limit = set(fastest * fastest);
-  const float joint_limit = fastest * fastest * static_cast<float>(model.links.size() + 1);
   Mask healthy = hn::And(dot(velocity, velocity) <= limit, dot(angular_velocity, angular_velocity) <= limit);
-  healthy = hn::And(healthy, square_sum <= set(joint_limit));
+  healthy = hn::And(healthy, hn::And(speeds.largest <= limit, speeds.sum == speeds.sum));
   next.put(StateRows::healthy, hn::IfThenElseZero(healthy, pass.state(StateRows::healthy)));
 }
 
