@@ -41,7 +41,7 @@ ExitCode show_substrate(const SubstrateOptions& options) {
     fail(ExitCode::bad_input, "{}: a controller of kind {} has no substrate", options.config.string(),
          problem.architecture->name());
   fmt::print("controller    {}\n{}", problem.architecture->name(),
-             substrate::summary(config.controller.substrate, *layout));
+             substrate::summary(problem.controller.substrate, *layout));
   if (!options.out.empty()) io::write_file(options.out, figures::substrate_svg(drawn(*layout)));
   return ExitCode::ok;
 }
