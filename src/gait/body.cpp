@@ -52,7 +52,9 @@ Body body_of(const robot::RobotSpec& robot) {
   body.gravity_m_s2 = norm(robot.gravity_m_s2);
   body.leg_length_m = leg_length_m(robot, poses);
   body.com_start_m = robot::start_com_m(robot);
-  body.quadruped = quadruped_legs(robot::feet_m(robot, poses));
+  const std::vector<Vec3> feet_m = robot::feet_m(robot, poses);
+  body.quadruped = quadruped_legs(feet_m);
+  if (feet_m.size() == 2 || feet_m.size() == 6) body.pairs = robot::leg_pairs(feet_m);
   return body;
 }
 
