@@ -17,7 +17,8 @@ struct ArchitectureKind {
   std::string_view name;  ///< value of controller.kind
   std::unique_ptr<const Architecture> (*make)(const ControllerSettings& settings,
                                               const robot::RobotSpec& robot, double timestep_s);
-  substrate::Settings (*automatic)(const robot::RobotSpec& robot);  ///< its substrate from a robot
+  /// Makes its substrate from a robot (automatic.hpp); null: it has no rule for that.
+  substrate::Settings (*automatic)(const robot::RobotSpec& robot) = nullptr;
 };
 
 /// Makes a Kind from the substrate and its own settings.
@@ -27,9 +28,9 @@ std::unique_ptr<const Architecture> make(const ControllerSettings& settings, con
   return std::make_unique<Kind>(settings.*own_settings, settings.substrate, robot, timestep_s);
 }
 
-// The table of architectures. A new one is a row here, a class derived from Architecture, a function that
-// makes its substrate from a robot, and, if it has settings, a member of ControllerSettings with its line
-// below.
+// The table of architectures. A new one is a row here, a class derived from Architecture, perhaps a function
+// that makes its substrate from a robot, and, if it has settings, a member of ControllerSettings with its
+// line below.
 constexpr std::array kinds{
     ArchitectureKind{"supg", make<SupgArchitecture, &ControllerSettings::supg>, automatic_supg},
     ArchitectureKind{"network", make<NetworkArchitecture, &ControllerSettings::network>, automatic_network},
@@ -81,6 +82,10 @@ substrate::Settings substrate_of(const ControllerSettings& settings, const robot
   substrate::Settings substrate = settings.substrate;
   if (substrate.layout == substrate::LayoutSource::listed) return substrate;
   check_without_lists(substrate);
+  if (!kind_of(settings).automatic)
+    fail_setting({"controller.substrate.layout", "controller.substrate", "controller.kind"},
+                 "controller.substrate.layout = \"auto\": a controller of kind {} has no automatic substrate",
+                 settings.kind);
   substrate::Settings made = kind_of(settings).automatic(robot);
   substrate.layout = substrate::LayoutSource::listed;
   substrate.coordinates = std::move(made.coordinates);
