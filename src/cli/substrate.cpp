@@ -9,6 +9,7 @@
 #include "amble/experiment/problem.hpp"
 #include "amble/figures/substrate_figure.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/toml_settings.hpp"
 #include "amble/substrate/summary.hpp"
 
 namespace amble::cli {
@@ -17,6 +18,7 @@ namespace {
 struct SubstrateOptions {
   std::filesystem::path config, out;
   experiment::Overrides overrides;
+  bool toml = false;
 };
 
 figures::Substrate drawn(const substrate::Layout& layout) {
@@ -32,6 +34,15 @@ figures::Substrate drawn(const substrate::Layout& layout) {
   return picture;
 }
 
+/// As a part of a config.
+std::string toml_text(substrate::Settings settings) {
+  return io::settings_to_toml([&settings](io::SettingsVisitor& visitor) {
+    visitor.begin("controller", {});
+    visitor.table("substrate", settings, {"the nodes of the controller, and what the CPPN says of them"});
+    visitor.end();
+  });
+}
+
 ExitCode show_substrate(const SubstrateOptions& options) {
   if (!options.out.empty()) io::refuse_to_replace(options.out, "<svg", "a drawing");
   const auto config = experiment::load_config(options.config, options.overrides);
@@ -40,8 +51,11 @@ ExitCode show_substrate(const SubstrateOptions& options) {
   if (!layout)
     fail(ExitCode::bad_input, "{}: a controller of kind {} has no substrate", options.config.string(),
          problem.architecture->name());
-  fmt::print("controller    {}\n{}", problem.architecture->name(),
-             substrate::summary(config.controller.substrate, *layout));
+  if (options.toml)
+    fmt::print("{}", toml_text(problem.controller.substrate));
+  else
+    fmt::print("controller    {}\n{}", problem.architecture->name(),
+               substrate::summary(problem.controller.substrate, *layout));
   if (!options.out.empty()) io::write_file(options.out, figures::substrate_svg(drawn(*layout)));
   return ExitCode::ok;
 }
@@ -56,6 +70,8 @@ void add_substrate(CLI::App& app, Action& action) {
   command
       ->add_option("--set", options->overrides.assignments, "Lay key.path=value over the config (repeatable)")
       ->allow_extra_args(false);
+  command->add_flag("--toml", options->toml,
+                    "Print them as the table [controller.substrate] of a config, to be edited");
   command->add_option("-o,--out", options->out, "Draw them into this file (SVG)");
   command->callback([options, &action] { action = [options] { return show_substrate(*options); }; });
 }

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <utility>
 
+#include "amble/controllers/automatic.hpp"
 #include "amble/controllers/supg.hpp"
 #include "amble/core/check.hpp"
+#include "amble/core/error.hpp"
 
 namespace amble::controllers {
 namespace {
@@ -14,6 +17,8 @@ struct ArchitectureKind {
   std::string_view name;  ///< value of controller.kind
   std::unique_ptr<const Architecture> (*make)(const ControllerSettings& settings,
                                               const robot::RobotSpec& robot, double timestep_s);
+  /// Makes its substrate from a robot (automatic.hpp); null: it has no rule for that.
+  substrate::Settings (*automatic)(const robot::RobotSpec& robot) = nullptr;
 };
 
 /// Makes a Kind from the substrate and its own settings.
@@ -23,13 +28,37 @@ std::unique_ptr<const Architecture> make(const ControllerSettings& settings, con
   return std::make_unique<Kind>(settings.*own_settings, settings.substrate, robot, timestep_s);
 }
 
-// The table of architectures. A new one is a row here, a class derived from Architecture, and, if it has
-// settings, a member of ControllerSettings with its line below.
+// The table of architectures. A new one is a row here, a class derived from Architecture, perhaps a function
+// that makes its substrate from a robot, and, if it has settings, a member of ControllerSettings with its
+// line below.
 constexpr std::array kinds{
-    ArchitectureKind{"supg", make<SupgArchitecture, &ControllerSettings::supg>},
-    ArchitectureKind{"network", make<NetworkArchitecture, &ControllerSettings::network>},
-    ArchitectureKind{"ctrnn", make<CtrnnArchitecture, &ControllerSettings::ctrnn>},
+    ArchitectureKind{"supg", make<SupgArchitecture, &ControllerSettings::supg>, automatic_supg},
+    ArchitectureKind{"network", make<NetworkArchitecture, &ControllerSettings::network>, automatic_network},
+    ArchitectureKind{"ctrnn", make<CtrnnArchitecture, &ControllerSettings::ctrnn>, automatic_ctrnn},
 };
+
+const ArchitectureKind& kind_of(const ControllerSettings& settings) {
+  const auto row = std::ranges::find(kinds, settings.kind, &ArchitectureKind::name);
+  AMBLE_CHECK(row != kinds.end(), "controller.kind is one of the table's");
+  return *row;
+}
+
+/// Refuses what would be replaced.
+void check_without_lists(const substrate::Settings& settings) {
+  const std::array<std::pair<std::string_view, bool>, 5> lists{{{"coordinates", settings.coordinates.empty()},
+                                                                {"outputs", settings.outputs.empty()},
+                                                                {"nodes", settings.nodes.empty()},
+                                                                {"links", settings.links.empty()},
+                                                                {"properties", settings.properties.empty()}}};
+  for (const auto& [key, empty] : lists) {
+    if (empty) continue;
+    const std::string path = "controller.substrate." + std::string(key);
+    fail_setting({path},
+                 "{} is given, but controller.substrate.layout = \"auto\" makes it from the robot: leave it "
+                 "out, or write controller.substrate = \"auto\" in place of the whole table",
+                 path);
+  }
+}
 
 }  // namespace
 
@@ -40,19 +69,38 @@ void ControllerSettings::describe(io::SettingsVisitor& visitor) {
        "(network; with a sine among the sensors the sine wave architecture) or continuous-time neurons "
        "(ctrnn)",
        "Morse et al. 2013, sec. 3 and 4"});
-  visitor.table(
-      "substrate", substrate,
-      {"the nodes of the controller, and what the CPPN says of them", "Morse et al. 2013, sec. 2.2"});
+  visitor.table("substrate", substrate,
+                {.what = "the nodes of the controller, and what the CPPN says of them",
+                 .source = "Morse et al. 2013, sec. 2.2",
+                 .short_for = "layout"});
   visitor.table("supg", supg, {"single-unit pattern generators", "Morse et al. 2013, sec. 3"});
   visitor.table("network", network, {"static neurons", "Morse et al. 2013, sec. 4"});
   visitor.table("ctrnn", ctrnn, {"continuous-time recurrent neural networks", "Morse et al. 2013, sec. 4"});
 }
 
+substrate::Settings substrate_of(const ControllerSettings& settings, const robot::RobotSpec& robot) {
+  substrate::Settings substrate = settings.substrate;
+  if (substrate.layout == substrate::LayoutSource::listed) return substrate;
+  check_without_lists(substrate);
+  if (!kind_of(settings).automatic)
+    fail_setting({"controller.substrate.layout", "controller.substrate", "controller.kind"},
+                 "controller.substrate.layout = \"auto\": a controller of kind {} has no automatic substrate",
+                 settings.kind);
+  substrate::Settings made = kind_of(settings).automatic(robot);
+  substrate.layout = substrate::LayoutSource::listed;
+  substrate.coordinates = std::move(made.coordinates);
+  substrate.outputs = std::move(made.outputs);
+  substrate.nodes = std::move(made.nodes);
+  substrate.links = std::move(made.links);
+  substrate.properties = std::move(made.properties);
+  return substrate;
+}
+
 std::unique_ptr<const Architecture> make_architecture(const ControllerSettings& settings,
                                                       const robot::RobotSpec& robot, double timestep_s) {
-  const auto row = std::ranges::find(kinds, settings.kind, &ArchitectureKind::name);
-  AMBLE_CHECK(row != kinds.end(), "controller.kind is one of the table's");
-  return row->make(settings, robot, timestep_s);
+  ControllerSettings listed = settings;
+  listed.substrate = substrate_of(settings, robot);
+  return kind_of(settings).make(listed, robot, timestep_s);
 }
 
 }  // namespace amble::controllers

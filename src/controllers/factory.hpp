@@ -23,6 +23,10 @@ struct ControllerSettings {
   void describe(io::SettingsVisitor& visitor);
 };
 
+/// The substrate with its lists: those of the settings, or with `layout = "auto"` those that the row of the
+/// settings' kind makes from the robot (automatic.hpp). Throws SettingError where both are given.
+substrate::Settings substrate_of(const ControllerSettings& settings, const robot::RobotSpec& robot);
+
 /// By the row of the settings' kind. Throws UserError where settings and robot do not fit.
 std::unique_ptr<const Architecture> make_architecture(const ControllerSettings& settings,
                                                       const robot::RobotSpec& robot, double timestep_s);

@@ -41,6 +41,8 @@ void Problem::complete() {
   trial.validate();
   noise.validate(trial);
   score.validate();
+  // Champion files have the nodes themselves, however the config came by them.
+  controller.substrate = controllers::substrate_of(controller, robot);
   architecture = controllers::make_architecture(controller, robot, trial.timestep_s);
   make_engine();  // throws if the engine cannot simulate the robot
 }

@@ -5,23 +5,11 @@
 #include <limits>
 
 #include "amble/core/index.hpp"
+#include "amble/robot/legs.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::gait {
 namespace {
-
-/// The joint of a leg that is nearest to the root: bodies precede their children, and the joints of one body
-/// are in the order of the chain. Null for a leg without joints.
-const robot::Joint* hip(const robot::RobotSpec& robot, const robot::Leg& leg) {
-  const robot::Joint* first = nullptr;
-  for (const int j : leg.joints) {
-    if (j < 0) continue;
-    const robot::Joint& joint = robot.joints[to_index(j)];
-    if (!first || std::pair(joint.body, joint.chain_index) < std::pair(first->body, first->chain_index))
-      first = &joint;
-  }
-  return first;
-}
 
 /// If the feet are above the ground in the start pose, that clearance is subtracted.
 double leg_length_m(const robot::RobotSpec& robot, const std::vector<robot::Pose>& poses) {
@@ -30,11 +18,10 @@ double leg_length_m(const robot::RobotSpec& robot, const std::vector<robot::Pose
     clearance_m = std::min(clearance_m, robot::bottom_m(robot.geoms[to_index(leg.foot_geom)], poses));
   double sum_m = 0.0;
   int count = 0;
-  for (const robot::Leg& leg : robot.legs) {
-    const robot::Joint* joint = hip(robot, leg);
-    if (!joint) continue;
-    const robot::Pose& pose = poses[to_index(joint->body)];
-    sum_m += (pose.position_m + rotate(pose.rotation, joint->anchor_m)).z;
+  const std::vector<Vec3> hips_m = robot::hips_m(robot, poses);
+  for (std::size_t leg = 0; leg < hips_m.size(); ++leg) {
+    if (robot::hip_joint(robot, robot.legs[leg]) < 0) continue;
+    sum_m += hips_m[leg].z;
     ++count;
   }
   return count == 0 ? 0.0 : sum_m / count - std::max(clearance_m, 0.0);
@@ -59,17 +46,15 @@ Body body_of(const robot::RobotSpec& robot) {
   const std::vector<robot::Pose> poses = robot::start_poses(robot);
   Body body;
   body.robot = robot.name;
-  std::vector<Vec3> feet;
-  for (const robot::Leg& leg : robot.legs) {
-    body.legs.push_back(leg.name);
-    feet.push_back(robot::centre_m(robot.geoms[to_index(leg.foot_geom)], poses));
-  }
+  for (const robot::Leg& leg : robot.legs) body.legs.push_back(leg.name);
   for (const robot::Joint& joint : robot.joints) body.joints.push_back(joint.name);
   body.mass_kg = robot.total_mass_kg();
   body.gravity_m_s2 = norm(robot.gravity_m_s2);
   body.leg_length_m = leg_length_m(robot, poses);
   body.com_start_m = robot::start_com_m(robot);
-  body.quadruped = quadruped_legs(feet);
+  const std::vector<Vec3> feet_m = robot::feet_m(robot, poses);
+  body.quadruped = quadruped_legs(feet_m);
+  if (feet_m.size() == 2 || feet_m.size() == 6) body.pairs = robot::leg_pairs(feet_m);
   return body;
 }
 

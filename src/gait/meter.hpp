@@ -42,6 +42,8 @@ class Meter {
   void close_window(Stretch window);
 
   std::optional<QuadrupedPhases> quadruped_phases(const StrideSums& sums) const;
+  std::optional<HexapodPhases> hexapod_phases(const StrideSums& sums) const;
+  std::optional<BipedPhases> biped_phases(const StrideSums& sums) const;
   std::optional<Classification> classification(const StrideSums& sums) const;
   int reference_leg() const;
   LegGait leg_gait(std::size_t leg, int reference) const;

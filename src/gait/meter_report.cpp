@@ -57,10 +57,40 @@ std::optional<QuadrupedPhases> Meter::quadruped_phases(const StrideSums& sums) c
   return phases;
 }
 
+std::optional<HexapodPhases> Meter::hexapod_phases(const StrideSums& sums) const {
+  if (body_.pairs.size() != 3) return std::nullopt;
+  HexapodPhases phases;
+  CircularSum lags;
+  std::size_t lag = 0, leg = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    phases.pairs[i] = pair_phase(sums.phases[to_index(body_.pairs[i].left)][to_index(body_.pairs[i].right)]);
+  for (const auto side : {&robot::LegPair::left, &robot::LegPair::right}) {
+    for (std::size_t hind = 2; hind > 0; --hind) {
+      const CircularSum& sum =
+          sums.phases[to_index(body_.pairs[hind].*side)][to_index(body_.pairs[hind - 1].*side)];
+      phases.lags[lag++] = pair_phase(sum);
+      lags.merge(sum);
+    }
+  }
+  phases.lag = lags.count() == 0 ? 0.0 : lags.mean();
+  for (const LegSums& each : sums.legs) phases.strides[leg++] = each.strides;
+  return phases;
+}
+
+std::optional<BipedPhases> Meter::biped_phases(const StrideSums& sums) const {
+  if (body_.pairs.size() != 1) return std::nullopt;
+  const auto left = to_index(body_.pairs[0].left), right = to_index(body_.pairs[0].right);
+  return BipedPhases{.pair = pair_phase(sums.phases[left][right]),
+                     .duty_factor = 0.5 * (duty_factor(sums.legs[left]).value_or(0.0) +
+                                           duty_factor(sums.legs[right]).value_or(0.0)),
+                     .strides = {sums.legs[left].strides, sums.legs[right].strides}};
+}
+
 std::optional<Classification> Meter::classification(const StrideSums& sums) const {
-  const auto phases = quadruped_phases(sums);
-  if (!phases) return std::nullopt;
-  return classify(*phases);
+  if (const auto phases = quadruped_phases(sums)) return classify(*phases);
+  if (const auto phases = hexapod_phases(sums)) return classify(*phases);
+  if (const auto phases = biped_phases(sums)) return classify(*phases);
+  return std::nullopt;
 }
 
 /// The left hind foot, as in Hildebrand 1965, or the first foot that strides enough; −1 if none does.
@@ -69,7 +99,9 @@ int Meter::reference_leg() const {
   if (body_.quadruped)
     order = {body_.quadruped->hind_left, body_.quadruped->hind_right, body_.quadruped->fore_left,
              body_.quadruped->fore_right};
-  else
+  for (auto pair = body_.pairs.rbegin(); pair != body_.pairs.rend(); ++pair)
+    order.insert(order.end(), {pair->left, pair->right});
+  if (order.empty())
     for (std::size_t leg = 0; leg < body_.legs.size(); ++leg) order.push_back(static_cast<int>(leg));
   for (const std::int64_t enough : {min_strides, std::int64_t{1}})
     for (const int leg : order)
@@ -123,6 +155,8 @@ Window Meter::window(const Stretch& stretch, int reference) const {
 void Meter::report_footfalls(Report& report) const {
   report.classification = classification(total_);
   report.quadruped = quadruped_phases(total_);
+  report.hexapod = hexapod_phases(total_);
+  report.biped = biped_phases(total_);
   report.reference_leg = reference_leg();
   for (std::size_t leg = 0; leg < body_.legs.size(); ++leg)
     report.legs.push_back(leg_gait(leg, report.reference_leg));
@@ -134,7 +168,7 @@ void Meter::report_footfalls(Report& report) const {
     report.windows.push_back(window(stretch, report.reference_leg));
     tally.merge(stretch.tally);
   }
-  if (!body_.quadruped) return;
+  if (!report.classification) return;
   for (std::size_t gait = 0; gait < gait_names.size(); ++gait)
     report.gait_seconds.push_back(static_cast<double>(tally.frames(static_cast<Gait>(gait))) * frame_s_);
 }

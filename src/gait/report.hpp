@@ -30,7 +30,7 @@ struct LegGait {
 /// A part of the trial: one window of the measurement, or 2, 4, 8, … of them merged in a long trial.
 struct Window {
   double start_s = 0.0, end_s = 0.0;
-  std::optional<Classification> classification;     ///< the one that lasted longest; none unless a quadruped
+  std::optional<Classification> classification;     ///< the one that lasted longest; as in Report
   double speed_m_s = 0.0;                           ///< along the straight line from its start to its end
   std::vector<std::optional<double>> duty_factors;  ///< by leg, as in LegGait
   std::vector<std::optional<PairPhase>> phases;     ///< by leg
@@ -44,8 +44,10 @@ struct Report {
   Settings settings;
 
   // After the transient.
-  std::optional<Classification> classification;  ///< none unless a quadruped
-  std::optional<QuadrupedPhases> quadruped;
+  std::optional<Classification> classification;  ///< none for legs whose gaits have no names
+  std::optional<QuadrupedPhases> quadruped;      ///< one of these three, if gaits have names
+  std::optional<HexapodPhases> hexapod;
+  std::optional<BipedPhases> biped;
   std::vector<double> gait_seconds;   ///< by Gait: how long each lasted, window by window; empty as above
   std::optional<double> duty_factor;  ///< mean over the legs that stride; above 0.5 walking, below running
   std::optional<double> stride_s;     ///< mean over those legs
@@ -73,8 +75,8 @@ struct Segment {
   Classification classification;
 };
 
-/// The windows' classifications in order, equal neighbours joined: where the gait changes. Empty unless the
-/// robot is a quadruped.
+/// The windows' classifications in order, equal neighbours joined: where the gait changes. Empty where
+/// gaits have no names.
 std::vector<Segment> segments_of(const Report& report);
 
 }  // namespace amble::gait

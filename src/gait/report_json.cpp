@@ -1,6 +1,8 @@
+#include <algorithm>
+#include <array>
+
 #include "amble/core/index.hpp"
 #include "amble/gait/report_text.hpp"
-
 #include "amble/io/json_file.hpp"
 
 namespace amble::gait {
@@ -65,20 +67,39 @@ Json json_of(const Segment& segment) {
           {"irregular_reason", reason_of(segment.classification)}};
 }
 
-Json pairs_of(const std::optional<QuadrupedPhases>& phases) {
-  if (!phases) return nullptr;
-  return {{"hind", json_of(std::optional(phases->hind))},
-          {"fore", json_of(std::optional(phases->fore))},
-          {"left", json_of(std::optional(phases->left))},
-          {"right", json_of(std::optional(phases->right))},
-          {"lateral", phases->left.count + phases->right.count > 0 ? Json(phases->lateral) : Json(nullptr)}};
+Json pairs_of(const QuadrupedPhases& phases) {
+  return {{"hind", json_of(std::optional(phases.hind))},
+          {"fore", json_of(std::optional(phases.fore))},
+          {"left", json_of(std::optional(phases.left))},
+          {"right", json_of(std::optional(phases.right))},
+          {"lateral", phases.left.count + phases.right.count > 0 ? Json(phases.lateral) : Json(nullptr)}};
 }
 
-Json seconds_of(const std::vector<double>& gait_seconds) {
-  if (gait_seconds.empty()) return nullptr;
+Json pairs_of(const HexapodPhases& phases) {
+  Json pairs = Json::object();
+  constexpr std::array names{"fore",      "middle",       "hind",      "left_middle",
+                             "left_fore", "right_middle", "right_fore"};
+  for (std::size_t i = 0; i < 3; ++i) pairs[names[i]] = json_of(std::optional(phases.pairs[i]));
+  for (std::size_t i = 0; i < 4; ++i) pairs[names[3 + i]] = json_of(std::optional(phases.lags[i]));
+  const bool known = std::ranges::any_of(phases.lags, [](const PairPhase& lag) { return lag.count > 0; });
+  pairs["lag"] = known ? Json(phases.lag) : Json(nullptr);
+  return pairs;
+}
+
+Json pairs_of(const Report& report) {
+  if (report.quadruped) return pairs_of(*report.quadruped);
+  if (report.hexapod) return pairs_of(*report.hexapod);
+  if (report.biped) return {{"feet", json_of(std::optional(report.biped->pair))}};
+  return nullptr;
+}
+
+/// Those of the gaits that a robot with so many legs may have.
+Json seconds_of(const Report& report) {
+  if (report.gait_seconds.empty()) return nullptr;
   Json seconds = Json::object();
-  for (std::size_t gait = 0; gait < gait_seconds.size(); ++gait)
-    seconds[std::string(gait_names[gait])] = gait_seconds[gait];
+  for (std::size_t gait = 0; gait < report.gait_seconds.size(); ++gait)
+    if (gait_legs[gait] == 0 || gait_legs[gait] == report.legs.size())
+      seconds[std::string(gait_names[gait])] = report.gait_seconds[gait];
   return seconds;
 }
 
@@ -100,8 +121,8 @@ std::string report_json(const Report& report) {
 
   json["gait"] = name_of(report.classification);
   json["irregular_reason"] = reason_of(report.classification);
-  json["gait_seconds"] = seconds_of(report.gait_seconds);
-  json["pairs"] = pairs_of(report.quadruped);
+  json["gait_seconds"] = seconds_of(report);
+  json["pairs"] = pairs_of(report);
   json["duty_factor"] = json_of(report.duty_factor);
   json["stride_s"] = json_of(report.stride_s);
   json["reference_leg"] =

@@ -15,11 +15,10 @@ constexpr std::size_t most_segment_lines = 12;
 
 using Text = std::back_insert_iterator<std::string>;
 
-std::string words(const std::optional<Classification>& classification) {
-  if (!classification) return "no name (gaits are named for four legs, two behind two)";
-  std::string name(gait_names[to_index(classification->gait)]);
-  if (classification->reason == Irregular::no) return name;
-  return fmt::format("{} ({})", name, irregular_names[to_index(classification->reason)]);
+std::string words(const Classification& classification) {
+  std::string name(gait_names[to_index(classification.gait)]);
+  if (classification.reason == Irregular::no) return name;
+  return fmt::format("{} ({})", name, irregular_names[to_index(classification.reason)]);
 }
 
 /// "0.57", or "–" without a value.
@@ -37,6 +36,12 @@ std::string footwork(const Report& report) {
                        *report.duty_factor, stride_s);
   return fmt::format("{} (duty factor {:.2f}), stride {:.2f} s",
                      *report.duty_factor > 0.5 ? "walking" : "running", *report.duty_factor, stride_s);
+}
+
+/// The gait's name, if gaits of such legs have names, and how the feet go.
+std::string headline(const Report& report) {
+  if (!report.classification) return footwork(report);
+  return fmt::format("{}; {}", words(*report.classification), footwork(report));
 }
 
 /// "0.52 (R 0.97)", or "–" for feet that have not both landed.
@@ -77,6 +82,25 @@ void print_legs(const Report& report, Text text) {
                    report.legs[to_index(report.reference_leg)].name);
 }
 
+/// The phases that the name comes from.
+void print_pairs(const Report& report, Text text) {
+  if (report.quadruped) {
+    const QuadrupedPhases& q = *report.quadruped;
+    fmt::format_to(text, "pairs: hind {}, fore {}; fore after hind, left {}, right {}\n", pair_text(q.hind),
+                   pair_text(q.fore), pair_text(q.left), pair_text(q.right));
+  }
+  if (report.hexapod) {
+    const auto& [pairs, lags, lag, strides] = *report.hexapod;
+    fmt::format_to(text, "pairs: fore {}, middle {}, hind {}\n", pair_text(pairs[0]), pair_text(pairs[1]),
+                   pair_text(pairs[2]));
+    fmt::format_to(text,
+                   "lags after the leg behind: left middle {}, left fore {}, right middle {}, right fore {}; "
+                   "mean {:.2f}\n",
+                   pair_text(lags[0]), pair_text(lags[1]), pair_text(lags[2]), pair_text(lags[3]), lag);
+  }
+  if (report.biped) fmt::format_to(text, "pair: right after left {}\n", pair_text(report.biped->pair));
+}
+
 /// When the gait changed, if it did. Within merged windows only the total times are known.
 void print_segments(const Report& report, Text text) {
   const auto segments = segments_of(report);
@@ -102,7 +126,7 @@ void print_segments(const Report& report, Text text) {
 std::string report_summary(const Report& report) {
   std::string summary;
   Text text(summary);
-  fmt::format_to(text, "gait      {}; {}\n", words(report.classification), footwork(report));
+  fmt::format_to(text, "gait      {}\n", headline(report));
   if (report.reference_leg >= 0) {
     fmt::format_to(text, "phases   ");
     for (const LegGait& leg : report.legs)
@@ -119,13 +143,11 @@ std::string report_table(const Report& report) {
   Text text(table);
   fmt::format_to(text, "robot      {}, {:.2f} s, {}\n", report.robot, report.seconds,
                  record::outcome_names[to_index(report.outcome)]);
-  fmt::format_to(text, "gait       {}; {}\n", words(report.classification), footwork(report));
+  fmt::format_to(text, "gait       {}\n", headline(report));
   print_legs(report, text);
-  if (report.quadruped && report.duty_factor) {
-    const QuadrupedPhases& q = *report.quadruped;
-    fmt::format_to(text, "pairs: hind {}, fore {}; fore after hind, left {}, right {}\n", pair_text(q.hind),
-                   pair_text(q.fore), pair_text(q.left), pair_text(q.right));
-  }
+  if (report.duty_factor) print_pairs(report, text);
+  if (!report.classification)
+    fmt::format_to(text, "gaits have names for four legs, two behind two, and for two or six in pairs\n");
   print_segments(report, text);
   fmt::format_to(text,
                  "\nspeed      {:.3f} m/s ({:.3f} m in a straight line)\npath speed {:.3f} m/s ({:.3f} m, "

@@ -34,7 +34,9 @@ class Writer final : public SettingsVisitor {
     }
     put(key, std::move(list));
   }
-  void choice_index(std::string_view key, int& index, std::span<const std::string_view> names, Doc) override {
+  void choice_index(std::string_view key, int& index, std::span<const std::string_view> names,
+                    Doc doc) override {
+    if (doc.first_is_implied && index == 0) return;
     AMBLE_CHECK(index >= 0 && to_index(index) < names.size(), "an enum value without a name");
     put(key, names[to_index(index)]);
   }
@@ -92,7 +94,12 @@ class Reader final : public SettingsReader {
       end();
     }
   }
-  void choice_index(std::string_view key, int& index, std::span<const std::string_view> names, Doc) override {
+  void choice_index(std::string_view key, int& index, std::span<const std::string_view> names,
+                    Doc doc) override {
+    if (doc.first_is_implied && !tables_.back().view.has(key)) {
+      index = 0;
+      return;
+    }
     const JsonView view = get(key);
     const auto found =
         view.raw().is_string() ? std::find(names.begin(), names.end(), view.text()) : names.end();

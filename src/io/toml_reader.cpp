@@ -58,15 +58,16 @@ bool as_number(const TomlNode& node, double& value) {
 
 class TomlReader final : public SettingsReader {
  public:
-  explicit TomlReader(const TomlNode& root) : root_(root), tables_{{"", &root}} {}
+  explicit TomlReader(const TomlNode& root) : root_(root), tables_{{"", &root, {}}} {}
 
   using SettingsVisitor::integer;
 
-  void begin(std::string_view key, Doc) override {
+  void begin(std::string_view key, Doc doc) override {
     const TomlNode* node = get(key);
-    if (node != nullptr && node->kind != Kind::table)
+    const bool is_short = node != nullptr && node->kind == Kind::text && !doc.short_for.empty();
+    if (node != nullptr && node->kind != Kind::table && !is_short)
       refuse(key, *node, fmt::format("a table [{}]", path_of(key)));
-    tables_.push_back({path_of(key), node});
+    tables_.push_back({path_of(key), node, is_short ? doc.short_for : std::string_view()});
   }
   void end() override { tables_.pop_back(); }
 
@@ -135,7 +136,7 @@ class TomlReader final : public SettingsReader {
     for (std::size_t i = 0; i < node->items.size(); ++i) {
       const std::string item = numbered(key, i);
       if (node->items[i].kind != Kind::table) refuse(item, node->items[i], expected_table);
-      tables_.push_back({path_of(item), &node->items[i]});
+      tables_.push_back({path_of(item), &node->items[i], {}});
       items.describe(i, *this);
       tables_.pop_back();
     }
@@ -146,7 +147,8 @@ class TomlReader final : public SettingsReader {
  private:
   struct Table {
     std::string path;
-    const TomlNode* node;  ///< null where the document has no such table
+    const TomlNode* node;             ///< null where the document has no such table
+    std::string_view short_for = {};  ///< the key whose value `node` is, in place of a table
   };
 
   static std::string join(const std::string& table, std::string_view key) {
@@ -160,6 +162,7 @@ class TomlReader final : public SettingsReader {
   const TomlNode* get(std::string_view key) {
     known_.push_back(path_of(key));
     const TomlNode* table = tables_.back().node;
+    if (!tables_.back().short_for.empty()) return key == tables_.back().short_for ? table : nullptr;
     return table == nullptr ? nullptr : table->find(key);
   }
 

@@ -44,6 +44,14 @@ void PropertySettings::describe(io::SettingsVisitor& visitor) {
 }
 
 void Settings::describe(io::SettingsVisitor& visitor) {
+  visitor.choice(
+      "layout", layout, layout_source_names,
+      {.what =
+           "whether nodes, links and properties are listed below, or made from the robot's legs and joints "
+           "(auto; then coordinates, outputs and the lists are left out). controller.substrate = \"auto\" "
+           "is short for a table with this key alone",
+       .source = "Morse et al. 2013, fig. 4, 6, 7, for the quadruped",
+       .first_is_implied = true});
   visitor.texts(
       "coordinates", coordinates,
       {"names of a node's coordinates. CPPN inputs: those of a link's source, then those of its "

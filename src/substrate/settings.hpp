@@ -18,6 +18,11 @@ inline constexpr std::string_view pattern_property = "pattern";
 enum class Attitude { true_angles, misordered_quaternion };
 inline constexpr std::array<std::string_view, 2> attitude_names{"true_angles", "misordered_quaternion"};
 
+/// Where a substrate's nodes, links and properties come from: the lists of the settings, or the legs and
+/// joints of the robot (controllers/automatic.hpp).
+enum class LayoutSource { listed, automatic };
+inline constexpr std::array<std::string_view, 2> layout_source_names{"listed", "auto"};
+
 /// A node of the substrate and its coordinates: a sensor, a neuron, or a neuron or SUPG that drives a joint.
 struct NodeSettings {
   std::string name;
@@ -53,7 +58,11 @@ struct PropertySettings {
 
 /// A HyperNEAT substrate as data: coordinates of a controller's nodes, what is linked, and which output of
 /// the CPPN gives which weight or property (Morse et al. 2013, sec. 2.2 and figures 1, 4, 6, 7).
+///
+/// With LayoutSource::automatic the lists (coordinates, outputs, nodes, links, properties) are empty until
+/// the robot is known.
 struct Settings {
+  LayoutSource layout = LayoutSource::listed;
   std::vector<std::string> coordinates;  ///< names, in the order of NodeSettings::at and of the CPPN's inputs
   std::vector<std::string> outputs;      ///< names of the CPPN's outputs, in order
   double expression_threshold = 0.2;     ///< outputs up to this size make no link

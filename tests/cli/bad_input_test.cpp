@@ -100,6 +100,13 @@ TEST_F(BadInput, SubstrateThatDoesNotHoldTogether) {
                    ExitCode::bad_input,
                    "c.toml:4: unknown key 'controller.substrate.nodes[0].nam' (did you mean "
                    "'controller.substrate.nodes[0].name'?)");
+  expect_complaint(
+      {"evolve", config, "--set", "controller.substrate.layout=auto", "--out", out_}, ExitCode::bad_input,
+      "controller.substrate.coordinates is given, but controller.substrate.layout = \"auto\" makes "
+      "it from the robot");
+  expect_complaint({"evolve", config, "--set", "controller.substrate=automatic", "--out", out_},
+                   ExitCode::bad_input,
+                   "--set controller.substrate=automatic: expected one of \"listed\", \"auto\"");
   // A substrate for another robot, and a figure for another time constant than it has.
   expect_complaint({"evolve", ctrnn, "--set", "controller.ctrnn.step=2", "--out", out_}, ExitCode::bad_input,
                    "controller.ctrnn.step = 2: expected at most the shortest time constant, 1");

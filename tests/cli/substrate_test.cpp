@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "tests/cli/process.hpp"
 
@@ -32,6 +33,23 @@ TEST(SubstrateCommand, ListsNodesAndLinksOfTheArchitecturesOfThePaper) {
   EXPECT_THAT(ctrnn.out, HasSubstr("\n88 links\n"));
   EXPECT_THAT(ctrnn.out, HasSubstr("  bias of outer motor: 3\n"));
   EXPECT_THAT(ctrnn.out, HasSubstr("  BL.hip_io        ->  FL.touch         inter\n"));
+}
+
+TEST(SubstrateCommand, ShowsNodesMadeFromTheRobotAsAListToEdit) {
+  const TemporaryFolder scratch;
+  for (const std::string kind : {"supg", "sine", "ctrnn"}) {
+    const std::string config = source + "/configs/paper/" + kind + "-objective.toml";
+    const auto listed = amble({"substrate", config, "--toml"});
+    EXPECT_EQ(listed.exit_code, 0) << listed.err;
+    EXPECT_THAT(listed.out, HasSubstr("\n[controller.substrate]\n"));
+    EXPECT_THAT(listed.out, HasSubstr("layout = \"listed\"\n"));
+    const auto made = amble({"substrate", config, "--toml", "--set", "controller.substrate=auto"});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_EQ(made.out, listed.out);
+    // What is printed is a part of a config.
+    std::ofstream(scratch / "own.toml") << "include = ['" << config << "']\n" << made.out;
+    EXPECT_EQ(amble({"substrate", scratch / "own.toml"}).out, amble({"substrate", config}).out);
+  }
 }
 
 TEST(SubstrateCommand, DrawsThem) {

@@ -4,6 +4,7 @@
 
 #include "amble/robot/pose.hpp"
 #include "tests/motion/fixture.hpp"
+#include "tests/robot/legged.hpp"
 
 namespace amble::gait {
 namespace {
@@ -50,6 +51,18 @@ TEST(GaitBody, IsAQuadrupedOnlyWithTwoLegsBehindTwo) {
     upper.position_m = {places[leg][0], places[leg][1], 0.0};
   }
   EXPECT_FALSE(body_of(cross).quadruped);
+}
+
+TEST(GaitBody, HasPairsOfTwoAndSixLegsFromFrontToBack) {
+  for (const int rows : {1, 3}) {
+    const auto pairs = body_of(tests::legged_robot(rows)).pairs;
+    ASSERT_EQ(pairs.size(), static_cast<std::size_t>(rows));
+    for (int row = 0; row < rows; ++row) {
+      EXPECT_EQ(pairs[static_cast<std::size_t>(row)].left, 2 * row);
+      EXPECT_EQ(pairs[static_cast<std::size_t>(row)].right, 2 * row + 1);
+    }
+  }
+  for (const int rows : {2, 4}) EXPECT_TRUE(body_of(tests::legged_robot(rows)).pairs.empty());
 }
 
 }  // namespace

@@ -84,5 +84,100 @@ TEST(Rule, DemandsThatEveryPairKeepsItsPhase) {
   }
 }
 
+/// Ten strides of six legs without any spread; each pair at `across`, each lag at `lag`.
+HexapodPhases six(double lag, double across = 0.5) {
+  HexapodPhases phases;
+  phases.pairs.fill({across, 1.0, 10});
+  phases.lags.fill({lag, 1.0, 10});
+  phases.lag = lag;
+  phases.strides.fill(10);
+  return phases;
+}
+
+TEST(HexapodRule, NamesTheGaitByTheLag) {
+  const auto gait = [](double lag) { return classify(six(lag)); };
+  const auto named = [](Gait name) { return Classification{name, Irregular::no}; };
+  EXPECT_EQ(gait(1.0 / 2.0), named(Gait::tripod));
+  EXPECT_EQ(gait(1.0 / 3.0), named(Gait::tetrapod));
+  EXPECT_EQ(gait(1.0 / 6.0), named(Gait::wave));
+  // Borders lie at 1/12, 3/12, 5/12 and 7/12.
+  EXPECT_EQ(gait(0.418), named(Gait::tripod));
+  EXPECT_EQ(gait(0.415), named(Gait::tetrapod));
+  EXPECT_EQ(gait(0.252), named(Gait::tetrapod));
+  EXPECT_EQ(gait(0.248), named(Gait::wave));
+  EXPECT_EQ(gait(0.085), named(Gait::wave));
+  EXPECT_EQ(gait(0.582), named(Gait::tripod));
+  for (const double lag : {0.082, 0.0, 0.585, 0.75, 0.95})
+    EXPECT_EQ(gait(lag), (Classification{Gait::irregular, Irregular::no_wave})) << lag;
+}
+
+TEST(HexapodRule, DemandsThatPairsAlternateOrInATetrapodDifferByAThird) {
+  for (const double across : {0.401, 0.599}) EXPECT_EQ(classify(six(0.5, across)).gait, Gait::tripod);
+  for (const double across : {0.399, 0.601, 1.0 / 3.0, 0.0})
+    EXPECT_EQ(classify(six(0.5, across)), (Classification{Gait::irregular, Irregular::no_alternation}));
+  for (const double across : {0.234, 1.0 / 3.0, 2.0 / 3.0, 0.766})
+    EXPECT_EQ(classify(six(1.0 / 3.0, across)).gait, Gait::tetrapod);
+  for (const double across : {0.233, 0.767, 0.0})
+    EXPECT_EQ(classify(six(1.0 / 3.0, across)), (Classification{Gait::irregular, Irregular::no_alternation}));
+  auto mixed = six(1.0 / 3.0, 1.0 / 3.0);
+  mixed.pairs[1].phase = 2.0 / 3.0;
+  EXPECT_EQ(classify(mixed).reason, Irregular::no_alternation);
+}
+
+TEST(HexapodRule, DemandsEqualLags) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    auto phases = six(0.5);
+    phases.lags[i].phase = 0.599;
+    EXPECT_EQ(classify(phases).gait, Gait::tripod);
+    phases.lags[i].phase = 0.601;
+    EXPECT_EQ(classify(phases), (Classification{Gait::irregular, Irregular::uneven_lags}));
+  }
+}
+
+TEST(HexapodRule, DemandsSteadyStridesOfEveryFoot) {
+  auto phases = six(0.5);
+  phases.strides[3] = 3;
+  EXPECT_EQ(classify(phases).reason, Irregular::few_strides);
+  phases.strides[3] = 20;
+  EXPECT_EQ(classify(phases).reason, Irregular::uneven_counts);
+  for (std::size_t i = 0; i < 3; ++i) {
+    phases = six(0.5);
+    phases.pairs[i].resultant = 0.699;
+    EXPECT_EQ(classify(phases).reason, Irregular::spread_phases);
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    phases = six(0.5);
+    phases.lags[i].resultant = 0.699;
+    EXPECT_EQ(classify(phases).reason, Irregular::spread_phases);
+  }
+}
+
+TEST(BipedRule, NamesTheGaitByPhaseAndDutyFactor) {
+  const auto two = [](double phase, double duty_factor) {
+    return classify(BipedPhases{.pair = {phase, 1.0, 10}, .duty_factor = duty_factor, .strides = {10, 10}});
+  };
+  for (const double phase : {0.401, 0.5, 0.599}) {
+    EXPECT_EQ(two(phase, 0.6), (Classification{Gait::walk, Irregular::no}));
+    EXPECT_EQ(two(phase, 0.5), (Classification{Gait::walk, Irregular::no}));
+    EXPECT_EQ(two(phase, 0.499), (Classification{Gait::run, Irregular::no}));
+  }
+  for (const double phase : {0.901, 0.0, 0.099}) {
+    EXPECT_EQ(two(phase, 0.6).gait, Gait::hop);
+    EXPECT_EQ(two(phase, 0.3).gait, Gait::hop);
+  }
+  for (const double phase : {0.101, 0.25, 0.399, 0.601, 0.899})
+    EXPECT_EQ(two(phase, 0.6), (Classification{Gait::irregular, Irregular::no_alternation})) << phase;
+}
+
+TEST(BipedRule, DemandsSteadyStridesOfBothFeet) {
+  BipedPhases phases{.pair = {0.5, 1.0, 10}, .duty_factor = 0.6, .strides = {10, 3}};
+  EXPECT_EQ(classify(phases).reason, Irregular::few_strides);
+  phases.strides = {10, 20};
+  EXPECT_EQ(classify(phases).reason, Irregular::uneven_counts);
+  phases.strides = {10, 10};
+  phases.pair.resultant = 0.699;
+  EXPECT_EQ(classify(phases).reason, Irregular::spread_phases);
+}
+
 }  // namespace
 }  // namespace amble::gait

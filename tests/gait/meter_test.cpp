@@ -304,18 +304,86 @@ TEST(GaitMeter, MeasuresHowAPhaseDrifts) {
   EXPECT_NEAR(report.legs[1].drift_per_min.value(), 0.0, 1e-12);
 }
 
-TEST(GaitMeter, GivesPhasesButNoNameToASixLeggedRobot) {
-  Feeder feeder(6);
-  feeder.walk({.stride = 80, .stance = 44, .offset = {0, 40, 40, 0, 0, 40}}, 2000);
+TEST(GaitMeter, GivesPhasesButNoNameToAnEightLeggedRobot) {
+  Feeder feeder(8);
+  feeder.walk({.stride = 80, .stance = 44, .offset = {0, 40, 40, 0, 0, 40, 40, 0}}, 2000);
   const Report report = feeder.finish();
   EXPECT_FALSE(report.classification);
   EXPECT_FALSE(report.quadruped);
+  EXPECT_FALSE(report.hexapod);
   EXPECT_TRUE(report.gait_seconds.empty());
   EXPECT_TRUE(segments_of(report).empty());
   EXPECT_EQ(report.reference_leg, 0);
   EXPECT_NEAR(report.legs[1].phase.value().phase, 0.5, 1e-12);
   EXPECT_NEAR(std::remainder(report.legs[3].phase.value().phase, 1.0), 0.0, 1e-12);
-  EXPECT_NE(report_table(report).find("no name"), std::string::npos);
+  EXPECT_NEAR(report.duty_factor.value(), 0.55, 1e-12);
+  for (const std::string& text : {report_table(report), report_summary(report)}) {
+    EXPECT_EQ(text.find("no name"), std::string::npos) << text;
+    EXPECT_NE(text.find("  walking (duty factor 0.55), stride 0.80 s\n"), std::string::npos) << text;
+  }
+}
+
+/// 30 s of six feet in strides of 0.9 s: left ones that land `lag` frames after the one behind, and right
+/// ones `across` frames after the left ones beside them.
+Report six_legs(int lag, int across, int stance = 60) {
+  const auto left = [&](int ahead) { return ahead * lag; };
+  Clockwork feet{.stride = 90, .stance = stance, .offset = {}};
+  for (const int ahead : {2, 1, 0})
+    for (const int side : {0, across}) feet.offset.push_back(left(ahead) + side);
+  Feeder feeder(6);
+  feeder.walk(feet, 3000);
+  return feeder.finish();
+}
+
+TEST(GaitMeter, NamesTheGaitsOfSixLegs) {
+  EXPECT_EQ(six_legs(45, 45, 50).classification, named(Gait::tripod));
+  EXPECT_EQ(six_legs(30, 45).classification, named(Gait::tetrapod));
+  EXPECT_EQ(six_legs(30, 30).classification, named(Gait::tetrapod)) << "two legs swing together";
+  EXPECT_EQ(six_legs(30, 60).classification, named(Gait::tetrapod)) << "its mirror image";
+  EXPECT_EQ(six_legs(15, 45, 75).classification, named(Gait::wave));
+  const auto irregular = [](Irregular reason) { return Classification{Gait::irregular, reason}; };
+  EXPECT_EQ(six_legs(60, 45).classification, irregular(Irregular::no_wave)) << "from front to back";
+  EXPECT_EQ(six_legs(0, 45).classification, irregular(Irregular::no_wave)) << "side by side";
+  EXPECT_EQ(six_legs(0, 0).classification, irregular(Irregular::no_alternation)) << "all together";
+  EXPECT_EQ(six_legs(45, 30).classification, irregular(Irregular::no_alternation));
+}
+
+TEST(GaitMeter, TellsPairsAndLagsOfSixLegs) {
+  const Report report = six_legs(30, 45);
+  EXPECT_EQ(report.reference_leg, 4) << "the left hind foot";
+  ASSERT_TRUE(report.hexapod);
+  for (const PairPhase& pair : report.hexapod->pairs) EXPECT_NEAR(pair.phase, 0.5, 1e-12);
+  for (const PairPhase& lag : report.hexapod->lags) EXPECT_NEAR(lag.phase, 1.0 / 3.0, 1e-12);
+  EXPECT_NEAR(report.hexapod->lag, 1.0 / 3.0, 1e-12);
+  EXPECT_NEAR(report.duty_factor.value(), 2.0 / 3.0, 1e-12);
+  const std::string table = report_table(report), json = report_json(report);
+  EXPECT_NE(table.find("gait       tetrapod; walking (duty factor 0.67)"), std::string::npos) << table;
+  EXPECT_NE(table.find("pairs: fore 0.50 (R 1.00), middle 0.50 (R 1.00)"), std::string::npos) << table;
+  EXPECT_NE(json.find("\"gait\": \"tetrapod\""), std::string::npos);
+  EXPECT_NE(json.find("\"left_middle\""), std::string::npos);
+  EXPECT_NE(json.find("\"tripod\": 0"), std::string::npos);
+  EXPECT_EQ(json.find("\"trot\""), std::string::npos) << "is of four legs";
+}
+
+TEST(GaitMeter, NamesTheGaitsOfTwoLegs) {
+  const auto two_legs = [](int right, int stance) {
+    Feeder feeder(2);
+    feeder.walk({.stride = 80, .stance = stance, .offset = {0, right}}, 2000);
+    return feeder.finish();
+  };
+  EXPECT_EQ(two_legs(40, 48).classification, named(Gait::walk));
+  EXPECT_EQ(two_legs(40, 40).classification, named(Gait::walk)) << "no time in the air";
+  EXPECT_EQ(two_legs(40, 28).classification, named(Gait::run));
+  EXPECT_EQ(two_legs(0, 48).classification, named(Gait::hop));
+  EXPECT_EQ(two_legs(0, 28).classification, named(Gait::hop));
+  EXPECT_EQ(two_legs(20, 28).classification, (Classification{Gait::irregular, Irregular::no_alternation}));
+  const Report run = two_legs(44, 28);
+  EXPECT_EQ(run.classification, named(Gait::run));
+  EXPECT_NEAR(run.biped->pair.phase, 0.55, 1e-12);
+  EXPECT_NEAR(run.biped->duty_factor, 0.35, 1e-12);
+  EXPECT_NE(report_table(run).find("gait       run; running (duty factor 0.35)"), std::string::npos);
+  EXPECT_NE(report_table(run).find("pair: right after left 0.55 (R 1.00)\n"), std::string::npos);
+  EXPECT_DOUBLE_EQ(run.gait_seconds[static_cast<std::size_t>(Gait::run)], 18.0);
 }
 
 TEST(GaitMeter, OfATrialThatEndsAtOnceSaysThatThereWasNothing) {

@@ -12,7 +12,8 @@ namespace amble::tests {
 inline constexpr double frame_s = 0.01;
 
 /// A body of 5 kg without joints, hips 0.8 m high, gravity 10 m/s². Four legs are FL, FR, BL, BR, as a
-/// quadruped has them; other numbers are L0, L1, ….
+/// quadruped has them; other numbers are L0, L1, …, of which two or six are in pairs of a left and a right
+/// one from front to back.
 inline gait::Body synthetic_body(int legs = 4) {
   gait::Body body;
   body.robot = "synthetic";
@@ -23,6 +24,8 @@ inline gait::Body synthetic_body(int legs = 4) {
   body.gravity_m_s2 = 10.0;
   body.leg_length_m = 0.8;
   if (legs == 4) body.quadruped = gait::QuadrupedLegs{};
+  if (legs == 2 || legs == 6)
+    for (int leg = 0; leg < legs; leg += 2) body.pairs.push_back({leg, leg + 1});
   return body;
 }
 

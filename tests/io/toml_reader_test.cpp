@@ -40,6 +40,37 @@ TEST(TomlReader, ReadsEveryKindAndKeepsWhatIsMissing) {
   EXPECT_EQ(sample_from("friction = inf").friction, std::numeric_limits<double>::infinity());
 }
 
+struct Shape {
+  std::string kind = "box";
+  double size = 1.0;
+  void describe(SettingsVisitor& visitor) {
+    visitor.text("kind", kind, {""});
+    visitor.number("size", size, {0.0, 9.0}, {""});
+  }
+};
+
+/// Reads [shape], for which a text is short.
+Shape shape_from(const std::string& text) {
+  const TomlDocument document = TomlDocument::parse(text, "x.toml");
+  Shape shape;
+  const auto reader = document.reader();
+  reader->table("shape", shape, {.what = "", .short_for = "kind"});
+  reader->finish();
+  return shape;
+}
+
+TEST(TomlReader, TakesATextForATableWithThatKeyAloneWhereItIsShortForOne) {
+  EXPECT_EQ(shape_from("shape = 'ball'").kind, "ball");
+  EXPECT_EQ(shape_from("shape = 'ball'").size, 1.0);
+  EXPECT_EQ(shape_from("shape = {kind = 'ball', size = 2}").size, 2.0);
+  EXPECT_EQ(shape_from("").kind, "box");
+  EXPECT_EQ(error_of(ExitCode::bad_input, [&] { shape_from("shape = 3"); }),
+            "x.toml:1: 'shape' = 3: expected a table [shape]");
+  EXPECT_EQ(error_of(ExitCode::bad_input, [&] { shape_from("shape = 'ball'\ncolour = 'red'"); }),
+            "x.toml:2: unknown key 'colour'");
+  EXPECT_EQ(refusal("inner = 'x'"), "configs/x.toml:1: 'inner' = \"x\": expected a table [inner]");
+}
+
 TEST(TomlReader, RefusesWrongTypes) {
   EXPECT_EQ(refusal("\n\npopulation = \"many\""),
             "configs/x.toml:3: 'population' = \"many\": expected a whole number from 2 to 1000000");

@@ -156,6 +156,16 @@ test("chatter of the feet is a hairline, and counts in the diagram as little as 
     assert.notEqual((await pictureOf(page, ".plot canvas")).hash, chatters.hash);
   }));
 
+test("where gaits have no names the headline is how the feet go", () => {
+  const page = changed(makePage("walk4.html", recording("walk.rec")), "nameless.html",
+                       (text) => text.replaceAll('"gait":"trot"', '"gait":null'));
+  return onPage(page, {}, async (opened) => {
+    assert.equal(await opened.locator(".gait-name").textContent(), "between walking and running");
+    assert.match(await opened.locator(".gait-head").textContent(), /running duty factor 0\.500, stride 1\.00 s$/);
+    assert.doesNotMatch(await opened.locator(".gait-box").textContent(), /no name|null/i);
+  });
+});
+
 test("a recording without gait figures shows the share of time on the ground", () => {
   const page = changed(makePage("walk3.html", recording("walk.rec")), "no-gait.html",
                        (text) => text.replace(/"gait":\{"format".*?"cost_of_transport_absolute":[^}]*\}/, '"gait":null'));

@@ -6,7 +6,8 @@ const percent = (share) => (share == null ? "–" : `${(100 * share).toFixed(0)}
 const seconds = (time_s) => number(time_s, Number.isInteger(time_s) ? 0 : 1);
 const decimals = (count) => (value) => (value == null ? "–" : number(value, count));
 
-const nameOf = ({ gait, irregular_reason: reason }) => (gait ?? "no name") + (reason ? ` (${reason})` : "");
+/** Null for robots of which gaits have no names. */
+const nameOf = ({ gait, irregular_reason: reason }) => gait && gait + (reason ? ` (${reason})` : "");
 
 /** The duty factor parts walking from running; a value at the limit is named as such. */
 function footwork({ duty_factor: duty, stride_s }) {
@@ -26,8 +27,9 @@ export class GaitTable {
   }
 
   headline() {
-    const name = this.gait.gait ? nameOf(this.gait) : "no name (gaits are named for four legs, two behind two)";
-    return element("p", { class: "gait-head" }, element("b", { class: "gait-name" }, name), ` ${footwork(this.gait)}`);
+    const name = nameOf(this.gait), feet = footwork(this.gait);
+    const [head, ...rest] = name ? [name, feet] : feet.split(", ");
+    return element("p", { class: "gait-head" }, element("b", { class: "gait-name" }, head), ` ${rest.join(", ")}`);
   }
 
   table() {
@@ -83,8 +85,8 @@ export class GaitTable {
     const window = t < start_s ? null : windows.find(({ end_s }) => t < end_s) ?? windows.at(-1);
     if (window === this.window) return;
     this.window = window;
-    this.title.textContent = window ? `${seconds(window.start_s)} … ${seconds(window.end_s)} s: ${nameOf(window)}`
-      : `the first ${seconds(start_s)} s do not count`;
+    const time = (name) => `${seconds(window.start_s)} … ${seconds(window.end_s)} s${name ? `: ${name}` : ""}`;
+    this.title.textContent = window ? time(nameOf(window)) : `the first ${seconds(start_s)} s do not count`;
     this.now.duty_factors.forEach((cell, leg) => (cell.data = percent(window?.duty_factors[leg])));
     this.now.phases.forEach((cell, leg) => (cell.data = decimals(2)(window?.phases[leg]?.phase)));
   }

@@ -1,0 +1,66 @@
+#include "amble/robot/legs.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "amble/core/index.hpp"
+
+namespace amble::robot {
+namespace {
+
+/// Differences up to this are rounding: a model's numbers and rotations have fewer digits than doubles.
+constexpr double same_place_m = 1e-6;
+
+}  // namespace
+
+int hip_joint(const RobotSpec& robot, const Leg& leg) {
+  // Bodies precede their children, and the joints of one body are in the order of the chain.
+  const auto depth = [&](int j) {
+    const Joint& joint = robot.joints[to_index(j)];
+    return std::pair(joint.body, joint.chain_index);
+  };
+  int first = -1;
+  for (const int joint : leg.joints)
+    if (joint >= 0 && (first < 0 || depth(joint) < depth(first))) first = joint;
+  return first;
+}
+
+std::vector<Vec3> hips_m(const RobotSpec& robot, std::span<const Pose> poses) {
+  std::vector<Vec3> places_m = feet_m(robot, poses);
+  for (std::size_t leg = 0; leg < places_m.size(); ++leg) {
+    const int hip = hip_joint(robot, robot.legs[leg]);
+    if (hip < 0) continue;
+    const Joint& joint = robot.joints[to_index(hip)];
+    places_m[leg] = poses[to_index(joint.body)] * joint.anchor_m;
+  }
+  return places_m;
+}
+
+std::vector<Vec3> feet_m(const RobotSpec& robot, std::span<const Pose> poses) {
+  std::vector<Vec3> places_m;
+  for (const Leg& leg : robot.legs) places_m.push_back(centre_m(robot.geoms[to_index(leg.foot_geom)], poses));
+  return places_m;
+}
+
+std::vector<LegPair> leg_pairs(std::span<const Vec3> places_m) {
+  const std::size_t half = places_m.size() / 2;
+  if (half == 0 || places_m.size() % 2 != 0) return {};
+  const auto place = [&](int leg) { return places_m[to_index(leg)]; };
+  std::vector<int> order(places_m.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, [&](int a, int b) { return place(a).y > place(b).y; });
+  if (place(order[half - 1]).y - place(order[half]).y <= same_place_m) return {};
+
+  const std::span<int> left(order.data(), half), right(order.data() + half, half);
+  for (const std::span<int> side : {left, right}) {
+    std::ranges::stable_sort(side, [&](int a, int b) { return place(a).x > place(b).x; });
+    for (std::size_t i = 1; i < half; ++i)
+      if (place(side[i - 1]).x - place(side[i]).x <= same_place_m) return {};
+  }
+  std::vector<LegPair> pairs;
+  for (std::size_t i = 0; i < half; ++i) pairs.push_back({left[i], right[i]});
+  return pairs;
+}
+
+}  // namespace amble::robot

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "amble/core/math.hpp"
+#include "amble/robot/pose.hpp"
+#include "amble/robot/spec.hpp"
+
+namespace amble::robot {
+
+/// The joint of a leg that is nearest to the root, as an index into RobotSpec::joints; −1: the leg has none.
+int hip_joint(const RobotSpec& robot, const Leg& leg);
+
+/// Where each leg is attached, in the world: the anchor of its hip joint with the bodies at `poses`; the
+/// centre of its foot if it has no joint.
+std::vector<Vec3> hips_m(const RobotSpec& robot, std::span<const Pose> poses);
+/// Centres of the feet, leg by leg.
+std::vector<Vec3> feet_m(const RobotSpec& robot, std::span<const Pose> poses);
+
+/// A left and a right leg beside each other, as indices.
+struct LegPair {
+  int left = 0, right = 0;
+};
+
+/// The legs in pairs from front to back (+x is forward, +y left). Half of the legs are left: all of them are
+/// further left than each of the others; the n-th from the front of each side make a pair. Empty where that
+/// cannot be told: an odd number of legs, no gap between the sides, or two legs of a side abreast.
+std::vector<LegPair> leg_pairs(std::span<const Vec3> places_m);
+
+}  // namespace amble::robot

@@ -1,0 +1,69 @@
+#include "amble/robot/legs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "amble/robot/check.hpp"
+#include "tests/robot/legged.hpp"
+
+namespace amble::robot {
+namespace {
+
+std::vector<std::pair<int, int>> pairs_of(const std::vector<Vec3>& places_m) {
+  std::vector<std::pair<int, int>> pairs;
+  for (const LegPair& pair : leg_pairs(places_m)) pairs.emplace_back(pair.left, pair.right);
+  return pairs;
+}
+
+using Pairs = std::vector<std::pair<int, int>>;
+
+TEST(LegPairs, AreLeftAndRightFromFrontToBack) {
+  EXPECT_EQ(pairs_of({{0, 1, 0}, {0, -1, 0}}), (Pairs{{0, 1}}));
+  EXPECT_EQ(pairs_of({{-1, -1, 0}, {2, -1, 0}, {-1, 1, 0}, {2, 1, 0}}), (Pairs{{3, 1}, {2, 0}}));
+  // Staggered sides: the n-th of one belongs to the n-th of the other.
+  EXPECT_EQ(pairs_of({{0.1, 1, 0}, {0, -1, 0}, {1.1, 1, 0}, {1, -1, 0}}), (Pairs{{2, 3}, {0, 1}}));
+}
+
+TEST(LegPairs, OfLegsRoundACircleNeedAGapBetweenTheSides) {
+  const auto circle = [](int legs, double first_rad) {
+    std::vector<Vec3> places_m;
+    for (int leg = 0; leg < legs; ++leg) {
+      const double angle_rad = first_rad + 2.0 * std::acos(-1.0) * leg / legs;
+      places_m.push_back({std::cos(angle_rad), std::sin(angle_rad), 0});
+    }
+    return places_m;
+  };
+  EXPECT_EQ(pairs_of(circle(6, std::acos(-1.0) / 6)), (Pairs{{0, 5}, {1, 4}, {2, 3}}));
+  EXPECT_TRUE(pairs_of(circle(6, 0.0)).empty()) << "one leg in front, one behind";
+}
+
+TEST(LegPairs, AreNoneWhereLeftAndRightCannotBeTold) {
+  EXPECT_TRUE(pairs_of({}).empty());
+  EXPECT_TRUE(pairs_of({{0, 1, 0}}).empty());
+  EXPECT_TRUE(pairs_of({{0, 1, 0}, {1, -1, 0}, {2, 1, 0}}).empty());
+  EXPECT_TRUE(pairs_of({{1, 0, 0}, {0, 0, 0}}).empty()) << "one behind the other";
+  EXPECT_TRUE(pairs_of({{0, 2, 0}, {0, 1, 0}, {0, -1, 0}, {0, -2, 0}}).empty()) << "all abreast";
+}
+
+TEST(LegPairs, OfARobotAreFoundByItsHipsAndByItsFeet) {
+  const RobotSpec robot = tests::legged_robot(3);
+  const auto poses = start_poses(robot);
+  for (const auto& places_m : {hips_m(robot, poses), feet_m(robot, poses)})
+    EXPECT_EQ(pairs_of(places_m), (Pairs{{0, 1}, {2, 3}, {4, 5}}));
+  EXPECT_NEAR(hips_m(robot, poses)[0].z, 0.55, 1e-12);
+  EXPECT_NEAR(feet_m(robot, poses)[0].z, 0.05, 1e-12);
+  for (std::size_t leg = 0; leg < 6; ++leg)
+    EXPECT_EQ(hip_joint(robot, robot.legs[leg]), robot.legs[leg].joints[2]) << "hip_io, next to the torso";
+}
+
+TEST(LeggedRobot, PassesTheChecksOfRobots) {
+  for (const int rows : {1, 2, 3})
+    for (const RobotSpec& robot :
+         {tests::legged_robot(rows), tests::without_hip_io(tests::legged_robot(rows), 1),
+          tests::with_held_joint(tests::legged_robot(rows), 0, 0)})
+      check_robot(robot, [](const std::string& problem) { ADD_FAILURE() << problem; });
+}
+
+}  // namespace
+}  // namespace amble::robot
