@@ -23,9 +23,11 @@ void add_robot(CLI::App& app, Action& action) {
   command->callback([options, &action] {
     action = [options] {
       if (!options->mjcf.empty()) io::refuse_to_replace(options->mjcf, "<mujoco", "an MJCF model");
-      const auto robot = experiment::load_robot_file(options->file);
+      morphology::ReadingNotes notes;
+      const auto robot = experiment::load_robot_file(options->file, &notes);
       if (!options->mjcf.empty()) io::write_file(options->mjcf, morphology::write_mjcf(robot).text);
       fmt::print("{}", robot::summary(robot));
+      if (!notes.lines().empty()) fmt::print("\nthe model, beside what is above:\n{}", notes.text());
       return ExitCode::ok;
     };
   });
