@@ -230,6 +230,7 @@ class PartsExtractor {
     if (model_.jnt_stiffness[j] != 0.0) note(Reading::left_out, "the spring of joint '{}'", name);
     parts_.joints.push_back(std::move(joint));
     parts_.start_rad.push_back(start);
+    parts_.model_joints.push_back(j);
   }
 
   void add_geom(int g) {
@@ -265,6 +266,7 @@ class PartsExtractor {
     geom.rotation = pose.rotation;
     geom.rgba = {colour[0], colour[1], colour[2], colour[3]};
     parts_.geoms.push_back(std::move(geom));
+    parts_.model_geoms.push_back(g);
   }
 
   void finish_geoms() {

@@ -26,6 +26,7 @@ struct ModelParts {
   std::vector<robot::Joint> joints;  ///< in the order of the model, without servo
   std::vector<double> start_rad;     ///< per joint: the start pose's angle as the model counts it
   std::vector<robot::Geom> geoms;
+  std::vector<int> model_joints, model_geoms;  ///< MuJoCo's numbers of `joints` and `geoms`
   Vec3 gravity_m_s2;
   ReadingNotes notes;  ///< with those of the file
 };
