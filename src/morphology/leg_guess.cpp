@@ -124,6 +124,27 @@ class LegFinder {
     return true;
   }
 
+  /// What the names of a leg's joints begin with: "b" of "bthigh" and "bshin".
+  static std::string common_beginning(const std::vector<std::string>& names) {
+    std::string common = names.front();
+    for (const std::string& name : names) {
+      std::size_t same = 0;
+      while (same < std::min(common.size(), name.size()) && common[same] == name[same]) ++same;
+      common.resize(same);
+    }
+    return common;
+  }
+
+  /// With a "left" one, a leg without a word of its own is the right one.
+  static void name_the_other(std::vector<std::string>& names) {
+    if (names.size() != 2) return;
+    for (std::size_t l : {0, 1}) {
+      if (!names[l].empty()) continue;
+      if (names[1 - l] == "left") names[l] = "right";
+      if (names[1 - l] == "right") names[l] = "left";
+    }
+  }
+
   void name_legs() {
     if (guess_.legs.size() > 1) {
       for (const bool digits_apart : {false, true}) {
@@ -131,6 +152,7 @@ class LegFinder {
         own_words_ = own_words(digits_apart);
         digits_apart_ = digits_apart;
         for (const auto& words : own_words_) names.push_back(fmt::format("{}", fmt::join(words, "_")));
+        name_the_other(names);
         if (take_names(names)) {
           guess_.why_names = "the words that the names of a leg's joints share";
           return;
@@ -138,6 +160,19 @@ class LegFinder {
       }
     }
     own_words_.assign(guess_.legs.size(), {});
+    digits_apart_ = false;
+    std::vector<std::string> beginnings;
+    for (const LegGuess& leg : guess_.legs) {
+      std::vector<std::string> names;
+      for (const int j : leg.joints) names.push_back(joint_name(j));
+      beginnings.push_back(leg.joints.size() > 1 ? common_beginning(names) : "");
+    }
+    beginnings_ = beginnings;
+    if (guess_.legs.size() > 1 && take_names(beginnings)) {
+      guess_.why_names = "what the names of a leg's joints begin with";
+      return;
+    }
+    beginnings_.clear();
     guess_.why_names = "by place: the names of joints do not tell";
     if (take_names(places())) return;
     std::vector<std::string> numbers;
@@ -180,7 +215,8 @@ class LegFinder {
 
   /// A joint's name without the words of its leg and those of all joints of legs.
   std::string type_by_name(std::size_t leg, int j, const std::vector<std::string>& common) const {
-    std::vector<std::string> words = words_of(joint_name(j), digits_apart_);
+    const std::size_t beginning = beginnings_.empty() ? 0 : beginnings_[leg].size();
+    std::vector<std::string> words = words_of(joint_name(j).substr(beginning), digits_apart_);
     std::erase_if(words, [&](const std::string& word) {
       return contains(own_words_[leg], word) || contains(common, word);
     });
@@ -271,6 +307,7 @@ class LegFinder {
   robot::RobotSpec robot_;
   std::vector<robot::Pose> poses_;
   std::vector<std::vector<std::string>> own_words_;
+  std::vector<std::string> beginnings_;  ///< per leg, if the legs are named by them
   bool digits_apart_ = false;
   LegsGuess guess_;
 };

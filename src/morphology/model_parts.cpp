@@ -49,7 +49,7 @@ class PartsExtractor {
     for (int g = 0; g < model_.ngeom; ++g) {
       if (group_[to_index(model_.geom_bodyid[g])] >= 0) add_geom(g);
     }
-    finish_geoms();
+    finish();
     parts_.gravity_m_s2 = vec3(model_.opt.gravity);
     return std::move(parts_);
   }
@@ -227,7 +227,7 @@ class PartsExtractor {
     joint.armature_kg_m2 = model_.dof_armature[dof];
     joint.damping_nm_s_per_rad = model_.dof_damping[dof];
     joint.friction_loss_nm = model_.dof_frictionloss[dof];
-    if (model_.jnt_stiffness[j] != 0.0) note(Reading::left_out, "the spring of joint '{}'", name);
+    if (model_.jnt_stiffness[j] != 0.0) springs_.push_back(fmt::format("'{}'", name));
     parts_.joints.push_back(std::move(joint));
     parts_.start_rad.push_back(start);
     parts_.model_joints.push_back(j);
@@ -269,11 +269,12 @@ class PartsExtractor {
     parts_.model_geoms.push_back(g);
   }
 
-  void finish_geoms() {
+  void finish() {
     if (!lost_.empty())
       throw UserError(fmt::format("{}: collision meshes that are missing, or neither STL, OBJ nor MSH: {}",
                                   file_.path.string(), fmt::join(lost_, ", ")),
                       ExitCode::io);
+    if (!springs_.empty()) note(Reading::left_out, "the springs of joints {}", fmt::join(springs_, ", "));
     if (hulls_ > 0)
       note(Reading::replaced, "{} meshes that collide: the convex hull of each, with at most {} corners",
            hulls_, most_collision_vertices);
@@ -298,7 +299,7 @@ class PartsExtractor {
   std::vector<int> group_;
   std::vector<robot::Pose> pose_in_group_;
   int hulls_ = 0, shown_hulls_ = 0;
-  std::vector<std::string> lost_;
+  std::vector<std::string> lost_, springs_;
   ModelParts parts_;
 };
 

@@ -24,6 +24,8 @@ namespace {
 
 /// A controller moves a joint no further than this from the start pose unless the file says so.
 constexpr double widest_command_rad = 0.8;
+/// How far inside its stops a joint starts whose angle in the model lies outside.
+constexpr double inside_stops_share = 0.2, most_inside_stops_rad = 0.4;
 constexpr double paper_mass_kg = 5.4, paper_cfm_s_per_kg = 1e-4;
 
 std::string key(const std::string& name) {
@@ -77,6 +79,22 @@ class RobotGuesser {
     guess_.toml += '\n';
   }
 
+  /// A comment, wrapped.
+  void comment(const std::string& text) {
+    constexpr std::size_t width = 100;
+    std::string row = "#";
+    for (std::size_t at = 0; at < text.size();) {
+      const std::size_t end = std::min(text.find(' ', at), text.size());
+      if (row.size() + 1 + end - at > width) {
+        line("{}", row);
+        row = "#";
+      }
+      row += " " + text.substr(at, end - at);
+      at = end + 1;
+    }
+    line("{}", row);
+  }
+
   /// The start pose: keyframe, joints that must be fixed, and angles where it is outside the stops.
   void choose_start() {
     const std::vector<std::string> names = keyframes(*file_.model);
@@ -98,8 +116,10 @@ class RobotGuesser {
       const robot::Joint& joint = parts_.joints[j];
       const double lower = joint.lower_rad + parts_.start_rad[j],
                    upper = joint.upper_rad + parts_.start_rad[j];
+      const double inside = std::min(inside_stops_share * (upper - lower), most_inside_stops_rad);
       if (joint.lower_rad > 0.0 || joint.upper_rad < 0.0)
-        options_.start_angles_rad[joint.name] = std::round(0.5e4 * (lower + upper)) / 1e4;
+        options_.start_angles_rad[joint.name] =
+            std::round(1e4 * (joint.lower_rad > 0.0 ? lower + inside : upper - inside)) / 1e4;
     }
     if (!options_.start_angles_rad.empty()) parts_ = extract_parts(file_, options_);
   }
@@ -112,16 +132,16 @@ class RobotGuesser {
       line("# No chain of bodies with joints ends near the ground.");
       guess_.asked.push_back("legs, joint_types and [names]: no leg was found in the start pose");
     } else {
-      line("# Legs: {}; named by {}.", legs_.why_legs, legs_.why_names);
+      comment(fmt::format("Legs: {}; named by {}.", legs_.why_legs, legs_.why_names));
     }
     line("legs = {}", list(names));
-    if (!names.empty()) line("# {}.", legs_.why_types);
+    if (!names.empty()) comment(fmt::format("Types: {}.", legs_.why_types));
     line("joint_types = {}", list(legs_.joint_types));
     if (!held.empty()) {
-      line(
-          "# Joints of no leg. Their servo holds them at the start angle; in `fixed` they would be welded, "
-          "which is");
-      line("# faster.");
+      comment(
+          "Joints of no leg. Their servo holds them at the start angle; in `fixed` they would be welded, "
+          "which is "
+          "simulated faster.");
       line("held = {}", list(held));
     }
     if (!options_.fixed_joints.empty()) {
@@ -191,7 +211,9 @@ class RobotGuesser {
 
   void write_servo(const std::string& table, const ServoGuess& guess) {
     const robot::Servo& servo = guess.servo;
-    line("\n[{}]  # {}", table, guess.why);
+    line("");
+    comment(guess.why);
+    line("[{}]", table);
     if (servo.mode == robot::ServoMode::velocity) {
       line("mode = \"velocity\"\ngain_per_s = {}\nmax_torque_nm = {}", servo.gain_per_s, servo.max_torque_nm);
       return;
@@ -261,11 +283,12 @@ class RobotGuesser {
         if (const int j = leg.joint_of_type[t]; j >= 0 && command(j)) of_legs[leg.name] += text(*command(j));
     }
     if (of_types.empty() && of_legs.empty()) return;
-    line(
-        "\n# Targets of controllers, rad as the model counts: at most {} rad to either side of the start, "
-        "within the",
-        widest_command_rad);
-    line("# stops. Wider ranges are harder to search.\n[command]");
+    line("");
+    comment(
+        fmt::format("Targets of controllers, rad as the model counts: at most {} rad to either side of the "
+                    "start, within the stops. Wider ranges are harder to search.",
+                    widest_command_rad));
+    line("[command]");
     guess_.toml += of_types;
     for (const LegGuess& leg : legs_.legs)
       if (of_legs.contains(leg.name)) line("[command.{}]\n{}", key(leg.name), of_legs[leg.name]);
@@ -273,9 +296,12 @@ class RobotGuesser {
 
   void write_start_angles() {
     if (options_.start_angles_rad.empty()) return;
-    line(
-        "\n# The model's own angle lies outside the stops: their middle, rad as the model "
-        "counts.\n[start_angle]");
+    line("");
+    comment(fmt::format(
+        "Rad as the model counts. Where the model itself starts outside the stops of a joint: {} of "
+        "the way from the nearer stop to the other, at most {} rad.",
+        inside_stops_share, most_inside_stops_rad));
+    line("[start_angle]");
     for (const auto& [name, angle] : options_.start_angles_rad) line("{} = {}", key(name), angle);
   }
 
@@ -286,11 +312,10 @@ class RobotGuesser {
       friction = file_.model->geom_friction[3 * parts_.model_geoms[to_index(legs_.legs[0].foot_geom)]];
     line("\n[contact]");
     line("friction = {:.4g}  # of the first foot in the model", friction);
-    line("erp = 0.1  # as the paper's quadruped");
-    line(
-        "cfm_s_per_kg = {:.3g}  # the paper's {} × {} kg / {:.4g} kg, the mass of this robot: it sinks in as "
-        "far",
-        paper_cfm_s_per_kg * paper_mass_kg / mass_kg, paper_cfm_s_per_kg, paper_mass_kg, mass_kg);
+    comment("As the paper's quadruped; softness by weight, so that the robot sinks in as far.");
+    line("erp = 0.1");
+    line("cfm_s_per_kg = {:.3g}  # {} × {} kg / {:.4g} kg", paper_cfm_s_per_kg * paper_mass_kg / mass_kg,
+         paper_cfm_s_per_kg, paper_mass_kg, mass_kg);
   }
 
   const ModelFile& file_;

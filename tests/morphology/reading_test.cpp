@@ -160,7 +160,7 @@ TEST(Reading, TakesArmatureDampingAndFrictionOfJoints) {
   EXPECT_EQ(parts.joints[1].armature_kg_m2, 0.01);
   EXPECT_EQ(parts.joints[1].damping_nm_s_per_rad, 0.2);
   EXPECT_EQ(parts.joints[1].friction_loss_nm, 0.3);
-  EXPECT_THAT(parts.notes.text(), HasSubstr("the spring of joint 'A_knee'"));
+  EXPECT_THAT(parts.notes.text(), HasSubstr("the springs of joints 'A_knee'"));
 }
 
 TEST(Reading, FreesAFixedOrPlanarRoot) {
