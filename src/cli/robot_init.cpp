@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "amble/io/file.hpp"
+#include "amble/io/printable.hpp"
+#include "amble/io/toml_text.hpp"
 #include "amble/morphology/robot_file.hpp"
 #include "amble/morphology/robot_guess.hpp"
+#include "amble/physics/engine.hpp"
 #include "amble/robot/summary.hpp"
 
 namespace amble::cli {
@@ -39,19 +42,30 @@ std::string path_from(const fs::path& folder, const fs::path& path) {
   return (relative.empty() ? fs::absolute(path) : relative).generic_string();
 }
 
-std::string config_text(const std::string& name, const fs::path& folder) {
+/// The fastest engine that can simulate the robot, as a line of a config.
+std::string engine_line(const robot::RobotSpec& robot) {
+  try {
+    physics::make_engine("batch", robot, {.timestep_s = 0.01});
+    return "engine = \"batch\"\n";
+  } catch (const UserError& error) {
+    return fmt::format("engine = \"ode\"  # not batch, which is faster: {}\n", error.what());
+  }
+}
+
+std::string config_text(const std::string& name, const std::string& engine, const fs::path& folder) {
   const auto base = preset();
   return fmt::format(
-      "# {0}: SUPGs under noise, in the batch engine. `amble settings` lists all that may be set.\n"
-      "{1}include = [\"{2}\"]\n"
-      "name = \"{0}\"\n"
-      "robot = \"{0}.toml\"\n"
-      "engine = \"batch\"\n"
+      "# {0}: SUPGs under noise. `amble settings` lists all that may be set.\n"
+      "{1}include = [{2}]\n"
+      "name = {3}\n"
+      "robot = {4}\n"
+      "{5}"
       "\n"
       "[controller]\n"
       "substrate = \"auto\"  # a node for each joint, made from the robot's legs and joint types\n",
-      name, base ? "" : "# The presets of amble were not found: correct this path.\n",
-      base ? path_from(folder, *base) : "configs/robust/supg-objective.toml");
+      io::printable(name), base ? "" : "# The presets of amble were not found: correct this path.\n",
+      io::toml_quoted(base ? path_from(folder, *base) : "configs/robust/supg-objective.toml"),
+      io::toml_quoted(name), io::toml_quoted(name + ".toml"), engine);
 }
 
 }  // namespace
@@ -71,7 +85,6 @@ ExitCode init_robot(const fs::path& model, fs::path folder) {
       fail(ExitCode::bad_input, "{} is there already, and is not replaced", path.string());
   fs::create_directories(folder);
   io::write_file(robot_path, guess.toml);
-  io::write_file(config_path, config_text(guess.name, folder));
 
   std::vector<std::string> asked = guess.asked;
   morphology::ReadingNotes notes;
@@ -81,6 +94,8 @@ ExitCode init_robot(const fs::path& model, fs::path folder) {
   } catch (const UserError& error) {
     asked.emplace_back(error.what());
   }
+  const std::string engine = robot ? engine_line(*robot) : "engine = \"batch\"\n";
+  io::write_file(config_path, config_text(guess.name, engine, folder));
   if (robot) fmt::print("{}", robot::summary(*robot));
   if (!notes.lines().empty()) fmt::print("\nthe model, beside what is above:\n{}", notes.text());
   fmt::print("\nwrote {} and {}\n", robot_path.string(), config_path.string());

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -88,20 +89,24 @@ class PartsExtractor {
            model_.tendon_damping[t] != 0.0 || model_.tendon_frictionloss[t] != 0.0;
   }
 
-  /// The root is the body of the world that carries joints; if none does, the only one.
+  /// The root is the body of the world with joints behind it; if none has any, the one that moves; if none
+  /// does, the only one.
   void find_root() {
-    std::vector<int> roots, with_joints;
-    for (int b = 1; b < model_.nbody; ++b)
-      if (model_.body_parentid[b] == 0) roots.push_back(b);
-    for (const int root : roots) {
-      const auto of_root = [&](int j) { return model_.body_rootid[model_.jnt_bodyid[j]] == root; };
+    std::vector<int> roots, moving, with_joints;
+    for (int b = 1; b < model_.nbody; ++b) {
+      if (model_.body_parentid[b] != 0) continue;
+      roots.push_back(b);
+      if (model_.body_jntnum[b] > 0) moving.push_back(b);
       for (int j = 0; j < model_.njnt; ++j) {
-        if (!of_root(j)) continue;
-        with_joints.push_back(root);
+        const int of = model_.jnt_bodyid[j];
+        if (of == b || model_.body_rootid[of] != b) continue;
+        with_joints.push_back(b);
         break;
       }
     }
-    const std::vector<int>& candidates = with_joints.empty() ? roots : with_joints;
+    const std::vector<int>& candidates = !with_joints.empty() ? with_joints
+                                         : !moving.empty()    ? moving
+                                                              : roots;
     if (candidates.size() != 1)
       refuse("expected one body in the world, the robot's root, but found {}", candidates.size());
     root_ = candidates[0];
@@ -130,9 +135,12 @@ class PartsExtractor {
       const bool ground =
           model_.geom_type[g] == mjGEOM_PLANE && model_.geom_pos[3 * g + 2] == 0.0 && normal.z == 1.0;
       if (!ground)
-        note(Reading::left_out,
-             "geom '{}' of the world: the ground is the experiment's, here the plane z = 0", geom_name(g));
+        obstacles_.push_back(geom_name(g).empty() ? "one without a name" : fmt::format("'{}'", geom_name(g)));
     }
+    if (!obstacles_.empty())
+      note(Reading::left_out,
+           "{} geoms of the world, the first of them {}: the ground is amble's own, the plane z = 0",
+           obstacles_.size(), obstacles_.front());
     if (model_.nu > 0) note(Reading::left_out, "{} actuators: the robot file has the servos", model_.nu);
     if (model_.ntendon > 0) note(Reading::left_out, "{} tendons, which only measure", model_.ntendon);
     if (model_.neq > 0) note(Reading::left_out, "{} equality constraints, which are not active", model_.neq);
@@ -240,7 +248,7 @@ class PartsExtractor {
     const auto missing = file_.missing_meshes.find(mesh);
     if (missing != file_.missing_meshes.end() && type == mjGEOM_MESH) {
       if (collides(g))
-        lost_.push_back(missing->second);
+        lost_.insert(missing->second);
       else
         note(Reading::left_out, "what is only to look at and whose mesh is missing: {}", missing->second);
       return;
@@ -299,7 +307,8 @@ class PartsExtractor {
   std::vector<int> group_;
   std::vector<robot::Pose> pose_in_group_;
   int hulls_ = 0, shown_hulls_ = 0;
-  std::vector<std::string> lost_, springs_;
+  std::set<std::string> lost_;
+  std::vector<std::string> springs_, obstacles_;
   ModelParts parts_;
 };
 

@@ -1,5 +1,7 @@
 #include "amble/morphology/model_text.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -306,7 +308,7 @@ void clean_urdf(ModelText& text, const fs::path& path, ReadingNotes& notes) {
     return element.name == "visual" || element.name == "mimic" || element.name == "transmission" ||
            element.name == "gazebo";
   });
-  std::string missing;
+  std::set<std::string> missing;
   root.visit([&](XmlElement& element, XmlElement*) {
     if (element.name == "joint") {
       MotorHint& motor = text.motors[element.attribute_or("name", "")];
@@ -317,14 +319,14 @@ void clean_urdf(ModelText& text, const fs::path& path, ReadingNotes& notes) {
     }
     if (element.name != "mesh" || !element.attribute("filename")) return;
     const fs::path file = mesh_of_urdf(path.parent_path(), *element.attribute("filename"));
-    if (file.empty()) missing += (missing.empty() ? "" : ", ") + *element.attribute("filename");
+    if (file.empty()) missing.insert(*element.attribute("filename"));
     element.set("filename", file.string());
   });
   if (!missing.empty())
     fail(ExitCode::io,
          "{}: collision meshes that are missing, or neither STL, OBJ nor MSH: {}; they are looked for beside "
          "the URDF, in the folder above it, and in meshes/",
-         path.string(), missing);
+         path.string(), fmt::join(missing, ", "));
 }
 
 }  // namespace

@@ -193,9 +193,19 @@ TEST(Reading, TellsWhatStandsInTheWorldAndWhatOnlyMeasures) {
   const ModelParts parts = parts_of(files, xml);
   EXPECT_EQ(parts.bodies.size(), 3u);
   EXPECT_EQ(parts.geoms.size(), 4u);
-  for (const char* line : {"geom 'step' of the world", "body 'table': it stands in the world",
-                           "1 tendons, which only measure", "1 actuators", "sensors"})
+  for (const char* line :
+       {"1 geoms of the world, the first of them 'step'", "body 'table': it stands in the world",
+        "1 tendons, which only measure", "1 actuators", "sensors"})
     EXPECT_THAT(parts.notes.text(), HasSubstr(line));
+}
+
+TEST(Reading, TakesTheBodyWithJointsBehindItForTheRobot) {
+  const Files files;
+  const ModelParts parts = parts_of(
+      files, with(one_leg_xml, "<worldbody>",
+                  R"(<worldbody><body name="ball"><freejoint/><geom size="1"/></body><body name="post"/>)"));
+  EXPECT_EQ(parts.bodies[0].name, "torso");
+  EXPECT_THAT(parts.notes.text(), HasSubstr("body 'ball': it stands in the world"));
 }
 
 TEST(Reading, LeavesOutWhatANewerMujocoKnows) {
