@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/robot_init.hpp"
 #include "amble/experiment/problem.hpp"
 #include "amble/io/file.hpp"
 #include "amble/morphology/mjcf_writer.hpp"
@@ -12,20 +13,30 @@
 namespace amble::cli {
 
 void add_robot(CLI::App& app, Action& action) {
-  auto* command = app.add_subcommand("robot", "Show what was read from a robot file");
+  auto* command =
+      app.add_subcommand("robot", "Show what was read from a robot file, or make one from a model");
   struct Options {
-    std::filesystem::path file, mjcf;
+    std::filesystem::path file, mjcf, model, folder;
   };
   auto options = std::make_shared<Options>();
-  command->add_option("FILE", options->file, "Robot file (TOML beside an MJCF model, or a run's robot.json)")
-      ->required();
-  command->add_option("--mjcf", options->mjcf, "Write it as an MJCF model");
+  auto* file = command->add_option("FILE", options->file,
+                                   "Robot file (TOML beside an MJCF model, or a run's robot.json)");
+  auto* mjcf = command->add_option("--mjcf", options->mjcf, "Write it as an MJCF model");
+  auto* init = command->add_option("--init", options->model,
+                                   "Guess a robot file and a config from this model, MJCF (.xml) or .urdf");
+  command->add_option("-o,--out", options->folder, "Folder for both (default: one of the model's name)")
+      ->needs(init);
+  init->excludes(file)->excludes(mjcf);
   command->callback([options, &action] {
+    if (options->file.empty() && options->model.empty()) throw CLI::RequiredError("FILE or --init MODEL");
     action = [options] {
+      if (!options->model.empty()) return init_robot(options->model, options->folder);
       if (!options->mjcf.empty()) io::refuse_to_replace(options->mjcf, "<mujoco", "an MJCF model");
-      const auto robot = experiment::load_robot_file(options->file);
+      morphology::ReadingNotes notes;
+      const auto robot = experiment::load_robot_file(options->file, &notes);
       if (!options->mjcf.empty()) io::write_file(options->mjcf, morphology::write_mjcf(robot).text);
       fmt::print("{}", robot::summary(robot));
+      if (!notes.lines().empty()) fmt::print("\nthe model, beside what is above:\n{}", notes.text());
       return ExitCode::ok;
     };
   });

@@ -84,8 +84,8 @@ std::vector<trial::Scenario> Problem::scenarios(std::int64_t seed, int generatio
   return all;
 }
 
-robot::RobotSpec load_robot_file(const std::filesystem::path& path) {
-  if (path.extension() != ".json") return morphology::load_robot(path);
+robot::RobotSpec load_robot_file(const std::filesystem::path& path, morphology::ReadingNotes* notes) {
+  if (path.extension() != ".json") return morphology::load_robot(path, notes);
   const auto sealed = io::unseal_json("amble-robot", robot_version, io::read_file(path), path.string());
   return robot::from_json(io::JsonView(sealed.document, path.string()).at("robot"));
 }

@@ -10,6 +10,7 @@
 #include "amble/controllers/factory.hpp"
 #include "amble/cppn/settings.hpp"
 #include "amble/experiment/config.hpp"
+#include "amble/morphology/reading_notes.hpp"
 #include "amble/neat/genome.hpp"
 #include "amble/robot/spec.hpp"
 #include "amble/score/score.hpp"
@@ -52,8 +53,10 @@ struct Problem {
 
 /// The robot of a config. Throws UserError; if its file is missing, with the place that names it.
 robot::RobotSpec load_robot(const Config& config);
-/// A robot file: the TOML side file of a model, or the robot.json of a run folder. Throws UserError.
-robot::RobotSpec load_robot_file(const std::filesystem::path& path);
+/// A robot file: the TOML side file of a model, or the robot.json of a run folder. `notes`, if given, gets
+/// what became of the model's parts. Throws UserError.
+robot::RobotSpec load_robot_file(const std::filesystem::path& path,
+                                 morphology::ReadingNotes* notes = nullptr);
 /// The text of a robot.json.
 std::string robot_file_text(const robot::RobotSpec& robot);
 

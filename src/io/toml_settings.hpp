@@ -36,6 +36,10 @@ class TomlDocument {
   /// The document must outlive the reader.
   std::unique_ptr<Reader> reader() const;
 
+  /// Keys of a table whose keys are names that the caller knows later, in the file's order; none if it is not
+  /// there.
+  std::vector<std::string> keys_of(std::string_view key_path) const;
+
   /// For text settings that name files: the folder of the file that has the key. Empty for the current
   /// folder, and for keys from the command line.
   std::filesystem::path folder_of(std::string_view key_path) const;

@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "amble/core/error.hpp"
-#include "amble/io/file.hpp"
+#include "amble/core/index.hpp"
 #include "amble/morphology/mujoco_handlers.hpp"
 
 namespace amble::morphology {
@@ -18,25 +22,6 @@ namespace {
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   while (!text.empty() && text.back() == ' ') text.pop_back();
-  return text;
-}
-
-/// MuJoCo fuses a URDF's root link into the world, and its mass is lost, unless the compiler option
-/// fusestatic is off. That option goes into an element <mujoco>, which most URDF files do not have.
-std::string with_root_kept(std::string text, const std::filesystem::path& path) {
-  if (text.find("<mujoco") != std::string::npos) {
-    if (text.find("fusestatic=\"false\"") == std::string::npos) {
-      fail(ExitCode::bad_input,
-           "{}: the element <mujoco> must hold <compiler fusestatic=\"false\"/>, or the root link is lost",
-           path.string());
-    }
-    return text;
-  }
-  const std::size_t robot = text.find("<robot");
-  const std::size_t end = robot == std::string::npos ? robot : text.find('>', robot);
-  if (end == std::string::npos)
-    fail(ExitCode::bad_input, "{}: a URDF needs an element <robot>", path.string());
-  text.insert(end + 1, "<mujoco><compiler fusestatic=\"false\"/></mujoco>");
   return text;
 }
 
@@ -60,7 +45,8 @@ class MemoryFile {
   std::unique_ptr<mjVFS> files_;
 };
 
-ModelPointer load(const std::filesystem::path& path, const mjVFS* files, const std::string& what) {
+/// Compiles; without a model, its message.
+ModelPointer try_to_load(const std::filesystem::path& path, const mjVFS* files, std::string& problem) {
   const ScopedMujocoHandlers handlers;
   std::array<char, 1000> message{};
   ModelPointer model;
@@ -69,11 +55,122 @@ ModelPointer load(const std::filesystem::path& path, const mjVFS* files, const s
   } catch (const MujocoError& fatal) {
     std::snprintf(message.data(), message.size(), "%s", fatal.what());
   }
-  if (model == nullptr) {
-    fail(ExitCode::bad_input, "{}: MuJoCo refuses the model: {}", what, one_line(message.data()));
-  }
+  problem = one_line(message.data());
   return model;
 }
+
+/// The text between two marks, or empty.
+std::string between(const std::string& text, std::string_view before, std::string_view after) {
+  const std::size_t start = text.find(before);
+  if (start == std::string::npos) return {};
+  const std::size_t from = start + before.size(), to = text.find(after, from);
+  return text.substr(from, to == std::string::npos ? to : to - from);
+}
+
+/// Compiles a tree, and removes from it what the compiler does not know.
+class Compiler {
+ public:
+  Compiler(ModelText& text, const std::filesystem::path& path, ReadingNotes& notes)
+      : text_(text), path_(path), notes_(notes) {}
+
+  ModelPointer compile() {
+    for (int removals = 0;; ++removals) {
+      written_ = write_xml(text_.root);
+      const MemoryFile file(path_, written_.text);
+      std::string problem;
+      ModelPointer model = try_to_load(path_, file.get(), problem);
+      if (model != nullptr) return model;
+      if (removals == most_removals || !remove_unknown(problem))
+        fail(ExitCode::bad_input, "{}: MuJoCo refuses the model: {}", path_.string(),
+             with_line_of_file(problem));
+    }
+  }
+
+ private:
+  static constexpr int most_removals = 200;
+
+  /// The element of the line that a message names, or null. `mark` stands before the number.
+  XmlElement* element_of(const std::string& problem) const {
+    for (const std::string_view mark : {", line ", ", line = "}) {
+      const int line = std::atoi(between(problem, mark, ",").c_str());
+      if (line > 0 && line <= static_cast<int>(written_.lines.size()))
+        return written_.lines[to_index(line - 1)];
+    }
+    return nullptr;
+  }
+
+  /// A message with the file's own line in place of that of the text as it was compiled.
+  std::string with_line_of_file(const std::string& problem) const {
+    const XmlElement* element = element_of(problem);
+    const std::size_t at = problem.rfind(", line ");
+    if (element == nullptr || at == std::string::npos || element->line == 0) return problem;
+    return fmt::format("{} ({}:{})", problem.substr(0, at), element->file, element->line);
+  }
+
+  bool remove_unknown(const std::string& problem) {
+    const XmlElement* named = element_of(problem);
+    if (named == nullptr || text_.urdf) return false;
+    const std::string name = named->name;
+    if (problem.find("unrecognized attribute") != std::string::npos) {
+      remove_attributes(name, between(problem, "attribute: '", "'"), "");
+      return true;
+    }
+    // Settings of the solver, which amble has its own of.
+    const std::string keyword = between(problem, "invalid keyword: '", "'");
+    if (!keyword.empty() && (name == "option" || name == "compiler" || name == "flag")) {
+      std::vector<std::string> keys;
+      for (const auto& [key, value] : named->attributes)
+        if (value == keyword) keys.push_back(key);
+      for (const std::string& key : keys) remove_attributes(name, key, keyword);
+      return !keys.empty();
+    }
+    return problem.find("unrecognized element") != std::string::npos && remove_elements(name);
+  }
+
+  /// All of that name that are written the same; `value` empty: whatever its value.
+  void remove_attributes(const std::string& element_name, const std::string& key, const std::string& value) {
+    static const std::map<std::string, std::string> meanings{
+        {"actuatorfrcrange", "read by `amble robot --init` as the largest torque of a motor"},
+        {"kv", "read by `amble robot --init` as the damping of a servo"},
+        {"inheritrange", "the range of command is in the robot file"},
+        {"gravcomp", "gravity is not compensated in amble"},
+        {"actuatorgravcomp", "gravity is not compensated in amble"}};
+    const auto meaning = meanings.find(key);
+    notes_.add(Reading::left_out,
+               fmt::format("attribute '{}' of <{}>: {}", key, element_name,
+                           meaning != meanings.end() ? meaning->second : "this MuJoCo does not know it"));
+    text_.root.visit([&](XmlElement& element, XmlElement*) {
+      if (element.name == element_name && (value.empty() || element.attribute_or(key, "") == value))
+        element.remove_attribute(key);
+    });
+  }
+
+  static bool holds_bodies(const XmlElement& element) {
+    bool holds = false;
+    element.visit([&](const XmlElement& part) { holds = holds || part.name == "body"; });
+    return holds;
+  }
+
+  /// Elements of bodies stay: without them it would be another robot.
+  bool remove_elements(const std::string& name) {
+    bool of_a_body = false;
+    text_.root.visit([&](XmlElement& element, XmlElement* parent) {
+      if (element.name == name && parent != nullptr)
+        of_a_body = of_a_body || holds_bodies(element) || parent->name == "body" ||
+                    parent->name == "worldbody" || parent->name == "frame";
+    });
+    if (of_a_body || name == text_.root.name || name == "worldbody") return false;
+    if (std::ranges::count(written_.lines, name, &XmlElement::name) == 0) return false;
+    notes_.add(Reading::left_out, fmt::format("<{}>: this MuJoCo does not know it", name));
+    text_.root.prune([&](const XmlElement& element, const XmlElement&) { return element.name == name; });
+    return true;
+  }
+
+  ModelText& text_;
+  const std::filesystem::path& path_;
+  ReadingNotes& notes_;
+  XmlText written_;
+};
 
 }  // namespace
 
@@ -84,20 +181,20 @@ void DeleteModel::operator()(mjModel_* model) const {
 ModelFile compile_model(const std::filesystem::path& path) {
   ModelFile compiled;
   compiled.path = path;
-  const std::string text = io::read_file(path);
-  if (path.extension() == ".urdf") {
-    compiled.root_is_welded = true;
-    const MemoryFile amended(path, with_root_kept(text, path));
-    compiled.model = load(path, amended.get(), path.string());
-  } else {
-    compiled.model = load(path, nullptr, path.string());
-  }
+  ModelText text = read_model_text(path, compiled.notes);
+  compiled.root_is_welded = text.urdf;
+  compiled.model = Compiler(text, path, compiled.notes).compile();
+  compiled.motors = std::move(text.motors);
+  compiled.missing_meshes = std::move(text.missing_meshes);
   return compiled;
 }
 
 ModelPointer compile_mjcf(const std::string& text, const std::string& what) {
   const MemoryFile file("model.xml", text);
-  return load("model.xml", file.get(), what);
+  std::string problem;
+  ModelPointer model = try_to_load("model.xml", file.get(), problem);
+  if (model == nullptr) fail(ExitCode::bad_input, "{}: MuJoCo refuses the model: {}", what, problem);
+  return model;
 }
 
 }  // namespace amble::morphology

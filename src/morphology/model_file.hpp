@@ -1,8 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
+
+#include "amble/morphology/model_text.hpp"
+#include "amble/morphology/reading_notes.hpp"
 
 struct mjModel_;  // MuJoCo's mjModel
 
@@ -19,10 +23,14 @@ struct ModelFile {
   ModelPointer model;
   std::filesystem::path path;
   bool root_is_welded = false;  ///< URDF cannot express a free root link: it is welded to the world
+  std::map<std::string, MotorHint> motors = {};            ///< by joint
+  std::map<std::string, std::string> missing_meshes = {};  ///< name → file
+  ReadingNotes notes = {};
 };
 
-/// Compiles MJCF (.xml, .mjcf) or URDF (.urdf). Throws UserError: missing file (ExitCode::io), or the
-/// compiler's own message in one line.
+/// Compiles MJCF (.xml, .mjcf) or URDF (.urdf). Attributes and elements that this MuJoCo does not know, since
+/// the model was written for a newer one, are left out and noted, outside of bodies' structure. Throws
+/// UserError: missing file (ExitCode::io), see read_model_text(), or the compiler's own message in one line.
 ModelFile compile_model(const std::filesystem::path& path);
 
 /// Compiles the text of an MJCF model that refers to no other files. Throws UserError with the compiler's

@@ -1,18 +1,25 @@
 #include "amble/morphology/model_parts.hpp"
 
+#include <fmt/ranges.h>
 #include <mujoco/mujoco.h>
 
-#include <array>
-#include <cmath>
-#include <map>
+#include <algorithm>
+#include <limits>
+#include <set>
 #include <string_view>
+#include <utility>
 
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
+#include "amble/morphology/body_mass.hpp"
+#include "amble/morphology/model_shapes.hpp"
+#include "amble/morphology/start_pose.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::morphology {
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Vec3 vec3(const mjtNum* numbers) {
   return {numbers[0], numbers[1], numbers[2]};
@@ -24,22 +31,26 @@ Quat quat(const mjtNum* numbers) {
 /// Extracts the parts of one compiled model, step by step.
 class PartsExtractor {
  public:
-  explicit PartsExtractor(const ModelFile& file) : file_(file), model_(*file.model) {}
+  PartsExtractor(const ModelFile& file, const ReadingOptions& options)
+      : file_(file), options_(options), model_(*file.model), start_(file, options) {}
 
   ModelParts extract() {
+    parts_.notes = file_.notes;
     refuse_loops();
-    refuse_obstacles();
-    check_root();
+    find_root();
+    note_what_is_left_out();
+    find_fixed_joints();
     group_bodies();
-    for (int b = 1; b < model_.nbody; ++b) {
-      if (starts_group(b)) add_body(b);
+    for (int b = root_; b < model_.nbody; ++b) {
+      if (group_[to_index(b)] >= 0 && starts_group(b)) add_body(b);
     }
     for (int j = 0; j < model_.njnt; ++j) {
-      if (model_.jnt_bodyid[j] != 1) add_joint(j);
+      if (moves(j)) add_joint(j);
     }
     for (int g = 0; g < model_.ngeom; ++g) {
-      if (model_.geom_bodyid[g] != 0) add_geom(g);
+      if (group_[to_index(model_.geom_bodyid[g])] >= 0) add_geom(g);
     }
+    finish();
     parts_.gravity_m_s2 = vec3(model_.opt.gravity);
     return std::move(parts_);
   }
@@ -49,6 +60,10 @@ class PartsExtractor {
   [[noreturn]] void refuse(fmt::format_string<Args...> text, Args&&... args) const {
     throw UserError(file_.path.string() + ": " + fmt::format(text, std::forward<Args>(args)...));
   }
+  template <typename... Args>
+  void note(Reading reading, fmt::format_string<Args...> text, Args&&... args) {
+    parts_.notes.add(reading, fmt::format(text, std::forward<Args>(args)...));
+  }
 
   std::string_view body_name(int b) const { return model_.names + model_.name_bodyadr[b]; }
   std::string_view joint_name(int j) const { return model_.names + model_.name_jntadr[j]; }
@@ -56,38 +71,113 @@ class PartsExtractor {
   bool collides(int g) const { return model_.geom_contype[g] != 0 || model_.geom_conaffinity[g] != 0; }
 
   void refuse_loops() const {
-    if (model_.neq > 0) {
-      refuse("equality constraint '{}': robots with closed loops are not supported",
-             model_.names + model_.name_eqadr[0]);
-    }
-    if (model_.ntendon > 0)
-      refuse("tendon '{}': tendons are not supported", model_.names + model_.name_tendonadr[0]);
+    std::vector<std::string> loops, tendons;
+    for (int e = 0; e < model_.neq; ++e)
+      if (model_.eq_active[e] != 0) loops.push_back(fmt::format("'{}'", model_.names + model_.name_eqadr[e]));
+    if (!loops.empty())
+      refuse("equality constraint {}: robots with closed loops are not supported", fmt::join(loops, ", "));
+    for (int t = 0; t < model_.ntendon; ++t)
+      if (acts(t)) tendons.push_back(fmt::format("'{}'", model_.names + model_.name_tendonadr[t]));
+    if (!tendons.empty()) refuse("tendon {}: tendons are not supported", fmt::join(tendons, ", "));
   }
 
-  void refuse_obstacles() const {
+  /// Whether a tendon pulls at something; others only measure.
+  bool acts(int t) const {
+    for (int a = 0; a < model_.nu; ++a)
+      if (model_.actuator_trntype[a] == mjTRN_TENDON && model_.actuator_trnid[2 * a] == t) return true;
+    return model_.tendon_limited[t] != 0 || model_.tendon_stiffness[t] != 0.0 ||
+           model_.tendon_damping[t] != 0.0 || model_.tendon_frictionloss[t] != 0.0;
+  }
+
+  /// The root is the body of the world with joints behind it; if none has any, the one that moves; if none
+  /// does, the only one.
+  void find_root() {
+    std::vector<int> roots, moving, with_joints;
+    for (int b = 1; b < model_.nbody; ++b) {
+      if (model_.body_parentid[b] != 0) continue;
+      roots.push_back(b);
+      if (model_.body_jntnum[b] > 0) moving.push_back(b);
+      for (int j = 0; j < model_.njnt; ++j) {
+        const int of = model_.jnt_bodyid[j];
+        if (of == b || model_.body_rootid[of] != b) continue;
+        with_joints.push_back(b);
+        break;
+      }
+    }
+    const std::vector<int>& candidates = !with_joints.empty() ? with_joints
+                                         : !moving.empty()    ? moving
+                                                              : roots;
+    if (candidates.size() != 1)
+      refuse("expected one body in the world, the robot's root, but found {}", candidates.size());
+    root_ = candidates[0];
+    for (const int other : roots)
+      if (other != root_) note(Reading::left_out, "body '{}': it stands in the world", body_name(other));
+    free_root();
+  }
+
+  void free_root() {
+    const int joints = model_.body_jntnum[root_], first = model_.body_jntadr[root_];
+    if (joints == 1 && model_.jnt_type[first] == mjJNT_FREE) return;
+    if (joints == 0 && file_.root_is_welded) return;
+    std::vector<std::string> names;
+    for (int j = first; j < first + joints; ++j) names.emplace_back(joint_name(j));
+    if (joints == 0)
+      note(Reading::replaced, "root '{}' was fixed to the world: it is free to move", body_name(root_));
+    else
+      note(Reading::replaced, "root '{}' moved by {}: it is free to move", body_name(root_),
+           fmt::join(names, ", "));
+  }
+
+  void note_what_is_left_out() {
     for (int g = 0; g < model_.ngeom; ++g) {
       if (model_.geom_bodyid[g] != 0 || !collides(g)) continue;
       const Vec3 normal = rotate(quat(model_.geom_quat + 4 * g), {0.0, 0.0, 1.0});
       const bool ground =
           model_.geom_type[g] == mjGEOM_PLANE && model_.geom_pos[3 * g + 2] == 0.0 && normal.z == 1.0;
       if (!ground)
-        refuse("geom '{}' of the world: the only ground is the plane z = 0, without obstacles", geom_name(g));
+        obstacles_.push_back(geom_name(g).empty() ? "one without a name" : fmt::format("'{}'", geom_name(g)));
+    }
+    if (!obstacles_.empty())
+      note(Reading::left_out,
+           "{} geoms of the world, the first of them {}: the ground is amble's own, the plane z = 0",
+           obstacles_.size(), obstacles_.front());
+    if (model_.nu > 0) note(Reading::left_out, "{} actuators: the robot file has the servos", model_.nu);
+    if (model_.ntendon > 0) note(Reading::left_out, "{} tendons, which only measure", model_.ntendon);
+    if (model_.neq > 0) note(Reading::left_out, "{} equality constraints, which are not active", model_.neq);
+    if (model_.nexclude + model_.npair > 0)
+      note(Reading::left_out, "pairs of contacts and their exclusion: see self_collision in the robot file");
+    if (model_.opt.density != 0.0 || model_.opt.viscosity != 0.0)
+      note(Reading::left_out, "density and viscosity of the air");
+  }
+
+  void find_fixed_joints() {
+    fixed_.assign(to_index(model_.njnt), false);
+    for (const std::string& name : options_.fixed_joints) {
+      int j = 0;
+      while (j < model_.njnt && name != joint_name(j)) ++j;
+      if (j == model_.njnt) refuse("no joint '{}', which is named as fixed", name);
+      fixed_[to_index(j)] = true;
+      note(Reading::replaced, "joint '{}': fixed where it starts", name);
+    }
+    for (int j = 0; j < model_.njnt; ++j) {
+      const int type = model_.jnt_type[j];
+      if (moves(j) && type != mjJNT_HINGE)
+        refuse("joint '{}': only hinges are supported, no ball, slide or free joints", joint_name(j));
     }
   }
 
-  void check_root() const {
-    int roots = 0;
-    for (int b = 1; b < model_.nbody; ++b) roots += model_.body_parentid[b] == 0 ? 1 : 0;
-    if (roots != 1) refuse("expected one body in the world, the robot's root, but found {}", roots);
-    const int joints = model_.body_jntnum[1];
-    if (file_.root_is_welded && joints == 0) return;
-    const bool free = joints == 1 && model_.jnt_type[model_.body_jntadr[1]] == mjJNT_FREE;
-    if (!free)
-      refuse("the root body '{}' must be free to move: give it a <freejoint/> and no other joint",
-             body_name(1));
+  /// Whether it is a joint of the robot.
+  bool moves(int j) const {
+    const int b = model_.jnt_bodyid[j];
+    return b != root_ && model_.body_rootid[b] == root_ && !fixed_[to_index(j)];
   }
 
-  bool starts_group(int b) const { return b == 1 || model_.body_jntnum[b] > 0; }
+  bool starts_group(int b) const {
+    if (b == root_) return true;
+    for (int j = model_.body_jntadr[b], end = j + model_.body_jntnum[b]; j < end; ++j)
+      if (!fixed_[to_index(j)]) return true;
+    return false;
+  }
 
   /// Assigns each body of the model to a rigid body of the robot, with its pose in that body's frame.
   void group_bodies() {
@@ -95,21 +185,22 @@ class PartsExtractor {
     pose_in_group_.resize(to_index(model_.nbody));
     int groups = 0;
     for (int b = 1; b < model_.nbody; ++b) {
+      if (model_.body_rootid[b] != root_) continue;
       group_[to_index(b)] = starts_group(b) ? groups++ : group_[to_index(model_.body_parentid[b])];
       if (!starts_group(b)) pose_in_group_[to_index(b)] = pose_in_parent_group(b);
     }
   }
 
   robot::Pose pose_in_parent_group(int b) const {
-    const robot::Pose own{vec3(model_.body_pos + 3 * b), quat(model_.body_quat + 4 * b)};
-    return b == 1 ? own : pose_in_group_[to_index(model_.body_parentid[b])] * own;
+    const robot::Pose own = start_.pose_in_parent(b);
+    return b == root_ ? own : pose_in_group_[to_index(model_.body_parentid[b])] * own;
   }
 
   void add_body(int b) {
     const robot::Pose pose = pose_in_parent_group(b);
     robot::Body body;
     body.name = body_name(b);
-    body.parent = b == 1 ? -1 : group_[to_index(model_.body_parentid[b])];
+    body.parent = b == root_ ? -1 : group_[to_index(model_.body_parentid[b])];
     body.position_m = pose.position_m;
     body.rotation = pose.rotation;
 
@@ -118,111 +209,86 @@ class PartsExtractor {
       if (group_[to_index(m)] == group_[to_index(b)] && model_.body_mass[m] > 0.0) members.push_back(m);
     }
     if (members.empty()) refuse("body '{}' has no mass", body.name);
-    if (members.size() == 1) {
-      const int m = members[0];
-      const robot::Pose inertia = pose_in_group_[to_index(m)] * robot::Pose{vec3(model_.body_ipos + 3 * m),
-                                                                            quat(model_.body_iquat + 4 * m)};
-      body.mass_kg = model_.body_mass[m];
-      body.com_m = inertia.position_m;
-      body.inertia_rotation = inertia.rotation;
-      body.inertia_kg_m2 = vec3(model_.body_inertia + 3 * m);
-    } else {
-      combine_masses(members, body);
-    }
+    set_mass(model_, members, pose_in_group_, body);
     parts_.bodies.push_back(std::move(body));
-  }
-
-  /// Mass, centre and principal moments of several bodies that are fixed to each other (parallel axis
-  /// theorem).
-  void combine_masses(const std::vector<int>& members, robot::Body& body) const {
-    Vec3 weighted;
-    for (const int m : members) {
-      body.mass_kg += model_.body_mass[m];
-      weighted =
-          weighted + model_.body_mass[m] * (pose_in_group_[to_index(m)] * vec3(model_.body_ipos + 3 * m));
-    }
-    body.com_m = (1.0 / body.mass_kg) * weighted;
-
-    std::array<mjtNum, 9> tensor{};
-    for (const int m : members) {
-      const robot::Pose own = pose_in_group_[to_index(m)] *
-                              robot::Pose{vec3(model_.body_ipos + 3 * m), quat(model_.body_iquat + 4 * m)};
-      const Vec3 lever = own.position_m - body.com_m;
-      const std::array<Vec3, 3> axes{rotate(own.rotation, {1, 0, 0}), rotate(own.rotation, {0, 1, 0}),
-                                     rotate(own.rotation, {0, 0, 1})};
-      const std::array<double, 3> d{lever.x, lever.y, lever.z};
-      for (std::size_t r = 0; r < 3; ++r) {
-        for (std::size_t c = 0; c < 3; ++c) {
-          double moment = model_.body_mass[m] * ((r == c ? dot(lever, lever) : 0.0) - d[r] * d[c]);
-          for (std::size_t k = 0; k < 3; ++k) {
-            const std::array<double, 3> axis{axes[k].x, axes[k].y, axes[k].z};
-            moment += model_.body_inertia[3 * to_index(m) + k] * axis[r] * axis[c];
-          }
-          tensor[3 * r + c] += moment;
-        }
-      }
-    }
-    std::array<mjtNum, 3> moments{};
-    std::array<mjtNum, 9> vectors{};
-    std::array<mjtNum, 4> rotation{};
-    mju_eig3(moments.data(), vectors.data(), rotation.data(), tensor.data());
-    body.inertia_kg_m2 = vec3(moments.data());
-    body.inertia_rotation = quat(rotation.data());
   }
 
   void add_joint(int j) {
     const int b = model_.jnt_bodyid[j];
     const std::string_view name = joint_name(j);
     if (name.empty()) refuse("body '{}' has a joint without a name", body_name(b));
-    if (model_.jnt_type[j] != mjJNT_HINGE)
-      refuse("joint '{}': only hinges are supported, no ball, slide or free joints", name);
-    if (model_.jnt_limited[j] == 0) {
-      refuse(
-          "joint '{}' has no limits: give it a range (MJCF: limited=\"true\" range=\"…\"; URDF: "
-          "type=\"revolute\")",
-          name);
-    }
     // MuJoCo counts angles from the joint's reference, amble from the start pose.
-    const double start = model_.qpos0[model_.jnt_qposadr[j]];
+    const double start = start_.angle_rad(j);
+    const robot::Pose after = start_.after(j);
+    const Vec3 anchor = vec3(model_.jnt_pos + 3 * j), axis = vec3(model_.jnt_axis + 3 * j);
+    const bool turned = !(after.rotation == Quat{});
+    const int dof = model_.jnt_dofadr[j];
     robot::Joint joint;
     joint.name = name;
     joint.body = group_[to_index(b)];
-    joint.chain_index = j - model_.body_jntadr[b];
-    joint.anchor_m = vec3(model_.jnt_pos + 3 * j);
-    joint.axis = vec3(model_.jnt_axis + 3 * j);
-    joint.lower_rad = model_.jnt_range[2 * j] - start;
-    joint.upper_rad = model_.jnt_range[2 * j + 1] - start;
+    for (int k = model_.body_jntadr[b]; k < j; ++k) joint.chain_index += moves(k) ? 1 : 0;
+    joint.anchor_m = turned ? rotate(conjugate(after.rotation), anchor - after.position_m) : anchor;
+    joint.axis = turned ? rotate(conjugate(after.rotation), axis) : axis;
+    const bool limited = model_.jnt_limited[j] != 0;
+    joint.lower_rad = limited ? model_.jnt_range[2 * j] - start : -infinity;
+    joint.upper_rad = limited ? model_.jnt_range[2 * j + 1] - start : infinity;
+    joint.armature_kg_m2 = model_.dof_armature[dof];
+    joint.damping_nm_s_per_rad = model_.dof_damping[dof];
+    joint.friction_loss_nm = model_.dof_frictionloss[dof];
+    if (model_.jnt_stiffness[j] != 0.0) springs_.push_back(fmt::format("'{}'", name));
     parts_.joints.push_back(std::move(joint));
+    parts_.start_rad.push_back(start);
+    parts_.model_joints.push_back(j);
   }
 
   void add_geom(int g) {
-    static const std::map<int, robot::Shape> shapes{{mjGEOM_SPHERE, robot::Shape::sphere},
-                                                    {mjGEOM_CAPSULE, robot::Shape::capsule},
-                                                    {mjGEOM_CYLINDER, robot::Shape::cylinder},
-                                                    {mjGEOM_BOX, robot::Shape::box}};
-    const auto shape = shapes.find(model_.geom_type[g]);
-    if (shape == shapes.end()) {
-      if (!collides(g)) return;
-      refuse(
-          "geom '{}': only spheres, capsules, cylinders and boxes can collide; a mesh must be decoration "
-          "(contype=\"0\" conaffinity=\"0\")",
-          name_or_place(g));
+    const int type = model_.geom_type[g];
+    const std::string mesh =
+        type == mjGEOM_MESH ? model_.names + model_.name_meshadr[model_.geom_dataid[g]] : "";
+    const auto missing = file_.missing_meshes.find(mesh);
+    if (missing != file_.missing_meshes.end() && type == mjGEOM_MESH) {
+      if (collides(g))
+        lost_.insert(missing->second);
+      else
+        note(Reading::left_out, "what is only to look at and whose mesh is missing: {}", missing->second);
+      return;
     }
+    auto shape = shape_of(model_, g, collides(g));
+    if (!shape) {
+      if (collides(g))
+        refuse("geom '{}': planes, height fields and flat meshes cannot collide", name_or_place(g));
+      note(Reading::left_out, "geom '{}': a shape that cannot be shown", name_or_place(g));
+      return;
+    }
+    if (shape->shape == robot::Shape::mesh) ++(collides(g) ? hulls_ : shown_hulls_);
     const int b = model_.geom_bodyid[g];
     const robot::Pose pose = pose_in_group_[to_index(b)] *
                              robot::Pose{vec3(model_.geom_pos + 3 * g), quat(model_.geom_quat + 4 * g)};
     const float* colour =
         model_.geom_matid[g] < 0 ? model_.geom_rgba + 4 * g : model_.mat_rgba + 4 * model_.geom_matid[g];
-    robot::Geom geom;
+    robot::Geom& geom = *shape;
     geom.name = name_or_place(g);
     geom.body = group_[to_index(b)];
     geom.collides = collides(g);
-    geom.shape = shape->second;
-    geom.size_m = vec3(model_.geom_size + 3 * g);
     geom.position_m = pose.position_m;
     geom.rotation = pose.rotation;
     geom.rgba = {colour[0], colour[1], colour[2], colour[3]};
     parts_.geoms.push_back(std::move(geom));
+    parts_.model_geoms.push_back(g);
+  }
+
+  void finish() {
+    if (!lost_.empty())
+      throw UserError(fmt::format("{}: collision meshes that are missing, or neither STL, OBJ nor MSH: {}",
+                                  file_.path.string(), fmt::join(lost_, ", ")),
+                      ExitCode::io);
+    if (!springs_.empty()) note(Reading::left_out, "the springs of joints {}", fmt::join(springs_, ", "));
+    if (hulls_ > 0)
+      note(Reading::replaced, "{} meshes that collide: the convex hull of each, with at most {} corners",
+           hulls_, most_collision_vertices);
+    if (shown_hulls_ > 0)
+      note(Reading::replaced, "{} meshes to look at: the convex hull of each, with at most {} corners",
+           shown_hulls_, most_decoration_vertices);
   }
 
   std::string name_or_place(int g) const {
@@ -233,16 +299,23 @@ class PartsExtractor {
   }
 
   const ModelFile& file_;
+  const ReadingOptions& options_;
   const mjModel& model_;
+  StartPose start_;
+  int root_ = 1;
+  std::vector<bool> fixed_;
   std::vector<int> group_;
   std::vector<robot::Pose> pose_in_group_;
+  int hulls_ = 0, shown_hulls_ = 0;
+  std::set<std::string> lost_;
+  std::vector<std::string> springs_, obstacles_;
   ModelParts parts_;
 };
 
 }  // namespace
 
-ModelParts extract_parts(const ModelFile& file) {
-  return PartsExtractor(file).extract();
+ModelParts extract_parts(const ModelFile& file, const ReadingOptions& options) {
+  return PartsExtractor(file, options).extract();
 }
 
 }  // namespace amble::morphology

@@ -1,28 +1,45 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
 #include "amble/core/math.hpp"
 #include "amble/morphology/model_file.hpp"
+#include "amble/morphology/reading_notes.hpp"
 #include "amble/robot/spec.hpp"
 
 namespace amble::morphology {
 
+/// How a robot stands at the start, and which of its joints do not move.
+struct ReadingOptions {
+  std::string start_keyframe = {};  ///< of the MJCF; empty: the model's default pose
+  std::map<std::string, double> start_angles_rad =
+      {};                                      ///< by joint, as the model counts; beside the keyframe
+  std::vector<std::string> fixed_joints = {};  ///< welded at their start angle
+};
+
 /// The parts of a robot that a model file defines. Bodies that are fixed to their parent are one rigid body
-/// with it, under the parent's name.
+/// with it, under the parent's name. Frames, anchors and axes are those of the start pose.
 struct ModelParts {
   std::vector<robot::Body> bodies;
   std::vector<robot::Joint> joints;  ///< in the order of the model, without servo
+  std::vector<double> start_rad;     ///< per joint: the start pose's angle as the model counts it
   std::vector<robot::Geom> geoms;
+  std::vector<int> model_joints, model_geoms;  ///< MuJoCo's numbers of `joints` and `geoms`
   Vec3 gravity_m_s2;
+  ReadingNotes notes;  ///< with those of the file
 };
 
+/// Corners of a collision mesh's convex hull, and of one that is only to look at.
+inline constexpr std::size_t most_collision_vertices = 32, most_decoration_vertices = 100;
+
 /// Extracts the parts from a compiled model. A geom without a name gets that of its body in the model, with
-/// ".0", ".1", … appended where there are several. Left out: geoms of the world (the ground is amble's own)
-/// and decorative geoms whose shape amble does not know. Throws UserError for what amble cannot simulate:
-/// more than one robot, a root that is not free, joints other than limited hinges, closed loops, tendons,
-/// colliding meshes and other shapes, obstacles in the world.
-ModelParts extract_parts(const ModelFile& file);
+/// ".0", ".1", … appended where there are several. Meshes and ellipsoids become convex hulls; a root that is
+/// not free becomes free. Left out and noted: what stands in the world (the ground is amble's own), springs,
+/// actuators. Throws UserError for what amble cannot simulate: more than one robot, joints that are neither
+/// hinges nor fixed, closed loops, tendons that act, colliding planes and height fields; names of keyframes
+/// and joints that are not there.
+ModelParts extract_parts(const ModelFile& file, const ReadingOptions& options = {});
 
 }  // namespace amble::morphology

@@ -1,7 +1,11 @@
 #include "amble/morphology/robot_file.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "amble/core/error.hpp"
@@ -32,41 +36,110 @@ int index_of(const std::vector<T>& items, const std::string& name) {
   return found == items.end() ? -1 : static_cast<int>(found - items.begin());
 }
 
-/// Puts the model's joints into control order, leg by leg and type by type, and gives them their servos.
-void add_legs(const std::string& what, const SideFile& side, const ModelParts& parts,
-              robot::RobotSpec& robot) {
-  std::vector<bool> named(parts.joints.size());
-  for (std::size_t l = 0; l < side.legs.size(); ++l) {
+/// Puts the model's joints into control order, leg by leg and type by type, then those that are held, and
+/// gives them their servos and ranges of command.
+class JointOrder {
+ public:
+  JointOrder(const std::string& what, const SideFile& side, const ModelParts& parts, robot::RobotSpec& robot)
+      : what_(what), side_(side), parts_(parts), robot_(robot), named_(parts.joints.size()) {}
+
+  void add() {
+    for (std::size_t l = 0; l < side_.legs.size(); ++l) add_leg(l);
+    for (std::size_t h = 0; h < side_.held.size(); ++h) {
+      const int j = index_of(parts_.joints, side_.held[h]);
+      if (j < 0)
+        fail(ExitCode::bad_input, "{}: 'held' names a joint '{}', but {} has: {}", what_, side_.held[h],
+             side_.model.string(), list_of_names(parts_.joints));
+      robot::Joint& joint = add_joint(j, side_.held_servos[h]);
+      joint.command = robot::AngleRange{0.0, 0.0};
+    }
+    refuse_unnamed();
+    refuse_endless();
+  }
+
+ private:
+  robot::Joint& add_joint(int j, const robot::Servo& servo) {
+    const robot::Joint& joint = parts_.joints[to_index(j)];
+    if (named_[to_index(j)]) fail(ExitCode::bad_input, "{}: joint '{}' is named twice", what_, joint.name);
+    named_[to_index(j)] = true;
+    robot_.joints.push_back(joint);
+    robot_.joints.back().servo = servo;
+    return robot_.joints.back();
+  }
+
+  void add_leg(std::size_t l) {
     robot::Leg leg;
-    leg.name = side.legs[l];
-    for (std::size_t t = 0; t < side.joint_types.size(); ++t) {
-      const std::string& name = side.names[l].joints[t];
-      const int j = index_of(parts.joints, name);
-      if (j < 0) {
-        fail(ExitCode::bad_input, "{}: leg '{}' needs a joint '{}' ({}), but {} has: {}", what, leg.name,
-             name, side.joint_types[t], side.model.string(), list_of_names(parts.joints));
+    leg.name = side_.legs[l];
+    for (std::size_t t = 0; t < side_.joint_types.size(); ++t) {
+      const std::string& name = side_.names[l].joints[t];
+      if (name.empty()) {
+        leg.joints.push_back(-1);
+        continue;
       }
-      if (named[to_index(j)]) fail(ExitCode::bad_input, "{}: joint '{}' is named twice", what, name);
-      named[to_index(j)] = true;
-      leg.joints.push_back(static_cast<int>(robot.joints.size()));
-      robot.joints.push_back(parts.joints[to_index(j)]);
-      robot.joints.back().servo = side.servos[l * side.joint_types.size() + t];
+      const int j = index_of(parts_.joints, name);
+      if (j < 0)
+        fail(ExitCode::bad_input, "{}: leg '{}' needs a joint '{}' ({}), but {} has: {}", what_, leg.name,
+             name, side_.joint_types[t], side_.model.string(), list_of_names(parts_.joints));
+      leg.joints.push_back(static_cast<int>(robot_.joints.size()));
+      const std::size_t place = l * side_.joint_types.size() + t;
+      robot::Joint& joint = add_joint(j, side_.servos[place]);
+      if (const auto& range = side_.commands[place]) {
+        const double start = parts_.start_rad[to_index(j)];
+        joint.command = robot::AngleRange{range->lower_rad - start, range->upper_rad - start};
+        check_command(joint, start);
+      } else if (!std::isfinite(joint.lower_rad) || !std::isfinite(joint.upper_rad)) {
+        endless_.push_back(fmt::format("command.{}.{} ({})", leg.name, side_.joint_types[t], name));
+      }
     }
-    leg.foot_geom = index_of(parts.geoms, side.names[l].foot);
+    leg.foot_geom = index_of(parts_.geoms, side_.names[l].foot);
     if (leg.foot_geom < 0) {
-      fail(ExitCode::bad_input, "{}: leg '{}' needs a foot geom '{}', but {} has: {}", what, leg.name,
-           side.names[l].foot, side.model.string(), list_of_names(parts.geoms));
+      fail(ExitCode::bad_input, "{}: leg '{}' needs a foot geom '{}', but {} has: {}", what_, leg.name,
+           side_.names[l].foot, side_.model.string(), list_of_names(parts_.geoms));
     }
-    robot.legs.push_back(std::move(leg));
+    robot_.legs.push_back(std::move(leg));
   }
-  for (std::size_t j = 0; j < named.size(); ++j) {
-    if (!named[j]) {
+
+  void check_command(const robot::Joint& joint, double start) const {
+    constexpr double rounding_rad = 1e-9;
+    if (joint.command->lower_rad >= joint.lower_rad - rounding_rad &&
+        joint.command->upper_rad <= joint.upper_rad + rounding_rad) {
+      robot::Joint& own = robot_.joints.back();
+      own.command->lower_rad = std::max(own.command->lower_rad, own.lower_rad);
+      own.command->upper_rad = std::min(own.command->upper_rad, own.upper_rad);
+      return;
+    }
+    fail(ExitCode::bad_input,
+         "{}: joint '{}': its range of command {:.6g} … {:.6g} rad goes beyond its stops {:.6g} … {:.6g} rad",
+         what_, joint.name, joint.command->lower_rad + start, joint.command->upper_rad + start,
+         joint.lower_rad + start, joint.upper_rad + start);
+  }
+
+  void refuse_unnamed() const {
+    std::vector<std::string> unnamed;
+    for (std::size_t j = 0; j < named_.size(); ++j)
+      if (!named_[j]) unnamed.push_back(fmt::format("'{}'", parts_.joints[j].name));
+    if (!unnamed.empty())
       fail(ExitCode::bad_input,
-           "{}: joint '{}' of {} belongs to no leg: every joint must be named by legs and joint_types", what,
-           parts.joints[j].name, side.model.string());
-    }
+           "{}: {} {} of {} belong{} to no leg: name every joint by legs and joint_types, or in held = [...] "
+           "(its servo holds it) or fixed = [...] (welded)",
+           what_, unnamed.size() == 1 ? "joint" : "joints", fmt::join(unnamed, ", "), side_.model.string(),
+           unnamed.size() == 1 ? "s" : "");
   }
-}
+
+  void refuse_endless() const {
+    if (!endless_.empty())
+      fail(ExitCode::bad_input,
+           "{}: joints without limits in {} need a range of command, [lower, upper] in rad: {}", what_,
+           side_.model.string(), fmt::join(endless_, ", "));
+  }
+
+  const std::string& what_;
+  const SideFile& side_;
+  const ModelParts& parts_;
+  robot::RobotSpec& robot_;
+  std::vector<bool> named_;
+  std::vector<std::string> endless_;
+};
 
 void check_feet(const std::string& what, const robot::RobotSpec& robot) {
   for (const robot::Leg& leg : robot.legs) {
@@ -91,15 +164,15 @@ void check_height(const std::string& what, const robot::RobotSpec& robot) {
 
 }  // namespace
 
-robot::RobotSpec load_robot(const std::filesystem::path& path) {
+robot::RobotSpec load_robot(const std::filesystem::path& path, ReadingNotes* notes) {
   const SideFile side = read_side_file(path);
-  ModelParts parts = extract_parts(compile_model(side.model));
+  ModelParts parts = extract_parts(compile_model(side.model), {side.start, side.start_rad, side.fixed});
   const std::string what = path.string();
 
   robot::RobotSpec robot;
   robot.name = side.name;
   robot.joint_types = side.joint_types;
-  add_legs(what, side, parts, robot);
+  JointOrder(what, side, parts, robot).add();
   robot.bodies = std::move(parts.bodies);
   robot.geoms = std::move(parts.geoms);
   if (side.root_height_m > 0.0) robot.bodies[0].position_m.z = side.root_height_m;
@@ -112,6 +185,7 @@ robot::RobotSpec load_robot(const std::filesystem::path& path) {
                      [&](const std::string& problem) { fail(ExitCode::bad_input, "{}: {}", what, problem); });
   check_feet(what, robot);
   check_height(what, robot);
+  if (notes != nullptr) notes->add(parts.notes);
   return robot;
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "amble/morphology/reading_notes.hpp"
 #include "amble/robot/spec.hpp"
 
 namespace amble::morphology {
@@ -9,8 +10,9 @@ namespace amble::morphology {
 /// Reads a robot from its TOML file, e.g. robots/quadruped/authors.toml, and the MJCF or URDF model it names,
 /// compiled by MuJoCo. robots/README.md describes both. Throws UserError with one line that names file and
 /// part, for everything that is missing, unknown or not supported: see SideFile, extract_parts() and
-/// check_robot(); besides, a joint of the model that no leg names and the reverse, and a foot that starts
-/// below the ground.
-robot::RobotSpec load_robot(const std::filesystem::path& path);
+/// check_robot(); besides, joints of the model that the file does not name and the reverse, joints without
+/// stops and range of command, and a foot that starts below the ground. `notes`, if given, gets what became
+/// of the model's parts.
+robot::RobotSpec load_robot(const std::filesystem::path& path, ReadingNotes* notes = nullptr);
 
 }  // namespace amble::morphology

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string_view>
+#include <utility>
 
 #include "amble/core/error.hpp"
 #include "amble/io/toml_settings.hpp"
@@ -59,6 +61,8 @@ class SideFileReader {
     read_top();
     read_names();
     read_servos();
+    read_commands();
+    read_start_angles();
     reader_->begin("contact", {"contacts of bodies with the ground and each other"});
     visit(*reader_, side_.contact);
     reader_->end();
@@ -84,6 +88,9 @@ class SideFileReader {
     reader_->text("model", model, {"its MJCF or URDF file, relative to this file"});
     reader_->texts("legs", side_.legs, {"names of the legs, in control order"});
     reader_->texts("joint_types", side_.joint_types, {"names of the joint types, in control order"});
+    reader_->texts("held", side_.held, {"joints of no leg, held at their start angle by their servo"});
+    reader_->texts("fixed", side_.fixed, {"joints that are welded at their start angle"});
+    reader_->text("start", side_.start, {"keyframe of the MJCF that is the start pose"});
     reader_->number("start_height_m", side_.root_height_m, {0.0, largest},
                     {"height of the root's frame in the start pose; 0: as the model has it"});
     reader_->number("fall_height_m", side_.fall_height_m, {-largest, largest},
@@ -95,6 +102,11 @@ class SideFileReader {
     if (side_.name.empty()) side_.name = side_.model.stem().string();
     check_names("legs", side_.legs);
     check_names("joint_types", side_.joint_types);
+    for (const std::string& name : side_.held) {
+      for (const auto& [key, names] : {std::pair{"legs", &side_.legs}, {"joint_types", &side_.joint_types}})
+        if (std::ranges::find(*names, name) != names->end())
+          fail(ExitCode::bad_input, "{}: 'held' and '{}' both name '{}'", document_.where("held"), key, name);
+    }
     for (const std::string& leg : side_.legs) {
       if (std::find(side_.joint_types.begin(), side_.joint_types.end(), leg) != side_.joint_types.end()) {
         fail(ExitCode::bad_input, "{}: 'legs' and 'joint_types' both name '{}'", document_.where("legs"),
@@ -155,6 +167,48 @@ class SideFileReader {
       }
       reader_->end();
     }
+    for (const std::string& joint : side_.held) {
+      side_.held_servos.push_back(common);
+      read_servo(joint, side_.held_servos.back());
+    }
+    reader_->end();
+  }
+
+  /// Ranges of joint types, and of single joints.
+  void read_commands() {
+    std::vector<std::optional<robot::AngleRange>> by_type(side_.joint_types.size());
+    reader_->begin("command",
+                   {"range of the targets that controllers give, where it is not from stop to stop: "
+                    "command.TYPE for a joint type, command.LEG.TYPE for one joint"});
+    for (std::size_t t = 0; t < by_type.size(); ++t) read_range("command", side_.joint_types[t], by_type[t]);
+    for (const std::string& leg : side_.legs) {
+      reader_->begin(leg, {"ranges of this leg"});
+      for (std::size_t t = 0; t < by_type.size(); ++t) {
+        side_.commands.push_back(by_type[t]);
+        read_range("command." + leg, side_.joint_types[t], side_.commands.back());
+      }
+      reader_->end();
+    }
+    reader_->end();
+  }
+
+  void read_range(const std::string& table, const std::string& key, std::optional<robot::AngleRange>& range) {
+    std::vector<double> ends;
+    reader_->numbers(key, ends, {-largest, largest},
+                     {"lower and upper end, rad, as the model counts the angle"});
+    if (ends.empty()) return;
+    const std::string path = table + "." + key;
+    if (ends.size() != 2 || !(ends[0] < ends[1]))
+      fail(ExitCode::bad_input, "{}: '{}': expected [lower, upper] with lower below upper",
+           document_.where(path), path);
+    range = robot::AngleRange{ends[0], ends[1]};
+  }
+
+  void read_start_angles() {
+    reader_->begin("start_angle", {"start angles of single joints"});
+    for (const std::string& joint : document_.keys_of("start_angle"))
+      reader_->number(joint, side_.start_rad[joint], {-largest, largest},
+                      {"rad, as the model counts the angle"});
     reader_->end();
   }
 
@@ -165,19 +219,22 @@ class SideFileReader {
   }
 
   void require_numbers() {
-    for (robot::Servo& servo : side_.servos) {
-      const bool velocity = servo.mode == robot::ServoMode::velocity;
-      require("servo.max_torque_nm", servo.max_torque_nm);
-      require(velocity ? "servo.gain_per_s" : "servo.kp_nm_per_rad",
-              velocity ? servo.gain_per_s : servo.kp_nm_per_rad);
-      // What the mode does not use is zero.
-      (velocity ? servo.kp_nm_per_rad : servo.gain_per_s) = 0.0;
-      if (velocity) servo.kd_nm_s_per_rad = 0.0;
-    }
+    for (robot::Servo& servo : side_.servos) require_numbers(servo);
+    for (robot::Servo& servo : side_.held_servos) require_numbers(servo);
     require("fall_height_m", side_.fall_height_m);
     require("contact.friction", side_.contact.friction);
     require("contact.erp", side_.contact.erp);
     require("contact.cfm_s_per_kg", side_.contact.cfm_s_per_kg);
+  }
+
+  void require_numbers(robot::Servo& servo) const {
+    const bool velocity = servo.mode == robot::ServoMode::velocity;
+    require("servo.max_torque_nm", servo.max_torque_nm);
+    require(velocity ? "servo.gain_per_s" : "servo.kp_nm_per_rad",
+            velocity ? servo.gain_per_s : servo.kp_nm_per_rad);
+    // What the mode does not use is zero.
+    (velocity ? servo.kp_nm_per_rad : servo.gain_per_s) = 0.0;
+    if (velocity) servo.kd_nm_s_per_rad = 0.0;
   }
 
   std::string path_;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +13,7 @@ namespace amble::morphology {
 /// Names of a leg's parts in the model.
 struct LegNames {
   std::string foot;
-  std::vector<std::string> joints;  ///< one per joint type
+  std::vector<std::string> joints;  ///< one per joint type; empty: the leg has none of that type
 };
 
 /// The TOML file beside a model: all that MJCF and URDF cannot express. robots/README.md describes it key by
@@ -22,7 +24,14 @@ struct SideFile {
   std::vector<std::string> legs;
   std::vector<std::string> joint_types;
   std::vector<LegNames> names;       ///< one per leg
-  std::vector<robot::Servo> servos;  ///< one per joint, in control order
+  std::vector<std::string> held;     ///< joints of no leg, held at their start angle by their servo
+  std::vector<std::string> fixed;    ///< joints that are welded at their start angle
+  std::vector<robot::Servo> servos;  ///< leg by leg and type by type, whether or not the leg has the joint
+  std::vector<robot::Servo> held_servos;  ///< one per held joint
+  /// In the order of `servos`, as the model counts angles; none: from stop to stop.
+  std::vector<std::optional<robot::AngleRange>> commands;
+  std::string start;                        ///< keyframe; empty: the model's default pose
+  std::map<std::string, double> start_rad;  ///< start angles by joint, as the model counts, beside `start`
   robot::Contact contact;
   double root_height_m = 0.0;  ///< of the root's frame; 0: as the model has it
   double fall_height_m = 0.0;

@@ -28,16 +28,19 @@ TEST(CompileModel, PassesOnWhatMujocoSaysInOneLine) {
     return files.error_of([&] { compile_model(path); });
   };
   for (const std::string& text :
-       {std::string("no xml at all"), with(one_leg_xml, "<worldbody>", "<wordbody>"),
-        with(one_leg_xml, "type=\"box\"", "type=\"bux\""), with(one_leg_xml, "mass=\"3\"", "mass=\"-3\""),
-        with(one_leg_xml, "</mujoco>", "")}) {
+       {std::string("<nothing/>"), with(one_leg_xml, "type=\"box\"", "type=\"bux\""),
+        with(one_leg_xml, "mass=\"3\"", "mass=\"-3\""),
+        with(with(one_leg_xml, "<worldbody>", "<wordbody>"), "</worldbody>", "</wordbody>")}) {
     const std::string line = error_of(text);
     EXPECT_EQ(line.find("bad.xml: MuJoCo refuses the model: "), 0u) << line;
     EXPECT_EQ(line.find('\n'), std::string::npos) << line;
     EXPECT_GT(line.size(), 45u) << line;
   }
   EXPECT_NE(error_of(with(one_leg_xml, "type=\"box\"", "type=\"bux\"")).find("bux"), std::string::npos);
-  EXPECT_EQ(error_of("").find("bad.xml: MuJoCo refuses the model: "), 0u);
+  EXPECT_EQ(error_of(""), "bad.xml:1: no XML that can be read: expected an element, but the file ends");
+  EXPECT_EQ(error_of("no xml at all"), "bad.xml:1: no XML that can be read: expected '<'");
+  EXPECT_EQ(error_of(with(one_leg_xml, "</mujoco>", "")),
+            "bad.xml:20: no XML that can be read: </mujoco> is missing");
 }
 
 TEST(CompileModel, RefusesAMovingBodyWithoutMass) {

@@ -59,8 +59,8 @@ TEST(LoadRobot, RefusesWhereModelAndSideFileDisagree) {
   EXPECT_EQ(error_of(R"(["hip", "knee"])", R"(["hip", "ankle"])"),
             "one_leg.toml: leg 'A' needs a joint 'A_ankle' (ankle), but one_leg.xml has: A_hip, A_knee");
   EXPECT_EQ(error_of(R"(["hip", "knee"])", R"(["hip"])"),
-            "one_leg.toml: joint 'A_knee' of one_leg.xml belongs to no leg: every joint must be named by "
-            "legs and joint_types");
+            "one_leg.toml: joint 'A_knee' of one_leg.xml belongs to no leg: name every joint by legs and "
+            "joint_types, or in held = [...] (its servo holds it) or fixed = [...] (welded)");
   EXPECT_EQ(error_of(R"(["A"])", R"(["A", "B"])"),
             "one_leg.toml: leg 'B' needs a joint 'B_hip' (hip), but one_leg.xml has: A_hip, A_knee");
   EXPECT_EQ(error_of("[servo]", "[names]\njoint = \"A_hip\"\n[servo]"),

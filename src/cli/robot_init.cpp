@@ -1,0 +1,114 @@
+#include "amble/cli/robot_init.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "amble/io/file.hpp"
+#include "amble/io/printable.hpp"
+#include "amble/io/toml_text.hpp"
+#include "amble/morphology/robot_file.hpp"
+#include "amble/morphology/robot_guess.hpp"
+#include "amble/physics/engine.hpp"
+#include "amble/robot/summary.hpp"
+
+namespace amble::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The config that the new one extends: in the source tree or the installation that this program is part of,
+/// or below the current folder.
+std::optional<fs::path> preset() {
+  const fs::path name = "configs/robust/supg-objective.toml";
+  std::error_code error;
+  std::vector<fs::path> folders;
+  for (fs::path at = fs::read_symlink("/proc/self/exe", error).parent_path(); at.has_relative_path();
+       at = at.parent_path()) {
+    folders.push_back(at);
+    folders.push_back(at / "share/amble");
+  }
+  folders.push_back(fs::current_path());
+  for (const fs::path& folder : folders)
+    if (fs::exists(folder / name, error)) return folder / name;
+  return std::nullopt;
+}
+
+/// A path as a file in `folder` names it.
+std::string path_from(const fs::path& folder, const fs::path& path) {
+  const fs::path relative = fs::relative(fs::absolute(path), fs::absolute(folder));
+  return (relative.empty() ? fs::absolute(path) : relative).generic_string();
+}
+
+/// The fastest engine that can simulate the robot, as a line of a config.
+std::string engine_line(const robot::RobotSpec& robot) {
+  try {
+    physics::make_engine("batch", robot, {.timestep_s = 0.01});
+    return "engine = \"batch\"\n";
+  } catch (const UserError& error) {
+    return fmt::format("engine = \"ode\"  # not batch, which is faster: {}\n", error.what());
+  }
+}
+
+std::string config_text(const std::string& name, const std::string& engine, const fs::path& folder) {
+  const auto base = preset();
+  return fmt::format(
+      "# {0}: SUPGs under noise. `amble settings` lists all that may be set.\n"
+      "{1}include = [{2}]\n"
+      "name = {3}\n"
+      "robot = {4}\n"
+      "{5}"
+      "\n"
+      "[controller]\n"
+      "substrate = \"auto\"  # a node for each joint, made from the robot's legs and joint types\n",
+      io::printable(name), base ? "" : "# The presets of amble were not found: correct this path.\n",
+      io::toml_quoted(base ? path_from(folder, *base) : "configs/robust/supg-objective.toml"),
+      io::toml_quoted(name), io::toml_quoted(name + ".toml"), engine);
+}
+
+}  // namespace
+
+ExitCode init_robot(const fs::path& model, fs::path folder) {
+  if (model.extension() == ".toml" || model.extension() == ".json")
+    fail(ExitCode::bad_input, "--init: {} is a robot file: expected a model, MJCF (.xml) or URDF (.urdf)",
+         model.string());
+  if (folder.empty()) folder = model.stem();
+  const morphology::ModelFile file = morphology::compile_model(model);
+  const morphology::RobotGuess guess = morphology::guess_robot(file, path_from(folder, model));
+  const fs::path robot_path = folder / (guess.name + ".toml"), config_path = folder / "evolve.toml";
+  if (robot_path.filename() == config_path.filename())
+    fail(ExitCode::bad_input, "--init: the model must not be called evolve, as the config is");
+  for (const fs::path& path : {robot_path, config_path})
+    if (fs::exists(path))
+      fail(ExitCode::bad_input, "{} is there already, and is not replaced", path.string());
+  fs::create_directories(folder);
+  io::write_file(robot_path, guess.toml);
+
+  std::vector<std::string> asked = guess.asked;
+  morphology::ReadingNotes notes;
+  std::optional<robot::RobotSpec> robot;
+  try {
+    robot = morphology::load_robot(robot_path, &notes);
+  } catch (const UserError& error) {
+    asked.emplace_back(error.what());
+  }
+  const std::string engine = robot ? engine_line(*robot) : "engine = \"batch\"\n";
+  io::write_file(config_path, config_text(guess.name, engine, folder));
+  if (robot) fmt::print("{}", robot::summary(*robot));
+  if (!notes.lines().empty()) fmt::print("\nthe model, beside what is above:\n{}", notes.text());
+  fmt::print("\nwrote {} and {}\n", robot_path.string(), config_path.string());
+  if (!asked.empty()) {
+    fmt::print("still to be given in {}:\n", robot_path.string());
+    for (const std::string& line : asked) fmt::print("  {}\n", line);
+  }
+  const bool ready = robot && !robot->legs.empty();
+  if (ready)
+    fmt::print("next: read {0}, then\n  amble evolve {1}\n", robot_path.string(), config_path.string());
+  else
+    fmt::print("next: complete it, and check it with\n  amble robot {}\n", robot_path.string());
+  return ready ? ExitCode::ok : ExitCode::bad_input;
+}
+
+}  // namespace amble::cli

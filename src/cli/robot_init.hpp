@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+#include "amble/core/error.hpp"
+
+namespace amble::cli {
+
+/// `amble robot --init`: guesses a robot file from a model, writes it and a config into `folder` (empty: one
+/// of the model's name here), loads the robot and says what was read, what is still to be given, and what to
+/// do next. Throws UserError for a model that cannot be read and for files that are there already.
+ExitCode init_robot(const std::filesystem::path& model, std::filesystem::path folder);
+
+}  // namespace amble::cli

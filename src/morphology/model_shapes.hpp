@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+
+#include "amble/robot/spec.hpp"
+
+struct mjModel_;
+
+namespace amble::morphology {
+
+/// Shape and size of a geom of the model; of meshes and ellipsoids the convex hull, with its vertices. Pose,
+/// names and colour are the caller's. Nothing for shapes that robots do not have (planes, height fields) and
+/// for meshes without volume.
+std::optional<robot::Geom> shape_of(const mjModel_& model, int geom, bool collides);
+
+}  // namespace amble::morphology

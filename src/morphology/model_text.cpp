@@ -1,0 +1,348 @@
+#include "amble/morphology/model_text.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+#include <vector>
+
+#include "amble/core/error.hpp"
+#include "amble/io/file.hpp"
+
+namespace amble::morphology {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t largest_file_bytes = 50'000'000;
+constexpr int most_includes = 32;
+
+double number_or_zero(const std::optional<std::string>& text) {
+  const double number = text ? std::strtod(text->c_str(), nullptr) : 0.0;
+  return number > 0.0 && number < 1e9 ? number : 0.0;
+}
+
+std::string place(const XmlElement& element) {
+  return fmt::format("{}:{}", element.file, element.line);
+}
+
+/// A path with `name` at its end as MuJoCo finds meshes: relative to `folder`.
+bool is_readable_mesh(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  const bool known = extension == ".stl" || extension == ".obj" || extension == ".msh";
+  std::error_code error;
+  return known && fs::is_regular_file(path, error) && fs::file_size(path, error) <= largest_file_bytes;
+}
+
+/// Reads MJCF files into one tree.
+class Includer {
+ public:
+  explicit Includer(const fs::path& path) : folder_(path.parent_path()) {}
+
+  XmlElement read(const fs::path& path) {
+    XmlElement root = parse_xml(io::read_file(path, largest_file_bytes), path.string());
+    open_.push_back(path.lexically_normal());
+    include_into(root);
+    open_.pop_back();
+    return root;
+  }
+
+ private:
+  void include_into(XmlElement& element) {
+    std::vector<XmlElement> children;
+    for (XmlElement& child : element.children) {
+      if (child.name != "include") {
+        include_into(child);
+        children.push_back(std::move(child));
+        continue;
+      }
+      for (XmlElement& part : included(child).children) children.push_back(std::move(part));
+    }
+    element.children = std::move(children);
+  }
+
+  XmlElement included(const XmlElement& element) {
+    const fs::path name = element.attribute_or("file", "");
+    if (name.empty()) fail(ExitCode::bad_input, "{}: <include> names no file", place(element));
+    const bool outside = name.is_absolute() || std::ranges::find(name, fs::path("..")) != name.end();
+    if (outside)
+      fail(ExitCode::bad_input, "{}: <include file=\"{}\">: only files in the model's folder are read",
+           place(element), name.string());
+    if (++includes_ > most_includes)
+      fail(ExitCode::bad_input, "{}: more than {} includes", place(element), most_includes);
+    fs::path path = folder_ / name;
+    const fs::path beside = fs::path(element.file).parent_path() / name;
+    if (std::error_code error; !fs::exists(path, error) && fs::exists(beside, error)) path = beside;
+    if (std::ranges::find(open_, path.lexically_normal()) != open_.end())
+      fail(ExitCode::bad_input, "{}: <include file=\"{}\">: the file includes itself", place(element),
+           name.string());
+    // A link inside the folder may lead out of it.
+    std::error_code error;
+    const fs::path real = fs::canonical(path, error), home = fs::canonical(folder_.empty() ? "." : folder_);
+    if (!error && std::mismatch(home.begin(), home.end(), real.begin(), real.end()).first != home.end())
+      fail(ExitCode::bad_input, "{}: <include file=\"{}\">: only files in the model's folder are read",
+           place(element), name.string());
+    return read(path);
+  }
+
+  fs::path folder_;
+  std::vector<fs::path> open_;
+  int includes_ = 0;
+};
+
+/// Attributes of MJCF elements with those of their default classes.
+class Defaults {
+ public:
+  explicit Defaults(const XmlElement& root) {
+    for (const XmlElement& child : root.children)
+      if (child.name == "default") add(child, nullptr, child.attribute_or("class", "main"));
+  }
+
+  std::optional<std::string> attribute(const XmlElement& element, std::string_view key,
+                                       const std::string& childclass) const {
+    if (auto own = element.attribute(key)) return own;
+    const auto found = classes_.find(element.attribute_or("class", childclass));
+    for (const Class* at = found == classes_.end() ? nullptr : &found->second; at != nullptr; at = at->parent)
+      for (const XmlElement* settings : at->settings)
+        if (const XmlElement* its = settings->child(element.name))
+          if (auto value = its->attribute(key)) return value;
+    return std::nullopt;
+  }
+
+ private:
+  struct Class {
+    std::vector<const XmlElement*> settings;
+    const Class* parent = nullptr;
+  };
+
+  void add(const XmlElement& element, const Class* parent, const std::string& name) {
+    Class& its = classes_[name];
+    its.settings.push_back(&element);
+    if (&its != parent) its.parent = parent;
+    for (const XmlElement& child : element.children)
+      if (child.name == "default" && child.attribute("class") && *child.attribute("class") != name &&
+          !classes_.contains(*child.attribute("class")))
+        add(child, &its, *child.attribute("class"));
+  }
+
+  std::map<std::string, Class> classes_;
+};
+
+/// Makes an MJCF tree one that MuJoCo 2.2 reads.
+class MjcfCleaner {
+ public:
+  MjcfCleaner(ModelText& text, const fs::path& path, ReadingNotes& notes)
+      : text_(text), root_(text.root), folder_(path.parent_path()), notes_(notes) {}
+
+  void clean() {
+    refuse_generators();
+    read_motors();
+    remove_unneeded();
+    set_compiler();
+    replace_missing_meshes();
+    root_.visit([](XmlElement& element, XmlElement*) {
+      if (element.name != "key") return;
+      // Numbers of actuators and activations, which may be left out.
+      for (const char* key : {"ctrl", "act", "mpos", "mquat", "qvel"}) element.remove_attribute(key);
+    });
+  }
+
+ private:
+  void refuse_generators() const {
+    root_.visit([](const XmlElement& element) {
+      for (const char* name : {"composite", "replicate", "attach", "frame", "flexcomp"})
+        if (element.name == name)
+          fail(ExitCode::bad_input,
+               "{}: <{}>: elements that make or move bodies when the model is compiled are not read; let "
+               "MuJoCo write the model out (compile model.xml out.xml)",
+               place(element), name);
+    });
+  }
+
+  void read_motors() {
+    const Defaults defaults(root_);
+    const auto in_bodies = [&](const auto& self, const XmlElement& element,
+                               const std::string& above) -> void {
+      const std::string childclass = element.attribute_or("childclass", above);
+      for (const XmlElement& child : element.children) {
+        if (child.name == "body") self(self, child, childclass);
+        if (child.name != "joint") continue;
+        const auto range = defaults.attribute(child, "actuatorfrcrange", childclass);
+        const std::size_t blank = range ? range->find_last_of(" \t\n") : std::string::npos;
+        if (blank != std::string::npos)
+          text_.motors[child.attribute_or("name", "")].max_torque_nm =
+              number_or_zero(range->substr(blank + 1));
+      }
+    };
+    for (const XmlElement& section : root_.children) {
+      if (section.name == "worldbody") in_bodies(in_bodies, section, "main");
+      if (section.name != "actuator") continue;
+      for (const XmlElement& actuator : section.children)
+        if (actuator.name == "position")
+          if (const double kv = number_or_zero(defaults.attribute(actuator, "kv", "main")); kv > 0.0)
+            text_.motors[actuator.attribute_or("joint", "")].kv_nm_s_per_rad = kv;
+    }
+  }
+
+  void remove_unneeded() {
+    struct Section {
+      std::string_view name, why;
+    };
+    static constexpr std::array<Section, 9> sections{
+        {{"sensor", "sensors: controllers feel feet, joint angles and the root's attitude"},
+         {"visual", ""},
+         {"statistic", ""},
+         {"size", ""},
+         {"custom", ""},
+         {"extension", "plugins"},
+         {"deformable", "deformable parts"},
+         {"texture", ""},
+         {"hfield", "height fields: the ground is the experiment's"}}};
+    const auto unwanted = [&](const XmlElement& element, const XmlElement& parent) {
+      const bool of_section = &parent == &root_ || parent.name == "asset";
+      for (const Section& section : sections) {
+        if (!of_section || element.name != section.name) continue;
+        if (!section.why.empty()) notes_.add(Reading::left_out, std::string(section.why));
+        return true;
+      }
+      const bool terrain = element.name == "geom" && element.attribute("hfield").has_value();
+      return terrain || element.name == "plugin" || element.name == "skin";
+    };
+    root_.prune(unwanted);
+    root_.visit([](XmlElement& element, XmlElement*) {
+      if (element.name == "material") element.remove_attribute("texture");
+    });
+  }
+
+  void set_compiler() {
+    XmlElement* compiler = root_.child("compiler");
+    if (compiler == nullptr) {
+      root_.children.insert(root_.children.begin(), XmlElement{.name = "compiler", .file = root_.file});
+      compiler = &root_.children.front();
+    }
+    for (XmlElement& section : root_.children) {
+      if (section.name != "compiler") continue;
+      if (const auto folder = section.attribute("assetdir"); folder && !section.attribute("meshdir"))
+        section.set("meshdir", *folder);
+      section.remove_attribute("assetdir");
+      section.remove_attribute("texturedir");
+      if (section.attribute("meshdir")) mesh_folder_ = *section.attribute("meshdir");
+      if (section.attribute_or("strippath", "false") == "true") strip_path_ = true;
+    }
+    // The default of MuJoCo 3; where a model is written for 2.2 without it, a range needs `limited` anyway.
+    if (!compiler->attribute("autolimits")) compiler->set("autolimits", "true");
+  }
+
+  void replace_missing_meshes() {
+    root_.visit([this](XmlElement& element, XmlElement* parent) {
+      if (element.name != "mesh" || parent == nullptr || parent->name != "asset") return;
+      const auto file = element.attribute("file");
+      if (!file) return;
+      const fs::path name = strip_path_ ? fs::path(*file).filename() : fs::path(*file);
+      if (!element.attribute("name")) element.set("name", name.stem().string());
+      if (is_readable_mesh(folder_ / mesh_folder_ / name)) return;
+      text_.missing_meshes[*element.attribute("name")] = *file;
+      for (const char* key : {"file", "vertex", "face", "normal", "texcoord", "scale", "content_type"})
+        element.remove_attribute(key);
+      element.set("vertex", "0 0 0 .001 0 0 0 .001 0 0 0 .001");
+    });
+  }
+
+  ModelText& text_;
+  XmlElement& root_;
+  fs::path folder_, mesh_folder_;
+  bool strip_path_ = false;
+  ReadingNotes& notes_;
+};
+
+/// MuJoCo fuses a URDF's root link into the world, and its mass is lost, unless the compiler option
+/// fusestatic is off. That option goes into an element <mujoco>, which most URDF files do not have.
+void keep_root(XmlElement& root, const fs::path& path) {
+  const XmlElement* extension = root.child("mujoco");
+  if (extension == nullptr) {
+    XmlElement mujoco{.name = "mujoco", .file = root.file, .line = root.line};
+    mujoco.children.push_back({.name = "compiler",
+                               .attributes = {{"fusestatic", "false"}, {"strippath", "false"}},
+                               .file = root.file,
+                               .line = root.line});
+    root.children.insert(root.children.begin(), std::move(mujoco));
+    return;
+  }
+  const XmlElement* compiler = extension->child("compiler");
+  if (compiler == nullptr || compiler->attribute_or("fusestatic", "true") != "false")
+    fail(ExitCode::bad_input,
+         "{}: the element <mujoco> must hold <compiler fusestatic=\"false\"/>, or the root link is lost",
+         path.string());
+}
+
+/// The file that a URDF means by a mesh's name, which may be package://PACKAGE/PATH: beside the URDF, in the
+/// folder above it, or of that name in a folder `meshes`. Empty if there is none.
+fs::path mesh_of_urdf(const fs::path& folder, std::string name) {
+  for (const std::string_view scheme : {"package://", "file://"})
+    if (name.starts_with(scheme)) name.erase(0, scheme.size());
+  const fs::path whole(name);
+  fs::path rest;  // without the package's name
+  for (auto part = whole.begin(); part != whole.end(); ++part)
+    if (part != whole.begin()) rest /= *part;
+  for (const fs::path& candidate :
+       {folder / whole, folder / rest, folder / ".." / rest, folder / ".." / whole, folder / whole.filename(),
+        folder / "meshes" / whole.filename(), folder / ".." / "meshes" / whole.filename()})
+    if (is_readable_mesh(candidate)) return fs::absolute(candidate).lexically_normal();
+  return {};
+}
+
+void clean_urdf(ModelText& text, const fs::path& path, ReadingNotes& notes) {
+  XmlElement& root = text.root;
+  if (root.name != "robot") fail(ExitCode::bad_input, "{}: a URDF needs an element <robot>", path.string());
+  keep_root(root, path);
+  root.prune([&](const XmlElement& element, const XmlElement& parent) {
+    if (element.name == "visual" && parent.name == "link")
+      notes.add(Reading::left_out, "visual shapes of a URDF: what collides is shown");
+    if (element.name == "mimic")
+      notes.add(Reading::left_out,
+                fmt::format("mimic of joint '{}': it moves on its own", parent.attribute_or("name", "")));
+    return element.name == "visual" || element.name == "mimic" || element.name == "transmission" ||
+           element.name == "gazebo";
+  });
+  std::set<std::string> missing;
+  root.visit([&](XmlElement& element, XmlElement*) {
+    if (element.name == "joint") {
+      MotorHint& motor = text.motors[element.attribute_or("name", "")];
+      if (const XmlElement* limit = element.child("limit")) {
+        motor.max_torque_nm = number_or_zero(limit->attribute("effort"));
+        motor.max_speed_rad_s = number_or_zero(limit->attribute("velocity"));
+      }
+    }
+    if (element.name != "mesh" || !element.attribute("filename")) return;
+    const fs::path file = mesh_of_urdf(path.parent_path(), *element.attribute("filename"));
+    if (file.empty()) missing.insert(*element.attribute("filename"));
+    element.set("filename", file.string());
+  });
+  if (!missing.empty())
+    fail(ExitCode::io,
+         "{}: collision meshes that are missing, or neither STL, OBJ nor MSH: {}; they are looked for beside "
+         "the URDF, in the folder above it, and in meshes/",
+         path.string(), fmt::join(missing, ", "));
+}
+
+}  // namespace
+
+ModelText read_model_text(const fs::path& path, ReadingNotes& notes) {
+  ModelText text;
+  text.urdf = path.extension() == ".urdf";
+  if (text.urdf) {
+    text.root = parse_xml(io::read_file(path, largest_file_bytes), path.string());
+    clean_urdf(text, path, notes);
+  } else {
+    text.root = Includer(path).read(path);
+    // An unknown root is left to the compiler, as unknown elements are.
+    MjcfCleaner(text, path, notes).clean();
+  }
+  return text;
+}
+
+}  // namespace amble::morphology

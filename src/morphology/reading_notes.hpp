@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace amble::morphology {
+
+/// What became of a part of a model file.
+enum class Reading {
+  kept,      ///< read as it stands
+  replaced,  ///< something else stands for it
+  left_out,  ///< without effect on the robot, or not simulated
+};
+
+/// What was read from a model and what was not, a line with its reason each.
+class ReadingNotes {
+ public:
+  struct Line {
+    Reading reading;
+    std::string text;
+  };
+
+  /// The same line is kept once.
+  void add(Reading reading, std::string text);
+  void add(const ReadingNotes& others);
+
+  const std::vector<Line>& lines() const { return lines_; }
+  /// Lines "  kept      …", grouped by what became of it; empty if there are none.
+  std::string text() const;
+
+ private:
+  std::vector<Line> lines_;
+};
+
+}  // namespace amble::morphology

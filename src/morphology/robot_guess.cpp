@@ -1,0 +1,336 @@
+#include "amble/morphology/robot_guess.hpp"
+
+#include <fmt/ranges.h>
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "amble/core/index.hpp"
+#include "amble/io/toml_text.hpp"
+#include "amble/morphology/leg_guess.hpp"
+#include "amble/morphology/servo_guess.hpp"
+#include "amble/morphology/start_pose.hpp"
+#include "amble/robot/pose.hpp"
+
+namespace amble::morphology {
+namespace {
+
+/// A controller moves a joint no further than this from the start pose unless the file says so.
+constexpr double widest_command_rad = 0.8;
+/// How far inside its stops a joint starts whose angle in the model lies outside.
+constexpr double inside_stops_share = 0.2, most_inside_stops_rad = 0.4;
+constexpr double paper_mass_kg = 5.4, paper_cfm_s_per_kg = 1e-4;
+
+std::string key(const std::string& name) {
+  const bool bare = !name.empty() && std::ranges::all_of(name, [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-';
+  });
+  return bare ? name : io::toml_quoted(name);
+}
+
+std::string list(const std::vector<std::string>& names) {
+  std::vector<std::string> all;
+  for (const std::string& name : names) all.push_back(io::toml_quoted(name));
+  return fmt::format("[{}]", fmt::join(all, ", "));
+}
+
+/// Four digits after the point, rounded towards zero from `start`.
+double inward(double value, double start) {
+  const double scaled = value * 1e4;
+  return (value < start ? std::ceil(scaled - 1e-6) : std::floor(scaled + 1e-6)) / 1e4;
+}
+
+class RobotGuesser {
+ public:
+  RobotGuesser(const ModelFile& file, const std::filesystem::path& model) : file_(file), model_(model) {}
+
+  RobotGuess guess() {
+    choose_start();
+    robot_.bodies = parts_.bodies;
+    robot_.geoms = parts_.geoms;
+    robot_.joints = parts_.joints;
+    legs_ = guess_legs(parts_);
+    guess_.name = model_.stem().string();
+    line("# Guessed from {} by `amble robot --init`: check each line. robots/README.md describes them.",
+         model_.filename().string());
+    line("name = {}", io::toml_quoted(guess_.name));
+    line("model = {}\n", io::toml_quoted(model_.generic_string()));
+    write_legs();
+    write_poses();
+    write_names();
+    write_servos();
+    write_commands();
+    write_start_angles();
+    write_contact();
+    return std::move(guess_);
+  }
+
+ private:
+  template <typename... Args>
+  void line(fmt::format_string<Args...> text, Args&&... args) {
+    fmt::format_to(std::back_inserter(guess_.toml), text, std::forward<Args>(args)...);
+    guess_.toml += '\n';
+  }
+
+  /// A comment, wrapped.
+  void comment(const std::string& text) {
+    constexpr std::size_t width = 100;
+    std::string row = "#";
+    for (std::size_t at = 0; at < text.size();) {
+      const std::size_t end = std::min(text.find(' ', at), text.size());
+      if (row.size() + 1 + end - at > width) {
+        line("{}", row);
+        row = "#";
+      }
+      row += " " + text.substr(at, end - at);
+      at = end + 1;
+    }
+    line("{}", row);
+  }
+
+  /// The start pose: keyframe, joints that must be fixed, and angles where it is outside the stops.
+  void choose_start() {
+    const std::vector<std::string> names = keyframes(*file_.model);
+    for (const char* good : {"home", "stand", "standing", "init", "default"})
+      for (const std::string& name : names)
+        if (options_.start_keyframe.empty() && name == good) options_.start_keyframe = name;
+    if (options_.start_keyframe.empty())
+      for (const std::string& name : names)
+        if (options_.start_keyframe.empty()) options_.start_keyframe = name;
+    const mjModel& model = *file_.model;
+    for (int j = 0; j < model.njnt; ++j) {
+      const bool of_root = model.body_parentid[model.jnt_bodyid[j]] == 0;
+      const std::string name = model.names + model.name_jntadr[j];
+      if (!of_root && model.jnt_type[j] != mjJNT_HINGE && !name.empty())
+        options_.fixed_joints.push_back(name);
+    }
+    parts_ = extract_parts(file_, options_);
+    for (std::size_t j = 0; j < parts_.joints.size(); ++j) {
+      const robot::Joint& joint = parts_.joints[j];
+      const double lower = joint.lower_rad + parts_.start_rad[j],
+                   upper = joint.upper_rad + parts_.start_rad[j];
+      const double inside = std::min(inside_stops_share * (upper - lower), most_inside_stops_rad);
+      if (joint.lower_rad > 0.0 || joint.upper_rad < 0.0)
+        options_.start_angles_rad[joint.name] =
+            std::round(1e4 * (joint.lower_rad > 0.0 ? lower + inside : upper - inside)) / 1e4;
+    }
+    if (!options_.start_angles_rad.empty()) parts_ = extract_parts(file_, options_);
+  }
+
+  void write_legs() {
+    std::vector<std::string> names, held;
+    for (const LegGuess& leg : legs_.legs) names.push_back(leg.name);
+    for (const int j : legs_.held) held.push_back(parts_.joints[to_index(j)].name);
+    if (names.empty()) {
+      line("# No chain of bodies with joints ends near the ground.");
+      guess_.asked.push_back("legs, joint_types and [names]: no leg was found in the start pose");
+    } else {
+      comment(fmt::format("Legs: {}; named by {}.", legs_.why_legs, legs_.why_names));
+    }
+    line("legs = {}", list(names));
+    if (!names.empty()) comment(fmt::format("Types: {}.", legs_.why_types));
+    line("joint_types = {}", list(legs_.joint_types));
+    if (!held.empty()) {
+      comment(
+          "Joints of no leg. Their servo holds them at the start angle; in `fixed` they would be welded, "
+          "which is "
+          "simulated faster.");
+      line("held = {}", list(held));
+    }
+    if (!options_.fixed_joints.empty()) {
+      line("# Neither hinges nor the root's: welded, amble has no such joints.");
+      line("fixed = {}", list(options_.fixed_joints));
+    }
+  }
+
+  void write_poses() {
+    line("");
+    if (!options_.start_keyframe.empty()) {
+      line("# A keyframe of the model{}.",
+           options_.start_keyframe == "home" || options_.start_keyframe == "stand"
+               ? ""
+               : ", the first or the one whose name sounds like a start");
+      line("start = {}", io::toml_quoted(options_.start_keyframe));
+    }
+    const auto poses = robot::start_poses(robot_);
+    const double clearance_m = robot::clearance_m(robot_, poses), root_m = robot_.bodies[0].position_m.z;
+    const double raised_m = std::ceil((root_m - clearance_m) * 1e4 - 1e-6) / 1e4;
+    double lift_m = 0.0;
+    if (std::isfinite(clearance_m) && raised_m > 0.0) {
+      line("# The lowest point touches the ground; the model has {:.4g}.", root_m);
+      line("start_height_m = {}", raised_m);
+      lift_m = raised_m - root_m;
+    } else if (!std::isfinite(clearance_m)) {
+      guess_.asked.push_back("a foot: nothing of the model collides");
+    }
+    const double com_m = (poses[0] * robot_.bodies[0].com_m).z + lift_m;
+    line("# Half the height at which the root's centre of mass starts.");
+    line("fall_height_m = {}", std::floor(0.5e3 * com_m) / 1e3);
+    line("# A guess: legs that pass through each other are simulated faster, and learn as well.");
+    line("self_collision = false");
+  }
+
+  void write_names() {
+    for (const LegGuess& leg : legs_.legs) {
+      line("\n[names.{}]", key(leg.name));
+      line("foot = {}  # the lowest shape that collides of its last body",
+           io::toml_quoted(parts_.geoms[to_index(leg.foot_geom)].name));
+      for (std::size_t t = 0; t < legs_.joint_types.size(); ++t) {
+        const int j = leg.joint_of_type[t];
+        line("{} = {}", key(legs_.joint_types[t]),
+             j < 0 ? "\"\"  # none" : io::toml_quoted(parts_.joints[to_index(j)].name));
+      }
+    }
+  }
+
+  /// Height of the highest joint of a leg over its foot's lowest point.
+  double leg_length_m() const {
+    const auto poses = robot::start_poses(robot_);
+    double longest = 0.0;
+    for (const LegGuess& leg : legs_.legs) {
+      const robot::Geom& foot = parts_.geoms[to_index(leg.foot_geom)];
+      double length = 0.0;
+      Vec3 end = robot::centre_m(foot, poses);
+      for (auto j = leg.joints.rbegin(); j != leg.joints.rend(); ++j) {
+        const robot::Joint& joint = parts_.joints[to_index(*j)];
+        const Vec3 anchor = poses[to_index(joint.body)] * joint.anchor_m;
+        length += norm(end - anchor);
+        end = anchor;
+      }
+      longest = std::max(longest, length);
+    }
+    return longest > 0.0 ? longest : 0.1;
+  }
+
+  void write_servo(const std::string& table, const ServoGuess& guess) {
+    const robot::Servo& servo = guess.servo;
+    line("");
+    comment(guess.why);
+    line("[{}]", table);
+    if (servo.mode == robot::ServoMode::velocity) {
+      line("mode = \"velocity\"\ngain_per_s = {}\nmax_torque_nm = {}", servo.gain_per_s, servo.max_torque_nm);
+      return;
+    }
+    line("mode = \"torque\"\nkp_nm_per_rad = {}\nkd_nm_s_per_rad = {}\nmax_torque_nm = {}",
+         servo.kp_nm_per_rad, servo.kd_nm_s_per_rad, servo.max_torque_nm);
+  }
+
+  static bool same(const robot::Servo& a, const robot::Servo& b) {
+    return a.mode == b.mode && a.gain_per_s == b.gain_per_s && a.max_torque_nm == b.max_torque_nm &&
+           a.kp_nm_per_rad == b.kp_nm_per_rad && a.kd_nm_s_per_rad == b.kd_nm_s_per_rad;
+  }
+
+  void write_servos() {
+    const double bearing_nm = bearing_torque_nm(parts_, legs_.legs.size(), leg_length_m());
+    const std::vector<ServoGuess> servos = guess_servos(file_, parts_, bearing_nm);
+    const auto servo_of = [&](int j) -> const ServoGuess& { return servos[to_index(j)]; };
+    ServoGuess common{{robot::ServoMode::velocity, 9.0, 1.0, 0.0, 0.0}, "there are no joints"};
+    if (!legs_.legs.empty())
+      common = servo_of(legs_.legs[0].joints.front());
+    else if (!servos.empty())
+      common = servos[0];
+    write_servo("servo", common);
+    for (std::size_t t = 0; t < legs_.joint_types.size(); ++t) {
+      std::vector<std::pair<const LegGuess*, int>> joints;
+      for (const LegGuess& leg : legs_.legs)
+        if (leg.joint_of_type[t] >= 0) joints.emplace_back(&leg, leg.joint_of_type[t]);
+      const ServoGuess& first = servo_of(joints.front().second);
+      const bool alike = std::ranges::all_of(
+          joints, [&](const auto& of_leg) { return same(servo_of(of_leg.second).servo, first.servo); });
+      const std::string type = key(legs_.joint_types[t]);
+      if (alike && !same(first.servo, common.servo)) write_servo("servo_of." + type, first);
+      if (alike) continue;
+      for (const auto& [leg, j] : joints)
+        if (!same(servo_of(j).servo, common.servo))
+          write_servo(fmt::format("servo_of.{}.{}", key(leg->name), type), servo_of(j));
+    }
+    for (const int j : legs_.held)
+      if (!same(servo_of(j).servo, common.servo))
+        write_servo("servo_of." + key(parts_.joints[to_index(j)].name), servo_of(j));
+  }
+
+  /// The range of command of a joint where it is not from stop to stop.
+  std::optional<std::array<double, 2>> command(int j) const {
+    const robot::Joint& joint = parts_.joints[to_index(j)];
+    if (joint.lower_rad >= -widest_command_rad && joint.upper_rad <= widest_command_rad) return std::nullopt;
+    const double start = parts_.start_rad[to_index(j)];
+    return std::array{inward(start + std::max(joint.lower_rad, -widest_command_rad), start),
+                      inward(start + std::min(joint.upper_rad, widest_command_rad), start)};
+  }
+
+  void write_commands() {
+    std::string of_types;
+    std::map<std::string, std::string> of_legs;
+    for (std::size_t t = 0; t < legs_.joint_types.size(); ++t) {
+      std::vector<std::optional<std::array<double, 2>>> ranges;
+      for (const LegGuess& leg : legs_.legs)
+        if (leg.joint_of_type[t] >= 0) ranges.push_back(command(leg.joint_of_type[t]));
+      const auto text = [&](const std::array<double, 2>& range) {
+        return fmt::format("{} = [{}, {}]\n", key(legs_.joint_types[t]), range[0], range[1]);
+      };
+      if (std::ranges::all_of(ranges, [&](const auto& range) { return range == ranges.front(); })) {
+        if (ranges.front()) of_types += text(*ranges.front());
+        continue;
+      }
+      for (const LegGuess& leg : legs_.legs)
+        if (const int j = leg.joint_of_type[t]; j >= 0 && command(j)) of_legs[leg.name] += text(*command(j));
+    }
+    if (of_types.empty() && of_legs.empty()) return;
+    line("");
+    comment(
+        fmt::format("Targets of controllers, rad as the model counts: at most {} rad to either side of the "
+                    "start, within the stops. Wider ranges are harder to search.",
+                    widest_command_rad));
+    line("[command]");
+    guess_.toml += of_types;
+    for (const LegGuess& leg : legs_.legs)
+      if (of_legs.contains(leg.name)) line("[command.{}]\n{}", key(leg.name), of_legs[leg.name]);
+  }
+
+  void write_start_angles() {
+    if (options_.start_angles_rad.empty()) return;
+    line("");
+    comment(fmt::format(
+        "Rad as the model counts. Where the model itself starts outside the stops of a joint: {} of "
+        "the way from the nearer stop to the other, at most {} rad.",
+        inside_stops_share, most_inside_stops_rad));
+    line("[start_angle]");
+    for (const auto& [name, angle] : options_.start_angles_rad) line("{} = {}", key(name), angle);
+  }
+
+  void write_contact() {
+    double friction = 1.0, mass_kg = 0.0;
+    for (const robot::Body& body : parts_.bodies) mass_kg += body.mass_kg;
+    if (!legs_.legs.empty())
+      friction = file_.model->geom_friction[3 * parts_.model_geoms[to_index(legs_.legs[0].foot_geom)]];
+    line("\n[contact]");
+    line("friction = {:.4g}  # of the first foot in the model", friction);
+    comment("As the paper's quadruped; softness by weight, so that the robot sinks in as far.");
+    line("erp = 0.1");
+    line("cfm_s_per_kg = {:.3g}  # {} × {} kg / {:.4g} kg", paper_cfm_s_per_kg * paper_mass_kg / mass_kg,
+         paper_cfm_s_per_kg, paper_mass_kg, mass_kg);
+  }
+
+  const ModelFile& file_;
+  std::filesystem::path model_;
+  ReadingOptions options_;
+  ModelParts parts_;
+  robot::RobotSpec robot_;
+  LegsGuess legs_;
+  RobotGuess guess_;
+};
+
+}  // namespace
+
+RobotGuess guess_robot(const ModelFile& file, const std::filesystem::path& model) {
+  return RobotGuesser(file, model).guess();
+}
+
+}  // namespace amble::morphology

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "amble/morphology/model_file.hpp"
+
+namespace amble::morphology {
+
+/// A robot file that was guessed from a model.
+struct RobotGuess {
+  std::string name;
+  std::string toml;                ///< each guess with its reason as a comment
+  std::vector<std::string> asked;  ///< what the model does not tell
+};
+
+/// Guesses all that a robot file has to say of a model (robots/README.md). `model` is the model's path as the
+/// file will name it. Throws UserError as extract_parts().
+RobotGuess guess_robot(const ModelFile& file, const std::filesystem::path& model);
+
+}  // namespace amble::morphology

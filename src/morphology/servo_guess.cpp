@@ -1,0 +1,150 @@
+#include "amble/morphology/servo_guess.hpp"
+
+#include <fmt/format.h>
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "amble/core/index.hpp"
+
+namespace amble::morphology {
+namespace {
+
+/// The gain of the paper's joint motors (the authors' code).
+constexpr double velocity_gain_per_s = 9.0;
+/// A motor without a gain of its own holds a leg's share of the weight at this error.
+constexpr double bearing_error_rad = 0.1;
+/// Ratio of kd to kp where the model tells no damping: a servo comes to its target in about 0.1 s.
+constexpr double damping_time_s = 0.05;
+constexpr double enough_times = 2.0;
+
+/// Four digits, so that the file reads back to what it says.
+double rounded(double value) {
+  return std::strtod(fmt::format("{:.4g}", value).c_str(), nullptr);
+}
+
+/// What an actuator of the model does to a joint: torque = gain × control − kp × angle − kv × speed.
+struct Actuator {
+  double gain = 0.0, kp = 0.0, kv = 0.0;
+  double max_torque_nm = 0.0;  ///< 0: not limited
+  double control_limit = 0.0;  ///< 0: not limited
+};
+
+Actuator read(const mjModel& model, int a) {
+  const double gear = std::abs(model.actuator_gear[6 * a]);
+  const mjtNum* bias = model.actuator_biasprm + mjNBIAS * a;
+  Actuator actuator;
+  actuator.gain = std::abs(model.actuator_gainprm[mjNGAIN * a]) * gear;
+  if (model.actuator_biastype[a] == mjBIAS_AFFINE) {
+    actuator.kp = std::max(0.0, -bias[1]) * gear * gear;
+    actuator.kv = std::max(0.0, -bias[2]) * gear * gear;
+  }
+  if (model.actuator_forcelimited[a] != 0) {
+    const mjtNum* range = model.actuator_forcerange + 2 * a;
+    actuator.max_torque_nm = gear * std::max(std::abs(range[0]), std::abs(range[1]));
+  }
+  if (model.actuator_ctrllimited[a] != 0) {
+    const mjtNum* range = model.actuator_ctrlrange + 2 * a;
+    actuator.control_limit = std::max(std::abs(range[0]), std::abs(range[1]));
+  }
+  return actuator;
+}
+
+class ServoGuesser {
+ public:
+  ServoGuesser(const ModelFile& file, double bearing_nm) : file_(file), bearing_nm_(bearing_nm) {}
+
+  ServoGuess guess(const std::string& name, int model_joint, double damping) const {
+    const mjModel& model = *file_.model;
+    MotorHint hint;
+    if (const auto found = file_.motors.find(name); found != file_.motors.end()) hint = found->second;
+    for (int a = 0; a < model.nu; ++a) {
+      if (model.actuator_trntype[a] != mjTRN_JOINT || model.actuator_trnid[2 * a] != model_joint) continue;
+      const Actuator actuator = read(model, a);
+      if (actuator.kp > 0.0) return of_position(actuator, hint, damping);
+      if (actuator.kv > 0.0) return of_velocity(actuator, hint);
+      return of_motor(actuator, hint, damping);
+    }
+    if (hint.max_torque_nm > 0.0)
+      return {velocity(hint.max_torque_nm),
+              fmt::format("torque: the model's effort limit; gain: that of the paper's motors, {} /s",
+                          velocity_gain_per_s)};
+    return {velocity(enough()),
+            fmt::format("no motor in the model: {} × the torque that bears a leg's share of the "
+                        "weight; gain: that of the paper's motors",
+                        enough_times)};
+  }
+
+ private:
+  double enough() const { return rounded(enough_times * bearing_nm_); }
+
+  static robot::Servo velocity(double torque_nm) {
+    return {robot::ServoMode::velocity, velocity_gain_per_s, rounded(torque_nm), 0.0, 0.0};
+  }
+
+  static robot::Servo torque(double torque_nm, double kp, double kd) {
+    return {robot::ServoMode::torque, 0.0, rounded(torque_nm), rounded(kp), rounded(kd)};
+  }
+
+  /// The largest torque, and where it comes from.
+  std::pair<double, std::string> limit(const Actuator& actuator, const MotorHint& hint) const {
+    if (actuator.max_torque_nm > 0.0) return {actuator.max_torque_nm, "the actuator's force range"};
+    if (hint.max_torque_nm > 0.0) return {hint.max_torque_nm, "the joint's actuatorfrcrange"};
+    return {enough(),
+            fmt::format("not in the model: {} × what bears a leg's share of the weight", enough_times)};
+  }
+
+  ServoGuess of_position(const Actuator& actuator, const MotorHint& hint, double damping) const {
+    const auto [most, source] = limit(actuator, hint);
+    const double kd = std::max(actuator.kv, hint.kv_nm_s_per_rad);
+    return {torque(most, actuator.kp, kd),
+            fmt::format("kp{} of the model's actuator{}; torque: {}", kd > 0.0 ? " and kd" : "",
+                        kd > 0.0 || damping == 0.0 ? "" : ", whose damping is that of the joint", source)};
+  }
+
+  ServoGuess of_velocity(const Actuator& actuator, const MotorHint& hint) const {
+    auto [most, source] = limit(actuator, hint);
+    return {velocity(most),
+            fmt::format("a velocity actuator; torque: {}; gain: that of the paper's motors", source)};
+  }
+
+  ServoGuess of_motor(const Actuator& actuator, const MotorHint& hint, double damping) const {
+    auto [most, source] = limit(actuator, hint);
+    const double by_control = actuator.control_limit * actuator.gain;
+    if (actuator.max_torque_nm == 0.0 && by_control > 0.0) {
+      most = by_control;
+      source = "the actuator's control range × gear";
+    }
+    const double kp = bearing_nm_ / bearing_error_rad;
+    const double kd = std::max(0.0, damping_time_s * kp - damping);
+    return {
+        torque(most, kp, kd),
+        fmt::format("torque: {}; kp guessed: it bears a leg's share of the weight at {} rad; kd, with the "
+                    "joint's damping, {} s × kp",
+                    source, bearing_error_rad, damping_time_s)};
+  }
+
+  const ModelFile& file_;
+  double bearing_nm_;
+};
+
+}  // namespace
+
+double bearing_torque_nm(const ModelParts& parts, std::size_t legs, double leg_length_m) {
+  double mass_kg = 0.0;
+  for (const robot::Body& body : parts.bodies) mass_kg += body.mass_kg;
+  return mass_kg * norm(parts.gravity_m_s2) * leg_length_m /
+         static_cast<double>(std::max<std::size_t>(legs, 1));
+}
+
+std::vector<ServoGuess> guess_servos(const ModelFile& file, const ModelParts& parts, double bearing_nm) {
+  const ServoGuesser guesser(file, bearing_nm);
+  std::vector<ServoGuess> servos;
+  for (std::size_t j = 0; j < parts.joints.size(); ++j)
+    servos.push_back(
+        guesser.guess(parts.joints[j].name, parts.model_joints[j], parts.joints[j].damping_nm_s_per_rad));
+  return servos;
+}
+
+}  // namespace amble::morphology

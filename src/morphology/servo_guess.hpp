@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "amble/morphology/model_parts.hpp"
+
+namespace amble::morphology {
+
+struct ServoGuess {
+  robot::Servo servo;
+  std::string why;
+};
+
+/// The torque with which a leg of that length bears its share of the robot's weight at right angles.
+double bearing_torque_nm(const ModelParts& parts, std::size_t legs, double leg_length_m);
+
+/// The servo of each of the parts' joints: of the model's actuator, else of a URDF's effort limit, else such
+/// that the robot can rise: twice the bearing torque.
+std::vector<ServoGuess> guess_servos(const ModelFile& file, const ModelParts& parts, double bearing_nm);
+
+}  // namespace amble::morphology

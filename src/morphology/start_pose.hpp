@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "amble/morphology/model_parts.hpp"
+#include "amble/robot/pose.hpp"
+
+struct mjModel_;
+
+namespace amble::morphology {
+
+/// The pose in which a robot starts, in terms of a compiled model. A model's bodies and joints are given for
+/// its reference pose (mjModel::qpos0); here each is told as it is at the start. Where a joint starts at its
+/// reference nothing is computed, so the model's own bits are kept.
+class StartPose {
+ public:
+  /// Throws UserError: no such keyframe or joint.
+  StartPose(const ModelFile& file, const ReadingOptions& options);
+
+  /// Of a joint with one degree of freedom, as the model counts.
+  double angle_rad(int joint) const;
+  /// Of a body's frame in its parent's; of a free body in the world.
+  robot::Pose pose_in_parent(int body) const;
+  /// What the joints of its body after this one do at the start, in the body's frame: the inverse takes
+  /// the joint's anchor and axis from the reference pose to the start pose.
+  robot::Pose after(int joint) const;
+
+ private:
+  robot::Pose motion(int joint) const;
+  bool moved(int joint) const;
+
+  const mjModel_& model_;
+  std::vector<double> positions_;  ///< MuJoCo's qpos
+};
+
+/// Names of the keyframes of a model, in its order.
+std::vector<std::string> keyframes(const mjModel_& model);
+
+}  // namespace amble::morphology

@@ -1,0 +1,89 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <string>
+
+#include "amble/morphology/model_file.hpp"
+#include "tests/morphology/files.hpp"
+
+namespace amble::morphology {
+namespace {
+
+class HostileModel : public testing::Test {
+ protected:
+  /// The line that refuses it, within two seconds.
+  std::string refusal(const std::string& text, const std::string& name = "m.xml") {
+    const auto path = files_.write(name, text);
+    const auto start = std::chrono::steady_clock::now();
+    std::string line = files_.error_of([&] { compile_model(path); });
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+    return line;
+  }
+  Files files_;
+};
+
+std::string repeated(const std::string& text, int times) {
+  std::string all;
+  for (int i = 0; i < times; ++i) all += text;
+  return all;
+}
+
+TEST_F(HostileModel, WithAMillionBodies) {
+  const std::string body = "<body><joint/><geom size=\"1\"/></body>\n";
+  EXPECT_EQ(refusal("<mujoco><worldbody>\n" + repeated(body, 1'000'000) + "</worldbody></mujoco>"),
+            "m.xml:1002: too large a model: more than 1000 bodies");
+  EXPECT_EQ(refusal("<mujoco><worldbody>\n" + repeated("<body>", 1'000'000)),
+            "m.xml:2: too large a model: elements within each other 257 deep");
+  EXPECT_EQ(refusal("<mujoco><worldbody>\n" + repeated("<site/>", 1'000'000)),
+            "m.xml:2: too large a model: more than 200000 elements");
+}
+
+TEST_F(HostileModel, WithBodiesThatTheCompilerWouldMake) {
+  EXPECT_EQ(
+      refusal(R"(<mujoco><worldbody><composite type="grid" count="9999 9999 1"/></worldbody></mujoco>)"),
+      "m.xml:1: <composite>: elements that make or move bodies when the model is compiled are not read; let "
+      "MuJoCo write the model out (compile model.xml out.xml)");
+}
+
+TEST_F(HostileModel, ThatIncludesItself) {
+  EXPECT_EQ(refusal("<mujoco>\n<include file=\"m.xml\"/></mujoco>"),
+            "m.xml:2: <include file=\"m.xml\">: the file includes itself");
+  files_.write("other.xml", "<mujoco><include file=\"m.xml\"/></mujoco>");
+  EXPECT_EQ(refusal("<mujoco><include file=\"other.xml\"/></mujoco>"),
+            "other.xml:1: <include file=\"m.xml\">: the file includes itself");
+}
+
+TEST_F(HostileModel, ThatIncludesTooMuch) {
+  files_.write("part.xml", "<mujoco/>");
+  EXPECT_EQ(refusal("<mujoco>" + repeated("<include file=\"part.xml\"/>", 33) + "</mujoco>"),
+            "m.xml:1: more than 32 includes");
+}
+
+TEST_F(HostileModel, ThatLooksOutsideItsFolder) {
+  for (const char* name : {"../m.xml", "/etc/passwd", "parts/../../m.xml"})
+    EXPECT_EQ(
+        refusal(std::string("<mujoco><include file=\"") + name + "\"/></mujoco>"),
+        std::string("m.xml:1: <include file=\"") + name + "\">: only files in the model's folder are read");
+  std::filesystem::create_symlink("/etc/hostname", files_.path("link.xml"));
+  EXPECT_EQ(refusal("<mujoco><include file=\"link.xml\"/></mujoco>"),
+            "m.xml:1: <include file=\"link.xml\">: only files in the model's folder are read");
+}
+
+TEST_F(HostileModel, WithEntities) {
+  EXPECT_EQ(refusal("<?xml version=\"1.0\"?>\n<!DOCTYPE m [<!ENTITY a \"aaaa\">]>\n<mujoco>&a;</mujoco>"),
+            "m.xml:2: document types and entities (<!…>) are refused");
+}
+
+TEST_F(HostileModel, ThatIsTooLarge) {
+  EXPECT_NE(refusal(std::string(50'000'001, ' ')).find("m.xml: "), std::string::npos);
+}
+
+TEST_F(HostileModel, AsUrdf) {
+  EXPECT_EQ(
+      refusal("<robot name=\"r\">\n" + repeated("<link name=\"a\"/>\n", 1'000'000) + "</robot>", "r.urdf"),
+      "r.urdf:1002: too large a model: more than 1000 bodies");
+}
+
+}  // namespace
+}  // namespace amble::morphology

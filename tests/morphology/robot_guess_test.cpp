@@ -1,0 +1,198 @@
+#include "amble/morphology/robot_guess.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "amble/morphology/leg_guess.hpp"
+#include "amble/robot/pose.hpp"
+#include "tests/models/small_models.hpp"
+#include "tests/morphology/files.hpp"
+
+namespace amble::morphology {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using tests::four_legs;
+using tests::model_text;
+using tests::SmallModel;
+
+SmallModel model_of(const std::string& name) {
+  for (const SmallModel& model : tests::small_models())
+    if (model.name == name) return model;
+  throw std::logic_error("no such model");
+}
+
+/// The robot file that is guessed.
+RobotGuess guess(const Files& files, const SmallModel& model) {
+  const std::string name = model.name + "." + model.extension;
+  return guess_robot(compile_model(files.write(name, model.text)), name);
+}
+
+robot::RobotSpec load(const Files& files, const SmallModel& model) {
+  return load_robot(files.write(model.name + ".toml", guess(files, model).toml));
+}
+
+LegsGuess legs_of(const Files& files, const std::string& text) {
+  return guess_legs(extract_parts(compile_model(files.write("m.xml", text))));
+}
+
+class EachModel : public testing::TestWithParam<SmallModel> {};
+INSTANTIATE_TEST_SUITE_P(RobotGuess, EachModel, testing::ValuesIn(tests::small_models()),
+                         [](const auto& each) { return each.param.name; });
+
+TEST_P(EachModel, BecomesARobotThatStands) {
+  const Files files;
+  const RobotGuess guessed = guess(files, GetParam());
+  EXPECT_TRUE(guessed.asked.empty());
+  const robot::RobotSpec robot = load(files, GetParam());
+  EXPECT_EQ(robot.legs.size(), GetParam().legs);
+  EXPECT_EQ(std::ranges::count_if(robot.joints, &robot::Joint::driven), static_cast<int>(GetParam().driven));
+  EXPECT_EQ(robot.joints.size(), GetParam().driven + GetParam().held);
+  double lowest = 1.0;
+  for (const robot::Leg& leg : robot.legs)
+    lowest = std::min(lowest, robot::start_clearance_m(robot, leg.foot_geom));
+  EXPECT_NEAR(lowest, 0.0, 1e-3);
+  for (const robot::Joint& joint : robot.joints) {
+    const robot::AngleRange command = joint.command_range();
+    EXPECT_GE(command.lower_rad, -0.8001);
+    EXPECT_LE(command.upper_rad, 0.8001);
+    EXPECT_GT(joint.servo.max_torque_nm, 0.0);
+  }
+}
+
+TEST_P(EachModel, SaysWhyInALineOfAtMost120Columns) {
+  const Files files;
+  const std::string toml = guess(files, GetParam()).toml;
+  for (std::size_t at = 0; at < toml.size(); at = toml.find('\n', at) + 1)
+    EXPECT_LE(toml.find('\n', at) - at, 120u) << toml.substr(at, 120);
+}
+
+TEST(RobotGuess, TakesServosFromPositionActuators) {
+  const Files files;
+  const robot::Servo servo = load(files, model_of("keyframe")).joints[0].servo;
+  EXPECT_EQ(servo.mode, robot::ServoMode::torque);
+  EXPECT_EQ(servo.kp_nm_per_rad, 40.0);
+  EXPECT_EQ(servo.max_torque_nm, 9.0);
+}
+
+TEST(RobotGuess, TakesServosFromAttributesThatThisMujocoDoesNotKnow) {
+  const Files files;
+  const robot::RobotSpec robot = load(files, model_of("newer_mujoco"));
+  const auto& hip = robot.joints[1];
+  ASSERT_EQ(hip.name, "FL_hip");
+  EXPECT_EQ(hip.servo.kp_nm_per_rad, 30.0);
+  EXPECT_EQ(hip.servo.kd_nm_s_per_rad, 1.5);
+  EXPECT_EQ(hip.servo.max_torque_nm, 11.0);
+}
+
+TEST(RobotGuess, TakesEffortDampingAndFrictionFromUrdf) {
+  const Files files;
+  const robot::RobotSpec robot = load(files, model_of("effort"));
+  const auto& hip = robot.joints[1];
+  ASSERT_EQ(hip.name, "left_hip_joint");
+  EXPECT_EQ(hip.servo.max_torque_nm, 12.0);
+  EXPECT_EQ(hip.damping_nm_s_per_rad, 0.3);
+  EXPECT_EQ(hip.friction_loss_nm, 0.1);
+  // The knee cannot be straight: it starts inside its stops, by a fifth of its range.
+  EXPECT_NEAR(robot.joints[0].upper_rad, 0.4, 1e-9);
+}
+
+TEST(RobotGuess, GivesAMotorAGainThatBearsTheWeight) {
+  const Files files;
+  const SmallModel model{
+      "motors",
+      "xml",
+      model_text(four_legs(), "<freejoint/>", "", tests::motors(R"(motor gear="2" ctrlrange="-3 3")")),
+      4,
+      8,
+      0};
+  const robot::RobotSpec robot = load(files, model);
+  const robot::Servo servo = robot.joints[0].servo;
+  EXPECT_EQ(servo.max_torque_nm, 6.0);
+  // Weight × leg length / legs at 0.1 rad: 5.2 kg, 0.41 m to the foot's centre.
+  EXPECT_NEAR(servo.kp_nm_per_rad * 0.1, 5.2 * 9.81 * 0.41 / 4, 0.01);
+}
+
+TEST(RobotGuess, GivesJointsWithoutMotorsTwiceTheTorqueThatBearsTheWeight) {
+  const Files files;
+  const robot::Servo servo = load(files, model_of("no_limits")).joints[0].servo;
+  EXPECT_EQ(servo.mode, robot::ServoMode::velocity);
+  EXPECT_NEAR(servo.max_torque_nm, 2 * 5.2 * 9.81 * 0.41 / 4, 0.01);
+}
+
+TEST(RobotGuess, TakesFrictionFromTheFootAndSoftnessFromTheMass) {
+  const Files files;
+  const robot::RobotSpec robot = load(files, model_of("head"));
+  EXPECT_EQ(robot.contact.friction, 0.7);
+  EXPECT_NEAR(robot.contact.cfm_s_per_kg, 1e-4 * 5.4 / 5.4, 2e-6);
+}
+
+TEST(RobotGuess, AsksForLegsWhereNoneTouchTheGround) {
+  const Files files;
+  const std::string text =
+      R"(<mujoco><worldbody><body name="b" pos="0 0 1"><freejoint/><geom size="0.5"/>
+         <body name="arm" pos="0 0 0.6"><joint name="j" axis="0 1 0" range="-20 20"/><geom size="0.1"/></body></body></worldbody></mujoco>)";
+  const RobotGuess guessed = guess(files, {"ball", "xml", text, 0, 0, 1});
+  EXPECT_THAT(guessed.asked, ElementsAre(HasSubstr("legs, joint_types and [names]")));
+}
+
+TEST(LegGuess, NamesLegsAndTypesByTheWordsOfJoints) {
+  const Files files;
+  const LegsGuess legs = legs_of(files, model_of("uneven_legs").text);
+  ASSERT_EQ(legs.legs.size(), 4u);
+  EXPECT_EQ(legs.legs[0].name, "FL");
+  EXPECT_EQ(legs.legs[3].name, "RR");
+  EXPECT_THAT(legs.joint_types, ElementsAre("toe", "knee", "hip"));
+  EXPECT_EQ(legs.legs[2].joint_of_type[0], -1);
+}
+
+TEST(LegGuess, NamesByPlaceAndAxisWhereNamesDoNotTell) {
+  const Files files;
+  std::string text = model_text(four_legs());
+  int number = 0;
+  for (const char* type : {"_hip\"", "_knee\""})
+    for (const char* leg : {"FL", "FR", "RL", "RR"})
+      text = with(text, std::string("joint name=\"") + leg + type,
+                  fmt::format("joint name=\"motor{}\"", ++number));
+  const LegsGuess legs = legs_of(files, text);
+  std::vector<std::string> names;
+  for (const LegGuess& leg : legs.legs) names.push_back(leg.name);
+  EXPECT_THAT(names, ElementsAre("front_left", "front_right", "rear_left", "rear_right"));
+  EXPECT_THAT(legs.joint_types, ElementsAre("pitch", "pitch2"));
+}
+
+TEST(LegGuess, NamesByTheBeginningOfJointNames) {
+  const Files files;
+  std::string text = model_text({{.name = "f", .x = 0.2}, {.name = "b", .x = -0.2}});
+  for (const char* leg : {"f", "b"})
+    for (const char* type : {"hip", "knee"})
+      text = with(text, fmt::format("joint name=\"{}_{}\"", leg, type),
+                  fmt::format("joint name=\"{}{}\"", leg, type));
+  const LegsGuess legs = legs_of(files, text);
+  ASSERT_EQ(legs.legs.size(), 2u);
+  EXPECT_EQ(legs.legs[0].name, "f");
+  EXPECT_EQ(legs.legs[1].name, "b");
+  EXPECT_THAT(legs.joint_types, ElementsAre("knee", "hip"));
+}
+
+TEST(LegGuess, SeparatesNumbersFromWordsWhereItMust) {
+  EXPECT_THAT(words_of("FR_hip_joint"), ElementsAre("FR", "hip", "joint"));
+  EXPECT_THAT(words_of("FRHipJoint"), ElementsAre("FR", "Hip", "Joint"));
+  EXPECT_THAT(words_of("leg1-knee"), ElementsAre("leg1", "knee"));
+  EXPECT_THAT(words_of("knee12", true), ElementsAre("knee", "12"));
+}
+
+TEST(LegGuess, TakesAFootThatCollidesOnTheLastBody) {
+  const Files files;
+  const SmallModel model = model_of("mesh_feet");
+  const ModelParts parts = extract_parts(compile_model(files.write("m.xml", model.text)));
+  for (const LegGuess& leg : guess_legs(parts).legs)
+    EXPECT_EQ(parts.geoms[static_cast<std::size_t>(leg.foot_geom)].name, leg.name + "_foot");
+}
+
+}  // namespace
+}  // namespace amble::morphology
