@@ -5,16 +5,10 @@
 #include <array>
 
 #include "amble/core/index.hpp"
+#include "amble/morphology/mujoco_math.hpp"
 
 namespace amble::morphology {
 namespace {
-
-Vec3 vec3(const mjtNum* numbers) {
-  return {numbers[0], numbers[1], numbers[2]};
-}
-Quat quat(const mjtNum* numbers) {
-  return {numbers[0], numbers[1], numbers[2], numbers[3]};
-}
 
 /// Mass, centre and principal moments of several bodies that are fixed to each other (parallel axis
 /// theorem).

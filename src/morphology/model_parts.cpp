@@ -13,6 +13,7 @@
 #include "amble/core/index.hpp"
 #include "amble/morphology/body_mass.hpp"
 #include "amble/morphology/model_shapes.hpp"
+#include "amble/morphology/mujoco_math.hpp"
 #include "amble/morphology/start_pose.hpp"
 #include "amble/robot/pose.hpp"
 
@@ -20,13 +21,6 @@ namespace amble::morphology {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Vec3 vec3(const mjtNum* numbers) {
-  return {numbers[0], numbers[1], numbers[2]};
-}
-Quat quat(const mjtNum* numbers) {
-  return {numbers[0], numbers[1], numbers[2], numbers[3]};
-}
 
 /// Extracts the parts of one compiled model, step by step.
 class PartsExtractor {

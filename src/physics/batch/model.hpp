@@ -57,8 +57,9 @@ struct Point {
   int link = -1;      ///< index in its chain
   Float3 position_m;  ///< of a rim: its centre
   float radius_m = 0.0f;
-  float rim_radius_m = 0.0f;   ///< 0: no rim
-  Float3 rim_axis, rim_start;  ///< unit vectors: the cylinder's axis, and one at a right angle to it
+  float rim_radius_m = 0.0f;  ///< 0: no rim
+  Float3 rim_axis = {},
+         rim_start = {};  ///< unit vectors: the cylinder's axis, and one at a right angle to it
   float rim_cosine = 1.0f, rim_sine = 0.0f;  ///< of the angle from the lowest point
 };
 

@@ -130,7 +130,7 @@ HWY_INLINE void integrate_rotation(const NextState& next, V3 angular_velocity) {
 
 /// Squares of the joints' speeds. A sum is NaN as soon as one of its terms is; a maximum need not be.
 struct JointSpeeds {
-  V sum = zero(), largest = zero();
+  V sum, largest;
 };
 
 /// Speeds of a chain's joints after the step by back substitution, L_cᵀ q̇ = u_c − B_cᵀ ν_b, and their angles,
@@ -164,7 +164,7 @@ HWY_NOINLINE void integrate(const Pass& pass, const BaseFactor& factor, V* u_bas
   const Model& model = pass.model();
   const NextState next{pass, pass.active()};
   const Spatial impulse = collect_impulses(pass);
-  JointSpeeds speeds;
+  JointSpeeds speeds{zero(), zero()};
   for (std::size_t c = 0; c < model.chains.size(); ++c) integrate_joints<N>(next, c, u_base, speeds);
   solve_base_transposed(factor, u_base);
   const V3 angular_velocity{u_base[0], u_base[1], u_base[2]};

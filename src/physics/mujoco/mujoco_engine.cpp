@@ -13,6 +13,7 @@
 #include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"
 #include "amble/morphology/mujoco_handlers.hpp"
+#include "amble/morphology/mujoco_math.hpp"
 #include "amble/physics/mujoco/model.hpp"
 #include "amble/physics/mujoco/slip.hpp"
 #include "amble/physics/single_robot.hpp"
@@ -20,16 +21,13 @@
 namespace amble::physics {
 namespace {
 
+using morphology::vec3;
 using robot::RobotSpec;
 using robot::Servo;
 using robot::ServoMode;
 
 /// MuJoCo's ids: the ground is its first geom, the root the only child of its world body.
 constexpr int ground_geom = 0, root_body = 1;
-
-Vec3 vec3(const mjtNum* v) {
-  return {v[0], v[1], v[2]};
-}
 
 struct DeleteData {
   void operator()(mjData* data) const { mj_deleteData(data); }
