@@ -10,7 +10,7 @@
 
 namespace amble::report {
 
-/// Shown for runs without a gait name, e.g. of robots that are not quadrupeds.
+/// Shown for runs without a gait name, e.g. of robots with eight legs.
 inline constexpr std::string_view nameless_gait = "no name";
 
 /// Whether the name is one of a regular gait (docs/GAIT.md).
