@@ -138,7 +138,7 @@ class LegFinder {
   /// With a "left" one, a leg without a word of its own is the right one.
   static void name_the_other(std::vector<std::string>& names) {
     if (names.size() != 2) return;
-    for (std::size_t l : {0, 1}) {
+    for (std::size_t l = 0; l < 2; ++l) {
       if (!names[l].empty()) continue;
       if (names[1 - l] == "left") names[l] = "right";
       if (names[1 - l] == "right") names[l] = "left";

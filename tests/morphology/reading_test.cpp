@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-ModelParts parts_of(const Files& files, const std::string& text, const ReadingOptions& options = {}) {
+ModelParts read_parts(const Files& files, const std::string& text, const ReadingOptions& options = {}) {
   return extract_parts(compile_model(files.write("m.xml", text)), options);
 }
 
@@ -35,8 +35,8 @@ std::vector<robot::Pose> poses_of(const ModelParts& parts, const std::vector<dou
 
 TEST(StartKeyframe, IsZeroOfAllAnglesWithoutAnotherMotion) {
   const Files files;
-  const ModelParts reference = parts_of(files, crouching_xml);
-  const ModelParts crouching = parts_of(files, crouching_xml, {.start_keyframe = "home"});
+  const ModelParts reference = read_parts(files, crouching_xml);
+  const ModelParts crouching = read_parts(files, crouching_xml, {.start_keyframe = "home"});
   EXPECT_EQ(crouching.start_rad, (std::vector<double>{0.3, 0.2, -0.6}));
   EXPECT_EQ(crouching.bodies[0].position_m, (Vec3{0.1, 0.2, 0.9}));
   EXPECT_DOUBLE_EQ(crouching.joints[2].lower_rad, -0.1);
@@ -57,7 +57,8 @@ TEST(StartKeyframe, IsZeroOfAllAnglesWithoutAnotherMotion) {
 TEST(StartKeyframe, ThatIsTheDefaultPoseChangesNoBit) {
   const Files files;
   const std::string xml = with(crouching_xml, "0.1 0.2 0.9 1 0 0 0 0.3 0.2 -0.6", "0 0 1 1 0 0 0 0 0 0");
-  const ModelParts reference = parts_of(files, xml), same = parts_of(files, xml, {.start_keyframe = "home"});
+  const ModelParts reference = read_parts(files, xml),
+                   same = read_parts(files, xml, {.start_keyframe = "home"});
   for (std::size_t b = 0; b < reference.bodies.size(); ++b) {
     EXPECT_EQ(reference.bodies[b].position_m, same.bodies[b].position_m);
     EXPECT_EQ(reference.bodies[b].rotation, same.bodies[b].rotation);
@@ -70,12 +71,12 @@ TEST(StartKeyframe, ThatIsTheDefaultPoseChangesNoBit) {
 
 TEST(StartPose, TakesSingleAnglesAndRefusesUnknownNames) {
   const Files files;
-  const ModelParts parts = parts_of(files, crouching_xml, {"home", {{"A_knee", -0.2}}, {}});
+  const ModelParts parts = read_parts(files, crouching_xml, {"home", {{"A_knee", -0.2}}, {}});
   EXPECT_EQ(parts.start_rad, (std::vector<double>{0.3, 0.2, -0.2}));
-  EXPECT_EQ(files.error_of([&] { parts_of(files, crouching_xml, {.start_keyframe = "stand"}); }),
+  EXPECT_EQ(files.error_of([&] { read_parts(files, crouching_xml, {.start_keyframe = "stand"}); }),
             "m.xml: no keyframe 'stand' to start from; the model has: home");
   EXPECT_EQ(files.error_of([&] {
-    parts_of(files, crouching_xml, {"", {{"knee", -0.2}}, {}});
+    read_parts(files, crouching_xml, {"", {{"knee", -0.2}}, {}});
   }),
             "m.xml: no hinge 'knee', of which a start angle is given");
 }
@@ -83,17 +84,17 @@ TEST(StartPose, TakesSingleAnglesAndRefusesUnknownNames) {
 TEST(FixedJoint, DisappearsAndItsBodyBecomesPartOfItsParent) {
   const Files files;
   const ModelParts parts =
-      parts_of(files, crouching_xml, {.start_keyframe = "home", .fixed_joints = {"A_knee"}});
+      read_parts(files, crouching_xml, {.start_keyframe = "home", .fixed_joints = {"A_knee"}});
   ASSERT_EQ(parts.bodies.size(), 2u);
   ASSERT_EQ(parts.joints.size(), 2u);
   EXPECT_DOUBLE_EQ(parts.bodies[1].mass_kg, 1.75);
   // The foot is where the bent knee puts it: 0.4 m down the thigh, 0.4 m along the shin.
-  const ModelParts moving = parts_of(files, crouching_xml, {.start_keyframe = "home"});
+  const ModelParts moving = read_parts(files, crouching_xml, {.start_keyframe = "home"});
   const Vec3 expected = poses_of(moving, {0, 0, 0})[2] * moving.geoms[3].position_m;
   const Vec3 found = poses_of(parts, {0, 0})[1] * parts.geoms[3].position_m;
   EXPECT_NEAR(norm(expected - found), 0.0, 1e-12);
   EXPECT_NEAR(parts.geoms[3].position_m.x, 0.4 * std::sin(0.6), 1e-12);
-  EXPECT_EQ(files.error_of([&] { parts_of(files, crouching_xml, {.fixed_joints = {"arm"}}); }),
+  EXPECT_EQ(files.error_of([&] { read_parts(files, crouching_xml, {.fixed_joints = {"arm"}}); }),
             "m.xml: no joint 'arm', which is named as fixed");
 }
 
@@ -154,7 +155,7 @@ TEST(Command, IsAskedForOfAllJointsWithoutLimitsAtOnce) {
 
 TEST(Reading, TakesArmatureDampingAndFrictionOfJoints) {
   const Files files;
-  const ModelParts parts = parts_of(
+  const ModelParts parts = read_parts(
       files, with(one_leg_xml, R"(range="-0.7 0")",
                   R"(range="-0.7 0" armature="0.01" damping="0.2" frictionloss="0.3" stiffness="4")"));
   EXPECT_EQ(parts.joints[1].armature_kg_m2, 0.01);
@@ -165,11 +166,11 @@ TEST(Reading, TakesArmatureDampingAndFrictionOfJoints) {
 
 TEST(Reading, FreesAFixedOrPlanarRoot) {
   const Files files;
-  const ModelParts fixed = parts_of(files, with(one_leg_xml, "<freejoint name=\"root\"/>", ""));
+  const ModelParts fixed = read_parts(files, with(one_leg_xml, "<freejoint name=\"root\"/>", ""));
   EXPECT_EQ(fixed.joints.size(), 2u);
   EXPECT_THAT(fixed.notes.text(),
               HasSubstr("replaced  root 'torso' was fixed to the world: it is free to move"));
-  const ModelParts planar = parts_of(
+  const ModelParts planar = read_parts(
       files,
       with(one_leg_xml, "<freejoint name=\"root\"/>",
            R"(<joint name="x" type="slide" axis="1 0 0"/><joint name="z" type="slide" axis="0 0 1" ref="1"/>
@@ -190,7 +191,7 @@ TEST(Reading, TellsWhatStandsInTheWorldAndWhatOnlyMeasures) {
       "</worldbody>",
       R"(</worldbody><tendon><fixed><joint joint="A_hip" coef="1"/></fixed></tendon>
          <actuator><motor joint="A_hip"/></actuator><sensor><touch site="gone"/></sensor>)");
-  const ModelParts parts = parts_of(files, xml);
+  const ModelParts parts = read_parts(files, xml);
   EXPECT_EQ(parts.bodies.size(), 3u);
   EXPECT_EQ(parts.geoms.size(), 4u);
   for (const char* line :
@@ -201,7 +202,7 @@ TEST(Reading, TellsWhatStandsInTheWorldAndWhatOnlyMeasures) {
 
 TEST(Reading, TakesTheBodyWithJointsBehindItForTheRobot) {
   const Files files;
-  const ModelParts parts = parts_of(
+  const ModelParts parts = read_parts(
       files, with(one_leg_xml, "<worldbody>",
                   R"(<worldbody><body name="ball"><freejoint/><geom size="1"/></body><body name="post"/>)"));
   EXPECT_EQ(parts.bodies[0].name, "torso");
@@ -230,14 +231,14 @@ TEST(Reading, LeavesOutPicturesOfMissingMeshesButNoCollisionShapes) {
   const std::string asset = R"(<asset><mesh name="shell" file="gone.stl"/></asset><worldbody>)";
   std::string xml = with(one_leg_xml, "<worldbody>", asset);
   const std::string geom = R"(<geom name="thigh" type="capsule")";
-  const auto parts = parts_of(
+  const auto parts = read_parts(
       files,
       with(xml, geom, R"(<geom type="mesh" mesh="shell" mass="0" contype="0" conaffinity="0"/>)" + geom));
   EXPECT_EQ(parts.geoms.size(), 4u);
   EXPECT_THAT(parts.notes.text(), HasSubstr("whose mesh is missing: gone.stl"));
-  EXPECT_EQ(
-      files.error_of([&] { parts_of(files, with(xml, geom, R"(<geom type="mesh" mesh="shell"/>)" + geom)); }),
-      "m.xml: collision meshes that are missing, or neither STL, OBJ nor MSH: gone.stl");
+  EXPECT_EQ(files.error_of(
+                [&] { read_parts(files, with(xml, geom, R"(<geom type="mesh" mesh="shell"/>)" + geom)); }),
+            "m.xml: collision meshes that are missing, or neither STL, OBJ nor MSH: gone.stl");
 }
 
 TEST(Reading, MakesTheConvexHullOfAMesh) {
@@ -245,7 +246,7 @@ TEST(Reading, MakesTheConvexHullOfAMesh) {
   // A cube with points inside and on its faces.
   const std::string asset = R"(<asset><mesh name="cube" vertex="
     -1 -1 -1  1 -1 -1  -1 1 -1  1 1 -1  -1 -1 1  1 -1 1  -1 1 1  1 1 1  0 0 0  0.5 0.2 0.1"/></asset><worldbody>)";
-  const ModelParts parts = parts_of(
+  const ModelParts parts = read_parts(
       files, with(with(one_leg_xml, "<worldbody>", asset), R"(type="sphere" pos="0 0 -0.4" size="0.06")",
                   R"(type="mesh" mesh="cube" pos="0 0 -0.4")"));
   const robot::Geom& foot = parts.geoms[3];
