@@ -3,10 +3,16 @@
 # amble_compile_apart(SOURCE …): sources not to be compiled together with others of their folder.
 # amble_test(<folder> SOURCES … [LINK …]): one GoogleTest program per folder of tests/.
 
+set(AMBLE_UNITY_SOURCES 12 CACHE STRING "Sources of a folder to compile as one (1: each by itself)")
+
 add_library(amble_options INTERFACE)
 target_compile_options(amble_options INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wnon-virtual-dtor -ffp-contract=off)
-# Compiled together, a local of one source may have the name of a private constant of another. Clang checks each source by itself.
-target_compile_options(amble_options INTERFACE -Wshadow$<$<CXX_COMPILER_ID:GNU>:=local>)
+# Compiled together, a local of one source may have the name of a private constant of another; lint checks each source by itself.
+if(AMBLE_UNITY_SOURCES GREATER 1 AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(amble_options INTERFACE -Wshadow=local)
+else()
+  target_compile_options(amble_options INTERFACE -Wshadow)
+endif()
 if(AMBLE_WARNINGS_AS_ERRORS)
   target_compile_options(amble_options INTERFACE -Werror)
 endif()
@@ -33,7 +39,6 @@ endif()
 
 # Most of the rest of compiling is headers again: the sources of a folder are compiled together, up to so many in one unit, because a
 # change of one of them then compiles all of these anew. tools/lint and the sanitizers' builds compile each by itself.
-set(AMBLE_UNITY_SOURCES 12 CACHE STRING "Sources of a folder to compile as one (1: each by itself)")
 function(amble_unity target)
   if(AMBLE_UNITY_SOURCES GREATER 1 AND NOT AMBLE_SANITIZE)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${AMBLE_UNITY_SOURCES})
