@@ -117,7 +117,7 @@ class LegFinder {
     std::set<std::string> different;
     for (std::string& name : names) {
       if (name.empty()) return false;
-      if (std::isdigit(static_cast<unsigned char>(name[0])) != 0) name = "leg" + name;
+      if (std::isdigit(static_cast<unsigned char>(name[0])) != 0) name.insert(0, "leg");
       if (name == "foot" || name == "joint" || !different.insert(name).second) return false;
     }
     for (std::size_t l = 0; l < names.size(); ++l) guess_.legs[l].name = names[l];
@@ -273,7 +273,7 @@ class LegFinder {
         if (type.empty() || std::ranges::count(types, type) > 1) return false;
         if (type == "foot" || type == "joint" || std::isdigit(static_cast<unsigned char>(type[0])) != 0)
           type += "_hinge";
-        if (std::isdigit(static_cast<unsigned char>(type[0])) != 0) type = "j" + type;
+        if (std::isdigit(static_cast<unsigned char>(type[0])) != 0) type.insert(0, "j");
         for (const LegGuess& leg : guess_.legs)
           if (leg.name == type) type += "_hinge";
         const auto found = std::ranges::find(all, type);

@@ -37,6 +37,7 @@ std::string key(const std::string& name) {
 
 std::string list(const std::vector<std::string>& names) {
   std::vector<std::string> all;
+  all.reserve(names.size());
   for (const std::string& name : names) all.push_back(io::toml_quoted(name));
   return fmt::format("[{}]", fmt::join(all, ", "));
 }

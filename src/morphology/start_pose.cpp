@@ -35,6 +35,7 @@ int joint_of_name(const mjModel_& model, const std::string& name) {
 
 std::vector<std::string> keyframes(const mjModel_& model) {
   std::vector<std::string> names;
+  names.reserve(static_cast<std::size_t>(model.nkey));
   for (int k = 0; k < model.nkey; ++k) names.emplace_back(model.names + model.name_keyadr[k]);
   return names;
 }
