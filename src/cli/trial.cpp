@@ -41,8 +41,8 @@ ExitCode run_trial(const TrialOptions& options) {
                                 .trace = false,
                                 .noise = {}};
   if (options.noise) {
-    if (!champion.problem.noise.any())
-      fail(ExitCode::bad_input, "--noise: {} was evolved without noise", options.champion.string());
+    if (!champion.problem.disturbed())
+      fail(ExitCode::bad_input, "--noise: {} was evolved without noise, and from one place", options.champion.string());
     how.noise = champion.scenario_key(*options.noise);
   }
   const auto replay = experiment::replay(champion.problem, champion.genome, how, stop_signal());

@@ -14,6 +14,7 @@ enum class Purpose : std::uint32_t {
   speciation = 3,
   trial_noise = 4,
   bootstrap = 5,
+  ground = 6,
 };
 
 /// A stream of random numbers that depends on its key alone, (seed, purpose, generation, individual), and so

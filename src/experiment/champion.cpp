@@ -117,10 +117,12 @@ Problem parse_problem(const io::JsonView& root) {
       .trial = io::settings_from_json<trial::Settings>(root.at("trial")),
       .noise = {},
       .score = {},
+      .ground = {},
       .architecture = nullptr};
   if (root.has("noise"))
     problem.noise = io::settings_from_json<trial::NoiseSettings>(root.at("noise").at("settings"));
   if (root.has("score")) problem.score = io::settings_from_json<score::Settings>(root.at("score"));
+  if (root.has("ground")) problem.ground = io::settings_from_json<ground::Settings>(root.at("ground"));
   problem.complete();
   return problem;
 }
@@ -134,6 +136,7 @@ io::Json problem_json(const Problem& problem) {
                 {"trial", io::settings_to_json(problem.trial)},
                 {"robot", robot::to_json(problem.robot)}};
   if (!problem.score.is_distance()) json["score"] = io::settings_to_json(problem.score);
+  if (!problem.ground.is_default()) json["ground"] = io::settings_to_json(problem.ground);
   return json;
 }
 
@@ -146,6 +149,10 @@ TrialResult summarise(const Problem& problem, const record::Trajectory& trajecto
   return result;
 }
 
+ground::Key Champion::ground_key() const {
+  return {.seed = static_cast<std::uint64_t>(seed), .generation = static_cast<std::uint32_t>(generation)};
+}
+
 trial::ScenarioKey Champion::scenario_key(std::size_t episode) const {
   return {.seed = static_cast<std::uint64_t>(seed),
           .generation = static_cast<std::uint32_t>(generation),
@@ -153,8 +160,8 @@ trial::ScenarioKey Champion::scenario_key(std::size_t episode) const {
 }
 
 trial::ScenarioKey Champion::unseen_scenario_key(std::size_t episode) const {
-  constexpr std::size_t first = 1000;  // evaluations have at most so many episodes (NoiseSettings), from 0
-  return scenario_key(first + episode);
+  // Evaluations have at most so many episodes (NoiseSettings), from 0.
+  return scenario_key(first_unseen_episode + episode);
 }
 
 double Champion::objective() const {
@@ -197,6 +204,7 @@ LoadedChampion parse_champion(const std::string& text, const std::string& what, 
                       .trace = parse_trace(root.at("trace")),
                       .episodes = parse_episodes(root),
                       .referees = parse_referees(root)};
+    champion.problem.ground_key = champion.ground_key();
     neat::validate(champion.genome, champion.problem.cppn_inputs(), champion.problem.cppn_outputs(),
                    champion.problem.cppn.recurrent);
     return {std::move(champion), sealed.altered};

@@ -51,6 +51,8 @@ struct Champion {
   std::vector<NoisyTrial> episodes;          ///< Problem::noise; empty if there is none
   std::vector<RefereeResult> referees = {};  ///< in the order of Config::referees; empty if there are none
 
+  /// Key of the ground of its generation.
+  ground::Key ground_key() const;
   /// Key of the noise of an episode that made it a champion.
   trial::ScenarioKey scenario_key(std::size_t episode) const;
   /// Key of noise that evolution has not used.

@@ -21,7 +21,7 @@ bool try_at_home(Champion& champion, StageTimes& times, const std::atomic<bool>&
   champion.result = undisturbed->result;
   champion.trace = undisturbed->trace;
   times.physics_s += undisturbed->physics_s;
-  if (!problem.noise.any()) return true;
+  if (!problem.disturbed()) return true;
   for (std::size_t i = 0; i < to_index(problem.noise.episodes); ++i) {
     const auto again = replay(problem, champion.genome, {.noise = champion.scenario_key(i)}, stop);
     if (!again) return false;
@@ -44,6 +44,7 @@ std::optional<Champion> try_champion(const Config& config, const Problem& proble
                     .result = {},
                     .trace = {},
                     .episodes = {}};
+  champion.problem.ground_key = champion.ground_key();
   if (!try_at_home(champion, times, stop)) return std::nullopt;
   if (champion.objective() != best.objective)
     fail(ExitCode::differs,
@@ -52,7 +53,7 @@ std::optional<Champion> try_champion(const Config& config, const Problem& proble
          score::with_unit(fmt::format("{}", champion.objective()), config.score));
   if (!config.referees.empty()) {
     const Stopwatch watch(times.referees_s);
-    auto judged = run_referees(problem, champion.genome, config.referees, jobs, stop);
+    auto judged = run_referees(champion.problem, champion.genome, config.referees, jobs, stop);
     if (!judged) return std::nullopt;
     champion.referees = std::move(*judged);
   }

@@ -28,6 +28,7 @@ void Config::describe(io::SettingsVisitor& visitor) {
   visitor.table("controller", controller, {"how a CPPN becomes a controller"});
   visitor.table("trial", trial, {"one trial of one controller"});
   visitor.table("noise", noise, {"noise in trials, and how many of them make an evaluation; off by default"});
+  visitor.table("ground", ground, {"what robots walk on: flat by default"});
   visitor.table("score", score, {"what makes a gait good"});
   visitor.table("search", search, {"what selects parents"});
 }
@@ -40,7 +41,8 @@ void Config::validate() const {
   check_referees();
   neat.validate();
   trial.validate();
-  noise.validate(trial);
+  ground.validate();
+  noise.validate(trial, ground.start_place_m > 0.0);
   score.validate();
   search::strategy_kind(search).validate(search, make_behaviour()->length());
 }
@@ -79,6 +81,7 @@ io::Json Config::identity() const {
   copy.describe(*io::json_writer(values));
   // Later tables are omitted at their defaults, so that earlier results still match.
   if (copy.score.is_distance()) values.erase("score");
+  if (copy.ground.is_default()) values.erase("ground");
   return values;
 }
 

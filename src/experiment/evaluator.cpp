@@ -20,10 +20,11 @@ namespace {
 class Generation {
  public:
   Generation(const Problem& problem_in, std::span<const neat::Genome> genomes_in,
-             std::span<const trial::Scenario> scenarios_in)
+             std::span<const trial::Scenario> scenarios_in, std::shared_ptr<const ground::Ground> ground_in)
       : problem(problem_in),
         genomes(genomes_in),
         scenarios(scenarios_in),
+        ground(std::move(ground_in)),
         trajectories_(genomes.size() * episodes()) {}
 
   std::size_t episodes() const { return std::max<std::size_t>(1, scenarios.size()); }
@@ -38,6 +39,7 @@ class Generation {
   const Problem& problem;
   const std::span<const neat::Genome> genomes;
   const std::span<const trial::Scenario> scenarios;
+  const std::shared_ptr<const ground::Ground> ground;
 
  private:
   std::vector<record::Trajectory> trajectories_;
@@ -86,8 +88,10 @@ struct WorkerContext {
   std::unique_ptr<controllers::Batch> controllers;
   std::optional<trial::Runner> runner;
 
-  trial::Runner& open(const Problem& problem, const record::PathSampling& path) {
+  trial::Runner& open(const Problem& problem, const record::PathSampling& path,
+                      const std::shared_ptr<const ground::Ground>& ground) {
     if (!engine) engine = problem.make_engine();
+    if (engine->ground() != ground.get()) engine->set_ground(ground);
     if (!controllers) controllers = problem.architecture->make_batch(engine->lanes());
     if (!runner) runner.emplace(*engine, *controllers, problem.protocol(path));
     return *runner;
@@ -140,7 +144,7 @@ void Evaluator::Shared::one_round(WorkerContext& context) {
   StageTimes own;
   const double start_s = now_s();
   try {
-    trial::Runner& runner = context.open(problem, path);
+    trial::Runner& runner = context.open(problem, path, generation->ground);
     const std::uint64_t steps_before = runner.steps_simulated();
     const double physics_before_s = runner.physics_s(), control_before_s = runner.control_s();
     WorkerQueue queue(*generation);
@@ -184,9 +188,10 @@ Evaluator::Shared::~Shared() {
 
 std::optional<GenerationResult> Evaluator::evaluate(std::span<const neat::Genome> genomes,
                                                     const std::atomic<bool>& stop,
-                                                    std::span<const trial::Scenario> scenarios) {
+                                                    std::span<const trial::Scenario> scenarios,
+                                                    std::shared_ptr<const ground::Ground> ground) {
   Shared& shared = *shared_;
-  Generation generation(shared.problem, genomes, scenarios);
+  Generation generation(shared.problem, genomes, scenarios, std::move(ground));
   std::unique_lock lock(shared.mutex);
   shared.generation = &generation;
   shared.stop = &stop;

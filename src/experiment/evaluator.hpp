@@ -33,11 +33,12 @@ class Evaluator {
   Evaluator(const Problem& problem, const record::PathSampling& path, int jobs);
   ~Evaluator();
 
-  /// One trial per genome and scenario; without scenarios, one without noise per genome. Nothing if `stop`
-  /// was set before all trials had ended.
+  /// One trial per genome and scenario; without scenarios, one without noise per genome. `ground`: null for
+  /// the plane. Nothing if `stop` was set before all trials had ended.
   std::optional<GenerationResult> evaluate(std::span<const neat::Genome> genomes,
                                            const std::atomic<bool>& stop,
-                                           std::span<const trial::Scenario> scenarios = {});
+                                           std::span<const trial::Scenario> scenarios = {},
+                                           std::shared_ptr<const ground::Ground> ground = nullptr);
 
  private:
   struct Shared;

@@ -1,6 +1,6 @@
 #include "amble/experiment/problem.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -11,6 +11,7 @@
 #include "amble/io/printable.hpp"
 #include "amble/morphology/robot_file.hpp"
 #include "amble/robot/json.hpp"
+#include "amble/robot/pose.hpp"
 
 namespace amble::experiment {
 namespace {
@@ -21,6 +22,8 @@ constexpr int robot_version = 1;
 
 Problem Problem::make(const Config& config, robot::RobotSpec robot) {
   robot.bodies[0].position_m.z += config.drop_m;
+  robot.gravity_m_s2 = config.ground.tilted(robot.gravity_m_s2);
+  if (config.ground.friction >= 0.0) robot.contact.friction = config.ground.friction;
   Problem problem{.robot = std::move(robot),
                   .engine = config.engine,
                   .cppn = config.cppn,
@@ -28,6 +31,7 @@ Problem Problem::make(const Config& config, robot::RobotSpec robot) {
                   .trial = config.trial,
                   .noise = config.noise,
                   .score = config.score,
+                  .ground = config.ground,
                   .architecture = nullptr};
   try {
     problem.complete();
@@ -39,8 +43,10 @@ Problem Problem::make(const Config& config, robot::RobotSpec robot) {
 
 void Problem::complete() {
   trial.validate();
-  noise.validate(trial);
+  ground.validate();
+  noise.validate(trial, ground.start_place_m > 0.0);
   score.validate();
+  check_start();
   // Champion files have the nodes themselves, however the config came by them.
   controller.substrate = controllers::substrate_of(controller, robot);
   architecture = controllers::make_architecture(controller, robot, trial.timestep_s);
@@ -58,7 +64,7 @@ std::unique_ptr<controllers::Parameters> Problem::decode(const neat::Genome& gen
 
 score::Score Problem::scorer() const {
   return score::Score(score, trial.steps() * trial.timestep_s,
-                      robot.total_mass_kg() * std::abs(robot.gravity_m_s2.z));
+                      robot.total_mass_kg() * norm(robot.gravity_m_s2));
 }
 
 trial::Protocol Problem::protocol(const record::PathSampling& path) const {
@@ -70,17 +76,62 @@ trial::Protocol Problem::protocol(const record::PathSampling& path) const {
           .fall_height_m = robot.fall_height_m};
 }
 
-trial::Scenario Problem::scenario(const trial::ScenarioKey& key) const {
-  return trial::draw_scenario(noise, robot, trial.steps(), trial.timestep_s, key);
+void Problem::walk_on(const ground::Settings& other) {
+  other.validate();
+  if (other.friction < 0.0 && ground.friction >= 0.0)
+    fail_setting({"ground.friction"},
+                 "ground.friction = -1: the robot's own friction is no longer known here; "
+                 "expected a number");
+  if (other.slope_x != ground.slope_x || other.slope_y != ground.slope_y)
+    robot.gravity_m_s2 = other.tilted({0.0, 0.0, -norm(robot.gravity_m_s2)});
+  if (other.friction >= 0.0) robot.contact.friction = other.friction;
+  ground = other;
+  check_start();
 }
 
-std::vector<trial::Scenario> Problem::scenarios(std::int64_t seed, int generation) const {
+void Problem::check_start() const {
+  if (!ground.has_field()) return;
+  const auto full = make_ground({.generation = static_cast<std::uint32_t>(ground.grow_generations)});
+  const auto start = robot::start_poses(robot);
+  constexpr double slack_m = 1e-3;
+  if (full->clearance_m(robot, start) < std::min(0.0, robot::clearance_m(robot, start)) - slack_m)
+    fail_setting({"ground.start_radius_m", "ground.kind"},
+                 "ground.start_radius_m = {}: the robot starts in the ground; expected a larger flat place",
+                 ground.start_radius_m);
+}
+
+std::shared_ptr<const ground::Ground> Problem::make_ground(const ground::Key& key) const {
+  if (!ground.has_field()) return nullptr;
+  return std::make_shared<const ground::Ground>(ground::make_field(ground, key), robot);
+}
+
+ground::Key ground_of(const trial::ScenarioKey& key) {
+  return {.seed = key.seed, .generation = key.generation, .set = key.episode / first_unseen_episode};
+}
+
+std::shared_ptr<const ground::Ground> GenerationGround::of(const Problem& problem, std::int64_t seed,
+                                                           int generation) {
+  const ground::Key key = normalised(problem.ground, {.seed = static_cast<std::uint64_t>(seed),
+                                                      .generation = static_cast<std::uint32_t>(generation)});
+  if (key != key_) ground_ = problem.make_ground(key);
+  key_ = key;
+  return ground_;
+}
+
+trial::Scenario Problem::scenario(const trial::ScenarioKey& key, const ground::Ground* on) const {
+  return trial::draw_scenario(noise, robot, trial.steps(), trial.timestep_s, key,
+                              {.ground = on, .place_m = ground.start_place_m});
+}
+
+std::vector<trial::Scenario> Problem::scenarios(std::int64_t seed, int generation,
+                                                const ground::Ground* on) const {
   std::vector<trial::Scenario> all;
-  if (!noise.any()) return all;
+  if (!disturbed()) return all;
   for (int episode = 0; episode < noise.episodes; ++episode)
     all.push_back(scenario({.seed = static_cast<std::uint64_t>(seed),
                             .generation = static_cast<std::uint32_t>(generation),
-                            .episode = static_cast<std::uint32_t>(episode)}));
+                            .episode = static_cast<std::uint32_t>(episode)},
+                           on));
   return all;
 }
 

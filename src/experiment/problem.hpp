@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,8 @@
 #include "amble/controllers/factory.hpp"
 #include "amble/cppn/settings.hpp"
 #include "amble/experiment/config.hpp"
+#include "amble/ground/ground.hpp"
+#include "amble/ground/settings.hpp"
 #include "amble/morphology/reading_notes.hpp"
 #include "amble/neat/genome.hpp"
 #include "amble/robot/spec.hpp"
@@ -31,13 +34,22 @@ struct Problem {
   trial::Settings trial;
   trial::NoiseSettings noise;
   score::Settings score;
+  ground::Settings ground;
+  ground::Key ground_key = {};  ///< of uneven ground in trials without noise
   std::shared_ptr<const controllers::Architecture> architecture;
 
-  /// `robot` as in its file; the problem's robot starts Config::drop_m higher. Throws UserError if the parts
-  /// do not fit together (an engine that cannot simulate the robot, a controller for other legs).
+  /// `robot` as in its file; the problem's robot starts Config::drop_m higher, feels gravity as on the
+  /// ground's slope, and has its friction. Throws UserError if the parts do not fit together (an engine that
+  /// cannot simulate the robot, a controller for other legs).
   static Problem make(const Config& config, robot::RobotSpec robot);
   /// Makes `architecture` from the other members and checks that they fit.
   void complete();
+
+  /// Changes the ground, and with it the robot's gravity and friction. Throws UserError if `other` leaves
+  /// friction to the robot's file and the ground so far did not.
+  void walk_on(const ground::Settings& other);
+  /// Throws SettingError if the start pose is in uneven ground.
+  void check_start() const;
 
   int cppn_inputs() const { return static_cast<int>(architecture->cppn_inputs().size()); }
   int cppn_outputs() const { return static_cast<int>(architecture->cppn_outputs().size()); }
@@ -46,9 +58,32 @@ struct Problem {
   std::unique_ptr<controllers::Parameters> decode(const neat::Genome& genome) const;
   score::Score scorer() const;
   trial::Protocol protocol(const record::PathSampling& path) const;
-  trial::Scenario scenario(const trial::ScenarioKey& key) const;
-  /// The scenarios of a generation, the same for all genomes, one per episode; empty without noise.
-  std::vector<trial::Scenario> scenarios(std::int64_t seed, int generation) const;
+  /// Whether trials differ: by noise, or by the place where they start.
+  bool disturbed() const { return noise.any() || ground.start_place_m > 0.0; }
+  /// Null for the plane.
+  std::shared_ptr<const ground::Ground> make_ground(const ground::Key& key) const;
+  /// `on`: the ground of the trial, null for the plane.
+  trial::Scenario scenario(const trial::ScenarioKey& key, const ground::Ground* on = nullptr) const;
+  /// The scenarios of a generation, the same for all genomes, one per episode; empty unless disturbed().
+  std::vector<trial::Scenario> scenarios(std::int64_t seed, int generation,
+                                         const ground::Ground* on = nullptr) const;
+};
+
+/// The first episode of a champion's trials under noise that evolution has not met; on uneven ground its
+/// ground is new as well.
+inline constexpr std::uint32_t first_unseen_episode = 1000;
+
+/// The ground of a trial under noise: that of its generation.
+ground::Key ground_of(const trial::ScenarioKey& key);
+
+/// The ground of each generation of a run, made anew only when it changes.
+class GenerationGround {
+ public:
+  std::shared_ptr<const ground::Ground> of(const Problem& problem, std::int64_t seed, int generation);
+
+ private:
+  std::optional<ground::Key> key_;
+  std::shared_ptr<const ground::Ground> ground_;
 };
 
 /// The robot of a config. Throws UserError; if its file is missing, with the place that names it.

@@ -1,5 +1,6 @@
 #include "amble/experiment/replay.hpp"
 
+#include "amble/ground/recorded.hpp"
 #include "amble/robot/json.hpp"
 
 namespace amble::experiment {
@@ -12,6 +13,9 @@ std::optional<Replay> replay(const Problem& original, const neat::Genome& genome
   problem.trial.validate();
 
   const auto engine = problem.make_engine(options.record || options.observer);
+  const ground::Key ground_key = options.noise ? ground_of(*options.noise) : problem.ground_key;
+  const auto ground = problem.make_ground(ground_key);
+  if (ground) engine->set_ground(ground);
   const auto controllers = problem.architecture->make_batch(engine->lanes());
   auto parameters = problem.decode(genome);
 
@@ -23,14 +27,21 @@ std::optional<Replay> replay(const Problem& original, const neat::Genome& genome
   observers.add(events);
   if (options.observer) observers.add(*options.observer);
   if (options.record) {
-    recording.emplace(*options.record, problem.robot, *engine, *controllers, problem.trial.timestep_s,
-                      robot::to_json(problem.robot).dump(),
-                      problem.architecture->parameters_json(*parameters), options.origin);
+    recording.emplace(
+        *options.record,
+        record::RecordingHeader{
+            .frame_s = problem.trial.timestep_s,
+            .columns = {},
+            .robot_json = robot::to_json(problem.robot).dump(),
+            .controller_json = problem.architecture->parameters_json(*parameters),
+            .origin = options.origin,
+            .ground_json = ground ? ground::to_json(problem.ground, ground_key).dump() : std::string()},
+        problem.robot, *engine, *controllers);
     observers.add(*recording);
   }
 
   std::optional<trial::Scenario> scenario;
-  if (options.noise) scenario = problem.scenario(*options.noise);
+  if (options.noise) scenario = problem.scenario(*options.noise, ground.get());
   trial::OneTask task(std::move(parameters), &observers, scenario ? &*scenario : nullptr);
   trial::Runner runner(*engine, *controllers, problem.protocol({}));
   runner.run(task, stop);

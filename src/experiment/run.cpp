@@ -82,8 +82,9 @@ RunStatus Run::generations(RunListener& listener, const std::atomic<bool>& stop)
   double last_row_s = now_s(), files_s = 0.0;
   while (generation() < config_.generations) {
     const auto candidates = state_.strategy->ask();
-    const auto scenarios = problem_->scenarios(config_.seed, generation());
-    const auto result = evaluator.evaluate(candidates, stop, scenarios);
+    const auto ground = ground_.of(*problem_, config_.seed, generation());
+    const auto scenarios = problem_->scenarios(config_.seed, generation(), ground.get());
+    const auto result = evaluator.evaluate(candidates, stop, scenarios, ground);
     if (!result) return RunStatus::interrupted;
 
     GenerationRow row;

@@ -62,6 +62,7 @@ class Run {
   std::unique_ptr<const score::Behaviour> behaviour_;
   RunState state_;
   RunFiles files_;
+  GenerationGround ground_;
   int jobs_;
 };
 

@@ -76,7 +76,7 @@ void check_tests(const StudySpec& study) {
     const TestSpec& test = study.tests[i];
     check_name(study, item("tests", i, "name"), test.name, names);
     check_condition_names(study, item("tests", i, "conditions"), test.conditions);
-    if (test.noise.empty() && test.episodes != 1)
+    if (test.noise.empty() && test.ground.empty() && test.episodes != 1)
       throw study.error_at(item("tests", i, "episodes"),
                            fmt::format("'{}' = {}: without noise all trials are the same",
                                        item("tests", i, "episodes"), test.episodes));
@@ -102,6 +102,7 @@ void TestSpec::describe(io::SettingsVisitor& visitor) {
   visitor.text("engine", engine, {"physics engine; empty: the run's own"});
   visitor.number("seconds", seconds, {1e-5, 1e6}, {"length of the trials, s"});
   visitor.text("noise", noise, {"config file whose [noise] disturbs the trials; empty: none"});
+  visitor.text("ground", ground, {"config file whose [ground] the champion walks on; empty: its own"});
   visitor.integer("episodes", episodes, {1, 1000}, {"trials under noise that evolution has not met"});
   visitor.texts("conditions", conditions, {"conditions whose champions are tested; empty: all"});
 }
@@ -174,8 +175,10 @@ StudySpec load_study(const std::filesystem::path& path) {
     resolve(study.conditions[i].config, item("conditions", i, "config"));
     resolve(study.conditions[i].robot, item("conditions", i, "robot"));
   }
-  for (std::size_t i = 0; i < study.tests.size(); ++i)
+  for (std::size_t i = 0; i < study.tests.size(); ++i) {
     resolve(study.tests[i].noise, item("tests", i, "noise"));
+    resolve(study.tests[i].ground, item("tests", i, "ground"));
+  }
   return study;
 }
 

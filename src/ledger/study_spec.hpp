@@ -32,8 +32,10 @@ struct TestSpec {
   std::string name;
   std::string engine;  ///< empty: the engine of the run
   double seconds = 300.0;
-  std::string noise;                    ///< config file whose [noise] disturbs the trials; empty: no noise
-  int episodes = 1;                     ///< trials under noise that evolution has not used; 1 without noise
+  std::string noise;   ///< config file whose [noise] disturbs the trials; empty: no noise
+  std::string ground;  ///< config file whose [ground] the champion walks on; empty: that of its own config
+  /// Trials under noise, on uneven ground, or from places that evolution has not used; 1 without any of it.
+  int episodes = 1;
   std::vector<std::string> conditions;  ///< names; empty: all
 
   bool applies_to(std::string_view condition) const;

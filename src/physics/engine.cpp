@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
@@ -35,6 +36,12 @@ constexpr std::array names = [] {
 }();
 
 }  // namespace
+
+void Engine::set_ground(std::shared_ptr<const ground::Ground> ground) {
+  ground_ = std::move(ground);
+  for (int lane = 0; lane < lanes(); ++lane) retire(lane);
+  on_ground();
+}
 
 std::span<const std::string_view> engine_names() {
   return names;

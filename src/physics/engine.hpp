@@ -8,6 +8,7 @@
 
 #include "amble/core/lanes.hpp"
 #include "amble/core/math.hpp"
+#include "amble/ground/ground.hpp"
 #include "amble/robot/sensors.hpp"
 #include "amble/robot/spec.hpp"
 
@@ -34,18 +35,25 @@ struct EngineSettings {
 /// A robot that is faster has diverged: m/s or rad/s (Engine::healthy).
 inline constexpr double absurd_speed = 1000.0;
 
-/// Advances up to lanes() copies of one robot in lockstep, one copy per lane, on flat ground at z = 0.
-/// Lanes do not influence each other, not by one bit: a lane's states depend on its own targets alone.
-/// An engine belongs to one thread. Order within step(): find touches and contacts, advance by one
-/// timestep, then read joint angles and attitude: touch is that of the pose before the step.
+/// Advances up to lanes() copies of one robot in lockstep, one copy per lane, on one ground: the plane z = 0
+/// unless set_ground() gives another. Lanes do not influence each other, not by one bit: a lane's states
+/// depend on its own targets alone. An engine belongs to one thread. Order within step(): find touches and
+/// contacts, advance by one timestep, then read joint angles and attitude: touch is that of the pose before
+/// the step.
 class Engine {
  public:
   virtual ~Engine() = default;
 
   virtual int lanes() const = 0;
 
+  /// The ground from now on, made for this robot; null: the plane z = 0. Retires all lanes.
+  void set_ground(std::shared_ptr<const ground::Ground> ground);
+  /// Null: the plane z = 0.
+  const ground::Ground* ground() const { return ground_.get(); }
+
   /// Puts the robot of this lane into its start pose, at rest, whatever its state was; its sensors are valid
-  /// at once (all joint angles 0; a foot touches if it is not above the ground).
+  /// at once (all joint angles 0; a foot touches if it is not above the ground). On uneven ground that pose
+  /// may be in the ground: see place_at().
   virtual void place(int lane) = 0;
   /// The same, but into the given pose. Joint angles are still counted from the robot's own start pose.
   virtual void place_at(int lane, const StartPose& pose) = 0;
@@ -77,6 +85,12 @@ class Engine {
   virtual Vec3 momentum_kg_m_s(int lane) const = 0;
   /// Hash of all positions and velocities of this lane, to the bit.
   virtual std::uint64_t state_hash(int lane) const = 0;
+
+ private:
+  /// The ground has changed; all lanes are retired.
+  virtual void on_ground() {}
+
+  std::shared_ptr<const ground::Ground> ground_;
 };
 
 /// In the order in which they are listed to users.

@@ -16,7 +16,10 @@ bool has_nan(const LaneArray& targets_rad) {
 }  // namespace
 
 SingleRobotEngine::SingleRobotEngine(const robot::RobotSpec& robot, const EngineSettings& settings)
-    : robot_(robot), with_torques_(settings.torques) {
+    : robot_(robot),
+      with_torques_(settings.torques),
+      level_(robot::level_frame(robot.gravity_m_s2)),
+      tilted_(level_ != Quat()) {
   const int joints = static_cast<int>(robot.joints.size());
   sensors_.joint_angle_rad = LaneArray(joints, 1);
   sensors_.touch = LaneArray(static_cast<int>(robot.legs.size()), 1);
@@ -57,7 +60,7 @@ void SingleRobotEngine::check_pushable(int lane) const {
 }
 
 void SingleRobotEngine::sense_attitude(const Quat& rotation) {
-  const RollPitchYaw attitude = roll_pitch_yaw(rotation);
+  const RollPitchYaw attitude = roll_pitch_yaw(tilted_ ? conjugate(level_) * rotation : rotation);
   sensors_.attitude_rad.at(0, 0) = static_cast<float>(attitude.roll_rad);
   sensors_.attitude_rad.at(1, 0) = static_cast<float>(attitude.pitch_rad);
   sensors_.attitude_rad.at(2, 0) = static_cast<float>(attitude.yaw_rad);

@@ -30,6 +30,8 @@ class SingleRobotEngine : public Engine {
   const bool with_torques_;
   robot::SensorFrame sensors_;
   LaneArray torques_nm_;
+  const Quat level_;   ///< robot::level_frame
+  const bool tilted_;  ///< whether it is not the world's
   bool stepping_ = false;
   bool healthy_ = true;
 };

@@ -29,6 +29,7 @@ RecordingHeader parse_header(std::string_view text, const std::string& what) {
   for (std::size_t i = 0; i < columns.size(); ++i) header.columns.push_back(columns.at(i).text());
   header.robot_json = embedded_json(view.at("robot"));
   header.controller_json = embedded_json(view.at("controller"));
+  if (view.has("ground")) header.ground_json = embedded_json(view.at("ground"));
   header.origin = view.at("origin").text();
   return header;
 }

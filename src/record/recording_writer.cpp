@@ -19,6 +19,8 @@ std::string header_json(const RecordingHeader& header) {
   json["columns"] = header.columns;
   json["robot"] = io::parse_json(header.robot_json, "robot of a recording");
   json["controller"] = io::parse_json(header.controller_json, "controller of a recording");
+  if (!header.ground_json.empty())
+    json["ground"] = io::parse_json(header.ground_json, "ground of a recording");
   json["origin"] = header.origin;
   return io::json_text(json);
 }

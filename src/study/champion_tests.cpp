@@ -58,8 +58,9 @@ std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experi
                                            const std::atomic<bool>& stop) {
   experiment::Problem problem = champion.problem;
   if (!test.spec.engine.empty()) problem.engine = test.spec.engine;
-  const bool noisy = test.noise.any();
-  if (noisy) problem.noise = test.noise;
+  problem.noise = test.noise;
+  if (test.ground) problem.walk_on(*test.ground);
+  const bool unseen = test.ground || test.noise.any() || problem.ground.start_place_m > 0.0;
 
   const double interval_s = std::max(1.0, std::ceil(test.spec.seconds / most_path_samples));
   ledger::TestResult result{.name = test.spec.name,
@@ -77,7 +78,7 @@ std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experi
     observers.add(walk);
     if (episode == 0) observers.add(gait);
     experiment::ReplayOptions how{.seconds = test.spec.seconds, .observer = &observers, .trace = false};
-    if (noisy) how.noise = champion.unseen_scenario_key(static_cast<std::size_t>(episode));
+    if (unseen) how.noise = champion.unseen_scenario_key(static_cast<std::size_t>(episode));
     const auto replay = experiment::replay(problem, champion.genome, how, stop);
     if (!replay) return std::nullopt;
     result.episodes.push_back({.distance_m = replay->result.distance_m,

@@ -20,7 +20,7 @@ std::string key_of(std::string_view list, std::size_t index, std::string_view ke
 }
 
 PlannedTest plan_test(const ledger::StudySpec& study, std::size_t index) {
-  PlannedTest test{.spec = study.tests[index], .noise = {}};
+  PlannedTest test{.spec = study.tests[index], .noise = {}, .ground = {}};
   if (!test.spec.engine.empty() && !physics::is_engine(test.spec.engine))
     throw study.error_at(key_of("tests", index, "engine"),
                          fmt::format("'{}' = \"{}\": expected {}", key_of("tests", index, "engine"),
@@ -32,6 +32,7 @@ PlannedTest plan_test(const ledger::StudySpec& study, std::size_t index) {
       throw study.error_at(key_of("tests", index, "noise"),
                            fmt::format("{}: is without noise", test.spec.noise));
   }
+  if (!test.spec.ground.empty()) test.ground = experiment::load_config(test.spec.ground, {}).ground;
   return test;
 }
 
@@ -75,10 +76,11 @@ PlannedCondition plan_condition(const ledger::StudySpec& study, std::size_t inde
 }  // namespace
 
 std::string PlannedTest::settings_hash(std::string_view home) const {
-  const io::Json definition{{"engine", spec.engine.empty() ? std::string(home) : spec.engine},
-                            {"seconds", spec.seconds},
-                            {"episodes", spec.episodes},
-                            {"noise", io::settings_to_json(noise)}};
+  io::Json definition{{"engine", spec.engine.empty() ? std::string(home) : spec.engine},
+                      {"seconds", spec.seconds},
+                      {"episodes", spec.episodes},
+                      {"noise", io::settings_to_json(noise)}};
+  if (ground) definition["ground"] = io::settings_to_json(*ground);
   return hex(hash_text(definition.dump()));
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "amble/experiment/config.hpp"
+#include "amble/ground/settings.hpp"
 #include "amble/ledger/ledger.hpp"
 #include "amble/ledger/study_spec.hpp"
 #include "amble/robot/spec.hpp"
@@ -18,7 +19,8 @@ namespace amble::study {
 /// A test with the files that it names read.
 struct PlannedTest {
   ledger::TestSpec spec;
-  trial::NoiseSettings noise;  ///< that of TestSpec::noise
+  trial::NoiseSettings noise;              ///< that of TestSpec::noise
+  std::optional<ground::Settings> ground = {};  ///< that of TestSpec::ground
 
   /// Hash of what defines the test for runs that evolve in `home`; a result fits if its hash is the same.
   std::string settings_hash(std::string_view home) const;

@@ -34,12 +34,12 @@ void NoiseSettings::describe(io::SettingsVisitor& visitor) {
       {"targets reach the motors late, by a number of ticks from 0 to this, constant during a trial"});
 }
 
-void NoiseSettings::validate(const Settings& trial) const {
+void NoiseSettings::validate(const Settings& trial, bool other_places) const {
   if (first_undisturbed && episodes < 2)
     fail_setting({"noise.first_undisturbed", "noise.episodes"},
                  "noise.first_undisturbed leaves noise.episodes = {} no noise; expected at least 2",
                  episodes);
-  if (episodes > 1 && !any())
+  if (episodes > 1 && !any() && !other_places)
     fail_setting({"noise.episodes"},
                  "noise.episodes = {}: without any noise they would all be the same; expected 1", episodes);
   if (push_m_s > 0.0 && push_interval_s < trial.timestep_s)

@@ -31,7 +31,8 @@ struct NoiseSettings {
 
   void describe(io::SettingsVisitor& visitor);
   /// Throws UserError for several episodes that would all be the same, and pushes more often than steps.
-  void validate(const Settings& trial) const;
+  /// `other_places`: whether each episode starts at another place anyway (ground::Settings::start_place_m).
+  void validate(const Settings& trial, bool other_places = false) const;
 
   /// Whether the robot starts elsewhere than in its start pose.
   bool disturbs_start() const;

@@ -1,20 +1,16 @@
 #include "amble/trial/observers.hpp"
 
+#include <utility>
+
 namespace amble::trial {
 namespace {
 
-record::RecordingHeader recording_header(const robot::RobotSpec& robot, bool torques,
-                                         const controllers::Batch& controllers, double frame_s,
-                                         const std::string& robot_json, const std::string& controller_json,
-                                         const std::string& origin) {
+record::RecordingHeader with_columns(record::RecordingHeader header, const robot::RobotSpec& robot,
+                                     bool torques, const controllers::Batch& controllers) {
   std::vector<std::string> joints, legs;
   for (const auto& joint : robot.joints) joints.push_back(joint.name);
   for (const auto& leg : robot.legs) legs.push_back(leg.name);
-  record::RecordingHeader header{.frame_s = frame_s,
-                                 .columns = record::standard_columns(joints, legs),
-                                 .robot_json = robot_json,
-                                 .controller_json = controller_json,
-                                 .origin = origin};
+  header.columns = record::standard_columns(joints, legs);
   if (torques)
     for (auto& name : record::torque_columns(joints)) header.columns.push_back(std::move(name));
   for (auto& name : controllers.state_names()) header.columns.push_back(std::move(name));
@@ -41,12 +37,10 @@ void EventObserver::on_step(int, const physics::Engine&, const controllers::Batc
   for (std::size_t i = 0; i < columns_.size(); ++i) counts_[i].count += state_[columns_[i]] > 0.5f;
 }
 
-RecordingObserver::RecordingObserver(const std::filesystem::path& path, const robot::RobotSpec& robot,
-                                     const physics::Engine& engine, const controllers::Batch& controllers,
-                                     double frame_s, const std::string& robot_json,
-                                     const std::string& controller_json, const std::string& origin)
-    : writer_(path, recording_header(robot, engine.motor_torque_nm() != nullptr, controllers, frame_s,
-                                     robot_json, controller_json, origin)),
+RecordingObserver::RecordingObserver(const std::filesystem::path& path, record::RecordingHeader header,
+                                     const robot::RobotSpec& robot, const physics::Engine& engine,
+                                     const controllers::Batch& controllers)
+    : writer_(path, with_columns(std::move(header), robot, engine.motor_torque_nm() != nullptr, controllers)),
       state_count_(controllers.state_names().size()) {}
 
 void RecordingObserver::on_step(int, const physics::Engine& engine, const controllers::Batch& controllers,

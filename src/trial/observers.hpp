@@ -46,12 +46,10 @@ class EventObserver : public Observer {
 /// Writes every step of a trial to a recording (record/recording.hpp).
 class RecordingObserver : public Observer {
  public:
-  /// `controller_json` and `robot_json` go into the recording's header; `origin` names the champion. Motor
-  /// torques are recorded if the engine reports them.
-  RecordingObserver(const std::filesystem::path& path, const robot::RobotSpec& robot,
-                    const physics::Engine& engine, const controllers::Batch& controllers, double frame_s,
-                    const std::string& robot_json, const std::string& controller_json,
-                    const std::string& origin);
+  /// `header` with everything but the columns. Motor torques are recorded if the engine reports them.
+  RecordingObserver(const std::filesystem::path& path, record::RecordingHeader header,
+                    const robot::RobotSpec& robot, const physics::Engine& engine,
+                    const controllers::Batch& controllers);
   void on_step(int step, const physics::Engine& engine, const controllers::Batch& controllers,
                const LaneArray& targets_rad, int lane) override;
   void finish(record::Outcome outcome) { writer_.finish(outcome); }

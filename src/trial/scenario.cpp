@@ -12,7 +12,7 @@ namespace {
 using robot::RobotSpec;
 
 /// Purposes of a scenario's streams. Part of their keys: add at the end, never renumber.
-enum class Kind : std::uint32_t { start = 0, push = 1, touch = 2, sensors = 3, latency = 4 };
+enum class Kind : std::uint32_t { start = 0, push = 1, touch = 2, sensors = 3, latency = 4, place = 5 };
 constexpr std::uint32_t most_kinds = 16;
 
 Stream stream_of(const ScenarioKey& key, Kind kind) {
@@ -33,7 +33,8 @@ double rounded_up(double height_m) {
   return std::ceil(height_m * per_metre) / per_metre;
 }
 
-physics::StartPose draw_start(const NoiseSettings& noise, const RobotSpec& robot, Stream stream) {
+physics::StartPose draw_start(const NoiseSettings& noise, const RobotSpec& robot, const StartGround& on,
+                              Stream stream, Stream places) {
   const auto start = robot::start_poses(robot);
   physics::StartPose pose{.root = {start[0].position_m, start[0].rotation}, .joint_angle_rad = {}};
   const double roll_rad = stream.uniform(-noise.start_tilt_rad, noise.start_tilt_rad);
@@ -48,6 +49,16 @@ physics::StartPose draw_start(const NoiseSettings& noise, const RobotSpec& robot
       robot::poses_at(robot, {pose.root.position_m, pose.root.rotation}, pose.joint_angle_rad);
   const double sunk_m = robot::clearance_m(robot, start) - robot::clearance_m(robot, bodies);
   if (sunk_m > 0.0) pose.root.position_m.z += rounded_up(sunk_m);
+  if (on.place_m > 0.0) {
+    pose.root.position_m.x += places.uniform(-on.place_m, on.place_m);
+    pose.root.position_m.y += places.uniform(-on.place_m, on.place_m);
+  }
+  if (on.ground != nullptr) {
+    const auto there =
+        robot::poses_at(robot, {pose.root.position_m, pose.root.rotation}, pose.joint_angle_rad);
+    pose.root.position_m.z +=
+        rounded_up(robot::clearance_m(robot, start) - on.ground->clearance_m(robot, there));
+  }
   pose.root.position_m.z += higher_m;
   return pose;
 }
@@ -89,14 +100,16 @@ std::vector<float> draw_offsets(std::size_t count, double largest, Stream& strea
 }  // namespace
 
 Scenario draw_scenario(const NoiseSettings& noise, const RobotSpec& robot, int steps, double timestep_s,
-                       const ScenarioKey& key) {
+                       const ScenarioKey& key, const StartGround& start) {
   Scenario scenario;
   if (noise.first_undisturbed && key.episode == 0) {
     scenario.attitude_sensor_rad.assign(3, -0.0f);  // which leaves even −0 as it is when added
     scenario.joint_sensor_rad.assign(robot.joints.size(), -0.0f);
     return scenario;
   }
-  if (noise.disturbs_start()) scenario.start = draw_start(noise, robot, stream_of(key, Kind::start));
+  if (noise.disturbs_start() || start.place_m > 0.0)
+    scenario.start =
+        draw_start(noise, robot, start, stream_of(key, Kind::start), stream_of(key, Kind::place));
   if (noise.push_m_s > 0.0)
     scenario.pushes =
         draw_pushes(noise, robot.total_mass_kg(), steps, timestep_s, stream_of(key, Kind::push));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "amble/core/math.hpp"
+#include "amble/ground/ground.hpp"
 #include "amble/physics/engine.hpp"
 #include "amble/robot/spec.hpp"
 #include "amble/trial/noise_settings.hpp"
@@ -42,6 +43,12 @@ struct ScenarioKey {
   std::uint32_t episode = 0;
 };
 
+/// Where trials start.
+struct StartGround {
+  const ground::Ground* ground = nullptr;  ///< null: the plane z = 0
+  double place_m = 0.0;                    ///< ground::Settings::start_place_m
+};
+
 /// The scenario of a trial of `steps` steps. A longer trial begins as a shorter one of the same key, and no
 /// kind of noise depends on the amount of another.
 ///
@@ -50,7 +57,10 @@ struct ScenarioKey {
 /// Start: joints and tilt as drawn, then the root is lifted so that the lowest point is as high over the
 /// ground as in the robot's own start pose (but not below it), plus the height drawn. Pushes: uniform over a
 /// disc in the horizontal plane.
+///
+/// On uneven ground the robot is put `start_place_m` or less from the origin along x and y, and lifted or
+/// lowered to where it is as high over the ground as in its own start pose on the plane.
 Scenario draw_scenario(const NoiseSettings& noise, const robot::RobotSpec& robot, int steps,
-                       double timestep_s, const ScenarioKey& key);
+                       double timestep_s, const ScenarioKey& key, const StartGround& start = {});
 
 }  // namespace amble::trial

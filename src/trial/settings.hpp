@@ -12,7 +12,7 @@ namespace amble::trial {
 enum class FirstCommand { before_first_step, after_first_step };
 inline constexpr std::array<std::string_view, 2> first_command_names{"before_first_step", "after_first_step"};
 
-/// One trial: a robot walks on flat ground for a while, or until it falls.
+/// One trial: a robot walks for a while, or until it falls.
 struct Settings {
   double duration_s = 15.0;
   double timestep_s = 0.01;

@@ -112,7 +112,9 @@ std::optional<record::Outcome> Runner::advance(int lane) {
   if (slot.task.observer)
     slot.task.observer->on_step(trajectory.steps, engine_, controllers_, targets_rad_, lane);
 
-  if (engine_.root_com_m(lane).z < protocol_.fall_height_m) return record::Outcome::fell;
+  const Vec3 root_m = engine_.root_com_m(lane);
+  const double ground_m = engine_.ground() ? engine_.ground()->height_m(root_m.x, root_m.y) : 0.0;
+  if (root_m.z - ground_m < protocol_.fall_height_m) return record::Outcome::fell;
   if (trajectory.steps == protocol_.steps) return record::Outcome::completed;
   return std::nullopt;
 }

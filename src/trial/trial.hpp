@@ -51,8 +51,8 @@ struct Protocol {
   double timestep_s = 0.01;
   FirstCommand first_command = FirstCommand::before_first_step;
   record::PathSampling path;
-  record::Measures measures;  ///< energy: only with an engine that has motor torques
-  double fall_height_m = 0.0;
+  record::Measures measures;   ///< energy: only with an engine that has motor torques
+  double fall_height_m = 0.0;  ///< of the root's centre of mass over the ground below it
 };
 
 /// Runs trials on one engine, as many at a time as it has lanes; a lane whose trial has ended takes the next

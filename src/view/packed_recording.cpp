@@ -101,7 +101,9 @@ PackedRecording pack_recording(const std::filesystem::path& path) {
   for (std::vector<float> frame; reader.next(frame);) {
     healthy = healthy && std::ranges::all_of(frame, finite);
     if (!healthy) continue;
-    if (frames == 0) poses.add_row(start_row(robot, poses, frame));
+    // On uneven ground a trial may start anywhere.
+    if (frames == 0 && header.ground_json.empty()) poses.add_row(start_row(robot, poses, frame));
+    if (frames == 0 && !header.ground_json.empty()) poses.add(frame);
     contacts.add(frame);
     if (++frames % frames_per_pose == 0) poses.add(frame);
   }
@@ -110,6 +112,7 @@ PackedRecording pack_recording(const std::filesystem::path& path) {
   return {.robot_json = header.robot_json,
           .controller_json = header.controller_json,
           .origin = header.origin,
+          .ground_json = header.ground_json,
           .seconds = static_cast<double>(frames) * header.frame_s,
           .outcome = reader.outcome(),
           .poses = poses.pack(0.0, static_cast<double>(frames_per_pose) * header.frame_s),

@@ -1,11 +1,16 @@
 #include "amble/view/page.hpp"
 
+#include <cmath>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
 #include "amble/graphics/style_sheet.hpp"
+#include "amble/ground/recorded.hpp"
 #include "amble/io/xml.hpp"
+#include "amble/record/frame_codec.hpp"
 #include "amble/view/base64.hpp"
 #include "amble/view/packed_recording.hpp"
 #include "amble/view/page_template.hpp"
@@ -21,6 +26,24 @@ io::Json frames_json(const PackedFrames& frames) {
           {"data", base64(frames.bytes)}};
 }
 
+/// The heights of uneven ground in units of 0.1 mm, which compress well: a column for each x, a row for each y.
+io::Json ground_json(const std::string& recorded, const std::string& what) {
+  if (recorded.empty()) return nullptr;
+  const io::Json json = io::parse_json(recorded, what);
+  const auto field = ground::field_from_json(io::JsonView(json, what + ": ground"));
+  constexpr float unit_m = 1e-4f;
+  std::vector<float> heights = field.heights_m();
+  for (float& height : heights) height = std::round(height / unit_m);
+  std::vector<std::string> columns;
+  for (int i = 0; i < ground::HeightField::cells; ++i) columns.push_back(std::to_string(i));
+  PackedFrames frames{.columns = std::move(columns),
+                      .first_s = 0.0,
+                      .step_s = 1.0,
+                      .count = to_index(ground::HeightField::cells),
+                      .bytes = record::compress_frames(heights, to_index(ground::HeightField::cells))};
+  return {{"cell_m", field.cell_m()}, {"unit_m", unit_m}, {"heights", frames_json(frames)}};
+}
+
 io::Json walker_json(const Walker& walker) {
   const PackedRecording recording = pack_recording(walker.recording);
   const std::string what = walker.recording.string();
@@ -30,6 +53,7 @@ io::Json walker_json(const Walker& walker) {
           {"outcome", record::outcome_names[to_index(recording.outcome)]},
           {"robot", io::parse_json(recording.robot_json, what)},
           {"controller", io::parse_json(recording.controller_json, what)},
+          {"ground", ground_json(recording.ground_json, what)},
           {"poses", frames_json(recording.poses)},
           {"contacts", frames_json(recording.contacts)},
           {"cppn_svg", walker.cppn_svg.empty() ? io::Json(nullptr) : io::Json(walker.cppn_svg)},

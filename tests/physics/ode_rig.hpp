@@ -16,7 +16,7 @@ class OdeRig {
       : robot_((ode::prepare_thread(), robot)),
         world_(robot_, threading_),
         motors_(robot_, world_, timestep_s),
-        contacts_(robot_, world_),
+        contacts_(robot_, world_, nullptr),
         angles_(static_cast<int>(robot.joints.size()), 1),
         touch_(static_cast<int>(robot.legs.size()), 1) {}
 

@@ -68,6 +68,28 @@ TEST(ChampionTest, UnderNoiseMeetsWhatEvolutionHasNotMet) {
     EXPECT_TRUE(met.insert(episode.distance_m).second) << "neither those of evolution nor one another's";
 }
 
+TEST(ChampionTest, OnGroundOfItsOwnMeetsPlacesThatEvolutionHasNotMetAndNoNoise) {
+  const auto on_stones = [](double height_m, int episodes) {
+    PlannedTest test{.spec = trial_test("t", 3.0), .noise = {}};
+    test.spec.episodes = episodes;
+    test.ground.emplace();
+    test.ground->kind = ground::Kind::stones;
+    test.ground->height_m = height_m;
+    test.ground->start_place_m = 2.0;
+    return run_test(test, champion(), never).value();
+  };
+  std::set<double> distances_m;
+  for (const auto& episode : on_stones(0.2, 5).episodes) distances_m.insert(episode.distance_m);
+  EXPECT_EQ(distances_m.size(), 5u);
+  // Level ground is the plane, but for rounding: no noise is left.
+  const double expected_m = replayed(0.3).distance_m;
+  PlannedTest brief{.spec = trial_test("t", 0.3), .noise = {}};
+  brief.ground.emplace();
+  brief.ground->kind = ground::Kind::stones;
+  brief.ground->height_m = 0.0;
+  EXPECT_NEAR(run_test(brief, champion(), never)->episodes[0].distance_m, expected_m, 0.002);
+}
+
 TEST(ChampionTest, SamplesItsFirstTrialsPathInMillimetresEverySecondOrThreeHundredTimes) {
   const auto brief = tested(trial_test("t", 6.0));
   EXPECT_EQ(brief.path_interval_s, 1.0);

@@ -112,7 +112,10 @@ TEST(PlannedTest, IsTheSameOnlyWithTheSameEngineLengthEpisodesAndNoise) {
   longer.spec.seconds = 10.5;
   more.spec.episodes = 2;
   noisy.noise.push_m_s = 0.1;
-  for (const PlannedTest& other : {longer, more, noisy})
+  PlannedTest uneven = test, steeper = test;
+  uneven.ground.emplace();
+  steeper.ground.emplace().slope_x = 0.1;
+  for (const PlannedTest& other : {longer, more, noisy, uneven, steeper})
     EXPECT_TRUE(others.insert(other.settings_hash("batch")).second);
 }
 

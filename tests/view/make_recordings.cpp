@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "amble/ground/height_field.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/motion/recorded_trial.hpp"
@@ -37,6 +38,15 @@ io::Json expectation(const tests::SyntheticWalk& walk, const std::filesystem::pa
   return json;
 }
 
+/// Heights of the uneven ground at some places: x, y, height (m).
+io::Json heights() {
+  const auto field = ground::make_field(tests::SyntheticWalk::hills(), {});
+  io::Json json = io::Json::array();
+  for (double x = -13.0; x < 14.0; x += 0.613)
+    for (double y = -12.0; y < 12.0; y += 1.371) json.push_back({x, y, field.at(x, y).height_m});
+  return json;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -51,6 +61,8 @@ int main(int argc, char** argv) {
   tests::SyntheticWalk{.frames = 7, .touches = false, .outcome = record::Outcome::fell}.write(folder /
                                                                                               "fell.rec");
   tests::SyntheticWalk{.frames = 0, .outcome = record::Outcome::diverged}.write(folder / "empty.rec");
+  tests::SyntheticWalk{.speed_m_s = 1.0, .uneven = true}.write(folder / "uneven.rec");
+  io::write_file(folder / "heights.json", heights().dump());
   io::write_file(folder / "expected.json", expectation(walk, folder / "walk.rec", 499).dump());
   return EXIT_SUCCESS;
 }

@@ -45,6 +45,17 @@ TEST_F(ViewPageTest, CarriesRobotsControllersAndFrames) {
   EXPECT_EQ(data["walkers"][0]["outcome"], "completed");
 }
 
+TEST_F(ViewPageTest, CarriesUnevenGround) {
+  const auto data =
+      data_of(page_of({walker({.frames = 3}, "one"), walker({.frames = 3, .uneven = true}, "two")}));
+  EXPECT_TRUE(data["walkers"][0]["ground"].is_null());
+  const auto& ground = data["walkers"][1]["ground"];
+  EXPECT_EQ(ground["cell_m"], 0.04);
+  EXPECT_EQ(ground["heights"]["count"], 256);
+  EXPECT_EQ(ground["heights"]["columns"].size(), 256u);
+  EXPECT_LT(ground["heights"]["data"].get<std::string>().size(), 150000u);
+}
+
 TEST_F(ViewPageTest, IsTheSameEachTime) {
   const auto one = walker({.frames = 100});
   EXPECT_EQ(page_of({one}), page_of({one}));

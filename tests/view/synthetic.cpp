@@ -4,6 +4,7 @@
 #include <numbers>
 #include <random>
 
+#include "amble/ground/recorded.hpp"
 #include "tests/motion/fixture.hpp"
 
 namespace amble::tests {
@@ -26,7 +27,15 @@ record::RecordingHeader SyntheticWalk::header() const {
           .columns = columns,
           .robot_json = robot_json(),
           .controller_json = supg_json(),
-          .origin = "a made-up walk"};
+          .origin = "a made-up walk",
+          .ground_json = uneven ? ground::to_json(hills(), {}).dump() : std::string()};
+}
+
+ground::Settings SyntheticWalk::hills() {
+  ground::Settings settings;
+  settings.kind = ground::Kind::hills;
+  settings.height_m = 0.3;
+  return settings;
 }
 
 std::vector<float> SyntheticWalk::frame(int k) const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "amble/ground/settings.hpp"
 #include "amble/record/recording.hpp"
 
 namespace amble::tests {
@@ -20,11 +21,13 @@ struct SyntheticWalk {
   bool touches = true;    ///< false: no foot ever does
   bool chatters = false;  ///< amid each stance a foot lets go, and amid each swing it touches, for 30 ms
   record::Outcome outcome = record::Outcome::completed;
+  bool uneven = false;  ///< on hills()
 
   record::RecordingHeader header() const;
   /// Frame k, the state at (k + 1) × frame_s.
   std::vector<float> frame(int k) const;
   void write(const std::filesystem::path& path) const;
+  static ground::Settings hills();
 };
 
 }  // namespace amble::tests

@@ -67,6 +67,19 @@ test("the camera keeps walkers in sight that part", () =>
     }
   }));
 
+test("uneven ground is where the engines have it, and is drawn under its walker", () =>
+  onPage(makePage("uneven.html", recording("walk.rec"), recording("uneven.rec")), {}, async (page) => {
+    const heights = JSON.parse(readFileSync(recording("heights.json"), "utf8"));
+    const worst = await page.evaluate((places) =>
+      Math.max(...places.map(([x, y, height]) => Math.abs(window.amble.groundAt(1, x, y) - height))), heights);
+    assert.ok(worst < 2e-4, `${worst} m`);
+    assert.equal(await page.evaluate(() => window.amble.groundAt(0, 3, 3)), 0);
+    await page.keyboard.press("2");
+    await page.evaluate(() => { window.amble.seek(9); window.amble.render(); });
+    const early = await pictureOf(page);
+    assert.ok(early.colours > 20, "there is something to see");
+  }));
+
 test("five minutes scrub without a stall, and show how the phases drift", async (context) => {
   const path = makePage("long.html", recording("long.rec"));
   const { size } = statSync(path);

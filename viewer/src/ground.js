@@ -3,10 +3,12 @@ import {
   BufferAttribute, BufferGeometry, CanvasTexture, Group, Mesh, MeshBasicMaterial, PlaneGeometry, ShadowMaterial,
   SRGBColorSpace,
 } from "three";
+import { heightAt } from "./heights.js";
 import { colour } from "./theme.js";
 
 const LINES = 24; // to each side
 const LABELS = 6;
+const ABOVE_M = 0.01; // of the path over uneven ground, whose triangles are not quite its own
 
 /** 1, 2 or 5 × 10^k near `size`, never above it: the distance between marks. */
 export function markStep(size_m) {
@@ -115,6 +117,7 @@ export class Trail {
       for (const [s, sign] of [[0, 1], [3, -1]]) {
         points[6 * k + s] = x[k] + sign * side[0] * width_m / 2;
         points[6 * k + s + 1] = y[k] + sign * side[1] * width_m / 2;
+        if (walk.ground) points[6 * k + s + 2] = heightAt(walk.ground, points[6 * k + s], points[6 * k + s + 1]) + ABOVE_M;
       }
       if (k > 0) indices.push(2 * k - 2, 2 * k - 1, 2 * k, 2 * k - 1, 2 * k + 1, 2 * k);
     }

@@ -1,4 +1,5 @@
 import { pageData } from "./data.js";
+import { heightAt } from "./heights.js";
 import { Page } from "./page.js";
 import { Walk } from "./walk.js";
 
@@ -35,6 +36,8 @@ const publicApi = (page) => ({
   touching: (i, leg, t) => page.walks[i].touching(leg, t),
   /** [from, to], … without chatter, as the gait figures count them */
   stances: (i, leg) => page.walks[i].stances[leg],
+  /** Height of walker i's ground at (x, y), m. */
+  groundAt: (i, x_m, y_m) => heightAt(page.walks[i].ground, x_m, y_m),
   /** Where the stage has put a walker's root and feet: [[x, y, z], …]; the root first. */
   placed: (i) => page.stage.lanes[i].model.placed(),
   /** Where it is in the picture: [x, y], −1 … 1 to the right and up. */

@@ -4,7 +4,9 @@ import {
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Ground, Trail } from "./ground.js";
+import { heightAt } from "./heights.js";
 import { RobotModel } from "./robot.js";
+import { Terrain } from "./terrain.js";
 import { colour, walkerLineColour } from "./theme.js";
 
 export const CAMERAS = ["follow", "orbit", "still"];
@@ -12,6 +14,12 @@ const TURN_S = 20; // of the orbiting camera, once around
 const SMOOTH_S = 0.4; // the camera follows the mean way over this long before and after
 const NEAR = 4.1; // reaches; so far away is the camera from one walker
 const MOST_SPREAD = { side: 8, ghosts: 6 }; // reaches; farther apart, the camera stays with the selected walker
+
+/** Against gravity: on a slope the ground is z = 0 and gravity leans. */
+function upwards({ gravity_m_s2 }) {
+  const length = Math.hypot(...gravity_m_s2);
+  return length > 0 ? gravity_m_s2.map((part) => -part / length) : [0, 0, 1];
+}
 
 export class Stage {
   /** Throws if the browser gives no WebGL. */
@@ -38,7 +46,7 @@ export class Stage {
     this.addLights();
 
     this.camera = new PerspectiveCamera(32, 1, 0.02 * this.reach, 80 * this.reach);
-    this.camera.up.set(0, 0, 1);
+    this.camera.up.set(...upwards(walks[0].robot));
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.maxPolarAngle = 0.495 * Math.PI;
     this.controls.minDistance = 0.8 * this.reach;
@@ -60,8 +68,10 @@ export class Stage {
     const several = this.walks.length > 1; // are seen from farther away
     const trail = new Trail(walk, (several ? 0.045 : 0.03) * model.reach());
     group.add(model.root, trail.group);
+    const terrain = walk.ground ? new Terrain(walk.ground) : null;
+    if (terrain) group.add(terrain.mesh);
     this.scene.add(group);
-    return { walk, group, model, trail };
+    return { walk, group, model, trail, terrain };
   }
 
   addLights() {
@@ -80,8 +90,9 @@ export class Stage {
     this.scene.background = new Color(colour("--sky"));
     this.scene.fog.color.set(colour("--sky"));
     this.ground.paint();
-    this.lanes.forEach(({ model, trail }, i) => {
+    this.lanes.forEach(({ model, trail, terrain }, i) => {
       model.paint();
+      terrain?.paint();
       trail.paint(this.lanes.length > 1 ? walkerLineColour(i) : colour("--ink"));
     });
   }
@@ -126,7 +137,9 @@ export class Stage {
     const middle = places.reduce((sum, place) => sum.add(place), new Vector3()).divideScalar(places.length);
     const target = middle.sub(selected).clampLength(0, most).add(selected);
     const spread = Math.min(Math.max(...places.map((place) => place.distanceTo(target))), most);
-    target.z = 0.8 * this.lanes[0].walk.robot.bodies[0].position_m[2];
+    const { walk, group } = this.lanes[this.selected];
+    const ground_m = heightAt(walk.ground, target.x - group.position.x, target.y - group.position.y);
+    target.z = 0.8 * this.lanes[0].walk.robot.bodies[0].position_m[2] + ground_m;
     return { time_s: t, target, spread, places };
   }
 
@@ -203,8 +216,10 @@ export class Stage {
 
   show(t) {
     this.time_s = t;
-    for (const { walk, model, trail } of this.lanes) {
+    for (const { walk, model, trail, terrain } of this.lanes) {
       model.setPose(walk.pose(t));
+      const [x, y] = walk.comAt(t);
+      terrain?.follow(x, y);
       walk.robot.legs.forEach((_, leg) => model.setTouch(leg, walk.touching(leg, t)));
       trail.setRow(walk.place(t).row);
     }

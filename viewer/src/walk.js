@@ -1,5 +1,6 @@
 // One recorded walk: what the robot did at any time.
 import { unpackFrames } from "./data.js";
+import { unpackGround } from "./heights.js";
 
 const ROOT = ["x", "y", "z", "qw", "qx", "qy", "qz"].map((name) => "root." + name);
 const COM = ["x", "y", "z"].map((name) => "com." + name);
@@ -7,7 +8,8 @@ const SPEED_WINDOW_S = 0.5; // speed is the way of this long
 
 export class Walk {
   static async unpack(json) {
-    return new Walk(json, await unpackFrames(json.poses), await unpackFrames(json.contacts));
+    const ground = await unpackGround(json.ground);
+    return new Walk({ ...json, ground }, await unpackFrames(json.poses), await unpackFrames(json.contacts));
   }
 
   constructor(json, poses, contacts) {

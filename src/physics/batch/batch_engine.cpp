@@ -19,6 +19,7 @@ class LockstepEngine final : public BatchEngine {
         rows_(model_),
         workspace_(model_),
         root_com_m_(robot.bodies[0].com_m),
+        start_root_{robot.bodies[0].position_m, robot.bodies[0].rotation},
         mass_kg_(robot.total_mass_kg()),
         timestep_s_(static_cast<float>(settings.timestep_s)),
         with_torques_(settings.torques),
@@ -26,9 +27,7 @@ class LockstepEngine final : public BatchEngine {
         robots_(model_, rows_),
         start_(model_, rows_),
         posed_(model_, rows_) {
-    const robot::Body& root = robot.bodies[0];
-    pose(start_, {.root = {root.position_m, root.rotation},
-                  .joint_angle_rad = std::vector<double>(robot.joints.size(), 0.0)});
+    pose_start();
     for (int lane = 0; lane < batch::lanes; ++lane) {
       place(lane);
       retire(lane);
@@ -120,8 +119,25 @@ class LockstepEngine final : public BatchEngine {
             .state = robots.rows(),
             .workspace = workspace_,
             .sensors = robots.sensors(),
+            .ground = ground() ? &uneven_ : nullptr,
             .torques_nm = with_torques_ ? &torques_nm_ : nullptr,
             .timestep_s = timestep_s_};
+  }
+
+  void on_ground() override {
+    uneven_ = {};
+    if (const ground::Ground* const all = ground()) {
+      for (const ground::HeightField& field : all->fields())
+        uneven_.fields.push_back(field.heights_m().data());
+      uneven_.cells_per_m = static_cast<float>(1.0 / all->surface().cell_m());
+      // What rounding to float32 may hide.
+      uneven_.highest_m = static_cast<float>(all->highest_m() + 1e-5);
+    }
+    pose_start();
+  }
+
+  void pose_start() {
+    pose(start_, {.root = start_root_, .joint_angle_rad = std::vector<double>(model_.links.size(), 0.0)});
   }
 
   /// Sets the robot in lane 0 to a pose, at rest.
@@ -151,9 +167,11 @@ class LockstepEngine final : public BatchEngine {
   const StateRows rows_;
   batch::Workspace workspace_;
   const Vec3 root_com_m_;
+  const RootPose start_root_;
   const double mass_kg_;
   const float timestep_s_;
   const bool with_torques_;
+  batch::UnevenGround uneven_;  ///< of ground(), if that is not null
   LaneArray torques_nm_;
   LockstepState robots_;
   LockstepState start_;  ///< lane 0: in the start pose

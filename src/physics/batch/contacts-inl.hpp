@@ -57,9 +57,28 @@ HWY_INLINE void bound_contact(const Pass& pass, Mask touches, const Block& block
   }
 }
 
-/// Where a point touches the ground, relative to the centre of mass, torso axes (m): its lowest place.
+HWY_INLINE V3 load_normal(const float* from) {
+  return {load(from), load(from + width), load(from + 2 * width)};
+}
+
+/// A contact's normal n and the directions of its friction, n₁ ∝ x × n and n₂ = n₁ × n (y and x on the
+/// plane), world axes.
+struct ContactFrame {
+  V3 normal, first, second;
+};
+
+HWY_INLINE ContactFrame contact_frame(const Pass& pass, int block) {
+  const V3 n = load_normal(pass.scratch(pass.work().block_normal + 3 * block));
+  const V scale = set(1.0f) / hn::Sqrt(fma(n.y, n.y, n.z * n.z));
+  const V3 first{zero(), scale * n.z, hn::Neg(scale * n.y)};
+  return {n, first, cross(first, n)};
+}
+
+/// Where a point touches the ground, relative to the centre of mass, torso axes (m): its lowest place, or on
+/// uneven ground that in the direction of its normal, point number `p`'s.
 template <int N>
-HWY_INLINE V3 contact_position(const Pass& pass, const Point& point, const Chain* chain) {
+HWY_INLINE V3 contact_position(const Pass& pass, int p, const Chain* chain) {
+  const Point& point = pass.model().points[to_index(p)];
   const V3 up = pass.state3(StateRows::world_axes + 6);
   V3 position;
   if (N == 0) {
@@ -69,7 +88,19 @@ HWY_INLINE V3 contact_position(const Pass& pass, const Point& point, const Chain
     const Columns axes{pass.state3(row), pass.state3(row + 3), pass.state3(row + 6)};
     position = pass.state3(row + 9) + axes * point_position(point, transposed(axes, up));
   }
-  return fnma(set(point.radius_m), up, position);
+  const V3 normal =
+      pass.ground() ? pass.world() * load_normal(pass.scratch(pass.work().point_normal + 3 * p)) : up;
+  return fnma(set(point.radius_m), normal, position);
+}
+
+/// Stores a point's normal as a block's in the lanes `here`; a new block's is upright in the others.
+HWY_INLINE void assign_normal(const Pass& pass, int p, int block, Mask here, bool is_new) {
+  const float* const from = pass.scratch(pass.work().point_normal + 3 * p);
+  float* const to = pass.scratch(pass.work().block_normal + 3 * block);
+  for (int d = 0; d < 3; ++d) {
+    const V other = !is_new ? load(to + d * width) : d == 2 ? set(1.0f) : zero();
+    store(hn::IfThenElse(here, load(from + d * width), other), to + d * width);
+  }
 }
 
 /// Assigns a touching point to each lane's next free block, and stores there what contact_block() needs: its
@@ -79,7 +110,7 @@ template <int N>
 HWY_INLINE void assign_contact(const Pass& pass, int p, const Chain* chain, int n, Mask touches,
                                ChainBlocks& blocks, V& used) {
   const Point& point = pass.model().points[to_index(p)];
-  const V3 position = contact_position<N>(pass, point, chain);
+  const V3 position = contact_position<N>(pass, p, chain);
   const V3 impulse = pass.state3(pass.rows().point_impulse + 3 * p);
   const V height = load(pass.scratch(pass.work().point_height + p)), above_ground = set(1.0f), none = zero();
   const V link = set(static_cast<float>(point.link));
@@ -100,6 +131,7 @@ HWY_INLINE void assign_contact(const Pass& pass, int p, const Chain* chain, int 
       const V other = !is_new ? block.get(fields[f]) : f == 0 ? above_ground : none;
       block.set(fields[f], 0, hn::IfThenElse(here, values[f], other));
     }
+    if (pass.ground()) assign_normal(pass, p, blocks.first + b, here, is_new);
     if (is_new) ++blocks.count;
   }
   used = used + hn::IfThenElseZero(touches, set(1.0f));
@@ -148,11 +180,24 @@ HWY_INLINE void contact_rows_of_base(const UnitWrenches& wrenches, V3 arm, int n
   }
 }
 
+/// Turns rows along the world's z, y and x into rows along a contact's normal and its directions of friction.
+template <int N>
+HWY_INLINE void turn_rows(const ContactFrame& frame, int entries, ConstraintRows<N, 3>& rows) {
+  for (int i = 0; i < entries; ++i) {
+    const V3 w{rows.w[2][i], rows.w[1][i], rows.w[0][i]};
+    rows.w[0][i] = dot(frame.normal, w);
+    rows.w[1][i] = dot(frame.first, w);
+    rows.w[2][i] = dot(frame.second, w);
+  }
+}
+
 /// Builds the rows of the contacts, one per lane, that were assigned to a block: normal along the world's z
-/// with target (erp/h) depth, then friction along the world's y and x (ODE's directions) with target 0.
+/// with target (erp/h) depth, then friction along the world's y and x (ODE's directions) with target 0; on
+/// uneven ground along the directions of its ContactFrame.
 template <int N>
 HWY_INLINE void contact_block(const Pass& pass, const Chain* chain, const ChainFactor& factor,
-                              const UnitWrenches& wrenches, const Block& block, V* u_joints, V* u_base) {
+                              const UnitWrenches& wrenches, int index, V* u_joints, V* u_base) {
+  const Block block = block_at(pass, index, factor.n);
   const Columns world = pass.world();
   const V height = block.get(BlockLayout::target);
   const V3 position{block.get(BlockLayout::arm, 0), block.get(BlockLayout::arm, 1),
@@ -167,6 +212,7 @@ HWY_INLINE void contact_block(const Pass& pass, const Chain* chain, const ChainF
   contact_rows_of_chain<N>(pass, block.get(BlockLayout::target, 1), chain, factor, world, position, rows);
   contact_rows_of_base<N>(wrenches, arm, factor.n, rows);
   for (int r = 0; r < 3; ++r) rows.finish_base(factor, r);
+  if (pass.ground()) turn_rows<N>(contact_frame(pass, index), factor.n + 6, rows);
   rows.scale(block, pass.model().contact_relaxation);
   block.set(BlockLayout::arm, 0, arm.x);
   block.set(BlockLayout::arm, 1, arm.y);
@@ -206,8 +252,7 @@ HWY_INLINE void contact_blocks(const Pass& pass, int segment, const Chain* chain
     has_impulse = any;
   }
   for (int b = blocks.joint_blocks; b < blocks.count; ++b)
-    contact_block<N>(pass, chain, factor, wrenches, block_at(pass, blocks.first + b, factor.n), u_joints,
-                     u_base);
+    contact_block<N>(pass, chain, factor, wrenches, blocks.first + b, u_joints, u_base);
 }
 
 /// W · W of a contact's rows and its chain's three motors, for blocks that are relaxed together.

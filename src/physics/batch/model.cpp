@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
+#include "amble/robot/collision_points.hpp"
 #include "amble/robot/pose.hpp"
+#include "amble/robot/sensors.hpp"
 
 namespace amble::physics::batch {
 namespace {
@@ -17,9 +18,6 @@ using robot::Geom;
 using robot::Joint;
 using robot::Pose;
 using robot::RobotSpec;
-using robot::Shape;
-
-constexpr double third_of_a_turn = 2.0 * std::numbers::pi / 3.0;
 
 Float3 narrow(Vec3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
@@ -160,40 +158,22 @@ class Builder {
     const Pose pose = poses_[to_index(geom.body)] * Pose{geom.position_m, geom.rotation};
     PointGroup group{.first = static_cast<int>(model_.points.size()),
                      .centre_m = narrow(pose.position_m - frame.origin_m)};
-    const auto add = [&](Vec3 offset, double radius) {
-      model_.points.push_back(
-          {frame.chain, frame.link, narrow(pose * offset - frame.origin_m), static_cast<float>(radius)});
-      group.bounding_radius_m = std::max(group.bounding_radius_m, static_cast<float>(norm(offset) + radius));
-    };
-    const Vec3 size = geom.size_m;
-    switch (geom.shape) {
-      case Shape::sphere:
-        add({}, size.x);
-        break;
-      case Shape::capsule:
-        for (const double end : {-size.y, size.y}) add({0.0, 0.0, end}, size.x);
-        break;
-      case Shape::box:
-        for (int corner = 0; corner < 8; ++corner)
-          add({corner & 1 ? size.x : -size.x, corner & 2 ? size.y : -size.y, corner & 4 ? size.z : -size.z},
-              0.0);
-        break;
-      case Shape::mesh:
-        for (const Vec3 vertex : geom.vertices_m) add(vertex, 0.0);
-        break;
-      case Shape::cylinder:
-        for (const double end : {-size.y, size.y})
-          for (const double angle : {0.0, third_of_a_turn, -third_of_a_turn}) {
-            add({0.0, 0.0, end}, 0.0);
-            Point& point = model_.points.back();
-            point.rim_radius_m = static_cast<float>(size.x);
-            point.rim_axis = narrow(rotate(pose.rotation, {0.0, 0.0, 1.0}));
-            point.rim_start = narrow(rotate(pose.rotation, {1.0, 0.0, 0.0}));
-            point.rim_cosine = static_cast<float>(std::cos(angle));
-            point.rim_sine = static_cast<float>(std::sin(angle));
-          }
-        group.bounding_radius_m = static_cast<float>(std::hypot(size.x, size.y));
-        break;
+    for (const robot::CollisionPoint& from : robot::collision_points(geom)) {
+      Point point{.chain = frame.chain,
+                  .link = frame.link,
+                  .position_m = narrow(pose * from.position_m - frame.origin_m),
+                  .radius_m = static_cast<float>(from.radius_m),
+                  .rim_radius_m = static_cast<float>(from.rim_radius_m)};
+      if (from.rim_radius_m > 0.0) {
+        point.rim_axis = narrow(rotate(pose.rotation, {0.0, 0.0, 1.0}));
+        point.rim_start = narrow(rotate(pose.rotation, {1.0, 0.0, 0.0}));
+        point.rim_cosine = static_cast<float>(std::cos(from.rim_angle_rad));
+        point.rim_sine = static_cast<float>(std::sin(from.rim_angle_rad));
+      }
+      point.field = static_cast<int>(std::ranges::lower_bound(radii_m_, from.radius_m) - radii_m_.begin());
+      model_.points.push_back(point);
+      const double reach_m = std::hypot(norm(from.position_m), from.rim_radius_m) + from.radius_m;
+      group.bounding_radius_m = std::max(group.bounding_radius_m, static_cast<float>(reach_m));
     }
     group.bounding_radius_m *= 1.0001f;  // margin for rounding
     group.count = static_cast<int>(model_.points.size()) - group.first;
@@ -204,7 +184,8 @@ class Builder {
 
   const RobotSpec& robot_;
   Model& model_;
-  std::vector<Pose> poses_;        ///< of all bodies, relative to the torso, in the start pose
+  std::vector<Pose> poses_;  ///< of all bodies, relative to the torso, in the start pose
+  const std::vector<double> radii_m_ = robot::contact_radii_m(robot_);
   std::vector<LinkFrame> frames_;  ///< of all bodies: the link that carries each
 };
 
@@ -224,6 +205,13 @@ Model::Model(const RobotSpec& robot)
   if (robot.self_collision)
     fail(ExitCode::bad_input,
          "the batch engine knows no self-collision: set self_collision = false, or use engine ode");
+  if (gravity_m_s2.x != 0.0f || gravity_m_s2.y != 0.0f) {
+    tilted = true;
+    const Quat rotation = robot::level_frame(robot.gravity_m_s2);
+    level[0] = narrow(rotate(rotation, {1.0, 0.0, 0.0}));
+    level[1] = narrow(rotate(rotation, {0.0, 1.0, 0.0}));
+    level[2] = narrow(rotate(rotation, {0.0, 0.0, 1.0}));
+  }
   Builder(robot, *this).build();
   for (const Chain& chain : chains) {
     longest_chain = std::max(longest_chain, chain.count);

@@ -61,6 +61,7 @@ struct Point {
   Float3 rim_axis = {},
          rim_start = {};  ///< unit vectors: the cylinder's axis, and one at a right angle to it
   float rim_cosine = 1.0f, rim_sine = 0.0f;  ///< of the angle from the lowest point
+  int field = 0;  ///< index among the fields of uneven ground (ground::Ground::fields)
 };
 
 /// The points of one geom, and a sphere that encloses them.
@@ -85,6 +86,10 @@ struct Model {
   MassPart torso;                    ///< in the torso's frame
   float mass_kg = 0.0f;              ///< of the whole robot
   Float3 gravity_m_s2;
+  /// Where gravity is not along −z: the axes of a level frame, whose z is up, in the world; attitude is
+  /// measured in it.
+  bool tilted = false;
+  Float3 level[3];
   float friction = 0.0f;  ///< may be infinite
   float erp = 0.0f, cfm_s_per_kg = 0.0f;
   /// Over-relaxation ω and number of sweeps of the constraint solver, chosen by the friction (docs/BATCH.md,

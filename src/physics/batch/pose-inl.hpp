@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "amble/core/index.hpp"
+#include "amble/ground/height_field.hpp"
 #include "amble/physics/batch/step.hpp"
 #include "amble/physics/batch/trigonometry-inl.hpp"
 #include "amble/physics/batch/vector-inl.hpp"
@@ -45,6 +46,7 @@ struct Pass {
     const std::size_t first = to_index(lane / width) * arguments.model.geoms.size();
     return arguments.workspace.geom_has_impulse[first + to_index(geom)];
   }
+  const UnevenGround* ground() const { return arguments.ground; }
   Mask active() const { return state(StateRows::active) > zero(); }
   /// The world's axes in torso axes, as columns: the rotation matrix from world to torso axes.
   Columns world() const {
@@ -170,12 +172,60 @@ HWY_INLINE V3 point_position(const Point& point, V3 up) {
   return fma(set(point.rim_radius_m), direction, centre);
 }
 
+/// Height and slopes of a field at (x, y), bilinear in its cell (ground::HeightField::at).
+struct FieldSample {
+  V height, slope_x, slope_y;
+};
+
+HWY_INLINE FieldSample sample_field(const UnevenGround& ground, const float* field, V x, V y) {
+  const Ints integers;
+  const V scale = set(ground.cells_per_m), u = x * scale, v = y * scale;
+  const V left = hn::Floor(u), front = hn::Floor(v), s = u - left, t = v - front;
+  const auto mask = hn::Set(integers, ground::HeightField::cells - 1), one = hn::Set(integers, 1);
+  const auto i = hn::And(hn::ConvertTo(integers, left), mask), next_i = hn::And(i + one, mask);
+  const auto j = hn::And(hn::ConvertTo(integers, front), mask), next_j = hn::And(j + one, mask);
+  static_assert(ground::HeightField::cells == 256);
+  const auto row = hn::ShiftLeft<8>(j), next_row = hn::ShiftLeft<8>(next_j);
+  const V a = hn::GatherIndex(Floats(), field, hn::Or(row, i));
+  const V b = hn::GatherIndex(Floats(), field, hn::Or(row, next_i));
+  const V c = hn::GatherIndex(Floats(), field, hn::Or(next_row, i));
+  const V d = hn::GatherIndex(Floats(), field, hn::Or(next_row, next_i));
+  const V near = fma(s, b - a, a), far = fma(s, d - c, c);
+  return {.height = fma(t, far - near, near),
+          .slope_x = fma(t, (d - c) - (b - a), b - a) * scale,
+          .slope_y = (far - near) * scale};
+}
+
+/// Distance of point `p`, at `position` in its link's frame, from uneven ground along the ground's normal,
+/// which it stores (ground::Ground::touch).
+HWY_INLINE V gap_on_uneven_ground(const Pass& pass, int p, V3 position) {
+  const Point& point = pass.model().points[to_index(p)];
+  V3 place = pass.state3(StateRows::torso_origin) + position;
+  if (point.chain >= 0) {
+    const int row = pass.pose_row(pass.model().chains[to_index(point.chain)].first + point.link);
+    place = pass.state3(row + 9) +
+            Columns{pass.state3(row), pass.state3(row + 3), pass.state3(row + 6)} * position;
+  }
+  const V3 world = pass.state3(StateRows::com) + transposed(pass.world(), place);
+  const UnevenGround& ground = *pass.ground();
+  const FieldSample at = sample_field(ground, ground.fields[to_index(point.field)], world.x, world.y);
+  const V one = set(1.0f);
+  const V up = one / hn::Sqrt(fma(at.slope_y, at.slope_y, fma(at.slope_x, at.slope_x, one)));
+  const V3 normal{hn::Neg(up * at.slope_x), hn::Neg(up * at.slope_y), up};
+  float* const stored = pass.scratch(pass.work().point_normal + 3 * p);
+  store(normal.x, stored);
+  store(normal.y, stored + width);
+  store(normal.z, stored + 2 * width);
+  return up * (world.z - at.height);
+}
+
 /// Heights above the ground of all points whose geom's bounding sphere reaches it, and which feet touch.
 HWY_NOINLINE void detect_contacts(const Pass& pass) {
   const Model& model = pass.model();
   const Mask active = pass.active();
   const V3 up = pass.state3(StateRows::world_axes + 6);
   const V com_height = pass.state(StateRows::com + 2);
+  const V highest = set(pass.ground() ? pass.ground()->highest_m : 0.0f);
   V contacts = zero();
   for (std::size_t g = 0; g < model.geoms.size(); ++g) {
     const PointGroup& geom = model.geoms[g];
@@ -189,11 +239,13 @@ HWY_NOINLINE void detect_contacts(const Pass& pass) {
     // z = z_com + up · origin + (Rᵀ up) · p − radius, p in the axes of the link's frame.
     const V height = dot(up, origin, com_height);
     const V lowest = dot(local_up, set(geom.centre_m), height) - set(geom.bounding_radius_m);
-    pass.work().geom_may_touch[g] = !hn::AllFalse(Floats(), hn::And(active, lowest <= zero()));
+    pass.work().geom_may_touch[g] = !hn::AllFalse(Floats(), hn::And(active, lowest <= highest));
     Mask touches = no_lanes();
     for (int p = geom.first; pass.work().geom_may_touch[g] && p < geom.first + geom.count; ++p) {
       const Point& point = model.points[to_index(p)];
-      const V h = dot(local_up, point_position(point, local_up), height) - set(point.radius_m);
+      const V3 position = point_position(point, local_up);
+      const V h = pass.ground() ? gap_on_uneven_ground(pass, p, position)
+                                : dot(local_up, position, height) - set(point.radius_m);
       store(h, pass.scratch(pass.work().point_height + p));
       touches = hn::Or(touches, h <= zero());
       contacts = contacts + hn::IfThenElseZero(h <= zero(), set(1.0f));
@@ -214,7 +266,9 @@ HWY_NOINLINE void read_sensors(const Pass& pass) {
     put(pass.state(pass.rows().touch + leg), sensors.touch, leg);
   // From the entries of R = R_z(yaw) R_y(pitch) R_x(roll): R31 = −sin pitch, R32 / R33 = tan roll,
   // R21 / R11 = tan yaw.
-  const Columns world = pass.world();
+  Columns world = pass.world();
+  if (const Model& model = pass.model(); model.tilted)
+    world = {world * set(model.level[0]), world * set(model.level[1]), world * set(model.level[2])};
   const V one = set(1.0f), sine = hn::Min(hn::Max(hn::Neg(world.z.x), hn::Neg(one)), one);
   put(arc_tangent(world.z.y, world.z.z), sensors.attitude_rad, 0);
   put(arc_tangent(sine, hn::Sqrt((one - sine) * (one + sine))), sensors.attitude_rad, 1);

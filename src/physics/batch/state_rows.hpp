@@ -48,7 +48,8 @@ struct StateRows {
   int angle = joints;  ///< by link, rad
   int speed;           ///< by link, rad/s
   int joint_impulse;   ///< by joint row (Model::joint_rows) in the last step, N m s
-  int point_impulse;   ///< by point: of the ground in the last step along the world's z, y, x, N s: 3
+  int point_impulse;   ///< by point: of the ground in the last step along the world's z, y, x (on uneven
+                       ///< ground along its normal and the directions of friction), N s: 3
   int pose;            ///< by link, torso axes: axes of its frame as columns (9), its origin (3), and the
                        ///< joint's motion subspace: its axis (3) and origin × axis (3)
   int touch;           ///< by leg, 0 or 1: in the pose at the beginning of the last step

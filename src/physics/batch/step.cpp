@@ -76,7 +76,12 @@ inline Spatial collect_impulses(const Pass& pass) {
                                                block.get(BlockLayout::inverse_scale, r));
         block.set(BlockLayout::impulse, r, row_impulse[r]);
       }
-      const V3 impulse{row_impulse[2], row_impulse[1], row_impulse[0]};
+      V3 impulse{row_impulse[2], row_impulse[1], row_impulse[0]};
+      if (pass.ground()) {
+        const ContactFrame frame = contact_frame(pass, blocks.first + b);
+        impulse = fma(row_impulse[0], frame.normal,
+                      fma(row_impulse[1], frame.first, row_impulse[2] * frame.second));
+      }
       const V3 arm{block.get(BlockLayout::arm, 0), block.get(BlockLayout::arm, 1),
                    block.get(BlockLayout::arm, 2)};
       linear = linear + impulse;

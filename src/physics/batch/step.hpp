@@ -9,6 +9,13 @@
 
 namespace amble::physics::batch {
 
+/// Uneven ground as the kernels read it (ground::Ground).
+struct UnevenGround {
+  std::vector<const float*> fields;  ///< by Point::field; 256 × 256 heights (m), x faster than y
+  float cells_per_m = 0.0f;
+  float highest_m = 0.0f;
+};
+
 /// What one call of step() or derive() works on. Belongs to one thread.
 struct StepArguments {
   const Model& model;
@@ -16,7 +23,8 @@ struct StepArguments {
   Row* state;  ///< rows.count rows
   Workspace& workspace;
   robot::SensorFrame& sensors;
-  LaneArray* torques_nm;  ///< of the motors, joints × lanes; null: not measured
+  const UnevenGround* ground;  ///< null: the plane z = 0
+  LaneArray* torques_nm;       ///< of the motors, joints × lanes; null: not measured
   float timestep_s;
 };
 

@@ -65,6 +65,8 @@ class Workspace {
     for (const Chain& chain : model.chains)
       factors.push_back(take(chain.count * (chain.count + 1) / 2 + 7 * chain.count));
     blocks = take((rows + points) * block_layout.size());
+    point_normal = take(3 * points);
+    block_normal = take(3 * (rows + points));
     storage_.resize(to_index((vectors_ + 1) * lanes));
     void* start = storage_.data();
     std::size_t space = storage_.size() * sizeof(float);
@@ -81,7 +83,7 @@ class Workspace {
   float* memory() { return memory_; }
 
   // Offsets into memory(), counted in vectors.
-  int point_height;  ///< by point: of its lowest place above the ground, m
+  int point_height;  ///< by point: of its lowest place above the ground, m; on uneven ground along the normal
   int point_slot;    ///< by point: index among its chain's contact blocks, by lane; −1: does not touch
   int link_inertia;  ///< by link: inertia (6) and first moment of mass (3) about the robot's centre of mass
   int base_column;   ///< by link: its column of M_bq, angular and linear: 6
@@ -90,6 +92,8 @@ class Workspace {
   int u_joints;      ///< by link: the joint's entry of u = Lᵀ ν; before, its bias force
   std::vector<int> factors;  ///< by chain: L_c, inverses of its diagonal, B_c (six by joint), later L_b⁻¹ B_c
   int blocks;                ///< of constraint rows, block by block
+  int point_normal;          ///< by point: of uneven ground below it, world axes: 3
+  int block_normal;          ///< by block of a contact: the same
   BlockLayout block_layout;
 
   std::vector<ChainBlocks> chain_blocks;  ///< of the torso, then of each chain

@@ -8,6 +8,7 @@
 #include "amble/core/index.hpp"
 #include "amble/io/xml.hpp"
 #include "amble/morphology/mjcf_writer.hpp"
+#include "amble/robot/collision_points.hpp"
 
 namespace amble::physics::mujoco {
 namespace {
@@ -43,8 +44,8 @@ class Softness {
   double damping_, stiffness_, regularizer_;
 };
 
-/// The most contacts that a geom can have with the ground.
-int max_contacts(const Geom& geom) {
+/// The most contacts that a geom can have with the plane.
+int max_plane_contacts(const Geom& geom) {
   switch (geom.shape) {
     case Shape::sphere:
       return 1;
@@ -64,7 +65,10 @@ int max_contacts(const Geom& geom) {
 std::string completed(const morphology::Mjcf& mjcf, const RobotSpec& robot) {
   constexpr int between_legs = 64, limit = 512;
   int contacts = robot.self_collision ? between_legs : 0;
-  for (const Geom& geom : robot.geoms) contacts += geom.collides ? max_contacts(geom) : 0;
+  for (const Geom& geom : robot.geoms) {
+    const int on_uneven_ground = static_cast<int>(robot::collision_points(geom).size());
+    contacts += geom.collides ? std::max(max_plane_contacts(geom), on_uneven_ground) : 0;
+  }
   contacts = std::clamp(contacts, 1, limit);
   std::string tendons;
   for (std::size_t place = 0; place < mjcf.joints.size(); ++place) {
@@ -126,10 +130,12 @@ Model make_model(const RobotSpec& robot, double timestep_s) {
               .position_of = std::vector<int>(robot.joints.size()),
               .dof_of = std::vector<int>(robot.joints.size()),
               .joint_of = {},
-              .leg_of = {}};
+              .leg_of = {},
+              .geom_of = {}};
   mjModel& m = *model.mujoco;
   model.joint_of.assign(to_index(m.nv), -1);
   model.leg_of.assign(to_index(m.ngeom), -1);
+  model.geom_of.assign(to_index(m.ngeom), -1);
   for (std::size_t place = 0; place < mjcf.joints.size(); ++place) {
     const int j = mjcf.joints[place];
     model.position_of[to_index(j)] = m.jnt_qposadr[place + 1];
@@ -137,6 +143,7 @@ Model make_model(const RobotSpec& robot, double timestep_s) {
     model.joint_of[to_index(model.dof_of[to_index(j)])] = j;
   }
   for (std::size_t place = 0; place < mjcf.geoms.size(); ++place) {
+    model.geom_of[place + 1] = mjcf.geoms[place];
     for (int l = 0; l < static_cast<int>(robot.legs.size()); ++l)
       if (robot.legs[to_index(l)].foot_geom == mjcf.geoms[place]) model.leg_of[place + 1] = l;
   }

@@ -17,6 +17,8 @@ struct Model {
   std::vector<int> joint_of;     ///< by degree of freedom: joint, −1: the root's
   std::vector<int> leg_of;       ///< by MuJoCo's geom: the leg whose foot it is, −1: none
 
+  std::vector<int> geom_of;  ///< by MuJoCo's geom: that of the robot, −1: the ground
+
   const mjModel* operator->() const { return mujoco.get(); }
   const mjModel* get() const { return mujoco.get(); }
 };

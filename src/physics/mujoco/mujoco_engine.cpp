@@ -14,6 +14,7 @@
 #include "amble/core/index.hpp"
 #include "amble/morphology/mujoco_handlers.hpp"
 #include "amble/morphology/mujoco_math.hpp"
+#include "amble/physics/mujoco/ground_contacts.hpp"
 #include "amble/physics/mujoco/model.hpp"
 #include "amble/physics/mujoco/slip.hpp"
 #include "amble/physics/single_robot.hpp"
@@ -48,6 +49,7 @@ class MujocoEngine final : public SingleRobotEngine {
       : SingleRobotEngine(robot, settings),
         model_(mujoco::make_model(robot, settings.timestep_s)),
         data_(new_data(model_.get())),
+        ground_contacts_(robot, model_),
         slip_(robot.contact.friction, settings.timestep_s) {}
 
   void place(int lane) override {
@@ -71,7 +73,7 @@ class MujocoEngine final : public SingleRobotEngine {
     // mj_step in its parts (MuJoCo documentation, "Simulation pipeline"): M(q) and constraints, bias forces,
     // M q̈ = τ − c + Jᵀ f, then semi-implicit Euler. Between them come the servos and the correction for slip.
     if (!can_step(targets_rad)) return;
-    mj_fwdPosition(model_.get(), data_.get());
+    find_contacts();
     find_touch();
     mj_fwdVelocity(model_.get(), data_.get());
     drive(targets_rad);
@@ -130,9 +132,29 @@ class MujocoEngine final : public SingleRobotEngine {
 
   void begin() {
     place_here();
-    mj_fwdPosition(model_.get(), data_.get());
+    find_contacts();
     find_touch();
     read_state();
+  }
+
+  void on_ground() override { ground_contacts_.set_ground(*model_.mujoco, ground()); }
+
+  /// mj_fwdPosition; on uneven ground in its parts, with the contacts of ground::Ground added to MuJoCo's
+  /// own.
+  void find_contacts() {
+    if (ground() == nullptr) {
+      mj_fwdPosition(model_.get(), data_.get());
+      return;
+    }
+    mj_kinematics(model_.get(), data_.get());
+    mj_comPos(model_.get(), data_.get());
+    mj_tendon(model_.get(), data_.get());
+    mj_crb(model_.get(), data_.get());
+    mj_factorM(model_.get(), data_.get());
+    mj_collision(model_.get(), data_.get());
+    ground_contacts_.add(*ground(), model_.get(), data_.get());
+    mj_makeConstraint(model_.get(), data_.get());
+    mj_projectConstraint(model_.get(), data_.get());
   }
 
   /// Reads which feet touch the ground.
@@ -222,6 +244,7 @@ class MujocoEngine final : public SingleRobotEngine {
 
   const mujoco::Model model_;
   const std::unique_ptr<mjData, DeleteData> data_;
+  mujoco::GroundContacts ground_contacts_;
   mujoco::Slip slip_;
 };
 

@@ -1,6 +1,8 @@
 #include "amble/physics/ode/contacts.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "amble/core/index.hpp"
 
@@ -36,7 +38,8 @@ constexpr double slack_m = 1e-6;
 
 }  // namespace
 
-Contacts::Contacts(const RobotSpec& robot, const World& world) : world_(world), group_(dJointGroupCreate(0)) {
+Contacts::Contacts(const RobotSpec& robot, const World& world, const ground::Ground* ground)
+    : world_(world), ground_(ground), group_(dJointGroupCreate(0)) {
   // Coulomb friction |f_t| ≤ μ f_n along each of two directions, a pyramid; without dContactApprox1 mu would
   // be a bound of the force itself, so infinity means sticking (ODE manual, "Contact").
   surface_.mode = std::isinf(robot.contact.friction) ? 0 : dContactApprox1;
@@ -52,7 +55,11 @@ Contacts::Contacts(const RobotSpec& robot, const World& world) : world_(world), 
     for (std::size_t l = 0; l < robot.legs.size(); ++l) {
       if (robot.legs[l].foot_geom == static_cast<int>(g)) collider.leg = static_cast<int>(l);
     }
-    colliders_.push_back(collider);
+    if (ground_ != nullptr) {
+      collider.place = {geom.position_m - robot.bodies[to_index(geom.body)].com_m, geom.rotation};
+      collider.points = robot::collision_points(geom);
+    }
+    colliders_.push_back(std::move(collider));
     body_of.push_back(geom.body);
   }
   if (!robot.self_collision) return;
@@ -85,8 +92,38 @@ void Contacts::collide(LaneArray& touch) {
 }
 
 int Contacts::collide_with_ground(const Collider& collider) {
+  if (ground_ != nullptr) return collide_with_uneven_ground(collider);
   if (dGeomGetPosition(collider.geom)[2] > collider.radius_m) return 0;
   return dCollide(collider.geom, world_.ground(), most_contacts, found_, sizeof(dContactGeom));
+}
+
+/// The contacts of ground::Ground; if there are too many, the deepest.
+int Contacts::collide_with_uneven_ground(const Collider& collider) {
+  const dReal* const com = dBodyGetPosition(collider.body);
+  const dReal* const q = dBodyGetQuaternion(collider.body);
+  const robot::Pose pose = robot::Pose{{com[0], com[1], com[2]}, {q[0], q[1], q[2], q[3]}} * collider.place;
+  if (pose.position_m.z > collider.radius_m + ground_->highest_m()) return 0;
+  const Vec3 up = rotate(conjugate(pose.rotation), {0.0, 0.0, 1.0});
+  touches_.clear();
+  for (const robot::CollisionPoint& point : collider.points) {
+    const ground::Touch touch = ground_->touch(pose * robot::position_m(point, up), point.radius_m);
+    if (touch.gap_m <= 0.0) touches_.push_back(touch);
+  }
+  if (touches_.size() > most_contacts) {
+    std::ranges::stable_sort(touches_, {}, &ground::Touch::gap_m);
+    touches_.resize(most_contacts);
+  }
+  for (std::size_t c = 0; c < touches_.size(); ++c) {
+    const auto& [gap_m, normal, point_m] = touches_[c];
+    found_[c] = {.pos = {point_m.x, point_m.y, point_m.z, 0.0},
+                 .normal = {normal.x, normal.y, normal.z, 0.0},
+                 .depth = -gap_m,
+                 .g1 = collider.geom,
+                 .g2 = world_.ground(),
+                 .side1 = -1,
+                 .side2 = -1};
+  }
+  return static_cast<int>(touches_.size());
 }
 
 void Contacts::collide_pair(const Pair& pair) {

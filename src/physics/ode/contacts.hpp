@@ -5,7 +5,10 @@
 #include <vector>
 
 #include "amble/core/lanes.hpp"
+#include "amble/ground/ground.hpp"
 #include "amble/physics/ode/world.hpp"
+#include "amble/robot/collision_points.hpp"
+#include "amble/robot/pose.hpp"
 #include "amble/robot/spec.hpp"
 
 namespace amble::physics::ode {
@@ -14,7 +17,8 @@ namespace amble::physics::ode {
 /// to the bit. (ODE's spaces hand out pairs in an order that depends on what happened before.)
 class Contacts {
  public:
-  Contacts(const robot::RobotSpec& robot, const World& world);
+  /// `ground`: null for the plane z = 0; not owned.
+  Contacts(const robot::RobotSpec& robot, const World& world, const ground::Ground* ground);
   ~Contacts();
   Contacts(const Contacts&) = delete;
   Contacts& operator=(const Contacts&) = delete;
@@ -30,22 +34,28 @@ class Contacts {
     dBodyID body = nullptr;
     double radius_m = 0.0;  ///< of the bounding sphere about the geom's centre
     int leg = -1;           ///< the leg whose foot it is, −1: none
+    // For uneven ground:
+    robot::Pose place = {};  ///< of the geom relative to the body's centre of mass, body axes
+    std::vector<robot::CollisionPoint> points = {};  ///< that can touch it
   };
   struct Pair {
     int a = 0, b = 0;  ///< indices into colliders_
   };
 
   int collide_with_ground(const Collider& collider);
+  int collide_with_uneven_ground(const Collider& collider);
   void collide_pair(const Pair& pair);
   void add_contacts(int count, dBodyID a, dBodyID b);
 
   const World& world_;
+  const ground::Ground* ground_;
   dJointGroupID group_;
   dSurfaceParameters surface_{};
   std::vector<Collider> colliders_;
   std::vector<Pair> pairs_;  ///< that may collide with each other
   static constexpr int most_contacts = 16;
   dContactGeom found_[most_contacts];
+  std::vector<ground::Touch> touches_;
 };
 
 }  // namespace amble::physics::ode

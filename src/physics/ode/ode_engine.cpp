@@ -57,9 +57,10 @@ struct Trial {
   ode::Contacts contacts;
   std::optional<ode::TorqueMeter> torques;
 
-  Trial(const RobotSpec& robot, const ode::Threading& threading, double timestep_s, bool with_torques)
-      : world(robot, threading), motors(robot, world, timestep_s), contacts(robot, world) {
-    if (with_torques) torques.emplace(robot, motors);
+  Trial(const RobotSpec& robot, const ode::Threading& threading, const EngineSettings& settings,
+        const ground::Ground* ground)
+      : world(robot, threading), motors(robot, world, settings.timestep_s), contacts(robot, world, ground) {
+    if (settings.torques) torques.emplace(robot, motors);
   }
 };
 
@@ -147,7 +148,8 @@ class OdeEngine final : public SingleRobotEngine {
     check_lane(lane);
     ode::prepare_thread();
     trial_.reset();
-    trial_.emplace(robot_, *threading_, timestep_s_, with_torques_);
+    trial_.emplace(robot_, *threading_, EngineSettings{.timestep_s = timestep_s_, .torques = with_torques_},
+                   ground());
   }
 
   void begin() {
@@ -155,6 +157,8 @@ class OdeEngine final : public SingleRobotEngine {
     trial_->contacts.find_touch(sensors_.touch);
     read_state();
   }
+
+  void on_ground() override { trial_.reset(); }
 
   void read_state() {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {

@@ -1,0 +1,67 @@
+#include "amble/ground/ground.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "amble/core/random.hpp"
+#include "amble/morphology/robot_file.hpp"
+#include "amble/robot/pose.hpp"
+
+namespace amble::ground {
+namespace {
+
+robot::RobotSpec quadruped() {
+  return morphology::load_robot(AMBLE_SOURCE_DIR "/robots/quadruped/authors.toml");
+}
+
+HeightField hills() {
+  Settings settings;
+  settings.kind = Kind::hills;
+  settings.height_m = 0.3;
+  return make_field(settings, {});
+}
+
+TEST(Ground, TouchesABallAtItsDepthAlongTheNormal) {
+  const robot::RobotSpec robot = quadruped();
+  const double radius_m = robot.geoms[static_cast<std::size_t>(robot.legs[0].foot_geom)].size_m.x;
+  HeightField ramp(0.04);  // h = x / 2
+  for (int j = 0; j < 256; ++j)
+    for (int i = -128; i < 128; ++i) ramp.node(i, j) = 0.02f * static_cast<float>(i);
+  const Ground ground(ramp, robot);
+  const Vec3 up{-1.0 / std::sqrt(5.0), 0.0, 2.0 / std::sqrt(5.0)};
+  for (const double gap_m : {-0.02, 0.0, 0.1}) {
+    const Vec3 centre_m = Vec3{0.7, 0.2, 0.35} + (radius_m + gap_m) * up;
+    const Touch touch = ground.touch(centre_m, radius_m);
+    EXPECT_NEAR(touch.gap_m, gap_m, 0.01 * radius_m);
+    EXPECT_NEAR(norm(touch.normal - up), 0.0, 1e-6);
+    EXPECT_NEAR(norm(touch.point_m - (centre_m - radius_m * up)), 0.0, 1e-6);
+  }
+}
+
+TEST(Ground, OfALevelFieldIsThePlane) {
+  const robot::RobotSpec robot = quadruped();
+  const Ground ground(HeightField(0.04), robot);
+  const auto poses = robot::start_poses(robot);
+  EXPECT_NEAR(ground.clearance_m(robot, poses), robot::clearance_m(robot, poses), 1e-7);
+  const Touch touch = ground.touch({3.0, -2.0, 0.5}, 0.0);
+  EXPECT_EQ(touch.gap_m, 0.5);
+  EXPECT_EQ(touch.normal, (Vec3{0.0, 0.0, 1.0}));
+}
+
+TEST(Ground, ARobotLoweredByItsClearanceTouchesWithOnePointAndNoDeeper) {
+  const robot::RobotSpec robot = quadruped();
+  const Ground ground(hills(), robot);
+  Stream stream(3, Purpose::test);
+  for (int n = 0; n < 200; ++n) {
+    robot::Pose root{{stream.uniform(-8.0, 8.0), stream.uniform(-8.0, 8.0), 2.0},
+                     axis_angle({0.6, 0.8, 0.0}, stream.uniform(-1.0, 1.0))};
+    const std::vector<double> angles(robot.joints.size(), stream.uniform(-0.3, 0.3));
+    root.position_m.z -= ground.clearance_m(robot, robot::poses_at(robot, root, angles));
+    const auto poses = robot::poses_at(robot, root, angles);
+    EXPECT_NEAR(ground.clearance_m(robot, poses), 0.0, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace amble::ground

@@ -1,0 +1,189 @@
+#include "amble/ground/height_field.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "amble/core/hash.hpp"
+#include "amble/core/random.hpp"
+
+namespace amble::ground {
+namespace {
+
+Settings of_kind(Kind kind) {
+  Settings settings;
+  settings.kind = kind;
+  settings.height_m = 0.1;
+  return settings;
+}
+
+const std::array with_field{Kind::hills,  Kind::rough,  Kind::stones,
+                            Kind::blocks, Kind::stairs, Kind::hurdles};
+
+std::uint64_t hash_of(const HeightField& field) {
+  return hash_span<float>(field.heights_m());
+}
+
+TEST(HeightField, IsBilinearBetweenItsNodes) {
+  HeightField field(0.5);
+  field.node(0, 0) = 1.0f;
+  field.node(1, 0) = 3.0f;
+  field.node(0, 1) = 2.0f;
+  field.node(1, 1) = 8.0f;
+  // h = a + s (b − a) + t (c − a) + s t (a − b − c + d), s = x / cell, t = y / cell.
+  for (const double s : {0.0, 0.25, 0.9})
+    for (const double t : {0.0, 0.5, 0.75}) {
+      const auto at = field.at(0.5 * s, 0.5 * t);
+      EXPECT_NEAR(at.height_m, 1.0 + 2.0 * s + t + 4.0 * s * t, 1e-12);
+      EXPECT_NEAR(at.slope_x, (2.0 + 4.0 * t) / 0.5, 1e-12);
+      EXPECT_NEAR(at.slope_y, (1.0 + 4.0 * s) / 0.5, 1e-12);
+    }
+}
+
+TEST(HeightField, RepeatsItselfInBothDirections) {
+  const HeightField field = make_field(of_kind(Kind::hills), {});
+  Stream stream(1, Purpose::test);
+  for (int i = 0; i < 1000; ++i) {
+    const double x = stream.uniform(-5.0, 5.0), y = stream.uniform(-5.0, 5.0);
+    for (const double periods : {-3.0, 1.0, 20.0}) {
+      EXPECT_NEAR(field.at(x + periods * field.period_m(), y).height_m, field.at(x, y).height_m, 1e-9);
+      EXPECT_NEAR(field.at(x, y + periods * field.period_m()).height_m, field.at(x, y).height_m, 1e-9);
+    }
+  }
+  EXPECT_NO_FATAL_FAILURE(field.at(1e300, -1e300));
+}
+
+TEST(MakeField, IsFlatAroundTheOriginAndAsHighAsItsSettingsSay) {
+  for (const Kind kind : with_field) {
+    Settings settings = of_kind(kind);
+    const HeightField field = make_field(settings, {});
+    for (double x = -0.42; x <= 0.42; x += 0.02)
+      for (double y = -0.42; y <= 0.42; y += 0.02)
+        if (x * x + y * y < 0.55 * 0.55) {
+          ASSERT_EQ(field.at(x, y).height_m, 0.0) << kind_names[static_cast<std::size_t>(kind)];
+        }
+    const auto [low, high] = std::ranges::minmax(field.heights_m());
+    if (kind == Kind::blocks || kind == Kind::hurdles) {
+      EXPECT_EQ(low, 0.0f);
+      EXPECT_FLOAT_EQ(high, 0.1f);
+    } else if (kind == Kind::stairs) {
+      EXPECT_EQ(low, 0.0f);
+      EXPECT_NEAR(std::remainder(high, 0.1f), 0.0f, 1e-6f);
+      EXPECT_GT(high, 0.3f);
+    } else {
+      EXPECT_GE(low, -0.0501f);
+      EXPECT_LE(high, 0.0501f);
+      EXPECT_GT(high - low, 0.06f);
+    }
+    settings.height_m = 0.0;
+    EXPECT_EQ(make_field(settings, {}).highest_m(), 0.0f);
+  }
+}
+
+TEST(MakeField, HasStepsAndWallsWhereTheSettingsPutThem) {
+  Settings settings = of_kind(Kind::stairs);  // flat to 0.6 m, steps every 0.5 m
+  const HeightField stairs = make_field(settings, {});
+  for (const double away : {0.8, -0.8}) {
+    EXPECT_NEAR(stairs.at(away, 0.0).height_m, 0.1, 1e-6);
+    EXPECT_NEAR(stairs.at(0.3, away + std::copysign(0.5, away)).height_m, 0.2, 1e-6);
+  }
+  settings.kind = Kind::hurdles;
+  const HeightField hurdles = make_field(settings, {});
+  EXPECT_EQ(hurdles.at(0.9, 0.1).height_m, 0.0);
+  EXPECT_NEAR(hurdles.at(1.06, 0.1).height_m, 0.1, 1e-6);  // the wall ends at 1.1 m
+  EXPECT_EQ(hurdles.at(1.2, 0.1).height_m, 0.0);
+}
+
+TEST(MakeField, GivesTheSameGroundForEver) {
+  std::string hashes;
+  for (const Kind kind : with_field) hashes += std::to_string(hash_of(make_field(of_kind(kind), {}))) + ' ';
+  EXPECT_EQ(hash_bytes(hashes.data(), hashes.size()), 9551029394869960990u) << hashes;
+}
+
+TEST(MakeField, VariesWithTheSeedAndIfAskedToWithRunAndGeneration) {
+  Settings settings = of_kind(Kind::rough);
+  const Key first{.seed = 1, .generation = 3}, later{.seed = 1, .generation = 4},
+      other{.seed = 2, .generation = 3}, unseen{.seed = 1, .generation = 3, .set = 1};
+  const auto different = [&] {
+    std::set<std::uint64_t> hashes;
+    for (const Key& key : {first, later, other, unseen}) hashes.insert(hash_of(make_field(settings, key)));
+    return hashes.size();
+  };
+  EXPECT_EQ(different(), 2u) << "only what evolution never meets is another";
+  const auto of_seed_1 = hash_of(make_field(settings, first));
+  settings.seed = 2;
+  EXPECT_NE(hash_of(make_field(settings, first)), of_seed_1);
+  settings.vary = Vary::generations;
+  EXPECT_EQ(different(), 4u);
+}
+
+TEST(MakeField, GrowsOverTheGenerationsOfACurriculum) {
+  Settings settings = of_kind(Kind::blocks);
+  settings.grow_generations = 10;
+  const std::array<std::pair<unsigned, float>, 4> heights{{{0, 0.0f}, {3, 0.03f}, {10, 0.1f}, {500, 0.1f}}};
+  for (const auto& [generation, height_m] : heights)
+    EXPECT_FLOAT_EQ(make_field(settings, {.generation = generation}).highest_m(), height_m);
+}
+
+TEST(Normalised, IsTheSameForKeysOfTheSameFieldAndForNoOthers) {
+  for (const Vary vary : {Vary::never, Vary::generations})
+    for (const int grow : {0, 5}) {
+      Settings settings = of_kind(Kind::hills);
+      settings.vary = vary;
+      settings.grow_generations = grow;
+      std::vector<Key> keys;
+      for (const std::uint64_t seed : {1u, 2u})
+        for (const std::uint32_t generation : {0u, 4u, 5u, 6u})
+          for (const std::uint32_t set : {0u, 1u}) keys.push_back({seed, generation, set});
+      for (const Key& a : keys) {
+        const auto hash = hash_of(make_field(settings, a));
+        EXPECT_EQ(hash_of(make_field(settings, normalised(settings, a))), hash);
+        for (const Key& b : keys)
+          EXPECT_EQ(normalised(settings, a) == normalised(settings, b),
+                    hash_of(make_field(settings, b)) == hash);
+      }
+    }
+}
+
+TEST(OffsetField, IsTheHighestPlaceUnderTheBall) {
+  const double radius_m = 0.09;
+  const HeightField field = make_field(of_kind(Kind::rough), {});
+  const HeightField offset = offset_field(field, radius_m);
+  Stream stream(2, Purpose::test);
+  for (int n = 0; n < 200; ++n) {
+    const int i = static_cast<int>(stream.below(256)), j = static_cast<int>(stream.below(256));
+    // By brute force, on a hundred times as many places.
+    double highest_m = -1.0;
+    for (double y = -radius_m; y <= radius_m; y += 0.001)
+      for (double x = -radius_m; x <= radius_m; x += 0.001) {
+        const double square = radius_m * radius_m - x * x - y * y;
+        if (square >= 0.0)
+          highest_m = std::max(highest_m, std::sqrt(square) + field.at(i * 0.04 + x, j * 0.04 + y).height_m);
+      }
+    EXPECT_LE(offset.node(i, j), highest_m + 1e-6);
+    EXPECT_GT(offset.node(i, j), highest_m - 5e-4);
+  }
+}
+
+TEST(OffsetField, OfAPlaneIsThePlaneRaisedAlongItsNormal) {
+  // h = x / 2: the ball's centre is r √(1 + ¼) over it. Away from the jump where the field repeats.
+  HeightField field(0.04);
+  for (int j = 0; j < 256; ++j)
+    for (int i = -128; i < 128; ++i) field.node(i, j) = 0.02f * static_cast<float>(i);
+  for (const double radius_m : {0.03, 0.1, 0.5})
+    for (const double x : {-1.0, 0.33, 1.7})
+      EXPECT_NEAR(offset_field(field, radius_m).at(x, 0.1).height_m, 0.5 * x + radius_m * std::sqrt(1.25),
+                  0.01 * radius_m);
+}
+
+TEST(OffsetField, OfTheLevelGroundIsTheRadiusToTheBit) {
+  for (const double radius_m : {0.01, 0.045, 0.1, 0.7}) {
+    const HeightField offset = offset_field(HeightField(0.04), radius_m);
+    for (const float height_m : offset.heights_m()) ASSERT_EQ(height_m, static_cast<float>(radius_m));
+  }
+}
+
+}  // namespace
+}  // namespace amble::ground

@@ -1,0 +1,69 @@
+#include "amble/ground/settings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "amble/core/error.hpp"
+#include "amble/ground/recorded.hpp"
+
+namespace amble::ground {
+namespace {
+
+std::string refusal(const std::function<void(Settings&)>& change) {
+  Settings settings;
+  settings.kind = Kind::stones;
+  change(settings);
+  try {
+    settings.validate();
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(GroundSettings, AreRefusedWhereTheyContradictEachOther) {
+  EXPECT_EQ(refusal([](Settings&) {}), "accepted");
+  EXPECT_EQ(refusal([](Settings& s) { s.length_m = 0.05; }),
+            "ground.length_m = 0.05: expected at least two cells of 0.04 m (ground.cell_m)");
+  EXPECT_NE(refusal([](Settings& s) { s.start_radius_m = 5.0; }).find("expected a larger ground.cell_m"),
+            std::string::npos);
+  EXPECT_EQ(refusal([](Settings& s) { s.friction = -0.5; }),
+            "ground.friction = -0.5: expected 0 or more, or -1 for the robot's own");
+  EXPECT_EQ(refusal([](Settings& s) {
+              s.kind = Kind::plane;
+              s.length_m = 0.05;
+            }),
+            "accepted");
+}
+
+TEST(GroundSettings, KnowWhetherTheyAreTheDefault) {
+  Settings settings;
+  EXPECT_TRUE(settings.is_default());
+  settings.slope_y = 0.1;
+  EXPECT_FALSE(settings.is_default());
+}
+
+TEST(GroundSettings, ASlopeKeepsGravitysMagnitudeAndLeansItDownhill) {
+  Settings settings;
+  EXPECT_EQ(settings.tilted({0.0, 0.0, -9.8}), (Vec3{0.0, 0.0, -9.8}));
+  settings.slope_x = std::tan(0.2);
+  const Vec3 gravity = settings.tilted({0.0, 0.0, -9.8});
+  EXPECT_NEAR(gravity.x, -9.8 * std::sin(0.2), 1e-12);
+  EXPECT_NEAR(gravity.z, -9.8 * std::cos(0.2), 1e-12);
+  settings.slope_y = 0.3;
+  EXPECT_NEAR(norm(settings.tilted({0.0, 0.0, -9.8})), 9.8, 1e-12);
+}
+
+TEST(RecordedGround, IsTheFieldAgain) {
+  Settings settings;
+  settings.kind = Kind::hills;
+  settings.vary = Vary::generations;
+  const Key key{.seed = 7, .generation = 40, .set = 1};
+  const io::Json json = to_json(settings, key);
+  EXPECT_EQ(field_from_json(io::JsonView(json, "test")).heights_m(), make_field(settings, key).heights_m());
+}
+
+}  // namespace
+}  // namespace amble::ground
