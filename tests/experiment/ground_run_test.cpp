@@ -76,7 +76,7 @@ TEST(GroundRun, TestsChampionsOnGroundThatEvolutionHasNotMet) {
 TEST(GroundRun, CountsAFallByTheHeightOverTheGroundBelow) {
   // Hills from −1 to 1 m: robots that start in a hollow have not fallen, and on a hill they still can.
   Problem problem =
-      small_problem(small_config({"engine=batch", "ground.kind=hills", "ground.height_m=2",
+      small_problem(small_config({"engine=batch", "ground.kind=hills", "ground.height_m=4",
                                   "ground.length_m=5", "ground.start_place_m=100", "trial.duration_s=0.1"}));
   const auto population = small_population(problem);
   double lowest_m = 0.0, highest_m = 0.0;

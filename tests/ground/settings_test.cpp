@@ -27,7 +27,7 @@ TEST(GroundSettings, AreRefusedWhereTheyContradictEachOther) {
   EXPECT_EQ(refusal([](Settings&) {}), "accepted");
   EXPECT_EQ(refusal([](Settings& s) { s.length_m = 0.05; }),
             "ground.length_m = 0.05: expected at least two cells of 0.04 m (ground.cell_m)");
-  EXPECT_NE(refusal([](Settings& s) { s.start_radius_m = 5.0; }).find("expected a larger ground.cell_m"),
+  EXPECT_NE(refusal([](Settings& s) { s.start_radius_m = 5.2; }).find("expected a larger ground.cell_m"),
             std::string::npos);
   EXPECT_EQ(refusal([](Settings& s) { s.friction = -0.5; }),
             "ground.friction = -0.5: expected 0 or more, or -1 for the robot's own");
