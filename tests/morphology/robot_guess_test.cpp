@@ -56,6 +56,7 @@ TEST_P(EachModel, BecomesARobotThatStands) {
   for (const robot::Leg& leg : robot.legs)
     lowest = std::min(lowest, robot::start_clearance_m(robot, leg.foot_geom));
   EXPECT_NEAR(lowest, 0.0, 1e-3);
+  EXPECT_GE(lowest, -1e-9) << "not in the ground";
   for (const robot::Joint& joint : robot.joints) {
     const robot::AngleRange command = joint.command_range();
     EXPECT_GE(command.lower_rad, -0.8001);
@@ -229,6 +230,22 @@ TEST(LegGuess, SeparatesNumbersFromWordsWhereItMust) {
   EXPECT_THAT(words_of("FRHipJoint"), ElementsAre("FR", "Hip", "Joint"));
   EXPECT_THAT(words_of("leg1-knee"), ElementsAre("leg1", "knee"));
   EXPECT_THAT(words_of("knee12", true), ElementsAre("knee", "12"));
+}
+
+TEST(LegGuess, HoldsAWaistThatCarriesTwoLegs) {
+  const Files files;
+  std::vector<tests::LegText> legs = four_legs();
+  std::string hind = R"(<body name="hind" pos="-0.3 0 0"><joint name="waist" axis="0 0 1" range="-20 20"/>
+    <geom size="0.05" mass="0.5"/>)";
+  for (std::size_t l = 2; l < 4; ++l) hind += tests::leg_text(legs[l]);
+  legs.resize(2);
+  const std::string text = model_text(legs, "<freejoint/>", hind + "</body>");
+  const ModelParts parts = extract_parts(compile_model(files.write("m.xml", text)));
+  const LegsGuess guessed = guess_legs(parts);
+  ASSERT_EQ(guessed.held.size(), 1u);
+  EXPECT_EQ(parts.joints[static_cast<std::size_t>(guessed.held[0])].name, "waist");
+  ASSERT_EQ(guessed.legs.size(), 4u);
+  for (const LegGuess& leg : guessed.legs) EXPECT_EQ(leg.joints.size(), 2u) << leg.name;
 }
 
 TEST(LegGuess, TakesAFootThatCollidesOnTheLastBody) {
