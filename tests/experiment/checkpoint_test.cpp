@@ -66,6 +66,7 @@ TEST_F(Checkpoint, RestoresProgressAndPopulation) {
   EXPECT_EQ(progress.best_generation, 1);
   EXPECT_EQ(progress.evaluations, 120u);
   EXPECT_EQ(progress.steps, 9999u);
+  EXPECT_EQ(progress.wall_s, 1.5);
   EXPECT_EQ(progress.csv_bytes, 321u);
   EXPECT_EQ(other.strategy->round(), 3);
   ASSERT_TRUE(std::ranges::equal(other.strategy->ask(), state_.strategy->ask()));

@@ -386,6 +386,18 @@ TEST(GaitMeter, NamesTheGaitsOfTwoLegs) {
   EXPECT_DOUBLE_EQ(run.gait_seconds[static_cast<std::size_t>(Gait::run)], 18.0);
 }
 
+TEST(GaitMeter, TakesTheDutyFactorOfTwoLegsFromBoth) {
+  // The right foot is on the ground for twice as long as the left one.
+  const Clockwork left{.stride = 80, .stance = 20, .offset = {0}},
+      right{.stride = 80, .stance = 40, .offset = {40}};
+  Feeder feeder(2);
+  for (int k = 0; k < 2000; ++k) feeder.add({left.touch(k)[0], right.touch(k)[0]});
+  const Report report = feeder.finish();
+  EXPECT_NEAR(report.legs[0].duty_factor.value(), 0.25, 1e-12);
+  EXPECT_NEAR(report.legs[1].duty_factor.value(), 0.5, 1e-12);
+  EXPECT_NEAR(report.biped->duty_factor, 0.375, 1e-12);
+}
+
 TEST(GaitMeter, OfATrialThatEndsAtOnceSaysThatThereWasNothing) {
   for (const int frames : {0, 1, 5, 150}) {
     Feeder feeder;

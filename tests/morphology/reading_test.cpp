@@ -241,6 +241,18 @@ TEST(Reading, LeavesOutPicturesOfMissingMeshesButNoCollisionShapes) {
             "m.xml: collision meshes that are missing, or neither STL, OBJ nor MSH: gone.stl");
 }
 
+TEST(Reading, NeedsNoFilesOfTexturesAndHeightFields) {
+  const Files files;
+  std::string xml =
+      with(one_leg_xml, "<worldbody>",
+           R"(<asset><texture name="wood" type="2d" file="gone.png"/><material name="wooden" texture="wood"/>
+         <hfield name="hills" file="gone.png" size="1 1 1 1"/></asset><worldbody><geom type="hfield" hfield="hills"/>)");
+  xml = with(xml, R"(<geom name="thigh")", R"(<geom name="thigh" material="wooden")");
+  const ModelParts parts = read_parts(files, xml);
+  EXPECT_EQ(parts.geoms.size(), 4u);
+  EXPECT_THAT(parts.notes.text(), HasSubstr("height fields"));
+}
+
 TEST(Reading, MakesTheConvexHullOfAMesh) {
   const Files files;
   // A cube with points inside and on its faces.

@@ -56,6 +56,7 @@ TEST_P(EachModel, BecomesARobotThatStands) {
   for (const robot::Leg& leg : robot.legs)
     lowest = std::min(lowest, robot::start_clearance_m(robot, leg.foot_geom));
   EXPECT_NEAR(lowest, 0.0, 1e-3);
+  EXPECT_GE(lowest, -1e-9) << "not in the ground";
   for (const robot::Joint& joint : robot.joints) {
     const robot::AngleRange command = joint.command_range();
     EXPECT_GE(command.lower_rad, -0.8001);
@@ -115,6 +116,51 @@ TEST(RobotGuess, GivesAMotorAGainThatBearsTheWeight) {
   EXPECT_EQ(servo.max_torque_nm, 6.0);
   // Weight × leg length / legs at 0.1 rad: 5.2 kg, 0.41 m to the foot's centre.
   EXPECT_NEAR(servo.kp_nm_per_rad * 0.1, 5.2 * 9.81 * 0.41 / 4, 0.01);
+}
+
+TEST(RobotGuess, LimitsAMotorByTheFarEndOfItsControlRange) {
+  const Files files;
+  for (const char* range : {"-3 1", "-1 3"}) {
+    const std::string motor = fmt::format(R"(motor gear="2" ctrlrange="{}")", range);
+    const SmallModel model{
+        "lopsided", "xml", model_text(four_legs(), "<freejoint/>", "", tests::motors(motor)), 4, 8, 0};
+    EXPECT_EQ(load(files, model).joints[0].servo.max_torque_nm, 6.0) << range;
+  }
+}
+
+TEST(RobotGuess, CountsGearsInTheGainsAndTorquesOfPositionActuators) {
+  // Torque = gear × force, force = kp (control − gear × angle).
+  const Files files;
+  const SmallModel model{
+      "geared",
+      "xml",
+      model_text(
+          four_legs(), "<freejoint/>", "",
+          tests::motors(
+              R"(general biastype="affine" gainprm="40" biasprm="0 -40 -2" gear="3" forcerange="-9 9")")),
+      4,
+      8,
+      0};
+  const robot::Servo servo = load(files, model).joints[0].servo;
+  EXPECT_EQ(servo.mode, robot::ServoMode::torque);
+  EXPECT_EQ(servo.kp_nm_per_rad, 360.0);
+  EXPECT_EQ(servo.kd_nm_s_per_rad, 18.0);
+  EXPECT_EQ(servo.max_torque_nm, 27.0);
+}
+
+TEST(RobotGuess, CommandsEachLegWithinItsOwnStops) {
+  // Hips of the front legs turn further than commands are to reach, those of the hind legs do not.
+  const Files files;
+  std::vector<tests::LegText> legs = four_legs();
+  legs[0].hip = legs[1].hip = R"(range="-90 90")";
+  const robot::RobotSpec robot = load(files, {"two_ranges", "xml", model_text(legs), 4, 8, 0});
+  for (std::size_t l = 0; l < 4; ++l) {
+    const auto hip = std::ranges::find(robot.joints, robot.legs[l].name + "_hip", &robot::Joint::name);
+    ASSERT_NE(hip, robot.joints.end());
+    const double farthest_rad = l < 2 ? 0.8 : 40.0 * std::acos(-1.0) / 180.0;
+    EXPECT_NEAR(hip->command_range().lower_rad, -farthest_rad, 1e-3) << l;
+    EXPECT_NEAR(hip->command_range().upper_rad, farthest_rad, 1e-3) << l;
+  }
 }
 
 TEST(RobotGuess, GivesJointsWithoutMotorsTwiceTheTorqueThatBearsTheWeight) {
@@ -184,6 +230,22 @@ TEST(LegGuess, SeparatesNumbersFromWordsWhereItMust) {
   EXPECT_THAT(words_of("FRHipJoint"), ElementsAre("FR", "Hip", "Joint"));
   EXPECT_THAT(words_of("leg1-knee"), ElementsAre("leg1", "knee"));
   EXPECT_THAT(words_of("knee12", true), ElementsAre("knee", "12"));
+}
+
+TEST(LegGuess, HoldsAWaistThatCarriesTwoLegs) {
+  const Files files;
+  std::vector<tests::LegText> legs = four_legs();
+  std::string hind = R"(<body name="hind" pos="-0.3 0 0"><joint name="waist" axis="0 0 1" range="-20 20"/>
+    <geom size="0.05" mass="0.5"/>)";
+  for (std::size_t l = 2; l < 4; ++l) hind += tests::leg_text(legs[l]);
+  legs.resize(2);
+  const std::string text = model_text(legs, "<freejoint/>", hind + "</body>");
+  const ModelParts parts = extract_parts(compile_model(files.write("m.xml", text)));
+  const LegsGuess guessed = guess_legs(parts);
+  ASSERT_EQ(guessed.held.size(), 1u);
+  EXPECT_EQ(parts.joints[static_cast<std::size_t>(guessed.held[0])].name, "waist");
+  ASSERT_EQ(guessed.legs.size(), 4u);
+  for (const LegGuess& leg : guessed.legs) EXPECT_EQ(leg.joints.size(), 2u) << leg.name;
 }
 
 TEST(LegGuess, TakesAFootThatCollidesOnTheLastBody) {

@@ -107,5 +107,63 @@ TEST_P(Divergence, AnAbsurdSpeedOfAJointIsNotHealthyThoughTheRootHardlyMoves) {
   }
 }
 
+TEST_P(Divergence, AnAbsurdSpeedOfAnyOneJointIsNotHealthy) {
+  // All motors are rigid; the torso has 10 t, so that it stays.
+  robot::RobotSpec robot = weightless(quadruped());
+  robot.bodies[0].mass_kg = 1e4;
+  robot.bodies[0].inertia_kg_m2 = {1e4, 1e4, 1e4};
+  for (auto& joint : robot.joints) {
+    joint.lower_rad = -3.0;
+    joint.upper_rad = 3.0;
+    joint.servo = {.mode = robot::ServoMode::velocity, .gain_per_s = 1.0, .max_torque_nm = 1e9};
+  }
+  for (const double speed_rad_s : {900.0, 2000.0})
+    for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+      robot::RobotSpec fast = robot;
+      fast.joints[j].servo.gain_per_s = speed_rad_s;
+      Bench bench(GetParam(), fast);
+      bench.targets.at(static_cast<int>(j), 0) = 1.0f;
+      bench.steps(1);
+      EXPECT_EQ(bench.engine->healthy(0), speed_rad_s < absurd_speed) << j << ' ' << speed_rad_s;
+    }
+}
+
+/// A light root, a wheel on it and a heavy wheel on that one, all balanced on one axle. Their motors turn
+/// them against each other at this speed, so the root turns at twice that speed, and no centre of mass moves.
+robot::RobotSpec wheels(double speed_rad_s) {
+  robot::RobotSpec robot = weightless(scene("pendulum"));
+  robot::Joint& joint = robot.joints[0];
+  joint.anchor_m = {};
+  joint.servo = {.mode = robot::ServoMode::velocity, .gain_per_s = speed_rad_s, .max_torque_nm = 1e9};
+  robot.bodies[1].position_m = {};
+  for (robot::Body& body : robot.bodies) {
+    body.com_m = {};
+    body.mass_kg = 1.0;
+    body.inertia_kg_m2 = {0.01, 0.01, 0.01};
+    body.inertia_rotation = {};
+  }
+  robot.bodies.push_back(robot.bodies[1]);
+  robot.bodies[2].name = "heavy wheel";
+  robot.bodies[2].parent = 1;
+  robot.bodies[2].mass_kg = 1e3;
+  robot.bodies[2].inertia_kg_m2 = {1e3, 1e3, 1e3};
+  robot.joints.push_back(joint);
+  robot.joints[1].name = "second";
+  robot.joints[1].body = 2;
+  robot.joints[1].command = robot::AngleRange{joint.lower_rad, joint.upper_rad};
+  return robot;
+}
+
+TEST_P(Divergence, AnAbsurdTurningOfTheRootIsNotHealthyThoughNothingElseIsAbsurd) {
+  for (const double speed_rad_s : {400.0, 900.0}) {
+    Bench bench(GetParam(), wheels(speed_rad_s));
+    const Vec3 root_before_m = bench.engine->root_com_m(0);
+    bench.targets.set_lane(0, 1.0f);
+    bench.steps(1);
+    EXPECT_EQ(bench.engine->healthy(0), 2.0 * speed_rad_s < absurd_speed) << speed_rad_s;
+    EXPECT_LT(norm(bench.engine->root_com_m(0) - root_before_m), 0.01) << speed_rad_s;
+  }
+}
+
 }  // namespace
 }  // namespace amble::physics

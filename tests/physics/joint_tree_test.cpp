@@ -153,5 +153,27 @@ TEST_P(ManyTurns, AStopBeyondHalfATurnHolds) {
     }
 }
 
+TEST_P(ManyTurns, AStopBeyondHalfATurnHoldsOnEitherOfTwoHingesThatCross) {
+  // The other stop is within half a turn.
+  for (const int j : {1, 2}) {
+    robot::RobotSpec robot = weightless(quadruped());
+    robot::Joint& joint = robot.joints[to_index(j)];
+    joint.lower_rad = -4.5;
+    joint.upper_rad = 0.8;
+    joint.command = robot::AngleRange{-3.0, 0.8};
+    joint.servo = {.mode = robot::ServoMode::velocity, .gain_per_s = 4.0, .max_torque_nm = 3.0};
+    Bench bench(GetParam(), robot);
+    bench.targets.at(j, 0) = -10.0f;
+    double farthest = 0.0;
+    for (int n = 0; n < 800; ++n) {
+      bench.steps(1);
+      farthest = std::min(farthest, bench.angle(j));
+    }
+    EXPECT_NEAR(farthest, -4.5, 0.1) << j;
+    EXPECT_NEAR(bench.angle(j), -4.5, 1e-2) << j;
+    EXPECT_TRUE(bench.engine->healthy(0)) << j;
+  }
+}
+
 }  // namespace
 }  // namespace amble::physics

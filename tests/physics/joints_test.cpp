@@ -4,8 +4,10 @@
 #include <numbers>
 #include <vector>
 
+#include "amble/core/index.hpp"
 #include "amble/core/random.hpp"
 #include "tests/physics/scene.hpp"
+#include "tests/robot/legged.hpp"
 
 namespace amble::physics {
 namespace {
@@ -131,6 +133,23 @@ TEST_P(SelfCollision, LetsLegsPassThroughEachOtherUnlessItIsOn) {
   };
   EXPECT_NEAR(meeting(false), 1.6, 0.01);
   EXPECT_LT(meeting(true), 1.3);
+}
+
+TEST(MujocoSelfCollision, OfAllLegsAtOnceLosesNoContact) {
+  // Six large feet push each other apart, more pairs than there are places to touch the ground: the left legs
+  // move like the right ones.
+  robot::RobotSpec robot = weightless(tests::legged_robot(3));
+  robot.self_collision = true;
+  for (const robot::Leg& leg : robot.legs) robot.geoms[to_index(leg.foot_geom)].size_m = {0.45, 0.0, 0.0};
+  Bench bench("mujoco", robot);
+  bench.steps(5);
+  ASSERT_TRUE(bench.engine->healthy(0));
+  for (std::size_t leg = 0; leg < 6; leg += 2)
+    for (std::size_t type = 0; type < 3; ++type) {
+      const int left = robot.legs[leg].joints[type], right = robot.legs[leg + 1].joints[type];
+      EXPECT_NEAR(bench.angle(left), bench.angle(right), 1e-6) << robot.joints[to_index(left)].name;
+    }
+  EXPECT_GT(bench.angle(robot.legs[0].joints[2]), 0.01) << "they do push";
 }
 
 TEST_P(SelfCollision, LeavesStandingAlone) {

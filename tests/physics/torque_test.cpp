@@ -96,6 +96,25 @@ TEST_P(Torques, ReachTheLimitOnEveryAxisOfAQuadrupedFarFromItsTargets) {
   }
 }
 
+TEST_P(Torques, AreTheMotorsOwnWhateverDryFrictionActsBesides) {
+  // Far from their targets all motors give their limits, no two alike; the friction of each joint is less.
+  robot::RobotSpec robot = weightless(quadruped());
+  for (std::size_t j = 0; j < 12; ++j) {
+    robot.joints[j].servo = {.gain_per_s = 90.0, .max_torque_nm = 0.2 + 0.01 * static_cast<double>(j)};
+    robot.joints[j].friction_loss_nm = 0.05;
+  }
+  const auto direction = [&](int j) {
+    return robot.joints[static_cast<std::size_t>(j)].lower_rad < 0.0 ? -1.0 : 1.0;
+  };
+  Bench bench(GetParam(), robot, 0.001, true);
+  for (int j = 0; j < 12; ++j) bench.targets.at(j, 0) = static_cast<float>(0.8 * direction(j));
+  for (int n = 0; n < 20; ++n) {
+    bench.steps(1);
+    for (int j = 0; j < 12; ++j)
+      ASSERT_NEAR(torque(bench, j), direction(j) * (0.2 + 0.01 * j), 1e-6) << n << " " << j;
+  }
+}
+
 TEST_P(Torques, OfATorqueServoAreItsLaw) {
   robot::RobotSpec robot = weightless(scene("pendulum"));
   robot.joints[0].servo = {

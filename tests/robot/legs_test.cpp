@@ -65,5 +65,18 @@ TEST(LeggedRobot, PassesTheChecksOfRobots) {
       check_robot(robot, [](const std::string& problem) { ADD_FAILURE() << problem; });
 }
 
+TEST(HipJoint, IsTheOneNextToTheTorsoWhicheverJointsTheLegHas) {
+  // The first hinge of the upper leg belongs to no leg: the hip is the second one, not the knee, though that
+  // is the first of its body.
+  RobotSpec robot = tests::legged_robot(1);
+  Leg& leg = robot.legs[0];
+  leg.joints[2] = -1;
+  EXPECT_EQ(hip_joint(robot, leg), leg.joints[1]);
+  leg.joints[1] = -1;
+  EXPECT_EQ(hip_joint(robot, leg), leg.joints[0]);
+  leg.joints[0] = -1;
+  EXPECT_EQ(hip_joint(robot, leg), -1);
+}
+
 }  // namespace
 }  // namespace amble::robot

@@ -43,6 +43,15 @@ TEST(Runner, EndsATrialInTheStepThatBringsTheRootBelowTheFallHeight) {
   EXPECT_DOUBLE_EQ(trajectory.com_end_m.x, 11.0);
 }
 
+TEST(Runner, CallsAFallInTheLastStepAFall) {
+  FakeEngine engine(1);
+  FakeBatch batch(1);
+  Queue queue({FakeParameters(1.0f)});
+  Runner(engine, batch, protocol(11, 0.9895)).run(queue, never);
+  EXPECT_EQ(queue.results[0]->outcome, record::Outcome::fell);
+  EXPECT_EQ(queue.results[0]->steps, 11);
+}
+
 TEST(Runner, LetsATrialGoOnWhoseRootIsAtTheFallHeightItself) {
   double height_m = 1.0;  // after five steps, to the bit
   for (int step = 0; step < 5; ++step) height_m -= 0.001;
