@@ -24,11 +24,14 @@ build:
 	cmake --preset release
 	cmake --build --preset release
 
+# The programs that tests run (browser, Slurm) are installed while the tests compile. One job more than processors: a test that
+# waits needs none.
 test:
-	./setup --dev
-	cmake --preset $(PRESET)
-	cmake --build --preset $(PRESET)
-	ctest --preset $(PRESET) -j $(JOBS)
+	./setup $(if $(filter fuzz,$(PRESET)),--dev,--test)
+	@{ ./setup --tools && viewer/install-packages >/dev/null; } & tools=$$!; \
+	set -ex; cmake --preset $(PRESET); cmake --build --preset $(PRESET); \
+	wait $$tools || echo "some tests will be skipped: see above"; \
+	ctest --preset $(PRESET) -j $$(($(JOBS) + 1))
 
 bench:
 	./setup --dev
