@@ -11,6 +11,7 @@
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
 #include "amble/experiment/replay.hpp"
+#include "amble/experiment/run_folder.hpp"
 #include "amble/gait/report_text.hpp"
 #include "amble/io/file.hpp"
 #include "amble/record/frame_codec.hpp"
@@ -30,19 +31,20 @@ struct TrialOptions {
 constexpr std::uint32_t most_episodes = 1000000;
 
 ExitCode run_trial(const TrialOptions& options) {
-  const auto champion = experiment::load_champion(options.champion);
+  const auto path = experiment::champion_at(options.champion);
+  const auto champion = experiment::load_champion(path);
   if (options.record) io::refuse_to_replace(*options.record, record::recording_magic, "a recording");
   study::GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
   experiment::ReplayOptions how{.seconds = options.seconds,
                                 .engine = options.engine,
                                 .record = options.record,
-                                .origin = options.champion.string(),
+                                .origin = path.string(),
                                 .observer = &gait,
                                 .trace = false,
                                 .noise = {}};
   if (options.noise) {
     if (!champion.problem.noise.any())
-      fail(ExitCode::bad_input, "--noise: {} was evolved without noise", options.champion.string());
+      fail(ExitCode::bad_input, "--noise: {} was evolved without noise", path.string());
     how.noise = champion.scenario_key(*options.noise);
   }
   const auto replay = experiment::replay(champion.problem, champion.genome, how, stop_signal());
@@ -69,10 +71,11 @@ ExitCode run_trial(const TrialOptions& options) {
 void add_trial(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("trial", "Let a champion walk again, for as long as you like");
   auto options = std::make_shared<TrialOptions>();
-  command->add_option("CHAMPION", options->champion, "Champion file (JSON)")->required();
+  command->add_option("CHAMPION", options->champion, "Champion file, or run folder (its best champion)")
+      ->required();
   command->add_option("--seconds", options->seconds, "Length of the trial, s (default: as in its evolution)")
       ->check(seconds_check());
-  command->add_option("--engine", options->engine, "Physics engine (default: as in its evolution)");
+  add_engine(*command, options->engine, "Physics engine (default: as in its evolution)");
   command->add_option("--record", options->record, "Write every step to this recording");
   command
       ->add_option(

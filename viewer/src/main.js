@@ -37,6 +37,8 @@ const publicApi = (page) => ({
   stances: (i, leg) => page.walks[i].stances[leg],
   /** Where the stage has put a walker's root and feet: [[x, y, z], …]; the root first. */
   placed: (i) => page.stage.lanes[i].model.placed(),
+  /** {colour, outlined} of a foot now. */
+  foot: (i, leg) => page.stage.lanes[i].model.footLook(leg),
   /** Where it is in the picture: [x, y], −1 … 1 to the right and up. */
   seen: (i) => page.stage.seen(i),
   /** Draws now, without waiting for the browser's next frame. */
