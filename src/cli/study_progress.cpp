@@ -153,7 +153,7 @@ void StudyProgress::on(const StudyEvent& event) {
 
 void StudyProgress::print(const std::string& line, bool stays) {
   if (!terminal_) return print_message(line + "\n");
-  print_message("\r\033[K" + line + (stays ? "\n" : ""));
+  print_message("\r\033[K" + (stays ? line + "\n" : shortened(line, terminal_columns() - 1)));
   open_ = !stays;
 }
 
