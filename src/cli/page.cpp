@@ -92,6 +92,9 @@ page::RunPage page_of(const experiment::RunPaths& paths, const experiment::Confi
       .subtitle = fmt::format("the champion of {} generations of {}, evolved by amble",
                               champion.generation + 1, config.neat.population.size),
       .generations = record::read_generations(paths.generations),
+      .objective = config.score.is_distance()
+                       ? figures::Objective()
+                       : figures::Objective{.name = "Score", .unit = score::with_unit("", config.score)},
       .cppn = page::CppnSize{champion.genome.count(neat::NodeKind::hidden), champion.genome.enabled_links()},
       .facts = facts(config, champion, engine.value_or(config.engine)),
       .commands = {fmt::format("amble evolve {} --out AGAIN", paths.config.string()),

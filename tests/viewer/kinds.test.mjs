@@ -30,7 +30,7 @@ function changed(path, name, change) {
 
 test("two walkers move by one clock, side by side or one as a ghost of the other", () =>
   onPage(makePage("two.html", recording("walk.rec"), recording("slow.rec")), {}, async (page) => {
-    assert.deepEqual(await page.evaluate(() => window.amble.walkers), ["synthetic, walk", "synthetic, slow"]);
+    assert.deepEqual(await page.evaluate(() => window.amble.walkers), ["test robot, walk", "test robot, slow"]);
     await page.evaluate(() => { window.amble.seek(10); window.amble.render(); });
     const [fast, slow] = await page.evaluate(() => [0, 1].map((i) => window.amble.placed(i)[0][0]));
     assert.ok(Math.abs(fast - 2.5) < 0.01 && Math.abs(slow - 1) < 0.01, `${fast} m, ${slow} m`);
@@ -38,7 +38,7 @@ test("two walkers move by one clock, side by side or one as a ghost of the other
     await page.keyboard.press("g");
     assert.notEqual((await pictureOf(page)).hash, side.hash);
     await page.keyboard.press("2");
-    assert.equal(await page.locator(".walkers [aria-pressed=true]").textContent(), "synthetic, slow");
+    assert.equal(await page.locator(".walkers [aria-pressed=true]").textContent(), "test robot, slow");
     await settled(page);
     assert.equal(await page.locator("#now dd").nth(1).textContent(), "1.00 m");
   }));
