@@ -38,6 +38,7 @@ struct NamedChampion {
 
 std::vector<NamedChampion> load(const std::vector<std::filesystem::path>& inputs) {
   std::vector<NamedChampion> champions;
+  champions.reserve(inputs.size());
   for (const auto& input : inputs)
     champions.push_back({input.string(), experiment::load_champion(experiment::champion_at(input))});
   return champions;

@@ -79,6 +79,7 @@ void add_completion(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand(
       "completion", "Print a script by which a shell completes commands, options and their values");
   std::vector<std::string> names;
+  names.reserve(shells.size());
   for (const Shell& shell : shells) names.emplace_back(shell.name);
   auto name = std::make_shared<std::string>();
   command->add_option("SHELL", *name, "For bash: source <(amble completion bash)")

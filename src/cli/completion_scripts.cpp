@@ -43,7 +43,7 @@ bool takes_files(const OptionSummary& option) {
 /// A branch of bash's `case` for an option with a value: what completes the value.
 std::string bash_value(const std::string& command, const OptionSummary& option) {
   std::vector<std::string> patterns;
-  for (const std::string& name : option.names) patterns.push_back(command + ":" + name);
+  for (const std::string& name : option.names) patterns.push_back(fmt::format("{}:{}", command, name));
   const std::string reply = takes_files(option)
                                 ? "_amble_files"
                                 : fmt::format("_amble_words {}", shell_quoted(joined(option.choices, " ")));

@@ -70,7 +70,7 @@ void ProgressLine::show(const std::vector<std::string>& parts) {
   std::string line;
   for (const std::string& part : parts) {
     if (part.empty()) continue;
-    const std::string longer = line.empty() ? part : line + "  " + part;
+    const std::string longer = line.empty() ? part : fmt::format("{}  {}", line, part);
     if (!line.empty() && shortened(longer, columns) != longer) break;
     line = longer;
   }
