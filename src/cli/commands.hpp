@@ -25,5 +25,7 @@ void add_settings(CLI::App& app, Action& action);
 void add_substrate(CLI::App& app, Action& action);
 void add_study(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
+/// After all others, which it describes.
+void add_completion(CLI::App& app, Action& action);
 
 }  // namespace amble::cli

@@ -38,11 +38,9 @@ struct NamedChampion {
 
 std::vector<NamedChampion> load(const std::vector<std::filesystem::path>& inputs) {
   std::vector<NamedChampion> champions;
-  for (const auto& input : inputs) {
-    const bool is_run = std::filesystem::is_directory(input);
-    const auto path = is_run ? experiment::find_run(input).best_champion() : input;
-    champions.push_back({input.string(), experiment::load_champion(path)});
-  }
+  champions.reserve(inputs.size());
+  for (const auto& input : inputs)
+    champions.push_back({input.string(), experiment::load_champion(experiment::champion_at(input))});
   return champions;
 }
 
@@ -123,6 +121,7 @@ void add_compare(CLI::App& app, Action& action) {
       ->check(seconds_check());
   command->add_option("--engines", options->engines, "Engines besides the champions' own, e.g. ode,mujoco")
       ->delimiter(',')
+      ->type_name(engine_values())
       ->capture_default_str();
   command->add_option("--format", options->format, "What to print: text, markdown or json")
       ->capture_default_str()

@@ -59,6 +59,11 @@ Cells row_cells(const ComparedChampion& row) {
   return cells;
 }
 
+/// What the first cell of summary_cells() means.
+constexpr std::string_view summary_note =
+    "kept 70 %: of how many champions the distance in this engine is at least 70 % of that in the engine in "
+    "which they evolved\n";
+
 /// All champions for one length of time.
 Cells summary_cells(const std::vector<ComparedChampion>& rows, double trial_s) {
   Cells cells{"median; kept 70 %", "", fmt::format("{:g} s", trial_s)};
@@ -106,18 +111,21 @@ std::string compare_text(const std::vector<ComparedChampion>& rows) {
     for (std::size_t c = 0; c < cells.size(); ++c) line += fmt::format("{:<{}}  ", cells[c], widths[c]);
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
+  if (lines.size() > rows.size() + 1) text += summary_note;
   return text;
 }
 
 std::string compare_markdown(const std::vector<ComparedChampion>& rows) {
+  const auto lines = table(rows);
   std::string text;
-  for (const auto& cells : table(rows)) {
+  for (const auto& cells : lines) {
     const bool head = text.empty();
     text += fmt::format("| {} |\n", fmt::join(cells, " | "));
     if (!head) continue;
     for (std::size_t c = 0; c < cells.size(); ++c) text += "|---";
     text += "|\n";
   }
+  if (lines.size() > rows.size() + 1) text += fmt::format("\n{}", summary_note);
   return text;
 }
 

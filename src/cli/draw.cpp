@@ -46,8 +46,7 @@ std::string patterns_svg(const experiment::Champion& champion, const fs::path& p
 
 ExitCode draw(const DrawOptions& options) {
   refuse_unless_ours(options);
-  const fs::path path =
-      fs::is_directory(options.path) ? experiment::find_run(options.path).best_champion() : options.path;
+  const fs::path path = experiment::champion_at(options.path);
   const auto champion = experiment::load_champion(path);
   const figures::CppnGraph graph = cppn_graph(champion);
   if (options.patterns) io::write_file(*options.patterns, patterns_svg(champion, path));
@@ -61,9 +60,12 @@ ExitCode draw(const DrawOptions& options) {
 }  // namespace
 
 void add_draw(CLI::App& app, Action& action) {
-  auto* command = app.add_subcommand("draw", "Draw a champion's CPPN, and the temporal patterns it paints");
+  auto* command = app.add_subcommand("draw",
+                                     "Draw a champion's compositional pattern producing network (CPPN), and "
+                                     "the temporal patterns it paints");
   auto options = std::make_shared<DrawOptions>();
-  command->add_option("CPPN", options->path, "Champion file, or run folder (its best champion)")->required();
+  command->add_option("CHAMPION", options->path, "Champion file, or run folder (its best champion)")
+      ->required();
   command->add_option(
       "-o,--out", options->out,
       "Draw the CPPN into this file, by its name's end SVG or DOT (without this and --patterns: "

@@ -46,7 +46,7 @@ ExitCode execute(experiment::Run run) {
                run.config().generations);
   experiment::RunStatus status;
   {
-    ProgressLine progress(run.generation());
+    ProgressLine progress(run.generation(), run.config());
     status = run.execute(progress, stop_signal());
   }
   if (status == experiment::RunStatus::interrupted) {
@@ -69,6 +69,7 @@ void add_evolve(CLI::App& app, Action& action) {
   command
       ->add_option("--set", options->overrides.assignments,
                    "Lay key.path=value over the config, e.g. population.size=100 (repeatable)")
+      ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command->add_option("--seed", options->overrides.seed, "Seed of all randomness (default: the config's)")
       ->check(between(std::int64_t{0}, experiment::largest_seed));

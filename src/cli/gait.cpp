@@ -45,9 +45,8 @@ std::optional<gait::Report> champion_gait(const fs::path& path, const GaitOption
 }
 
 std::optional<gait::Report> measure(const GaitOptions& options) {
-  if (fs::is_directory(options.path))
-    return champion_gait(experiment::find_run(options.path).best_champion(), options);
-  if (options.path.extension() == ".json") return champion_gait(options.path, options);
+  if (fs::is_directory(options.path) || options.path.extension() == ".json")
+    return champion_gait(experiment::champion_at(options.path), options);
   if (options.engine) fail(ExitCode::bad_input, "--engine: a recording has been made already");
   return gait::recorded_gait(options.path, options.settings, options.seconds);
 }
@@ -78,7 +77,7 @@ void add_gait(CLI::App& app, Action& action) {
       ->add_option("--seconds", options->seconds,
                    "Length of the trial, s (default: as in its evolution), or of the part of a recording")
       ->check(seconds_check());
-  command->add_option("--engine", options->engine, "Physics engine (default: as in its evolution)");
+  add_engine(*command, options->engine, "Physics engine (default: as in its evolution)");
   command->add_option("--json", options->json, "Write all figures to this file; - prints them instead");
   auto& settings = options->settings;
   command->add_option("--debounce", settings.debounce_s, "Shorter gaps and touches are chatter, s")

@@ -45,6 +45,11 @@ ExitCode run(int argc, char** argv) {
   amble::cli::add_draw(app, action);
   amble::cli::add_settings(app, action);
   amble::cli::add_substrate(app, action);
+  amble::cli::add_completion(app, action);
+  if (argc == 1) {
+    fmt::print("{}", app.help());
+    return ExitCode::ok;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help, --version

@@ -1,8 +1,10 @@
 #include "amble/cli/messages.hpp"
 
 #include <fcntl.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace amble::cli {
@@ -10,6 +12,20 @@ namespace amble::cli {
 void print_message(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
+}
+
+int terminal_columns() {
+  winsize size{};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+}
+
+std::string shortened(std::string_view text, int most) {
+  const auto begins_character = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
+  if (most <= 0 || std::ranges::count_if(text, begins_character) <= most) return std::string(text);
+  std::size_t end = 0;
+  for (int characters = 0; end < text.size(); ++end)
+    if (begins_character(text[end]) && ++characters == most) break;
+  return std::string(text.substr(0, end)) + "…";
 }
 
 void reserve_standard_streams() {

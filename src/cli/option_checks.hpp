@@ -4,7 +4,10 @@
 
 #include <CLI/CLI.hpp>
 #include <concepts>
+#include <optional>
 #include <string>
+
+#include "amble/physics/engine.hpp"
 
 namespace amble::cli {
 
@@ -18,6 +21,16 @@ CLI::Validator between(Number lower, Number upper) {
                        lower, upper);
   };
   return CLI::Validator(error, "");
+}
+
+/// The engines' names as an option's help lists its values.
+inline std::string engine_values() {
+  return fmt::format("{}", fmt::join(physics::engine_names(), "|"));
+}
+
+/// Adds the option --engine.
+inline void add_engine(CLI::App& command, std::optional<std::string>& engine, const std::string& what) {
+  command.add_option("--engine", engine, what)->type_name(engine_values());
 }
 
 /// Check of the length of a trial.

@@ -11,6 +11,7 @@
 
 #include "amble/cli/commands.hpp"
 #include "amble/cli/compare_table.hpp"
+#include "amble/cli/option_checks.hpp"
 #include "amble/cli/scratch_file.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/build_info.hpp"
@@ -91,6 +92,9 @@ page::RunPage page_of(const experiment::RunPaths& paths, const experiment::Confi
       .subtitle = fmt::format("the champion of {} generations of {}, evolved by amble",
                               champion.generation + 1, config.neat.population.size),
       .generations = record::read_generations(paths.generations),
+      .objective = config.score.is_distance()
+                       ? figures::Objective()
+                       : figures::Objective{.name = "Score", .unit = score::with_unit("", config.score)},
       .cppn = page::CppnSize{champion.genome.count(neat::NodeKind::hidden), champion.genome.enabled_links()},
       .facts = facts(config, champion, engine.value_or(config.engine)),
       .commands = {fmt::format("amble evolve {} --out AGAIN", paths.config.string()),
@@ -124,8 +128,8 @@ void add_page(CLI::App& app, Action& action) {
   command->add_option("-o,--out", options->out, "The page to write (HTML)")->required();
   command->add_option("--figures", options->figures,
                       "Also write each figure as an SVG file into this folder");
-  command->add_option("--engine", options->engine,
-                      "Physics engine in which the champion is shown (default: as in its evolution)");
+  add_engine(*command, options->engine,
+             "Physics engine in which the champion is shown (default: as in its evolution)");
   command->callback([options, &action] { action = [options] { return make_page(*options); }; });
 }
 

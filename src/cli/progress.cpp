@@ -28,8 +28,15 @@ std::string clock_text(double seconds) {
   return fmt::format("{}:{:02}", minutes, rest);
 }
 
-ProgressLine::ProgressLine(int first_generation)
-    : terminal_(isatty(STDERR_FILENO) != 0), first_generation_(first_generation), start_s_(now_s()) {}
+ProgressLine::ProgressLine(int first_generation, const experiment::Config& config)
+    : terminal_(isatty(STDERR_FILENO) != 0), first_generation_(first_generation), start_s_(now_s()) {
+  if (first_generation >= config.generations) return;
+  const int episodes = config.noise.any() ? config.noise.episodes : 1;
+  show({fmt::format("generation {}/{}", first_generation + 1, config.generations),
+        fmt::format("{} genomes × {}{:g} s in {}", config.neat.population.size,
+                    episodes > 1 ? fmt::format("{} × ", episodes) : "", config.trial.duration_s,
+                    config.engine)});
+}
 
 ProgressLine::~ProgressLine() {
   if (open_) print_message("\n");
@@ -49,12 +56,25 @@ void ProgressLine::on_generation(const experiment::GenerationRow& row, const exp
     return score::with_unit(fmt::format("{:.2f}", score), config.score);
   };
   const auto species = row.metric("species");
-  const auto line = fmt::format("generation {}/{}  best {}  median {}{}{}  {} evaluations/s  {} {}", done,
-                                config.generations, text(progress.best), text(row.median),
-                                species ? fmt::format("  {:.0f} species", *species) : "",
-                                row.diverged > 0 ? fmt::format("  {} diverged", row.diverged) : "",
-                                rate_text(static_cast<double>(row.evaluations) / row.wall_s),
-                                last ? "took" : "left", clock_text(last ? now - start_s_ : left_s));
+  show({fmt::format("generation {}/{}", done, config.generations),
+        fmt::format("best {}", text(progress.best)),
+        fmt::format("{} {}", last ? "took" : "left", clock_text(last ? now - start_s_ : left_s)),
+        fmt::format("median {}", text(row.median)),
+        row.diverged > 0 ? fmt::format("{} diverged", row.diverged) : "",
+        fmt::format("{} evaluations/s", rate_text(static_cast<double>(row.evaluations) / row.wall_s)),
+        species ? fmt::format("{:.0f} species", *species) : ""});
+}
+
+void ProgressLine::show(const std::vector<std::string>& parts) {
+  const int columns = terminal_ ? terminal_columns() - 1 : 0;  // in the last one, some terminals begin a line
+  std::string line;
+  for (const std::string& part : parts) {
+    if (part.empty()) continue;
+    const std::string longer = line.empty() ? part : fmt::format("{}  {}", line, part);
+    if (!line.empty() && shortened(longer, columns) != longer) break;
+    line = longer;
+  }
+  line = shortened(line, columns);
   print_message(terminal_ ? "\r\033[K" + line : line + "\n");
   open_ = terminal_;
 }

@@ -1,21 +1,26 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "amble/experiment/run.hpp"
 
 namespace amble::cli {
 
-/// Shows the progress of a run on stderr: on a terminal one line that is rewritten, else a plain line from
-/// time to time.
+/// Shows the progress of a run on stderr: on a terminal one line that is rewritten, and as short as the
+/// terminal is wide; else a plain line from time to time. The first is there before the first generation
+/// ends.
 class ProgressLine : public experiment::RunListener {
  public:
-  explicit ProgressLine(int first_generation);
+  ProgressLine(int first_generation, const experiment::Config& config);
   ~ProgressLine() override;
   void on_generation(const experiment::GenerationRow& row, const experiment::Progress& progress,
                      const experiment::Config& config) override;
 
  private:
+  /// The parts of a line, the most important first.
+  void show(const std::vector<std::string>& parts);
+
   bool terminal_;
   bool open_ = false;  ///< a rewritten line has no newline yet
   int first_generation_;

@@ -181,6 +181,7 @@ void add_study(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->check(between(1, 1024));
   command->add_option("--shard", options->shard, "The I-th of N parts of the study, e.g. 2/8")
+      ->type_name("I/N")
       ->capture_default_str();
   command->add_flag("--discard-runs", options->discard_runs,
                     "Remove a run's folder once its record is in the ledger");

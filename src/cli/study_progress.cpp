@@ -13,6 +13,7 @@
 #include "amble/core/clock.hpp"
 #include "amble/core/index.hpp"
 #include "amble/io/printable.hpp"
+#include "amble/score/score.hpp"
 
 namespace amble::cli {
 namespace {
@@ -135,7 +136,10 @@ void StudyProgress::on(const StudyEvent& event) {
       at_s_.erase(event.run);
       left_[event.run] = 0;
       ++done_;
-      print(fmt::format("{}: {:.2f} m; {} of {} runs done", plan_.name(run), event.best_m, done_, total_),
+      print(fmt::format(
+                "{}: {}; {} of {} runs done", plan_.name(run),
+                score::with_unit(fmt::format("{:.2f}", event.best_m), plan_.condition(run).config.score),
+                done_, total_),
             true);
       break;
     case StudyEvent::Kind::failure:
@@ -153,7 +157,7 @@ void StudyProgress::on(const StudyEvent& event) {
 
 void StudyProgress::print(const std::string& line, bool stays) {
   if (!terminal_) return print_message(line + "\n");
-  print_message("\r\033[K" + line + (stays ? "\n" : ""));
+  print_message("\r\033[K" + (stays ? line + "\n" : shortened(line, terminal_columns() - 1)));
   open_ = !stays;
 }
 

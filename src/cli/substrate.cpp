@@ -69,6 +69,7 @@ void add_substrate(CLI::App& app, Action& action) {
   command->add_option("CONFIG", options->config, "Config file (TOML)")->required();
   command
       ->add_option("--set", options->overrides.assignments, "Lay key.path=value over the config (repeatable)")
+      ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command->add_flag("--toml", options->toml,
                     "Print them as the table [controller.substrate] of a config, to be edited");

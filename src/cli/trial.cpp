@@ -11,6 +11,7 @@
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
 #include "amble/experiment/replay.hpp"
+#include "amble/experiment/run_folder.hpp"
 #include "amble/gait/report_text.hpp"
 #include "amble/io/file.hpp"
 #include "amble/record/frame_codec.hpp"
@@ -25,24 +26,37 @@ struct TrialOptions {
   std::optional<std::string> engine;
   std::optional<std::filesystem::path> record;
   std::optional<std::uint32_t> noise;
+  std::optional<std::filesystem::path> ground;
 };
 
 constexpr std::uint32_t most_episodes = 1000000;
 
+/// Puts a champion on the ground of a config.
+void walk_on_ground_of(const std::filesystem::path& path, experiment::Champion& champion) {
+  const auto config = experiment::load_config(path, {});
+  try {
+    champion.problem.walk_on(config.ground);
+  } catch (const SettingError& error) {
+    throw config.placed(error);
+  }
+}
+
 ExitCode run_trial(const TrialOptions& options) {
-  const auto champion = experiment::load_champion(options.champion);
+  const auto path = experiment::champion_at(options.champion);
+  auto champion = experiment::load_champion(path);
+  if (options.ground) walk_on_ground_of(*options.ground, champion);
   if (options.record) io::refuse_to_replace(*options.record, record::recording_magic, "a recording");
   study::GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
   experiment::ReplayOptions how{.seconds = options.seconds,
                                 .engine = options.engine,
                                 .record = options.record,
-                                .origin = options.champion.string(),
+                                .origin = path.string(),
                                 .observer = &gait,
                                 .trace = false,
                                 .noise = {}};
   if (options.noise) {
     if (!champion.problem.disturbed())
-      fail(ExitCode::bad_input, "--noise: {} was evolved without noise, and from one place", options.champion.string());
+      fail(ExitCode::bad_input, "--noise: {} was evolved without noise, and from one place", path.string());
     how.noise = champion.scenario_key(*options.noise);
   }
   const auto replay = experiment::replay(champion.problem, champion.genome, how, stop_signal());
@@ -69,10 +83,11 @@ ExitCode run_trial(const TrialOptions& options) {
 void add_trial(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("trial", "Let a champion walk again, for as long as you like");
   auto options = std::make_shared<TrialOptions>();
-  command->add_option("CHAMPION", options->champion, "Champion file (JSON)")->required();
+  command->add_option("CHAMPION", options->champion, "Champion file, or run folder (its best champion)")
+      ->required();
   command->add_option("--seconds", options->seconds, "Length of the trial, s (default: as in its evolution)")
       ->check(seconds_check());
-  command->add_option("--engine", options->engine, "Physics engine (default: as in its evolution)");
+  add_engine(*command, options->engine, "Physics engine (default: as in its evolution)");
   command->add_option("--record", options->record, "Write every step to this recording");
   command
       ->add_option(
@@ -80,6 +95,8 @@ void add_trial(CLI::App& app, Action& action) {
           "Disturb the trial as in this episode of its evaluation, from 0; higher numbers are noise that "
           "it has not met (default: no noise)")
       ->check(between(0u, most_episodes));
+  command->add_option("--ground", options->ground,
+                      "Walk on the [ground] of this config (default: as in its evolution)");
   command->callback([options, &action] { action = [options] { return run_trial(*options); }; });
 }
 

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <deque>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/scratch_file.hpp"
 #include "amble/cli/stop_signal.hpp"
+#include "amble/core/index.hpp"
 #include "amble/experiment/build_info.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run_folder.hpp"
@@ -19,6 +22,8 @@
 #include "amble/gait/recorded_gait.hpp"
 #include "amble/gait/report_text.hpp"
 #include "amble/io/file.hpp"
+#include "amble/record/recording.hpp"
+#include "amble/robot/json.hpp"
 #include "amble/study/gait_observer.hpp"
 #include "amble/view/page.hpp"
 
@@ -39,10 +44,56 @@ io::Json gait_of(const gait::Report& report) {
   return io::parse_json(gait::report_json(report), "gait");
 }
 
+/// ", in the engine ode" where that is not the one in which it evolved.
+std::string engine_note(const experiment::Champion& champion, const ViewOptions& options) {
+  const auto& home = champion.problem.engine;
+  const auto& judge = options.engine.value_or(home);
+  return judge == home ? "" : fmt::format(", in the engine {}", judge);
+}
+
+/// The run that a champion file is of: the folder that has the champions' folder; else the file itself.
+fs::path run_of(const fs::path& champion) {
+  const fs::path folder = champion.parent_path();
+  return folder.filename() == "champions" ? folder.parent_path() : champion;
+}
+
+/// The end of a path: so many of its parts. A folder's path may end in a slash.
+std::string last_parts(const fs::path& path, int count) {
+  const std::vector<std::string> parts = [&path] {
+    std::vector<std::string> all;
+    for (const fs::path& part : fs::absolute(path).lexically_normal())
+      if (!part.empty()) all.push_back(part.string());
+    return all;
+  }();
+  fs::path end;
+  for (std::size_t i = parts.size() - std::min(parts.size(), to_index(count)); i < parts.size(); ++i)
+    end /= parts[i];
+  return end.string();
+}
+
+/// What a walker beside others is called by.
+struct Origin {
+  std::string robot;
+  fs::path run;
+  std::string rest;  ///< generation and engine, where the input or the options name them
+};
+
+/// Robot, run and what else was asked for; of the runs' paths as many parts as tell them from each other.
+std::vector<std::string> names_of(const std::vector<Origin>& origins) {
+  constexpr int most_parts = 8;
+  std::vector<std::string> names;
+  for (int parts = 1; parts <= most_parts; ++parts) {
+    names.clear();
+    for (const auto& [robot, run, rest] : origins)
+      names.push_back(fmt::format("{}, {}{}", robot, last_parts(run, parts), rest));
+    if (std::set(names.begin(), names.end()).size() == names.size()) break;
+  }
+  return names;
+}
+
 /// Runs a champion again. None if interrupted.
-std::optional<view::Walker> walk(const fs::path& path, const ViewOptions& options,
-                                 const ScratchFile& recording) {
-  const auto champion = experiment::load_champion(path);
+std::optional<view::Walker> walk(const experiment::Champion& champion, const fs::path& path,
+                                 const ViewOptions& options, const ScratchFile& recording) {
   study::GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
   const auto replay = experiment::replay(champion.problem, champion.genome,
                                          {.seconds = options.seconds,
@@ -53,10 +104,8 @@ std::optional<view::Walker> walk(const fs::path& path, const ViewOptions& option
                                           .trace = false},
                                          stop_signal());
   if (!replay) return std::nullopt;
-  const auto& home = champion.problem.engine;
-  const auto& judge = options.engine.value_or(home);
-  return view::Walker{.title = fmt::format("{}, generation {}", champion.experiment, champion.generation) +
-                               (judge == home ? "" : fmt::format(", in the engine {}", judge)),
+  return view::Walker{.title = fmt::format("{}, generation {}{}", champion.experiment, champion.generation,
+                                           engine_note(champion, options)),
                       .recording = recording.path(),
                       .cppn_svg = figures::cppn_figure(cppn_graph(champion)),
                       .gait = gait_of(gait.finish(replay->result.outcome))};
@@ -72,6 +121,7 @@ view::Walker recorded(const fs::path& path) {
 ExitCode make_view(const ViewOptions& options) {
   io::refuse_to_replace(options.out, "<!DOCTYPE html>", "a page");
   std::deque<ScratchFile> scratch;
+  std::vector<Origin> origins;
   view::ReplayPage page;
   for (const fs::path& input : options.inputs) {
     const bool is_run = fs::is_directory(input);
@@ -80,12 +130,23 @@ ExitCode make_view(const ViewOptions& options) {
         fail(ExitCode::bad_input, "{}: {} has been made already", options.engine ? "--engine" : "--seconds",
              input.string());
       page.walkers.push_back(recorded(input));
+      const record::RecordingReader reader(input);
+      origins.push_back({robot::parse_robot(reader.header().robot_json, input.string()).name,
+                         fs::path(input).replace_extension(), ""});
       continue;
     }
-    const fs::path champion = is_run ? experiment::find_run(input).best_champion() : input;
-    auto walker = walk(champion, options, scratch.emplace_back("walk.rec"));
+    const fs::path path = experiment::champion_at(input);
+    const auto champion = experiment::load_champion(path);
+    auto walker = walk(champion, path, options, scratch.emplace_back("walk.rec"));
     if (!walker) fail(ExitCode::interrupted, "stopped before all champions had walked");
     page.walkers.push_back(std::move(*walker));
+    origins.push_back({champion.problem.robot.name, is_run ? input : run_of(path),
+                       (is_run ? "" : fmt::format(", generation {}", champion.generation)) +
+                           engine_note(champion, options)});
+  }
+  if (page.walkers.size() > 1) {
+    const std::vector<std::string> names = names_of(origins);
+    for (std::size_t i = 0; i < names.size(); ++i) page.walkers[i].title = names[i];
   }
   page.title = options.title.value_or(
       page.walkers.size() == 1 ? page.walkers.front().title : fmt::format("{} walkers", page.walkers.size()));
@@ -113,9 +174,9 @@ void add_view(CLI::App& app, Action& action) {
       ->add_option("--seconds", options->seconds,
                    "How long champions walk, s (default: as in their evolution)")
       ->check(seconds_check());
-  command->add_option("--engine", options->engine,
-                      "Physics engine in which champions walk (default: as in their evolution)");
-  command->add_option("--title", options->title, "Title of the page");
+  add_engine(*command, options->engine,
+             "Physics engine in which champions walk (default: as in their evolution)");
+  command->add_option("--title", options->title, "Title of the page")->type_name("WORDS");
   command->callback([options, &action] { action = [options] { return make_view(*options); }; });
 }
 

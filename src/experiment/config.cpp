@@ -98,6 +98,8 @@ Config load_config(const std::filesystem::path& path, const Overrides& overrides
 
   Config config;
   config.where = [document](const std::vector<std::string>& keys) { return document->where(keys); };
+  config.describe(*document->reader());
+  config.neat.speciation.scale_targets(config.neat.population.size);  // what the document has comes after
   const auto reader = document->reader();
   config.describe(*reader);
   reader->finish();

@@ -73,7 +73,8 @@ trial::Protocol Problem::protocol(const record::PathSampling& path) const {
           .first_command = trial.first_command,
           .path = path,
           .measures = scorer().measures(),
-          .fall_height_m = robot.fall_height_m};
+          .fall_height_m = robot.fall_height_m,
+          .start_rotation = robot.bodies[0].rotation};
 }
 
 void Problem::walk_on(const ground::Settings& other) {

@@ -138,6 +138,11 @@ fs::path RunPaths::best_champion() const {
   return files.back();
 }
 
+std::filesystem::path champion_at(const std::filesystem::path& champion_or_run) {
+  if (!std::filesystem::is_directory(champion_or_run)) return champion_or_run;
+  return find_run(champion_or_run).best_champion();
+}
+
 bool is_run_folder(const fs::path& folder) {
   const RunPaths paths(folder);
   return fs::is_regular_file(paths.config) && fs::is_regular_file(paths.robot);

@@ -62,6 +62,10 @@ class RunFolder {
 /// The paths of a run to read. Throws UserError: no folder, no run, or one of another version.
 RunPaths find_run(const std::filesystem::path& folder);
 
+/// The champion that a path names: a champion file is itself, a run folder its best champion. Throws
+/// UserError as find_run(), or if the run has none.
+std::filesystem::path champion_at(const std::filesystem::path& champion_or_run);
+
 /// Whether a folder looks like a run's.
 bool is_run_folder(const std::filesystem::path& folder);
 

@@ -57,13 +57,14 @@ void draw_curve(Svg& svg, const Panel& panel, const record::Generations& generat
   svg.circle(points.back(), 3.5, "dot " + std::string(curve.css_class));
 }
 
-void draw_distances(Svg& svg, const record::Generations& generations, const Box& plot) {
+void draw_objectives(Svg& svg, const record::Generations& generations, const Box& plot,
+                     const std::string& unit) {
   const std::array<Curve, 3> curves{{{"median", generations.median, "median"},
                                      {"mean", generations.mean, "mean"},
                                      {"best", generations.best, "best"}}};
   const Panel panel =
       make_panel(plot, generations, value_range({&generations.best, &generations.mean, &generations.median}));
-  draw_y_axis(svg, panel.y, nice_ticks(panel.y.data, 6), plot.x, plot.right(), " m");
+  draw_y_axis(svg, panel.y, nice_ticks(panel.y.data, 6), plot.x, plot.right(), unit);
   draw_x_axis(svg, panel.x, nice_ticks(panel.x.data, plot.width > 500 ? 9 : 5, 1.0), plot.bottom(), "");
   svg.text({plot.right() + 14, plot.bottom() + 19}, Anchor::start, "tick", "generation");
 
@@ -80,7 +81,7 @@ void draw_distances(Svg& svg, const record::Generations& generations, const Box&
   spread(label_px, 17.0);
   for (std::size_t i = 0; i < curves.size(); ++i)
     svg.text({plot.right() + 14, label_px[i] + 4}, Anchor::start, "label " + std::string(curves[i].css_class),
-             fmt::format("{} {} m", curves[i].name, label(curves[i].values.back(), 2)));
+             fmt::format("{} {}{}", curves[i].name, label(curves[i].values.back(), 2), unit));
 }
 
 void draw_small(Svg& svg, const record::Generations& generations, const Box& plot, std::string_view title,
@@ -96,17 +97,18 @@ void draw_small(Svg& svg, const record::Generations& generations, const Box& plo
 
 }  // namespace
 
-std::string fitness_figure(const record::Generations& generations, Layout layout) {
+std::string fitness_figure(const record::Generations& generations, Layout layout,
+                           const Objective& objective) {
   AMBLE_CHECK(generations.count() > 0, "a run has a generation");
   const bool wide = layout == Layout::wide;
   const double width = width_px(layout);
   const double main_height = wide ? 300 : 220, small_height = wide ? 96 : 72;
   const double small_top = main_height + 90;
   Svg svg(width, small_top + small_height + 30,
-          fmt::format("Distance walked over {} generations: best {} m, mean {} m, median {} m in the last",
-                      generations.count(), label(generations.best.back(), 2),
+          fmt::format("{0} over {2} generations: best {3}{1}, mean {4}{1}, median {5}{1} in the last",
+                      objective.name, objective.unit, generations.count(), label(generations.best.back(), 2),
                       label(generations.mean.back(), 2), label(generations.median.back(), 2)));
-  draw_distances(svg, generations, {42, 12, width - 42 - 114, main_height});
+  draw_objectives(svg, generations, {42, 12, width - 42 - 114, main_height}, objective.unit);
 
   struct Small {
     std::string_view wide_title, narrow_title;

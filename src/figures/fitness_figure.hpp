@@ -7,8 +7,15 @@
 
 namespace amble::figures {
 
-/// Best, mean and median distance over the generations, and below it the number of species and the size of
+/// What evolution maximised, as texts name it and its values.
+struct Objective {
+  std::string name = "Distance walked";
+  std::string unit = " m";  ///< behind a number, with its space; may be empty
+};
+
+/// Best, mean and median objective over the generations, and below it the number of species and the size of
 /// the genomes, if the search has such columns. An <svg> element. `generations` must not be empty.
-std::string fitness_figure(const record::Generations& generations, graphics::Layout layout);
+std::string fitness_figure(const record::Generations& generations, graphics::Layout layout,
+                           const Objective& objective = {});
 
 }  // namespace amble::figures

@@ -19,7 +19,7 @@ struct Doc {
   /// Of a choice that files of earlier versions lack: JSON leaves it out while it is the first name.
   bool first_is_implied = false;
   /// Of a table: TOML may have a text in its place, which is that of this key; all others are at their
-  /// defaults.
+  /// defaults. A text from the command line leaves those values of the table in the file that are no lists.
   std::string_view short_for = {};
 };
 

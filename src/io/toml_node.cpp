@@ -48,12 +48,20 @@ void TomlNode::merge(TomlNode table) {
     TomlNode& theirs = table.items[i];
     const auto found = std::find(keys.begin(), keys.end(), table.keys[i]);
     TomlNode* ours = found == keys.end() ? nullptr : &items[to_index(found - keys.begin())];
-    if (ours != nullptr && ours->kind == Kind::table && theirs.kind == Kind::table) {
+    const bool is_table = ours != nullptr && ours->kind == Kind::table;
+    const bool is_text = ours != nullptr && ours->kind == Kind::text;
+    if (theirs.kind == Kind::table && (is_table || (is_text && theirs.from_command_line))) {
       ours->merge(std::move(theirs));
-    } else {
-      put(table.keys[i], std::move(theirs));
+      continue;
     }
+    if (is_table && theirs.kind == Kind::text && theirs.from_command_line) theirs.take_single_values(*ours);
+    put(table.keys[i], std::move(theirs));
   }
+}
+
+void TomlNode::take_single_values(const TomlNode& table) {
+  for (std::size_t i = 0; i < table.keys.size(); ++i)
+    if (table.items[i].kind != Kind::list) put(table.keys[i], table.items[i]);
 }
 
 std::string toml_text(const TomlNode& node) {

@@ -21,7 +21,7 @@ struct TomlNode {
   double number = 0.0;
   bool flag = false;
   std::vector<TomlNode> items;    ///< of a list or a table, in the order of the file
-  std::vector<std::string> keys;  ///< of a table: the keys of `items`
+  std::vector<std::string> keys;  ///< of a table, or beside a text that is short for one: the keys of `items`
 
   std::string where;  ///< "FILE:LINE", or "--set KEY=VALUE"
   bool from_command_line = false;
@@ -33,8 +33,12 @@ struct TomlNode {
   /// Adds or replaces a value of a table.
   void put(std::string_view key, TomlNode value);
   void drop(std::string_view key);
-  /// Takes over all values of another table: tables are merged key by key, anything else is replaced.
+  /// Takes over all values of another table: tables are merged key by key, anything else is replaced. Where
+  /// one of both is a text and the new one is from the command line, the text may be short for a table
+  /// (Doc::short_for) and has the table's values beside it; of a table that it replaces, all but lists.
   void merge(TomlNode table);
+  /// Takes over those values of a table that are no lists.
+  void take_single_values(const TomlNode& table);
 };
 
 /// The value as TOML on one line, shortened where it is long; tables as {...}.

@@ -148,7 +148,7 @@ class TomlReader final : public SettingsReader {
   struct Table {
     std::string path;
     const TomlNode* node;             ///< null where the document has no such table
-    std::string_view short_for = {};  ///< the key whose value `node` is, in place of a table
+    std::string_view short_for = {};  ///< the key whose value `node` itself is, in place of a table
   };
 
   static std::string join(const std::string& table, std::string_view key) {
@@ -162,7 +162,7 @@ class TomlReader final : public SettingsReader {
   const TomlNode* get(std::string_view key) {
     known_.push_back(path_of(key));
     const TomlNode* table = tables_.back().node;
-    if (!tables_.back().short_for.empty()) return key == tables_.back().short_for ? table : nullptr;
+    if (!tables_.back().short_for.empty() && key == tables_.back().short_for) return table;
     return table == nullptr ? nullptr : table->find(key);
   }
 
@@ -179,7 +179,7 @@ class TomlReader final : public SettingsReader {
           join(table_path, is_bare_key(table.keys[i]) ? table.keys[i] : toml_quoted(table.keys[i]));
       const TomlNode& node = table.items[i];
       if (std::find(known_.begin(), known_.end(), path) != known_.end()) {
-        if (node.kind == Kind::table) refuse_unknown_keys(node, path);
+        if (node.kind != Kind::list) refuse_unknown_keys(node, path);
         for (std::size_t item = 0; node.kind == Kind::list && item < node.items.size(); ++item)
           if (node.items[item].kind == Kind::table)
             refuse_unknown_keys(node.items[item], numbered(path, item));

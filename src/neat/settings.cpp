@@ -1,5 +1,7 @@
 #include "amble/neat/settings.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "amble/core/error.hpp"
@@ -110,10 +112,16 @@ void SpeciationSettings::describe(io::SettingsVisitor& visitor) {
        "HyperSharpNEAT: false; Stanley & Miikkulainen 2002, eq. 1: true"});
   visitor.number("initial_threshold", initial_threshold, {0.01, 1e9},
                  {"two genomes closer than this are of one species, in generation 0", authors});
-  visitor.integer("target_min", target_min, {1, 1e6},
-                  {"with fewer species than this the threshold falls", "the authors' code (population 300)"});
-  visitor.integer("target_max", target_max, {1, 1e6},
-                  {"with more species than this the threshold rises", "the authors' code (population 300)"});
+  visitor.integer(
+      "target_min", target_min, {1, 1e6},
+      {"with fewer species than this the threshold falls; where a config leaves it out, in proportion "
+       "to population.size",
+       "the authors' code (population 300)"});
+  visitor.integer(
+      "target_max", target_max, {1, 1e6},
+      {"with more species than this the threshold rises; where a config leaves it out, in proportion "
+       "to population.size",
+       "the authors' code (population 300)"});
   visitor.number("first_step_down", first_step_down, probability,
                  {"first step down of the threshold, as a share of it (at least 0.1): each further one is "
                   "1.05 times the "
@@ -123,6 +131,15 @@ void SpeciationSettings::describe(io::SettingsVisitor& visitor) {
                  {"first step up, likewise", "the authors' code: 0.5; HyperSharpNEAT: 0.01"});
   visitor.integer("corrections_per_generation", corrections_per_generation, {0, 1000},
                   {"steps of the threshold per generation at most (0: it stays as it is)", hyper_sharp_neat});
+}
+
+void SpeciationSettings::scale_targets(int population) {
+  const SpeciationSettings standard;
+  const auto scaled = [population](int target) {
+    return std::max(1, static_cast<int>(std::lround(static_cast<double>(target) * population / 300.0)));
+  };
+  target_min = scaled(standard.target_min);
+  target_max = scaled(standard.target_max);
 }
 
 void ReproductionSettings::describe(io::SettingsVisitor& visitor) {

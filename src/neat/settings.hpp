@@ -107,6 +107,8 @@ struct SpeciationSettings {
   int corrections_per_generation = 1;
 
   void describe(io::SettingsVisitor& visitor);
+  /// The targets for a population of another size than 300, in the same proportion to it and at least 1.
+  void scale_targets(int population);
 };
 
 /// How a species with a single place in the next generation fills it.

@@ -17,7 +17,7 @@ std::vector<FigureFile> figure_files(const RunPage& page, const motion::Recorded
   const bool moved = motion.frames() > 0;
   if (moved) add("filmstrip.svg", figures::filmstrip_figure(robot, motion, Layout::wide));
   if (page.generations && page.generations->count() > 0)
-    add("fitness.svg", figures::fitness_figure(*page.generations, Layout::wide));
+    add("fitness.svg", figures::fitness_figure(*page.generations, Layout::wide, page.objective));
   if (moved) {
     add("footfalls.svg", figures::footfall_figure(robot, motion, Layout::wide));
     if (recorded.supg)

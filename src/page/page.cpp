@@ -63,8 +63,10 @@ std::string headline(const motion::Summary& summary, const robot::RobotSpec& rob
   out += headline_number(upright_name(summary.outcome), fmt::format("{:.1f}", summary.seconds), "s");
   out += headline_number("Mean speed", fmt::format("{:.2f}", summary.mean_speed_m_s), "m/s");
   if (cppn)
-    out += fmt::format("<div><dt>CPPN</dt><dd>{} <small>hidden</small> {} <small>links</small></dd></div>\n",
-                       cppn->hidden, cppn->links);
+    out += fmt::format(
+        "<div><dt>Compositional pattern producing network (CPPN)</dt><dd>{} <small>hidden</small> {} "
+        "<small>links</small></dd></div>\n",
+        cppn->hidden, cppn->links);
   if (!summary.triggers.empty()) {
     out += "<div class=\"span\"><dt>Triggers</dt><dd class=\"per-leg\">";
     for (std::size_t leg = 0; leg < summary.triggers.size(); ++leg)
@@ -104,14 +106,15 @@ std::string grouped(double count) {
   return digits;
 }
 
-std::string fitness_section(const record::Generations& generations) {
+std::string fitness_section(const record::Generations& generations, const figures::Objective& objective) {
   const std::size_t count = generations.count();
   if (count == 0) return section("How it learned", "", note("No generation has been finished yet."));
-  return section("How it learned",
-                 fmt::format("Distance walked over {} generation{}: {} evaluations, {} simulated steps.",
-                             count, count == 1 ? "" : "s", grouped(sum(generations.evaluations)),
-                             grouped(sum(generations.steps))),
-                 both([&](Layout layout) { return figures::fitness_figure(generations, layout); }));
+  return section(
+      "How it learned",
+      fmt::format("{} over {} generation{}: {} evaluations, {} simulated steps.", objective.name, count,
+                  count == 1 ? "" : "s", grouped(sum(generations.evaluations)),
+                  grouped(sum(generations.steps))),
+      both([&](Layout layout) { return figures::fitness_figure(generations, layout, objective); }));
 }
 
 std::string footfall_section(const motion::RecordedTrial& recorded) {
@@ -211,7 +214,7 @@ std::string make_page(const RunPage& page, const motion::RecordedTrial& recorded
   if (!moved)
     body += section("No step was recorded", "",
                     note("The trial ended before its first step; there is nothing to draw."));
-  if (page.generations) body += fitness_section(*page.generations);
+  if (page.generations) body += fitness_section(*page.generations, page.objective);
   if (moved) body += walk_sections(recorded, summary);
   body += provenance_section(page);
   return fmt::format(

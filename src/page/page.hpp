@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "amble/figures/fitness_figure.hpp"
 #include "amble/motion/recorded_trial.hpp"
 #include "amble/record/generations_csv.hpp"
 
@@ -24,6 +25,7 @@ struct RunPage {
   std::string title;
   std::string subtitle;
   std::optional<record::Generations> generations;  ///< none: the page does not mention the evolution
+  figures::Objective objective;                    ///< of the evolution
   std::optional<CppnSize> cppn;                    ///< of the champion
   std::vector<Fact> facts;                         ///< settings and provenance
   std::vector<std::string> commands;               ///< shell commands that make the page again

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -32,14 +33,20 @@ struct PathSampling {
 
 /// Optional measurements of a trial, which cost time.
 struct Measures {
-  bool energy = false, uprightness = false;
+  bool energy = false, uprightness = false, seconds = false;
 
   Measures& operator|=(const Measures& other) {
     energy |= other.energy;
     uprightness |= other.uprightness;
+    seconds |= other.seconds;
     return *this;
   }
 };
+
+/// Whole seconds in a time, s; a time a rounding error short of one more has that, too.
+inline int second_count(double time_s) {
+  return static_cast<int>(std::floor(time_s + 1e-9));
+}
 
 /// The result of a trial, sufficient for scoring. In the world's frame (docs/CONVENTIONS.md).
 struct Trajectory {
@@ -49,6 +56,11 @@ struct Trajectory {
   Vec3 com_start_m;               ///< whole-body centre of mass before the first step
   Vec3 com_end_m;                 ///< and after the last
   std::vector<float> com_path_m;  ///< x0, y0, x1, y1, … as sampled (PathSampling), relative to com_start_m
+  /// Projection on the ground of the root's forward axis before the first step, of unit length: the axis that
+  /// points along the world's x in the robot's own start pose.
+  double forward_x = 1.0, forward_y = 0.0;
+  /// Measures::seconds: centre of mass after each whole second, x0, y0, x1, y1, …, relative to com_start_m.
+  std::vector<double> com_by_second_m;
   /// Measures::energy: Σ |torque × change of angle| over motors and steps, J.
   double energy_j = 0.0;
   /// Measures::uprightness: sum over steps of the cosine between the root's z axis and the vertical.

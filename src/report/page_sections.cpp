@@ -171,7 +171,9 @@ std::string sizes_section(const Report& report) {
     if (hidden != nullptr)
       table.row({condition.label(), fmt::format("{}", hidden->summary.n), mean_sd(hidden), mean_sd(links)});
   }
-  return section("sizes", "The champions’ CPPNs", "Hidden nodes and enabled links.", table.finish());
+  return section("sizes", "The champions’ CPPNs",
+                 "Hidden nodes and enabled links of the compositional pattern producing networks.",
+                 table.finish());
 }
 
 std::string gaits_section(const Report& report) {

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
 
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
@@ -17,27 +20,81 @@ double distance(const record::Trajectory& trajectory, const Context&) {
   return distance_m(trajectory);
 }
 
-/// Displacement along the direction of the settings; backwards counts negative.
-double forward(const record::Trajectory& trajectory, const Context& context) {
-  const Vec3 moved = trajectory.com_end_m - trajectory.com_start_m;
-  const double x = context.settings.direction[0], y = context.settings.direction[1];
-  return (moved.x * x + moved.y * y) / std::sqrt(x * x + y * y);
+/// A direction over the ground, of unit length.
+struct Direction {
+  double x = 1.0, y = 0.0;
+};
+
+double along(Direction direction, double x_m, double y_m) {
+  return x_m * direction.x + y_m * direction.y;
 }
 
-/// 1 where the mean forward speed is the one wanted, falling to 0 at standing still and at twice that speed.
-double speed_kept(const record::Trajectory& trajectory, const Context& context) {
-  const double wanted_m_s = context.settings.speed_m_s;
-  const double speed_m_s = forward(trajectory, context) / context.duration_s;
+/// Cosine and sine of an angle of at most 45 degrees, by their Taylor series up to the last bit. The
+/// library's functions have other last bits on other CPUs.
+Direction small_turn(double angle_rad) {
+  Direction turn{1.0, angle_rad};
+  double cosine_term = 1.0, sine_term = angle_rad;
+  for (int n = 2; n <= 20; n += 2) {
+    cosine_term *= -angle_rad * angle_rad / (n * (n - 1));
+    sine_term *= -angle_rad * angle_rad / (n * (n + 1));
+    turn.x += cosine_term;
+    turn.y += sine_term;
+  }
+  return turn;
+}
+
+/// The robot's forward axis at the start, turned counter-clockwise; exact for multiples of 90 degrees.
+Direction turned(const record::Trajectory& trajectory, double angle_deg) {
+  const double quarters = std::nearbyint(angle_deg / 90.0);
+  Direction turn = small_turn((angle_deg - 90.0 * quarters) * (std::numbers::pi / 180.0));
+  for (int i = 0; i < (static_cast<int>(quarters) % 4 + 4) % 4; ++i) turn = {-turn.y, turn.x};
+  const Direction forward{trajectory.forward_x, trajectory.forward_y};
+  return {forward.x * turn.x - forward.y * turn.y, forward.x * turn.y + forward.y * turn.x};
+}
+
+double displacement_m(const record::Trajectory& trajectory, double angle_deg) {
+  const Vec3 moved = trajectory.com_end_m - trajectory.com_start_m;
+  return along(turned(trajectory, angle_deg), moved.x, moved.y);
+}
+
+/// Displacement along the robot's own forward axis at the start; backwards counts negative.
+double forward(const record::Trajectory& trajectory, const Context&) {
+  return displacement_m(trajectory, 0.0);
+}
+
+/// Displacement along the heading of the settings.
+double heading(const record::Trajectory& trajectory, const Context& context) {
+  return displacement_m(trajectory, context.settings.heading_deg);
+}
+
+/// 1 at the speed wanted, falling linearly to 0 at none and at twice that speed.
+double closeness(double speed_m_s, double wanted_m_s) {
   return std::max(0.0, 1.0 - std::abs(speed_m_s - wanted_m_s) / wanted_m_s);
 }
 
-/// Inverse of the cost of transport: weight × distance / energy, no unit. 0 for a robot that spent nothing.
+/// Mean over the whole seconds of a trial that completes of how close to the one wanted the speed along the
+/// heading is; a second that the trial does not complete adds 0. A trial of less than a second is one window.
+double speed_kept(const record::Trajectory& trajectory, const Context& context) {
+  const double wanted_m_s = context.settings.speed_m_s;
+  const int seconds = record::second_count(context.duration_s);
+  if (seconds == 0) return closeness(heading(trajectory, context) / context.duration_s, wanted_m_s);
+  const Direction direction = turned(trajectory, context.settings.heading_deg);
+  double sum = 0.0, before_m = 0.0;
+  for (std::size_t i = 0; i + 1 < trajectory.com_by_second_m.size(); i += 2) {
+    const double now_m = along(direction, trajectory.com_by_second_m[i], trajectory.com_by_second_m[i + 1]);
+    sum += closeness(now_m - before_m, wanted_m_s);
+    before_m = now_m;
+  }
+  return sum / seconds;
+}
+
+/// Inverse of the cost of transport: weight × distance / energy. 0 for a robot that spent nothing.
 double economy(const record::Trajectory& trajectory, const Context& context) {
   if (trajectory.energy_j <= 0.0) return 0.0;
   return context.weight_n * distance_m(trajectory) / trajectory.energy_j;
 }
 
-/// Mean cosine of the angle between the root's z axis and the vertical.
+/// Mean cosine of the angle between the root's z axis and the vertical, over the steps until the trial ended.
 double uprightness(const record::Trajectory& trajectory, const Context&) {
   return trajectory.steps > 0 ? trajectory.upright_steps / trajectory.steps : 0.0;
 }
@@ -49,13 +106,16 @@ double upright_time(const record::Trajectory& trajectory, const Context& context
 
 // The table of quantities. A new one is a row here; if trials must measure something for it, also a member of
 // record::Measures and record::Trajectory.
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr io::Range signed_range{-infinite, infinite}, positive_range{0.0, infinite}, share_range{0.0, 1.0};
 constexpr std::array table{
-    Quantity{"distance", "m", {}, distance},
-    Quantity{"forward", "m", {}, forward},
-    Quantity{"speed_kept", "", {}, speed_kept},
-    Quantity{"economy", "", {.energy = true}, economy},
-    Quantity{"uprightness", "", {.uprightness = true}, uprightness},
-    Quantity{"upright_time", "", {}, upright_time},
+    Quantity{"distance", "m", positive_range, {}, distance},
+    Quantity{"forward", "m", signed_range, {}, forward},
+    Quantity{"heading", "m", signed_range, {}, heading},
+    Quantity{"speed_kept", "", share_range, {.seconds = true}, speed_kept},
+    Quantity{"economy", "", positive_range, {.energy = true}, economy},
+    Quantity{"uprightness", "", {-1.0, 1.0}, {.uprightness = true}, uprightness},
+    Quantity{"upright_time", "", share_range, {}, upright_time},
 };
 
 const Quantity* find(std::string_view name) {
@@ -98,14 +158,14 @@ void Settings::describe(io::SettingsVisitor& visitor) {
   visitor.tables("limits", limits, {"what a trial must keep to"});
   visitor.number("breach_factor", breach_factor, {0.0, 1.0},
                  {"share of the score kept by a trial that breaks a limit"});
-  visitor.numbers("direction", direction, {-1e6, 1e6},
-                  {"which way is forward: x, y in the world's frame, of any length"});
+  visitor.number(
+      "heading_deg", heading_deg, {-360.0, 360.0},
+      {"which way heading and speed_kept go, degrees to the left of the robot's forward axis at the "
+       "start"});
   visitor.number("speed_m_s", speed_m_s, {1e-6, 1e3}, {"speed wanted by speed_kept, m/s"});
 }
 
 void Settings::validate() const {
-  if (direction.size() != 2 || (direction[0] == 0.0 && direction[1] == 0.0))
-    fail_setting({"score.direction"}, "score.direction: expected two numbers, not both 0");
   if (terms.empty()) fail_setting({"score.terms"}, "score.terms: expected at least one term");
   for (const Term& term : terms) check_quantity("terms", term.quantity);
   for (const Limit& limit : limits) {

@@ -37,7 +37,7 @@ struct Settings {
   std::vector<Term> terms{Term()};
   std::vector<Limit> limits = {};
   double breach_factor = 0.0;
-  std::vector<double> direction{1.0, 0.0};  ///< x, y in the world's frame, of any length
+  double heading_deg = 0.0;  ///< to the left (counter-clockwise) of the robot's forward axis at the start
   double speed_m_s = 0.5;
 
   void describe(io::SettingsVisitor& visitor);
@@ -57,6 +57,7 @@ struct Context {
 /// A quantity of a trial that scores and limits can name: a row of the table in score.cpp.
 struct Quantity {
   std::string_view name, unit;
+  io::Range range;            ///< of its values
   record::Measures measures;  ///< measurements of trials that it needs
   double (*of)(const record::Trajectory& trajectory, const Context& context);
 };

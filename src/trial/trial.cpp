@@ -59,15 +59,24 @@ void Runner::refill(int lane, TaskQueue& queue) {
   }
   slot.task = std::move(*task);
   controllers_.load(lane, *slot.task.parameters);
+  note_start(slot, lane);
+}
+
+/// Begins the trajectory of a lane that was placed.
+void Runner::note_start(Lane& slot, int lane) {
   slot.trajectory = {};
   slot.trajectory.timestep_s = protocol_.timestep_s;
   slot.trajectory.com_start_m = slot.last_healthy_com_m = engine_.com_m(lane);
-  if (protocol_.measures.energy) {
-    slot.angle_rad.clear();
-    const LaneArray& angle_rad = engine_.sensors().joint_angle_rad;
-    for (int joint = 0; joint < angle_rad.rows(); ++joint)
-      slot.angle_rad.push_back(angle_rad.at(joint, lane));
+  const Quat turn = engine_.root_pose(lane).rotation * conjugate(protocol_.start_rotation);
+  const Vec3 forward = rotate(turn, {1.0, 0.0, 0.0});
+  if (const double length = std::sqrt(forward.x * forward.x + forward.y * forward.y); length > 1e-6) {
+    slot.trajectory.forward_x = forward.x / length;
+    slot.trajectory.forward_y = forward.y / length;
   }
+  if (!protocol_.measures.energy) return;
+  slot.angle_rad.clear();
+  const LaneArray& angle_rad = engine_.sensors().joint_angle_rad;
+  for (int joint = 0; joint < angle_rad.rows(); ++joint) slot.angle_rad.push_back(angle_rad.at(joint, lane));
 }
 
 /// Sets the targets of lanes in their first step to the present joint angles.
@@ -126,6 +135,14 @@ void Runner::measure(int lane) {
     // R_zz of the rotation matrix, from the quaternion.
     const Quat q = engine_.root_pose(lane).rotation;
     slot.trajectory.upright_steps += 1.0 - 2.0 * (q.x * q.x + q.y * q.y);
+  }
+  if (protocol_.measures.seconds) {
+    record::Trajectory& trajectory = slot.trajectory;
+    const auto noted = static_cast<int>(trajectory.com_by_second_m.size() / 2);
+    if (record::second_count(trajectory.seconds()) > noted) {
+      const Vec3 moved = slot.last_healthy_com_m - trajectory.com_start_m;
+      trajectory.com_by_second_m.insert(trajectory.com_by_second_m.end(), {moved.x, moved.y});
+    }
   }
   if (!protocol_.measures.energy) return;
   // Work of each motor in this step: τ Δq, braking counted like driving.

@@ -53,6 +53,7 @@ struct Protocol {
   record::PathSampling path;
   record::Measures measures;   ///< energy: only with an engine that has motor torques
   double fall_height_m = 0.0;  ///< of the root's centre of mass over the ground below it
+  Quat start_rotation;         ///< of the root in the robot's own start pose
 };
 
 /// Runs trials on one engine, as many at a time as it has lanes; a lane whose trial has ended takes the next
@@ -81,6 +82,7 @@ class Runner {
   };
 
   void refill(int lane, TaskQueue& queue);
+  void note_start(Lane& slot, int lane);
   void hold_first_steps();
   void after_step(int lane, TaskQueue& queue);
   std::optional<record::Outcome> advance(int lane);

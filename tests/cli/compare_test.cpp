@@ -44,11 +44,24 @@ TEST_F(Compare, MakesATableOfTheRequestedEnginesAndTheChampionsOwn) {
   EXPECT_THAT(table.out, HasSubstr("in batch "));
   EXPECT_THAT(table.out, Not(HasSubstr("in ode")));
   EXPECT_THAT(table.out, HasSubstr("\nmedian; kept 70 %")) << "two rows";
+  EXPECT_THAT(table.out,
+              testing::EndsWith("kept 70 %: of how many champions the distance in this engine is at "
+                                "least 70 % of that in the engine in which they evolved\n"));
   EXPECT_THAT(table.out, HasSubstr("  " + distance({"trial", champion_, "--engine", "mujoco"}) + ", "));
   const auto markdown = amble({"compare", champion_, "--engines", "mujoco", "--format", "markdown"}).out;
   EXPECT_THAT(
       markdown,
       StartsWith("| champion | evolved in | trial | in batch | in mujoco |\n|---|---|---|---|---|\n"));
+}
+
+TEST_F(Compare, TrialTakesARunFolderForItsBestChampion) {
+  const auto of_folder = amble({"trial", run_}), of_file = amble({"trial", champion_});
+  EXPECT_EQ(of_folder.exit_code, 0) << of_folder.err;
+  EXPECT_EQ(of_folder.out, of_file.out);
+  EXPECT_NE(of_folder.out, "");
+  const auto none = amble({"trial", scratch_.path().string()});
+  EXPECT_EQ(none.exit_code, amble({"gait", scratch_.path().string()}).exit_code);
+  EXPECT_THAT(none.err, StartsWith("amble: " + scratch_.path().string()));
 }
 
 TEST_F(Compare, ListsEveryLengthAndEngineAsJson) {

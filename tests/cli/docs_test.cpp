@@ -29,12 +29,25 @@ TEST(Docs, SettingsAreTheProgramsOwnTables) {
 }
 
 TEST(Docs, EveryCommandExplainsItself) {
-  for (const char* command : {"evolve", "resume", "trial", "compare", "gait", "info", "robot", "verify",
-                              "page", "report", "study", "view", "settings", "substrate", "draw"}) {
+  for (const char* command :
+       {"evolve", "resume", "trial", "compare", "gait", "info", "robot", "verify", "page", "report", "study",
+        "view", "settings", "substrate", "draw", "completion"}) {
     const auto help = amble({command, "--help"});
     EXPECT_EQ(help.exit_code, 0) << command;
     EXPECT_NE(help.out.find("Usage"), std::string::npos) << command;
   }
+}
+
+TEST(Docs, TheProgramWithoutArgumentsShowsItsHelp) {
+  const auto bare = amble({}), help = amble({"--help"});
+  EXPECT_EQ(bare.exit_code, 0);
+  EXPECT_EQ(bare.out, help.out);
+  EXPECT_EQ(bare.err, "");
+}
+
+TEST(Docs, HelpListsTheEnginesWhereOneIsChosen) {
+  for (const char* command : {"trial", "gait", "page", "view", "compare"})
+    EXPECT_NE(amble({command, "--help"}).out.find("ode|batch|mujoco"), std::string::npos) << command;
 }
 
 TEST(Docs, TheReadmeStaysUnder200Lines) {

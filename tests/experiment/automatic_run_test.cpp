@@ -20,10 +20,7 @@ Config config_of(const std::string& kind, std::vector<std::string> more = {}) {
 }
 
 Config automatic_config(const std::string& kind) {
-  Config config = config_of(kind, {"controller.substrate=auto"});
-  // The text stands for the whole table, and with it for this key of the preset.
-  config.controller.substrate.attitude = config_of(kind).controller.substrate.attitude;
-  return config;
+  return config_of(kind, {"controller.substrate=auto"});
 }
 
 /// The bytes of a run's champion files.

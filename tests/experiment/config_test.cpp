@@ -176,12 +176,34 @@ TEST(Config, ErrorsOfIncompatibleSettingsNameWhereTheyWereSet) {
   EXPECT_THAT(error_of("trial.timestep_s = 0.011\n"), HasSubstr("c.toml:2: trial.duration_s = 15: expected"));
   EXPECT_THAT(error_of("[controller.substrate]\nnodes = [\n  { at = [0.0, 0.0] },\n]\n"),
               HasSubstr("c.toml:4: controller.substrate.nodes[0].name"));
-  // What was typed is what is to be changed, even where the message speaks of a default.
+  // What was typed is what is to be changed, even where the message speaks of another key.
   EXPECT_THAT(
-      error_of("", {"population.size=20"}),
+      error_of("speciation.target_max = 30\n", {"population.size=20"}),
       HasSubstr("--set population.size=20: 'speciation.target_max' = 30: expected at most population.size"));
   EXPECT_THAT(error_of("noise.push_m_s = 1\nnoise.push_interval_s = 0.001\n"),
               HasSubstr("c.toml:3: noise.push_interval_s = 0.001: expected at least one timestep"));
+}
+
+TEST(Config, ScalesTheTargetNumberOfSpeciesWithThePopulationUnlessItIsGiven) {
+  const auto targets = [](const std::vector<std::string>& assignments) {
+    const auto speciation = load_config(AMBLE_SOURCE_DIR "/configs/authors/supg-objective.toml",
+                                        {.assignments = assignments, .seed = {}, .generations = {}})
+                                .neat.speciation;
+    return std::pair(speciation.target_min, speciation.target_max);
+  };
+  EXPECT_EQ(targets({}), std::pair(28, 30));
+  EXPECT_EQ(targets({"population.size=300"}), std::pair(28, 30));
+  EXPECT_EQ(targets({"population.size=100"}), std::pair(9, 10));
+  EXPECT_EQ(targets({"population.size=3000"}), std::pair(280, 300));
+  EXPECT_EQ(targets({"population.size=2"}), std::pair(1, 1));
+  EXPECT_EQ(targets({"population.size=100", "speciation.target_max=20"}), std::pair(9, 20));
+  EXPECT_EQ(targets({"population.size=100", "speciation.target_min=5"}), std::pair(5, 10));
+  for (int size = 2; size < 2000; ++size) {
+    neat::Settings settings;
+    settings.population.size = size;
+    settings.speciation.scale_targets(size);
+    EXPECT_NO_THROW(settings.validate()) << size;
+  }
 }
 
 TEST(Config, WithoutARobotIsRefusedByName) {

@@ -8,6 +8,7 @@
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/verify.hpp"
 #include "amble/io/file.hpp"
+#include "amble/robot/pose.hpp"
 #include "tests/experiment/fixture.hpp"
 
 // Runs whose score is not the distance.
@@ -24,6 +25,7 @@ class Twin : public trial::Observer {
     const Quat q = engine.root_pose(lane).rotation;
     const Vec3 up = rotate(q, {0.0, 0.0, 1.0});
     upright += up.z;
+    if (step % 100 == 0) com_m.push_back(engine.com_m(lane));
     const LaneArray& angle_rad = engine.sensors().joint_angle_rad;
     before_rad.resize(static_cast<std::size_t>(angle_rad.rows()), 0.0);  // at the start all are 0
     for (int joint = 0; joint < angle_rad.rows(); ++joint) {
@@ -36,6 +38,7 @@ class Twin : public trial::Observer {
   double upright = 0.0, energy_j = 0.0;
   int steps = 0;
   std::vector<double> before_rad;
+  std::vector<Vec3> com_m;  ///< after each second
 };
 
 class ScoreInEachEngine : public testing::TestWithParam<const char*> {};
@@ -58,14 +61,24 @@ TEST_P(ScoreInEachEngine, IsOfWhatItsTrialMeasured) {
   EXPECT_GT(energy.energy_j, 0.01);
   EXPECT_NEAR(economical.score.value(), weight_n * economical.distance_m / energy.energy_j,
               1e-9 * economical.score.value());
+  Twin seconds;
+  problem.score.speed_m_s = 0.2;
+  const auto steady = score_of("speed_kept", seconds);
+  double close = 0.0, before_m = robot::start_com_m(problem.robot).x;
+  for (const Vec3 com_m : seconds.com_m) {
+    close += std::max(0.0, 1.0 - std::abs(com_m.x - before_m - 0.2) / 0.2);
+    before_m = com_m.x;
+  }
+  ASSERT_EQ(seconds.com_m.size(), 1U) << "the trial is that long";
+  EXPECT_NEAR(steady.score.value(), close, 1e-6);
   EXPECT_EQ(leaning.distance_m, economical.distance_m) << "measuring changes no bit";
 }
 
 TEST(ScoredRun, SelectsAndKeepsChampionsByItsScoreAndGoesOnAfterAnInterruption) {
   const TemporaryFolder scratch;
   const auto config =
-      small_config({"engine=batch", "score.direction=[0, 1]",
-                    "score.terms=[{quantity=\"forward\"}, {quantity=\"economy\", weight=0.1}]",
+      small_config({"engine=batch", "score.heading_deg=90",
+                    "score.terms=[{quantity=\"heading\"}, {quantity=\"economy\", weight=0.1}]",
                     "score.limits=[{quantity=\"uprightness\", least=0.5}]"});
   Listener whole, part(1), rest;
   Run::start(scratch / "whole", config, 2).execute(whole, whole.stop);

@@ -31,6 +31,13 @@ TEST_P(FitnessFigure, LabelsEveryCurveWithItsLastValue) {
     EXPECT_THAT(texts, Contains(label));
 }
 
+TEST_P(FitnessFigure, NamesAnObjectiveThatIsNoDistanceAndGivesItNoUnit) {
+  const std::string figure = fitness_figure(table(), GetParam(), {.name = "Score", .unit = ""});
+  EXPECT_THAT(tests::texts(tests::parse_xml(figure)), Contains("best 3.04"));
+  EXPECT_THAT(figure, testing::HasSubstr("Score over 3 generations: best 3.04, mean 1.00, median 0.90 in"));
+  EXPECT_THAT(figure, testing::Not(testing::HasSubstr(" m<")));
+}
+
 TEST_P(FitnessFigure, DrawsCurvesInProportion) {
   const auto elements = tests::parse_xml(fitness_figure(table(), GetParam()));
   EXPECT_EQ(tests::with_class(elements, "curve").size(), 6u);

@@ -43,15 +43,18 @@ TEST(TomlReader, ReadsEveryKindAndKeepsWhatIsMissing) {
 struct Shape {
   std::string kind = "box";
   double size = 1.0;
+  std::vector<std::string> corners = {};
   void describe(SettingsVisitor& visitor) {
     visitor.text("kind", kind, {""});
     visitor.number("size", size, {0.0, 9.0}, {""});
+    visitor.texts("corners", corners, {""});
   }
 };
 
-/// Reads [shape], for which a text is short.
-Shape shape_from(const std::string& text) {
-  const TomlDocument document = TomlDocument::parse(text, "x.toml");
+/// Reads [shape], for which a text is short, after these assignments of the command line.
+Shape shape_from(const std::string& text, const std::vector<std::string>& assignments = {}) {
+  TomlDocument document = TomlDocument::parse(text, "x.toml");
+  for (const std::string& assignment : assignments) document.set(assignment);
   Shape shape;
   const auto reader = document.reader();
   reader->table("shape", shape, {.what = "", .short_for = "kind"});
@@ -69,6 +72,21 @@ TEST(TomlReader, TakesATextForATableWithThatKeyAloneWhereItIsShortForOne) {
   EXPECT_EQ(error_of(ExitCode::bad_input, [&] { shape_from("shape = 'ball'\ncolour = 'red'"); }),
             "x.toml:2: unknown key 'colour'");
   EXPECT_EQ(refusal("inner = 'x'"), "configs/x.toml:1: 'inner' = \"x\": expected a table [inner]");
+}
+
+TEST(TomlReader, KeepsAllButTheListsOfATableThatATextFromTheCommandLineReplaces) {
+  const std::string file = "shape = {kind = 'box', size = 2, corners = ['a', 'b']}";
+  const Shape shape = shape_from(file, {"shape=ball"});
+  EXPECT_EQ(shape.kind, "ball");
+  EXPECT_EQ(shape.size, 2.0);
+  EXPECT_TRUE(shape.corners.empty());
+  EXPECT_EQ(shape_from(file, {"shape=ball", "shape.size=3"}).size, 3.0);
+  EXPECT_EQ(shape_from("shape = 'ball'", {"shape.size=3"}).size, 3.0) << "beside a text of the file, too";
+  EXPECT_EQ(shape_from("shape = 'ball'", {"shape.size=3"}).kind, "ball");
+  EXPECT_EQ(error_of(ExitCode::bad_input, [&] { shape_from("shape = 'ball'", {"shape.sise=3"}); }),
+            "--set shape.sise=3: unknown key 'shape.sise' (did you mean 'shape.size'?)");
+  EXPECT_EQ(error_of(ExitCode::bad_input, [&] { shape_from("colour = 'red'", {"colour.hue=3"}); }),
+            "x.toml:1: unknown key 'colour'");
 }
 
 TEST(TomlReader, RefusesWrongTypes) {

@@ -73,7 +73,7 @@ TEST(Page, GivesTheNumbersOfTheRecording) {
   EXPECT_EQ(numbers.at("Distance"), "7.50 ");
   EXPECT_EQ(numbers.at("Upright, full time"), "15.0 ");
   EXPECT_EQ(numbers.at("Mean speed"), "0.50 ");
-  EXPECT_EQ(numbers.at("CPPN"), "7 ");
+  EXPECT_EQ(numbers.at("Compositional pattern producing network (CPPN)"), "7 ");
   EXPECT_THAT(page, HasSubstr("<h2>Seen from above: 7.50 m</h2>"));
   EXPECT_THAT(
       page, HasSubstr("Distance walked over 2 generations: 600 evaluations, 890\u202f000 simulated steps."));

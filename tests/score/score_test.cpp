@@ -3,9 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "amble/core/error.hpp"
+#include "amble/core/random.hpp"
+#include "amble/io/expectation.hpp"
+#include "amble/io/file.hpp"
 
 namespace amble::score {
 namespace {
@@ -59,14 +64,129 @@ TEST(Score, IsTheDistanceByDefaultToTheBit) {
 TEST(Score, KnowsEachOfItsQuantities) {
   EXPECT_EQ(of_walk("distance"), 5.0);
   EXPECT_EQ(of_walk("forward"), 3.0);
-  EXPECT_EQ(of_walk("forward", {.direction = {0.0, 2.0}}), 4.0);
-  EXPECT_DOUBLE_EQ(of_walk("forward", {.direction = {3.0, 4.0}}), 5.0);
-  EXPECT_DOUBLE_EQ(of_walk("speed_kept", {.speed_m_s = 0.2}), 1.0);
-  EXPECT_DOUBLE_EQ(of_walk("speed_kept", {.speed_m_s = 0.4}), 0.5);
-  EXPECT_EQ(of_walk("speed_kept", {.speed_m_s = 0.1}), 0.0) << "twice the speed";
+  EXPECT_EQ(of_walk("heading"), 3.0);
   EXPECT_DOUBLE_EQ(of_walk("economy"), 100.0 * 5.0 / 200.0);
   EXPECT_EQ(of_walk("uprightness"), 0.5);
   EXPECT_EQ(of_walk("upright_time"), 1.0);
+}
+
+TEST(Heading, IsExactForMultiplesOfAQuarterTurn) {
+  EXPECT_EQ(of_walk("heading", {.heading_deg = 90.0}), 4.0) << "to the left";
+  EXPECT_EQ(of_walk("heading", {.heading_deg = -270.0}), 4.0);
+  EXPECT_EQ(of_walk("heading", {.heading_deg = 360.0}), 3.0);
+  for (const double backwards_deg : {180.0, -180.0}) {
+    Settings settings{.terms = {{.quantity = "heading", .weight = -1.0}}, .heading_deg = backwards_deg};
+    EXPECT_EQ(Score(settings, 15.0, 100.0).of(walk()), 3.0);
+  }
+}
+
+TEST(Heading, AgreesWithTheLibrarysSineAndCosineAtEveryAngle) {
+  Settings settings{.terms = {{.quantity = "distance", .weight = 2.0}, {.quantity = "heading"}}};
+  for (double angle_deg = -360.0; angle_deg <= 360.0; angle_deg += 0.37) {
+    settings.heading_deg = angle_deg;
+    const double angle_rad = angle_deg * std::numbers::pi / 180.0;
+    EXPECT_NEAR(Score(settings, 15.0, 100.0).of(walk()),
+                10.0 + 3.0 * std::cos(angle_rad) + 4.0 * std::sin(angle_rad), 1e-14)
+        << angle_deg;
+  }
+}
+
+TEST(Heading, IsCountedFromTheRobotsOwnForwardAxisAtTheStart) {
+  auto trajectory = walk();
+  trajectory.forward_x = 0.0;
+  trajectory.forward_y = 1.0;
+  Settings settings{.terms = {{.quantity = "forward"}}};
+  EXPECT_EQ(Score(settings, 15.0, 100.0).of(trajectory), 4.0);
+  settings = {.terms = {{.quantity = "heading"}}, .heading_deg = -90.0};
+  EXPECT_EQ(Score(settings, 15.0, 100.0).of(trajectory), 3.0) << "to the right of a robot that faces +y";
+}
+
+/// What speed_kept makes of so many metres along x in each second of a trial that may have been longer.
+double kept(const std::vector<double>& metres, double wanted_m_s, double duration_s,
+            double heading_deg = 0.0) {
+  record::Trajectory trajectory;
+  double x_m = 0.0;
+  for (const double m : metres) {
+    x_m += m;
+    trajectory.com_by_second_m.insert(trajectory.com_by_second_m.end(), {x_m, 0.1});
+  }
+  trajectory.com_end_m = {x_m, 0.1, 0.0};
+  const Settings settings{
+      .terms = {{.quantity = "speed_kept"}}, .heading_deg = heading_deg, .speed_m_s = wanted_m_s};
+  return Score(settings, duration_s, 100.0).of(trajectory);
+}
+
+TEST(SpeedKept, IsAMeanOverSecondsOfHowCloseToTheOneWantedTheSpeedIs) {
+  EXPECT_DOUBLE_EQ(kept({0.5, 0.5, 0.5, 0.5}, 0.5, 4.0), 1.0);
+  EXPECT_DOUBLE_EQ(kept({0.25, 0.75}, 0.5, 2.0), 0.5) << "too slow costs what too fast costs";
+  EXPECT_DOUBLE_EQ(kept({1.0, 0.0, 1.0, 0.0}, 0.5, 4.0), 0.0) << "although its mean speed is right";
+  EXPECT_DOUBLE_EQ(kept({2.0, 0.5}, 0.5, 2.0), 0.5) << "a second costs no more than itself";
+  EXPECT_DOUBLE_EQ(kept({-0.5, 0.5}, 0.5, 2.0), 0.5);
+  EXPECT_DOUBLE_EQ(kept({-0.5, -0.5}, 0.5, 2.0, 180.0), 1.0);
+}
+
+TEST(SpeedKept, CountsNothingForSecondsAfterAFall) {
+  EXPECT_DOUBLE_EQ(kept({0.5}, 0.5, 4.0), 0.25);
+  EXPECT_DOUBLE_EQ(kept({}, 0.5, 4.0), 0.0);
+}
+
+TEST(SpeedKept, IsOfWholeSecondsAndOfTheWholeOfAShorterTrial) {
+  EXPECT_DOUBLE_EQ(kept({0.5, 0.5}, 0.5, 2.9), 1.0);
+  EXPECT_DOUBLE_EQ(kept({0.5, 0.5, 0.5}, 0.5, 300 * 0.01), 1.0) << "3 s, with or without a rounding error";
+  record::Trajectory trajectory;
+  trajectory.com_end_m = {0.2, 0.0, 0.0};
+  const Settings settings{.terms = {{.quantity = "speed_kept"}}, .speed_m_s = 0.8};
+  EXPECT_DOUBLE_EQ(Score(settings, 0.5, 100.0).of(trajectory), 0.5);
+  EXPECT_TRUE(Score(settings, 0.5, 100.0).measures().seconds);
+}
+
+/// A trial as wild as numbers allow.
+record::Trajectory wild_trial(Stream& stream) {
+  record::Trajectory trajectory;
+  trajectory.steps = 1 + static_cast<int>(stream.below(1500));
+  trajectory.timestep_s = 0.01;
+  const auto far_m = [&stream] {
+    return stream.uniform(-1.0, 1.0) * std::pow(10.0, stream.uniform(-3.0, 3.0));
+  };
+  trajectory.com_start_m = {far_m(), far_m(), far_m()};
+  trajectory.com_end_m = {far_m(), far_m(), far_m()};
+  const double yaw_rad = stream.uniform(-std::numbers::pi, std::numbers::pi);
+  trajectory.forward_x = std::cos(yaw_rad);
+  trajectory.forward_y = std::sin(yaw_rad);
+  for (int i = 0; i < 2 * record::second_count(trajectory.seconds()); ++i)
+    trajectory.com_by_second_m.push_back(far_m());
+  trajectory.energy_j = std::max(0.0, far_m());
+  trajectory.upright_steps = trajectory.steps * stream.uniform(-1.0, 1.0);
+  return trajectory;
+}
+
+TEST(Score, OfEachQuantityStaysInItsRange) {
+  Stream stream(20, Purpose::test);
+  for (int i = 0; i < 5000; ++i) {
+    const auto trajectory = wild_trial(stream);
+    const Settings settings{.heading_deg = stream.uniform(-360.0, 360.0),
+                            .speed_m_s = stream.uniform(0.01, 10.0)};
+    for (const Quantity& quantity : quantities()) {
+      const double value =
+          quantity.of(trajectory, {.settings = settings, .duration_s = 15.0, .weight_n = 100.0});
+      EXPECT_TRUE(std::isfinite(value) && io::in_range(quantity.range, value))
+          << quantity.name << " = " << value;
+    }
+  }
+}
+
+TEST(Score, HasEachOfItsQuantitiesInTheDocsWithUnitAndRange) {
+  const std::string page = io::read_file(AMBLE_SOURCE_DIR "/docs/SCORES.md");
+  for (const Quantity& quantity : quantities()) {
+    const auto bound = [](double value) {
+      return std::isfinite(value) ? fmt::format("{}", value) : value < 0.0 ? "−∞" : "∞";
+    };
+    const std::string lowest = bound(quantity.range.lowest);
+    const auto row =
+        fmt::format("| `{}` | {} | {} … {} |", quantity.name, quantity.unit.empty() ? "–" : quantity.unit,
+                    lowest == "-1" ? "−1" : lowest, bound(quantity.range.highest));
+    EXPECT_THAT(page, testing::HasSubstr(row));
+  }
 }
 
 TEST(Score, IsASumOfWeightedTermsAndNeverNegative) {
@@ -122,13 +242,11 @@ TEST(ScoreSettings, AreRefusedWhereTheyNameNothingOrCannotBeKept) {
   EXPECT_EQ(error_of({}), "");
   EXPECT_EQ(error_of({.terms = {}}), "score.terms: expected at least one term");
   EXPECT_EQ(error_of({.terms = {{.quantity = "joy"}}}),
-            "score.terms: quantity \"joy\": expected distance, forward, speed_kept, economy, uprightness, "
-            "upright_time");
+            "score.terms: quantity \"joy\": expected distance, forward, heading, speed_kept, economy, "
+            "uprightness, upright_time");
   EXPECT_THAT(error_of({.limits = {{.quantity = "joy"}}}), testing::HasSubstr("score.limits: quantity"));
   EXPECT_EQ(error_of({.limits = {{.quantity = "uprightness", .least = 0.9, .most = 0.5}}}),
             "score.limits: uprightness: least = 0.9 is above most = 0.5");
-  EXPECT_EQ(error_of({.direction = {0.0, 0.0}}), "score.direction: expected two numbers, not both 0");
-  EXPECT_EQ(error_of({.direction = {1.0}}), "score.direction: expected two numbers, not both 0");
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ class FakeEngine : public physics::Engine {
     frame_.joint_angle_rad.at(0, lane) = start_angle_rad;
   }
   void place_at(int lane, const physics::StartPose& pose) override {
-    state(lane) = {.placed = true, .position = pose.root.position_m};
+    state(lane) = {.placed = true, .position = pose.root.position_m, .rotation = pose.root.rotation};
   }
   void push(int lane, Vec3 impulse_n_s) override {
     pushed_n_s = pushed_n_s + impulse_n_s;
@@ -48,7 +48,9 @@ class FakeEngine : public physics::Engine {
   bool healthy(int lane) const override { return std::isfinite(state(lane).position.x); }
   const robot::SensorFrame& sensors() const override { return frame_; }
   const LaneArray* motor_torque_nm() const override { return nullptr; }
-  physics::RootPose root_pose(int lane) const override { return {state(lane).position, {}}; }
+  physics::RootPose root_pose(int lane) const override {
+    return {state(lane).position, state(lane).rotation};
+  }
   Vec3 root_com_m(int lane) const override { return state(lane).position; }
   Vec3 com_m(int lane) const override { return state(lane).position; }
   Vec3 momentum_kg_m_s(int) const override { return {}; }
@@ -65,6 +67,7 @@ class FakeEngine : public physics::Engine {
   struct State {
     bool placed = false;
     Vec3 position;
+    Quat rotation = {};
   };
   State& state(int lane) { return states_[static_cast<std::size_t>(lane)]; }
   const State& state(int lane) const { return states_[static_cast<std::size_t>(lane)]; }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -82,6 +84,41 @@ TEST(Runner, SamplesThePathOnceInEachStrideRelativeToTheStart) {
     Runner(engine, batch, protocol(7, 0.0, {.stride = 3, .first_step = first_step})).run(queue, never);
     const float x = 0.25f * static_cast<float>(first_step);
     EXPECT_EQ(queue.results[0]->com_path_m, (std::vector<float>{x, 0.0f, x + 0.75f, 0.0f})) << first_step;
+  }
+}
+
+TEST(Runner, NotesTheCentreOfMassAfterEachWholeSecondIfAsked) {
+  FakeEngine engine(1);
+  FakeBatch batch(1);
+  for (const bool asked : {false, true}) {
+    Protocol seconds = protocol(250);
+    seconds.measures.seconds = asked;
+    Queue queue({FakeParameters(0.25f)});
+    Runner(engine, batch, seconds).run(queue, never);
+    EXPECT_EQ(queue.results[0]->com_by_second_m,
+              asked ? std::vector<double>({25.0, 0.0, 50.0, 0.0}) : std::vector<double>());
+  }
+}
+
+TEST(Runner, NotesWhichWayTheRobotFacesAtTheStart) {
+  FakeEngine engine(1);
+  FakeBatch batch(1);
+  constexpr double yaw_rad = 0.5;
+  const Quat yaw = axis_angle({0.0, 0.0, 1.0}, yaw_rad);
+  const Quat leaning = axis_angle({0.6, 0.8, 0.0}, 0.7);
+  Scenario turned;
+  turned.start = physics::StartPose{.root = {{0.0, 0.0, 1.0}, yaw}, .joint_angle_rad = {}};
+  turned.joint_sensor_rad = {0.0f};
+  turned.attitude_sensor_rad = {0.0f, 0.0f, 0.0f};
+  for (const Quat own : {Quat(), leaning}) {
+    // A robot whose root has this rotation in its own start pose faces +x then.
+    Protocol facing = protocol(3);
+    facing.start_rotation = own;
+    turned.start->root.rotation = yaw * own;
+    OneTask task(std::make_shared<FakeParameters>(0.25f), nullptr, &turned);
+    Runner(engine, batch, facing).run(task, never);
+    EXPECT_NEAR(task.result()->forward_x, std::cos(yaw_rad), 1e-12);
+    EXPECT_NEAR(task.result()->forward_y, std::sin(yaw_rad), 1e-12);
   }
 }
 

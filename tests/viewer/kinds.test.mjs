@@ -30,7 +30,7 @@ function changed(path, name, change) {
 
 test("two walkers move by one clock, side by side or one as a ghost of the other", () =>
   onPage(makePage("two.html", recording("walk.rec"), recording("slow.rec")), {}, async (page) => {
-    assert.deepEqual(await page.evaluate(() => window.amble.walkers), ["walk", "slow"]);
+    assert.deepEqual(await page.evaluate(() => window.amble.walkers), ["test robot, walk", "test robot, slow"]);
     await page.evaluate(() => { window.amble.seek(10); window.amble.render(); });
     const [fast, slow] = await page.evaluate(() => [0, 1].map((i) => window.amble.placed(i)[0][0]));
     assert.ok(Math.abs(fast - 2.5) < 0.01 && Math.abs(slow - 1) < 0.01, `${fast} m, ${slow} m`);
@@ -38,7 +38,7 @@ test("two walkers move by one clock, side by side or one as a ghost of the other
     await page.keyboard.press("g");
     assert.notEqual((await pictureOf(page)).hash, side.hash);
     await page.keyboard.press("2");
-    assert.equal(await page.locator(".walkers [aria-pressed=true]").textContent(), "slow");
+    assert.equal(await page.locator(".walkers [aria-pressed=true]").textContent(), "test robot, slow");
     await settled(page);
     assert.equal(await page.locator("#now dd").nth(1).textContent(), "1.00 m");
   }));
@@ -141,6 +141,65 @@ test("a controller without patterns is named by its kind, and has no timers", ()
   });
 });
 
+/** A model of a table on ten legs, each with a hip and a knee. */
+function tenLegs() {
+  const legs = [0, 1, 2, 3, 4].flatMap((row) => [["L", 1], ["R", -1]].map(([side, y]) => ({ name: `${side}${row + 1}`, x: 0.6 - 0.3 * row, y: 0.14 * y })));
+  const bodies = legs.map(({ name, x, y }) => `<body name="${name}" pos="${x} ${y} 0"><joint name="${name}_hip" axis="0 1 0" range="-0.6 0.6"/>
+    <geom type="capsule" size="0.02" fromto="0 0 0 0 0 -0.15" mass="0.2"/><body name="${name}_shank" pos="0 0 -0.15">
+    <joint name="${name}_knee" axis="0 1 0" range="0 0.8"/><geom type="capsule" size="0.02" fromto="0 0 0 0 0 -0.15" mass="0.1"/>
+    <geom name="${name}_foot" type="sphere" pos="0 0 -0.17" size="0.03" mass="0.05"/></body></body>`);
+  const motors = legs.flatMap(({ name }) => ["hip", "knee"].map((joint) => `<position joint="${name}_${joint}" kp="20" forcerange="-8 8"/>`));
+  return `<mujoco><worldbody><body name="torso" pos="0 0 0.36"><freejoint/><geom type="box" size="0.7 0.1 0.05" mass="6"/>${bodies.join("")}
+    </body></worldbody><actuator>${motors.join("")}</actuator></mujoco>`;
+}
+
+test("of ten legs every column of the table and every pattern is in sight, also on a phone", async () => {
+  const folder = mkdtempSync(join(tmpdir(), "amble-"));
+  try {
+    writeFileSync(join(folder, "table.xml"), tenLegs());
+    amble("robot", "--init", join(folder, "table.xml"), "-o", join(folder, "table"));
+    amble("evolve", join(folder, "table/evolve.toml"), "--set", "population.size=4", "--set", "trial.duration_s=6", "--generations", "1",
+          "--out", join(folder, "run"));
+    const path = makePage("ten.html", join(folder, "run"));
+    for (const width of [360, 800, 1280])
+      await onPage(path, { viewport: { width, height: 800 } }, async (page) => {
+        assert.equal(await page.locator(".gait tr").count(), 11, "a head, and a row for each leg");
+        assert.equal(await page.locator(".pattern-leg").count(), 10);
+        const cut = await page.evaluate(() => [...document.querySelectorAll(".gait th, .gait td, .pattern-head, .pattern-head *, .panel svg")]
+          .filter((part) => {
+            const { right } = part.getBoundingClientRect(), box = part.closest(".scroll, .patterns, .analysis").getBoundingClientRect();
+            return right > Math.min(box.right, innerWidth) + 0.5 || part.scrollWidth > part.clientWidth + 1 && part.clientWidth > 0;
+          }).map((part) => part.textContent || part.tagName));
+        assert.deepEqual(cut, [], `${width} px wide`);
+      });
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+});
+
+test("a foot on the ground stands out from a leg of any colour", () =>
+  onPage(makePage("feet.html", recording("walk.rec")), {}, async (page) => {
+    for (const colorScheme of ["light", "dark"]) {
+      await page.emulateMedia({ colorScheme });
+      await settled(page);
+      const feet = await page.evaluate(() => [...Array(200).keys()].flatMap((i) => {
+        window.amble.seek(i * 0.02);
+        window.amble.render();
+        return [0, 1, 2, 3].map((leg) => ({ ...window.amble.foot(0, leg), touching: window.amble.touching(0, leg, i * 0.02) }));
+      }));
+      const legs = await page.evaluate(() => [...Array(8).keys()].map((leg) =>
+        getComputedStyle(document.documentElement).getPropertyValue(`--c${leg}`).trim()));
+      const parts = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
+      const apart = (a, b) => Math.hypot(...parts(a).map((value, i) => value - parts(b)[i]));
+      for (const { colour, outlined, touching } of feet) {
+        assert.equal(outlined, touching);
+        if (touching) for (const leg of legs) assert.ok(apart(colour, leg) > 80, `${colour} on ${leg}, ${colorScheme}`);
+        else assert.ok(legs.includes(colour), colour);
+      }
+      assert.ok(feet.some(({ touching }) => touching) && feet.some(({ touching }) => !touching));
+    }
+  }));
+
 test("the gait is named, in all and around the present", () =>
   onPage(makePage("gait.html", recording("walk.rec")), {}, async (page) => {
     assert.equal(await page.locator(".gait-name").textContent(), "trot");
@@ -220,7 +279,8 @@ test("the page of a champion has its CPPN and the cost of transport", () =>
 
 test("champions of two kinds are side by side, each with its own CPPN and diagrams", () =>
   onPage(championsPage("kinds.html", "supg-objective", "ctrnn-objective"), {}, async (page) => {
-    assert.deepEqual(await page.evaluate(() => window.amble.walkers.map((title) => title.split("-")[0])), ["supg", "ctrnn"]);
+    assert.deepEqual(await page.evaluate(() => window.amble.walkers),
+                     ["quadruped (authors), supg-objective", "quadruped (authors), ctrnn-objective"]);
     const first = await pictureOf(page);
     assert.deepEqual(await page.locator(".terminal text").allTextContents(), SUPG_INPUTS);
     assert.equal(await page.locator(".patterns").count(), 1);

@@ -41,7 +41,8 @@ export class Analysis {
               ...jointPlots(walk, window, clock).map(plot)),
       section("Speed and height", "Of the centre of mass over the ground; speed over half a second.",
               plot(motionPlot(this.walks, window, clock, () => this.selected))),
-      ...(walk.cppn_svg ? [section("CPPN", "The evolved network that makes the controller, from its inputs (left) to its " +
+      ...(walk.cppn_svg ? [section("CPPN", "The evolved network that makes the controller, a compositional pattern producing " +
+                                   "network, from its inputs (left) to its " +
                                    "outputs: the function of each node, and each link’s weight as its width.",
                                    drawing(walk.cppn_svg))] : []),
     );

@@ -6,6 +6,8 @@ const percent = (share) => (share == null ? "–" : `${(100 * share).toFixed(0)}
 const seconds = (time_s) => number(time_s, Number.isInteger(time_s) ? 0 : 1);
 const decimals = (count) => (value) => (value == null ? "–" : number(value, count));
 
+const MOST_COLUMNS = 6; // legs
+
 /** Null for robots of which gaits have no names. */
 const nameOf = ({ gait, irregular_reason: reason }) => gait && gait + (reason ? ` (${reason})` : "");
 
@@ -23,6 +25,8 @@ export class GaitTable {
     this.element = element("div", { class: "gait-box" });
     if (this.gait) this.element.append(this.headline());
     this.element.append(element("div", { class: "scroll" }, this.table()));
+    if (this.now && walk.robot.legs.length > MOST_COLUMNS)
+      this.element.append(element("p", { class: "gait-now-line" }, "Now: ", this.title));
     if (this.gait) this.element.append(this.key(), this.figures());
   }
 
@@ -32,23 +36,44 @@ export class GaitTable {
     return element("p", { class: "gait-head" }, element("b", { class: "gait-name" }, head), ` ${rest.join(", ")}`);
   }
 
+  /** A column for each leg; of many legs a row for each, so that the table is no wider than the page. */
   table() {
     const { legs } = this.walk.robot;
     const head = legs.map(({ name }, leg) => element("th", {}, element("span", { class: `key ${legClass(leg)}` }, name)));
-    const row = (title, cells) => element("tr", {}, element("th", {}, title), ...cells.map((cell) => element("td", {}, cell)));
-    const rows = [element("tr", {}, element("th", {}), ...head)];
-    const known = this.gait?.legs;
-    rows.push(known ? row("Duty factor", known.map((leg) => percent(leg.duty_factor)))
-                    : row("On the ground", legs.map((_, leg) => percent(this.walk.contactShare(leg)))));
-    if (known) {
-      const of = (value, text) => known.map((leg) => text(value(leg)));
-      rows.push(row("Phase", of(({ phase }) => phase?.phase, decimals(2))),
-                row("R", of(({ phase }) => phase?.resultant, decimals(2))),
-                row("Drift / min", of(({ drift_per_min }) => drift_per_min, decimals(3))),
-               row("Stride, s", of(({ stride_s }) => stride_s, decimals(2))));
-      if (this.gait.windows.length > 1) rows.push(...this.windowRows(row));
+    const measures = this.measures();
+    const row = (first, cells, attributes = {}) =>
+      element("tr", attributes, first, ...cells.map((cell) => element("td", {}, cell)));
+    const th = (title) => element("th", {}, title);
+    if (legs.length > MOST_COLUMNS) {
+      const titles = element("tr", {}, th(""), ...measures.map(({ title, now }) => th(now ? `${title} now` : title)));
+      const rows = head.map((name, leg) => row(name, measures.map(({ cells }) => cells[leg])));
+      return element("table", { class: "gait by-leg" }, titles, ...rows);
     }
-    return element("table", { class: "gait" }, ...rows);
+    const rows = measures.map(({ title, cells }) => row(th(title), cells));
+    const first = measures.findIndex(({ now }) => now);
+    if (first >= 0) {
+      const title = element("td", { colspan: legs.length }, this.title);
+      rows.splice(first, 0, element("tr", { class: "gait-now" }, th("Now"), title));
+    }
+    return element("table", { class: "gait" }, element("tr", {}, th(""), ...head), ...rows);
+  }
+
+  /** {title, cells: one per leg, now: whether they follow the time}. */
+  measures() {
+    const { legs } = this.walk.robot;
+    const known = this.gait?.legs;
+    if (!known) return [{ title: "On the ground", cells: legs.map((_, leg) => percent(this.walk.contactShare(leg))) }];
+    const of = (title, value, text) => ({ title, cells: known.map((leg) => text(value(leg))) });
+    const list = [of("Duty factor", (leg) => leg.duty_factor, percent), of("Phase", ({ phase }) => phase?.phase, decimals(2)),
+                  of("R", ({ phase }) => phase?.resultant, decimals(2)),
+                  of("Drift / min", ({ drift_per_min }) => drift_per_min, decimals(3)),
+                  of("Stride, s", ({ stride_s }) => stride_s, decimals(2))];
+    if (this.gait.windows.length <= 1) return list;
+    this.title = element("span");
+    const cells = () => legs.map(() => document.createTextNode(""));
+    this.now = { duty_factors: cells(), phases: cells() };
+    return [...list, { title: "Duty factor", cells: this.now.duty_factors, now: true },
+            { title: "Phase", cells: this.now.phases, now: true }];
   }
 
   key() {
@@ -58,15 +83,6 @@ export class GaitTable {
     const known = this.gait.work_positive_j != null;
     return element("p", { class: "lead" }, `${text}Cost of transport: the motors’ positive work / (weight × way)` +
                    (known ? "; in brackets, with braking counted too." : "; not known where an engine tells no torques."));
-  }
-
-  /** Rows that follow the time: the gait of the part of the trial around it. */
-  windowRows(row) {
-    this.title = element("td", { colspan: this.walk.robot.legs.length });
-    const cells = () => this.walk.robot.legs.map(() => document.createTextNode(""));
-    this.now = { duty_factors: cells(), phases: cells() };
-    return [element("tr", { class: "gait-now" }, element("th", {}, "Now"), this.title),
-            row("Duty factor", this.now.duty_factors), row("Phase", this.now.phases)];
   }
 
   figures() {

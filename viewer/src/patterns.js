@@ -2,7 +2,11 @@
 import { rangeOf } from "./joints.js";
 import { element, legClass, svgElement } from "./theme.js";
 
+const MOST_ABREAST = 6; // columns
 const WIDTH = 160, HEIGHT = 74, PAD = 5;
+
+/** Legs in one row: all, or rows as equal as can be. */
+const abreast = (legs) => Math.ceil(legs / Math.ceil(legs / MOST_ABREAST));
 
 export class Patterns {
   constructor(walk) {
@@ -11,12 +15,12 @@ export class Patterns {
     this.cursors = walk.robot.legs.map(() => []);
     this.states = walk.robot.legs.map(() => element("span", { class: "timer-state" }));
     const { legs } = walk.robot;
-    const head = legs.map(({ name }, leg) =>
-      element("div", { class: `pattern-head ${legClass(leg)}` }, element("b", {}, name), this.states[leg]));
-    const panels = walk.robot.joint_types.flatMap((type, row) =>
-      legs.map((_, leg) => this.panel(leg, row, leg === 0 ? type.replaceAll("_", " ") : "")));
-    this.element = element("div", { class: "patterns" }, ...head, ...panels);
-    this.element.style.setProperty("--legs", legs.length);
+    const columns = legs.map(({ name }, leg) =>
+      element("div", { class: "pattern-leg" },
+              element("div", { class: `pattern-head ${legClass(leg)}` }, element("b", {}, name), this.states[leg]),
+              ...walk.robot.joint_types.map((type, row) => this.panel(leg, row, type.replaceAll("_", " ")))));
+    this.element = element("div", { class: "patterns" }, ...columns);
+    this.element.style.setProperty("--abreast", abreast(legs.length));
   }
 
   x(ticks) {

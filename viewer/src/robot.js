@@ -1,7 +1,7 @@
 // The robot's own geometry, moved by its joints.
 import {
-  BoxGeometry, BufferGeometry, CapsuleGeometry, CylinderGeometry, Float32BufferAttribute, Group, Mesh, MeshLambertMaterial,
-  SphereGeometry, Vector3,
+  BackSide, BoxGeometry, BufferGeometry, CapsuleGeometry, CylinderGeometry, Float32BufferAttribute, Group, Mesh,
+  MeshBasicMaterial, MeshLambertMaterial, SphereGeometry, Vector3,
 } from "three";
 import { colour, legColour, walkerColour } from "./theme.js";
 
@@ -25,6 +25,21 @@ function geometryOf(geom) {
     case "mesh": return meshGeometry(geom);
   }
   throw new Error(`unknown shape ${shape}`);
+}
+
+const OUTLINE = 0.28; // thickness, as a share of half the shape's least extent
+
+/** The shape grown to all sides, of which only the inside is seen: an outline around what is in it. */
+function outlineOf(geometry) {
+  geometry.computeBoundingBox();
+  const middle = geometry.boundingBox.getCenter(new Vector3());
+  const half = geometry.boundingBox.getSize(new Vector3()).multiplyScalar(0.5).clampScalar(1e-6, Infinity);
+  const thick = OUTLINE * Math.min(half.x, half.y, half.z);
+  const outline = new Mesh(geometry, new MeshBasicMaterial({ side: BackSide }));
+  outline.scale.set(1 + thick / half.x, 1 + thick / half.y, 1 + thick / half.z);
+  outline.position.copy(middle).sub(middle.clone().multiply(outline.scale));
+  outline.visible = false;
+  return outline;
 }
 
 const place = (object, position, rotation) => {
@@ -96,7 +111,11 @@ export class RobotModel {
       frames[geom.body].add(mesh);
       const leg = legOfBody(this.robot, geom.body);
       const foot = this.robot.legs.findIndex(({ foot_geom }) => foot_geom === g);
-      if (foot >= 0) this.feet[foot] = { mesh, material, touching: null };
+      if (foot >= 0) {
+        const outline = outlineOf(mesh.geometry);
+        mesh.add(outline);
+        this.feet[foot] = { mesh, material, outline, touching: null };
+      }
       this.parts.push({ mesh, material, leg, foot, mark: leg < 0 && !geom.collides });
     });
   }
@@ -114,16 +133,26 @@ export class RobotModel {
     this.hinges.forEach(({ group, axis }, j) => group.quaternion.setFromAxisAngle(axis, angles[j]));
   }
 
-  /** A foot on the ground glows. */
+  /** A foot on the ground is white with an outline, whatever the colour of its leg. */
   setTouch(leg, touching) {
     const foot = this.feet[leg];
     if (!foot || foot.touching === touching) return;
     foot.touching = touching;
     foot.material.color.set(touching ? colour("--touch") : legColour(leg));
     foot.material.emissive.set(touching ? colour("--touch-glow") : "#000");
+    foot.outline.material.color.set(colour("--touch-line"));
+    foot.outline.visible = touching && !this.ghost;
+  }
+
+  /** What a foot looks like now: its colour, and whether it has an outline. */
+  footLook(leg) {
+    const { material, outline } = this.feet[leg];
+    return { colour: `#${material.color.getHexString()}`, outlined: outline.visible };
   }
 
   setGhost(ghost) {
+    this.ghost = ghost;
+    for (const foot of this.feet) if (foot) foot.touching = null; // outlined anew by setTouch
     for (const { material, mesh } of this.parts) {
       material.transparent = ghost;
       material.opacity = ghost ? 0.28 : 1;
