@@ -164,6 +164,8 @@ TEST_P(RunOnEngine, HasNoiseOnlyWhereItIsSetAndIsVerified) {
   EXPECT_EQ(trial({"--noise", "1"}), trial({"--noise", "1"}));
   EXPECT_NE(trial({"--noise", "1"}), trial({}));
   EXPECT_NE(trial({"--noise", "1"}), trial({"--noise", "2"}));
+  const std::string rough = AMBLE_SOURCE_DIR "/studies/grounds/supg-rough.toml";
+  EXPECT_NE(trial({"--noise", "1", "--ground", rough}), trial({"--noise", "1"}));
 
   ASSERT_EQ(amble(evolve(scratch / "quiet", 1, 2)).exit_code, ok);
   const auto quiet = std::filesystem::directory_iterator(scratch / "quiet/champions")->path().string();
