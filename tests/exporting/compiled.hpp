@@ -9,7 +9,7 @@
 namespace amble::tests {
 
 /// What every exported source must bear.
-inline const std::string strict_flags = "-std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Werror -O1";
+inline const std::string strict_flags = "-std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Werror";
 
 struct Ran {
   int exit_code = -1;
