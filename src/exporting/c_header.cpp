@@ -48,8 +48,9 @@ std::vector<std::string> sensor_lines(const ControllerTables& tables, bool fixed
 std::vector<std::string> joint_lines(const ControllerTables& tables, const robot::RobotSpec& robot,
                                      const std::vector<std::string>& names) {
   std::vector<std::string> lines{
-      "Joints: angle 0 is the start pose; positive turns the body about the axis (in the body's frame, x "
-      "forward, y left, z up in the start pose unless the model has it otherwise) by the right-hand rule."};
+      "Joints: angle 0 is the start pose; positive angles turn the body by the right-hand rule about the "
+      "axis, "
+      "which is in the body's own frame."};
   for (std::size_t j = 0; j < tables.joints.size(); ++j) {
     const CommandedJoint& joint = tables.joints[j];
     const robot::Joint& part = robot.joints[j];

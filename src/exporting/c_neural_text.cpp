@@ -32,13 +32,10 @@ const std::string_view c_fused = R"(/* a b + c, rounded once to nearest, of fini
 #ifdef __FP_FAST_FMAF
 static float fused(float a, float b, float c) { return __builtin_fmaf(a, b, c); }
 #else
-/* The 24 binary digits of |x|, which is not 0, the first of them 1; |x| = digits 2^(result - 150). */
-static int32_t split(float x, uint32_t *digits) {
-  float_bits f;
-  int32_t exponent;
-  f.number = x;
-  exponent = (int32_t)((f.bits >> 23) & 255u);
-  *digits = f.bits & 0x7fffffu;
+/* The 24 binary digits of a |x| that is not 0, the first of them 1; |x| = digits 2^(result - 150). */
+static int32_t split(uint32_t bits, uint32_t *digits) {
+  int32_t exponent = (int32_t)((bits >> 23) & 255u);
+  *digits = bits & 0x7fffffu;
   if (exponent > 0)
     *digits |= 0x800000u;
   else
@@ -54,15 +51,15 @@ static uint64_t shifted_right(uint64_t x, int32_t count) {
 }
 
 static float fused(float a, float b, float c) {
-  uint32_t a_digits, b_digits, c_digits, high;
+  uint32_t a_digits, b_digits, c_digits, high, sign;
   uint64_t product, addend, sum;
   int32_t unit, shift; /* all three are in 2^unit */
-  int negative;
-  float_bits f, g;
-  if (a == 0.0f || b == 0.0f) return a * b + c;
-  if (c == 0.0f) return a * b;
-  unit = split(a, &a_digits) + split(b, &b_digits) - 314;
-  shift = split(c, &c_digits) - 150 - unit;
+  float_bits x, y, z;
+  x.number = a, y.number = b, z.number = c;
+  if (x.bits << 1 == 0 || y.bits << 1 == 0) return a * b + c;
+  if (z.bits << 1 == 0) return a * b;
+  unit = split(x.bits, &a_digits) + split(y.bits, &b_digits) - 314;
+  shift = split(z.bits, &c_digits) - 150 - unit;
   product = ((uint64_t)a_digits * b_digits) << 14;
   if (shift > 38) {
     product = shifted_right(product, shift - 38);
@@ -71,14 +68,14 @@ static float fused(float a, float b, float c) {
   }
   addend = shift >= 0 ? (uint64_t)c_digits << shift : shifted_right(c_digits, -shift);
 
-  negative = (a < 0.0f) != (b < 0.0f);
-  if (negative == (c < 0.0f)) {
+  sign = (x.bits ^ y.bits) & 0x80000000u;
+  if (((sign ^ z.bits) & 0x80000000u) == 0) {
     sum = product + addend;
   } else if (product >= addend) {
     sum = product - addend;
   } else {
     sum = addend - product;
-    negative = !negative;
+    sign ^= 0x80000000u;
   }
   if (sum == 0) return 0.0f;
   while (sum < (uint64_t)1 << 46) {
@@ -98,10 +95,10 @@ static float fused(float a, float b, float c) {
     unit = 1;
   }
   high = (uint32_t)(sum >> 32) | ((uint32_t)sum != 0 ? 1u : 0u);
-  f.bits = (high >> 7) + ((uint32_t)(unit - 1) << 23);
-  if ((high & 127u) > 64u || ((high & 127u) == 64u && (f.bits & 1u) != 0)) ++f.bits;
-  g.number = f.number;
-  return negative ? -g.number : g.number;
+  x.bits = (high >> 7) + ((uint32_t)(unit - 1) << 23);
+  if ((high & 127u) > 64u || ((high & 127u) == 64u && (x.bits & 1u) != 0)) ++x.bits;
+  x.bits |= sign;
+  return x.number;
 }
 #endif
 

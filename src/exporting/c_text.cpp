@@ -1,6 +1,6 @@
 #include "amble/exporting/c_text.hpp"
 
-#include <cctype>
+#include <algorithm>
 #include <cmath>
 
 #include "amble/core/check.hpp"
@@ -117,8 +117,16 @@ void CText::array(std::string_view declaration, const std::vector<std::vector<st
 
 void CText::comment_lines(const std::vector<std::string>& lines) {
   for (const std::string& text : lines) {
-    const std::string safe = in_comment(text);
-    text_ += safe.empty() ? " *\n" : " * " + safe + "\n";
+    std::string left = in_comment(text);
+    const std::size_t margin = std::min(left.find_first_not_of(' '), left.size());
+    // Longer lines go on indented, from the last space that is not too far.
+    while (left.size() > line_length - 3) {
+      const std::size_t space = left.rfind(' ', line_length - 3);
+      if (space == std::string::npos || space <= margin + 2) break;
+      text_ += " * " + left.substr(0, space) + "\n";
+      left = std::string(margin + 2, ' ') + left.substr(space + 1);
+    }
+    text_ += left.empty() ? " *\n" : " * " + left + "\n";
   }
 }
 

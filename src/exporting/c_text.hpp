@@ -63,7 +63,7 @@ class CText {
   void array(std::string_view declaration, const std::vector<std::string>& elements);
   /// The same in two dimensions.
   void array(std::string_view declaration, const std::vector<std::vector<std::string>>& rows);
-  /// An element per line, in a comment.
+  /// The inside of a block comment, line by line; long lines are broken.
   void comment_lines(const std::vector<std::string>& lines);
 
   std::string take() { return std::move(text_); }

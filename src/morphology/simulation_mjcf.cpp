@@ -18,15 +18,14 @@ namespace {
 std::string softness(const robot::Contact& contact, double h, double diagonal, std::string_view kind) {
   const double d = std::clamp(diagonal / (diagonal + contact.cfm_s_per_kg / h), mjMINIMP, mjMAXIMP);
   return fmt::format(R"( solref{0}="{1} {2}" solimp{0}="{3} {3} 0.001 0.5 2")", kind,
-                     -contact.erp / (h * h) * d, -1.0 / h, d);
+                     -contact.erp / (h * h) * d, -d / h, d);
 }
 
-/// `inverse_inertia`: of the joint, 1/(kg m²).
-std::string actuator(const robot::Joint& joint, const std::string& name, double inverse_inertia, double h) {
+std::string actuator(const robot::Joint& joint, const std::string& name, double h) {
   const robot::Servo& servo = joint.servo;
   double kp = servo.kp_nm_per_rad, kd = servo.kd_nm_s_per_rad + kp * h;
   if (servo.mode == robot::ServoMode::velocity) {
-    kd = motor_damping / (inverse_inertia * h);
+    kd = servo.max_torque_nm / motor_slip_rad_s;
     kp = kd * servo.gain_per_s;
   }
   const robot::AngleRange range = joint.command_range();
@@ -64,7 +63,7 @@ std::string simulation_mjcf(const robot::RobotSpec& robot, double timestep_s) {
   MjcfAdditions more;
   more.option = fmt::format(
       R"(timestep="{}" integrator="implicit" solver="Newton" cone="elliptic" iterations="20" tolerance="1e-10")",
-      timestep_s);
+      timestep_s / steps_per_tick);
   more.joints.resize(robot.joints.size());
   more.geoms.resize(robot.geoms.size());
   std::vector<std::string> actuators(robot.joints.size());
@@ -73,7 +72,7 @@ std::string simulation_mjcf(const robot::RobotSpec& robot, double timestep_s) {
     const double inverse_inertia = model->dof_invweight0[model->jnt_dofadr[place + 1]];
     more.joints[j] = softness(robot.contact, timestep_s, inverse_inertia, "limit") +
                      softness(robot.contact, timestep_s, inverse_inertia, "friction");
-    actuators[j] = actuator(robot.joints[j], plain.joint_names[place], inverse_inertia, timestep_s);
+    actuators[j] = actuator(robot.joints[j], plain.joint_names[place], timestep_s);
   }
   for (std::size_t place = 0; place < plain.geoms.size(); ++place) {
     const double inverse_mass = model->body_invweight0[2 * model->geom_bodyid[place + 1]];
@@ -83,6 +82,8 @@ std::string simulation_mjcf(const robot::RobotSpec& robot, double timestep_s) {
   more.sections = "  <actuator>\n";
   for (const std::string& line : actuators) more.sections += line;
   more.sections += "  </actuator>\n" + keyframe(robot);
+  more.sections += fmt::format(
+      "  <custom>\n    <numeric name=\"control_period_s\" data=\"{}\"/>\n  </custom>\n", timestep_s);
   return write_mjcf(robot, more).text;
 }
 

@@ -6,18 +6,18 @@
 
 namespace amble::morphology {
 
-/// The robot as it is simulated, for MuJoCo: what write_mjcf() writes, and the timestep, contacts and stops
-/// as soft as Contact says, an actuator per joint whose control is the target angle (rad), in control order,
-/// and the keyframe "start". Its limits are those of MuJoCo's actuators, which are springs and dampers:
+/// The robot as it is simulated, for MuJoCo: what write_mjcf() writes, and contacts and stops as soft as
+/// Contact says, an actuator per joint in control order, whose control is the target angle (rad), and the
+/// keyframe "start". It is to be stepped `steps_per_tick` times from one control to the next; the time
+/// between controls is the custom number "control_period_s".
 ///
-/// ServoMode::torque is kp (target − q) − (kd + kp h) q̇ with timestep h. By the integrator "implicit" that is
-/// the servo's own law, backward Euler, while its torque is below the limit.
-///
-/// ServoMode::velocity, ODE's joint motor, reaches its speed within a step if the torque suffices. Here it is
-/// a damper about that speed, of `motor_damping` times the inertia at the joint over h: it lags by a step or
-/// two.
+/// The actuators are MuJoCo's springs and dampers with the servos' torque limits. ServoMode::torque with
+/// timestep h: kp (target − q) − (kd + kp h) q̇, which is the servo's backward Euler. ServoMode::velocity,
+/// ODE's joint motor, reaches its speed at once if the torque suffices; here it is a damper about that speed,
+/// which gives all its torque at motor_slip_rad_s away from it.
 std::string simulation_mjcf(const robot::RobotSpec& robot, double timestep_s);
 
-inline constexpr double motor_damping = 0.5;
+inline constexpr int steps_per_tick = 10;
+inline constexpr double motor_slip_rad_s = 1.0;
 
 }  // namespace amble::morphology

@@ -76,6 +76,7 @@ Difference replay(const fs::path& program, const exporting::ControllerTables& ta
   io::write_file(in, sensed);
   const Ran ran = run_shell("'" + program.string() + "' < '" + in.string() + "' > '" + out.string() + "'");
   Difference difference;
+  difference.printed = ran.out;
   if (ran.exit_code != 0) return difference;
   const std::string bytes = io::read_file(out);
   std::vector<float> answers(bytes.size() / sizeof(float));

@@ -33,6 +33,7 @@ struct Difference {
   std::size_t ticks = 0;     ///< compared
   double largest_rad = 0.0;  ///< of targets
   std::size_t targets_of_other_bits = 0, states_of_other_bits = 0;
+  std::string printed = {};  ///< by the program, to its standard error
 };
 Difference replay(const std::filesystem::path& program, const exporting::ControllerTables& tables,
                   const exporting::Trace& trace);
