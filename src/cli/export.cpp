@@ -92,7 +92,8 @@ ExitCode run_export(const ExportOptions& options) {
   }
   const bool json = options.format == "json";
   if (options.out)
-    io::refuse_to_replace(*options.out, json ? "{\n  \"format\": \"amble-export\"" : "<mujoco", json ? "a JSON document" : "an MJCF model");
+    io::refuse_to_replace(*options.out, json ? "{\n  \"format\": \"amble-export\"" : "<mujoco",
+                          json ? "a JSON document" : "an MJCF model");
   const std::string text = json ? json_of(champion) : mjcf_of(champion);
   if (options.out)
     io::write_file(*options.out, text);

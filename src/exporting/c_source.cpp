@@ -14,6 +14,7 @@ std::vector<std::string> enumerators(const std::vector<std::string>& names, cons
                                      const char* kind) {
   UniqueNames unique;
   std::vector<std::string> found;
+  found.reserve(names.size());
   for (const std::string& name : names)
     found.push_back(upper_case(unique.of(prefix + "_" + kind + "_" + upper_case(name))));
   return found;

@@ -149,18 +149,19 @@ bool reads(const ControllerTables& tables, auto wanted) {
 }  // namespace
 
 bool ControllerTables::reads_angles() const {
-  return reads(*this, [](auto kind) { return kind == substrate::Sensor::Kind::angle; });
+  return reads(*this, [](auto sensed) { return sensed == substrate::Sensor::Kind::angle; });
 }
 
 bool ControllerTables::reads_touch() const {
   return std::holds_alternative<SupgTables>(parts) ||
-         reads(*this, [](auto kind) { return kind == substrate::Sensor::Kind::touch; });
+         reads(*this, [](auto sensed) { return sensed == substrate::Sensor::Kind::touch; });
 }
 
 bool ControllerTables::reads_attitude() const {
   using Kind = substrate::Sensor::Kind;
-  return reads(*this,
-               [](auto kind) { return kind == Kind::roll || kind == Kind::pitch || kind == Kind::yaw; });
+  return reads(*this, [](auto sensed) {
+    return sensed == Kind::roll || sensed == Kind::pitch || sensed == Kind::yaw;
+  });
 }
 
 ControllerTables controller_tables(const Problem& problem, const neat::Genome& genome) {

@@ -9,6 +9,7 @@ namespace {
 
 std::vector<float> of_lane(const LaneArray& rows, int lane) {
   std::vector<float> values;
+  values.reserve(to_index(rows.rows()));
   for (int row = 0; row < rows.rows(); ++row) values.push_back(rows.at(row, lane));
   return values;
 }
