@@ -1,4 +1,4 @@
-/* Controller exported by amble 0.1.0 (3de391df86a8+). See walker.h. */
+/* Controller exported by amble 0.1.0 (376e36476d9b). See walker.h. */
 #include "walker.h"
 
 #ifdef __AVR__

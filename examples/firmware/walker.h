@@ -1,4 +1,4 @@
-/* Controller exported by amble 0.1.0 (3de391df86a8+): single-unit pattern generators (SUPG).
+/* Controller exported by amble 0.1.0 (376e36476d9b): single-unit pattern generators (SUPG).
  *
  * experiment  amble demo, seed 1, generation 116, number 72
  * robot       quadruped (authors)
