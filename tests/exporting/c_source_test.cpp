@@ -25,8 +25,8 @@ const bool is_study = std::getenv("AMBLE_EXPORT_STUDY") != nullptr;
 std::vector<Sample> samples() {
   std::vector<Sample> some;
   for (const Sample& sample : twenty_samples())
-    for (const char* name : {"quadruped_supg", "biped_supg", "hexapod_sine", "quadruped_ctrnn",
-                             "recurrent_sine", "ctrnn_runge_kutta"})
+    for (const char* name : {"quadruped_supg", "holding_level", "wrapping_debounced", "hexapod_sine",
+                             "quadruped_ctrnn", "recurrent_sine", "ctrnn_runge_kutta", "biped_ctrnn"})
       if (is_study || sample.name == name) {
         some.push_back(sample);
         break;

@@ -76,10 +76,10 @@ TEST_P(EachTarget, AnswersToTheBit) {
   const experiment::Champion champion = champion_of(target.sample);
   const auto tables = exporting::controller_tables(champion.problem, champion.genome);
   const std::atomic<bool> stop{false};
-  // An emulated Cortex-M0 takes millions of instructions for a tick of these.
+  // Without an FPU a tick of a CTRNN takes a million instructions and more.
   const auto* const neural = std::get_if<exporting::NeuralTables>(&tables.parts);
-  const bool slow = neural && (neural->update == exporting::NeuralTables::Update::passes ||
-                               neural->update == exporting::NeuralTables::Update::runge_kutta);
+  const bool slow =
+      neural && neural->update != exporting::NeuralTables::Update::levels && target.processor != "m4";
   const int ticks = !measures_all ? 300 : slow ? 3000 : 30000;
   const auto trace = exporting::record_trace(champion.problem, champion.genome, ticks, stop);
   write_walker(scratch.path(), champion, target.arithmetic);
