@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,11 @@ struct Sample {
   std::string robot = "quadruped";  ///< or hexapod, biped, lacking, holding: with automatic substrates
   std::vector<std::string> assignments = {};  ///< settings
 };
+
+/// For GoogleTest, which otherwise names a sample by its bytes.
+inline void PrintTo(const Sample& sample, std::ostream* out) {
+  *out << sample.name;
+}
 
 /// Twenty: all architectures with most of their settings, on robots of two, four and six legs.
 std::vector<Sample> twenty_samples();
