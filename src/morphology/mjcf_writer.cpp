@@ -44,13 +44,14 @@ std::string size_of(const robot::Geom& geom) {
 
 class Writer {
  public:
-  explicit Writer(const robot::RobotSpec& robot) : robot_(robot) {}
+  Writer(const robot::RobotSpec& robot, const MjcfAdditions& additions)
+      : robot_(robot), additions_(additions) {}
 
   Mjcf write() {
     const double friction = std::isinf(robot_.contact.friction) ? grip : robot_.contact.friction;
     line("<mujoco model=\"{}\">", io::escape_xml(robot_.name));
     line("  <compiler angle=\"radian\" inertiafromgeom=\"false\"/>");
-    line("  <option gravity=\"{}\" timestep=\"0.01\"/>", numbers(robot_.gravity_m_s2));
+    line("  <option gravity=\"{}\" {}/>", numbers(robot_.gravity_m_s2), additions_.option);
     line("  <default>");
     // Legs collide with the ground (contype 1), and with each other only where both attributes are set.
     line("    <geom contype=\"{}\" conaffinity=\"1\" condim=\"{}\" friction=\"{}\"/>",
@@ -61,6 +62,7 @@ class Writer {
     line(R"(    <geom name="ground" type="plane" size="0 0 1" contype="1" conaffinity="0"/>)");
     write_body(0, 4);
     line("  </worldbody>");
+    mjcf_.text += additions_.sections;
     line("</mujoco>");
     return std::move(mjcf_);
   }
@@ -94,6 +96,10 @@ class Writer {
     line("  </asset>");
   }
 
+  static std::string added(const std::vector<std::string>& attributes, int index) {
+    return attributes.empty() ? std::string() : attributes[to_index(index)];
+  }
+
   static std::string positive_attribute(std::string_view name, double value) {
     return value > 0.0 ? fmt::format(R"( {}="{}")", name, value) : "";
   }
@@ -125,14 +131,14 @@ class Writer {
     // MuJoCo has no range that is open at one end.
     const auto stop = [](double angle_rad) { return std::clamp(angle_rad, -no_stop_rad, no_stop_rad); };
     const bool limited = std::isfinite(joint.lower_rad) || std::isfinite(joint.upper_rad);
-    line(R"({}  <joint name="{}" type="hinge" pos="{}" axis="{}"{}{}{}{}/>)", margin, io::escape_xml(name),
+    line(R"({}  <joint name="{}" type="hinge" pos="{}" axis="{}"{}{}{}{}{}/>)", margin, io::escape_xml(name),
          numbers(joint.anchor_m), numbers(joint.axis),
          limited
              ? fmt::format(R"( limited="true" range="{} {}")", stop(joint.lower_rad), stop(joint.upper_rad))
              : R"( limited="false")",
          positive_attribute("armature", joint.armature_kg_m2),
          positive_attribute("damping", joint.damping_nm_s_per_rad),
-         positive_attribute("frictionloss", joint.friction_loss_nm));
+         positive_attribute("frictionloss", joint.friction_loss_nm), added(additions_.joints, j));
   }
 
   void write_geom(int g, const std::string& margin) {
@@ -140,21 +146,22 @@ class Writer {
     mjcf_.geoms.push_back(g);
     const std::string mesh =
         geom.shape == robot::Shape::mesh ? fmt::format(R"( mesh="{}")", mesh_name(g)) : std::string();
-    line(R"({}  <geom {}{}{} pos="{}" quat="{}" rgba="{} {} {} {}"{}/>)", margin,
+    line(R"({}  <geom {}{}{} pos="{}" quat="{}" rgba="{} {} {} {}"{}{}/>)", margin,
          name_attribute(geom_names_, geom.name), size_of(geom), mesh, numbers(geom.position_m),
          numbers(geom.rotation), geom.rgba[0], geom.rgba[1], geom.rgba[2], geom.rgba[3],
-         geom.collides ? "" : R"( contype="0" conaffinity="0")");
+         geom.collides ? "" : R"( contype="0" conaffinity="0")", added(additions_.geoms, g));
   }
 
   const robot::RobotSpec& robot_;
+  const MjcfAdditions& additions_;
   Mjcf mjcf_;
   std::set<std::string> body_names_{"world"}, joint_names_, geom_names_{"ground"};
 };
 
 }  // namespace
 
-Mjcf write_mjcf(const robot::RobotSpec& robot) {
-  return Writer(robot).write();
+Mjcf write_mjcf(const robot::RobotSpec& robot, const MjcfAdditions& additions) {
+  return Writer(robot, additions).write();
 }
 
 }  // namespace amble::morphology

@@ -17,10 +17,18 @@ struct Mjcf {
   std::vector<std::string> joint_names;  ///< unique, as in the text; in the order of `joints`
 };
 
+/// XML that a model gets beside the robot's own parts.
+struct MjcfAdditions {
+  std::string option = R"(timestep="0.01")";  ///< attributes of <option> beside gravity
+  /// Attributes of joints and geoms, by index in the RobotSpec; or empty. Each begins with a space.
+  std::vector<std::string> joints = {}, geoms = {};
+  std::string sections = {};  ///< behind the world, in lines
+};
+
 /// Writes bodies, inertias, joints with their ranges, geoms and friction; all numbers read back to the same
 /// bits. Loaded with a TOML side file it is the same robot. MJCF cannot express the servos, the fall height
 /// and the contact's erp and cfm. Infinite friction is written as `grip`.
-Mjcf write_mjcf(const robot::RobotSpec& robot);
+Mjcf write_mjcf(const robot::RobotSpec& robot, const MjcfAdditions& additions = {});
 
 /// Coefficient of friction that represents infinity in MuJoCo.
 inline constexpr double grip = 1e4;

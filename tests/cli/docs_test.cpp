@@ -31,7 +31,7 @@ TEST(Docs, SettingsAreTheProgramsOwnTables) {
 TEST(Docs, EveryCommandExplainsItself) {
   for (const char* command :
        {"evolve", "resume", "trial", "compare", "gait", "info", "robot", "verify", "page", "report", "study",
-        "view", "settings", "substrate", "draw", "completion"}) {
+        "view", "settings", "substrate", "draw", "completion", "export"}) {
     const auto help = amble({command, "--help"});
     EXPECT_EQ(help.exit_code, 0) << command;
     EXPECT_NE(help.out.find("Usage"), std::string::npos) << command;

@@ -1,0 +1,78 @@
+/* A Cortex-M0 (nRF51, BBC micro:bit) in QEMU: the ticks are those of SysTick, the feet those of somebody who walks
+ * on the spot, and the servos' pulses go to the standard output by semihosting. On a robot board_read() reads pins
+ * and board_command() sets timers. */
+#include "board.h"
+#include "semihosting.h"
+
+enum {
+  clock_hz = 16000000,
+  last_tick = 300, /* 3 s */
+  pulse_middle_us = 1500,
+  pulse_us_per_rad = 637 /* 1000 us for 90 degrees */
+};
+
+#define SYSTICK ((volatile uint32_t *)0xe000e010u)
+
+static volatile uint32_t ticks;
+static uint32_t ticks_done, missed;
+
+void systick_handler(void);
+void systick_handler(void) { ++ticks; }
+
+void board_init(void) {
+  SYSTICK[1] = (uint32_t)((uint64_t)clock_hz * WALKER_TICK_US / 1000000u) - 1u;
+  SYSTICK[2] = 0;
+  SYSTICK[0] = 7; /* the processor's clock, with interrupts */
+}
+
+static void print_number(const char *before, int32_t number) {
+  char text[12];
+  int at = 11;
+  uint32_t left = (uint32_t)(number < 0 ? -number : number);
+  text[at] = 0;
+  do {
+    text[--at] = (char)('0' + left % 10u);
+    left /= 10u;
+  } while (left > 0);
+  if (number < 0) text[--at] = '-';
+  semihosting_print(before);
+  semihosting_print(text + at);
+}
+
+int board_wait_for_tick(void) {
+  if (ticks > ticks_done) missed += ticks - ticks_done;
+  while (ticks == ticks_done) __asm__ volatile("wfi");
+  ticks_done = ticks;
+  if (ticks_done <= last_tick) return 1;
+  print_number("", last_tick);
+  print_number(" ticks, late ", (int32_t)missed);
+  semihosting_print("\n");
+  semihosting_exit(missed == 0);
+  return 0;
+}
+
+/* Each foot is down for 0.4 of 0.8 s, diagonal pairs together. */
+void board_read(walker_sensors *sensors) {
+  int leg;
+  for (leg = 0; leg < WALKER_LEGS; ++leg) {
+    const uint32_t phase = (ticks_done + ((leg == WALKER_LEG_FR || leg == WALKER_LEG_BL) ? 40u : 0u)) % 80u;
+    sensors->touch[leg] = phase < 40u;
+  }
+}
+
+void board_command(const walker_targets *targets) {
+  int joint;
+  if (ticks_done % 50u != 0) return;
+  print_number("tick ", (int32_t)ticks_done);
+  semihosting_print(": pulses, us");
+  for (joint = 0; joint < WALKER_JOINTS; ++joint) {
+    const int32_t angle = targets->angle[joint];
+    print_number(" ", pulse_middle_us + (angle * pulse_us_per_rad) / (1 << WALKER_FRACTION_BITS));
+  }
+  semihosting_print("\n");
+}
+
+int main(void) {
+  walk();
+  return 0;
+}

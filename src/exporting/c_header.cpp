@@ -1,0 +1,178 @@
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "amble/core/index.hpp"
+#include "amble/exporting/c_parts.hpp"
+
+namespace amble::exporting {
+namespace {
+
+std::string kind_in_words(const ControllerTables& tables) {
+  return tables.kind == "supg"      ? "single-unit pattern generators (SUPG)"
+         : tables.kind == "ctrnn"   ? "a continuous-time recurrent neural network (CTRNN)"
+         : tables.kind == "network" ? "a network of neurons"
+                                    : tables.kind;
+}
+
+std::vector<std::string> provenance_lines(const Provenance& from, const std::string& robot) {
+  return {fmt::format("experiment  {}, seed {}, generation {}, number {}", from.experiment, from.seed,
+                      from.generation, from.index),
+          fmt::format("robot       {}", robot),
+          fmt::format("engine      {}", from.engine),
+          fmt::format("result      {}", from.result),
+          fmt::format("settings    XXH3 {}", from.settings_hash),
+          fmt::format("genome      XXH3 {}", from.genome_hash)};
+}
+
+std::vector<std::string> sensor_lines(const ControllerTables& tables, bool fixed) {
+  std::vector<std::string> lines{"Sensors, read before each step:"};
+  if (tables.reads_touch())
+    lines.push_back(
+        fmt::format("  touch[leg]        {} while the foot is on the ground, else 0", fixed ? "not 0" : "1"));
+  if (tables.reads_angles()) lines.push_back("  angle_rad[joint]  rad, 0 in the start pose, signed as below");
+  if (tables.reads_attitude())
+    lines.push_back(
+        "  roll_rad, pitch_rad, yaw_rad  of the trunk against the world (x forward, y left, z up): "
+        "R_z(yaw) R_y(pitch) R_x(roll)");
+  if (const auto* const neural = std::get_if<NeuralTables>(&tables.parts)) {
+    std::vector<std::string> names;
+    for (const NeuralTables::Sensor& sensor : neural->sensors) names.push_back(sensor.name);
+    lines.push_back(fmt::format("Nodes that sense: {}.", fmt::join(names, ", ")));
+    lines.push_back("A reading that is not finite is replaced by the last one that was.");
+  }
+  return lines;
+}
+
+/// With axis and range: what a target means.
+std::vector<std::string> joint_lines(const ControllerTables& tables, const robot::RobotSpec& robot,
+                                     const std::vector<std::string>& names) {
+  std::vector<std::string> lines{
+      "Joints: angle 0 is the start pose; positive angles turn the body by the right-hand rule about the "
+      "axis, "
+      "which is in the body's own frame."};
+  for (std::size_t j = 0; j < tables.joints.size(); ++j) {
+    const CommandedJoint& joint = tables.joints[j];
+    const robot::Joint& part = robot.joints[j];
+    const std::string range = joint.driven
+                                  ? fmt::format("targets from {} to {} rad", joint.lower_rad, joint.upper_rad)
+                                  : fmt::format("held at {} rad", joint.lower_rad);
+    lines.push_back(fmt::format("  {}  '{}', body '{}', axis {} {} {}: {}", names[j], joint.name,
+                                robot.bodies[to_index(part.body)].name, part.axis.x, part.axis.y, part.axis.z,
+                                range));
+  }
+  return lines;
+}
+
+std::vector<std::string> first_vector(const ControllerTables& tables, const Trace& trace) {
+  const Trace::Tick& tick = trace.ticks.front();
+  std::vector<std::string> lines{"First step of its own trial, for a look:"};
+  if (tables.reads_touch()) lines.push_back(fmt::format("  touch      {}", fmt::join(tick.touch, " ")));
+  if (tables.reads_angles()) lines.push_back(fmt::format("  angle_rad  {}", fmt::join(tick.angle_rad, " ")));
+  if (tables.reads_attitude())
+    lines.push_back(fmt::format("  roll, pitch, yaw  {}", fmt::join(tick.attitude_rad, " ")));
+  lines.push_back(fmt::format("  targets    {}", fmt::join(tick.target_rad, " ")));
+  return lines;
+}
+
+void add_enumerators(const std::vector<std::string>& names, CText& text) {
+  text.line("enum {{");
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text.line("  {} = {}{}", names[i], i, i + 1 < names.size() ? "," : "");
+  text.line("}};");
+  text.line("");
+}
+
+void add_structs(const ControllerTables& tables, bool fixed, CText& text) {
+  const std::string upper = upper_case(text.prefix());
+  text.line("typedef struct {{");
+  if (tables.reads_touch()) text.line("  {} touch[{}_LEGS];", fixed ? "uint8_t" : "float", upper);
+  if (tables.reads_angles()) text.line("  float angle_rad[{}_JOINTS];", upper);
+  if (tables.reads_attitude()) text.line("  float roll_rad, pitch_rad, yaw_rad;");
+  if (!tables.reads_touch() && !tables.reads_angles() && !tables.reads_attitude())
+    text.line("  char none; /* it reads none */");
+  text.line("}} {}_sensors;", text.prefix());
+  text.line("");
+  text.line("typedef struct {{");
+  if (fixed)
+    text.line("  int16_t angle[{0}_JOINTS]; /* in 2^-{0}_FRACTION_BITS rad */", upper);
+  else
+    text.line("  float angle_rad[{}_JOINTS];", upper);
+  text.line("}} {}_targets;", text.prefix());
+  text.line("");
+  text.line("/* All memory of a controller. Its members are for reading, in tests and telemetry. */");
+  text.line("typedef struct {{");
+  if (const auto* const supg = std::get_if<SupgTables>(&tables.parts))
+    add_supg_state(*supg, text);
+  else
+    add_neural_state(std::get<NeuralTables>(tables.parts), text);
+  text.line("}} {}_state;", text.prefix());
+  text.line("");
+}
+
+constexpr std::string_view functions = R"(/* The controller before its first step. */
+void $p_init($p_state *state);
+/* One step: from this tick's sensors to this tick's targets. To be called once per tick. */
+void $p_step($p_state *state, const $p_sensors *sensors, $p_targets *targets);
+
+#ifdef $P_SELF_TEST
+/* Runs the first ticks of the champion's own trial: the largest error of a target, rad, or -1 where
+ * a target left its range, also with sensors that are NaN, infinite or huge. Unless $P_NO_MAIN is
+ * defined there is a main() that prints it. */
+float $p_self_test(void);
+#endif
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
+)";
+
+void add_constants(const ControllerTables& tables, bool fixed, CText& text) {
+  const std::string upper = upper_case(text.prefix());
+  text.line("#define {}_JOINTS {}", upper, tables.joints.size());
+  text.line("#define {}_LEGS {}", upper, tables.legs.size());
+  text.line("#define {}_TICK_US {} /* time from step to step, microseconds */", upper,
+            std::lround(1e6 * tables.timestep_s));
+  if (const auto* const neural = std::get_if<NeuralTables>(&tables.parts))
+    text.line("#define {}_NEURONS {}", upper, neural->neurons.size());
+  if (fixed) text.line("#define {}_FRACTION_BITS {}", upper, fraction_bits(tables));
+  text.line("#define {}_READS_TOUCH {}", upper, tables.reads_touch() ? 1 : 0);
+  text.line("#define {}_READS_ANGLES {}", upper, tables.reads_angles() ? 1 : 0);
+  text.line("#define {}_READS_ATTITUDE {}", upper, tables.reads_attitude() ? 1 : 0);
+  text.line("");
+}
+
+}  // namespace
+
+std::string c_header(const ControllerTables& tables, const robot::RobotSpec& robot,
+                     const Provenance& provenance, const Trace& trace, const CSourceOptions& options) {
+  const bool fixed = options.arithmetic == Arithmetic::fixed;
+  const std::vector<std::string> joints = c_joint_names(tables, options.prefix);
+  CText text(options.prefix);
+  text.line("/* Controller exported by amble {}: {}.", in_comment(provenance.amble),
+            in_comment(kind_in_words(tables)));
+  text.comment_lines({""});
+  text.comment_lines(provenance_lines(provenance, robot.name));
+  text.comment_lines({"",
+                      fmt::format("Rate: {} steps per second, one every {} s. {}", tables.rate_hz(),
+                                  tables.timestep_s, options.start),
+                      ""});
+  text.comment_lines(sensor_lines(tables, fixed));
+  text.comment_lines({""});
+  text.comment_lines(joint_lines(tables, robot, joints));
+  text.comment_lines({""});
+  text.comment_lines(first_vector(tables, trace));
+  text.line(" */");
+  text.block(
+      "#ifndef $P_H\n#define $P_H\n\n#include <stdint.h>\n\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n");
+  add_constants(tables, fixed, text);
+  add_enumerators(joints, text);
+  add_enumerators(c_leg_names(tables, options.prefix), text);
+  add_structs(tables, fixed, text);
+  text.block(functions);
+  return text.take();
+}
+
+}  // namespace amble::exporting

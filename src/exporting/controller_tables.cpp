@@ -1,0 +1,193 @@
+#include "amble/exporting/controller_tables.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "amble/controllers/ctrnn.hpp"
+#include "amble/controllers/joint_range.hpp"
+#include "amble/controllers/network.hpp"
+#include "amble/controllers/supg.hpp"
+#include "amble/controllers/wiring.hpp"
+#include "amble/core/check.hpp"
+#include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
+
+namespace amble::exporting {
+namespace {
+
+using controllers::SupgParameters;
+using experiment::Problem;
+
+std::vector<CommandedJoint> commanded_joints(const robot::RobotSpec& robot) {
+  std::vector<CommandedJoint> joints;
+  for (const robot::Joint& joint : robot.joints) {
+    const robot::AngleRange range = joint.command_range();
+    joints.push_back({joint.name, -1, range.lower_rad, range.upper_rad, joint.driven()});
+  }
+  for (std::size_t leg = 0; leg < robot.legs.size(); ++leg)
+    for (const int joint : robot.legs[leg].joints)
+      if (joint >= 0) joints[to_index(joint)].leg = static_cast<int>(leg);
+  return joints;
+}
+
+int end_of_cycle(controllers::Idle idle, int period_ticks) {
+  switch (idle) {
+    case controllers::Idle::mid:
+      return SupgParameters::stopped;
+    case controllers::Idle::hold:
+      return period_ticks;
+    case controllers::Idle::wrap:
+      return 0;
+  }
+  return SupgParameters::stopped;
+}
+
+/// The values of the timers are those of controllers::SupgBatch::load.
+SupgTables supg_tables(const Problem& problem, const SupgParameters& parameters) {
+  const controllers::SupgSettings& settings = problem.controller.supg;
+  const int period = parameters.period_ticks();
+  SupgTables tables{.period_ticks = period,
+                    .airborne_ticks_needed =
+                        settings.trigger == controllers::Trigger::level ? 0 : settings.trigger_debounce_ticks,
+                    .start_tick = settings.start_tick,
+                    .end_of_cycle = end_of_cycle(settings.idle, period),
+                    .legs = {},
+                    .targets_rad = std::vector<std::vector<float>>(problem.robot.joints.size())};
+  for (int leg = 0; leg < parameters.legs(); ++leg) {
+    const int offset = parameters.offset_ticks(leg);
+    const bool phase = settings.offset == controllers::Offset::phase;
+    const int after_offset = offset + 1 >= period ? tables.end_of_cycle : offset + 1;
+    tables.legs.push_back({.offset_ticks = offset,
+                           .wait_ticks = phase ? 0 : offset,
+                           .first_timer = phase ? after_offset : settings.start_tick});
+    const auto& joints = problem.robot.legs[to_index(leg)].joints;
+    for (std::size_t type = 0; type < joints.size(); ++type) {
+      if (joints[type] < 0) continue;
+      const int last = std::max(period - 1, tables.end_of_cycle);
+      for (int timer = SupgParameters::stopped; timer <= last; ++timer)
+        tables.targets_rad[to_index(joints[type])].push_back(parameters.targets_rad(leg, timer)[type]);
+    }
+  }
+  return tables;
+}
+
+/// Links of weight 0 are left out; they change no sum (docs/CONTROLLERS.md).
+void add_links(const controllers::Wiring& wiring, const controllers::Wiring::Neuron& from,
+               const std::vector<float>& weights, NeuralTables::Neuron& neuron) {
+  for (int k = from.first_link; k < from.first_link + from.link_count; ++k) {
+    const auto& link = wiring.links[to_index(k)];
+    const float weight = weights[to_index(link.index)];
+    if (weight == 0.0f) continue;
+    const int neuron_source = link.source_slot - wiring.sensor_count();
+    if (neuron_source < 0)
+      neuron.from_sensors.push_back({link.source_slot, weight});
+    else
+      neuron.from_neurons.push_back({neuron_source, weight});
+  }
+}
+
+NeuralTables neural_tables(const Problem& problem, const controllers::NeuralArchitecture& architecture,
+                           const controllers::NeuralParameters& parameters) {
+  const substrate::Layout& layout = architecture.layout();
+  const controllers::Wiring wiring = controllers::make_wiring(layout);
+  NeuralTables tables;
+  tables.sine_period_s = problem.controller.substrate.sine_period_s;
+  tables.attitude = problem.controller.substrate.attitude;
+  for (const substrate::Node& node : layout.nodes())
+    if (node.sensor) tables.sensors.push_back({node.name, *node.sensor});
+  const bool is_ctrnn = !parameters.rates.empty();
+  for (std::size_t n = 0; n < wiring.neurons.size(); ++n) {
+    const int node = wiring.neurons[n].node;
+    NeuralTables::Neuron neuron{.name = layout.nodes()[to_index(node)].name, .node = node};
+    if (is_ctrnn) {
+      neuron.bias = parameters.decoded.of(controllers::bias_property)[to_index(node)];
+      neuron.rate = parameters.rates[n];
+    }
+    add_links(wiring, wiring.neurons[n], parameters.decoded.weights, neuron);
+    tables.neurons.push_back(std::move(neuron));
+  }
+  for (const int slot : wiring.joint_slots) {
+    AMBLE_CHECK(slot < 0 || slot >= wiring.sensor_count(), "no sensor drives a joint");
+    tables.neuron_of_joint.push_back(slot < 0 ? -1 : slot - wiring.sensor_count());
+  }
+  return tables;
+}
+
+NeuralTables network_tables(const Problem& problem, const controllers::NetworkArchitecture& architecture,
+                            const controllers::NeuralParameters& parameters) {
+  NeuralTables tables = neural_tables(problem, architecture, parameters);
+  const controllers::NetworkSettings& settings = problem.controller.network;
+  const controllers::Wiring wiring = controllers::make_wiring(architecture.layout());
+  const bool by_level = !wiring.cyclic && wiring.depth() <= settings.passes;
+  tables.update = by_level ? NeuralTables::Update::levels : NeuralTables::Update::passes;
+  tables.steps = by_level ? 1 : settings.passes;
+  tables.slope = static_cast<float>(settings.slope);
+  return tables;
+}
+
+NeuralTables ctrnn_tables(const Problem& problem, const controllers::CtrnnArchitecture& architecture,
+                          const controllers::NeuralParameters& parameters) {
+  NeuralTables tables = neural_tables(problem, architecture, parameters);
+  const controllers::CtrnnSettings& settings = problem.controller.ctrnn;
+  tables.update = settings.integrator == controllers::Integrator::rk4 ? NeuralTables::Update::runge_kutta
+                                                                      : NeuralTables::Update::euler;
+  tables.steps = settings.steps_per_tick;
+  tables.potential = settings.equation == controllers::Equation::potential;
+  tables.cleared = settings.state == controllers::StateRule::cleared;
+  tables.slope = static_cast<float>(settings.slope);
+  return tables;
+}
+
+bool reads(const ControllerTables& tables, auto wanted) {
+  const auto* const neural = std::get_if<NeuralTables>(&tables.parts);
+  return neural != nullptr && std::ranges::any_of(neural->sensors, [&](const NeuralTables::Sensor& sensor) {
+           return wanted(sensor.reads.kind);
+         });
+}
+
+}  // namespace
+
+bool ControllerTables::reads_angles() const {
+  return reads(*this, [](auto sensed) { return sensed == substrate::Sensor::Kind::angle; });
+}
+
+bool ControllerTables::reads_touch() const {
+  return std::holds_alternative<SupgTables>(parts) ||
+         reads(*this, [](auto sensed) { return sensed == substrate::Sensor::Kind::touch; });
+}
+
+bool ControllerTables::reads_attitude() const {
+  using Kind = substrate::Sensor::Kind;
+  return reads(*this, [](auto sensed) {
+    return sensed == Kind::roll || sensed == Kind::pitch || sensed == Kind::yaw;
+  });
+}
+
+ControllerTables controller_tables(const Problem& problem, const neat::Genome& genome) {
+  const controllers::Architecture& architecture = *problem.architecture;
+  const auto parameters = problem.decode(genome);
+  ControllerTables tables{.kind = architecture.name(),
+                          .timestep_s = problem.trial.timestep_s,
+                          .joints = commanded_joints(problem.robot),
+                          .legs = {},
+                          .parts = {}};
+  for (const robot::Leg& leg : problem.robot.legs) tables.legs.push_back(leg.name);
+  const auto* const neural = dynamic_cast<const controllers::NeuralParameters*>(parameters.get());
+  if (const auto* const supg = dynamic_cast<const SupgParameters*>(parameters.get())) {
+    tables.parts = supg_tables(problem, *supg);
+    // A joint of no leg gets the target 0.
+    for (CommandedJoint& joint : tables.joints)
+      if (joint.leg < 0) joint.lower_rad = joint.upper_rad = 0.0;
+  } else if (const auto* network = dynamic_cast<const controllers::NetworkArchitecture*>(&architecture)) {
+    tables.parts = network_tables(problem, *network, *neural);
+  } else if (const auto* ctrnn = dynamic_cast<const controllers::CtrnnArchitecture*>(&architecture)) {
+    tables.parts = ctrnn_tables(problem, *ctrnn, *neural);
+  } else {
+    fail(ExitCode::bad_input, "a controller of kind {} cannot be exported: expected supg, network or ctrnn",
+         architecture.name());
+  }
+  return tables;
+}
+
+}  // namespace amble::exporting

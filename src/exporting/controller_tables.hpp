@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "amble/experiment/problem.hpp"
+#include "amble/neat/genome.hpp"
+#include "amble/robot/spec.hpp"
+#include "amble/substrate/sensor.hpp"
+#include "amble/substrate/settings.hpp"
+
+namespace amble::exporting {
+
+/// A joint as a controller commands it.
+struct CommandedJoint {
+  std::string name;
+  int leg = -1;                             ///< −1: belongs to none
+  double lower_rad = 0.0, upper_rad = 0.0;  ///< range of the targets; equal if the joint is held
+  bool driven = true;
+};
+
+/// SUPGs as tables (controllers::SupgArchitecture says what each number means).
+struct SupgTables {
+  struct Leg {
+    int offset_ticks = 1;
+    int wait_ticks = 0;   ///< before the timer starts for the first time
+    int first_timer = 0;  ///< its value in that tick, ticks; −1: stopped
+  };
+
+  int period_ticks = 0;
+  int airborne_ticks_needed = 0;  ///< ticks off the ground before a touch is a trigger; 0: each touch is
+  int start_tick = 0;             ///< timer value in the tick of a trigger
+  int end_of_cycle = -1;          ///< timer value after period_ticks − 1; −1: stopped
+  std::vector<Leg> legs;
+  /// Joint by joint: target at timer −1 (stopped), 0, …, up to the largest value that the timer can have.
+  /// Empty for joints that belong to no leg; their target is 0.
+  std::vector<std::vector<float>> targets_rad;
+};
+
+/// A network of neurons as tables. What a tick does is told at controllers::NetworkArchitecture and
+/// CtrnnArchitecture, and to the bit in docs/CONTROLLERS.md.
+struct NeuralTables {
+  /// An expressed link. `source`: of Neuron::from_sensors in `sensors`, of from_neurons in `neurons`.
+  struct Link {
+    int source = 0;
+    float weight = 0.0f;
+  };
+  struct Neuron {
+    std::string name;
+    int node = 0;                    ///< in the substrate's list of nodes
+    float bias = 0.0f, rate = 0.0f;  ///< of a CTRNN; `rate` is the integrator's factor of F − y
+    std::vector<Link> from_sensors = {}, from_neurons = {};  ///< in the order of summation
+  };
+  struct Sensor {
+    std::string name;
+    substrate::Sensor reads;
+  };
+  /// What happens in a tick after the sensors were read.
+  enum class Update {
+    levels,      ///< each neuron once, in order
+    passes,      ///< all neurons together, `steps` times from 0
+    euler,       ///< a CTRNN, `steps` steps
+    runge_kutta  ///< a CTRNN, `steps` steps of the classical method of fourth order
+  };
+
+  Update update = Update::levels;
+  int steps = 1;
+  bool potential = false;  ///< controllers::Equation::potential
+  bool cleared = false;    ///< the state is 0 at the beginning of each tick
+  float slope = 1.0f;      ///< of the logistic function
+  double sine_period_s = 1.0;
+  substrate::Attitude attitude = substrate::Attitude::true_angles;
+  std::vector<Sensor> sensors;
+  std::vector<Neuron> neurons;
+  std::vector<int> neuron_of_joint;  ///< in control order; −1: the joint is held at CommandedJoint::lower_rad
+};
+
+/// A decoded controller as an export needs it, whatever its architecture.
+struct ControllerTables {
+  std::string kind;  ///< controllers::Architecture::name
+  double timestep_s = 0.01;
+  std::vector<CommandedJoint> joints;  ///< in control order
+  std::vector<std::string> legs;
+  std::variant<SupgTables, NeuralTables> parts;
+
+  /// Which sensors it reads.
+  bool reads_angles() const;
+  bool reads_touch() const;
+  bool reads_attitude() const;
+  /// How often it must be called: 1 / timestep_s.
+  double rate_hz() const { return 1.0 / timestep_s; }
+};
+
+/// Throws UserError for an architecture that has no tables here.
+ControllerTables controller_tables(const experiment::Problem& problem, const neat::Genome& genome);
+
+}  // namespace amble::exporting

@@ -1,0 +1,175 @@
+#include "amble/exporting/json_source.hpp"
+
+#include <array>
+#include <string_view>
+
+#include "amble/core/index.hpp"
+#include "amble/io/json_file.hpp"
+#include "amble/neat/genome_json.hpp"
+#include "amble/robot/json.hpp"
+
+namespace amble::exporting {
+namespace {
+
+using io::Json;
+
+constexpr int export_version = 1;
+constexpr std::array<std::string_view, 4> update_names{"levels", "passes", "euler", "runge_kutta"};
+
+Json provenance_json(const Provenance& from) {
+  return {{"amble", from.amble},
+          {"experiment", from.experiment},
+          {"seed", from.seed},
+          {"generation", from.generation},
+          {"index", from.index},
+          {"engine", from.engine},
+          {"result", from.result},
+          {"settings_xxh3", from.settings_hash},
+          {"genome_xxh3", from.genome_hash}};
+}
+
+Json joints_json(const ControllerTables& tables) {
+  Json list = Json::array();
+  for (const CommandedJoint& joint : tables.joints) {
+    Json entry{{"name", joint.name}, {"driven", joint.driven}};
+    entry["leg"] = joint.leg >= 0 ? Json(tables.legs[to_index(joint.leg)]) : Json(nullptr);
+    entry["command_rad"] = {joint.lower_rad, joint.upper_rad};
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+/// The arrays that a controller reads, with what their numbers mean.
+Json sensors_json(const ControllerTables& tables) {
+  Json list = Json::array();
+  if (tables.reads_touch())
+    list.push_back({{"name", "touch"},
+                    {"count", tables.legs.size()},
+                    {"order", "legs"},
+                    {"unit", "1"},
+                    {"meaning", "1 while the leg's foot touches the ground, else 0"}});
+  if (tables.reads_angles())
+    list.push_back(
+        {{"name", "angle_rad"},
+         {"count", tables.joints.size()},
+         {"order", "joints"},
+         {"unit", "rad"},
+         {"meaning", "0 in the start pose, positive by the right-hand rule about the joint's axis"}});
+  if (tables.reads_attitude())
+    list.push_back({{"name", "attitude_rad"},
+                    {"count", 3},
+                    {"order", "roll, pitch, yaw"},
+                    {"unit", "rad"},
+                    {"meaning",
+                     "of the root against the world (x forward, y left, z up): "
+                     "R_z(yaw) R_y(pitch) R_x(roll)"}});
+  return list;
+}
+
+Json supg_json(const SupgTables& supg) {
+  Json json{{"period_ticks", supg.period_ticks},
+            {"airborne_ticks_needed", supg.airborne_ticks_needed},
+            {"start_tick", supg.start_tick},
+            {"end_of_cycle", supg.end_of_cycle},
+            {"legs", Json::array()},
+            {"targets_rad", supg.targets_rad}};
+  for (const SupgTables::Leg& leg : supg.legs)
+    json["legs"].push_back({{"offset_ticks", leg.offset_ticks},
+                            {"wait_ticks", leg.wait_ticks},
+                            {"first_timer", leg.first_timer}});
+  return json;
+}
+
+std::string sensor_name(const substrate::Sensor& sensor, const ControllerTables& tables) {
+  using Kind = substrate::Sensor::Kind;
+  switch (sensor.kind) {
+    case Kind::angle:
+      return "angle." + tables.joints[to_index(sensor.index)].name;
+    case Kind::touch:
+      return "touch." + tables.legs[to_index(sensor.index)];
+    case Kind::roll:
+      return "roll";
+    case Kind::pitch:
+      return "pitch";
+    case Kind::yaw:
+      return "yaw";
+    case Kind::sine:
+      return "sine";
+  }
+  return {};
+}
+
+Json links_json(const std::vector<NeuralTables::Link>& links) {
+  Json list = Json::array();
+  for (const NeuralTables::Link& link : links) list.push_back({link.source, link.weight});
+  return list;
+}
+
+Json neural_json(const NeuralTables& neural, const ControllerTables& tables) {
+  const bool is_ctrnn =
+      neural.update == NeuralTables::Update::euler || neural.update == NeuralTables::Update::runge_kutta;
+  Json json{{"update", update_names[to_index(neural.update)]},
+            {"steps", neural.steps},
+            {"slope", neural.slope},
+            {"sine_period_s", neural.sine_period_s},
+            {"attitude", substrate::attitude_names[to_index(neural.attitude)]}};
+  if (is_ctrnn) {
+    json["equation"] = neural.potential ? "potential" : "rate";
+    json["cleared"] = neural.cleared;
+  }
+  json["sensors"] = Json::array();
+  for (const NeuralTables::Sensor& sensor : neural.sensors)
+    json["sensors"].push_back({{"name", sensor.name}, {"reads", sensor_name(sensor.reads, tables)}});
+  json["neurons"] = Json::array();
+  for (const NeuralTables::Neuron& neuron : neural.neurons) {
+    Json entry{{"name", neuron.name}, {"node", neuron.node}};
+    if (is_ctrnn) {
+      entry["bias"] = neuron.bias;
+      entry["rate"] = neuron.rate;
+    }
+    entry["from_sensors"] = links_json(neuron.from_sensors);
+    entry["from_neurons"] = links_json(neuron.from_neurons);
+    json["neurons"].push_back(std::move(entry));
+  }
+  json["neuron_of_joint"] = neural.neuron_of_joint;
+  return json;
+}
+
+Json controller_json(const ControllerTables& tables) {
+  Json json{{"kind", tables.kind}, {"timestep_s", tables.timestep_s}, {"rate_hz", tables.rate_hz()},
+            {"legs", tables.legs}, {"joints", joints_json(tables)},   {"sensors", sensors_json(tables)}};
+  if (const auto* const supg = std::get_if<SupgTables>(&tables.parts))
+    json["supg"] = supg_json(*supg);
+  else
+    json["neural"] = neural_json(std::get<NeuralTables>(tables.parts), tables);
+  return json;
+}
+
+Json trace_json(const ControllerTables& tables, const Trace& trace) {
+  Json json{{"state_names", trace.state_names}, {"ticks", Json::array()}};
+  for (const Trace::Tick& tick : trace.ticks) {
+    Json entry = Json::object();
+    if (tables.reads_touch()) entry["touch"] = tick.touch;
+    if (tables.reads_angles()) entry["angle_rad"] = tick.angle_rad;
+    if (tables.reads_attitude()) entry["attitude_rad"] = tick.attitude_rad;
+    entry["target_rad"] = tick.target_rad;
+    entry["state"] = tick.state;
+    json["ticks"].push_back(std::move(entry));
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string json_source(const experiment::Champion& champion, const ControllerTables& tables,
+                        const Provenance& provenance, const Trace& trace) {
+  Json settings = experiment::problem_json(champion.problem);
+  settings.erase("robot");
+  const Json document{
+      {"provenance", provenance_json(provenance)}, {"controller", controller_json(tables)},
+      {"test", trace_json(tables, trace)},         {"robot", robot::to_json(champion.problem.robot)},
+      {"settings", std::move(settings)},           {"genome", neat::to_json(champion.genome)}};
+  return io::sealed_json("amble-export", export_version, document);
+}
+
+}  // namespace amble::exporting

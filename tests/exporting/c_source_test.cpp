@@ -1,0 +1,183 @@
+#include "amble/exporting/c_source.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "amble/core/error.hpp"
+#include "tests/exporting/champions.hpp"
+#include "tests/exporting/compiled.hpp"
+#include "tests/io/temporary_folder.hpp"
+
+namespace amble::tests {
+namespace {
+
+using exporting::Arithmetic;
+using exporting::Trace;
+using test::TemporaryFolder;
+
+const std::filesystem::path replay_main = AMBLE_SOURCE_DIR "/tests/exporting/replay.c";
+
+/// tools/export-study tries all champions over 300 s in all builds, and prints a row for each.
+const bool is_study = std::getenv("AMBLE_EXPORT_STUDY") != nullptr;
+
+std::vector<Sample> samples() {
+  std::vector<Sample> some;
+  for (const Sample& sample : twenty_samples())
+    for (const char* name : {"quadruped_supg", "holding_level", "wrapping_debounced", "hexapod_sine",
+                             "quadruped_ctrnn", "recurrent_sine", "ctrnn_runge_kutta", "biped_ctrnn"})
+      if (is_study || sample.name == name) {
+        some.push_back(sample);
+        break;
+      }
+  return some;
+}
+
+class EachChampion : public testing::TestWithParam<Sample> {};
+INSTANTIATE_TEST_SUITE_P(CSource, EachChampion, testing::ValuesIn(samples()),
+                         [](const auto& sample) { return sample.param.name; });
+
+Trace trace_of(const experiment::Champion& champion, int ticks) {
+  const std::atomic<bool> stop{false};
+  return exporting::record_trace(champion.problem, champion.genome, ticks, stop);
+}
+
+struct Build {
+  const char *name, *compiler, *flags;
+  int ticks;  ///< compared unless in the study
+};
+
+TEST_P(EachChampion, AnswersRecordedSensorsWithRecordedTargetsToTheBit) {
+  const TemporaryFolder scratch;
+  const experiment::Champion champion = evolve(GetParam());
+  const auto tables = exporting::controller_tables(champion.problem, champion.genome);
+  constexpr int all = 30000, some = 2000;
+  const Trace trace = trace_of(champion, all);
+  ASSERT_EQ(trace.ticks.size(), static_cast<std::size_t>(all));
+  write_walker(scratch.path(), champion);
+  // Passes until nothing changes and Runge-Kutta are slow where fused multiply-adds are emulated.
+  const auto* const neural = std::get_if<exporting::NeuralTables>(&tables.parts);
+  const bool slow = neural && (neural->update == exporting::NeuralTables::Update::passes ||
+                               neural->update == exporting::NeuralTables::Update::runge_kutta);
+  for (const Build& build :
+       {Build{"gcc", "gcc", "-O2", slow ? some : all},
+        {"clang", "clang-14", "-O2", some},
+        {"gcc_native", "gcc", "-O3 -march=native", slow ? all : some},
+        {"sanitized", "clang-14", "-O1 -fsanitize=address,undefined -fno-sanitize-recover=all", some}}) {
+    ASSERT_EQ(
+        compile(scratch.path(), build.compiler, strict_flags + " " + build.flags, replay_main, build.name),
+        "")
+        << build.name;
+    Trace part = trace;
+    if (!is_study) part.ticks.resize(static_cast<std::size_t>(build.ticks));
+    const Difference difference = replay(scratch / build.name, tables, part);
+    EXPECT_EQ(difference.ticks, part.ticks.size()) << build.name;
+    EXPECT_EQ(difference.targets_of_other_bits, 0u) << build.name;
+    EXPECT_EQ(difference.states_of_other_bits, 0u) << build.name;
+    EXPECT_LE(difference.largest_rad, 1e-6) << build.name;
+    if (is_study)
+      fmt::print("| {} | {} | {} | {} | {:.2g} | {} | {} |\n", GetParam().name, tables.kind, build.name,
+                 difference.ticks, difference.largest_rad, difference.targets_of_other_bits,
+                 difference.states_of_other_bits);
+  }
+}
+
+TEST_P(EachChampion, PassesItsSelfTestWhateverTheSensorsSay) {
+  const TemporaryFolder scratch;
+  const experiment::Champion champion = evolve(GetParam());
+  const auto source = write_walker(scratch.path(), champion);
+  const std::string flags =
+      strict_flags + " -DWALKER_SELF_TEST -fsanitize=address,undefined -fno-sanitize-recover=all";
+  ASSERT_EQ(compile(scratch.path(), "clang-14", flags, {}, "self"), "");
+  const Ran ran = run_shell("'" + (scratch / "self").string() + "'");
+  EXPECT_EQ(ran.exit_code, 0) << ran.out;
+  EXPECT_EQ(ran.out, "walker: 100 ticks, largest error 0 rad\n");
+  // C++ understands the header.
+  EXPECT_EQ(run_shell("g++ -std=c++11 -pedantic -Wall -Wextra -Werror -fsyntax-only -x c++ '" +
+                      (scratch / "walker.h").string() + "'")
+                .out,
+            source.header.empty() ? "no header" : "");
+}
+
+TEST_P(EachChampion, InFixedPointIsWithinHalfABit) {
+  const TemporaryFolder scratch;
+  const experiment::Champion champion = evolve(GetParam());
+  const auto tables = exporting::controller_tables(champion.problem, champion.genome);
+  if (tables.kind != "supg") {
+    EXPECT_THROW(write_walker(scratch.path(), champion, Arithmetic::fixed), UserError);
+    return;
+  }
+  const Trace trace = trace_of(champion, is_study ? 30000 : 3000);
+  write_walker(scratch.path(), champion, Arithmetic::fixed);
+  ASSERT_EQ(compile(scratch.path(), "gcc", strict_flags, replay_main, "fixed"), "");
+  const Difference difference = replay(scratch / "fixed", tables, trace);
+  EXPECT_EQ(difference.ticks, trace.ticks.size());
+  EXPECT_EQ(difference.states_of_other_bits, 0u);
+  // The ends of a range may be a bit away, since targets stay inside.
+  EXPECT_LE(difference.largest_rad, std::ldexp(1.0, -exporting::fraction_bits(tables)));
+  ASSERT_EQ(compile(scratch.path(), "gcc", strict_flags + " -DWALKER_SELF_TEST", {}, "self"), "");
+  EXPECT_EQ(run_shell("'" + (scratch / "self").string() + "'").exit_code, 0);
+}
+
+/// A champion without a run: what is exported does not depend on its result.
+experiment::Champion simple_champion() {
+  static const experiment::Champion champion = evolve(twenty_samples().front());
+  return champion;
+}
+
+TEST(CSource, IsTheSameEachTime) {
+  const TemporaryFolder scratch;
+  const auto once = write_walker(scratch.path(), simple_champion());
+  const auto again = write_walker(scratch.path(), simple_champion());
+  EXPECT_EQ(once.header, again.header);
+  EXPECT_EQ(once.source, again.source);
+}
+
+TEST(CSource, BearsAnyNames) {
+  const TemporaryFolder scratch;
+  experiment::Champion champion = simple_champion();
+  champion.experiment = "*/ int main /* ?\?/ \\ \n \xc3\xa9";
+  for (robot::Joint& joint : champion.problem.robot.joints) joint.name = "*/ same";
+  for (robot::Leg& leg : champion.problem.robot.legs) leg.name = "1 leg?\?/";
+  write_walker(scratch.path(), champion);
+  EXPECT_EQ(compile(scratch.path(), "gcc", strict_flags + " -DWALKER_SELF_TEST", {}, "self"), "");
+  EXPECT_EQ(compile(scratch.path(), "clang-14", strict_flags + " -DWALKER_SELF_TEST", {}, "self"), "");
+}
+
+TEST(CSource, SaysWhereItComesFromAndWhatItNeeds) {
+  const TemporaryFolder scratch;
+  const experiment::Champion champion = simple_champion();
+  const std::string header = write_walker(scratch.path(), champion).header;
+  for (const std::string& part :
+       {std::string("seed 7"), std::string("engine      batch"),
+        std::string("100 steps per second, one every 0.01 s. At once."), std::string("touch[leg]"),
+        std::string("WALKER_JOINT_FL_KNEE = 0"),
+        std::string("'FL_knee', body 'FL_lower', axis 0 1 0: targets from -0.8 to 0 rad"),
+        std::string("WALKER_TICK_US 10000")})
+    EXPECT_NE(header.find(part), std::string::npos) << part << "\n" << header;
+}
+
+TEST(FixedPoint, HasAsManyFractionBitsAsTheWidestRangeLeaves) {
+  exporting::ControllerTables tables;
+  tables.joints = {{.name = "a", .leg = 0, .lower_rad = -0.8, .upper_rad = 0.4, .driven = true}};
+  EXPECT_EQ(exporting::fraction_bits(tables), 15);
+  tables.joints.push_back({.name = "b", .leg = 0, .lower_rad = -3.2, .upper_rad = 0.0, .driven = true});
+  EXPECT_EQ(exporting::fraction_bits(tables), 13);
+  tables.joints[1].lower_rad = -1e6;
+  EXPECT_THROW(exporting::fraction_bits(tables), UserError);
+}
+
+TEST(FixedPoint, StaysInsideTheRange) {
+  const exporting::CommandedJoint joint{
+      .name = "a", .leg = 0, .lower_rad = -0.3, .upper_rad = 0.7, .driven = true};
+  for (const float target_rad : {-0.3f, 0.7f, 0.0f, 0.12345f}) {
+    const double back_rad = std::ldexp(exporting::fixed_target(joint, target_rad, 15), -15);
+    EXPECT_GE(back_rad, joint.lower_rad);
+    EXPECT_LE(back_rad, joint.upper_rad);
+    EXPECT_NEAR(back_rad, target_rad, std::ldexp(1.0, -15));
+  }
+}
+
+}  // namespace
+}  // namespace amble::tests

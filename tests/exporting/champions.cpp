@@ -1,0 +1,87 @@
+#include "tests/exporting/champions.hpp"
+
+#include <map>
+
+#include "amble/io/file.hpp"
+#include "tests/experiment/fixture.hpp"
+#include "tests/robot/legged.hpp"
+
+namespace amble::tests {
+namespace {
+
+using namespace experiment;
+
+const std::string ctrnn = "controller.ctrnn.", supg = "controller.supg.";
+
+robot::RobotSpec robot_called(const std::string& name) {
+  if (name == "hexapod") return legged_robot(3);
+  if (name == "biped") return legged_robot(1);
+  const robot::RobotSpec quadruped = legged_robot(2);
+  return name == "lacking" ? without_hip_io(quadruped, 2) : with_held_joint(quadruped, 1, 0);
+}
+
+}  // namespace
+
+std::vector<Sample> twenty_samples() {
+  return {
+      {"quadruped_supg", "authors/supg"},
+      {"quadruped_sine", "authors/sine"},
+      {"quadruped_ctrnn", "authors/ctrnn"},
+      {"paper_supg", "paper/supg"},
+      {"paper_sine", "paper/sine"},
+      {"paper_ctrnn", "paper/ctrnn"},
+      {"holding_level",
+       "authors/supg",
+       "quadruped",
+       {supg + "idle=hold", supg + "trigger=level", supg + "offset=delay", supg + "start_tick=0"}},
+      {"wrapping_debounced",
+       "authors/supg",
+       "quadruped",
+       {supg + "idle=wrap", supg + "trigger_debounce_ticks=5", supg + "period_s=0.7"}},
+      {"ctrnn_runge_kutta",
+       "authors/ctrnn",
+       "quadruped",
+       {ctrnn + "equation=potential", ctrnn + "integrator=rk4", ctrnn + "state=kept", ctrnn + "slope=1"}},
+      {"ctrnn_exponential",
+       "authors/ctrnn",
+       "quadruped",
+       {ctrnn + "integrator=exponential_euler", ctrnn + "state=kept"}},
+      {"ctrnn_potential", "authors/ctrnn", "quadruped", {ctrnn + "equation=potential"}},
+      {"recurrent_sine",
+       "authors/sine",
+       "quadruped",
+       {R"(controller.substrate.links=[{from="input",to="hidden"},{from="hidden",to="output",both_ways=true}])"}},
+      {"hexapod_supg", "authors/supg", "hexapod"},
+      {"hexapod_sine", "authors/sine", "hexapod"},
+      {"hexapod_ctrnn", "authors/ctrnn", "hexapod"},
+      {"biped_supg", "authors/supg", "biped"},
+      {"biped_sine", "authors/sine", "biped"},
+      {"biped_ctrnn", "authors/ctrnn", "biped"},
+      {"lacking_supg", "paper/supg", "lacking"},
+      {"holding_ctrnn", "paper/ctrnn", "holding", {ctrnn + "integrator=rk4"}},
+  };
+}
+
+Champion evolve(const Sample& sample) {
+  const TemporaryFolder scratch;
+  Overrides overrides{.assignments = {"engine=batch", "population.size=40", "trial.duration_s=1"},
+                      .seed = 7,
+                      .generations = 4};
+  const bool automatic = sample.robot != "quadruped";
+  if (automatic) {
+    io::write_file(scratch / "robot.json", robot_file_text(robot_called(sample.robot)));
+    overrides.assignments.push_back("robot=" + (scratch / "robot.json").string());
+    overrides.assignments.emplace_back("controller.substrate=auto");
+  }
+  overrides.assignments.insert(overrides.assignments.end(), sample.assignments.begin(),
+                               sample.assignments.end());
+  const Config config =
+      load_config(std::string(AMBLE_SOURCE_DIR) + "/configs/" + sample.preset + "-objective.toml", overrides);
+  Listener listener;
+  Run::start(scratch / "run", config, 1).execute(listener, listener.stop);
+  Champion champion = load_champion(RunPaths(scratch / "run").best_champion());
+  champion.problem.robot.fall_height_m = -1.0;
+  return champion;
+}
+
+}  // namespace amble::tests

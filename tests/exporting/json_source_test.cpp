@@ -1,0 +1,80 @@
+#include "amble/exporting/json_source.hpp"
+
+#include <gtest/gtest.h>
+
+#include "amble/io/json_file.hpp"
+#include "amble/neat/genome_json.hpp"
+#include "amble/robot/json.hpp"
+#include "tests/exporting/champions.hpp"
+
+namespace amble::exporting {
+namespace {
+
+io::Json document_of(const experiment::Champion& champion) {
+  const std::atomic<bool> stop{false};
+  const std::string text =
+      json_source(champion, controller_tables(champion.problem, champion.genome), provenance_of(champion),
+                  record_trace(champion.problem, champion.genome, 20, stop));
+  return io::unseal_json("amble-export", 1, text, "text").document;
+}
+
+tests::Sample sample(const std::string& name) {
+  for (const tests::Sample& one : tests::twenty_samples())
+    if (one.name == name) return one;
+  return {};
+}
+
+TEST(JsonSource, HasTheTablesOfSupgs) {
+  const experiment::Champion champion = tests::evolve(sample("quadruped_supg"));
+  const io::Json json = document_of(champion);
+  EXPECT_EQ(json["provenance"]["seed"], 7);
+  EXPECT_EQ(json["controller"]["rate_hz"], 100.0);
+  EXPECT_EQ(json["controller"]["joints"].size(), 12u);
+  EXPECT_EQ(json["controller"]["joints"][0]["name"], "FL_knee");
+  EXPECT_EQ(json["controller"]["joints"][0]["leg"], "FL");
+  EXPECT_EQ(json["controller"]["sensors"].size(), 1u);
+  const io::Json& supg = json["controller"]["supg"];
+  EXPECT_EQ(supg["period_ticks"], 100);
+  ASSERT_EQ(supg["targets_rad"].size(), 12u);
+  EXPECT_EQ(supg["targets_rad"][0].size(), 101u);
+  EXPECT_EQ(json["test"]["ticks"].size(), 20u);
+  EXPECT_EQ(robot::from_json(io::JsonView(json["robot"], "text")).joints.size(), 12u);
+  EXPECT_EQ(neat::genome_from_json(io::JsonView(json["genome"], "text")), champion.genome);
+}
+
+/// What a reader of the document would compute from its tables, for one tick of a network without cycles.
+TEST(JsonSource, HasNetworksThatGiveTheRecordedTargets) {
+  const io::Json json = document_of(tests::evolve(sample("hexapod_sine")));
+  const io::Json &controller = json["controller"], &neural = controller["neural"];
+  ASSERT_EQ(neural["update"], "levels");
+  const io::Json& tick = json["test"]["ticks"][0];
+  std::vector<double> sensors, neurons;
+  for (const io::Json& sensor : neural["sensors"]) {
+    const std::string reads = sensor["reads"];
+    double value = 0.0;  // of the sine at time 0, and of the attitude in the start pose
+    for (std::size_t j = 0; j < controller["joints"].size(); ++j)
+      if (reads == "angle." + std::string(controller["joints"][j]["name"])) value = tick["angle_rad"][j];
+    for (std::size_t l = 0; l < controller["legs"].size(); ++l)
+      if (reads == "touch." + std::string(controller["legs"][l])) value = tick["touch"][l];
+    sensors.push_back(value);
+  }
+  for (const io::Json& neuron : neural["neurons"]) {
+    double sum = 0.0;
+    for (const io::Json& link : neuron["from_sensors"])
+      sum += double(link[1]) * sensors[std::size_t(link[0])];
+    for (const io::Json& link : neuron["from_neurons"])
+      sum += double(link[1]) * neurons[std::size_t(link[0])];
+    neurons.push_back(1.0 / (1.0 + std::exp(-double(neural["slope"]) * sum)));
+  }
+  for (std::size_t j = 0; j < controller["joints"].size(); ++j) {
+    const io::Json& range = controller["joints"][j]["command_rad"];
+    const int driver = neural["neuron_of_joint"][j];
+    ASSERT_GE(driver, 0);
+    const double target_rad =
+        double(range[0]) + (double(range[1]) - double(range[0])) * neurons[static_cast<std::size_t>(driver)];
+    EXPECT_NEAR(target_rad, double(tick["target_rad"][j]), 2e-6) << j;
+  }
+}
+
+}  // namespace
+}  // namespace amble::exporting
