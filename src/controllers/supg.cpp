@@ -25,7 +25,7 @@ SupgJoints joints_of(const robot::RobotSpec& robot) {
   for (const robot::Leg& leg : robot.legs)
     joints.of_legs.insert(joints.of_legs.end(), leg.joints.begin(), leg.joints.end());
   for (std::size_t joint = robot.leg_joint_count(); joint < robot.joints.size(); ++joint)
-    joints.others.push_back(static_cast<int>(joint));
+    joints.others.push_back({static_cast<int>(joint), held_target_rad(robot.joints[joint])});
   return joints;
 }
 

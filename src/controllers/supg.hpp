@@ -47,8 +47,14 @@ class SupgParameters : public Parameters {
 
 /// Which joint of RobotSpec::joints each entry of a SupgParameters is for.
 struct SupgJoints {
+  /// One that belongs to no leg, so that no SUPG drives it.
+  struct Held {
+    int joint = 0;
+    float target_rad = 0.0f;
+  };
+
   std::vector<int> of_legs;  ///< leg by leg, type by type; −1: the leg has none of that type
-  std::vector<int> others;   ///< that belong to no leg, so that no SUPG drives them
+  std::vector<Held> others;
 };
 
 /// Single-unit pattern generators: one per driven joint, each with a pattern over one period that its leg's

@@ -71,7 +71,8 @@ void SupgBatch::step(const robot::SensorFrame& sensors, LaneArray& targets_rad) 
     update_timers(leg, sensors.touch.row(leg));
     write_targets(leg, targets_rad);
   }
-  for (const int joint : joints_.others) std::fill_n(targets_rad.row(joint), lanes_, 0.0f);
+  for (const auto& [joint, target_rad] : joints_.others)
+    std::fill_n(targets_rad.row(joint), lanes_, target_rad);
 }
 
 void SupgBatch::update_timers(int leg, const float* touch) {

@@ -58,11 +58,8 @@ void $p_step($p_state *state, const $p_sensors *sensors, $p_targets *targets) {
   int leg, joint;
   for (leg = 0; leg < $P_LEGS; ++leg) update_timer(state, leg, sensors->touch[leg] > $half);
   for (joint = 0; joint < $P_JOINTS; ++joint) {
-    leg = leg_of_joint[joint];
-    if (leg < 0)
-      targets->angle$unit[joint] = 0;
-    else
-      targets->angle$unit[joint] = READ_TARGET(&pattern[joint][state->timer[leg] + 1]);
+    leg = leg_of_joint[joint]; /* -1: a joint of no leg, which is held */
+    targets->angle$unit[joint] = READ_TARGET(&pattern[joint][leg < 0 ? 0 : state->timer[leg] + 1]);
   }
 }
 )";
@@ -76,7 +73,6 @@ std::vector<std::vector<std::string>> pattern_rows(const ControllerTables& table
     for (const float target_rad : supg.targets_rad[j])
       row.push_back(fixed ? std::to_string(fixed_target(tables.joints[j], target_rad, bits))
                           : c_float(target_rad));
-    if (row.empty()) row.push_back("0");
   }
   return rows;
 }

@@ -69,6 +69,8 @@ SupgTables supg_tables(const Problem& problem, const SupgParameters& parameters)
         tables.targets_rad[to_index(joints[type])].push_back(parameters.targets_rad(leg, timer)[type]);
     }
   }
+  for (std::size_t j = problem.robot.leg_joint_count(); j < problem.robot.joints.size(); ++j)
+    tables.targets_rad[j] = {controllers::held_target_rad(problem.robot.joints[j])};
   return tables;
 }
 
@@ -176,9 +178,10 @@ ControllerTables controller_tables(const Problem& problem, const neat::Genome& g
   const auto* const neural = dynamic_cast<const controllers::NeuralParameters*>(parameters.get());
   if (const auto* const supg = dynamic_cast<const SupgParameters*>(parameters.get())) {
     tables.parts = supg_tables(problem, *supg);
-    // A joint of no leg gets the target 0.
-    for (CommandedJoint& joint : tables.joints)
-      if (joint.leg < 0) joint.lower_rad = joint.upper_rad = 0.0;
+    // A joint of no leg is held where it is.
+    for (std::size_t j = problem.robot.leg_joint_count(); j < tables.joints.size(); ++j)
+      tables.joints[j].lower_rad = tables.joints[j].upper_rad =
+          controllers::held_target_rad(problem.robot.joints[j]);
   } else if (const auto* network = dynamic_cast<const controllers::NetworkArchitecture*>(&architecture)) {
     tables.parts = network_tables(problem, *network, *neural);
   } else if (const auto* ctrnn = dynamic_cast<const controllers::CtrnnArchitecture*>(&architecture)) {

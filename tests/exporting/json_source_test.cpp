@@ -72,7 +72,8 @@ TEST(JsonSource, HasNetworksThatGiveTheRecordedTargets) {
     ASSERT_GE(driver, 0);
     const double target_rad =
         double(range[0]) + (double(range[1]) - double(range[0])) * neurons[static_cast<std::size_t>(driver)];
-    EXPECT_NEAR(target_rad, double(tick["target_rad"][j]), 2e-6) << j;
+    // amble's sums and logistics are float32: 6e-8 of each term, tens of terms per layer, times the slope.
+    EXPECT_NEAR(target_rad, double(tick["target_rad"][j]), 1e-5) << j;
   }
 }
 
