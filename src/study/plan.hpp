@@ -19,7 +19,7 @@ namespace amble::study {
 /// A test with the files that it names read.
 struct PlannedTest {
   ledger::TestSpec spec;
-  trial::NoiseSettings noise;              ///< that of TestSpec::noise
+  trial::NoiseSettings noise;                   ///< that of TestSpec::noise
   std::optional<ground::Settings> ground = {};  ///< that of TestSpec::ground
 
   /// Hash of what defines the test for runs that evolve in `home`; a result fits if its hash is the same.

@@ -22,11 +22,11 @@ struct PackedFrames {
 struct PackedRecording {
   std::string robot_json, controller_json, origin;
   std::string ground_json;  ///< record::RecordingHeader::ground_json
-  double seconds = 0.0;  ///< until the time was up or the robot fell
+  double seconds = 0.0;     ///< until the time was up or the robot fell
   record::Outcome outcome = record::Outcome::completed;
   /// Root, centre of mass, angles, targets and timers about 50 times a second. The first row is the start
-  /// pose, time 0 (on uneven ground the pose after the first step); its targets and timers are those of the first
-  /// step.
+  /// pose, time 0 (on uneven ground the pose after the first step); its targets and timers are those of the
+  /// first step.
   PackedFrames poses;
   /// Touches and triggers of every recorded frame: between two poses a foot may come down and leave.
   PackedFrames contacts;

@@ -26,7 +26,8 @@ io::Json frames_json(const PackedFrames& frames) {
           {"data", base64(frames.bytes)}};
 }
 
-/// The heights of uneven ground in units of 0.1 mm, which compress well: a column for each x, a row for each y.
+/// The heights of uneven ground in units of 0.1 mm, which compress well: a column for each x, a row for each
+/// y.
 io::Json ground_json(const std::string& recorded, const std::string& what) {
   if (recorded.empty()) return nullptr;
   const io::Json json = io::parse_json(recorded, what);
@@ -35,6 +36,7 @@ io::Json ground_json(const std::string& recorded, const std::string& what) {
   std::vector<float> heights = field.heights_m();
   for (float& height : heights) height = std::round(height / unit_m);
   std::vector<std::string> columns;
+  columns.reserve(to_index(ground::HeightField::cells));
   for (int i = 0; i < ground::HeightField::cells; ++i) columns.push_back(std::to_string(i));
   PackedFrames frames{.columns = std::move(columns),
                       .first_s = 0.0,
