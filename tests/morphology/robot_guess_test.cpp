@@ -101,6 +101,21 @@ TEST(RobotGuess, TakesEffortDampingAndFrictionFromUrdf) {
   EXPECT_NEAR(robot.joints[0].upper_rad, 0.4, 1e-9);
 }
 
+TEST(RobotGuess, LetsATrunkOnSixLegsSinkNearlyToTheGround) {
+  const Files files;
+  const auto fall_height_m = [&](std::size_t pairs) {
+    std::vector<tests::LegText> legs;
+    for (std::size_t i = 0; i < 2 * pairs; ++i)
+      legs.push_back({.name = std::string(1, static_cast<char>('a' + i)),
+                      .x = 0.2 * (1.0 - static_cast<double>(i / 2)),
+                      .y = i % 2 == 0 ? 0.12 : -0.12});
+    return load(files, {"legs", "xml", model_text(legs), 2 * pairs, 4 * pairs, 0}).fall_height_m;
+  };
+  // Feet reach 0.43 m down; the trunk is 0.1 m high.
+  EXPECT_NEAR(fall_height_m(2), 0.215, 1e-9);
+  EXPECT_NEAR(fall_height_m(3), 0.05 + 0.1 * 0.38, 1.5e-3);  // rounded down to the millimetre
+}
+
 TEST(RobotGuess, TakesAGainThatKeepsToTheVelocityLimitOfUrdf) {
   const Files files;
   SmallModel model = model_of("effort");
