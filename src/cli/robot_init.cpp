@@ -52,7 +52,15 @@ std::string engine_line(const robot::RobotSpec& robot) {
   }
 }
 
-std::string config_text(const std::string& name, const std::string& engine, const fs::path& folder) {
+/// What a config of a robot on one or two legs has besides: by distance alone the first generations learn to
+/// fall far.
+constexpr const char* score_of_two_legs =
+    "\n"
+    "[score]  # in m; on two legs a fall forwards is the first to win by distance alone\n"
+    "terms = [{ quantity = \"distance\", weight = 1.0 }, { quantity = \"upright_time\", weight = 1.0 }]\n";
+
+std::string config_text(const std::string& name, const std::string& engine, std::size_t legs,
+                        const fs::path& folder) {
   const auto base = preset();
   return fmt::format(
       "# {0}: SUPGs under noise. `amble settings` lists all that may be set.\n"
@@ -62,10 +70,12 @@ std::string config_text(const std::string& name, const std::string& engine, cons
       "{5}"
       "\n"
       "[controller]\n"
-      "substrate = \"auto\"  # a node for each joint, made from the robot's legs and joint types\n",
+      "substrate = \"auto\"  # a node for each joint, made from the robot's legs and joint types\n"
+      "{6}",
       io::printable(name), base ? "" : "# The presets of amble were not found: correct this path.\n",
       io::toml_quoted(base ? path_from(folder, *base) : "configs/robust/supg-objective.toml"),
-      io::toml_quoted(name), io::toml_quoted(name + ".toml"), engine);
+      io::toml_quoted(name), io::toml_quoted(name + ".toml"), engine,
+      legs == 1 || legs == 2 ? score_of_two_legs : "");
 }
 
 }  // namespace
@@ -95,7 +105,7 @@ ExitCode init_robot(const fs::path& model, fs::path folder) {
     asked.emplace_back(error.what());
   }
   const std::string engine = robot ? engine_line(*robot) : "engine = \"batch\"\n";
-  io::write_file(config_path, config_text(guess.name, engine, folder));
+  io::write_file(config_path, config_text(guess.name, engine, robot ? robot->legs.size() : 0, folder));
   if (robot) fmt::print("{}", robot::summary(*robot));
   if (!notes.lines().empty()) fmt::print("\nthe model, beside what is above:\n{}", notes.text());
   fmt::print("\nwrote {} and {}\n", robot_path.string(), config_path.string());
@@ -105,7 +115,8 @@ ExitCode init_robot(const fs::path& model, fs::path folder) {
   }
   const bool ready = robot && !robot->legs.empty();
   if (ready)
-    fmt::print("next: read {0}, then\n  amble evolve {1}\n", robot_path.string(), config_path.string());
+    fmt::print("next: read {0}, then\n  amble evolve {1} --out {2}\n", robot_path.string(),
+               config_path.string(), (folder / "run").string());
   else
     fmt::print("next: complete it, and check it with\n  amble robot {}\n", robot_path.string());
   return ready ? ExitCode::ok : ExitCode::bad_input;

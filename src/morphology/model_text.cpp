@@ -11,31 +11,17 @@
 
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
+#include "amble/morphology/urdf_text.hpp"
 
 namespace amble::morphology {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t largest_file_bytes = 50'000'000;
 constexpr int most_includes = 32;
-
-double number_or_zero(const std::optional<std::string>& text) {
-  const double number = text ? std::strtod(text->c_str(), nullptr) : 0.0;
-  return number > 0.0 && number < 1e9 ? number : 0.0;
-}
 
 std::string place(const XmlElement& element) {
   return fmt::format("{}:{}", element.file, element.line);
-}
-
-/// A path with `name` at its end as MuJoCo finds meshes: relative to `folder`.
-bool is_readable_mesh(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  const bool known = extension == ".stl" || extension == ".obj" || extension == ".msh";
-  std::error_code error;
-  return known && fs::is_regular_file(path, error) && fs::file_size(path, error) <= largest_file_bytes;
 }
 
 /// Reads MJCF files into one tree.
@@ -175,7 +161,7 @@ class MjcfCleaner {
         const std::size_t blank = range ? range->find_last_of(" \t\n") : std::string::npos;
         if (blank != std::string::npos)
           text_.motors[child.attribute_or("name", "")].max_torque_nm =
-              number_or_zero(range->substr(blank + 1));
+              positive_or_zero(range->substr(blank + 1));
       }
     };
     for (const XmlElement& section : root_.children) {
@@ -183,7 +169,7 @@ class MjcfCleaner {
       if (section.name != "actuator") continue;
       for (const XmlElement& actuator : section.children)
         if (actuator.name == "position")
-          if (const double kv = number_or_zero(defaults.attribute(actuator, "kv", "main")); kv > 0.0)
+          if (const double kv = positive_or_zero(defaults.attribute(actuator, "kv", "main")); kv > 0.0)
             text_.motors[actuator.attribute_or("joint", "")].kv_nm_s_per_rad = kv;
     }
   }
@@ -259,77 +245,20 @@ class MjcfCleaner {
   ReadingNotes& notes_;
 };
 
-/// MuJoCo fuses a URDF's root link into the world, and its mass is lost, unless the compiler option
-/// fusestatic is off. That option goes into an element <mujoco>, which most URDF files do not have.
-void keep_root(XmlElement& root, const fs::path& path) {
-  const XmlElement* extension = root.child("mujoco");
-  if (extension == nullptr) {
-    XmlElement mujoco{.name = "mujoco", .file = root.file, .line = root.line};
-    mujoco.children.push_back({.name = "compiler",
-                               .attributes = {{"fusestatic", "false"}, {"strippath", "false"}},
-                               .file = root.file,
-                               .line = root.line});
-    root.children.insert(root.children.begin(), std::move(mujoco));
-    return;
-  }
-  const XmlElement* compiler = extension->child("compiler");
-  if (compiler == nullptr || compiler->attribute_or("fusestatic", "true") != "false")
-    fail(ExitCode::bad_input,
-         "{}: the element <mujoco> must hold <compiler fusestatic=\"false\"/>, or the root link is lost",
-         path.string());
-}
-
-/// The file that a URDF means by a mesh's name, which may be package://PACKAGE/PATH: beside the URDF, in the
-/// folder above it, or of that name in a folder `meshes`. Empty if there is none.
-fs::path mesh_of_urdf(const fs::path& folder, std::string name) {
-  for (const std::string_view scheme : {"package://", "file://"})
-    if (name.starts_with(scheme)) name.erase(0, scheme.size());
-  const fs::path whole(name);
-  fs::path rest;  // without the package's name
-  for (auto part = whole.begin(); part != whole.end(); ++part)
-    if (part != whole.begin()) rest /= *part;
-  for (const fs::path& candidate :
-       {folder / whole, folder / rest, folder / ".." / rest, folder / ".." / whole, folder / whole.filename(),
-        folder / "meshes" / whole.filename(), folder / ".." / "meshes" / whole.filename()})
-    if (is_readable_mesh(candidate)) return fs::absolute(candidate).lexically_normal();
-  return {};
-}
-
-void clean_urdf(ModelText& text, const fs::path& path, ReadingNotes& notes) {
-  XmlElement& root = text.root;
-  if (root.name != "robot") fail(ExitCode::bad_input, "{}: a URDF needs an element <robot>", path.string());
-  keep_root(root, path);
-  root.prune([&](const XmlElement& element, const XmlElement& parent) {
-    if (element.name == "visual" && parent.name == "link")
-      notes.add(Reading::left_out, "visual shapes of a URDF: what collides is shown");
-    if (element.name == "mimic")
-      notes.add(Reading::left_out,
-                fmt::format("mimic of joint '{}': it moves on its own", parent.attribute_or("name", "")));
-    return element.name == "visual" || element.name == "mimic" || element.name == "transmission" ||
-           element.name == "gazebo";
-  });
-  std::set<std::string> missing;
-  root.visit([&](XmlElement& element, XmlElement*) {
-    if (element.name == "joint") {
-      MotorHint& motor = text.motors[element.attribute_or("name", "")];
-      if (const XmlElement* limit = element.child("limit")) {
-        motor.max_torque_nm = number_or_zero(limit->attribute("effort"));
-        motor.max_speed_rad_s = number_or_zero(limit->attribute("velocity"));
-      }
-    }
-    if (element.name != "mesh" || !element.attribute("filename")) return;
-    const fs::path file = mesh_of_urdf(path.parent_path(), *element.attribute("filename"));
-    if (file.empty()) missing.insert(*element.attribute("filename"));
-    element.set("filename", file.string());
-  });
-  if (!missing.empty())
-    fail(ExitCode::io,
-         "{}: collision meshes that are missing, or neither STL, OBJ nor MSH: {}; they are looked for beside "
-         "the URDF, in the folder above it, and in meshes/",
-         path.string(), fmt::join(missing, ", "));
-}
-
 }  // namespace
+
+double positive_or_zero(const std::optional<std::string>& text) {
+  const double number = text ? std::strtod(text->c_str(), nullptr) : 0.0;
+  return number > 0.0 && number < 1e9 ? number : 0.0;
+}
+
+bool is_readable_mesh(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  const bool known = extension == ".stl" || extension == ".obj" || extension == ".msh";
+  std::error_code error;
+  return known && fs::is_regular_file(path, error) && fs::file_size(path, error) <= largest_file_bytes;
+}
 
 ModelText read_model_text(const fs::path& path, ReadingNotes& notes) {
   ModelText text;

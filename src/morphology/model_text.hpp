@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -25,6 +27,14 @@ struct ModelText {
   /// Meshes whose file is missing or in a format that MuJoCo does not read; something small stands for them.
   std::map<std::string, std::string> missing_meshes;  ///< name → file
 };
+
+constexpr std::uint64_t largest_file_bytes = 50'000'000;
+
+/// The number that a text begins with if it is positive and below 1e9, else 0.
+double positive_or_zero(const std::optional<std::string>& text);
+
+/// Whether it is a file that MuJoCo reads as a mesh, by its name's end and size.
+bool is_readable_mesh(const std::filesystem::path& path);
 
 /// Reads MJCF with its includes, or URDF (.urdf). Everything that no robot needs is removed: textures,
 /// sensors, visual and statistic settings, height fields and so on. Throws UserError: files larger than 50

@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -26,6 +27,8 @@ namespace {
 constexpr double widest_command_rad = 0.8;
 /// How far inside its stops a joint starts whose angle in the model lies outside.
 constexpr double inside_stops_share = 0.2, most_inside_stops_rad = 0.4;
+/// Share of the trunk's clearance at the start that is left when a robot on more than four legs has fallen.
+constexpr double lying_share = 0.1;
 constexpr double paper_mass_kg = 5.4, paper_cfm_s_per_kg = 1e-4;
 
 std::string key(const std::string& name) {
@@ -172,10 +175,31 @@ class RobotGuesser {
       guess_.asked.push_back("a foot: nothing of the model collides");
     }
     const double com_m = (poses[0] * robot_.bodies[0].com_m).z + lift_m;
-    line("# Half the height at which the root's centre of mass starts.");
-    line("fall_height_m = {}", std::floor(0.5e3 * com_m) / 1e3);
+    write_fall_height(com_m, lift_m);
     line("# A guess: legs that pass through each other are simulated faster, and learn as well.");
     line("self_collision = false");
+  }
+
+  /// `com_m`: height of the root's centre of mass at the start; `lift_m`: by what the model is lifted for it.
+  void write_fall_height(double com_m, double lift_m) {
+    const double half_m = 0.5 * com_m;
+    double bottom_m = std::numeric_limits<double>::infinity();
+    const auto poses = robot::start_poses(robot_);
+    for (const robot::Geom& geom : parts_.geoms)
+      if (geom.body == 0 && geom.collides)
+        bottom_m = std::min(bottom_m, robot::bottom_m(geom, poses) + lift_m);
+    const double lying_m = com_m - (1.0 - lying_share) * bottom_m;
+    // Legs that spread out to all sides carry a trunk that nearly lies on the ground as well as any other.
+    if (legs_.legs.size() > 4 && lying_m < half_m) {
+      comment(fmt::format(
+          "With more than four legs a low trunk is no fall: this is the height of the root's centre of "
+          "mass where {} of the trunk's clearance are left.",
+          lying_share));
+      line("fall_height_m = {}", std::floor(1e3 * lying_m) / 1e3);
+      return;
+    }
+    line("# Half the height at which the root's centre of mass starts.");
+    line("fall_height_m = {}", std::floor(1e3 * half_m) / 1e3);
   }
 
   void write_names() {

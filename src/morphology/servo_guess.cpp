@@ -18,6 +18,11 @@ constexpr double bearing_error_rad = 0.1;
 /// Ratio of kd to kp where the model tells no damping: a servo comes to its target in about 0.1 s.
 constexpr double damping_time_s = 0.05;
 constexpr double enough_times = 2.0;
+/// A larger effort limit than so many times what bears a leg's share of the weight stands for none.
+constexpr double absurd_times = 50.0;
+/// How far a target of a controller usually is, at most: as far as commands reach to either side of the
+/// start.
+constexpr double widest_error_rad = 0.8;
 
 /// Four digits, so that the file reads back to what it says.
 double rounded(double value) {
@@ -66,10 +71,7 @@ class ServoGuesser {
       if (actuator.kv > 0.0) return of_velocity(actuator, hint);
       return of_motor(actuator, hint, damping);
     }
-    if (hint.max_torque_nm > 0.0)
-      return {velocity(hint.max_torque_nm),
-              fmt::format("torque: the model's effort limit; gain: that of the paper's motors, {} /s",
-                          velocity_gain_per_s)};
+    if (hint.max_torque_nm > 0.0) return of_effort(hint);
     return {velocity(enough()),
             fmt::format("no motor in the model: {} × the torque that bears a leg's share of the "
                         "weight; gain: that of the paper's motors",
@@ -101,6 +103,27 @@ class ServoGuesser {
     return {torque(most, actuator.kp, kd),
             fmt::format("kp{} of the model's actuator{}; torque: {}", kd > 0.0 ? " and kd" : "",
                         kd > 0.0 || damping == 0.0 ? "" : ", whose damping is that of the joint", source)};
+  }
+
+  ServoGuess of_effort(const MotorHint& hint) const {
+    robot::Servo servo = velocity(hint.max_torque_nm);
+    std::string torque_why = "the model's effort limit";
+    if (hint.max_torque_nm > absurd_times * bearing_nm_) {
+      servo.max_torque_nm = enough();
+      torque_why = fmt::format(
+          "the model's effort limit, {:.4g} N m, is no motor's: {} × what bears a leg's "
+          "share of the weight",
+          hint.max_torque_nm, enough_times);
+    }
+    std::string gain_why = fmt::format("that of the paper's motors, {} /s", velocity_gain_per_s);
+    const double in_limit = hint.max_speed_rad_s / widest_error_rad;
+    if (in_limit > 0.0 && in_limit < velocity_gain_per_s) {
+      servo.gain_per_s = rounded(in_limit);
+      gain_why =
+          fmt::format("{} rad from its target a joint turns at the model's velocity limit, {:.4g} rad/s",
+                      widest_error_rad, hint.max_speed_rad_s);
+    }
+    return {servo, fmt::format("torque: {}; gain: {}", torque_why, gain_why)};
   }
 
   ServoGuess of_velocity(const Actuator& actuator, const MotorHint& hint) const {

@@ -29,6 +29,47 @@ TEST_F(RobotInit, MakesARobotThatLoadsOfEachSmallModel) {
   }
 }
 
+/// Without the line that names the preset, whose path depends on the folder.
+std::string without_include(const std::string& config) {
+  const std::size_t start = config.find("include = ");
+  return config.substr(0, start) + config.substr(config.find('\n', start));
+}
+
+TEST_F(RobotInit, WroteTheRobotsOfTheGallery) {
+  for (const auto& [name, extension] : std::map<std::string, std::string>{
+           {"hexapod", ".xml"}, {"biped", ".xml"}, {"octopod", ".xml"}, {"servo", ".urdf"}}) {
+    const std::string committed = source + "/robots/" + name + "/", folder = scratch_ / name;
+    std::filesystem::create_directories(folder);
+    spill(folder + "/" + name + extension, slurp(committed + name + extension));
+    const auto init = amble({"robot", "--init", folder + "/" + name + extension, "-o", folder});
+    ASSERT_EQ(init.exit_code, 0) << init.err;
+    EXPECT_EQ(slurp(folder + "/" + name + ".toml"), slurp(committed + name + ".toml"));
+    EXPECT_EQ(without_include(slurp(folder + "/evolve.toml")),
+              without_include(slurp(committed + "evolve.toml")));
+  }
+}
+
+TEST_F(RobotInit, ChampionsOfTheGalleryWalk) {
+  for (const char* name : {"hexapod", "biped", "octopod", "servo"}) {
+    const auto trial = amble({"trial", source + "/robots/" + name + "/champion.json", "--engine", "batch"});
+    EXPECT_THAT(trial.out, HasSubstr("outcome   completed")) << name << trial.err;
+  }
+}
+
+TEST_F(RobotInit, RewardsStayingUpOnTwoLegsOnly) {
+  for (const SmallModel& model : small_models()) {
+    if (model.name != "effort" && model.name != "keyframe") continue;
+    const std::string folder = scratch_ / model.name;
+    ASSERT_EQ(amble({"robot", "--init", write(model), "-o", folder}).exit_code, 0);
+    const bool staying_up = slurp(folder + "/evolve.toml").find("upright_time") != std::string::npos;
+    EXPECT_EQ(staying_up, model.legs == 2);
+    const auto evolve = amble({"evolve", folder + "/evolve.toml", "--set", "population.size=10", "--set",
+                               "speciation.target_min=1", "--set", "speciation.target_max=2", "--set",
+                               "trial.duration_s=1", "--generations", "1", "--out", folder + "/run"});
+    EXPECT_EQ(evolve.exit_code, 0) << evolve.err;
+  }
+}
+
 TEST_F(RobotInit, TellsWhatBecameOfTheModel) {
   const auto init = amble({"robot", "--init", write(small_models()[7]), "-o", scratch_ / "out"});
   EXPECT_THAT(init.out, HasSubstr("replaced  root 'trunk' moved by rootx, rootz, rooty: it is free to move"));

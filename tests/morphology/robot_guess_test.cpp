@@ -102,6 +102,46 @@ TEST(RobotGuess, TakesEffortDampingAndFrictionFromUrdf) {
   EXPECT_NEAR(robot.joints[0].upper_rad, 0.4, 1e-9);
 }
 
+TEST(RobotGuess, LetsATrunkOnSixLegsSinkNearlyToTheGround) {
+  const Files files;
+  const auto fall_height_m = [&](std::size_t pairs) {
+    std::vector<tests::LegText> legs;
+    for (std::size_t i = 0; i < 2 * pairs; ++i)
+      legs.push_back({.name = std::string(1, static_cast<char>('a' + i)),
+                      .x = 0.2 * (1.0 - static_cast<double>(i / 2)),
+                      .y = i % 2 == 0 ? 0.12 : -0.12});
+    return load(files, {"legs", "xml", model_text(legs), 2 * pairs, 4 * pairs, 0}).fall_height_m;
+  };
+  // Feet reach 0.43 m down; the trunk is 0.1 m high.
+  EXPECT_NEAR(fall_height_m(2), 0.215, 1e-9);
+  EXPECT_NEAR(fall_height_m(3), 0.05 + 0.1 * 0.38, 1.5e-3);  // rounded down to the millimetre
+}
+
+TEST(RobotGuess, TakesAGainThatKeepsToTheVelocityLimitOfUrdf) {
+  const Files files;
+  SmallModel model = model_of("effort");
+  // 5 rad/s with 0.8 rad to go.
+  EXPECT_EQ(load(files, model).joints[0].servo.gain_per_s, 6.25);
+  for (std::size_t at = 0; (at = model.text.find("velocity=\"5\"", at)) != std::string::npos;)
+    model.text.replace(at, 12, "velocity=\"8\"");
+  EXPECT_EQ(load(files, model).joints[0].servo.gain_per_s, 9.0);
+}
+
+TEST(RobotGuess, TakesNoEffortLimitThatStandsForNone) {
+  const Files files;
+  const auto torque_nm = [&](const std::string& effort) {
+    SmallModel model = model_of("effort");
+    model.text = with(with(model.text, "effort=\"12\"", effort), "effort=\"12\"", effort);
+    const robot::RobotSpec robot = load(files, model);
+    return robot.joints[1].servo.max_torque_nm;
+  };
+  // 3.6 kg and 4.2 kg of links; two legs of some 0.4 m bear less than 10 N m each.
+  EXPECT_EQ(torque_nm("effort=\"300\""), 300.0);
+  EXPECT_LT(torque_nm("effort=\"1000\""), 40.0);
+  EXPECT_GT(torque_nm("effort=\"1000\""), 5.0);
+  EXPECT_THAT(guess(files, model_of("effort")).toml, HasSubstr("the model's effort limit; gain"));
+}
+
 TEST(RobotGuess, GivesAMotorAGainThatBearsTheWeight) {
   const Files files;
   const SmallModel model{

@@ -1,0 +1,132 @@
+#include "amble/morphology/urdf_text.hpp"
+
+#include <fmt/ranges.h>
+#include <mujoco/mujoco.h>
+
+#include <array>
+#include <cstdlib>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "amble/core/error.hpp"
+
+namespace amble::morphology {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// MuJoCo fuses a URDF's root link into the world, and its mass is lost, unless the compiler option
+/// fusestatic is off. That option goes into an element <mujoco>, which most URDF files do not have.
+void keep_root(XmlElement& root, const fs::path& path) {
+  const XmlElement* extension = root.child("mujoco");
+  if (extension == nullptr) {
+    XmlElement mujoco{.name = "mujoco", .file = root.file, .line = root.line};
+    mujoco.children.push_back({.name = "compiler",
+                               .attributes = {{"fusestatic", "false"}, {"strippath", "false"}},
+                               .file = root.file,
+                               .line = root.line});
+    root.children.insert(root.children.begin(), std::move(mujoco));
+    return;
+  }
+  const XmlElement* compiler = extension->child("compiler");
+  if (compiler == nullptr || compiler->attribute_or("fusestatic", "true") != "false")
+    fail(ExitCode::bad_input,
+         "{}: the element <mujoco> must hold <compiler fusestatic=\"false\"/>, or the root link is lost",
+         path.string());
+}
+
+/// The file that a URDF means by a mesh's name, which may be package://PACKAGE/PATH: beside the URDF, in one
+/// of the folders above it, with or without the package's name, or of that name in a folder `meshes`. Empty
+/// if there is none.
+fs::path mesh_of_urdf(const fs::path& folder, std::string name) {
+  for (const std::string_view scheme : {"package://", "file://"})
+    if (name.starts_with(scheme)) name.erase(0, scheme.size());
+  const fs::path whole(name);
+  fs::path rest;  // without the package's name
+  for (auto part = whole.begin(); part != whole.end(); ++part)
+    if (part != whole.begin()) rest /= *part;
+  std::vector<fs::path> candidates;
+  fs::path above = fs::absolute(folder).lexically_normal();
+  constexpr int most_folders = 8;
+  for (int i = 0; i < most_folders && above.has_relative_path(); ++i, above = above.parent_path()) {
+    candidates.push_back(above / whole);
+    candidates.push_back(above / rest);
+  }
+  candidates.insert(candidates.end(), {folder / whole.filename(), folder / "meshes" / whole.filename(),
+                                       folder / ".." / "meshes" / whole.filename()});
+  for (const fs::path& candidate : candidates)
+    if (is_readable_mesh(candidate)) return fs::absolute(candidate).lexically_normal();
+  return {};
+}
+
+/// Principal moments that no body can have, one larger than the sum of the others, make MuJoCo refuse a
+/// model. Files that were drawn or written by hand have them. Their mean takes their place, as by MuJoCo's
+/// balanceinertia.
+void balance_inertias(XmlElement& root, ReadingNotes& notes) {
+  std::vector<std::string> balanced;
+  root.visit([&](XmlElement& link, XmlElement*) {
+    XmlElement* inertial = link.name == "link" ? link.child("inertial") : nullptr;
+    XmlElement* inertia = inertial != nullptr ? inertial->child("inertia") : nullptr;
+    if (inertia == nullptr) return;
+    const auto read = [&](const char* key) {
+      return std::strtod(inertia->attribute_or(key, "0").c_str(), nullptr);
+    };
+    const double xx = read("ixx"), yy = read("iyy"), zz = read("izz"), xy = read("ixy"), xz = read("ixz"),
+                 yz = read("iyz");
+    const std::array<mjtNum, 9> matrix{xx, xy, xz, xy, yy, yz, xz, yz, zz};
+    std::array<mjtNum, 3> moments{};  // falling
+    std::array<mjtNum, 9> axes{};
+    std::array<mjtNum, 4> turn{};
+    mju_eig3(moments.data(), axes.data(), turn.data(), matrix.data());
+    if (!(xx + yy + zz > 0.0) || moments[1] + moments[2] >= moments[0]) return;
+    balanced.push_back(link.attribute_or("name", ""));
+    const std::string mean = fmt::format("{:.6g}", (xx + yy + zz) / 3.0);
+    for (const char* key : {"ixx", "iyy", "izz"}) inertia->set(key, mean);
+    for (const char* key : {"ixy", "ixz", "iyz"}) inertia->set(key, "0");
+  });
+  if (!balanced.empty())
+    notes.add(Reading::replaced,
+              fmt::format("principal moments of inertia that no body can have, by their mean: {}",
+                          fmt::join(balanced, ", ")));
+}
+
+}  // namespace
+
+void clean_urdf(ModelText& text, const fs::path& path, ReadingNotes& notes) {
+  XmlElement& root = text.root;
+  if (root.name != "robot") fail(ExitCode::bad_input, "{}: a URDF needs an element <robot>", path.string());
+  keep_root(root, path);
+  root.prune([&](const XmlElement& element, const XmlElement& parent) {
+    if (element.name == "visual" && parent.name == "link")
+      notes.add(Reading::left_out, "visual shapes of a URDF: what collides is shown");
+    if (element.name == "mimic")
+      notes.add(Reading::left_out,
+                fmt::format("mimic of joint '{}': it moves on its own", parent.attribute_or("name", "")));
+    return element.name == "visual" || element.name == "mimic" || element.name == "transmission" ||
+           element.name == "gazebo";
+  });
+  balance_inertias(root, notes);
+  std::set<std::string> missing;
+  root.visit([&](XmlElement& element, XmlElement*) {
+    if (element.name == "joint") {
+      MotorHint& motor = text.motors[element.attribute_or("name", "")];
+      if (const XmlElement* limit = element.child("limit")) {
+        motor.max_torque_nm = positive_or_zero(limit->attribute("effort"));
+        motor.max_speed_rad_s = positive_or_zero(limit->attribute("velocity"));
+      }
+    }
+    if (element.name != "mesh" || !element.attribute("filename")) return;
+    const fs::path file = mesh_of_urdf(path.parent_path(), *element.attribute("filename"));
+    if (file.empty()) missing.insert(*element.attribute("filename"));
+    element.set("filename", file.string());
+  });
+  if (!missing.empty())
+    fail(ExitCode::io,
+         "{}: collision meshes that are missing, or neither STL, OBJ nor MSH: {}; they are looked for beside "
+         "the URDF, in the folders above it, and in meshes/",
+         path.string(), fmt::join(missing, ", "));
+}
+
+}  // namespace amble::morphology
