@@ -220,12 +220,13 @@ HWY_INLINE V gap_on_uneven_ground(const Pass& pass, int p, V3 position) {
 }
 
 /// Heights above the ground of all points whose geom's bounding sphere reaches it, and which feet touch.
-HWY_NOINLINE void detect_contacts(const Pass& pass) {
+template <bool uneven>
+HWY_NOINLINE void detect_contacts_on(const Pass& pass) {
   const Model& model = pass.model();
   const Mask active = pass.active();
   const V3 up = pass.state3(StateRows::world_axes + 6);
   const V com_height = pass.state(StateRows::com + 2);
-  const V highest = set(pass.ground() ? pass.ground()->highest_m : 0.0f);
+  const V highest = set(uneven ? pass.ground()->highest_m : 0.0f);
   V contacts = zero();
   for (std::size_t g = 0; g < model.geoms.size(); ++g) {
     const PointGroup& geom = model.geoms[g];
@@ -244,8 +245,8 @@ HWY_NOINLINE void detect_contacts(const Pass& pass) {
     for (int p = geom.first; pass.work().geom_may_touch[g] && p < geom.first + geom.count; ++p) {
       const Point& point = model.points[to_index(p)];
       const V3 position = point_position(point, local_up);
-      const V h = pass.ground() ? gap_on_uneven_ground(pass, p, position)
-                                : dot(local_up, position, height) - set(point.radius_m);
+      const V h = uneven ? gap_on_uneven_ground(pass, p, position)
+                         : dot(local_up, position, height) - set(point.radius_m);
       store(h, pass.scratch(pass.work().point_height + p));
       touches = hn::Or(touches, h <= zero());
       contacts = contacts + hn::IfThenElseZero(h <= zero(), set(1.0f));
@@ -253,6 +254,10 @@ HWY_NOINLINE void detect_contacts(const Pass& pass) {
     if (geom.leg >= 0) pass.set_state(pass.rows().touch + geom.leg, hn::IfThenElseZero(touches, set(1.0f)));
   }
   pass.set_state(StateRows::contacts, contacts);
+}
+
+HWY_INLINE void detect_contacts(const Pass& pass) {
+  pass.ground() ? detect_contacts_on<true>(pass) : detect_contacts_on<false>(pass);
 }
 
 /// Copies joint angles and touch to the sensors, and computes roll, pitch and yaw.
