@@ -147,10 +147,11 @@ robot::RobotSpec wheels(double speed_rad_s) {
   robot.bodies[2].parent = 1;
   robot.bodies[2].mass_kg = 1e3;
   robot.bodies[2].inertia_kg_m2 = {1e3, 1e3, 1e3};
-  robot.joints.push_back(joint);
-  robot.joints[1].name = "second";
-  robot.joints[1].body = 2;
-  robot.joints[1].command = robot::AngleRange{joint.lower_rad, joint.upper_rad};
+  robot::Joint second = joint;
+  second.name = "second";
+  second.body = 2;
+  second.command = robot::AngleRange{joint.lower_rad, joint.upper_rad};
+  robot.joints.push_back(second);
   return robot;
 }
 
