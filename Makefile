@@ -24,7 +24,7 @@ build:
 	cmake --preset release
 	cmake --build --preset release
 
-# The programs that tests run (browser, Slurm) are installed while the tests compile. One job more than processors: a test that
+# The programs that tests run (browser, Slurm, Clang for exported C) are installed while the tests compile. One job more than processors: a test that
 # waits needs none.
 test:
 	./setup $(if $(filter fuzz,$(PRESET)),--dev,--test)
