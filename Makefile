@@ -24,8 +24,8 @@ build:
 	cmake --preset release
 	cmake --build --preset release
 
-# The programs that tests run (browser, Slurm, Clang for exported C) are installed while the tests compile. One job more than processors: a test that
-# waits needs none.
+# The programs that tests run (browser, Slurm, Clang for exported C) are installed while the tests compile. One job more than
+# processors: a test that waits needs none.
 test:
 	./setup $(if $(filter fuzz,$(PRESET)),--dev,--test)
 	@{ ./setup --tools && viewer/install-packages >/dev/null; } & tools=$$!; \

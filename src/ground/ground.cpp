@@ -7,7 +7,6 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
-#include "amble/robot/collision_points.hpp"
 
 namespace amble::ground {
 
@@ -28,6 +27,15 @@ Touch Ground::touch(Vec3 centre_m, double radius_m) const {
   const double up = 1.0 / std::sqrt(1.0 + slope_x * slope_x + slope_y * slope_y);
   const Vec3 normal{-up * slope_x, -up * slope_y, up};
   return {.gap_m = up * (centre_m.z - height_m), .normal = normal, .point_m = centre_m - radius_m * normal};
+}
+
+void Ground::touches(std::span<const robot::CollisionPoint> points, const robot::Pose& pose,
+                     std::vector<Touch>& found) const {
+  const Vec3 up = rotate(conjugate(pose.rotation), {0.0, 0.0, 1.0});
+  for (const robot::CollisionPoint& point : points) {
+    const Touch at = touch(pose * robot::position_m(point, up), point.radius_m);
+    if (at.gap_m <= 0.0) found.push_back(at);
+  }
 }
 
 double Ground::clearance_m(const robot::RobotSpec& robot, std::span<const robot::Pose> poses) const {

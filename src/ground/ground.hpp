@@ -5,6 +5,7 @@
 
 #include "amble/core/math.hpp"
 #include "amble/ground/height_field.hpp"
+#include "amble/robot/collision_points.hpp"
 #include "amble/robot/pose.hpp"
 #include "amble/robot/spec.hpp"
 
@@ -36,6 +37,9 @@ class Ground {
 
   /// By the plane that touches the offset field above or below the ball's centre.
   Touch touch(Vec3 centre_m, double radius_m) const;
+  /// Adds where a geom's collision points touch, its frame being at `pose`: gaps of 0 and below.
+  void touches(std::span<const robot::CollisionPoint> points, const robot::Pose& pose,
+               std::vector<Touch>& found) const;
   /// How far the robot with its bodies at `poses` can be lowered before it touches the ground (negative: must
   /// be lifted); infinity for a robot of which nothing collides.
   double clearance_m(const robot::RobotSpec& robot, std::span<const robot::Pose> poses) const;

@@ -52,6 +52,13 @@ Vec3 position_m(const CollisionPoint& point, Vec3 up) {
                                                   std::sin(point.rim_angle_rad) * aside);
 }
 
+double bounding_radius_m(const Geom& geom) {
+  double radius_m = 0.0;
+  for (const CollisionPoint& point : collision_points(geom))
+    radius_m = std::max(radius_m, std::hypot(norm(point.position_m), point.rim_radius_m) + point.radius_m);
+  return radius_m;
+}
+
 std::vector<double> contact_radii_m(const RobotSpec& robot) {
   std::vector<double> radii{0.0};
   for (const Geom& geom : robot.geoms)

@@ -23,6 +23,9 @@ std::vector<CollisionPoint> collision_points(const Geom& geom);
 /// Where a point is in the geom's frame, in which `up` (a unit vector) points upwards.
 Vec3 position_m(const CollisionPoint& point, Vec3 up);
 
+/// Radius of a ball about the geom's centre that encloses all of its collision points, m.
+double bounding_radius_m(const Geom& geom);
+
 /// The different radii of all balls and corners of a robot that collide, rising; always with 0.
 std::vector<double> contact_radii_m(const RobotSpec& robot);
 

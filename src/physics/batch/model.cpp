@@ -157,7 +157,8 @@ class Builder {
     const LinkFrame& frame = frames_[to_index(geom.body)];
     const Pose pose = poses_[to_index(geom.body)] * Pose{geom.position_m, geom.rotation};
     PointGroup group{.first = static_cast<int>(model_.points.size()),
-                     .centre_m = narrow(pose.position_m - frame.origin_m)};
+                     .centre_m = narrow(pose.position_m - frame.origin_m),
+                     .bounding_radius_m = static_cast<float>(robot::bounding_radius_m(geom))};
     for (const robot::CollisionPoint& from : robot::collision_points(geom)) {
       Point point{.chain = frame.chain,
                   .link = frame.link,
@@ -172,8 +173,6 @@ class Builder {
       }
       point.field = static_cast<int>(std::ranges::lower_bound(radii_m_, from.radius_m) - radii_m_.begin());
       model_.points.push_back(point);
-      const double reach_m = std::hypot(norm(from.position_m), from.rim_radius_m) + from.radius_m;
-      group.bounding_radius_m = std::max(group.bounding_radius_m, static_cast<float>(reach_m));
     }
     group.bounding_radius_m *= 1.0001f;  // margin for rounding
     group.count = static_cast<int>(model_.points.size()) - group.first;

@@ -19,7 +19,7 @@ class GroundContacts {
   /// Lets MuJoCo find contacts with its plane where `ground` is null, and else not.
   void set_ground(mjModel& model, const ground::Ground* ground) const;
   /// Adds the contacts of the pose in `data`, between mj_collision and mj_makeConstraint. As many as fit.
-  void add(const ground::Ground& ground, const mjModel* model, mjData* data) const;
+  void add(const ground::Ground& ground, const mjModel* model, mjData* data);
 
  private:
   struct Collider {
@@ -30,7 +30,8 @@ class GroundContacts {
   };
 
   std::vector<Collider> colliders_;
-  int plane_type_, plane_affinity_;  ///< of MuJoCo's plane
+  std::vector<ground::Touch> touches_;  ///< of one geom
+  int plane_type_, plane_affinity_;     ///< of MuJoCo's plane
 };
 
 }  // namespace amble::physics::mujoco

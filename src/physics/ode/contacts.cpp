@@ -103,12 +103,8 @@ int Contacts::collide_with_uneven_ground(const Collider& collider) {
   const dReal* const q = dBodyGetQuaternion(collider.body);
   const robot::Pose pose = robot::Pose{{com[0], com[1], com[2]}, {q[0], q[1], q[2], q[3]}} * collider.place;
   if (pose.position_m.z > collider.radius_m + ground_->highest_m()) return 0;
-  const Vec3 up = rotate(conjugate(pose.rotation), {0.0, 0.0, 1.0});
   touches_.clear();
-  for (const robot::CollisionPoint& point : collider.points) {
-    const ground::Touch touch = ground_->touch(pose * robot::position_m(point, up), point.radius_m);
-    if (touch.gap_m <= 0.0) touches_.push_back(touch);
-  }
+  ground_->touches(collider.points, pose, touches_);
   if (touches_.size() > most_contacts) {
     std::ranges::stable_sort(touches_, {}, &ground::Touch::gap_m);
     touches_.resize(most_contacts);
