@@ -184,14 +184,12 @@ TEST(ExtractParts, LeavesAFreeJointInMidChainToMujoco) {
 
 TEST(ExtractParts, TakesABodyWithoutMassForAPlaceOnlyAndChangesNoBit) {
   const Files files;
-  const ModelParts plain = parts_of(files, with(one_leg_xml, R"(name="thigh" type="capsule")",
-                                                R"(name="thigh" type="capsule" euler="0.1 0.2 0.3")"));
-  std::string xml = with(one_leg_xml, R"(name="thigh" type="capsule")",
-                         R"(name="thigh" type="capsule" euler="0.1 0.2 0.3")");
-  for (const char* body : {R"(<body name="thigh" pos="0 0 -0.1">)", R"(<body name="shin" pos="0 0 -0.4">)"})
-    xml = with(xml, body,
-               std::string(body) +
-                   fmt::format(R"(<body name="mount{}" pos="0.1 0.2 0.3"><site/></body>)", body[12]));
+  const std::string thigh = R"(<body name="thigh" pos="0 0 -0.1">)",
+                    mount = R"(<body pos="0.1 0.2 0.3"><site/></body>)",
+                    mass = R"(<inertial pos="0.01 0.02 -0.13" mass="0.37"
+                               fullinertia="0.011 0.013 0.009 0.001 0.002 0.0005"/>)";
+  const ModelParts plain = parts_of(files, with(one_leg_xml, thigh, thigh + mass));
+  const std::string xml = with(one_leg_xml, thigh, thigh + mass + mount);
   const ModelParts mounted = parts_of(files, xml);
   ASSERT_EQ(mounted.bodies.size(), plain.bodies.size());
   for (std::size_t b = 0; b < plain.bodies.size(); ++b) {

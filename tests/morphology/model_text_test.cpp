@@ -2,9 +2,13 @@
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
+#include <array>
+#include <cmath>
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 
+#include "amble/core/random.hpp"
 #include "amble/morphology/model_parts.hpp"
 #include "tests/morphology/files.hpp"
 
@@ -14,34 +18,44 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-std::string limit(int torque_nm) {
-  return torque_nm == 0 ? "" : fmt::format(R"(<joint actuatorfrcrange="-{0} {0}"/>)", torque_nm);
+/// The attributes of a joint that give this number, to amble and to MuJoCo; none for 0.
+std::string attributes(int number) {
+  return number == 0 ? "" : fmt::format(R"( actuatorfrcrange="-{0} {0}" armature="{0}")", number);
+}
+std::string joint_default(int number) {
+  return number == 0 ? "" : fmt::format("<joint{}/>", attributes(number));
 }
 
-TEST(ModelText, TakesAnAttributeFromTheNearestOfTheDefaultClassesThatHasIt) {
+TEST(ModelText, FindsDefaultsOfAttributesThatMujocoDoesNotKnowAsItFindsThoseOfOthers) {
   const Files files;
-  // Which of them give the attribute: the joint, its class, the class above that, and the top one.
-  for (const std::string top : {"", R"( class="main")", R"( class="robot")"})
-    for (int given = 0; given < 16; ++given)
-      for (const bool by_childclass : {false, true}) {
-        const auto value = [&](int place) { return (given & (1 << place)) != 0 ? place + 1 : 0; };
-        const std::string defaults =
-            fmt::format(R"(<default{}>{}<default class="outer">{}<default class="inner">{}</default></default>
-                           <default class="other">{}</default></default><option)",
-                        top, limit(value(3)), limit(value(2)), limit(value(1)), limit(9));
-        std::string xml = with(one_leg_xml, "<option", defaults);
-        xml = by_childclass ? with(xml, R"(<body name="thigh")", R"(<body name="thigh" childclass="inner")")
-                            : with(xml, R"(name="A_hip")", R"(name="A_hip" class="inner")");
-        if (value(0) != 0) xml = with(xml, R"(name="A_hip")", R"(name="A_hip" actuatorfrcrange="-1 1")");
-        const ModelFile file = compile_model(files.write("m.xml", xml));
-        int nearest = 0;
-        for (int place = 3; place >= 0; --place)
-          if (value(place) != 0) nearest = value(place);
-        const auto found = file.motors.find("A_hip");
-        EXPECT_EQ(found == file.motors.end() ? 0.0 : found->second.max_torque_nm, nearest)
-            << top << " " << given << " " << by_childclass;
-        EXPECT_FALSE(nearest == 0 && found != file.motors.end());
-      }
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    Stream stream(1, Purpose::test, i);
+    const auto draw = [&](std::initializer_list<const char*> all) {
+      return std::string(all.begin()[stream.below(static_cast<std::uint32_t>(all.size()))]);
+    };
+    // The joint, classes inner and outer, the top one and the same again: which of them give a number.
+    std::array<int, 5> number{};
+    for (std::size_t place = 0; place < number.size(); ++place)
+      number[place] = stream.chance(0.3) ? static_cast<int>(place) + 1 : 0;
+    const std::string top = draw({"", R"( class="main")", R"( class="robot")"});
+    std::string xml = with(
+        one_leg_xml, "<option",
+        fmt::format(R"(<default{0}>{1}<default class="outer">{2}<default class="inner">{3}</default></default>
+                            <default class="other">{4}</default></default><default{0}>{5}</default><option)",
+                    top, joint_default(number[3]), joint_default(number[2]), joint_default(number[1]),
+                    joint_default(9), joint_default(number[4])));
+    xml = with(xml, R"(<body name="thigh")",
+               R"(<body name="thigh")" + draw({"", R"( childclass="inner")", R"( childclass="TOP")"}));
+    xml = with(xml, R"(name="A_hip")",
+               R"(name="A_hip")" + attributes(number[0]) +
+                   draw({"", "", R"( class="inner")", R"( class="outer")", R"( class="TOP")"}));
+    for (std::size_t at = xml.find("TOP"); at != std::string::npos; at = xml.find("TOP"))
+      xml.replace(at, 3, top.find("robot") != std::string::npos ? "robot" : "main");
+    const ModelFile file = compile_model(files.write("m.xml", xml));
+    const auto found = file.motors.find("A_hip");
+    ASSERT_EQ(found == file.motors.end() ? 0.0 : found->second.max_torque_nm, file.model->dof_armature[6])
+        << xml;
+  }
 }
 
 TEST(ModelText, LosesAnAttributeOnlyWhereMujocoDoesNotKnowIt) {

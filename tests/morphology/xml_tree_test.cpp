@@ -51,7 +51,8 @@ TEST(XmlTree, IsReadBackAsItIsWrittenWhateverStandsBetweenItsTags) {
     XmlElement tree = random_element(stream, 4);
     const XmlText written = write_xml(tree);
     ASSERT_TRUE(same(parse_xml(written.text, "f"), tree)) << written.text;
-    for (const char* between : {"<!-- <a> -> -- > -->", "<![CDATA[ <b> ]> ]] > ]]>", "<? <c> ?>", "words > "})
+    for (const char* between :
+         {"<!-- <a> -> -- > -->", "<![CDATA[ > <b> ]> ]] > </b> ]]>", "<? <c> ?>", "words > "})
       ASSERT_TRUE(same(parse_xml(with_between(written.text, between), "f"), tree)) << written.text << between;
     for (std::size_t line = 0; line < written.lines.size(); ++line) ASSERT_NE(written.lines[line], nullptr);
   }
