@@ -279,5 +279,20 @@ TEST(Run, LeavesNothingBehindWhenTheRobotIsUnknown) {
   EXPECT_FALSE(std::filesystem::exists(scratch / "run"));
 }
 
+TEST(Run, HasNoStageThatTakesLongerThanItsGeneration) {
+  // With one worker; what was spent on writing the row before belongs to the next.
+  const TemporaryFolder scratch;
+  Config config = small_config({"engine=batch", "population.size=10", "trial.duration_s=0.05"});
+  config.generations = 60;
+  Listener listener;
+  ASSERT_EQ(Run::start(scratch / "run", config, 1).execute(listener, listener.stop), RunStatus::finished);
+  ASSERT_EQ(listener.rows.size(), 60u);
+  for (const auto& row : listener.rows) {
+    EXPECT_GE(row.times.files_s, 0.0);
+    EXPECT_LE(row.times.files_s + row.times.search_s + row.times.decode_s, row.wall_s + 1e-3)
+        << row.generation;
+  }
+}
+
 }  // namespace
 }  // namespace amble::experiment
