@@ -282,7 +282,7 @@ TEST(Run, LeavesNothingBehindWhenTheRobotIsUnknown) {
 TEST(Run, HasNoStageThatTakesLongerThanItsGeneration) {
   // With one worker; what was spent on writing the row before belongs to the next.
   const TemporaryFolder scratch;
-  Config config = small_config({"engine=batch", "population.size=10", "trial.duration_s=0.05"});
+  Config config = small_config({"engine=batch", "trial.duration_s=0.05"});
   config.generations = 60;
   Listener listener;
   ASSERT_EQ(Run::start(scratch / "run", config, 1).execute(listener, listener.stop), RunStatus::finished);
