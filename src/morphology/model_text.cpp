@@ -6,6 +6,10 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <deque>
+#include <map>
+#include <ranges>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -80,41 +84,54 @@ class Includer {
   int includes_ = 0;
 };
 
-/// Attributes of MJCF elements with those of their default classes.
+/// Attributes of MJCF elements with those of their default classes. All sections <default> are one class at
+/// the top, whatever they call it: a later one changes it for all that comes after, and the last is that of
+/// elements without a class.
 class Defaults {
  public:
   explicit Defaults(const XmlElement& root) {
-    for (const XmlElement& child : root.children)
-      if (child.name == "default") add(child, nullptr, child.attribute_or("class", "main"));
+    for (const XmlElement& child : root.children) {
+      if (child.name != "default") continue;
+      tops_.push_back({&child, tops_.empty() ? nullptr : &tops_.back()});
+      top_names_.insert(child.attribute_or("class", "main"));
+      add_within(child, tops_.back());
+    }
   }
 
+  /// `childclass`: of elements that name no class; empty: that at the top.
   std::optional<std::string> attribute(const XmlElement& element, std::string_view key,
                                        const std::string& childclass) const {
     if (auto own = element.attribute(key)) return own;
-    const auto found = classes_.find(element.attribute_or("class", childclass));
-    for (const Class* at = found == classes_.end() ? nullptr : &found->second; at != nullptr; at = at->parent)
-      for (const XmlElement* settings : at->settings)
-        if (const XmlElement* its = settings->child(element.name))
-          if (auto value = its->attribute(key)) return value;
+    for (const Class* at = find(element.attribute_or("class", childclass)); at != nullptr; at = at->parent)
+      for (const XmlElement& its : std::views::reverse(at->settings->children))
+        if (its.name == element.name)
+          if (auto value = its.attribute(key)) return value;
     return std::nullopt;
   }
 
  private:
   struct Class {
-    std::vector<const XmlElement*> settings;
-    const Class* parent = nullptr;
+    const XmlElement* settings;
+    const Class* parent;
   };
 
-  void add(const XmlElement& element, const Class* parent, const std::string& name) {
-    Class& its = classes_[name];
-    its.settings.push_back(&element);
-    if (&its != parent) its.parent = parent;
-    for (const XmlElement& child : element.children)
-      if (child.name == "default" && child.attribute("class") && *child.attribute("class") != name &&
-          !classes_.contains(*child.attribute("class")))
-        add(child, &its, *child.attribute("class"));
+  const Class* find(const std::string& name) const {
+    if (name.empty() || top_names_.contains(name)) return tops_.empty() ? nullptr : &tops_.back();
+    const auto found = classes_.find(name);
+    return found == classes_.end() ? nullptr : &found->second;
   }
 
+  void add_within(const XmlElement& element, const Class& parent) {
+    for (const XmlElement& child : element.children) {
+      const auto name = child.attribute("class");
+      if (child.name != "default" || !name) continue;
+      const auto [added, is_new] = classes_.try_emplace(*name, Class{&child, &parent});
+      if (is_new) add_within(child, added->second);
+    }
+  }
+
+  std::deque<Class> tops_;
+  std::set<std::string> top_names_;
   std::map<std::string, Class> classes_;
 };
 
@@ -165,11 +182,11 @@ class MjcfCleaner {
       }
     };
     for (const XmlElement& section : root_.children) {
-      if (section.name == "worldbody") in_bodies(in_bodies, section, "main");
+      if (section.name == "worldbody") in_bodies(in_bodies, section, "");
       if (section.name != "actuator") continue;
       for (const XmlElement& actuator : section.children)
         if (actuator.name == "position")
-          if (const double kv = positive_or_zero(defaults.attribute(actuator, "kv", "main")); kv > 0.0)
+          if (const double kv = positive_or_zero(defaults.attribute(actuator, "kv", "")); kv > 0.0)
             text_.motors[actuator.attribute_or("joint", "")].kv_nm_s_per_rad = kv;
     }
   }

@@ -6,6 +6,7 @@
 #include <bit>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -125,8 +126,8 @@ void expect_twins(const Settings& settings, const substrate::Settings& substrate
   }
 }
 
-/// One joint and up to 60 nodes: sensors, neurons, links between any two of them, or from earlier to later
-/// nodes alone.
+/// One joint and up to 60 nodes: sensors, neurons, links between any two of them, or without cycles, whatever
+/// the order of the nodes.
 substrate::Settings random_substrate(bool cyclic, bool ctrnn, Stream& stream) {
   substrate::Settings settings;
   settings.coordinates = {"x", "y"};
@@ -154,12 +155,17 @@ substrate::Settings random_substrate(bool cyclic, bool ctrnn, Stream& stream) {
     }
     settings.nodes.push_back(node);
   }
+  std::vector<int> rank(static_cast<std::size_t>(count));
+  std::iota(rank.begin(), rank.end(), 0);
+  for (std::size_t i = rank.size(); i > 1; --i)
+    std::swap(rank[i - 1], rank[stream.below(static_cast<std::uint32_t>(i))]);
   std::set<std::pair<int, int>> pairs;
   for (int i = 0; i < 4 * count; ++i) {
     int from = static_cast<int>(stream.below(static_cast<std::uint32_t>(count))),
         to = static_cast<int>(stream.below(static_cast<std::uint32_t>(count)));
     if (!cyclic && from == to) continue;
-    if (!cyclic && from > to) std::swap(from, to);
+    if (!cyclic && rank[static_cast<std::size_t>(from)] > rank[static_cast<std::size_t>(to)])
+      std::swap(from, to);
     if (!pairs.emplace(from, to).second) continue;
     settings.links.push_back(
         {.from = "n" + std::to_string(from), .to = "n" + std::to_string(to), .same = {}});

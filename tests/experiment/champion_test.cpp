@@ -5,6 +5,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/random.hpp"
+#include "amble/neat/genome_json.hpp"
 #include "amble/robot/json.hpp"
 #include "tests/experiment/fixture.hpp"
 
@@ -194,6 +195,24 @@ TEST(Champion, ReaderThrowsNothingButUserErrorsUnderRandomDamage) {
     } catch (const UserError&) {
     }
   }
+}
+
+TEST(Champion, OfTheFirstGenerationIsTheGenomeOfItsIndex) {
+  int not_first = 0;
+  for (const int seed : {1, 2, 3, 4}) {
+    const TemporaryFolder scratch;
+    Listener listener(1);
+    Config config = small_config({"engine=batch", "trial.duration_s=0.3"});
+    config.seed = seed;
+    Run::start(scratch / "run", config, 1).execute(listener, listener.stop);
+    const Champion champion = load_champion(RunPaths(scratch / "run").champion_files().front());
+    const auto population = small_population(champion.problem, static_cast<std::uint64_t>(seed));
+    ASSERT_LT(champion.index, static_cast<int>(population.genomes().size()));
+    EXPECT_EQ(neat::to_json(champion.genome),
+              neat::to_json(population.genomes()[static_cast<std::size_t>(champion.index)]));
+    not_first += champion.index > 0 ? 1 : 0;
+  }
+  EXPECT_GT(not_first, 0);
 }
 
 }  // namespace

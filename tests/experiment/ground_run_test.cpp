@@ -7,6 +7,7 @@
 #include "amble/ground/recorded.hpp"
 #include "amble/io/file.hpp"
 #include "amble/record/recording.hpp"
+#include "amble/robot/pose.hpp"
 #include "tests/experiment/fixture.hpp"
 
 // Runs on other ground than the plane.
@@ -156,6 +157,62 @@ TEST(GenerationGround, IsMadeAnewOnlyWhenItChanges) {
   const auto one = anew.of(varies, 1, 5);
   EXPECT_EQ(anew.of(varies, 1, 5), one);
   EXPECT_NE(anew.of(varies, 1, 6), one);
+}
+
+TEST(GroundRun, TriesChampionsOnTheGroundOfTheirGenerationWithoutNoiseToo) {
+  // Without a flat start: robots are dropped onto ground that is another one in each generation.
+  const TemporaryFolder scratch;
+  Listener listener;
+  const Config config =
+      small_config({"engine=batch", "drop_m=0.15", "ground.kind=rough", "ground.height_m=0.1",
+                    "ground.start_radius_m=0", "ground.vary=generations"});
+  ASSERT_EQ(Run::start(scratch / "run", config, 1).execute(listener, listener.stop), RunStatus::finished);
+  const RunPaths paths(scratch / "run");
+  const Origin origin = origin_of(paths);
+  ASSERT_FALSE(paths.champion_files().empty());
+  for (const auto& file : paths.champion_files()) {
+    const auto verified = verify_champion(file, unstopped, &origin);
+    EXPECT_TRUE(verified->agrees) << verified->text;
+    // On other ground it goes elsewhere.
+    Champion champion = load_champion(file);
+    const auto at_home = replay(champion.problem, champion.genome, {}, unstopped);
+    ++champion.problem.ground_key.generation;
+    const auto elsewhere = replay(champion.problem, champion.genome, {}, unstopped);
+    EXPECT_EQ(at_home->result.distance_m, champion.result.distance_m);
+    EXPECT_NE(elsewhere->result.distance_m, champion.result.distance_m);
+  }
+}
+
+TEST(GroundRun, OfAProblemThatWalksOnOtherGroundIsThatOfAProblemMadeForIt) {
+  const auto ground_of_case = [](int number) {
+    ground::Settings settings;
+    settings.slope_x = number % 2 == 0 ? 0.0 : 0.2;
+    settings.slope_y = number / 2 % 2 == 0 ? 0.0 : -0.3;
+    settings.friction = number / 4 % 2 == 0 ? 0.5 : 0.9;
+    settings.kind = number / 8 % 2 == 0 ? ground::Kind::plane : ground::Kind::hills;
+    return settings;
+  };
+  Config config = small_config();
+  for (const int from : {0, 3, 9, 14})
+    for (const int to : {0, 2, 5, 11}) {
+      config.ground = ground_of_case(from);
+      Problem walked = small_problem(config);
+      walked.walk_on(ground_of_case(to));
+      config.ground = ground_of_case(to);
+      const Problem made = small_problem(config);
+      EXPECT_NEAR(norm(walked.robot.gravity_m_s2 - made.robot.gravity_m_s2), 0.0, 1e-12) << from << " " << to;
+      EXPECT_EQ(walked.robot.contact.friction, made.robot.contact.friction);
+      EXPECT_EQ(io::settings_to_json(walked.ground), io::settings_to_json(config.ground));
+      EXPECT_EQ(walked.make_ground({}) == nullptr, made.make_ground({}) == nullptr);
+    }
+}
+
+TEST(GroundRun, MayBeginAsDeepInTheGroundAsOnThePlane) {
+  // Feet that sink in by less than a centimetre are no mistake of the ground's.
+  const Config config = small_config({"ground.kind=hills", "drop_m=0"});
+  robot::RobotSpec robot = load_robot_file(config.robot);
+  robot.bodies[0].position_m.z -= robot::clearance_m(robot, robot::start_poses(robot)) + 0.009;
+  EXPECT_NO_THROW(Problem::make(config, robot));
 }
 
 }  // namespace

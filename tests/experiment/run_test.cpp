@@ -279,5 +279,43 @@ TEST(Run, LeavesNothingBehindWhenTheRobotIsUnknown) {
   EXPECT_FALSE(std::filesystem::exists(scratch / "run"));
 }
 
+TEST(Run, HasNoStageThatTakesLongerThanItsGeneration) {
+  // With one worker; what was spent on writing the row before belongs to the next.
+  const TemporaryFolder scratch;
+  Config config = small_config({"engine=batch", "trial.duration_s=0.05"});
+  config.generations = 60;
+  Listener listener;
+  ASSERT_EQ(Run::start(scratch / "run", config, 1).execute(listener, listener.stop), RunStatus::finished);
+  ASSERT_EQ(listener.rows.size(), 60u);
+  for (const auto& row : listener.rows) {
+    EXPECT_GE(row.times.files_s, 0.0);
+    EXPECT_LE(row.times.files_s + row.times.search_s + row.times.decode_s, row.wall_s + 1e-3)
+        << row.generation;
+  }
+}
+
+/// Adds up what the rows say.
+class Sums : public RunListener {
+ public:
+  void on_generation(const GenerationRow& row, const Progress& progress, const Config&) override {
+    evaluations_ += row.evaluations;
+    steps_ += row.steps;
+    EXPECT_EQ(progress.evaluations, evaluations_);
+    EXPECT_EQ(progress.steps, steps_);
+  }
+
+ private:
+  decltype(Progress::evaluations) evaluations_ = 0;
+  decltype(Progress::steps) steps_ = 0;
+};
+
+TEST(Run, CountsEvaluationsAndStepsOfAllItsGenerations) {
+  const TemporaryFolder scratch;
+  Sums sums;
+  const std::atomic<bool> never{false};
+  EXPECT_EQ(Run::start(scratch / "run", small_config({"engine=batch"}), 1).execute(sums, never),
+            RunStatus::finished);
+}
+
 }  // namespace
 }  // namespace amble::experiment

@@ -108,6 +108,19 @@ TEST_F(Verify, NamesAnotherDistance) {
   EXPECT_THAT(verification().text, HasSubstr("distance 123 m recorded"));
 }
 
+TEST_F(Verify, NamesAnotherEnd) {
+  ASSERT_TRUE(verification().agrees);
+  const TrialResult own = champion_.result;
+  for (const record::Outcome outcome :
+       {record::Outcome::completed, record::Outcome::fell, record::Outcome::diverged}) {
+    champion_.result.outcome = outcome;
+    EXPECT_EQ(verification().agrees, outcome == own.outcome);
+  }
+  champion_.result = own;
+  ++champion_.result.steps;
+  EXPECT_THAT(verification().text, HasSubstr("steps recorded"));
+}
+
 TEST_F(Verify, NamesAnotherScore) {
   champion_.problem.score.terms = {{.quantity = "uprightness"}};
   champion_.result = replay(champion_.problem, champion_.genome, {}, never)->result;

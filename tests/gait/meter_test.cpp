@@ -477,5 +477,38 @@ TEST(GaitMeter, RefusesSettingsOutOfRange) {
   EXPECT_EQ(error({.transient_s = -1.0}), "gait: transient = -1 s: expected 0 to 1e6 s");
 }
 
+TEST(GaitMeter, CountsTheRisingEdgesOfEachSensorInTheWholeTrial) {
+  for (std::uint32_t i = 0; i < 50; ++i) {
+    Stream stream(1, Purpose::test, i);
+    Feeder feeder;
+    std::vector<std::int64_t> edges(4, 0);
+    std::vector<float> before;
+    for (std::uint32_t k = 1 + stream.below(600); k-- > 0;) {
+      std::vector<float> touch(4);
+      for (float& one : touch) one = stream.chance(0.5) ? 1.0f : 0.0f;
+      for (std::size_t leg = 0; leg < 4 && !before.empty(); ++leg)
+        edges[leg] += touch[leg] > before[leg] ? 1 : 0;
+      feeder.add(before = touch);
+    }
+    const Report report = feeder.finish();
+    for (std::size_t leg = 0; leg < 4; ++leg) EXPECT_EQ(report.legs[leg].raw_touchdowns, edges[leg]) << i;
+  }
+}
+
+TEST(GaitMeter, TakesTheLateralPhaseOfBothSides) {
+  // Fore feet land by these shares after the hind feet of their sides: Hildebrand's phase is their mean.
+  for (int left = 0; left < 100; left += 10)
+    for (int right = left - 40; right <= left + 40; right += 20) {
+      const Report report = walk({left, 50 + right, 0, 50});
+      const double lateral = 0.005 * (left + right);
+      ASSERT_TRUE(report.quadruped.has_value());
+      EXPECT_NEAR(std::remainder(report.quadruped->left.phase - 0.01 * left, 1.0), 0.0, 1e-9);
+      EXPECT_NEAR(std::remainder(report.quadruped->right.phase - 0.01 * right, 1.0), 0.0, 1e-9);
+      // Sides that land once more often than the other weigh a little more.
+      EXPECT_NEAR(std::remainder(report.quadruped->lateral - lateral, 1.0), 0.0, 0.01)
+          << left << " " << right;
+    }
+}
+
 }  // namespace
 }  // namespace amble::gait

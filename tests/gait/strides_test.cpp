@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <string>
+#include <vector>
+
+#include "amble/core/random.hpp"
 
 namespace amble::gait {
 namespace {
@@ -95,21 +100,35 @@ TEST(Strides, AFootThatFluttersDuringOneStrideIsInNoStepWithIt) {
 }
 
 TEST(Strides, OfTwoStretchesMergeToThoseOfTheWhole) {
-  const std::vector<std::string> legs{"0110011001100110", "0011001100110011"};
-  const StrideSums whole = watch(legs);
-  StrideTracker tracker(2, 1000);
-  StrideSums first(2), second(2);
-  for (std::size_t k = 0; k < legs[0].size(); ++k)
-    tracker.add({legs[0][k] == '1', legs[1][k] == '1'}, k < 7 ? first : second);
-  first.merge(second);
-  EXPECT_EQ(first.frames, whole.frames);
-  for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_EQ(first.legs[i].strides, whole.legs[i].strides);
-    EXPECT_EQ(first.legs[i].stride_frames, whole.legs[i].stride_frames);
-    EXPECT_EQ(first.legs[i].stance_frames, whole.legs[i].stance_frames);
-    EXPECT_EQ(first.legs[i].contact_frames, whole.legs[i].contact_frames);
-    EXPECT_EQ(first.phases[i][1 - i].count(), whole.phases[i][1 - i].count());
-    EXPECT_NEAR(first.phases[i][1 - i].mean(), whole.phases[i][1 - i].mean(), 1e-12);
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    Stream stream(1, Purpose::test, i);
+    std::vector<std::string> legs(3);
+    for (std::string& leg : legs)
+      for (int k = 0; k < 60; ++k) leg += stream.chance(0.4) ? '1' : '0';
+    const StrideSums whole = watch(legs);
+    StrideTracker tracker(legs.size(), 1000);
+    StrideSums first(legs.size()), second(legs.size());
+    const std::size_t end = stream.below(60);
+    for (std::size_t k = 0; k < legs[0].size(); ++k)
+      tracker.add({legs[0][k] == '1', legs[1][k] == '1', legs[2][k] == '1'}, k < end ? first : second);
+    first.merge(second);
+    EXPECT_EQ(first.frames, whole.frames);
+    for (std::size_t l = 0; l < legs.size(); ++l) {
+      EXPECT_EQ(first.legs[l].touchdowns, whole.legs[l].touchdowns);
+      EXPECT_EQ(first.legs[l].strides, whole.legs[l].strides);
+      EXPECT_EQ(first.legs[l].stride_frames, whole.legs[l].stride_frames);
+      EXPECT_EQ(first.legs[l].squared_stride_frames, whole.legs[l].squared_stride_frames);
+      EXPECT_EQ(first.legs[l].stance_frames, whole.legs[l].stance_frames);
+      EXPECT_EQ(first.legs[l].contact_frames, whole.legs[l].contact_frames);
+      for (std::size_t other = 0; other < legs.size(); ++other) {
+        const CircularSum &merged = first.phases[l][other], &all = whole.phases[l][other];
+        EXPECT_EQ(merged.count(), all.count());
+        EXPECT_NEAR(merged.resultant(), all.resultant(), 1e-12);
+        if (all.resultant() > 1e-6) {
+          EXPECT_NEAR(std::remainder(merged.mean() - all.mean(), 1.0), 0.0, 1e-9);
+        }
+      }
+    }
   }
 }
 

@@ -63,5 +63,20 @@ TEST(Ground, ARobotLoweredByItsClearanceTouchesWithOnePointAndNoDeeper) {
   }
 }
 
+TEST(Ground, IsNotTouchedByWhatDoesNotCollide) {
+  robot::RobotSpec robot = quadruped();
+  const auto poses = robot::start_poses(robot);
+  Stream stream(4, Purpose::test);
+  for (int n = 0; n < 10; ++n) {
+    for (robot::Geom& geom : robot.geoms) geom.collides = stream.chance(0.5);
+    const Ground ground(HeightField(0.04), robot);
+    const double expected_m = robot::clearance_m(robot, poses);
+    if (std::isfinite(expected_m))
+      EXPECT_NEAR(ground.clearance_m(robot, poses), expected_m, 1e-7);
+    else
+      EXPECT_EQ(ground.clearance_m(robot, poses), expected_m);
+  }
+}
+
 }  // namespace
 }  // namespace amble::ground

@@ -185,5 +185,51 @@ TEST(OffsetField, OfTheLevelGroundIsTheRadiusToTheBit) {
   }
 }
 
+TEST(HeightField, RepeatsItselfToTheBitHoweverFarAway) {
+  // Places and periods are exact in binary.
+  HeightField field(0.5);
+  Stream stream(2, Purpose::test);
+  for (float& height_m : field.heights_m()) height_m = static_cast<float>(stream.uniform());
+  for (int i = 0; i < 200; ++i) {
+    const double x = 0.125 * stream.below(1024), y = 0.125 * stream.below(1024);
+    for (const double away : {0x1p20, -0x1p30, 0x1p38, -0x1p38}) {
+      EXPECT_EQ(field.at(x + away, y).height_m, field.at(x, y).height_m) << x << " " << away;
+      EXPECT_EQ(field.at(x, y + away).height_m, field.at(x, y).height_m) << y << " " << away;
+    }
+  }
+}
+
+TEST(MakeField, HasWholeStepsAndWallsOnlyAndNoneAcrossTheSeamWhereItRepeats) {
+  Stream stream(3, Purpose::test);
+  for (int n = 0; n < 15; ++n) {
+    Settings settings = of_kind(Kind::hurdles);
+    settings.length_m = stream.uniform(0.1, 2.0);
+    settings.start_radius_m = stream.uniform(0.0, 3.0);
+    // By turns the last length is all but whole where the ground begins to repeat.
+    const double room_m = 128 * settings.cell_m - settings.start_radius_m;
+    if (n % 2 == 0) settings.length_m = (room_m + 0.05) / std::ceil(room_m / settings.length_m);
+    const HeightField hurdles = make_field(settings, {});
+    settings.kind = Kind::stairs;
+    const HeightField stairs = make_field(settings, {});
+    const double last_m = 0.5 * stairs.period_m() - settings.start_radius_m;
+    for (int i = -128; i < 128; ++i)
+      for (const int j : {0, i / 2, i}) {
+        const double away_m = std::abs(i) * settings.cell_m - settings.start_radius_m;
+        const double in_length_m = away_m - std::floor(away_m / settings.length_m) * settings.length_m;
+        const double to_border_m = std::min(in_length_m, settings.length_m - in_length_m);
+        if (to_border_m < 1e-9 || std::abs(in_length_m - (settings.length_m - 0.08)) < 1e-9) continue;
+        // A wall is the last 8 cm of a length, of those that fit in whole.
+        const bool whole = away_m > 0.0 && away_m - in_length_m + settings.length_m <= last_m;
+        const bool wall = whole && in_length_m > settings.length_m - 0.08;
+        ASSERT_FLOAT_EQ(hurdles.node(i, j), wall ? 0.1f : 0.0f) << settings.length_m << " " << i << " " << j;
+        // Up and down by at most a step at a time, in both directions.
+        ASSERT_LE(std::abs(stairs.node(i + 1, j) - stairs.node(i, j)), 0.1001f)
+            << settings.length_m << " " << i;
+        ASSERT_LE(std::abs(stairs.node(j, i + 1) - stairs.node(j, i)), 0.1001f)
+            << settings.length_m << " " << i;
+      }
+  }
+}
+
 }  // namespace
 }  // namespace amble::ground

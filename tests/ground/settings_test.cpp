@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
 #include "amble/core/error.hpp"
+#include "amble/core/random.hpp"
 #include "amble/ground/recorded.hpp"
 
 namespace amble::ground {
@@ -63,6 +65,51 @@ TEST(RecordedGround, IsTheFieldAgain) {
   const Key key{.seed = 7, .generation = 40, .set = 1};
   const io::Json json = to_json(settings, key);
   EXPECT_EQ(field_from_json(io::JsonView(json, "test")).heights_m(), make_field(settings, key).heights_m());
+}
+
+TEST(GroundSettings, AreAcceptedWhereTheGroundHasAStepOrObstacle) {
+  Stream stream(1, Purpose::test);
+  int refused = 0;
+  for (int n = 0; n < 60; ++n) {
+    Settings settings;
+    settings.kind = n % 2 == 0 ? Kind::stairs : Kind::hurdles;
+    settings.height_m = 0.1;
+    settings.length_m = stream.uniform(0.1, 6.0);
+    settings.start_radius_m = stream.uniform(0.0, 6.0);
+    const double needed_m = settings.start_radius_m + settings.length_m;
+    if (std::abs(needed_m - 128 * settings.cell_m) < 2.0 * settings.cell_m) continue;
+    try {
+      settings.validate();
+      EXPECT_NEAR(std::min(0.1f, make_field(settings, {}).highest_m()), 0.1, 1e-6) << needed_m;
+    } catch (const UserError&) {
+      EXPECT_GT(needed_m, 128 * settings.cell_m);
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 10);
+}
+
+TEST(RecordedGround, RefusesKeysThatNoGroundHas) {
+  Settings settings;
+  settings.kind = Kind::hills;
+  const Key key{.seed = 7, .generation = 40, .set = 1};
+  const auto reads = [&](const char* name, const io::Json& value) {
+    io::Json json = to_json(settings, key);
+    json["key"][name] = value;
+    try {
+      field_from_json(io::JsonView(json, "test"));
+    } catch (const UserError&) {
+      return false;
+    }
+    return true;
+  };
+  for (const char* name : {"generation", "set"}) {
+    for (const io::Json& value : {io::Json(-1), io::Json(0x1p32), io::Json(1ll << 32), io::Json(0.5),
+                                  io::Json("1"), io::Json(nullptr)})
+      EXPECT_FALSE(reads(name, value)) << name << " " << value;
+    for (const io::Json& value : {io::Json(0), io::Json((1ll << 32) - 1)})
+      EXPECT_TRUE(reads(name, value)) << value;
+  }
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <bit>
 #include <cmath>
+#include <sstream>
+#include <string>
 
 #include "amble/core/random.hpp"
 #include "amble/io/json_file.hpp"
@@ -70,6 +72,19 @@ TEST(JsonTextDeathTest, RefusesNumbersThatAreNotFinite) {
   EXPECT_DEATH(json_text(Json{{"x", INFINITY}}), "JSON has no NaN and no infinity");
   EXPECT_DEATH(json_text(Json{{"x", {1.0, NAN}}}), "JSON has no NaN and no infinity");
   EXPECT_DEATH(json_number(NAN), "NaN is not stored in files");
+}
+
+TEST(JsonText, HasNoLineLongerThan110ColumnsWhereItMayBreakOne) {
+  // Objects in objects, at every depth and column at which the innermost may stand.
+  for (int depth = 1; depth < 6; ++depth)
+    for (std::size_t key = 1; key < 90; ++key) {
+      Json json{{"a", 1}, {"b", 2}, {"c", {{"d", 3}}}};
+      for (int i = 0; i < depth; ++i)
+        json = Json{{std::string(i == 0 ? key : 2, 'k'), json}, {"z", Json::object()}};
+      std::istringstream text(json_text(json));
+      for (std::string line; std::getline(text, line);) EXPECT_LE(line.size(), 110u) << line;
+      EXPECT_EQ(parse_json(text.str(), "x"), json);
+    }
 }
 
 }  // namespace

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "amble/core/error.hpp"
@@ -128,6 +130,22 @@ TEST(CompileMjcf, RefusesInOneLine) {
     const std::string what = error.what();
     EXPECT_TRUE(what.starts_with("the text: MuJoCo refuses the model: ")) << what;
     EXPECT_EQ(what.find('\n'), std::string::npos);
+  }
+}
+
+TEST(MjcfWriter, WritesStopsAtEitherEndOfAJointOrAtBoth) {
+  constexpr double none = std::numeric_limits<double>::infinity(), never_rad = 1e6;
+  robot::RobotSpec robot = load("robots/quadruped/paper");
+  const std::pair<double, double> stops[] = {
+      {-0.5, 0.7}, {-none, 0.7}, {-0.5, none}, {-none, none}, {0.0, none}};
+  for (std::size_t j = 0; j < robot.joints.size(); ++j)
+    std::tie(robot.joints[j].lower_rad, robot.joints[j].upper_rad) = stops[j % std::size(stops)];
+  const robot::RobotSpec again = through_mjcf(robot);
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    const auto [lower, upper] = stops[j % std::size(stops)];
+    const bool limited = lower > -none || upper < none;
+    EXPECT_EQ(again.joints[j].lower_rad, limited ? std::max(lower, -never_rad) : -none) << j;
+    EXPECT_EQ(again.joints[j].upper_rad, limited ? std::min(upper, never_rad) : none) << j;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -179,6 +180,57 @@ TEST(ExtractParts, LeavesAFreeJointInMidChainToMujoco) {
   });
   EXPECT_EQ(line.find("m.xml: MuJoCo refuses the model: "), 0u) << line;
   EXPECT_NE(line.find("free joint"), std::string::npos) << line;
+}
+
+TEST(ExtractParts, TakesABodyWithoutMassForAPlaceOnlyAndChangesNoBit) {
+  const Files files;
+  const std::string thigh = R"(<body name="thigh" pos="0 0 -0.1">)",
+                    mount = R"(<body pos="0.1 0.2 0.3"><site/></body>)",
+                    mass = R"(<inertial pos="0.01 0.02 -0.13" mass="0.37"
+                               fullinertia="0.011 0.013 0.009 0.001 0.002 0.0005"/>)";
+  const ModelParts plain = parts_of(files, with(one_leg_xml, thigh, thigh + mass));
+  const std::string xml = with(one_leg_xml, thigh, thigh + mass + mount);
+  const ModelParts mounted = parts_of(files, xml);
+  ASSERT_EQ(mounted.bodies.size(), plain.bodies.size());
+  for (std::size_t b = 0; b < plain.bodies.size(); ++b) {
+    EXPECT_EQ(mounted.bodies[b].mass_kg, plain.bodies[b].mass_kg) << b;
+    EXPECT_EQ(mounted.bodies[b].com_m, plain.bodies[b].com_m) << b;
+    EXPECT_EQ(mounted.bodies[b].inertia_kg_m2, plain.bodies[b].inertia_kg_m2) << b;
+    EXPECT_EQ(mounted.bodies[b].inertia_rotation, plain.bodies[b].inertia_rotation) << b;
+  }
+}
+
+TEST(ExtractParts, RefusesTendonsThatActInAnyWay) {
+  const Files files;
+  const auto line_of = [&](const std::string& attributes, const std::string& actuator = "") {
+    const std::string tendon = fmt::format(
+        R"(</worldbody><tendon><fixed name="cable" {}><joint joint="A_hip" coef="1"/></fixed></tendon>{})",
+        attributes, actuator);
+    return files.error_of([&] { parts_of(files, with(one_leg_xml, "</worldbody>", tendon)); });
+  };
+  for (const char* attribute :
+       {R"(limited="true" range="0 1")", R"(stiffness="2")", R"(damping="2")", R"(frictionloss="2")"})
+    EXPECT_EQ(line_of(attribute), "m.xml: tendon 'cable': tendons are not supported") << attribute;
+  EXPECT_EQ(line_of("", R"(<actuator><motor tendon="cable"/></actuator>)"),
+            "m.xml: tendon 'cable': tendons are not supported");
+  EXPECT_EQ(line_of(""), "accepted");
+}
+
+TEST(ExtractParts, KeepsMoreCornersOfWhatIsToLookAtThanOfWhatCollides) {
+  const Files files;
+  // Corners on a sphere, so that each is one of the hull.
+  std::string vertices;
+  for (int i = 0; i < 80; ++i) {
+    const double z = (2 * i + 1) / 80.0 - 1.0, r = std::sqrt(1.0 - z * z);
+    vertices += fmt::format("{} {} {} ", r * std::cos(2.4 * i), r * std::sin(2.4 * i), z);
+  }
+  std::string xml = with(one_leg_xml, "<worldbody>",
+                         "<asset><mesh name=\"ball\" vertex=\"" + vertices + "\"/></asset><worldbody>");
+  xml = with(xml, R"(<geom name="thigh")", R"(<geom name="shown" type="mesh" mesh="ball" mass="0" contype="0"
+             conaffinity="0"/><geom name="felt" type="mesh" mesh="ball" mass="0"/><geom name="thigh")");
+  const ModelParts parts = parts_of(files, xml);
+  EXPECT_EQ(parts.geoms[1].vertices_m.size(), 80u);
+  EXPECT_EQ(parts.geoms[2].vertices_m.size(), most_collision_vertices);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "amble/morphology/model_parts.hpp"
 #include "amble/robot/pose.hpp"
 #include "tests/morphology/files.hpp"
 
@@ -99,6 +100,38 @@ TEST(LoadRobot, SaysWhichFileIsMissing) {
       [&] { load_robot(files.write("r.toml", with(one_leg_toml, "one_leg.xml", "gone.xml"))); });
   EXPECT_EQ(line.find("gone.xml: "), 0u) << line;
   EXPECT_EQ(files.error_of([&] { load_robot(files.path("absent.toml")); }).find("absent.toml: "), 0u);
+}
+
+TEST(LoadRobot, KeepsCommandsWithinTheStopsWhateverIsRounded) {
+  // The model counts from a reference, the robot from its start pose: both ends are differences.
+  const Files files;
+  for (int i = 0; i < 50; ++i) {
+    const double reference = -0.7 + 0.0137 * i, by = i % 2 == 0 ? 0.0 : 9e-10;
+    const std::string xml =
+        with(one_leg_xml, R"(range="-0.7 0")", fmt::format(R"(range="-0.7 0" ref="{}")", reference));
+    const auto robot = load_one_leg(files, xml,
+                                    one_leg_toml + fmt::format("[command]\nhip = [{}, {}]\nknee = [{}, {}]\n",
+                                                               -0.5 - by, 0.5 + by, -0.7 - by, by));
+    for (const robot::Joint& joint : robot.joints) {
+      EXPECT_GE(joint.command->lower_rad, joint.lower_rad);
+      EXPECT_LE(joint.command->upper_rad, joint.upper_rad);
+      EXPECT_NEAR(joint.command->lower_rad, joint.lower_rad, 2e-9);
+      EXPECT_NEAR(joint.command->upper_rad, joint.upper_rad, 2e-9);
+    }
+  }
+}
+
+TEST(LoadRobot, TellsWhatBecameOfThePartsOfTheModel) {
+  const Files files;
+  files.write("one_leg.xml", with(with(one_leg_xml, "<freejoint name=\"root\"/>", ""), R"(range="-0.7 0")",
+                                  R"(range="-0.7 0" stiffness="3")"));
+  ReadingNotes notes;
+  notes.add(Reading::kept, "from before");
+  load_robot(files.write("one_leg.toml", one_leg_toml), &notes);
+  const ReadingNotes of_parts = extract_parts(compile_model(files.path("one_leg.xml"))).notes;
+  ASSERT_EQ(of_parts.lines().size(), 2u);
+  ASSERT_EQ(notes.lines().size(), 3u);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(notes.lines()[i + 1].text, of_parts.lines()[i].text);
 }
 
 }  // namespace

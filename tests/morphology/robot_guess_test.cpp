@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "amble/core/random.hpp"
 #include "amble/morphology/leg_guess.hpp"
+#include "amble/morphology/side_file.hpp"
 #include "amble/robot/pose.hpp"
 #include "tests/models/small_models.hpp"
 #include "tests/morphology/files.hpp"
@@ -63,6 +66,18 @@ TEST_P(EachModel, BecomesARobotThatStands) {
     EXPECT_LE(command.upper_rad, 0.8001);
     EXPECT_GT(joint.servo.max_torque_nm, 0.0);
   }
+  // It falls at half the height at which the root's centre of mass starts.
+  const double com_m = (robot::start_poses(robot)[0] * robot.bodies[0].com_m).z;
+  EXPECT_NEAR(robot.fall_height_m, 0.5 * com_m, 1.1e-3);
+  EXPECT_LE(robot.fall_height_m, 0.5 * com_m);
+}
+
+TEST_P(EachModel, HasFixedJointsOnlyWhereAmbleHasNoSuchJoint) {
+  const Files files;
+  const std::string toml = guess(files, GetParam()).toml;
+  const SideFile side = read_side_file(files.write("side.toml", toml));
+  EXPECT_EQ(side.fixed,
+            GetParam().name == "arm" ? std::vector<std::string>{"lift"} : std::vector<std::string>{});
 }
 
 TEST_P(EachModel, SaysWhyInALineOfAtMost120Columns) {
@@ -224,6 +239,9 @@ TEST(RobotGuess, AsksForLegsWhereNoneTouchTheGround) {
          <body name="arm" pos="0 0 0.6"><joint name="j" axis="0 1 0" range="-20 20"/><geom size="0.1"/></body></body></worldbody></mujoco>)";
   const RobotGuess guessed = guess(files, {"ball", "xml", text, 0, 0, 1});
   EXPECT_THAT(guessed.asked, ElementsAre(HasSubstr("legs, joint_types and [names]")));
+  // The servo of the file is that of its joints, legs or not.
+  EXPECT_THAT(guessed.toml, HasSubstr("no motor in the model"));
+  EXPECT_THAT(guessed.toml, testing::Not(HasSubstr("servo_of")));
 }
 
 TEST(LegGuess, NamesLegsAndTypesByTheWordsOfJoints) {
@@ -294,6 +312,41 @@ TEST(LegGuess, TakesAFootThatCollidesOnTheLastBody) {
   const ModelParts parts = extract_parts(compile_model(files.write("m.xml", model.text)));
   for (const LegGuess& leg : guess_legs(parts).legs)
     EXPECT_EQ(parts.geoms[static_cast<std::size_t>(leg.foot_geom)].name, leg.name + "_foot");
+}
+
+TEST(RobotGuess, GivesEveryJointTheServoOfItsOwnActuator) {
+  // The file names servos once where joints share them, so that what is alike and what differs is drawn: the
+  // robot that is read from it has each joint's own.
+  const Files files;
+  for (std::uint32_t i = 0; i < 60; ++i) {
+    Stream stream(1, Purpose::test, i);
+    std::string text =
+        model_text(four_legs(), "<freejoint/>",
+                   R"(<body name="head" pos="0.3 0 0.1"><joint name="neck" axis="0 0 1" range="-60 60"/>
+           <geom size="0.05" mass="0.2"/><body name="jaw" pos="0.1 0 0"><joint name="jaw" axis="0 1 0"
+           range="-9 9"/><geom size="0.02" mass="0.1"/></body></body>)");
+    const ModelParts parts = extract_parts(compile_model(files.write("plain.xml", text)));
+    std::map<std::string, robot::Servo> expected;
+    std::string actuators = "<actuator>";
+    for (const robot::Joint& joint : parts.joints) {
+      const double kp = 10.0 + stream.below(2), kv = stream.below(2), torque = 5.0 + stream.below(2);
+      actuators += fmt::format(
+          R"(<general joint="{}" biastype="affine" gainprm="{}" biasprm="0 -{} -{}" forcerange="-{} {}"/>)",
+          joint.name, kp, kp, kv, torque, torque);
+      expected[joint.name] = {robot::ServoMode::torque, 0.0, torque, kp, kv};
+    }
+    const SmallModel model{"drawn", "xml", with(text, "</mujoco>", actuators + "</actuator></mujoco>"),
+                           4,       8,     2};
+    const robot::RobotSpec robot = load(files, model);
+    ASSERT_EQ(robot.joints.size(), expected.size());
+    for (const robot::Joint& joint : robot.joints) {
+      const robot::Servo& own = expected.at(joint.name);
+      EXPECT_EQ(joint.servo.mode, own.mode);
+      EXPECT_EQ(joint.servo.max_torque_nm, own.max_torque_nm) << i << joint.name;
+      EXPECT_EQ(joint.servo.kp_nm_per_rad, own.kp_nm_per_rad) << i << joint.name;
+      EXPECT_EQ(joint.servo.kd_nm_s_per_rad, own.kd_nm_s_per_rad) << i << joint.name;
+    }
+  }
 }
 
 }  // namespace

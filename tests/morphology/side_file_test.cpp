@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/morphology/files.hpp"
 
@@ -75,6 +77,10 @@ TEST(SideFile, RefusesNamesThatClash) {
   EXPECT_EQ(error_of(R"("knee"])", R"("foot"])"), "s.toml:4: 'joint_types' must not use the name 'foot'");
   EXPECT_EQ(error_of(R"(["A"])", R"([""])"), "s.toml:3: 'legs' must not use the name ''");
   EXPECT_EQ(error_of(R"(["A"])", R"(["hip"])"), "s.toml:3: 'legs' and 'joint_types' both name 'hip'");
+  // Tables servo_of.NAME are those of types, legs and held joints.
+  for (const auto& [name, key] : {std::pair{"A", "legs"}, {"hip", "joint_types"}, {"knee", "joint_types"}})
+    EXPECT_EQ(error_of("fall_height_m", fmt::format("held = [\"{}\"]\nfall_height_m", name)),
+              fmt::format("s.toml:5: 'held' and '{}' both name '{}'", key, name));
 }
 
 TEST(SideFile, NamesTheLineOfABadValue) {
@@ -91,6 +97,18 @@ TEST(SideFile, NamesTheLineOfABadValue) {
   EXPECT_EQ(error_of("friction = inf", "friction = nan").find("s.toml:14: 'contact.friction'"), 0u);
   EXPECT_EQ(error_of("max_torque_nm = 5.0", "max_torque_nm = inf").find("s.toml:11: 'servo.max_torque_nm'"),
             0u);
+}
+
+TEST(SideFile, FillsInPatternsWhereverAndHoweverOftenTheirMarksStand) {
+  const Files files;
+  const std::string toml =
+      with(one_leg_toml, R"(["A"])", R"(["A", "BB"])") +
+      "[names]\njoint = \"{leg}{type}_{leg}_{type}{leg}\"\nfoot = \"{leg}{leg}.{leg}\"\n";
+  const SideFile side = read(files, toml);
+  EXPECT_EQ(side.names[0].joints, (std::vector<std::string>{"Ahip_A_hipA", "Aknee_A_kneeA"}));
+  EXPECT_EQ(side.names[1].joints, (std::vector<std::string>{"BBhip_BB_hipBB", "BBknee_BB_kneeBB"}));
+  EXPECT_EQ(side.names[0].foot, "AA.A");
+  EXPECT_EQ(side.names[1].foot, "BBBB.BB");
 }
 
 }  // namespace

@@ -120,5 +120,29 @@ TEST(StartCom, IsWhereTheMassesSay) {
   EXPECT_NEAR(norm(start_com_m(robot) - Vec3{0.25 / 1.5, 0.0, (1.0 + 0.4) / 1.5}), 0.0, 1e-15);
 }
 
+TEST(PoseAlong, LeavesTheHingesFurtherOutAtZero) {
+  RobotSpec robot;
+  robot.bodies.resize(2);
+  robot.bodies[1].parent = 0;
+  robot.bodies[1].position_m = {0.1, -0.2, -1.0};
+  robot.joints.resize(3);
+  const Vec3 axes[]{{1.0, 0.0, 0.0}, {0.0, 0.6, 0.8}, {0.0, 1.0, 0.0}};
+  const std::vector<double> angles{0.4, -0.9, 1.3};
+  for (std::size_t j = 0; j < 3; ++j) {
+    robot.joints[j].body = 1;
+    robot.joints[j].chain_index = static_cast<int>(j);
+    robot.joints[j].axis = axes[j];
+    robot.joints[j].anchor_m = {0.1 * static_cast<double>(j), 0.2, 0.3};
+  }
+  const Pose root{{1.0, 2.0, 3.0}, axis_angle({0.0, 0.0, 1.0}, 0.7)};
+  for (std::size_t hinges = 0; hinges <= 4; ++hinges) {
+    std::vector<double> cut = angles;
+    for (std::size_t j = hinges; j < 3; ++j) cut[j] = 0.0;
+    const Pose found = pose_along(robot, 1, root, angles, hinges), expected = poses_at(robot, root, cut)[1];
+    for (const Vec3 point : {Vec3{}, Vec3{1.0, 0.0, 0.0}, Vec3{0.0, 1.0, 0.0}})
+      EXPECT_NEAR(norm(found * point - expected * point), 0.0, 1e-12) << hinges;
+  }
+}
+
 }  // namespace
 }  // namespace amble::robot

@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
+#include <limits>
 #include <utility>
 
 #include "amble/core/error.hpp"
+#include "amble/core/hash.hpp"
 #include "amble/search/novelty.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/search/samples.hpp"
@@ -177,10 +180,41 @@ TEST_F(ArchiveFile, AndStateThrowNothingButUserErrorsUnderRandomDamage) {
 TEST_F(ArchiveFile, CannotHoldMoreMembersThanTheSettingsAllow) {
   NoveltySearch search(settings(), length);
   run(search, 0, 2);
+  const int members = static_cast<int>((file_.size() - header_bytes) / record_bytes);
+  ASSERT_GT(members, 3);
   auto small = settings();
-  small.archive_limit = 3;
-  NoveltySearch again(small, length);
-  EXPECT_THROW(restore(again, checkpoint(search), file_), UserError);
+  for (small.archive_limit = members - 3; small.archive_limit <= members + 1; ++small.archive_limit) {
+    NoveltySearch again(small, length);
+    if (small.archive_limit < members)
+      EXPECT_THROW(restore(again, checkpoint(search), file_), UserError) << small.archive_limit;
+    else
+      EXPECT_NO_THROW(restore(again, checkpoint(search), file_)) << small.archive_limit;
+  }
+}
+
+TEST_F(ArchiveFile, OfWhichANumberIsNotFiniteIsRefusedThoughItsChecksumsFit) {
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    NoveltySearch search(settings(), length);
+    file_.clear();
+    run(search, 0, 2);
+    // The last member's last number, with the checksum that follows from the member before it.
+    const std::size_t last = file_.size() - record_bytes;
+    std::uint64_t before = 0;
+    std::memcpy(&before, file_.data() + last - 8, 8);
+    std::vector<float> row(length);
+    std::memcpy(row.data(), file_.data() + last, 4 * length);
+    row.back() = bad;
+    const std::uint64_t checksum = hash_span(std::span<const float>(row), before);
+    std::string bytes = file_;
+    std::memcpy(bytes.data() + last, row.data(), 4 * length);
+    std::memcpy(bytes.data() + last + 4 * length, &checksum, 8);
+    // The checkpoint's own copy of it stands where the old one stood.
+    std::string state = checkpoint(search);
+    const std::size_t at = state.find(file_.substr(file_.size() - 8));
+    ASSERT_NE(at, std::string::npos);
+    std::memcpy(state.data() + at, &checksum, 8);
+    EXPECT_NE(error_of(state, bytes).find("altered"), std::string::npos) << error_of(state, bytes);
+  }
 }
 
 }  // namespace

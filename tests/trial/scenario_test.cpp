@@ -287,5 +287,46 @@ TEST(Scenario, DrawsEveryLatencyUpToTheLargest) {
   EXPECT_EQ(seen, (std::set<int>{0, 1, 2, 3}));
 }
 
+/// Hills under the quadruped.
+const ground::Ground& hills() {
+  static const ground::Ground hills = [] {
+    ground::Settings settings;
+    settings.kind = ground::Kind::hills;
+    settings.height_m = 0.3;
+    return ground::Ground(ground::make_field(settings, {}), quadruped());
+  }();
+  return hills;
+}
+
+TEST(Scenario, StartsAnywhereAroundTheOriginAsHighOverTheGroundAsOnThePlane) {
+  for (const bool disturbed : {false, true}) {
+    NoiseSettings noise = disturbed ? everything() : NoiseSettings{};
+    Range x_m, y_m, higher_m;
+    for (std::uint32_t episode = 0; episode < 500; ++episode) {
+      const ScenarioKey key{.seed = 1, .generation = 5, .episode = episode};
+      const auto draw_with = [&](double start_height_m, const ground::Ground* ground) {
+        noise.start_height_m = start_height_m;
+        return draw_scenario(noise, quadruped(), 100, h, key, {.ground = ground, .place_m = 3.0})
+            .start.value();
+      };
+      const auto low = draw_with(0.0, &hills()), high = draw_with(0.05, &hills()),
+                 plane = draw_with(0.05, nullptr);
+      x_m.see(low.root.position_m.x);
+      y_m.see(low.root.position_m.y);
+      ASSERT_EQ(plane.root.position_m.x, low.root.position_m.x) << "the place does not depend on the ground";
+      const auto bodies =
+          robot::poses_at(quadruped(), {low.root.position_m, low.root.rotation}, low.joint_angle_rad);
+      ASSERT_NEAR(hills().clearance_m(quadruped(), bodies), nominal_clearance_m(), 2e-6);
+      higher_m.see(high.root.position_m.z - low.root.position_m.z);
+    }
+    expect_spread(x_m, 3.0);
+    expect_spread(y_m, 3.0);
+    EXPECT_GE(higher_m.smallest, 0.0);
+    EXPECT_LT(higher_m.smallest, 0.001);
+    EXPECT_GT(higher_m.largest, 0.049);
+    EXPECT_LE(higher_m.largest, 0.05);
+  }
+}
+
 }  // namespace
 }  // namespace amble::trial

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "amble/morphology/robot_file.hpp"
 #include "tests/trial/fakes.hpp"
 
 namespace amble::trial {
@@ -288,6 +289,29 @@ TEST(Runner, DropsTrialsInFlightWhenItIsStopped) {
   Runner(engine, batch, protocol(100)).run(task, stop);
   EXPECT_FALSE(task.result());
   EXPECT_EQ(engine.steps, 3);
+}
+
+TEST(Runner, MeasuresTheFallHeightFromTheGroundBelowTheRoot) {
+  // The point sinks by 1 mm a step from 1 m and walks 4 cm a step, over a staircase of 10 cm every 0.4 m.
+  ground::HeightField field(0.04);
+  for (int j = 0; j < 256; ++j)
+    for (int i = 0; i < 128; ++i) field.node(i, j) = 0.1f * static_cast<float>(i / 10);
+  const auto ground = std::make_shared<const ground::Ground>(
+      field, morphology::load_robot(AMBLE_SOURCE_DIR "/robots/quadruped/authors.toml"));
+  for (const double fall_height_m : {0.35, 0.55, 0.75, 0.95}) {
+    FakeEngine engine(1);
+    engine.set_ground(ground);
+    FakeBatch batch(1);
+    Queue queue({FakeParameters(0.04f)});
+    Runner(engine, batch, protocol(1000, fall_height_m)).run(queue, never);
+    const auto& trajectory = queue.results[0].value();
+    EXPECT_EQ(trajectory.outcome, record::Outcome::fell);
+    int steps = 1;
+    while (1.0 - 0.001 * steps - ground->height_m(static_cast<double>(0.04f) * steps, 0.0) >= fall_height_m)
+      ++steps;
+    EXPECT_NEAR(trajectory.steps, steps, 1) << fall_height_m;
+    EXPECT_LT(trajectory.steps, 70);
+  }
 }
 
 }  // namespace

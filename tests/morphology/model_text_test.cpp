@@ -1,0 +1,130 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+
+#include "amble/core/random.hpp"
+#include "amble/morphology/model_parts.hpp"
+#include "tests/morphology/files.hpp"
+
+namespace amble::morphology {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// The attributes of a joint that give this number, to amble and to MuJoCo; none for 0.
+std::string attributes(int number) {
+  return number == 0 ? "" : fmt::format(R"( actuatorfrcrange="-{0} {0}" armature="{0}")", number);
+}
+std::string joint_default(int number) {
+  return number == 0 ? "" : fmt::format("<joint{}/>", attributes(number));
+}
+
+TEST(ModelText, FindsDefaultsOfAttributesThatMujocoDoesNotKnowAsItFindsThoseOfOthers) {
+  const Files files;
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    Stream stream(1, Purpose::test, i);
+    const auto draw = [&](std::initializer_list<const char*> all) {
+      return std::string(all.begin()[stream.below(static_cast<std::uint32_t>(all.size()))]);
+    };
+    // The joint, classes inner and outer, the top one and the same again: which of them give a number.
+    std::array<int, 5> number{};
+    for (std::size_t place = 0; place < number.size(); ++place)
+      number[place] = stream.chance(0.3) ? static_cast<int>(place) + 1 : 0;
+    const std::string top = draw({"", R"( class="main")", R"( class="robot")"});
+    std::string xml = with(
+        one_leg_xml, "<option",
+        fmt::format(R"(<default{0}>{1}<default class="outer">{2}<default class="inner">{3}</default></default>
+                            <default class="other">{4}</default></default><default{0}>{5}</default><option)",
+                    top, joint_default(number[3]), joint_default(number[2]), joint_default(number[1]),
+                    joint_default(9), joint_default(number[4])));
+    xml = with(xml, R"(<body name="thigh")",
+               R"(<body name="thigh")" + draw({"", R"( childclass="inner")", R"( childclass="TOP")"}));
+    xml = with(xml, R"(name="A_hip")",
+               R"(name="A_hip")" + attributes(number[0]) +
+                   draw({"", "", R"( class="inner")", R"( class="outer")", R"( class="TOP")"}));
+    for (std::size_t at = xml.find("TOP"); at != std::string::npos; at = xml.find("TOP"))
+      xml.replace(at, 3, top.find("robot") != std::string::npos ? "robot" : "main");
+    const ModelFile file = compile_model(files.write("m.xml", xml));
+    const auto found = file.motors.find("A_hip");
+    ASSERT_EQ(found == file.motors.end() ? 0.0 : found->second.max_torque_nm, file.model->dof_armature[6])
+        << xml;
+  }
+}
+
+TEST(ModelText, LosesAnAttributeOnlyWhereMujocoDoesNotKnowIt) {
+  // MuJoCo 2.2 knows kv of <velocity>, and not of <position>.
+  const Files files;
+  const ModelFile file = compile_model(
+      files.write("m.xml", with(one_leg_xml, "</worldbody>",
+                                R"(</worldbody><actuator><position joint="A_hip" kp="20" kv="2"/>
+                                   <velocity joint="A_knee" kv="5"/></actuator>)")));
+  EXPECT_THAT(file.notes.text(), HasSubstr("attribute 'kv' of <position>"));
+  EXPECT_THAT(file.notes.text(), Not(HasSubstr("of <velocity>")));
+  ASSERT_EQ(file.model->nu, 2);
+  EXPECT_EQ(file.model->actuator_gainprm[0], 20.0);
+  EXPECT_EQ(file.model->actuator_gainprm[mjNGAIN], 5.0);
+  EXPECT_EQ(file.motors.at("A_hip").kv_nm_s_per_rad, 2.0);
+  EXPECT_FALSE(file.motors.contains("A_knee"));
+}
+
+class Meshes : public testing::Test {
+ protected:
+  Meshes() {
+    for (const char* folder : {"assets", "meshes"}) std::filesystem::create_directories(files_.path(folder));
+  }
+
+  /// The robot with a tetrahedron to look at, of this file.
+  ModelParts parts(const std::string& compiler) const {
+    std::string xml = with(one_leg_xml, R"(<compiler angle="radian"/>)",
+                           fmt::format(R"(<compiler angle="radian" {}/>)", compiler));
+    xml = with(xml, "<worldbody>", R"(<asset><mesh name="shell" file="shell.obj"/></asset><worldbody>)");
+    xml = with(xml, R"(<geom name="thigh")",
+               R"(<geom type="mesh" mesh="shell" mass="0" contype="0" conaffinity="0"/><geom name="thigh")");
+    return extract_parts(compile_model(files_.write("m.xml", xml)));
+  }
+  /// Writes it with an edge of this length.
+  void write(const std::string& name, double edge_m) const {
+    files_.write(name,
+                 fmt::format("v 0 0 0\nv {0} 0 0\nv 0 {0} 0\nv 0 0 {0}\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n",
+                             edge_m));
+  }
+  /// Length of its longest edge, or 0 if it is left out.
+  static double edge_m(const ModelParts& parts) {
+    double longest_m = 0.0;
+    for (const robot::Geom& geom : parts.geoms)
+      for (const Vec3 a : geom.vertices_m)
+        for (const Vec3 b : geom.vertices_m) longest_m = std::max(longest_m, norm(a - b));
+    return longest_m / std::sqrt(2.0);
+  }
+  Files files_;
+};
+
+TEST_F(Meshes, AreInTheFolderForMeshesOrElseInThatForAllAssets) {
+  write("shell.obj", 0.1);
+  write("assets/shell.obj", 0.2);
+  write("meshes/shell.obj", 0.3);
+  EXPECT_NEAR(edge_m(parts("")), 0.1, 1e-6);
+  EXPECT_NEAR(edge_m(parts(R"(assetdir="assets")")), 0.2, 1e-6);
+  EXPECT_NEAR(edge_m(parts(R"(meshdir="meshes")")), 0.3, 1e-6);
+  EXPECT_NEAR(edge_m(parts(R"(meshdir="meshes" assetdir="assets")")), 0.3, 1e-6);
+  EXPECT_NEAR(edge_m(parts(R"(assetdir="assets" meshdir="meshes")")), 0.3, 1e-6);
+}
+
+TEST_F(Meshes, ThatAreTooLargeAreNotRead) {
+  write("shell.obj", 0.1);
+  EXPECT_EQ(parts("").geoms.size(), 5u);
+  std::filesystem::resize_file(files_.path("shell.obj"), 50'000'001);
+  const ModelParts found = parts("");
+  EXPECT_EQ(found.geoms.size(), 4u);
+  EXPECT_THAT(found.notes.text(), HasSubstr("whose mesh is missing: shell.obj"));
+}
+
+}  // namespace
+}  // namespace amble::morphology

@@ -1,0 +1,95 @@
+#include "amble/morphology/xml_tree.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "amble/core/error.hpp"
+#include "amble/core/random.hpp"
+
+namespace amble::morphology {
+namespace {
+
+/// The line of the refusal, or "accepted".
+std::string refusal(const std::string& text) {
+  try {
+    parse_xml(text, "f");
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+XmlElement random_element(Stream& stream, int depth) {
+  XmlElement element{.name = "e" + std::to_string(stream.below(9))};
+  for (std::uint32_t a = stream.below(4); a-- > 0;)
+    element.attributes.emplace_back("a" + std::to_string(a), stream.chance(0.5) ? "it's > 1" : "\"2\" / =");
+  for (std::uint32_t c = depth > 0 ? stream.below(4) : 0; c-- > 0;)
+    element.children.push_back(random_element(stream, depth - 1));
+  return element;
+}
+
+bool same(const XmlElement& a, const XmlElement& b) {
+  return a.name == b.name && a.attributes == b.attributes &&
+         std::ranges::equal(a.children, b.children, [](const auto& x, const auto& y) { return same(x, y); });
+}
+
+/// `text` with what stands between tags put before every element.
+std::string with_between(const std::string& text, const std::string& between) {
+  std::string result;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const bool starts_element = text[at] == '\n' && at + 1 < text.size() && text[at + 1] == '<';
+    result += starts_element ? "\n" + between : std::string(1, text[at]);
+  }
+  return result;
+}
+
+TEST(XmlTree, IsReadBackAsItIsWrittenWhateverStandsBetweenItsTags) {
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    Stream stream(1, Purpose::test, i);
+    XmlElement tree = random_element(stream, 4);
+    const XmlText written = write_xml(tree);
+    ASSERT_TRUE(same(parse_xml(written.text, "f"), tree)) << written.text;
+    for (const char* between :
+         {"<!-- <a> -> -- > -->", "<![CDATA[ > <b> ]> ]] > </b> ]]>", "<? <c> ?>", "words > "})
+      ASSERT_TRUE(same(parse_xml(with_between(written.text, between), "f"), tree)) << written.text << between;
+    for (std::size_t line = 0; line < written.lines.size(); ++line) ASSERT_NE(written.lines[line], nullptr);
+  }
+}
+
+TEST(XmlTree, KnowsTheLineOfEveryElement) {
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    Stream stream(2, Purpose::test, i);
+    XmlElement tree = random_element(stream, 4);
+    const std::string text = write_xml(tree).text;
+    XmlElement read = parse_xml(text, "f");
+    const XmlText again = write_xml(read);
+    for (std::size_t line = 0; line < again.lines.size(); ++line)
+      ASSERT_EQ(again.lines[line]->line, static_cast<int>(line) + 1) << text;
+  }
+}
+
+TEST(XmlTree, OfWhichAnyEndIsCutOffIsRefused) {
+  const std::string text = "<?xml?><!-- c --><a b=\"1\" c='2'>words<![CDATA[x]]><d/><e f=\"\"> <g/></e></a>";
+  ASSERT_EQ(refusal(text), "accepted");
+  for (std::size_t size = 0; size < text.size(); ++size)
+    EXPECT_NE(refusal(text.substr(0, size)), "accepted") << text.substr(0, size);
+}
+
+TEST(XmlTree, HoldsNothingOutsideOfOneRoot) {
+  for (const char* text : {"words<a/>", "<a/>words", "<a></a>words", "<a><b></b></a> words", "<a/><b/>",
+                           "<a></a><b></b>", "<a></a></a>", ""})
+    EXPECT_NE(refusal(text), "accepted") << text;
+  for (const char* text : {" <a/> ", "<a></a>\n", "<!-- 1 --><a><b></b></a><!-- 2 -->\n"})
+    EXPECT_EQ(refusal(text), "accepted") << text;
+}
+
+TEST(XmlTree, HasANameForEveryElementAndAttribute) {
+  for (const char* text : {"</>", "< a/>", "<></>", "<a =\"1\"/>", "<a><=/></a>", "<a b=1/>", "<a b/>",
+                           "<a b=\"<\"/>", "<a b=\"1\" b=\"2\"/>", "<a></b>", "<a></ab>"})
+    EXPECT_NE(refusal(text), "accepted") << text;
+}
+
+}  // namespace
+}  // namespace amble::morphology
