@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <deque>
 #include <map>
-#include <ranges>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -102,10 +101,12 @@ class Defaults {
   std::optional<std::string> attribute(const XmlElement& element, std::string_view key,
                                        const std::string& childclass) const {
     if (auto own = element.attribute(key)) return own;
-    for (const Class* at = find(element.attribute_or("class", childclass)); at != nullptr; at = at->parent)
-      for (const XmlElement& its : std::views::reverse(at->settings->children))
-        if (its.name == element.name)
-          if (auto value = its.attribute(key)) return value;
+    for (const Class* at = find(element.attribute_or("class", childclass)); at != nullptr; at = at->parent) {
+      const auto& settings = at->settings->children;
+      for (auto its = settings.rbegin(); its != settings.rend(); ++its)
+        if (its->name == element.name)
+          if (auto value = its->attribute(key)) return value;
+    }
     return std::nullopt;
   }
 

@@ -3,6 +3,7 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 #include <memory>
@@ -113,12 +114,20 @@ class Pair {
   Stream& stream_;
 };
 
+/// Random substrates per instruction set, and the most ticks of any comparison: those without fused
+/// multiply-adds take seconds for each under sanitizers.
+#ifdef AMBLE_SANITIZED
+constexpr int random_substrates = 5, most_ticks = 5;
+#else
+constexpr int random_substrates = 25, most_ticks = 100;
+#endif
+
 template <typename Architecture, typename Settings>
 void expect_twins(const Settings& settings, const substrate::Settings& substrate,
                   std::initializer_list<int> lane_counts, int ticks, Stream& stream) {
   for (const int lanes : lane_counts) {
     Pair<Architecture, Settings> pair(settings, substrate, lanes, stream);
-    for (int tick = 0; tick < ticks; ++tick) {
+    for (int tick = 0; tick < std::min(ticks, most_ticks); ++tick) {
       // Now and then a lane gets another network while the others go on.
       if (stream.chance(0.1)) pair.load(static_cast<int>(stream.below(static_cast<std::uint32_t>(lanes))));
       ASSERT_NO_FATAL_FAILURE(pair.step_and_compare()) << lanes << " lanes, tick " << tick;
@@ -175,13 +184,6 @@ substrate::Settings random_substrate(bool cyclic, bool ctrnn, Stream& stream) {
     settings.links.push_back({.from = "n0", .to = settings.nodes.back().name, .same = {}});
   return settings;
 }
-
-/// Per instruction set; those without fused multiply-adds take seconds for each under sanitizers.
-#ifdef AMBLE_SANITIZED
-constexpr int random_substrates = 5;
-#else
-constexpr int random_substrates = 25;
-#endif
 
 /// Networks in random substrates, on one instruction set; some lanes are never loaded.
 void expect_twins_in_random_substrates(int substrates, Stream& stream) {
