@@ -46,8 +46,8 @@ std::vector<page::Fact> facts(const experiment::Config& config, const experiment
        fmt::format("{}, {:.1f} kg, {} motors", robot.name, robot.total_mass_kg(), robot.joints.size())},
       {"Engine", fmt::format("{}, steps of {} s", config.engine, config.trial.timestep_s)},
       {"Controller", champion.problem.architecture->name()},
-      {"Population",
-       fmt::format("{} genomes, {} generations", config.neat.population.size, config.generations)},
+      {"Population", fmt::format("{} genomes, {} generations", experiment::candidates_per_generation(config),
+                                 config.generations)},
       {"Trial", fmt::format("{} s, or until the robot falls", config.trial.duration_s)},
       {"Noise", noise_text(config.noise)},
       {"Seed", fmt::format("{}", config.seed)},
@@ -90,7 +90,7 @@ page::RunPage page_of(const experiment::RunPaths& paths, const experiment::Confi
   return {
       .title = config.name,
       .subtitle = fmt::format("the champion of {} generations of {}, evolved by amble",
-                              champion.generation + 1, config.neat.population.size),
+                              champion.generation + 1, experiment::candidates_per_generation(config)),
       .generations = record::read_generations(paths.generations),
       .objective = config.score.is_distance()
                        ? figures::Objective()

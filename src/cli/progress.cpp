@@ -33,7 +33,7 @@ ProgressLine::ProgressLine(int first_generation, const experiment::Config& confi
   if (first_generation >= config.generations) return;
   const int episodes = config.noise.any() ? config.noise.episodes : 1;
   show({fmt::format("generation {}/{}", first_generation + 1, config.generations),
-        fmt::format("{} genomes × {}{:g} s in {}", config.neat.population.size,
+        fmt::format("{} genomes × {}{:g} s in {}", experiment::candidates_per_generation(config),
                     episodes > 1 ? fmt::format("{} × ", episodes) : "", config.trial.duration_s,
                     config.engine)});
 }

@@ -15,6 +15,8 @@ enum class Purpose : std::uint32_t {
   trial_noise = 4,
   bootstrap = 5,
   ground = 6,
+  centroids = 7,
+  map_elites = 8,
 };
 
 /// A stream of random numbers that depends on its key alone, (seed, purpose, generation, individual), and so

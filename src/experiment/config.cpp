@@ -64,11 +64,19 @@ UserError Config::placed(const SettingError& error) const {
   return UserError(place + error.what(), error.code());
 }
 
-std::unique_ptr<const score::Behaviour> Config::make_behaviour() const {
-  return score::make_behaviour(
-      search::strategy_kind(search).behaviour,
-      {.steps = trial.steps(),
-       .path = {.stride = search.novelty.path_stride, .first_step = search.novelty.path_first_step}});
+std::unique_ptr<const score::Behaviour> Config::make_behaviour(const robot::RobotSpec* robot_spec) const {
+  score::BehaviourSettings settings{
+      .steps = trial.steps(),
+      .path = {.stride = search.novelty.path_stride, .first_step = search.novelty.path_first_step},
+      .score = score,
+      .duration_s = trial.steps() * trial.timestep_s};
+  for (const auto& descriptor : search.map_elites.descriptors)
+    settings.descriptors.push_back({descriptor.quantity, descriptor.leg});
+  if (robot_spec) {
+    settings.weight_n = robot_spec->total_mass_kg() * norm(robot_spec->gravity_m_s2);
+    for (const auto& leg : robot_spec->legs) settings.leg_names.push_back(leg.name);
+  }
+  return score::make_behaviour(search::strategy_kind(search).behaviour, settings);
 }
 
 io::Json Config::identity() const {
@@ -82,12 +90,17 @@ io::Json Config::identity() const {
   // Later tables are omitted at their defaults, so that earlier results still match.
   if (copy.score.is_distance()) values.erase("score");
   if (copy.ground.is_default()) values.erase("ground");
+  if (copy.search.kind != "map-elites") values.at("search").erase("map_elites");
   return values;
 }
 
 std::string Config::to_toml() const {
   Config copy = *this;
   return io::settings_to_toml([&copy](io::SettingsVisitor& visitor) { copy.describe(visitor); });
+}
+
+int candidates_per_generation(const Config& config) {
+  return search::strategy_kind(config.search).candidates(config.search, config.neat);
 }
 
 Config load_config(const std::filesystem::path& path, const Overrides& overrides) {

@@ -17,6 +17,7 @@
 #include "amble/io/settings.hpp"
 #include "amble/neat/settings.hpp"
 #include "amble/record/trajectory.hpp"
+#include "amble/robot/spec.hpp"
 #include "amble/score/behaviour.hpp"
 #include "amble/score/score.hpp"
 #include "amble/search/strategies.hpp"
@@ -54,8 +55,9 @@ struct Config {
   void validate() const;
   /// The error with its location prepended, if that is known.
   UserError placed(const SettingError& error) const;
-  /// The behaviour that the search compares.
-  std::unique_ptr<const score::Behaviour> make_behaviour() const;
+  /// The behaviour that the search compares. `robot_spec`: the problem's; null for its length and sampling
+  /// alone. Throws SettingError if it does not fit.
+  std::unique_ptr<const score::Behaviour> make_behaviour(const robot::RobotSpec* robot_spec = nullptr) const;
   /// All settings but the seed, and but `name`, `robot` and `generations`, which change no evaluation, as
   /// values without comments: equal for configs that give the same run for the same seed and robot.
   io::Json identity() const;
@@ -72,6 +74,9 @@ struct Overrides {
   std::optional<std::int64_t> seed;
   std::optional<int> generations;
 };
+
+/// Genomes evaluated in a generation: of a population, or of a batch.
+int candidates_per_generation(const Config& config);
 
 /// Reads, overrides, checks. `robot` becomes a path relative to the current folder. Throws UserError.
 Config load_config(const std::filesystem::path& path, const Overrides& overrides);

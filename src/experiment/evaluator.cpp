@@ -89,11 +89,11 @@ struct WorkerContext {
   std::optional<trial::Runner> runner;
 
   trial::Runner& open(const Problem& problem, const record::PathSampling& path,
-                      const std::shared_ptr<const ground::Ground>& ground) {
-    if (!engine) engine = problem.make_engine();
+                      const record::Measures& measures, const std::shared_ptr<const ground::Ground>& ground) {
+    if (!engine) engine = problem.make_engine(measures.energy);
     if (engine->ground() != ground.get()) engine->set_ground(ground);
     if (!controllers) controllers = problem.architecture->make_batch(engine->lanes());
-    if (!runner) runner.emplace(*engine, *controllers, problem.protocol(path));
+    if (!runner) runner.emplace(*engine, *controllers, problem.protocol(path, measures));
     return *runner;
   }
 };
@@ -102,8 +102,8 @@ struct WorkerContext {
 
 /// State shared by evaluate() and the workers. A round is one call of evaluate().
 struct Evaluator::Shared {
-  Shared(const Problem& problem_in, const record::PathSampling& path_in)
-      : problem(problem_in), path(path_in) {}
+  Shared(const Problem& problem_in, const record::PathSampling& path_in, const record::Measures& measures_in)
+      : problem(problem_in), path(path_in), measures(measures_in) {}
   ~Shared();
 
   void work();
@@ -111,6 +111,7 @@ struct Evaluator::Shared {
 
   const Problem& problem;
   const record::PathSampling path;
+  const record::Measures measures;
   std::mutex mutex;
   std::condition_variable wake, finished;
   int round = 0;
@@ -144,7 +145,7 @@ void Evaluator::Shared::one_round(WorkerContext& context) {
   StageTimes own;
   const double start_s = now_s();
   try {
-    trial::Runner& runner = context.open(problem, path, generation->ground);
+    trial::Runner& runner = context.open(problem, path, measures, generation->ground);
     const std::uint64_t steps_before = runner.steps_simulated();
     const double physics_before_s = runner.physics_s(), control_before_s = runner.control_s();
     WorkerQueue queue(*generation);
@@ -164,8 +165,9 @@ void Evaluator::Shared::one_round(WorkerContext& context) {
   if (--working == 0) finished.notify_one();
 }
 
-Evaluator::Evaluator(const Problem& problem, const record::PathSampling& path, int jobs)
-    : shared_(std::make_unique<Shared>(problem, path)) {
+Evaluator::Evaluator(const Problem& problem, const record::PathSampling& path, int jobs,
+                     const record::Measures& measures)
+    : shared_(std::make_unique<Shared>(problem, path, measures)) {
   AMBLE_CHECK(jobs >= 1, "an evaluator needs a worker");
   try {
     for (int i = 0; i < jobs; ++i)

@@ -29,8 +29,10 @@ struct GenerationResult {
 /// worker evaluates which genome depends on timing; the results do not.
 class Evaluator {
  public:
-  /// `jobs` ≥ 1 workers. `path`: the sampling of paths. The problem must outlive the evaluator.
-  Evaluator(const Problem& problem, const record::PathSampling& path, int jobs);
+  /// `jobs` ≥ 1 workers. `path`: the sampling of paths; `measures`: those that the problem's score does not
+  /// need itself. The problem must outlive the evaluator.
+  Evaluator(const Problem& problem, const record::PathSampling& path, int jobs,
+            const record::Measures& measures = {});
   ~Evaluator();
 
   /// One trial per genome and scenario; without scenarios, one without noise per genome. `ground`: null for

@@ -67,12 +67,14 @@ score::Score Problem::scorer() const {
                       robot.total_mass_kg() * norm(robot.gravity_m_s2));
 }
 
-trial::Protocol Problem::protocol(const record::PathSampling& path) const {
+trial::Protocol Problem::protocol(const record::PathSampling& path, const record::Measures& measures) const {
+  record::Measures all = scorer().measures();
+  all |= measures;
   return {.steps = trial.steps(),
           .timestep_s = trial.timestep_s,
           .first_command = trial.first_command,
           .path = path,
-          .measures = scorer().measures(),
+          .measures = all,
           .fall_height_m = robot.fall_height_m,
           .start_rotation = robot.bodies[0].rotation};
 }

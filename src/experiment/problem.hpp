@@ -57,7 +57,8 @@ struct Problem {
   std::unique_ptr<physics::Engine> make_engine(bool torques = false) const;
   std::unique_ptr<controllers::Parameters> decode(const neat::Genome& genome) const;
   score::Score scorer() const;
-  trial::Protocol protocol(const record::PathSampling& path) const;
+  /// `measures`: those that the score does not need itself.
+  trial::Protocol protocol(const record::PathSampling& path, const record::Measures& measures = {}) const;
   /// Whether trials differ: by noise, or by the place where they start.
   bool disturbed() const { return noise.any() || ground.start_place_m > 0.0; }
   /// Null for the plane.

@@ -16,7 +16,7 @@ namespace {
 /// Throws UserError if the run or one of its referees is impossible.
 std::unique_ptr<const Problem> checked_problem(const Config& config, const robot::RobotSpec& robot) {
   auto problem = std::make_unique<const Problem>(Problem::make(config, robot));
-  check_memory(config, *problem);
+  check_search(config, *problem);
   Problem elsewhere = *problem;
   for (const auto& referee : config.referees) {
     elsewhere.engine = referee;
@@ -36,7 +36,7 @@ Run::Run(RunFolder folder, const Config& config, std::unique_ptr<const Problem> 
     : folder_(std::move(folder)),
       config_(config),
       problem_(std::move(problem)),
-      behaviour_(config.make_behaviour()),
+      behaviour_(config.make_behaviour(&problem_->robot)),
       state_(std::move(state)),
       files_(std::move(files)),
       jobs_(jobs) {}
@@ -57,7 +57,7 @@ Run Run::resume(const std::filesystem::path& folder, std::optional<int> generati
   Config config = held.load_config();
   if (generations) config.generations = *generations;
   auto problem = std::make_unique<const Problem>(Problem::make(config, held.load_robot()));
-  check_memory(config, *problem);
+  check_search(config, *problem);
   auto [state, log_bytes] = recover(held.paths(), config, *problem);
   const int done = state.strategy->round();
   if (generations && *generations < done)
@@ -78,7 +78,7 @@ RunStatus Run::execute(RunListener& listener, const std::atomic<bool>& stop) {
 
 // The generation loop: ask, evaluate, keep the best, tell, write.
 RunStatus Run::generations(RunListener& listener, const std::atomic<bool>& stop) {
-  Evaluator evaluator(*problem_, behaviour_->path(), jobs_);
+  Evaluator evaluator(*problem_, behaviour_->path(), jobs_, behaviour_->measures());
   double last_row_s = now_s(), files_s = 0.0;
   while (generation() < config_.generations) {
     const auto candidates = state_.strategy->ask();
@@ -138,9 +138,11 @@ void Run::tell(const GenerationResult& result, std::span<const double> objective
   std::vector<search::Evaluation> evaluations;
   behaviours.reserve(objectives.size());
   for (std::size_t i = 0; i < objectives.size(); ++i) {
-    // The behaviour of a genome is that of its first episode: a mean of paths would not be a path.
-    behaviours.push_back(behaviour_->of(result.of_genome(i).front()));
-    evaluations.push_back({.objective = objectives[i], .behaviour = behaviours.back()});
+    const auto episodes = result.of_genome(i);
+    behaviours.push_back(behaviour_->of(episodes));
+    const bool viable =
+        std::ranges::count(episodes, record::Outcome::diverged, &record::Trajectory::outcome) == 0;
+    evaluations.push_back({.objective = objectives[i], .behaviour = behaviours.back(), .viable = viable});
   }
   state_.strategy->tell(evaluations);
   row.search = state_.strategy->metrics();

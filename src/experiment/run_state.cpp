@@ -21,8 +21,9 @@ search::SearchSpace space_of(const Config& config, const Problem& problem) {
 RunState::RunState(const Config& config, const Problem& problem)
     : strategy(search::strategy_kind(config.search).make(config.search, space_of(config, problem))) {}
 
-void check_memory(const Config& config, const Problem& problem) {
+void check_search(const Config& config, const Problem& problem) {
   try {
+    config.make_behaviour(&problem.robot);
     search::strategy_kind(config.search)
         .check_memory(config.search, space_of(config, problem), search::usable_memory_bytes());
   } catch (const SettingError& error) {

@@ -18,8 +18,8 @@ struct RunState {
   std::unique_ptr<search::Strategy> strategy;
 };
 
-/// Throws UserError if the config's search could need more memory than this process may use, which could
-/// otherwise kill it after hours.
-void check_memory(const Config& config, const Problem& problem);
+/// Throws UserError if the config's search does not fit the robot, or could need more memory than this
+/// process may use, which could otherwise kill it after hours.
+void check_search(const Config& config, const Problem& problem);
 
 }  // namespace amble::experiment

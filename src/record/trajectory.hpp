@@ -33,12 +33,14 @@ struct PathSampling {
 
 /// Optional measurements of a trial, which cost time.
 struct Measures {
-  bool energy = false, uprightness = false, seconds = false;
+  bool energy = false, uprightness = false, seconds = false, contacts = false, height = false;
 
   Measures& operator|=(const Measures& other) {
     energy |= other.energy;
     uprightness |= other.uprightness;
     seconds |= other.seconds;
+    contacts |= other.contacts;
+    height |= other.height;
     return *this;
   }
 };
@@ -59,12 +61,18 @@ struct Trajectory {
   /// Projection on the ground of the root's forward axis before the first step, of unit length: the axis that
   /// points along the world's x in the robot's own start pose.
   double forward_x = 1.0, forward_y = 0.0;
+  /// The same axis after the last step.
+  double forward_end_x = 1.0, forward_end_y = 0.0;
   /// Measures::seconds: centre of mass after each whole second, x0, y0, x1, y1, …, relative to com_start_m.
   std::vector<double> com_by_second_m;
   /// Measures::energy: Σ |torque × change of angle| over motors and steps, J.
   double energy_j = 0.0;
   /// Measures::uprightness: sum over steps of the cosine between the root's z axis and the vertical.
   double upright_steps = 0.0;
+  /// Measures::contacts: of each leg, the steps after which its foot touched something.
+  std::vector<int> contact_steps;
+  /// Measures::height: sum over steps of the height of the root's centre of mass over the ground below it, m.
+  double height_steps_m = 0.0;
 
   double seconds() const { return steps * timestep_s; }
 };

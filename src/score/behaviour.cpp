@@ -1,9 +1,12 @@
 #include "amble/score/behaviour.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 
 #include "amble/core/check.hpp"
+#include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 
 namespace amble::score {
@@ -13,7 +16,7 @@ class NoBehaviour final : public Behaviour {
  public:
   explicit NoBehaviour(const BehaviourSettings&) {}
   std::size_t length() const override { return 0; }
-  std::vector<float> of(const record::Trajectory&) const override { return {}; }
+  std::vector<float> of(std::span<const record::Trajectory>) const override { return {}; }
 };
 
 template <typename Kind>
@@ -25,14 +28,17 @@ struct Row {
   std::string_view name;
   std::unique_ptr<const Behaviour> (*make)(const BehaviourSettings&);
 };
-constexpr std::array behaviours{Row{"", make<NoBehaviour>}, Row{"path", make<PathBehaviour>}};
+constexpr std::array behaviours{Row{"", make<NoBehaviour>}, Row{"path", make<PathBehaviour>},
+                                Row{"descriptors", make<DescriptorBehaviour>}};
 
 }  // namespace
 
 PathBehaviour::PathBehaviour(const BehaviourSettings& settings)
     : path_(settings.path), length_(2 * to_index(settings.path.count(settings.steps))) {}
 
-std::vector<float> PathBehaviour::of(const record::Trajectory& trajectory) const {
+std::vector<float> PathBehaviour::of(std::span<const record::Trajectory> episodes) const {
+  AMBLE_CHECK(!episodes.empty(), "an evaluation has an episode");
+  const record::Trajectory& trajectory = episodes.front();
   AMBLE_CHECK(trajectory.com_path_m.size() <= length_, "paths are no longer than trials");
   std::vector<float> behaviour = trajectory.com_path_m;
   behaviour.reserve(length_);
@@ -42,6 +48,44 @@ std::vector<float> PathBehaviour::of(const record::Trajectory& trajectory) const
     behaviour.push_back(static_cast<float>(moved.y));
   }
   return behaviour;
+}
+
+DescriptorBehaviour::DescriptorBehaviour(const BehaviourSettings& settings)
+    : score_(settings.score), duration_s_(settings.duration_s), weight_n_(settings.weight_n) {
+  const std::string key = "search.map_elites.descriptors";
+  for (const Descriptor& descriptor : settings.descriptors) {
+    Dimension& dimension = dimensions_.emplace_back(Dimension{&quantity(descriptor.quantity, key), -1});
+    if (descriptor.leg.empty()) continue;
+    if (!dimension.quantity->of_legs)
+      fail_setting({key}, "{}: {}: leg = \"{}\": it is a quantity of the whole robot", key,
+                   descriptor.quantity, descriptor.leg);
+    if (settings.leg_names.empty()) continue;
+    const auto leg = std::ranges::find(settings.leg_names, descriptor.leg);
+    if (leg == settings.leg_names.end())
+      fail_setting({key}, "{}: {}: leg = \"{}\": the robot has {}", key, descriptor.quantity, descriptor.leg,
+                   fmt::join(settings.leg_names, ", "));
+    dimension.leg = static_cast<int>(leg - settings.leg_names.begin());
+  }
+}
+
+record::Measures DescriptorBehaviour::measures() const {
+  record::Measures all;
+  for (const Dimension& dimension : dimensions_) all |= dimension.quantity->measures;
+  return all;
+}
+
+std::vector<float> DescriptorBehaviour::of(std::span<const record::Trajectory> episodes) const {
+  AMBLE_CHECK(!episodes.empty(), "an evaluation has an episode");
+  std::vector<float> means;
+  means.reserve(dimensions_.size());
+  for (const Dimension& dimension : dimensions_) {
+    const Context context{
+        .settings = score_, .duration_s = duration_s_, .weight_n = weight_n_, .leg = dimension.leg};
+    double sum = 0.0;
+    for (const record::Trajectory& episode : episodes) sum += dimension.quantity->of(episode, context);
+    means.push_back(static_cast<float>(sum / static_cast<double>(episodes.size())));
+  }
+  return means;
 }
 
 std::unique_ptr<const Behaviour> make_behaviour(std::string_view name, const BehaviourSettings& settings) {

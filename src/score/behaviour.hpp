@@ -2,10 +2,13 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "amble/record/trajectory.hpp"
+#include "amble/score/score.hpp"
 
 namespace amble::score {
 
@@ -18,28 +21,62 @@ class Behaviour {
   virtual std::size_t length() const = 0;
   /// Sampling of the path that it needs.
   virtual record::PathSampling path() const { return {}; }
-  /// Of the same length also for trials that ended early.
-  virtual std::vector<float> of(const record::Trajectory& trajectory) const = 0;
+  /// Measurements of trials that it needs.
+  virtual record::Measures measures() const { return {}; }
+  /// Of the episodes (at least one) of one evaluation; of the same length also for trials that ended early.
+  virtual std::vector<float> of(std::span<const record::Trajectory> episodes) const = 0;
+};
+
+/// A quantity in a behaviour.
+struct Descriptor {
+  std::string quantity;  ///< a row of quantities()
+  std::string leg;       ///< of those that legs have, by its name; empty: the mean over legs
 };
 
 /// Parameters of behaviours.
 struct BehaviourSettings {
-  int steps = 0;              ///< of a trial that completes
-  record::PathSampling path;  ///< how "path" samples it
+  int steps = 0;                             ///< of a trial that completes
+  record::PathSampling path = {};            ///< how "path" samples it
+  std::vector<Descriptor> descriptors = {};  ///< of "descriptors"
+  // What their quantities depend on.
+  Settings score = {};
+  double duration_s = 0.0, weight_n = 0.0;
+  std::vector<std::string> leg_names = {};  ///< of the robot; empty: legs are not looked up
 };
 
 /// The path of the centre of mass over the ground (Morse et al. 2013, sec. 4): x0, y0, x1, y1, …, m, relative
-/// to the start, as it was sampled. A trial that ended early is padded with its last centre of mass.
+/// to the start, as it was sampled. A trial that ended early is padded with its last centre of mass. Of
+/// several episodes that of the first: a mean of paths would not be a path.
 class PathBehaviour : public Behaviour {
  public:
   explicit PathBehaviour(const BehaviourSettings& settings);
   std::size_t length() const override { return length_; }
   record::PathSampling path() const override { return path_; }
-  std::vector<float> of(const record::Trajectory& trajectory) const override;
+  std::vector<float> of(std::span<const record::Trajectory> episodes) const override;
 
  private:
   record::PathSampling path_;
   std::size_t length_;
+};
+
+/// Quantities of a trial, the mean over episodes of each: dimensions of a map.
+class DescriptorBehaviour : public Behaviour {
+ public:
+  /// Throws SettingError for a quantity that does not exist, a leg that the robot does not have, a leg of a
+  /// quantity of the whole robot.
+  explicit DescriptorBehaviour(const BehaviourSettings& settings);
+  std::size_t length() const override { return dimensions_.size(); }
+  record::Measures measures() const override;
+  std::vector<float> of(std::span<const record::Trajectory> episodes) const override;
+
+ private:
+  struct Dimension {
+    const Quantity* quantity;
+    int leg;
+  };
+  Settings score_;
+  double duration_s_, weight_n_;
+  std::vector<Dimension> dimensions_;
 };
 
 /// By its name in the table of behaviour.cpp, which search::StrategyKind::behaviour refers to; "" is the

@@ -11,6 +11,7 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 
 namespace amble::score {
 namespace {
@@ -104,6 +105,56 @@ double upright_time(const record::Trajectory& trajectory, const Context& context
   return trajectory.seconds() / context.duration_s;
 }
 
+/// Displacement to the left of the robot's own forward axis at the start.
+double sideways(const record::Trajectory& trajectory, const Context&) {
+  return displacement_m(trajectory, 90.0);
+}
+
+/// Angle of a direction to the x axis, −180 … 180 degrees, by the series of the arc tangent: as small_turn(),
+/// not by the library's function.
+double angle_deg(Direction direction) {
+  const double x = std::abs(direction.x), y = std::abs(direction.y);
+  const double low = std::min(x, y), high = std::max(x, y);
+  if (high == 0.0) return 0.0;
+  // Of the half angle, whose tangent is at most tan 22.5° = 0.41: tan(φ/2) = sin φ / (1 + cos φ).
+  const double tangent = low / (high + std::sqrt(low * low + high * high));
+  double sum = 0.0, power = tangent;
+  for (int n = 1; n <= 41; n += 2) {
+    sum += (n % 4 == 1 ? power : -power) / n;
+    power *= tangent * tangent;
+  }
+  double angle = 2.0 * sum * (180.0 / std::numbers::pi);
+  if (y > x) angle = 90.0 - angle;
+  if (direction.x < 0.0) angle = 180.0 - angle;
+  return direction.y < 0.0 ? -angle : angle;
+}
+
+/// How far the robot has turned to the left from the start to the end.
+double turn(const record::Trajectory& trajectory, const Context&) {
+  const Direction before{trajectory.forward_x, trajectory.forward_y};
+  const Direction after{trajectory.forward_end_x, trajectory.forward_end_y};
+  return angle_deg({before.x * after.x + before.y * after.y, before.x * after.y - before.y * after.x});
+}
+
+/// Share of the steps in which a foot touched something.
+double duty_factor(const record::Trajectory& trajectory, const Context& context) {
+  const std::vector<int>& steps = trajectory.contact_steps;
+  if (trajectory.steps == 0 || steps.empty()) return 0.0;
+  if (context.leg >= 0) return 1.0 * steps[to_index(context.leg)] / trajectory.steps;
+  double sum = 0.0;
+  for (const int of_leg : steps) sum += of_leg;
+  return sum / static_cast<double>(steps.size()) / trajectory.steps;
+}
+
+/// Mean height of the root's centre of mass over the ground below it.
+double height(const record::Trajectory& trajectory, const Context&) {
+  return trajectory.steps > 0 ? trajectory.height_steps_m / trajectory.steps : 0.0;
+}
+
+double energy(const record::Trajectory& trajectory, const Context&) {
+  return trajectory.energy_j;
+}
+
 // The table of quantities. A new one is a row here; if trials must measure something for it, also a member of
 // record::Measures and record::Trajectory.
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -112,10 +163,15 @@ constexpr std::array table{
     Quantity{"distance", "m", positive_range, {}, distance},
     Quantity{"forward", "m", signed_range, {}, forward},
     Quantity{"heading", "m", signed_range, {}, heading},
+    Quantity{"sideways", "m", signed_range, {}, sideways},
+    Quantity{"turn", "deg", {-180.0, 180.0}, {}, turn},
     Quantity{"speed_kept", "", share_range, {.seconds = true}, speed_kept},
+    Quantity{"energy", "J", positive_range, {.energy = true}, energy},
     Quantity{"economy", "", positive_range, {.energy = true}, economy},
     Quantity{"uprightness", "", {-1.0, 1.0}, {.uprightness = true}, uprightness},
     Quantity{"upright_time", "", share_range, {}, upright_time},
+    Quantity{"duty_factor", "", share_range, {.contacts = true}, duty_factor, true},
+    Quantity{"height", "m", signed_range, {.height = true}, height},
 };
 
 const Quantity* find(std::string_view name) {
@@ -128,12 +184,6 @@ std::string names() {
   all.reserve(table.size());
   for (const Quantity& quantity : table) all.push_back(quantity.name);
   return fmt::format("{}", fmt::join(all, ", "));
-}
-
-void check_quantity(std::string_view list, const std::string& name) {
-  if (!find(name))
-    fail_setting({fmt::format("score.{}", list)}, "score.{}: quantity \"{}\": expected {}", list, name,
-                 names());
 }
 
 constexpr double unbounded = 1e9;
@@ -167,9 +217,9 @@ void Settings::describe(io::SettingsVisitor& visitor) {
 
 void Settings::validate() const {
   if (terms.empty()) fail_setting({"score.terms"}, "score.terms: expected at least one term");
-  for (const Term& term : terms) check_quantity("terms", term.quantity);
+  for (const Term& term : terms) quantity(term.quantity, "score.terms");
   for (const Limit& limit : limits) {
-    check_quantity("limits", limit.quantity);
+    quantity(limit.quantity, "score.limits");
     if (!(limit.least <= limit.most))
       fail_setting({"score.limits"}, "score.limits: {}: least = {} is above most = {}", limit.quantity,
                    limit.least, limit.most);
@@ -182,6 +232,12 @@ bool Settings::is_distance() const {
 
 std::span<const Quantity> quantities() {
   return table;
+}
+
+const Quantity& quantity(const std::string& name, const std::string& key) {
+  const Quantity* const found = find(name);
+  if (!found) fail_setting({key}, "{}: quantity \"{}\": expected {}", key, name, names());
+  return *found;
 }
 
 std::string with_unit(std::string_view number, const Settings& settings) {

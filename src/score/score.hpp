@@ -52,6 +52,7 @@ struct Context {
   const Settings& settings;
   double duration_s = 0.0;  ///< of a trial that completes
   double weight_n = 0.0;    ///< of the robot
+  int leg = -1;             ///< of quantities that legs have; −1: the mean over legs
 };
 
 /// A quantity of a trial that scores and limits can name: a row of the table in score.cpp.
@@ -60,8 +61,11 @@ struct Quantity {
   io::Range range;            ///< of its values
   record::Measures measures;  ///< measurements of trials that it needs
   double (*of)(const record::Trajectory& trajectory, const Context& context);
+  bool of_legs = false;  ///< whether it is a quantity of one leg, or the mean over legs
 };
 std::span<const Quantity> quantities();
+/// By its name; throws SettingError naming `key` and the names there are.
+const Quantity& quantity(const std::string& name, const std::string& key);
 
 /// Scores trials: Σ weight × quantity, at least 0; times breach_factor for a trial that violates a limit, 0
 /// for one that diverged.

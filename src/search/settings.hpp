@@ -4,6 +4,7 @@
 #include <string>
 
 #include "amble/io/settings.hpp"
+#include "amble/search/map_elites_settings.hpp"
 #include "amble/search/novelty_settings.hpp"
 
 namespace amble::search {
@@ -12,6 +13,7 @@ namespace amble::search {
 struct Settings {
   std::string kind = "objective";
   NoveltySettings novelty;
+  MapElitesSettings map_elites;
 
   void describe(io::SettingsVisitor& visitor);
 };

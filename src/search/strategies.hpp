@@ -26,6 +26,8 @@ struct StrategyKind {
   std::string_view name;       ///< value of search.kind
   std::string_view behaviour;  ///< which behaviour its evaluations need (score/behaviour.hpp); "": none
   std::unique_ptr<Strategy> (*make)(const Settings& settings, const SearchSpace& space);
+  /// Candidates of a round.
+  int (*candidates)(const Settings& settings, const neat::Settings& neat);
   /// Throws SettingError where the settings do not fit behaviours of this length.
   void (*validate)(const Settings& settings, std::size_t behaviour_length);
   /// Throws SettingError if the search of `space` could need more than `memory_bytes`. For running it only: a

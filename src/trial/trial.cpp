@@ -67,16 +67,23 @@ void Runner::note_start(Lane& slot, int lane) {
   slot.trajectory = {};
   slot.trajectory.timestep_s = protocol_.timestep_s;
   slot.trajectory.com_start_m = slot.last_healthy_com_m = engine_.com_m(lane);
-  const Quat turn = engine_.root_pose(lane).rotation * conjugate(protocol_.start_rotation);
-  const Vec3 forward = rotate(turn, {1.0, 0.0, 0.0});
-  if (const double length = std::sqrt(forward.x * forward.x + forward.y * forward.y); length > 1e-6) {
-    slot.trajectory.forward_x = forward.x / length;
-    slot.trajectory.forward_y = forward.y / length;
-  }
+  note_forward(lane, slot.trajectory.forward_x, slot.trajectory.forward_y);
+  if (protocol_.measures.contacts)
+    slot.trajectory.contact_steps.assign(to_index(engine_.sensors().touch.rows()), 0);
   if (!protocol_.measures.energy) return;
   slot.angle_rad.clear();
   const LaneArray& angle_rad = engine_.sensors().joint_angle_rad;
   for (int joint = 0; joint < angle_rad.rows(); ++joint) slot.angle_rad.push_back(angle_rad.at(joint, lane));
+}
+
+/// The projection on the ground of the root's forward axis, of unit length; unchanged where that is upright.
+void Runner::note_forward(int lane, double& x, double& y) const {
+  const Quat turn = engine_.root_pose(lane).rotation * conjugate(protocol_.start_rotation);
+  const Vec3 forward = rotate(turn, {1.0, 0.0, 0.0});
+  const double length = std::sqrt(forward.x * forward.x + forward.y * forward.y);
+  if (!(length > 1e-6)) return;
+  x = forward.x / length;
+  y = forward.y / length;
 }
 
 /// Sets the targets of lanes in their first step to the present joint angles.
@@ -96,6 +103,10 @@ void Runner::after_step(int lane, TaskQueue& queue) {
   if (!outcome) return;
   slot.trajectory.outcome = *outcome;
   slot.trajectory.com_end_m = slot.last_healthy_com_m;
+  slot.trajectory.forward_end_x = slot.trajectory.forward_x;
+  slot.trajectory.forward_end_y = slot.trajectory.forward_y;
+  if (*outcome != record::Outcome::diverged)
+    note_forward(lane, slot.trajectory.forward_end_x, slot.trajectory.forward_end_y);
   queue.done(slot.task.index, std::move(slot.trajectory));
   refill(lane, queue);
 }
@@ -123,6 +134,7 @@ std::optional<record::Outcome> Runner::advance(int lane) {
 
   const Vec3 root_m = engine_.root_com_m(lane);
   const double ground_m = engine_.ground() ? engine_.ground()->height_m(root_m.x, root_m.y) : 0.0;
+  if (protocol_.measures.height) trajectory.height_steps_m += root_m.z - ground_m;
   if (root_m.z - ground_m < protocol_.fall_height_m) return record::Outcome::fell;
   if (trajectory.steps == protocol_.steps) return record::Outcome::completed;
   return std::nullopt;
@@ -136,6 +148,9 @@ void Runner::measure(int lane) {
     const Quat q = engine_.root_pose(lane).rotation;
     slot.trajectory.upright_steps += 1.0 - 2.0 * (q.x * q.x + q.y * q.y);
   }
+  if (protocol_.measures.contacts)
+    for (std::size_t leg = 0; leg < slot.trajectory.contact_steps.size(); ++leg)
+      slot.trajectory.contact_steps[leg] += engine_.sensors().touch.at(static_cast<int>(leg), lane) > 0.0f;
   if (protocol_.measures.seconds) {
     record::Trajectory& trajectory = slot.trajectory;
     const auto noted = static_cast<int>(trajectory.com_by_second_m.size() / 2);

@@ -83,6 +83,7 @@ class Runner {
 
   void refill(int lane, TaskQueue& queue);
   void note_start(Lane& slot, int lane);
+  void note_forward(int lane, double& x, double& y) const;
   void hold_first_steps();
   void after_step(int lane, TaskQueue& queue);
   std::optional<record::Outcome> advance(int lane);

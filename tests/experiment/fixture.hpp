@@ -29,6 +29,15 @@ inline Config small_novelty_config(std::vector<std::string> more = {}) {
   return small_config(std::move(more));
 }
 
+/// The same under MAP-Elites, in batches of 32, by the mean duty factor and how far it turns.
+inline Config small_map_config(std::vector<std::string> more = {}) {
+  more.insert(more.begin(), {"search.kind=map-elites", "engine=batch", "search.map_elites.batch=32",
+                             "search.map_elites.initial=32", "search.map_elites.reevaluate_share=0.25",
+                             "search.map_elites.descriptors=[{quantity=\"duty_factor\", bins=4}, "
+                             "{quantity=\"turn\", least=-30, most=30, bins=6}]"});
+  return small_config(std::move(more));
+}
+
 /// Every kind of noise, and two episodes.
 inline std::vector<std::string> all_noise() {
   return {"noise.episodes=2",

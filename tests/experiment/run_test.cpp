@@ -1,5 +1,6 @@
 #include "amble/experiment/run.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ std::string champions(const std::filesystem::path& folder) {
   return all;
 }
 
-/// The archive of a run under novelty search; "" of another.
+/// The archive of a run under novelty search or MAP-Elites; "" of another.
 std::string archive(const std::filesystem::path& folder) {
   const auto path = folder / "archive.bin";
   return std::filesystem::exists(path) ? io::read_file(path) : "";
@@ -41,6 +42,7 @@ class EachWay : public testing::TestWithParam<Way> {
     auto more = GetParam().noise ? all_noise() : std::vector<std::string>{};
     if (GetParam().noise) more.push_back("drop_m=0.01");
     more.push_back("engine=" + GetParam().engine);
+    if (GetParam().kind == "map-elites") return small_map_config(more);
     return GetParam().kind == "novelty" ? small_novelty_config(more) : small_config(more);
   }
 };
@@ -49,7 +51,9 @@ INSTANTIATE_TEST_SUITE_P(Run, EachWay,
                          testing::Values(Way{"objective"}, Way{"novelty", "novelty"},
                                          Way{"novelty_under_noise", "novelty", true},
                                          Way{"batch", "objective", false, "batch"},
-                                         Way{"batch_novelty_under_noise", "novelty", true, "batch"}),
+                                         Way{"batch_novelty_under_noise", "novelty", true, "batch"},
+                                         Way{"map", "map-elites", false, "batch"},
+                                         Way{"map_under_noise", "map-elites", true, "batch"}),
                          [](const auto& way) { return way.param.name; });
 
 TEST_P(EachWay, GivesTheSameChampionsAndArchiveForAnyNumberOfWorkers) {
@@ -212,6 +216,40 @@ TEST(NoveltyRun, CutsAnArchiveBackThatIsAheadOfItsCheckpoint) {
   Run::resume(scratch / "part", {}, 1).execute(rest, rest.stop);
   EXPECT_EQ(archive(scratch / "part"), archive(scratch / "whole"));
   EXPECT_EQ(champions(scratch / "part"), champions(scratch / "whole"));
+}
+
+TEST(MapRun, FillsItsMapAndReportsIt) {
+  const TemporaryFolder scratch;
+  Listener listener;
+  const auto config = small_map_config(all_noise());
+  Run::start(scratch / "run", config, 2).execute(listener, listener.stop);
+  ASSERT_EQ(listener.rows.size(), 3u);
+  const GenerationRow& row = listener.rows.back();
+  EXPECT_EQ(row.evaluations, 32u) << "a batch, not a population";
+  EXPECT_GT(row.metric("elites").value(), 1.0);
+  EXPECT_EQ(row.metric("coverage").value(), row.metric("elites").value() / (4 * 6));
+  EXPECT_GT(row.metric("reevaluated").value(), 0.0);
+  EXPECT_GE(row.metric("qd_score").value(), row.metric("map_best").value());
+  EXPECT_EQ(candidates_per_generation(config), 32);
+  EXPECT_EQ(candidates_per_generation(small_config()), 40);
+}
+
+TEST(MapRun, RefusesDescriptorsThatItsRobotDoesNotHave) {
+  const TemporaryFolder scratch;
+  const auto complaint = [&](const std::string& descriptor) {
+    try {
+      Run::start(scratch / "run", small_map_config({"search.map_elites.descriptors=[{" + descriptor + "}]"}),
+                 1);
+    } catch (const UserError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(complaint("leg=\"tail\""), testing::HasSubstr("leg = \"tail\": the robot has FL, FR, BL, BR"));
+  EXPECT_THAT(complaint("quantity=\"turn\", leg=\"FL\""),
+              testing::HasSubstr("a quantity of the whole robot"));
+  EXPECT_THAT(complaint("quantity=\"joy\""), testing::HasSubstr("quantity \"joy\": expected distance, "));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "run"));
 }
 
 TEST(ObjectiveRun, KeepsNoArchiveAndRecordsNoPaths) {

@@ -26,6 +26,11 @@ class Twin : public trial::Observer {
     const Vec3 up = rotate(q, {0.0, 0.0, 1.0});
     upright += up.z;
     if (step % 100 == 0) com_m.push_back(engine.com_m(lane));
+    height_m += engine.root_com_m(lane).z;
+    for (int leg = 0; leg < engine.sensors().touch.rows(); ++leg)
+      contacts += engine.sensors().touch.at(leg, lane) > 0.0f;
+    const Vec3 ahead = rotate(q * conjugate(start), {1.0, 0.0, 0.0});
+    turn_deg = std::atan2(ahead.y, ahead.x) * 180.0 / 3.141592653589793;
     const LaneArray& angle_rad = engine.sensors().joint_angle_rad;
     before_rad.resize(static_cast<std::size_t>(angle_rad.rows()), 0.0);  // at the start all are 0
     for (int joint = 0; joint < angle_rad.rows(); ++joint) {
@@ -35,7 +40,9 @@ class Twin : public trial::Observer {
     }
     steps = step;
   }
-  double upright = 0.0, energy_j = 0.0;
+  double upright = 0.0, energy_j = 0.0, height_m = 0.0, turn_deg = 0.0;
+  int contacts = 0;
+  Quat start;  ///< of the root in the start pose
   int steps = 0;
   std::vector<double> before_rad;
   std::vector<Vec3> com_m;  ///< after each second
@@ -71,6 +78,15 @@ TEST_P(ScoreInEachEngine, IsOfWhatItsTrialMeasured) {
   }
   ASSERT_EQ(seconds.com_m.size(), 1U) << "the trial is that long";
   EXPECT_NEAR(steady.score.value(), close, 1e-6);
+  Twin height, contacts, turn;
+  turn.start = problem.robot.bodies[0].rotation;
+  const double mean_height_m = score_of("height", height).score.value();
+  EXPECT_NEAR(mean_height_m, height.height_m / height.steps, 1e-9);
+  const double duty_factor = score_of("duty_factor", contacts).score.value();
+  EXPECT_NEAR(duty_factor, contacts.contacts / (4.0 * contacts.steps), 1e-9);
+  EXPECT_GT(duty_factor, 0.1);
+  const double turned_deg = score_of("turn", turn).score.value();
+  EXPECT_NEAR(turned_deg, turn.turn_deg, 1e-4);
   EXPECT_EQ(leaning.distance_m, economical.distance_m) << "measuring changes no bit";
 }
 

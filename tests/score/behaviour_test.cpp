@@ -23,17 +23,18 @@ PathBehaviour of_steps(int steps) {
 }
 
 TEST(PathBehaviour, IsThePathAsItWasSampled) {
-  EXPECT_THAT(of_steps(1).of(short_walk()), ElementsAre(0.25f, -0.25f));
+  EXPECT_THAT(of_steps(1).of(std::vector{short_walk()}), ElementsAre(0.25f, -0.25f));
 }
 
 TEST(PathBehaviour, OfATrialThatEndedEarlyIsPaddedWithItsLastPlace) {
-  EXPECT_THAT(of_steps(3).of(short_walk()), ElementsAre(0.25f, -0.25f, 0.75f, -0.5f, 0.75f, -0.5f));
+  EXPECT_THAT(of_steps(3).of(std::vector{short_walk()}),
+              ElementsAre(0.25f, -0.25f, 0.75f, -0.5f, 0.75f, -0.5f));
 }
 
 TEST(PathBehaviour, OfARobotThatFellBeforeTheFirstSampleIsItsLastPlace) {
   auto trajectory = short_walk();
   trajectory.com_path_m.clear();
-  EXPECT_THAT(of_steps(1).of(trajectory), ElementsAre(0.75f, -0.5f));
+  EXPECT_THAT(of_steps(1).of(std::vector{trajectory}), ElementsAre(0.75f, -0.5f));
 }
 
 TEST(PathBehaviour, HasTwoNumbersPerSampleOfAFullTrial) {
@@ -48,7 +49,22 @@ TEST(PathBehaviour, HasTwoNumbersPerSampleOfAFullTrial) {
 }
 
 TEST(PathBehaviourDeathTest, IsNeverCutShort) {
-  EXPECT_DEATH(of_steps(0).of(short_walk()), "no longer than trials");
+  EXPECT_DEATH(of_steps(0).of(std::vector{short_walk()}), "no longer than trials");
+}
+
+TEST(DescriptorBehaviour, IsTheMeanOfEachQuantityOverEpisodes) {
+  BehaviourSettings settings{.descriptors = {{"forward", ""}, {"duty_factor", "R"}, {"duty_factor", ""}}};
+  settings.leg_names = {"L", "R"};
+  const DescriptorBehaviour behaviour(settings);
+  EXPECT_EQ(behaviour.length(), 3u);
+  EXPECT_TRUE(behaviour.measures().contacts);
+  EXPECT_FALSE(behaviour.measures().energy);
+  record::Trajectory near = short_walk(), far = short_walk();
+  near.steps = far.steps = 100;
+  near.contact_steps = {0, 50};
+  far.contact_steps = {100, 100};
+  far.com_end_m.x += 1.0;
+  EXPECT_THAT(behaviour.of(std::vector{near, far}), ElementsAre(1.25f, 0.75f, 0.625f));
 }
 
 TEST(Behaviour, IsMadeByItsNameAndHasNoNumbersWithoutOne) {
@@ -56,7 +72,7 @@ TEST(Behaviour, IsMadeByItsNameAndHasNoNumbersWithoutOne) {
   EXPECT_EQ(make_behaviour("path", settings)->length(), 10u);
   EXPECT_EQ(make_behaviour("path", settings)->path().stride, 2);
   EXPECT_EQ(make_behaviour("", settings)->path().stride, 0) << "nothing is recorded for it";
-  EXPECT_TRUE(make_behaviour("", settings)->of(short_walk()).empty());
+  EXPECT_TRUE(make_behaviour("", settings)->of(std::vector{short_walk()}).empty());
 }
 
 }  // namespace

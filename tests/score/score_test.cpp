@@ -153,6 +153,13 @@ record::Trajectory wild_trial(Stream& stream) {
   const double yaw_rad = stream.uniform(-std::numbers::pi, std::numbers::pi);
   trajectory.forward_x = std::cos(yaw_rad);
   trajectory.forward_y = std::sin(yaw_rad);
+  const double end_yaw_rad = stream.uniform(-std::numbers::pi, std::numbers::pi);
+  trajectory.forward_end_x = std::cos(end_yaw_rad);
+  trajectory.forward_end_y = std::sin(end_yaw_rad);
+  for (int leg = 0; leg < 4; ++leg)
+    trajectory.contact_steps.push_back(
+        static_cast<int>(stream.below(1u + static_cast<std::uint32_t>(trajectory.steps))));
+  trajectory.height_steps_m = trajectory.steps * far_m();
   for (int i = 0; i < 2 * record::second_count(trajectory.seconds()); ++i)
     trajectory.com_by_second_m.push_back(far_m());
   trajectory.energy_j = std::max(0.0, far_m());
@@ -175,16 +182,60 @@ TEST(Score, OfEachQuantityStaysInItsRange) {
   }
 }
 
+/// A quantity of a trajectory, of a leg or of all.
+double quantity_of(const std::string& name, const record::Trajectory& trajectory, int leg = -1) {
+  const Settings settings;
+  return quantity(name, "it")
+      .of(trajectory, {.settings = settings, .duration_s = 15.0, .weight_n = 100.0, .leg = leg});
+}
+
+TEST(Score, TurnIsTheAngleBetweenTheForwardAxes) {
+  for (int start_deg = -180; start_deg < 180; start_deg += 45)
+    for (int turn_deg = -179; turn_deg <= 180; ++turn_deg) {
+      const double start_rad = start_deg * std::numbers::pi / 180.0;
+      const double end_rad = (start_deg + turn_deg) * std::numbers::pi / 180.0;
+      record::Trajectory trajectory;
+      trajectory.forward_x = std::cos(start_rad), trajectory.forward_y = std::sin(start_rad);
+      trajectory.forward_end_x = std::cos(end_rad), trajectory.forward_end_y = std::sin(end_rad);
+      const double error_deg = std::abs(quantity_of("turn", trajectory) - turn_deg);
+      EXPECT_LT(std::min(error_deg, 360.0 - error_deg), 1e-12 * 180.0) << start_deg << ", " << turn_deg;
+    }
+  EXPECT_EQ(quantity_of("turn", {}), 0.0);
+}
+
+TEST(Score, SidewaysIsToTheLeftOfTheForwardAxis) {
+  record::Trajectory trajectory = walk();
+  EXPECT_DOUBLE_EQ(quantity_of("sideways", trajectory), 4.0);
+  trajectory.forward_x = 0.0, trajectory.forward_y = 1.0;
+  EXPECT_DOUBLE_EQ(quantity_of("sideways", trajectory), -3.0);
+}
+
+TEST(Score, DutyFactorIsTheShareOfStepsInContactOfALegOrOfAll) {
+  record::Trajectory trajectory = walk();
+  trajectory.contact_steps = {1500, 750, 0, 300};
+  EXPECT_EQ(quantity_of("duty_factor", trajectory, 0), 1.0);
+  EXPECT_EQ(quantity_of("duty_factor", trajectory, 3), 0.2);
+  EXPECT_DOUBLE_EQ(quantity_of("duty_factor", trajectory), 0.425);
+}
+
+TEST(Score, HeightAndEnergyAreAsMeasured) {
+  record::Trajectory trajectory = walk();
+  trajectory.height_steps_m = 600.0;
+  EXPECT_EQ(quantity_of("height", trajectory), 0.4);
+  EXPECT_EQ(quantity_of("energy", trajectory), 200.0);
+}
+
 TEST(Score, HasEachOfItsQuantitiesInTheDocsWithUnitAndRange) {
   const std::string page = io::read_file(AMBLE_SOURCE_DIR "/docs/SCORES.md");
   for (const Quantity& quantity : quantities()) {
     const auto bound = [](double value) {
-      return std::isfinite(value) ? fmt::format("{}", value) : value < 0.0 ? "−∞" : "∞";
+      const std::string size = std::isfinite(value) ? fmt::format("{}", std::abs(value)) : "∞";
+      return (value < 0.0 ? "−" : "") + size;
     };
     const std::string lowest = bound(quantity.range.lowest);
     const auto row =
         fmt::format("| `{}` | {} | {} … {} |", quantity.name, quantity.unit.empty() ? "–" : quantity.unit,
-                    lowest == "-1" ? "−1" : lowest, bound(quantity.range.highest));
+                    lowest, bound(quantity.range.highest));
     EXPECT_THAT(page, testing::HasSubstr(row));
   }
 }
@@ -242,8 +293,9 @@ TEST(ScoreSettings, AreRefusedWhereTheyNameNothingOrCannotBeKept) {
   EXPECT_EQ(error_of({}), "");
   EXPECT_EQ(error_of({.terms = {}}), "score.terms: expected at least one term");
   EXPECT_EQ(error_of({.terms = {{.quantity = "joy"}}}),
-            "score.terms: quantity \"joy\": expected distance, forward, heading, speed_kept, economy, "
-            "uprightness, upright_time");
+            "score.terms: quantity \"joy\": expected distance, forward, heading, sideways, turn, speed_kept, "
+            "energy, "
+            "economy, uprightness, upright_time, duty_factor, height");
   EXPECT_THAT(error_of({.limits = {{.quantity = "joy"}}}), testing::HasSubstr("score.limits: quantity"));
   EXPECT_EQ(error_of({.limits = {{.quantity = "uprightness", .least = 0.9, .most = 0.5}}}),
             "score.limits: uprightness: least = 0.9 is above most = 0.5");

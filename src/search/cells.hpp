@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "amble/search/map_elites_settings.hpp"
+
+namespace amble::search {
+
+/// A partition of the space of descriptors into cells. Values outside a descriptor's range belong to its
+/// first or last bin, or count as at that end of the range. Const, shared by all threads.
+class Cells {
+ public:
+  virtual ~Cells() = default;
+  virtual std::uint32_t count() const = 0;
+  /// The cell of a descriptor: as many finite numbers as there are descriptors.
+  virtual std::uint32_t of(std::span<const float> descriptor) const = 0;
+};
+
+/// A grid (Mouret & Clune 2015): each descriptor's range in bins of equal width. The cell's number is
+/// that of its bins as digits, the last descriptor's first: bin 0 of all is cell 0, bin 1 of the last cell 1.
+class GridCells : public Cells {
+ public:
+  explicit GridCells(std::span<const DescriptorSettings> descriptors);
+  std::uint32_t count() const override { return count_; }
+  std::uint32_t of(std::span<const float> descriptor) const override;
+
+ private:
+  std::vector<DescriptorSettings> descriptors_;
+  std::uint32_t count_ = 1;
+};
+
+/// The cells nearest to centroids (CVT-MAP-Elites, Vassiliades, Chatzilygeroudis & Mouret 2018), each
+/// descriptor scaled to 0 … 1 over its range. Of equally near centroids the one with the lowest number.
+class CentroidCells : public Cells {
+ public:
+  /// `centroids`: one after the other, in 0 … 1.
+  CentroidCells(std::span<const DescriptorSettings> descriptors, std::vector<float> centroids);
+  ~CentroidCells() override;
+  std::uint32_t count() const override { return static_cast<std::uint32_t>(centroids_.size() / dimensions_); }
+  std::uint32_t of(std::span<const float> descriptor) const override;
+  std::span<const float> centroids() const { return centroids_; }
+
+ private:
+  std::vector<DescriptorSettings> descriptors_;
+  std::size_t dimensions_;
+  std::vector<float> centroids_;
+  class Tree;
+  std::unique_ptr<const Tree> tree_;
+};
+
+/// Centroids spread evenly over the unit cube: Lloyd's algorithm on `samples` uniform points, from as many of
+/// them as there are centroids, until no point changes its centroid or for 50 rounds. Depends on its
+/// arguments alone.
+std::vector<float> spread_centroids(std::size_t count, std::size_t dimensions, std::size_t samples,
+                                    std::uint64_t seed);
+
+/// As the settings say; `seed` is that of centroids.
+std::unique_ptr<const Cells> make_cells(const MapElitesSettings& settings);
+
+}  // namespace amble::search

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "amble/core/random.hpp"
+#include "amble/neat/innovations.hpp"
+#include "amble/search/cells.hpp"
+#include "amble/search/elite_log.hpp"
+#include "amble/search/map_elites_settings.hpp"
+#include "amble/search/strategies.hpp"
+#include "amble/search/strategy.hpp"
+
+namespace amble::search {
+
+/// MAP-Elites (Mouret & Clune 2015) with NEAT's genomes: keeps the best genome of each cell of a map over
+/// descriptors (Evaluation::behaviour). A round is a batch: random genomes at first, then mutated copies of
+/// elites, or children of two, and elites that are evaluated again.
+///
+/// - A candidate enters the cell of its descriptor if that is empty, or if its objective is larger than that
+///   of the elite there. One whose evaluation is not viable never does.
+/// - An elite that is evaluated again has the means of all its evaluations as its objective and descriptor.
+/// If
+///   these belong to another cell, it leaves its own, which is empty then, and enters that by the same rule,
+///   or is lost. So an elite that was lucky once falls back to what it is worth.
+class MapElites : public Strategy {
+ public:
+  /// The settings must be valid, and `space.neat` innovations of a generation's scope.
+  MapElites(const MapElitesSettings& settings, const SearchSpace& space);
+
+  int round() const override { return round_; }
+  std::span<const neat::Genome> ask() const override { return candidates_; }
+  void tell(std::span<const Evaluation> evaluations) override;
+
+  std::vector<Metric> metrics() const override;
+  void save(io::BinaryWriter& writer) const override;
+  void load(io::BinaryReader& reader) override;
+
+  std::vector<std::string> logs() const override { return {"archive.bin"}; }
+  std::string take_log_growth(std::size_t i) override;
+  std::uint64_t restore_log(std::size_t i, io::InputFile& file, const std::string& what) override;
+
+  const Elites& elites() const { return map_.elites(); }
+
+ private:
+  /// An elite, wherever it is by now.
+  struct Identity {
+    std::uint32_t cell = Elites::none, round = 0, candidate = 0;
+  };
+  /// Where a candidate comes from.
+  struct Origin {
+    Identity elite;      ///< its (first) parent, or itself; cell `none`: a random genome
+    bool again = false;  ///< is that elite, evaluated again
+  };
+  /// What became of a round.
+  struct Counts {
+    int entered = 0, improved = 0, reevaluated = 0, moved = 0, lost = 0;
+  };
+
+  void breed();
+  void add_elite_again(std::uint32_t cell);
+  void add_child(Stream& stream);
+  std::uint32_t draw(Stream& stream) const;
+  neat::Genome genome_of(std::uint32_t number) const;
+  bool is_there(const Identity& elite) const;
+
+  bool take(std::uint32_t candidate, const Evaluation& evaluation);
+  void take_again(const Identity& elite, const Evaluation& evaluation);
+  void credit_parent(const Identity& parent, bool entered);
+
+  MapElitesSettings settings_;
+  neat::Settings neat_;
+  int inputs_, outputs_;
+  bool recurrent_;
+  std::uint64_t seed_;
+  std::unique_ptr<const Cells> cells_;
+
+  int round_ = 0;
+  LoggedElites map_;
+  std::vector<float> curiosity_;  ///< by cell; empty unless parents are drawn by it
+  neat::Innovations before_;      ///< before the candidates were bred: with them save() need not write these
+  neat::Innovations innovations_;
+  Counts counts_;  ///< of the last completed round
+
+  std::vector<neat::Genome> candidates_;
+  std::vector<Origin> origins_;
+  std::vector<float> loaded_curiosity_;  ///< between load() and restore_log(), by elite
+};
+
+/// Throws SettingError where these settings do not fit descriptors of this length.
+void validate_map_elites(const Settings& settings, std::size_t behaviour_length);
+/// Throws SettingError for a map that could need more memory, and for innovations of a run's scope, whose
+/// list grows without bound.
+void check_map_elites_memory(const Settings& settings, const SearchSpace& space, double memory_bytes);
+
+}  // namespace amble::search

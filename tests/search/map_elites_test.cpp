@@ -1,0 +1,357 @@
+#include "amble/search/map_elites.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "amble/core/error.hpp"
+#include "amble/io/file.hpp"
+#include "amble/neat/genome_compact.hpp"
+#include "tests/io/temporary_folder.hpp"
+
+namespace amble::search {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int dimensions = 2, bins = 6;
+
+MapElitesSettings small_map() {
+  MapElitesSettings settings;
+  settings.descriptors.resize(dimensions);
+  for (auto& descriptor : settings.descriptors) descriptor.bins = bins;
+  settings.batch = 40;
+  settings.initial = 70;
+  settings.reevaluate_share = 0.25;
+  return settings;
+}
+
+/// A result of a genome in a round: its place depends on its weights, and on the luck of the round.
+struct Result {
+  double objective = 0.0;
+  std::vector<float> descriptor;
+  bool viable = true;
+};
+
+Result result_of(const neat::Genome& genome, int round, std::size_t candidate) {
+  Stream luck(5, Purpose::test, static_cast<std::uint32_t>(round), static_cast<std::uint32_t>(candidate));
+  Result result;
+  result.descriptor.assign(dimensions, 0.0f);
+  for (std::size_t i = 0; i < genome.links.size(); ++i)
+    result.descriptor[i % dimensions] += static_cast<float>(std::abs(genome.links[i].weight) / 4.0);
+  for (float& value : result.descriptor) value += static_cast<float>(luck.uniform(-0.1, 0.1));
+  // In steps, so that some are equal.
+  result.objective = std::floor(4.0 * luck.uniform()) + static_cast<double>(genome.links.size());
+  result.viable = !luck.chance(0.1);
+  return result;
+}
+
+/// The rules of the map once more, by looking at everything.
+class SlowMap {
+ public:
+  struct Entry {
+    double objective = 0.0;
+    std::vector<float> descriptor;
+    std::uint32_t evaluations = 1;
+    int last = 0;  ///< when it was last evaluated
+    neat::Genome genome;
+  };
+
+  std::uint32_t cell_of(const std::vector<float>& descriptor) const {
+    std::uint32_t cell = 0;
+    for (const float value : descriptor)
+      cell = cell * bins + static_cast<std::uint32_t>(
+                               std::min(bins - 1.0, std::max(0.0, std::floor(value * double{bins}))));
+    return cell;
+  }
+
+  /// The cells to be evaluated again.
+  std::vector<std::uint32_t> again(std::size_t count) const {
+    std::vector<std::tuple<std::uint32_t, int, std::uint32_t>> all;
+    for (const auto& [cell, entry] : entries) all.emplace_back(entry.evaluations, entry.last, cell);
+    std::ranges::sort(all);
+    std::vector<std::uint32_t> cells;
+    for (std::size_t i = 0; i < std::min(count, all.size()); ++i) cells.push_back(std::get<2>(all[i]));
+    return cells;
+  }
+
+  void enter(const neat::Genome& genome, const Result& result) {
+    if (!result.viable) return;
+    offer({result.objective, result.descriptor, 1, 0, genome});
+  }
+
+  /// `number`: which of the round's evaluations of elites it is.
+  void evaluate_again(std::uint32_t cell, const neat::Genome& genome, const Result& result) {
+    const auto found = entries.find(cell);
+    if (found == entries.end() || !(found->second.genome == genome)) return;
+    Entry entry = found->second;
+    entries.erase(found);
+    const double n = ++entry.evaluations;
+    entry.objective += (result.objective - entry.objective) / n;
+    if (result.viable)
+      for (std::size_t i = 0; i < entry.descriptor.size(); ++i)
+        entry.descriptor[i] = static_cast<float>(
+            double{entry.descriptor[i]} + (double{result.descriptor[i]} - double{entry.descriptor[i]}) / n);
+    offer(std::move(entry));
+  }
+
+  std::map<std::uint32_t, Entry> entries;
+
+ private:
+  void offer(Entry entry) {
+    entry.last = ++clock_;
+    const std::uint32_t cell = cell_of(entry.descriptor);
+    const auto there = entries.find(cell);
+    if (there == entries.end() || entry.objective > there->second.objective) entries[cell] = std::move(entry);
+  }
+
+  int clock_ = 0;
+};
+
+class MapElitesSearch : public testing::TestWithParam<Selection> {
+ protected:
+  MapElitesSearch() {
+    settings_.select = GetParam();
+    neat_.mutation.add_node_share = 0.2;
+    neat_.mutation.add_link_share = 0.2;
+  }
+
+  SearchSpace space() const {
+    return {.neat = neat_,
+            .inputs = 3,
+            .outputs = 2,
+            .recurrent = true,
+            .seed = 9,
+            .behaviour_length = dimensions};
+  }
+  MapElites make() const { return MapElites(settings_, space()); }
+
+  /// One round; the results in the order of candidates.
+  static std::vector<Result> advance(MapElites& search) {
+    std::vector<Result> results;
+    std::vector<Evaluation> evaluations;
+    const auto candidates = search.ask();
+    results.reserve(candidates.size());
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+      results.push_back(result_of(candidates[i], search.round(), i));
+    for (const Result& result : results)
+      evaluations.push_back(
+          {.objective = result.objective, .behaviour = result.descriptor, .viable = result.viable});
+    search.tell(evaluations);
+    return results;
+  }
+
+  static std::string checkpoint(MapElites& search) {
+    search.take_log_growth(0);  // written before a checkpoint
+    io::BinaryWriter writer;
+    search.save(writer);
+    return writer.bytes();
+  }
+
+  MapElitesSettings settings_ = small_map();
+  neat::Settings neat_;
+  test::TemporaryFolder folder_;
+};
+
+TEST_P(MapElitesSearch, KeepsTheElitesOfASlowTwinRoundByRound) {
+  MapElites search = make();
+  SlowMap twin;
+  int moved = 0, lost = 0;
+  for (int round = 0; round < 60; ++round) {
+    const std::vector<neat::Genome> candidates(search.ask().begin(), search.ask().end());
+    ASSERT_EQ(candidates.size(), 40u);
+    const bool random = round * 40 < 70;
+    const auto again = random ? std::vector<std::uint32_t>() : twin.again(10);
+    for (std::size_t i = 0; i < again.size(); ++i) ASSERT_EQ(candidates[i], twin.entries.at(again[i]).genome);
+    const auto results = advance(search);
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+      if (i < again.size())
+        twin.evaluate_again(again[i], candidates[i], results[i]);
+      else
+        twin.enter(candidates[i], results[i]);
+    ASSERT_EQ(search.elites().size(), twin.entries.size()) << round;
+    for (const auto& [cell, entry] : twin.entries) {
+      const auto number = search.elites().in(cell);
+      ASSERT_NE(number, Elites::none) << round;
+      ASSERT_EQ(search.elites()[number].objective, entry.objective);
+      ASSERT_EQ(search.elites()[number].evaluations, entry.evaluations);
+      ASSERT_EQ(neat::expand(search.elites()[number].genome, ""), entry.genome);
+      ASSERT_TRUE(std::ranges::equal(search.elites().descriptor(number), entry.descriptor));
+    }
+    for (const Metric& metric : search.metrics()) {
+      if (metric.name == "moved") moved += static_cast<int>(metric.value);
+      if (metric.name == "lost") lost += static_cast<int>(metric.value);
+    }
+  }
+  EXPECT_GT(moved, 10) << "the test should see elites that move";
+  EXPECT_GT(lost, 10);
+  EXPECT_GT(twin.entries.size(), 20u);
+}
+
+TEST_P(MapElitesSearch, GoesOnToTheSameBitsFromACheckpointOfAnyRound) {
+  MapElites whole = make();
+  std::string log = whole.take_log_growth(0);
+  std::vector<std::string> checkpoints{checkpoint(whole)};
+  std::vector<std::string> logs{log};
+  for (int round = 0; round < 12; ++round) {
+    advance(whole);
+    log += whole.take_log_growth(0);
+    logs.push_back(log);
+    checkpoints.push_back(checkpoint(whole));
+  }
+  for (std::size_t from = 0; from < checkpoints.size(); ++from) {
+    MapElites other = make();
+    advance(other);  // its state is replaced
+    io::BinaryReader reader(checkpoints[from], "checkpoint.bin");
+    other.load(reader);
+    reader.finish();
+    io::InputFile file(folder_.put("archive.bin", log));  // ahead of the checkpoint
+    EXPECT_EQ(other.restore_log(0, file, "archive.bin"), logs[from].size());
+    std::string its_log = logs[from];
+    while (other.round() < whole.round()) {
+      advance(other);
+      its_log += other.take_log_growth(0);
+    }
+    EXPECT_EQ(its_log, log) << from;
+    EXPECT_EQ(checkpoint(other), checkpoints.back()) << from;
+    EXPECT_TRUE(std::ranges::equal(other.ask(), whole.ask())) << from;
+  }
+}
+
+TEST_P(MapElitesSearch, DrawsParentsAsItsSettingSays) {
+  // One row of cells, the objective is the place in it; children are all but their parents.
+  settings_.descriptors.assign(1, {});
+  settings_.descriptors[0].bins = 50;
+  settings_.batch = settings_.initial = 4000;
+  settings_.reevaluate_share = 0.0;
+  neat_.mutation.add_node_share = neat_.mutation.add_link_share = 0.0;
+  neat_.mutation.weights = {.jiggle_limit = 1e-9,
+                            .jiggle_many_share = 0.0,
+                            .jiggle_few_share = 0.0,
+                            .jiggle_one_share = 1.0,
+                            .reset_few_share = 0.0,
+                            .reset_one_share = 0.0};
+  SearchSpace row = space();
+  row.behaviour_length = 1;
+  MapElites search(settings_, row);
+  const auto place = [](const neat::Genome& genome) { return (genome.links[0].weight + 1.5) / 3.0; };
+  std::vector<std::vector<float>> descriptors;
+  std::vector<Evaluation> evaluations;
+  for (const neat::Genome& genome : search.ask()) descriptors.push_back({static_cast<float>(place(genome))});
+  for (const auto& descriptor : descriptors)
+    evaluations.push_back({.objective = double{descriptor[0]}, .behaviour = descriptor});
+  search.tell(evaluations);
+  ASSERT_EQ(search.elites().size(), 50u);
+  double mean = 0.0;
+  for (const neat::Genome& child : search.ask()) mean += place(child) / 4000.0;
+  // The larger of two uniform numbers is 2/3 on average; nothing is curious yet. Standard error 0.005.
+  EXPECT_NEAR(mean, GetParam() == Selection::objective ? 2.0 / 3.0 : 0.5, 0.02);
+}
+
+INSTANTIATE_TEST_SUITE_P(Parents, MapElitesSearch,
+                         testing::Values(Selection::uniform, Selection::objective, Selection::curiosity),
+                         [](const auto& selection) {
+                           return std::string(selection_names[static_cast<std::size_t>(selection.param)]);
+                         });
+
+class MapFile : public MapElitesSearch {
+ protected:
+  void SetUp() override {
+    MapElites search = make();
+    file_ = search.take_log_growth(0);
+    for (int round = 0; round < 4; ++round) {
+      advance(search);
+      file_ += search.take_log_growth(0);
+    }
+    checkpoint_ = checkpoint(search);
+  }
+
+  /// The message of the UserError; "" if all is well.
+  std::string error_of(const std::string& bytes) const {
+    MapElites search = make();
+    try {
+      io::BinaryReader reader(checkpoint_, "checkpoint.bin");
+      search.load(reader);
+      io::InputFile file(folder_.put("archive.bin", bytes));
+      search.restore_log(0, file, "archive.bin");
+    } catch (const UserError& error) {
+      EXPECT_EQ(error.code(), ExitCode::bad_file);
+      return error.what();
+    }
+    return "";
+  }
+
+  std::string file_, checkpoint_;
+};
+
+TEST_P(MapFile, IsRefusedIfAnyByteOfItIsAltered) {
+  EXPECT_EQ(error_of(file_), "");
+  for (std::size_t i = 0; i < file_.size(); i += 1 + file_.size() / 200) {
+    std::string altered = file_;
+    altered[i] = static_cast<char>(altered[i] ^ 16);
+    EXPECT_THAT(error_of(altered), HasSubstr("archive.bin: ")) << i;
+  }
+}
+
+TEST_P(MapFile, IsRefusedWhereverItIsCutOff) {
+  for (std::size_t length = 0; length < file_.size(); length += 1 + file_.size() / 100)
+    EXPECT_THAT(error_of(file_.substr(0, length)), HasSubstr("archive.bin: ")) << length;
+}
+
+TEST_P(MapFile, IsReadUpToItsLastWholeRecordWithoutACheckpoint) {
+  io::InputFile whole(folder_.put("archive.bin", file_));
+  const Elites elites = read_elites(whole, "archive.bin", bins * bins, dimensions);
+  EXPECT_GT(elites.size(), 5u);
+  io::InputFile cut(folder_.put("archive.bin", file_.substr(0, file_.size() - 3)));
+  EXPECT_GE(read_elites(cut, "archive.bin", bins * bins, dimensions).size() + 1, elites.size());
+  io::InputFile other(folder_.put("archive.bin", file_));
+  EXPECT_THROW(read_elites(other, "archive.bin", bins, dimensions), UserError);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, MapFile, testing::Values(Selection::curiosity));
+
+/// The message of the UserError that these settings cause; "" if there is none.
+std::string complaint(const MapElitesSettings& settings) {
+  try {
+    settings.validate();
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(MapElitesSettings, ThatCannotBeAreRefusedInOneLine) {
+  MapElitesSettings settings = small_map();
+  EXPECT_EQ(complaint(settings), "");
+  settings.descriptors[1].most = 0.0;
+  EXPECT_EQ(complaint(settings),
+            "search.map_elites.descriptors: duty_factor: least = 0 is not below most = 0");
+  settings = small_map();
+  settings.descriptors[0].bins = 1'000'000;
+  settings.descriptors[1].bins = 1'000'000;
+  EXPECT_THAT(complaint(settings), HasSubstr("expected at most 20000000 cells"));
+  settings = small_map();
+  settings.archive = Archive::cvt;
+  settings.centroid_samples = settings.cells - 1;
+  EXPECT_THAT(complaint(settings), HasSubstr("centroid_samples = 9999: expected at least"));
+  EXPECT_THAT(complaint({}), HasSubstr("expected at least one"));
+}
+
+TEST(MapElitesSettings, NeedMemoryForEachOfTheirCells) {
+  Settings settings;
+  settings.map_elites = small_map();
+  settings.map_elites.descriptors[0].bins = 100'000;
+  neat::Settings neat;
+  const SearchSpace space{.neat = neat, .inputs = 3, .outputs = 2, .behaviour_length = dimensions};
+  EXPECT_NO_THROW(check_map_elites_memory(settings, space, 1e9));
+  EXPECT_THROW(check_map_elites_memory(settings, space, 1e8), SettingError);
+  neat.innovations.scope = neat::InnovationScope::run;
+  EXPECT_THROW(check_map_elites_memory(settings, space, 1e9), SettingError);
+}
+
+}  // namespace
+}  // namespace amble::search
