@@ -84,6 +84,8 @@ ExitCode run_info(const std::filesystem::path& folder) {
              config.seed, config.engine, rows.count(), config.generations);
   fmt::print("evaluations {:.0f} ({:.3g} steps)\n", evaluations, steps);
   fmt::print("search      {}", config.search.kind);
+  if (config.search.kind == "map-elites")
+    fmt::print(": `amble repertoire {}` shows the map", folder.string());
   if (!rows.archive.empty() && !rows.novelty_threshold.empty())
     fmt::print(": archive of {:.0f} behaviours, threshold {:.4g} in the last generation", rows.archive.back(),
                rows.novelty_threshold.back());

@@ -46,10 +46,10 @@ std::optional<Champion> try_champion(const Config& config, const Problem& proble
                     .episodes = {}};
   champion.problem.ground_key = champion.ground_key();
   if (!try_at_home(champion, times, stop)) return std::nullopt;
-  if (champion.objective() != best.objective)
+  if (best.objective && champion.objective() != *best.objective)
     fail(ExitCode::differs,
          "generation {}: the champion reached {}, and {} when run again: the engine does not repeat",
-         best.generation, score::with_unit(fmt::format("{}", best.objective), config.score),
+         best.generation, score::with_unit(fmt::format("{}", *best.objective), config.score),
          score::with_unit(fmt::format("{}", champion.objective()), config.score));
   if (!config.referees.empty()) {
     const Stopwatch watch(times.referees_s);

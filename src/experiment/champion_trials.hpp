@@ -14,7 +14,7 @@ struct NewBest {
   int generation = 0;
   int index = 0;  ///< among the generation's candidates
   const neat::Genome& genome;
-  double objective = 0.0;
+  std::optional<double> objective = {};  ///< to be reached again; nothing: whatever it reaches
 };
 
 /// Runs it again without noise, in the episodes of its evaluation, and in the config's referees, and returns

@@ -129,6 +129,16 @@ svg text.mean, svg text.median { font-weight: 450; fill: var(--soft); }
 .node-sensor { fill: var(--paper); stroke: var(--ink); stroke-width: 1.6; }
 .node-hidden { fill: var(--paper); stroke: var(--ink); stroke-width: 1.6; }
 .node-joint { fill: var(--ink); stroke: var(--ink); stroke-width: 1.6; }
+.nobody { fill: var(--panel); }
+.shade0 { fill: var(--c0); opacity: 0.16; }
+.shade1 { fill: var(--c0); opacity: 0.265; }
+.shade2 { fill: var(--c0); opacity: 0.37; }
+.shade3 { fill: var(--c0); opacity: 0.475; }
+.shade4 { fill: var(--c0); opacity: 0.58; }
+.shade5 { fill: var(--c0); opacity: 0.685; }
+.shade6 { fill: var(--c0); opacity: 0.79; }
+.shade7 { fill: var(--c0); opacity: 0.895; }
+.shade8 { fill: var(--c0); opacity: 1; }
 )css";
 
 constexpr std::string_view phone_and_paper = R"css(

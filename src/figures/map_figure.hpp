@@ -1,0 +1,34 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace amble::figures {
+
+/// A map of elites: a grid, and the objective in each of its cells.
+struct GridMap {
+  struct Dimension {
+    std::string name;
+    double least = 0.0, most = 1.0;
+    int bins = 1;
+  };
+  std::vector<Dimension> dimensions;  ///< at least one
+  /// By cell, the last dimension's bin running fastest; NaN: empty.
+  std::vector<double> objective;
+  std::string unit;  ///< of the objective, e.g. " m"
+};
+
+/// The place of a cell in the picture, in cells from its left and its bottom. Dimensions nest (Cully et al.
+/// 2015): the first, third … go to the right, the second, fourth … up, each within a bin of the one before.
+struct MapPlace {
+  int column = 0, row = 0;
+  friend bool operator==(const MapPlace&, const MapPlace&) = default;
+};
+MapPlace place_of(const GridMap& map, std::size_t cell);
+
+/// Cells as squares, darker where the objective is larger; a tooltip has the cell's number, bins and
+/// objective. A whole SVG file. Throws UserError for maps of more than 200,000 cells.
+std::string map_svg(const GridMap& map);
+
+}  // namespace amble::figures

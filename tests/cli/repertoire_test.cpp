@@ -1,0 +1,94 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/bad_input.hpp"
+
+namespace amble::tests {
+namespace {
+
+using testing::HasSubstr;
+
+class RepertoireCommand : public BadInput {
+ protected:
+  /// A small map; the same run each time.
+  std::string run() {
+    const std::string folder = scratch_ / "run";
+    const auto evolved = amble({"evolve", source + "/configs/repertoire/quadruped.toml", "--set",
+                                "search.map_elites.batch=64", "--set", "search.map_elites.initial=64",
+                                "--set", "trial.duration_s=1", "--generations", "4", "--out", folder});
+    EXPECT_EQ(evolved.exit_code, 0) << evolved.err;
+    EXPECT_THAT(evolved.err, HasSubstr("64 genomes × 1 s in batch"));
+    return folder;
+  }
+  nlohmann::json json(const std::string& path) { return nlohmann::json::parse(slurp(path)); }
+
+  const std::string source = AMBLE_SOURCE_DIR;
+};
+
+TEST_F(RepertoireCommand, ShowsTheMapAndSaysHowToGoOn) {
+  const auto folder = run();
+  const auto shown = amble({"repertoire", folder});
+  EXPECT_EQ(shown.exit_code, 0) << shown.err;
+  EXPECT_THAT(shown.out, HasSubstr("of 625 cells"));
+  EXPECT_THAT(shown.out, HasSubstr("duty_factor FL (0 … 1)"));
+  EXPECT_THAT(shown.out, HasSubstr("amble repertoire " + folder + " --cell"));
+  EXPECT_THAT(amble({"info", folder}).out, HasSubstr("`amble repertoire " + folder + "` shows the map"));
+}
+
+TEST_F(RepertoireCommand, WritesAllElitesAndEachOfThemAsAChampion) {
+  const auto folder = run();
+  ASSERT_EQ(amble({"repertoire", folder, "-o", scratch_ / "map.json"}).exit_code, 0);
+  const auto map = json(scratch_ / "map.json");
+  EXPECT_EQ(map["format"], "amble-repertoire");
+  EXPECT_EQ(map["cells"], 625);
+  EXPECT_EQ(map["dimensions"][3]["leg"], "BR");
+  ASSERT_GT(map["elites"].size(), 3u);
+  EXPECT_NEAR(map["coverage"].get<double>(), static_cast<double>(map["elites"].size()) / 625.0, 1e-12);
+  double sum = 0.0;
+  int before = -1;
+  for (const auto& elite : map["elites"]) {
+    sum += elite["objective"].get<double>();
+    EXPECT_GT(elite["cell"].get<int>(), before);
+    before = elite["cell"];
+    int cell = 0;
+    for (const double duty : elite["descriptor"]) cell = 5 * cell + std::min(4, static_cast<int>(5.0 * duty));
+    EXPECT_EQ(elite["cell"], cell);
+  }
+  EXPECT_NEAR(map["qd_score"].get<double>(), sum, 1e-9);
+
+  const auto& elite = map["elites"][0];
+  const auto taken =
+      amble({"repertoire", folder, "--cell", elite["cell"].dump(), "-o", scratch_ / "elite.json"});
+  ASSERT_EQ(taken.exit_code, 0) << taken.err;
+  EXPECT_EQ(json(scratch_ / "elite.json")["genome"], elite["genome"]);
+  EXPECT_THAT(amble({"trial", scratch_ / "elite.json"}).out, HasSubstr("outcome"));
+}
+
+TEST_F(RepertoireCommand, DrawsTheMap) {
+  ASSERT_EQ(amble({"repertoire", run(), "-o", scratch_ / "map.svg"}).exit_code, 0);
+  EXPECT_THAT(slurp(scratch_ / "map.svg"), testing::StartsWith("<svg"));
+}
+
+TEST_F(RepertoireCommand, RefusesWhatItCannotDoInOneLine) {
+  const auto folder = run();
+  const std::string out = scratch_ / "elite.json";
+  expect_complaint({"repertoire", folder, "--cell", "625", "-o", out}, ExitCode::bad_input,
+                   "the map has the cells 0 … 624");
+  expect_complaint({"repertoire", folder, "--cell", "0"}, ExitCode::bad_input, "expected -o FILE.json");
+  expect_complaint({"repertoire", folder, "-o", scratch_ / "map.png"}, ExitCode::bad_input,
+                   "expected FILE.json or FILE.svg");
+  expect_complaint({"repertoire", scratch_ / "gone"}, ExitCode::io, "gone");
+  spill(scratch_ / "map.svg", "mine");
+  expect_complaint({"repertoire", folder, "-o", scratch_ / "map.svg"}, ExitCode::bad_input, "map.svg");
+  const std::string other = scratch_ / "other";
+  ASSERT_EQ(amble({"evolve", source + "/configs/authors/supg-objective.toml", "--set", "population.size=30",
+                   "--set", "trial.duration_s=0.1", "--generations", "1", "--out", other})
+                .exit_code,
+            0);
+  expect_complaint({"repertoire", other}, ExitCode::bad_input, "expected one with \"map-elites\"");
+}
+
+}  // namespace
+}  // namespace amble::tests

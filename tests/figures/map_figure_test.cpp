@@ -1,0 +1,71 @@
+#include "amble/figures/map_figure.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <set>
+#include <utility>
+
+#include "amble/core/error.hpp"
+#include "tests/graphics/xml.hpp"
+
+namespace amble::figures {
+namespace {
+
+constexpr double empty = std::numeric_limits<double>::quiet_NaN();
+
+GridMap map_of(const std::vector<int>& bins) {
+  GridMap map;
+  std::size_t cells = 1;
+  for (const int count : bins) {
+    map.dimensions.push_back({"d<" + std::to_string(count), 0.0, 1.0, count});
+    cells *= static_cast<std::size_t>(count);
+  }
+  map.objective.assign(cells, empty);
+  map.unit = " m";
+  return map;
+}
+
+TEST(MapFigure, NestsTheThirdDimensionInTheFirstAndTheFourthInTheSecond) {
+  const GridMap map = map_of({2, 3, 4, 5});
+  EXPECT_EQ(place_of(map, 0), (MapPlace{0, 0}));
+  EXPECT_EQ(place_of(map, 1), (MapPlace{0, 1})) << "the last bin runs fastest";
+  EXPECT_EQ(place_of(map, 5), (MapPlace{1, 0}));
+  EXPECT_EQ(place_of(map, 4 * 5), (MapPlace{0, 5}));
+  EXPECT_EQ(place_of(map, 3 * 4 * 5), (MapPlace{4, 0}));
+  EXPECT_EQ(place_of(map, 2 * 3 * 4 * 5 - 1), (MapPlace{7, 14}));
+}
+
+TEST(MapFigure, GivesEachCellAPlaceOfItsOwn) {
+  for (const std::vector<int>& bins : {std::vector{7}, {3, 4}, {2, 3, 4}, {2, 2, 3, 2, 2}}) {
+    const GridMap map = map_of(bins);
+    std::set<std::pair<int, int>> places;
+    for (std::size_t cell = 0; cell < map.objective.size(); ++cell)
+      places.emplace(place_of(map, cell).column, place_of(map, cell).row);
+    EXPECT_EQ(places.size(), map.objective.size());
+  }
+}
+
+TEST(MapFigure, DrawsEachCellAndNamesThoseThatAreFilled) {
+  GridMap map = map_of({4, 3, 2});
+  map.objective[5] = 0.0;
+  map.objective[23] = 2.5;
+  const std::string svg = map_svg(map);
+  EXPECT_FALSE(amble::tests::parse_xml(svg).empty()) << "well-formed";
+  EXPECT_THAT(svg, testing::HasSubstr("Map of 2 elites in 24 cells"));
+  EXPECT_THAT(svg, testing::HasSubstr("cell 23: 2.500 m\nd&lt;4 0.75 … 1\n"));
+  EXPECT_THAT(svg, testing::HasSubstr("cell 5: 0.000 m"));
+  std::size_t empty_cells = 0;
+  for (std::size_t at = svg.find("\"nobody\""); at != std::string::npos; at = svg.find("\"nobody\"", at + 1))
+    ++empty_cells;
+  EXPECT_EQ(empty_cells, 22u);
+}
+
+TEST(MapFigure, OfTooManyCellsIsRefused) {
+  EXPECT_THROW(map_svg(map_of({1000, 1000})), UserError);
+}
+
+}  // namespace
+}  // namespace amble::figures
