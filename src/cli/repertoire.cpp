@@ -26,6 +26,8 @@ struct RepertoireOptions {
   fs::path run;
   std::optional<fs::path> out;
   std::optional<std::uint32_t> cell;
+  std::optional<int> retest;
+  int jobs = 1;
 };
 
 constexpr std::size_t listed = 10;
@@ -94,6 +96,18 @@ figures::GridMap picture_of(const experiment::Repertoire& repertoire) {
   return map;
 }
 
+ExitCode run_retest(const experiment::Repertoire& repertoire, const RepertoireOptions& options) {
+  const auto result = experiment::retest(repertoire, *options.retest, options.jobs, stop_signal());
+  if (!result) return ExitCode::interrupted;
+  const auto share = [&](double part, double whole) { return whole > 0.0 ? 100.0 * part / whole : 0.0; };
+  fmt::print("{} elites, each in {} new trials\n", result->elites, *options.retest);
+  fmt::print("objective   {:.1f} % of what the map says\n", share(result->kept, result->promised));
+  fmt::print("in place    {:.1f} % of the elites\n", share(result->in_place, result->elites));
+  fmt::print("corrected   {} cells, QD score {:.2f} (the map says {} and {:.2f})\n", result->corrected_elites,
+             result->corrected_score, result->elites, result->promised);
+  return ExitCode::ok;
+}
+
 ExitCode run_repertoire(const RepertoireOptions& options) {
   const auto repertoire = experiment::load_repertoire(experiment::find_run(options.run));
   const std::string extension = options.out ? options.out->extension().string() : "";
@@ -104,6 +118,8 @@ ExitCode run_repertoire(const RepertoireOptions& options) {
     if (!champion) return ExitCode::interrupted;
     io::write_file(*options.out, experiment::champion_text(*champion));
     fmt::print("look at it by: amble view {}\n", options.out->string());
+  } else if (options.retest) {
+    return run_retest(repertoire, options);
   } else if (!options.out) {
     print_summary(repertoire, options.run);
   } else if (extension == ".json") {
@@ -128,6 +144,13 @@ void add_repertoire(CLI::App& app, Action& action) {
   command->add_option("-o,--out", options->out,
                       "FILE.json: the whole map, or with --cell one elite; FILE.svg: a picture of the map");
   command->add_option("--cell", options->cell, "The elite of this cell, as a champion file");
+  command
+      ->add_option("--retest", options->retest,
+                   "Try each elite in so many new trials under noise: what the map keeps of what it says")
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--jobs", options->jobs, "Workers for --retest")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
   command->callback([options, &action] { action = [options] { return run_repertoire(*options); }; });
 }
 

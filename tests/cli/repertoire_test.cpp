@@ -66,6 +66,15 @@ TEST_F(RepertoireCommand, WritesAllElitesAndEachOfThemAsAChampion) {
   EXPECT_THAT(amble({"trial", scratch_ / "elite.json"}).out, HasSubstr("outcome"));
 }
 
+TEST_F(RepertoireCommand, TriesElitesAgainWithTheSameResultForAnyNumberOfWorkers) {
+  const auto folder = run();
+  const auto one = amble({"repertoire", folder, "--retest", "5"});
+  EXPECT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_THAT(one.out, testing::ContainsRegex("objective +[0-9.]+ % of what the map says"));
+  EXPECT_THAT(one.out, HasSubstr("elites, each in 5 new trials"));
+  EXPECT_EQ(amble({"repertoire", folder, "--retest", "5", "--jobs", "3"}).out, one.out);
+}
+
 TEST_F(RepertoireCommand, DrawsTheMap) {
   ASSERT_EQ(amble({"repertoire", run(), "-o", scratch_ / "map.svg"}).exit_code, 0);
   EXPECT_THAT(slurp(scratch_ / "map.svg"), testing::StartsWith("<svg"));
