@@ -43,6 +43,7 @@ class PartCheck {
     if (!needed && !name.empty()) bad(key, " = \"{}\": the kind {} has no {}", name, kind, key);
     if (!needed || std::ranges::find(items, name, &Item::name) != items.end()) return;
     std::vector<std::string> names;
+    names.reserve(items.size());
     for (const Item& item : items) names.push_back(item.name);
     bad(key, " = \"{}\": the robot has no such {}; expected one of {}", name, key, fmt::join(names, ", "));
   }

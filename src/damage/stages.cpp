@@ -135,6 +135,7 @@ std::vector<Stage> stages_of(const RobotSpec& robot, const Settings& settings) {
   for (const Part& part : by_time)
     if (part.kind != Kind::numb) moments.insert(part.from_s);
   std::vector<Stage> stages;
+  stages.reserve(moments.size());
   for (const double from_s : moments) stages.push_back(stage_from(robot, by_time, from_s));
   return stages;
 }
