@@ -5,11 +5,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 
 #include "amble/cli/commands.hpp"
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
+#include "amble/damage/text.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/gait/report_text.hpp"
@@ -27,24 +29,38 @@ struct TrialOptions {
   std::optional<std::filesystem::path> record;
   std::optional<std::uint32_t> noise;
   std::optional<std::filesystem::path> ground;
+  std::optional<std::string> damage;
 };
 
 constexpr std::uint32_t most_episodes = 1000000;
 
-/// Puts a champion on the ground of a config.
-void walk_on_ground_of(const std::filesystem::path& path, experiment::Champion& champion) {
+/// Puts a champion on the ground of a config, or gives it the damage of a config.
+template <typename Change>
+void change_as_in(const std::filesystem::path& path, Change change) {
   const auto config = experiment::load_config(path, {});
   try {
-    champion.problem.walk_on(config.ground);
+    change(config);
   } catch (const SettingError& error) {
     throw config.placed(error);
   }
 }
 
+/// `spec`: a config file, or damages in one line (damage::parse).
+void damage_as_in(const std::string& spec, experiment::Champion& champion) {
+  std::error_code error;
+  if (spec.find(':') != std::string::npos && !std::filesystem::exists(spec, error))
+    champion.problem.become(damage::parse(spec));
+  else
+    change_as_in(spec, [&](const experiment::Config& config) { champion.problem.become(config.damage); });
+}
+
 ExitCode run_trial(const TrialOptions& options) {
   const auto path = experiment::champion_at(options.champion);
   auto champion = experiment::load_champion(path);
-  if (options.ground) walk_on_ground_of(*options.ground, champion);
+  if (options.ground)
+    change_as_in(*options.ground,
+                 [&](const experiment::Config& config) { champion.problem.walk_on(config.ground); });
+  if (options.damage) damage_as_in(*options.damage, champion);
   if (options.record) io::refuse_to_replace(*options.record, record::recording_magic, "a recording");
   study::GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
   experiment::ReplayOptions how{.seconds = options.seconds,
@@ -97,6 +113,10 @@ void add_trial(CLI::App& app, Action& action) {
       ->check(between(0u, most_episodes));
   command->add_option("--ground", options->ground,
                       "Walk on the [ground] of this config (default: as in its evolution)");
+  command->add_option("--damage", options->damage,
+                      "With the robot damaged as in the [damage] of this config, or as "
+                      "KIND:NAME[=NUMBER][@SECONDS] says, e.g. "
+                      "missing:FL,weak:FR_knee=0.3@5 (default: as in its evolution)");
   command->callback([options, &action] { action = [options] { return run_trial(*options); }; });
 }
 

@@ -118,11 +118,13 @@ Problem parse_problem(const io::JsonView& root) {
       .noise = {},
       .score = {},
       .ground = {},
+      .damage = {},
       .architecture = nullptr};
   if (root.has("noise"))
     problem.noise = io::settings_from_json<trial::NoiseSettings>(root.at("noise").at("settings"));
   if (root.has("score")) problem.score = io::settings_from_json<score::Settings>(root.at("score"));
   if (root.has("ground")) problem.ground = io::settings_from_json<ground::Settings>(root.at("ground"));
+  if (root.has("damage")) problem.damage = io::settings_from_json<damage::Settings>(root.at("damage"));
   problem.complete();
   return problem;
 }
@@ -137,6 +139,7 @@ io::Json problem_json(const Problem& problem) {
                 {"robot", robot::to_json(problem.robot)}};
   if (!problem.score.is_distance()) json["score"] = io::settings_to_json(problem.score);
   if (!problem.ground.is_default()) json["ground"] = io::settings_to_json(problem.ground);
+  if (!problem.damage.is_default()) json["damage"] = io::settings_to_json(problem.damage);
   return json;
 }
 

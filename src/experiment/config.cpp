@@ -29,6 +29,7 @@ void Config::describe(io::SettingsVisitor& visitor) {
   visitor.table("trial", trial, {"one trial of one controller"});
   visitor.table("noise", noise, {"noise in trials, and how many of them make an evaluation; off by default"});
   visitor.table("ground", ground, {"what robots walk on: flat by default"});
+  visitor.table("damage", damage, {"what is wrong with the robot: nothing by default"});
   visitor.table("score", score, {"what makes a gait good"});
   visitor.table("search", search, {"what selects parents"});
 }
@@ -91,6 +92,7 @@ io::Json Config::identity() const {
   if (copy.score.is_distance()) values.erase("score");
   if (copy.ground.is_default()) values.erase("ground");
   if (copy.search.kind != "map-elites") values.at("search").erase("map_elites");
+  if (copy.damage.is_default()) values.erase("damage");
   return values;
 }
 

@@ -12,6 +12,7 @@
 #include "amble/controllers/factory.hpp"
 #include "amble/core/error.hpp"
 #include "amble/cppn/settings.hpp"
+#include "amble/damage/settings.hpp"
 #include "amble/ground/settings.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/settings.hpp"
@@ -46,6 +47,7 @@ struct Config {
   trial::NoiseSettings noise;
   score::Settings score;
   ground::Settings ground;
+  damage::Settings damage;
   search::Settings search;
   /// Where one of these keys was set ("FILE:LINE"), for errors found later; empty unless read from a file.
   std::function<std::string(const std::vector<std::string>& keys)> where;

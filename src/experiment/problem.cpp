@@ -6,10 +6,12 @@
 #include <utility>
 
 #include "amble/core/error.hpp"
+#include "amble/damage/stages.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/printable.hpp"
 #include "amble/morphology/robot_file.hpp"
+#include "amble/physics/damaged_engine.hpp"
 #include "amble/robot/json.hpp"
 #include "amble/robot/pose.hpp"
 
@@ -32,6 +34,7 @@ Problem Problem::make(const Config& config, robot::RobotSpec robot) {
                   .noise = config.noise,
                   .score = config.score,
                   .ground = config.ground,
+                  .damage = config.damage,
                   .architecture = nullptr};
   try {
     problem.complete();
@@ -46,6 +49,7 @@ void Problem::complete() {
   ground.validate();
   noise.validate(trial, ground.start_place_m > 0.0);
   score.validate();
+  damage.validate(robot);
   check_start();
   // Champion files have the nodes themselves, however the config came by them.
   controller.substrate = controllers::substrate_of(controller, robot);
@@ -55,7 +59,8 @@ void Problem::complete() {
 
 std::unique_ptr<physics::Engine> Problem::make_engine(bool torques) const {
   const bool needed = torques || scorer().measures().energy;
-  return physics::make_engine(engine, robot, {.timestep_s = trial.timestep_s, .torques = needed});
+  return physics::make_damaged_engine(engine, robot, damage,
+                                      {.timestep_s = trial.timestep_s, .torques = needed});
 }
 
 std::unique_ptr<controllers::Parameters> Problem::decode(const neat::Genome& genome) const {
@@ -63,18 +68,23 @@ std::unique_ptr<controllers::Parameters> Problem::decode(const neat::Genome& gen
 }
 
 score::Score Problem::scorer() const {
-  return score::Score(score, trial.steps() * trial.timestep_s,
-                      robot.total_mass_kg() * norm(robot.gravity_m_s2));
+  const double mass_kg =
+      damage.changes_body() ? damage::robot_at_start(robot, damage).total_mass_kg() : robot.total_mass_kg();
+  return score::Score(score, trial.steps() * trial.timestep_s, mass_kg * norm(robot.gravity_m_s2));
 }
 
 trial::Protocol Problem::protocol(const record::PathSampling& path, const record::Measures& measures) const {
   record::Measures all = scorer().measures();
   all |= measures;
+  std::vector<trial::NumbTouch> numb;
+  for (const damage::NumbFoot& foot : damage::numb_feet(robot, damage))
+    numb.push_back({foot.leg, damage::first_step(foot.from_s, trial.timestep_s)});
   return {.steps = trial.steps(),
           .timestep_s = trial.timestep_s,
           .first_command = trial.first_command,
           .path = path,
           .measures = all,
+          .numb = std::move(numb),
           .fall_height_m = robot.fall_height_m,
           .start_rotation = robot.bodies[0].rotation};
 }
@@ -90,6 +100,12 @@ void Problem::walk_on(const ground::Settings& other) {
   if (other.friction >= 0.0) robot.contact.friction = other.friction;
   ground = other;
   check_start();
+}
+
+void Problem::become(const damage::Settings& other) {
+  other.validate(robot);
+  damage = other;
+  make_engine();
 }
 
 void Problem::check_start() const {

@@ -10,6 +10,7 @@
 #include "amble/controllers/controller.hpp"
 #include "amble/controllers/factory.hpp"
 #include "amble/cppn/settings.hpp"
+#include "amble/damage/settings.hpp"
 #include "amble/experiment/config.hpp"
 #include "amble/ground/ground.hpp"
 #include "amble/ground/settings.hpp"
@@ -35,12 +36,14 @@ struct Problem {
   trial::NoiseSettings noise;
   score::Settings score;
   ground::Settings ground;
+  damage::Settings damage = {};
   ground::Key ground_key = {};  ///< of uneven ground in trials without noise
   std::shared_ptr<const controllers::Architecture> architecture;
 
-  /// `robot` as in its file; the problem's robot starts Config::drop_m higher, feels gravity as on the
-  /// ground's slope, and has its friction. Throws UserError if the parts do not fit together (an engine that
-  /// cannot simulate the robot, a controller for other legs).
+  /// `robot` as in its file, intact whatever `damage` says: that is done to the engine's; the problem's robot
+  /// starts Config::drop_m higher, feels gravity as on the ground's slope, and has its friction. Throws
+  /// UserError if the parts do not fit together (an engine that cannot simulate the robot, a controller for
+  /// other legs).
   static Problem make(const Config& config, robot::RobotSpec robot);
   /// Makes `architecture` from the other members and checks that they fit.
   void complete();
@@ -48,6 +51,9 @@ struct Problem {
   /// Changes the ground, and with it the robot's gravity and friction. Throws UserError if `other` leaves
   /// friction to the robot's file and the ground so far did not.
   void walk_on(const ground::Settings& other);
+  /// Changes the damage. Throws SettingError if the robot has no such parts, UserError if the engine cannot
+  /// simulate what is left.
+  void become(const damage::Settings& other);
   /// Throws SettingError if the start pose is in uneven ground.
   void check_start() const;
 

@@ -1,5 +1,6 @@
 #include "amble/experiment/replay.hpp"
 
+#include "amble/damage/stages.hpp"
 #include "amble/ground/recorded.hpp"
 #include "amble/robot/json.hpp"
 
@@ -32,10 +33,12 @@ std::optional<Replay> replay(const Problem& original, const neat::Genome& genome
         record::RecordingHeader{
             .frame_s = problem.trial.timestep_s,
             .columns = {},
-            .robot_json = robot::to_json(problem.robot).dump(),
+            .robot_json = robot::to_json(damage::as_drawn(problem.robot, problem.damage)).dump(),
             .controller_json = problem.architecture->parameters_json(*parameters),
             .origin = options.origin,
-            .ground_json = ground ? ground::to_json(problem.ground, ground_key).dump() : std::string()},
+            .ground_json = ground ? ground::to_json(problem.ground, ground_key).dump() : std::string(),
+            .damage_json =
+                problem.damage.is_default() ? std::string() : io::settings_to_json(problem.damage).dump()},
         problem.robot, *engine, *controllers);
     observers.add(*recording);
   }

@@ -52,6 +52,7 @@ class Recorder final : public trial::Observer {
 Trace record_trace(const experiment::Problem& original, const neat::Genome& genome, int ticks,
                    const std::atomic<bool>& stop) {
   experiment::Problem problem = original;
+  problem.damage = {};  // test vectors are of what controllers read, and numb feet would not show in them
   const bool skip_first = problem.trial.first_command == trial::FirstCommand::after_first_step;
   problem.trial.duration_s = (ticks + (skip_first ? 1 : 0)) * problem.trial.timestep_s;
   problem.trial.validate();

@@ -103,6 +103,7 @@ void TestSpec::describe(io::SettingsVisitor& visitor) {
   visitor.number("seconds", seconds, {1e-5, 1e6}, {"length of the trials, s"});
   visitor.text("noise", noise, {"config file whose [noise] disturbs the trials; empty: none"});
   visitor.text("ground", ground, {"config file whose [ground] the champion walks on; empty: its own"});
+  visitor.text("damage", damage, {"config file whose [damage] the champion's robot has; empty: its own"});
   visitor.integer("episodes", episodes, {1, 1000}, {"trials under noise that evolution has not met"});
   visitor.texts("conditions", conditions, {"conditions whose champions are tested; empty: all"});
 }
@@ -178,6 +179,7 @@ StudySpec load_study(const std::filesystem::path& path) {
   for (std::size_t i = 0; i < study.tests.size(); ++i) {
     resolve(study.tests[i].noise, item("tests", i, "noise"));
     resolve(study.tests[i].ground, item("tests", i, "ground"));
+    resolve(study.tests[i].damage, item("tests", i, "damage"));
   }
   return study;
 }

@@ -34,6 +34,7 @@ struct TestSpec {
   double seconds = 300.0;
   std::string noise;   ///< config file whose [noise] disturbs the trials; empty: no noise
   std::string ground;  ///< config file whose [ground] the champion walks on; empty: that of its own config
+  std::string damage;  ///< config file whose [damage] the champion has; empty: that of its own config
   /// Trials under noise, on uneven ground, or from places that evolution has not used; 1 without any of it.
   int episodes = 1;
   std::vector<std::string> conditions;  ///< names; empty: all

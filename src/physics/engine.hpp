@@ -27,6 +27,14 @@ struct StartPose {
   std::vector<double> joint_angle_rad;  ///< in control order (RobotSpec::joints), within the stops
 };
 
+/// A pose and how the robot moves in it, independent of masses and of the engine.
+struct Motion {
+  StartPose pose;
+  Vec3 velocity_m_s;                      ///< of the origin of the root's frame, world
+  Vec3 angular_velocity_rad_s;            ///< of the root, world
+  std::vector<double> joint_speed_rad_s;  ///< in control order
+};
+
 struct EngineSettings {
   double timestep_s = 0.01;
   bool torques = false;  ///< measure motor_torque_nm(); changes nothing else
@@ -57,6 +65,10 @@ class Engine {
   virtual void place(int lane) = 0;
   /// The same, but into the given pose. Joint angles are still counted from the robot's own start pose.
   virtual void place_at(int lane, const StartPose& pose) = 0;
+  /// The same, but moving. Impulses of the last step, from which a solver would start, are not known.
+  virtual void place_moving(int lane, const Motion& motion) = 0;
+  /// How the robot of a placed lane is and moves, as the engine has it.
+  virtual Motion motion(int lane) const = 0;
   /// Takes the robot of this lane out of step() until it is placed again.
   virtual void retire(int lane) = 0;
 

@@ -19,6 +19,7 @@ struct RecordingHeader {
   std::string controller_json;       ///< {"kind": "supg", …}: Architecture::parameters_json
   std::string origin;                ///< the champion it was made from, for titles
   std::string ground_json = {};      ///< ground::to_json of uneven ground; empty: the plane z = 0
+  std::string damage_json = {};      ///< damage::Settings of a damaged robot; `robot_json` is intact
 };
 
 /// The columns every recording has, in order: root.x .y .z .qw .qx .qy .qz, com.x .y .z, then per joint

@@ -30,6 +30,7 @@ RecordingHeader parse_header(std::string_view text, const std::string& what) {
   header.robot_json = embedded_json(view.at("robot"));
   header.controller_json = embedded_json(view.at("controller"));
   if (view.has("ground")) header.ground_json = embedded_json(view.at("ground"));
+  if (view.has("damage")) header.damage_json = embedded_json(view.at("damage"));
   header.origin = view.at("origin").text();
   return header;
 }

@@ -21,6 +21,8 @@ std::string header_json(const RecordingHeader& header) {
   json["controller"] = io::parse_json(header.controller_json, "controller of a recording");
   if (!header.ground_json.empty())
     json["ground"] = io::parse_json(header.ground_json, "ground of a recording");
+  if (!header.damage_json.empty())
+    json["damage"] = io::parse_json(header.damage_json, "damage of a recording");
   json["origin"] = header.origin;
   return io::json_text(json);
 }

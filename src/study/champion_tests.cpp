@@ -60,6 +60,7 @@ std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experi
   if (!test.spec.engine.empty()) problem.engine = test.spec.engine;
   problem.noise = test.noise;
   if (test.ground) problem.walk_on(*test.ground);
+  if (test.damage) problem.become(*test.damage);
   const bool unseen = test.ground || test.noise.any() || problem.ground.start_place_m > 0.0;
 
   const double interval_s = std::max(1.0, std::ceil(test.spec.seconds / most_path_samples));

@@ -20,7 +20,7 @@ std::string key_of(std::string_view list, std::size_t index, std::string_view ke
 }
 
 PlannedTest plan_test(const ledger::StudySpec& study, std::size_t index) {
-  PlannedTest test{.spec = study.tests[index], .noise = {}, .ground = {}};
+  PlannedTest test{.spec = study.tests[index], .noise = {}, .ground = {}, .damage = {}};
   if (!test.spec.engine.empty() && !physics::is_engine(test.spec.engine))
     throw study.error_at(key_of("tests", index, "engine"),
                          fmt::format("'{}' = \"{}\": expected {}", key_of("tests", index, "engine"),
@@ -33,16 +33,19 @@ PlannedTest plan_test(const ledger::StudySpec& study, std::size_t index) {
                            fmt::format("{}: is without noise", test.spec.noise));
   }
   if (!test.spec.ground.empty()) test.ground = experiment::load_config(test.spec.ground, {}).ground;
+  if (!test.spec.damage.empty()) test.damage = experiment::load_config(test.spec.damage, {}).damage;
   return test;
 }
 
 /// Throws UserError where a champion of the condition could not be tested.
 void check_tests(const PlannedCondition& condition) {
-  auto problem = experiment::Problem::make(condition.config, condition.robot);
+  const auto home = experiment::Problem::make(condition.config, condition.robot);
   for (const PlannedTest& test : condition.tests) {
-    if (test.spec.engine.empty()) continue;
-    problem.engine = test.spec.engine;
+    if (test.spec.engine.empty() && !test.damage) continue;
+    experiment::Problem problem = home;
+    if (!test.spec.engine.empty()) problem.engine = test.spec.engine;
     try {
+      if (test.damage) problem.become(*test.damage);
       problem.make_engine();
     } catch (const UserError& error) {
       fail(error.code(), "test '{}' of condition '{}': {}", test.spec.name, condition.spec.name,
@@ -81,6 +84,7 @@ std::string PlannedTest::settings_hash(std::string_view home) const {
                       {"episodes", spec.episodes},
                       {"noise", io::settings_to_json(noise)}};
   if (ground) definition["ground"] = io::settings_to_json(*ground);
+  if (damage) definition["damage"] = io::settings_to_json(*damage);
   return hex(hash_text(definition.dump()));
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "amble/damage/settings.hpp"
 #include "amble/experiment/config.hpp"
 #include "amble/ground/settings.hpp"
 #include "amble/ledger/ledger.hpp"
@@ -21,6 +22,7 @@ struct PlannedTest {
   ledger::TestSpec spec;
   trial::NoiseSettings noise;                   ///< that of TestSpec::noise
   std::optional<ground::Settings> ground = {};  ///< that of TestSpec::ground
+  std::optional<damage::Settings> damage = {};  ///< that of TestSpec::damage
 
   /// Hash of what defines the test for runs that evolve in `home`; a result fits if its hash is the same.
   std::string settings_hash(std::string_view home) const;

@@ -21,8 +21,9 @@ void add(const LaneArray& offset, LaneArray& values) {
 
 }  // namespace
 
-Disturbances::Disturbances(const robot::SensorFrame& sensors)
-    : lanes_(to_index(sensors.touch.lanes())),
+Disturbances::Disturbances(const robot::SensorFrame& sensors, std::vector<NumbTouch> numb)
+    : numb_(std::move(numb)),
+      lanes_(to_index(sensors.touch.lanes())),
       joint_offset_rad_(sensors.joint_angle_rad.rows(), sensors.touch.lanes()),
       attitude_offset_rad_(sensors.attitude_rad.rows(), sensors.touch.lanes()) {
   for (int lane = 0; lane < sensors.touch.lanes(); ++lane) load(lane, nullptr);
@@ -42,14 +43,15 @@ void Disturbances::load(int lane, const Scenario* scenario) {
 }
 
 const robot::SensorFrame& Disturbances::read(const robot::SensorFrame& sensors) {
-  if (disturbed_ == 0) return sensors;
+  if (disturbed_ == 0 && numb_.empty()) return sensors;
   read_ = sensors;
   add(joint_offset_rad_, read_.joint_angle_rad);
   add(attitude_offset_rad_, read_.attitude_rad);
   for (std::size_t i = 0; i < lanes_.size(); ++i) {
-    if (lanes_[i].scenario == nullptr) continue;
     ++lanes_[i].step;
-    flip_touches(lanes_[i], static_cast<int>(i));
+    if (lanes_[i].scenario != nullptr) flip_touches(lanes_[i], static_cast<int>(i));
+    for (const auto& [leg, first_step] : numb_)
+      if (lanes_[i].step >= first_step) read_.touch.at(leg, static_cast<int>(i)) = 0.0f;
   }
   return read_;
 }

@@ -9,12 +9,18 @@
 
 namespace amble::trial {
 
-/// Applies scenarios to the lanes of a runner: to sensors before controllers read them, and to targets and
-/// robots before the engine steps. Without any scenario both calls return at once.
+/// A foot whose touch is read as 0 from a step on, counted from 1.
+struct NumbTouch {
+  int leg = 0;
+  int first_step = 1;
+};
+
+/// Applies scenarios and numb feet to the lanes of a runner: to sensors before controllers read them, and to
+/// targets and robots before the engine steps. Without any of them both calls return at once.
 class Disturbances {
  public:
-  /// `sensors` gives the number of lanes, joints and angles.
-  explicit Disturbances(const robot::SensorFrame& sensors);
+  /// `sensors` gives the number of lanes, joints and angles; `numb` applies to every trial.
+  explicit Disturbances(const robot::SensorFrame& sensors, std::vector<NumbTouch> numb = {});
 
   /// From the next tick on, `scenario` applies to this lane, from its beginning; null: none. Not copied.
   void load(int lane, const Scenario* scenario);
@@ -35,6 +41,7 @@ class Disturbances {
   void flip_touches(Lane& lane, int index);
   static void delay(Lane& lane, int index, LaneArray& targets_rad);
 
+  std::vector<NumbTouch> numb_;
   std::vector<Lane> lanes_;
   LaneArray joint_offset_rad_, attitude_offset_rad_;  ///< shaped as the sensors
   robot::SensorFrame read_;

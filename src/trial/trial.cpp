@@ -14,7 +14,7 @@ Runner::Runner(physics::Engine& engine, controllers::Batch& controllers, const P
       controllers_(controllers),
       protocol_(protocol),
       targets_rad_(engine.sensors().joint_angle_rad.rows(), engine.lanes()),
-      disturbances_(engine.sensors()),
+      disturbances_(engine.sensors(), protocol.numb),
       lanes_(to_index(engine.lanes())) {
   AMBLE_CHECK(controllers.lanes() == engine.lanes(), "one controller per robot");
   AMBLE_CHECK(!protocol.measures.energy || engine.motor_torque_nm(), "energy is measured by torques");

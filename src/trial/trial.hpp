@@ -51,9 +51,10 @@ struct Protocol {
   double timestep_s = 0.01;
   FirstCommand first_command = FirstCommand::before_first_step;
   record::PathSampling path;
-  record::Measures measures;   ///< energy: only with an engine that has motor torques
-  double fall_height_m = 0.0;  ///< of the root's centre of mass over the ground below it
-  Quat start_rotation;         ///< of the root in the robot's own start pose
+  record::Measures measures;         ///< energy: only with an engine that has motor torques
+  std::vector<NumbTouch> numb = {};  ///< in every trial
+  double fall_height_m = 0.0;        ///< of the root's centre of mass over the ground below it
+  Quat start_rotation;               ///< of the root in the robot's own start pose
 };
 
 /// Runs trials on one engine, as many at a time as it has lanes; a lane whose trial has ended takes the next

@@ -167,6 +167,13 @@ TEST_P(RunOnEngine, HasNoiseOnlyWhereItIsSetAndIsVerified) {
   const std::string rough = AMBLE_SOURCE_DIR "/studies/grounds/supg-rough.toml";
   EXPECT_NE(trial({"--noise", "1", "--ground", rough}), trial({"--noise", "1"}));
 
+  EXPECT_NE(trial({"--damage", "missing:FL"}), trial({}));
+  EXPECT_EQ(trial({"--damage", "numb:FL@100"}), trial({}));
+  EXPECT_EQ(trial({"--damage", rough}), trial({})) << "a config without damage";
+  const auto unknown = amble({"trial", champion, "--damage", "missing:FX"});
+  EXPECT_EQ(unknown.exit_code, static_cast<int>(ExitCode::bad_input));
+  EXPECT_NE(unknown.err.find("the robot has no such leg"), std::string::npos) << unknown.err;
+
   ASSERT_EQ(amble(evolve(scratch / "quiet", 1, 2)).exit_code, ok);
   const auto quiet = std::filesystem::directory_iterator(scratch / "quiet/champions")->path().string();
   const auto refused = amble({"trial", quiet, "--noise", "0"});

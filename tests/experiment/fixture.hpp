@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "amble/experiment/run.hpp"
+#include "amble/io/file.hpp"
 #include "amble/neat/population.hpp"
 #include "tests/io/temporary_folder.hpp"
 
@@ -62,6 +63,15 @@ inline Problem noisy_problem() {
 inline neat::Population small_population(const Problem& problem, std::uint64_t seed = 1) {
   return neat::Population(small_config().neat, problem.cppn_inputs(), problem.cppn_outputs(), true, seed);
 }
+
+/// All champion files of a run folder, one after another.
+inline std::string champion_bytes(const std::filesystem::path& folder) {
+  std::string all;
+  for (const auto& file : RunPaths(folder).champion_files()) all += io::read_file(file);
+  return all;
+}
+
+inline const std::atomic<bool> unstopped{false};
 
 /// Hears nothing, or stops the run after some generations.
 class Listener : public RunListener {

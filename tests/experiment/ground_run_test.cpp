@@ -5,7 +5,6 @@
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/verify.hpp"
 #include "amble/ground/recorded.hpp"
-#include "amble/io/file.hpp"
 #include "amble/record/recording.hpp"
 #include "amble/robot/pose.hpp"
 #include "tests/experiment/fixture.hpp"
@@ -14,8 +13,6 @@
 namespace amble::experiment {
 namespace {
 
-const std::atomic<bool> unstopped{false};
-
 /// Ground that is new in each generation and grows, with starts anywhere.
 Config rough_config(std::vector<std::string> more = {}) {
   std::vector<std::string> all{"engine=batch",     "ground.kind=rough",        "ground.height_m=0.1",
@@ -23,12 +20,6 @@ Config rough_config(std::vector<std::string> more = {}) {
                                "noise.episodes=2", "ground.grow_generations=2"};
   all.insert(all.end(), more.begin(), more.end());
   return small_config(std::move(all));
-}
-
-std::string champion_bytes(const std::filesystem::path& folder) {
-  std::string all;
-  for (const auto& file : RunPaths(folder).champion_files()) all += io::read_file(file);
-  return all;
 }
 
 TEST(GroundRun, IsTheSameForAnyNumberOfWorkersAndAfterAnInterruption) {

@@ -90,6 +90,17 @@ TEST(ChampionTest, OnGroundOfItsOwnMeetsPlacesThatEvolutionHasNotMetAndNoNoise) 
   EXPECT_NEAR(run_test(brief, champion(), never)->episodes[0].distance_m, expected_m, 0.002);
 }
 
+TEST(ChampionTest, OfADamagedRobotIsTheTrialOfThatRobot) {
+  PlannedTest test{.spec = trial_test("t", 3.0), .noise = {}};
+  test.damage.emplace().parts = {
+      {.kind = damage::Kind::missing, .leg = champion().problem.robot.legs[0].name}};
+  auto problem = champion().problem;
+  problem.become(*test.damage);
+  const auto expected = experiment::replay(problem, champion().genome, {.seconds = 3.0}, never)->result;
+  EXPECT_EQ(run_test(test, champion(), never)->episodes[0].distance_m, expected.distance_m);
+  EXPECT_NE(expected.distance_m, replayed(3.0).distance_m);
+}
+
 TEST(ChampionTest, SamplesItsFirstTrialsPathInMillimetresEverySecondOrThreeHundredTimes) {
   const auto brief = tested(trial_test("t", 6.0));
   EXPECT_EQ(brief.path_interval_s, 1.0);

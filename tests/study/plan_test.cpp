@@ -115,7 +115,10 @@ TEST(PlannedTest, IsTheSameOnlyWithTheSameEngineLengthEpisodesAndNoise) {
   PlannedTest uneven = test, steeper = test;
   uneven.ground.emplace();
   steeper.ground.emplace().slope_x = 0.1;
-  for (const PlannedTest& other : {longer, more, noisy, uneven, steeper})
+  PlannedTest damaged = test, otherwise = test;
+  damaged.damage.emplace().parts = {{.kind = damage::Kind::missing, .leg = "FL"}};
+  otherwise.damage.emplace().parts = {{.kind = damage::Kind::missing, .leg = "FR"}};
+  for (const PlannedTest& other : {longer, more, noisy, uneven, steeper, damaged, otherwise})
     EXPECT_TRUE(others.insert(other.settings_hash("batch")).second);
 }
 

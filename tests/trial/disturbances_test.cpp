@@ -57,6 +57,28 @@ TEST(Disturbances, OffsetWhatOneLaneReadsAndLeaveTheOthersAlone) {
   }
 }
 
+TEST(Disturbances, LetNumbFeetReadZeroFromTheirStepOnInEveryTrialWhateverFlips) {
+  auto sensors = frame(2);
+  for (int lane = 0; lane < 2; ++lane) sensors.touch.at(0, lane) = sensors.touch.at(1, lane) = 1.0f;
+  auto scenario = quiet();
+  scenario.touch_flips = {{.step = 2, .leg = 0}, {.step = 4, .leg = 1}};
+  Disturbances disturbances(sensors, {{.leg = 1, .first_step = 3}});
+  disturbances.load(0, nullptr);
+  disturbances.load(1, &scenario);
+  const auto expect = [&](int step) {
+    const auto& read = disturbances.read(sensors);
+    const float numb = step < 3 ? 1.0f : 0.0f;
+    EXPECT_EQ(read.touch.at(0, 0), 1.0f) << step;
+    EXPECT_EQ(read.touch.at(1, 0), numb) << step;
+    EXPECT_EQ(read.touch.at(0, 1), step == 2 ? 0.0f : 1.0f) << step;
+    EXPECT_EQ(read.touch.at(1, 1), numb) << step;
+  };
+  for (int step = 1; step <= 6; ++step) expect(step);
+  disturbances.load(0, nullptr);
+  disturbances.load(1, &scenario);
+  expect(1);
+}
+
 TEST(Disturbances, FlipATouchInItsStepOnly) {
   auto sensors = frame(1);
   sensors.touch.at(0, 0) = 1.0f;

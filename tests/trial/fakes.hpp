@@ -31,6 +31,13 @@ class FakeEngine : public physics::Engine {
   void place_at(int lane, const physics::StartPose& pose) override {
     state(lane) = {.placed = true, .position = pose.root.position_m, .rotation = pose.root.rotation};
   }
+  void place_moving(int lane, const physics::Motion& motion) override { place_at(lane, motion.pose); }
+  physics::Motion motion(int lane) const override {
+    return {.pose = {root_pose(lane), {0.0}},
+            .velocity_m_s = {},
+            .angular_velocity_rad_s = {},
+            .joint_speed_rad_s = {0.0}};
+  }
   void push(int lane, Vec3 impulse_n_s) override {
     pushed_n_s = pushed_n_s + impulse_n_s;
     state(lane).position = state(lane).position + impulse_n_s;

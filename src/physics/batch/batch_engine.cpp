@@ -4,6 +4,7 @@
 #include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"
 #include "amble/physics/batch/lockstep_state.hpp"
+#include "amble/physics/batch/motion.hpp"
 #include "amble/physics/batch/step.hpp"
 
 namespace amble::physics {
@@ -15,7 +16,8 @@ using batch::StateRows;
 class LockstepEngine final : public BatchEngine {
  public:
   LockstepEngine(const robot::RobotSpec& robot, const EngineSettings& settings)
-      : model_(robot),
+      : robot_(robot),
+        model_(robot),
         rows_(model_),
         workspace_(model_),
         root_com_m_(robot.bodies[0].com_m),
@@ -42,6 +44,17 @@ class LockstepEngine final : public BatchEngine {
     AMBLE_CHECK(start.joint_angle_rad.size() == model_.links.size(), "an angle per joint");
     pose(posed_, start);
     copy_into(lane, posed_);
+  }
+
+  void place_moving(int lane, const Motion& motion) override {
+    AMBLE_CHECK(motion.pose.joint_angle_rad.size() == model_.links.size(), "an angle per joint");
+    pose(posed_, motion.pose, &motion);
+    copy_into(lane, posed_);
+  }
+
+  Motion motion(int lane) const override {
+    const RobotState state = robots_.state(lane);
+    return batch::motion_of(robot_, root_pose(lane), state);
   }
 
   void retire(int lane) override {
@@ -140,8 +153,8 @@ class LockstepEngine final : public BatchEngine {
     pose(start_, {.root = start_root_, .joint_angle_rad = std::vector<double>(model_.links.size(), 0.0)});
   }
 
-  /// Sets the robot in lane 0 to a pose, at rest.
-  void pose(LockstepState& robots, const StartPose& start) {
+  /// Sets the robot in lane 0 to a pose, at rest or (if `motion` is given, with that pose) moving.
+  void pose(LockstepState& robots, const StartPose& start, const Motion* motion = nullptr) {
     robots.at(StateRows::active, 0) = robots.at(StateRows::healthy, 0) = 1.0f;
     RobotState state{.com_m = start.root.position_m,
                      .rotation = start.root.rotation,
@@ -153,6 +166,7 @@ class LockstepEngine final : public BatchEngine {
     batch::derive(arguments_for(robots));
     // Now the centre of mass is where the origin of the root's frame belongs.
     state.com_m = start.root.position_m - robots.to_world(0, robots.vec3(StateRows::torso_origin, 0));
+    if (motion != nullptr) batch::set_velocities(robot_, *motion, state);
     robots.set_state(0, state);
     batch::derive(arguments_for(robots));
   }
@@ -163,6 +177,7 @@ class LockstepEngine final : public BatchEngine {
     torques_nm_.set_lane(lane, 0.0f);
   }
 
+  const robot::RobotSpec robot_;
   const batch::Model model_;
   const StateRows rows_;
   batch::Workspace workspace_;

@@ -59,14 +59,34 @@ class MujocoEngine final : public SingleRobotEngine {
 
   void place_at(int lane, const StartPose& pose) override {
     reset(lane);
-    AMBLE_CHECK(pose.joint_angle_rad.size() == robot_.joints.size(), "one angle per joint");
-    const auto& [position_m, rotation] = pose.root;
-    const mjtNum root[] = {position_m.x, position_m.y, position_m.z, rotation.w,
-                           rotation.x,   rotation.y,   rotation.z};
-    std::ranges::copy(root, data_->qpos);
-    for (std::size_t j = 0; j < pose.joint_angle_rad.size(); ++j)
-      data_->qpos[model_.position_of[j]] = pose.joint_angle_rad[j];
+    set_positions(pose);
     begin();
+  }
+
+  void place_moving(int lane, const Motion& motion) override {
+    reset(lane);
+    set_positions(motion.pose);
+    // A free joint's angular velocity is in the axes of its body.
+    const Vec3 v = motion.velocity_m_s,
+               w = rotate(conjugate(motion.pose.root.rotation), motion.angular_velocity_rad_s);
+    const mjtNum root[] = {v.x, v.y, v.z, w.x, w.y, w.z};
+    std::ranges::copy(root, data_->qvel);
+    for (std::size_t j = 0; j < motion.joint_speed_rad_s.size(); ++j)
+      data_->qvel[model_.dof_of[j]] = motion.joint_speed_rad_s[j];
+    begin();
+  }
+
+  Motion motion(int lane) const override {
+    const RootPose root = root_pose(lane);
+    Motion motion{.pose = {root, {}},
+                  .velocity_m_s = vec3(data_->qvel),
+                  .angular_velocity_rad_s = rotate(root.rotation, vec3(data_->qvel + 3)),
+                  .joint_speed_rad_s = {}};
+    for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+      motion.pose.joint_angle_rad.push_back(data_->qpos[model_.position_of[j]]);
+      motion.joint_speed_rad_s.push_back(data_->qvel[model_.dof_of[j]]);
+    }
+    return motion;
   }
 
   void step(const LaneArray& targets_rad) override {
@@ -128,6 +148,16 @@ class MujocoEngine final : public SingleRobotEngine {
     mj_resetData(model_.get(), data_.get());
     // MuJoCo would write the first warning of each kind to a log file in the current folder.
     for (mjWarningStat& warning : data_->warning) warning.number = 1;
+  }
+
+  void set_positions(const StartPose& pose) {
+    AMBLE_CHECK(pose.joint_angle_rad.size() == robot_.joints.size(), "one angle per joint");
+    const auto& [position_m, rotation] = pose.root;
+    const mjtNum root[] = {position_m.x, position_m.y, position_m.z, rotation.w,
+                           rotation.x,   rotation.y,   rotation.z};
+    std::ranges::copy(root, data_->qpos);
+    for (std::size_t j = 0; j < pose.joint_angle_rad.size(); ++j)
+      data_->qpos[model_.position_of[j]] = pose.joint_angle_rad[j];
   }
 
   void begin() {

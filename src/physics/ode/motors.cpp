@@ -73,6 +73,16 @@ dJointID Motors::new_motor(const World& world, const Axis& axis, double max_torq
   return motor;
 }
 
+void Motors::start_at(std::span<const double> angles_rad) {
+  angles_rad_.assign(angles_rad.begin(), angles_rad.end());
+}
+
+std::vector<double> Motors::speeds_rad_s() const {
+  std::vector<double> speeds;
+  for (const Axis& axis : axes_) speeds.push_back(rate_rad_s(axis));
+  return speeds;
+}
+
 void Motors::read(LaneArray& angles_rad) {
   for (std::size_t j = 0; j < axes_.size(); ++j) {
     const auto& [bearing, number, inertia, many_turns] = axes_[j];

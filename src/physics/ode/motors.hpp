@@ -3,6 +3,7 @@
 #include <ode/ode.h>
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "amble/core/lanes.hpp"
@@ -27,6 +28,11 @@ class Motors {
  public:
   Motors(const robot::RobotSpec& robot, const World& world, double timestep_s);
 
+  /// Says which turn each joint is in, for those that turn beyond ± π; at first all are at 0.
+  void start_at(std::span<const double> angles_rad);
+  /// Angles (rad) of the last read(), and speeds (rad/s) now, in control order.
+  const std::vector<double>& angles_rad() const { return angles_rad_; }
+  std::vector<double> speeds_rad_s() const;
   /// Writes all angles to `angles_rad` (joints × 1).
   void read(LaneArray& angles_rad);
   /// Sets speeds and torques for the next step. Uses the angles of the last read().

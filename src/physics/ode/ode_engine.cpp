@@ -86,6 +86,26 @@ class OdeEngine final : public SingleRobotEngine {
     begin();
   }
 
+  void place_moving(int lane, const Motion& motion) override {
+    make_trial(lane);
+    const robot::Pose root{motion.pose.root.position_m, motion.pose.root.rotation};
+    const robot::JointStates joints{motion.pose.joint_angle_rad, motion.joint_speed_rad_s};
+    trial_->world.move_to(robot_, root, joints.angle_rad);
+    trial_->world.set_velocities(robot_, root, {motion.velocity_m_s, motion.angular_velocity_rad_s}, joints);
+    trial_->motors.start_at(joints.angle_rad);
+    begin();
+  }
+
+  Motion motion(int lane) const override {
+    const RootPose root = root_pose(lane);
+    const Vec3 spin = vec3(bodies_[0].angular_velocity_rad_s);
+    const Vec3 com = rotate(root.rotation, robot_.bodies[0].com_m);
+    return {.pose = {root, trial_->motors.angles_rad()},
+            .velocity_m_s = vec3(bodies_[0].velocity_m_s) - cross(spin, com),
+            .angular_velocity_rad_s = spin,
+            .joint_speed_rad_s = trial_->motors.speeds_rad_s()};
+  }
+
   void step(const LaneArray& targets_rad) override {
     if (!can_step(targets_rad)) return;
     try {

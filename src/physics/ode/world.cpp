@@ -30,6 +30,12 @@ void set_pose(dBodyID id, const Body& body, const Pose& pose) {
   dBodySetQuaternion(id, rotation);
 }
 
+void set_velocity(dBodyID id, const Body& body, const Pose& pose, const robot::Twist& twist) {
+  const Vec3 v = twist.of_point(rotate(pose.rotation, body.com_m)), w = twist.angular_velocity_rad_s;
+  dBodySetLinearVel(id, v.x, v.y, v.z);
+  dBodySetAngularVel(id, w.x, w.y, w.z);
+}
+
 /// The inertia tensor in the axes of the body's frame, R diag(moments) Rᵀ (kg m²).
 dMass mass_of(const Body& body) {
   const std::array<Vec3, 3> axes{rotate(body.inertia_rotation, {1, 0, 0}),
@@ -161,6 +167,20 @@ void World::move_to(const RobotSpec& robot, const Pose& root, std::span<const do
   for (const auto& [id, body, hinges] : intermediates_) {
     const Body& its = robot.bodies[to_index(body)];
     set_pose(id, its, robot::pose_along(robot, body, poses[to_index(its.parent)], angles_rad, hinges));
+  }
+}
+
+void World::set_velocities(const RobotSpec& robot, const Pose& root, const robot::Twist& root_twist,
+                           const robot::JointStates& joints) {
+  const std::vector<Pose> poses = robot::poses_at(robot, root, joints.angle_rad);
+  const std::vector<robot::Twist> twists = robot::twists_at(robot, poses, root_twist, joints);
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    set_velocity(bodies_[b], robot.bodies[b], poses[b], twists[b]);
+  for (const auto& [id, body, hinges] : intermediates_) {
+    const Body& its = robot.bodies[to_index(body)];
+    const std::size_t parent = to_index(its.parent);
+    set_velocity(id, its, robot::pose_along(robot, body, poses[parent], joints.angle_rad, hinges),
+                 robot::twist_along(robot, body, poses[parent], twists[parent], joints, hinges));
   }
 }
 

@@ -10,6 +10,7 @@
 #include "amble/physics/ode/library.hpp"
 #include "amble/robot/pose.hpp"
 #include "amble/robot/spec.hpp"
+#include "amble/robot/velocity.hpp"
 
 namespace amble::physics::ode {
 
@@ -41,6 +42,10 @@ class World {
 
   /// Moves the robot, at rest: its root's frame to `root`, its joints to these angles (rad).
   void move_to(const robot::RobotSpec& robot, const robot::Pose& root, std::span<const double> angles_rad);
+
+  /// Lets the robot move; its bodies must be where move_to() has put them for these root and angles.
+  void set_velocities(const robot::RobotSpec& robot, const robot::Pose& root, const robot::Twist& root_twist,
+                      const robot::JointStates& joints);
 
   dWorldID id() const { return world_; }
   /// In the order of RobotSpec::bodies.

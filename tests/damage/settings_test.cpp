@@ -1,0 +1,76 @@
+#include "amble/damage/settings.hpp"
+
+#include <gtest/gtest.h>
+
+#include "amble/core/error.hpp"
+#include "amble/io/json_file.hpp"
+#include "tests/damage/scene.hpp"
+
+namespace amble::damage {
+namespace {
+
+std::string refusal(std::vector<Part> parts) {
+  const auto robot = quadruped();
+  try {
+    Settings{std::move(parts)}.validate(robot);
+  } catch (const SettingError& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "one line";
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(DamageSettings, AreRefusedWhereTheRobotHasNoSuchPart) {
+  const auto robot = quadruped();
+  const std::string knee = robot.joints[0].name;
+  EXPECT_EQ(refusal({missing("FL"), numb("BR"), locked(knee, -0.3), slack(knee), weak(knee, 0.2),
+                     payload(1.0, 0.1, 0.0, 0.0)}),
+            "accepted");
+  EXPECT_EQ(refusal({slack(knee), missing("FX")}),
+            "damage.parts[1].leg = \"FX\": the robot has no such leg; expected one of FL, FR, BL, BR");
+  EXPECT_EQ(refusal({slack("elbow")})
+                .find("damage.parts[0].joint = \"elbow\": the robot has no such joint; "
+                      "expected one of "),
+            0u);
+  EXPECT_EQ(refusal({{.kind = Kind::payload, .body = "tail"}})
+                .find("damage.parts[0].body = \"tail\": the robot has no such body; expected one of "),
+            0u);
+  EXPECT_EQ(refusal({missing("")}).find("damage.parts[0].leg = \"\": the robot has no such leg"), 0u);
+}
+
+TEST(DamageSettings, AreRefusedWithNamesThatTheirKindDoesNotHave) {
+  EXPECT_EQ(refusal({{.kind = Kind::missing, .leg = "FL", .joint = "k"}}),
+            "damage.parts[0].joint = \"k\": the kind missing has no joint");
+  EXPECT_EQ(refusal({{.kind = Kind::payload, .leg = "FL"}}),
+            "damage.parts[0].leg = \"FL\": the kind payload has no leg");
+}
+
+TEST(DamageSettings, AreRefusedBeyondAJointsStopsAndWithoutAnyLeg) {
+  const auto robot = quadruped();
+  const auto& knee = robot.joints[0];
+  EXPECT_NE(refusal({locked(knee.name, knee.upper_rad + 0.1)}).find("damage.parts[0].angle_rad = "),
+            std::string::npos);
+  EXPECT_EQ(refusal({missing("FL"), missing("FR"), missing("BL"), missing("BR", 5.0)}),
+            "damage.parts: no leg is left; expected at least one that is not missing");
+}
+
+TEST(DamageSettings, KnowWhatTheyChange) {
+  EXPECT_TRUE(Settings{}.is_default());
+  EXPECT_FALSE(Settings{{numb("FL")}}.is_default());
+  EXPECT_FALSE(Settings{{numb("FL")}}.changes_body());
+  EXPECT_TRUE((Settings{{numb("FL"), slack("k")}}.changes_body()));
+}
+
+TEST(DamageSettings, SurviveJson) {
+  Settings settings{{missing("FL", 2.5), locked("k", -0.25), payload(2.0, 0.1, -0.2, 0.3, 1.0)}};
+  const io::Json json = io::settings_to_json(settings);
+  auto back = io::settings_from_json<Settings>(io::JsonView(json, "test"));
+  EXPECT_EQ(io::settings_to_json(back), json);
+  ASSERT_EQ(back.parts.size(), 3u);
+  EXPECT_EQ(back.parts[0].from_s, 2.5);
+  EXPECT_EQ(back.parts[1].kind, Kind::locked);
+  EXPECT_EQ(back.parts[2].y_m, -0.2);
+}
+
+}  // namespace
+}  // namespace amble::damage
