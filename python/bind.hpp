@@ -73,6 +73,15 @@ py::array_t<Number, py::array::c_style> numbers_of(const py::object& object, con
   return numbers;
 }
 
+/// pybind11 would give memory without an object to methods of an instance that __new__ made without __init__;
+/// this makes them raise TypeError. To be called once for each class of the module.
+template <typename Type>
+void refuse_unmade() {
+  py::detail::get_type_info(typeid(Type), true)->operator_new = [](std::size_t) -> void* {
+    throw py::type_error("__init__() was not called");
+  };
+}
+
 /// Work that a thread of its own does while the calling thread, without the interpreter's lock, listens for
 /// Ctrl-C.
 class Interruptible {

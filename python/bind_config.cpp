@@ -131,6 +131,7 @@ A change makes another Config: config.replace({"population.size": 50}).)")
 
 overrides: {"population.size": 100} or {"population": {"size": 100}}, laid over the file as by --set.
 Raises Error as the command line reports it: file, line, key, value and what was expected.)");
+  refuse_unmade<LoadedConfig>();
 }
 
 }  // namespace amble::python

@@ -220,6 +220,7 @@ mask: [n], bool: which ones (default: all).)")
           "upper_rad", [](const Robots& self) { return ranges(self, &robot::AngleRange::upper_rad); },
           "Greatest targets that controllers give, rad: [joints].");
   bind_views(type);
+  refuse_unmade<Robots>();
 }
 
 }  // namespace amble::python

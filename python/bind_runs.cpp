@@ -339,6 +339,9 @@ void bind_runs(py::module_& module) {
   bind_recording(module);
   bind_champion(module);
   bind_run(module);
+  refuse_unmade<ReadRecording>();
+  refuse_unmade<ReadableChampion>();
+  refuse_unmade<ReadableRun>();
 }
 
 }  // namespace amble::python

@@ -302,6 +302,9 @@ the config's). jobs: workers (default: processors); results do not depend on it.
 (default: the round of a Search, else 0). objective: in m unless the config scores something else. behaviour: the path
 over the ground, x0, y0, x1, y1, …, m, where the config's search compares paths, else empty (d = 0).
 Raises Error; Ctrl-C raises KeyboardInterrupt at once.)");
+  refuse_unmade<neat::Genome>();
+  refuse_unmade<Task>();
+  refuse_unmade<OpenSearch>();
 }
 
 }  // namespace amble::python
