@@ -67,6 +67,14 @@ py::array checked_array(const py::object& object, const std::string& what,
 template <typename Number>
 py::array_t<Number, py::array::c_style> numbers_of(const py::object& object, const std::string& what,
                                                    const std::vector<py::ssize_t>& shape) {
+  using Array = py::array_t<Number, py::array::c_style>;
+  if (Array::check_(object)) {  // the common case, without calls of Python
+    auto array = py::reinterpret_borrow<Array>(object);
+    bool fits = array.ndim() == static_cast<py::ssize_t>(shape.size());
+    for (std::size_t i = 0; fits && i < shape.size(); ++i)
+      fits = shape[i] < 0 || array.shape(static_cast<py::ssize_t>(i)) == shape[i];
+    if (fits) return array;
+  }
   const py::array array = checked_array(object, what, shape);
   auto numbers = py::array_t<Number, py::array::c_style | py::array::forcecast>::ensure(array);
   if (!numbers) throw py::error_already_set();

@@ -1,7 +1,6 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "amble/core/index.hpp"
 #include "amble/experiment/problem.hpp"
@@ -23,6 +22,7 @@ struct Robots {
       : batch(std::move(robot), engine, settings, count, threads) {}
 
   RobotBatch batch;
+  py::object shown;  ///< the view that step() and reset() return
   std::mutex mutex;  ///< nobody who holds it waits for the interpreter
   pid_t process = getpid();
 
@@ -85,26 +85,27 @@ py::array flags(const Robots& self, std::vector<std::uint8_t> Observations::*mem
   return view(all, (all.get()->*member).data(), {all->robots}, {1}, "bool");
 }
 
-py::array observations(const Robots& self) {
-  return columns(self, 0, self.batch.observations()->width);
+py::object observations(Robots& self) {
+  if (!self.shown) self.shown = columns(self, 0, self.batch.observations()->width);
+  return self.shown;
 }
 
-py::array step(Robots& self, const py::object& targets) {
+py::object step(Robots& self, const py::object& targets) {
   self.check_process();
   const auto& all = self.batch.observations();
   const auto values = numbers_of<float>(targets, "targets", {all->robots, all->joints});
   const std::span<const float> span(values.data(), to_index(values.size()));
-  if (std::ranges::any_of(span, [](float value) { return std::isnan(value); }))
-    throw py::value_error("targets: expected numbers, found NaN");
+  bool stepped = false;
   {
     const py::gil_scoped_release release;
     const std::lock_guard lock(self.mutex);
-    self.batch.step(span);
+    stepped = self.batch.step(span);
   }
+  if (!stepped) throw py::value_error("targets: expected numbers, found NaN");
   return observations(self);
 }
 
-py::array reset(Robots& self, const py::object& mask) {
+py::object reset(Robots& self, const py::object& mask) {
   self.check_process();
   std::vector<std::uint8_t> chosen;
   if (!mask.is_none()) {

@@ -120,40 +120,67 @@ void RobotBatch::place(Group& group, std::span<const std::uint8_t> mask) {
   }
 }
 
-void RobotBatch::step(std::span<const float> targets_rad) {
-  AMBLE_CHECK(targets_rad.size() == to_index(count()) * to_index(observations_->joints), "targets");
-  each_group([&](Group& group) { step(group, targets_rad); });
+bool RobotBatch::step(std::span<const float> targets_rad) {
+  const std::size_t joints = to_index(observations_->joints);
+  AMBLE_CHECK(targets_rad.size() == to_index(count()) * joints, "targets");
+  int bad = 0;
+  for (const float target_rad : targets_rad) bad |= static_cast<int>(target_rad != target_rad);
+  if (bad != 0) return false;
+  each_group([&](Group& group) { step(group, targets_rad.data() + to_index(group.first) * joints); });
+  return true;
 }
 
-void RobotBatch::step(Group& group, std::span<const float> targets_rad) {
+void RobotBatch::step(Group& group, const float* targets_rad) {
   const int joints = observations_->joints;
-  const float* const first = targets_rad.data() + to_index(group.first) * to_index(joints);
   for (int joint = 0; joint < joints; ++joint) {
     float* const row = group.targets_rad.row(joint);
-    for (int lane = 0; lane < group.size; ++lane) row[lane] = first[lane * joints + joint];
+    for (int lane = 0; lane < group.size; ++lane) row[lane] = targets_rad[lane * joints + joint];
   }
   group.engine->step(group.targets_rad);
+  std::uint8_t* const diverged = observations_->diverged.data() + group.first;
+  bool all_healthy = true;
+  for (int lane = 0; lane < group.size; ++lane)
+    all_healthy = all_healthy && diverged[lane] == 0 && group.engine->healthy(lane);
+  if (all_healthy) return observe(group);
   for (int lane = 0; lane < group.size; ++lane) {
-    std::uint8_t& diverged = observations_->diverged[to_index(group.first + lane)];
-    if (diverged) continue;
+    if (diverged[lane] != 0) continue;
     if (group.engine->healthy(lane)) {
       observe(group, lane);
     } else {
       group.engine->retire(lane);
-      diverged = 1;
+      diverged[lane] = 1;
     }
   }
 }
 
 void RobotBatch::observe(const Group& group, int lane) {
   const auto& sensors = group.engine->sensors();
-  const std::size_t robot = to_index(group.first + lane);
-  float* to = observations_->values.data() + robot * to_index(observations_->width);
+  float* to = observations_->row(group.first + lane);
   for (const LaneArray* rows : {&sensors.joint_angle_rad, &sensors.touch, &sensors.attitude_rad})
     for (int r = 0; r < rows->rows(); ++r) *to++ = rows->at(r, lane);
+  observe_body(group, lane);
+}
+
+void RobotBatch::observe(const Group& group) {
+  const auto& sensors = group.engine->sensors();
+  const int width = observations_->width;
+  float* to = observations_->row(group.first);
+  for (const LaneArray* rows : {&sensors.joint_angle_rad, &sensors.touch, &sensors.attitude_rad})
+    for (int r = 0; r < rows->rows(); ++r, ++to) {
+      const float* const from = rows->row(r);
+      for (int lane = 0; lane < group.size; ++lane) to[lane * width] = from[lane];
+    }
+  for (int lane = 0; lane < group.size; ++lane) observe_body(group, lane);
+}
+
+void RobotBatch::observe_body(const Group& group, int lane) {
+  float* const to = observations_->row(group.first + lane) + observations_->com_column();
   const Vec3 com_m = group.engine->com_m(lane);
-  for (const double coordinate_m : {com_m.x, com_m.y, com_m.z}) *to++ = static_cast<float>(coordinate_m);
-  observations_->fallen[robot] = group.engine->root_com_m(lane).z < robot_.fall_height_m;
+  to[0] = static_cast<float>(com_m.x);
+  to[1] = static_cast<float>(com_m.y);
+  to[2] = static_cast<float>(com_m.z);
+  observations_->fallen[to_index(group.first + lane)] =
+      group.engine->root_com_m(lane).z < robot_.fall_height_m;
 }
 
 std::vector<std::uint64_t> RobotBatch::state_hashes() const {

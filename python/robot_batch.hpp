@@ -55,6 +55,9 @@ struct Observations {
   std::vector<float> values;  ///< robots × width
   std::vector<std::uint8_t> fallen, diverged;
 
+  float* row(int robot) {
+    return values.data() + static_cast<std::size_t>(robot) * static_cast<std::size_t>(width);
+  }
   int touch_column() const { return joints; }
   int attitude_column() const { return joints + legs; }
   int com_column() const { return joints + legs + 3; }
@@ -75,9 +78,9 @@ class RobotBatch {
   double timestep_s() const { return settings_.timestep_s; }
   const std::shared_ptr<Observations>& observations() const { return observations_; }
 
-  /// Advances each robot by one timestep towards its targets, rad, robots × joints, not NaN. A robot that has
-  /// diverged keeps its last healthy row until it is reset.
-  void step(std::span<const float> targets_rad);
+  /// Advances each robot by one timestep towards its targets, rad, robots × joints; does nothing and returns
+  /// false if one is NaN. A robot that has diverged keeps its last healthy row until it is reset.
+  bool step(std::span<const float> targets_rad);
   /// Places robots in the start pose, at rest: those whose mask is not 0, or all if it is empty.
   void reset(std::span<const std::uint8_t> mask);
   /// physics::Engine::state_hash of each robot.
@@ -92,8 +95,11 @@ class RobotBatch {
 
   void each_group(const std::function<void(Group&)>& work);
   void place(Group& group, std::span<const std::uint8_t> mask);
-  void step(Group& group, std::span<const float> targets_rad);
+  void step(Group& group, const float* targets_rad);
   void observe(const Group& group, int lane);
+  /// The same of all robots of a group.
+  void observe(const Group& group);
+  void observe_body(const Group& group, int lane);
 
   const robot::RobotSpec robot_;
   const physics::EngineSettings settings_;
