@@ -92,7 +92,7 @@ py::dict to_dict(const Columns& columns) {
 py::array checked_array(const py::object& object, const std::string& what,
                         const std::vector<py::ssize_t>& shape, std::string_view kinds) {
   const py::object converted = py::module_::import("numpy").attr("asarray")(object);
-  const auto array = converted.cast<py::array>();
+  auto array = converted.cast<py::array>();
   if (kinds.find(array.dtype().kind()) == std::string_view::npos)
     throw py::type_error(fmt::format("{}: expected {}, found an array of {}", what,
                                      kinds == "b" ? "an array of bool" : "real numbers",

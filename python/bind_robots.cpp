@@ -145,6 +145,7 @@ py::array ranges(const Robots& self, double robot::AngleRange::*bound) {
 template <typename Items>
 std::vector<std::string> names_of(const Items& items) {
   std::vector<std::string> names;
+  names.reserve(items.size());
   for (const auto& item : items) names.push_back(item.name);
   return names;
 }

@@ -86,6 +86,11 @@ std::vector<neat::Genome> ask(OpenSearch& self) {
   return {candidates.begin(), candidates.end()};
 }
 
+std::vector<search::Metric> metrics_of(OpenSearch& self) {
+  const std::lock_guard lock(self.mutex);
+  return self.state->strategy->metrics();
+}
+
 void tell(OpenSearch& self, const py::object& fitness, const py::object& behaviour) {
   const auto candidates = static_cast<py::ssize_t>(ask(self).size());
   const auto length = static_cast<py::ssize_t>(self.task->behaviour->length());
@@ -280,10 +285,8 @@ config's search compares behaviours, else unused. Raises TypeError and ValueErro
       .def_property_readonly(
           "metrics",
           [](OpenSearch& self) {
-            const std::lock_guard lock(self.mutex);
             py::dict metrics;
-            for (const auto& [name, value] : self.state->strategy->metrics())
-              metrics[py::str(std::string(name))] = value;
+            for (const auto& [name, value] : metrics_of(self)) metrics[py::str(std::string(name))] = value;
             return metrics;
           },
           "Statistics of the last completed round, a dict: species, threshold and so on.")
