@@ -5,10 +5,12 @@ import re
 import subprocess
 import sys
 
+import amble
 import pytest
 
 from conftest import SOURCE
 
+PACKAGES = os.path.dirname(os.path.dirname(os.path.abspath(amble.__file__)))
 RECIPES = re.findall(r"^```python\n(.*?)^```", (SOURCE / "docs/PYTHON.md").read_text(), re.M | re.S)
 
 
@@ -27,6 +29,6 @@ def test_there_are_five_recipes():
 @pytest.mark.parametrize("number", range(1, 6))
 def test_recipe_runs(number, folder):
     done = subprocess.run([sys.executable, "-W", "error", "-c", RECIPES[number - 1]], cwd=folder, capture_output=True,
-                          text=True, env=os.environ)
+                          text=True, env={**os.environ, "PYTHONPATH": PACKAGES})
     assert done.returncode == 0, done.stderr
     assert done.stdout and not done.stderr
