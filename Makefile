@@ -4,7 +4,7 @@ PREFIX ?= /usr/local
 JOBS ?= $(shell nproc)
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 
-.PHONY: demo picture build test bench install clean
+.PHONY: demo picture build test python bench install clean
 
 demo: build
 	rm -rf demo
@@ -32,6 +32,13 @@ test:
 	set -ex; cmake --preset $(PRESET); cmake --build --preset $(PRESET); \
 	wait $$tools || echo "some tests will be skipped: see above"; \
 	ctest --preset $(PRESET) -j $$(($(JOBS) + 1))
+
+# The Python package, in build/python/python, and its tests.
+python:
+	./setup --python
+	cmake --preset python
+	cmake --build --preset python --target _amble amble
+	PYTHONPATH=build/python/python AMBLE_PROGRAM=build/python/src/cli/amble /usr/bin/python3 -B -m pytest -q -p no:cacheprovider tests/python
 
 bench:
 	./setup --dev

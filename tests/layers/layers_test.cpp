@@ -111,6 +111,13 @@ TEST(Layers, NoHeaderIncludesItselfThroughOthers) {
   }
 }
 
+TEST(Layers, NothingInSrcIncludesThePythonModule) {
+  ASSERT_FALSE(source_files("python").empty());
+  for (const auto& file : source_files())
+    for (const auto& line : file.lines)
+      EXPECT_FALSE(line.starts_with("#include") && line.find("python/") != std::string::npos) << file.path;
+}
+
 struct Library {
   const char* header;
   std::vector<std::string> homes;  ///< path prefixes below src/
@@ -145,7 +152,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Library{"<xxhash", {"core/"}}, Library{"<Random123/", {"core/"}},
                     Library{"<hwy/", {"controllers/", "core/simd-inl.hpp", "cppn/", "physics/batch/"}},
                     Library{"<zlib", {"record/"}}, Library{"<cblas", {"search/"}},
-                    Library{"<boost/", {"statistics/"}}),
+                    Library{"<boost/", {"statistics/"}}, Library{"<pybind11/", {}}),
     letters_of);
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 namespace amble::tests {
 
-std::vector<SourceFile> source_files() {
-  const std::filesystem::path root = std::filesystem::path(AMBLE_SOURCE_DIR) / "src";
+std::vector<SourceFile> source_files(const std::string& folder) {
+  const std::filesystem::path root = std::filesystem::path(AMBLE_SOURCE_DIR) / folder;
   std::vector<SourceFile> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
     const auto extension = entry.path().extension();

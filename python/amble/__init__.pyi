@@ -1,0 +1,4 @@
+from ._amble import (Champion as Champion, Config as Config, Error as Error, Genome as Genome, Problem as Problem,
+                     Recording as Recording, Robots as Robots, Run as Run, Search as Search, __commit__ as __commit__,
+                     __version__ as __version__, evaluate as evaluate, evolve as evolve, gait as gait,
+                     load_config as load_config, resume as resume)

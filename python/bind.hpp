@@ -1,0 +1,118 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "amble/experiment/config.hpp"
+#include "amble/io/json_file.hpp"
+#include "amble/neat/genome.hpp"
+
+namespace amble::python {
+
+namespace py = pybind11;
+
+// The parts of the module, in the order in which they must be added.
+void bind_config(py::module_& module);
+void bind_runs(py::module_& module);
+void bind_search(py::module_& module);
+void bind_robots(py::module_& module);
+
+/// A config with what it was read from, so that more can be laid over it.
+struct LoadedConfig {
+  std::filesystem::path path;
+  std::vector<std::string> assignments;
+  experiment::Config value;
+};
+LoadedConfig load_config(const std::filesystem::path& path, const py::object& overrides,
+                         std::vector<std::string> assignments = {});
+/// A Config as it is, a path as load_config() reads it. TypeError for anything else.
+LoadedConfig config_of(const py::object& config_or_path);
+/// Sets the seed, if there is one, as --seed does. ValueError out of range.
+void set_seed(experiment::Config& config, std::optional<std::int64_t> seed);
+
+py::object to_python(const io::Json& json);
+/// By way of Python's own json module. TypeError or ValueError for what it cannot write.
+io::Json to_json(const py::object& object, const std::string& what);
+/// A str, bytes-free path or os.PathLike. TypeError for anything else.
+std::filesystem::path path_of(const py::object& path);
+/// Workers: all processors if there is no number. ValueError unless it is from 1 to 1024.
+int jobs_of(std::optional<int> jobs);
+
+/// The rows of a table of comma-separated numbers, column by column; empty cells are NaN.
+using Columns = std::vector<std::pair<std::string, std::vector<double>>>;
+Columns parse_columns(std::string_view text);
+py::dict to_dict(const Columns& columns);
+
+/// `object` as an array of `Number`, C-contiguous, of the given shape (−1: any length), in memory of its own
+/// or the caller's. TypeError for anything but real numbers; ValueError for another shape or NaN: "WHAT: …".
+template <typename Number>
+py::array_t<Number, py::array::c_style> numbers_of(const py::object& object, const std::string& what,
+                                                   const std::vector<py::ssize_t>& shape);
+/// numpy.asarray(object), its shape and that it has real numbers checked as above.
+py::array checked_array(const py::object& object, const std::string& what,
+                        const std::vector<py::ssize_t>& shape, std::string_view kinds = "fiu");
+
+template <typename Number>
+py::array_t<Number, py::array::c_style> numbers_of(const py::object& object, const std::string& what,
+                                                   const std::vector<py::ssize_t>& shape) {
+  using Array = py::array_t<Number, py::array::c_style>;
+  if (Array::check_(object)) {  // the common case, without calls of Python
+    auto array = py::reinterpret_borrow<Array>(object);
+    bool fits = array.ndim() == static_cast<py::ssize_t>(shape.size());
+    for (std::size_t i = 0; fits && i < shape.size(); ++i)
+      fits = shape[i] < 0 || array.shape(static_cast<py::ssize_t>(i)) == shape[i];
+    if (fits) return array;
+  }
+  const py::array array = checked_array(object, what, shape);
+  auto numbers = py::array_t<Number, py::array::c_style | py::array::forcecast>::ensure(array);
+  if (!numbers) throw py::error_already_set();
+  return numbers;
+}
+
+/// pybind11 would give memory without an object to methods of an instance that __new__ made without __init__;
+/// this makes them raise TypeError. To be called once for each class of the module.
+template <typename Type>
+void refuse_unmade() {
+  py::detail::get_type_info(typeid(Type), true)->operator_new = [](std::size_t) -> void* {
+    throw py::type_error("__init__() was not called");
+  };
+}
+
+/// Work that a thread of its own does while the calling thread, without the interpreter's lock, listens for
+/// Ctrl-C.
+class Interruptible {
+ public:
+  /// Set after Ctrl-C or an exception of call(): the work is to end soon.
+  const std::atomic<bool>& stop() const { return stop_; }
+  /// For the work: runs a function in the thread that called run(), which has the interpreter's lock, and
+  /// waits. An exception of it stops the work and leaves run() in the end.
+  void call(std::function<void()> function);
+  /// Returns when the work has ended. Throws what it threw, or KeyboardInterrupt. To be called with the
+  /// interpreter's lock.
+  void run(const std::function<void()>& work);
+
+ private:
+  void listen(std::unique_lock<std::mutex>& lock);
+  void guarded(const std::function<void()>& function);
+
+  std::atomic<bool> stop_{false};
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::function<void()> request_;
+  bool done_ = false;
+  std::exception_ptr failure_, python_failure_;
+};
+
+}  // namespace amble::python

@@ -1,0 +1,166 @@
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <limits>
+#include <thread>
+
+#include "amble/core/error.hpp"
+#include "python/bind.hpp"
+
+namespace amble::python {
+
+py::object to_python(const io::Json& json) {
+  switch (json.type()) {
+    case io::Json::value_t::object: {
+      py::dict dict;
+      for (const auto& [key, value] : json.items()) dict[py::str(key)] = to_python(value);
+      return dict;
+    }
+    case io::Json::value_t::array: {
+      py::list list;
+      for (const auto& value : json) list.append(to_python(value));
+      return list;
+    }
+    case io::Json::value_t::string:
+      return py::str(json.get_ref<const std::string&>());
+    case io::Json::value_t::boolean:
+      return py::bool_(json.get<bool>());
+    case io::Json::value_t::number_integer:
+      return py::int_(json.get<std::int64_t>());
+    case io::Json::value_t::number_unsigned:
+      return py::int_(json.get<std::uint64_t>());
+    case io::Json::value_t::number_float:
+      return py::float_(json.get<double>());
+    default:
+      return py::none();
+  }
+}
+
+io::Json to_json(const py::object& object, const std::string& what) {
+  const py::object text = py::module_::import("json").attr("dumps")(object);
+  return io::parse_json(text.cast<std::string>(), what);
+}
+
+std::filesystem::path path_of(const py::object& path) {
+  py::object text = py::reinterpret_steal<py::object>(PyOS_FSPath(path.ptr()));
+  if (!text) throw py::error_already_set();
+  if (!py::isinstance<py::str>(text)) throw py::type_error("a path must be str or os.PathLike, not bytes");
+  const auto bytes = py::reinterpret_steal<py::bytes>(PyUnicode_EncodeFSDefault(text.ptr()));
+  if (!bytes) throw py::error_already_set();
+  const auto encoded = static_cast<std::string>(bytes);
+  if (encoded.find('\0') != std::string::npos) throw py::value_error("a path must not have null characters");
+  return encoded;
+}
+
+int jobs_of(std::optional<int> jobs) {
+  constexpr int most = 1024;
+  if (!jobs) return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, most);
+  if (*jobs < 1 || *jobs > most)
+    throw py::value_error(fmt::format("jobs: {}: expected a whole number from 1 to {}", *jobs, most));
+  return *jobs;
+}
+
+Columns parse_columns(std::string_view text) {
+  Columns columns;
+  const auto take = [](std::string_view& rest, char end) {
+    const std::size_t at = rest.find(end);
+    const std::string_view part = rest.substr(0, at);
+    rest.remove_prefix(at == std::string_view::npos ? rest.size() : at + 1);
+    return part;
+  };
+  std::string_view header = take(text, '\n');
+  while (!header.empty()) columns.emplace_back(take(header, ','), std::vector<double>());
+  while (!text.empty()) {
+    std::string_view line = take(text, '\n');
+    for (auto& [name, values] : columns) {
+      const std::string_view cell = take(line, ',');
+      double value = std::numeric_limits<double>::quiet_NaN();
+      std::from_chars(cell.data(), cell.data() + cell.size(), value);
+      values.push_back(value);
+    }
+  }
+  return columns;
+}
+
+py::dict to_dict(const Columns& columns) {
+  py::dict dict;
+  for (const auto& [name, values] : columns)
+    dict[py::str(name)] = py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+  return dict;
+}
+
+py::array checked_array(const py::object& object, const std::string& what,
+                        const std::vector<py::ssize_t>& shape, std::string_view kinds) {
+  const py::object converted = py::module_::import("numpy").attr("asarray")(object);
+  auto array = converted.cast<py::array>();
+  if (kinds.find(array.dtype().kind()) == std::string_view::npos)
+    throw py::type_error(fmt::format("{}: expected {}, found an array of {}", what,
+                                     kinds == "b" ? "an array of bool" : "real numbers",
+                                     py::str(array.dtype()).cast<std::string>()));
+  bool fits = array.ndim() == static_cast<py::ssize_t>(shape.size());
+  for (std::size_t i = 0; fits && i < shape.size(); ++i)
+    fits = shape[i] < 0 || array.shape(static_cast<py::ssize_t>(i)) == shape[i];
+  if (!fits) {
+    std::string expected;
+    for (const auto length : shape)
+      expected += (expected.empty() ? "" : ", ") + (length < 0 ? "any" : std::to_string(length));
+    throw py::value_error(fmt::format("{}: expected the shape ({}), found {}", what, expected,
+                                      py::str(array.attr("shape")).cast<std::string>()));
+  }
+  return array;
+}
+
+void Interruptible::call(std::function<void()> function) {
+  std::unique_lock lock(mutex_);
+  request_ = std::move(function);
+  changed_.notify_all();
+  changed_.wait(lock, [this] { return request_ == nullptr; });
+}
+
+void Interruptible::run(const std::function<void()>& work) {
+  {
+    const py::gil_scoped_release release;
+    const std::jthread worker([&] {
+      try {
+        work();
+      } catch (...) {
+        failure_ = std::current_exception();
+      }
+      const std::lock_guard lock(mutex_);
+      done_ = true;
+      changed_.notify_all();
+    });
+    std::unique_lock lock(mutex_);
+    while (!done_) listen(lock);
+  }
+  if (python_failure_) std::rethrow_exception(python_failure_);
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+void Interruptible::listen(std::unique_lock<std::mutex>& lock) {
+  constexpr std::chrono::milliseconds patience{50};
+  changed_.wait_for(lock, patience, [this] { return done_ || request_ != nullptr; });
+  if (done_) return;
+  const auto request = request_;
+  lock.unlock();
+  guarded(request ? request : [] {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  });
+  lock.lock();
+  if (request) request_ = nullptr;
+  changed_.notify_all();
+}
+
+/// Once something was thrown, later calls are left out: the work is to end.
+void Interruptible::guarded(const std::function<void()>& function) {
+  if (python_failure_) return;
+  const py::gil_scoped_acquire acquire;
+  try {
+    function();
+  } catch (...) {
+    python_failure_ = std::current_exception();
+    stop_ = true;
+  }
+}
+
+}  // namespace amble::python

@@ -1,0 +1,228 @@
+#include <pybind11/stl.h>
+
+#include <algorithm>
+
+#include "amble/core/index.hpp"
+#include "amble/experiment/problem.hpp"
+#include "amble/robot/json.hpp"
+#include "python/bind.hpp"
+#include "python/robot_batch.hpp"
+
+#include <unistd.h>
+
+namespace amble::python {
+namespace {
+
+constexpr int most_robots = 1 << 20, most_threads = 1024;
+
+/// A RobotBatch that threads of Python may share: one call at a time.
+struct Robots {
+  Robots(robot::RobotSpec robot, const std::string& engine, const physics::EngineSettings& settings,
+         int count, int threads)
+      : batch(std::move(robot), engine, settings, count, threads) {}
+
+  RobotBatch batch;
+  py::object shown;  ///< the view that step() and reset() return
+  std::mutex mutex;  ///< nobody who holds it waits for the interpreter
+  pid_t process = getpid();
+
+  /// After a fork the threads are elsewhere.
+  void check_process() const {
+    if (getpid() != process)
+      throw std::runtime_error("Robots do not survive a fork: make new ones in each process");
+  }
+};
+
+/// The robot of a Config, raised by its drop_m and on its ground's slope; or that of a robot file.
+robot::RobotSpec robot_of(const py::object& robot) {
+  if (!py::isinstance<LoadedConfig>(robot)) return experiment::load_robot_file(path_of(robot));
+  const auto& config = robot.cast<const LoadedConfig&>().value;
+  return experiment::Problem::make(config, experiment::load_robot(config)).robot;
+}
+
+std::unique_ptr<Robots> make(const py::object& robot, int n, const std::string& engine,
+                             std::optional<double> timestep_s, std::optional<int> threads) {
+  const auto check = [](const char* name, int value, int most) {
+    if (value < 1 || value > most)
+      throw py::value_error(fmt::format("{}: {}: expected a whole number from 1 to {}", name, value, most));
+  };
+  check("n", n, most_robots);
+  if (threads) check("threads", *threads, most_threads);
+  if (timestep_s && !(*timestep_s >= 1e-5 && *timestep_s <= 0.1))
+    throw py::value_error(fmt::format("timestep_s: {}: expected a number from 1e-05 to 0.1", *timestep_s));
+  double step_s = timestep_s.value_or(physics::EngineSettings{}.timestep_s);
+  if (!timestep_s && py::isinstance<LoadedConfig>(robot))
+    step_s = robot.cast<const LoadedConfig&>().value.trial.timestep_s;
+  physics::check_engine_name(engine, "engine: ");
+  auto spec = robot_of(robot);
+  // More threads than groups of lanes would only wait.
+  const int lanes = engine == "batch" ? 16 : 1;
+  const int useful = std::min(jobs_of(threads), (n + lanes - 1) / lanes);
+  const py::gil_scoped_release release;
+  return std::make_unique<Robots>(std::move(spec), engine, physics::EngineSettings{.timestep_s = step_s}, n,
+                                  useful);
+}
+
+/// A read-only view of observations, which it keeps alive.
+template <typename Number>
+py::array view(const std::shared_ptr<Observations>& owner, const Number* first,
+               std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides, const char* dtype) {
+  const py::capsule base(new std::shared_ptr<Observations>(owner),
+                         [](void* pointer) { delete static_cast<std::shared_ptr<Observations>*>(pointer); });
+  py::array array(py::dtype(dtype), std::move(shape), std::move(strides), first, base);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+py::array columns(const Robots& self, int first, int count) {
+  const auto& all = self.batch.observations();
+  constexpr auto size = static_cast<py::ssize_t>(sizeof(float));
+  return view(all, all->values.data() + first, {all->robots, count}, {all->width * size, size}, "float32");
+}
+
+py::array flags(const Robots& self, std::vector<std::uint8_t> Observations::*member) {
+  const auto& all = self.batch.observations();
+  return view(all, (all.get()->*member).data(), {all->robots}, {1}, "bool");
+}
+
+py::object observations(Robots& self) {
+  if (!self.shown) self.shown = columns(self, 0, self.batch.observations()->width);
+  return self.shown;
+}
+
+py::object step(Robots& self, const py::object& targets) {
+  self.check_process();
+  const auto& all = self.batch.observations();
+  const auto values = numbers_of<float>(targets, "targets", {all->robots, all->joints});
+  const std::span<const float> span(values.data(), to_index(values.size()));
+  bool stepped = false;
+  {
+    const py::gil_scoped_release release;
+    const std::lock_guard lock(self.mutex);
+    stepped = self.batch.step(span);
+  }
+  if (!stepped) throw py::value_error("targets: expected numbers, found NaN");
+  return observations(self);
+}
+
+py::object reset(Robots& self, const py::object& mask) {
+  self.check_process();
+  std::vector<std::uint8_t> chosen;
+  if (!mask.is_none()) {
+    const auto values = py::array_t<bool, py::array::c_style | py::array::forcecast>::ensure(
+        checked_array(mask, "mask", {self.batch.count()}, "b"));
+    if (!values) throw py::error_already_set();
+    chosen.assign(values.data(), values.data() + values.size());
+  }
+  {
+    const py::gil_scoped_release release;
+    const std::lock_guard lock(self.mutex);
+    self.batch.reset(chosen);
+  }
+  return observations(self);
+}
+
+py::array state_hashes(Robots& self) {
+  self.check_process();
+  std::vector<std::uint64_t> hashes;
+  {
+    const py::gil_scoped_release release;
+    const std::lock_guard lock(self.mutex);
+    hashes = self.batch.state_hashes();
+  }
+  return py::array_t<std::uint64_t>(static_cast<py::ssize_t>(hashes.size()), hashes.data());
+}
+
+py::array ranges(const Robots& self, double robot::AngleRange::*bound) {
+  const auto& joints = self.batch.robot().joints;
+  py::array_t<float> values(static_cast<py::ssize_t>(joints.size()));
+  std::ranges::transform(joints, values.mutable_data(), [&](const robot::Joint& joint) {
+    return static_cast<float>(joint.command_range().*bound);
+  });
+  return values;
+}
+
+template <typename Items>
+std::vector<std::string> names_of(const Items& items) {
+  std::vector<std::string> names;
+  names.reserve(items.size());
+  for (const auto& item : items) names.push_back(item.name);
+  return names;
+}
+
+void bind_views(py::class_<Robots>& type) {
+  type.def_property_readonly(
+          "observations", observations,
+          R"(All of the arrays below side by side: [n, joints + legs + 6], float32, a live read-only view.)")
+      .def_property_readonly(
+          "angle_rad", [](const Robots& self) { return columns(self, 0, self.batch.observations()->joints); },
+          "Joint angles, rad, from the start pose: [n, joints], a live view.")
+      .def_property_readonly(
+          "touch",
+          [](const Robots& self) {
+            const auto& all = *self.batch.observations();
+            return columns(self, all.touch_column(), all.legs);
+          },
+          "1 while a foot touches the ground, else 0: [n, legs], a live view.")
+      .def_property_readonly(
+          "attitude_rad",
+          [](const Robots& self) { return columns(self, self.batch.observations()->attitude_column(), 3); },
+          "Roll, pitch and yaw of the root, rad: [n, 3], a live view.")
+      .def_property_readonly(
+          "com_m",
+          [](const Robots& self) { return columns(self, self.batch.observations()->com_column(), 3); },
+          "Centre of mass of the whole robot in the world, m: [n, 3], a live view.")
+      .def_property_readonly(
+          "fallen", [](const Robots& self) { return flags(self, &Observations::fallen); },
+          "Whether the root is lower than where trials end as fallen: [n], bool, a live view.")
+      .def_property_readonly(
+          "diverged", [](const Robots& self) { return flags(self, &Observations::diverged); },
+          R"(Whether the simulation has left the finite: [n], bool, a live view.
+Such a robot keeps its last observations until reset().)");
+}
+
+}  // namespace
+
+void bind_robots(py::module_& module) {
+  py::class_<Robots> type(module, "Robots",
+                          R"(n copies of a robot that advance together, for learning and control from Python.
+
+Arrays are live: step() and reset() write into them, and they stay valid without the Robots. Joints and legs are in
+control order (docs/CONVENTIONS.md). Several threads may use one object; their calls come one after the other.)");
+  type.def(
+          py::init(&make), py::arg("robot"), py::arg("n") = 1, py::arg("engine") = "batch", py::kw_only(),
+          py::arg("timestep_s") = py::none(), py::arg("threads") = py::none(),
+          R"(robot: path of a robot file (TOML or robot.json), or a Config. n: 1 to 1,048,576. engine: "batch" (sixteen at a time),
+"ode" or "mujoco". timestep_s: s (default: the config's, else 0.01). threads: default processors; results do not
+depend on it. All robots stand in their start pose. Raises Error.)")
+      .def(
+          "step", step, py::arg("targets"),
+          R"(Advances each robot by one timestep towards its target angles; returns observations, the live view.
+
+targets: [n, joints], rad, real numbers, not NaN; clamped to the joints' stops. float32 in C order is used without a
+copy. The interpreter's lock is released. Raises TypeError and ValueError.)")
+      .def("reset", reset, py::arg("mask") = py::none(),
+           R"(Puts robots into the start pose, at rest; returns observations, the live view.
+
+mask: [n], bool: which ones (default: all).)")
+      .def("state_hashes", state_hashes,
+           "A hash of each robot's positions and velocities, to the bit: [n], uint64.")
+      .def("__len__", [](const Robots& self) { return self.batch.count(); })
+      .def_property_readonly("threads", [](const Robots& self) { return self.batch.threads(); })
+      .def_property_readonly("timestep_s", [](const Robots& self) { return self.batch.timestep_s(); })
+      .def_property_readonly(
+          "joints", [](const Robots& self) { return names_of(self.batch.robot().joints); },
+          "Names, in control order.")
+      .def_property_readonly(
+          "legs", [](const Robots& self) { return names_of(self.batch.robot().legs); }, "Names, in order.")
+      .def_property_readonly(
+          "lower_rad", [](const Robots& self) { return ranges(self, &robot::AngleRange::lower_rad); },
+          "Least targets that controllers give, rad: [joints].")
+      .def_property_readonly(
+          "upper_rad", [](const Robots& self) { return ranges(self, &robot::AngleRange::upper_rad); },
+          "Greatest targets that controllers give, rad: [joints].");
+  bind_views(type);
+  refuse_unmade<Robots>();
+}
+
+}  // namespace amble::python

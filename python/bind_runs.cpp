@@ -1,0 +1,347 @@
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "amble/core/index.hpp"
+#include "amble/experiment/champion.hpp"
+#include "amble/experiment/replay.hpp"
+#include "amble/experiment/run.hpp"
+#include "amble/gait/recorded_gait.hpp"
+#include "amble/gait/report_text.hpp"
+#include "amble/io/file.hpp"
+#include "amble/neat/genome_json.hpp"
+#include "amble/record/frame_codec.hpp"
+#include "amble/record/generations_csv.hpp"
+#include "amble/record/recording.hpp"
+#include "amble/robot/json.hpp"
+#include "python/bind.hpp"
+
+namespace amble::python {
+namespace {
+
+/// Gives each generation to a Python function as a dict: the line of generations.csv.
+class CallbackListener : public experiment::RunListener {
+ public:
+  CallbackListener(py::function* callback, Interruptible& caller) : callback_(callback), caller_(caller) {}
+  void on_generation(const experiment::GenerationRow& row, const experiment::Progress&,
+                     const experiment::Config&) override {
+    if (callback_ == nullptr) return;
+    caller_.call([&] {
+      py::dict line;
+      for (const auto& [name, values] :
+           parse_columns(experiment::csv_header(row.search) + experiment::csv_line(row)))
+        line[py::str(name)] = values.front();
+      (*callback_)(line);
+    });
+  }
+
+ private:
+  py::function* callback_;
+  Interruptible& caller_;
+};
+
+/// A run's folder, to read.
+struct ReadableRun {
+  explicit ReadableRun(const std::filesystem::path& folder) : paths(experiment::find_run(folder)) {}
+  experiment::RunPaths paths;
+};
+
+/// Runs until all generations are done; Ctrl-C or an exception of the callback leaves the last checkpoint.
+ReadableRun execute(const std::function<experiment::Run()>& make, const py::object& on_generation) {
+  if (!on_generation.is_none() && PyCallable_Check(on_generation.ptr()) == 0)
+    throw py::type_error("on_generation: expected a function of a dict, or None");
+  py::function callback;
+  if (!on_generation.is_none()) callback = py::reinterpret_borrow<py::function>(on_generation);
+  Interruptible interruptible;
+  CallbackListener listener(callback ? &callback : nullptr, interruptible);
+  std::filesystem::path folder;
+  interruptible.run([&] {
+    auto run = make();
+    folder = run.paths().folder;
+    run.execute(listener, interruptible.stop());
+  });
+  return ReadableRun(folder);
+}
+
+ReadableRun evolve(const py::object& config, std::optional<std::int64_t> seed, const py::object& out,
+                   const py::object& on_generation, std::optional<int> jobs) {
+  auto loaded = config_of(config);
+  set_seed(loaded.value, seed);
+  const auto folder = path_of(out);
+  const int workers = jobs_of(jobs);
+  return execute([&] { return experiment::Run::start(folder, loaded.value, workers); }, on_generation);
+}
+
+ReadableRun resume(const py::object& run, std::optional<int> generations, const py::object& on_generation,
+                   std::optional<int> jobs) {
+  const auto folder =
+      py::isinstance<ReadableRun>(run) ? run.cast<const ReadableRun&>().paths.folder : path_of(run);
+  if (generations && (*generations < 1 || *generations > experiment::most_generations))
+    throw py::value_error(fmt::format("generations: {}: expected a whole number from 1 to {}", *generations,
+                                      experiment::most_generations));
+  const int workers = jobs_of(jobs);
+  return execute([&] { return experiment::Run::resume(folder, generations, workers); }, on_generation);
+}
+
+py::dict generations_of(const ReadableRun& run) {
+  const auto text = io::read_file(run.paths.generations);
+  record::parse_generations(text, run.paths.generations.string());  // its checks
+  return to_dict(parse_columns(text));
+}
+
+struct ReadableChampion {
+  std::filesystem::path path;
+  experiment::Champion value;
+};
+
+ReadableChampion champion_at(const std::filesystem::path& path) {
+  const auto file = experiment::champion_at(path);
+  return {file, experiment::load_champion(file)};
+}
+
+py::dict result_dict(const experiment::TrialResult& result) {
+  py::dict dict;
+  dict["outcome"] = py::str(std::string(record::outcome_names[to_index(result.outcome)]));
+  dict["distance_m"] = result.distance_m;
+  dict["score"] = result.value();
+  dict["seconds"] = result.seconds;
+  dict["steps"] = result.steps;
+  return dict;
+}
+
+py::dict facts_of(const ReadableChampion& self) {
+  const auto& champion = self.value;
+  py::dict facts;
+  facts["experiment"] = champion.experiment;
+  facts["seed"] = champion.seed;
+  facts["generation"] = champion.generation;
+  facts["index"] = champion.index;
+  facts["engine"] = champion.problem.engine;
+  facts["controller"] = champion.problem.controller.kind;
+  facts["robot"] = champion.problem.robot.name;
+  facts["objective"] = champion.objective();
+  facts["result"] = result_dict(champion.result);
+  py::dict referees;
+  for (const auto& [engine, result] : champion.referees) referees[py::str(engine)] = result_dict(result);
+  facts["referees"] = referees;
+  return facts;
+}
+
+py::dict trial(const ReadableChampion& self, std::optional<double> seconds, std::optional<std::string> engine,
+               const py::object& record) {
+  if (seconds && !(*seconds >= 1e-5 && *seconds <= 1e6))
+    throw py::value_error(fmt::format("seconds: {}: expected a number from 1e-05 to 1000000", *seconds));
+  experiment::ReplayOptions how{
+      .seconds = seconds, .engine = engine, .origin = self.path.string(), .trace = false};
+  if (!record.is_none()) {
+    how.record = path_of(record);
+    io::refuse_to_replace(*how.record, record::recording_magic, "a recording");
+  }
+  std::optional<experiment::Replay> replay;
+  Interruptible interruptible;
+  interruptible.run(
+      [&] { replay = experiment::replay(self.value.problem, self.value.genome, how, interruptible.stop()); });
+  py::dict result = result_dict(replay->result);
+  py::dict events;
+  for (const auto& [name, count] : replay->events) events[py::str(std::string(name))] = count;
+  result["events"] = events;
+  return result;
+}
+
+/// A whole recording in memory.
+struct ReadRecording {
+  explicit ReadRecording(const std::filesystem::path& file) : path(file) {
+    record::RecordingReader reader(file);
+    header = reader.header();
+    std::vector<float> frame;
+    while (reader.next(frame)) frames.insert(frames.end(), frame.begin(), frame.end());
+    outcome = reader.outcome();
+  }
+
+  py::ssize_t width() const { return static_cast<py::ssize_t>(header.columns.size()); }
+  py::ssize_t count() const { return static_cast<py::ssize_t>(frames.size()) / width(); }
+
+  std::filesystem::path path;
+  record::RecordingHeader header;
+  std::vector<float> frames;
+  record::Outcome outcome = record::Outcome::completed;
+};
+
+constexpr py::ssize_t number_size = sizeof(float);
+
+/// A view that keeps its owner and cannot be written to.
+py::array read_only(py::array view) {
+  view.attr("setflags")(py::arg("write") = false);
+  return view;
+}
+
+py::array column_of(const py::object& self, const std::string& name) {
+  const auto& recording = self.cast<const ReadRecording&>();
+  const auto& names = recording.header.columns;
+  const auto at = std::find(names.begin(), names.end(), name);
+  if (at == names.end()) throw py::key_error(name);
+  return read_only(py::array_t<float>({recording.count()}, {recording.width() * number_size},
+                                      recording.frames.data() + (at - names.begin()), self));
+}
+
+/// All columns that begin so, as an array of frames × names.
+py::array columns_with(const ReadRecording& recording, const std::string& prefix) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < recording.header.columns.size(); ++i)
+    if (recording.header.columns[i].starts_with(prefix)) places.push_back(i);
+  py::array_t<float> values({recording.count(), static_cast<py::ssize_t>(places.size())});
+  float* to = values.mutable_data();
+  for (py::ssize_t f = 0; f < recording.count(); ++f)
+    for (const std::size_t place : places) *to++ = recording.frames[to_index(f * recording.width()) + place];
+  return values;
+}
+
+py::object gait(const py::object& recording, std::optional<double> seconds) {
+  const auto path = py::isinstance<ReadRecording>(recording) ? recording.cast<const ReadRecording&>().path
+                                                             : path_of(recording);
+  if (seconds && !(*seconds >= 1e-5 && *seconds <= 1e6))
+    throw py::value_error(fmt::format("seconds: {}: expected a number from 1e-05 to 1000000", *seconds));
+  std::string text;
+  {
+    const py::gil_scoped_release release;
+    text = gait::report_json(gait::recorded_gait(path, {}, seconds));
+  }
+  return to_python(io::parse_json(text, "gait"));
+}
+
+void bind_champion(py::module_& module) {
+  py::class_<ReadableChampion>(module, "Champion",
+                               R"(The best genome of a run, with all that it takes to run it again.)")
+      .def(py::init([](const py::object& path) { return champion_at(path_of(path)); }), py::arg("path"),
+           "path: champion file, or run folder (its best). Raises Error for a file that is not sound.")
+      .def_property_readonly("path", [](const ReadableChampion& self) { return self.path.string(); })
+      .def_property_readonly("facts", facts_of,
+                             R"(A dict: experiment, seed, generation, index, engine, controller, robot,
+objective (what made it the champion), result (of its trial without noise: outcome, distance_m, score, seconds,
+steps), referees (the same by engine).)")
+      .def_property_readonly(
+          "genome", [](const ReadableChampion& self) { return self.value.genome; }, "Its CPPN, a Genome.")
+      .def("trial", trial, py::arg("seconds") = py::none(), py::arg("engine") = py::none(),
+           py::arg("record") = py::none(),
+           R"(Walks again, without noise; as in its evolution unless an argument says otherwise.
+
+seconds: length, s. engine: "ode", "batch" or "mujoco". record: path of a recording to write.
+Returns a dict: outcome, distance_m, score, seconds, steps, events (of the controller, by name).)")
+      .def("__repr__", [](const ReadableChampion& self) {
+        return fmt::format("<amble.Champion of generation {}, {:.3f}: {}>", self.value.generation,
+                           self.value.objective(), self.path.string());
+      });
+}
+
+void bind_run(py::module_& module) {
+  py::class_<ReadableRun>(module, "Run", "A run folder, finished or not.")
+      .def(py::init([](const py::object& folder) { return ReadableRun(path_of(folder)); }), py::arg("folder"),
+           "Raises Error if there is no run.")
+      .def_property_readonly("folder", [](const ReadableRun& self) { return self.paths.folder.string(); })
+      .def_property_readonly(
+          "config", [](const ReadableRun& self) { return load_config(self.paths.config, py::none()); },
+          "Its Config.")
+      .def("generations", generations_of,
+           R"(generations.csv (docs/FORMATS.md) as a dict: column → float64 array,
+one number per generation; NaN for empty cells.)")
+      .def(
+          "champion", [](const ReadableRun& self) { return champion_at(self.paths.best_champion()); },
+          "The best Champion so far. Raises Error if there is none.")
+      .def(
+          "champions",
+          [](const ReadableRun& self) {
+            std::vector<ReadableChampion> champions;
+            for (const auto& file : self.paths.champion_files()) champions.push_back(champion_at(file));
+            return champions;
+          },
+          "All champions, in the order of their generations; the last is the best.")
+      .def("__repr__", [](const ReadableRun& self) {
+        return fmt::format("<amble.Run: {}>", self.paths.folder.string());
+      });
+  module.def("evolve", evolve, py::arg("config"), py::arg("seed") = py::none(), py::kw_only(), py::arg("out"),
+             py::arg("on_generation") = py::none(), py::arg("jobs") = py::none(),
+             R"(Evolves as `amble evolve` does, to the bit, and returns the Run.
+
+config: Config or path. seed: of all randomness (default: the config's). out: the run folder to make; it must be new
+or empty. on_generation: called after each generation with a dict, its line of generations.csv; an exception stops
+the run. jobs: workers (default: processors); results do not depend on it.
+Ctrl-C raises KeyboardInterrupt at once; resume(out) goes on from the last generation. Raises Error.)");
+  module.def(
+      "resume", resume, py::arg("run"), py::arg("generations") = py::none(), py::kw_only(),
+      py::arg("on_generation") = py::none(), py::arg("jobs") = py::none(),
+      R"(Goes on with a run that was stopped, or makes it longer, as `amble resume` does, and returns it.
+
+run: Run or folder. generations: to evaluate in all (default: the run's). The rest as evolve(). Raises Error.)");
+}
+
+void bind_recording(py::module_& module) {
+  py::class_<ReadRecording>(module, "Recording",
+                            R"(A recording: float32 numbers, frame by frame (docs/FORMATS.md).
+
+recording["com.x"] is one column, a view of the frames; "angle.fl_knee", "target.fl_knee", "touch.FL" and so on.)")
+      .def(py::init([](const py::object& path) {
+             const auto file = path_of(path);
+             const py::gil_scoped_release release;
+             return ReadRecording(file);
+           }),
+           py::arg("path"), "Raises Error for a file that is not sound.")
+      .def_property_readonly("path", [](const ReadRecording& self) { return self.path.string(); })
+      .def_property_readonly(
+          "columns", [](const ReadRecording& self) { return self.header.columns; }, "Their names.")
+      .def_property_readonly(
+          "frame_s", [](const ReadRecording& self) { return self.header.frame_s; }, "Time between frames, s.")
+      .def_property_readonly(
+          "outcome",
+          [](const ReadRecording& self) {
+            return std::string(record::outcome_names[to_index(self.outcome)]);
+          },
+          "completed, fell or diverged.")
+      .def_property_readonly(
+          "origin", [](const ReadRecording& self) { return self.header.origin; },
+          "The champion that it shows.")
+      .def_property_readonly(
+          "robot",
+          [](const ReadRecording& self) {
+            return to_python(io::parse_json(self.header.robot_json, self.path.string() + ": robot"));
+          },
+          "The robot, a dict (docs/FORMATS.md).")
+      .def_property_readonly(
+          "frames",
+          [](const py::object& self) {
+            const auto& recording = self.cast<const ReadRecording&>();
+            return read_only(
+                py::array_t<float>({recording.count(), recording.width()}, recording.frames.data(), self));
+          },
+          "All numbers: a read-only view, frames × columns, float32.")
+      .def(
+          "matching", columns_with, py::arg("prefix"),
+          R"(The columns whose names begin so, a copy: frames × columns, float32. "angle.": all joint angles, rad.)")
+      .def("__getitem__", column_of, py::arg("column"))
+      .def("__contains__",
+           [](const ReadRecording& self, const std::string& name) {
+             return std::find(self.header.columns.begin(), self.header.columns.end(), name) !=
+                    self.header.columns.end();
+           })
+      .def("__len__", [](const ReadRecording& self) { return self.count(); })
+      .def("__repr__", [](const ReadRecording& self) {
+        return fmt::format("<amble.Recording of {} frames, {}: {}>", self.count(),
+                           record::outcome_names[to_index(self.outcome)], self.path.string());
+      });
+  module.def(
+      "gait", gait, py::arg("recording"), py::arg("seconds") = py::none(),
+      R"(Names and measures the gait of a recording (docs/GAIT.md): the dict that `amble gait --json` writes.
+
+recording: Recording or path. seconds: the part of it to use, from the beginning. Raises Error.)");
+}
+
+}  // namespace
+
+void bind_runs(py::module_& module) {
+  bind_recording(module);
+  bind_champion(module);
+  bind_run(module);
+  refuse_unmade<ReadRecording>();
+  refuse_unmade<ReadableChampion>();
+  refuse_unmade<ReadableRun>();
+}
+
+}  // namespace amble::python

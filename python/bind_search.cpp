@@ -1,0 +1,313 @@
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
+#include "amble/experiment/episodes.hpp"
+#include "amble/experiment/evaluator.hpp"
+#include "amble/experiment/problem.hpp"
+#include "amble/experiment/run_state.hpp"
+#include "amble/neat/genome_json.hpp"
+#include "amble/physics/engine.hpp"
+#include "python/bind.hpp"
+
+namespace amble::python {
+namespace {
+
+/// A problem in one engine, with the workers that have been needed so far.
+struct Arena {
+  experiment::Problem problem;
+  std::map<int, std::unique_ptr<experiment::Evaluator>> evaluators;  ///< by number of workers
+  experiment::GenerationGround ground;
+  std::mutex mutex;  ///< held while one evaluates
+
+  explicit Arena(experiment::Problem made) : problem(std::move(made)) {}
+};
+
+/// What maps genomes to objectives: config, robot, engines as they are needed.
+class Task {
+ public:
+  explicit Task(LoadedConfig loaded)
+      : config(std::move(loaded)), behaviour(config.value.make_behaviour()), home_(config.value.engine) {
+    arenas_.emplace(home_, std::make_unique<Arena>(experiment::Problem::make(
+                               config.value, experiment::load_robot(config.value))));
+  }
+
+  const experiment::Problem& problem() const { return arenas_.at(home_)->problem; }
+  /// Throws UserError for an unknown engine, or one that cannot simulate the robot.
+  Arena& in(const std::optional<std::string>& engine) {
+    const std::string name = engine.value_or(home_);
+    auto& arena = arenas_[name];
+    if (!arena) {
+      auto elsewhere = problem();
+      elsewhere.engine = name;
+      try {
+        elsewhere.complete();
+      } catch (...) {
+        arenas_.erase(name);
+        throw;
+      }
+      arena = std::make_unique<Arena>(std::move(elsewhere));
+    }
+    return *arena;
+  }
+
+  const LoadedConfig config;
+  const std::unique_ptr<const score::Behaviour> behaviour;
+
+ private:
+  std::string home_;
+  std::map<std::string, std::unique_ptr<Arena>> arenas_;
+};
+
+/// Ask and tell.
+struct OpenSearch {
+  explicit OpenSearch(LoadedConfig loaded) : task(std::make_shared<Task>(std::move(loaded))) {
+    check_memory(task->config.value, task->problem());
+    state.emplace(task->config.value, task->problem());
+  }
+  std::shared_ptr<Task> task;
+  std::optional<experiment::RunState> state;
+  std::mutex mutex;  ///< of the state; nobody who holds it waits for the interpreter
+};
+
+LoadedConfig seeded(const py::object& config, std::optional<std::int64_t> seed) {
+  auto loaded = config_of(config);
+  set_seed(loaded.value, seed);
+  return loaded;
+}
+
+std::vector<neat::Genome> ask(OpenSearch& self) {
+  const std::lock_guard lock(self.mutex);
+  const auto candidates = self.state->strategy->ask();
+  return {candidates.begin(), candidates.end()};
+}
+
+std::vector<search::Metric> metrics_of(OpenSearch& self) {
+  const std::lock_guard lock(self.mutex);
+  return self.state->strategy->metrics();
+}
+
+void tell(OpenSearch& self, const py::object& fitness, const py::object& behaviour) {
+  const auto candidates = static_cast<py::ssize_t>(ask(self).size());
+  const auto length = static_cast<py::ssize_t>(self.task->behaviour->length());
+  const auto values = numbers_of<double>(fitness, "fitness", {candidates});
+  for (py::ssize_t i = 0; i < candidates; ++i)
+    if (!(std::isfinite(values.at(i)) && values.at(i) >= 0.0))
+      throw py::value_error(
+          fmt::format("fitness[{}] = {}: expected a finite number, at least 0", i, values.at(i)));
+  std::optional<py::array_t<float, py::array::c_style>> rows;
+  if (length > 0) {
+    if (behaviour.is_none())
+      throw py::value_error(fmt::format(
+          "behaviour: this search compares behaviours; expected the shape ({}, {})", candidates, length));
+    rows = numbers_of<float>(behaviour, "behaviour", {candidates, length});
+    for (py::ssize_t i = 0; i < candidates * length; ++i)
+      if (!std::isfinite(rows->data()[i]))
+        throw py::value_error(fmt::format("behaviour[{}]: expected finite numbers", i / length));
+  }
+  std::vector<search::Evaluation> evaluations;
+  for (py::ssize_t i = 0; i < candidates; ++i)
+    evaluations.push_back(
+        {.objective = values.at(i),
+         .behaviour = rows ? std::span(rows->data(i, 0), to_index(length)) : std::span<const float>()});
+  const py::gil_scoped_release release;
+  const std::lock_guard lock(self.mutex);
+  if (self.state->strategy->ask().size() != evaluations.size())
+    throw std::runtime_error("another thread has told the search meanwhile");
+  self.state->strategy->tell(evaluations);
+}
+
+struct Evaluated {
+  std::vector<double> objectives;
+  std::vector<std::vector<float>> behaviours;
+};
+
+/// As Run::generations() evaluates a generation.
+Evaluated evaluate(Task& task, Arena& arena, std::span<const neat::Genome> genomes, int generation,
+                   std::int64_t seed, int jobs, const std::atomic<bool>& stop) {
+  const std::lock_guard lock(arena.mutex);
+  auto& evaluator = arena.evaluators[jobs];
+  if (!evaluator)
+    evaluator = std::make_unique<experiment::Evaluator>(arena.problem, task.behaviour->path(), jobs);
+  const auto ground = arena.ground.of(arena.problem, seed, generation);
+  const auto scenarios = arena.problem.scenarios(seed, generation, ground.get());
+  const auto result = evaluator->evaluate(genomes, stop, scenarios, ground);
+  if (!result) return {};
+  Evaluated evaluated{.objectives = experiment::objectives(arena.problem, *result), .behaviours = {}};
+  for (std::size_t i = 0; i < genomes.size(); ++i)
+    evaluated.behaviours.push_back(task.behaviour->of(result->of_genome(i).front()));
+  return evaluated;
+}
+
+std::vector<neat::Genome> checked_genomes(const Task& task, const py::object& genomes) {
+  const auto& problem = task.problem();
+  std::vector<neat::Genome> all;
+  for (const auto& item : py::iter(genomes)) {
+    if (!py::isinstance<neat::Genome>(item))
+      throw py::type_error(fmt::format("genomes[{}]: expected amble.Genome, found {}", all.size(),
+                                       py::str(py::type::of(item).attr("__name__")).cast<std::string>()));
+    all.push_back(item.cast<const neat::Genome&>());
+    try {
+      neat::validate(all.back(), problem.cppn_inputs(), problem.cppn_outputs(), problem.cppn.recurrent);
+    } catch (const UserError& error) {
+      fail(error.code(), "genomes[{}]: {}", all.size() - 1, error.what());
+    }
+  }
+  return all;
+}
+
+py::tuple evaluate_genomes(const py::object& on, const py::object& genomes, std::optional<std::string> engine,
+                           std::optional<int> jobs, std::optional<int> generation) {
+  std::shared_ptr<Task> task;
+  int round = 0;
+  if (py::isinstance<OpenSearch>(on)) {
+    auto& search = on.cast<OpenSearch&>();
+    const std::lock_guard lock(search.mutex);
+    task = search.task;
+    round = search.state->strategy->round();
+  } else {
+    task =
+        py::isinstance<Task>(on) ? on.cast<std::shared_ptr<Task>>() : std::make_shared<Task>(config_of(on));
+  }
+  if (generation && (*generation < 0 || *generation >= experiment::most_generations))
+    throw py::value_error(fmt::format("generation: {}: expected a whole number from 0 to {}", *generation,
+                                      experiment::most_generations - 1));
+  const auto all = checked_genomes(*task, genomes);
+  const int workers = jobs_of(jobs);
+  Arena& arena = task->in(engine);
+  const auto n = static_cast<py::ssize_t>(all.size()),
+             d = static_cast<py::ssize_t>(task->behaviour->length());
+  Evaluated evaluated;
+  if (n > 0) {
+    Interruptible interruptible;
+    interruptible.run([&] {
+      evaluated = evaluate(*task, arena, all, generation.value_or(round), task->config.value.seed, workers,
+                           interruptible.stop());
+    });
+  }
+  py::array_t<double> objectives(n);
+  py::array_t<float> behaviours({n, d});
+  std::copy(evaluated.objectives.begin(), evaluated.objectives.end(), objectives.mutable_data());
+  for (py::ssize_t i = 0; i < n; ++i)
+    std::copy(evaluated.behaviours[to_index(i)].begin(), evaluated.behaviours[to_index(i)].end(),
+              behaviours.mutable_data() + i * d);
+  return py::make_tuple(std::move(objectives), std::move(behaviours));
+}
+
+neat::Genome genome_from(const py::object& dict) {
+  if (!py::isinstance<py::dict>(dict)) throw py::type_error("Genome: expected a dict");
+  const auto json = to_json(dict, "Genome");
+  return neat::genome_from_json(io::JsonView(json, "Genome"));
+}
+
+py::object genome_dict(const neat::Genome& genome) {
+  return to_python(neat::to_json(genome));
+}
+
+void bind_genome(py::module_& module) {
+  py::class_<neat::Genome>(
+      module, "Genome", R"(A CPPN as NEAT evolves it. Does not change; can be compared, hashed and pickled.)")
+      .def(py::init(&genome_from), py::arg("dict"),
+           "From what to_dict() gives. Raises Error naming the key that is wrong.")
+      .def("to_dict", genome_dict,
+           R"({"nodes": [{"id", "kind", "activation"}, …], "links": [{"innovation", "from", "to",
+"weight", "enabled"}, …]}, as in champion files.)")
+      .def_property_readonly(
+          "digest", [](const neat::Genome& self) { return fmt::format("{:016x}", self.hash()); },
+          "Of all genes, weights to the bit: 16 hexadecimal digits.")
+      .def("__eq__",
+           [](const neat::Genome& self, const py::object& other) {
+             return py::isinstance<neat::Genome>(other) && self == other.cast<const neat::Genome&>();
+           })
+      .def("__hash__", [](const neat::Genome& self) { return static_cast<std::int64_t>(self.hash() >> 1); })
+      .def(py::pickle([](const neat::Genome& self) { return py::make_tuple(genome_dict(self)); },
+                      [](const py::tuple& state) {
+                        if (state.size() != 1) throw py::value_error("Genome: not its pickled state");
+                        return genome_from(state[0]);
+                      }))
+      .def("__repr__", [](const neat::Genome& self) {
+        return fmt::format("<amble.Genome {:016x}: {} nodes, {} links>", self.hash(), self.nodes.size(),
+                           self.links.size());
+      });
+}
+
+}  // namespace
+
+void bind_search(py::module_& module) {
+  bind_genome(module);
+  py::class_<Task, std::shared_ptr<Task>>(
+      module, "Problem", R"(What gives genomes their objective: a config and its robot, made ready once.
+
+evaluate() takes it in place of a config, and then starts no workers and reads no robot anew.)")
+      .def(
+          py::init([](const py::object& config, std::optional<std::int64_t> seed) {
+            return std::make_shared<Task>(seeded(config, seed));
+          }),
+          py::arg("config"), py::arg("seed") = py::none(),
+          "config: Config or path. seed: of noise and ground. Raises Error if its parts do not fit together.")
+      .def_property_readonly("config", [](const Task& self) { return self.config; })
+      .def_property_readonly(
+          "behaviour_length", [](const Task& self) { return self.behaviour->length(); },
+          "Numbers in a behaviour, d; 0 unless the config's search compares behaviours.")
+      .def_property_readonly(
+          "inputs", [](const Task& self) { return self.problem().cppn_inputs(); },
+          "Inputs of a genome's CPPN, without the bias.")
+      .def_property_readonly(
+          "outputs", [](const Task& self) { return self.problem().cppn_outputs(); },
+          "Outputs of a genome's CPPN.");
+  py::class_<OpenSearch>(
+      module, "Search",
+      R"(amble's search, round by round: ask() for genomes, evaluate them by any means, tell() their fitness.
+
+With evaluate(search, genomes) it evolves what evolve() does, to the bit.)")
+      .def(py::init([](const py::object& config, std::optional<std::int64_t> seed) {
+             return std::make_unique<OpenSearch>(seeded(config, seed));
+           }),
+           py::arg("config"), py::arg("seed") = py::none(),
+           "config: Config or path. seed: of all randomness (default: the config's). Raises Error.")
+      .def("ask", ask, "The genomes of this round: a list, the same until tell().")
+      .def("tell", tell, py::arg("fitness"), py::arg("behaviour") = py::none(),
+           R"(Takes what the genomes of ask() are worth, in their order, and advances to the next round.
+
+fitness: n numbers, finite, at least 0; higher is better. behaviour: n × behaviour_length, finite; needed where the
+config's search compares behaviours, else unused. Raises TypeError and ValueError.)")
+      .def_property_readonly(
+          "round",
+          [](OpenSearch& self) {
+            const std::lock_guard lock(self.mutex);
+            return self.state->strategy->round();
+          },
+          "Rounds completed.")
+      .def_property_readonly(
+          "metrics",
+          [](OpenSearch& self) {
+            py::dict metrics;
+            for (const auto& [name, value] : metrics_of(self)) metrics[py::str(std::string(name))] = value;
+            return metrics;
+          },
+          "Statistics of the last completed round, a dict: species, threshold and so on.")
+      .def_property_readonly(
+          "problem", [](const OpenSearch& self) { return self.task; }, "Its Problem.")
+      .def_property_readonly("config", [](const OpenSearch& self) { return self.task->config; })
+      .def_property_readonly(
+          "behaviour_length", [](const OpenSearch& self) { return self.task->behaviour->length(); },
+          "Numbers in a behaviour, d; 0: tell() needs none.");
+  module.def("evaluate", evaluate_genomes, py::arg("problem"), py::arg("genomes"), py::kw_only(),
+             py::arg("engine") = py::none(), py::arg("jobs") = py::none(), py::arg("generation") = py::none(),
+             R"(Lets each genome walk, and returns (objective, behaviour): float64 [n] and float32 [n, d].
+
+problem: Problem, Search, Config or path. genomes: Genomes that fit it. engine: "ode", "batch" or "mujoco" (default:
+the config's). jobs: workers (default: processors); results do not depend on it. generation: whose noise and ground
+(default: the round of a Search, else 0). objective: in m unless the config scores something else. behaviour: the path
+over the ground, x0, y0, x1, y1, …, m, where the config's search compares paths, else empty (d = 0).
+Raises Error; Ctrl-C raises KeyboardInterrupt at once.)");
+  refuse_unmade<neat::Genome>();
+  refuse_unmade<Task>();
+  refuse_unmade<OpenSearch>();
+}
+
+}  // namespace amble::python

@@ -1,0 +1,44 @@
+#include <pybind11/pybind11.h>
+
+#include "amble/core/error.hpp"
+#include "amble/experiment/build_info.hpp"
+#include "python/bind.hpp"
+
+namespace amble::python {
+namespace {
+
+/// amble.Error; it lives as long as the process.
+PyObject* error_type = nullptr;
+
+/// UserError becomes amble.Error with the same words.
+void translate(std::exception_ptr exception) {
+  try {
+    if (exception) std::rethrow_exception(exception);
+  } catch (const UserError& error) {
+    py::object value = py::reinterpret_borrow<py::object>(error_type)(error.what());
+    value.attr("exit_code") = static_cast<int>(error.code());
+    PyErr_SetObject(error_type, value.ptr());
+  }
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_amble, module) {
+  error_type = PyErr_NewExceptionWithDoc("amble.Error",
+                                         "What the command line reports in one line. exit_code: what the "
+                                         "program would return (docs/FORMATS.md).",
+                                         nullptr, nullptr);
+  if (error_type == nullptr) throw py::error_already_set();
+  module.attr("Error") = py::reinterpret_borrow<py::object>(error_type);
+  py::register_exception_translator(translate);
+
+  const auto build = experiment::build_info();
+  module.attr("__version__") = build.version;
+  module.attr("__commit__") = build.commit;
+  bind_config(module);
+  bind_runs(module);
+  bind_search(module);
+  bind_robots(module);
+}
+
+}  // namespace amble::python

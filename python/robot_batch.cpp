@@ -1,0 +1,193 @@
+#include "python/robot_batch.hpp"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "amble/core/check.hpp"
+#include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
+
+namespace amble::python {
+
+Team::Team(int shares, bool helps) : shares_(shares), helps_(helps) {
+  AMBLE_CHECK(shares >= 1, "a team has a share");
+  try {
+    for (int share = helps ? 1 : 0; share < shares; ++share)
+      threads_.emplace_back([this, share] { serve(share); });
+  } catch (const std::system_error& error) {
+    {
+      const std::lock_guard lock(mutex_);
+      quit_ = true;
+    }
+    wake_.notify_all();
+    threads_.clear();
+    fail(ExitCode::io, "cannot start {} threads: {}", shares, error.code().message());
+  }
+}
+
+Team::~Team() {
+  {
+    const std::lock_guard lock(mutex_);
+    quit_ = true;
+  }
+  wake_.notify_all();
+}
+
+void Team::run(const std::function<void(int)>& work) {
+  {
+    const std::lock_guard lock(mutex_);
+    work_ = &work;
+    working_ = static_cast<int>(threads_.size());
+    ++round_;
+  }
+  if (!threads_.empty()) wake_.notify_all();
+  if (helps_) guarded(0);
+  std::unique_lock lock(mutex_);
+  finished_.wait(lock, [this] { return working_ == 0; });
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+}
+
+void Team::serve(int share) {
+  for (std::uint64_t seen = 0;;) {
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait(lock, [&] { return quit_ || round_ != seen; });
+      if (quit_) return;
+      seen = round_;
+    }
+    guarded(share);
+    const std::lock_guard lock(mutex_);
+    if (--working_ == 0) finished_.notify_one();
+  }
+}
+
+void Team::guarded(int share) {
+  try {
+    (*work_)(share);
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    if (!failure_) failure_ = std::current_exception();
+  }
+}
+
+Observations::Observations(int robots_in, int joints_in, int legs_in)
+    : robots(robots_in),
+      joints(joints_in),
+      legs(legs_in),
+      width(joints + legs + 6),
+      values(to_index(robots) * to_index(width)),
+      fallen(to_index(robots)),
+      diverged(to_index(robots)) {}
+
+RobotBatch::RobotBatch(robot::RobotSpec robot, const std::string& engine,
+                       const physics::EngineSettings& settings, int count, int threads)
+    : robot_(std::move(robot)),
+      settings_(settings),
+      observations_(std::make_shared<Observations>(count, static_cast<int>(robot_.joints.size()),
+                                                   static_cast<int>(robot_.legs.size()))),
+      // ODE has data for each thread, so the thread that places a robot must be the one that steps it.
+      team_(threads, engine != "ode") {
+  for (int first = 0; first < count;) {
+    Group group{.engine = physics::make_engine(engine, robot_, settings_), .targets_rad = {}, .first = first};
+    group.size = std::min(group.engine->lanes(), count - first);
+    group.targets_rad = LaneArray(observations_->joints, group.engine->lanes());
+    first += group.size;
+    groups_.push_back(std::move(group));
+  }
+  reset({});
+}
+
+void RobotBatch::each_group(const std::function<void(Group&)>& work) {
+  const std::size_t groups = groups_.size(), shares = to_index(team_.shares());
+  team_.run([&](int share) {
+    const std::size_t begin = groups * to_index(share) / shares, end = groups * to_index(share + 1) / shares;
+    for (std::size_t g = begin; g < end; ++g) work(groups_[g]);
+  });
+}
+
+void RobotBatch::reset(std::span<const std::uint8_t> mask) {
+  each_group([&](Group& group) { place(group, mask); });
+}
+
+void RobotBatch::place(Group& group, std::span<const std::uint8_t> mask) {
+  for (int lane = 0; lane < group.size; ++lane) {
+    const std::size_t robot = to_index(group.first + lane);
+    if (!mask.empty() && mask[robot] == 0) continue;
+    group.engine->place(lane);
+    observations_->diverged[robot] = 0;
+    observe(group, lane);
+  }
+}
+
+bool RobotBatch::step(std::span<const float> targets_rad) {
+  const std::size_t joints = to_index(observations_->joints);
+  AMBLE_CHECK(targets_rad.size() == to_index(count()) * joints, "targets");
+  int bad = 0;
+  for (const float target_rad : targets_rad) bad |= static_cast<int>(target_rad != target_rad);
+  if (bad != 0) return false;
+  each_group([&](Group& group) { step(group, targets_rad.data() + to_index(group.first) * joints); });
+  return true;
+}
+
+void RobotBatch::step(Group& group, const float* targets_rad) {
+  const int joints = observations_->joints;
+  for (int joint = 0; joint < joints; ++joint) {
+    float* const row = group.targets_rad.row(joint);
+    for (int lane = 0; lane < group.size; ++lane) row[lane] = targets_rad[lane * joints + joint];
+  }
+  group.engine->step(group.targets_rad);
+  std::uint8_t* const diverged = observations_->diverged.data() + group.first;
+  bool all_healthy = true;
+  for (int lane = 0; lane < group.size; ++lane)
+    all_healthy = all_healthy && diverged[lane] == 0 && group.engine->healthy(lane);
+  if (all_healthy) return observe(group);
+  for (int lane = 0; lane < group.size; ++lane) {
+    if (diverged[lane] != 0) continue;
+    if (group.engine->healthy(lane)) {
+      observe(group, lane);
+    } else {
+      group.engine->retire(lane);
+      diverged[lane] = 1;
+    }
+  }
+}
+
+void RobotBatch::observe(const Group& group, int lane) {
+  const auto& sensors = group.engine->sensors();
+  float* to = observations_->row(group.first + lane);
+  for (const LaneArray* rows : {&sensors.joint_angle_rad, &sensors.touch, &sensors.attitude_rad})
+    for (int r = 0; r < rows->rows(); ++r) *to++ = rows->at(r, lane);
+  observe_body(group, lane);
+}
+
+void RobotBatch::observe(const Group& group) {
+  const auto& sensors = group.engine->sensors();
+  const int width = observations_->width;
+  float* to = observations_->row(group.first);
+  for (const LaneArray* rows : {&sensors.joint_angle_rad, &sensors.touch, &sensors.attitude_rad})
+    for (int r = 0; r < rows->rows(); ++r, ++to) {
+      const float* const from = rows->row(r);
+      for (int lane = 0; lane < group.size; ++lane) to[lane * width] = from[lane];
+    }
+  for (int lane = 0; lane < group.size; ++lane) observe_body(group, lane);
+}
+
+void RobotBatch::observe_body(const Group& group, int lane) {
+  float* const to = observations_->row(group.first + lane) + observations_->com_column();
+  const Vec3 com_m = group.engine->com_m(lane);
+  to[0] = static_cast<float>(com_m.x);
+  to[1] = static_cast<float>(com_m.y);
+  to[2] = static_cast<float>(com_m.z);
+  observations_->fallen[to_index(group.first + lane)] =
+      group.engine->root_com_m(lane).z < robot_.fall_height_m;
+}
+
+std::vector<std::uint64_t> RobotBatch::state_hashes() const {
+  std::vector<std::uint64_t> hashes;
+  for (const Group& group : groups_)
+    for (int lane = 0; lane < group.size; ++lane) hashes.push_back(group.engine->state_hash(lane));
+  return hashes;
+}
+
+}  // namespace amble::python

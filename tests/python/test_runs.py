@@ -1,0 +1,148 @@
+import json
+import os
+import signal
+import subprocess
+import threading
+
+import amble
+import numpy as np
+import pytest
+
+from conftest import CONFIG, NOVELTY, SMALL, assignments, program
+
+CLOCKS = {"wall_s", "outside_s", "physics_s", "decode_s", "control_s", "waiting_s", "search_s", "referees_s", "files_s"}
+
+
+def without_clocks(table):
+    return {name: values.tolist() for name, values in table.items() if name not in CLOCKS}
+
+
+def test_evolve_gives_the_files_of_the_command_line(run, tmp_path):
+    code, said = program("evolve", CONFIG, *assignments(SMALL), "--seed", 7, "--out", tmp_path / "run", "--jobs", 1)
+    assert code == 0, said
+    other = amble.Run(tmp_path / "run")
+    assert without_clocks(run.generations()) == without_clocks(other.generations())
+    names = sorted(os.listdir(os.path.join(run.folder, "champions")))
+    assert names and names == sorted(os.listdir(tmp_path / "run/champions"))
+    for name in names:
+        with open(os.path.join(run.folder, "champions", name), "rb") as mine:
+            assert mine.read() == (tmp_path / "run/champions" / name).read_bytes()
+
+
+def test_generations_are_numpy_columns_of_one_length(run):
+    table = run.generations()
+    assert {"generation", "best", "best_so_far", "mean", "fell", "species", "wall_s"} <= set(table)
+    assert all(column.dtype == np.float64 and column.shape == (4,) for column in table.values())
+    assert np.array_equal(table["generation"], [0, 1, 2, 3])
+    assert np.array_equal(table["best_so_far"], np.maximum.accumulate(table["best"]))
+
+
+def test_a_callback_gets_each_generation(config, tmp_path):
+    lines, threads = [], set()
+
+    def note(line):
+        lines.append(line)
+        threads.add(threading.get_ident())
+
+    run = amble.evolve(config, 7, out=tmp_path / "run", on_generation=note)
+    table = run.generations()
+    assert [line["best"] for line in lines] == table["best"].tolist()
+    assert set(lines[0]) == set(table)
+    assert threads == {threading.get_ident()}
+
+
+def test_an_exception_of_the_callback_stops_the_run_which_can_be_resumed(config, run, tmp_path):
+    def refuse(line):
+        if line["generation"] == 1:
+            raise LookupError("enough")
+
+    with pytest.raises(LookupError, match="enough"):
+        amble.evolve(config, 7, out=tmp_path / "run", on_generation=refuse)
+    assert len(amble.Run(tmp_path / "run").generations()["best"]) == 2
+    resumed = amble.resume(tmp_path / "run")
+    assert without_clocks(resumed.generations()) == without_clocks(run.generations())
+
+
+def test_ctrl_c_interrupts_a_long_run_within_a_second(tmp_path):
+    endless = amble.load_config(CONFIG, {**SMALL, "generations": 1000000, "trial.duration_s": 30.0})
+    seen = []
+
+    def interrupt(line):
+        seen.append(line)
+        if len(seen) == 2:
+            threading.Timer(0.05, signal.raise_signal, [signal.SIGINT]).start()
+
+    with pytest.raises(KeyboardInterrupt):
+        amble.evolve(endless, out=tmp_path / "run", on_generation=interrupt)
+    assert len(amble.Run(tmp_path / "run").generations()["best"]) >= 2
+
+
+@pytest.mark.parametrize("overrides", [{"population.size": "many"}, {"population.sise": 5}, {"engine": "bullet"},
+                                       {"trial.duration_s": -1.0}])
+def test_errors_have_the_words_and_the_code_of_the_command_line(overrides, tmp_path):
+    quoted = {key: f'"{value}"' if isinstance(value, str) else value for key, value in overrides.items()}
+    code, said = program("evolve", CONFIG, *assignments(quoted), "--out", tmp_path / "run")
+    with pytest.raises(amble.Error) as raised:
+        amble.load_config(CONFIG, overrides)
+    assert f"amble: {raised.value}\n" == said
+    assert raised.value.exit_code == code
+
+
+def test_missing_files_and_taken_folders_are_errors_with_codes(run, config, tmp_path):
+    for call in (lambda: amble.load_config(tmp_path / "no.toml"), lambda: amble.Run(tmp_path / "no"),
+                 lambda: amble.Champion(tmp_path / "no.json"), lambda: amble.Recording(tmp_path / "no.rec"),
+                 lambda: amble.evolve(config, out=run.folder)):
+        with pytest.raises(amble.Error) as raised:
+            call()
+        assert raised.value.exit_code in (2, 4)
+
+
+def test_a_config_reads_like_a_dict(config):
+    assert config["population.size"] == config["population"]["size"] == 24
+    assert dict(config)["engine"] == "batch" and "search.kind" in config and "search.sort" not in config
+    assert config.replace({"population": {"size": 30}})["population.size"] == 30
+    assert config["population.size"] == 24
+    assert amble.load_config(CONFIG, {"population.size": np.int64(9), "name": 'a "b" \\ ü'})["name"] == 'a "b" \\ ü'
+    with pytest.raises(KeyError):
+        config["population.sise"]
+
+
+def test_champions_walk_again_as_they_did(run):
+    champion = run.champion()
+    facts = champion.facts
+    assert champion.trial() == {**facts["result"], "events": champion.trial()["events"]}
+    assert facts["objective"] == run.generations()["best"].max()
+    assert facts["engine"] == "batch" and facts["seed"] == 7
+    with open(champion.path) as file:
+        assert champion.genome.to_dict() == json.load(file)["genome"]
+    assert [c.path for c in run.champions()][-1] == champion.path
+
+
+def test_recordings_have_their_columns_as_views(recording):
+    assert recording.frames.shape == (len(recording), len(recording.columns)) == (200, len(recording.columns))
+    assert recording.frames.dtype == np.float32
+    column = recording["com.x"]
+    assert np.shares_memory(column, recording.frames) and not column.flags.writeable
+    assert np.array_equal(column, recording.frames[:, recording.columns.index("com.x")])
+    assert recording.matching("angle.").shape == (200, 12)
+    assert recording.robot["name"] and recording.frame_s == 0.01 and recording.outcome == "completed"
+    with pytest.raises(KeyError):
+        recording["com.w"]
+
+
+def test_gait_is_that_of_the_command_line(recording, tmp_path):
+    code, said = program("gait", recording.path, "--json", tmp_path / "gait.json")
+    assert code == 0, said
+    with open(tmp_path / "gait.json") as file:
+        written = json.load(file)
+    assert amble.gait(recording) == amble.gait(recording.path) == written
+
+
+def test_views_of_a_recording_outlive_it(recording):
+    column = amble.Recording(recording.path)["com.x"]
+    assert np.array_equal(column, recording["com.x"])
+
+
+def test_novelty_runs_have_their_columns(tmp_path):
+    run = amble.evolve(amble.load_config(NOVELTY, {**SMALL, "generations": 2}), 1, out=tmp_path / "run")
+    assert "archive" in run.generations()

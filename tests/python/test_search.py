@@ -1,0 +1,110 @@
+import pickle
+import threading
+
+import amble
+import numpy as np
+import pytest
+
+from conftest import CONFIG, NOVELTY, SMALL
+
+
+def evolved(config, seed, folder):
+    run = amble.evolve(config, seed, out=folder)
+    return run.generations()["best"].tolist(), run.champion().genome, run.generations()
+
+
+@pytest.mark.parametrize("path, more", [(CONFIG, {}), (NOVELTY, {}),
+                                        (CONFIG.parent.parent / "robust/supg-objective.toml", {})])
+def test_ask_and_tell_evolves_what_evolve_does(path, more, tmp_path):
+    config = amble.load_config(path, {**SMALL, **more})
+    best, champion, table = evolved(config, 5, tmp_path / "run")
+    search = amble.Search(config, 5)
+    bests, found = [], (-1.0, None)
+    for generation in range(4):
+        genomes = search.ask()
+        objective, behaviour = amble.evaluate(search, genomes)
+        bests.append(objective.max())
+        if objective.max() > found[0]:
+            found = (objective.max(), genomes[int(objective.argmax())])
+        search.tell(objective, behaviour)
+        assert search.metrics["species"] == table["species"][generation]
+    assert bests == best
+    assert found[1].digest == champion.digest and found[1] == champion
+    assert search.round == 4
+
+
+def test_evaluate_does_not_depend_on_jobs_or_on_what_else_is_evaluated(config):
+    problem = amble.Problem(config, 5)
+    genomes = amble.Search(config, 5).ask()
+    together, _ = amble.evaluate(problem, genomes, jobs=2)
+    assert together.tolist() == amble.evaluate(problem, genomes, jobs=1)[0].tolist()
+    assert together[3] == amble.evaluate(problem, genomes[3:4], jobs=3)[0][0]
+    assert amble.evaluate(problem, [])[0].shape == (0,)
+
+
+def test_other_engines_judge_the_same_genomes_otherwise(config):
+    problem = amble.Problem(config)
+    genomes = amble.Search(config).ask()[:3]
+    home, ode = (amble.evaluate(problem, genomes, engine=engine)[0] for engine in ("batch", "ode"))
+    assert home.shape == ode.shape == (3,) and not np.array_equal(home, ode)
+    with pytest.raises(amble.Error, match="unknown engine 'bullet': expected ode, batch, mujoco"):
+        amble.evaluate(problem, genomes, engine="bullet")
+
+
+def test_behaviours_are_paths_where_the_search_compares_them():
+    config = amble.load_config(NOVELTY, SMALL)
+    search = amble.Search(config)
+    objective, behaviour = amble.evaluate(search, search.ask())
+    assert behaviour.shape == (24, search.behaviour_length) and behaviour.dtype == np.float32
+    assert search.behaviour_length > 0 and objective.dtype == np.float64
+    with pytest.raises(ValueError, match="this search compares behaviours"):
+        search.tell(objective)
+    search.tell(objective, behaviour.astype(np.float64)[:, ::-1][:, ::-1])  # strides, dtypes: converted
+    assert search.round == 1
+
+
+def test_own_fitness_drives_the_search(config):
+    search = amble.Search(config, 3)
+    for _ in range(6):
+        genomes = search.ask()
+        search.tell([len(genome.to_dict()["links"]) for genome in genomes])
+    assert search.metrics["mean_links"] > amble.Search(config, 3).metrics["mean_links"]
+
+
+def test_wrong_fitness_is_refused_and_changes_nothing(config):
+    search = amble.Search(config, 3)
+    before = [genome.digest for genome in search.ask()]
+    for fitness in ([1.0] * 23, [[1.0]] * 24, [-1.0] * 24, [float("nan")] * 24, ["a"] * 24, None, [1j] * 24):
+        with pytest.raises((TypeError, ValueError)):
+            search.tell(fitness)
+    assert search.round == 0 and [genome.digest for genome in search.ask()] == before
+
+
+def test_genomes_survive_dicts_and_pickles(config):
+    genome = amble.Search(config, 3).ask()[5]
+    for copy in (amble.Genome(genome.to_dict()), pickle.loads(pickle.dumps(genome))):
+        assert copy == genome and copy.digest == genome.digest and hash(copy) == hash(genome)
+    broken = genome.to_dict()
+    broken["links"][0]["to"] = 999
+    with pytest.raises(amble.Error, match="genomes\\[0\\]"):
+        amble.evaluate(config, [amble.Genome(broken)])
+
+
+def test_two_threads_share_a_search_and_a_problem(config):
+    search, problem = amble.Search(config, 3), amble.Problem(config, 3)
+    genomes = search.ask()
+    expected = amble.evaluate(problem, genomes)[0].tolist()
+    failures = []
+
+    def work():
+        try:
+            for _ in range(5):
+                assert amble.evaluate(problem, genomes, jobs=2)[0].tolist() == expected
+                search.tell(expected)
+        except Exception as error:
+            failures.append(error)
+
+    threads = [threading.Thread(target=work) for _ in range(2)]
+    [thread.start() for thread in threads]
+    [thread.join() for thread in threads]
+    assert not failures and search.round == 10
