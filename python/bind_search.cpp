@@ -30,10 +30,10 @@ struct Arena {
 /// What maps genomes to objectives: config, robot, engines as they are needed.
 class Task {
  public:
-  explicit Task(LoadedConfig loaded)
-      : config(std::move(loaded)), behaviour(config.value.make_behaviour()), home_(config.value.engine) {
+  explicit Task(LoadedConfig loaded) : config(std::move(loaded)), home_(config.value.engine) {
     arenas_.emplace(home_, std::make_unique<Arena>(experiment::Problem::make(
                                config.value, experiment::load_robot(config.value))));
+    behaviour_ = config.value.make_behaviour(&problem().robot);
   }
 
   const experiment::Problem& problem() const { return arenas_.at(home_)->problem; }
@@ -55,10 +55,12 @@ class Task {
     return *arena;
   }
 
+  const score::Behaviour& behaviour() const { return *behaviour_; }
+
   const LoadedConfig config;
-  const std::unique_ptr<const score::Behaviour> behaviour;
 
  private:
+  std::unique_ptr<const score::Behaviour> behaviour_;
   std::string home_;
   std::map<std::string, std::unique_ptr<Arena>> arenas_;
 };
@@ -66,7 +68,7 @@ class Task {
 /// Ask and tell.
 struct OpenSearch {
   explicit OpenSearch(LoadedConfig loaded) : task(std::make_shared<Task>(std::move(loaded))) {
-    check_memory(task->config.value, task->problem());
+    check_search(task->config.value, task->problem());
     state.emplace(task->config.value, task->problem());
   }
   std::shared_ptr<Task> task;
@@ -93,7 +95,7 @@ std::vector<search::Metric> metrics_of(OpenSearch& self) {
 
 void tell(OpenSearch& self, const py::object& fitness, const py::object& behaviour) {
   const auto candidates = static_cast<py::ssize_t>(ask(self).size());
-  const auto length = static_cast<py::ssize_t>(self.task->behaviour->length());
+  const auto length = static_cast<py::ssize_t>(self.task->behaviour().length());
   const auto values = numbers_of<double>(fitness, "fitness", {candidates});
   for (py::ssize_t i = 0; i < candidates; ++i)
     if (!(std::isfinite(values.at(i)) && values.at(i) >= 0.0))
@@ -132,14 +134,15 @@ Evaluated evaluate(Task& task, Arena& arena, std::span<const neat::Genome> genom
   const std::lock_guard lock(arena.mutex);
   auto& evaluator = arena.evaluators[jobs];
   if (!evaluator)
-    evaluator = std::make_unique<experiment::Evaluator>(arena.problem, task.behaviour->path(), jobs);
+    evaluator = std::make_unique<experiment::Evaluator>(arena.problem, task.behaviour().path(), jobs,
+                                                        task.behaviour().measures());
   const auto ground = arena.ground.of(arena.problem, seed, generation);
   const auto scenarios = arena.problem.scenarios(seed, generation, ground.get());
   const auto result = evaluator->evaluate(genomes, stop, scenarios, ground);
   if (!result) return {};
   Evaluated evaluated{.objectives = experiment::objectives(arena.problem, *result), .behaviours = {}};
   for (std::size_t i = 0; i < genomes.size(); ++i)
-    evaluated.behaviours.push_back(task.behaviour->of(result->of_genome(i).front()));
+    evaluated.behaviours.push_back(task.behaviour().of(result->of_genome(i)));
   return evaluated;
 }
 
@@ -180,7 +183,7 @@ py::tuple evaluate_genomes(const py::object& on, const py::object& genomes, std:
   const int workers = jobs_of(jobs);
   Arena& arena = task->in(engine);
   const auto n = static_cast<py::ssize_t>(all.size()),
-             d = static_cast<py::ssize_t>(task->behaviour->length());
+             d = static_cast<py::ssize_t>(task->behaviour().length());
   Evaluated evaluated;
   if (n > 0) {
     Interruptible interruptible;
@@ -251,7 +254,7 @@ evaluate() takes it in place of a config, and then starts no workers and reads n
           "config: Config or path. seed: of noise and ground. Raises Error if its parts do not fit together.")
       .def_property_readonly("config", [](const Task& self) { return self.config; })
       .def_property_readonly(
-          "behaviour_length", [](const Task& self) { return self.behaviour->length(); },
+          "behaviour_length", [](const Task& self) { return self.behaviour().length(); },
           "Numbers in a behaviour, d; 0 unless the config's search compares behaviours.")
       .def_property_readonly(
           "inputs", [](const Task& self) { return self.problem().cppn_inputs(); },
@@ -294,7 +297,7 @@ config's search compares behaviours, else unused. Raises TypeError and ValueErro
           "problem", [](const OpenSearch& self) { return self.task; }, "Its Problem.")
       .def_property_readonly("config", [](const OpenSearch& self) { return self.task->config; })
       .def_property_readonly(
-          "behaviour_length", [](const OpenSearch& self) { return self.task->behaviour->length(); },
+          "behaviour_length", [](const OpenSearch& self) { return self.task->behaviour().length(); },
           "Numbers in a behaviour, d; 0: tell() needs none.");
   module.def("evaluate", evaluate_genomes, py::arg("problem"), py::arg("genomes"), py::kw_only(),
              py::arg("engine") = py::none(), py::arg("jobs") = py::none(), py::arg("generation") = py::none(),
