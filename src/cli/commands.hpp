@@ -22,6 +22,7 @@ void add_page(CLI::App& app, Action& action);
 void add_view(CLI::App& app, Action& action);
 void add_draw(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
+void add_adapt(CLI::App& app, Action& action);
 void add_repertoire(CLI::App& app, Action& action);
 void add_settings(CLI::App& app, Action& action);
 void add_substrate(CLI::App& app, Action& action);

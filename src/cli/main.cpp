@@ -45,6 +45,7 @@ ExitCode run(int argc, char** argv) {
   amble::cli::add_draw(app, action);
   amble::cli::add_export(app, action);
   amble::cli::add_repertoire(app, action);
+  amble::cli::add_adapt(app, action);
   amble::cli::add_settings(app, action);
   amble::cli::add_substrate(app, action);
   amble::cli::add_completion(app, action);

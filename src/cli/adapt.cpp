@@ -1,0 +1,122 @@
+#include "amble/experiment/adapt.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "amble/cli/commands.hpp"
+#include "amble/cli/stop_signal.hpp"
+#include "amble/damage/text.hpp"
+#include "amble/io/file.hpp"
+#include "amble/io/json_file.hpp"
+
+namespace amble::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct AdaptOptions {
+  fs::path run;
+  std::string damage;
+  std::optional<fs::path> out;
+  experiment::AdaptSettings settings;
+  int jobs = 1;
+};
+
+constexpr int adaptation_version = 1;
+
+std::string json_of(const experiment::Adaptation& adaptation, const experiment::Repertoire& repertoire,
+                    const AdaptOptions& options) {
+  io::Json steps = io::Json::array();
+  for (const auto& step : adaptation.steps)
+    steps.push_back({{"cell", step.cell},
+                     {"expected", step.expected},
+                     {"predicted", step.predicted},
+                     {"deviation", step.deviation},
+                     {"measured", step.measured}});
+  return io::sealed_json("amble-adaptation", adaptation_version,
+                         {{"experiment", repertoire.config.name},
+                          {"seed", repertoire.config.seed},
+                          {"engine", options.settings.engine},
+                          {"damage", options.damage},
+                          {"intact", adaptation.intact},
+                          {"damaged", adaptation.damaged},
+                          {"adapted", adaptation.adapted},
+                          {"cell", adaptation.cell},
+                          {"done", adaptation.done},
+                          {"trials", std::move(steps)}});
+}
+
+void print(const experiment::Adaptation& adaptation, const experiment::Repertoire& repertoire,
+           const AdaptOptions& options) {
+  const auto text = [&](double value) {
+    return score::with_unit(fmt::format("{:.3f}", value), repertoire.config.score);
+  };
+  fmt::print("{:>5} {:>8} {:>10} {:>20} {:>10}\n", "trial", "cell", "map says", "predicted", "measured");
+  for (std::size_t i = 0; i < adaptation.steps.size(); ++i) {
+    const auto& step = adaptation.steps[i];
+    fmt::print("{:>5} {:>8} {:>10} {:>20} {:>10}\n", i + 1, step.cell, text(step.expected),
+               fmt::format("{:.3f} ± {:.3f}", step.predicted, step.deviation), text(step.measured));
+  }
+  fmt::print("{} after {} trials\n\n", adaptation.done ? "nothing better is predicted" : "stopped",
+             adaptation.steps.size());
+  fmt::print("in {}, means of {} trials:\n", options.settings.engine, options.settings.judges);
+  fmt::print("  the map's best, intact     {}\n", text(adaptation.intact));
+  fmt::print("  the same, damaged          {}\n", text(adaptation.damaged));
+  fmt::print("  adapted (cell {:>6})      {}\n", adaptation.cell, text(adaptation.adapted));
+  if (const double lost = adaptation.intact - adaptation.damaged; lost > 0.0)
+    fmt::print("  of what was lost, back     {:.0f} %\n",
+               100.0 * (adaptation.adapted - adaptation.damaged) / lost);
+  fmt::print("\nthe gait found: amble repertoire {} --cell {} -o elite.json\n", options.run.string(),
+             adaptation.cell);
+}
+
+/// `spec`: a config file, or damages in one line.
+damage::Settings damage_of(const std::string& spec) {
+  std::error_code error;
+  const bool in_line = spec.find(':') != std::string::npos && !fs::exists(spec, error);
+  return in_line ? damage::parse(spec) : experiment::load_config(spec, {}).damage;
+}
+
+ExitCode run_adapt(AdaptOptions options) {
+  const auto repertoire = experiment::load_repertoire(experiment::find_run(options.run));
+  options.settings.damage = damage_of(options.damage);
+  if (options.out)
+    io::refuse_to_replace(*options.out, "{\n  \"format\": \"amble-adaptation\"", "an adaptation");
+  const auto adaptation = experiment::adapt(repertoire, options.settings, options.jobs, stop_signal());
+  if (!adaptation) return ExitCode::interrupted;
+  if (options.out) io::write_file(*options.out, json_of(*adaptation, repertoire, options));
+  print(*adaptation, repertoire, options);
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+void add_adapt(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand(
+      "adapt", "Let a damaged robot find a gait that works in a map, by intelligent trial and error");
+  auto options = std::make_shared<AdaptOptions>();
+  command->add_option("RUN", options->run, "Run folder of a search under MAP-Elites")->required();
+  command
+      ->add_option("--damage", options->damage,
+                   "Such as missing:FL,weak:FR_knee=0.3, or a config with [damage] (docs/DAMAGE.md)")
+      ->required();
+  command->add_option("--engine", options->settings.engine, "The engine that stands for reality")
+      ->capture_default_str();
+  command->add_option("--trials", options->settings.most_trials, "Most trials of the search")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--judge", options->settings.judges,
+                   "Trials that judge a gait before and after, under noise of their own")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--jobs", options->jobs, "Workers")->check(CLI::Range(1, 1024))->capture_default_str();
+  command->add_option("-o,--out", options->out, "Its steps and results as this JSON file");
+  command->callback([options, &action] { action = [options] { return run_adapt(*options); }; });
+}
+
+}  // namespace amble::cli

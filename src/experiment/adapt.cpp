@@ -1,0 +1,107 @@
+#include "amble/experiment/adapt.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "amble/adaptation/trial_and_error.hpp"
+#include "amble/core/error.hpp"
+#include "amble/experiment/episodes.hpp"
+#include "amble/experiment/evaluator.hpp"
+#include "amble/neat/genome_compact.hpp"
+
+namespace amble::experiment {
+namespace {
+
+/// Trials of elites on one robot in one engine.
+class Reality {
+ public:
+  Reality(const Repertoire& repertoire, const std::string& engine, const damage::Settings& damage, int jobs)
+      : repertoire_(repertoire), problem_(repertoire.problem) {
+    problem_.noise.score = trial::EpisodeScore::mean;
+    problem_.engine = engine;
+    problem_.complete();
+    problem_.become(damage);
+    key_.seed = static_cast<std::uint64_t>(repertoire.config.seed);
+    key_.episode = first_unseen_episode;
+    ground_ = problem_.make_ground(ground_of(key_));
+    evaluator_ = std::make_unique<Evaluator>(problem_, record::PathSampling(), jobs);
+  }
+
+  /// Mean objective of an elite over `count` trials, from the `first`-th that evolution has not met.
+  std::optional<double> trials(std::uint32_t number, int first, int count, const std::atomic<bool>& stop) {
+    const neat::Genome genome = neat::expand(repertoire_.elites[number].genome, "archive.bin");
+    std::vector<trial::Scenario> scenarios;
+    for (int i = 0; i < count && problem_.disturbed(); ++i) {
+      trial::ScenarioKey key = key_;
+      key.episode += static_cast<std::uint32_t>(first + i);
+      scenarios.push_back(problem_.scenario(key, ground_.get()));
+    }
+    const auto result = evaluator_->evaluate(std::span(&genome, 1), stop, scenarios, ground_);
+    if (!result) return std::nullopt;
+    return objectives(problem_, *result).front();
+  }
+
+ private:
+  const Repertoire& repertoire_;
+  Problem problem_;
+  trial::ScenarioKey key_ = {};
+  std::shared_ptr<const ground::Ground> ground_;
+  std::unique_ptr<Evaluator> evaluator_;
+};
+
+/// The elites, each descriptor scaled to 0 … 1 over its range.
+std::vector<adaptation::Candidate> candidates_of(const Repertoire& repertoire) {
+  const auto& dimensions = repertoire.config.search.map_elites.descriptors;
+  std::vector<adaptation::Candidate> candidates(repertoire.elites.size());
+  for (std::uint32_t i = 0; i < repertoire.elites.size(); ++i) {
+    candidates[i].expected = repertoire.elites[i].objective;
+    const auto descriptor = repertoire.elites.descriptor(i);
+    for (std::size_t d = 0; d < dimensions.size(); ++d)
+      candidates[i].descriptor.push_back(std::clamp(
+          (double{descriptor[d]} - dimensions[d].least) / (dimensions[d].most - dimensions[d].least), 0.0,
+          1.0));
+  }
+  return candidates;
+}
+
+}  // namespace
+
+std::optional<Adaptation> adapt(const Repertoire& repertoire, const AdaptSettings& settings, int jobs,
+                                const std::atomic<bool>& stop) {
+  const search::Elites& elites = repertoire.elites;
+  if (!(elites.best_objective() > 0.0))
+    fail(ExitCode::bad_input, "the map has no elite that gets anywhere: there is nothing to adapt with");
+  Reality intact(repertoire, settings.engine, repertoire.problem.damage, jobs);
+  Reality damaged(repertoire, settings.engine, settings.damage, jobs);
+  adaptation::TrialAndError search(candidates_of(repertoire));
+  Adaptation adaptation;
+  const auto best = static_cast<std::uint32_t>(search.next());
+  while (adaptation.steps.size() < static_cast<std::size_t>(settings.most_trials) && !search.done()) {
+    const std::size_t candidate = search.next();
+    const auto number = static_cast<std::uint32_t>(candidate);
+    AdaptStep step{.cell = elites[number].cell,
+                   .expected = elites[number].objective,
+                   .predicted = search.mean(candidate),
+                   .deviation = search.deviation(candidate)};
+    // Judging trials come first in the numbering, so that the search has not met them.
+    const auto measured =
+        damaged.trials(number, settings.judges + static_cast<int>(adaptation.steps.size()), 1, stop);
+    if (!measured) return std::nullopt;
+    step.measured = *measured;
+    search.tell(candidate, *measured);
+    adaptation.steps.push_back(step);
+  }
+  adaptation.done = search.done();
+  const auto found = static_cast<std::uint32_t>(search.best());
+  adaptation.cell = elites[found].cell;
+  const auto before = intact.trials(best, 0, settings.judges, stop);
+  const auto after = damaged.trials(best, 0, settings.judges, stop);
+  const auto adapted = damaged.trials(found, 0, settings.judges, stop);
+  if (!before || !after || !adapted) return std::nullopt;
+  adaptation.intact = *before;
+  adaptation.damaged = *after;
+  adaptation.adapted = *adapted;
+  return adaptation;
+}
+
+}  // namespace amble::experiment

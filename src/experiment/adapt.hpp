@@ -1,0 +1,46 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "amble/damage/settings.hpp"
+#include "amble/experiment/repertoire.hpp"
+
+namespace amble::experiment {
+
+/// A robot that is not what its map was made with.
+struct AdaptSettings {
+  std::string engine = "ode";  ///< stands for reality
+  damage::Settings damage;
+  int most_trials = 20;
+  int judges = 20;  ///< trials that judge a gait before and after, under noise the search has not met
+};
+
+/// One trial of the search.
+struct AdaptStep {
+  std::uint32_t cell = 0;
+  double expected = 0.0;   ///< by the map
+  double predicted = 0.0;  ///< by what was known before the trial, and its standard deviation
+  double deviation = 0.0;
+  double measured = 0.0;
+};
+
+struct Adaptation {
+  std::vector<AdaptStep> steps;  ///< the first is the map's best
+  bool done = false;             ///< stopped because nothing better was predicted, not for lack of trials
+  std::uint32_t cell = 0;        ///< of the elite with the best trial
+  // Means over the judging trials: the map's best before the damage and after it, and the elite found.
+  double intact = 0.0, damaged = 0.0, adapted = 0.0;
+};
+
+/// Intelligent trial and error (adaptation/trial_and_error.hpp) over the elites of a map, with trials of the
+/// damaged robot in another engine; each under noise of its own, if the map was made under noise. The result
+/// is the same for any number of `jobs`. Nothing if `stop` was set. Throws UserError: an unknown engine,
+/// damage that the robot cannot have, an empty map.
+std::optional<Adaptation> adapt(const Repertoire& repertoire, const AdaptSettings& settings, int jobs,
+                                const std::atomic<bool>& stop);
+
+}  // namespace amble::experiment
