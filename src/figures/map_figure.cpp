@@ -67,7 +67,8 @@ class CellGrid {
     for (std::size_t i = map_.dimensions.size(); i-- > first + 1;) {
       if (i % 2 != first) continue;
       inner *= map_.dimensions[i].bins;
-      px += (index / inner) * gap_px_;
+      const int gaps = index / inner;
+      px += gaps * gap_px_;
     }
     return px;
   }

@@ -72,7 +72,7 @@ std::uint32_t MapElitesSettings::cell_count() const {
 }
 
 std::size_t MapElitesSettings::reevaluations(std::size_t elites) const {
-  return std::min(elites, static_cast<std::size_t>(reevaluate_share * batch + 0.5));
+  return std::min(elites, static_cast<std::size_t>(std::lround(reevaluate_share * batch)));
 }
 
 }  // namespace amble::search
