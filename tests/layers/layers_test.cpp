@@ -152,7 +152,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Library{"<xxhash", {"core/"}}, Library{"<Random123/", {"core/"}},
                     Library{"<hwy/", {"controllers/", "core/simd-inl.hpp", "cppn/", "physics/batch/"}},
                     Library{"<zlib", {"record/"}}, Library{"<cblas", {"search/"}},
-                    Library{"<boost/", {"statistics/"}}, Library{"<Eigen/", {"adaptation/"}}, Library{"<pybind11/", {}}),
+                    Library{"<boost/", {"statistics/"}}, Library{"<Eigen/", {"adaptation/"}},
+                    Library{"<pybind11/", {}}),
     letters_of);
 
 }  // namespace
