@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "amble/ledger/study_spec.hpp"
 
@@ -22,7 +23,14 @@ constexpr std::array run_measures{
 struct TestMeasure {
   std::string_view name, label;
   double (*value)(const Record&, const TestResult&);
+  bool of_reaching = false;  ///< only of tests with TestSpec::reach_m
 };
+constexpr double never = std::numeric_limits<double>::infinity();
+
+double reached_s(const Record& record, const TestResult& test) {
+  const auto found = record.provenance.reached_s.find(test.name);
+  return test.reached && found != record.provenance.reached_s.end() ? found->second : never;
+}
 constexpr std::array test_measures{
     TestMeasure{"distance_m", "distance, m",
                 [](const Record&, const TestResult& t) { return t.distance_m(); }},
@@ -30,9 +38,20 @@ constexpr std::array test_measures{
                 [](const Record&, const TestResult& t) { return t.upright_s(); }},
     TestMeasure{"walking_s", "time walking, s",
                 [](const Record&, const TestResult& t) { return t.walking_s(); }},
-    TestMeasure{"kept", "distance / distance in evolution", [](const Record& r, const TestResult& t) {
+    TestMeasure{"kept", "distance / distance in evolution",
+                [](const Record& r, const TestResult& t) {
                   return r.best_m > 0.0 ? t.distance_m() / r.best_m : 0.0;
-                }}};
+                }},
+    TestMeasure{"reached_s", "wall time until it was reached, s", reached_s, true},
+    TestMeasure{
+        "reached_generation", "generation that reached it",
+        [](const Record&, const TestResult& t) { return t.reached ? 1.0 * t.reached->generation : never; },
+        true},
+    TestMeasure{"reached_evaluations", "evaluations until it was reached",
+                [](const Record&, const TestResult& t) {
+                  return t.reached ? static_cast<double>(t.reached->evaluations) : never;
+                },
+                true}};
 
 struct Parts {
   std::string_view test, measure;
@@ -48,8 +67,9 @@ Parts split(std::string_view name) {
 bool is_measure(const StudySpec& study, std::string_view name) {
   const auto [test, what] = split(name);
   if (test.empty()) return std::ranges::find(run_measures, what, &RunMeasure::name) != run_measures.end();
-  return study.find_test(test) != nullptr &&
-         std::ranges::find(test_measures, what, &TestMeasure::name) != test_measures.end();
+  const TestSpec* const spec = study.find_test(test);
+  const auto found = std::ranges::find(test_measures, what, &TestMeasure::name);
+  return spec != nullptr && found != test_measures.end() && (!found->of_reaching || spec->reach_m > 0.0);
 }
 
 std::optional<double> measure(const Record& record, std::string_view name) {
@@ -62,6 +82,7 @@ std::optional<double> measure(const Record& record, std::string_view name) {
   const TestResult* const result = record.find_test(test);
   const auto found = std::ranges::find(test_measures, what, &TestMeasure::name);
   if (result == nullptr || found == test_measures.end()) return std::nullopt;
+  if (found->of_reaching && result->reach_m <= 0.0) return std::nullopt;
   return found->value(record, *result);
 }
 

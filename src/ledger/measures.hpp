@@ -19,6 +19,12 @@ struct StudySpec;
 /// TEST.walking_s     until it fell, stopped (score/walking.hpp) or the test ended, s
 /// TEST.kept          distance in the test / distance in evolution
 ///
+/// and of a test that looks for the first best that gets as far as `reach_m`; infinite if none does:
+///
+/// TEST.reached_s           wall time of the evolution until then, s
+/// TEST.reached_generation  its generation
+/// TEST.reached_evaluations evaluations until then
+///
 /// Whether a study's records have a measure of that name.
 bool is_measure(const StudySpec& study, std::string_view name);
 

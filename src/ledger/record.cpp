@@ -44,14 +44,26 @@ EpisodeResult episode_from(const io::JsonView& view) {
 io::Json to_json(const TestResult& test) {
   io::Json episodes = io::Json::array();
   for (const EpisodeResult& episode : test.episodes) episodes.push_back(to_json(episode));
-  return {{"name", test.name},
-          {"settings", test.settings},
-          {"engine", test.engine},
-          {"trial_s", test.trial_s},
-          {"episodes", episodes},
-          {"gait", test.gait},
-          {"path_interval_s", test.path_interval_s},
-          {"path_m", test.path_m}};
+  io::Json json{{"name", test.name},
+                {"settings", test.settings},
+                {"engine", test.engine},
+                {"trial_s", test.trial_s},
+                {"episodes", episodes},
+                {"gait", test.gait},
+                {"path_interval_s", test.path_interval_s},
+                {"path_m", test.path_m}};
+  if (test.reach_m > 0.0) json["reach_m"] = test.reach_m;
+  if (test.reached)
+    json["reached"] = {{"generation", test.reached->generation},
+                       {"evaluations", test.reached->evaluations},
+                       {"steps", test.reached->steps}};
+  return json;
+}
+
+int count_from(const io::JsonView& view) {
+  const std::int64_t value = view.integer();
+  if (value < 0 || value > std::numeric_limits<int>::max()) view.bad("a whole number from 0 to 2147483647");
+  return static_cast<int>(value);
 }
 
 TestResult test_from(const io::JsonView& view) {
@@ -62,12 +74,20 @@ TestResult test_from(const io::JsonView& view) {
                   .episodes = {},
                   .gait = view.at("gait").text(),
                   .path_interval_s = view.at("path_interval_s").finite_number(),
-                  .path_m = {}};
+                  .path_m = {},
+                  .reached = {}};
   const auto episodes = view.at("episodes");
   for (std::size_t i = 0; i < episodes.size(); ++i) test.episodes.push_back(episode_from(episodes.at(i)));
   if (test.episodes.empty()) episodes.bad("a list of at least one trial");
   const auto path = view.at("path_m");
   for (std::size_t i = 0; i < path.size(); ++i) test.path_m.push_back(path.at(i).finite_number());
+  if (view.has("reach_m")) test.reach_m = view.at("reach_m").finite_number();
+  if (view.has("reached")) {
+    const auto reached = view.at("reached");
+    test.reached = {.generation = count_from(reached.at("generation")),
+                    .evaluations = static_cast<std::uint64_t>(reached.at("evaluations").integer()),
+                    .steps = static_cast<std::uint64_t>(reached.at("steps").integer())};
+  }
   return test;
 }
 
@@ -95,30 +115,32 @@ io::Json results_json(const Record& record) {
 }
 
 io::Json to_json(const Provenance& from) {
-  return {{"version", from.version},   {"commit", from.commit},
-          {"compiler", from.compiler}, {"flags", from.flags},
-          {"cpu", from.cpu},           {"finished_utc", from.finished_utc},
-          {"claims", from.claims},     {"evolution_s", from.evolution_s},
-          {"tests_s", from.tests_s},   {"workers", from.workers}};
-}
-
-int count_from(const io::JsonView& view) {
-  const std::int64_t value = view.integer();
-  if (value < 0 || value > std::numeric_limits<int>::max()) view.bad("a whole number from 0 to 2147483647");
-  return static_cast<int>(value);
+  io::Json json{{"version", from.version},   {"commit", from.commit},
+                {"compiler", from.compiler}, {"flags", from.flags},
+                {"cpu", from.cpu},           {"finished_utc", from.finished_utc},
+                {"claims", from.claims},     {"evolution_s", from.evolution_s},
+                {"tests_s", from.tests_s},   {"workers", from.workers}};
+  if (!from.reached_s.empty()) json["reached_s"] = from.reached_s;
+  return json;
 }
 
 Provenance provenance_from(const io::JsonView& view) {
-  return {.version = view.at("version").text(),
-          .commit = view.at("commit").text(),
-          .compiler = view.at("compiler").text(),
-          .flags = view.at("flags").text(),
-          .cpu = view.at("cpu").text(),
-          .finished_utc = view.at("finished_utc").text(),
-          .claims = view.at("claims").text(),
-          .evolution_s = view.at("evolution_s").finite_number(),
-          .tests_s = view.at("tests_s").finite_number(),
-          .workers = count_from(view.at("workers"))};
+  Provenance from{.version = view.at("version").text(),
+                  .commit = view.at("commit").text(),
+                  .compiler = view.at("compiler").text(),
+                  .flags = view.at("flags").text(),
+                  .cpu = view.at("cpu").text(),
+                  .finished_utc = view.at("finished_utc").text(),
+                  .claims = view.at("claims").text(),
+                  .evolution_s = view.at("evolution_s").finite_number(),
+                  .tests_s = view.at("tests_s").finite_number(),
+                  .workers = count_from(view.at("workers"))};
+  if (!view.has("reached_s")) return from;
+  const auto reached_s = view.at("reached_s");
+  if (!reached_s.raw().is_object()) reached_s.bad("an object");
+  for (const auto& [test, value] : reached_s.raw().items())
+    from.reached_s[test] = reached_s.at(test).finite_number();
+  return from;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,6 +22,14 @@ struct EpisodeResult {
   friend bool operator==(const EpisodeResult&, const EpisodeResult&) = default;
 };
 
+/// When a run first had a champion that gets as far as a test asks (TestSpec::reach_m).
+struct Reached {
+  int generation = 0;
+  std::uint64_t evaluations = 0, steps = 0;  ///< up to and with that generation; steps: simulated ticks
+
+  friend bool operator==(const Reached&, const Reached&) = default;
+};
+
 /// The result of one test.
 struct TestResult {
   std::string name;
@@ -30,7 +39,9 @@ struct TestResult {
   std::vector<EpisodeResult> episodes;  ///< at least one
   std::string gait;                     ///< of the first episode (gait/gait.hpp); empty: no name
   double path_interval_s = 0.0;
-  std::vector<double> path_m;  ///< first episode: x0, y0, x1, y1, … from the start, rounded to mm
+  std::vector<double> path_m;      ///< first episode: x0, y0, x1, y1, … from the start, rounded to mm
+  double reach_m = 0.0;            ///< TestSpec::reach_m; 0: not looked for
+  std::optional<Reached> reached = {};  ///< nothing: not looked for, or no champion of the run gets that far
 
   double distance_m() const;  ///< median of the episodes
   double upright_s() const;   ///< median
@@ -54,6 +65,8 @@ struct Provenance {
   std::string claims;        ///< StudySpec::claims_hash() at that time
   double evolution_s = 0.0;  ///< wall time of the run, by one worker unless `workers` says otherwise
   double tests_s = 0.0;
+  /// Wall time of the evolution up to TestResult::reached, by the name of the test.
+  std::map<std::string, double> reached_s = {};
   int workers = 1;
 };
 

@@ -105,6 +105,8 @@ void TestSpec::describe(io::SettingsVisitor& visitor) {
   visitor.text("ground", ground, {"config file whose [ground] the champion walks on; empty: its own"});
   visitor.text("damage", damage, {"config file whose [damage] the champion's robot has; empty: its own"});
   visitor.integer("episodes", episodes, {1, 1000}, {"trials under noise that evolution has not met"});
+  visitor.number("reach_m", reach_m, {0, 1e6},
+                 {"the first best of the run whose median trial gets that far is found, m; 0: not"});
   visitor.texts("conditions", conditions, {"conditions whose champions are tested; empty: all"});
 }
 

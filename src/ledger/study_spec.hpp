@@ -37,6 +37,8 @@ struct TestSpec {
   std::string damage;  ///< config file whose [damage] the champion has; empty: that of its own config
   /// Trials under noise, on uneven ground, or from places that evolution has not used; 1 without any of it.
   int episodes = 1;
+  /// > 0: also finds the first of the run's successive bests whose median trial gets that far, m.
+  double reach_m = 0.0;
   std::vector<std::string> conditions;  ///< names; empty: all
 
   bool applies_to(std::string_view condition) const;

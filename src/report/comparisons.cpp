@@ -1,6 +1,7 @@
 #include "amble/report/comparisons.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "amble/report/levels.hpp"
 #include "amble/statistics/multiple_tests.hpp"
@@ -46,6 +47,8 @@ std::vector<SampleSummary> summarize(const StudyData& data) {
   for (const std::string& measure : measures_of(data.study))
     for (const ledger::ConditionSpec& condition : data.study.conditions) {
       const auto values = data.values(condition.name, measure);
+      // Runs that never got as far as a test asks have no mean; the table of runs and counts have them.
+      if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); })) continue;
       const auto summary = statistics::summarize(values, confidence);
       if (!summary) continue;
       SampleSummary found{.measure = measure,

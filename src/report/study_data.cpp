@@ -107,9 +107,13 @@ StudyData load_study_data(const std::filesystem::path& folder) {
 
 std::vector<std::string> measures_of(const ledger::StudySpec& study) {
   std::vector<std::string> measures{"train_m", "hidden", "links"};
-  for (const ledger::TestSpec& test : study.tests)
+  for (const ledger::TestSpec& test : study.tests) {
     for (const char* what : {"distance_m", "upright_s", "walking_s", "kept"})
       measures.push_back(test.name + "." + what);
+    if (test.reach_m <= 0.0) continue;
+    for (const char* what : {"reached_s", "reached_generation", "reached_evaluations"})
+      measures.push_back(test.name + "." + what);
+  }
   return measures;
 }
 

@@ -5,7 +5,10 @@
 
 #include "amble/core/index.hpp"
 #include "amble/experiment/replay.hpp"
+#include "amble/io/file.hpp"
+#include "amble/record/generations_csv.hpp"
 #include "amble/score/walking.hpp"
+#include "amble/statistics/descriptive.hpp"
 #include "amble/study/gait_observer.hpp"
 #include "amble/trial/observers.hpp"
 
@@ -52,17 +55,66 @@ std::string gait_name(const gait::Report& report) {
   return std::string(gait::gait_names[to_index(report.classification->gait)]);
 }
 
-}  // namespace
-
-std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experiment::Champion& champion,
-                                           const std::atomic<bool>& stop) {
+/// What a champion does in a test.
+experiment::Problem problem_of(const PlannedTest& test, const experiment::Champion& champion) {
   experiment::Problem problem = champion.problem;
   if (!test.spec.engine.empty()) problem.engine = test.spec.engine;
   problem.noise = test.noise;
   if (test.ground) problem.walk_on(*test.ground);
   if (test.damage) problem.become(*test.damage);
-  const bool unseen = test.ground || test.noise.any() || problem.ground.start_place_m > 0.0;
+  return problem;
+}
 
+/// Noise and ground of an episode; nothing in a test without them.
+std::optional<trial::ScenarioKey> scenario(const PlannedTest& test, const experiment::Problem& problem,
+                                           const experiment::Champion& champion, int episode) {
+  if (!test.ground && !test.noise.any() && problem.ground.start_place_m <= 0.0) return std::nullopt;
+  return champion.unseen_scenario_key(to_index(episode));
+}
+
+/// Median distance of a champion in a test, m. Nothing if `stop` was set.
+std::optional<double> median_distance_m(const PlannedTest& test, const experiment::Champion& champion,
+                                        const std::atomic<bool>& stop) {
+  const experiment::Problem problem = problem_of(test, champion);
+  std::vector<double> distances_m;
+  for (int episode = 0; episode < test.spec.episodes; ++episode) {
+    const experiment::ReplayOptions how{
+        .seconds = test.spec.seconds, .trace = false, .noise = scenario(test, problem, champion, episode)};
+    const auto replay = experiment::replay(problem, champion.genome, how, stop);
+    if (!replay) return std::nullopt;
+    distances_m.push_back(replay->result.distance_m);
+  }
+  return statistics::median(distances_m);
+}
+
+/// Evaluations, steps and wall time of a run up to and with a generation.
+FirstReach spent_until(const record::Generations& generations, int generation) {
+  FirstReach found{.reached = ledger::Reached{.generation = generation}};
+  for (std::size_t i = 0; i <= to_index(generation) && i < generations.count(); ++i) {
+    found.reached->evaluations += static_cast<std::uint64_t>(generations.evaluations[i]);
+    found.reached->steps += static_cast<std::uint64_t>(generations.steps[i]);
+    found.wall_s += generations.wall_s[i];
+  }
+  return found;
+}
+
+}  // namespace
+
+std::optional<FirstReach> first_to_reach(const PlannedTest& test, const experiment::RunPaths& run,
+                                         const std::atomic<bool>& stop) {
+  for (const auto& file : run.champion_files()) {
+    const auto champion = experiment::parse_champion(io::read_file(file), file.string()).champion;
+    const auto distance_m = median_distance_m(test, champion, stop);
+    if (!distance_m) return std::nullopt;
+    if (*distance_m >= test.spec.reach_m)
+      return spent_until(record::read_generations(run.generations), champion.generation);
+  }
+  return FirstReach{};
+}
+
+std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experiment::Champion& champion,
+                                           const std::atomic<bool>& stop) {
+  const experiment::Problem problem = problem_of(test, champion);
   const double interval_s = std::max(1.0, std::ceil(test.spec.seconds / most_path_samples));
   ledger::TestResult result{.name = test.spec.name,
                             .settings = test.settings_hash(champion.problem.engine),
@@ -71,7 +123,9 @@ std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experi
                             .episodes = {},
                             .gait = {},
                             .path_interval_s = interval_s,
-                            .path_m = {}};
+                            .path_m = {},
+                            .reach_m = test.spec.reach_m,
+                            .reached = {}};
   for (int episode = 0; episode < test.spec.episodes; ++episode) {
     GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
     WalkObserver walk(problem.trial.timestep_s, interval_s);
@@ -79,7 +133,7 @@ std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experi
     observers.add(walk);
     if (episode == 0) observers.add(gait);
     experiment::ReplayOptions how{.seconds = test.spec.seconds, .observer = &observers, .trace = false};
-    if (unseen) how.noise = champion.unseen_scenario_key(static_cast<std::size_t>(episode));
+    how.noise = scenario(test, problem, champion, episode);
     const auto replay = experiment::replay(problem, champion.genome, how, stop);
     if (!replay) return std::nullopt;
     result.episodes.push_back({.distance_m = replay->result.distance_m,

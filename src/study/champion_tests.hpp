@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "amble/experiment/champion.hpp"
+#include "amble/experiment/run_folder.hpp"
 #include "amble/ledger/record.hpp"
 #include "amble/study/plan.hpp"
 
@@ -13,6 +14,16 @@ namespace amble::study {
 /// Runs a test of a champion. Nothing if `stop` was set before it was done. Throws UserError.
 std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experiment::Champion& champion,
                                            const std::atomic<bool>& stop);
+
+/// The first of a run's successive bests whose median trial in `test` gets as far as its `reach_m`.
+struct FirstReach {
+  std::optional<ledger::Reached> reached;  ///< nothing: none does
+  double wall_s = 0.0;  ///< of the evolution until then, over all processes that worked on it
+};
+/// Tries the champions of a run folder in the order in which they were found. Nothing if `stop` was set
+/// before it was done. Throws UserError.
+std::optional<FirstReach> first_to_reach(const PlannedTest& test, const experiment::RunPaths& run,
+                                         const std::atomic<bool>& stop);
 
 /// A champion as in records: its file's document without traces; and back.
 io::Json champion_to_json(experiment::Champion champion);

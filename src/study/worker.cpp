@@ -147,6 +147,8 @@ class Worker {
       const auto* const old = record.find_test(test.spec.name);
       auto result = old != nullptr ? std::optional(*old) : run_test(test, champion, stop_);
       if (!result) return Step::interrupted;
+      if (old == nullptr && test.spec.reach_m > 0.0 && !find_first_walker(run, test, record, *result))
+        return Step::interrupted;
       results.push_back(std::move(*result));
     }
     const bool changed = is_new || results.size() != record.tests.size();
@@ -156,6 +158,22 @@ class Worker {
     ledger_.save(record);
     listener_.on_finish(run, record);
     return Step::done;
+  }
+
+  /// Looks through the bests of the run for the first that gets as far as the test asks. False: interrupted.
+  bool find_first_walker(const PlannedRun& run, const PlannedTest& test, ledger::Record& record,
+                         ledger::TestResult& result) const {
+    const experiment::RunPaths paths(plan_.folder(run));
+    if (!experiment::is_run_folder(paths.folder))
+      fail(ExitCode::bad_input,
+           "test '{}' has 'reach_m' and looks through all champions of the run, but {} is gone; move {} away "
+           "to run it again",
+           test.spec.name, paths.folder.string(), plan_.paths.record(record.condition, record.seed).string());
+    const auto first = first_to_reach(test, paths, stop_);
+    if (!first) return false;
+    result.reached = first->reached;
+    if (first->reached) record.provenance.reached_s[test.spec.name] = first->wall_s;
+    return true;
   }
 
   void note_provenance(ledger::Record& record, double tests_s) const {

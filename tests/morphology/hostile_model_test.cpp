@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <ctime>
 #include <string>
 
 #include "amble/morphology/model_file.hpp"
@@ -11,12 +11,12 @@ namespace {
 
 class HostileModel : public testing::Test {
  protected:
-  /// The line that refuses it, within two seconds.
+  /// The line that refuses it, within ten seconds of the processor (sanitizers take three).
   std::string refusal(const std::string& text, const std::string& name = "m.xml") {
     const auto path = files_.write(name, text);
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();
     std::string line = files_.error_of([&] { compile_model(path); });
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+    EXPECT_LT(std::clock() - start, 10 * CLOCKS_PER_SEC);
     EXPECT_EQ(line.find('\n'), std::string::npos) << line;
     return line;
   }

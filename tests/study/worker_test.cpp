@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
+#include "amble/ledger/measures.hpp"
 #include "amble/record/generations_csv.hpp"
 #include "amble/study/champion_tests.hpp"
 #include "tests/study/fixture.hpp"
@@ -44,6 +47,55 @@ TEST(Worker, RecordsWhatTheRunSays) {
   EXPECT_EQ(champion.result.distance_m, record.best_m);
   EXPECT_EQ(champion.genome.count(neat::NodeKind::hidden), record.hidden);
   EXPECT_EQ(champion.genome.enabled_links(), record.links);
+}
+
+TEST(Worker, FindsTheFirstBestThatGetsAsFarAsATestAsks) {
+  const test::TemporaryFolder folder;
+  auto study = small_study();
+  Notes first, looking;
+  work_on(study, folder.path(), first);
+  const auto& curve = first.records.at(0).curve;
+  ASSERT_GE(curve.size(), 3u);
+  // In the run's own trial a champion gets as far as in its evolution: the curve says which one is the first.
+  study.tests = {trial_test("middle", 1.0), trial_test("beyond", 1.0), trial_test("plain", 1.0)};
+  study.tests[0].reach_m = 0.5 * (curve[0].best_m + curve[1].best_m);
+  study.tests[1].reach_m = curve.back().best_m + 0.001;
+  EXPECT_EQ(work_on(study, folder.path(), looking).finished, 1);
+  const ledger::Record& record = looking.records.at(0);
+  const auto rows =
+      record::read_generations(ledger::StudyPaths(folder.path()).run("sine", 3) / "generations.csv");
+  double steps = 0.0, wall_s = 0.0;
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(curve[1].generation); ++i) {
+    steps += rows.steps[i];
+    wall_s += rows.wall_s[i];
+  }
+  const auto& reached = record.tests.at(0).reached;
+  ASSERT_TRUE(reached);
+  EXPECT_EQ(reached->generation, curve[1].generation);
+  EXPECT_EQ(reached->evaluations, 20u * static_cast<unsigned>(curve[1].generation + 1));
+  EXPECT_EQ(static_cast<double>(reached->steps), steps);
+  EXPECT_FALSE(record.tests.at(1).reached);
+  EXPECT_FALSE(record.tests.at(2).reached);
+  EXPECT_EQ(ledger::measure(record, "middle.reached_s"), wall_s);
+  EXPECT_EQ(ledger::measure(record, "middle.reached_generation"), 1.0 * curve[1].generation);
+  EXPECT_EQ(ledger::measure(record, "beyond.reached_evaluations"), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(ledger::measure(record, "plain.reached_s"), std::nullopt);
+  const auto& paths = ledger::StudyPaths(folder.path());
+  EXPECT_EQ(ledger::record_text(ledger::Ledger(paths).load("sine", 3)), ledger::record_text(record));
+}
+
+TEST(Worker, SaysThatItNeedsTheRunToFindItsFirstWalker) {
+  const test::TemporaryFolder folder;
+  auto study = small_study();
+  Notes first, looking;
+  work_on(study, folder.path(), first, true);
+  study.tests = {trial_test("walks", 1.0)};
+  study.tests[0].reach_m = 0.1;
+  EXPECT_EQ(work_on(study, folder.path(), looking).failed, 1);
+  EXPECT_NE(looking.failures.at(0).find("test 'walks' has 'reach_m' and looks through all champions"),
+            std::string::npos)
+      << looking.failures.at(0);
+  EXPECT_TRUE(ledger::Ledger(ledger::StudyPaths(folder.path())).load("sine", 3).tests.empty());
 }
 
 TEST(Worker, LeavesFinishedRunsAloneAndAddsTheTestsTheyLack) {
