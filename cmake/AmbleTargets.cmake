@@ -8,7 +8,7 @@ set(AMBLE_UNITY_SOURCES 12 CACHE STRING "Sources of a folder to compile as one (
 
 add_library(amble_options INTERFACE)
 target_compile_options(amble_options INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wnon-virtual-dtor -ffp-contract=off)
-# Compiled together, a local of one source may have the name of a private constant of another; lint checks each source by itself.
+# Compiled together, a local of one source may have the name of a private constant of another; `tools/lint --alone` reads each source by itself.
 if(AMBLE_UNITY_SOURCES GREATER 1)
   target_compile_options(amble_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>)
 else()
@@ -24,7 +24,7 @@ if(AMBLE_SANITIZE)
 endif()
 
 # Headers that nearly every source reads, compiled once for all libraries and once for all tests. What a source needs it includes all the
-# same: tools/lint reads it without these.
+# same: `tools/lint --alone` reads it without these.
 option(AMBLE_PRECOMPILED_HEADERS "Compile common headers once" ON)
 if(AMBLE_PRECOMPILED_HEADERS)
   # GCC 12 forgets that precompiled headers are the system's, and warns of std::string's inside (its bug 105329).
@@ -39,7 +39,7 @@ if(AMBLE_PRECOMPILED_HEADERS)
 endif()
 
 # Most of the rest of compiling is headers again: the sources of a folder are compiled together, up to so many in one unit, because a
-# change of one of them then compiles all of these anew. tools/lint compiles each by itself.
+# change of one of them then compiles all of these anew.
 function(amble_unity target)
   if(AMBLE_UNITY_SOURCES GREATER 1)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${AMBLE_UNITY_SOURCES})
