@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/repertoire_page.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
-#include "amble/figures/map_figure.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/printable.hpp"
 
@@ -27,15 +26,11 @@ struct RepertoireOptions {
   std::optional<fs::path> out;
   std::optional<std::uint32_t> cell;
   std::optional<int> retest;
+  int walkers = 200;
   int jobs = 1;
 };
 
 constexpr std::size_t listed = 10;
-
-std::string name_of(const search::DescriptorSettings& descriptor) {
-  return descriptor.leg.empty() ? descriptor.quantity
-                                : fmt::format("{} {}", descriptor.quantity, descriptor.leg);
-}
 
 /// Elites by falling objective, of equal ones by cell.
 std::vector<std::uint32_t> ranking(const search::Elites& elites) {
@@ -58,7 +53,7 @@ void print_summary(const experiment::Repertoire& repertoire, const fs::path& run
              100.0 * elites.size() / elites.cells());
   fmt::print("dimensions ");
   for (const auto& descriptor : settings.descriptors)
-    fmt::print(" {} ({:g} … {:g})", name_of(descriptor), descriptor.least, descriptor.most);
+    fmt::print(" {} ({:g} … {:g})", descriptor.label(), descriptor.least, descriptor.most);
   fmt::print("\nQD score    {:.2f}\n", elites.objective_sum());
   if (elites.size() == 0) return;
   double evaluations = 0.0;
@@ -73,27 +68,9 @@ void print_summary(const experiment::Repertoire& repertoire, const fs::path& run
     fmt::print("\n");
   }
   fmt::print(
-      "\nan elite as a champion: amble repertoire {0} --cell {1} -o elite.json\nthe map as a picture:   "
-      "amble "
-      "repertoire {0} -o map.svg\n",
+      "\nthe map as a page:      amble repertoire {0} -o map.html\n"
+      "an elite as a champion: amble repertoire {0} --cell {1} -o elite.json\n",
       run.string(), elites[numbers.front()].cell);
-}
-
-figures::GridMap picture_of(const experiment::Repertoire& repertoire) {
-  const auto& settings = repertoire.config.search.map_elites;
-  if (settings.archive != search::Archive::grid)
-    fail(ExitCode::bad_input, "--out: a map of centroids has no picture: expected FILE.json");
-  figures::GridMap map;
-  for (const auto& descriptor : settings.descriptors)
-    map.dimensions.push_back({name_of(descriptor), descriptor.least, descriptor.most, descriptor.bins});
-  const search::Elites& elites = repertoire.elites;
-  for (std::uint32_t cell = 0; cell < elites.cells(); ++cell) {
-    const auto number = elites.in(cell);
-    map.objective.push_back(number == search::Elites::none ? std::numeric_limits<double>::quiet_NaN()
-                                                           : elites[number].objective);
-  }
-  map.unit = score::with_unit("", repertoire.config.score);
-  return map;
 }
 
 ExitCode run_retest(const experiment::Repertoire& repertoire, const RepertoireOptions& options) {
@@ -127,9 +104,11 @@ ExitCode run_repertoire(const RepertoireOptions& options) {
     io::write_file(*options.out, experiment::repertoire_json(repertoire));
   } else if (extension == ".svg") {
     io::refuse_to_replace(*options.out, "<svg", "a picture");
-    io::write_file(*options.out, figures::map_svg(picture_of(repertoire)));
+    io::write_file(*options.out, figures::map_svg(map_picture(repertoire)));
+  } else if (extension == ".html") {
+    return write_map_page(repertoire, options.run, options.walkers, *options.out);
   } else {
-    fail(ExitCode::bad_input, "--out {}: expected FILE.json or FILE.svg", options.out->string());
+    fail(ExitCode::bad_input, "--out {}: expected FILE.html, FILE.json or FILE.svg", options.out->string());
   }
   return ExitCode::ok;
 }
@@ -141,13 +120,18 @@ void add_repertoire(CLI::App& app, Action& action) {
       app.add_subcommand("repertoire", "Show the map of a run under MAP-Elites, or take it or an elite away");
   auto options = std::make_shared<RepertoireOptions>();
   command->add_option("RUN", options->run, "Run folder")->required();
-  command->add_option("-o,--out", options->out,
-                      "FILE.json: the whole map, or with --cell one elite; FILE.svg: a picture of the map");
+  command->add_option(
+      "-o,--out", options->out,
+      "FILE.html: a page in which cells are chosen and walk; FILE.svg: a picture of the map; FILE.json: "
+      "the whole map, or with --cell one elite");
   command->add_option("--cell", options->cell, "The elite of this cell, as a champion file");
   command
       ->add_option("--retest", options->retest,
                    "Try each elite in so many new trials under noise: what the map keeps of what it says")
       ->check(CLI::Range(1, 1000));
+  command->add_option("--walkers", options->walkers, "Cells at most that can be chosen in FILE.html")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
   command->add_option("--jobs", options->jobs, "Workers for --retest")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();

@@ -115,9 +115,12 @@ std::string fitness_figure(const record::Generations& generations, Layout layout
     const std::vector<double>& values;
     int decimals;
   };
-  const std::array<Small, 3> smalls{{{"Species", "Species", generations.species, 0},
+  const std::array<Small, 6> smalls{{{"Species", "Species", generations.species, 0},
                                      {"Hidden nodes, mean", "Nodes", generations.mean_hidden, 1},
-                                     {"Links, mean", "Links", generations.mean_links, 1}}};
+                                     {"Links, mean", "Links", generations.mean_links, 1},
+                                     {"Share of cells filled", "Filled", generations.coverage, 3},
+                                     {"QD score", "QD score", generations.qd_score, 0},
+                                     {"Best of the map", "Best", generations.map_best, 2}}};
   const double gap = wide ? 28 : 10, left = 26;
   const double each = (width - 2 * gap - 10) / 3 - left;
   int shown = 0;

@@ -14,7 +14,8 @@ struct Objective {
 };
 
 /// Best, mean and median objective over the generations, and below it the number of species and the size of
-/// the genomes, if the search has such columns. An <svg> element. `generations` must not be empty.
+/// the genomes, or coverage, QD score and best of a map: what the search has columns of. An <svg> element.
+/// `generations` must not be empty.
 std::string fitness_figure(const record::Generations& generations, graphics::Layout layout,
                            const Objective& objective = {});
 

@@ -122,7 +122,7 @@ MapPlace place_of(const GridMap& map, std::size_t cell) {
   return place;
 }
 
-std::string map_svg(const GridMap& map) {
+std::string map_figure(const GridMap& map) {
   AMBLE_CHECK(
       !map.dimensions.empty() && map.objective.size() == to_index(extent(map, 0)) * to_index(extent(map, 1)),
       "a number per cell");
@@ -145,14 +145,18 @@ std::string map_svg(const GridMap& map) {
       continue;
     }
     const int shade = best > 0.0 ? std::min(shades - 1, static_cast<int>(shades * objective / best)) : 0;
-    svg.begin_group(fmt::format("shade{}", shade), cell_tooltip(map, cell));
+    svg.begin_group(fmt::format("shade{} cell{}", shade, cell), cell_tooltip(map, cell));
     svg.rect(grid.box(place_of(map, cell)));
     svg.end_group();
   }
   const double below = scale_px + grid.height_px();
   svg.text({border_px, below + 22.0}, Anchor::start, "tick", axis_text(map, 0, "to the right"));
   svg.text({border_px, below + 42.0}, Anchor::start, "tick", axis_text(map, 1, "up"));
-  return graphics::standalone_svg(svg.finish());
+  return svg.finish();
+}
+
+std::string map_svg(const GridMap& map) {
+  return graphics::standalone_svg(map_figure(map));
 }
 
 }  // namespace amble::figures

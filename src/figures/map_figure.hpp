@@ -28,7 +28,11 @@ struct MapPlace {
 MapPlace place_of(const GridMap& map, std::size_t cell);
 
 /// Cells as squares, darker where the objective is larger; a tooltip has the cell's number, bins and
-/// objective. A whole SVG file. Throws UserError for maps of more than 200,000 cells.
+/// objective, and the group of cell 12's square has the class "cell12". An <svg> element. Throws UserError
+/// for maps of more than 200,000 cells.
+std::string map_figure(const GridMap& map);
+
+/// The same as a whole SVG file.
 std::string map_svg(const GridMap& map);
 
 }  // namespace amble::figures

@@ -82,7 +82,7 @@ svg { display: block; width: 100%; height: auto; overflow: visible; }
 .narrow { display: none; }
 )css";
 
-constexpr std::string_view figures = R"css(
+constexpr std::string_view plots = R"css(
 svg text { font: 13px var(--sans); fill: var(--ink); }
 svg text.tick { font-size: 12px; fill: var(--soft); }
 svg text.tiny { font-size: 10.5px; fill: var(--soft); }
@@ -99,6 +99,22 @@ svg text.halo { paint-order: stroke; stroke: var(--paper); stroke-width: 4px; st
 .curve.small { stroke: var(--ink); stroke-width: 1.6; } .dot.small { fill: var(--ink); }
 svg text.mean, svg text.median { font-weight: 450; fill: var(--soft); }
 .under-best { fill: var(--ink); opacity: .05; }
+)css";
+
+constexpr std::string_view maps = R"css(
+.nobody { fill: var(--panel); }
+.shade0 { fill: var(--c0); opacity: 0.16; }
+.shade1 { fill: var(--c0); opacity: 0.265; }
+.shade2 { fill: var(--c0); opacity: 0.37; }
+.shade3 { fill: var(--c0); opacity: 0.475; }
+.shade4 { fill: var(--c0); opacity: 0.58; }
+.shade5 { fill: var(--c0); opacity: 0.685; }
+.shade6 { fill: var(--c0); opacity: 0.79; }
+.shade7 { fill: var(--c0); opacity: 0.895; }
+.shade8 { fill: var(--c0); opacity: 1; }
+)css";
+
+constexpr std::string_view figures = R"css(
 .stance { fill: var(--leg); }
 .track { fill: var(--panel); }
 .trigger { fill: var(--ink); }
@@ -129,16 +145,6 @@ svg text.mean, svg text.median { font-weight: 450; fill: var(--soft); }
 .node-sensor { fill: var(--paper); stroke: var(--ink); stroke-width: 1.6; }
 .node-hidden { fill: var(--paper); stroke: var(--ink); stroke-width: 1.6; }
 .node-joint { fill: var(--ink); stroke: var(--ink); stroke-width: 1.6; }
-.nobody { fill: var(--panel); }
-.shade0 { fill: var(--c0); opacity: 0.16; }
-.shade1 { fill: var(--c0); opacity: 0.265; }
-.shade2 { fill: var(--c0); opacity: 0.37; }
-.shade3 { fill: var(--c0); opacity: 0.475; }
-.shade4 { fill: var(--c0); opacity: 0.58; }
-.shade5 { fill: var(--c0); opacity: 0.685; }
-.shade6 { fill: var(--c0); opacity: 0.79; }
-.shade7 { fill: var(--c0); opacity: 0.895; }
-.shade8 { fill: var(--c0); opacity: 1; }
 )css";
 
 constexpr std::string_view phone_and_paper = R"css(
@@ -167,12 +173,17 @@ constexpr std::string_view phone_and_paper = R"css(
 
 std::string style_sheet() {
   std::string sheet;
-  for (const std::string_view part : {colours, text, in_page, figures, phone_and_paper}) sheet += part;
+  for (const std::string_view part : {colours, text, in_page, plots, maps, figures, phone_and_paper})
+    sheet += part;
   return sheet;
 }
 
 std::string shared_style_sheet() {
   return std::string(colours) + std::string(cppn);
+}
+
+std::string map_style_sheet() {
+  return std::string(plots) + std::string(maps);
 }
 
 std::string standalone_svg(std::string element) {
@@ -181,6 +192,8 @@ std::string standalone_svg(std::string element) {
   std::string style = "\n<style>";
   style += colours;
   style += "svg { background: var(--paper); padding: 16px; overflow: visible; }";
+  style += plots;
+  style += maps;
   style += figures;
   style += cppn;
   style += "</style>";

@@ -13,6 +13,9 @@ std::string style_sheet();
 /// dark, and light on paper; and the style of CPPNs (figures/cppn_figure.hpp).
 std::string shared_style_sheet();
 
+/// For such pages: the style of plots and of maps of elites (figures/map_figure.hpp).
+std::string map_style_sheet();
+
 /// An <svg> element (svg.hpp) as a file of its own, with the part of the style sheet that figures need:
 /// light, or dark if the viewer prefers that.
 std::string standalone_svg(std::string element);

@@ -26,7 +26,7 @@ constexpr std::array<std::pair<std::string_view, Column>, 6> columns{{
 }};
 
 /// Columns that may be absent, or whose cells may be empty in every row.
-constexpr std::array<std::pair<std::string_view, Column>, 15> optional_columns{{
+constexpr std::array<std::pair<std::string_view, Column>, 18> optional_columns{{
     {"species", &Generations::species},
     {"threshold", &Generations::threshold},
     {"mean_hidden", &Generations::mean_hidden},
@@ -34,6 +34,9 @@ constexpr std::array<std::pair<std::string_view, Column>, 15> optional_columns{{
     {"archive", &Generations::archive},
     {"novelty_threshold", &Generations::novelty_threshold},
     {"best_novelty", &Generations::best_novelty},
+    {"coverage", &Generations::coverage},
+    {"qd_score", &Generations::qd_score},
+    {"map_best", &Generations::map_best},
     {column::wall_s, &Generations::wall_s},
     {"physics_s", &Generations::physics_s},
     {"decode_s", &Generations::decode_s},

@@ -18,6 +18,7 @@ struct DescriptorSettings {
   double least = 0.0, most = 1.0;
   int bins = 10;  ///< of a grid
 
+  std::string label() const { return leg.empty() ? quantity : quantity + " " + leg; }
   void describe(io::SettingsVisitor& visitor);
 };
 

@@ -14,8 +14,6 @@
 namespace amble::view {
 namespace {
 
-constexpr double pose_interval_s = 0.02;
-
 /// Some columns of a recording, collected row by row.
 class Table {
  public:
@@ -87,7 +85,7 @@ std::vector<float> start_row(const robot::RobotSpec& robot, const Table& poses,
 
 }  // namespace
 
-PackedRecording pack_recording(const std::filesystem::path& path) {
+PackedRecording pack_recording(const std::filesystem::path& path, double pose_interval_s) {
   record::RecordingReader reader(path);
   const record::RecordingHeader& header = reader.header();
   const auto robot = robot::parse_robot(header.robot_json, path.string() + ": robot");

@@ -24,7 +24,7 @@ struct PackedRecording {
   std::string ground_json;  ///< record::RecordingHeader::ground_json
   double seconds = 0.0;     ///< until the time was up or the robot fell
   record::Outcome outcome = record::Outcome::completed;
-  /// Root, centre of mass, angles, targets and timers about 50 times a second. The first row is the start
+  /// Root, centre of mass, angles, targets and timers, `pose_interval_s` apart. The first row is the start
   /// pose, time 0 (on uneven ground the pose after the first step); its targets and timers are those of the
   /// first step.
   PackedFrames poses;
@@ -35,6 +35,6 @@ struct PackedRecording {
 /// Reads a recording frame by frame; memory grows by what the page keeps (about 12 kB per second of the
 /// quadruped). Frames from the first that is not finite on are left out. Throws UserError: the file is
 /// missing, foreign, truncated or altered, lacks a column, or holds no robot with legs.
-PackedRecording pack_recording(const std::filesystem::path& path);
+PackedRecording pack_recording(const std::filesystem::path& path, double pose_interval_s = 0.02);
 
 }  // namespace amble::view

@@ -47,7 +47,8 @@ io::Json ground_json(const std::string& recorded, const std::string& what) {
 }
 
 io::Json walker_json(const Walker& walker) {
-  const PackedRecording recording = pack_recording(walker.recording);
+  const PackedRecording recording =
+      walker.cell ? pack_recording(walker.recording, 0.04) : pack_recording(walker.recording);
   const std::string what = walker.recording.string();
   return {{"title", walker.title},
           {"origin", recording.origin},
@@ -59,7 +60,8 @@ io::Json walker_json(const Walker& walker) {
           {"poses", frames_json(recording.poses)},
           {"contacts", frames_json(recording.contacts)},
           {"cppn_svg", walker.cppn_svg.empty() ? io::Json(nullptr) : io::Json(walker.cppn_svg)},
-          {"gait", walker.gait}};
+          {"gait", walker.gait},
+          {"cell", walker.cell ? io::Json(*walker.cell) : io::Json(nullptr)}};
 }
 
 /// JSON for the content of a <script> element: pure ASCII and without "<", which occurs in strings only.
@@ -91,10 +93,16 @@ std::string make_page(const ReplayPage& page) {
   io::Json data{{"title", page.title}, {"made_by", page.made_by}, {"walkers", io::Json::array()}};
   for (const Walker& walker : page.walkers) data["walkers"].push_back(walker_json(walker));
 
+  if (page.map)
+    data["map"] = {
+        {"svg", page.map->map_svg}, {"curves_svg", page.map->curves_svg}, {"note", page.map->note}};
+  const std::string style =
+      graphics::shared_style_sheet() + (page.map ? graphics::map_style_sheet() : std::string());
+
   std::string html;
   std::string_view rest = page_template();
   rest = fill(rest, "<!--amble:title-->", io::escape_xml(page.title), html);
-  rest = fill(rest, "<!--amble:palette-->", "<style>" + graphics::shared_style_sheet() + "</style>", html);
+  rest = fill(rest, "<!--amble:palette-->", "<style>" + style + "</style>", html);
   rest = fill(rest, "<!--amble:data-->",
               "<script type=\"application/json\" id=\"amble-data\">" + script_text(data) + "</script>", html);
   html += rest;

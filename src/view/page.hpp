@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,14 @@ struct Walker {
   std::filesystem::path recording;
   std::string cppn_svg;  ///< figures::cppn_figure() of its controller; empty: unknown
   io::Json gait;         ///< "amble-gait" (docs/FORMATS.md); null: the page shows duty factors only
+  std::optional<std::uint32_t> cell = {};  ///< of the map that the page shows; with a map all have one
+};
+
+/// A map of elites from which the reader chooses the walkers that are shown.
+struct MapPanel {
+  std::string map_svg;     ///< figures::map_figure()
+  std::string curves_svg;  ///< figures::fitness_figure(); empty: none
+  std::string note;        ///< a sentence on which cells can be chosen
 };
 
 /// The contents of the replay page.
@@ -21,6 +31,9 @@ struct ReplayPage {
   std::string title;
   std::vector<Walker> walkers;  ///< at least one
   std::string made_by;          ///< program and version, for the foot of the page
+  /// With a map the page begins with the first walker, and shows others when their cells are chosen; then
+  /// poses are 0.04 s apart.
+  std::optional<MapPanel> map = {};
 };
 
 /// A self-contained page that shows the walkers moving, in 3-D, with diagrams tied to the time: no network,

@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tests/cli/bad_input.hpp"
 
@@ -80,6 +82,33 @@ TEST_F(RepertoireCommand, DrawsTheMap) {
   EXPECT_THAT(slurp(scratch_ / "map.svg"), testing::StartsWith("<svg"));
 }
 
+TEST_F(RepertoireCommand, MakesAPageInWhichAsManyCellsWalkAsAreAskedFor) {
+  const auto folder = run();
+  ASSERT_EQ(amble({"repertoire", folder, "-o", scratch_ / "map.json"}).exit_code, 0);
+  const auto elites = json(scratch_ / "map.json")["elites"];
+  double best = 0.0;
+  for (const auto& elite : elites) best = std::max(best, elite["objective"].get<double>());
+  for (const std::size_t most : {1u, 5u, 1000u}) {
+    const std::string page = scratch_ / ("map" + std::to_string(most) + ".html");
+    const auto made = amble({"repertoire", folder, "-o", page, "--walkers", std::to_string(most)});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const std::string html = slurp(page);
+    const std::string mark = "id=\"amble-data\">";
+    const auto from = html.find(mark) + mark.size();
+    const auto data = nlohmann::json::parse(html.substr(from, html.find("</script>", from) - from));
+    std::set<int> cells;
+    for (const auto& walker : data["walkers"]) cells.insert(walker["cell"].get<int>());
+    EXPECT_EQ(cells.size(), std::min(most, elites.size()));
+    EXPECT_EQ(data["walkers"].size(), cells.size()) << "none twice";
+    for (const auto& elite : elites)
+      if (elite["cell"] == data["walkers"][0]["cell"]) {
+        EXPECT_EQ(elite["objective"], best);
+      }
+    EXPECT_THAT(data["map"]["svg"].get<std::string>(), HasSubstr("cell" + std::to_string(*cells.begin())));
+    EXPECT_THAT(data["map"]["curves_svg"].get<std::string>(), HasSubstr("QD score"));
+  }
+}
+
 TEST_F(RepertoireCommand, RefusesWhatItCannotDoInOneLine) {
   const auto folder = run();
   const std::string out = scratch_ / "elite.json";
@@ -87,7 +116,7 @@ TEST_F(RepertoireCommand, RefusesWhatItCannotDoInOneLine) {
                    "the map has the cells 0 … 624");
   expect_complaint({"repertoire", folder, "--cell", "0"}, ExitCode::bad_input, "expected -o FILE.json");
   expect_complaint({"repertoire", folder, "-o", scratch_ / "map.png"}, ExitCode::bad_input,
-                   "expected FILE.json or FILE.svg");
+                   "expected FILE.html, FILE.json or FILE.svg");
   expect_complaint({"repertoire", scratch_ / "gone"}, ExitCode::io, "gone");
   spill(scratch_ / "map.svg", "mine");
   expect_complaint({"repertoire", folder, "-o", scratch_ / "map.svg"}, ExitCode::bad_input, "map.svg");

@@ -1,5 +1,6 @@
 import { pageData } from "./data.js";
 import { heightAt } from "./heights.js";
+import { chosenCells, showMap } from "./map.js";
 import { Page } from "./page.js";
 import { Walk } from "./walk.js";
 
@@ -51,13 +52,22 @@ const publicApi = (page) => ({
   hasStage: () => page.stage !== null,
 });
 
+/** All walkers; of a map those of the cells in the page's address, which the reader changes by choosing others. */
+function shownWalkers(data) {
+  if (!data.map) return data.walkers;
+  const cells = chosenCells(data.walkers, location.hash);
+  showMap(document.getElementById("map"), data, cells, (chosen) => (location.hash = `cells=${chosen}`));
+  addEventListener("hashchange", () => location.reload());
+  return cells.map((cell) => data.walkers.find((walker) => walker.cell === cell));
+}
+
 async function start() {
   if (typeof DecompressionStream === "undefined") {
     complain("This browser is too old to unpack the recording in this page: it needs one of 2023 or later.");
     return;
   }
   const data = pageData(document);
-  const page = new Page(data, await Promise.all(data.walkers.map(Walk.unpack)));
+  const page = new Page(data, await Promise.all(shownWalkers(data).map(Walk.unpack)));
   const time_s = askedTime();
   if (time_s !== null) page.clock.seek(time_s);
   else if (!matchMedia("(prefers-reduced-motion: reduce)").matches) page.clock.play();

@@ -1,0 +1,129 @@
+#include "amble/cli/repertoire_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "amble/cli/scratch_file.hpp"
+#include "amble/cli/stop_signal.hpp"
+#include "amble/core/index.hpp"
+#include "amble/experiment/build_info.hpp"
+#include "amble/experiment/replay.hpp"
+#include "amble/figures/fitness_figure.hpp"
+#include "amble/gait/report_text.hpp"
+#include "amble/io/file.hpp"
+#include "amble/neat/genome_compact.hpp"
+#include "amble/record/generations_csv.hpp"
+#include "amble/study/gait_observer.hpp"
+#include "amble/view/page.hpp"
+
+namespace amble::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The numbers of the elites that the page can show: the best first, then in the order of their cells.
+std::vector<std::uint32_t> chosen_elites(const search::Elites& elites, std::size_t most) {
+  std::vector<std::uint32_t> filled;
+  std::uint32_t best = search::Elites::none;
+  for (std::uint32_t cell = 0; cell < elites.cells(); ++cell) {
+    const std::uint32_t number = elites.in(cell);
+    if (number == search::Elites::none) continue;
+    filled.push_back(number);
+    if (best == search::Elites::none || elites[number].objective > elites[best].objective) best = number;
+  }
+  if (filled.empty()) fail(ExitCode::bad_input, "the map has no elite yet");
+  std::vector<std::uint32_t> chosen{best};
+  const std::size_t count = std::min(most, filled.size());
+  chosen.reserve(count);
+  // Evenly: as if the filled cells were a line cut into `count` pieces, and the middle of each taken.
+  for (std::size_t i = 0; i < count && chosen.size() < count; ++i) {
+    const std::uint32_t number = filled[(2 * i + 1) * filled.size() / (2 * count)];
+    if (number != best) chosen.push_back(number);
+  }
+  return chosen;
+}
+
+std::string title_of(const experiment::Repertoire& repertoire, const search::Elite& elite) {
+  return fmt::format("cell {} ({} in the map)", elite.cell,
+                     score::with_unit(fmt::format("{:.2f}", elite.objective), repertoire.config.score));
+}
+
+/// An elite in a trial without noise. Nothing if interrupted.
+std::optional<view::Walker> walk(const experiment::Repertoire& repertoire, const search::Elite& elite,
+                                 const fs::path& run, const ScratchFile& recording) {
+  const experiment::Problem& problem = repertoire.problem;
+  study::GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
+  const auto replay = experiment::replay(
+      problem, neat::expand(elite.genome, "archive.bin"),
+      {.record = recording.path(), .origin = run.string(), .observer = &gait, .trace = false}, stop_signal());
+  if (!replay) return std::nullopt;
+  return view::Walker{.title = title_of(repertoire, elite),
+                      .recording = recording.path(),
+                      .cppn_svg = {},
+                      .gait = io::parse_json(gait::report_json(gait.finish(replay->result.outcome)), "gait"),
+                      .cell = elite.cell};
+}
+
+view::MapPanel panel_of(const experiment::Repertoire& repertoire, const fs::path& run, std::size_t shown) {
+  const search::Elites& elites = repertoire.elites;
+  const std::string who = shown == elites.size()
+                              ? std::string("Choose a cell and its elite walks")
+                              : fmt::format("Choose one of the {} outlined cells of {}, and its elite walks",
+                                            shown, elites.size());
+  view::MapPanel panel{.map_svg = figures::map_figure(map_picture(repertoire)),
+                       .curves_svg = {},
+                       .note = who + "; with the Shift key, beside the one that walks there already."};
+  const auto generations = record::read_generations(experiment::RunPaths(run).generations);
+  if (generations.count() == 0) return panel;
+  const figures::Objective objective{.name = "Objective",
+                                     .unit = score::with_unit("", repertoire.config.score)};
+  panel.curves_svg = figures::fitness_figure(generations, graphics::Layout::wide, objective);
+  return panel;
+}
+
+}  // namespace
+
+figures::GridMap map_picture(const experiment::Repertoire& repertoire) {
+  const auto& settings = repertoire.config.search.map_elites;
+  if (settings.archive != search::Archive::grid)
+    fail(ExitCode::bad_input, "--out: a map of centroids has no picture: expected FILE.json");
+  figures::GridMap map;
+  for (const auto& descriptor : settings.descriptors)
+    map.dimensions.push_back({descriptor.label(), descriptor.least, descriptor.most, descriptor.bins});
+  const search::Elites& elites = repertoire.elites;
+  for (std::uint32_t cell = 0; cell < elites.cells(); ++cell) {
+    const auto number = elites.in(cell);
+    map.objective.push_back(number == search::Elites::none ? std::numeric_limits<double>::quiet_NaN()
+                                                           : elites[number].objective);
+  }
+  map.unit = score::with_unit("", repertoire.config.score);
+  return map;
+}
+
+ExitCode write_map_page(const experiment::Repertoire& repertoire, const fs::path& run, int walkers,
+                        const fs::path& out) {
+  io::refuse_to_replace(out, "<!DOCTYPE html>", "a page");
+  const auto chosen = chosen_elites(repertoire.elites, to_index(walkers));
+  view::ReplayPage page;
+  page.title = fmt::format("Map of {}", repertoire.config.name);
+  const auto build = experiment::build_info();
+  page.made_by = fmt::format("amble {} ({})", build.version, experiment::short_commit(build));
+  page.map = panel_of(repertoire, run, chosen.size());
+  std::vector<std::unique_ptr<ScratchFile>> recordings;
+  for (const std::uint32_t number : chosen) {
+    recordings.push_back(std::make_unique<ScratchFile>("walk.rec"));
+    auto walker = walk(repertoire, repertoire.elites[number], run, *recordings.back());
+    if (!walker) return ExitCode::interrupted;
+    page.walkers.push_back(std::move(*walker));
+  }
+  io::write_file(out, view::make_page(page));
+  fmt::print("{}\n", fs::absolute(out).lexically_normal().string());
+  return ExitCode::ok;
+}
+
+}  // namespace amble::cli

@@ -1,0 +1,52 @@
+// A map of elites: which cells walk, as the page's address says (#cells=12,40), and how others are chosen.
+import { element } from "./theme.js";
+
+const MOST_ABREAST = 2;
+
+/** The cells that the address names, of those that the page has walkers of; the first walker's if none. */
+export function chosenCells(walkers, hash) {
+  const named = /(?:^#|&)cells=([\d,]+)/.exec(hash)?.[1].split(",").map(Number) ?? [];
+  const known = [...new Set(named)].filter((cell) => walkers.some((walker) => walker.cell === cell));
+  return known.length ? known.slice(0, MOST_ABREAST) : [walkers[0].cell];
+}
+
+/** The cells after a choice: the chosen one alone, or beside the first of those that walk. */
+export function afterChoice(cells, cell, beside) {
+  if (!beside) return [cell];
+  if (cells.includes(cell)) return cells.length > 1 ? cells.filter((other) => other !== cell) : cells;
+  return [...cells.slice(0, MOST_ABREAST - 1), cell];
+}
+
+/** A figure that came with the page. */
+function figure(svg, className) {
+  const box = element("div", { class: `scroll ${className}` });
+  box.innerHTML = svg;
+  return box;
+}
+
+/** Fills the section of the map. `onChoose` gets the cells that shall walk. */
+export function showMap(section, { map, walkers }, cells, onChoose) {
+  const picture = figure(map.svg, "map-box");
+  for (const walker of walkers) {
+    const group = picture.querySelector(`.cell${walker.cell}`);
+    group.classList.add("walks");
+    group.setAttribute("role", "button");
+    group.setAttribute("tabindex", "0");
+    group.setAttribute("aria-label", walker.title);
+    group.setAttribute("aria-pressed", String(cells.includes(walker.cell)));
+    const place = cells.indexOf(walker.cell);
+    if (place >= 0) group.classList.add("chosen", `walker${place}`);
+    group.addEventListener("click", (event) => onChoose(afterChoice(cells, walker.cell, event.shiftKey)));
+    group.addEventListener("keydown", (event) => {
+      if (event.key !== "Enter") return;
+      event.preventDefault();
+      onChoose(afterChoice(cells, walker.cell, event.shiftKey));
+    });
+  }
+  section.hidden = false;
+  section.append(element("h2", {}, "Map"), element("p", { class: "lead" }, map.note), picture);
+  if (map.curves_svg)
+    section.append(element("details", {}, element("summary", {}, "How it filled"),
+      element("p", { class: "lead" }, "The candidates of each generation, and the map after it."),
+      figure(map.curves_svg, "curves-box")));
+}
