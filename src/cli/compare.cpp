@@ -98,10 +98,13 @@ ExitCode run_compare(const CompareOptions& options) {
     if (lengths_s.empty()) lengths_s.push_back(named.champion.problem.trial.duration_s);
     for (const double length_s : lengths_s) rows.push_back(compare(named, length_s, engines, options));
   }
-  const auto text = options.format == "json"       ? compare_json(rows)
-                    : options.format == "markdown" ? compare_markdown(rows)
-                                                   : compare_text(rows);
-  fmt::print("{}", text);
+  const auto maps = compare_maps(options.inputs);
+  if (options.format == "json")
+    fmt::print("{}", compare_json(rows, maps));
+  else if (options.format == "markdown")
+    fmt::print("{}{}", compare_markdown(rows), maps.empty() ? "" : "\n" + markdown_text(maps_table(maps)));
+  else
+    fmt::print("{}{}", compare_text(rows), maps.empty() ? "" : "\n" + aligned_text(maps_table(maps)));
   return ExitCode::ok;
 }
 

@@ -100,8 +100,7 @@ std::vector<Cells> table(const std::vector<ComparedChampion>& rows) {
 
 }  // namespace
 
-std::string compare_text(const std::vector<ComparedChampion>& rows) {
-  const auto lines = table(rows);
+std::string aligned_text(const std::vector<Cells>& lines) {
   std::vector<std::size_t> widths(lines.front().size(), 0);
   for (const auto& cells : lines)
     for (std::size_t c = 0; c < cells.size(); ++c) widths[c] = std::max(widths[c], cells[c].size());
@@ -111,12 +110,10 @@ std::string compare_text(const std::vector<ComparedChampion>& rows) {
     for (std::size_t c = 0; c < cells.size(); ++c) line += fmt::format("{:<{}}  ", cells[c], widths[c]);
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
-  if (lines.size() > rows.size() + 1) text += summary_note;
   return text;
 }
 
-std::string compare_markdown(const std::vector<ComparedChampion>& rows) {
-  const auto lines = table(rows);
+std::string markdown_text(const std::vector<Cells>& lines) {
   std::string text;
   for (const auto& cells : lines) {
     const bool head = text.empty();
@@ -125,11 +122,20 @@ std::string compare_markdown(const std::vector<ComparedChampion>& rows) {
     for (std::size_t c = 0; c < cells.size(); ++c) text += "|---";
     text += "|\n";
   }
-  if (lines.size() > rows.size() + 1) text += fmt::format("\n{}", summary_note);
   return text;
 }
 
-std::string compare_json(const std::vector<ComparedChampion>& rows) {
+std::string compare_text(const std::vector<ComparedChampion>& rows) {
+  const auto lines = table(rows);
+  return aligned_text(lines) + std::string(lines.size() > rows.size() + 1 ? summary_note : "");
+}
+
+std::string compare_markdown(const std::vector<ComparedChampion>& rows) {
+  const auto lines = table(rows);
+  return markdown_text(lines) + (lines.size() > rows.size() + 1 ? fmt::format("\n{}", summary_note) : "");
+}
+
+std::string compare_json(const std::vector<ComparedChampion>& rows, const std::vector<ComparedMap>& maps) {
   io::Json list = io::Json::array();
   for (const auto& row : rows) {
     io::Json results = io::Json::array();
@@ -146,6 +152,8 @@ std::string compare_json(const std::vector<ComparedChampion>& rows) {
                     {"evolved_in", row.home},
                     {"trial_s", row.trial_s},
                     {"results", std::move(results)}});
+    const auto map = std::ranges::find(maps, row.name, &ComparedMap::name);
+    if (map != maps.end()) list.back()["map"] = map_json(*map);
   }
   return list.dump(2) + "\n";
 }

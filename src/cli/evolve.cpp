@@ -54,9 +54,11 @@ ExitCode execute(experiment::Run run) {
                               run.config().generations, folder));
     return ExitCode::interrupted;
   }
-  fmt::print("best {} {:.3f} (generation {}), {} evaluations\nlook at it by: amble page {} -o page.html\n",
+  const bool has_map = run.config().search.kind == "map-elites";
+  fmt::print("best {} {:.3f} (generation {}), {} evaluations\nlook at it by: amble {} {} -o {}\n",
              run.config().score.is_distance() ? "distance" : "score", run.progress().best,
-             run.progress().best_generation, run.progress().evaluations, folder);
+             run.progress().best_generation, run.progress().evaluations, has_map ? "repertoire" : "page",
+             folder, has_map ? "map.html" : "page.html");
   return ExitCode::ok;
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -21,6 +22,7 @@ class RepertoireCommand : public BadInput {
                                 "search.map_elites.batch=64", "--set", "search.map_elites.initial=64",
                                 "--set", "trial.duration_s=1", "--generations", "4", "--out", folder});
     EXPECT_EQ(evolved.exit_code, 0) << evolved.err;
+    EXPECT_THAT(evolved.out, testing::EndsWith("amble repertoire " + folder + " -o map.html\n"));
     EXPECT_THAT(evolved.err, HasSubstr("64 genomes × 1 s in batch"));
     return folder;
   }
@@ -107,6 +109,56 @@ TEST_F(RepertoireCommand, MakesAPageInWhichAsManyCellsWalkAsAreAskedFor) {
     EXPECT_THAT(data["map"]["svg"].get<std::string>(), HasSubstr("cell" + std::to_string(*cells.begin())));
     EXPECT_THAT(data["map"]["curves_svg"].get<std::string>(), HasSubstr("QD score"));
   }
+}
+
+TEST_F(RepertoireCommand, IsComparedCellByCellWithMapsOfTheSameCells) {
+  const auto evolve = [this](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> command{"evolve",        source + "/configs/repertoire/quadruped.toml",
+                                     "--generations", "3",
+                                     "--set",         "search.map_elites.batch=64",
+                                     "--set",         "search.map_elites.initial=64",
+                                     "--set",         "trial.duration_s=1",
+                                     "--out",         scratch_ / name};
+    command.insert(command.end(), more.begin(), more.end());
+    EXPECT_EQ(amble(command).exit_code, 0);
+    EXPECT_EQ(amble({"repertoire", scratch_ / name, "-o", scratch_ / (name + ".json")}).exit_code, 0);
+    return (scratch_ / name).string();
+  };
+  const std::vector<std::string> cells{"--set",
+                                       "search.map_elites.descriptors=[{quantity=\"duty_factor\",bins=8},{"
+                                       "quantity=\"forward\",least=-1,bins=8}]"};
+  const auto a = evolve("a", cells), b = evolve("b", {cells[0], cells[1], "--seed", "2"});
+  const auto other =
+      evolve("other", {"--set", "search.map_elites.descriptors=[{quantity=\"height\",bins=5}]"});
+  const auto compared =
+      nlohmann::json::parse(amble({"compare", a, b, other, "--engines", "batch", "--format", "json"}).out);
+  const auto objectives = [this](const std::string& run) {
+    std::map<int, double> by_cell;
+    const auto map = json(run + ".json");
+    for (const auto& elite : map["elites"]) by_cell[elite["cell"]] = elite["objective"];
+    return by_cell;
+  };
+  const auto first = objectives(a), second = objectives(b);
+  int common = 0, better = 0, worse = 0;
+  for (const auto& [cell, objective] : second) {
+    if (!first.contains(cell)) continue;
+    ++common;
+    better += objective > first.at(cell);
+    worse += objective < first.at(cell);
+  }
+  ASSERT_GT(common, 3);
+  EXPECT_FALSE(compared[0]["map"].contains("from_first"));
+  EXPECT_EQ(compared[0]["map"]["filled"], first.size());
+  const auto& from = compared[1]["map"]["from_first"];
+  EXPECT_EQ(from["common"], common);
+  EXPECT_EQ(from["better"], better);
+  EXPECT_EQ(from["worse"], worse);
+  EXPECT_EQ(from["only_here"], static_cast<int>(second.size()) - common);
+  EXPECT_EQ(from["only_there"], static_cast<int>(first.size()) - common);
+  EXPECT_FALSE(compared[2]["map"].contains("from_first")) << "its cells are others";
+  const auto text = amble({"compare", a, b, other, "--engines", "batch"}).out;
+  EXPECT_THAT(text, HasSubstr("QD score"));
+  EXPECT_THAT(text, HasSubstr("other cells"));
 }
 
 TEST_F(RepertoireCommand, RefusesWhatItCannotDoInOneLine) {
