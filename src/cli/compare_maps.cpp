@@ -41,7 +41,7 @@ ComparedMap::Difference difference(const Elites& map, const Elites& first) {
 
 bool has_map(const std::filesystem::path& input) {
   return std::filesystem::is_directory(input) &&
-         experiment::load_config(experiment::find_run(input).config, {}).search.kind == "map-elites";
+         experiment::fills_map(experiment::load_config(experiment::find_run(input).config, {}));
 }
 
 }  // namespace

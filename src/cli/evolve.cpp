@@ -14,6 +14,7 @@
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/progress.hpp"
 #include "amble/cli/stop_signal.hpp"
+#include "amble/experiment/repertoire.hpp"
 #include "amble/experiment/run.hpp"
 
 namespace amble::cli {
@@ -54,7 +55,7 @@ ExitCode execute(experiment::Run run) {
                               run.config().generations, folder));
     return ExitCode::interrupted;
   }
-  const bool has_map = run.config().search.kind == "map-elites";
+  const bool has_map = experiment::fills_map(run.config());
   fmt::print("best {} {:.3f} (generation {}), {} evaluations\nlook at it by: amble {} {} -o {}\n",
              run.config().score.is_distance() ? "distance" : "score", run.progress().best,
              run.progress().best_generation, run.progress().evaluations, has_map ? "repertoire" : "page",

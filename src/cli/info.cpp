@@ -12,6 +12,7 @@
 #include "amble/cli/progress.hpp"
 #include "amble/core/index.hpp"
 #include "amble/experiment/champion.hpp"
+#include "amble/experiment/repertoire.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/printable.hpp"
@@ -84,8 +85,7 @@ ExitCode run_info(const std::filesystem::path& folder) {
              config.seed, config.engine, rows.count(), config.generations);
   fmt::print("evaluations {:.0f} ({:.3g} steps)\n", evaluations, steps);
   fmt::print("search      {}", config.search.kind);
-  if (config.search.kind == "map-elites")
-    fmt::print(": `amble repertoire {}` shows the map", folder.string());
+  if (experiment::fills_map(config)) fmt::print(": `amble repertoire {}` shows the map", folder.string());
   if (!rows.archive.empty() && !rows.novelty_threshold.empty())
     fmt::print(": archive of {:.0f} behaviours, threshold {:.4g} in the last generation", rows.archive.back(),
                rows.novelty_threshold.back());

@@ -49,9 +49,13 @@ io::Json elite_json(const search::Elites& elites, std::uint32_t number) {
 
 }  // namespace
 
+bool fills_map(const Config& config) {
+  return config.search.kind == "map-elites";
+}
+
 Repertoire load_repertoire(const RunPaths& paths) {
   Config config = load_config(paths.config, {});
-  if (config.search.kind != "map-elites")
+  if (!fills_map(config))
     fail(ExitCode::bad_input, "{}: a run with search.kind = \"{}\": expected one with \"map-elites\"",
          paths.folder.string(), config.search.kind);
   Problem problem = Problem::make(config, load_robot_file(paths.robot));

@@ -20,6 +20,9 @@ struct Repertoire {
   search::Elites elites;
 };
 
+/// Whether a run of this config fills a map.
+bool fills_map(const Config& config);
+
 /// Throws UserError: no such run, or one of another search.
 Repertoire load_repertoire(const RunPaths& paths);
 
