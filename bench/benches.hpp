@@ -10,6 +10,8 @@ namespace amble::bench {
 void measure_controllers(std::vector<Figure>& figures);
 /// Queries of evolved CPPNs: batched against point by point.
 void measure_cppn(std::vector<Figure>& figures);
+/// MAP-Elites on a function without physics.
+void measure_map_elites(std::vector<Figure>& figures);
 /// Breeding and speciating 300 genomes.
 void measure_neat(std::vector<Figure>& figures);
 /// Judging a generation by novelty: against plain loops.

@@ -23,6 +23,7 @@ struct Part {
 constexpr Part parts[] = {
     {"controllers", amble::bench::measure_controllers},
     {"cppn", amble::bench::measure_cppn},
+    {"map_elites", amble::bench::measure_map_elites},
     {"neat", amble::bench::measure_neat},
     {"novelty", amble::bench::measure_novelty},
     {"physics", amble::bench::measure_physics},
