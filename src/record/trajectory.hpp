@@ -33,17 +33,23 @@ struct PathSampling {
 
 /// Optional measurements of a trial, which cost time.
 struct Measures {
-  bool energy = false, uprightness = false, seconds = false, contacts = false, height = false;
+  bool energy = false, uprightness = false, seconds = false, contacts = false, footfalls = false,
+       height = false;
 
   Measures& operator|=(const Measures& other) {
     energy |= other.energy;
     uprightness |= other.uprightness;
     seconds |= other.seconds;
     contacts |= other.contacts;
+    footfalls |= other.footfalls;
     height |= other.height;
     return *this;
   }
 };
+
+/// A foot that touches something is a footfall if it has been off everything for so long: shorter gaps are
+/// chatter.
+inline constexpr double footfall_off_s = 0.05;
 
 /// Whole seconds in a time, s; a time a rounding error short of one more has that, too.
 inline int second_count(double time_s) {
@@ -71,6 +77,8 @@ struct Trajectory {
   double upright_steps = 0.0;
   /// Measures::contacts: of each leg, the steps after which its foot touched something.
   std::vector<int> contact_steps;
+  /// Measures::footfalls: of each leg, the steps after which its foot came down, ascending from 1.
+  std::vector<std::vector<int>> footfall_steps;
   /// Measures::height: sum over steps of the height of the root's centre of mass over the ground below it, m.
   double height_steps_m = 0.0;
 

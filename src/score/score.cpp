@@ -44,11 +44,17 @@ Direction small_turn(double angle_rad) {
   return turn;
 }
 
-/// The robot's forward axis at the start, turned counter-clockwise; exact for multiples of 90 degrees.
-Direction turned(const record::Trajectory& trajectory, double angle_deg) {
+/// Cosine and sine of an angle, degrees; exact for multiples of 90.
+Direction unit_direction(double angle_deg) {
   const double quarters = std::nearbyint(angle_deg / 90.0);
   Direction turn = small_turn((angle_deg - 90.0 * quarters) * (std::numbers::pi / 180.0));
   for (int i = 0; i < (static_cast<int>(quarters) % 4 + 4) % 4; ++i) turn = {-turn.y, turn.x};
+  return turn;
+}
+
+/// The robot's forward axis at the start, turned counter-clockwise.
+Direction turned(const record::Trajectory& trajectory, double angle_deg) {
+  const Direction turn = unit_direction(angle_deg);
   const Direction forward{trajectory.forward_x, trajectory.forward_y};
   return {forward.x * turn.x - forward.y * turn.y, forward.x * turn.y + forward.y * turn.x};
 }
@@ -146,6 +152,32 @@ double duty_factor(const record::Trajectory& trajectory, const Context& context)
   return sum / static_cast<double>(steps.size()) / trajectory.steps;
 }
 
+/// Of the first leg's stride that has passed when a leg's foot comes down, its circular mean over the
+/// footfalls in whole strides, 0 … 1; 0 without any.
+double phase_of(const std::vector<int>& first, const std::vector<int>& leg) {
+  Direction sum{0.0, 0.0};
+  std::size_t next = 0;
+  for (std::size_t stride = 0; stride + 1 < first.size(); ++stride) {
+    const int start = first[stride], end = first[stride + 1];
+    while (next < leg.size() && leg[next] < start) ++next;
+    for (; next < leg.size() && leg[next] < end; ++next) {
+      const Direction at = unit_direction(360.0 * (leg[next] - start) / (end - start));
+      sum = {sum.x + at.x, sum.y + at.y};
+    }
+  }
+  const double phase = angle_deg(sum) / 360.0;
+  return phase < 0.0 ? phase + 1.0 : phase;
+}
+
+double phase(const record::Trajectory& trajectory, const Context& context) {
+  const auto& steps = trajectory.footfall_steps;
+  if (steps.empty()) return 0.0;
+  if (context.leg >= 0) return phase_of(steps.front(), steps[to_index(context.leg)]);
+  double sum = 0.0;
+  for (const auto& of_leg : steps) sum += phase_of(steps.front(), of_leg);
+  return sum / static_cast<double>(steps.size());
+}
+
 /// Mean height of the root's centre of mass over the ground below it.
 double height(const record::Trajectory& trajectory, const Context&) {
   return trajectory.steps > 0 ? trajectory.height_steps_m / trajectory.steps : 0.0;
@@ -171,6 +203,7 @@ constexpr std::array table{
     Quantity{"uprightness", "", {-1.0, 1.0}, {.uprightness = true}, uprightness},
     Quantity{"upright_time", "", share_range, {}, upright_time},
     Quantity{"duty_factor", "", share_range, {.contacts = true}, duty_factor, true},
+    Quantity{"phase", "", share_range, {.footfalls = true}, phase, true},
     Quantity{"height", "m", signed_range, {.height = true}, height},
 };
 

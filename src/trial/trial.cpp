@@ -1,6 +1,7 @@
 #include "amble/trial/trial.hpp"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "amble/core/check.hpp"
@@ -70,6 +71,11 @@ void Runner::note_start(Lane& slot, int lane) {
   note_forward(lane, slot.trajectory.forward_x, slot.trajectory.forward_y);
   if (protocol_.measures.contacts)
     slot.trajectory.contact_steps.assign(to_index(engine_.sensors().touch.rows()), 0);
+  if (protocol_.measures.footfalls) {
+    slot.trajectory.footfall_steps.assign(to_index(engine_.sensors().touch.rows()), {});
+    slot.last_touch_step.assign(to_index(engine_.sensors().touch.rows()),
+                                std::numeric_limits<int>::min() / 2);
+  }
   if (!protocol_.measures.energy) return;
   slot.angle_rad.clear();
   const LaneArray& angle_rad = engine_.sensors().joint_angle_rad;
@@ -151,6 +157,7 @@ void Runner::measure(int lane) {
   if (protocol_.measures.contacts)
     for (std::size_t leg = 0; leg < slot.trajectory.contact_steps.size(); ++leg)
       slot.trajectory.contact_steps[leg] += engine_.sensors().touch.at(static_cast<int>(leg), lane) > 0.0f;
+  if (protocol_.measures.footfalls) note_footfalls(lane);
   if (protocol_.measures.seconds) {
     record::Trajectory& trajectory = slot.trajectory;
     const auto noted = static_cast<int>(trajectory.com_by_second_m.size() / 2);
@@ -168,6 +175,19 @@ void Runner::measure(int lane) {
     const double now_rad = angle_rad.at(joint, lane);
     slot.trajectory.energy_j += std::abs(torque_nm.at(joint, lane) * (now_rad - before_rad));
     before_rad = now_rad;
+  }
+}
+
+void Runner::note_footfalls(int lane) {
+  Lane& slot = lanes_[to_index(lane)];
+  const int step = slot.trajectory.steps;
+  // Off during the steps between two touches.
+  const double least_off = record::footfall_off_s / protocol_.timestep_s - 1e-6;
+  for (std::size_t leg = 0; leg < slot.last_touch_step.size(); ++leg) {
+    if (!(engine_.sensors().touch.at(static_cast<int>(leg), lane) > 0.0f)) continue;
+    if (step - slot.last_touch_step[leg] - 1 >= least_off && step - slot.last_touch_step[leg] > 1)
+      slot.trajectory.footfall_steps[leg].push_back(step);
+    slot.last_touch_step[leg] = step;
   }
 }
 

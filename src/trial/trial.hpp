@@ -78,7 +78,8 @@ class Runner {
     Task task;
     record::Trajectory trajectory;
     Vec3 last_healthy_com_m;
-    std::vector<double> angle_rad;  ///< after the last step; only where energy is measured
+    std::vector<double> angle_rad;     ///< after the last step; only where energy is measured
+    std::vector<int> last_touch_step;  ///< by leg; only where footfalls are measured
     bool busy = false;
   };
 
@@ -89,6 +90,7 @@ class Runner {
   void after_step(int lane, TaskQueue& queue);
   std::optional<record::Outcome> advance(int lane);
   void measure(int lane);
+  void note_footfalls(int lane);
 
   physics::Engine& engine_;
   controllers::Batch& controllers_;

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +31,9 @@ class Twin : public trial::Observer {
     height_m += engine.root_com_m(lane).z;
     for (int leg = 0; leg < engine.sensors().touch.rows(); ++leg)
       contacts += engine.sensors().touch.at(leg, lane) > 0.0f;
+    touches.emplace_back();
+    for (int leg = 0; leg < engine.sensors().touch.rows(); ++leg)
+      touches.back().push_back(engine.sensors().touch.at(leg, lane) > 0.0f);
     const Vec3 ahead = rotate(q * conjugate(start), {1.0, 0.0, 0.0});
     turn_deg = std::atan2(ahead.y, ahead.x) * 180.0 / 3.141592653589793;
     const LaneArray& angle_rad = engine.sensors().joint_angle_rad;
@@ -45,8 +50,36 @@ class Twin : public trial::Observer {
   Quat start;  ///< of the root in the start pose
   int steps = 0;
   std::vector<double> before_rad;
-  std::vector<Vec3> com_m;  ///< after each second
+  std::vector<Vec3> com_m;                 ///< after each second
+  std::vector<std::vector<bool>> touches;  ///< by step, of each leg
 };
+
+/// Steps of a touch after five without one, or since the start.
+std::vector<int> footfalls(const Twin& twin, std::size_t leg) {
+  std::vector<int> steps;
+  for (int step = 0; step < static_cast<int>(twin.touches.size()); ++step) {
+    bool off = true;
+    for (int before = std::max(0, step - 5); before < step; ++before)
+      off = off && !twin.touches[static_cast<std::size_t>(before)][leg];
+    if (off && twin.touches[static_cast<std::size_t>(step)][leg]) steps.push_back(step);
+  }
+  return steps;
+}
+
+double mean_phase(const Twin& twin) {
+  const auto first = footfalls(twin, 0);
+  double sum = 0.0;
+  for (std::size_t leg = 0; leg < twin.touches.at(0).size(); ++leg) {
+    std::complex<double> mean{};
+    for (const int step : footfalls(twin, leg))
+      for (std::size_t i = 0; i + 1 < first.size(); ++i)
+        if (first[i] <= step && step < first[i + 1])
+          mean += std::polar(1.0, 2.0 * 3.141592653589793 * (step - first[i]) / (first[i + 1] - first[i]));
+    const double turns = mean == 0.0 ? 0.0 : std::arg(mean) / (2.0 * 3.141592653589793);
+    sum += turns < 0.0 ? turns + 1.0 : turns;
+  }
+  return sum / static_cast<double>(twin.touches[0].size());
+}
 
 class ScoreInEachEngine : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Engine, ScoreInEachEngine, testing::Values("ode", "batch", "mujoco"),
@@ -88,6 +121,22 @@ TEST_P(ScoreInEachEngine, IsOfWhatItsTrialMeasured) {
   const double turned_deg = score_of("turn", turn).score.value();
   EXPECT_NEAR(turned_deg, turn.turn_deg, 1e-4);
   EXPECT_EQ(leaning.distance_m, economical.distance_m) << "measuring changes no bit";
+}
+
+TEST_P(ScoreInEachEngine, HasThePhasesOfItsFootfalls) {
+  Problem problem = small_problem(small_config({std::string("engine=") + GetParam()}));
+  problem.trial.duration_s = 6.0;
+  problem.score.terms = {{.quantity = "phase"}};
+  const auto population = small_population(problem);
+  int with_strides = 0;
+  for (const auto& genome : population.genomes()) {
+    Twin twin;
+    const auto result = replay(problem, genome, {.observer = &twin}, never)->result;
+    EXPECT_NEAR(result.score.value(), mean_phase(twin), 1e-9);
+    with_strides += footfalls(twin, 0).size() > 2;
+    if (with_strides == 3) break;
+  }
+  EXPECT_EQ(with_strides, 3) << "genomes whose first leg steps";
 }
 
 TEST(ScoredRun, SelectsAndKeepsChampionsByItsScoreAndGoesOnAfterAnInterruption) {

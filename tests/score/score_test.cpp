@@ -218,6 +218,27 @@ TEST(Score, DutyFactorIsTheShareOfStepsInContactOfALegOrOfAll) {
   EXPECT_DOUBLE_EQ(quantity_of("duty_factor", trajectory), 0.425);
 }
 
+TEST(Score, PhaseIsTheCircularMeanOverTheFirstLegsWholeStrides) {
+  record::Trajectory trajectory = walk();
+  trajectory.footfall_steps = {
+      {100, 200, 300, 400},      // strides of a second
+      {50, 150, 250, 350, 450},  // half of one later; before and after whole strides does not count
+      {195, 205, 305},           // around 0: 0.95 and 0.05 twice
+      {}};
+  EXPECT_EQ(quantity_of("phase", trajectory, 0), 0.0);
+  EXPECT_DOUBLE_EQ(quantity_of("phase", trajectory, 1), 0.5);
+  const double tenth = 0.1 * std::numbers::pi;
+  EXPECT_NEAR(quantity_of("phase", trajectory, 2),
+              std::atan(std::tan(tenth) / 3.0) / (2.0 * std::numbers::pi), 1e-12);
+  EXPECT_EQ(quantity_of("phase", trajectory, 3), 0.0);
+  trajectory.footfall_steps[3] = {370, 390};
+  EXPECT_NEAR(quantity_of("phase", trajectory, 3), 0.8, 1e-12);
+  trajectory.footfall_steps.resize(2);
+  EXPECT_DOUBLE_EQ(quantity_of("phase", trajectory), 0.25);
+  trajectory.footfall_steps[0] = {100};
+  EXPECT_EQ(quantity_of("phase", trajectory, 1), 0.0) << "no whole stride";
+}
+
 TEST(Score, HeightAndEnergyAreAsMeasured) {
   record::Trajectory trajectory = walk();
   trajectory.height_steps_m = 600.0;
@@ -295,7 +316,7 @@ TEST(ScoreSettings, AreRefusedWhereTheyNameNothingOrCannotBeKept) {
   EXPECT_EQ(error_of({.terms = {{.quantity = "joy"}}}),
             "score.terms: quantity \"joy\": expected distance, forward, heading, sideways, turn, speed_kept, "
             "energy, "
-            "economy, uprightness, upright_time, duty_factor, height");
+            "economy, uprightness, upright_time, duty_factor, phase, height");
   EXPECT_THAT(error_of({.limits = {{.quantity = "joy"}}}), testing::HasSubstr("score.limits: quantity"));
   EXPECT_EQ(error_of({.limits = {{.quantity = "uprightness", .least = 0.9, .most = 0.5}}}),
             "score.limits: uprightness: least = 0.9 is above most = 0.5");
