@@ -53,37 +53,13 @@ std::string title_of(const experiment::Repertoire& repertoire, const search::Eli
                      score::with_unit(fmt::format("{:.2f}", elite.objective), repertoire.config.score));
 }
 
-/// An elite in a trial without noise. Nothing if interrupted.
-std::optional<view::Walker> walk(const experiment::Repertoire& repertoire, const search::Elite& elite,
-                                 const fs::path& run, const ScratchFile& recording) {
-  const experiment::Problem& problem = repertoire.problem;
-  study::GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
-  const auto replay = experiment::replay(
-      problem, neat::expand(elite.genome, "archive.bin"),
-      {.record = recording.path(), .origin = run.string(), .observer = &gait, .trace = false}, stop_signal());
-  if (!replay) return std::nullopt;
-  return view::Walker{.title = title_of(repertoire, elite),
-                      .recording = recording.path(),
-                      .cppn_svg = {},
-                      .gait = io::parse_json(gait::report_json(gait.finish(replay->result.outcome)), "gait"),
-                      .cell = elite.cell};
-}
-
-view::MapPanel panel_of(const experiment::Repertoire& repertoire, const fs::path& run, std::size_t shown) {
-  const search::Elites& elites = repertoire.elites;
-  const std::string who = shown == elites.size()
-                              ? std::string("Choose a cell and its elite walks")
-                              : fmt::format("Choose one of the {} outlined cells of {}, and its elite walks",
-                                            shown, elites.size());
-  view::MapPanel panel{.map_svg = figures::map_figure(map_picture(repertoire)),
-                       .curves_svg = {},
-                       .note = who + "; with the Shift key, beside the one that walks there already."};
+/// How the map filled; empty before the first round.
+std::string curves_of(const experiment::Repertoire& repertoire, const fs::path& run) {
   const auto generations = record::read_generations(experiment::RunPaths(run).generations);
-  if (generations.count() == 0) return panel;
-  const figures::Objective objective{.name = "Objective",
-                                     .unit = score::with_unit("", repertoire.config.score)};
-  panel.curves_svg = figures::fitness_figure(generations, graphics::Layout::wide, objective);
-  return panel;
+  if (generations.count() == 0) return {};
+  return figures::fitness_figure(
+      generations, graphics::Layout::wide,
+      {.name = "Objective", .unit = score::with_unit("", repertoire.config.score)});
 }
 
 }  // namespace
@@ -105,19 +81,51 @@ figures::GridMap map_picture(const experiment::Repertoire& repertoire) {
   return map;
 }
 
+view::ReplayPage map_page(const experiment::Repertoire& repertoire, const std::string& title,
+                          const std::string& note) {
+  view::ReplayPage page;
+  page.title = title;
+  const auto build = experiment::build_info();
+  page.made_by = fmt::format("amble {} ({})", build.version, experiment::short_commit(build));
+  page.map =
+      view::MapPanel{.map_svg = figures::map_figure(map_picture(repertoire)), .curves_svg = {}, .note = note};
+  return page;
+}
+
+std::optional<view::Walker> elite_walker(const experiment::Repertoire& repertoire,
+                                         const experiment::Problem& problem, std::uint32_t cell,
+                                         const std::string& title, const fs::path& run,
+                                         const ScratchFile& recording) {
+  const search::Elite& elite = repertoire.elites[repertoire.elites.in(cell)];
+  study::GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
+  const auto replay = experiment::replay(
+      problem, neat::expand(elite.genome, "archive.bin"),
+      {.record = recording.path(), .origin = run.string(), .observer = &gait, .trace = false}, stop_signal());
+  if (!replay) return std::nullopt;
+  return view::Walker{.title = title,
+                      .recording = recording.path(),
+                      .cppn_svg = {},
+                      .gait = io::parse_json(gait::report_json(gait.finish(replay->result.outcome)), "gait"),
+                      .cell = cell};
+}
+
 ExitCode write_map_page(const experiment::Repertoire& repertoire, const fs::path& run, int walkers,
                         const fs::path& out) {
   io::refuse_to_replace(out, "<!DOCTYPE html>", "a page");
-  const auto chosen = chosen_elites(repertoire.elites, to_index(walkers));
-  view::ReplayPage page;
-  page.title = fmt::format("Map of {}", repertoire.config.name);
-  const auto build = experiment::build_info();
-  page.made_by = fmt::format("amble {} ({})", build.version, experiment::short_commit(build));
-  page.map = panel_of(repertoire, run, chosen.size());
+  const search::Elites& elites = repertoire.elites;
+  const auto chosen = chosen_elites(elites, to_index(walkers));
+  const std::string who = chosen.size() == elites.size()
+                              ? std::string("Choose a cell and its elite walks")
+                              : fmt::format("Choose one of the {} outlined cells of {}, and its elite walks",
+                                            chosen.size(), elites.size());
+  auto page = map_page(repertoire, fmt::format("Map of {}", repertoire.config.name),
+                       who + "; with the Shift key, beside the one that walks there already.");
+  page.map->curves_svg = curves_of(repertoire, run);
   std::vector<std::unique_ptr<ScratchFile>> recordings;
   for (const std::uint32_t number : chosen) {
     recordings.push_back(std::make_unique<ScratchFile>("walk.rec"));
-    auto walker = walk(repertoire, repertoire.elites[number], run, *recordings.back());
+    auto walker = elite_walker(repertoire, repertoire.problem, elites[number].cell,
+                               title_of(repertoire, elites[number]), run, *recordings.back());
     if (!walker) return ExitCode::interrupted;
     page.walkers.push_back(std::move(*walker));
   }

@@ -12,15 +12,21 @@
 namespace amble::experiment {
 namespace {
 
+/// A map's problem in another engine, with damage.
+Problem problem_in(const Repertoire& repertoire, const std::string& engine, const damage::Settings& damage) {
+  Problem problem = repertoire.problem;
+  problem.noise.score = trial::EpisodeScore::mean;
+  problem.engine = engine;
+  problem.complete();
+  problem.become(damage);
+  return problem;
+}
+
 /// Trials of elites on one robot in one engine.
 class Reality {
  public:
   Reality(const Repertoire& repertoire, const std::string& engine, const damage::Settings& damage, int jobs)
-      : repertoire_(repertoire), problem_(repertoire.problem) {
-    problem_.noise.score = trial::EpisodeScore::mean;
-    problem_.engine = engine;
-    problem_.complete();
-    problem_.become(damage);
+      : repertoire_(repertoire), problem_(problem_in(repertoire, engine, damage)) {
     key_.seed = static_cast<std::uint64_t>(repertoire.config.seed);
     key_.episode = first_unseen_episode;
     ground_ = problem_.make_ground(ground_of(key_));
@@ -65,6 +71,10 @@ std::vector<adaptation::Candidate> candidates_of(const Repertoire& repertoire) {
 }
 
 }  // namespace
+
+Problem damaged_problem(const Repertoire& repertoire, const AdaptSettings& settings) {
+  return problem_in(repertoire, settings.engine, settings.damage);
+}
 
 std::optional<Adaptation> adapt(const Repertoire& repertoire, const AdaptSettings& settings, int jobs,
                                 const std::atomic<bool>& stop) {

@@ -36,6 +36,9 @@ struct Adaptation {
   double intact = 0.0, damaged = 0.0, adapted = 0.0;
 };
 
+/// What the robot of an adaptation does: its engine and its damage.
+Problem damaged_problem(const Repertoire& repertoire, const AdaptSettings& settings);
+
 /// Intelligent trial and error (adaptation/trial_and_error.hpp) over the elites of a map, with trials of the
 /// damaged robot in another engine; each under noise of its own, if the map was made under noise. The result
 /// is the same for any number of `jobs`. Nothing if `stop` was set. Throws UserError: an unknown engine,

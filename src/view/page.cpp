@@ -93,9 +93,9 @@ std::string make_page(const ReplayPage& page) {
   io::Json data{{"title", page.title}, {"made_by", page.made_by}, {"walkers", io::Json::array()}};
   for (const Walker& walker : page.walkers) data["walkers"].push_back(walker_json(walker));
 
-  if (page.map)
-    data["map"] = {
-        {"svg", page.map->map_svg}, {"curves_svg", page.map->curves_svg}, {"note", page.map->note}};
+  if (const auto& map = page.map)
+    data["map"] = {{"svg", map->map_svg}, {"curves_svg", map->curves_svg},   {"note", map->note},
+                   {"table", map->table}, {"table_title", map->table_title}, {"table_note", map->table_note}};
   const std::string style =
       graphics::shared_style_sheet() + (page.map ? graphics::map_style_sheet() : std::string());
 

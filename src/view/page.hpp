@@ -24,6 +24,10 @@ struct MapPanel {
   std::string map_svg;     ///< figures::map_figure()
   std::string curves_svg;  ///< figures::fitness_figure(); empty: none
   std::string note;        ///< a sentence on which cells can be chosen
+  /// Head and rows of a table below the map; empty: none. A row begins with the number of a cell that can be
+  /// chosen.
+  std::vector<std::vector<std::string>> table = {};
+  std::string table_title = {}, table_note = {};
 };
 
 /// The contents of the replay page.

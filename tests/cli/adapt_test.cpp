@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "tests/cli/bad_input.hpp"
 
@@ -43,6 +46,33 @@ TEST_F(AdaptCommand, TriesElitesOnTheDamagedRobotAndJudgesTheOneItFound) {
   for (const auto& trial : json["trials"])
     found |= trial["cell"] == json["cell"] && trial["measured"].get<double>() == best;
   EXPECT_TRUE(found) << "it is the elite of the best trial";
+}
+
+TEST_F(AdaptCommand, MakesAPageInWhichTheElitesThatItTriedWalk) {
+  const std::string out = scratch_ / "adapt.html", steps = scratch_ / "adapt.json";
+  const std::vector<std::string> command{"adapt",    run_, "--damage", "missing:FL",
+                                         "--trials", "4",  "--judge",  "2"};
+  for (const std::string& file : {out, steps}) {
+    auto whole = command;
+    whole.insert(whole.end(), {"-o", file});
+    const auto adapted = amble(whole);
+    ASSERT_EQ(adapted.exit_code, 0) << adapted.err;
+  }
+  const std::string html = slurp(out), mark = "id=\"amble-data\">";
+  const auto from = html.find(mark) + mark.size();
+  const auto data = nlohmann::json::parse(html.substr(from, html.find("</script>", from) - from));
+  const auto json = nlohmann::json::parse(slurp(steps));
+  const auto& table = data["map"]["table"];
+  ASSERT_EQ(table.size(), json["trials"].size() + 1) << "a head and a row per trial";
+  std::set<int> tried, walking;
+  for (std::size_t i = 0; i < json["trials"].size(); ++i) {
+    EXPECT_EQ(table[i + 1][0], std::to_string(json["trials"][i]["cell"].get<int>()));
+    tried.insert(json["trials"][i]["cell"].get<int>());
+  }
+  for (const auto& walker : data["walkers"]) walking.insert(walker["cell"].get<int>());
+  EXPECT_EQ(walking, tried);
+  EXPECT_EQ(data["walkers"].size(), tried.size());
+  EXPECT_EQ(data["walkers"][0]["cell"], json["cell"]) << "the one it found is shown first";
 }
 
 TEST_F(AdaptCommand, GivesTheSameForAnyNumberOfWorkersAndInTheMapsOwnEngine) {

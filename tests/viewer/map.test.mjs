@@ -57,6 +57,25 @@ test("the first walker is the map's best, and cells that are chosen walk instead
   await page.close();
 });
 
+test("the page of an adaptation has a table of its trials, whose cells can be chosen there", async () => {
+  const adapted = join(AMBLE_PAGES, "adapted.html");
+  rmSync(adapted, { force: true });
+  amble("adapt", join(AMBLE_PAGES, "run"), "--damage", "missing:FL", "--trials", "4", "--judge", "2", "-o", adapted);
+  const { page, problems } = await open(browser, adapted);
+  const rows = page.locator(".trials button");
+  const tried = (await rows.allTextContents()).map(Number);
+  assert.equal(new Set(tried).size, await page.locator(".walks").count());
+  const [found] = await walkers(page);
+  const other = tried.findIndex((cell) => cell !== found);
+  if (other >= 0) {
+    await rows.nth(other).click();
+    await loaded(page, [tried[other]]);
+    assert.equal(await rows.nth(other).getAttribute("aria-pressed"), "true");
+  }
+  assert.deepEqual(problems, []);
+  await page.close();
+});
+
 for (const [width, colorScheme] of [[360, "dark"], [1280, "light"]])
   test(`the map is within a window of ${width} px`, async () => {
     const { page } = await open(browser, path, { viewport: { width, height: 800 }, colorScheme });

@@ -24,6 +24,18 @@ function figure(svg, className) {
   return box;
 }
 
+/** A table whose rows are cells that can be chosen. */
+function table({ table: [head, ...rows], table_title, table_note }, cells, onChoose) {
+  const body = rows.map((row) => {
+    const cell = Number(row[0]);
+    const choose = element("button", { type: "button", "aria-pressed": String(cells.includes(cell)) }, row[0]);
+    choose.addEventListener("click", (event) => onChoose(afterChoice(cells, cell, event.shiftKey)));
+    return element("tr", {}, element("th", { scope: "row" }, choose), ...row.slice(1).map((text) => element("td", {}, text)));
+  });
+  const made = element("table", { class: "trials" }, element("tr", {}, ...head.map((text) => element("th", { scope: "col" }, text))), ...body);
+  return [element("h2", {}, table_title), element("p", { class: "lead" }, table_note), element("div", { class: "scroll" }, made)];
+}
+
 /** Fills the section of the map. `onChoose` gets the cells that shall walk. */
 export function showMap(section, { map, walkers }, cells, onChoose) {
   const picture = figure(map.svg, "map-box");
@@ -45,6 +57,7 @@ export function showMap(section, { map, walkers }, cells, onChoose) {
   }
   section.hidden = false;
   section.append(element("h2", {}, "Map"), element("p", { class: "lead" }, map.note), picture);
+  if (map.table.length) section.append(...table(map, cells, onChoose));
   if (map.curves_svg)
     section.append(element("details", {}, element("summary", {}, "How it filled"),
       element("p", { class: "lead" }, "The candidates of each generation, and the map after it."),
