@@ -30,7 +30,7 @@ std::size_t TrialAndError::next() const {
 
 void TrialAndError::tell(std::size_t candidate, double measured) {
   const double share = measured / unit_;
-  if (!std::exchange(tried_, true) || share > best_measured_) best_ = candidate, best_measured_ = share;
+  tried_.push_back(candidate);
   // The process models how the robot differs from the map.
   process_.observe(candidates_[candidate].descriptor, share - candidates_[candidate].expected / unit_);
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
@@ -41,7 +41,12 @@ void TrialAndError::tell(std::size_t candidate, double measured) {
 }
 
 bool TrialAndError::done() const {
-  return tried_ && best_measured_ >= settings_.stop_share * std::ranges::max(mean_);
+  return !tried_.empty() && mean_[best()] >= settings_.stop_share * std::ranges::max(mean_);
+}
+
+std::size_t TrialAndError::best() const {
+  AMBLE_CHECK(!tried_.empty(), "a trial");
+  return *std::ranges::max_element(tried_, {}, [this](std::size_t candidate) { return mean_[candidate]; });
 }
 
 double TrialAndError::mean(std::size_t candidate) const {

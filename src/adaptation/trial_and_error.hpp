@@ -16,10 +16,12 @@ struct Candidate {
 /// Parameters of the search; the defaults are those of Cully et al. 2015 (supplementary methods), for
 /// performances that are shares of the best expected one.
 struct TrialAndErrorSettings {
-  double length_scale = 0.4;      ///< ρ of the kernel
-  double noise_variance = 0.001;  ///< of a trial
-  double exploration = 0.05;      ///< κ of the upper confidence bound
-  double stop_share = 0.9;        ///< α: stop when a trial reached this share of the best that is predicted
+  double length_scale = 0.4;  ///< ρ of the kernel
+  /// Of a trial. The published value is for trials that nearly repeat; noise that moves a trial by a tenth of
+  /// the best expected performance has 0.01.
+  double noise_variance = 0.001;
+  double exploration = 0.05;  ///< κ of the upper confidence bound
+  double stop_share = 0.9;    ///< α: stop when what was tried is predicted to reach this share of the best
 };
 
 /// Intelligent trial and error (Cully, Clune, Tarapore & Mouret 2015): a Gaussian process learns how the
@@ -34,15 +36,15 @@ class TrialAndError {
   std::size_t next() const;
   /// What a trial of a candidate gave, in the unit of `expected`.
   void tell(std::size_t candidate, double measured);
-  /// Whether no candidate is predicted to be much better than the best trial so far.
+  /// Whether no candidate is predicted to be much better than the best of those tried.
   bool done() const;
 
   /// Expectation and standard deviation of a candidate by now, in the unit of `expected`.
   double mean(std::size_t candidate) const;
   double deviation(std::size_t candidate) const;
-  /// Of the trials so far the best: which candidate, and what it gave. There must have been one.
-  std::size_t best() const { return best_; }
-  double best_measured() const { return best_measured_ * unit_; }
+  /// Of the candidates tried the one with the largest expectation, which weighs what its trials gave by the
+  /// noise of a trial; of equal ones the first. There must have been a trial.
+  std::size_t best() const;
 
  private:
   std::vector<Candidate> candidates_;
@@ -50,9 +52,7 @@ class TrialAndError {
   double unit_;  ///< the best expected performance; all else is a share of it
   GaussianProcess process_;
   std::vector<double> mean_, deviation_;  ///< of each candidate
-  std::size_t best_ = 0;
-  double best_measured_ = 0.0;
-  bool tried_ = false;
+  std::vector<std::size_t> tried_;
 };
 
 }  // namespace amble::adaptation

@@ -164,6 +164,19 @@ void add_adapt(CLI::App& app, Action& action) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command
+      ->add_option("--noise-variance", options->settings.search.noise_variance,
+                   "Variance of a trial, as a share of the map's best squared (0.001: trials nearly repeat; "
+                   "0.01: they "
+                   "differ by a tenth of it)")
+      ->check(CLI::Range(1e-9, 1e3))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--exploration", options->settings.search.exploration,
+          "Standard deviations by which a gait that is uncertain counts as better when the next is chosen")
+      ->check(CLI::Range(0.0, 1e3))
+      ->capture_default_str();
+  command
       ->add_option("--judge", options->settings.judges,
                    "Trials that judge a gait before and after, under noise of their own")
       ->check(CLI::Range(1, 100000))

@@ -83,7 +83,7 @@ std::optional<Adaptation> adapt(const Repertoire& repertoire, const AdaptSetting
     fail(ExitCode::bad_input, "the map has no elite that gets anywhere: there is nothing to adapt with");
   Reality intact(repertoire, settings.engine, repertoire.problem.damage, jobs);
   Reality damaged(repertoire, settings.engine, settings.damage, jobs);
-  adaptation::TrialAndError search(candidates_of(repertoire));
+  adaptation::TrialAndError search(candidates_of(repertoire), settings.search);
   Adaptation adaptation;
   const auto best = static_cast<std::uint32_t>(search.next());
   while (adaptation.steps.size() < static_cast<std::size_t>(settings.most_trials) && !search.done()) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "amble/adaptation/trial_and_error.hpp"
 #include "amble/damage/settings.hpp"
 #include "amble/experiment/repertoire.hpp"
 
@@ -16,6 +17,7 @@ struct AdaptSettings {
   std::string engine = "ode";  ///< stands for reality
   damage::Settings damage;
   int most_trials = 20;
+  adaptation::TrialAndErrorSettings search = {};
   int judges = 20;  ///< trials that judge a gait before and after, under noise the search has not met
 };
 
@@ -31,7 +33,7 @@ struct AdaptStep {
 struct Adaptation {
   std::vector<AdaptStep> steps;  ///< the first is the map's best
   bool done = false;             ///< stopped because nothing better was predicted, not for lack of trials
-  std::uint32_t cell = 0;        ///< of the elite with the best trial
+  std::uint32_t cell = 0;        ///< of the elite found: TrialAndError::best()
   // Means over the judging trials: the map's best before the damage and after it, and the elite found.
   double intact = 0.0, damaged = 0.0, adapted = 0.0;
 };
