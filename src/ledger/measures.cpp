@@ -20,6 +20,15 @@ constexpr std::array run_measures{
     RunMeasure{"hidden", "hidden nodes of the CPPN", [](const Record& r) { return 1.0 * r.hidden; }},
     RunMeasure{"links", "links of the CPPN", [](const Record& r) { return 1.0 * r.links; }}};
 
+/// Of runs that fill a map.
+struct MapMeasure {
+  std::string_view name, label;
+};
+constexpr std::array map_measures{MapMeasure{"coverage", "share of the cells filled"},
+                                  MapMeasure{"qd_score", "QD score"},
+                                  MapMeasure{"map_best", "best objective of the map"},
+                                  MapMeasure{"entering_share", "share of the candidates that enter the map"}};
+
 struct TestMeasure {
   std::string_view name, label;
   double (*value)(const Record&, const TestResult&);
@@ -66,7 +75,9 @@ Parts split(std::string_view name) {
 
 bool is_measure(const StudySpec& study, std::string_view name) {
   const auto [test, what] = split(name);
-  if (test.empty()) return std::ranges::find(run_measures, what, &RunMeasure::name) != run_measures.end();
+  if (test.empty())
+    return std::ranges::find(run_measures, what, &RunMeasure::name) != run_measures.end() ||
+           std::ranges::find(map_measures, what, &MapMeasure::name) != map_measures.end();
   const TestSpec* const spec = study.find_test(test);
   const auto found = std::ranges::find(test_measures, what, &TestMeasure::name);
   return spec != nullptr && found != test_measures.end() && (!found->of_reaching || spec->reach_m > 0.0);
@@ -76,8 +87,9 @@ std::optional<double> measure(const Record& record, std::string_view name) {
   const auto [test, what] = split(name);
   if (test.empty()) {
     const auto found = std::ranges::find(run_measures, what, &RunMeasure::name);
-    if (found == run_measures.end()) return std::nullopt;
-    return found->value(record);
+    if (found != run_measures.end()) return found->value(record);
+    const auto of_map = record.map_figures.find(std::string(what));
+    return of_map == record.map_figures.end() ? std::nullopt : std::optional(of_map->second);
   }
   const TestResult* const result = record.find_test(test);
   const auto found = std::ranges::find(test_measures, what, &TestMeasure::name);
@@ -90,7 +102,9 @@ std::string measure_label(std::string_view name) {
   const auto [test, what] = split(name);
   if (test.empty()) {
     const auto found = std::ranges::find(run_measures, what, &RunMeasure::name);
-    return std::string(found == run_measures.end() ? name : found->label);
+    if (found != run_measures.end()) return std::string(found->label);
+    const auto of_map = std::ranges::find(map_measures, what, &MapMeasure::name);
+    return std::string(of_map == map_measures.end() ? name : of_map->label);
   }
   const auto found = std::ranges::find(test_measures, what, &TestMeasure::name);
   return fmt::format("{}: {}", test, found == test_measures.end() ? what : found->label);

@@ -14,6 +14,7 @@ struct StudySpec;
 ///
 /// train_m            distance of the champion in evolution, m
 /// hidden, links      hidden nodes and enabled links of its CPPN
+/// coverage, qd_score, map_best, entering_share    of runs that fill a map (Record::map_figures)
 /// TEST.distance_m    in the test of that name (median of its episodes), m
 /// TEST.upright_s     until the robot fell or the test ended, s
 /// TEST.walking_s     until it fell, stopped (score/walking.hpp) or the test ended, s

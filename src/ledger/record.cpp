@@ -96,22 +96,24 @@ io::Json results_json(const Record& record) {
   io::Json curve = io::Json::array(), tests = io::Json::array();
   for (const CurvePoint& point : record.curve) curve.push_back({point.generation, point.best_m});
   for (const TestResult& test : record.tests) tests.push_back(to_json(test));
-  return {{"study", record.study},
-          {"condition", record.condition},
-          {"seed", record.seed},
-          {"config", record.config},
-          {"generations", record.generations},
-          {"engine", record.engine},
-          {"evaluations", record.evaluations},
-          {"steps", record.steps},
-          {"best_m", record.best_m},
-          {"best_generation", record.best_generation},
-          {"hidden", record.hidden},
-          {"links", record.links},
-          {"curve", std::move(curve)},
-          {"tests", std::move(tests)},
-          {"champion_file", record.champion_file},
-          {"champion", record.champion}};
+  io::Json json{{"study", record.study},
+                {"condition", record.condition},
+                {"seed", record.seed},
+                {"config", record.config},
+                {"generations", record.generations},
+                {"engine", record.engine},
+                {"evaluations", record.evaluations},
+                {"steps", record.steps},
+                {"best_m", record.best_m},
+                {"best_generation", record.best_generation},
+                {"hidden", record.hidden},
+                {"links", record.links},
+                {"curve", std::move(curve)},
+                {"tests", std::move(tests)},
+                {"champion_file", record.champion_file},
+                {"champion", record.champion}};
+  if (!record.map_figures.empty()) json["map"] = record.map_figures;
+  return json;
 }
 
 io::Json to_json(const Provenance& from) {
@@ -122,6 +124,13 @@ io::Json to_json(const Provenance& from) {
                 {"tests_s", from.tests_s},   {"workers", from.workers}};
   if (!from.reached_s.empty()) json["reached_s"] = from.reached_s;
   return json;
+}
+
+std::map<std::string, double> numbers_from(const io::JsonView& view) {
+  if (!view.raw().is_object()) view.bad("an object");
+  std::map<std::string, double> numbers;
+  for (const auto& [name, value] : view.raw().items()) numbers[name] = view.at(name).finite_number();
+  return numbers;
 }
 
 Provenance provenance_from(const io::JsonView& view) {
@@ -136,10 +145,7 @@ Provenance provenance_from(const io::JsonView& view) {
                   .tests_s = view.at("tests_s").finite_number(),
                   .workers = count_from(view.at("workers"))};
   if (!view.has("reached_s")) return from;
-  const auto reached_s = view.at("reached_s");
-  if (!reached_s.raw().is_object()) reached_s.bad("an object");
-  for (const auto& [test, value] : reached_s.raw().items())
-    from.reached_s[test] = reached_s.at(test).finite_number();
+  from.reached_s = numbers_from(view.at("reached_s"));
   return from;
 }
 
@@ -193,11 +199,13 @@ Record parse_record(const std::string& text, const std::string& what) {
                 .best_generation = count_from(root.at("best_generation")),
                 .hidden = count_from(root.at("hidden")),
                 .links = count_from(root.at("links")),
+                .map_figures = {},
                 .curve = {},
                 .champion = root.at("champion").raw(),
                 .champion_file = root.at("champion_file").text(),
                 .tests = {},
                 .provenance = provenance_from(root.at("provenance"))};
+  if (root.has("map")) record.map_figures = numbers_from(root.at("map"));
   const auto curve = root.at("curve"), tests = root.at("tests");
   for (std::size_t i = 0; i < curve.size(); ++i)
     record.curve.push_back(

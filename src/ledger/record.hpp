@@ -39,8 +39,8 @@ struct TestResult {
   std::vector<EpisodeResult> episodes;  ///< at least one
   std::string gait;                     ///< of the first episode (gait/gait.hpp); empty: no name
   double path_interval_s = 0.0;
-  std::vector<double> path_m;      ///< first episode: x0, y0, x1, y1, … from the start, rounded to mm
-  double reach_m = 0.0;            ///< TestSpec::reach_m; 0: not looked for
+  std::vector<double> path_m;           ///< first episode: x0, y0, x1, y1, … from the start, rounded to mm
+  double reach_m = 0.0;                 ///< TestSpec::reach_m; 0: not looked for
   std::optional<Reached> reached = {};  ///< nothing: not looked for, or no champion of the run gets that far
 
   double distance_m() const;  ///< median of the episodes
@@ -80,7 +80,9 @@ struct Record {
   std::uint64_t evaluations = 0, steps = 0;
   double best_m = 0.0;  ///< objective of the best genome
   int best_generation = 0;
-  int hidden = 0, links = 0;      ///< of the champion's CPPN
+  int hidden = 0, links = 0;  ///< of the champion's CPPN
+  /// Of a run that fills a map, at its end: coverage, qd_score, map_best, entering_share (docs/STUDIES.md).
+  std::map<std::string, double> map_figures = {};
   std::vector<CurvePoint> curve;  ///< ascending; the best so far stays until the next point
   io::Json champion;              ///< a champion file without its traces (docs/FORMATS.md)
   std::string champion_file;      ///< hash of the champion's file in the run folder, traces included

@@ -26,7 +26,7 @@ constexpr std::array<std::pair<std::string_view, Column>, 6> columns{{
 }};
 
 /// Columns that may be absent, or whose cells may be empty in every row.
-constexpr std::array<std::pair<std::string_view, Column>, 18> optional_columns{{
+constexpr std::array<std::pair<std::string_view, Column>, 21> optional_columns{{
     {"species", &Generations::species},
     {"threshold", &Generations::threshold},
     {"mean_hidden", &Generations::mean_hidden},
@@ -37,6 +37,9 @@ constexpr std::array<std::pair<std::string_view, Column>, 18> optional_columns{{
     {"coverage", &Generations::coverage},
     {"qd_score", &Generations::qd_score},
     {"map_best", &Generations::map_best},
+    {"entered", &Generations::entered},
+    {"improved", &Generations::improved},
+    {"reevaluated", &Generations::reevaluated},
     {column::wall_s, &Generations::wall_s},
     {"physics_s", &Generations::physics_s},
     {"decode_s", &Generations::decode_s},

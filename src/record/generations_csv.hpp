@@ -19,7 +19,7 @@ struct Generations {
   /// Of novelty search; empty for runs without.
   std::vector<double> archive, novelty_threshold, best_novelty;
   /// Of MAP-Elites; empty for other searches. coverage: share of the cells that are filled.
-  std::vector<double> coverage, qd_score, map_best;
+  std::vector<double> coverage, qd_score, map_best, entered, improved, reevaluated;
   /// Where the time went, s; all but wall_s may be empty.
   std::vector<double> wall_s, physics_s, decode_s, control_s, waiting_s, search_s, referees_s, files_s;
 

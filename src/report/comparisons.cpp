@@ -42,9 +42,9 @@ Pair compare(const ledger::ConditionSpec& first, const ledger::ConditionSpec& se
 }  // namespace
 
 std::vector<SampleSummary> summarize(const StudyData& data) {
-  const auto distances = distances_of(data.study);
+  const auto compared = compared_measures_of(data);
   std::vector<SampleSummary> summaries;
-  for (const std::string& measure : measures_of(data.study))
+  for (const std::string& measure : measures_of(data))
     for (const ledger::ConditionSpec& condition : data.study.conditions) {
       const auto values = data.values(condition.name, measure);
       // Runs that never got as far as a test asks have no mean; the table of runs and counts have them.
@@ -57,8 +57,8 @@ std::vector<SampleSummary> summarize(const StudyData& data) {
                           .summary = *summary,
                           .median = {},
                           .interquartile_mean = {}};
-      const bool is_distance = std::ranges::find(distances, measure) != distances.end();
-      if (is_distance && values.size() >= fewest_resampled) {
+      const bool is_compared = std::ranges::find(compared, measure) != compared.end();
+      if (is_compared && values.size() >= fewest_resampled) {
         found.median = statistics::bootstrap(values, statistics::median);
         found.interquartile_mean = statistics::bootstrap(values, statistics::interquartile_mean);
       }
@@ -78,7 +78,7 @@ const SampleSummary* find_summary(const std::vector<SampleSummary>& summaries, s
 std::vector<PairTable> compare_pairs(const StudyData& data) {
   const auto& conditions = data.study.conditions;
   std::vector<PairTable> tables;
-  for (const std::string& measure : distances_of(data.study)) {
+  for (const std::string& measure : compared_measures_of(data)) {
     std::vector<std::vector<double>> samples;
     samples.reserve(conditions.size());
     for (const auto& condition : conditions) samples.push_back(data.values(condition.name, measure));

@@ -50,7 +50,7 @@ struct PairTable {
   std::vector<Pair> pairs;  ///< of conditions with at least two runs each, in the order of the study
 };
 
-/// For every distance (distances_of) in which at least one pair can be compared.
+/// For every measure of compared_measures_of() in which at least one pair can be compared.
 std::vector<PairTable> compare_pairs(const StudyData& data);
 
 }  // namespace amble::report

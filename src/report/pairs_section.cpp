@@ -103,7 +103,7 @@ std::string matrix(const Report& report, const PairTable& pairs) {
 std::string pairs_section(const Report& report) {
   const bool many = report.data.study.conditions.size() > most_listed;
   std::string content;
-  for (const std::string& measure : distances_of(report.data.study)) {
+  for (const std::string& measure : compared_measures_of(report.data)) {
     if (std::ranges::none_of(report.summaries, [&](const auto& sample) { return sample.measure == measure; }))
       continue;
     std::string part = summary_table(report, measure);
@@ -120,7 +120,8 @@ std::string pairs_section(const Report& report) {
   }
   return section(
       "pairs", "Every pair of conditions",
-      "Two-sided tests of all pairs in every distance: Student’s t (the paper’s), Welch’s t, Mann–Whitney. "
+      "Two-sided tests of all pairs in every distance and figure of a map: Student’s t (the paper’s), "
+      "Welch’s t, Mann–Whitney. "
       "Below each p value is the one adjusted by Holm’s method; the family is all pairs of one measure "
       "under one test. A12 is the probability that a run of the first condition beats one of the second. "
       "The interval of a difference is Welch’s; IQM is the interquartile mean; BCa intervals, "

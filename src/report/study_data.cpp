@@ -105,9 +105,23 @@ StudyData load_study_data(const std::filesystem::path& folder) {
   return data;
 }
 
-std::vector<std::string> measures_of(const ledger::StudySpec& study) {
+namespace {
+
+/// Names of the figures that some run's map has.
+std::set<std::string> map_figures_of(const StudyData& data) {
+  std::set<std::string> names;
+  for (const ledger::Record& record : data.records)
+    for (const auto& [name, value] : record.map_figures) names.insert(name);
+  return names;
+}
+
+}  // namespace
+
+std::vector<std::string> measures_of(const StudyData& data) {
   std::vector<std::string> measures{"train_m", "hidden", "links"};
-  for (const ledger::TestSpec& test : study.tests) {
+  const auto of_maps = map_figures_of(data);
+  measures.insert(measures.end(), of_maps.begin(), of_maps.end());
+  for (const ledger::TestSpec& test : data.study.tests) {
     for (const char* what : {"distance_m", "upright_s", "walking_s", "kept"})
       measures.push_back(test.name + "." + what);
     if (test.reach_m <= 0.0) continue;
@@ -117,10 +131,12 @@ std::vector<std::string> measures_of(const ledger::StudySpec& study) {
   return measures;
 }
 
-std::vector<std::string> distances_of(const ledger::StudySpec& study) {
-  std::vector<std::string> distances{"train_m"};
-  for (const ledger::TestSpec& test : study.tests) distances.push_back(test.name + ".distance_m");
-  return distances;
+std::vector<std::string> compared_measures_of(const StudyData& data) {
+  std::vector<std::string> measures{"train_m"};
+  const auto of_maps = map_figures_of(data);
+  measures.insert(measures.end(), of_maps.begin(), of_maps.end());
+  for (const ledger::TestSpec& test : data.study.tests) measures.push_back(test.name + ".distance_m");
+  return measures;
 }
 
 std::optional<double> training_s(const ledger::Record& record) {

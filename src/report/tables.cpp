@@ -26,7 +26,7 @@ Table runs_table(const Report& report) {
               "one finished run",
               {"condition", "seed", "engine", "generations", "evaluations", "steps", "best_generation"},
               {}};
-  const auto measures = measures_of(study);
+  const auto measures = measures_of(report.data);
   table.header.insert(table.header.end(), measures.begin(), measures.end());
   for (const ledger::TestSpec& test : study.tests)
     for (const char* what : {"engine", "trial_s", "gait"}) table.header.push_back(test.name + "." + what);

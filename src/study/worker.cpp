@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -50,6 +51,21 @@ std::vector<ledger::CurvePoint> curve_of(const std::filesystem::path& generation
     if (curve.empty() || generations.best[i] > curve.back().best_m)
       curve.push_back({static_cast<int>(i), generations.best[i]});
   return curve;
+}
+
+/// Record::map_figures; nothing for runs without a map.
+std::map<std::string, double> map_figures_of(const std::filesystem::path& generations_csv) {
+  const auto rows = record::read_generations(generations_csv);
+  if (rows.coverage.empty() || rows.reevaluated.empty()) return {};
+  double candidates = 0.0, entering = 0.0;
+  for (std::size_t i = 0; i < rows.count(); ++i) {
+    candidates += rows.evaluations[i] - rows.reevaluated[i];
+    entering += rows.entered[i] + rows.improved[i];
+  }
+  return {{"coverage", rows.coverage.back()},
+          {"qd_score", rows.qd_score.back()},
+          {"map_best", rows.map_best.back()},
+          {"entering_share", candidates > 0.0 ? entering / candidates : 0.0}};
 }
 
 std::string utc_now() {
@@ -129,6 +145,7 @@ class Worker {
             .best_generation = evolution.progress().best_generation,
             .hidden = champion.genome.count(neat::NodeKind::hidden),
             .links = champion.genome.enabled_links(),
+            .map_figures = map_figures_of(evolution.paths().generations),
             .curve = curve_of(evolution.paths().generations),
             .champion = champion_to_json(champion),
             .champion_file = hex(hash_text(text)),

@@ -84,6 +84,33 @@ TEST(Worker, FindsTheFirstBestThatGetsAsFarAsATestAsks) {
   EXPECT_EQ(ledger::record_text(ledger::Ledger(paths).load("sine", 3)), ledger::record_text(record));
 }
 
+TEST(Worker, RecordsWhatAMapReached) {
+  const test::TemporaryFolder folder;
+  auto study = small_study({"search.map_elites.batch=64", "search.map_elites.initial=64"});
+  study.conditions = {condition("map", "repertoire/quadruped"), condition("sine", "authors/sine-objective")};
+  study.settings = {"engine=batch", "population.size=20", "trial.duration_s=1", "search.map_elites.batch=64",
+                    "search.map_elites.initial=64"};
+  Notes notes;
+  work_on(study, folder.path(), notes);
+  ASSERT_EQ(notes.records.size(), 2u);
+  const auto& record = notes.records[notes.records[0].condition == "map" ? 0 : 1];
+  const auto& plain = notes.records[notes.records[0].condition == "map" ? 1 : 0];
+  const auto rows =
+      record::read_generations(ledger::StudyPaths(folder.path()).run("map", 3) / "generations.csv");
+  EXPECT_EQ(ledger::measure(record, "coverage"), rows.coverage.back());
+  EXPECT_EQ(ledger::measure(record, "qd_score"), rows.qd_score.back());
+  EXPECT_EQ(ledger::measure(record, "map_best"), rows.map_best.back());
+  double entering = 0.0, again = 0.0;
+  for (std::size_t i = 0; i < rows.count(); ++i)
+    entering += rows.entered[i] + rows.improved[i], again += rows.reevaluated[i];
+  EXPECT_GT(again, 0.0);
+  EXPECT_EQ(ledger::measure(record, "entering_share"),
+            entering / (static_cast<double>(record.evaluations) - again));
+  EXPECT_EQ(ledger::measure(plain, "coverage"), std::nullopt);
+  const ledger::Ledger kept(ledger::StudyPaths(folder.path()));
+  EXPECT_EQ(kept.load("map", 3).map_figures, record.map_figures);
+}
+
 TEST(Worker, SaysThatItNeedsTheRunToFindItsFirstWalker) {
   const test::TemporaryFolder folder;
   auto study = small_study();
