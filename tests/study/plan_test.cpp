@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include <algorithm>
 #include <set>
 
@@ -120,6 +122,17 @@ TEST(PlannedTest, IsTheSameOnlyWithTheSameEngineLengthEpisodesAndNoise) {
   otherwise.damage.emplace().parts = {{.kind = damage::Kind::missing, .leg = "FR"}};
   for (const PlannedTest& other : {longer, more, noisy, uneven, steeper, damaged, otherwise})
     EXPECT_TRUE(others.insert(other.settings_hash("batch")).second);
+}
+
+TEST(Plan, CanBeMadeOfEveryStudyInTheFolder) {
+  int studies = 0;
+  for (const auto& file : std::filesystem::directory_iterator(AMBLE_SOURCE_DIR "/studies")) {
+    if (file.path().extension() != ".toml") continue;
+    const Plan plan = make_plan(ledger::load_study(file.path()), "nowhere");
+    EXPECT_FALSE(plan.runs.empty()) << file.path();
+    ++studies;
+  }
+  EXPECT_GE(studies, 9);
 }
 
 }  // namespace
