@@ -177,6 +177,18 @@ void add_adapt(CLI::App& app, Action& action) {
       ->check(CLI::Range(0.0, 1e3))
       ->capture_default_str();
   command
+      ->add_option(
+          "--length-scale", options->settings.search.length_scale,
+          "How far apart gaits are that tell little of each other, as a share of the map's dimensions")
+      ->check(CLI::Range(1e-3, 1e3))
+      ->capture_default_str();
+  command
+      ->add_option("--stop-share", options->settings.search.stop_share,
+                   "Stop when a gait that was tried is predicted to reach this share of the best; above 1: "
+                   "use all trials")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  command
       ->add_option("--judge", options->settings.judges,
                    "Trials that judge a gait before and after, under noise of their own")
       ->check(CLI::Range(1, 100000))
