@@ -9,11 +9,16 @@
 namespace amble::python {
 namespace {
 
+/// As `amble view` takes its inputs.
+bool is_recording_file(const std::filesystem::path& path) {
+  return !std::filesystem::is_directory(path) && path.extension() != ".json";
+}
+
 view::Walker walker_of(const py::object& object, const presentation::WalkOptions& options,
                        const io::ScratchFile& scratch) {
   const bool is_recording = py::isinstance<ReadRecording>(object);
   if (is_recording || (!py::isinstance<ReadableChampion>(object) && !py::isinstance<ReadableRun>(object) &&
-                       path_of(object).extension() == ".rec")) {
+                       is_recording_file(path_of(object)))) {
     if (options.seconds || options.engine)
       throw py::value_error("a recording has been made already: no seconds, no engine");
     const auto path = is_recording ? object.cast<const ReadRecording&>().path : path_of(object);
