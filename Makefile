@@ -4,7 +4,7 @@ PREFIX ?= /usr/local
 JOBS ?= $(shell nproc)
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 
-.PHONY: demo picture build test python bench install clean
+.PHONY: demo picture build test python package bench install clean
 
 demo: build
 	rm -rf demo
@@ -40,12 +40,21 @@ python:
 	cmake --build --preset python --target _amble amble
 	PYTHONPATH=build/python/python AMBLE_PROGRAM=build/python/src/cli/amble /usr/bin/python3 -B -m pytest -q -p no:cacheprovider tests/python
 
+# A Debian package of program, headers and Python module: build/python/amble_*.deb, for apt-get install.
+package:
+	./setup --package
+	cmake --preset python
+	cmake --build --preset python
+	cd build/python && cpack
+
 bench:
 	./setup --dev
-	cmake --preset release -DAMBLE_BENCHMARKS=ON
-	cmake --build --preset release
-	build/release/bench/amble_bench --csv build/bench.csv
-	build/release/bench/amble_micro
+	./setup --python
+	cmake --preset python -DAMBLE_BENCHMARKS=ON
+	cmake --build --preset python
+	build/python/bench/amble_bench --csv build/bench.csv
+	PYTHONPATH=build/python/python /usr/bin/python3 -B bench/robots.py build/python/bench/amble_bench
+	build/python/bench/amble_micro
 
 install: build
 	$(SUDO) cmake --install build/release --prefix $(PREFIX)

@@ -18,6 +18,8 @@ void measure_neat(std::vector<Figure>& figures);
 void measure_novelty(std::vector<Figure>& figures);
 /// Steps per second of the engines alone, on the same robots with the same targets.
 void measure_physics(std::vector<Figure>& figures);
+/// Many robots in the batch engine, beside one in MuJoCo: what bench/robots.py compares Python's with.
+void measure_robots(std::vector<Figure>& figures);
 /// Whole runs: evaluations per second by workers, share outside physics, memory.
 void measure_runs(std::vector<Figure>& figures);
 

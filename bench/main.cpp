@@ -27,6 +27,7 @@ constexpr Part parts[] = {
     {"neat", amble::bench::measure_neat},
     {"novelty", amble::bench::measure_novelty},
     {"physics", amble::bench::measure_physics},
+    {"robots", amble::bench::measure_robots},
     {"runs", amble::bench::measure_runs},
 };
 

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
@@ -49,6 +50,30 @@ double steps_per_s(const char* name, const robot::RobotSpec& robot, const Target
     }
   });
   return steps * engine->lanes() / seconds;
+}
+
+/// Changes every quarter of a second: as many arrays of targets as stay in the cache.
+Targets quarter_swing(const robot::RobotSpec& robot) {
+  return [&robot](int step, LaneArray& targets_rad) { set_targets(robot, step / 25 * 25, targets_rad); };
+}
+
+/// Robot-steps per second of many robots in the batch engine, on one core: all take a step before any takes
+/// the next.
+double many_steps_per_s(const robot::RobotSpec& robot, int robots) {
+  std::vector<std::unique_ptr<physics::Engine>> engines;
+  for (int first = 0; first < robots; first += engines.back()->lanes())
+    engines.push_back(physics::make_engine("batch", robot, {}));
+  LaneArray targets_rad(static_cast<int>(robot.joints.size()), engines.front()->lanes());
+  const Targets targets = quarter_swing(robot);
+  const auto round = [&] {
+    for (const auto& engine : engines)
+      for (int lane = 0; lane < engine->lanes(); ++lane) engine->place(lane);
+    for (int step = 0; step < steps; ++step) {
+      targets(step, targets_rad);
+      for (const auto& engine : engines) engine->step(targets_rad);
+    }
+  };
+  return static_cast<double>(steps) * robots / seconds_per_call(round, 0.2, 3);
 }
 
 double steps_per_s(const char* name, const robot::RobotSpec& robot) {
@@ -125,6 +150,15 @@ void measure_walkers(std::vector<Figure>& figures) {
 }
 
 }  // namespace
+
+void measure_robots(std::vector<Figure>& figures) {
+  const auto authors = experiment::load_robot_file(AMBLE_SOURCE_DIR "/robots/quadruped/authors.toml");
+  for (const int robots : {16, 1024, 4096})
+    figures.push_back({fmt::format("batch_robot_steps_per_s_{}", robots), many_steps_per_s(authors, robots),
+                       "1/s", "one core, authors' quadruped, one step after the other of all"});
+  figures.push_back({"mujoco_robot_steps_per_s", mj_steps_per_s(authors, quarter_swing(authors)), "1/s",
+                     "one core, authors' quadruped, mj_step alone, at most 20 iterations"});
+}
 
 void measure_physics(std::vector<Figure>& figures) {
   const auto paper = experiment::load_robot_file(AMBLE_SOURCE_DIR "/robots/quadruped/paper.toml");

@@ -1,20 +1,11 @@
-# Writes amble_build_info.inc at each build, only if it changed: cmake -DSOURCE_DIR=… -DOUTPUT=… -DVERSION=… -DCOMPILER=… -DFLAGS=… -P this
+# Writes amble_build_info.inc at each build, only if it changed:
+# cmake -DSOURCE_DIR=… -DOUTPUT=… -DVERSION=… -DCOMPILER=… -DFLAGS=… -DLIBRARIES=… -P this
 cmake_minimum_required(VERSION 3.25)
-find_program(GIT git)
-set(commit "unknown")
-if(GIT AND EXISTS ${SOURCE_DIR}/.git)
-  execute_process(COMMAND ${GIT} -C ${SOURCE_DIR} rev-parse HEAD OUTPUT_VARIABLE head RESULT_VARIABLE bad
-                  OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
-  if(NOT bad)
-    execute_process(COMMAND ${GIT} -C ${SOURCE_DIR} status --porcelain OUTPUT_VARIABLE changes ERROR_QUIET)
-    set(commit ${head})
-    if(changes)
-      string(APPEND commit "+")
-    endif()
-  endif()
-endif()
-file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT "#define AMBLE_VERSION \"@VERSION@\"
+include(${CMAKE_CURRENT_LIST_DIR}/SourceVersion.cmake)
+amble_source_version(${SOURCE_DIR} ${VERSION} version commit)
+file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT "#define AMBLE_VERSION \"@version@\"
 #define AMBLE_COMMIT \"@commit@\"
 #define AMBLE_COMPILER \"@COMPILER@\"
 #define AMBLE_FLAGS \"@FLAGS@\"
+#define AMBLE_LIBRARIES \"@LIBRARIES@\"
 ")

@@ -8,6 +8,7 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -27,7 +28,9 @@ namespace py = pybind11;
 void bind_config(py::module_& module);
 void bind_runs(py::module_& module);
 void bind_search(py::module_& module);
+void bind_controllers(py::module_& module);
 void bind_robots(py::module_& module);
+void bind_view(py::module_& module);
 
 /// A config with what it was read from, so that more can be laid over it.
 struct LoadedConfig {
@@ -49,6 +52,8 @@ io::Json to_json(const py::object& object, const std::string& what);
 std::filesystem::path path_of(const py::object& path);
 /// Workers: all processors if there is no number. ValueError unless it is from 1 to 1024.
 int jobs_of(std::optional<int> jobs);
+/// ValueError unless the length of a trial, if there is one, is from 1e-5 to 1e6 s.
+void check_seconds(std::optional<double> seconds);
 
 /// The rows of a table of comma-separated numbers, column by column; empty cells are NaN.
 using Columns = std::vector<std::pair<std::string, std::vector<double>>>;
@@ -79,6 +84,21 @@ py::array_t<Number, py::array::c_style> numbers_of(const py::object& object, con
   auto numbers = py::array_t<Number, py::array::c_style | py::array::forcecast>::ensure(array);
   if (!numbers) throw py::error_already_set();
   return numbers;
+}
+
+/// An array of bool of the given length; empty for None. TypeError, ValueError.
+std::vector<std::uint8_t> mask_of(const py::object& mask, py::ssize_t length,
+                                  const std::string& what = "mask");
+
+/// A read-only view of what `owner` owns, which it keeps alive. Strides in bytes.
+template <typename Owner, typename Number>
+py::array live_view(const std::shared_ptr<Owner>& owner, const Number* first, std::vector<py::ssize_t> shape,
+                    std::vector<py::ssize_t> strides, const char* dtype) {
+  const py::capsule base(new std::shared_ptr<Owner>(owner),
+                         [](void* pointer) { delete static_cast<std::shared_ptr<Owner>*>(pointer); });
+  py::array array(py::dtype(dtype), std::move(shape), std::move(strides), first, base);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
 }
 
 /// pybind11 would give memory without an object to methods of an instance that __new__ made without __init__;

@@ -60,6 +60,19 @@ int jobs_of(std::optional<int> jobs) {
   return *jobs;
 }
 
+void check_seconds(std::optional<double> seconds) {
+  if (seconds && !(*seconds >= 1e-5 && *seconds <= 1e6))
+    throw py::value_error(fmt::format("seconds: {}: expected a number from 1e-05 to 1000000", *seconds));
+}
+
+std::vector<std::uint8_t> mask_of(const py::object& mask, py::ssize_t length, const std::string& what) {
+  if (mask.is_none()) return {};
+  const auto values = py::array_t<bool, py::array::c_style | py::array::forcecast>::ensure(
+      checked_array(mask, what, {length}, "b"));
+  if (!values) throw py::error_already_set();
+  return {values.data(), values.data() + values.size()};
+}
+
 Columns parse_columns(std::string_view text) {
   Columns columns;
   const auto take = [](std::string_view& rest, char end) {

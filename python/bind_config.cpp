@@ -108,15 +108,17 @@ A change makes another Config: config.replace({"population.size": 50}).)")
       .def("__len__",
            [](const LoadedConfig& self) { return py::len(to_python(io::settings_to_json(self.value))); })
       .def("__getitem__", item_of, py::arg("key"))
-      .def("__contains__",
-           [](const LoadedConfig& self, const std::string& key) {
-             try {
-               item_of(self, key);
-               return true;
-             } catch (const py::key_error&) {
-               return false;
-             }
-           })
+      .def(
+          "__contains__",
+          [](const LoadedConfig& self, const std::string& key) {
+            try {
+              item_of(self, key);
+              return true;
+            } catch (const py::key_error&) {
+              return false;
+            }
+          },
+          py::arg("key"))
       .def("__repr__", [](const LoadedConfig& self) {
         return fmt::format("<amble.Config '{}': {}>", self.value.name, self.path.string());
       });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/experiment/problem.hpp"
 #include "amble/robot/json.hpp"
@@ -33,9 +34,23 @@ struct Robots {
   }
 };
 
+/// A bare name ("hexapod", "quadruped/paper") is that of one of amble's own robots, unless there is such a
+/// file.
+std::filesystem::path robot_file(const std::filesystem::path& name) {
+  if (name.has_extension() || std::filesystem::exists(name)) return name;
+  const py::dict own = py::module_::import("amble._data").attr("robots")();
+  std::string names;
+  for (const auto& [each, file] : own) {
+    if (each.cast<std::string>() == name.string()) return path_of(py::reinterpret_borrow<py::object>(file));
+    names += (names.empty() ? "" : ", ") + each.cast<std::string>();
+  }
+  fail(ExitCode::bad_input, "no robot '{}': expected the path of a robot file, or one of {}", name.string(),
+       names);
+}
+
 /// The robot of a Config, raised by its drop_m and on its ground's slope; or that of a robot file.
 robot::RobotSpec robot_of(const py::object& robot) {
-  if (!py::isinstance<LoadedConfig>(robot)) return experiment::load_robot_file(path_of(robot));
+  if (!py::isinstance<LoadedConfig>(robot)) return experiment::load_robot_file(robot_file(path_of(robot)));
   const auto& config = robot.cast<const LoadedConfig&>().value;
   return experiment::Problem::make(config, experiment::load_robot(config)).robot;
 }
@@ -63,26 +78,16 @@ std::unique_ptr<Robots> make(const py::object& robot, int n, const std::string& 
                                   useful);
 }
 
-/// A read-only view of observations, which it keeps alive.
-template <typename Number>
-py::array view(const std::shared_ptr<Observations>& owner, const Number* first,
-               std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides, const char* dtype) {
-  const py::capsule base(new std::shared_ptr<Observations>(owner),
-                         [](void* pointer) { delete static_cast<std::shared_ptr<Observations>*>(pointer); });
-  py::array array(py::dtype(dtype), std::move(shape), std::move(strides), first, base);
-  array.attr("setflags")(py::arg("write") = false);
-  return array;
-}
-
 py::array columns(const Robots& self, int first, int count) {
   const auto& all = self.batch.observations();
   constexpr auto size = static_cast<py::ssize_t>(sizeof(float));
-  return view(all, all->values.data() + first, {all->robots, count}, {all->width * size, size}, "float32");
+  return live_view(all, all->values.data() + first, {all->robots, count}, {all->width * size, size},
+                   "float32");
 }
 
 py::array flags(const Robots& self, std::vector<std::uint8_t> Observations::*member) {
   const auto& all = self.batch.observations();
-  return view(all, (all.get()->*member).data(), {all->robots}, {1}, "bool");
+  return live_view(all, (all.get()->*member).data(), {all->robots}, {1}, "bool");
 }
 
 py::object observations(Robots& self) {
@@ -107,13 +112,7 @@ py::object step(Robots& self, const py::object& targets) {
 
 py::object reset(Robots& self, const py::object& mask) {
   self.check_process();
-  std::vector<std::uint8_t> chosen;
-  if (!mask.is_none()) {
-    const auto values = py::array_t<bool, py::array::c_style | py::array::forcecast>::ensure(
-        checked_array(mask, "mask", {self.batch.count()}, "b"));
-    if (!values) throw py::error_already_set();
-    chosen.assign(values.data(), values.data() + values.size());
-  }
+  const auto chosen = mask_of(mask, self.batch.count());
   {
     const py::gil_scoped_release release;
     const std::lock_guard lock(self.mutex);
@@ -192,7 +191,7 @@ control order (docs/CONVENTIONS.md). Several threads may use one object; their c
   type.def(
           py::init(&make), py::arg("robot"), py::arg("n") = 1, py::arg("engine") = "batch", py::kw_only(),
           py::arg("timestep_s") = py::none(), py::arg("threads") = py::none(),
-          R"(robot: path of a robot file (TOML or robot.json), or a Config. n: 1 to 1,048,576. engine: "batch" (sixteen at a time),
+          R"(robot: name of one of robots(), path of a robot file (TOML or robot.json), or a Config. n: 1 to 1,048,576. engine: "batch" (sixteen at a time),
 "ode" or "mujoco". timestep_s: s (default: the config's, else 0.01). threads: default processors; results do not
 depend on it. All robots stand in their start pose. Raises Error.)")
       .def(

@@ -2,7 +2,6 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "amble/core/index.hpp"
-#include "amble/experiment/champion.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run.hpp"
 #include "amble/gait/recorded_gait.hpp"
@@ -14,6 +13,7 @@
 #include "amble/record/recording.hpp"
 #include "amble/robot/json.hpp"
 #include "python/bind.hpp"
+#include "python/readable.hpp"
 
 namespace amble::python {
 namespace {
@@ -37,12 +37,6 @@ class CallbackListener : public experiment::RunListener {
  private:
   py::function* callback_;
   Interruptible& caller_;
-};
-
-/// A run's folder, to read.
-struct ReadableRun {
-  explicit ReadableRun(const std::filesystem::path& folder) : paths(experiment::find_run(folder)) {}
-  experiment::RunPaths paths;
 };
 
 /// Runs until all generations are done; Ctrl-C or an exception of the callback leaves the last checkpoint.
@@ -88,16 +82,6 @@ py::dict generations_of(const ReadableRun& run) {
   return to_dict(parse_columns(text));
 }
 
-struct ReadableChampion {
-  std::filesystem::path path;
-  experiment::Champion value;
-};
-
-ReadableChampion champion_at(const std::filesystem::path& path) {
-  const auto file = experiment::champion_at(path);
-  return {file, experiment::load_champion(file)};
-}
-
 py::dict result_dict(const experiment::TrialResult& result) {
   py::dict dict;
   dict["outcome"] = py::str(std::string(record::outcome_names[to_index(result.outcome)]));
@@ -128,8 +112,7 @@ py::dict facts_of(const ReadableChampion& self) {
 
 py::dict trial(const ReadableChampion& self, std::optional<double> seconds, std::optional<std::string> engine,
                const py::object& record) {
-  if (seconds && !(*seconds >= 1e-5 && *seconds <= 1e6))
-    throw py::value_error(fmt::format("seconds: {}: expected a number from 1e-05 to 1000000", *seconds));
+  check_seconds(seconds);
   experiment::ReplayOptions how{
       .seconds = seconds, .engine = engine, .origin = self.path.string(), .trace = false};
   if (!record.is_none()) {
@@ -146,25 +129,6 @@ py::dict trial(const ReadableChampion& self, std::optional<double> seconds, std:
   result["events"] = events;
   return result;
 }
-
-/// A whole recording in memory.
-struct ReadRecording {
-  explicit ReadRecording(const std::filesystem::path& file) : path(file) {
-    record::RecordingReader reader(file);
-    header = reader.header();
-    std::vector<float> frame;
-    while (reader.next(frame)) frames.insert(frames.end(), frame.begin(), frame.end());
-    outcome = reader.outcome();
-  }
-
-  py::ssize_t width() const { return static_cast<py::ssize_t>(header.columns.size()); }
-  py::ssize_t count() const { return static_cast<py::ssize_t>(frames.size()) / width(); }
-
-  std::filesystem::path path;
-  record::RecordingHeader header;
-  std::vector<float> frames;
-  record::Outcome outcome = record::Outcome::completed;
-};
 
 constexpr py::ssize_t number_size = sizeof(float);
 
@@ -198,8 +162,7 @@ py::array columns_with(const ReadRecording& recording, const std::string& prefix
 py::object gait(const py::object& recording, std::optional<double> seconds) {
   const auto path = py::isinstance<ReadRecording>(recording) ? recording.cast<const ReadRecording&>().path
                                                              : path_of(recording);
-  if (seconds && !(*seconds >= 1e-5 && *seconds <= 1e6))
-    throw py::value_error(fmt::format("seconds: {}: expected a number from 1e-05 to 1000000", *seconds));
+  check_seconds(seconds);
   std::string text;
   {
     const py::gil_scoped_release release;
@@ -316,11 +279,13 @@ recording["com.x"] is one column, a view of the frames; "angle.fl_knee", "target
           "matching", columns_with, py::arg("prefix"),
           R"(The columns whose names begin so, a copy: frames × columns, float32. "angle.": all joint angles, rad.)")
       .def("__getitem__", column_of, py::arg("column"))
-      .def("__contains__",
-           [](const ReadRecording& self, const std::string& name) {
-             return std::find(self.header.columns.begin(), self.header.columns.end(), name) !=
-                    self.header.columns.end();
-           })
+      .def(
+          "__contains__",
+          [](const ReadRecording& self, const std::string& name) {
+            return std::find(self.header.columns.begin(), self.header.columns.end(), name) !=
+                   self.header.columns.end();
+          },
+          py::arg("column"))
       .def("__len__", [](const ReadRecording& self) { return self.count(); })
       .def("__repr__", [](const ReadRecording& self) {
         return fmt::format("<amble.Recording of {} frames, {}: {}>", self.count(),

@@ -1,69 +1,19 @@
 #include <pybind11/stl.h>
 
 #include <cmath>
-#include <map>
 #include <memory>
 
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/experiment/episodes.hpp"
-#include "amble/experiment/evaluator.hpp"
-#include "amble/experiment/problem.hpp"
 #include "amble/experiment/run_state.hpp"
 #include "amble/neat/genome_json.hpp"
 #include "amble/physics/engine.hpp"
 #include "python/bind.hpp"
+#include "python/task.hpp"
 
 namespace amble::python {
 namespace {
-
-/// A problem in one engine, with the workers that have been needed so far.
-struct Arena {
-  experiment::Problem problem;
-  std::map<int, std::unique_ptr<experiment::Evaluator>> evaluators;  ///< by number of workers
-  experiment::GenerationGround ground;
-  std::mutex mutex;  ///< held while one evaluates
-
-  explicit Arena(experiment::Problem made) : problem(std::move(made)) {}
-};
-
-/// What maps genomes to objectives: config, robot, engines as they are needed.
-class Task {
- public:
-  explicit Task(LoadedConfig loaded) : config(std::move(loaded)), home_(config.value.engine) {
-    arenas_.emplace(home_, std::make_unique<Arena>(experiment::Problem::make(
-                               config.value, experiment::load_robot(config.value))));
-    behaviour_ = config.value.make_behaviour(&problem().robot);
-  }
-
-  const experiment::Problem& problem() const { return arenas_.at(home_)->problem; }
-  /// Throws UserError for an unknown engine, or one that cannot simulate the robot.
-  Arena& in(const std::optional<std::string>& engine) {
-    const std::string name = engine.value_or(home_);
-    auto& arena = arenas_[name];
-    if (!arena) {
-      auto elsewhere = problem();
-      elsewhere.engine = name;
-      try {
-        elsewhere.complete();
-      } catch (...) {
-        arenas_.erase(name);
-        throw;
-      }
-      arena = std::make_unique<Arena>(std::move(elsewhere));
-    }
-    return *arena;
-  }
-
-  const score::Behaviour& behaviour() const { return *behaviour_; }
-
-  const LoadedConfig config;
-
- private:
-  std::unique_ptr<const score::Behaviour> behaviour_;
-  std::string home_;
-  std::map<std::string, std::unique_ptr<Arena>> arenas_;
-};
 
 /// Ask and tell.
 struct OpenSearch {
@@ -93,7 +43,29 @@ std::vector<search::Metric> metrics_of(OpenSearch& self) {
   return self.state->strategy->metrics();
 }
 
-void tell(OpenSearch& self, const py::object& fitness, const py::object& behaviour) {
+/// The rows of behaviours that a search compares; nothing for a search that compares none.
+std::optional<py::array_t<float, py::array::c_style>> behaviours_of(const py::object& behaviour,
+                                                                    py::ssize_t candidates,
+                                                                    py::ssize_t length) {
+  if (length == 0) return {};
+  if (behaviour.is_none())
+    throw py::value_error(fmt::format(
+        "behaviour: this search compares behaviours; expected the shape ({}, {})", candidates, length));
+  auto rows = numbers_of<float>(behaviour, "behaviour", {candidates, length});
+  for (py::ssize_t i = 0; i < candidates * length; ++i)
+    if (!std::isfinite(rows.data()[i]))
+      throw py::value_error(fmt::format("behaviour[{}]: expected finite numbers", i / length));
+  return rows;
+}
+
+void tell(OpenSearch& self, const py::object& fitness, const py::object& behaviour,
+          const py::object& viable) {
+  if (py::isinstance(fitness, py::module_::import("amble._evaluation").attr("Evaluation"))) {
+    if (!behaviour.is_none() || !viable.is_none())
+      throw py::type_error("tell: an Evaluation has its behaviour and viable already");
+    const auto both = fitness.cast<py::tuple>();
+    return tell(self, both[0], both[1], fitness.attr("viable"));
+  }
   const auto candidates = static_cast<py::ssize_t>(ask(self).size());
   const auto length = static_cast<py::ssize_t>(self.task->behaviour().length());
   const auto values = numbers_of<double>(fitness, "fitness", {candidates});
@@ -101,21 +73,14 @@ void tell(OpenSearch& self, const py::object& fitness, const py::object& behavio
     if (!(std::isfinite(values.at(i)) && values.at(i) >= 0.0))
       throw py::value_error(
           fmt::format("fitness[{}] = {}: expected a finite number, at least 0", i, values.at(i)));
-  std::optional<py::array_t<float, py::array::c_style>> rows;
-  if (length > 0) {
-    if (behaviour.is_none())
-      throw py::value_error(fmt::format(
-          "behaviour: this search compares behaviours; expected the shape ({}, {})", candidates, length));
-    rows = numbers_of<float>(behaviour, "behaviour", {candidates, length});
-    for (py::ssize_t i = 0; i < candidates * length; ++i)
-      if (!std::isfinite(rows->data()[i]))
-        throw py::value_error(fmt::format("behaviour[{}]: expected finite numbers", i / length));
-  }
+  const auto rows = behaviours_of(behaviour, candidates, length);
+  const auto sound = mask_of(viable, candidates, "viable");
   std::vector<search::Evaluation> evaluations;
   for (py::ssize_t i = 0; i < candidates; ++i)
     evaluations.push_back(
         {.objective = values.at(i),
-         .behaviour = rows ? std::span(rows->data(i, 0), to_index(length)) : std::span<const float>()});
+         .behaviour = rows ? std::span(rows->data(i, 0), to_index(length)) : std::span<const float>(),
+         .viable = sound.empty() || sound[to_index(i)] != 0});
   const py::gil_scoped_release release;
   const std::lock_guard lock(self.mutex);
   if (self.state->strategy->ask().size() != evaluations.size())
@@ -126,6 +91,7 @@ void tell(OpenSearch& self, const py::object& fitness, const py::object& behavio
 struct Evaluated {
   std::vector<double> objectives;
   std::vector<std::vector<float>> behaviours;
+  std::vector<bool> viable;
 };
 
 /// As Run::generations() evaluates a generation.
@@ -140,41 +106,26 @@ Evaluated evaluate(Task& task, Arena& arena, std::span<const neat::Genome> genom
   const auto scenarios = arena.problem.scenarios(seed, generation, ground.get());
   const auto result = evaluator->evaluate(genomes, stop, scenarios, ground);
   if (!result) return {};
-  Evaluated evaluated{.objectives = experiment::objectives(arena.problem, *result), .behaviours = {}};
-  for (std::size_t i = 0; i < genomes.size(); ++i)
-    evaluated.behaviours.push_back(task.behaviour().of(result->of_genome(i)));
+  Evaluated evaluated{
+      .objectives = experiment::objectives(arena.problem, *result), .behaviours = {}, .viable = {}};
+  for (std::size_t i = 0; i < genomes.size(); ++i) {
+    const auto episodes = result->of_genome(i);
+    evaluated.behaviours.push_back(task.behaviour().of(episodes));
+    evaluated.viable.push_back(
+        std::ranges::count(episodes, record::Outcome::diverged, &record::Trajectory::outcome) == 0);
+  }
   return evaluated;
 }
 
-std::vector<neat::Genome> checked_genomes(const Task& task, const py::object& genomes) {
-  const auto& problem = task.problem();
-  std::vector<neat::Genome> all;
-  for (const auto& item : py::iter(genomes)) {
-    if (!py::isinstance<neat::Genome>(item))
-      throw py::type_error(fmt::format("genomes[{}]: expected amble.Genome, found {}", all.size(),
-                                       py::str(py::type::of(item).attr("__name__")).cast<std::string>()));
-    all.push_back(item.cast<const neat::Genome&>());
-    try {
-      neat::validate(all.back(), problem.cppn_inputs(), problem.cppn_outputs(), problem.cppn.recurrent);
-    } catch (const UserError& error) {
-      fail(error.code(), "genomes[{}]: {}", all.size() - 1, error.what());
-    }
-  }
-  return all;
-}
-
-py::tuple evaluate_genomes(const py::object& on, const py::object& genomes, std::optional<std::string> engine,
-                           std::optional<int> jobs, std::optional<int> generation) {
-  std::shared_ptr<Task> task;
+py::object evaluate_genomes(const py::object& on, const py::object& genomes,
+                            std::optional<std::string> engine, std::optional<int> jobs,
+                            std::optional<int> generation) {
+  const auto task = task_of(on);
   int round = 0;
   if (py::isinstance<OpenSearch>(on)) {
     auto& search = on.cast<OpenSearch&>();
     const std::lock_guard lock(search.mutex);
-    task = search.task;
     round = search.state->strategy->round();
-  } else {
-    task =
-        py::isinstance<Task>(on) ? on.cast<std::shared_ptr<Task>>() : std::make_shared<Task>(config_of(on));
   }
   if (generation && (*generation < 0 || *generation >= experiment::most_generations))
     throw py::value_error(fmt::format("generation: {}: expected a whole number from 0 to {}", *generation,
@@ -198,7 +149,10 @@ py::tuple evaluate_genomes(const py::object& on, const py::object& genomes, std:
   for (py::ssize_t i = 0; i < n; ++i)
     std::copy(evaluated.behaviours[to_index(i)].begin(), evaluated.behaviours[to_index(i)].end(),
               behaviours.mutable_data() + i * d);
-  return py::make_tuple(std::move(objectives), std::move(behaviours));
+  py::array_t<bool> viable(n);
+  std::copy(evaluated.viable.begin(), evaluated.viable.end(), viable.mutable_data());
+  return py::module_::import("amble._evaluation")
+      .attr("Evaluation")(std::move(objectives), std::move(behaviours), std::move(viable));
 }
 
 neat::Genome genome_from(const py::object& dict) {
@@ -240,6 +194,29 @@ void bind_genome(py::module_& module) {
 
 }  // namespace
 
+std::shared_ptr<Task> task_of(const py::object& object) {
+  if (py::isinstance<OpenSearch>(object)) return object.cast<const OpenSearch&>().task;
+  if (py::isinstance<Task>(object)) return object.cast<std::shared_ptr<Task>>();
+  return std::make_shared<Task>(config_of(object));
+}
+
+std::vector<neat::Genome> checked_genomes(const Task& task, const py::object& genomes) {
+  const auto& problem = task.problem();
+  std::vector<neat::Genome> all;
+  for (const auto& item : py::iter(genomes)) {
+    if (!py::isinstance<neat::Genome>(item))
+      throw py::type_error(fmt::format("genomes[{}]: expected amble.Genome, found {}", all.size(),
+                                       py::str(py::type::of(item).attr("__name__")).cast<std::string>()));
+    all.push_back(item.cast<const neat::Genome&>());
+    try {
+      neat::validate(all.back(), problem.cppn_inputs(), problem.cppn_outputs(), problem.cppn.recurrent);
+    } catch (const UserError& error) {
+      fail(error.code(), "genomes[{}]: {}", all.size() - 1, error.what());
+    }
+  }
+  return all;
+}
+
 void bind_search(py::module_& module) {
   bind_genome(module);
   py::class_<Task, std::shared_ptr<Task>>(
@@ -274,10 +251,12 @@ With evaluate(search, genomes) it evolves what evolve() does, to the bit.)")
            "config: Config or path. seed: of all randomness (default: the config's). Raises Error.")
       .def("ask", ask, "The genomes of this round: a list, the same until tell().")
       .def("tell", tell, py::arg("fitness"), py::arg("behaviour") = py::none(),
+           py::arg("viable") = py::none(),
            R"(Takes what the genomes of ask() are worth, in their order, and advances to the next round.
 
-fitness: n numbers, finite, at least 0; higher is better. behaviour: n × behaviour_length, finite; needed where the
-config's search compares behaviours, else unused. Raises TypeError and ValueError.)")
+fitness: n numbers, finite, at least 0, higher is better; or all that evaluate() returned. behaviour:
+n × behaviour_length, finite; needed where the config's search compares behaviours, else unused. viable: n bools
+(default: all true); MAP-Elites keeps none that is not. Raises TypeError and ValueError.)")
       .def_property_readonly(
           "round",
           [](OpenSearch& self) {
@@ -306,7 +285,8 @@ config's search compares behaviours, else unused. Raises TypeError and ValueErro
 problem: Problem, Search, Config or path. genomes: Genomes that fit it. engine: "ode", "batch" or "mujoco" (default:
 the config's). jobs: workers (default: processors); results do not depend on it. generation: whose noise and ground
 (default: the round of a Search, else 0). objective: in m unless the config scores something else. behaviour: the path
-over the ground, x0, y0, x1, y1, …, m, where the config's search compares paths, else empty (d = 0).
+over the ground, x0, y0, x1, y1, …, m, where the config's search compares paths, the quantities of the map under
+MAP-Elites, else empty (d = 0). The pair, an Evaluation, also has viable, bool [n]: false where a simulation diverged.
 Raises Error; Ctrl-C raises KeyboardInterrupt at once.)");
   refuse_unmade<neat::Genome>();
   refuse_unmade<Task>();

@@ -38,7 +38,9 @@ PYBIND11_MODULE(_amble, module) {
   bind_config(module);
   bind_runs(module);
   bind_search(module);
+  bind_controllers(module);
   bind_robots(module);
+  bind_view(module);
 }
 
 }  // namespace amble::python

@@ -1,20 +1,48 @@
-/* A Cortex-M0 (nRF51, BBC micro:bit) in QEMU: the ticks are those of SysTick, the feet those of somebody who walks
- * on the spot, and the servos' pulses go to the standard output by semihosting. On a robot board_read() reads pins
- * and board_command() sets timers. */
+/* Two bare processors in QEMU: a Cortex-M0 (nRF51, BBC micro:bit), whose ticks are those of SysTick, and RV32IMC as in
+ * an ESP32-C3, whose ticks are those of RISC-V's machine timer. The feet are those of somebody who walks on the spot,
+ * and the servos' pulses go to the standard output by semihosting. On a robot board_read() reads pins and
+ * board_command() sets timers. */
 #include "board.h"
 #include "semihosting.h"
 
 enum {
-  clock_hz = 16000000,
   last_tick = 300, /* 3 s */
   pulse_middle_us = 1500,
   pulse_us_per_rad = 637 /* 1000 us for 90 degrees */
 };
 
+static uint32_t ticks_done, missed;
+
+#ifdef __riscv
+
+/* Low words; the machine "virt" counts at 10 MHz, so they go round after seven minutes. */
+#define MTIME (*(volatile uint32_t *)0x0200bff8u)
+#define MTIMECMP ((volatile uint32_t *)0x02004000u)
+enum { counts_per_tick = 10 * WALKER_TICK_US, machine_timer = 1 << 7 };
+
+static uint32_t start;
+
+void board_init(void) {
+  start = MTIME;
+  __asm__ volatile(".option push\n.option arch, +zicsr\ncsrs mie, %0\n.option pop" : : "r"(machine_timer));
+}
+
+static uint32_t ticks_now(void) { return (MTIME - start) / counts_per_tick; }
+
+/* The timer wakes the processor; no interrupt is taken. */
+static void sleep(void) {
+  MTIMECMP[1] = 0xffffffffu;
+  MTIMECMP[0] = start + (ticks_done + 1u) * counts_per_tick;
+  MTIMECMP[1] = 0;
+  __asm__ volatile("wfi");
+}
+
+#else
+
 #define SYSTICK ((volatile uint32_t *)0xe000e010u)
+enum { clock_hz = 16000000 };
 
 static volatile uint32_t ticks;
-static uint32_t ticks_done, missed;
 
 void systick_handler(void);
 void systick_handler(void) { ++ticks; }
@@ -24,6 +52,12 @@ void board_init(void) {
   SYSTICK[2] = 0;
   SYSTICK[0] = 7; /* the processor's clock, with interrupts */
 }
+
+static uint32_t ticks_now(void) { return ticks; }
+
+static void sleep(void) { __asm__ volatile("wfi"); }
+
+#endif
 
 static void print_number(const char *before, int32_t number) {
   char text[12];
@@ -40,9 +74,9 @@ static void print_number(const char *before, int32_t number) {
 }
 
 int board_wait_for_tick(void) {
-  if (ticks > ticks_done) missed += ticks - ticks_done;
-  while (ticks == ticks_done) __asm__ volatile("wfi");
-  ticks_done = ticks;
+  missed += ticks_now() - ticks_done;
+  while (ticks_now() == ticks_done) sleep();
+  ticks_done = ticks_now();
   if (ticks_done <= last_tick) return 1;
   print_number("", last_tick);
   print_number(" ticks, late ", (int32_t)missed);

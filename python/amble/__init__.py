@@ -1,11 +1,15 @@
 """amble: evolves walking controllers for legged robots; NEAT and HyperNEAT on physics engines.
 
-evolve() and resume() make runs; Run, Champion, Recording and gait() read what they leave. Search (ask and tell) and
-evaluate() take search and simulation apart. Robots simulates many robots step by step. docs/PYTHON.md has recipes.
+evolve() and resume() make runs; Run, Champion, Recording and gait() read what they leave; view() shows it in a notebook.
+Search (ask and tell), evaluate() and Controllers take search, simulation and control apart. Robots simulates many robots
+step by step. docs/PYTHON.md has recipes.
 """
 
-from ._amble import (Champion, Config, Error, Genome, Problem, Recording, Robots, Run, Search, __commit__,
+from ._amble import (Champion, Config, Controllers, Error, Genome, Problem, Recording, Robots, Run, Search, __commit__,
                      __version__, evaluate, evolve, gait, load_config, resume)
+from ._data import data_folder, robots
+from ._evaluation import Evaluation
+from ._view import Page, view
 
-__all__ = ["Champion", "Config", "Error", "Genome", "Problem", "Recording", "Robots", "Run", "Search", "evaluate",
-           "evolve", "gait", "load_config", "resume"]
+__all__ = ["Champion", "Config", "Controllers", "Error", "Evaluation", "Genome", "Page", "Problem", "Recording", "Robots",
+           "Run", "Search", "data_folder", "evaluate", "evolve", "gait", "load_config", "resume", "robots", "view"]

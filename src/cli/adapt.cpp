@@ -15,6 +15,7 @@
 #include "amble/damage/text.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
+#include "amble/io/scratch_file.hpp"
 
 namespace amble::cli {
 namespace {
@@ -109,9 +110,9 @@ std::optional<std::string> page_of(const experiment::Adaptation& adaptation,
   std::vector<std::uint32_t> cells{adaptation.cell};
   for (const auto& [cell, title] : titles)
     if (cell != adaptation.cell) cells.push_back(cell);
-  std::vector<std::unique_ptr<ScratchFile>> recordings;
+  std::vector<std::unique_ptr<io::ScratchFile>> recordings;
   for (const std::uint32_t cell : cells) {
-    recordings.push_back(std::make_unique<ScratchFile>("walk.rec"));
+    recordings.push_back(std::make_unique<io::ScratchFile>("walk.rec"));
     auto walker = elite_walker(repertoire, problem, cell, titles.at(cell), options.run, *recordings.back());
     if (!walker) return std::nullopt;
     page.walkers.push_back(std::move(*walker));

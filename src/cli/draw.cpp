@@ -6,13 +6,13 @@
 #include <string>
 
 #include "amble/cli/commands.hpp"
-#include "amble/cli/cppn_graph.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/figures/cppn_dot.hpp"
 #include "amble/figures/cppn_figure.hpp"
 #include "amble/figures/pattern_figure.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
+#include "amble/presentation/cppn_graph.hpp"
 
 namespace amble::cli {
 namespace {
@@ -48,7 +48,7 @@ ExitCode draw(const DrawOptions& options) {
   refuse_unless_ours(options);
   const fs::path path = experiment::champion_at(options.path);
   const auto champion = experiment::load_champion(path);
-  const figures::CppnGraph graph = cppn_graph(champion);
+  const figures::CppnGraph graph = presentation::cppn_graph(champion);
   if (options.patterns) io::write_file(*options.patterns, patterns_svg(champion, path));
   if (options.out)
     io::write_file(*options.out,

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -8,6 +9,8 @@
 #include "amble/cli/commands.hpp"
 #include "amble/cli/messages.hpp"
 #include "amble/experiment/build_info.hpp"
+#include "amble/physics/engine.hpp"
+#include "amble/physics/instruction_set.hpp"
 
 namespace {
 
@@ -22,11 +25,19 @@ ExitCode report(ExitCode code, std::string text) {
   return code;
 }
 
+/// Of each line the first word is its name.
+std::string version_text() {
+  const auto build = amble::experiment::build_info();
+  return fmt::format(
+      "amble {}\ncommit        {}\nbuild         {}, {}\nengines       {} ({})\ninstructions  {}, of {}",
+      build.version, build.commit, build.compiler, build.flags,
+      fmt::join(amble::physics::engine_names(), ", "), build.libraries, amble::physics::instruction_set(),
+      amble::experiment::cpu_name());
+}
+
 ExitCode run(int argc, char** argv) {
   CLI::App app("Evolves walking controllers for legged robots.", "amble");
-  const auto build = amble::experiment::build_info();
-  app.set_version_flag("--version", fmt::format("amble {} ({}, {}, {})", build.version, short_commit(build),
-                                                build.compiler, build.flags));
+  app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   app.footer("Each command explains itself: amble COMMAND --help");
   amble::cli::Action action;

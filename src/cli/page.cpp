@@ -12,12 +12,12 @@
 #include "amble/cli/commands.hpp"
 #include "amble/cli/compare_table.hpp"
 #include "amble/cli/option_checks.hpp"
-#include "amble/cli/scratch_file.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/build_info.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/scratch_file.hpp"
 #include "amble/page/figure_files.hpp"
 
 namespace amble::cli {
@@ -73,7 +73,7 @@ void refuse_to_replace_others(const PageOptions& options) {
 /// Runs the champion again, without noise, and reads what was recorded.
 motion::RecordedTrial record_again(const experiment::Champion& champion, const fs::path& champion_path,
                                    const std::optional<std::string>& engine) {
-  const ScratchFile recording("walk.rec");
+  const io::ScratchFile recording("walk.rec");
   const auto replay = experiment::replay(champion.problem, champion.genome,
                                          {.seconds = {},
                                           .engine = engine,

@@ -8,15 +8,15 @@
 #include <optional>
 #include <vector>
 
-#include "amble/cli/scratch_file.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
-#include "amble/experiment/build_info.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/figures/fitness_figure.hpp"
 #include "amble/gait/report_text.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/scratch_file.hpp"
 #include "amble/neat/genome_compact.hpp"
+#include "amble/presentation/walker.hpp"
 #include "amble/record/generations_csv.hpp"
 #include "amble/study/gait_observer.hpp"
 #include "amble/view/page.hpp"
@@ -85,8 +85,7 @@ view::ReplayPage map_page(const experiment::Repertoire& repertoire, const std::s
                           const std::string& note) {
   view::ReplayPage page;
   page.title = title;
-  const auto build = experiment::build_info();
-  page.made_by = fmt::format("amble {} ({})", build.version, experiment::short_commit(build));
+  page.made_by = presentation::made_by();
   page.map =
       view::MapPanel{.map_svg = figures::map_figure(map_picture(repertoire)), .curves_svg = {}, .note = note};
   return page;
@@ -95,7 +94,7 @@ view::ReplayPage map_page(const experiment::Repertoire& repertoire, const std::s
 std::optional<view::Walker> elite_walker(const experiment::Repertoire& repertoire,
                                          const experiment::Problem& problem, std::uint32_t cell,
                                          const std::string& title, const fs::path& run,
-                                         const ScratchFile& recording) {
+                                         const io::ScratchFile& recording) {
   const search::Elite& elite = repertoire.elites[repertoire.elites.in(cell)];
   study::GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
   const auto replay = experiment::replay(
@@ -121,9 +120,9 @@ ExitCode write_map_page(const experiment::Repertoire& repertoire, const fs::path
   auto page = map_page(repertoire, fmt::format("Map of {}", repertoire.config.name),
                        who + "; with the Shift key, beside the one that walks there already.");
   page.map->curves_svg = curves_of(repertoire, run);
-  std::vector<std::unique_ptr<ScratchFile>> recordings;
+  std::vector<std::unique_ptr<io::ScratchFile>> recordings;
   for (const std::uint32_t number : chosen) {
-    recordings.push_back(std::make_unique<ScratchFile>("walk.rec"));
+    recordings.push_back(std::make_unique<io::ScratchFile>("walk.rec"));
     auto walker = elite_walker(repertoire, repertoire.problem, elites[number].cell,
                                title_of(repertoire, elites[number]), run, *recordings.back());
     if (!walker) return ExitCode::interrupted;

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "amble/cli/scratch_file.hpp"
 #include "amble/core/error.hpp"
 #include "amble/experiment/repertoire.hpp"
 #include "amble/figures/map_figure.hpp"
+#include "amble/io/scratch_file.hpp"
 #include "amble/view/page.hpp"
 
 namespace amble::cli {
@@ -24,7 +24,7 @@ view::ReplayPage map_page(const experiment::Repertoire& repertoire, const std::s
 std::optional<view::Walker> elite_walker(const experiment::Repertoire& repertoire,
                                          const experiment::Problem& problem, std::uint32_t cell,
                                          const std::string& title, const std::filesystem::path& run,
-                                         const ScratchFile& recording);
+                                         const io::ScratchFile& recording);
 
 /// Writes a page with the map of a run, in which up to `walkers` cells can be chosen and then walk: the best
 /// first, then cells spread evenly over the map. ExitCode::interrupted if a signal came. Throws UserError.

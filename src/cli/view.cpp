@@ -10,21 +10,15 @@
 #include <vector>
 
 #include "amble/cli/commands.hpp"
-#include "amble/cli/cppn_graph.hpp"
 #include "amble/cli/option_checks.hpp"
-#include "amble/cli/scratch_file.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
-#include "amble/experiment/build_info.hpp"
-#include "amble/experiment/replay.hpp"
 #include "amble/experiment/run_folder.hpp"
-#include "amble/figures/cppn_figure.hpp"
-#include "amble/gait/recorded_gait.hpp"
-#include "amble/gait/report_text.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/scratch_file.hpp"
+#include "amble/presentation/walker.hpp"
 #include "amble/record/recording.hpp"
 #include "amble/robot/json.hpp"
-#include "amble/study/gait_observer.hpp"
 #include "amble/view/page.hpp"
 
 namespace amble::cli {
@@ -35,21 +29,9 @@ namespace fs = std::filesystem;
 struct ViewOptions {
   std::vector<fs::path> inputs;
   fs::path out;
-  std::optional<double> seconds;
-  std::optional<std::string> engine;
+  presentation::WalkOptions walk;
   std::optional<std::string> title;
 };
-
-io::Json gait_of(const gait::Report& report) {
-  return io::parse_json(gait::report_json(report), "gait");
-}
-
-/// ", in the engine ode" where that is not the one in which it evolved.
-std::string engine_note(const experiment::Champion& champion, const ViewOptions& options) {
-  const auto& home = champion.problem.engine;
-  const auto& judge = options.engine.value_or(home);
-  return judge == home ? "" : fmt::format(", in the engine {}", judge);
-}
 
 /// The run that a champion file is of: the folder that has the champions' folder; else the file itself.
 fs::path run_of(const fs::path& champion) {
@@ -91,45 +73,18 @@ std::vector<std::string> names_of(const std::vector<Origin>& origins) {
   return names;
 }
 
-/// Runs a champion again. None if interrupted.
-std::optional<view::Walker> walk(const experiment::Champion& champion, const fs::path& path,
-                                 const ViewOptions& options, const ScratchFile& recording) {
-  study::GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
-  const auto replay = experiment::replay(champion.problem, champion.genome,
-                                         {.seconds = options.seconds,
-                                          .engine = options.engine,
-                                          .record = recording.path(),
-                                          .origin = path.string(),
-                                          .observer = &gait,
-                                          .trace = false},
-                                         stop_signal());
-  if (!replay) return std::nullopt;
-  return view::Walker{.title = fmt::format("{}, generation {}{}", champion.experiment, champion.generation,
-                                           engine_note(champion, options)),
-                      .recording = recording.path(),
-                      .cppn_svg = figures::cppn_figure(cppn_graph(champion)),
-                      .gait = gait_of(gait.finish(replay->result.outcome))};
-}
-
-view::Walker recorded(const fs::path& path) {
-  return {.title = path.stem().string(),
-          .recording = path,
-          .cppn_svg = {},
-          .gait = gait_of(gait::recorded_gait(path, {}))};
-}
-
 ExitCode make_view(const ViewOptions& options) {
   io::refuse_to_replace(options.out, "<!DOCTYPE html>", "a page");
-  std::deque<ScratchFile> scratch;
+  std::deque<io::ScratchFile> scratch;
   std::vector<Origin> origins;
   view::ReplayPage page;
   for (const fs::path& input : options.inputs) {
     const bool is_run = fs::is_directory(input);
     if (!is_run && input.extension() != ".json") {
-      if (options.engine || options.seconds)
-        fail(ExitCode::bad_input, "{}: {} has been made already", options.engine ? "--engine" : "--seconds",
-             input.string());
-      page.walkers.push_back(recorded(input));
+      if (options.walk.engine || options.walk.seconds)
+        fail(ExitCode::bad_input, "{}: {} has been made already",
+             options.walk.engine ? "--engine" : "--seconds", input.string());
+      page.walkers.push_back(presentation::recorded(input));
       const record::RecordingReader reader(input);
       origins.push_back({robot::parse_robot(reader.header().robot_json, input.string()).name,
                          fs::path(input).replace_extension(), ""});
@@ -137,12 +92,13 @@ ExitCode make_view(const ViewOptions& options) {
     }
     const fs::path path = experiment::champion_at(input);
     const auto champion = experiment::load_champion(path);
-    auto walker = walk(champion, path, options, scratch.emplace_back("walk.rec"));
+    const fs::path& recording = scratch.emplace_back("walk.rec").path();
+    auto walker = presentation::walk(champion, path, options.walk, recording, stop_signal());
     if (!walker) fail(ExitCode::interrupted, "stopped before all champions had walked");
     page.walkers.push_back(std::move(*walker));
     origins.push_back({champion.problem.robot.name, is_run ? input : run_of(path),
                        (is_run ? "" : fmt::format(", generation {}", champion.generation)) +
-                           engine_note(champion, options)});
+                           presentation::engine_note(champion, options.walk)});
   }
   if (page.walkers.size() > 1) {
     const std::vector<std::string> names = names_of(origins);
@@ -150,8 +106,7 @@ ExitCode make_view(const ViewOptions& options) {
   }
   page.title = options.title.value_or(
       page.walkers.size() == 1 ? page.walkers.front().title : fmt::format("{} walkers", page.walkers.size()));
-  const auto build = experiment::build_info();
-  page.made_by = fmt::format("amble {} ({})", build.version, experiment::short_commit(build));
+  page.made_by = presentation::made_by();
   const std::string html = view::make_page(page);
   if (options.out.has_parent_path()) fs::create_directories(options.out.parent_path());
   io::write_file(options.out, html);
@@ -171,10 +126,10 @@ void add_view(CLI::App& app, Action& action) {
       ->required();
   command->add_option("-o,--out", options->out, "The page to write (HTML)")->required();
   command
-      ->add_option("--seconds", options->seconds,
+      ->add_option("--seconds", options->walk.seconds,
                    "How long champions walk, s (default: as in their evolution)")
       ->check(seconds_check());
-  add_engine(*command, options->engine,
+  add_engine(*command, options->walk.engine,
              "Physics engine in which champions walk (default: as in their evolution)");
   command->add_option("--title", options->title, "Title of the page")->type_name("WORDS");
   command->callback([options, &action] { action = [options] { return make_view(*options); }; });

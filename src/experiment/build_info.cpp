@@ -12,7 +12,7 @@ std::string short_commit(const BuildInfo& build) {
 }
 
 BuildInfo build_info() {
-  return {AMBLE_VERSION, AMBLE_COMMIT, AMBLE_COMPILER, AMBLE_FLAGS};
+  return {AMBLE_VERSION, AMBLE_COMMIT, AMBLE_COMPILER, AMBLE_FLAGS, AMBLE_LIBRARIES};
 }
 
 std::string cpu_name() {

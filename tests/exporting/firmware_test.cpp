@@ -123,19 +123,26 @@ TEST(Firmware, InFixedPointPassesItsSelfTestOnAnAvr) {
   fmt::print("avr: {}{}\n", ran.out, size.out);
 }
 
-TEST(Firmware, ExampleWalksInQemu) {
-  if (!installed("arm-none-eabi-gcc") || !installed("qemu-system-arm"))
-    GTEST_SKIP() << "arm-none-eabi-gcc and qemu-system-arm: ./setup --firmware";
+Ran make_example(const TemporaryFolder& scratch, const std::string& goal) {
+  return run_shell("make -s -C " + example + " OUT='" + scratch.path().string() + "' " + goal);
+}
+
+TEST(Firmware, ExampleWalksInQemuOnBothProcessorsAlike) {
+  if (!installed("arm-none-eabi-gcc") || !installed("qemu-system-arm") ||
+      !installed("riscv64-unknown-elf-gcc") || !installed("qemu-system-riscv32"))
+    GTEST_SKIP() << "compilers and emulators: ./setup --firmware";
   const TemporaryFolder scratch;
-  const Ran ran = run_shell("make -s -C " + example + " OUT='" + scratch.path().string() + "' run");
-  EXPECT_EQ(ran.exit_code, 0) << ran.out;
-  EXPECT_NE(ran.out.find("300 ticks"), std::string::npos) << ran.out;
+  const Ran arm = make_example(scratch, "run"), riscv = make_example(scratch, "run-riscv");
+  EXPECT_EQ(arm.exit_code, 0) << arm.out;
+  EXPECT_EQ(riscv.exit_code, 0) << riscv.out;
+  EXPECT_NE(arm.out.find("300 ticks, late 0"), std::string::npos) << arm.out;
+  EXPECT_EQ(arm.out, riscv.out);
 }
 
 TEST(Firmware, ExampleCompilesForAnEsp32) {
   if (!installed("riscv64-unknown-elf-gcc")) GTEST_SKIP() << "riscv64-unknown-elf-gcc: ./setup --firmware";
   const TemporaryFolder scratch;
-  const Ran ran = run_shell("make -s -C " + example + " OUT='" + scratch.path().string() + "' esp32");
+  const Ran ran = make_example(scratch, "esp32");
   EXPECT_EQ(ran.exit_code, 0) << ran.out;
 }
 

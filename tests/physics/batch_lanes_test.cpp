@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "amble/core/hash.hpp"
 #include "amble/physics/batch/batch_engine.hpp"
+#include "amble/physics/batch/workspace.hpp"
 #include "tests/physics/scene.hpp"
 
 namespace amble::physics {
@@ -32,8 +34,10 @@ void push(Engine& engine, int lane, int gait, int age) {
 
 /// Every lane on its own walk: `gaits[lane]`, −1: stays empty. Lanes may begin late. One hash per lane over
 /// all its states and torques.
-std::vector<std::uint64_t> walk(const robot::RobotSpec& robot, const std::vector<int>& gaits,
-                                const std::vector<int>& begin = std::vector<int>(16, 0), int steps = 200) {
+std::vector<std::uint64_t> walk(
+    const robot::RobotSpec& robot, const std::vector<int>& gaits,
+    const std::vector<int>& begin = std::vector<int>(16, 0), int steps = 200,
+    const std::function<void()>& before_step = [] {}) {
   const auto engine = make_engine("batch", robot, {.torques = true});
   std::vector<std::vector<std::uint64_t>> hashes(16);
   std::vector<float> torques(robot.joints.size());
@@ -47,6 +51,7 @@ std::vector<std::uint64_t> walk(const robot::RobotSpec& robot, const std::vector
       if (age >= 0 && age < steps) push(*engine, lane, gait, age);
       for (int j = 0; j < targets.rows(); ++j) targets.at(j, lane) = target(gait, j, age);
     }
+    before_step();
     engine->step(targets);
     for (int lane = 0; lane < 16; ++lane) {
       const int age = n - begin[static_cast<std::size_t>(lane)];
@@ -90,6 +95,18 @@ TEST(BatchLanes, ALaneThatIsRefilledMidwayDisturbsNobodyAndIsNotDisturbed) {
   std::vector<int> begin;
   for (int lane = 0; lane < 16; ++lane) begin.push_back(6 * lane);
   EXPECT_EQ(walk(robot, in_order, begin), walk(robot, in_order));
+}
+
+// All engines of a thread share it.
+TEST(BatchLanes, ScratchMemoryCarriesNothingFromStepToStep) {
+  const auto poison = [] {
+    constexpr std::size_t floats = 1 << 18;
+    std::fill_n(batch::thread_scratch(floats), floats, std::numeric_limits<float>::quiet_NaN());
+  };
+  for (const auto& robot :
+       {quadruped("paper"), quadruped("authors"), limping(quadruped("paper")), scene("sled")})
+    EXPECT_EQ(walk(robot, in_order, std::vector<int>(16, 0), 120, poison),
+              walk(robot, in_order, std::vector<int>(16, 0), 120));
 }
 
 TEST(BatchLanes, EveryInstructionSetGivesTheSameBits) {

@@ -30,6 +30,7 @@ def calls(config, run, recording):
     """(function, right arguments by name, wrong values by name)."""
     search, problem, robots = amble.Search(config, 1), amble.Problem(config), amble.Robots(ROBOT, 5)
     genomes, genome = search.ask(), search.ask()[0].to_dict()
+    controllers = amble.Controllers(problem, genomes[:5])
     no_config = [None, 3, [], b"x", "no/such.toml", {}, object()]
     no_engine = ["bullet", "", 3, [], object(), "batch\0"]
     bad_overrides = [3, "population.size=3", [], {"population.size": "many"}, {"no.such": 1}, {1: 2}, {"engine": None},
@@ -60,7 +61,7 @@ def calls(config, run, recording):
                                       "on_generation": [3, "x"]}),
         (amble.Search, {"config": config, "seed": 1}, {"config": no_config, "seed": [-1, 1 << 60] + NO_NUMBER}),
         (amble.Problem, {"config": config, "seed": 1}, {"config": no_config, "seed": [-1, 1 << 60] + NO_NUMBER}),
-        (search.tell, {"fitness": np.ones(24)}, {"fitness": no_vector(24)}),
+        (search.tell, {"fitness": np.ones(24)}, {"fitness": no_vector(24), "viable": no_vector(24)[1:]}),
         (amble.evaluate, {"problem": problem, "genomes": genomes[:2], "jobs": 1},
          {"problem": no_config + [run], "genomes": bad_genomes, "engine": no_engine, "jobs": bad_jobs,
           "generation": [-1, 1 << 40, "x", 10**9]}),
@@ -68,6 +69,13 @@ def calls(config, run, recording):
         (amble.Robots, {"robot": ROBOT, "n": 2, "engine": "batch"},
          {"robot": NO_PATH + [run, CONFIG], "n": [0, -1, 1 << 30] + NO_NUMBER, "engine": no_engine + [None],
           "timestep_s": [0.0, -1.0, float("nan"), 1e9, "x"], "threads": [0, -1, 5000, "x"]}),
+        (amble.Controllers, {"problem": problem, "genomes": genomes[:2]},
+         {"problem": no_config + [run], "genomes": bad_genomes + [[]]}),
+        (controllers.step, {"angle_rad": np.zeros((5, 12)), "touch": np.ones((5, 4))},
+         {"angle_rad": no_array(5, 12), "touch": no_array(5, 4), "attitude_rad": no_array(5, 3)[1:]}),
+        (controllers.reset, {"mask": None}, {"mask": bad_mask}),
+        (amble.view, {"champion": recording}, {"champion": NO_PATH, "seconds": [0, -1.0, float("nan"), "x", [], 1.0],
+                                               "engine": no_engine, "height": [0, -1, "x", 1.5, None]}),
         (robots.step, {"targets": np.zeros((5, 12))}, {"targets": no_array(5, 12)}),
         (robots.reset, {"mask": None}, {"mask": bad_mask}),
     ]
@@ -99,7 +107,7 @@ def test_a_thousand_wrong_calls_raise_and_none_crashes(config, run, recording):
 
 def test_objects_that_were_never_made_raise():
     for kind in (amble.Config, amble.Run, amble.Champion, amble.Recording, amble.Search, amble.Problem, amble.Genome,
-                 amble.Robots):
+                 amble.Robots, amble.Controllers):
         empty = kind.__new__(kind)
         for name in ("to_dict", "generations", "trial", "frames", "ask", "config", "digest", "step", "observations"):
             try:

@@ -45,6 +45,16 @@ def test_no_bit_depends_on_threads_or_neighbours(engine):
     assert len(set(hashes[0])) == n
 
 
+def test_amble_s_own_robots_go_by_name():
+    own = amble.robots()
+    assert {"quadruped", "quadruped/paper", "biped", "hexapod", "octopod", "servo"} <= set(own)
+    for name, path in own.items():
+        assert np.array_equal(amble.Robots(name).state_hashes(), amble.Robots(path).state_hashes())
+    assert len(amble.Robots("hexapod").legs) == 6
+    with pytest.raises(amble.Error, match="no robot 'heptapod': expected the path of a robot file, or one of biped, "):
+        amble.Robots("heptapod")
+
+
 def test_views_are_live_and_without_copies():
     robots = amble.Robots(ROBOT, 20)
     observations, angle, com, fallen = robots.observations, robots.angle_rad, robots.com_m, robots.fallen

@@ -5,7 +5,7 @@ import amble
 import numpy as np
 import pytest
 
-from conftest import CONFIG, NOVELTY, SMALL
+from conftest import CONFIG, NOVELTY, SMALL, SOURCE
 
 
 def evolved(config, seed, folder):
@@ -31,6 +31,36 @@ def test_ask_and_tell_evolves_what_evolve_does(path, more, tmp_path):
     assert bests == best
     assert found[1].digest == champion.digest and found[1] == champion
     assert search.round == 4
+
+
+def test_map_elites_by_ask_and_tell_keeps_what_evolve_keeps(tmp_path):
+    config = amble.load_config(SOURCE / "configs/repertoire/quadruped.toml",
+                               {"trial.duration_s": 2.0, "generations": 3, "search.map_elites.batch": 24,
+                                "search.map_elites.initial": 24})
+    _, _, table = evolved(config, 5, tmp_path / "run")
+    search = amble.Search(config, 5)
+    for generation in range(3):
+        search.tell(amble.evaluate(search, search.ask()))
+        for name, value in search.metrics.items():
+            assert value == table[name][generation], name
+
+
+def test_who_is_not_viable_gets_no_cell_of_a_map():
+    config = amble.load_config(SOURCE / "configs/repertoire/quadruped.toml",
+                               {"trial.duration_s": 2.0, "search.map_elites.batch": 24, "search.map_elites.initial": 24})
+    filled = []
+    for some in (True, False):
+        search = amble.Search(config, 5)
+        evaluation = amble.evaluate(search, search.ask())
+        assert evaluation.viable.dtype == bool and evaluation.viable.all()
+        objective, behaviour = evaluation
+        search.tell(objective, behaviour, viable=evaluation.viable & some)
+        filled.append(search.metrics)
+    assert filled[0] != filled[1]
+    with pytest.raises(TypeError, match="viable"):
+        search.tell(objective, behaviour, viable=objective)
+    with pytest.raises(TypeError, match="has its behaviour and viable already"):
+        search.tell(evaluation, behaviour)
 
 
 def test_evaluate_does_not_depend_on_jobs_or_on_what_else_is_evaluated(config):

@@ -127,6 +127,7 @@ class LockstepEngine final : public BatchEngine {
   }
 
   batch::StepArguments arguments_for(LockstepState& robots) {
+    workspace_.attach();
     return {.model = model_,
             .rows = rows_,
             .state = robots.rows(),

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <memory>
+#include <cstddef>
 #include <vector>
 
 #include "amble/core/index.hpp"
@@ -44,6 +44,10 @@ struct ChainBlocks {
 
 constexpr int joint_row_size = 5;
 
+/// At least so many floats, aligned as a Row is, which all engines of this thread share: a few hundred kB
+/// that stay in the processor's cache however many engines there are. Valid until a call asks for more.
+float* thread_scratch(std::size_t floats);
+
 /// Scratch memory of one pass over as many lanes as a vector holds. Only geom_has_impulse outlives a step.
 class Workspace {
  public:
@@ -67,10 +71,6 @@ class Workspace {
     blocks = take((rows + points) * block_layout.size());
     point_normal = take(3 * points);
     block_normal = take(3 * (rows + points));
-    storage_.resize(to_index((vectors_ + 1) * lanes));
-    void* start = storage_.data();
-    std::size_t space = storage_.size() * sizeof(float);
-    memory_ = static_cast<float*>(std::align(sizeof(Row), sizeof(float), start, space));
     block_joint.resize(to_index(rows + points));
     geom_may_touch.resize(model.geoms.size());
     geom_has_impulse.resize(lanes * model.geoms.size());
@@ -79,6 +79,8 @@ class Workspace {
   Workspace(const Workspace&) = delete;
   Workspace& operator=(const Workspace&) = delete;
 
+  /// To be called before each step: what memory() holds is lost between two.
+  void attach() { memory_ = thread_scratch(to_index(vectors_ * lanes)); }
   /// Aligned as a Row is.
   float* memory() { return memory_; }
 
@@ -105,7 +107,6 @@ class Workspace {
 
  private:
   int vectors_ = 0;
-  std::vector<float> storage_;
   float* memory_ = nullptr;
 };
 

@@ -1,4 +1,4 @@
-#include "amble/cli/scratch_file.hpp"
+#include "amble/io/scratch_file.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "amble/core/error.hpp"
 
-namespace amble::cli {
+namespace amble::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -33,4 +33,4 @@ ScratchFile::~ScratchFile() {
   fs::remove_all(path_.parent_path(), none);
 }
 
-}  // namespace amble::cli
+}  // namespace amble::io

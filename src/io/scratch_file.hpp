@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-namespace amble::cli {
+namespace amble::io {
 
 /// A path for a file in a new private folder within the system's folder for temporary files; both are removed
 /// by the destructor.
@@ -20,4 +20,4 @@ class ScratchFile {
   std::filesystem::path path_;
 };
 
-}  // namespace amble::cli
+}  // namespace amble::io

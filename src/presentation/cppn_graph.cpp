@@ -1,4 +1,4 @@
-#include "amble/cli/cppn_graph.hpp"
+#include "amble/presentation/cppn_graph.hpp"
 
 #include <array>
 #include <string>
@@ -6,7 +6,7 @@
 
 #include "amble/core/index.hpp"
 
-namespace amble::cli {
+namespace amble::presentation {
 namespace {
 
 /// By neat::NodeKind.
@@ -41,4 +41,4 @@ figures::CppnGraph cppn_graph(const experiment::Champion& champion) {
   return graph;
 }
 
-}  // namespace amble::cli
+}  // namespace amble::presentation

@@ -3,9 +3,9 @@
 #include "amble/experiment/champion.hpp"
 #include "amble/figures/cppn_graph.hpp"
 
-namespace amble::cli {
+namespace amble::presentation {
 
 /// The CPPN of a champion, with the names that its controller gives to inputs and outputs.
 figures::CppnGraph cppn_graph(const experiment::Champion& champion);
 
-}  // namespace amble::cli
+}  // namespace amble::presentation

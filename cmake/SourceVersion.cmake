@@ -1,0 +1,42 @@
+# amble_source_version(SOURCE_DIR BASE VERSION_VARIABLE COMMIT_VARIABLE): what `git describe` calls the sources, and their commit.
+# VERSION is "0.2.0" at the tag v0.2.0, "0.2.0-7-gabc1234" seven commits after it, and "<BASE>-dev-gabc1234" before the first tag; of an
+# archive made by `git archive` the same from cmake/archive.txt; "<BASE>" without either. COMMIT has a "+" where files differ from it;
+# "unknown" without git.
+function(amble_source_version source_dir base version_variable commit_variable)
+  find_program(GIT git)
+  set(version "")
+  set(commit "unknown")
+  if(GIT AND EXISTS ${source_dir}/.git)
+    execute_process(COMMAND ${GIT} -C ${source_dir} rev-parse HEAD OUTPUT_VARIABLE head RESULT_VARIABLE bad
+                    OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+    if(NOT bad)
+      execute_process(COMMAND ${GIT} -C ${source_dir} status --porcelain OUTPUT_VARIABLE changes ERROR_QUIET)
+      set(commit ${head})
+      if(changes)
+        string(APPEND commit "+")
+      endif()
+      execute_process(COMMAND ${GIT} -C ${source_dir} describe --tags --match "v[0-9]*" OUTPUT_VARIABLE version
+                      OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+    endif()
+  else()
+    # Lines "describe: …" and "commit: …", filled in by `git archive` (.gitattributes).
+    file(STRINGS ${source_dir}/cmake/archive.txt lines)
+    foreach(line ${lines})
+      if(line MATCHES "^describe: (v[0-9].*)$")
+        set(version ${CMAKE_MATCH_1})
+      elseif(line MATCHES "^commit: ([0-9a-f]+)$")
+        set(commit ${CMAKE_MATCH_1})
+      endif()
+    endforeach()
+  endif()
+  if(version)
+    string(SUBSTRING ${version} 1 -1 version)
+  elseif(commit STREQUAL "unknown")
+    set(version ${base})
+  else()
+    string(SUBSTRING ${commit} 0 7 short)
+    set(version ${base}-dev-g${short})
+  endif()
+  set(${version_variable} ${version} PARENT_SCOPE)
+  set(${commit_variable} ${commit} PARENT_SCOPE)
+endfunction()

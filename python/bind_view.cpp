@@ -1,0 +1,59 @@
+#include <pybind11/stl.h>
+
+#include "amble/experiment/champion.hpp"
+#include "amble/io/scratch_file.hpp"
+#include "amble/presentation/walker.hpp"
+#include "python/bind.hpp"
+#include "python/readable.hpp"
+
+namespace amble::python {
+namespace {
+
+/// As `amble view` takes its inputs.
+bool is_recording_file(const std::filesystem::path& path) {
+  return !std::filesystem::is_directory(path) && path.extension() != ".json";
+}
+
+view::Walker walker_of(const py::object& object, const presentation::WalkOptions& options,
+                       const io::ScratchFile& scratch) {
+  const bool is_recording = py::isinstance<ReadRecording>(object);
+  if (is_recording || (!py::isinstance<ReadableChampion>(object) && !py::isinstance<ReadableRun>(object) &&
+                       is_recording_file(path_of(object)))) {
+    if (options.seconds || options.engine)
+      throw py::value_error("a recording has been made already: no seconds, no engine");
+    const auto path = is_recording ? object.cast<const ReadRecording&>().path : path_of(object);
+    const py::gil_scoped_release release;
+    return presentation::recorded(path);
+  }
+  const auto champion = py::isinstance<ReadableChampion>(object)
+                            ? object.cast<const ReadableChampion&>()
+                            : champion_at(py::isinstance<ReadableRun>(object)
+                                              ? object.cast<const ReadableRun&>().paths.best_champion()
+                                              : path_of(object));
+  std::optional<view::Walker> walker;
+  Interruptible interruptible;
+  interruptible.run([&] {
+    walker = presentation::walk(champion.value, champion.path, options, scratch.path(), interruptible.stop());
+  });
+  return std::move(*walker);
+}
+
+std::string page_of(const py::object& champion, std::optional<double> seconds,
+                    std::optional<std::string> engine) {
+  check_seconds(seconds);
+  const io::ScratchFile scratch("walk.rec");
+  view::ReplayPage page{.title = {}, .walkers = {}, .made_by = presentation::made_by()};
+  page.walkers.push_back(walker_of(champion, {.seconds = seconds, .engine = std::move(engine)}, scratch));
+  page.title = page.walkers.front().title;
+  const py::gil_scoped_release release;
+  return view::make_page(page);
+}
+
+}  // namespace
+
+void bind_view(py::module_& module) {
+  module.def("_page", page_of, py::arg("champion"), py::arg("seconds"), py::arg("engine"),
+             "The page of amble.view(), as text.");
+}
+
+}  // namespace amble::python

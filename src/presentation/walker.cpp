@@ -1,0 +1,60 @@
+#include "amble/presentation/walker.hpp"
+
+#include <fmt/format.h>
+
+#include "amble/experiment/build_info.hpp"
+#include "amble/experiment/replay.hpp"
+#include "amble/figures/cppn_figure.hpp"
+#include "amble/gait/recorded_gait.hpp"
+#include "amble/gait/report_text.hpp"
+#include "amble/presentation/cppn_graph.hpp"
+#include "amble/study/gait_observer.hpp"
+
+namespace amble::presentation {
+namespace {
+
+io::Json gait_of(const gait::Report& report) {
+  return io::parse_json(gait::report_json(report), "gait");
+}
+
+}  // namespace
+
+std::string engine_note(const experiment::Champion& champion, const WalkOptions& options) {
+  const auto& home = champion.problem.engine;
+  const auto& judge = options.engine.value_or(home);
+  return judge == home ? "" : fmt::format(", in the engine {}", judge);
+}
+
+std::optional<view::Walker> walk(const experiment::Champion& champion, const std::filesystem::path& path,
+                                 const WalkOptions& options, const std::filesystem::path& recording,
+                                 const std::atomic<bool>& stop) {
+  study::GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
+  const auto replay = experiment::replay(champion.problem, champion.genome,
+                                         {.seconds = options.seconds,
+                                          .engine = options.engine,
+                                          .record = recording,
+                                          .origin = path.string(),
+                                          .observer = &gait,
+                                          .trace = false},
+                                         stop);
+  if (!replay) return std::nullopt;
+  return view::Walker{.title = fmt::format("{}, generation {}{}", champion.experiment, champion.generation,
+                                           engine_note(champion, options)),
+                      .recording = recording,
+                      .cppn_svg = figures::cppn_figure(cppn_graph(champion)),
+                      .gait = gait_of(gait.finish(replay->result.outcome))};
+}
+
+view::Walker recorded(const std::filesystem::path& recording) {
+  return {.title = recording.stem().string(),
+          .recording = recording,
+          .cppn_svg = {},
+          .gait = gait_of(gait::recorded_gait(recording, {}))};
+}
+
+std::string made_by() {
+  const auto build = experiment::build_info();
+  return fmt::format("amble {} ({})", build.version, experiment::short_commit(build));
+}
+
+}  // namespace amble::presentation

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "amble/experiment/champion.hpp"
+#include "amble/view/page.hpp"
+
+namespace amble::presentation {
+
+/// How a champion walks again; the default of each option is as in its evolution.
+struct WalkOptions {
+  std::optional<double> seconds = {};
+  std::optional<std::string> engine = {};
+};
+
+/// ", in the engine ode" where that is not the one in which the champion evolved; else empty.
+std::string engine_note(const experiment::Champion& champion, const WalkOptions& options);
+
+/// Lets a champion walk again, without noise, and writes its recording to `recording`, which the page reads.
+/// `path`: the champion's file, named in the recording. Nothing if `stop` was set. Throws UserError.
+std::optional<view::Walker> walk(const experiment::Champion& champion, const std::filesystem::path& path,
+                                 const WalkOptions& options, const std::filesystem::path& recording,
+                                 const std::atomic<bool>& stop);
+
+/// What a recording shows, called by its file's name. Throws UserError.
+view::Walker recorded(const std::filesystem::path& recording);
+
+/// Program and version, for the foot of pages.
+std::string made_by();
+
+}  // namespace amble::presentation

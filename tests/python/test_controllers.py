@@ -1,0 +1,65 @@
+import amble
+import numpy as np
+import pytest
+
+from conftest import CONFIG, SMALL
+
+ALL = [CONFIG, CONFIG.parent / "sine-objective.toml", CONFIG.parent / "ctrnn-objective.toml",
+       CONFIG.parent.parent / "paper/supg-objective.toml"]
+
+
+@pytest.mark.parametrize("path", ALL)
+def test_controllers_and_robots_walk_as_champions_do_to_the_bit(path, tmp_path):
+    config = amble.load_config(path, {**SMALL, "generations": 1})
+    champion = amble.evolve(config, 3, out=tmp_path / "run").champion()
+    champion.trial(record=tmp_path / "walk.rec")
+    recording = amble.Recording(tmp_path / "walk.rec")
+    targets, com_x = recording.matching("target."), recording["com.x"]
+    robots = amble.Robots(config, 3)
+    controllers = amble.Controllers(config, [champion.genome] * 3)
+    assert len(controllers) == 3
+    for frame in range(len(recording)):
+        if frame == 0 and config["trial.first_command"] == "after_first_step":
+            wanted = np.zeros((3, len(robots.joints)), np.float32)
+        else:
+            wanted = controllers.step(robots.angle_rad, robots.touch, robots.attitude_rad)
+        for robot in range(3):
+            assert np.array_equal(wanted[robot], targets[frame])
+        robots.step(wanted)
+        assert (robots.com_m[:, 0] == com_x[frame]).all()
+
+
+def test_each_genome_has_its_own_controller_and_its_own_state(config):
+    genomes = amble.Search(config, 3).ask()[:5]
+    together, random = amble.Controllers(config, genomes), np.random.default_rng(1)
+    alone = [amble.Controllers(config, [genome]) for genome in genomes]
+    assert len(together.state_names) == 8
+    for tick in range(50):
+        if tick == 20:
+            mask = np.array([True, False, True, False, False])
+            together.reset(mask)
+            [controllers.reset() for controllers, chosen in zip(alone, mask) if chosen]
+        angles, touch = np.zeros((5, 12)), random.integers(0, 2, (5, 4))
+        targets = together.step(angles, touch)
+        for number, controllers in enumerate(alone):
+            assert np.array_equal(controllers.step(angles[:1], touch[number:number + 1])[0], targets[number])
+            assert np.array_equal(controllers.states[0], together.states[number])
+    assert len(np.unique(targets, axis=0)) == 5 and not targets.flags.writeable
+
+
+def test_targets_outlive_their_controllers(config):
+    controllers = amble.Controllers(config, amble.Search(config, 3).ask())
+    targets = controllers.step(np.zeros((24, 12)), np.ones((24, 4)))
+    expected = targets.copy()
+    del controllers
+    junk = [np.ones(24 * 12, np.float32) for _ in range(100)]
+    assert np.array_equal(targets, expected) and len(junk) == 100
+
+
+def test_sensors_must_be_finite(config):
+    controllers = amble.Controllers(config, amble.Search(config, 3).ask()[:2])
+    for bad in (np.nan, np.inf):
+        with pytest.raises(ValueError, match="touch: expected finite numbers"):
+            controllers.step(np.zeros((2, 12)), np.full((2, 4), bad))
+    with pytest.raises(ValueError, match="genomes: expected at least one"):
+        amble.Controllers(config, [])
