@@ -21,14 +21,10 @@ struct Part {
   void (*measure)(std::vector<amble::bench::Figure>&);
 };
 constexpr Part parts[] = {
-    {"controllers", amble::bench::measure_controllers},
-    {"cppn", amble::bench::measure_cppn},
-    {"map_elites", amble::bench::measure_map_elites},
-    {"neat", amble::bench::measure_neat},
-    {"novelty", amble::bench::measure_novelty},
-    {"physics", amble::bench::measure_physics},
-    {"robots", amble::bench::measure_robots},
-    {"runs", amble::bench::measure_runs},
+    {"controllers", amble::bench::measure_controllers}, {"cppn", amble::bench::measure_cppn},
+    {"map_elites", amble::bench::measure_map_elites},   {"neat", amble::bench::measure_neat},
+    {"novelty", amble::bench::measure_novelty},         {"physics", amble::bench::measure_physics},
+    {"robots", amble::bench::measure_robots},           {"runs", amble::bench::measure_runs},
 };
 
 struct Options {

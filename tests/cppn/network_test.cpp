@@ -240,6 +240,16 @@ TEST(Network, StaysFiniteWhenValuesGrowWithoutBound) {
   EXPECT_TRUE(clamped);
 }
 
+TEST(Network, TakesAHugeWeightOfEitherSignAsTwoToThePowerOf32) {
+  neat::Genome genome = small_genome(Activation::linear, Activation::linear, Activation::linear);
+  const Settings identity{Linear::identity, true};
+  for (const double sign : {-1.0, 1.0})
+    for (const double weight : {0x1p32, 0x1p33, 1e300}) {
+      genome.links = {{0, 1, 4, sign * weight}, {1, 4, 3, 0.25}};
+      EXPECT_EQ(evaluate_one(genome, identity, {0.5f, 0.0f}), static_cast<float>(sign * 0x1p29)) << weight;
+    }
+}
+
 TEST(Network, GivesAPointTheSameValueWhereverItStands) {
   Stream stream(16, Purpose::test);
   const neat::Genome genome = random_genome({}, stream);

@@ -5,6 +5,7 @@
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/verify.hpp"
 #include "amble/record/recording.hpp"
+#include "amble/robot/json.hpp"
 #include "tests/experiment/fixture.hpp"
 
 // Runs and trials of damaged robots.
@@ -93,7 +94,12 @@ TEST(DamageRun, IsRecordedBesideTheIntactRobot) {
   ASSERT_TRUE(replay(problem, genome, {.record = scratch / "a.rec"}, unstopped));
   const record::RecordingReader reader(scratch / "a.rec");
   EXPECT_NE(reader.header().damage_json.find("missing"), std::string::npos);
-  EXPECT_NE(reader.header().robot_json.find("\"BR\""), std::string::npos);
+  const robot::RobotSpec drawn = robot::parse_robot(reader.header().robot_json, "recording");
+  ASSERT_EQ(drawn.legs.size(), 4u);
+  for (std::size_t g = 0; g < drawn.geoms.size(); ++g) {
+    const bool missing = drawn.leg_of_body(drawn.geoms[g].body) == 3;
+    EXPECT_EQ(drawn.geoms[g].rgba[3] < problem.robot.geoms[g].rgba[3], missing) << "only BR is pale";
+  }
   const Problem intact = small_problem(small_config({"engine=batch"}));
   ASSERT_TRUE(replay(intact, genome, {.record = scratch / "b.rec"}, unstopped));
   EXPECT_TRUE(record::RecordingReader(scratch / "b.rec").header().damage_json.empty());

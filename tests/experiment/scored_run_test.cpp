@@ -10,6 +10,7 @@
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/verify.hpp"
 #include "amble/io/file.hpp"
+#include "amble/record/recording.hpp"
 #include "amble/robot/pose.hpp"
 #include "tests/experiment/fixture.hpp"
 
@@ -79,6 +80,41 @@ double mean_phase(const Twin& twin) {
     sum += turns < 0.0 ? turns + 1.0 : turns;
   }
   return sum / static_cast<double>(twin.touches[0].size());
+}
+
+/// Angles and targets of all joints after each step.
+class JointObserver : public trial::Observer {
+ public:
+  void on_step(int, const physics::Engine& engine, const controllers::Batch&, const LaneArray& targets_rad,
+               int lane) override {
+    for (int joint = 0; joint < targets_rad.rows(); ++joint) {
+      angle_rad.push_back(engine.sensors().joint_angle_rad.at(joint, lane));
+      target_rad.push_back(targets_rad.at(joint, lane));
+    }
+  }
+  std::vector<float> angle_rad, target_rad;
+};
+
+TEST(Recording, HasAnglesAndTargetsInTheColumnsOfTheirNames) {
+  const TemporaryFolder scratch;
+  const Problem problem = small_problem(small_config({"engine=batch"}));
+  JointObserver joints;
+  ASSERT_TRUE(replay(problem, small_population(problem).genomes()[3],
+                     {.record = scratch / "a.rec", .observer = &joints}, never));
+  record::RecordingReader reader(scratch / "a.rec");
+  const auto& columns = reader.header().columns;
+  const auto column = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::ranges::find(columns, name) - columns.begin());
+  };
+  std::vector<float> frame;
+  std::size_t i = 0;
+  while (reader.next(frame))
+    for (const robot::Joint& joint : problem.robot.joints) {
+      ASSERT_EQ(frame.at(column("angle." + joint.name)), joints.angle_rad.at(i)) << joint.name;
+      ASSERT_EQ(frame.at(column("target." + joint.name)), joints.target_rad.at(i++)) << joint.name;
+    }
+  EXPECT_EQ(i, joints.angle_rad.size());
+  EXPECT_NE(joints.angle_rad, joints.target_rad);
 }
 
 class ScoreInEachEngine : public testing::TestWithParam<const char*> {};

@@ -150,6 +150,17 @@ TEST(CSource, BearsAnyNames) {
   EXPECT_EQ(compile(scratch.path(), "clang-14", strict_flags + " -DWALKER_SELF_TEST", {}, "self"), "");
 }
 
+TEST(CSource, TellsNamesApartThatDifferInCaseAlone) {
+  const TemporaryFolder scratch;
+  experiment::Champion champion = simple_champion();
+  champion.problem.robot.joints[0].name = "knee";
+  champion.problem.robot.joints[1].name = "Knee";
+  champion.problem.robot.legs[0].name = "Fore";
+  champion.problem.robot.legs[1].name = "FORE";
+  write_walker(scratch.path(), champion);
+  EXPECT_EQ(compile(scratch.path(), "gcc", strict_flags + " -DWALKER_SELF_TEST", {}, "self"), "");
+}
+
 TEST(CSource, SaysWhereItComesFromAndWhatItNeeds) {
   const TemporaryFolder scratch;
   const experiment::Champion champion = simple_champion();

@@ -67,6 +67,19 @@ TEST_P(FitnessFigure, LeavesOutColumnsThatTheSearchDoesNotHave) {
   EXPECT_THAT(tests::texts(elements), Contains("1.2"));
 }
 
+TEST_P(FitnessFigure, LeavesNoGapWhereAColumnIsMissing) {
+  const auto left_of_first_panel = [](const record::Generations& generations) {
+    const auto elements = tests::parse_xml(fitness_figure(generations, GetParam()));
+    return tests::points(tests::with_class(elements, "small").at(0)).at(0).first;
+  };
+  record::Generations generations = table();
+  const double left = left_of_first_panel(generations);
+  generations.species.clear();
+  EXPECT_EQ(left_of_first_panel(generations), left);
+  generations.mean_hidden.clear();
+  EXPECT_EQ(left_of_first_panel(generations), left);
+}
+
 TEST_P(FitnessFigure, ShowsNegativeValues) {
   record::Generations generations = table();
   generations.median = {-1.0, -0.5, -0.25};

@@ -111,6 +111,25 @@ TEST(GaitReport, HasEachOfItsNumbersInItsJsonOnceAndUnderItsName) {
   EXPECT_EQ(json["reference_leg"], "C");
 }
 
+TEST(GaitReport, HasASegmentForEachReasonOfAnIrregularGait) {
+  Report report;
+  for (const Irregular reason : {Irregular::few_strides, Irregular::mixed_pairs, Irregular::mixed_pairs}) {
+    const double start_s = 10.0 * static_cast<double>(report.windows.size());
+    report.windows.push_back({.start_s = start_s,
+                              .end_s = start_s + 10.0,
+                              .classification = Classification{Gait::irregular, reason},
+                              .speed_m_s = 0.0,
+                              .duty_factors = {},
+                              .phases = {}});
+  }
+  const auto segments = segments_of(report);
+  ASSERT_EQ(segments.size(), 2u);
+  EXPECT_EQ(segments[0].classification, (Classification{Gait::irregular, Irregular::few_strides}));
+  EXPECT_EQ(segments[1].classification, (Classification{Gait::irregular, Irregular::mixed_pairs}));
+  EXPECT_EQ(segments[0].end_s, 10.0);
+  EXPECT_EQ(segments[1].end_s, 30.0);
+}
+
 TEST(GaitReport, ListsTheFirstTwelveTimesOfAGaitAndCountsTheOthers) {
   for (int changes = 1; changes <= 40; ++changes) {
     Report report;

@@ -67,4 +67,17 @@ class Feeder {
   int frames_ = 0;
 };
 
+constexpr gait::Classification named(gait::Gait gait) {
+  return {gait, gait::Irregular::no};
+}
+
+/// 20 s of feet that land at these shares of a stride of 0.8 s, in percent; legs FL, FR, BL, BR.
+inline gait::Report walk(const std::vector<int>& percent, int stance_percent = 60) {
+  Clockwork feet{.stride = 80, .stance = stance_percent * 80 / 100, .offset = {}};
+  for (const int share : percent) feet.offset.push_back(share * 80 / 100);
+  Feeder feeder;
+  feeder.walk(feet, 2000);
+  return feeder.finish();
+}
+
 }  // namespace amble::tests

@@ -163,6 +163,20 @@ TEST(LegGuess, NamesLegsByPlaceSideBySideAndRowByRow) {
   }
 }
 
+TEST(LegGuess, TakesNoFootThatIsOnlyToLookAt) {
+  const Files files;
+  const std::string text =
+      with(model_of_legs(silent_names(4), four_places), R"(<geom name="foot0")",
+           R"(<geom name="sock" pos="0 0 -0.5" size=".05" mass="0" contype="0" conaffinity="0"/>
+              <geom name="foot0")");
+  const ModelParts parts = extract_parts(compile_model(files.write("m.xml", text)));
+  ASSERT_EQ(std::ranges::count(parts.geoms, "sock", &robot::Geom::name), 1);
+  std::set<std::string> feet;
+  for (const LegGuess& leg : guess_legs(parts).legs)
+    feet.insert(parts.geoms[static_cast<std::size_t>(leg.foot_geom)].name);
+  EXPECT_EQ(feet, (std::set<std::string>{"foot0", "foot1", "foot2", "foot3"}));
+}
+
 TEST(LegGuess, EndsNearTheGroundWhereverTheModelStands) {
   // A tail that ends at 0.3 of the height of the centre of mass over the lowest point is no leg, one at 0.2
   // is; and nothing changes when the whole robot is put higher or lower.

@@ -213,6 +213,9 @@ TEST(ExtractParts, RefusesTendonsThatActInAnyWay) {
     EXPECT_EQ(line_of(attribute), "m.xml: tendon 'cable': tendons are not supported") << attribute;
   EXPECT_EQ(line_of("", R"(<actuator><motor tendon="cable"/></actuator>)"),
             "m.xml: tendon 'cable': tendons are not supported");
+  EXPECT_EQ(line_of("", R"(<actuator><motor joint="A_hip"/><motor tendon="cable"/></actuator>)"),
+            "m.xml: tendon 'cable': tendons are not supported");
+  EXPECT_EQ(line_of("", R"(<actuator><motor joint="A_hip"/></actuator>)"), "accepted");
   EXPECT_EQ(line_of(""), "accepted");
 }
 

@@ -51,6 +51,8 @@ TEST(TriggerTimes, KeepTheFirstOfARow) {
 TEST(TimerAtTriggers, IsWhatItHadReachedOrNothingIfItHadStopped) {
   EXPECT_THAT(timer_at_triggers({true, false, true, false, false, true}, {1, 2, 1, 2, -1, 1}),
               ElementsAre(std::optional<double>(2.0), std::nullopt));
+  EXPECT_THAT(timer_at_triggers({true, true}, {0, 1}), ElementsAre(std::optional<double>(0.0)))
+      << "0 is a tick of the timer as others are";
 }
 
 }  // namespace

@@ -159,5 +159,18 @@ TEST(Crossover, InheritsALinkOfTwoNumbersOnceWithTheSmallerNumberAndTheFittersWe
   EXPECT_EQ(crossover(newer, older, settings, true, stream).links[1], (LinkGene{7, 1, 2, 0.7, true}));
 }
 
+TEST(Crossover, TakesFromTheFitterWhetherALinkOfTwoNumbersIsEnabled) {
+  Stream stream(108, Purpose::test);
+  CrossoverSettings settings;
+  settings.weaker_genes_probability = 1.0;
+  settings.enable_probability = 0.0;
+  for (const bool enabled : {true, false}) {
+    const Genome older = sample_genome(1, 1, {}, {{0, 0, 2, 0.1, true}, {1, 1, 2, 0.2, !enabled}});
+    const Genome newer = sample_genome(1, 1, {}, {{0, 0, 2, 0.1, true}, {7, 1, 2, 0.7, enabled}});
+    EXPECT_EQ(crossover(newer, older, settings, true, stream).links[1], (LinkGene{1, 1, 2, 0.7, enabled}));
+    EXPECT_EQ(crossover(older, newer, settings, true, stream).links[1], (LinkGene{1, 1, 2, 0.2, !enabled}));
+  }
+}
+
 }  // namespace
 }  // namespace amble::neat

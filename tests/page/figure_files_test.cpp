@@ -21,6 +21,8 @@ TEST(Figures, AreOnePerSectionOfThePage) {
   RunPage input;
   EXPECT_EQ(names(figure_files(input, tests::walk(150))),
             (Names{"filmstrip.svg", "footfalls.svg", "patterns.svg", "path.svg"}));
+  input.generations = record::Generations();
+  EXPECT_EQ(names(figure_files(input, tests::walk(0))), Names{}) << "no generation is complete yet";
   input.generations = record::parse_generations(
       "generation,best,mean,median,species,threshold,mean_hidden,mean_links,evaluations,steps\n"
       "0,0.5,0.25,0.2,3,100,0,8,300,440000\n",

@@ -70,6 +70,7 @@ void expect_near(const Motion& a, const Motion& b, double tolerance) {
 TEST_P(Moving, ARobotIsPlacedAsItMovesAndMovesOn) {
   auto robot = lifted(quadruped(), 5.0);
   robot.contact.cfm_s_per_kg = 1e-9;  // ODE's joints are as soft as its contacts
+  robot.bodies[0].com_m = {0.03, -0.02, 0.04};
   for (const double h : {0.01, 0.001})
     for (const int steps : {1, 20, 80}) {
       const EngineSettings settings{.timestep_s = h};
@@ -325,6 +326,26 @@ TEST_P(Damaged, OnUnevenGroundTheLegsThatAreLeftTouchIt) {
     touched = touched || engine->sensors().touch.at(2, 0) == 1.0f;
   }
   EXPECT_TRUE(touched);
+}
+
+TEST_P(Damaged, OnUnevenGroundItIsTheRobotThatIsLeftOverToTheBit) {
+  // The foot that is missing is the only one of its radius, for which the ground has heights of their own.
+  auto robot = quadruped();
+  robot.geoms[to_index(robot.legs[1].foot_geom)].size_m.x *= 0.5;
+  ground::Settings settings;
+  settings.kind = ground::Kind::hills;
+  settings.height_m = 0.02;
+  const auto field = ground::make_field(settings, {});
+  const auto left_over = damage::stages_of(robot, {{missing("FR")}})[0].robot;
+  const auto damaged = make(robot, {missing("FR")}), plain = make_engine(GetParam(), left_over, {});
+  damaged->set_ground(std::make_shared<const ground::Ground>(field, robot));
+  plain->set_ground(std::make_shared<const ground::Ground>(field, left_over));
+  for (Engine* const engine : {damaged.get(), plain.get()}) {
+    engine->place(0);
+    const LaneArray targets = targets_for(*engine);
+    for (int n = 0; n < 50; ++n) engine->step(targets);
+  }
+  EXPECT_EQ(damaged->state_hash(0), plain->state_hash(0));
 }
 
 /// How far the engines' centres of mass are apart from ODE's after a quarter of a second, m.

@@ -101,6 +101,26 @@ TEST(Figures, HoldTheirTextsWithTwoConditionsOrTwenty) {
   }
 }
 
+TEST(CurvesFigure, GoesAroundTheBandBetweenTheQuartilesOnce) {
+  const Report report = make_report(small_study());
+  const auto bands = with_class(parse_xml(curves_figure(report, Layout::wide)), "band");
+  ASSERT_EQ(bands.size(), report.curves.size());
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    const auto corners = tests::points(bands[b]);
+    const std::size_t count = report.curves[b].generation.size();
+    ASSERT_EQ(corners.size(), 2 * count);
+    ASSERT_GE(count, 2u);
+    for (std::size_t i = 0; i < count; ++i) {
+      // Out along the upper quartiles and back along the lower ones.
+      EXPECT_EQ(corners[i].first, corners[2 * count - 1 - i].first) << i;
+      EXPECT_LE(corners[i].second, corners[2 * count - 1 - i].second) << i;
+      if (i > 0) {
+        EXPECT_LT(corners[i - 1].first, corners[i].first) << i;
+      }
+    }
+  }
+}
+
 TEST(SurvivalFigure, StepsDownWhereLifetimesEnd) {
   const Report report = make_report(small_study());
   const auto curves =

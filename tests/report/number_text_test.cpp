@@ -45,6 +45,12 @@ TEST(NumberText, NeverRoundsAPValueOntoALevel) {
   EXPECT_EQ(p_text(0.01), "p = 0.010");
 }
 
+TEST(NumberText, CountsOnlyOneInTheSingular) {
+  EXPECT_EQ(counted(0, "run"), "0 runs");
+  EXPECT_EQ(counted(1, "run"), "1 run");
+  EXPECT_EQ(counted(2, "run"), "2 runs");
+}
+
 TEST(TiedText, BreaksNoIntervalAndNoUnit) {
   EXPECT_EQ(tied("2.0 m [1.5, 2.5] of 20 runs"), "2.0\u00A0m [1.5,\u00A02.5] of 20 runs");
   EXPECT_EQ(tied("at 95 %. Then 3 s"), "at 95\u00A0%. Then 3\u00A0s");
