@@ -41,6 +41,23 @@ TEST(PathFigure, HasEqualScalesThatTheBarStates) {
   }
 }
 
+TEST(PathFigure, HasRoomForFeetFarFromThePath) {
+  // The robot stands still, and its feet are half a metre away from its centre of mass.
+  motion::RecordedTrial recorded = tests::walk(20);
+  for (Vec3& com_m : recorded.motion.com_m) com_m = recorded.motion.com_start_m;
+  for (const Layout layout : {Layout::wide, Layout::narrow}) {
+    const auto elements = tests::parse_xml(path_figure(recorded.robot, recorded.motion, layout));
+    const auto prints = tests::with_class(elements, "footprint");
+    ASSERT_FALSE(prints.empty());
+    for (const auto& print : prints) {
+      EXPECT_GE(print.number("cx"), 0.0);
+      EXPECT_LE(print.number("cx"), elements.at(0).number("width"));
+      EXPECT_GE(print.number("cy"), 0.0);
+      EXPECT_LE(print.number("cy"), elements.at(0).number("height"));
+    }
+  }
+}
+
 TEST(PathFigure, MarksWhereFeetCameDown) {
   const motion::RecordedTrial recorded = tests::walk(20);
   const auto elements = tests::parse_xml(path_figure(recorded.robot, recorded.motion, Layout::wide));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -234,6 +235,21 @@ TEST(ExtractParts, KeepsMoreCornersOfWhatIsToLookAtThanOfWhatCollides) {
   const ModelParts parts = parts_of(files, xml);
   EXPECT_EQ(parts.geoms[1].vertices_m.size(), 80u);
   EXPECT_EQ(parts.geoms[2].vertices_m.size(), most_collision_vertices);
+}
+
+TEST(ExtractParts, KeepsTheHalfAxesOfAnEllipsoid) {
+  const Files files;
+  const ModelParts parts = parts_of(
+      files, with(one_leg_xml, R"(<geom name="thigh")",
+                  R"(<geom name="egg" type="ellipsoid" size="0.1 0.2 0.3" mass="0"/><geom name="thigh")"));
+  const auto egg = std::ranges::find(parts.geoms, "egg", &robot::Geom::name);
+  ASSERT_NE(egg, parts.geoms.end());
+  Vec3 most;
+  for (const Vec3 corner : egg->vertices_m)
+    most = {std::max(most.x, corner.x), std::max(most.y, corner.y), std::max(most.z, corner.z)};
+  EXPECT_NEAR(most.x, 0.1, 0.01);
+  EXPECT_NEAR(most.y, 0.2, 0.02);
+  EXPECT_NEAR(most.z, 0.3, 0.03);
 }
 
 }  // namespace
