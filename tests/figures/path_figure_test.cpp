@@ -42,8 +42,10 @@ TEST(PathFigure, HasEqualScalesThatTheBarStates) {
 }
 
 TEST(PathFigure, HasRoomForFeetFarFromThePath) {
-  // The robot stands still, and its feet are half a metre away from its centre of mass.
+  // The robot stands still, and its feet are metres away from its trunk.
   motion::RecordedTrial recorded = tests::walk(20);
+  for (robot::Body& body : recorded.robot.bodies)
+    if (body.parent == 0) body.position_m = 10.0 * body.position_m;
   for (Vec3& com_m : recorded.motion.com_m) com_m = recorded.motion.com_start_m;
   for (const Layout layout : {Layout::wide, Layout::narrow}) {
     const auto elements = tests::parse_xml(path_figure(recorded.robot, recorded.motion, layout));
