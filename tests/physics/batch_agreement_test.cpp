@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 #include "amble/core/random.hpp"
 #include "tests/physics/ode_rig.hpp"
 
@@ -258,9 +259,22 @@ TEST(BatchAgreement, ATailOfNoWeightChangesNothingForTheLegs) {
   }
 }
 
+/// With a second sphere beside each foot's, so that legs touch the ground in two places at once.
+RobotSpec with_toes(RobotSpec robot) {
+  std::vector<robot::Geom> toes;
+  for (const robot::Leg& leg : robot.legs) {
+    toes.push_back(robot.geoms[to_index(leg.foot_geom)]);
+    toes.back().name += " toe";
+    toes.back().position_m.x += 0.12;
+  }
+  robot.geoms.insert(robot.geoms.end(), toes.begin(), toes.end());
+  robot.name += ", with toes";
+  return robot;
+}
+
 TEST(BatchAgreement, OneStepFromTheSameStateIsThatOfQuickStepConverged) {
-  for (const RobotSpec& robot :
-       {quadruped("paper"), quadruped("authors"), tailed(quadruped("paper"), 0.2, 1.0)}) {
+  for (const RobotSpec& robot : {quadruped("paper"), quadruped("authors"), with_toes(quadruped("paper")),
+                                 tailed(quadruped("paper"), 0.2, 1.0)}) {
     const std::string variant = robot.name + (robot.joints.size() > 12 ? ", tailed" : "");
     const Comparison result = compare(robot, 5000);
     const std::size_t count = result.differences_m_s.size();
