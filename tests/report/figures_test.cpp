@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <random>
+#include <set>
 
 #include "amble/report/curves_figure.hpp"
 #include "amble/report/survival_figure.hpp"
@@ -118,6 +120,25 @@ TEST(CurvesFigure, GoesAroundTheBandBetweenTheQuartilesOnce) {
         EXPECT_LT(corners[i - 1].first, corners[i].first) << i;
       }
     }
+  }
+}
+
+TEST(CurvesFigure, DrawsTheOthersToTheirLastGenerationHoweverManyThereAre) {
+  for (const int generations : {7, 62, 63, 64}) {
+    Report report = make_report(small_study());
+    for (BestCurve& curve : report.curves) {
+      curve.generation.resize(static_cast<std::size_t>(generations));
+      std::iota(curve.generation.begin(), curve.generation.end(), 0);
+      for (auto* values : {&curve.median_m, &curve.lower_quartile_m, &curve.upper_quartile_m})
+        values->resize(curve.generation.size(), 1.0);
+    }
+    const auto elements = parse_xml(curves_figure(report, Layout::wide));
+    const auto others = with_class(elements, "other"), curves = with_class(elements, "curve");
+    ASSERT_FALSE(others.empty());
+    std::set<double> ends, other_ends;
+    for (const auto& curve : curves) ends.insert(tests::points(curve).back().first);
+    for (const auto& other : others) other_ends.insert(tests::points(other).back().first);
+    EXPECT_EQ(other_ends, ends) << generations;
   }
 }
 
