@@ -7,7 +7,9 @@
 #include <set>
 
 #include "amble/experiment/replay.hpp"
+#include "amble/gait/recorded_gait.hpp"
 #include "amble/score/walking.hpp"
+#include "amble/study/gait_observer.hpp"
 #include "tests/study/fixture.hpp"
 
 namespace amble::study {
@@ -55,6 +57,25 @@ TEST(ChampionTest, WithoutNoiseIsTheChampionsOwnTrialOfAnotherLength) {
     EXPECT_EQ(result.engine, "batch");
     EXPECT_EQ(result.trial_s, seconds);
   }
+}
+
+TEST(GaitObserver, MeasuresWhatIsMeasuredOfTheRecording) {
+  const test::TemporaryFolder folder;
+  const auto& problem = champion().problem;
+  GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
+  const auto replay =
+      experiment::replay(problem, champion().genome,
+                         {.seconds = 6.0, .record = folder.path() / "a.rec", .observer = &gait}, never);
+  const gait::Report seen = gait.finish(replay->result.outcome),
+                     recorded = gait::recorded_gait(folder.path() / "a.rec", {});
+  // A recording has numbers of 24 bits.
+  EXPECT_NEAR(seen.distance_m, recorded.distance_m, 1e-6);
+  EXPECT_NEAR(seen.path_m, recorded.path_m, 1e-6);
+  EXPECT_GT(recorded.path_m, 0.1);
+  EXPECT_EQ(seen.duty_factor, recorded.duty_factor);
+  ASSERT_EQ(seen.legs.size(), recorded.legs.size());
+  for (std::size_t leg = 0; leg < seen.legs.size(); ++leg)
+    EXPECT_EQ(seen.legs[leg].raw_touchdowns, recorded.legs[leg].raw_touchdowns);
 }
 
 TEST(ChampionTest, UnderNoiseMeetsWhatEvolutionHasNotMet) {
