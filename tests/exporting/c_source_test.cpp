@@ -163,10 +163,11 @@ TEST(CSource, TellsNamesApartThatDifferInCaseAlone) {
 
 TEST(CSource, SaysWhereItComesFromAndWhatItNeeds) {
   const TemporaryFolder scratch;
-  const experiment::Champion champion = simple_champion();
+  experiment::Champion champion = simple_champion();
+  champion.generation = 17, champion.index = 3;
   const std::string header = write_walker(scratch.path(), champion).header;
   for (const std::string& part :
-       {std::string("seed 7"), std::string("engine      batch"),
+       {std::string("seed 7, generation 17, number 3"), std::string("engine      batch"),
         std::string("100 steps per second, one every 0.01 s. At once."), std::string("touch[leg]"),
         std::string("WALKER_JOINT_FL_KNEE = 0"),
         std::string("'FL_knee', body 'FL_lower', axis 0 1 0: targets from -0.8 to 0 rad"),
