@@ -95,6 +95,15 @@ TEST(Page, AsksForNothingAndRunsNothing) {
   }
 }
 
+TEST(Page, ShowsHowLongTheyLastedInTestsLongerThanEvolutionOnly) {
+  const std::string html = page(small_study());  // tests of 300 and of 15 s
+  std::size_t curves = 0;
+  for (std::size_t at = html.find("<h4>Still "); at != std::string::npos;
+       at = html.find("<h4>Still ", at + 1))
+    ++curves;
+  EXPECT_EQ(curves, 2u) << "upright, and walking";
+}
+
 TEST(Page, RepeatsToTheByte) {
   EXPECT_EQ(page(large_study(4, 5)), page(large_study(4, 5)));
   EXPECT_EQ(to_json(make_report(small_study())), to_json(make_report(small_study())));
