@@ -79,7 +79,7 @@ void measure_map_elites(std::vector<Figure>& figures) {
        "a million evaluations of a 10-D arm, 64 x 64 cells, batches of 128, one thread, with the log"});
   figures.push_back({"map_elites_us_per_evaluation", (total_s - arms_s) / evaluations * 1e6, "us",
                      "the same without the arm itself: breeding, map, log"});
-  figures.push_back({"map_elites_arm_qd_score", qd_score, "1",
+  figures.push_back({"map_elites_arm_qd_score", qd_score, "rad",
                      "sum over cells of 4 less the standard deviation of the angles"});
   figures.push_back(
       {"map_elites_arm_coverage", filled / (bins * bins), "1", "share of the cells that it filled"});

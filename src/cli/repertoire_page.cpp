@@ -10,15 +10,12 @@
 
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
-#include "amble/experiment/replay.hpp"
 #include "amble/figures/fitness_figure.hpp"
-#include "amble/gait/report_text.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/scratch_file.hpp"
 #include "amble/neat/genome_compact.hpp"
 #include "amble/presentation/walker.hpp"
 #include "amble/record/generations_csv.hpp"
-#include "amble/study/gait_observer.hpp"
 #include "amble/view/page.hpp"
 
 namespace amble::cli {
@@ -96,16 +93,12 @@ std::optional<view::Walker> elite_walker(const experiment::Repertoire& repertoir
                                          const std::string& title, const fs::path& run,
                                          const io::ScratchFile& recording) {
   const search::Elite& elite = repertoire.elites[repertoire.elites.in(cell)];
-  study::GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
-  const auto replay = experiment::replay(
-      problem, neat::expand(elite.genome, "archive.bin"),
-      {.record = recording.path(), .origin = run.string(), .observer = &gait, .trace = false}, stop_signal());
-  if (!replay) return std::nullopt;
-  return view::Walker{.title = title,
-                      .recording = recording.path(),
-                      .cppn_svg = {},
-                      .gait = io::parse_json(gait::report_json(gait.finish(replay->result.outcome)), "gait"),
-                      .cell = cell};
+  auto walker = presentation::walk(problem, neat::expand(elite.genome, "archive.bin"), run.string(), {},
+                                   recording.path(), stop_signal());
+  if (!walker) return std::nullopt;
+  walker->title = title;
+  walker->cell = cell;
+  return walker;
 }
 
 ExitCode write_map_page(const experiment::Repertoire& repertoire, const fs::path& run, int walkers,

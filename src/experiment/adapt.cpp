@@ -27,21 +27,14 @@ class Reality {
  public:
   Reality(const Repertoire& repertoire, const std::string& engine, const damage::Settings& damage, int jobs)
       : repertoire_(repertoire), problem_(problem_in(repertoire, engine, damage)) {
-    key_.seed = static_cast<std::uint64_t>(repertoire.config.seed);
-    key_.episode = first_unseen_episode;
-    ground_ = problem_.make_ground(ground_of(key_));
+    ground_ = problem_.make_ground(ground_of(unseen_key(repertoire.config.seed)));
     evaluator_ = std::make_unique<Evaluator>(problem_, record::PathSampling(), jobs);
   }
 
   /// Mean objective of an elite over `count` trials, from the `first`-th that evolution has not met.
   std::optional<double> trials(std::uint32_t number, int first, int count, const std::atomic<bool>& stop) {
     const neat::Genome genome = neat::expand(repertoire_.elites[number].genome, "archive.bin");
-    std::vector<trial::Scenario> scenarios;
-    for (int i = 0; i < count && problem_.disturbed(); ++i) {
-      trial::ScenarioKey key = key_;
-      key.episode += static_cast<std::uint32_t>(first + i);
-      scenarios.push_back(problem_.scenario(key, ground_.get()));
-    }
+    const auto scenarios = unseen_scenarios(problem_, repertoire_.config.seed, first, count, ground_.get());
     const auto result = evaluator_->evaluate(std::span(&genome, 1), stop, scenarios, ground_);
     if (!result) return std::nullopt;
     return objectives(problem_, *result).front();
@@ -50,7 +43,6 @@ class Reality {
  private:
   const Repertoire& repertoire_;
   Problem problem_;
-  trial::ScenarioKey key_ = {};
   std::shared_ptr<const ground::Ground> ground_;
   std::unique_ptr<Evaluator> evaluator_;
 };

@@ -15,6 +15,21 @@ double objective(trial::EpisodeScore combined, std::span<const double> scores) {
   return sum / static_cast<double>(scores.size());
 }
 
+trial::ScenarioKey unseen_key(std::int64_t seed) {
+  return {.seed = static_cast<std::uint64_t>(seed), .generation = 0, .episode = first_unseen_episode};
+}
+
+std::vector<trial::Scenario> unseen_scenarios(const Problem& problem, std::int64_t seed, int first, int count,
+                                              const ground::Ground* ground) {
+  std::vector<trial::Scenario> scenarios;
+  for (int i = 0; i < count && problem.disturbed(); ++i) {
+    trial::ScenarioKey key = unseen_key(seed);
+    key.episode += static_cast<std::uint32_t>(first + i);
+    scenarios.push_back(problem.scenario(key, ground));
+  }
+  return scenarios;
+}
+
 std::vector<double> objectives(const Problem& problem, const GenerationResult& result) {
   const score::Score score = problem.scorer();
   std::vector<double> objectives, scores;

@@ -1,15 +1,24 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "amble/experiment/evaluator.hpp"
 #include "amble/trial/noise_settings.hpp"
+#include "amble/trial/scenario.hpp"
 
 namespace amble::experiment {
 
 /// The objective of a genome from the scores (at least one) of its episodes.
 double objective(trial::EpisodeScore combined, std::span<const double> scores);
+
+/// The trials numbered `first`, `first` + 1, … of those that evolution has not met, for `count` trials of any
+/// genome; none for a problem without noise. `ground` is that of unseen_key(seed).
+std::vector<trial::Scenario> unseen_scenarios(const Problem& problem, std::int64_t seed, int first, int count,
+                                              const ground::Ground* ground);
+/// The key of their ground.
+trial::ScenarioKey unseen_key(std::int64_t seed);
 
 /// The objective of each genome of a generation, by the problem's score; Morse et al. 2013, sec. 4: m.
 std::vector<double> objectives(const Problem& problem, const GenerationResult& result);

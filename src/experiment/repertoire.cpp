@@ -118,15 +118,8 @@ std::optional<Retest> retest(const Repertoire& repertoire, int episodes, int job
   for (std::uint32_t i = 0; i < elites.size(); ++i)
     genomes.push_back(neat::expand(elites[i].genome, "archive.bin"));
 
-  const trial::ScenarioKey key{
-      .seed = static_cast<std::uint64_t>(config.seed), .generation = 0, .episode = first_unseen_episode};
-  const auto ground = problem.make_ground(ground_of(key));
-  std::vector<trial::Scenario> scenarios;
-  for (int i = 0; i < episodes && problem.disturbed(); ++i)
-    scenarios.push_back(problem.scenario({.seed = key.seed,
-                                          .generation = key.generation,
-                                          .episode = key.episode + static_cast<std::uint32_t>(i)},
-                                         ground.get()));
+  const auto ground = problem.make_ground(ground_of(unseen_key(config.seed)));
+  const auto scenarios = unseen_scenarios(problem, config.seed, 0, episodes, ground.get());
   const auto behaviour = config.make_behaviour(&problem.robot);
   Evaluator evaluator(problem, behaviour->path(), jobs, behaviour->measures());
   const auto result = evaluator.evaluate(genomes, stop, scenarios, ground);

@@ -28,20 +28,30 @@ std::string engine_note(const experiment::Champion& champion, const WalkOptions&
 std::optional<view::Walker> walk(const experiment::Champion& champion, const std::filesystem::path& path,
                                  const WalkOptions& options, const std::filesystem::path& recording,
                                  const std::atomic<bool>& stop) {
-  study::GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
-  const auto replay = experiment::replay(champion.problem, champion.genome,
+  auto walker = walk(champion.problem, champion.genome, path.string(), options, recording, stop);
+  if (!walker) return std::nullopt;
+  walker->title = fmt::format("{}, generation {}{}", champion.experiment, champion.generation,
+                              engine_note(champion, options));
+  walker->cppn_svg = figures::cppn_figure(cppn_graph(champion));
+  return walker;
+}
+
+std::optional<view::Walker> walk(const experiment::Problem& problem, const neat::Genome& genome,
+                                 const std::string& origin, const WalkOptions& options,
+                                 const std::filesystem::path& recording, const std::atomic<bool>& stop) {
+  study::GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
+  const auto replay = experiment::replay(problem, genome,
                                          {.seconds = options.seconds,
                                           .engine = options.engine,
                                           .record = recording,
-                                          .origin = path.string(),
+                                          .origin = origin,
                                           .observer = &gait,
                                           .trace = false},
                                          stop);
   if (!replay) return std::nullopt;
-  return view::Walker{.title = fmt::format("{}, generation {}{}", champion.experiment, champion.generation,
-                                           engine_note(champion, options)),
+  return view::Walker{.title = {},
                       .recording = recording,
-                      .cppn_svg = figures::cppn_figure(cppn_graph(champion)),
+                      .cppn_svg = {},
                       .gait = gait_of(gait.finish(replay->result.outcome))};
 }
 

@@ -25,6 +25,11 @@ std::optional<view::Walker> walk(const experiment::Champion& champion, const std
                                  const WalkOptions& options, const std::filesystem::path& recording,
                                  const std::atomic<bool>& stop);
 
+/// The same of a genome: `origin` is named in the recording, and the walker has neither title nor CPPN.
+std::optional<view::Walker> walk(const experiment::Problem& problem, const neat::Genome& genome,
+                                 const std::string& origin, const WalkOptions& options,
+                                 const std::filesystem::path& recording, const std::atomic<bool>& stop);
+
 /// What a recording shows, called by its file's name. Throws UserError.
 view::Walker recorded(const std::filesystem::path& recording);
 

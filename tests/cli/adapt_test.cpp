@@ -58,9 +58,7 @@ TEST_F(AdaptCommand, MakesAPageInWhichTheElitesThatItTriedWalk) {
     const auto adapted = amble(whole);
     ASSERT_EQ(adapted.exit_code, 0) << adapted.err;
   }
-  const std::string html = slurp(out), mark = "id=\"amble-data\">";
-  const auto from = html.find(mark) + mark.size();
-  const auto data = nlohmann::json::parse(html.substr(from, html.find("</script>", from) - from));
+  const auto data = page_data(slurp(out));
   const auto json = nlohmann::json::parse(slurp(steps));
   const auto& table = data["map"]["table"];
   ASSERT_EQ(table.size(), json["trials"].size() + 1) << "a head and a row per trial";

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,13 @@ inline std::map<std::string, std::string> snapshot(const std::filesystem::path& 
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
     files[entry.path().string()] = entry.is_regular_file() ? slurp(entry.path()) : "";
   return files;
+}
+
+/// The data in a page of `amble view`, `repertoire` or `adapt`.
+inline nlohmann::json page_data(const std::string& html) {
+  const std::string mark = "id=\"amble-data\">";
+  const auto from = html.find(mark) + mark.size();
+  return nlohmann::json::parse(html.substr(from, html.find("</script>", from) - from));
 }
 
 class BadInput : public testing::Test {

@@ -94,10 +94,7 @@ TEST_F(RepertoireCommand, MakesAPageInWhichAsManyCellsWalkAsAreAskedFor) {
     const std::string page = scratch_ / ("map" + std::to_string(most) + ".html");
     const auto made = amble({"repertoire", folder, "-o", page, "--walkers", std::to_string(most)});
     ASSERT_EQ(made.exit_code, 0) << made.err;
-    const std::string html = slurp(page);
-    const std::string mark = "id=\"amble-data\">";
-    const auto from = html.find(mark) + mark.size();
-    const auto data = nlohmann::json::parse(html.substr(from, html.find("</script>", from) - from));
+    const auto data = page_data(slurp(page));
     std::set<int> cells;
     for (const auto& walker : data["walkers"]) cells.insert(walker["cell"].get<int>());
     EXPECT_EQ(cells.size(), std::min(most, elites.size()));
