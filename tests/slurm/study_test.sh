@@ -17,7 +17,7 @@ fail() { echo "FAILED: $*" >&2; squeue -o '%i %T %r %N' >&2 || true; tail -n 5 "
 cat >"$dir/study.toml" <<TOML
 name = "array"
 seeds = [1, 2]
-generations = ${GENERATIONS:-60}
+generations = ${GENERATIONS:-100}
 settings = ["engine=batch", "population.size=60", "speciation.target_min=4", "speciation.target_max=8"]
 [[conditions]]
 name = "supg"
@@ -37,26 +37,30 @@ export SLURM_CONF=$dir/c/slurm.conf
 cd "$dir"
 "$program" study study.toml --out array --slurm job.sh --tasks 4 --jobs 1
 bash -n job.sh
-job=$(sbatch --parsable job.sh)
+job=$(sbatch --parsable --hold job.sh)
 
 state() { squeue -h -r -j "${job}_$1" -o %T 2>/dev/null || true; }
 wait_for() { # TASK STATE SECONDS
   for ((i = 0; i < 10 * $3; i++)); do [ "$(state "$1")" = "$2" ] && return 0; sleep 0.1; done
   fail "task $1 is not $2 but '$(state "$1")'"
 }
-# Disturb each task while it works; the next pair begins when a node is free.
-wait_for 1 RUNNING 30
-sleep 0.5
+# Each task is held until its turn and disturbed as soon as it has evaluated a generation: none can end before.
+begun() { cat array/runs/*/generations.csv 2>/dev/null | grep -c '^1,' || true; }
+begin() { # TASK
+  scontrol release "${job}_$1"
+  wait_for "$1" RUNNING 120
+  for ((i = 0; i < 3000; i++)); do [ "$(begun)" -ge "$1" ] && return 0; sleep 0.01; done
+  fail "task $1 began no run"
+}
+begin 1
 scontrol requeue "${job}_1" # by hand
-wait_for 2 RUNNING 60
-sleep 0.5
-scancel --batch --signal=USR1 "${job}_2" # as at the end of its time
-wait_for 3 RUNNING 120
-sleep 0.5
+begin 2
+# As at the end of its time. Slurm 22.05 delivers the signal, reports that it could not, and would send it again.
+timeout 1 scancel --batch --signal=USR1 "${job}_2" || true
+begin 3
 scancel "${job}_3" # stays cancelled
-wait_for 4 RUNNING 120
+begin 4
 node=$(squeue -h -r -j "${job}_4" -o %N)
-sleep 0.5
 # The node loses its power: daemon, step, script and program at once. Its processes are those that name it or descend from one.
 descendants() { for child in $(pgrep -P "$1" || true); do echo "$child"; descendants "$child"; done; }
 daemon=$(cat "$dir/c/slurmd-$node.pid")
@@ -79,6 +83,10 @@ second=$(sbatch --parsable job.sh)
 for ((i = 0; i < 1800; i++)); do [ -z "$(squeue -h)" ] && break; sleep 0.1; done
 [ -z "$(squeue -h)" ] || fail "job $second did not end"
 
+for task in 1 2 3 4; do # requeued, warned, cancelled and killed in the middle of a run
+  [ "$(grep -c "^0 of 1 runs  " "slurm-${job}_$task.out" "slurm-${second}_$task.out" | awk -F: '{n += $2} END {print n}')" -ge 2 ] ||
+    fail "task $task was not interrupted"
+done
 status=$("$program" study study.toml --out array --status 2>&1)
 actual=$(echo "$status" | digest)
 echo "undisturbed $expected, array $actual"
