@@ -5,6 +5,7 @@
 
 #include "amble/cli/commands.hpp"
 #include "amble/cli/robot_init.hpp"
+#include "amble/cli/robot_solver.hpp"
 #include "amble/experiment/problem.hpp"
 #include "amble/io/file.hpp"
 #include "amble/morphology/mjcf_writer.hpp"
@@ -36,6 +37,7 @@ void add_robot(CLI::App& app, Action& action) {
       const auto robot = experiment::load_robot_file(options->file, &notes);
       if (!options->mjcf.empty()) io::write_file(options->mjcf, morphology::write_mjcf(robot).text);
       fmt::print("{}", robot::summary(robot));
+      if (const auto line = solver_line(robot)) fmt::print("{}", *line);
       if (!notes.lines().empty()) fmt::print("\nthe model, beside what is above:\n{}", notes.text());
       return ExitCode::ok;
     };

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "amble/cli/robot_solver.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/printable.hpp"
 #include "amble/io/toml_text.hpp"
@@ -101,6 +102,11 @@ ExitCode init_robot(const fs::path& model, fs::path folder) {
   std::optional<robot::RobotSpec> robot;
   try {
     robot = morphology::load_robot(robot_path, &notes);
+    // The file ends with [contact].
+    if (const std::string sweeps = sweeps_line(*robot); !sweeps.empty()) {
+      io::write_file(robot_path, guess.toml + sweeps);
+      robot = morphology::load_robot(robot_path);
+    }
   } catch (const UserError& error) {
     asked.emplace_back(error.what());
   }

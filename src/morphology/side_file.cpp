@@ -37,6 +37,8 @@ void visit(io::SettingsVisitor& visitor, robot::Contact& contact) {
   visitor.number("erp", contact.erp, {0.0, 1.0}, {"share of the penetration undone per step"});
   visitor.number("cfm_s_per_kg", contact.cfm_s_per_kg, {0.0, largest},
                  {"yielding velocity per force, m/s per N"});
+  visitor.integer("sweeps", contact.sweeps, {0.0, robot::most_sweeps},
+                  {"sweeps of the batch engine's solver; 0: as many as the paper's quadruped needs"});
 }
 
 std::string filled_in(std::string pattern, std::string_view leg, std::string_view type) {

@@ -151,6 +151,8 @@ class Checker {
     if (!(std::isfinite(contact.cfm_s_per_kg) && contact.cfm_s_per_kg >= 0.0)) {
       bad("contact.cfm_s_per_kg must be finite and not negative");
     }
+    if (contact.sweeps < 0 || contact.sweeps > most_sweeps)
+      bad("contact.sweeps must be in [0, {}], not {}", most_sweeps, contact.sweeps);
   }
 
   const RobotSpec& robot_;

@@ -180,6 +180,22 @@ Geom read_geom(const JsonView& json) {
   return geom;
 }
 
+/// "sweeps" is there only where it is not the default.
+Json json_of_contact(const Contact& contact) {
+  Json json{{"friction", io::json_number(contact.friction)},
+            {"erp", contact.erp},
+            {"cfm_s_per_kg", contact.cfm_s_per_kg}};
+  if (contact.sweeps != 0) json["sweeps"] = contact.sweeps;
+  return json;
+}
+
+Contact read_contact(const JsonView& json) {
+  return {.friction = json.at("friction").number(),
+          .erp = json.at("erp").number(),
+          .cfm_s_per_kg = json.at("cfm_s_per_kg").number(),
+          .sweeps = json.has("sweeps") ? index(json.at("sweeps")) : 0};
+}
+
 Leg read_leg(const JsonView& json) {
   return {.name = json.at("name").text(),
           .foot_geom = index(json.at("foot_geom")),
@@ -189,7 +205,6 @@ Leg read_leg(const JsonView& json) {
 }  // namespace
 
 Json to_json(const RobotSpec& robot) {
-  const Contact& contact = robot.contact;
   return {{"name", robot.name},
           {"bodies", array_of(robot.bodies, json_of_body)},
           {"joints", array_of(robot.joints, json_of_joint)},
@@ -200,17 +215,13 @@ Json to_json(const RobotSpec& robot) {
                     [](const Leg& leg) {
                       return Json{{"name", leg.name}, {"foot_geom", leg.foot_geom}, {"joints", leg.joints}};
                     })},
-          {"contact",
-           {{"friction", io::json_number(contact.friction)},
-            {"erp", contact.erp},
-            {"cfm_s_per_kg", contact.cfm_s_per_kg}}},
+          {"contact", json_of_contact(robot.contact)},
           {"gravity_m_s2", json_of(robot.gravity_m_s2)},
           {"fall_height_m", robot.fall_height_m},
           {"self_collision", robot.self_collision}};
 }
 
 RobotSpec from_json(const JsonView& json) {
-  const JsonView contact = json.at("contact");
   RobotSpec robot{.name = json.at("name").text(),
                   .bodies = list<Body>(json.at("bodies"), read_body),
                   .joints = list<Joint>(json.at("joints"), read_joint),
@@ -218,9 +229,7 @@ RobotSpec from_json(const JsonView& json) {
                   .joint_types = list<std::string>(json.at("joint_types"),
                                                    [](const JsonView& type) { return type.text(); }),
                   .legs = list<Leg>(json.at("legs"), read_leg),
-                  .contact = {.friction = contact.at("friction").number(),
-                              .erp = contact.at("erp").number(),
-                              .cfm_s_per_kg = contact.at("cfm_s_per_kg").number()},
+                  .contact = read_contact(json.at("contact")),
                   .gravity_m_s2 = vec3(json.at("gravity_m_s2")),
                   .fall_height_m = json.at("fall_height_m").number(),
                   .self_collision = json.at("self_collision").flag()};

@@ -100,6 +100,9 @@ struct Leg {
   std::vector<int> joints;  ///< by joint type (RobotSpec::joint_types); −1: the leg has none of that type
 };
 
+/// Largest Contact::sweeps.
+constexpr int most_sweeps = 1000;
+
 /// Contact of bodies with the ground (and each other). erp and cfm as in ODE (manual, "Soft constraints"):
 /// with timestep h a contact is a spring of erp / (h cfm) N/m and a damper of (1 − erp) / cfm N s/m. The ODE
 /// engine gives both numbers to all constraints of its world, joints included, as the authors' program did.
@@ -108,6 +111,9 @@ struct Contact {
   double erp = 0.0;       ///< share of the penetration undone per step, in (0, 1]
   /// Softness, ODE's constraint force mixing: yielding velocity per force, m/s per N.
   double cfm_s_per_kg = 0.0;
+  /// Sweeps of the batch engine's solver, 0 to 1000. 0: as many as the paper's quadruped needs, which are too
+  /// few for a heavy trunk on light legs (docs/BATCH.md, "Solver"; physics::solver_error_m_s).
+  int sweeps = 0;
 };
 
 /// All that is known of a robot: const, shared by all workers, independent of any engine. Joints are in

@@ -77,6 +77,27 @@ TEST_F(RobotInit, TellsWhatBecameOfTheModel) {
   EXPECT_THAT(init.out, HasSubstr("replaced  root 'trunk' moved by rootx, rootz, rooty: it is free to move"));
 }
 
+TEST_F(RobotInit, GivesAHeavyTrunkMoreSweepsOfTheSolver) {
+  std::string model = slurp(source + "/robots/hexapod/hexapod.xml");
+  for (const auto& [from, to] : std::map<std::string, std::string>{
+           {"mass=\"3.0\"", "mass=\"100\""}, {"forcerange=\"-9 9\"", "forcerange=\"-150 150\""}}) {
+    ASSERT_NE(model.find(from), std::string::npos) << from;
+    model.replace(model.find(from), from.size(), to);
+  }
+  spill(scratch_ / "heavy.xml", model);
+  const auto init = amble({"robot", "--init", scratch_ / "heavy.xml", "-o", scratch_ / "heavy"});
+  ASSERT_EQ(init.exit_code, 0) << init.err;
+  const std::string toml = slurp(scratch_ / "heavy/heavy.toml");
+  EXPECT_THAT(toml, testing::ContainsRegex("\nsweeps = [0-9]+  # 14 leave an error of 0\\.0"));
+
+  const auto enough = amble({"robot", scratch_ / "heavy/heavy.toml"});
+  EXPECT_THAT(enough.out, testing::Not(HasSubstr("Set contact.sweeps")));
+  spill(scratch_ / "heavy/heavy.toml", toml.substr(0, toml.find("sweeps = ")));
+  const auto few = amble({"robot", scratch_ / "heavy/heavy.toml"});
+  EXPECT_THAT(few.out, HasSubstr("solver of the batch engine: 14 sweeps, error of a step 0.0"));
+  EXPECT_THAT(few.out, HasSubstr("Set contact.sweeps = "));
+}
+
 TEST_F(RobotInit, ReplacesNothing) {
   const std::string model = write(small_models()[0]);
   ASSERT_EQ(amble({"robot", "--init", model, "-o", scratch_ / "out"}).exit_code, 0);

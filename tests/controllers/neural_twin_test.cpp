@@ -216,8 +216,7 @@ void expect_twins_in_random_substrates(int substrates, Stream& stream) {
 TEST(NeuralKernel, EqualsPlainNetworksInRandomSubstratesOnEveryInstructionSet) {
   const std::int64_t supported = hwy::SupportedTargets();
   Stream stream(44, Purpose::test);
-  for (const std::int64_t set :
-       {std::int64_t{HWY_AVX3}, std::int64_t{HWY_AVX2}, std::int64_t{HWY_SSE2}, std::int64_t{HWY_SCALAR}}) {
+  for (const std::int64_t set : {std::int64_t{HWY_AVX3}, std::int64_t{HWY_AVX2}, std::int64_t{HWY_SCALAR}}) {
     if ((supported & set) == 0 && set != HWY_SCALAR) continue;
     hwy::SetSupportedTargetsForTest(set);
     ASSERT_NO_FATAL_FAILURE(expect_twins_in_random_substrates(random_substrates, stream))

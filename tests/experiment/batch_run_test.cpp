@@ -28,7 +28,7 @@ Problem batch_problem(std::vector<std::string> more = {}) {
 /// Instruction sets for vectors of 16, 8, 4 and 1 robots; as many of them as this machine has.
 std::vector<std::int64_t> instruction_sets() {
   std::vector<std::int64_t> sets;
-  for (const std::int64_t set : {std::int64_t{HWY_AVX3}, std::int64_t{HWY_AVX2}, std::int64_t{HWY_SSE2}})
+  for (const std::int64_t set : {std::int64_t{HWY_AVX3}, std::int64_t{HWY_AVX2}})
     if ((hwy::SupportedTargets() & set) != 0) sets.push_back(set);
   return sets;
 }

@@ -28,7 +28,17 @@ TEST(SideFile, GivesEveryJointTheCommonServo) {
   }
   EXPECT_TRUE(std::isinf(side.contact.friction));
   EXPECT_EQ(side.contact.cfm_s_per_kg, 1e-4);
+  EXPECT_EQ(side.contact.sweeps, 0);
   EXPECT_EQ(side.model, files.path("one_leg.xml"));
+}
+
+TEST(SideFile, MaySayHowOftenTheSolverSweeps) {
+  const Files files;
+  const std::string line = "cfm_s_per_kg = 1e-4\n";
+  EXPECT_EQ(read(files, with(one_leg_toml, line, line + "sweeps = 80\n")).contact.sweeps, 80);
+  const std::string text =
+      files.error_of([&] { read(files, with(one_leg_toml, line, line + "sweeps = 1001\n")); });
+  EXPECT_NE(text.find("'contact.sweeps'"), std::string::npos) << text;
 }
 
 TEST(SideFile, LetsTypesAndSingleJointsHaveTheirOwnServo) {

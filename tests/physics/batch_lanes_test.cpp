@@ -116,7 +116,7 @@ TEST(BatchLanes, EveryInstructionSetGivesTheSameBits) {
     const auto best = walk(robot, in_order, std::vector<int>(16, 0), 120);
     int compared = 0;
     for (const std::int64_t set :
-         {std::int64_t{HWY_AVX3}, std::int64_t{HWY_AVX2}, std::int64_t{HWY_SSE2}, std::int64_t{HWY_SCALAR}}) {
+         {std::int64_t{HWY_AVX3}, std::int64_t{HWY_AVX2}, std::int64_t{HWY_SCALAR}}) {
       if ((all & set) == 0 && set != HWY_SCALAR) continue;
       hwy::SetSupportedTargetsForTest(set);
       EXPECT_EQ(walk(robot, in_order, std::vector<int>(16, 0), 120), best) << hwy::TargetName(set);

@@ -260,8 +260,7 @@ TEST(UnevenGroundInLanes, EveryInstructionSetAndLaneGivesTheSameBits) {
   for (std::size_t lane = 9; lane < 16; ++lane) EXPECT_EQ(best[lane], best[lane - 9]);
   EXPECT_NE(best[0], best[1]);
   const std::int64_t all = hwy::SupportedTargets();
-  for (const std::int64_t set :
-       {std::int64_t{HWY_AVX3}, std::int64_t{HWY_AVX2}, std::int64_t{HWY_SSE2}, std::int64_t{HWY_SCALAR}}) {
+  for (const std::int64_t set : {std::int64_t{HWY_AVX3}, std::int64_t{HWY_AVX2}, std::int64_t{HWY_SCALAR}}) {
     if ((all & set) == 0 && set != HWY_SCALAR) continue;
     hwy::SetSupportedTargetsForTest(set);
     EXPECT_EQ(walk(), best) << hwy::TargetName(set);

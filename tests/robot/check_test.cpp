@@ -115,6 +115,10 @@ TEST(CheckRobot, FindsNumbersThatCannotBe) {
   EXPECT_EQ(problem_after([](RobotSpec& r) { r.contact.erp = 0.0; }), "contact.erp must be in (0, 1], not 0");
   EXPECT_EQ(problem_after([](RobotSpec& r) { r.contact.cfm_s_per_kg = -1.0; }),
             "contact.cfm_s_per_kg must be finite and not negative");
+  for (const int sweeps : {-1, 1001})
+    EXPECT_EQ(problem_after([&](RobotSpec& r) { r.contact.sweeps = sweeps; }),
+              "contact.sweeps must be in [0, 1000], not " + std::to_string(sweeps));
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.contact.sweeps = 1000; }), "");
   EXPECT_EQ(problem_after([](RobotSpec& r) { r.gravity_m_s2.x = nan; }), "gravity must be finite");
   EXPECT_EQ(problem_after([](RobotSpec& r) { r.fall_height_m = nan; }), "fall_height_m must be finite");
 }

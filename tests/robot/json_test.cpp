@@ -60,7 +60,7 @@ TEST(RobotJson, ReadsBackTheSameRobotToTheBit) {
 TEST(RobotJson, KeepsWhatOnlySomeRobotsHave) {
   RobotSpec robot = quadruped();
   const std::string before = to_json(robot).dump();
-  for (const char* key : {"command_rad", "armature", "damping", "friction_loss", "vertices_m"})
+  for (const char* key : {"command_rad", "armature", "damping", "friction_loss", "vertices_m", "sweeps"})
     EXPECT_EQ(before.find(key), std::string::npos) << key;  // so that its hash is what it was
 
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -70,6 +70,7 @@ TEST(RobotJson, KeepsWhatOnlySomeRobotsHave) {
   joint.armature_kg_m2 = 0.1 / 3.0;
   joint.damping_nm_s_per_rad = 0.2 / 3.0;
   joint.friction_loss_nm = 0.4 / 3.0;
+  robot.contact.sweeps = 80;
   Geom& geom = robot.geoms[0];
   geom.shape = Shape::mesh;
   geom.vertices_m = {{0, 0, 1.0 / 3.0}, {0.1, 0, 0}, {0, 0.1, 0}, {-0.1, -0.1, 0}};
@@ -84,6 +85,7 @@ TEST(RobotJson, KeepsWhatOnlySomeRobotsHave) {
   EXPECT_EQ(again.joints[3].armature_kg_m2, 0.1 / 3.0);
   EXPECT_EQ(again.joints[3].damping_nm_s_per_rad, 0.2 / 3.0);
   EXPECT_EQ(again.joints[3].friction_loss_nm, 0.4 / 3.0);
+  EXPECT_EQ(again.contact.sweeps, 80);
   EXPECT_EQ(again.geoms[0].vertices_m, geom.vertices_m);
   EXPECT_EQ(again.geoms[0].triangles, geom.triangles);
 }

@@ -23,6 +23,12 @@ Float3 narrow(Vec3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
+/// Sweeps of the solver: what the robot's file says, or what the paper's quadruped needs.
+int sweeps_of(const robot::Contact& contact) {
+  if (contact.sweeps > 0) return contact.sweeps;
+  return std::isinf(contact.friction) ? 10 : 14;
+}
+
 Pose inverse(const Pose& pose) {
   const Quat back = conjugate(pose.rotation);
   return {-rotate(back, pose.position_m), back};
@@ -199,7 +205,7 @@ Model::Model(const RobotSpec& robot)
       // The bounds of a friction pyramid change in every sweep: over-relaxed, resting feet would chatter.
       joint_relaxation(1.4f),
       contact_relaxation(std::isinf(friction) ? 1.4f : 1.0f),
-      iterations(std::isinf(friction) ? 10 : 14),
+      iterations(sweeps_of(robot.contact)),
       legs(static_cast<int>(robot.legs.size())) {
   if (robot.self_collision)
     fail(ExitCode::bad_input,
