@@ -108,8 +108,9 @@ class Compiler {
   }
 
   bool remove_unknown(const std::string& problem) {
+    if (text_.urdf) return remove_visuals(problem);
     const XmlElement* named = element_of(problem);
-    if (named == nullptr || text_.urdf) return false;
+    if (named == nullptr) return false;
     const std::string name = named->name;
     if (problem.find("unrecognized attribute") != std::string::npos) {
       remove_attributes(name, between(problem, "attribute: '", "'"), "");
@@ -125,6 +126,19 @@ class Compiler {
       return !keys.empty();
     }
     return problem.find("unrecognized element") != std::string::npos && remove_elements(name);
+  }
+
+  /// No robot is refused for what is only to look at, such as a mesh of too many faces.
+  bool remove_visuals(const std::string& problem) {
+    const auto is_visual = [](const XmlElement& element) { return element.name == "visual"; };
+    bool any = false;
+    text_.root.visit([&](const XmlElement& element) { any = any || is_visual(element); });
+    if (!any) return false;
+    notes_.add(Reading::left_out,
+               fmt::format("all visual shapes, as MuJoCo refuses them or something else: {}",
+                           with_line_of_file(problem)));
+    text_.root.prune([&](const XmlElement& element, const XmlElement&) { return is_visual(element); });
+    return true;
   }
 
   /// All of that name that are written the same; `value` empty: whatever its value.

@@ -287,9 +287,17 @@ class PartsExtractor {
 
   std::string name_or_place(int g) const {
     if (!geom_name(g).empty()) return std::string(geom_name(g));
-    const int b = model_.geom_bodyid[g];
-    if (model_.body_geomnum[b] == 1) return std::string(body_name(b));
-    return fmt::format("{}.{}", body_name(b), g - model_.body_geomadr[b]);
+    const int b = model_.geom_bodyid[g], first = model_.body_geomadr[b];
+    // What a URDF's link has to look at has names of its own.
+    const bool apart = file_.root_is_welded;
+    int before = 0, count = 0;
+    for (int other = first; other < first + model_.body_geomnum[b]; ++other) {
+      if (apart && collides(other) != collides(g)) continue;
+      ++count;
+      if (other < g) ++before;
+    }
+    const std::string name = std::string(body_name(b)) + (apart && !collides(g) ? ".visual" : "");
+    return count == 1 ? name : fmt::format("{}.{}", name, before);
   }
 
   const ModelFile& file_;

@@ -3,8 +3,10 @@
 #include <fmt/ranges.h>
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -18,23 +20,26 @@ namespace {
 namespace fs = std::filesystem;
 
 /// MuJoCo fuses a URDF's root link into the world, and its mass is lost, unless the compiler option
-/// fusestatic is off. That option goes into an element <mujoco>, which most URDF files do not have.
-void keep_root(XmlElement& root, const fs::path& path) {
-  const XmlElement* extension = root.child("mujoco");
+/// fusestatic is off; and leaves out what is only to look at, unless discardvisual is. These options go into
+/// an element <mujoco>, which most URDF files do not have.
+void set_options(XmlElement& root, const fs::path& path) {
+  XmlElement* extension = root.child("mujoco");
   if (extension == nullptr) {
     XmlElement mujoco{.name = "mujoco", .file = root.file, .line = root.line};
-    mujoco.children.push_back({.name = "compiler",
-                               .attributes = {{"fusestatic", "false"}, {"strippath", "false"}},
-                               .file = root.file,
-                               .line = root.line});
+    mujoco.children.push_back(
+        {.name = "compiler",
+         .attributes = {{"fusestatic", "false"}, {"strippath", "false"}, {"discardvisual", "false"}},
+         .file = root.file,
+         .line = root.line});
     root.children.insert(root.children.begin(), std::move(mujoco));
     return;
   }
-  const XmlElement* compiler = extension->child("compiler");
+  XmlElement* compiler = extension->child("compiler");
   if (compiler == nullptr || compiler->attribute_or("fusestatic", "true") != "false")
     fail(ExitCode::bad_input,
          "{}: the element <mujoco> must hold <compiler fusestatic=\"false\"/>, or the root link is lost",
          path.string());
+  if (!compiler->attribute("discardvisual")) compiler->set("discardvisual", "false");
 }
 
 /// The file that a URDF means by a mesh's name, which may be package://PACKAGE/PATH: beside the URDF, in one
@@ -59,6 +64,44 @@ fs::path mesh_of_urdf(const fs::path& folder, std::string name) {
   for (const fs::path& candidate : candidates)
     if (is_readable_mesh(candidate)) return fs::absolute(candidate).lexically_normal();
   return {};
+}
+
+std::optional<std::string> mesh_name(const XmlElement& shape) {
+  const XmlElement* geometry = shape.child("geometry");
+  const XmlElement* mesh = geometry != nullptr ? geometry->child("mesh") : nullptr;
+  return mesh != nullptr ? mesh->attribute("filename") : std::nullopt;
+}
+
+/// Whether a visual shape is one of those that collide.
+bool collides_too(const XmlElement& visual, const XmlElement& link) {
+  const auto text_of = [](const XmlElement* part) {
+    if (part == nullptr) return std::string();
+    XmlElement copy = *part;
+    return write_xml(copy).text;
+  };
+  return std::ranges::any_of(link.children, [&](const XmlElement& other) {
+    return other.name == "collision" &&
+           text_of(other.child("geometry")) == text_of(visual.child("geometry")) &&
+           text_of(other.child("origin")) == text_of(visual.child("origin"));
+  });
+}
+
+/// Leaves of the visual shapes those that can be shown and do not repeat what collides.
+void choose_visuals(XmlElement& root, const fs::path& folder, ReadingNotes& notes) {
+  std::set<std::string> missing;
+  root.prune([&](const XmlElement& element, const XmlElement& parent) {
+    if (element.name != "visual") return false;
+    if (parent.name != "link" || element.child("geometry") == nullptr || collides_too(element, parent))
+      return true;
+    const auto mesh = mesh_name(element);
+    if (!mesh || !mesh_of_urdf(folder, *mesh).empty()) return false;
+    missing.insert(fs::path(*mesh).filename().string());
+    return true;
+  });
+  if (!missing.empty())
+    notes.add(Reading::left_out, fmt::format("what is only to look at and whose mesh is missing, or neither "
+                                             "STL, OBJ nor MSH: {}",
+                                             fmt::join(missing, ", ")));
 }
 
 /// Principal moments that no body can have, one larger than the sum of the others, make MuJoCo refuse a
@@ -97,15 +140,13 @@ void balance_inertias(XmlElement& root, ReadingNotes& notes) {
 void clean_urdf(ModelText& text, const fs::path& path, ReadingNotes& notes) {
   XmlElement& root = text.root;
   if (root.name != "robot") fail(ExitCode::bad_input, "{}: a URDF needs an element <robot>", path.string());
-  keep_root(root, path);
+  set_options(root, path);
+  choose_visuals(root, path.parent_path(), notes);
   root.prune([&](const XmlElement& element, const XmlElement& parent) {
-    if (element.name == "visual" && parent.name == "link")
-      notes.add(Reading::left_out, "visual shapes of a URDF: what collides is shown");
     if (element.name == "mimic")
       notes.add(Reading::left_out,
                 fmt::format("mimic of joint '{}': it moves on its own", parent.attribute_or("name", "")));
-    return element.name == "visual" || element.name == "mimic" || element.name == "transmission" ||
-           element.name == "gazebo";
+    return element.name == "mimic" || element.name == "transmission" || element.name == "gazebo";
   });
   balance_inertias(root, notes);
   std::set<std::string> missing;

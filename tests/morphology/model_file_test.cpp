@@ -88,22 +88,77 @@ TEST(CompileModel, TakesTheMeanOfMomentsThatNoBodyCanHave) {
   EXPECT_EQ(possible.notes.text(), "");
 }
 
+const std::string obj_text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
 TEST(CompileModel, FindsMeshesByThePackageInTheFoldersAbove) {
   const Files files;
   const std::string urdf = R"(<robot name="r"><link name="base"><inertial><mass value="2"/>
     <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry>
     <mesh filename="package://pkg/shapes/foot.obj"/></geometry></collision></link></robot>)";
-  const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
   // In pkg/robots/r/r.urdf, and in a clone of the package under another name.
   for (const std::string package : {"pkg", "clone"}) {
     std::filesystem::create_directories(files.path(package + "/robots/r"));
     std::filesystem::create_directories(files.path(package + "/shapes"));
     const auto path = files.write(package + "/robots/r/r.urdf", urdf);
     EXPECT_THAT(files.error_of([&] { compile_model(path); }), testing::HasSubstr("meshes that are missing"));
-    files.write(package + "/shapes/foot.obj", obj);
+    files.write(package + "/shapes/foot.obj", obj_text);
     EXPECT_EQ(compile_model(path).model->nmesh, 1);
     std::filesystem::remove_all(files.path(package));
   }
+}
+
+/// A link with these shapes.
+std::string urdf_with(const std::string& shapes) {
+  return R"(<robot name="r"><link name="base"><inertial><mass value="2"/>
+    <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>)" +
+         shapes + "</link></robot>";
+}
+
+TEST(CompileModel, ShowsTheVisualShapesOfAUrdfWithoutWeight) {
+  const Files files;
+  const std::string box = R"(<geometry><box size="1 1 1"/></geometry>)",
+                    collision = "<collision>" + box + "</collision>";
+  const auto shapes_of = [&](const std::string& visuals) {
+    return compile_model(files.write("r.urdf", urdf_with(visuals + collision)));
+  };
+  // The shape that collides, once more in the same place, adds nothing to see.
+  EXPECT_EQ(shapes_of("<visual>" + box + "</visual>").model->ngeom, 1);
+  const ModelFile moved = shapes_of(R"(<visual><origin xyz="0 0 1"/>)" + box + "</visual>");
+  ASSERT_EQ(moved.model->ngeom, 2);
+  EXPECT_EQ(moved.model->geom_contype[0] + moved.model->geom_conaffinity[0], 0);
+  EXPECT_EQ(moved.model->body_mass[1], 2.0);
+  EXPECT_EQ(moved.notes.text(), "");
+
+  files.write("shape.obj", obj_text);
+  EXPECT_EQ(shapes_of(R"(<visual><geometry><mesh filename="shape.obj"/></geometry></visual>)").model->nmesh,
+            1);
+  files.write("shape.dae", "<COLLADA/>");
+  for (const char* name : {"shape.dae", "gone.stl"}) {
+    const ModelFile without =
+        shapes_of(R"(<visual><geometry><mesh filename=")" + std::string(name) + R"("/></geometry></visual>)");
+    EXPECT_EQ(without.model->ngeom, 1);
+    EXPECT_THAT(without.notes.text(),
+                testing::HasSubstr("left out  what is only to look at and whose mesh is missing, or neither "
+                                   "STL, OBJ nor MSH: " +
+                                   std::string(name)));
+  }
+  EXPECT_EQ(shapes_of("<visual/>").model->ngeom, 1);
+}
+
+TEST(CompileModel, RefusesNoUrdfForWhatIsOnlyToLookAt) {
+  const Files files;
+  files.write("text.stl", "solid text\nendsolid text\n");  // MuJoCo reads binary STL only
+  const auto with_mesh = [](const std::string& kind) {
+    return "<" + kind + R"(><geometry><mesh filename="text.stl"/></geometry></)" + kind + ">";
+  };
+  const ModelFile compiled = compile_model(files.write(
+      "r.urdf", urdf_with(with_mesh("visual") +
+                          R"(<collision><geometry><sphere radius="1"/></geometry></collision>)")));
+  EXPECT_EQ(compiled.model->ngeom, 1);
+  EXPECT_THAT(compiled.notes.text(),
+              testing::HasSubstr("left out  all visual shapes, as MuJoCo refuses them"));
+  const auto path = files.write("r.urdf", urdf_with(with_mesh("collision")));
+  EXPECT_THAT(files.error_of([&] { compile_model(path); }), testing::HasSubstr("MuJoCo refuses the model"));
 }
 
 }  // namespace

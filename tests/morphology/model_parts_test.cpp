@@ -145,6 +145,32 @@ TEST(ExtractParts, FreesTheRootOfAUrdf) {
   EXPECT_EQ(parts.geoms[0].position_m, (Vec3{0.0, 0.0, -0.3}));
 }
 
+TEST(ExtractParts, NamesWhatAUrdfShowsApartFromWhatCollides) {
+  const Files files;
+  const auto names = [&](const std::string& shapes) {
+    std::vector<std::string> all;
+    for (const robot::Geom& geom : parts_of(files,
+                                            R"(<robot name="r"><link name="base"><inertial><mass value="2"/>
+      <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>)" +
+                                                shapes + "</link></robot>",
+                                            "r.urdf")
+                                       .geoms)
+      all.push_back(geom.name + (geom.collides ? "" : " shown"));
+    return all;
+  };
+  const auto shape = [](const std::string& kind, const std::string& radius) {
+    return "<" + kind + R"(><geometry><sphere radius=")" + radius + R"("/></geometry></)" + kind + ">";
+  };
+  const std::string seen = shape("visual", "1") + shape("visual", "2"), one = shape("collision", "3"),
+                    two = one + shape("collision", "4");
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(names(one), (Names{"base"}));
+  EXPECT_EQ(names(two), (Names{"base.0", "base.1"}));
+  EXPECT_EQ(names(shape("visual", "1") + one), (Names{"base.visual shown", "base"}));
+  EXPECT_EQ(names(one + seen), (Names{"base", "base.visual.0 shown", "base.visual.1 shown"}));
+  EXPECT_EQ(names(seen + two), (Names{"base.visual.0 shown", "base.visual.1 shown", "base.0", "base.1"}));
+}
+
 TEST(ExtractParts, RefusesWhatItCannotSimulateInOneLine) {
   const Files files;
   const auto error_of = [&](std::string_view from, std::string_view to) {
