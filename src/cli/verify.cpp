@@ -19,14 +19,11 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Champions that the run has kept, by its table, and that are no longer there.
-std::vector<fs::path> missing_champions(const experiment::RunPaths& paths, const std::vector<double>& best) {
+std::vector<fs::path> missing_champions(const experiment::RunPaths& paths, const record::Generations& table) {
   std::vector<fs::path> missing;
-  double best_so_far = -1.0;
-  for (std::size_t i = 0; i < best.size(); ++i) {
-    if (best[i] <= best_so_far) continue;
-    best_so_far = best[i];
-    if (const auto file = paths.champion(static_cast<int>(i)); !fs::exists(file)) missing.push_back(file);
-  }
+  for (std::size_t i = 0; i < table.count(); ++i)
+    if (record::keeps_champion(table, i))
+      if (const auto file = paths.champion(static_cast<int>(i)); !fs::exists(file)) missing.push_back(file);
   return missing;
 }
 
@@ -35,11 +32,11 @@ ExitCode verify(const fs::path& folder) {
   auto origin = experiment::origin_of(paths);
   std::optional<UserError> no_table;
   try {
-    origin.best = record::read_generations(paths.generations).best;
+    origin.table = record::read_generations(paths.generations);
   } catch (const UserError& error) {  // champions can be run again without it
     no_table = error;
   }
-  const auto files = paths.champion_files(), missing = missing_champions(paths, origin.best);
+  const auto files = paths.champion_files(), missing = missing_champions(paths, origin.table);
   if (files.empty() && missing.empty() && !no_table)
     fail(ExitCode::bad_input, "{}: no champion yet", folder.string());
   std::size_t agreeing = 0;

@@ -13,7 +13,7 @@ namespace amble::experiment {
 
 /// Progress of a run.
 struct Progress {
-  double best = -1.0;  ///< best objective so far; −1 before the first generation
+  double best = -1.0;  ///< objective of the champion; −1 before the first generation
   int best_generation = -1;
   std::uint64_t evaluations = 0;
   std::uint64_t steps = 0;

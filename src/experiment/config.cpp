@@ -32,6 +32,14 @@ void Config::describe(io::SettingsVisitor& visitor) {
   visitor.table("damage", damage, {"what is wrong with the robot: nothing by default"});
   visitor.table("score", score, {"what makes a gait good"});
   visitor.table("search", search, {"what selects parents"});
+  visitor.table("champion", champion, {"which of the generations' best is the run's champion"});
+}
+
+void ChampionSettings::describe(io::SettingsVisitor& visitor) {
+  visitor.integer("episodes", episodes, {0, first_unseen_episode},
+                  {"further trials under noise, the same throughout the run, that decide whether the best of "
+                   "a generation "
+                   "becomes the champion; 0: its evaluation decides, luck included"});
 }
 
 void Config::validate() const {
@@ -45,6 +53,10 @@ void Config::validate() const {
   ground.validate();
   noise.validate(trial, ground.start_place_m > 0.0);
   score.validate();
+  if (champion.episodes > 0 && !noise.any() && ground.start_place_m <= 0.0)
+    fail_setting({"champion.episodes"},
+                 "champion.episodes = {}: without any noise they would all be the same; expected 0",
+                 champion.episodes);
   search::strategy_kind(search).validate(search, make_behaviour()->length());
 }
 
@@ -93,6 +105,7 @@ io::Json Config::identity() const {
   if (copy.ground.is_default()) values.erase("ground");
   if (copy.search.kind != "map-elites") values.at("search").erase("map_elites");
   if (copy.damage.is_default()) values.erase("damage");
+  if (copy.champion.is_default()) values.erase("champion");
   return values;
 }
 

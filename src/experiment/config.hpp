@@ -30,6 +30,14 @@ namespace amble::experiment {
 inline constexpr std::int64_t largest_seed = std::int64_t{1} << 53;  ///< as a JSON number it is exact
 inline constexpr int most_generations = 1'000'000'000;
 
+/// How a run chooses its champion among the best of the generations.
+struct ChampionSettings {
+  int episodes = 0;  ///< 0: by the objective of its evaluation
+
+  void describe(io::SettingsVisitor& visitor);
+  bool is_default() const { return episodes == 0; }
+};
+
 /// Everything that determines the result of a run, except the robot's own data. docs/SETTINGS.md lists each
 /// key with its source.
 struct Config {
@@ -49,6 +57,7 @@ struct Config {
   ground::Settings ground;
   damage::Settings damage;
   search::Settings search;
+  ChampionSettings champion;
   /// Where one of these keys was set ("FILE:LINE"), for errors found later; empty unless read from a file.
   std::function<std::string(const std::vector<std::string>& keys)> where;
 

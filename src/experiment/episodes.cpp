@@ -19,6 +19,10 @@ trial::ScenarioKey unseen_key(std::int64_t seed) {
   return {.seed = static_cast<std::uint64_t>(seed), .generation = 0, .episode = first_unseen_episode};
 }
 
+trial::ScenarioKey judging_key(std::int64_t seed) {
+  return {.seed = static_cast<std::uint64_t>(seed), .generation = 0, .episode = 1000 * first_unseen_episode};
+}
+
 std::vector<trial::Scenario> unseen_scenarios(const Problem& problem, std::int64_t seed, int first, int count,
                                               const ground::Ground* ground) {
   std::vector<trial::Scenario> scenarios;

@@ -17,8 +17,11 @@ double objective(trial::EpisodeScore combined, std::span<const double> scores);
 /// genome; none for a problem without noise. `ground` is that of unseen_key(seed).
 std::vector<trial::Scenario> unseen_scenarios(const Problem& problem, std::int64_t seed, int first, int count,
                                               const ground::Ground* ground);
-/// The key of their ground.
+/// The key of their ground, and of the first of them.
 trial::ScenarioKey unseen_key(std::int64_t seed);
+/// The same of the trials that decide on champions, of which neither evolution nor unseen_scenarios() has
+/// any.
+trial::ScenarioKey judging_key(std::int64_t seed);
 
 /// The objective of each genome of a generation, by the problem's score; Morse et al. 2013, sec. 4: m.
 std::vector<double> objectives(const Problem& problem, const GenerationResult& result);

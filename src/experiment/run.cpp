@@ -6,6 +6,7 @@
 #include "amble/core/clock.hpp"
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
+#include "amble/experiment/champion_choice.hpp"
 #include "amble/experiment/champion_trials.hpp"
 #include "amble/experiment/episodes.hpp"
 #include "amble/experiment/recovery.hpp"
@@ -79,6 +80,7 @@ RunStatus Run::execute(RunListener& listener, const std::atomic<bool>& stop) {
 // The generation loop: ask, evaluate, keep the best, tell, write.
 RunStatus Run::generations(RunListener& listener, const std::atomic<bool>& stop) {
   Evaluator evaluator(*problem_, behaviour_->path(), jobs_, behaviour_->measures());
+  ChampionChoice choice(config_, *problem_, folder_.paths());
   double last_row_s = now_s(), files_s = 0.0;
   while (generation() < config_.generations) {
     const auto candidates = state_.strategy->ask();
@@ -94,7 +96,7 @@ RunStatus Run::generations(RunListener& listener, const std::atomic<bool>& stop)
     row.steps = result->steps;
     const auto objectives = experiment::objectives(*problem_, *result);
     summarise_trials(objectives, result->trajectories, row);
-    if (!keep_best(candidates, objectives, row, stop)) return RunStatus::interrupted;
+    if (!keep_best(candidates, objectives, choice, row, stop)) return RunStatus::interrupted;
     tell(*result, objectives, row);
 
     const double row_s = now_s();
@@ -110,13 +112,15 @@ RunStatus Run::generations(RunListener& listener, const std::atomic<bool>& stop)
 }
 
 bool Run::keep_best(std::span<const neat::Genome> candidates, std::span<const double> objectives,
-                    GenerationRow& row, const std::atomic<bool>& stop) {
+                    ChampionChoice& choice, GenerationRow& row, const std::atomic<bool>& stop) {
   const auto best = to_index(std::ranges::max_element(objectives) - objectives.begin());
   const neat::Genome& genome = candidates[best];
   row.best_hidden = genome.count(neat::NodeKind::hidden);
   row.best_links = genome.enabled_links();
   Progress& progress = state_.progress;
-  if (row.best > progress.best) {
+  const auto preferred = choice.prefers(genome, row.best, progress, stop);
+  if (!preferred) return false;
+  if (*preferred) {
     const NewBest found{.generation = row.generation,
                         .index = static_cast<int>(best),
                         .genome = genome,

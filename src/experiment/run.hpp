@@ -24,6 +24,8 @@ class RunListener {
   virtual void on_generation(const GenerationRow& row, const Progress& progress, const Config& config) = 0;
 };
 
+class ChampionChoice;
+
 enum class RunStatus { finished, interrupted };
 
 /// One evolutionary run in its folder. After every generation its files are written, with a checkpoint from
@@ -51,9 +53,9 @@ class Run {
       RunFiles files, int jobs);
 
   RunStatus generations(RunListener& listener, const std::atomic<bool>& stop);
-  /// Saves the best of a generation if it is better than all before; false if `stop` was set meanwhile.
+  /// Saves the best of a generation if it becomes the champion; false if `stop` was set meanwhile.
   bool keep_best(std::span<const neat::Genome> candidates, std::span<const double> objectives,
-                 GenerationRow& row, const std::atomic<bool>& stop);
+                 ChampionChoice& choice, GenerationRow& row, const std::atomic<bool>& stop);
   void tell(const GenerationResult& result, std::span<const double> objectives, GenerationRow& row);
 
   RunFolder folder_;

@@ -94,10 +94,11 @@ void compare(const Champion& champion, const std::filesystem::path& path, const 
     found.push_back("its noise is not the run's");
 
   const auto generation = to_index(champion.generation);
-  if (generation >= origin.best.size()) return;  // ahead of the table, if the run was killed then
-  const double best = origin.best[generation];
-  const auto before = std::span(origin.best).first(generation);
-  if (std::ranges::any_of(before, [&](double earlier) { return earlier >= best; }))
+  if (generation >= origin.table.count()) return;  // ahead of the table, if the run was killed then
+  const double best = origin.table.best[generation];
+  // With `champion.episodes` a champion may have the objective of the one before, which the table cannot
+  // tell.
+  if (origin.config.champion.is_default() && !record::keeps_champion(origin.table, generation))
     found.push_back("the run kept no champion of its generation");
   else if (champion.objective() != best)
     found.push_back(fmt::format("it reached {}, the run's {}", champion.objective(), best));
@@ -106,7 +107,7 @@ void compare(const Champion& champion, const std::filesystem::path& path, const 
 }  // namespace
 
 Origin origin_of(const RunPaths& paths) {
-  Origin origin{.config = load_config(paths.config, {}), .problem = {}, .best = {}};
+  Origin origin{.config = load_config(paths.config, {}), .problem = {}};
   origin.problem = Problem::make(origin.config, load_robot_file(paths.robot));
   return origin;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "amble/experiment/run_folder.hpp"
+#include "amble/record/generations_csv.hpp"
 
 namespace amble::experiment {
 
@@ -20,7 +21,7 @@ struct Verification {
 struct Origin {
   Config config;
   Problem problem;
-  std::vector<double> best;  ///< objective by generation, as far as the run's table goes
+  record::Generations table = {};  ///< of the run, as far as it goes
 };
 /// Reads all but the table from the run's folder. Throws UserError.
 Origin origin_of(const RunPaths& paths);

@@ -26,7 +26,7 @@ constexpr std::array<std::pair<std::string_view, Column>, 6> columns{{
 }};
 
 /// Columns that may be absent, or whose cells may be empty in every row.
-constexpr std::array<std::pair<std::string_view, Column>, 21> optional_columns{{
+constexpr std::array<std::pair<std::string_view, Column>, 22> optional_columns{{
     {"species", &Generations::species},           {"threshold", &Generations::threshold},
     {"mean_hidden", &Generations::mean_hidden},   {"mean_links", &Generations::mean_links},
     {"archive", &Generations::archive},           {"novelty_threshold", &Generations::novelty_threshold},
@@ -37,7 +37,7 @@ constexpr std::array<std::pair<std::string_view, Column>, 21> optional_columns{{
     {"physics_s", &Generations::physics_s},       {"decode_s", &Generations::decode_s},
     {"control_s", &Generations::control_s},       {"waiting_s", &Generations::waiting_s},
     {"search_s", &Generations::search_s},         {"referees_s", &Generations::referees_s},
-    {"files_s", &Generations::files_s},
+    {"files_s", &Generations::files_s},           {column::best_so_far, &Generations::best_so_far},
 }};
 
 std::vector<std::string_view> split(std::string_view line) {
@@ -89,6 +89,14 @@ void parse_row(const std::vector<std::string_view>& header, const std::vector<st
 }
 
 }  // namespace
+
+bool keeps_champion(const Generations& generations, std::size_t index) {
+  const std::vector<double>& champion = generations.best_so_far;
+  if (index == 0) return champion.empty() || champion[0] == generations.best[0];
+  if (!champion.empty()) return champion[index] != champion[index - 1];
+  const auto here = generations.best.begin() + static_cast<std::ptrdiff_t>(index);
+  return std::all_of(generations.best.begin(), here, [&](double earlier) { return earlier < *here; });
+}
 
 Generations read_generations(const std::filesystem::path& path) {
   return parse_generations(io::read_file(path), path.string());

@@ -14,6 +14,7 @@ struct Generations {
   std::vector<double> generation;
   std::vector<double> best, mean, median;  ///< objective; best of the generation
   std::vector<double> evaluations, steps;  ///< of this generation; steps are simulated ticks
+  std::vector<double> best_so_far;         ///< objective of the run's champion; may be empty
   /// Of NEAT; empty for searches without. threshold: compatibility threshold of the speciation.
   std::vector<double> species, threshold, mean_hidden, mean_links;
   /// Of novelty search; empty for runs without.
@@ -25,6 +26,10 @@ struct Generations {
 
   std::size_t count() const { return generation.size(); }
 };
+
+/// Whether the best of generation `index` became the run's champion: best_so_far changes there, or, without
+/// that column, it is better than all before.
+bool keeps_champion(const Generations& generations, std::size_t index);
 
 /// Reads generations.csv by the names in its header row; other columns are ignored. Throws UserError:
 /// ExitCode::io for a file that cannot be read, ExitCode::bad_file for one that is not such a table

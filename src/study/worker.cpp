@@ -48,8 +48,7 @@ std::vector<ledger::CurvePoint> curve_of(const std::filesystem::path& generation
   std::vector<ledger::CurvePoint> curve;
   const auto generations = record::read_generations(generations_csv);
   for (std::size_t i = 0; i < generations.count(); ++i)
-    if (curve.empty() || generations.best[i] > curve.back().best_m)
-      curve.push_back({static_cast<int>(i), generations.best[i]});
+    if (record::keeps_champion(generations, i)) curve.push_back({static_cast<int>(i), generations.best[i]});
   return curve;
 }
 

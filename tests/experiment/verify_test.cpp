@@ -77,9 +77,10 @@ TEST_F(Verify, KnowsWhichGenerationsOfTheRunHaveAChampion) {
   path_ = scratch_ / "00002.json";
   io::write_file(path_, champion_text(champion_));
   const double own = champion_.objective();
-  Origin origin{.config = small_config(), .problem = small_problem(), .best = {}};
+  Origin origin{.config = small_config(), .problem = small_problem()};
   const auto text = [&](double first, double second, double third) {
-    origin.best = {first, second, third, own + 2.0};
+    origin.table.generation = {0, 1, 2, 3};
+    origin.table.best = {first, second, third, own + 2.0};
     return verify_champion(path_, never, &origin).value().text;
   };
   for (const double less : {0.0, std::nextafter(own, 0.0)}) {
@@ -91,7 +92,8 @@ TEST_F(Verify, KnowsWhichGenerationsOfTheRunHaveAChampion) {
     EXPECT_EQ(text(not_less, 0.0, own), "differs: the run kept no champion of its generation");
     EXPECT_EQ(text(0.0, not_less, own), "differs: the run kept no champion of its generation");
   }
-  origin.best.resize(2);
+  origin.table.generation.resize(2);
+  origin.table.best.resize(2);
   EXPECT_THAT(verify_champion(path_, never, &origin).value().text, StartsWith("agrees: "))
       << "ahead of the run's table";
 }

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "amble/experiment/checkpoint.hpp"
+#include "amble/experiment/evaluator.hpp"
+#include "amble/experiment/run_folder.hpp"
+
+namespace amble::experiment {
+
+/// Decides whether the best genome of a generation becomes the run's champion: by its objective, or, with
+/// `champion.episodes`, by its objective in as many further trials, the same for all genomes of the run and
+/// none of which evolution meets. Then luck in one evaluation makes no champion. Judgements follow from
+/// genome, seed and config alone, so they are not stored: a resumed run judges its champion again.
+class ChampionChoice {
+ public:
+  /// Keeps references.
+  ChampionChoice(const Config& config, const Problem& problem, const RunPaths& paths);
+
+  /// Whether the genome, which reached `objective` in its evaluation, is better than the champion of
+  /// `progress`. If so, it is the champion from now on. Nothing if `stop` was set meanwhile. Throws UserError
+  /// if the champion's file cannot be read.
+  std::optional<bool> prefers(const neat::Genome& genome, double objective, const Progress& progress,
+                              const std::atomic<bool>& stop);
+
+ private:
+  std::optional<double> judged(const neat::Genome& genome, const std::atomic<bool>& stop);
+
+  const Config& config_;
+  const Problem& problem_;
+  const RunPaths& paths_;
+  std::shared_ptr<const ground::Ground> ground_;
+  std::vector<trial::Scenario> scenarios_;
+  std::unique_ptr<Evaluator> evaluator_;
+  std::optional<double> champion_;  ///< what the champion reached; nothing: not judged by this process
+};
+
+}  // namespace amble::experiment
