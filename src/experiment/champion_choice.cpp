@@ -8,7 +8,7 @@
 namespace amble::experiment {
 
 ChampionChoice::ChampionChoice(const Config& config, const Problem& problem, const RunPaths& paths)
-    : config_(config), problem_(problem), paths_(paths) {
+    : problem_(&problem), paths_(&paths) {
   const int episodes = config.champion.episodes;
   if (episodes == 0) return;
   trial::ScenarioKey key = judging_key(config.seed);
@@ -22,14 +22,14 @@ ChampionChoice::ChampionChoice(const Config& config, const Problem& problem, con
 std::optional<double> ChampionChoice::judged(const neat::Genome& genome, const std::atomic<bool>& stop) {
   const auto result = evaluator_->evaluate(std::span(&genome, 1), stop, scenarios_, ground_);
   if (!result) return std::nullopt;
-  return objectives(problem_, *result).front();
+  return objectives(*problem_, *result).front();
 }
 
 std::optional<bool> ChampionChoice::prefers(const neat::Genome& genome, double objective,
                                             const Progress& progress, const std::atomic<bool>& stop) {
   if (evaluator_ == nullptr) return objective > progress.best;
   if (!champion_ && progress.best_generation >= 0) {
-    champion_ = judged(load_champion(paths_.champion(progress.best_generation)).genome, stop);
+    champion_ = judged(load_champion(paths_->champion(progress.best_generation)).genome, stop);
     if (!champion_) return std::nullopt;
   }
   const auto candidate = judged(genome, stop);

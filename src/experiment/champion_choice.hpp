@@ -17,7 +17,7 @@ namespace amble::experiment {
 /// genome, seed and config alone, so they are not stored: a resumed run judges its champion again.
 class ChampionChoice {
  public:
-  /// Keeps references.
+  /// Keeps pointers to `problem` and `paths`.
   ChampionChoice(const Config& config, const Problem& problem, const RunPaths& paths);
 
   /// Whether the genome, which reached `objective` in its evaluation, is better than the champion of
@@ -29,9 +29,8 @@ class ChampionChoice {
  private:
   std::optional<double> judged(const neat::Genome& genome, const std::atomic<bool>& stop);
 
-  const Config& config_;
-  const Problem& problem_;
-  const RunPaths& paths_;
+  const Problem* problem_;
+  const RunPaths* paths_;
   std::shared_ptr<const ground::Ground> ground_;
   std::vector<trial::Scenario> scenarios_;
   std::unique_ptr<Evaluator> evaluator_;
