@@ -112,6 +112,7 @@ std::vector<float> plain_centroids(std::size_t count, std::size_t dimensions, st
   std::vector<std::uint32_t> before;
   for (int round = 0; round < 50; ++round) {
     std::vector<std::uint32_t> nearest;
+    nearest.reserve(samples);
     for (const auto& point : points) nearest.push_back(nearest_of_all(centroids, point));
     if (nearest == before) break;
     before = nearest;
