@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -39,9 +40,9 @@ std::vector<Tried> try_again(const Repertoire& map, int episodes) {
   return tried;
 }
 
-class RetestedMap : public testing::Test {
+class EvolvedMap : public testing::Test {
  protected:
-  RetestedMap() {
+  EvolvedMap() {
     auto config = small_map_config(all_noise());
     config.generations = 6;
     Listener listener;
@@ -53,7 +54,7 @@ class RetestedMap : public testing::Test {
   TemporaryFolder scratch_;
 };
 
-TEST_F(RetestedMap, IsWhatMapElitesFillsWithTheNewTrials) {
+TEST_F(EvolvedMap, TriedAgainIsWhatMapElitesFillsWithTheNewTrials) {
   const Repertoire map = this->map();
   for (const int episodes : {1, 4}) {
     const Retest retest = experiment::retest(map, episodes, 2, unstopped).value();
@@ -83,12 +84,28 @@ TEST_F(RetestedMap, IsWhatMapElitesFillsWithTheNewTrials) {
   }
 }
 
-TEST_F(RetestedMap, IsTheSameForAnyNumberOfWorkers) {
+TEST_F(EvolvedMap, TriedAgainIsTheSameForAnyNumberOfWorkers) {
   const Retest one = retest(map(), 2, 1, unstopped).value(), three = retest(map(), 2, 3, unstopped).value();
   EXPECT_EQ(three.kept, one.kept);
   EXPECT_EQ(three.in_place, one.in_place);
   EXPECT_EQ(three.corrected_elites, one.corrected_elites);
   EXPECT_EQ(three.corrected_score, one.corrected_score);
+}
+
+TEST_F(EvolvedMap, HasElitesWhoseChampionsHaveTheEpisodesOfTheirEvaluation) {
+  const Repertoire map = this->map();
+  int evaluated_once = 0;
+  for (std::uint32_t i = 0; i < map.elites.size(); ++i) {
+    const search::Elite& elite = map.elites[i];
+    const Champion champion = elite_champion(map, elite.cell, 1, unstopped).value();
+    EXPECT_EQ(champion.genome, neat::expand(elite.genome, "elite"));
+    EXPECT_EQ(champion.generation, static_cast<int>(elite.round));
+    EXPECT_EQ(champion.index, static_cast<int>(elite.candidate));
+    if (elite.evaluations > 1) continue;
+    ++evaluated_once;
+    EXPECT_NEAR(champion.objective(), elite.objective, 1e-12 * std::abs(elite.objective));
+  }
+  EXPECT_GT(evaluated_once, 1);
 }
 
 }  // namespace

@@ -130,6 +130,10 @@ TEST(ChampionTest, WithoutGroundOfItsOwnStartsAnywhereOnThatOfTheChampion) {
     distances_m.insert(expected->result.distance_m);
   }
   EXPECT_EQ(distances_m.size(), 3u);
+  // The path is counted from where the trial starts.
+  ASSERT_EQ(result->episodes[0].seconds, 2.0);
+  ASSERT_EQ(result->path_m.size(), 4u);
+  EXPECT_NEAR(std::hypot(result->path_m[2], result->path_m[3]), result->episodes[0].distance_m, 0.001);
 }
 
 TEST(ChampionTest, OfADamagedRobotIsTheTrialOfThatRobot) {
