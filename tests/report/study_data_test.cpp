@@ -36,8 +36,8 @@ TEST(StudyData, HasMeasuresOfTheFirstWalkerOfTestsThatAskForADistance) {
   StudyData data = small_study();
   const std::vector<std::string> of_test{"distance_m", "upright_s", "walking_s", "kept"};
   std::vector<std::string> expected{"train_m", "hidden", "links"};
-  for (const std::string test : {"long", "ode"})
-    for (const std::string& what : of_test) expected.push_back(test + "." + what);
+  for (const char* test : {"long", "ode"})
+    for (const std::string& what : of_test) expected.push_back(std::string(test).append(".").append(what));
   EXPECT_EQ(measures_of(data), expected);
   data.study.tests[1].reach_m = 1.0;
   for (const std::string what : {"reached_s", "reached_generation", "reached_evaluations"})
