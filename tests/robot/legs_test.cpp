@@ -47,6 +47,16 @@ TEST(LegPairs, AreNoneWhereLeftAndRightCannotBeTold) {
   EXPECT_TRUE(pairs_of({{0, 2, 0}, {0, 1, 0}, {0, -1, 0}, {0, -2, 0}}).empty()) << "all abreast";
 }
 
+TEST(LegPairs, AreNoneWhereOnlyRoundingTellsTwoLegsOfASideApart) {
+  const auto with_second_at = [](double x_m) {
+    return pairs_of({{0, 1, 0}, {0, -1, 0}, {x_m, 1, 0}, {1, -1, 0}});
+  };
+  for (const double rounding_m : {0.0, 1e-12, -1e-12, 5e-7, -5e-7})
+    EXPECT_TRUE(with_second_at(rounding_m).empty()) << rounding_m;
+  EXPECT_EQ(with_second_at(1e-5), (Pairs{{2, 3}, {0, 1}}));
+  EXPECT_EQ(with_second_at(-1e-5), (Pairs{{0, 3}, {2, 1}}));
+}
+
 TEST(LegPairs, OfAnOddNumberOfLegsAreNone) {
   Stream stream(1, Purpose::test);
   for (int round = 0; round < 200; ++round) {
