@@ -242,6 +242,7 @@ WorkResult work(const Plan& plan, const std::vector<RunStatus>& states, const Wo
           return result;
         }
         result.finished += step == Worker::Step::done;
+        io_failures = 0;
         last_progress = std::chrono::steady_clock::now();
       } catch (const UserError& error) {
         if (error.code() == ExitCode::locked) {

@@ -26,6 +26,19 @@ TEST(DamageText, SaysAllKindsInOneLine) {
   EXPECT_EQ(parts[5].y_m, -0.2);
 }
 
+TEST(DamageText, TakesTheLastOfTheCharactersThatEndANameForItsEnd) {
+  const auto parts = parse("locked:left=knee=-0.5@2,weak:k@home=0.25@0,numb:a@b@3,missing:c:d").parts;
+  ASSERT_EQ(parts.size(), 4u);
+  EXPECT_EQ(parts[0].joint, "left=knee");
+  EXPECT_EQ(parts[0].angle_rad, -0.5);
+  EXPECT_EQ(parts[0].from_s, 2.0);
+  EXPECT_EQ(parts[1].joint, "k@home");
+  EXPECT_EQ(parts[1].share, 0.25);
+  EXPECT_EQ(parts[2].leg, "a@b");
+  EXPECT_EQ(parts[2].from_s, 3.0);
+  EXPECT_EQ(parts[3].leg, "c:d");
+}
+
 TEST(DamageText, IsRefusedInOneLineThatSaysWhatWasExpected) {
   const auto refusal = [](const char* text) -> std::string {
     try {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "amble/core/error.hpp"
@@ -148,6 +149,41 @@ TEST_P(EachWay, CannotBeMadeShorterThanItIs) {
         << error.what();
   }
   EXPECT_EQ(io::read_file(RunPaths(scratch / "run").config), before);
+}
+
+TEST_P(EachWay, KeepsAChampionOfEachGenerationThatIsBetterThanAllBeforeAndOfNoOther) {
+  const TemporaryFolder scratch;
+  Listener listener;
+  auto longer = config();
+  longer.generations = 8;
+  Run::start(scratch / "run", longer, 2).execute(listener, listener.stop);
+  std::vector<std::pair<int, double>> expected, kept;
+  for (const GenerationRow& row : listener.rows) {
+    if (expected.empty() || row.best > expected.back().second)
+      expected.emplace_back(row.generation, row.best);
+    EXPECT_EQ(row.best_so_far, expected.back().second);
+  }
+  for (const auto& file : RunPaths(scratch / "run").champion_files()) {
+    const Champion champion = load_champion(file);
+    kept.emplace_back(champion.generation, champion.objective());
+  }
+  EXPECT_EQ(kept, expected);
+}
+
+TEST(Run, KeepsNoChampionOfAGenerationThatOnlyEqualsTheBest) {
+  const TemporaryFolder scratch;
+  Listener listener;
+  auto config = small_config({"engine=batch"});
+  config.generations = 12;
+  config.neat.reproduction.lone_place = neat::LonePlace::elite;
+  Run::start(scratch / "run", config, 2).execute(listener, listener.stop);
+  std::size_t better = 1, equal = 0;
+  for (std::size_t i = 1; i < listener.rows.size(); ++i) {
+    better += listener.rows[i].best > listener.rows[i - 1].best_so_far;
+    equal += listener.rows[i].best == listener.rows[i - 1].best_so_far;
+  }
+  ASSERT_GT(equal, 0u) << "elites are carried over, and trials repeat";
+  EXPECT_EQ(RunPaths(scratch / "run").champion_files().size(), better);
 }
 
 TEST(Run, NeverLosesItsBestDistanceWithoutNoiseWhereLonePlacesAreForElites) {

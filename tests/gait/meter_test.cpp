@@ -64,6 +64,36 @@ TEST(GaitMeter, FindsTheSamePhasesForUnevenStridesWithTheirSpread) {
   EXPECT_EQ(report.classification, named(Gait::walk_lateral));
 }
 
+TEST(GaitMeter, TellsTheStandardDeviationOfStridesInSeconds) {
+  // Strides of 0.7 to 1.3 s in no order, so over several windows; feet that land together.
+  Stream stream(1, Purpose::test, 0);
+  std::vector<int> landings;
+  for (int frame = 30; frame < 6000; frame += 70 + static_cast<int>(stream.below(61)))
+    landings.push_back(frame);
+  Feeder feeder;
+  for (int k = 0; k < 6000; ++k) {
+    const auto next = std::ranges::upper_bound(landings, k);
+    const bool touches = next != landings.begin() && k - *std::prev(next) < 40;
+    feeder.add(std::vector<float>(4, touches ? 1.0f : 0.0f));
+  }
+  const Report report = feeder.finish();
+
+  std::vector<double> strides_s;
+  for (std::size_t i = 1; i < landings.size(); ++i)
+    if (landings[i - 1] >= 200) strides_s.push_back(tests::frame_s * (landings[i] - landings[i - 1]));
+  const auto n = static_cast<double>(strides_s.size());
+  double mean_s = 0.0, variance_s2 = 0.0;
+  for (const double stride_s : strides_s) mean_s += stride_s / n;
+  for (const double stride_s : strides_s) variance_s2 += (stride_s - mean_s) * (stride_s - mean_s) / n;
+  ASSERT_GT(report.windows.size(), 2u);
+  ASSERT_GT(variance_s2, 0.01);
+  for (const LegGait& leg : report.legs) {
+    EXPECT_EQ(leg.strides, static_cast<std::int64_t>(strides_s.size()));
+    EXPECT_NEAR(leg.stride_s.value(), mean_s, 1e-9);
+    EXPECT_NEAR(leg.stride_sd_s.value(), std::sqrt(variance_s2), 1e-9);
+  }
+}
+
 TEST(GaitMeter, SeesThroughContactChatter) {
   // In each stance the sensor drops out for up to three frames, and in each swing it fires once.
   const Clockwork feet{.stride = 80, .stance = 48, .offset = {20, 60, 0, 40}};

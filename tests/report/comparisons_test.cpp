@@ -61,5 +61,22 @@ TEST(Pairs, LeaveOutConditionsWithTooFewRuns) {
   EXPECT_EQ(tables[0].pairs[0].superiority->a12, 1.0);
 }
 
+TEST(Pairs, AreOfConditionsWithTwoRunsOrMore) {
+  for (const int runs_of_a : {0, 1, 2, 3})
+    for (const int runs_of_b : {0, 1, 2, 3}) {
+      StudyData data{.study = sample_study({"a", "b"}, 3), .records = {}, .unknown_files = {}};
+      const std::vector<double> best_m{1.0, 3.0, 2.0};
+      add_runs(data, "a", {best_m.begin(), best_m.begin() + runs_of_a});
+      add_runs(data, "b", {best_m.begin(), best_m.begin() + runs_of_b});
+      const auto tables = compare_pairs(data);
+      ASSERT_EQ(tables.size(), runs_of_a >= 2 && runs_of_b >= 2 ? 1u : 0u) << runs_of_a << ", " << runs_of_b;
+      if (tables.empty()) continue;
+      ASSERT_EQ(tables[0].pairs.size(), 1u);
+      EXPECT_EQ(tables[0].pairs[0].n_first, static_cast<std::size_t>(runs_of_a));
+      EXPECT_EQ(tables[0].pairs[0].n_second, static_cast<std::size_t>(runs_of_b));
+      EXPECT_TRUE(tables[0].pairs[0].student && tables[0].pairs[0].welch && tables[0].pairs[0].mann_whitney);
+    }
+}
+
 }  // namespace
 }  // namespace amble::report

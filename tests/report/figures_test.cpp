@@ -68,6 +68,23 @@ TEST(RowsFigure, DrawsMeansIntervalsAndRunsToScale) {
   }
 }
 
+TEST(RowsFigure, HasRoomForIntervalsThatReachBeyondAllRuns) {
+  auto rows = training_rows(make_report(small_study()));
+  for (const auto& interval : {statistics::Interval{-40.0, 9.0}, {3.0, 90.0}, {-40.0, 90.0}}) {
+    rows[0].strips[0].interval = interval;
+    for (const auto layout : {Layout::wide, Layout::narrow}) {
+      const auto elements = parse_xml(rows_figure(rows, " m", "distances", layout));
+      const auto bar = with_class(elements, "bar")[0];
+      const double scale = bar.number("width") / rows[0].strips[0].mean.value(), zero = bar.number("x");
+      const auto whisker = with_class(elements, "whisker")[0];
+      EXPECT_NEAR(whisker.number("x1"), zero + interval.lower * scale, 0.2);
+      EXPECT_NEAR(whisker.number("x2"), zero + interval.upper * scale, 0.2);
+      EXPECT_GE(whisker.number("x1"), 0.0);
+      EXPECT_LE(whisker.number("x2"), elements[0].number("width"));
+    }
+  }
+}
+
 TEST(RowsFigure, OfATestHasEvolutionBesideIt) {
   const Report report = make_report(small_study());
   const auto rows = test_rows(report, "long");

@@ -37,6 +37,15 @@ TEST(Lifetimes, OfTestsAsLongAsEvolutionAreNotLong) {
   EXPECT_FALSE(tables[2].log_rank) << "nothing ended";
 }
 
+TEST(Lifetimes, OfATestOfTwoLengthsAreShownToTheEndOfTheLonger) {
+  StudyData data = small_study();
+  for (const std::size_t longer : {0u, 1u, 5u}) {
+    for (std::size_t i = 0; i < data.records.size(); ++i)
+      data.records[i].tests[0].trial_s = i == longer ? 400.0 : 300.0;
+    EXPECT_EQ(survival_tables(data)[0].trial_s, 400.0) << longer;
+  }
+}
+
 TEST(BestCurves, AreQuartilesOverRuns) {
   StudyData data{.study = sample_study({"a", "b"}, 3), .records = {}, .unknown_files = {}};
   add_runs(data, "a", {2.0, 4.0, 8.0});

@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "amble/io/xml.hpp"
 #include "amble/report/json.hpp"
 #include "amble/report/number_text.hpp"
+#include "amble/report/page_sections.hpp"
 #include "amble/report/tables.hpp"
 #include "tests/graphics/xml.hpp"
 #include "tests/report/fixture.hpp"
@@ -35,6 +38,29 @@ TEST(Page, IsWellFormedWithTwoConditionsOrTwenty) {
                                       "transfer", "pairs", "made"}));
   EXPECT_NO_THROW(parse_xml(page(large_study(20, 3))));
   EXPECT_NO_THROW(parse_xml(page(large_study(1, 1))));
+}
+
+TEST(Page, HasAMatrixOfDifferencesThatIsAntisymmetricAndBoldWhereSignificant) {
+  const Report report = make_report(large_study(9, 8));
+  std::vector<std::pair<std::string, bool>> expected, found;
+  for (const PairTable& table : report.pairs)
+    for (int row = 0; row < 9; ++row)
+      for (int column = 0; column < 9; ++column) {
+        if (row == column) continue;
+        const auto name = [](int i) { return "c" + std::to_string(i); };
+        const auto& pair = *std::ranges::find_if(table.pairs, [&](const auto& one) {
+          return one.first == name(std::min(row, column)) && one.second == name(std::max(row, column));
+        });
+        const double difference = (row < column ? 1.0 : -1.0) * pair.welch->test.difference;
+        expected.emplace_back(number_text(difference, 1), pair.welch->p_holm < 0.05);
+      }
+  for (const auto& element : parse_xml(pairs_section(report)))
+    if (element.name == "span" && std::ranges::count(element.path, "data dense matrix") > 0)
+      found.emplace_back(element.text, element.path.back() == "significant");
+  EXPECT_EQ(found, expected);
+  const auto bold = std::ranges::count(expected, true, &std::pair<std::string, bool>::second);
+  EXPECT_GT(bold, 0);
+  EXPECT_LT(bold, std::ssize(expected));
 }
 
 TEST(Page, OfAnEmptyLedgerSaysSo) {

@@ -32,6 +32,19 @@ TEST(StudyData, ComesFromTheFolderAlone) {
   EXPECT_EQ(ledger::ledger_digest(loaded.records), ledger::ledger_digest(data.records));
 }
 
+TEST(StudyData, HasMeasuresOfTheFirstWalkerOfTestsThatAskForADistance) {
+  StudyData data = small_study();
+  const std::vector<std::string> of_test{"distance_m", "upright_s", "walking_s", "kept"};
+  std::vector<std::string> expected{"train_m", "hidden", "links"};
+  for (const char* test : {"long", "ode"})
+    for (const std::string& what : of_test) expected.push_back(std::string(test).append(".").append(what));
+  EXPECT_EQ(measures_of(data), expected);
+  data.study.tests[1].reach_m = 1.0;
+  for (const std::string what : {"reached_s", "reached_generation", "reached_evaluations"})
+    expected.push_back("ode." + what);
+  EXPECT_EQ(measures_of(data), expected);
+}
+
 TEST(Remarks, AreNoneOfAFinishedStudy) {
   EXPECT_THAT(remarks(small_study()), IsEmpty());
 }

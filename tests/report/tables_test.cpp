@@ -19,10 +19,38 @@ const Table& find(const std::vector<Table>& all, const std::string& name) {
   return *std::ranges::find(all, name, &Table::name);
 }
 
+/// In which no two runs differ: no test of their distances has anything to tell.
+StudyData uniform_study() {
+  StudyData data = small_study();
+  for (ledger::Record& record : data.records) record.best_m = 5.0;
+  return data;
+}
+
 TEST(Tables, AreRectangular) {
-  for (const StudyData& data : {small_study(), large_study(12, 3)})
+  for (const StudyData& data : {small_study(), large_study(12, 3), large_study(3, 1), uniform_study()})
     for (const Table& table : tables(make_report(data)))
       for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.header.size()) << table.name;
+}
+
+TEST(Tables, LeaveCellsOfTestsEmptyThatHaveNothingToTell) {
+  const auto all = tables(make_report(uniform_study()));
+  const Table& pairs = find(all, "pairs");
+  int of_distances = 0;
+  for (const auto& row : pairs.rows) {
+    ASSERT_EQ(row.size(), pairs.header.size());
+    if (row[0] != Cell("train_m")) continue;
+    ++of_distances;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string& title = pairs.header[i];
+      if (title.starts_with("student_") || title.starts_with("welch_")) {
+        EXPECT_EQ(row[i], Cell()) << title;
+      }
+      if (title == "a12") {
+        EXPECT_EQ(row[i], Cell(0.5));
+      }
+    }
+  }
+  EXPECT_EQ(of_distances, 1);
 }
 
 TEST(Tables, OfAnEmptyLedgerHaveHeadersOnly) {

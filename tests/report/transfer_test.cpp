@@ -85,5 +85,20 @@ TEST(Transfers, AreOnlyTestsInOtherEngines) {
   for (const Transfer& transfer : transfers(data)) EXPECT_EQ(transfer.test, "long");
 }
 
+TEST(Transfers, HaveNoShareOfARunThatGotNowhereAtHome) {
+  StudyData data = small_study();
+  for (ledger::Record& run : data.records)
+    if (run.condition == "a") run.best_m = run.seed == 1 ? 0.0 : run.seed == 2 ? -1.0 : 5.0;
+  const auto found = transfers(data);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].n, 3u);
+  EXPECT_EQ(found[0].n_share, 1u);
+  EXPECT_DOUBLE_EQ(found[0].share.value(), 3.0 / 5.0) << "3 m abroad";
+  for (ledger::Record& run : data.records)
+    if (run.condition == "a") run.best_m = 0.0;
+  EXPECT_EQ(transfers(data)[0].n_share, 0u);
+  EXPECT_FALSE(transfers(data)[0].share);
+}
+
 }  // namespace
 }  // namespace amble::report

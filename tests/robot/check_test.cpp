@@ -123,5 +123,40 @@ TEST(CheckRobot, FindsNumbersThatCannotBe) {
   EXPECT_EQ(problem_after([](RobotSpec& r) { r.fall_height_m = nan; }), "fall_height_m must be finite");
 }
 
+TEST(CheckRobot, DrawsItsLimitsWhereTheMessagesSay) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto accepted = [](const std::function<void(RobotSpec&)>& change) {
+    return problem_after(change).empty();
+  };
+  for (const double erp : {1e-9, 0.5, 1.0})
+    EXPECT_TRUE(accepted([&](RobotSpec& r) { r.contact.erp = erp; })) << erp;
+  for (const double erp : {-0.1, 0.0, 1.0001, infinity, nan})
+    EXPECT_FALSE(accepted([&](RobotSpec& r) { r.contact.erp = erp; })) << erp;
+  for (const double friction : {0.0, 1.0, infinity})
+    EXPECT_TRUE(accepted([&](RobotSpec& r) { r.contact.friction = friction; })) << friction;
+  EXPECT_FALSE(accepted([](RobotSpec& r) { r.contact.friction = -1e-9; }));
+  EXPECT_TRUE(accepted([](RobotSpec& r) { r.contact.cfm_s_per_kg = 0.0; }));
+  EXPECT_FALSE(accepted([](RobotSpec& r) { r.contact.cfm_s_per_kg = infinity; }));
+  EXPECT_TRUE(accepted([](RobotSpec& r) { r.contact.sweeps = 0; }));
+
+  for (const int parent : {-2, -1, 1, 2, 3})
+    EXPECT_EQ(problem_after([&](RobotSpec& r) { r.bodies[1].parent = parent; }),
+              "body 'thigh' must come after its parent")
+        << parent;
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.bodies[0].parent = 0; }),
+            "body 'torso' must come after its parent");
+
+  // The hip's stops are ± 0.5 rad.
+  for (const AngleRange& range : {AngleRange{-0.5, 0.5}, {-0.5, -0.4}, {0.0, 0.1}})
+    EXPECT_TRUE(accepted([&](RobotSpec& r) { r.joints[0].command = range; }))
+        << range.lower_rad << " to " << range.upper_rad;
+  for (const AngleRange& range : {AngleRange{-0.5, 0.51}, {-0.51, 0.5}, {0.6, 0.7}, {0.2, 0.1}})
+    EXPECT_EQ(problem_after([&](RobotSpec& r) { r.joints[0].command = range; }),
+              "joint 'A_hip' must have a range of command within its stops")
+        << range.lower_rad << " to " << range.upper_rad;
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.geoms[to_index(r.legs[0].foot_geom)].collides = false; }),
+            "leg 'A' has a foot that cannot collide");
+}
+
 }  // namespace
 }  // namespace amble::robot

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "amble/core/random.hpp"
 #include "amble/robot/check.hpp"
 #include "tests/robot/legged.hpp"
 
@@ -44,6 +45,27 @@ TEST(LegPairs, AreNoneWhereLeftAndRightCannotBeTold) {
   EXPECT_TRUE(pairs_of({{0, 1, 0}, {1, -1, 0}, {2, 1, 0}}).empty());
   EXPECT_TRUE(pairs_of({{1, 0, 0}, {0, 0, 0}}).empty()) << "one behind the other";
   EXPECT_TRUE(pairs_of({{0, 2, 0}, {0, 1, 0}, {0, -1, 0}, {0, -2, 0}}).empty()) << "all abreast";
+}
+
+TEST(LegPairs, AreNoneWhereOnlyRoundingTellsTwoLegsOfASideApart) {
+  const auto with_second_at = [](double x_m) {
+    return pairs_of({{0, 1, 0}, {0, -1, 0}, {x_m, 1, 0}, {1, -1, 0}});
+  };
+  for (const double rounding_m : {0.0, 1e-12, -1e-12, 5e-7, -5e-7})
+    EXPECT_TRUE(with_second_at(rounding_m).empty()) << rounding_m;
+  EXPECT_EQ(with_second_at(1e-5), (Pairs{{2, 3}, {0, 1}}));
+  EXPECT_EQ(with_second_at(-1e-5), (Pairs{{0, 3}, {2, 1}}));
+}
+
+TEST(LegPairs, OfAnOddNumberOfLegsAreNone) {
+  Stream stream(1, Purpose::test);
+  for (int round = 0; round < 200; ++round) {
+    std::vector<Vec3> places_m(1 + 2 * stream.below(5));
+    for (Vec3& place_m : places_m) place_m = {stream.uniform(-1.0, 1.0), stream.uniform(-1.0, 1.0), 0.0};
+    EXPECT_TRUE(pairs_of(places_m).empty()) << places_m.size();
+    places_m.back().y = -9.0;
+    EXPECT_TRUE(pairs_of(places_m).empty()) << "one leg far to the right";
+  }
 }
 
 TEST(LegPairs, OfARobotAreFoundByItsHipsAndByItsFeet) {

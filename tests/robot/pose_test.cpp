@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <vector>
 
+#include "amble/core/random.hpp"
 #include "tests/morphology/files.hpp"
 
 namespace amble::robot {
@@ -141,6 +143,26 @@ TEST(PoseAlong, LeavesTheHingesFurtherOutAtZero) {
     const Pose found = pose_along(robot, 1, root, angles, hinges), expected = poses_at(robot, root, cut)[1];
     for (const Vec3 point : {Vec3{}, Vec3{1.0, 0.0, 0.0}, Vec3{0.0, 1.0, 0.0}})
       EXPECT_NEAR(norm(found * point - expected * point), 0.0, 1e-12) << hinges;
+  }
+}
+
+TEST(Pose, BottomOfAMeshIsItsLowestVertexWhereverItsOriginIs) {
+  Stream stream(1, Purpose::test);
+  for (int round = 0; round < 100; ++round) {
+    Geom geom;
+    geom.shape = Shape::mesh;
+    geom.body = 0;
+    const double offset_m = stream.uniform(-3.0, 3.0);
+    for (int i = 0; i < 6; ++i) {
+      geom.vertices_m.push_back(
+          {stream.uniform(-0.1, 0.1), stream.uniform(-0.1, 0.1), offset_m + stream.uniform(-0.1, 0.1)});
+      geom.size_m.x = std::max(geom.size_m.x, norm(geom.vertices_m.back()));
+    }
+    const Pose pose{{0.0, 0.0, stream.uniform(-1.0, 1.0)},
+                    axis_angle({0.6, 0.8, 0.0}, stream.uniform(-3.0, 3.0))};
+    double lowest_m = std::numeric_limits<double>::infinity();
+    for (const Vec3 vertex : geom.vertices_m) lowest_m = std::min(lowest_m, (pose * vertex).z);
+    EXPECT_NEAR(bottom_m(geom, std::vector<Pose>{pose}), lowest_m, 1e-12);
   }
 }
 

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "amble/core/random.hpp"
+#include "amble/robot/collision_points.hpp"
+#include "amble/robot/sensors.hpp"
 #include "tests/morphology/files.hpp"
+#include "tests/robot/legged.hpp"
 
 namespace amble::robot {
 namespace {
@@ -36,6 +40,47 @@ TEST(RobotSpec, ABodyThatHangsOnALegBelongsToIt) {
   robot.bodies.push_back(robot.bodies.back());
   robot.bodies.back().parent = shank;
   EXPECT_EQ(robot.leg_of_body(static_cast<int>(robot.bodies.size()) - 1), 0);
+}
+
+TEST(RobotSpec, ABodyThatCarriesFeetOfSeveralLegsIsOfTheTrunkThoughALegTurnsIt) {
+  RobotSpec robot = tests::legged_robot(1);
+  // The left leg's last joint is moved to a spine that carries both legs.
+  robot.bodies.insert(robot.bodies.begin() + 1, robot.bodies[1]);
+  robot.bodies[1].name = "spine";
+  for (std::size_t b = 2; b < robot.bodies.size(); ++b) ++robot.bodies[b].parent;
+  for (Geom& geom : robot.geoms) geom.body += geom.body > 0;
+  for (Joint& joint : robot.joints) ++joint.body;
+  robot.joints[2].body = 1;
+  EXPECT_EQ(robot.leg_of_body(0), -1);
+  EXPECT_EQ(robot.leg_of_body(1), -1);
+  EXPECT_EQ(robot.leg_of_body(2), 0);
+  EXPECT_EQ(robot.leg_of_body(3), 0);
+  EXPECT_EQ(robot.leg_of_body(4), 1);
+  EXPECT_EQ(robot.leg_of_body(5), 1);
+}
+
+TEST(ContactRadii, AreThoseOfWhatCollidesAndNoughtRising) {
+  RobotSpec robot = tests::legged_robot(1);
+  EXPECT_EQ(contact_radii_m(robot), (std::vector<double>{0.0, 0.05}));
+  robot.geoms.push_back(robot.geoms[1]);
+  robot.geoms.back().size_m.x = 0.02;
+  EXPECT_EQ(contact_radii_m(robot), (std::vector<double>{0.0, 0.02, 0.05}));
+  robot.geoms.back().collides = false;
+  EXPECT_EQ(contact_radii_m(robot), (std::vector<double>{0.0, 0.05}));
+  for (Geom& geom : robot.geoms) geom.collides = false;
+  EXPECT_EQ(contact_radii_m(robot), std::vector<double>{0.0});
+}
+
+TEST(LevelFrame, HasItsZAxisAgainstGravityAndIsTurnedAboutALevelAxis) {
+  Stream stream(1, Purpose::test);
+  for (int round = 0; round < 100; ++round) {
+    const Vec3 gravity{stream.uniform(-3.0, 3.0), stream.uniform(-3.0, 3.0), stream.uniform(-9.0, -0.5)};
+    const Quat frame = level_frame(gravity);
+    EXPECT_NEAR(norm(rotate(frame, {0.0, 0.0, 1.0}) + (1.0 / norm(gravity)) * gravity), 0.0, 1e-12);
+    EXPECT_EQ(frame.z, 0.0);
+  }
+  EXPECT_EQ(level_frame({0.0, 0.0, -9.81}), Quat{});
+  EXPECT_EQ(level_frame({}), Quat{});
 }
 
 }  // namespace

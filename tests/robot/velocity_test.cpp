@@ -57,5 +57,52 @@ TEST(Velocity, OfTheWholeRobotIsThatOfItsCentreOfMassAndItTurnsAsOneWhenRigid) {
   EXPECT_GT(turning.angular_momentum_kg_m2_s.z, 0.0);
 }
 
+/// The momentum of a body's points, from its moments: I = Σ m (|r|² − r rᵀ) about its centre of mass.
+Vec3 spin_momentum(const Body& body, const Pose& pose, Vec3 spin_rad_s) {
+  const Vec3 moments = body.inertia_kg_m2;
+  Vec3 sum;
+  for (const auto& [axis, moment] :
+       {std::pair{Vec3{1, 0, 0}, moments.x}, {{0, 1, 0}, moments.y}, {{0, 0, 1}, moments.z}}) {
+    const Vec3 along = rotate(pose.rotation, rotate(body.inertia_rotation, axis));
+    sum = sum + (moment * dot(along, spin_rad_s)) * along;
+  }
+  return sum;
+}
+
+TEST(Velocity, AngularMomentumIsThatOfTheBodiesAboutTheCentreOfMassHoweverTheirPrincipalAxesLie) {
+  RobotSpec robot = morphology::load_robot(AMBLE_SOURCE_DIR "/robots/quadruped/authors.toml");
+  Stream stream(1, Purpose::test);
+  const auto vector = [&] {
+    return Vec3{stream.uniform(-1.0, 1.0), stream.uniform(-1.0, 1.0), stream.uniform(-1.0, 1.0)};
+  };
+  const auto rotation = [&] {
+    const Vec3 axis = vector();
+    return axis_angle((1.0 / norm(axis)) * axis, stream.uniform(-3.0, 3.0));
+  };
+  for (int round = 0; round < 50; ++round) {
+    for (Body& body : robot.bodies) {
+      body.inertia_rotation = rotation();
+      body.inertia_kg_m2 = {stream.uniform(0.1, 1.0), stream.uniform(1.0, 2.0), stream.uniform(2.0, 3.0)};
+    }
+    std::vector<double> angles, speeds;
+    for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+      angles.push_back(stream.uniform(-0.8, 0.8));
+      speeds.push_back(stream.uniform(-2.0, 2.0));
+    }
+    const auto poses = poses_at(robot, {vector(), rotation()}, angles);
+    const auto twists = twists_at(robot, poses, {vector(), vector()}, {angles, speeds});
+    const auto whole = whole_motion(robot, poses, twists);
+    Vec3 expected;
+    for (std::size_t b = 0; b < poses.size(); ++b) {
+      const Body& body = robot.bodies[b];
+      const Vec3 arm = poses[b] * body.com_m - whole.com_m,
+                 velocity = twists[b].of_point(rotate(poses[b].rotation, body.com_m));
+      expected = expected + body.mass_kg * cross(arm, velocity) +
+                 spin_momentum(body, poses[b], twists[b].angular_velocity_rad_s);
+    }
+    EXPECT_NEAR(norm(whole.angular_momentum_kg_m2_s - expected), 0.0, 1e-10);
+  }
+}
+
 }  // namespace
 }  // namespace amble::robot

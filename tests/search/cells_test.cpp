@@ -99,6 +99,43 @@ TEST(Centroids, HaveCellsOfMoreEqualSizeThanRandomPoints) {
   EXPECT_GT(largest_share(random), 1.3 * spread);
 }
 
+/// Lloyd's algorithm point by point, on the points that the stream of the seed gives.
+std::vector<float> plain_centroids(std::size_t count, std::size_t dimensions, std::size_t samples,
+                                   std::uint64_t seed) {
+  Stream stream(seed, Purpose::centroids);
+  std::vector<std::vector<float>> points(samples, std::vector<float>(dimensions));
+  for (auto& point : points)
+    for (float& value : point) value = static_cast<float>(stream.uniform());
+  std::vector<float> centroids;
+  for (std::size_t i = 0; i < count; ++i)
+    centroids.insert(centroids.end(), points[i].begin(), points[i].end());
+  std::vector<std::uint32_t> before;
+  for (int round = 0; round < 50; ++round) {
+    std::vector<std::uint32_t> nearest;
+    nearest.reserve(samples);
+    for (const auto& point : points) nearest.push_back(nearest_of_all(centroids, point));
+    if (nearest == before) break;
+    before = nearest;
+    for (std::uint32_t cell = 0; cell < count; ++cell)
+      for (std::size_t d = 0; d < dimensions; ++d) {
+        double sum = 0.0, members = 0.0;
+        for (std::size_t i = 0; i < samples; ++i)
+          if (nearest[i] == cell) sum += double{points[i][d]}, members += 1.0;
+        if (members > 0.0) centroids[cell * dimensions + d] = static_cast<float>(sum / members);
+      }
+  }
+  return centroids;
+}
+
+TEST(Centroids, AreThoseOfLloydsAlgorithmAlsoOfCellsWithOnePoint) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed)
+    for (const std::size_t dimensions : {1u, 2u, 4u})
+      for (const auto& [count, samples] : {std::pair{1u, 1u}, {8u, 8u}, {10u, 17u}, {20u, 60u}, {5u, 300u}})
+        EXPECT_EQ(spread_centroids(count, dimensions, samples, seed),
+                  plain_centroids(count, dimensions, samples, seed))
+            << count << " of " << samples << " points, seed " << seed;
+}
+
 TEST(Centroids, DependOnTheSeedAlone) {
   EXPECT_EQ(spread_centroids(20, 3, 500, 5), spread_centroids(20, 3, 500, 5));
   EXPECT_NE(spread_centroids(20, 3, 500, 5), spread_centroids(20, 3, 500, 6));

@@ -111,6 +111,31 @@ TEST(ChampionTest, OnGroundOfItsOwnMeetsPlacesThatEvolutionHasNotMetAndNoNoise) 
   EXPECT_NEAR(run_test(brief, champion(), never)->episodes[0].distance_m, expected_m, 0.002);
 }
 
+TEST(ChampionTest, WithoutGroundOfItsOwnStartsAnywhereOnThatOfTheChampion) {
+  experiment::Champion rough = champion();
+  rough.problem.noise = {};
+  ground::Settings ground;
+  ground.kind = ground::Kind::stones;
+  ground.height_m = 0.1;
+  ground.start_place_m = 2.0;
+  rough.problem.walk_on(ground);
+  const PlannedTest test{.spec = trial_test("t", 2.0, "", 3), .noise = {}};
+  const auto result = run_test(test, rough, never);
+  ASSERT_EQ(result->episodes.size(), 3u);
+  std::set<double> distances_m;
+  for (std::size_t episode = 0; episode < 3; ++episode) {
+    const auto expected = experiment::replay(
+        rough.problem, rough.genome, {.seconds = 2.0, .noise = rough.unseen_scenario_key(episode)}, never);
+    EXPECT_EQ(result->episodes[episode].distance_m, expected->result.distance_m);
+    distances_m.insert(expected->result.distance_m);
+  }
+  EXPECT_EQ(distances_m.size(), 3u);
+  // The path is counted from where the trial starts.
+  ASSERT_EQ(result->episodes[0].seconds, 2.0);
+  ASSERT_EQ(result->path_m.size(), 4u);
+  EXPECT_NEAR(std::hypot(result->path_m[2], result->path_m[3]), result->episodes[0].distance_m, 0.001);
+}
+
 TEST(ChampionTest, OfADamagedRobotIsTheTrialOfThatRobot) {
   PlannedTest test{.spec = trial_test("t", 3.0), .noise = {}};
   test.damage.emplace().parts = {

@@ -159,5 +159,44 @@ TEST(Worker, KeepsTheHashOfTheClaimsAtTheEndOfTheRun) {
   EXPECT_EQ(later.records.at(0).provenance.claims, claims);
 }
 
+/// Works on seven runs, seeds 1 to 7: of '-' the folder cannot be made, of 'x' a file has its name.
+WorkResult work_on_seven(const std::string& runs, Notes& notes) {
+  const test::TemporaryFolder folder;
+  auto study = small_study();
+  study.generations = 1;
+  study.seeds = {1, 2, 3, 4, 5, 6, 7};
+  const ledger::StudyPaths paths(folder.path());
+  for (const int seed : {1, 2, 3, 4, 5, 6, 7}) {
+    const auto place = paths.run("sine", seed);
+    std::filesystem::create_directories(place.parent_path());
+    const char kind = runs[static_cast<std::size_t>(seed - 1)];
+    if (kind == '-') std::filesystem::create_symlink(folder.path() / "gone" / "away", place);
+    if (kind == 'x') io::write_file(place, "no folder");
+  }
+  return work_on(study, folder.path(), notes);
+}
+
+TEST(Worker, GoesOnAfterRunsThatFailUnlessTheDiskRefusesThreeInARow) {
+  struct Case {
+    std::string runs;
+    int finished, failed;
+  };
+  for (const auto& [runs, finished, failed] : std::vector<Case>{{"-......", 6, 1},
+                                                                {"--.--.-", 2, 5},
+                                                                {"-.-.-.-", 3, 4},
+                                                                {"--x--x.", 1, 6},
+                                                                {"xxxx...", 3, 4},
+                                                                {"..---..", 2, 3},
+                                                                {"--.---.", 1, 5}}) {
+    Notes notes;
+    const WorkResult result = work_on_seven(runs, notes);
+    EXPECT_EQ(result.finished, finished) << runs;
+    EXPECT_EQ(result.failed, failed) << runs;
+    EXPECT_EQ(notes.failures.size(), static_cast<std::size_t>(failed)) << runs;
+    EXPECT_EQ(result.first_failure, runs.find('x') < runs.find('-') ? ExitCode::bad_input : ExitCode::io)
+        << runs;
+  }
+}
+
 }  // namespace
 }  // namespace amble::study

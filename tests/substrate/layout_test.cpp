@@ -158,6 +158,45 @@ properties = [
   EXPECT_FLOAT_EQ(decoded.of("offset")[0], 0.25f);
 }
 
+/// Whether two neurons with these entries for their time constants share them whatever the CPPN.
+bool share_time_constant(const std::string& b, const std::string& c) {
+  const std::string text = R"(
+coordinates = ["x"]
+outputs = ["weight", "bias", "tau"]
+nodes = [
+  { name = "a", group = "in", at = [-1], sensor = "sine" },
+  { name = "b", group = "neuron", at = [0.25] },
+  { name = "c", group = "neuron", at = [0.5], joint = "L_knee" },
+  { name = "d", group = "neuron", at = [0.75] },
+]
+links = [ { from = "in", to = "neuron" } ]
+properties = [
+  { of = "neuron", property = "bias", output = "bias" },
+  { of = "d", property = "time_constant", output = "tau", low = 1, high = 2 },
+  { of = "b", property = "time_constant", )" +
+                           b + R"( },
+  { of = "c", property = "time_constant", )" +
+                           c + " },\n]\n";
+  const Layout layout(substrate_of(text), ctrnn_needs(), hopper());
+  EXPECT_EQ(layout.shared("time_constant", 1, 2), layout.shared("time_constant", 2, 1));
+  return layout.shared("time_constant", 1, 2);
+}
+
+TEST(Layout, NodesShareAPropertyIfNoCppnCanGiveThemDifferentOnes) {
+  const std::string one = R"(output = "tau", low = 1, high = 61, zero = ["x"])";
+  EXPECT_TRUE(share_time_constant(one, one));
+  EXPECT_FALSE(share_time_constant(one, R"(output = "tau", low = 1, high = 62, zero = ["x"])"));
+  EXPECT_FALSE(share_time_constant(one, R"(output = "tau", low = 2, high = 61, zero = ["x"])"));
+  EXPECT_FALSE(share_time_constant(one, R"(output = "bias", low = 1, high = 61, zero = ["x"])"));
+  EXPECT_FALSE(share_time_constant(one, R"(output = "tau", low = 1, high = 61)"));
+  EXPECT_FALSE(
+      share_time_constant(R"(output = "tau", low = 1, high = 61)", R"(output = "tau", low = 1, high = 61)"))
+      << "they lie at different places";
+  EXPECT_TRUE(share_time_constant("value = 7", "value = 7"));
+  EXPECT_FALSE(share_time_constant("value = 7", "value = 8"));
+  EXPECT_FALSE(share_time_constant("value = 7", one));
+}
+
 TEST(Layout, LinksOnlyPairsThatAgreeInTheNamedCoordinates) {
   auto settings = part("ctrnn");
   settings.links = {{.from = "touch", .to = "hidden", .weight = "intra", .same = {"module_y"}}};
