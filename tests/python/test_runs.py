@@ -63,7 +63,15 @@ def test_an_exception_of_the_callback_stops_the_run_which_can_be_resumed(config,
     assert without_clocks(resumed.generations()) == without_clocks(run.generations())
 
 
-def test_ctrl_c_interrupts_a_long_run_within_a_second(tmp_path):
+@pytest.fixture
+def ctrl_c():
+    """Ctrl-C as in the foreground: a shell's background job ignores it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_ctrl_c_interrupts_a_long_run_within_a_second(ctrl_c, tmp_path):
     endless = amble.load_config(CONFIG, {**SMALL, "generations": 1000000, "trial.duration_s": 30.0})
     seen = []
 
