@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "tests/graphics/golden.hpp"
 #include "tests/graphics/xml.hpp"
 #include "tests/motion/fixture.hpp"
 
@@ -155,6 +156,18 @@ TEST(Page, TakesOneFrameAndOtherLegCounts) {
 
 TEST(Page, IsTheSameForTheSameInput) {
   EXPECT_EQ(make_page(input(), tests::walk(40)), make_page(input(), tests::walk(40)));
+}
+
+TEST(GoldenPage, OfWalksOnTwoFourAndSixLegsIsTheSameForEver) {
+  RunPage bare = input();
+  bare.generations = {};
+  bare.cppn = {};
+  tests::expect_golden({{"page-2.html", make_page(input(), tests::walk(30, 2))},
+                        {"page-4.html", make_page(input(), tests::walk(150))},
+                        {"page-6.html", make_page(bare, tests::walk(80, 6))}},
+                       {{"page-2.html", "4680e97bf8e2ba9a"},
+                        {"page-4.html", "4d472123a8a17cd6"},
+                        {"page-6.html", "4abfc91ebbb110e0"}});
 }
 
 }  // namespace
