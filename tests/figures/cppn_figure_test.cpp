@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+#include <utility>
+
 #include "tests/figures/cppn_samples.hpp"
 #include "tests/graphics/xml.hpp"
 
@@ -79,6 +82,48 @@ TEST(CppnFigure, StaysInsideItsPicture) {
     EXPECT_LE(element.number("cx") + element.number("r"), elements.front().number("width"));
     EXPECT_GE(element.number("cy") - element.number("r"), 0.0);
     EXPECT_LE(element.number("cy") + element.number("r"), elements.front().number("height"));
+  }
+}
+
+/// The corners of all Bézier curves of links that lead back, between which the curves lie.
+std::vector<std::pair<double, double>> detour_corners(const std::vector<tests::XmlElement>& elements) {
+  std::vector<std::pair<double, double>> corners;
+  for (const auto& element : elements) {
+    if (element.name != "path" || element.path.size() < 2) continue;
+    if (element.path[element.path.size() - 2].find(" back") == std::string::npos) continue;
+    std::string numbers = element.attributes.at("d");
+    for (char& letter : numbers)
+      if (letter == 'M' || letter == 'C' || letter == ',') letter = ' ';
+    std::istringstream stream(numbers);
+    for (double x, y; stream >> x >> y;) corners.emplace_back(x, y);
+    EXPECT_TRUE(stream.eof()) << element.attributes.at("d");
+  }
+  return corners;
+}
+
+TEST(CppnFigure, HasRoomForDetoursBetweenItsEdgesAndTheNamesOfItsOutputs) {
+  auto graph = tests::cppn();
+  std::size_t expected = 0;
+  // More and more lanes beside the outputs, above and below.
+  for (int round = 0; round < 6; ++round) {
+    for (const auto& [from, to] : {std::pair{3, 4}, {4, 3}, {3, 5}, {4, 6}}) {
+      graph.links.push_back({static_cast<std::size_t>(from), static_cast<std::size_t>(to), 1.0, true});
+      ++expected;
+    }
+    const auto elements = tests::parse_xml(cppn_figure(graph));
+    const auto corners = detour_corners(elements);
+    ASSERT_GE(corners.size(), 4 * expected);
+    double names = 0.0;
+    for (const auto& element : elements)
+      if (element.name == "text" && (element.text == "pattern" || element.text == "offset"))
+        names = element.number("x");
+    for (const auto& [x, y] : corners) {
+      EXPECT_GE(x, 0.0);
+      EXPECT_LT(x, names) << round;
+      EXPECT_GE(y, 0.0);
+      EXPECT_LE(y, elements.front().number("height"));
+    }
+    EXPECT_LT(names + 20.0, elements.front().number("width")) << "and for the names themselves";
   }
 }
 
