@@ -160,6 +160,30 @@ TEST(Page, HasTheNumbersOfTheTables) {
   }
 }
 
+TEST(Page, TellsOfEachConditionWhatItsRunsWereMadeWith) {
+  StudyData data = large_study(3, 4);
+  for (ledger::Record& run : data.records) {
+    const auto condition = static_cast<int>(run.condition.back() - '0');
+    run.generations = 10 + 3 * condition;
+    run.engine = condition == 1 ? "ode" : "batch";
+    run.config = "00f" + std::to_string(condition);
+  }
+  std::erase_if(data.records, [](const ledger::Record& run) { return run.condition == "c2"; });
+  std::vector<std::string> cells;
+  bool in_cell = false;
+  for (const auto& element : parse_xml(made_section(make_report(data)))) {
+    const bool head = element.name == "th" && element.attributes.at("scope") == "row";
+    if (head || in_cell) cells.push_back(element.text);
+    in_cell = element.name == "td";
+  }
+  const std::vector<std::string> expected{"c0", "c0.toml", "1–4", "4", "10", "batch", "00f0",
+                                          "c1", "c1.toml", "1–4", "4", "13", "ode",   "00f1",
+                                          "c2", "c2.toml", "1–4", "0", "–",  "–",     "–"};
+  ASSERT_GE(cells.size(), expected.size());
+  cells.resize(expected.size());
+  EXPECT_EQ(cells, expected);
+}
+
 TEST(Page, ShowsEachVerdictInTheTableOfClaims) {
   const Report report = make_report(small_study());
   const auto marks = with_class(parse_xml(make_page(report)), "verdict");
