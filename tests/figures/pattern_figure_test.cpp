@@ -106,6 +106,24 @@ TEST_P(PatternFigure, FillsItsWidthWithColumnsOfOneWidthUnderBarsOfTheirLegs) {
   }
 }
 
+TEST_P(PatternFigure, HasItsRowsOneBelowTheOtherAndNoRoomForMore) {
+  for (const int legs : {1, 2, 4, 6})
+    for (const bool timers : {true, false}) {
+      motion::RecordedTrial recorded = tests::walk(1, legs);
+      if (!timers) recorded.motion.timer_ticks.clear();
+      const auto elements = draw(recorded);
+      const auto titles = tests::with_class(elements, "title");
+      ASSERT_EQ(titles.size(), timers ? 4u : 3u);
+      const double apart = titles[1].number("y") - titles[0].number("y");
+      EXPECT_GT(apart, 100.0);
+      for (std::size_t i = 1; i < titles.size(); ++i)
+        EXPECT_NEAR(titles[i].number("y") - titles[i - 1].number("y"), apart, 0.02) << legs;
+      const double left = elements.front().number("height") - titles.back().number("y");
+      EXPECT_GT(left, 60.0);
+      EXPECT_LT(left, apart + 11.0) << legs;
+    }
+}
+
 TEST(PatternSvg, ShowsThePatternsWithoutATrial) {
   const motion::RecordedTrial recorded = tests::walk(1);
   const std::string svg = pattern_svg(recorded.robot, *recorded.supg);
