@@ -1,5 +1,6 @@
 #include "amble/report/page.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -61,6 +62,18 @@ TEST(Page, HasAMatrixOfDifferencesThatIsAntisymmetricAndBoldWhereSignificant) {
   const auto bold = std::ranges::count(expected, true, &std::pair<std::string, bool>::second);
   EXPECT_GT(bold, 0);
   EXPECT_LT(bold, std::ssize(expected));
+}
+
+TEST(Page, NumbersRowsAndColumnsOfAMatrixAlike) {
+  std::vector<std::string> heads;
+  for (const auto& element : parse_xml(pairs_section(make_report(large_study(9, 3)))))
+    if (element.name == "th" && std::ranges::count(element.path, "data dense matrix") > 0)
+      heads.push_back(element.text);
+  std::vector<std::string> expected{""};
+  for (int i = 1; i <= 9; ++i) expected.push_back(std::to_string(i));
+  for (int i = 1; i <= 9; ++i) expected.push_back(fmt::format("{} c{}", i, i - 1));
+  ASSERT_GE(heads.size(), expected.size());
+  for (std::size_t i = 0; i < heads.size(); ++i) EXPECT_EQ(heads[i], expected[i % expected.size()]) << i;
 }
 
 TEST(Page, OfAnEmptyLedgerSaysSo) {
@@ -156,6 +169,10 @@ TEST(Page, HasTheNumbersOfTheTables) {
                           ",\u00A0" + number_text(number(upper), decimals) + "]"));
       const std::string p = pairs ? p_number(number("student_p")) : "";
       EXPECT_NE(html.find(io::escape_xml(p)), std::string::npos) << p;
+      if (!pairs) continue;
+      EXPECT_THAT(html, HasSubstr("<div>" + number_text(number("a12"), 2) + " [" +
+                                  number_text(number("a12_lower"), 2) + ", " +
+                                  number_text(number("a12_upper"), 2) + "]"));
     }
   }
 }
