@@ -273,6 +273,7 @@ TEST(UnevenGroundInLanes, EveryInstructionSetAndLaneGivesTheSameBits) {
       engine->step(targets);
     }
     std::vector<std::uint64_t> hashes;
+    hashes.reserve(16);
     for (int lane = 0; lane < 16; ++lane) hashes.push_back(engine->state_hash(lane));
     return hashes;
   };
