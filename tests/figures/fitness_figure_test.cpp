@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/graphics/xml.hpp"
 
 namespace amble::figures {
@@ -47,6 +49,36 @@ TEST_P(FitnessFigure, DrawsCurvesInProportion) {
   EXPECT_NEAR(best[1].first - best[0].first, best[2].first - best[1].first, 0.11);
   // best rises by 2.54 m where mean rises by 0.75 m; up is towards zero. Coordinates are rounded to 0.1 px.
   EXPECT_NEAR((best[0].second - best[2].second) / (mean[0].second - mean[2].second), 2.54 / 0.75, 0.02);
+}
+
+TEST_P(FitnessFigure, FillsWhatLiesBelowTheBestDownToTheAxis) {
+  const auto elements = tests::parse_xml(fitness_figure(table(), GetParam()));
+  const auto best = tests::points(tests::with_class(elements, "best").at(0));
+  const double base = tests::with_class(elements, "axis").at(0).number("y1");
+  auto area = tests::points(tests::with_class(elements, "under-best").at(0));
+  ASSERT_EQ(area.size(), best.size() + 2);
+  EXPECT_EQ(area.back().first, best.front().first);
+  EXPECT_EQ(area[best.size()].first, best.back().first);
+  for (std::size_t i = best.size(); i < area.size(); ++i) EXPECT_NEAR(area[i].second, base, 0.06);
+  area.resize(best.size());
+  EXPECT_EQ(area, best);
+}
+
+TEST_P(FitnessFigure, PutsEachLabelBesideTheEndOfItsCurve) {
+  record::Generations generations = table();
+  // The ends are in another order than the beginnings, and far enough apart for labels at their own places.
+  generations.best = {1.0, 2.0, 9.0};
+  generations.mean = {8.0, 3.0, 1.0};
+  generations.median = {0.0, 4.0, 5.0};
+  const auto elements = tests::parse_xml(fitness_figure(generations, GetParam()));
+  for (const char* curve : {"best", "mean", "median"}) {
+    const auto drawn = tests::with_class(elements, curve);
+    const auto end = tests::points(drawn.at(0)).back();
+    const auto label = std::ranges::find(drawn, "text", &tests::XmlElement::name);
+    ASSERT_NE(label, drawn.end());
+    EXPECT_NEAR(label->number("y"), end.second + 4.0, 0.2) << curve;
+    EXPECT_GT(label->number("x"), end.first) << curve;
+  }
 }
 
 TEST_P(FitnessFigure, TakesASingleGenerationAndNoProgressAtAll) {

@@ -59,7 +59,7 @@ TEST_P(PatternFigure, CountsTriggersByTheTimerTheyFound) {
   motion::Motion& motion = recorded.motion;
   for (auto& trigger : motion.trigger) trigger.assign(40, false);
   // Three triggers at tick 5 of 10, and one that finds the timer stopped.
-  for (const std::size_t k : {10, 20, 30, 35}) {
+  for (const std::size_t k : {10u, 20u, 30u, 35u}) {
     motion.trigger[0][k] = true;
     motion.timer_ticks[0][k - 1] = k == 35 ? -1.0f : 5.0f;
   }
@@ -84,6 +84,44 @@ TEST_P(PatternFigure, TakesOtherLegCountsAndARecordingWithoutTimers) {
     EXPECT_EQ(tests::with_class(elements, "curve").size(), static_cast<std::size_t>(3 * legs));
     EXPECT_THAT(tests::texts(elements), Not(Contains(testing::StartsWith("Timer when"))));
   }
+}
+
+TEST_P(PatternFigure, FillsItsWidthWithColumnsOfOneWidthUnderBarsOfTheirLegs) {
+  constexpr double right_of_range_px = 14.0;  // the bin of stopped timers, and a margin behind the last leg
+  for (const int legs : {1, 2, 4, 6}) {
+    const auto elements = draw(tests::walk(1, legs));
+    const auto ranges = tests::with_class(elements, "range");
+    std::vector<tests::XmlElement> heads;
+    for (const auto& bar : tests::with_class(elements, "stance"))
+      if (bar.number("y") < 10) heads.push_back(bar);
+    ASSERT_EQ(heads.size(), static_cast<std::size_t>(legs));
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      EXPECT_NEAR(ranges[i].number("x"), heads[i % heads.size()].number("x"), 0.02);
+      EXPECT_NEAR(ranges[i].number("width"), heads[i % heads.size()].number("width"), 0.02);
+      EXPECT_NEAR(ranges[i].number("width"), ranges[0].number("width"), 0.02);
+    }
+    EXPECT_NEAR(heads.back().number("x") + heads.back().number("width") + right_of_range_px,
+                graphics::width_px(GetParam()), 0.02)
+        << legs;
+  }
+}
+
+TEST_P(PatternFigure, HasItsRowsOneBelowTheOtherAndNoRoomForMore) {
+  for (const int legs : {1, 2, 4, 6})
+    for (const bool timers : {true, false}) {
+      motion::RecordedTrial recorded = tests::walk(1, legs);
+      if (!timers) recorded.motion.timer_ticks.clear();
+      const auto elements = draw(recorded);
+      const auto titles = tests::with_class(elements, "title");
+      ASSERT_EQ(titles.size(), timers ? 4u : 3u);
+      const double apart = titles[1].number("y") - titles[0].number("y");
+      EXPECT_GT(apart, 100.0);
+      for (std::size_t i = 1; i < titles.size(); ++i)
+        EXPECT_NEAR(titles[i].number("y") - titles[i - 1].number("y"), apart, 0.02) << legs;
+      const double left = elements.front().number("height") - titles.back().number("y");
+      EXPECT_GT(left, 60.0);
+      EXPECT_LT(left, apart + 11.0) << legs;
+    }
 }
 
 TEST(PatternSvg, ShowsThePatternsWithoutATrial) {

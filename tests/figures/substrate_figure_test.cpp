@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "amble/figures/substrate_places.hpp"
 #include "tests/graphics/xml.hpp"
 #include "tests/motion/fixture.hpp"
 
@@ -79,6 +80,30 @@ TEST(SubstrateFigure, PutsAFrameAroundEachPlaneAndModule) {
   EXPECT_EQ(tests::with_class(tests::parse_xml(substrate_figure(grid(2), Layout::wide)), "plane").size(), 1u);
   EXPECT_EQ(tests::with_class(tests::parse_xml(substrate_figure(grid(3), Layout::wide)), "plane").size(), 3u);
   EXPECT_EQ(tests::with_class(tests::parse_xml(substrate_figure(grid(4), Layout::wide)), "plane").size(), 9u);
+}
+
+TEST(SubstrateFigure, PutsNodesInTheDirectionsOfTheirCoordinates) {
+  // Of larger coordinates: right, up, or both, where planes are seen from the side.
+  struct Direction {
+    int right, up;
+  };
+  const std::vector<std::vector<Direction>> directions{
+      {{1, 0}}, {{1, 0}, {0, 1}}, {{0, 1}, {1, 1}, {1, 0}}, {{1, 0}, {0, 1}, {1, 0}, {0, 1}}};
+  const auto sign = [](double value) { return std::fabs(value) < 1e-9 ? 0 : value > 0.0 ? 1 : -1; };
+  for (std::size_t coordinates = 1; coordinates <= 4; ++coordinates) {
+    const Substrate substrate = grid(coordinates);
+    const auto nodes = substrate_places(substrate, 600.0, 20.0).nodes;
+    ASSERT_EQ(nodes.size(), substrate.nodes.size());
+    std::size_t stride = 1;
+    for (std::size_t axis = 0; axis < coordinates; ++axis, stride *= 3)
+      for (std::size_t i = 0; i + stride < nodes.size(); ++i) {
+        if (substrate.nodes[i].at[axis] == 1) continue;
+        EXPECT_EQ(sign(nodes[i + stride].x - nodes[i].x), directions[coordinates - 1][axis].right)
+            << coordinates << " " << axis << " " << i;
+        EXPECT_EQ(sign(nodes[i].y - nodes[i + stride].y), directions[coordinates - 1][axis].up)
+            << coordinates << " " << axis << " " << i;
+      }
+  }
 }
 
 TEST(SubstrateFigure, NamesNodesPlanesRolesAndKinds) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "amble/core/random.hpp"
 #include "amble/morphology/robot_file.hpp"
@@ -36,6 +37,25 @@ TEST(Ground, TouchesABallAtItsDepthAlongTheNormal) {
     EXPECT_NEAR(touch.gap_m, gap_m, 0.01 * radius_m);
     EXPECT_NEAR(norm(touch.normal - up), 0.0, 1e-6);
     EXPECT_NEAR(norm(touch.point_m - (centre_m - radius_m * up)), 0.0, 1e-6);
+  }
+}
+
+TEST(Ground, OfAPlaneHasItsNormalWhicheverWayItRises) {
+  const robot::RobotSpec robot = quadruped();
+  for (const auto& [x, y] : {std::pair{0.25, 0.5}, {0.25, -0.5}, {-0.75, 0.5}, {0.0, -1.0}, {-0.5, 0.0}}) {
+    HeightField plane(0.04);  // h = x · X + y · Y around the origin
+    for (int j = -128; j < 128; ++j)
+      for (int i = -128; i < 128; ++i) plane.node(i, j) = static_cast<float>(0.04 * (x * i + y * j));
+    const Ground ground(plane, robot);
+    const double length = std::sqrt(1.0 + x * x + y * y);
+    const Vec3 normal{-x / length, -y / length, 1.0 / length};
+    const Vec3 place_m{0.31, -0.17, x * 0.31 - y * 0.17};
+    for (const double radius_m : robot::contact_radii_m(robot)) {
+      const Touch touch = ground.touch(place_m + radius_m * normal, radius_m);
+      EXPECT_NEAR(norm(touch.normal - normal), 0.0, 1e-6) << x << " " << y;
+      EXPECT_NEAR(norm(touch.point_m - place_m), 0.0, 1e-6) << x << " " << y;
+      EXPECT_NEAR(touch.gap_m, 0.0, 0.01 * radius_m + 1e-6);
+    }
   }
 }
 

@@ -14,6 +14,7 @@
 #include "amble/morphology/model_parts.hpp"
 #include "amble/morphology/robot_file.hpp"
 #include "amble/robot/json.hpp"
+#include "amble/robot/pose.hpp"
 
 namespace amble::morphology {
 namespace {
@@ -92,6 +93,34 @@ TEST(MjcfWriter, AcceptsAnyNames) {
   EXPECT_EQ(std::string(model->names), robot.name);
   EXPECT_EQ(model->nbody, 10);
   EXPECT_EQ(model->njnt, 13);
+}
+
+/// Of a mesh, in the frame of its body; its place for other shapes.
+Vec3 middle_of_corners_m(const robot::Geom& geom) {
+  Vec3 sum_m;
+  for (const Vec3 vertex : geom.vertices_m) sum_m = sum_m + vertex;
+  const auto count = static_cast<double>(std::max<std::size_t>(geom.vertices_m.size(), 1));
+  return robot::Pose{geom.position_m, geom.rotation} * (1.0 / count * sum_m);
+}
+
+TEST(MjcfWriter, WritesMeshesBesideOtherShapes) {
+  const robot::RobotSpec without = load("robots/quadruped/paper");
+  for (const std::size_t meshes : {std::size_t{0}, std::size_t{1}, std::size_t{2}, without.geoms.size()}) {
+    robot::RobotSpec robot = without;
+    for (std::size_t g = 0; g < meshes; ++g) {
+      robot::Geom& geom = robot.geoms[robot.geoms.size() - 1 - g];
+      geom.shape = robot::Shape::mesh;
+      const double edge_m = 0.01 * static_cast<double>(g + 1);
+      geom.vertices_m = {{0.0, 0.0, 0.0}, {edge_m, 0.0, 0.0}, {0.0, edge_m, 0.0}, {0.0, 0.0, edge_m}};
+      geom.triangles = {{{0, 2, 1}}, {{0, 1, 3}}, {{0, 3, 2}}, {{1, 2, 3}}};
+    }
+    const robot::RobotSpec again = through_mjcf(robot);
+    for (std::size_t g = 0; g < robot.geoms.size(); ++g) {
+      EXPECT_EQ(again.geoms[g].shape, robot.geoms[g].shape) << meshes << " " << g;
+      EXPECT_EQ(again.geoms[g].vertices_m.size(), robot.geoms[g].vertices_m.size());
+      EXPECT_NEAR(norm(middle_of_corners_m(again.geoms[g]) - middle_of_corners_m(robot.geoms[g])), 0.0, 1e-6);
+    }
+  }
 }
 
 TEST(MjcfWriter, LetsLegsCollideOnlyIfTheRobotSaysSo) {

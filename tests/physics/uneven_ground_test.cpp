@@ -82,6 +82,26 @@ TEST_P(UnevenGround, ABallRollsDownARampWithFiveSeventhsOfTheSlopesGravity) {
   EXPECT_NEAR(bench.engine->momentum_kg_m_s(0).y, 0.0, 1e-3);
 }
 
+TEST_P(UnevenGround, ABallRollsStraightDownWhicheverWayTheGroundFalls) {
+  const double slope = 0.25, angle = std::atan(slope), h = 0.002;
+  Bench bench(GetParam(), ball(std::numeric_limits<double>::infinity()), h);
+  for (int degrees = 0; degrees < 360; degrees += 45) {
+    const double direction_rad = degrees * std::numbers::pi / 180.0;
+    const Vec3 down{std::cos(direction_rad), std::sin(direction_rad), 0.0};
+    HeightField plane(0.04);
+    for (int j = -HeightField::cells / 2; j < HeightField::cells / 2; ++j)
+      for (int i = -HeightField::cells / 2; i < HeightField::cells / 2; ++i)
+        plane.node(i, j) = static_cast<float>(-slope * 0.04 * (down.x * i + down.y * j));
+    bench.engine->set_ground(on(plane, bench.robot));
+    bench.engine->place_at(0, upright_at(bench.robot, {0.0, 0.0, 0.1 * std::sqrt(1.0 + slope * slope)}));
+    bench.steps(300);
+    const Vec3 momentum = bench.engine->momentum_kg_m_s(0);
+    const double expected = 5.0 / 7.0 * 9.8 * std::sin(angle) * std::cos(angle) * 2.0 * 300 * h;
+    EXPECT_NEAR(dot(momentum, down), expected, 0.03 * expected) << degrees;
+    EXPECT_NEAR(norm(cross(down, {momentum.x, momentum.y, 0.0})), 0.0, 0.01 * expected) << degrees;
+  }
+}
+
 TEST_P(UnevenGround, ABallComesToRestInTheBottomOfAValley) {
   Bench bench(GetParam(), ball(0.8));
   const auto valley = on(profile([](double x) { return 0.5 * x * x; }), bench.robot);
@@ -253,6 +273,7 @@ TEST(UnevenGroundInLanes, EveryInstructionSetAndLaneGivesTheSameBits) {
       engine->step(targets);
     }
     std::vector<std::uint64_t> hashes;
+    hashes.reserve(16);
     for (int lane = 0; lane < 16; ++lane) hashes.push_back(engine->state_hash(lane));
     return hashes;
   };

@@ -120,6 +120,27 @@ TEST(Figures, HoldTheirTextsWithTwoConditionsOrTwenty) {
   }
 }
 
+TEST(SurvivalFigure, ShowsEachConditionsCurveOnceWhetherOverlaidOrInPanelsBeforeTheOthers) {
+  for (const int count : {1, 2, 4, 5, 8, 9, 20}) {
+    const Report report = make_report(large_study(count, 3));
+    ASSERT_FALSE(report.survival.empty());
+    for (const SurvivalTable& table : report.survival)
+      for (const auto layout : {Layout::wide, Layout::narrow}) {
+        const auto elements = parse_xml(survival_figure(report, table, layout));
+        const auto others = with_class(elements, "other").size();
+        const auto conditions = static_cast<std::size_t>(count);
+        std::vector<std::string> shown, expected;
+        for (const auto& element : elements)
+          if (element.name == "title" && element.text.find(" at the end") != std::string::npos)
+            shown.push_back(element.text.substr(0, element.text.find(':')));
+        for (const auto& condition : table.conditions) expected.push_back(report.label(condition.condition));
+        EXPECT_EQ(shown, expected);
+        EXPECT_EQ(expected.size(), conditions);
+        EXPECT_EQ(others, count <= graphics::leg_colours ? 0 : conditions * (conditions - 1));
+      }
+  }
+}
+
 TEST(CurvesFigure, GoesAroundTheBandBetweenTheQuartilesOnce) {
   const Report report = make_report(small_study());
   const auto bands = with_class(parse_xml(curves_figure(report, Layout::wide)), "band");

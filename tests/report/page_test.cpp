@@ -1,5 +1,6 @@
 #include "amble/report/page.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -61,6 +62,18 @@ TEST(Page, HasAMatrixOfDifferencesThatIsAntisymmetricAndBoldWhereSignificant) {
   const auto bold = std::ranges::count(expected, true, &std::pair<std::string, bool>::second);
   EXPECT_GT(bold, 0);
   EXPECT_LT(bold, std::ssize(expected));
+}
+
+TEST(Page, NumbersRowsAndColumnsOfAMatrixAlike) {
+  std::vector<std::string> heads;
+  for (const auto& element : parse_xml(pairs_section(make_report(large_study(9, 3)))))
+    if (element.name == "th" && std::ranges::count(element.path, "data dense matrix") > 0)
+      heads.push_back(element.text);
+  std::vector<std::string> expected{""};
+  for (int i = 1; i <= 9; ++i) expected.push_back(std::to_string(i));
+  for (int i = 1; i <= 9; ++i) expected.push_back(fmt::format("{} c{}", i, i - 1));
+  ASSERT_GE(heads.size(), expected.size());
+  for (std::size_t i = 0; i < heads.size(); ++i) EXPECT_EQ(heads[i], expected[i % expected.size()]) << i;
 }
 
 TEST(Page, OfAnEmptyLedgerSaysSo) {
@@ -156,8 +169,36 @@ TEST(Page, HasTheNumbersOfTheTables) {
                           ",\u00A0" + number_text(number(upper), decimals) + "]"));
       const std::string p = pairs ? p_number(number("student_p")) : "";
       EXPECT_NE(html.find(io::escape_xml(p)), std::string::npos) << p;
+      if (!pairs) continue;
+      EXPECT_THAT(html, HasSubstr("<div>" + number_text(number("a12"), 2) + " [" +
+                                  number_text(number("a12_lower"), 2) + ", " +
+                                  number_text(number("a12_upper"), 2) + "]"));
     }
   }
+}
+
+TEST(Page, TellsOfEachConditionWhatItsRunsWereMadeWith) {
+  StudyData data = large_study(3, 4);
+  for (ledger::Record& run : data.records) {
+    const auto condition = static_cast<int>(run.condition.back() - '0');
+    run.generations = 10 + 3 * condition;
+    run.engine = condition == 1 ? "ode" : "batch";
+    run.config = "00f" + std::to_string(condition);
+  }
+  std::erase_if(data.records, [](const ledger::Record& run) { return run.condition == "c2"; });
+  std::vector<std::string> cells;
+  bool in_cell = false;
+  for (const auto& element : parse_xml(made_section(make_report(data)))) {
+    const bool head = element.name == "th" && element.attributes.at("scope") == "row";
+    if (head || in_cell) cells.push_back(element.text);
+    in_cell = element.name == "td";
+  }
+  const std::vector<std::string> expected{"c0", "c0.toml", "1–4", "4", "10", "batch", "00f0",
+                                          "c1", "c1.toml", "1–4", "4", "13", "ode",   "00f1",
+                                          "c2", "c2.toml", "1–4", "0", "–",  "–",     "–"};
+  ASSERT_GE(cells.size(), expected.size());
+  cells.resize(expected.size());
+  EXPECT_EQ(cells, expected);
 }
 
 TEST(Page, ShowsEachVerdictInTheTableOfClaims) {

@@ -45,6 +45,22 @@ TEST(StudyData, HasMeasuresOfTheFirstWalkerOfTestsThatAskForADistance) {
   EXPECT_EQ(measures_of(data), expected);
 }
 
+TEST(StudyData, HasMeasuresOfMapsThatSomeRunsHave) {
+  StudyData data = small_study();
+  const std::size_t without = measures_of(data).size(), compared = compared_measures_of(data).size();
+  data.records[1].map_figures = {{"coverage", 0.5}, {"qd_score", 7.0}};
+  data.records[4].map_figures = {{"coverage", 0.25}, {"map_best", 2.0}};
+  const auto all = measures_of(data), some = compared_measures_of(data);
+  EXPECT_EQ(all.size(), without + 3);
+  EXPECT_EQ(some.size(), compared + 3);
+  for (const char* figure : {"coverage", "map_best", "qd_score"}) {
+    EXPECT_THAT(all, testing::Contains(figure).Times(1));
+    EXPECT_THAT(some, testing::Contains(figure).Times(1));
+  }
+  EXPECT_THAT(data.values("a", "coverage"), ElementsAre(0.5));
+  for (const std::string& measure : some) EXPECT_THAT(all, testing::Contains(measure));
+}
+
 TEST(Remarks, AreNoneOfAFinishedStudy) {
   EXPECT_THAT(remarks(small_study()), IsEmpty());
 }

@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+#include <utility>
+
 #include "amble/report/verdict.hpp"
 #include "tests/report/fixture.hpp"
 
@@ -60,6 +63,24 @@ TEST_F(Claims, OfADifferenceTellsStudentsNumbers) {
   EXPECT_EQ(judged.n, 5u);
   EXPECT_EQ(judged.n_against, 5u);
   EXPECT_EQ(judged.ours, "4.20 m against 1.20 m; difference 3.00 m [2.77, 3.23]");
+}
+
+TEST_F(Claims, TellWhatTheirEstimateIs) {
+  add_runs(data_, "a", {4.0, 4.1, 4.2, 4.3, 4.4});
+  add_runs(data_, "b", {1.0, 1.1, 1.2, 1.3, 1.4});
+  claim(ClaimKind::difference);
+  for (const auto& [test, quantity] : {std::pair{TwoSampleTest::student, "difference of means"},
+                                       {TwoSampleTest::welch, "difference of means"},
+                                       {TwoSampleTest::mann_whitney, "A12"}}) {
+    data_.study.claims[0].test = test;
+    EXPECT_EQ(only().quantity, quantity);
+  }
+  std::set<std::string> quantities;
+  for (const Judgement& judged : judge(small_study())) {
+    EXPECT_NE(judged.quantity, "");
+    quantities.insert(judged.quantity);
+  }
+  EXPECT_EQ(quantities.size(), 6u) << "one of each kind of claim";
 }
 
 TEST_F(Claims, OfADifferenceThatIsNotSignificantAreNotConfirmed) {
