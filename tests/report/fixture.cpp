@@ -134,7 +134,8 @@ StudyData large_study(int count, int runs) {
     for (int seed = 1; seed <= runs; ++seed) {
       auto run = sample_run(names[static_cast<std::size_t>(i)], seed, uniform(1.0, 3.0) + 0.3 * i);
       const double lasted = std::min(300.0, uniform(1.0, 500.0));
-      add_test(run, "long", uniform(1.0, 60.0), 300.0, lasted, uniform(0.5, 1.0) * lasted);
+      const double walked = uniform(0.5, 1.0) * lasted, distance_m = uniform(1.0, 60.0);
+      add_test(run, "long", distance_m, 300.0, lasted, walked);
       add_test(run, "ode", uniform(0.1, 1.0) * run.best_m, 15.0, 15.0, 15.0, "pace", "ode");
       run.provenance.claims = data.study.claims_hash();
       data.records.push_back(std::move(run));
