@@ -87,7 +87,11 @@ void keep_study(const StudyPaths& paths, const StudySpec& study) {
     from_folder(condition.config);
     from_folder(condition.robot);
   }
-  for (TestSpec& test : kept.tests) from_folder(test.noise);
+  for (TestSpec& test : kept.tests) {
+    from_folder(test.noise);
+    from_folder(test.ground);
+    from_folder(test.damage);
+  }
   const std::string text = kept.to_toml();
   if (fs::exists(paths.spec) && io::read_file(paths.spec) == text) return;
   std::error_code error;

@@ -63,5 +63,28 @@ TEST(Ledger, FilesOfNoRunOfTheStudyAreNamed) {
   EXPECT_EQ(Ledger(paths).load_all(sample_study()).size(), 1u);
 }
 
+TEST(KeptStudy, NamesTheSameFilesAsTheOriginalWhereverItsFolderIs) {
+  const TemporaryFolder folder;
+  StudySpec study = sample_study();
+  study.name = "kept";
+  study.generations = 3;
+  const auto file = [&](const char* name) { return (folder / "studies" / name).string(); };
+  for (ConditionSpec& condition : study.conditions) condition.config = file("supg.toml");
+  study.conditions[1].robot = file("robot.toml");
+  TestSpec& test = study.tests.emplace_back();
+  test.name = "hurt";
+  test.noise = file("noise.toml");
+  test.ground = file("ground.toml");
+  test.damage = file("damage.toml");
+  const StudyPaths paths(folder / "results/kept");
+  keep_study(paths, study);
+  const StudySpec kept = load_study(paths.spec);
+  EXPECT_EQ(kept.conditions[0].config, study.conditions[0].config);
+  EXPECT_EQ(kept.conditions[1].robot, study.conditions[1].robot);
+  EXPECT_EQ(kept.tests[0].noise, test.noise);
+  EXPECT_EQ(kept.tests[0].ground, test.ground);
+  EXPECT_EQ(kept.tests[0].damage, test.damage);
+}
+
 }  // namespace
 }  // namespace amble::ledger
