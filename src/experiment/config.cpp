@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "amble/core/error.hpp"
+#include "amble/experiment/problem.hpp"
 #include "amble/io/toml_settings.hpp"
 #include "amble/physics/engine.hpp"
 
@@ -38,8 +39,7 @@ void Config::describe(io::SettingsVisitor& visitor) {
 void ChampionSettings::describe(io::SettingsVisitor& visitor) {
   visitor.integer("episodes", episodes, {0, first_unseen_episode},
                   {"further trials under noise, the same throughout the run, that decide whether the best of "
-                   "a generation "
-                   "becomes the champion; 0: its evaluation decides, luck included"});
+                   "a generation becomes the champion; 0: its evaluation decides, luck included"});
 }
 
 void Config::validate() const {
