@@ -1,9 +1,9 @@
 #pragma once
 
 #include <atomic>
-#include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "amble/experiment/checkpoint.hpp"
 #include "amble/experiment/evaluator.hpp"

@@ -174,10 +174,8 @@ TEST(TomlSet, ComplaintsQuoteTheCommandLine) {
   for (const std::string bad : {"population", "population=", "=5", ".a=5", "a.=5", "a b=5", ""}) {
     EXPECT_EQ(refusal(bad), "--set " + bad + ": expected KEY.PATH=VALUE");
   }
-  EXPECT_EQ(refusal("weights=[1,"), "--set weights=[1,: the value is not valid TOML");
-  for (const std::string bad : {"name=[a", "name={", "name={a=1", "name='a", "name=\"a"})
+  for (const std::string bad : {"weights=[1,", "name=[a", "name={", "name={a=1", "name='a", "name=\"a"})
     EXPECT_EQ(refusal(bad), "--set " + bad + ": the value is not valid TOML");
-  EXPECT_EQ(refusal("name=\"a"), "--set name=\"a: the value is not valid TOML");
   EXPECT_EQ(refusal("name=a\xff"), "--set name=a\xff: the value is not valid UTF-8");
   EXPECT_EQ(refusal("population=5\nname=3"),
             "--set population=5\\x0aname=3: expected a whole number from 2 to 1000000");

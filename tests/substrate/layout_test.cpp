@@ -160,23 +160,13 @@ properties = [
 
 /// Whether two neurons with these entries for their time constants share them whatever the CPPN.
 bool share_time_constant(const std::string& b, const std::string& c) {
-  const std::string text = R"(
-coordinates = ["x"]
-outputs = ["weight", "bias", "tau"]
-nodes = [
-  { name = "a", group = "in", at = [-1], sensor = "sine" },
-  { name = "b", group = "neuron", at = [0.25] },
-  { name = "c", group = "neuron", at = [0.5], joint = "L_knee" },
-  { name = "d", group = "neuron", at = [0.75] },
-]
-links = [ { from = "in", to = "neuron" } ]
-properties = [
-  { of = "neuron", property = "bias", output = "bias" },
-  { of = "d", property = "time_constant", output = "tau", low = 1, high = 2 },
+  std::string text = line.substr(0, line.find("  { of = \"b\""));
+  text.insert(text.find("]\nlinks"), "  { name = \"d\", group = \"neuron\", at = [0.75] },\n");
+  text += R"(  { of = "d", property = "time_constant", output = "tau", low = 1, high = 2 },
   { of = "b", property = "time_constant", )" +
-                           b + R"( },
+          b + R"( },
   { of = "c", property = "time_constant", )" +
-                           c + " },\n]\n";
+          c + " },\n]\n";
   const Layout layout(substrate_of(text), ctrnn_needs(), hopper());
   EXPECT_EQ(layout.shared("time_constant", 1, 2), layout.shared("time_constant", 2, 1));
   return layout.shared("time_constant", 1, 2);
