@@ -54,6 +54,16 @@ TEST(DamageSettings, AreRefusedBeyondAJointsStopsAndWithoutAnyLeg) {
             "damage.parts: no leg is left; expected at least one that is not missing");
 }
 
+TEST(DamageSettings, PutAPayloadOnEitherSideOfTheBody) {
+  for (const char* key : {"x_m", "y_m", "z_m"})
+    for (const double place_m : {-100.0, -0.25, 0.25, 100.0}) {
+      io::Json json = io::settings_to_json(Part{.kind = Kind::payload});
+      json[key] = place_m;
+      const auto part = io::settings_from_json<Part>(io::JsonView(json, "text"));
+      EXPECT_EQ(key[0] == 'x' ? part.x_m : key[0] == 'y' ? part.y_m : part.z_m, place_m);
+    }
+}
+
 TEST(DamageSettings, KnowWhatTheyChange) {
   EXPECT_TRUE(Settings{}.is_default());
   EXPECT_FALSE(Settings{{numb("FL")}}.is_default());

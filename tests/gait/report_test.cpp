@@ -111,6 +111,15 @@ TEST(GaitReport, HasEachOfItsNumbersInItsJsonOnceAndUnderItsName) {
   EXPECT_EQ(json["reference_leg"], "C");
 }
 
+TEST(GaitReport, NamesEachGaitInItsJson) {
+  for (std::size_t gait = 0; gait < gait_names.size(); ++gait) {
+    Report report;
+    report.classification = Classification{static_cast<Gait>(gait), Irregular::no};
+    const io::Json json = io::parse_json(report_json(report), "text");
+    EXPECT_EQ(json["gait"], gait_names[gait]);
+  }
+}
+
 TEST(GaitReport, HasASegmentForEachReasonOfAnIrregularGait) {
   Report report;
   for (const Irregular reason : {Irregular::few_strides, Irregular::mixed_pairs, Irregular::mixed_pairs}) {

@@ -55,6 +55,17 @@ TEST(BinaryReader, NamesTheByteAtWhichDataEnds) {
             "runs/1/checkpoint: truncated at byte 4");
 }
 
+TEST(BinaryReader, RefusesWhatIsLeftOver) {
+  BinaryWriter writer;
+  writer.put(1.0);
+  writer.put(std::uint8_t{2});
+  BinaryReader reader(writer.bytes(), "x");
+  reader.get<double>();
+  EXPECT_EQ(error_of(ExitCode::bad_file, [&] { reader.finish(); }), "x: more bytes than expected at byte 8");
+  reader.get<std::uint8_t>();
+  reader.finish();
+}
+
 TEST(BinaryReader, RefusesCountsThatTheBytesCannotHold) {
   for (const std::uint64_t count :
        {std::uint64_t{3}, std::uint64_t{1} << 61, std::numeric_limits<std::uint64_t>::max()}) {

@@ -42,6 +42,18 @@ TEST(SettingsTable, ShowsTheKeysOfAListOnceAndHowManyItemsThereAre) {
       << table;
 }
 
+TEST(SettingsTable, NamesAKeyByAllTablesThatItIsIn) {
+  test::Inner inner;
+  const auto table = settings_to_markdown({{"default", [&inner](SettingsVisitor& visitor) {
+                                              visitor.begin("neat", {"Neat."});
+                                              visitor.begin("mutation", {"Mutation."});
+                                              visitor.table("links", inner, {"Links."});
+                                              visitor.end();
+                                              visitor.end();
+                                            }}});
+  EXPECT_NE(table.find("| `neat.mutation.links.seed` |"), std::string::npos) << table;
+}
+
 TEST(SettingsTable, ShowsOnlyRowsThatDifferIfAsked) {
   test::Inner defaults, one, other;
   defaults.seed = 5;

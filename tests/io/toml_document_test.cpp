@@ -105,6 +105,20 @@ TEST(TomlInclude, RefusesFilesThatMultiply) {
   EXPECT_NE(message.find("more than 100 files are included"), std::string::npos) << message;
 }
 
+TEST(TomlInclude, TakesAHundredFilesAndNoMore) {
+  const test::TemporaryFolder folder;
+  folder.put("part.toml", "");
+  const auto text = [](int files) {
+    std::string list;
+    for (int i = 0; i < files; ++i) list += "'part.toml', ";
+    return "include = [" + list + "]\nname = 'x'\n";
+  };
+  EXPECT_EQ(sample_from(TomlDocument::read(folder.put("x.toml", text(100)))).name, "x");
+  const auto path = folder.put("x.toml", text(101));
+  const std::string message = error_of(ExitCode::bad_input, [&] { TomlDocument::read(path); });
+  EXPECT_NE(message.find("more than 100 files are included"), std::string::npos) << message;
+}
+
 TEST(TomlSet, OverridesAndMakesTables) {
   TomlDocument document = TomlDocument::parse("population = 5\n[inner]\nrate = 0.5\n", "conf/x.toml");
   document.set("population=6");

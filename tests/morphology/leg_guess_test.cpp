@@ -163,6 +163,18 @@ TEST(LegGuess, NamesLegsByPlaceSideBySideAndRowByRow) {
   }
 }
 
+TEST(LegGuess, SaysWhereItHasNamesFrom) {
+  const Files files;
+  const auto reason = [&](const std::vector<std::vector<std::string>>& joints) {
+    return guess_of(files, model_of_legs(joints, four_places)).why_names;
+  };
+  EXPECT_EQ(reason({{"FL_hip", "FL_knee"}, {"FR_hip", "FR_knee"}}),
+            "the words that the names of a leg's joints share");
+  EXPECT_EQ(reason({{"flhip", "flknee"}, {"frhip", "frknee"}}),
+            "what the names of a leg's joints begin with");
+  EXPECT_EQ(reason(silent_names(4)), "by place: the names of joints do not tell");
+}
+
 TEST(LegGuess, TakesNoFootThatIsOnlyToLookAt) {
   const Files files;
   const std::string text =

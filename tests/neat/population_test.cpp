@@ -237,10 +237,13 @@ INSTANTIATE_TEST_SUITE_P(LonePlaces, PopulationOfManySpecies,
 TEST(PopulationDeathTest, AbortsOnFitnessThatIsNoNumber) {
   Population population(small_settings(), 2, 1, true, 1);
   std::vector<Fitness> fitness(60);
-  fitness[7].objective = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_DEATH(population.advance(fitness), "fitness is finite");
-  fitness[7] = {.selection = -1.0, .objective = 0.0};
-  EXPECT_DEATH(population.advance(fitness), "selection not negative");
+  for (const std::size_t i : {0, 7, 59}) {
+    fitness[i].objective = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_DEATH(population.advance(fitness), "fitness is finite");
+    fitness[i] = {.selection = -1.0, .objective = 0.0};
+    EXPECT_DEATH(population.advance(fitness), "selection not negative");
+    fitness[i] = {};
+  }
   EXPECT_DEATH(population.advance(std::span(fitness).first(59)), "one fitness per genome");
 }
 

@@ -53,6 +53,18 @@ TEST(Tables, LeaveCellsOfTestsEmptyThatHaveNothingToTell) {
   EXPECT_EQ(of_distances, 1);
 }
 
+TEST(Tables, NameWhatAClaimComparesWith) {
+  const auto all = tables(make_report(small_study()));
+  const Table& claims = find(all, "claims");
+  const auto title = std::ranges::find(claims.header, "against");
+  ASSERT_NE(title, claims.header.end());
+  const auto column = static_cast<std::size_t>(title - claims.header.begin());
+  std::vector<Cell> against;
+  for (const auto& row : claims.rows) against.push_back(row[column]);
+  const Cell none = std::string();
+  EXPECT_EQ(against, (std::vector<Cell>{std::string("b"), std::string("train_m"), none, none, none, none}));
+}
+
 TEST(Tables, OfAnEmptyLedgerHaveHeadersOnly) {
   StudyData data = small_study();
   data.records.clear();
