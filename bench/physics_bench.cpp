@@ -158,6 +158,16 @@ void measure_robots(std::vector<Figure>& figures) {
                        "1/s", "one core, authors' quadruped, one step after the other of all"});
   figures.push_back({"mujoco_robot_steps_per_s", mj_steps_per_s(authors, quarter_swing(authors)), "1/s",
                      "one core, authors' quadruped, mj_step alone, at most 20 iterations"});
+  for (const std::string name : {"biped", "hexapod", "octopod"}) {
+    const auto robot =
+        experiment::load_robot_file(fmt::format("{0}/robots/{1}/{1}.toml", AMBLE_SOURCE_DIR, name));
+    const double batch = steps_per_s("batch", robot, quarter_swing(robot)),
+                 mujoco = mj_steps_per_s(robot, quarter_swing(robot));
+    const std::string what =
+        fmt::format("one core, {} joints, {} legs", robot.joints.size(), robot.legs.size());
+    figures.push_back({"batch_robot_steps_per_s_" + name, batch, "1/s", what});
+    figures.push_back({"batch_vs_mujoco_" + name, batch / mujoco, "1", what + ", mj_step alone"});
+  }
 }
 
 void measure_physics(std::vector<Figure>& figures) {
