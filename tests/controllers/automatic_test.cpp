@@ -121,6 +121,12 @@ TEST(AutomaticSupg, SpreadsSixLegsEvenlyAndCloseTogether) {
     EXPECT_EQ(settings.nodes[i].at, (std::vector{legs[i / 3], static_cast<double>(i % 3) - 1.0}));
 }
 
+TEST(AutomaticSupg, RoundsPlacesToTwoDecimalsWhereThoseTellAllLegsApart) {
+  // The second leg's place before it is divided by 50: -1 + 2/99 of 100 legs, -1 + 2/101 of 102.
+  EXPECT_EQ(automatic_supg(tests::legged_robot(50)).nodes[3].at[0], -98.0 / 5000.0);
+  EXPECT_EQ(automatic_supg(tests::legged_robot(51)).nodes[3].at[0], (2.0 / 101.0 - 1.0) / 50.0);
+}
+
 TEST(AutomaticSupg, HasOneJointTypeAndOneLegAt0) {
   robot::RobotSpec robot = tests::legged_robot(1);
   for (const int type : {1, 2})

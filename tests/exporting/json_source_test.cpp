@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 #include "amble/io/json_file.hpp"
 #include "amble/neat/genome_json.hpp"
 #include "amble/robot/json.hpp"
@@ -49,8 +52,10 @@ TEST(JsonSource, HasNetworksThatGiveTheRecordedTargets) {
   ASSERT_EQ(neural["update"], "levels");
   const io::Json& tick = json["test"]["ticks"][0];
   std::vector<double> sensors, neurons;
+  std::multiset<std::string> read;
   for (const io::Json& sensor : neural["sensors"]) {
     const std::string reads = sensor["reads"];
+    read.insert(reads);
     double value = 0.0;  // of the sine at time 0, and of the attitude in the start pose
     for (std::size_t j = 0; j < controller["joints"].size(); ++j)
       if (reads == "angle." + std::string(controller["joints"][j]["name"])) value = tick["angle_rad"][j];
@@ -58,6 +63,7 @@ TEST(JsonSource, HasNetworksThatGiveTheRecordedTargets) {
       if (reads == "touch." + std::string(controller["legs"][l])) value = tick["touch"][l];
     sensors.push_back(value);
   }
+  for (const char* name : {"roll", "pitch", "yaw", "sine"}) EXPECT_EQ(read.count(name), 1u) << name;
   for (const io::Json& neuron : neural["neurons"]) {
     double sum = 0.0;
     for (const io::Json& link : neuron["from_sensors"])

@@ -71,6 +71,18 @@ TEST(StudySpec, CopyReadsBackTheSame) {
   EXPECT_EQ(copy.claims_hash(), study.claims_hash());
 }
 
+TEST(StudySpec, HashOfClaimsIsThatOfAnyStudyWithTheSameClaims) {
+  const TemporaryFolder folder;
+  io::write_file(folder.path() / "s.toml", good);
+  StudySpec study = load_study(folder.path() / "s.toml");
+  const std::string claims = study.claims_hash();
+  study.title = "another";
+  study.seeds.push_back(77);
+  EXPECT_EQ(study.claims_hash(), claims);
+  study.claims.emplace_back();
+  EXPECT_NE(study.claims_hash(), claims);
+}
+
 TEST(StudySpec, NamesHaveUpTo64Characters) {
   const auto named = [](std::size_t characters) {
     return diagnostic(replaced(good, "name = \"five\"", "name = \"" + std::string(characters, 'x') + "\""));

@@ -158,5 +158,22 @@ TEST(CheckRobot, DrawsItsLimitsWhereTheMessagesSay) {
             "leg 'A' has a foot that cannot collide");
 }
 
+TEST(CheckRobot, TakesHullsOfFourCornersAndFourTriangles) {
+  const std::vector<Vec3> corners{{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}};
+  const std::vector<std::array<int, 3>> triangles{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  const auto problem = [&](std::size_t lost_corners, std::size_t lost_triangles) {
+    return problem_after([&](RobotSpec& r) {
+      Geom& geom = r.geoms[0];
+      geom.shape = Shape::mesh;
+      geom.size_m = {0.1, 0, 0};
+      geom.vertices_m = {corners.begin(), corners.end() - static_cast<std::ptrdiff_t>(lost_corners)};
+      geom.triangles = {triangles.begin(), triangles.end() - static_cast<std::ptrdiff_t>(lost_triangles)};
+    });
+  };
+  EXPECT_EQ(problem(0, 0), "");
+  EXPECT_NE(problem(0, 1).find("must have at least four corners"), std::string::npos);
+  EXPECT_NE(problem(1, 0).find("must have at least four corners"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace amble::robot

@@ -31,6 +31,15 @@ inline Settings substrate_of(const std::string& toml) {
   return settings;
 }
 
+/// One leg with one joint, on a line.
+inline robot::RobotSpec hopper() {
+  robot::RobotSpec robot;
+  robot.joint_types = {"knee"};
+  robot.legs.push_back({"L", 0, {0}});
+  robot.joints.emplace_back().name = "L_knee";
+  return robot;
+}
+
 inline Needs supg_needs(int ticks = 100) {
   return {"supg", false, {"pattern", "offset"}, ticks};
 }

@@ -29,15 +29,6 @@ cppn::Network linear_cppn(const std::vector<std::vector<double>>& rows) {
   return {genome, {cppn::Linear::identity, true}};
 }
 
-/// One leg with one joint, on a line.
-robot::RobotSpec hopper() {
-  robot::RobotSpec robot;
-  robot.joint_types = {"knee"};
-  robot.legs.push_back({"L", 0, {0}});
-  robot.joints.emplace_back().name = "L_knee";
-  return robot;
-}
-
 const std::string line = R"(
 coordinates = ["x"]
 outputs = ["weight", "bias", "tau"]

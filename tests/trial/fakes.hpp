@@ -50,6 +50,7 @@ class FakeEngine : public physics::Engine {
       ++moved;
       state(lane).position.x += targets_rad.at(0, lane);
       state(lane).position.z -= 0.001;
+      frame_.touch.at(0, lane) = steps >= foot_down_from ? 1.0f : 0.0f;
     }
   }
   bool healthy(int lane) const override { return std::isfinite(state(lane).position.x); }
@@ -69,6 +70,8 @@ class FakeEngine : public physics::Engine {
   int moved = 0;
   Vec3 pushed_n_s;               ///< all pushes of all lanes
   float start_angle_rad = 0.0f;  ///< what a joint's sensor says from the start on
+  /// Its foot touches the ground in every step from this one on.
+  int foot_down_from = std::numeric_limits<int>::max();
 
  private:
   struct State {

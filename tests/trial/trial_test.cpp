@@ -101,6 +101,19 @@ TEST(Runner, NotesTheCentreOfMassAfterEachWholeSecondIfAsked) {
   }
 }
 
+TEST(Runner, CountsTheStepsInWhichEachFootIsDownIfAsked) {
+  for (const bool asked : {true, false}) {
+    FakeEngine engine(1);
+    engine.foot_down_from = 8;
+    FakeBatch batch(1);
+    Queue queue({FakeParameters(0.5f)});
+    Protocol contacts = protocol(20);
+    contacts.measures.contacts = asked;
+    Runner(engine, batch, contacts).run(queue, never);
+    EXPECT_EQ(queue.results[0]->contact_steps, asked ? std::vector<int>{13} : std::vector<int>());
+  }
+}
+
 TEST(Runner, NotesWhichWayTheRobotFacesAtTheStart) {
   FakeEngine engine(1);
   FakeBatch batch(1);
