@@ -9,6 +9,7 @@
 
 #include "amble/gait/report_text.hpp"
 #include "amble/io/json_file.hpp"
+#include "tests/graphics/golden.hpp"
 
 namespace amble::gait {
 namespace {
@@ -109,6 +110,17 @@ TEST(GaitReport, HasEachOfItsNumbersInItsJsonOnceAndUnderItsName) {
   EXPECT_EQ(json["legs"][1]["stride_sd_s"], *report.legs[1].stride_sd_s);
   EXPECT_EQ(json["legs"][3]["drift_per_min"], *report.legs[3].drift_per_min);
   EXPECT_EQ(json["reference_leg"], "C");
+}
+
+TEST(GaitReport, GoldenTextsMatch) {
+  Numbers numbers;
+  const Report report = numbered_report(numbers);
+  tests::expect_golden({{"gait.json", report_json(report)},
+                        {"gait-table.txt", report_table(report)},
+                        {"gait-summary.txt", report_summary(report)}},
+                       {{"gait-summary.txt", "9263278066c7b8bb"},
+                        {"gait-table.txt", "864c1f49eef3cec3"},
+                        {"gait.json", "85324cfe6c37910c"}});
 }
 
 TEST(GaitReport, NamesEachGaitInItsJson) {

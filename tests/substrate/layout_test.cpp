@@ -56,6 +56,13 @@ TEST(Layout, LinksAGroupToItselfWithoutSelfLinksAndANodeToItselfByName) {
   EXPECT_EQ(links, (std::vector<std::pair<int, int>>{{0, 1}, {0, 2}, {1, 2}, {2, 1}, {2, 2}}));
 }
 
+TEST(Layout, KnowsWhichNodesDriveAJoint) {
+  const Layout layout(substrate_of(line), ctrnn_needs(), hopper());
+  std::vector<int> joints;
+  for (const Node& node : layout.nodes()) joints.push_back(node.joint);
+  EXPECT_EQ(joints, (std::vector{-1, -1, 0}));
+}
+
 TEST(Layout, TurnsOutputsIntoWeightsByThresholdAndRange) {
   const Layout layout(substrate_of(line), ctrnn_needs(), hopper());
   // o = source + 2 target: −0.5, 0, 1.25 (counts as 1), 1, 1.5. With threshold 0.2 and range 3 the weight is
