@@ -48,7 +48,8 @@ std::filesystem::path robot_file(const std::filesystem::path& name) {
        names);
 }
 
-/// The robot of a Config, raised by its drop_m and on its ground's slope; or that of a robot file.
+/// The robot of a Config, raised by its drop_m and with its ground's slope and friction, but without its
+/// height field; or that of a robot file.
 robot::RobotSpec robot_of(const py::object& robot) {
   if (!py::isinstance<LoadedConfig>(robot)) return experiment::load_robot_file(robot_file(path_of(robot)));
   const auto& config = robot.cast<const LoadedConfig&>().value;
@@ -191,9 +192,10 @@ control order (docs/CONVENTIONS.md). Several threads may use one object; their c
   type.def(
           py::init(&make), py::arg("robot"), py::arg("n") = 1, py::arg("engine") = "batch", py::kw_only(),
           py::arg("timestep_s") = py::none(), py::arg("threads") = py::none(),
-          R"(robot: name of one of robots(), path of a robot file (TOML or robot.json), or a Config. n: 1 to 1,048,576. engine: "batch" (sixteen at a time),
-"ode" or "mujoco". timestep_s: s (default: the config's, else 0.01). threads: default processors; results do not
-depend on it. All robots stand in their start pose. Raises Error.)")
+          R"(robot: name of one of robots(), path of a robot file (TOML or robot.json), or a Config, of whose ground slope and
+friction count, as robots are on a plane. n: 1 to 1,048,576. engine: "batch" (sixteen at a time), "ode" or "mujoco".
+timestep_s: s (default: the config's, else 0.01). threads: default processors; results do not depend on it. All robots
+stand in their start pose. Raises Error.)")
       .def(
           "step", step, py::arg("targets"),
           R"(Advances each robot by one timestep towards its target angles; returns observations, the live view.

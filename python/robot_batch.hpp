@@ -63,8 +63,8 @@ struct Observations {
   int com_column() const { return joints + legs + 3; }
 };
 
-/// Any number of copies of one robot, each in a lane of one of several engines, which advance together on
-/// several threads. Not one bit depends on their number.
+/// Any number of copies of one robot on the plane z = 0, each in a lane of one of several engines, which
+/// advance together on several threads. Not one bit depends on their number.
 class RobotBatch {
  public:
   /// All robots are placed. `count` ≥ 1, `threads` ≥ 1. Throws UserError for an unknown engine or a robot

@@ -38,7 +38,7 @@ void add_robot(CLI::App& app, Action& action) {
       if (!options->mjcf.empty()) io::write_file(options->mjcf, morphology::write_mjcf(robot).text);
       fmt::print("{}", robot::summary(robot));
       if (const auto line = solver_line(robot)) fmt::print("{}", *line);
-      if (!notes.lines().empty()) fmt::print("\nthe model, beside what is above:\n{}", notes.text());
+      if (!notes.lines().empty()) fmt::print("\nimport notes:\n{}", notes.text());
       return ExitCode::ok;
     };
   });

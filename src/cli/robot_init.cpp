@@ -113,7 +113,7 @@ ExitCode init_robot(const fs::path& model, fs::path folder) {
   const std::string engine = robot ? engine_line(*robot) : "engine = \"batch\"\n";
   io::write_file(config_path, config_text(guess.name, engine, robot ? robot->legs.size() : 0, folder));
   if (robot) fmt::print("{}", robot::summary(*robot));
-  if (!notes.lines().empty()) fmt::print("\nthe model, beside what is above:\n{}", notes.text());
+  if (!notes.lines().empty()) fmt::print("\nimport notes:\n{}", notes.text());
   fmt::print("\nwrote {} and {}\n", robot_path.string(), config_path.string());
   if (!asked.empty()) {
     fmt::print("still to be given in {}:\n", robot_path.string());

@@ -15,6 +15,7 @@ namespace {
 
 struct ArchitectureKind {
   std::string_view name;  ///< value of controller.kind
+  std::string_view what;  ///< in the description of controller.kind
   std::unique_ptr<const Architecture> (*make)(const ControllerSettings& settings,
                                               const robot::RobotSpec& robot, double timestep_s);
   /// Makes its substrate from a robot (automatic.hpp); null: it has no rule for that.
@@ -32,10 +33,23 @@ std::unique_ptr<const Architecture> make(const ControllerSettings& settings, con
 // that makes its substrate from a robot, and, if it has settings, a member of ControllerSettings with its
 // line below.
 constexpr std::array kinds{
-    ArchitectureKind{"supg", make<SupgArchitecture, &ControllerSettings::supg>, automatic_supg},
-    ArchitectureKind{"network", make<NetworkArchitecture, &ControllerSettings::network>, automatic_network},
-    ArchitectureKind{"ctrnn", make<CtrnnArchitecture, &ControllerSettings::ctrnn>, automatic_ctrnn},
+    ArchitectureKind{"supg", "single-unit pattern generators (supg)",
+                     make<SupgArchitecture, &ControllerSettings::supg>, automatic_supg},
+    ArchitectureKind{"network",
+                     "static neurons (network; with a sine among the sensors the sine wave architecture)",
+                     make<NetworkArchitecture, &ControllerSettings::network>, automatic_network},
+    ArchitectureKind{"ctrnn", "continuous-time neurons (ctrnn)",
+                     make<CtrnnArchitecture, &ControllerSettings::ctrnn>, automatic_ctrnn},
 };
+
+std::string kind_description() {
+  std::string text = "architecture of the controller: ";
+  for (const ArchitectureKind& kind : kinds) {
+    if (&kind != &kinds.front()) text += &kind == &kinds.back() ? " or " : ", ";
+    text += kind.what;
+  }
+  return text;
+}
 
 const ArchitectureKind& kind_of(const ControllerSettings& settings) {
   const auto row = std::ranges::find(kinds, settings.kind, &ArchitectureKind::name);
@@ -63,12 +77,8 @@ void check_without_lists(const substrate::Settings& settings) {
 }  // namespace
 
 void ControllerSettings::describe(io::SettingsVisitor& visitor) {
-  visitor.row_name(
-      "kind", kind, kinds,
-      {"architecture of the controller: single-unit pattern generators (supg), static neurons "
-       "(network; with a sine among the sensors the sine wave architecture) or continuous-time neurons "
-       "(ctrnn)",
-       "Morse et al. 2013, sec. 3 and 4"});
+  static const std::string architectures = kind_description();
+  visitor.row_name("kind", kind, kinds, {architectures, "Morse et al. 2013, sec. 3 and 4"});
   visitor.table("substrate", substrate,
                 {.what = "the nodes of the controller, and what the CPPN says of them",
                  .source = "Morse et al. 2013, sec. 2.2",

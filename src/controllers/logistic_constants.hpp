@@ -1,6 +1,6 @@
 #pragma once
 
-/// Numbers of the logistic function; how they are used is told in logistic-inl.hpp.
+/// Numbers of the logistic function; how they are used is explained in logistic-inl.hpp.
 namespace amble::controllers::constants {
 
 inline constexpr float log2_e = 0x1.715476p0f;

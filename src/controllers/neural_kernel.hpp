@@ -5,7 +5,7 @@
 #include "amble/controllers/sum_table.hpp"
 
 /// The neurons' updates of a tick, compiled for several instruction sets; the best that the CPU has is chosen
-/// at run time. docs/CONTROLLERS.md tells why they all give the same bits.
+/// at run time. docs/CONTROLLERS.md explains why they all give the same bits.
 namespace amble::controllers {
 
 /// What a tick of all lanes works on. Rows are those of LaneRows: `stride` floats from one to the next.

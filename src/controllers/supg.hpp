@@ -16,7 +16,7 @@ namespace amble::controllers {
 inline constexpr std::string_view offset_property = "offset";
 
 /// A decoded SUPG controller: for each joint the target angle at each value of its leg's timer, and the
-/// offset of each leg. The CPPN is asked once for all of them and not again while the robot walks.
+/// offset of each leg. The CPPN is queried once for all of them and not again while the robot walks.
 class SupgParameters : public Parameters {
  public:
   SupgParameters(int legs, int types, int period_ticks);
@@ -67,7 +67,7 @@ struct SupgJoints {
 /// The SUPGs of a leg share one timer, in ticks; −1 means stopped. In each tick, in this order:
 /// 1. Touch is read. It is a trigger with Trigger::level; with Trigger::edge only if the foot was off the
 ///    ground in at least the trigger_debounce_ticks ticks before. All feet count as touching before tick 1.
-/// 2. The timer is set. Offset::phase: before tick 1 it stands at the offset, from which it grows; a trigger
+/// 2. The timer is set. Offset::phase: before tick 1 its value is the offset, from which it grows; a trigger
 ///    in tick 1 is ignored. Offset::delay: it is stopped for `offset` ticks and starts at start_tick in the
 ///    next. From the tick after this first start on, a trigger sets it to start_tick; triggers before are
 ///    ignored. Otherwise it grows by 1; when that reaches the period, Idle::mid stops it, Idle::hold keeps it

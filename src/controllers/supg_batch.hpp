@@ -8,8 +8,8 @@
 
 namespace amble::controllers {
 
-/// SUPG controllers stepping together; what they do is told at SupgArchitecture. Each quantity is stored leg
-/// by leg, over the lanes, and the update of a tick has no branches that depend on a lane.
+/// SUPG controllers stepping together; what they do is documented at SupgArchitecture. Each quantity is
+/// stored leg by leg, over the lanes, and the update of a tick has no branches that depend on a lane.
 class SupgBatch : public Batch {
  public:
   /// `parked` is what runs in lanes that have not been loaded.

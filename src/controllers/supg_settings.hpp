@@ -22,7 +22,7 @@ enum class Idle { mid, hold, wrap };
 inline constexpr std::array<std::string_view, 3> idle_names{"mid", "hold", "wrap"};
 
 /// Single-unit pattern generators (Morse et al. 2013, sec. 3). The defaults are what the authors' code did;
-/// the text leaves some of it open. controllers/supg.hpp tells exactly what each setting does.
+/// the text leaves some of it open. controllers/supg.hpp specifies what each setting does.
 struct SupgSettings {
   double period_s = 1.0;
   Trigger trigger = Trigger::edge;

@@ -9,7 +9,7 @@ namespace amble {
 
 }  // namespace amble
 
-/// A condition that only a programmer's mistake can break. Always on; aborts with file and line.
+/// A condition that only a programming error can break. Always on; aborts with file and line.
 /// For mistakes of the user see core/error.hpp; diverged physics is an outcome, not an error.
 #define AMBLE_CHECK(condition, detail) \
   (static_cast<bool>(condition) ? void() : ::amble::check_failed(__FILE__, __LINE__, #condition, detail))

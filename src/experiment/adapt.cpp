@@ -31,7 +31,7 @@ class Reality {
     evaluator_ = std::make_unique<Evaluator>(problem_, record::PathSampling(), jobs);
   }
 
-  /// Mean objective of an elite over `count` trials, from the `first`-th that evolution has not met.
+  /// Mean objective of an elite over `count` trials, from the `first`-th of those unseen during evolution.
   std::optional<double> trials(std::uint32_t number, int first, int count, const std::atomic<bool>& stop) {
     const neat::Genome genome = neat::expand(repertoire_.elites[number].genome, "archive.bin");
     const auto scenarios = unseen_scenarios(problem_, repertoire_.config.seed, first, count, ground_.get());
@@ -85,7 +85,7 @@ std::optional<Adaptation> adapt(const Repertoire& repertoire, const AdaptSetting
                    .expected = elites[number].objective,
                    .predicted = search.mean(candidate),
                    .deviation = search.deviation(candidate)};
-    // Judging trials come first in the numbering, so that the search has not met them.
+    // Judging trials come first in the numbering, so that they are unseen by the search.
     const auto measured =
         damaged.trials(number, settings.judges + static_cast<int>(adaptation.steps.size()), 1, stop);
     if (!measured) return std::nullopt;

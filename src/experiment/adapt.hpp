@@ -14,11 +14,11 @@ namespace amble::experiment {
 
 /// A robot that is not what its map was made with.
 struct AdaptSettings {
-  std::string engine = "ode";  ///< stands for reality
+  std::string engine = "ode";  ///< takes the place of the real robot
   damage::Settings damage;
   int most_trials = 20;
   adaptation::TrialAndErrorSettings search = {};
-  int judges = 20;  ///< trials that judge a gait before and after, under noise the search has not met
+  int judges = 20;  ///< trials that judge a gait before and after, under noise unseen by the search
 };
 
 /// One trial of the search.

@@ -13,7 +13,7 @@ namespace amble::experiment {
 
 /// Decides whether the best genome of a generation becomes the run's champion: by its objective, or, with
 /// `champion.episodes`, by its objective in as many further trials, the same for all genomes of the run and
-/// none of which evolution meets. Then luck in one evaluation makes no champion. Judgements follow from
+/// none of which evolution meets. So one lucky evaluation cannot make a champion. Judgements follow from
 /// genome, seed and config alone, so they are not stored: a resumed run judges its champion again.
 class ChampionChoice {
  public:

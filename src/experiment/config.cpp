@@ -11,14 +11,25 @@
 #include "amble/physics/engine.hpp"
 
 namespace amble::experiment {
+namespace {
+
+/// "physics engine: ode, batch or mujoco".
+std::string engine_description() {
+  const auto names = physics::engine_names();
+  return fmt::format("physics engine: {} or {}", fmt::join(names.first(names.size() - 1), ", "),
+                     names.back());
+}
+
+}  // namespace
 
 void Config::describe(io::SettingsVisitor& visitor) {
+  static const std::string engines = engine_description();
   visitor.text("name", name, {"what this experiment is called in files and figures"});
   visitor.text("robot", robot, {"robot file, relative to the config file"});
   visitor.number("drop_m", drop_m, {0.0, 1.0},
                  {"each trial starts with the robot dropped from this height above its start pose, m",
                   "Morse et al. 2013 and the authors' code: feet on the ground (0)"});
-  visitor.text("engine", engine, {"physics engine: ode, batch or mujoco", "Morse et al. 2013, sec. 4 (ode)"});
+  visitor.text("engine", engine, {engines, "Morse et al. 2013, sec. 4 (ode)"});
   visitor.texts("referees", referees,
                 {"engines in which each new champion is run again; its file records the distances there"});
   visitor.integer("seed", seed, {0, static_cast<double>(largest_seed)}, {"seed of all randomness"});

@@ -13,7 +13,7 @@ namespace amble::experiment {
 /// The objective of a genome from the scores (at least one) of its episodes.
 double objective(trial::EpisodeScore combined, std::span<const double> scores);
 
-/// The trials numbered `first`, `first` + 1, … of those that evolution has not met, for `count` trials of any
+/// The trials numbered `first`, `first` + 1, … of those unseen during evolution, for `count` trials of any
 /// genome; none for a problem without noise. `ground` is that of unseen_key(seed).
 std::vector<trial::Scenario> unseen_scenarios(const Problem& problem, std::int64_t seed, int first, int count,
                                               const ground::Ground* ground);

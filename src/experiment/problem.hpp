@@ -76,7 +76,7 @@ struct Problem {
                                          const ground::Ground* on = nullptr) const;
 };
 
-/// The first episode of a champion's trials under noise that evolution has not met; on uneven ground its
+/// The first episode of a champion's trials under noise unseen during evolution; on uneven ground its
 /// ground is new as well.
 inline constexpr std::uint32_t first_unseen_episode = 1000;
 
@@ -96,7 +96,7 @@ class GenerationGround {
 /// The robot of a config. Throws UserError; if its file is missing, with the place that names it.
 robot::RobotSpec load_robot(const Config& config);
 /// A robot file: the TOML side file of a model, or the robot.json of a run folder. `notes`, if given, gets
-/// what became of the model's parts. Throws UserError.
+/// how the model's parts were handled. Throws UserError.
 robot::RobotSpec load_robot_file(const std::filesystem::path& path,
                                  morphology::ReadingNotes* notes = nullptr);
 /// The text of a robot.json.

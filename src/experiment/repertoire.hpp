@@ -35,7 +35,7 @@ std::string repertoire_json(const Repertoire& repertoire);
 std::optional<Champion> elite_champion(const Repertoire& repertoire, std::uint32_t cell, int jobs,
                                        const std::atomic<bool>& stop);
 
-/// What a map keeps of what it promises, under noise that evolution has not met.
+/// How far a map's objectives hold up when its elites are tested again, under noise unseen during evolution.
 struct Retest {
   std::uint32_t elites = 0;
   double promised = 0.0;       ///< sum of the elites' objectives: the map's QD score

@@ -39,7 +39,7 @@ struct SupgTables {
   std::vector<std::vector<float>> targets_rad;
 };
 
-/// A network of neurons as tables. What a tick does is told at controllers::NetworkArchitecture and
+/// A network of neurons as tables. What a tick does is documented at controllers::NetworkArchitecture and
 /// CtrnnArchitecture, and to the bit in docs/CONTROLLERS.md.
 struct NeuralTables {
   /// An expressed link. `source`: of Neuron::from_sensors in `sensors`, of from_neurons in `neurons`.

@@ -9,7 +9,7 @@
 
 namespace amble::exporting {
 
-/// What a controller sensed and what it answered, tick by tick, in a trial without noise. Float32, as the
+/// What a controller sensed and what it output, tick by tick, in a trial without noise. Float32, as the
 /// controller itself reads and writes them.
 struct Trace {
   struct Tick {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 
+#include "amble/core/check.hpp"
 #include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"
 #include "amble/core/random.hpp"
@@ -89,14 +90,20 @@ Shape random_shape(const Settings& settings, double period_m, Stream stream) {
       return [=](double x_m, double y_m) {
         return lattice->at(static_cast<int>(scaled(x_m, count)), static_cast<int>(scaled(y_m, count))) - 0.5;
       };
-    default:  // blocks
+    case Kind::blocks:
       return [=](double x_m, double y_m) {
         const double u = scaled(x_m, count), v = scaled(y_m, count);
         const int i = static_cast<int>(u), j = static_cast<int>(v);
         const bool inside = std::abs(u - i - 0.5) < 0.25 && std::abs(v - j - 0.5) < 0.25;
         return inside && lattice->at(i, j) < 0.5 ? 1.0 : 0.0;
       };
+    case Kind::plane:
+    case Kind::stairs:
+    case Kind::hurdles:
+      break;
   }
+  AMBLE_CHECK(false, "a random kind of ground");
+  return {};
 }
 
 /// Heights by the distance from the flat start, along x or y, whichever is farther.
@@ -197,16 +204,16 @@ Key normalised(const Settings& settings, Key key) {
 
 HeightField make_field(const Settings& settings, const Key& key) {
   HeightField field(settings.cell_m);
+  if (!settings.has_field()) return field;
   const double period_m = field.period_m(), scale_m = scale_of(settings, key);
-  const bool concentric = settings.kind == Kind::stairs || settings.kind == Kind::hurdles;
-  const Shape shape = concentric ? concentric_shape(settings, period_m)
-                                 : random_shape(settings, period_m, stream_of(settings, key));
+  const Shape shape = settings.concentric() ? concentric_shape(settings, period_m)
+                                            : random_shape(settings, period_m, stream_of(settings, key));
   constexpr int half = HeightField::cells / 2;
   for (int j = -half; j < half; ++j)
     for (int i = -half; i < half; ++i) {
       const double x_m = i * settings.cell_m, y_m = j * settings.cell_m;
       double height_m = scale_m * shape(x_m, y_m);
-      if (!concentric) {
+      if (!settings.concentric()) {
         const double away_m = std::sqrt(x_m * x_m + y_m * y_m) - settings.start_radius_m;
         height_m *= smooth(std::clamp(away_m / blend_m, 0.0, 1.0));
       }

@@ -47,7 +47,7 @@ class HeightField {
 struct Key {
   std::uint64_t seed = 0;        ///< of the run; used with Vary::generations only
   std::uint32_t generation = 0;  ///< for the curriculum, and with Vary::generations
-  std::uint32_t set = 0;         ///< 0: that of evolution; others: grounds that evolution has never met
+  std::uint32_t set = 0;         ///< 0: that of evolution; others: grounds unseen during evolution
 
   friend bool operator==(const Key&, const Key&) = default;
 };
@@ -55,7 +55,8 @@ struct Key {
 /// The same for all keys that give the same field.
 Key normalised(const Settings& settings, Key key);
 
-/// The field of these settings. A curriculum scales it by generation / grow_generations.
+/// The field of these settings; of the plane, one of height 0. A curriculum scales it by
+/// generation / grow_generations.
 HeightField make_field(const Settings& settings, const Key& key);
 
 /// Where the centre of a ball of radius `radius_m` is when it touches `field`: the lowest heights at which it

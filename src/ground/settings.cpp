@@ -43,9 +43,9 @@ void Settings::validate() const {
                  "ground.length_m = {}: expected at least two cells of {} m (ground.cell_m)", length_m,
                  cell_m);
   // At least one whole step or obstacle around the start, or two waves or stones.
-  const bool concentric = kind == Kind::stairs || kind == Kind::hurdles;
   const double period_m = HeightField::cells * cell_m;
-  const double needed_m = 2.0 * (concentric ? start_radius_m + length_m : std::max(start_radius_m, length_m));
+  const double needed_m =
+      2.0 * (concentric() ? start_radius_m + length_m : std::max(start_radius_m, length_m));
   if (needed_m > period_m)
     fail_setting(
         {"ground.length_m", "ground.start_radius_m", "ground.cell_m"},

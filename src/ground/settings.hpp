@@ -14,7 +14,7 @@ enum class Kind {
   hills,    ///< smooth: three octaves of value noise, the longest `length_m`
   rough,    ///< a random height every `length_m`, straight between them
   stones,   ///< square plateaus of random heights, `length_m` wide
-  blocks,   ///< every other square of `length_m`, by lot, has a box half as wide, `height_m` high
+  blocks,   ///< half of the squares of `length_m`, at random, have a box half as wide, `height_m` high
   stairs,   ///< steps up and down again, `height_m` high and `length_m` deep
   hurdles,  ///< walls 0.08 m thick, `height_m` high, one every `length_m`
 };
@@ -46,6 +46,8 @@ struct Settings {
 
   bool is_default() const;
   bool has_field() const { return kind != Kind::plane; }
+  /// Whether heights follow from the distance to the flat start alone, not from random numbers.
+  bool concentric() const { return kind == Kind::stairs || kind == Kind::hurdles; }
   /// The direction of `gravity_m_s2` (straight down, any magnitude) as seen from the plane of the ground,
   /// which stays z = 0: on a slope the world's z axis is the plane's normal.
   Vec3 tilted(Vec3 gravity_m_s2) const;

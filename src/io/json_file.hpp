@@ -20,13 +20,13 @@ inline constexpr int json_depth_limit = 64;
 /// truncated, nested too deeply, a number beyond the range of double.
 Json parse_json(std::string_view text, const std::string& what);
 
-/// A number as JSON: finite ones as such, infinite ones as the texts "inf" and "-inf". NaN is a programmer's
-/// mistake (checked).
+/// A number as JSON: finite ones as such, infinite ones as the texts "inf" and "-inf". NaN is a programming
+/// error (checked).
 Json json_number(double value);
 
 /// JSON laid out for people: indented by two spaces; lists of plain values, and everything else that is
-/// short, on one line. Numbers read back to the same bits. Numbers that are not finite are a programmer's
-/// mistake (see json_number); invalid UTF-8 becomes U+FFFD.
+/// short, on one line. Numbers read back to the same bits. Numbers that are not finite are a programming
+/// error (see json_number); invalid UTF-8 becomes U+FFFD.
 std::string json_text(const Json& json);
 
 /// The text of a JSON document that amble writes: {"format": NAME, "version": V, …document…, "checksum":

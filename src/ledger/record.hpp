@@ -25,7 +25,7 @@ struct EpisodeResult {
 /// When a run first had a champion that gets as far as a test asks (TestSpec::reach_m).
 struct Reached {
   int generation = 0;
-  std::uint64_t evaluations = 0, steps = 0;  ///< up to and with that generation; steps: simulated ticks
+  std::uint64_t evaluations = 0, steps = 0;  ///< up to and with that generation; simulation steps
 
   friend bool operator==(const Reached&, const Reached&) = default;
 };

@@ -135,6 +135,8 @@ class PartsExtractor {
       note(Reading::left_out,
            "{} geoms of the world, the first of them {}: the ground is amble's own, the plane z = 0",
            obstacles_.size(), obstacles_.front());
+    if (model_.ncam + model_.nlight + model_.nsite > 0)
+      note(Reading::left_out, "{} cameras, {} lights, {} sites", model_.ncam, model_.nlight, model_.nsite);
     if (model_.nu > 0) note(Reading::left_out, "{} actuators: the robot file has the servos", model_.nu);
     if (model_.ntendon > 0) note(Reading::left_out, "{} tendons, which only measure", model_.ntendon);
     if (model_.neq > 0) note(Reading::left_out, "{} equality constraints, which are not active", model_.neq);
@@ -254,7 +256,10 @@ class PartsExtractor {
       note(Reading::left_out, "geom '{}': a shape that cannot be shown", name_or_place(g));
       return;
     }
-    if (shape->shape == robot::Shape::mesh) ++(collides(g) ? hulls_ : shown_hulls_);
+    if (type == mjGEOM_ELLIPSOID)
+      ++ellipsoids_;
+    else if (shape->shape == robot::Shape::mesh)
+      ++(collides(g) ? hulls_ : shown_hulls_);
     const int b = model_.geom_bodyid[g];
     const robot::Pose pose = pose_in_group_[to_index(b)] *
                              robot::Pose{vec3(model_.geom_pos + 3 * g), quat(model_.geom_quat + 4 * g)};
@@ -276,6 +281,9 @@ class PartsExtractor {
       throw UserError(fmt::format("{}: collision meshes that are missing, or neither STL, OBJ nor MSH: {}",
                                   file_.path.string(), fmt::join(lost_, ", ")),
                       ExitCode::io);
+    note(Reading::kept, "{} bodies, {} joints, {} geoms, {} keyframes", parts_.bodies.size(),
+         parts_.joints.size(), parts_.geoms.size() - to_index(hulls_ + shown_hulls_ + ellipsoids_),
+         model_.nkey);
     if (!springs_.empty()) note(Reading::left_out, "the springs of joints {}", fmt::join(springs_, ", "));
     if (hulls_ > 0)
       note(Reading::replaced, "{} meshes that collide: the convex hull of each, with at most {} corners",
@@ -283,6 +291,9 @@ class PartsExtractor {
     if (shown_hulls_ > 0)
       note(Reading::replaced, "{} meshes to look at: the convex hull of each, with at most {} corners",
            shown_hulls_, most_decoration_vertices);
+    if (ellipsoids_ > 0)
+      note(Reading::replaced, "{} ellipsoids: convex hulls of {} points", ellipsoids_,
+           most_collision_vertices);
   }
 
   std::string name_or_place(int g) const {
@@ -308,7 +319,7 @@ class PartsExtractor {
   std::vector<bool> fixed_;
   std::vector<int> group_;
   std::vector<robot::Pose> pose_in_group_;
-  int hulls_ = 0, shown_hulls_ = 0;
+  int hulls_ = 0, shown_hulls_ = 0, ellipsoids_ = 0;
   std::set<std::string> lost_;
   std::vector<std::string> springs_, obstacles_;
   ModelParts parts_;

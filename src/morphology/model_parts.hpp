@@ -36,10 +36,10 @@ inline constexpr std::size_t most_collision_vertices = 32, most_decoration_verti
 
 /// Extracts the parts from a compiled model. A geom without a name gets that of its body in the model, with
 /// ".0", ".1", … appended where there are several. Meshes and ellipsoids become convex hulls; a root that is
-/// not free becomes free. Left out and noted: what stands in the world (the ground is amble's own), springs,
-/// actuators. Throws UserError for what amble cannot simulate: more than one robot, joints that are neither
-/// hinges nor fixed, closed loops, tendons that act, colliding planes and height fields; names of keyframes
-/// and joints that are not there.
+/// not free becomes free. Left out and noted: world-fixed geoms and bodies (the ground is amble's own),
+/// springs, actuators. Throws UserError for what amble cannot simulate: more than one robot, joints that are
+/// neither hinges nor fixed, closed loops, tendons that act, colliding planes and height fields; names of
+/// keyframes and joints that are not there.
 ModelParts extract_parts(const ModelFile& file, const ReadingOptions& options = {});
 
 }  // namespace amble::morphology

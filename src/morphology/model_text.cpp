@@ -193,28 +193,31 @@ class MjcfCleaner {
   }
 
   void remove_unneeded() {
-    struct Section {
+    struct Unneeded {
       std::string_view name, why;
+      bool anywhere = false;  ///< else only among sections and assets
     };
-    static constexpr std::array<Section, 9> sections{
-        {{"sensor", "sensors: controllers feel feet, joint angles and the root's attitude"},
-         {"visual", ""},
-         {"statistic", ""},
-         {"size", ""},
-         {"custom", ""},
+    static constexpr std::string_view height_fields = "height fields: the ground is the experiment's";
+    static constexpr std::array<Unneeded, 11> all{
+        {{"sensor", "sensors: controllers read feet, joint angles and the root's attitude"},
+         {"visual", "settings of MuJoCo's viewer"},
+         {"statistic", "settings of MuJoCo's viewer"},
+         {"size", "sizes of MuJoCo's memory"},
+         {"custom", "custom numbers and texts"},
          {"extension", "plugins"},
+         {"plugin", "plugins", true},
          {"deformable", "deformable parts"},
-         {"texture", ""},
-         {"hfield", "height fields: the ground is the experiment's"}}};
+         {"skin", "skins", true},
+         {"texture", "textures: geoms have one colour each"},
+         {"hfield", height_fields}}};
     const auto unwanted = [&](const XmlElement& element, const XmlElement& parent) {
       const bool of_section = &parent == &root_ || parent.name == "asset";
-      for (const Section& section : sections) {
-        if (!of_section || element.name != section.name) continue;
-        if (!section.why.empty()) notes_.add(Reading::left_out, std::string(section.why));
-        return true;
-      }
-      const bool terrain = element.name == "geom" && element.attribute("hfield").has_value();
-      return terrain || element.name == "plugin" || element.name == "skin";
+      const auto found = std::ranges::find(all, element.name, &Unneeded::name);
+      std::string_view why;
+      if (found != all.end() && (found->anywhere || of_section)) why = found->why;
+      if (element.name == "geom" && element.attribute("hfield")) why = height_fields;
+      if (!why.empty()) notes_.add(Reading::left_out, std::string(why));
+      return !why.empty();
     };
     root_.prune(unwanted);
     root_.visit([](XmlElement& element, XmlElement*) {

@@ -24,7 +24,7 @@ struct ModelText {
   XmlElement root;
   bool urdf = false;
   std::map<std::string, MotorHint> motors;  ///< by joint
-  /// Meshes whose file is missing or in a format that MuJoCo does not read; something small stands for them.
+  /// Meshes whose file is missing or in a format that MuJoCo does not read; replaced by a small placeholder.
   std::map<std::string, std::string> missing_meshes;  ///< name → file
 };
 

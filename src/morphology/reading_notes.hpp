@@ -6,10 +6,10 @@
 
 namespace amble::morphology {
 
-/// What became of a part of a model file.
+/// How a part of a model file was handled.
 enum class Reading {
-  kept,      ///< read as it stands
-  replaced,  ///< something else stands for it
+  kept,      ///< read as it is
+  replaced,  ///< by something that amble can simulate
   left_out,  ///< without effect on the robot, or not simulated
 };
 
@@ -26,7 +26,7 @@ class ReadingNotes {
   void add(const ReadingNotes& others);
 
   const std::vector<Line>& lines() const { return lines_; }
-  /// Lines "  kept      …", grouped by what became of it; empty if there are none.
+  /// Lines "  kept      …", grouped by how they were handled; empty if there are none.
   std::string text() const;
 
  private:

@@ -11,8 +11,8 @@ namespace amble::morphology {
 /// compiled by MuJoCo. robots/README.md describes both. Throws UserError with one line that names file and
 /// part, for everything that is missing, unknown or not supported: see SideFile, extract_parts() and
 /// check_robot(); besides, joints of the model that the file does not name and the reverse, joints without
-/// stops and range of command, and a foot that starts below the ground. `notes`, if given, gets what became
-/// of the model's parts.
+/// stops and range of command, and a foot that starts below the ground. `notes`, if given, gets how the
+/// model's parts were handled.
 robot::RobotSpec load_robot(const std::filesystem::path& path, ReadingNotes* notes = nullptr);
 
 }  // namespace amble::morphology

@@ -12,7 +12,7 @@ namespace amble::morphology {
 struct RobotGuess {
   std::string name;
   std::string toml;                ///< each guess with its reason as a comment
-  std::vector<std::string> asked;  ///< what the model does not tell
+  std::vector<std::string> asked;  ///< what the user must give, as the model does not have it
 };
 
 /// Guesses all that a robot file has to say of a model (robots/README.md). `model` is the model's path as the

@@ -10,7 +10,7 @@ struct mjModel_;
 namespace amble::morphology {
 
 /// The pose in which a robot starts, in terms of a compiled model. A model's bodies and joints are given for
-/// its reference pose (mjModel::qpos0); here each is told as it is at the start. Where a joint starts at its
+/// its reference pose (mjModel::qpos0); here each is as it is at the start. Where a joint starts at its
 /// reference nothing is computed, so the model's own bits are kept.
 class StartPose {
  public:

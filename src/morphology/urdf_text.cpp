@@ -146,6 +146,9 @@ void clean_urdf(ModelText& text, const fs::path& path, ReadingNotes& notes) {
     if (element.name == "mimic")
       notes.add(Reading::left_out,
                 fmt::format("mimic of joint '{}': it moves on its own", parent.attribute_or("name", "")));
+    if (element.name == "transmission")
+      notes.add(Reading::left_out, "transmissions: the robot file has the servos");
+    if (element.name == "gazebo") notes.add(Reading::left_out, "settings of Gazebo");
     return element.name == "mimic" || element.name == "transmission" || element.name == "gazebo";
   });
   balance_inertias(root, notes);

@@ -2,7 +2,7 @@
 
 namespace amble::neat {
 
-/// The evaluation of one genome by a search.
+/// What a search makes of one genome's evaluation.
 struct Fitness {
   /// Finite, ≥ 0: decides offspring counts and the roulette (novelty, or the objective itself).
   double selection = 0.0;

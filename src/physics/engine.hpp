@@ -89,7 +89,7 @@ class Engine {
   /// Torque of each joint's motor in the last step, N m about the joint's axis, child against parent (joints
   /// × lanes), without the reaction of a stop. Null unless EngineSettings::torques is set.
   virtual const LaneArray* motor_torque_nm() const = 0;
-  /// Centre of mass of the root body; RobotSpec::fall_height_m refers to it.
+  /// Centre of mass of the root body; RobotSpec::fall_height_m refers to its height over the ground below it.
   virtual Vec3 root_com_m(int lane) const = 0;
   /// Centre of mass of the whole robot.
   virtual Vec3 com_m(int lane) const = 0;

@@ -14,7 +14,7 @@ inline constexpr std::string_view best = "best", best_so_far = "best_so_far", me
 inline constexpr std::string_view best_hidden = "best_hidden", best_links = "best_links";
 /// Trials that ended so.
 inline constexpr std::string_view fell = "fell", diverged = "diverged";
-/// Of this generation: genomes, and ticks simulated.
+/// Of this generation: genomes, and simulation steps.
 inline constexpr std::string_view evaluations = "evaluations", steps = "steps";
 /// Wall time since the line before, and what of it was neither physics nor referees, s.
 inline constexpr std::string_view wall_s = "wall_s", outside_s = "outside_s";

@@ -13,7 +13,7 @@ namespace amble::record {
 struct Generations {
   std::vector<double> generation;
   std::vector<double> best, mean, median;  ///< objective; best of the generation
-  std::vector<double> evaluations, steps;  ///< of this generation; steps are simulated ticks
+  std::vector<double> evaluations, steps;  ///< of this generation; simulation steps
   std::vector<double> best_so_far;         ///< objective of the run's champion; may be empty
   /// Of NEAT; empty for searches without. threshold: compatibility threshold of the speciation.
   std::vector<double> species, threshold, mean_hidden, mean_links;

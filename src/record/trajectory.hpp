@@ -13,7 +13,7 @@ namespace amble::record {
 /// How a trial ended. A diverged simulation is an outcome, not an error.
 enum class Outcome : std::uint8_t {
   completed = 0,  ///< ran its full time
-  fell = 1,       ///< the root's centre of mass came below RobotSpec::fall_height_m
+  fell = 1,       ///< the root's centre of mass was lower than RobotSpec::fall_height_m over the ground
   diverged = 2,   ///< values not finite, or absurdly large; the last healthy state counts
 };
 inline constexpr std::array<std::string_view, 3> outcome_names{"completed", "fell", "diverged"};

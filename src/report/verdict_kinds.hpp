@@ -5,7 +5,8 @@
 namespace amble::report {
 
 /// One claim with its numbers and, but for differences, its verdict (docs/STUDIES.md). The verdict on a
-/// difference needs its adjusted p value: conclude_difference().
+/// difference needs its adjusted p value: conclude_difference(). Counts and gaits are in verdict_counts.cpp,
+/// the others in verdict_means.cpp.
 Judgement judge_difference(const StudyData& data, const ledger::ClaimSpec& claim);
 Judgement judge_ratio(const StudyData& data, const ledger::ClaimSpec& claim);
 Judgement judge_value(const StudyData& data, const ledger::ClaimSpec& claim);

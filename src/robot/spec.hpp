@@ -129,7 +129,8 @@ struct RobotSpec {
   std::vector<Leg> legs;
   Contact contact;
   Vec3 gravity_m_s2{0.0, 0.0, -9.8};
-  double fall_height_m = 0.0;  ///< a trial ends as `fell` when the root's centre of mass is lower
+  /// A trial ends as `fell` when the root's centre of mass is lower than this over the ground below it.
+  double fall_height_m = 0.0;
   bool self_collision = false;
 
   double total_mass_kg() const;

@@ -22,7 +22,7 @@ struct Elite {
   std::string genome;  ///< in whatever form the search keeps it
 };
 
-/// The elites of a map, at most one per cell, without any rule of who becomes one. Elites are numbered from 0
+/// The elites of a map, at most one per cell; there is no admission rule. Elites are numbered from 0
 /// without gaps, in an order that depends on the calls so far alone; remove() gives the last elite the number
 /// of the removed one. Memory: 90 bytes, the descriptor and the genome per elite, and 4 per cell.
 class Elites {

@@ -54,7 +54,7 @@ class MapElites : public Strategy {
     Identity elite;      ///< its (first) parent, or itself; cell `none`: a random genome
     bool again = false;  ///< is that elite, evaluated again
   };
-  /// What became of a round.
+  /// What a round changed.
   struct Counts {
     int entered = 0, improved = 0, reevaluated = 0, moved = 0, lost = 0;
   };

@@ -7,7 +7,7 @@
 
 namespace amble::statistics {
 
-/// So many of so many: runs whose champion walks to the end, say. successes ≤ trials.
+/// k successes in n trials: runs whose champion walks to the end, say. successes ≤ trials.
 struct Count {
   std::uint64_t successes = 0, trials = 0;
 };

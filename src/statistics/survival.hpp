@@ -9,16 +9,16 @@
 
 namespace amble::statistics {
 
-/// How long something lasted, or was watched: a robot that stays up, until it falls or the test ends.
+/// How long something lasted, or was observed: a robot that stays up, until it falls or the test ends.
 struct Lifetime {
   double time_s = 0.0;  ///< finite, not negative
-  bool ended = true;    ///< false: censored, it still lasted when the watching ended at time_s
+  bool ended = true;    ///< false: censored, it still lasted when observation ended at time_s
 };
 
 /// One distinct time at which a lifetime ended or was censored.
 struct SurvivalStep {
   double time_s = 0.0;
-  std::size_t at_risk = 0;  ///< lasting, and watched, just before
+  std::size_t at_risk = 0;  ///< lasting, and observed, just before
   std::size_t ended = 0, censored = 0;
   double survival = 1.0;           ///< estimate of P(lifetime > time_s)
   std::optional<double> variance;  ///< Greenwood's, of `survival`; none once that is 0

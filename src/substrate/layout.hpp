@@ -46,7 +46,7 @@ struct Decoded {
   std::vector<Values> properties;  ///< as Needs::properties; empty for patterns
   std::vector<float> patterns;     ///< node by node, tick by tick: 0 … pattern_ticks
 
-  /// By node. A property that the controller does not need is a programmer's mistake.
+  /// By node. A property that the controller does not need is a programming error.
   std::span<const float> of(std::string_view property) const;
 };
 

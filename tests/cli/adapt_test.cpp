@@ -82,10 +82,10 @@ TEST_F(AdaptCommand, GivesTheSameForAnyNumberOfWorkersAndInTheMapsOwnEngine) {
 }
 
 TEST_F(AdaptCommand, RefusesWhatTheRobotDoesNotHaveInOneLine) {
-  expect_complaint({"adapt", run_, "--damage", "missing:tail"}, ExitCode::bad_input, "tail");
-  expect_complaint({"adapt", run_, "--damage", "missing:FL", "--engine", "bullet"}, ExitCode::bad_input,
-                   "bullet");
-  expect_complaint({"adapt", scratch_ / "gone", "--damage", "missing:FL"}, ExitCode::io, "gone");
+  expect_refusal({"adapt", run_, "--damage", "missing:tail"}, ExitCode::bad_input, "tail");
+  expect_refusal({"adapt", run_, "--damage", "missing:FL", "--engine", "bullet"}, ExitCode::bad_input,
+                 "bullet");
+  expect_refusal({"adapt", scratch_ / "gone", "--damage", "missing:FL"}, ExitCode::io, "gone");
 }
 
 }  // namespace

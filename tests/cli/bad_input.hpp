@@ -36,7 +36,7 @@ inline nlohmann::json page_data(const std::string& html) {
 class BadInput : public testing::Test {
  protected:
   /// One line on stderr that holds `words`, the exit code, and no file touched.
-  void expect_complaint(const std::vector<std::string>& arguments, ExitCode code, const std::string& words) {
+  void expect_refusal(const std::vector<std::string>& arguments, ExitCode code, const std::string& words) {
     const auto before = snapshot(scratch_.path());
     const auto finished = amble(arguments);
     EXPECT_EQ(finished.exit_code, static_cast<int>(code)) << finished.err;

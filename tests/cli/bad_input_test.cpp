@@ -10,42 +10,42 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 TEST_F(BadInput, AnUnknownCommand) {
-  expect_complaint({"dance"}, ExitCode::bad_input, "dance");
+  expect_refusal({"dance"}, ExitCode::bad_input, "dance");
 }
 
 TEST_F(BadInput, MissingConfig) {
-  expect_complaint({"evolve", scratch_ / "none.toml", "--out", out_}, ExitCode::io,
-                   "none.toml: No such file or directory");
+  expect_refusal({"evolve", scratch_ / "none.toml", "--out", out_}, ExitCode::io,
+                 "none.toml: No such file or directory");
 }
 
 TEST_F(BadInput, UnknownKey) {
-  expect_complaint({"evolve", config_with("population.sise = 10"), "--out", out_}, ExitCode::bad_input,
-                   "c.toml:2: unknown key 'population.sise' (did you mean 'population.size'?)");
+  expect_refusal({"evolve", config_with("population.sise = 10"), "--out", out_}, ExitCode::bad_input,
+                 "c.toml:2: unknown key 'population.sise' (did you mean 'population.size'?)");
 }
 
 TEST_F(BadInput, WrongType) {
-  expect_complaint({"evolve", config_with("population.size = \"many\""), "--out", out_}, ExitCode::bad_input,
-                   "c.toml:2: 'population.size' = \"many\": expected a whole number from 2 to 1000000");
+  expect_refusal({"evolve", config_with("population.size = \"many\""), "--out", out_}, ExitCode::bad_input,
+                 "c.toml:2: 'population.size' = \"many\": expected a whole number from 2 to 1000000");
 }
 
 TEST_F(BadInput, ValueOutOfRange) {
-  expect_complaint({"evolve", config_with("reproduction.elitism = 1.5"), "--out", out_}, ExitCode::bad_input,
-                   "c.toml:2: 'reproduction.elitism' = 1.5: expected a number from 0 to 1");
+  expect_refusal({"evolve", config_with("reproduction.elitism = 1.5"), "--out", out_}, ExitCode::bad_input,
+                 "c.toml:2: 'reproduction.elitism' = 1.5: expected a number from 0 to 1");
 }
 
 TEST_F(BadInput, UnknownChoice) {
-  expect_complaint({"evolve", config, "--set", "search.kind=luck", "--out", out_}, ExitCode::bad_input,
-                   "--set search.kind=luck: expected ");
+  expect_refusal({"evolve", config, "--set", "search.kind=luck", "--out", out_}, ExitCode::bad_input,
+                 "--set search.kind=luck: expected ");
 }
 
 TEST_F(BadInput, NegativeNumberOfNeighbours) {
-  expect_complaint({"evolve", config_with("search.novelty.neighbours = -3"), "--out", out_},
-                   ExitCode::bad_input,
-                   "c.toml:2: 'search.novelty.neighbours' = -3: expected a whole number from 1 to 1000000");
+  expect_refusal({"evolve", config_with("search.novelty.neighbours = -3"), "--out", out_},
+                 ExitCode::bad_input,
+                 "c.toml:2: 'search.novelty.neighbours' = -3: expected a whole number from 1 to 1000000");
 }
 
 TEST_F(BadInput, ArchiveLargerThanMemory) {
-  expect_complaint(
+  expect_refusal(
       {"evolve", novelty_config, "--set", "search.novelty.archive_limit=1000000000", "--out", out_},
       ExitCode::bad_input,
       "search.novelty.archive_limit = 1000000000: that many behaviours of 1500 numbers need 7216.0 GB; "
@@ -53,9 +53,9 @@ TEST_F(BadInput, ArchiveLargerThanMemory) {
 }
 
 TEST_F(BadInput, PathStrideLongerThanATrial) {
-  expect_complaint({"evolve", novelty_config, "--set", "search.novelty.path_stride=1501", "--out", out_},
-                   ExitCode::bad_input,
-                   "search.novelty.path_stride = 1501: expected at most the steps of a trial");
+  expect_refusal({"evolve", novelty_config, "--set", "search.novelty.path_stride=1501", "--out", out_},
+                 ExitCode::bad_input,
+                 "search.novelty.path_stride = 1501: expected at most the steps of a trial");
 }
 
 TEST_F(BadInput, ArchiveThatIsTruncatedAlteredOrMissing) {
@@ -64,90 +64,89 @@ TEST_F(BadInput, ArchiveThatIsTruncatedAlteredOrMissing) {
   const auto bytes = slurp(archive);
   const std::vector<std::string> resume{"resume", run_, "--generations", "3"};
   spill(archive, bytes.substr(0, bytes.size() - 7));
-  expect_complaint(resume, ExitCode::bad_file, "archive.bin: truncated");
+  expect_refusal(resume, ExitCode::bad_file, "archive.bin: truncated");
   auto altered = bytes;
   altered[altered.size() / 2] = static_cast<char>(altered[altered.size() / 2] ^ 4);
   spill(archive, altered);
-  expect_complaint(resume, ExitCode::bad_file, "archive.bin: altered: the checksum of member");
+  expect_refusal(resume, ExitCode::bad_file, "archive.bin: altered: the checksum of member");
   spill(archive, "");
-  expect_complaint(resume, ExitCode::bad_file, "archive.bin: truncated");
+  expect_refusal(resume, ExitCode::bad_file, "archive.bin: truncated");
   fs::remove(archive);
-  expect_complaint(resume, ExitCode::bad_file, "archive.bin: missing");
+  expect_refusal(resume, ExitCode::bad_file, "archive.bin: missing");
   spill(archive, bytes);
   EXPECT_EQ(amble(resume).exit_code, 0);
 }
 
 TEST_F(BadInput, UnknownEngine) {
-  expect_complaint({"evolve", config, "--set", "engine=newton", "--out", out_}, ExitCode::bad_input,
-                   "newton");
+  expect_refusal({"evolve", config, "--set", "engine=newton", "--out", out_}, ExitCode::bad_input, "newton");
 }
 
 TEST_F(BadInput, UnknownReferee) {
-  expect_complaint({"evolve", config, "--set", "referees=[\"newton\"]", "--out", out_}, ExitCode::bad_input,
-                   "'referees' names \"newton\": expected ode, batch, mujoco");
+  expect_refusal({"evolve", config, "--set", "referees=[\"newton\"]", "--out", out_}, ExitCode::bad_input,
+                 "'referees' names \"newton\": expected ode, batch, mujoco");
 }
 
 TEST_F(BadInput, SubstrateThatDoesNotHoldTogether) {
-  expect_complaint({"evolve", config, "--set", "controller.substrate.outputs=[\"pattern\"]", "--out", out_},
-                   ExitCode::bad_input,
-                   "controller.substrate.properties[1].output = \"offset\": the CPPN has no such output");
+  expect_refusal({"evolve", config, "--set", "controller.substrate.outputs=[\"pattern\"]", "--out", out_},
+                 ExitCode::bad_input,
+                 "controller.substrate.properties[1].output = \"offset\": the CPPN has no such output");
   const std::string links = "controller.substrate.links=[{from=\"FL.knee\", to=\"tail\"}]";
   const std::string ctrnn = source + "/configs/authors/ctrnn-objective.toml";
-  expect_complaint({"substrate", ctrnn, "--set", links, "-o", out_}, ExitCode::bad_input,
-                   "controller.substrate.links[0].to = \"tail\": there is no node and no group of that name");
-  expect_complaint({"substrate", config_with("[controller.substrate]\nnodes = [\n  { nam = \"a\" },\n]")},
-                   ExitCode::bad_input,
-                   "c.toml:4: unknown key 'controller.substrate.nodes[0].nam' (did you mean "
-                   "'controller.substrate.nodes[0].name'?)");
-  expect_complaint(
+  expect_refusal({"substrate", ctrnn, "--set", links, "-o", out_}, ExitCode::bad_input,
+                 "controller.substrate.links[0].to = \"tail\": there is no node and no group of that name");
+  expect_refusal({"substrate", config_with("[controller.substrate]\nnodes = [\n  { nam = \"a\" },\n]")},
+                 ExitCode::bad_input,
+                 "c.toml:4: unknown key 'controller.substrate.nodes[0].nam' (did you mean "
+                 "'controller.substrate.nodes[0].name'?)");
+  expect_refusal(
       {"evolve", config, "--set", "controller.substrate.layout=auto", "--out", out_}, ExitCode::bad_input,
       "controller.substrate.coordinates is given, but controller.substrate.layout = \"auto\" makes "
       "it from the robot");
-  expect_complaint({"evolve", config, "--set", "controller.substrate=automatic", "--out", out_},
-                   ExitCode::bad_input,
-                   "--set controller.substrate=automatic: expected one of \"listed\", \"auto\"");
+  expect_refusal({"evolve", config, "--set", "controller.substrate=automatic", "--out", out_},
+                 ExitCode::bad_input,
+                 "--set controller.substrate=automatic: expected one of \"listed\", \"auto\"");
   // A substrate for another robot, and a figure for another time constant than it has.
-  expect_complaint({"evolve", ctrnn, "--set", "controller.ctrnn.step=2", "--out", out_}, ExitCode::bad_input,
-                   "controller.ctrnn.step = 2: expected at most the shortest time constant, 1");
+  expect_refusal({"evolve", ctrnn, "--set", "controller.ctrnn.step=2", "--out", out_}, ExitCode::bad_input,
+                 "controller.ctrnn.step = 2: expected at most the shortest time constant, 1");
 }
 
 TEST_F(BadInput, SyntaxErrorWithLineAndColumn) {
   spill(scratch_ / "c.toml", "seed = 1\npopulation = { size = \n");
-  expect_complaint({"evolve", scratch_ / "c.toml", "--out", out_}, ExitCode::bad_input, "c.toml:2:");
+  expect_refusal({"evolve", scratch_ / "c.toml", "--out", out_}, ExitCode::bad_input, "c.toml:2:");
 }
 
 TEST_F(BadInput, SettingsThatDoNotFitTogether) {
-  expect_complaint({"evolve", config, "--set", "speciation.target_max=500", "--out", out_},
-                   ExitCode::bad_input, "speciation.target_max");
+  expect_refusal({"evolve", config, "--set", "speciation.target_max=500", "--out", out_}, ExitCode::bad_input,
+                 "speciation.target_max");
 }
 
 TEST_F(BadInput, MissingRobot) {
-  expect_complaint({"evolve", config, "--set", "robot=none.toml", "--out", out_}, ExitCode::io,
-                   "--set robot=none.toml: 'robot': none.toml: No such file or directory");
+  expect_refusal({"evolve", config, "--set", "robot=none.toml", "--out", out_}, ExitCode::io,
+                 "--set robot=none.toml: 'robot': none.toml: No such file or directory");
 }
 
 TEST_F(BadInput, JobsZero) {
-  expect_complaint({"evolve", config, "--jobs", "0", "--out", out_}, ExitCode::bad_input,
-                   "--jobs: 0: expected a whole number from 1 to 1024");
+  expect_refusal({"evolve", config, "--jobs", "0", "--out", out_}, ExitCode::bad_input,
+                 "--jobs: 0: expected a whole number from 1 to 1024");
 }
 
 TEST_F(BadInput, SeedOrGenerationsThatAreNone) {
   for (const auto* seed : {"-1", "1.5", "one", "99999999999999999999"})
-    expect_complaint({"evolve", config, "--seed", seed, "--out", out_}, ExitCode::bad_input,
-                     std::string("--seed: ") + seed + ": expected a whole number from 0 to 9007199254740992");
-  expect_complaint({"evolve", config, "--generations", "0", "--out", out_}, ExitCode::bad_input,
-                   "--generations: 0: expected a whole number from 1 to 1000000000");
+    expect_refusal({"evolve", config, "--seed", seed, "--out", out_}, ExitCode::bad_input,
+                   std::string("--seed: ") + seed + ": expected a whole number from 0 to 9007199254740992");
+  expect_refusal({"evolve", config, "--generations", "0", "--out", out_}, ExitCode::bad_input,
+                 "--generations: 0: expected a whole number from 1 to 1000000000");
 }
 
 TEST_F(BadInput, OutFolderThatHoldsARun) {
   make_run();
-  expect_complaint({"evolve", config, "--out", run_}, ExitCode::bad_input, "holds a run already");
+  expect_refusal({"evolve", config, "--out", run_}, ExitCode::bad_input, "holds a run already");
 }
 
 TEST_F(BadInput, OutFolderThatIsNotEmptyAndNoRun) {
   fs::create_directories(out_);
   spill(fs::path(out_) / "thesis.txt", "years of work");
-  expect_complaint({"evolve", config, "--out", out_}, ExitCode::bad_input, "not empty and not a run");
+  expect_refusal({"evolve", config, "--out", out_}, ExitCode::bad_input, "not empty and not a run");
 }
 
 TEST_F(BadInput, ChampionTruncatedOrAltered) {
@@ -155,45 +154,45 @@ TEST_F(BadInput, ChampionTruncatedOrAltered) {
   const auto champion = fs::directory_iterator(fs::path(run_) / "champions")->path();
   const auto text = slurp(champion);
   spill(champion, text.substr(0, text.size() / 2));
-  expect_complaint({"trial", champion.string()}, ExitCode::bad_file, champion.string());
+  expect_refusal({"trial", champion.string()}, ExitCode::bad_file, champion.string());
   auto altered = text;
   const auto weight = altered.find("\"weight\": ") + 10;
   altered.replace(weight, altered.find_first_of(",}\n", weight) - weight, "0.125");
   spill(champion, altered);
-  expect_complaint({"trial", champion.string()}, ExitCode::bad_file, "checksum");
+  expect_refusal({"trial", champion.string()}, ExitCode::bad_file, "checksum");
 }
 
 TEST_F(BadInput, OutputsThatWouldReplaceFilesOfAnotherKind) {
   make_run();
   const auto champion = fs::directory_iterator(fs::path(run_) / "champions")->path().string();
-  expect_complaint({"trial", champion, "--record", champion}, ExitCode::bad_input, "is not a recording");
-  expect_complaint({"page", run_, "-o", run_ + "/checkpoint.bin"}, ExitCode::bad_input, "is not a page");
-  expect_complaint({"gait", run_, "--json", champion}, ExitCode::bad_input, "is not a gait");
-  expect_complaint({"substrate", config, "-o", champion}, ExitCode::bad_input, "is not a drawing");
-  expect_complaint({"robot", run_ + "/robot.json", "--mjcf", run_ + "/config.toml"}, ExitCode::bad_input,
-                   "is not an MJCF model");
+  expect_refusal({"trial", champion, "--record", champion}, ExitCode::bad_input, "is not a recording");
+  expect_refusal({"page", run_, "-o", run_ + "/checkpoint.bin"}, ExitCode::bad_input, "is not a page");
+  expect_refusal({"gait", run_, "--json", champion}, ExitCode::bad_input, "is not a gait");
+  expect_refusal({"substrate", config, "-o", champion}, ExitCode::bad_input, "is not a drawing");
+  expect_refusal({"robot", run_ + "/robot.json", "--mjcf", run_ + "/config.toml"}, ExitCode::bad_input,
+                 "is not an MJCF model");
   fs::create_directories(scratch_ / "figures");
   spill(scratch_ / "figures/path.svg", "a letter to a friend");
-  expect_complaint({"page", run_, "-o", scratch_ / "page.html", "--figures", scratch_ / "figures"},
-                   ExitCode::bad_input, "is not a figure");
+  expect_refusal({"page", run_, "-o", scratch_ / "page.html", "--figures", scratch_ / "figures"},
+                 ExitCode::bad_input, "is not a figure");
 }
 
 TEST_F(BadInput, RunFoldersWithoutTheirRobotOrManifest) {
   make_run();
   const auto robot = slurp(run_ + "/robot.json"), manifest = slurp(run_ + "/manifest.json");
   spill(run_ + "/robot.json", robot.substr(0, robot.size() / 2));
-  expect_complaint({"resume", run_}, ExitCode::bad_file, "robot.json");
+  expect_refusal({"resume", run_}, ExitCode::bad_file, "robot.json");
   fs::remove(run_ + "/robot.json");
-  expect_complaint({"resume", run_}, ExitCode::bad_input, "robot.json is missing");
+  expect_refusal({"resume", run_}, ExitCode::bad_input, "robot.json is missing");
   spill(run_ + "/robot.json", robot);
   fs::remove(run_ + "/manifest.json");
-  expect_complaint({"resume", run_}, ExitCode::io, "manifest.json");
+  expect_refusal({"resume", run_}, ExitCode::io, "manifest.json");
 }
 
 TEST_F(BadInput, ARunMadeShorterThanItIs) {
   make_run();
-  expect_complaint({"resume", run_, "--generations", "1"}, ExitCode::bad_input,
-                   "2 generations are done already");
+  expect_refusal({"resume", run_, "--generations", "1"}, ExitCode::bad_input,
+                 "2 generations are done already");
 }
 
 TEST_F(BadInput, CheckpointTruncatedAlteredOrOfAnotherVersion) {
@@ -202,17 +201,17 @@ TEST_F(BadInput, CheckpointTruncatedAlteredOrOfAnotherVersion) {
   const auto bytes = slurp(checkpoint);
   const std::vector<std::string> resume{"resume", run_, "--generations", "3"};
   spill(checkpoint, bytes.substr(0, bytes.size() - 7));
-  expect_complaint(resume, ExitCode::bad_file, "checkpoint.bin: truncated");
+  expect_refusal(resume, ExitCode::bad_file, "checkpoint.bin: truncated");
   auto altered = bytes;
   altered[altered.size() / 2] = static_cast<char>(altered[altered.size() / 2] ^ 4);
   spill(checkpoint, altered);
-  expect_complaint(resume, ExitCode::bad_file, "checksum");
+  expect_refusal(resume, ExitCode::bad_file, "checksum");
   auto newer = bytes;
   newer[8] = 99;
   spill(checkpoint, newer);
-  expect_complaint(resume, ExitCode::bad_file, "version 99");
+  expect_refusal(resume, ExitCode::bad_file, "version 99");
   fs::remove(checkpoint);
-  expect_complaint(resume, ExitCode::io, "checkpoint.bin");
+  expect_refusal(resume, ExitCode::io, "checkpoint.bin");
 }
 
 TEST_F(BadInput, RunWhoseConfigWasEdited) {
@@ -222,76 +221,76 @@ TEST_F(BadInput, RunWhoseConfigWasEdited) {
   const auto at = text.find("add_node_share = 0.01");
   ASSERT_NE(at, std::string::npos);
   spill(path, text.replace(at, 21, "add_node_share = 0.02"));
-  expect_complaint({"resume", run_, "--generations", "3"}, ExitCode::bad_file,
-                   "written under another config.toml");
+  expect_refusal({"resume", run_, "--generations", "3"}, ExitCode::bad_file,
+                 "written under another config.toml");
 }
 
 TEST_F(BadInput, FolderThatIsNoRun) {
-  expect_complaint({"resume", scratch_ / "none"}, ExitCode::io, "no such folder");
-  expect_complaint({"verify", scratch_.path().string()}, ExitCode::bad_input, "not a run folder");
-  expect_complaint({"info", scratch_.path().string()}, ExitCode::bad_input, "not a run folder");
-  expect_complaint({"page", scratch_.path().string(), "-o", out_}, ExitCode::bad_input, "not a run folder");
+  expect_refusal({"resume", scratch_ / "none"}, ExitCode::io, "no such folder");
+  expect_refusal({"verify", scratch_.path().string()}, ExitCode::bad_input, "not a run folder");
+  expect_refusal({"info", scratch_.path().string()}, ExitCode::bad_input, "not a run folder");
+  expect_refusal({"page", scratch_.path().string(), "-o", out_}, ExitCode::bad_input, "not a run folder");
 }
 
 TEST_F(BadInput, TrialOfNoWholeNumberOfSteps) {
   make_run();
   const auto champion = fs::directory_iterator(fs::path(run_) / "champions")->path().string();
-  expect_complaint({"trial", champion, "--seconds", "1.0001"}, ExitCode::bad_input,
-                   "whole number of timesteps");
-  expect_complaint({"trial", champion, "--seconds", "-1"}, ExitCode::bad_input, "--seconds");
+  expect_refusal({"trial", champion, "--seconds", "1.0001"}, ExitCode::bad_input,
+                 "whole number of timesteps");
+  expect_refusal({"trial", champion, "--seconds", "-1"}, ExitCode::bad_input, "--seconds");
   for (const std::string command : {"trial", "gait", "compare"})
-    expect_complaint({command, champion, "--seconds", "nan"}, ExitCode::bad_input, "nan");
-  expect_complaint({"view", champion, "--seconds", "nan", "-o", out_}, ExitCode::bad_input, "nan");
+    expect_refusal({command, champion, "--seconds", "nan"}, ExitCode::bad_input, "nan");
+  expect_refusal({"view", champion, "--seconds", "nan", "-o", out_}, ExitCode::bad_input, "nan");
   const std::string recording = scratch_ / "walk.rec";
   ASSERT_EQ(amble({"trial", champion, "--record", recording}).exit_code, 0);
-  expect_complaint({"gait", recording, "--seconds", "nan"}, ExitCode::bad_input, "nan");
-  expect_complaint({"view", recording, "--seconds", "3", "-o", out_}, ExitCode::bad_input,
-                   "--seconds: " + recording + " has been made already");
+  expect_refusal({"gait", recording, "--seconds", "nan"}, ExitCode::bad_input, "nan");
+  expect_refusal({"view", recording, "--seconds", "3", "-o", out_}, ExitCode::bad_input,
+                 "--seconds: " + recording + " has been made already");
 }
 
 TEST_F(BadInput, GaitOfWhatHasNone) {
-  expect_complaint({"gait", scratch_.path().string()}, ExitCode::bad_input, "not a run folder");
-  expect_complaint({"gait", scratch_ / "none.rec"}, ExitCode::io, "none.rec");
+  expect_refusal({"gait", scratch_.path().string()}, ExitCode::bad_input, "not a run folder");
+  expect_refusal({"gait", scratch_ / "none.rec"}, ExitCode::io, "none.rec");
   spill(scratch_ / "walk.rec", "not a recording");
-  expect_complaint({"gait", scratch_ / "walk.rec"}, ExitCode::bad_file, "walk.rec");
-  expect_complaint({"gait", scratch_ / "walk.rec", "--debounce", "9"}, ExitCode::bad_input,
-                   "debounce = 9 s: expected 0 to 1 s");
+  expect_refusal({"gait", scratch_ / "walk.rec"}, ExitCode::bad_file, "walk.rec");
+  expect_refusal({"gait", scratch_ / "walk.rec", "--debounce", "9"}, ExitCode::bad_input,
+                 "debounce = 9 s: expected 0 to 1 s");
 }
 
 TEST_F(BadInput, RecordingThatIsNone) {
   spill(scratch_ / "walk.rec", "not a recording");
-  expect_complaint({"info", scratch_ / "walk.rec"}, ExitCode::bad_file,
-                   "walk.rec: expected a run folder, a champion");
+  expect_refusal({"info", scratch_ / "walk.rec"}, ExitCode::bad_file,
+                 "walk.rec: expected a run folder, a champion");
 }
 
 TEST_F(BadInput, ViewOfWhatCannotBeShown) {
   const std::string page = scratch_ / "page.html", recording = scratch_ / "walk.rec";
-  expect_complaint({"view", scratch_.path().string(), "-o", page}, ExitCode::bad_input, "not a run folder");
-  expect_complaint({"view", scratch_ / "none.json", "-o", page}, ExitCode::io, "none.json");
+  expect_refusal({"view", scratch_.path().string(), "-o", page}, ExitCode::bad_input, "not a run folder");
+  expect_refusal({"view", scratch_ / "none.json", "-o", page}, ExitCode::io, "none.json");
   spill(recording, "not a recording");
-  expect_complaint({"view", recording, "-o", page}, ExitCode::bad_file, "walk.rec: ");
+  expect_refusal({"view", recording, "-o", page}, ExitCode::bad_file, "walk.rec: ");
   make_run();
   const auto champion = fs::directory_iterator(fs::path(run_) / "champions")->path().string();
   fs::remove(recording);
   ASSERT_EQ(amble({"trial", champion, "--record", recording}).exit_code, 0);
   const auto bytes = slurp(recording);
   spill(recording, bytes.substr(0, bytes.size() / 2));
-  expect_complaint({"view", recording, "-o", page}, ExitCode::bad_file, "walk.rec: truncated");
+  expect_refusal({"view", recording, "-o", page}, ExitCode::bad_file, "walk.rec: truncated");
   spill(page, "a letter to a friend");
-  expect_complaint({"view", champion, "-o", page}, ExitCode::bad_input, "page.html");
+  expect_refusal({"view", champion, "-o", page}, ExitCode::bad_input, "page.html");
 }
 
 TEST_F(BadInput, DrawingOfWhatIsNoChampion) {
-  expect_complaint({"draw", scratch_.path().string()}, ExitCode::bad_input, "not a run folder");
-  expect_complaint({"draw", scratch_ / "none.json"}, ExitCode::io, "none.json");
+  expect_refusal({"draw", scratch_.path().string()}, ExitCode::bad_input, "not a run folder");
+  expect_refusal({"draw", scratch_ / "none.json"}, ExitCode::io, "none.json");
   spill(scratch_ / "c.json", "{}");
-  expect_complaint({"draw", scratch_ / "c.json"}, ExitCode::bad_file, "c.json");
-  expect_complaint({"draw", scratch_ / "c.json", "-o", scratch_ / "c.png"}, ExitCode::bad_input,
-                   "c.png: expected a name that ends in .svg or .dot");
+  expect_refusal({"draw", scratch_ / "c.json"}, ExitCode::bad_file, "c.json");
+  expect_refusal({"draw", scratch_ / "c.json", "-o", scratch_ / "c.png"}, ExitCode::bad_input,
+                 "c.png: expected a name that ends in .svg or .dot");
   spill(scratch_ / "c.svg", "a letter to a friend");
-  expect_complaint({"draw", scratch_ / "c.json", "-o", scratch_ / "c.svg"}, ExitCode::bad_input, "c.svg");
-  expect_complaint({"draw", scratch_ / "c.json", "--patterns", scratch_ / "c.svg"}, ExitCode::bad_input,
-                   "c.svg");
+  expect_refusal({"draw", scratch_ / "c.json", "-o", scratch_ / "c.svg"}, ExitCode::bad_input, "c.svg");
+  expect_refusal({"draw", scratch_ / "c.json", "--patterns", scratch_ / "c.svg"}, ExitCode::bad_input,
+                 "c.svg");
 }
 
 TEST_F(BadInput, FullDiskLeavesARunThatGoesOnLater) {

@@ -19,27 +19,27 @@ class BadRobot : public BadInput {
 
 TEST_F(BadRobot, ThatMujocoRefuses) {
   replace("authors.xml", "<worldbody>", "<worldbody><body><joint/></body>");
-  expect_complaint({"robot", robot_}, ExitCode::bad_input, "authors.xml");
+  expect_refusal({"robot", robot_}, ExitCode::bad_input, "authors.xml");
 }
 
 TEST_F(BadRobot, ThatIsNoXml) {
   replace("authors.xml", "</worldbody>", "");
-  expect_complaint({"robot", robot_}, ExitCode::bad_input, "authors.xml");
+  expect_refusal({"robot", robot_}, ExitCode::bad_input, "authors.xml");
 }
 
 TEST_F(BadRobot, WithAJointThatTheSideFileDoesNotName) {
   replace("authors.xml", "name=\"FL_knee\"", "name=\"FL_elbow\"");
-  expect_complaint({"robot", robot_}, ExitCode::bad_input, "FL_");
+  expect_refusal({"robot", robot_}, ExitCode::bad_input, "FL_");
 }
 
 TEST_F(BadRobot, ThatHasFallenBeforeItStarts) {
   replace("authors.toml", "fall_height_m = 0.467", "fall_height_m = 5");
-  expect_complaint({"robot", robot_}, ExitCode::bad_input, "'fall_height_m' = 5: expected less than 0.8");
+  expect_refusal({"robot", robot_}, ExitCode::bad_input, "'fall_height_m' = 5: expected less than 0.8");
 }
 
 TEST_F(BadRobot, WithAModelThatIsNotThere) {
   fs::remove(scratch_ / "robot/authors.xml");
-  expect_complaint({"robot", robot_}, ExitCode::io, "authors.xml");
+  expect_refusal({"robot", robot_}, ExitCode::io, "authors.xml");
 }
 
 }  // namespace

@@ -161,20 +161,20 @@ TEST_F(RepertoireCommand, IsComparedCellByCellWithMapsOfTheSameCells) {
 TEST_F(RepertoireCommand, RefusesWhatItCannotDoInOneLine) {
   const auto folder = run();
   const std::string out = scratch_ / "elite.json";
-  expect_complaint({"repertoire", folder, "--cell", "625", "-o", out}, ExitCode::bad_input,
-                   "the map has the cells 0 … 624");
-  expect_complaint({"repertoire", folder, "--cell", "0"}, ExitCode::bad_input, "expected -o FILE.json");
-  expect_complaint({"repertoire", folder, "-o", scratch_ / "map.png"}, ExitCode::bad_input,
-                   "expected FILE.html, FILE.json or FILE.svg");
-  expect_complaint({"repertoire", scratch_ / "gone"}, ExitCode::io, "gone");
+  expect_refusal({"repertoire", folder, "--cell", "625", "-o", out}, ExitCode::bad_input,
+                 "the map has the cells 0 … 624");
+  expect_refusal({"repertoire", folder, "--cell", "0"}, ExitCode::bad_input, "expected -o FILE.json");
+  expect_refusal({"repertoire", folder, "-o", scratch_ / "map.png"}, ExitCode::bad_input,
+                 "expected FILE.html, FILE.json or FILE.svg");
+  expect_refusal({"repertoire", scratch_ / "gone"}, ExitCode::io, "gone");
   spill(scratch_ / "map.svg", "mine");
-  expect_complaint({"repertoire", folder, "-o", scratch_ / "map.svg"}, ExitCode::bad_input, "map.svg");
+  expect_refusal({"repertoire", folder, "-o", scratch_ / "map.svg"}, ExitCode::bad_input, "map.svg");
   const std::string other = scratch_ / "other";
   ASSERT_EQ(amble({"evolve", source + "/configs/authors/supg-objective.toml", "--set", "population.size=30",
                    "--set", "trial.duration_s=0.1", "--generations", "1", "--out", other})
                 .exit_code,
             0);
-  expect_complaint({"repertoire", other}, ExitCode::bad_input, "expected one with \"map-elites\"");
+  expect_refusal({"repertoire", other}, ExitCode::bad_input, "expected one with \"map-elites\"");
 }
 
 }  // namespace

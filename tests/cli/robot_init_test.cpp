@@ -72,8 +72,9 @@ TEST_F(RobotInit, RewardsStayingUpOnTwoLegsOnly) {
   }
 }
 
-TEST_F(RobotInit, TellsWhatBecameOfTheModel) {
+TEST_F(RobotInit, ReportsWhatWasKeptAndReplaced) {
   const auto init = amble({"robot", "--init", write(small_models()[7]), "-o", scratch_ / "out"});
+  EXPECT_THAT(init.out, HasSubstr("\nimport notes:\n  kept      "));
   EXPECT_THAT(init.out, HasSubstr("replaced  root 'trunk' moved by rootx, rootz, rooty: it is free to move"));
 }
 
@@ -101,15 +102,15 @@ TEST_F(RobotInit, GivesAHeavyTrunkMoreSweepsOfTheSolver) {
 TEST_F(RobotInit, ReplacesNothing) {
   const std::string model = write(small_models()[0]);
   ASSERT_EQ(amble({"robot", "--init", model, "-o", scratch_ / "out"}).exit_code, 0);
-  expect_complaint({"robot", "--init", model, "-o", scratch_ / "out"}, ExitCode::bad_input,
-                   "keyframe.toml is there already, and is not replaced");
+  expect_refusal({"robot", "--init", model, "-o", scratch_ / "out"}, ExitCode::bad_input,
+                 "keyframe.toml is there already, and is not replaced");
 }
 
 TEST_F(RobotInit, RefusesWhatIsNoModel) {
-  expect_complaint({"robot", "--init", scratch_ / "gone.xml"}, ExitCode::io, "gone.xml");
-  expect_complaint({"robot", "--init", source + "/robots/quadruped/paper.toml"}, ExitCode::bad_input,
-                   "is a robot file: expected a model");
-  expect_complaint({"robot"}, ExitCode::bad_input, "--init MODEL");
+  expect_refusal({"robot", "--init", scratch_ / "gone.xml"}, ExitCode::io, "gone.xml");
+  expect_refusal({"robot", "--init", source + "/robots/quadruped/paper.toml"}, ExitCode::bad_input,
+                 "is a robot file: expected a model");
+  expect_refusal({"robot"}, ExitCode::bad_input, "--init MODEL");
 }
 
 TEST_F(RobotInit, RefusesHostileModelsInOneLineAndLittleMemory) {
@@ -119,7 +120,7 @@ TEST_F(RobotInit, RefusesHostileModelsInOneLineAndLittleMemory) {
            {"<mujoco><include file=\"../m.xml\"/></mujoco>", "only files in the model's folder"},
            {"<!DOCTYPE m [<!ENTITY a \"a\">]><mujoco/>", "document types and entities"}}) {
     spill(path, text);
-    expect_complaint({"robot", "--init", path, "-o", scratch_ / "out"}, ExitCode::bad_input, words);
+    expect_refusal({"robot", "--init", path, "-o", scratch_ / "out"}, ExitCode::bad_input, words);
   }
   // A child's peak begins with the memory of the process it was forked from: this one never holds the file's
   // text.

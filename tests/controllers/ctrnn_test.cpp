@@ -200,7 +200,7 @@ TEST(Ctrnn, BeersTwoNeuronsWithThePublishedWeightsOscillateAsADoublePrecisionPro
   EXPECT_NEAR(oscillation(4.5, -2.75, -1.75, Integrator::euler, 600.0).period, expected, 0.05 * expected);
 }
 
-std::string complaint(const CtrnnSettings& settings, const substrate::Settings& substrate) {
+std::string refusal(const CtrnnSettings& settings, const substrate::Settings& substrate) {
   try {
     const CtrnnArchitecture architecture(settings, substrate, one_joint(), 0.01);
   } catch (const UserError& error) {
@@ -212,15 +212,15 @@ std::string complaint(const CtrnnSettings& settings, const substrate::Settings& 
 TEST(Ctrnn, RefusesTimeConstantsThatItCannotIntegrate) {
   auto substrate = one_neuron();
   substrate.properties[1].value = 0.0;
-  EXPECT_EQ(complaint(CtrnnSettings(), substrate),
+  EXPECT_EQ(refusal(CtrnnSettings(), substrate),
             "controller.substrate.properties: a time constant can be 0: expected more than 0");
   substrate.properties[1].value = 0.5;
-  EXPECT_EQ(complaint(CtrnnSettings(), substrate),
+  EXPECT_EQ(refusal(CtrnnSettings(), substrate),
             "controller.ctrnn.step = 1: expected at most the shortest time constant, 0.5 (or integrator = "
             "\"exponential_euler\")");
   CtrnnSettings settings;
   settings.integrator = Integrator::exponential_euler;
-  EXPECT_EQ(complaint(settings, substrate), "none");
+  EXPECT_EQ(refusal(settings, substrate), "none");
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ TEST(Network, SensesTouchAndAttitude) {
   EXPECT_NEAR(bench.tick()[0], s(1.5), 1e-6);
 }
 
-TEST(Network, HearsASineThatStartsFromZeroAtTheFirstTick) {
+TEST(Network, ReadsASineThatStartsFromZeroAtTheFirstTick) {
   const NetworkArchitecture architecture(NetworkSettings(), row_with("sine"), one_joint(), 0.01);
   Bench bench(architecture, {0.6});
   for (int tick = 0; tick < 1000; ++tick) {

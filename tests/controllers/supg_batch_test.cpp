@@ -112,7 +112,7 @@ TEST(SupgTimer, IsSetAnewByATriggerInMidCycle) {
   EXPECT_EQ(story.triggers, /*                    */ "  ^ ^  ^ ");
 }
 
-TEST(SupgTimer, KnowsNoTriggerOnTickOneHoweverTheFootStands) {
+TEST(SupgTimer, IgnoresTriggersOnTickOneWhateverTheFootTouches) {
   // A foot on the ground at the start has touched before; one that is up and lands on tick 2 triggers there.
   EXPECT_EQ(play(short_settings(), 3, "###").timers, "45-");
   const TimerStory story = play(short_settings(), 3, ".##");

@@ -10,7 +10,7 @@
 namespace amble::controllers {
 namespace {
 
-std::string complaint(double period_s, double timestep_s) {
+std::string refusal(double period_s, double timestep_s) {
   SupgSettings settings;
   settings.period_s = period_s;
   try {
@@ -31,12 +31,12 @@ TEST(SupgSettings, CountThePeriodInTicks) {
 }
 
 TEST(SupgSettings, RefuseAPeriodThatIsNotAWholeNumberOfTicks) {
-  EXPECT_EQ(complaint(1.005, 0.01),
+  EXPECT_EQ(refusal(1.005, 0.01),
             "controller.supg.period_s = 1.005 is 100.49999999999999 ticks of 0.01 s: expected a whole number "
             "from 2 to 100000");
-  EXPECT_NE(complaint(0.01, 0.01), "none");
-  EXPECT_NE(complaint(1.0, 1e-6), "none");
-  EXPECT_EQ(complaint(0.02, 0.01), "none");
+  EXPECT_NE(refusal(0.01, 0.01), "none");
+  EXPECT_NE(refusal(1.0, 1e-6), "none");
+  EXPECT_EQ(refusal(0.02, 0.01), "none");
 }
 
 TEST(SupgSettings, AreTheAuthorsByDefault) {

@@ -272,7 +272,7 @@ TEST(MapRun, FillsItsMapAndReportsIt) {
 
 TEST(MapRun, RefusesDescriptorsThatItsRobotDoesNotHave) {
   const TemporaryFolder scratch;
-  const auto complaint = [&](const std::string& descriptor) {
+  const auto refusal = [&](const std::string& descriptor) {
     try {
       Run::start(scratch / "run", small_map_config({"search.map_elites.descriptors=[{" + descriptor + "}]"}),
                  1);
@@ -281,10 +281,9 @@ TEST(MapRun, RefusesDescriptorsThatItsRobotDoesNotHave) {
     }
     return std::string();
   };
-  EXPECT_THAT(complaint("leg=\"tail\""), testing::HasSubstr("leg = \"tail\": the robot has FL, FR, BL, BR"));
-  EXPECT_THAT(complaint("quantity=\"turn\", leg=\"FL\""),
-              testing::HasSubstr("a quantity of the whole robot"));
-  EXPECT_THAT(complaint("quantity=\"joy\""), testing::HasSubstr("quantity \"joy\": expected distance, "));
+  EXPECT_THAT(refusal("leg=\"tail\""), testing::HasSubstr("leg = \"tail\": the robot has FL, FR, BL, BR"));
+  EXPECT_THAT(refusal("quantity=\"turn\", leg=\"FL\""), testing::HasSubstr("a quantity of the whole robot"));
+  EXPECT_THAT(refusal("quantity=\"joy\""), testing::HasSubstr("quantity \"joy\": expected distance, "));
   EXPECT_FALSE(std::filesystem::exists(scratch / "run"));
 }
 

@@ -96,7 +96,7 @@ GridMap map_of(const std::vector<int>& bins) {
   return map;
 }
 
-TEST(GoldenFigures, OfMotionAreTheSameForEver) {
+TEST(GoldenFigures, OfMotionMatchTheGoldenHashes) {
   std::map<std::string, std::string> drawn;
   for (const int legs : {2, 4, 6}) {
     const auto walk = lively_walk(120, legs);
@@ -129,7 +129,7 @@ TEST(GoldenFigures, OfMotionAreTheSameForEver) {
               {"pattern-6.svg", "54adfea01a54f0c1"}});
 }
 
-TEST(GoldenFigures, OfSearchesAreTheSameForEver) {
+TEST(GoldenFigures, OfSearchesMatchTheGoldenHashes) {
   std::map<std::string, std::string> drawn;
   for (const Layout layout : {Layout::wide, Layout::narrow}) {
     const char* width = layout == Layout::wide ? "wide" : "narrow";
@@ -149,7 +149,7 @@ TEST(GoldenFigures, OfSearchesAreTheSameForEver) {
                                {"neat-wide.svg", "fd4ee600acf4f479"}});
 }
 
-TEST(GoldenFigures, OfNetworksAreTheSameForEver) {
+TEST(GoldenFigures, OfNetworksMatchTheGoldenHashes) {
   std::map<std::string, std::string> drawn;
   drawn["cppn.svg"] = cppn_svg(tests::cppn());
   drawn["tangled-cppn.svg"] = cppn_svg(tangled_cppn());

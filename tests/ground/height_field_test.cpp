@@ -55,6 +55,11 @@ TEST(HeightField, RepeatsItselfInBothDirections) {
   EXPECT_NO_FATAL_FAILURE(field.at(1e300, -1e300));
 }
 
+TEST(MakeField, IsFlatEverywhereOnThePlane) {
+  const HeightField field = make_field(of_kind(Kind::plane), {});
+  EXPECT_EQ(field.heights_m(), HeightField(field.cell_m()).heights_m());
+}
+
 TEST(MakeField, IsFlatAroundTheOriginAndAsHighAsItsSettingsSay) {
   for (const Kind kind : with_field) {
     Settings settings = of_kind(kind);

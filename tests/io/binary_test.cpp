@@ -97,7 +97,7 @@ TEST(Seal, OpensAgain) {
   EXPECT_EQ(unseal("AMBLETST", 7, seal("AMBLETST", 7, ""), "x"), "");
 }
 
-TEST(Seal, TellsEveryTruncation) {
+TEST(Seal, DetectsEveryTruncation) {
   const std::string sealed = seal("AMBLETST", 7, "payload");
   for (std::size_t size = 0; size < sealed.size(); ++size) {
     const std::string message = error_of(ExitCode::bad_file, [&] {
@@ -111,7 +111,7 @@ TEST(Seal, TellsEveryTruncation) {
   }
 }
 
-TEST(Seal, TellsEveryFlippedBit) {
+TEST(Seal, DetectsEveryFlippedBit) {
   const std::string sealed = seal("AMBLETST", 7, "payload");
   for (std::size_t at = 0; at < sealed.size(); ++at) {
     for (int bit = 0; bit < 8; ++bit) {

@@ -91,7 +91,7 @@ TEST(SealedJson, NamesLineAndColumnOfASyntaxError) {
   EXPECT_EQ(refusal("{\"a\": NaN}"), "c.json:1:7: not valid JSON: 'NaN'");
 }
 
-TEST(SealedJson, TellsEveryTruncation) {
+TEST(SealedJson, DetectsEveryTruncation) {
   const std::string text = sealed_json("champion", 3, sample());
   for (std::size_t size = 0; size + 2 < text.size(); ++size) {
     EXPECT_EQ(refusal(text.substr(0, size)), "c.json: truncated: the JSON ends too early") << size;

@@ -12,7 +12,7 @@ namespace {
 using test::error_of;
 using test::Sample;
 
-/// The complaint about the sample's JSON after `change`.
+/// The error about the sample's JSON after `change`.
 std::string refusal(const std::function<void(Json&)>& change) {
   Json json = settings_to_json(Sample{});
   change(json);

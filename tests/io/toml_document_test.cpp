@@ -59,7 +59,7 @@ TEST(TomlInclude, IsReadWithinIncludedFilesAndMayMeetTwice) {
             "base");
 }
 
-TEST(TomlInclude, ComplaintsNameTheFileInWhichTheKeyStands) {
+TEST(TomlInclude, ErrorsNameTheFileThatContainsTheKey) {
   const test::TemporaryFolder folder;
   const std::string part = folder.put("part.toml", "\n\npopulation = 1\n").string();
   const TomlDocument document = TomlDocument::read(folder.put("x.toml", "include = ['part.toml']"));
@@ -169,7 +169,7 @@ TEST(TomlSet, QuotedWordIsTextEvenIfItLooksLikeANumber) {
   EXPECT_EQ(sample_from(document).name, "5");
 }
 
-TEST(TomlSet, ComplaintsQuoteTheCommandLine) {
+TEST(TomlSet, ErrorsQuoteTheCommandLine) {
   const auto refusal = [](const std::string& assignment) {
     return error_of(ExitCode::bad_input, [&] {
       TomlDocument document = TomlDocument::parse("", "x.toml");

@@ -53,7 +53,7 @@ Allowed allowed_includes() {
   return allowed;
 }
 
-TEST(Layers, EveryFolderStandsInTheArchitectureTable) {
+TEST(Layers, EveryFolderIsListedInTheArchitectureTable) {
   const auto allowed = allowed_includes();
   ASSERT_GE(allowed.size(), 10u) << "the table was not found";
   for (const auto& file : source_files()) EXPECT_TRUE(allowed.contains(file.folder)) << file.path;

@@ -5,7 +5,7 @@
 namespace amble::morphology {
 namespace {
 
-TEST(ReadingNotes, KeepALineOnceForEachThingThatBecameOfIt) {
+TEST(ReadingNotes, HaveEachLineOncePerKindOfHandling) {
   ReadingNotes notes, others;
   for (int twice = 0; twice < 2; ++twice)
     for (const Reading reading : {Reading::left_out, Reading::replaced, Reading::kept})

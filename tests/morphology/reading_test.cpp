@@ -182,7 +182,21 @@ TEST(Reading, FreesAFixedOrPlanarRoot) {
   EXPECT_THAT(planar.notes.text(), HasSubstr("root 'torso' moved by x, z, pitch: it is free to move"));
 }
 
-TEST(Reading, TellsWhatStandsInTheWorldAndWhatOnlyMeasures) {
+TEST(Reading, CountsWhatIsKept) {
+  const Files files;
+  std::string xml = with(crouching_xml, R"(<geom name="shin")",
+                         R"(<geom type="ellipsoid" size="0.1 0.2 0.3" mass="0"/><geom name="shin")");
+  xml = with(xml, "<worldbody>",
+             R"(<asset><mesh name="tip" vertex="0 0 0 1 0 0 0 1 0 0 0 1"/></asset><worldbody>)");
+  xml = with(xml, R"(type="sphere" pos="0 0 -0.4" size="0.06")", R"(type="mesh" mesh="tip")");
+  const std::string notes = read_parts(files, xml, {.fixed_joints = {"A_knee"}}).notes.text();
+  EXPECT_THAT(notes, HasSubstr("kept      2 bodies, 2 joints, 3 geoms, 1 keyframes\n"));
+  EXPECT_THAT(notes, HasSubstr("replaced  joint 'A_knee'"));
+  EXPECT_THAT(notes, HasSubstr("replaced  1 meshes that collide"));
+  EXPECT_THAT(notes, HasSubstr("replaced  1 ellipsoids: convex hulls of 32 points"));
+}
+
+TEST(Reading, ReportsWhatStandsInTheWorldAndWhatOnlyMeasures) {
   const Files files;
   const std::string xml = with(
       with(
@@ -198,6 +212,36 @@ TEST(Reading, TellsWhatStandsInTheWorldAndWhatOnlyMeasures) {
        {"1 geoms of the world, the first of them 'step'", "body 'table': it stands in the world",
         "1 tendons, which only measure", "1 actuators", "sensors"})
     EXPECT_THAT(parts.notes.text(), HasSubstr(line));
+}
+
+TEST(Reading, ReportsEachKindOfPartThatIsLeftOut) {
+  const Files files;
+  const auto left_out = [](const ReadingNotes& notes) {
+    std::vector<std::string> lines;
+    for (const ReadingNotes::Line& line : notes.lines())
+      if (line.reading == Reading::left_out) lines.push_back(line.text);
+    return lines;
+  };
+  std::string xml = with(one_leg_xml, "<worldbody>", R"(<visual/><statistic/><size njmax="500"/><custom/>
+      <asset><texture name="sky" type="skybox" builtin="flat" width="8" height="8"/><skin/></asset>
+      <extension/><deformable/><worldbody><light/><camera/><camera/>)");
+  xml = with(xml, R"(<geom name="torso")", R"(<site/><site/><site/><geom name="torso")");
+  EXPECT_THAT(
+      left_out(read_parts(files, xml).notes),
+      testing::ElementsAre("settings of MuJoCo's viewer", "sizes of MuJoCo's memory",
+                           "custom numbers and texts", "plugins", "deformable parts",
+                           "textures: geoms have one colour each", "skins", "2 cameras, 1 lights, 3 sites"));
+  EXPECT_THAT(left_out(read_parts(files, one_leg_xml).notes), testing::IsEmpty());
+  const std::string inertial =
+      R"(<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>)";
+  const auto urdf = files.write("r.urdf", R"(<robot name="r"><link name="base">)" + inertial +
+                                              R"(</link><link name="leg">)" + inertial +
+                                              R"(</link><transmission name="a"/><transmission name="b"/>
+      <gazebo/><gazebo reference="leg"/><joint name="hip" type="revolute"><parent link="base"/>
+      <child link="leg"/><limit lower="-1" upper="1" effort="5" velocity="3"/><mimic joint="hip"/></joint></robot>)");
+  EXPECT_THAT(left_out(compile_model(urdf).notes),
+              testing::ElementsAre("transmissions: the robot file has the servos", "settings of Gazebo",
+                                   "mimic of joint 'hip': it moves on its own"));
 }
 
 TEST(Reading, TakesTheBodyWithJointsBehindItForTheRobot) {
@@ -250,7 +294,7 @@ TEST(Reading, NeedsNoFilesOfTexturesAndHeightFields) {
   xml = with(xml, R"(<geom name="thigh")", R"(<geom name="thigh" material="wooden")");
   const ModelParts parts = read_parts(files, xml);
   EXPECT_EQ(parts.geoms.size(), 4u);
-  EXPECT_THAT(parts.notes.text(), HasSubstr("height fields"));
+  for (const char* kind : {"height fields", "textures"}) EXPECT_THAT(parts.notes.text(), HasSubstr(kind));
 }
 
 TEST(Reading, MakesTheConvexHullOfAMesh) {

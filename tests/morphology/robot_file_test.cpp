@@ -121,7 +121,7 @@ TEST(LoadRobot, KeepsCommandsWithinTheStopsWhateverIsRounded) {
   }
 }
 
-TEST(LoadRobot, TellsWhatBecameOfThePartsOfTheModel) {
+TEST(LoadRobot, PassesOnTheNotesOfTheModelsParts) {
   const Files files;
   files.write("one_leg.xml", with(with(one_leg_xml, "<freejoint name=\"root\"/>", ""), R"(range="-0.7 0")",
                                   R"(range="-0.7 0" stiffness="3")"));
@@ -129,9 +129,9 @@ TEST(LoadRobot, TellsWhatBecameOfThePartsOfTheModel) {
   notes.add(Reading::kept, "from before");
   load_robot(files.write("one_leg.toml", one_leg_toml), &notes);
   const ReadingNotes of_parts = extract_parts(compile_model(files.path("one_leg.xml"))).notes;
-  ASSERT_EQ(of_parts.lines().size(), 2u);
-  ASSERT_EQ(notes.lines().size(), 3u);
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(notes.lines()[i + 1].text, of_parts.lines()[i].text);
+  ASSERT_EQ(of_parts.lines().size(), 3u);
+  ASSERT_EQ(notes.lines().size(), 4u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(notes.lines()[i + 1].text, of_parts.lines()[i].text);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ std::string with_between(const std::string& text, const std::string& between) {
   return result;
 }
 
-TEST(XmlTree, IsReadBackAsItIsWrittenWhateverStandsBetweenItsTags) {
+TEST(XmlTree, IsReadBackAsItIsWrittenWhateverIsBetweenItsTags) {
   for (std::uint32_t i = 0; i < 300; ++i) {
     Stream stream(1, Purpose::test, i);
     XmlElement tree = random_element(stream, 4);

@@ -36,19 +36,19 @@ TEST(GenomeBinary, RefusesEveryTruncation) {
 
 TEST(GenomeBinary, RefusesUnknownEnumsAndHalfEnabledLinks) {
   const std::string good = bytes_of(sample_genome(0, 1, {}, {{0, 0, 1, 0.5, true}}));
-  const auto complaint_about = [](const std::string& bytes) {
+  const auto error_about = [](const std::string& bytes) {
     io::BinaryReader reader(bytes, "file");
     return error_of([&] { load_genome(reader); });
   };
   std::string bytes = good;
   bytes[8 + 4] = 4;  // the first node's kind
-  EXPECT_NE(complaint_about(bytes).find("unknown enum value"), std::string::npos);
+  EXPECT_NE(error_about(bytes).find("unknown enum value"), std::string::npos);
   bytes = good;
   bytes[8 + 5] = 4;  // its activation
-  EXPECT_NE(complaint_about(bytes).find("unknown enum value"), std::string::npos);
+  EXPECT_NE(error_about(bytes).find("unknown enum value"), std::string::npos);
   bytes = good;
   bytes.back() = 2;
-  EXPECT_NE(complaint_about(bytes).find("a link is neither enabled nor disabled"), std::string::npos);
+  EXPECT_NE(error_about(bytes).find("a link is neither enabled nor disabled"), std::string::npos);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ Genome small() {
                        {{0, 0, 2, 0.1, true}, {4294967295u, 1, 7, -1.5, false}});
 }
 
-std::string complaint_about(const io::Json& json) {
+std::string error_about(const io::Json& json) {
   return error_of([&] { genome_from_json(io::JsonView(json, "file.json")); });
 }
 
@@ -46,33 +46,30 @@ TEST(GenomeJson, NamesTheKeyThatIsWrong) {
   const io::Json good = to_json(small());
   io::Json json = good;
   json.erase("links");
-  EXPECT_EQ(complaint_about(json), "file.json: key 'links' is missing");
+  EXPECT_EQ(error_about(json), "file.json: key 'links' is missing");
   json = good;
   json["nodes"][3]["kind"] = "middle";
-  EXPECT_EQ(complaint_about(json),
-            "file.json: key 'nodes[3].kind' must be one of bias, input, output, hidden");
+  EXPECT_EQ(error_about(json), "file.json: key 'nodes[3].kind' must be one of bias, input, output, hidden");
   json = good;
   json["nodes"][3]["activation"] = "tanh";
-  EXPECT_EQ(complaint_about(json),
+  EXPECT_EQ(error_about(json),
             "file.json: key 'nodes[3].activation' must be one of bipolar_sigmoid, gaussian, sine, linear");
   json = good;
   json["links"][1]["from"] = -1;
-  EXPECT_EQ(complaint_about(json),
-            "file.json: key 'links[1].from' must be a whole number from 0 to 4294967295");
+  EXPECT_EQ(error_about(json), "file.json: key 'links[1].from' must be a whole number from 0 to 4294967295");
   json["links"][1]["from"] = 4294967296;
-  EXPECT_EQ(complaint_about(json),
-            "file.json: key 'links[1].from' must be a whole number from 0 to 4294967295");
+  EXPECT_EQ(error_about(json), "file.json: key 'links[1].from' must be a whole number from 0 to 4294967295");
   json = good;
   json["links"][0]["enabled"] = 1;
-  EXPECT_EQ(complaint_about(json), "file.json: key 'links[0].enabled' must be true or false");
+  EXPECT_EQ(error_about(json), "file.json: key 'links[0].enabled' must be true or false");
 }
 
 TEST(GenomeJson, RefusesWeightsThatAreNotFinite) {
   io::Json json = to_json(small());
   json["links"][0]["weight"] = "inf";
-  EXPECT_EQ(complaint_about(json), "file.json: key 'links[0].weight' must be a finite number");
+  EXPECT_EQ(error_about(json), "file.json: key 'links[0].weight' must be a finite number");
   json["links"][0]["weight"] = nullptr;
-  EXPECT_EQ(complaint_about(json), "file.json: key 'links[0].weight' must be a number");
+  EXPECT_EQ(error_about(json), "file.json: key 'links[0].weight' must be a number");
 }
 
 }  // namespace

@@ -140,8 +140,8 @@ INSTANTIATE_TEST_SUITE_P(ScopesAndKeys, AllInnovations,
                                                           InnovationKey::link_and_function)));
 
 TEST(Innovations, RefuseWhatCannotBe) {
-  const auto complaint_about = [](std::initializer_list<std::uint32_t> ends, std::uint32_t split_link,
-                                  InnovationSettings settings = whole_run, std::uint32_t first_link = 0) {
+  const auto error_about = [](std::initializer_list<std::uint32_t> ends, std::uint32_t split_link,
+                              InnovationSettings settings = whole_run, std::uint32_t first_link = 0) {
     io::BinaryWriter writer;
     writer.put(std::uint32_t{4});
     writer.put(first_link);
@@ -155,16 +155,16 @@ TEST(Innovations, RefuseWhatCannotBe) {
     io::BinaryReader reader(writer.bytes(), "file");
     return error_of([&] { innovations.load(reader); });
   };
-  EXPECT_EQ(complaint_about({0, 3, 4, 3}, 0), "");
-  EXPECT_NE(complaint_about({0, 3, 0, 3}, 0).find("a link with two innovation numbers"), std::string::npos);
-  EXPECT_NE(complaint_about({0, 3, 5, 3}, 0).find("a link that joins unknown nodes"), std::string::npos);
-  EXPECT_NE(complaint_about({0, 3, 4, 3}, 2).find("a node that splits an unknown link"), std::string::npos);
-  EXPECT_NE(complaint_about({0, 3, 4, 3}, 0, whole_run, 9).find("begins where it cannot"), std::string::npos);
+  EXPECT_EQ(error_about({0, 3, 4, 3}, 0), "");
+  EXPECT_NE(error_about({0, 3, 0, 3}, 0).find("a link with two innovation numbers"), std::string::npos);
+  EXPECT_NE(error_about({0, 3, 5, 3}, 0).find("a link that joins unknown nodes"), std::string::npos);
+  EXPECT_NE(error_about({0, 3, 4, 3}, 2).find("a node that splits an unknown link"), std::string::npos);
+  EXPECT_NE(error_about({0, 3, 4, 3}, 0, whole_run, 9).find("begins where it cannot"), std::string::npos);
   const InnovationSettings generation{InnovationScope::generation, InnovationKey::link_and_function};
-  EXPECT_EQ(complaint_about({0, 3, 4, 3}, 0, generation, 9), "");
-  EXPECT_NE(complaint_about({0, 3, 4, 3}, 0, generation, 0xffffffffu).find("too many innovations"),
+  EXPECT_EQ(error_about({0, 3, 4, 3}, 0, generation, 9), "");
+  EXPECT_NE(error_about({0, 3, 4, 3}, 0, generation, 0xffffffffu).find("too many innovations"),
             std::string::npos);
-  EXPECT_NE(complaint_about({0, 3, 4, 3}, 0, {InnovationScope::run, InnovationKey::link})
+  EXPECT_NE(error_about({0, 3, 4, 3}, 0, {InnovationScope::run, InnovationKey::link})
                 .find("where the link alone counts"),
             std::string::npos);
 }

@@ -60,22 +60,22 @@ TEST(Settings, AllFieldsAreVisited) {
   EXPECT_EQ(read.reproduction.stagnation_generations, 1501);
 }
 
-std::string complaint_about(void (*spoil)(Settings&)) {
+std::string error_about(void (*spoil)(Settings&)) {
   Settings settings;
   spoil(settings);
   return error_of([&] { settings.validate(); });
 }
 
 TEST(Settings, RefuseWhatDoesNotFitTogetherNamingTheKey) {
-  EXPECT_EQ(complaint_about([](Settings& s) { s.speciation.target_min = 31; }),
+  EXPECT_EQ(error_about([](Settings& s) { s.speciation.target_min = 31; }),
             "'speciation.target_max' = 30: expected at least speciation.target_min = 31");
-  EXPECT_EQ(complaint_about([](Settings& s) { s.population.size = 20; }),
+  EXPECT_EQ(error_about([](Settings& s) { s.population.size = 20; }),
             "'speciation.target_max' = 30: expected at most population.size = 20");
-  EXPECT_EQ(complaint_about([](Settings& s) {
+  EXPECT_EQ(error_about([](Settings& s) {
               s.mutation.weights_share = s.mutation.add_link_share = s.mutation.add_node_share = 0;
             }),
             "'mutation.weights_share' = 0: expected more than 0, because all other shares of mutation are 0");
-  EXPECT_EQ(complaint_about([](Settings& s) {
+  EXPECT_EQ(error_about([](Settings& s) {
               auto& w = s.mutation.weights;
               w.jiggle_many_share = w.jiggle_few_share = w.jiggle_one_share = w.reset_few_share =
                   w.reset_one_share = 0;
@@ -83,13 +83,13 @@ TEST(Settings, RefuseWhatDoesNotFitTogetherNamingTheKey) {
             "'mutation.weights.jiggle_many_share' = 0: expected more than 0, because all other shares of "
             "mutation.weights are 0");
   EXPECT_EQ(
-      complaint_about([](Settings& s) {
+      error_about([](Settings& s) {
         s.genome.activation_shares = {0, 0, 0, 0};
       }),
       "'genome.activation_shares.bipolar_sigmoid' = 0: expected more than 0, because the shares of all other "
       "functions are 0");
   EXPECT_EQ(
-      complaint_about([](Settings& s) { s.genome.initial_link_probability = s.mutation.add_link_share = 0; }),
+      error_about([](Settings& s) { s.genome.initial_link_probability = s.mutation.add_link_share = 0; }),
       "'mutation.add_link_share' = 0: expected more than 0, because genome.initial_link_probability is 0");
 }
 

@@ -158,7 +158,7 @@ TEST(Page, IsTheSameForTheSameInput) {
   EXPECT_EQ(make_page(input(), tests::walk(40)), make_page(input(), tests::walk(40)));
 }
 
-TEST(GoldenPage, OfWalksOnTwoFourAndSixLegsIsTheSameForEver) {
+TEST(GoldenPage, OfWalksOnTwoFourAndSixLegsMatchesTheGoldenHash) {
   RunPage bare = input();
   bare.generations = {};
   bare.cppn = {};

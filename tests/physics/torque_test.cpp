@@ -17,7 +17,7 @@ double torque(const Bench& bench, int joint) {
   return static_cast<double>(bench.engine->motor_torque_nm()->at(joint, 0));
 }
 
-TEST_P(Torques, AreToldOnlyWhenAskedFor) {
+TEST_P(Torques, AreReportedOnlyOnRequest) {
   EXPECT_EQ(make_engine(GetParam(), quadruped(), {})->motor_torque_nm(), nullptr);
   EXPECT_NE(make_engine(GetParam(), quadruped(), {.torques = true})->motor_torque_nm(), nullptr);
 }

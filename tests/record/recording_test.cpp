@@ -128,7 +128,7 @@ TEST(RecordingReader, NamesAColumnThatIsNotThere) {
             (folder / "r").string() + ": no column 'root.y' in the recording");
 }
 
-TEST(RecordingReader, TellsEveryTruncation) {
+TEST(RecordingReader, DetectsEveryTruncation) {
   const test::TemporaryFolder folder;
   write_sample(folder / "r", 300);
   const std::string bytes = io::read_file(folder / "r"), path = (folder / "t").string();

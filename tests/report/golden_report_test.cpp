@@ -21,7 +21,7 @@ std::map<std::string, std::string> everything_of(const Report& report) {
   return made;
 }
 
-TEST(GoldenReport, OfAStudyWithClaimsOfAllKindsIsTheSameForEver) {
+TEST(GoldenReport, OfAStudyWithClaimsOfAllKindsMatchesTheGoldenHash) {
   tests::expect_golden(everything_of(make_report(small_study())), {{"bests.csv", "1c77f25a4bd6a929"},
                                                                    {"curves.csv", "d40556d895ef1a3b"},
                                                                    {"curves.svg", "671d4cda456436f0"},
@@ -38,7 +38,7 @@ TEST(GoldenReport, OfAStudyWithClaimsOfAllKindsIsTheSameForEver) {
                                                                    {"walking-ode.svg", "e18b8241fb6636c1"}});
 }
 
-TEST(GoldenReport, OfFiveConditionsIsTheSameForEver) {
+TEST(GoldenReport, OfFiveConditionsMatchesTheGoldenHash) {
   tests::expect_golden(everything_of(make_report(large_study(5, 9))),
                        {{"bests.csv", "65b355680fcc9d62"},
                         {"curves.csv", "e722cbcdc2c0b6de"},
@@ -56,7 +56,7 @@ TEST(GoldenReport, OfFiveConditionsIsTheSameForEver) {
                         {"walking-ode.svg", "50c4c1184a8f7a56"}});
 }
 
-TEST(GoldenReport, OfAStudyHalfDoneIsTheSameForEver) {
+TEST(GoldenReport, OfAStudyHalfDoneMatchesTheGoldenHash) {
   StudyData data = small_study();
   data.records.erase(data.records.begin() + 1, data.records.begin() + 4);
   data.study.claims[0].alpha = 0.01;

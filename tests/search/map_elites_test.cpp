@@ -315,7 +315,7 @@ TEST_P(MapFile, IsReadUpToItsLastWholeRecordWithoutACheckpoint) {
 INSTANTIATE_TEST_SUITE_P(Of, MapFile, testing::Values(Selection::curiosity));
 
 /// The message of the UserError that these settings cause; "" if there is none.
-std::string complaint(const MapElitesSettings& settings) {
+std::string refusal(const MapElitesSettings& settings) {
   try {
     settings.validate();
   } catch (const UserError& error) {
@@ -326,19 +326,18 @@ std::string complaint(const MapElitesSettings& settings) {
 
 TEST(MapElitesSettings, ThatCannotBeAreRefusedInOneLine) {
   MapElitesSettings settings = small_map();
-  EXPECT_EQ(complaint(settings), "");
+  EXPECT_EQ(refusal(settings), "");
   settings.descriptors[1].most = 0.0;
-  EXPECT_EQ(complaint(settings),
-            "search.map_elites.descriptors: duty_factor: least = 0 is not below most = 0");
+  EXPECT_EQ(refusal(settings), "search.map_elites.descriptors: duty_factor: least = 0 is not below most = 0");
   settings = small_map();
   settings.descriptors[0].bins = 1'000'000;
   settings.descriptors[1].bins = 1'000'000;
-  EXPECT_THAT(complaint(settings), HasSubstr("expected at most 20000000 cells"));
+  EXPECT_THAT(refusal(settings), HasSubstr("expected at most 20000000 cells"));
   settings = small_map();
   settings.archive = Archive::cvt;
   settings.centroid_samples = settings.cells - 1;
-  EXPECT_THAT(complaint(settings), HasSubstr("centroid_samples = 9999: expected at least"));
-  EXPECT_THAT(complaint({}), HasSubstr("expected at least one"));
+  EXPECT_THAT(refusal(settings), HasSubstr("centroid_samples = 9999: expected at least"));
+  EXPECT_THAT(refusal({}), HasSubstr("expected at least one"));
 }
 
 TEST(MapElitesSettings, NeedMemoryForEachOfTheirCells) {

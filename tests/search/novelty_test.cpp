@@ -42,7 +42,7 @@ TEST(NoveltySearch, AddsTheFirstMembersWhateverTheirNoveltyAndNoneAfterThem) {
   EXPECT_EQ(search.archive().rows(), 15u);
 }
 
-TEST(NoveltySearch, LetsJoinWhoIsMoreNovelThanTheThresholdAndNotWhoEqualsIt) {
+TEST(NoveltySearch, AdmitsCandidatesMoreNovelThanTheThresholdAndNotThoseEqualToIt) {
   auto settings = plain_settings();
   settings.first_members = 1;
   settings.threshold = 9.0;

@@ -94,7 +94,7 @@ TEST(Figure4, HasASupgPerJoint) {
   EXPECT_EQ(layout.output_names(), (Names{"pattern", "offset"}));
 }
 
-TEST(Figure4, IsAskedAtTheQueryPointsOfTheAuthors) {
+TEST(Figure4, IsQueriedAtTheQueryPointsOfTheAuthors) {
   const Layout layout(part("supg"), supg_needs(), controllers::quadruped());
   std::set<std::vector<float>> points;
   for (int i = 0; i < layout.points().count(); ++i)

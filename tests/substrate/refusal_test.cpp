@@ -10,7 +10,7 @@ namespace amble::substrate {
 namespace {
 
 /// What is said of a substrate, without the common start of the key.
-std::string complaint(const Settings& settings, const Needs& needs) {
+std::string refusal(const Settings& settings, const Needs& needs) {
   try {
     const Layout layout(settings, needs, controllers::quadruped());
   } catch (const UserError& error) {
@@ -26,13 +26,13 @@ std::string complaint(const Settings& settings, const Needs& needs) {
 std::string ctrnn(const std::function<void(Settings&)>& spoil) {
   auto settings = part("ctrnn");
   spoil(settings);
-  return complaint(settings, ctrnn_needs());
+  return refusal(settings, ctrnn_needs());
 }
 
 std::string supg(const std::function<void(Settings&)>& spoil) {
   auto settings = part("supg");
   spoil(settings);
-  return complaint(settings, supg_needs());
+  return refusal(settings, supg_needs());
 }
 
 LinkSettings a_link(const std::string& from, const std::string& to, const std::string& output) {
@@ -46,7 +46,7 @@ LinkSettings a_link(const std::string& from, const std::string& to, const std::s
 TEST(BadSubstrate, TheGivenOnesAreSound) {
   EXPECT_EQ(ctrnn([](Settings&) {}), "none");
   EXPECT_EQ(supg([](Settings&) {}), "none");
-  EXPECT_EQ(complaint(part("sine"), network_needs()), "none");
+  EXPECT_EQ(refusal(part("sine"), network_needs()), "none");
 }
 
 TEST(BadSubstrate, LinkToANodeThatIsNotThere) {

@@ -26,9 +26,9 @@ class BatchEngine : public Engine {
   virtual int contacts(int lane) const = 0;
 };
 
-/// Sixteen robots in lockstep, one per SIMD lane, float32: docs/BATCH.md. Simulates serial chains of hinges
-/// on the root, with spheres, capsules and boxes against the ground, without self-collision; throws UserError
-/// for other robots.
+/// Sixteen robots in lockstep, one per SIMD lane, float32: docs/BATCH.md. Simulates chains of hinges on the
+/// root, which may branch, with spheres, capsules, boxes, cylinders and the hulls of meshes against the plane
+/// or uneven ground, without self-collision. Throws UserError for other robots.
 std::unique_ptr<BatchEngine> make_batch_engine(const robot::RobotSpec& robot, const EngineSettings& settings);
 
 }  // namespace amble::physics

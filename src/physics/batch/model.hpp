@@ -43,8 +43,8 @@ struct JointRow {
   bool friction = false;
 };
 
-/// The links on one hinge of the torso, and all that they carry, parents before children and what a link
-/// carries right behind it: from the torso outwards if the chain does not branch.
+/// The links on one hinge of the torso, and all that they carry, parents before children, the descendants
+/// of a link directly after it: from the torso outwards if the chain does not branch.
 struct Chain {
   int first = 0, count = 0;          ///< links
   int first_row = 0, row_count = 0;  ///< joint rows: one per link in order, then those of friction
