@@ -97,5 +97,21 @@ TEST(TrialAndError, FindsTheOneThatWorksAmongHundredsInFewTrials) {
   EXPECT_GE(found, 18) << "the stop rule may end a search a little early";
 }
 
+TEST(TrialAndError, HasThePublishedParametersByDefault) {
+  const TrialAndErrorSettings settings;
+  EXPECT_EQ(settings.length_scale, 0.4);
+  EXPECT_EQ(settings.noise_variance, 0.001);
+  EXPECT_EQ(settings.exploration, 0.05);
+  EXPECT_EQ(settings.stop_share, 0.9);
+}
+
+TEST(TrialAndError, TakesTheFirstOfEqualCandidatesAndStopsAtItsShareItself) {
+  TrialAndError search({{{0.1}, 1.0}, {{0.5}, 2.0}, {{0.9}, 2.0}}, {.stop_share = 1.0});
+  EXPECT_EQ(search.next(), 1u);
+  EXPECT_FALSE(search.done()) << "nothing was tried";
+  search.tell(1, 2.0);
+  EXPECT_TRUE(search.done()) << "no candidate is better than what was tried";
+}
+
 }  // namespace
 }  // namespace amble::adaptation

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include "amble/core/error.hpp"
 #include "amble/io/json_file.hpp"
@@ -45,6 +47,24 @@ TEST(SupgSettings, AreTheAuthorsByDefault) {
   settings.describe(*io::json_writer(json));
   EXPECT_EQ(json, io::Json::parse(R"({
     "period_s": 1.0, "trigger": "edge", "trigger_debounce_ticks": 1, "offset": "phase", "start_tick": 1, "idle": "mid"})"));
+}
+
+TEST(SupgSettings, TakePeriodsFromTwoTicksToAHundredThousandAndRoundingInTheTenthDigit) {
+  EXPECT_EQ(complaint(2.0, 1.0), "none");
+  EXPECT_NE(complaint(1.0, 1.0), "none");
+  EXPECT_EQ(complaint(1e5, 1.0), "none");
+  EXPECT_NE(complaint(1e5 + 1, 1.0), "none");
+  EXPECT_NE(complaint(std::nan(""), 1.0), "none");
+  for (const double sign : {-1.0, 1.0}) {
+    EXPECT_EQ(complaint(100.0 + sign * 0.9e-7, 1.0), "none");
+    EXPECT_NE(complaint(100.0 + sign * 1.1e-7, 1.0), "none");
+  }
+  try {
+    period_ticks({.period_s = 1.0}, 1.0);
+    FAIL();
+  } catch (const SettingError& error) {
+    EXPECT_EQ(error.keys(), (std::vector<std::string>{"controller.supg.period_s", "trial.timestep_s"}));
+  }
 }
 
 }  // namespace

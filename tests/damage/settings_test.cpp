@@ -1,6 +1,12 @@
 #include "amble/damage/settings.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <string_view>
 
 #include "amble/core/error.hpp"
 #include "amble/io/json_file.hpp"
@@ -80,6 +86,81 @@ TEST(DamageSettings, SurviveJson) {
   EXPECT_EQ(back.parts[0].from_s, 2.5);
   EXPECT_EQ(back.parts[1].kind, Kind::locked);
   EXPECT_EQ(back.parts[2].y_m, -0.2);
+}
+
+TEST(DamageSettings, HaveTheNamesOfTheirKindAndNoOther) {
+  const auto robot = quadruped();
+  // By kind: which of leg, joint and body it names.
+  const std::map<Kind, std::string> named{{Kind::missing, "leg"}, {Kind::locked, "joint"},
+                                          {Kind::slack, "joint"}, {Kind::weak, "joint"},
+                                          {Kind::numb, "leg"},    {Kind::payload, "body"}};
+  for (const auto& [kind, own] : named)
+    for (const std::string key : {"leg", "joint", "body"}) {
+      Part part{.kind = kind};
+      const auto name = [&](const std::string& what) {
+        if (what == "leg") part.leg = "FL";
+        if (what == "joint") part.joint = robot.joints[0].name;
+        if (what == "body") part.body = robot.bodies[1].name;
+      };
+      name(own);
+      name(key);
+      const std::string_view word = kind_names[static_cast<std::size_t>(kind)];
+      if (key == own)
+        EXPECT_EQ(refusal({part}), "accepted") << word;
+      else
+        EXPECT_NE(refusal({part}).find(fmt::format(": the kind {} has no {}", word, key)), std::string::npos)
+            << word << " " << key;
+    }
+  EXPECT_EQ(refusal({{.kind = Kind::payload}}), "accepted") << "of the root";
+  for (const Kind kind : {Kind::locked, Kind::slack, Kind::weak})
+    EXPECT_EQ(refusal({{.kind = kind}}).find("damage.parts[0].joint = \"\": the robot has no such joint"),
+              0u);
+}
+
+TEST(DamageSettings, LockJointsAtTheirStopsButNotBeyond) {
+  const auto robot = quadruped();
+  for (const auto& joint : robot.joints) {
+    EXPECT_EQ(refusal({locked(joint.name, joint.lower_rad), locked(joint.name, joint.upper_rad)}),
+              "accepted");
+    EXPECT_NE(refusal({locked(joint.name, joint.lower_rad - 1e-9)}), "accepted");
+    EXPECT_NE(refusal({locked(joint.name, joint.upper_rad + 1e-9)}), "accepted");
+    EXPECT_EQ(refusal({slack(joint.name), {.kind = Kind::weak, .joint = joint.name, .angle_rad = 900.0}}),
+              "accepted")
+        << "the angle is of locked joints alone";
+  }
+}
+
+TEST(DamageSettings, HaveAPartsDefaultsAndLimitsInTheirDescription) {
+  const Part part;
+  EXPECT_EQ(part.share, 0.5);
+  EXPECT_EQ(part.mass_kg, 1.0);
+  for (const double number : {part.angle_rad, part.x_m, part.y_m, part.z_m, part.from_s})
+    EXPECT_EQ(number, 0.0);
+  const auto accepted = [](const char* key, double value) {
+    io::Json json = io::settings_to_json(Part{.kind = Kind::payload});
+    json[key] = value;
+    try {
+      io::settings_from_json<Part>(io::JsonView(json, "text"));
+    } catch (const UserError&) {
+      return false;
+    }
+    return true;
+  };
+  struct Bounds {
+    const char* key;
+    double least, most;
+  };
+  for (const auto& [key, least, most] : {Bounds{"angle_rad", -1000.0, 1000.0},
+                                         {"share", 0.0, 1.0},
+                                         {"mass_kg", 1e-9, 1e6},
+                                         {"x_m", -100.0, 100.0},
+                                         {"y_m", -100.0, 100.0},
+                                         {"z_m", -100.0, 100.0},
+                                         {"from_s", 0.0, 1e9}}) {
+    EXPECT_TRUE(accepted(key, least) && accepted(key, most)) << key;
+    EXPECT_FALSE(accepted(key, std::nextafter(least, -HUGE_VAL))) << key;
+    EXPECT_FALSE(accepted(key, std::nextafter(most, HUGE_VAL))) << key;
+  }
 }
 
 }  // namespace

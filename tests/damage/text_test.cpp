@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "amble/core/error.hpp"
 
 namespace amble::damage {
@@ -58,6 +61,30 @@ TEST(DamageText, IsRefusedInOneLineThatSaysWhatWasExpected) {
   EXPECT_EQ(refusal("payload:t=2"), "damage 'payload:t=2': expected MASS_KG/X_M/Y_M/Z_M after '='");
   for (const char* text : {"", ",", "missing", "missing:FL,", "locked:k=nan", "locked:k=0x", "weak:k=inf"})
     EXPECT_NE(refusal(text), "accepted") << text;
+}
+
+TEST(DamageText, TakesNumbersFromTheLeastToTheMost) {
+  const auto accepted = [](const std::string& text) {
+    try {
+      parse(text);
+    } catch (const UserError&) {
+      return false;
+    }
+    return true;
+  };
+  for (const char* text : {"locked:k=-1000", "locked:k=1000", "weak:k=0", "weak:k=1", "slack:k@0",
+                           "slack:k@1e9", "slack:k=", "payload:t=1e-9/0/0/0", "payload:t=1e6/0/0/0",
+                           "payload:t=1/-100/-100/-100", "payload:t=1/100/100/100"})
+    EXPECT_TRUE(accepted(text)) << text;
+  for (const char* text : {"locked:k=-1000.01", "locked:k=1000.01", "weak:k=-0.01", "weak:k=1.01",
+                           "slack:k@-0.01", "slack:k@1.01e9", "slack:k@", "payload:t=0.99e-9/0/0/0",
+                           "payload:t=1.01e6/0/0/0", "payload:t=1/-100.01/0/0", "payload:t=1/100.01/0/0",
+                           "payload:t=1/0/-100.01/0", "payload:t=1/0/100.01/0", "payload:t=1/0/0/-100.01",
+                           "payload:t=1/0/0/100.01", "payload:t=1/0/0", "payload:t=1/0/0/0/0", "numb:FL=1"})
+    EXPECT_FALSE(accepted(text)) << text;
+  const Part part = parse("payload:t=2/0.1/-0.2/0.3@4").parts.at(0);
+  EXPECT_EQ((std::vector{part.mass_kg, part.x_m, part.y_m, part.z_m, part.from_s}),
+            (std::vector{2.0, 0.1, -0.2, 0.3, 4.0}));
 }
 
 }  // namespace

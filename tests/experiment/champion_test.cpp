@@ -215,5 +215,55 @@ TEST(Champion, OfTheFirstGenerationIsTheGenomeOfItsIndex) {
   EXPECT_GT(not_first, 0);
 }
 
+/// What parsing says of a champion's file in which a value was replaced, under a checksum that fits.
+std::string error_with(const std::string& pointer, const io::Json& value) {
+  io::Json document = io::unseal_json("amble-champion", 4, champion_text(some_champion()), "c.json").document;
+  document[io::Json::json_pointer(pointer)] = value;
+  return error_of(io::sealed_json("amble-champion", 4, document));
+}
+
+TEST(Champion, HasCountsFromNoughtToTheLargestInt) {
+  for (const char* pointer : {"/generation", "/index", "/result/steps"}) {
+    EXPECT_EQ(error_with(pointer, 0), "") << pointer;
+    EXPECT_EQ(error_with(pointer, 2147483647), "") << pointer;
+    EXPECT_THAT(error_with(pointer, -1), HasSubstr("a whole number from 0 to 2147483647")) << pointer;
+    EXPECT_THAT(error_with(pointer, 2147483648), HasSubstr("a whole number from 0 to 2147483647")) << pointer;
+  }
+}
+
+TEST(Champion, HasATraceOfEightHexadecimalDigitsPerStep) {
+  for (const char* trace : {"", "00000000", "0123abcdffffffff"})
+    EXPECT_EQ(error_with("/trace", trace), "") << trace;
+  for (const char* trace :
+       {"0", "0000000", "000000000", "0000000g", "00000000 1234567", "-0000001", "0x000000"})
+    EXPECT_THAT(error_with("/trace", trace), HasSubstr("eight hexadecimal digits per step")) << trace;
+}
+
+TEST(Champion, EndsInOneOfTheThreeWays) {
+  for (const char* outcome : {"completed", "fell", "diverged"})
+    EXPECT_EQ(error_with("/result/outcome", outcome), "") << outcome;
+  EXPECT_THAT(error_with("/result/outcome", "flew"), HasSubstr("completed, fell or diverged"));
+  for (const char* pointer : {"/result/distance_m", "/result/seconds"})
+    EXPECT_THAT(error_with(pointer, "inf"), HasSubstr("a finite number")) << pointer;
+}
+
+TEST(Champion, KeepsNoShareOfADistanceBackwards) {
+  EXPECT_EQ(share_kept(1.5, -3.0), std::nullopt);
+  EXPECT_EQ(share_kept(-1.5, 1e-300), -1.5e300);
+}
+
+TEST(Champion, HasTheGroundAndTheTrialsOfItsOwnSeedAndGeneration) {
+  const auto champion = some_champion();
+  EXPECT_EQ(champion.ground_key().seed, 7u);
+  EXPECT_EQ(champion.ground_key().generation, 12u);
+  const auto key = champion.scenario_key(5), unseen = champion.unseen_scenario_key(5);
+  EXPECT_EQ(key.seed, 7u);
+  EXPECT_EQ(key.generation, 12u);
+  EXPECT_EQ(key.episode, 5u);
+  EXPECT_EQ(unseen.seed, 7u);
+  EXPECT_EQ(unseen.generation, 12u);
+  EXPECT_EQ(unseen.episode, 1005u) << "an evaluation has at most a thousand episodes";
+}
+
 }  // namespace
 }  // namespace amble::experiment

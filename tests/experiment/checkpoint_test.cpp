@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "amble/core/error.hpp"
 #include "amble/core/random.hpp"
@@ -132,6 +133,20 @@ TEST_F(Checkpoint, HoldsTheThresholdOfNoveltySearch) {
   };
   EXPECT_EQ(value("novelty_threshold"), 0.5 * 1.2);
   EXPECT_EQ(value("archive"), 40.0);
+}
+
+TEST_F(Checkpoint, HasNumbersThatAreFinite) {
+  const auto refusal = [&](double best, double wall_s) {
+    Progress progress = state_.progress;
+    progress.best = best;
+    progress.wall_s = wall_s;
+    return error_of(checkpoint_bytes(config_, progress, *state_.strategy));
+  };
+  EXPECT_EQ(refusal(-1e300, 1e300), "");
+  for (const double number : {HUGE_VAL, -HUGE_VAL, std::nan("")}) {
+    EXPECT_NE(refusal(number, 1.0).find("a number that is not finite"), std::string::npos) << number;
+    EXPECT_NE(refusal(1.0, number).find("a number that is not finite"), std::string::npos) << number;
+  }
 }
 
 }  // namespace

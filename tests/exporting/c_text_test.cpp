@@ -115,5 +115,13 @@ TEST(CNeuralText, FusedMultiplyAddIsThatOfTheProcessor) {
   EXPECT_EQ(tests::run_shell("'" + program + "'").out, "0 wrong\n");
 }
 
+TEST(CText, TakesTheSmallestTypeThatHoldsANumber) {
+  EXPECT_EQ(unsigned_type(0), "uint8_t");
+  EXPECT_EQ(unsigned_type(255), "uint8_t");
+  EXPECT_EQ(unsigned_type(256), "uint16_t");
+  EXPECT_EQ(unsigned_type(65535), "uint16_t");
+  EXPECT_EQ(unsigned_type(65536), "uint32_t");
+}
+
 }  // namespace
 }  // namespace amble::exporting

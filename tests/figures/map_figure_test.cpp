@@ -67,5 +67,22 @@ TEST(MapFigure, OfTooManyCellsIsRefused) {
   EXPECT_THROW(map_svg(map_of({1000, 1000})), UserError);
 }
 
+TEST(MapFigure, HasTwoHundredThousandCellsAndNoMore) {
+  const auto refusal = [](int columns, int rows) -> std::string {
+    GridMap map;
+    map.dimensions = {{.name = "a", .least = 0.0, .most = 1.0, .bins = columns},
+                      {.name = "b", .least = 0.0, .most = 1.0, .bins = rows}};
+    map.objective.assign(static_cast<std::size_t>(columns * rows), std::nan(""));
+    try {
+      map_figure(map);
+    } catch (const UserError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal(400, 500), "");
+  EXPECT_EQ(refusal(200'001, 1), "a map of 200001 cells: a picture has at most 200000");
+}
+
 }  // namespace
 }  // namespace amble::figures

@@ -305,5 +305,31 @@ TEST(GaitMeter, TakesTheLateralPhaseOfBothSides) {
     }
 }
 
+TEST(GaitMeter, TakesSettingsUpToTheEndsOfTheirRanges) {
+  const auto accepted = [](double Settings::*member, double value) {
+    Settings settings;
+    settings.*member = value;
+    return tests::error_of([&] { settings.validate(); }) == "no error";
+  };
+  struct Range {
+    double Settings::*member;
+    double least, most;
+  };
+  for (const auto& [member, least, most] :
+       {Range{&Settings::debounce_s, 0.0, 1.0},
+        {&Settings::transient_s, 0.0, 1e6},
+        {&Settings::window_s, 0.1, 3600.0},
+        {&Settings::longest_stride_s, std::nextafter(0.0, 1.0), 3600.0}}) {
+    EXPECT_TRUE(accepted(member, least) && accepted(member, most));
+    EXPECT_FALSE(accepted(member, std::nextafter(least, -1.0))) << least;
+    EXPECT_FALSE(accepted(member, std::nextafter(most, HUGE_VAL))) << most;
+    EXPECT_FALSE(accepted(member, std::nan("")));
+  }
+  Settings settings;
+  settings.longest_stride_s = 0.0;
+  EXPECT_EQ(tests::error_of([&] { settings.validate(); }),
+            "gait: longest stride = 0 s: expected more than 0, at most 3600 s");
+}
+
 }  // namespace
 }  // namespace amble::gait

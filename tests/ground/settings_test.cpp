@@ -112,5 +112,51 @@ TEST(RecordedGround, RefusesKeysThatNoGroundHas) {
   }
 }
 
+TEST(GroundSettings, DrawTheirLimitsWhereTheMessagesSay) {
+  const auto accepted = [](Kind kind, double length_m, double start_radius_m) {
+    return refusal([=](Settings& s) {
+             s.kind = kind;
+             s.cell_m = 0.25;  // the ground repeats after 64 m
+             s.length_m = length_m;
+             s.start_radius_m = start_radius_m;
+           }) == "accepted";
+  };
+  for (const Kind kind :
+       {Kind::hills, Kind::rough, Kind::stones, Kind::blocks, Kind::stairs, Kind::hurdles}) {
+    EXPECT_TRUE(accepted(kind, 0.5, 0.0)) << "two cells";
+    EXPECT_FALSE(accepted(kind, 0.49, 0.0));
+  }
+  for (const Kind kind : {Kind::hills, Kind::rough, Kind::stones, Kind::blocks}) {
+    EXPECT_TRUE(accepted(kind, 32.0, 32.0)) << "the larger of both fits";
+    EXPECT_FALSE(accepted(kind, 32.1, 0.0));
+    EXPECT_FALSE(accepted(kind, 1.0, 32.1));
+  }
+  for (const Kind kind : {Kind::stairs, Kind::hurdles}) {
+    EXPECT_TRUE(accepted(kind, 12.0, 20.0)) << "both together fit";
+    EXPECT_FALSE(accepted(kind, 12.1, 20.0));
+  }
+  for (const Kind kind : {Kind::plane, Kind::stones}) {
+    const auto with_friction = [kind](double friction) {
+      return refusal([=](Settings& s) {
+               s.kind = kind;
+               s.friction = friction;
+             }) == "accepted";
+    };
+    EXPECT_TRUE(with_friction(0.0));
+    EXPECT_TRUE(with_friction(-1.0));
+    EXPECT_FALSE(with_friction(-1e-9));
+    EXPECT_FALSE(with_friction(-0.999));
+  }
+}
+
+TEST(GroundSettings, LeanAlongXAndYEachByItsOwnSlope) {
+  Settings settings;
+  settings.slope_y = 0.75;  // 3 : 4 : 5
+  EXPECT_EQ(settings.tilted({0.0, 0.0, -10.0}), (Vec3{0.0, -6.0, -8.0}));
+  settings.slope_y = 0.0;
+  settings.slope_x = 0.75;
+  EXPECT_EQ(settings.tilted({0.0, 0.0, -10.0}), (Vec3{-6.0, 0.0, -8.0}));
+}
+
 }  // namespace
 }  // namespace amble::ground

@@ -141,5 +141,21 @@ TEST(Seal, TellsBytesBehindTheEnd) {
             "c: altered: 36 bytes instead of 35");
 }
 
+TEST(BinaryReader, TakesListsThatFillTheBytesExactly) {
+  for (const std::uint64_t count : {2, 3}) {
+    BinaryWriter writer;
+    writer.put(count);
+    writer.put(std::uint64_t{7});
+    writer.put(std::uint64_t{8});
+    BinaryReader reader(writer.bytes(), "x");
+    if (count == 2) {
+      EXPECT_EQ(reader.get_vector<std::uint64_t>(), (std::vector<std::uint64_t>{7, 8}));
+      reader.finish();
+    } else {
+      EXPECT_THROW(reader.get_vector<std::uint64_t>(), UserError);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace amble::io

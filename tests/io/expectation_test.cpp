@@ -42,5 +42,23 @@ TEST(Expectation, ComparesWholeNumbersExactly) {
   EXPECT_FALSE(in_range({0.0, 9007199254740992.0}, std::int64_t{9007199254740993}));
 }
 
+TEST(Expectation, SaysAFiniteNumberWhereEitherEndIsTheLargestOne) {
+  constexpr double most = std::numeric_limits<double>::max();
+  EXPECT_EQ(expected_number({-most, 3.0}), "a finite number of at most 3");
+  EXPECT_EQ(expected_number({-most, most}), "a finite number");
+  EXPECT_EQ(expected_number({-most, infinity}), "a finite number");
+  EXPECT_EQ(expected_numbers({2.0}), "a list of numbers from 2 to inf");
+  EXPECT_EQ(expected_numbers({}), "a list of numbers");
+}
+
+TEST(Expectation, BoundsOfWholeNumbersBelongToTheRange) {
+  EXPECT_TRUE(in_range({-3.0, 5.0}, std::int64_t{-3}));
+  EXPECT_TRUE(in_range({-3.0, 5.0}, std::int64_t{5}));
+  EXPECT_FALSE(in_range({-3.0, 5.0}, std::int64_t{-4}));
+  EXPECT_FALSE(in_range({-3.0, 5.0}, std::int64_t{6}));
+  EXPECT_FALSE(in_range({0.5, 1.5}, std::int64_t{0}));
+  EXPECT_TRUE(in_range({-infinity, infinity}, std::numeric_limits<std::int64_t>::min()));
+}
+
 }  // namespace
 }  // namespace amble::io

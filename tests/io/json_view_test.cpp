@@ -56,5 +56,25 @@ TEST_F(JsonViewTest, NamesFileKeyAndWhatWasExpected) {
             "c.json: key 'flag' is unknown");
 }
 
+TEST_F(JsonViewTest, ReadsWholeNumbersUpToTheLargestAndTextsOfInfinityAlone) {
+  const Json json =
+      parse_json(R"({"most": 9223372036854775807, "inf": "inf", "+inf": "+inf", "nan": "nan"})", "x");
+  const JsonView view(json, "c.json");
+  EXPECT_EQ(view.at("most").integer(), std::numeric_limits<std::int64_t>::max());
+  for (const char* key : {"+inf", "nan"})
+    EXPECT_EQ(error_of(ExitCode::bad_file, [&] { view.at(key).number(); }),
+              std::string("c.json: key '") + key + "' must be a number");
+  EXPECT_EQ(error_of(ExitCode::bad_file, [&] { view.at("inf").finite_number(); }),
+            "c.json: key 'inf' must be a finite number");
+  EXPECT_EQ(view.at("most").finite_number(), 0x1p63);
+}
+
+TEST_F(JsonViewTest, ListsEndAtTheirSize) {
+  const JsonView list = view_.at("a").at("list");
+  EXPECT_NO_THROW(list.at(std::size_t{4}));
+  EXPECT_EQ(error_of(ExitCode::bad_file, [&] { list.at(std::size_t{5}); }),
+            "c.json: key 'a.list[5]' is missing");
+}
+
 }  // namespace
 }  // namespace amble::io

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "amble/io/toml_settings.hpp"
 #include "tests/io/expect_error.hpp"
 #include "tests/io/sample_settings.hpp"
@@ -209,6 +211,23 @@ TEST(TomlReader, NamesLineAndPlaceOfABadItem) {
 TEST(TomlReader, RefusesUnknownKeysInsideItems) {
   EXPECT_EQ(refusal("knots = [\n  { name = 'a' },\n  { nam = 'b' },\n]"),
             "configs/x.toml:3: unknown key 'knots[1].nam' (did you mean 'knots[1].name'?)");
+}
+
+TEST(TomlReader, AWholeNumberForAnIntReachesBothEndsOfAnInt) {
+  struct Unbounded {
+    int value = 0;
+    void describe(SettingsVisitor& visitor) { visitor.integer("value", value, {}, {"No bound."}); }
+  };
+  const auto read = [](const std::string& value) {
+    Unbounded settings;
+    const TomlDocument document = TomlDocument::parse("value = " + value, "x.toml");
+    settings.describe(*document.reader());
+    return settings.value;
+  };
+  EXPECT_EQ(read("2147483647"), std::numeric_limits<int>::max());
+  EXPECT_EQ(read("-2147483648"), std::numeric_limits<int>::min());
+  EXPECT_EQ(error_of(ExitCode::bad_input, [&] { read("-2147483649"); }),
+            "x.toml:1: 'value' = -2147483649: expected a whole number from -2147483648 to 2147483647");
 }
 
 }  // namespace

@@ -61,5 +61,21 @@ TEST(TomlSyntax, FilesThatCannotBeConfigsAreRefused) {
             large + ": larger than 1048576 bytes");
 }
 
+TEST(TomlSyntax, SixteenLevelsAreAccepted) {
+  const auto repeated = [](const std::string& text, std::size_t count) {
+    std::string result;
+    for (std::size_t i = 0; i < count; ++i) result += text;
+    return result;
+  };
+  const auto accepted = [](const std::string& text) {
+    EXPECT_NO_THROW(TomlDocument::parse(text, "x.toml")) << text;
+  };
+  accepted("a = " + repeated("[", 16) + repeated("]", 16));
+  accepted("a = " + repeated("{a=", 16) + "1" + repeated("}", 16));
+  accepted(repeated("a.", 16) + "b = 1");
+  accepted("[" + repeated("a.", 16) + "b]\nc = 1");
+  accepted(repeated("a.", 16) + "b = 1\nb." + repeated("a.", 15) + "b = 1");
+}
+
 }  // namespace
 }  // namespace amble::io

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
@@ -117,6 +118,205 @@ TEST(StudySpec, MistakesAreNamedWithTheirPlace) {
             "s.toml:2: unknown key 'seed' (did you mean 'seeds'?)");
   EXPECT_EQ(diagnostic("name = \"s\"\nseeds = [1]\n"),
             "s.toml: no conditions: expected at least one [[conditions]]");
+}
+
+/// The diagnostic for the good study with this claim about the condition "a" instead of its own.
+std::string claim_diagnostic(const std::string& claim) {
+  const std::string text = good;
+  return diagnostic(text.substr(0, text.find("[[claims]]")) +
+                    "[[claims]]\ntext = \"Claim.\"\ncondition = \"a\"\nmeasure = \"five.distance_m\"\n" +
+                    claim);
+}
+
+struct ClaimCase {
+  const char* claim;
+  const char* diagnostic;  ///< without its place; "": accepted
+};
+
+void expect_diagnostics(const std::vector<ClaimCase>& cases) {
+  for (const auto& [claim, expected] : cases) {
+    const std::string found = claim_diagnostic(claim);
+    const std::size_t place = found.find("'claims[0].");
+    EXPECT_EQ(place == std::string::npos ? found : found.substr(place), expected) << claim;
+  }
+}
+
+TEST(ClaimSpec, OfARatioHasOneDenominatorAndABound) {
+  const char* const denominator =
+      "'claims[0].against': expected either 'against' (a condition) or 'base_measure' for a ratio";
+  expect_diagnostics({
+      {"kind = 'ratio'\nagainst = 'b'\nat_least = 2.0", ""},
+      {"kind = 'ratio'\nagainst = 'b'\nat_most = 2.0", ""},
+      {"kind = 'ratio'\nbase_measure = 'train_m'\nat_least = 1.0\nat_most = 2.0", ""},
+      {"kind = 'ratio'\nat_least = 2.0", denominator},
+      {"kind = 'ratio'\nagainst = 'b'\nbase_measure = 'train_m'\nat_least = 2.0", denominator},
+      {"kind = 'ratio'\nagainst = 'c'\nat_least = 2.0",
+       "'claims[0].against': expected the name of a condition, not \"c\""},
+      {"kind = 'ratio'\nbase_measure = 'speed'\nat_least = 2.0",
+       "'claims[0].base_measure': expected train_m, hidden, links, or TEST.distance_m, .upright_s, "
+       ".walking_s, "
+       ".kept, not \"speed\""},
+      {"kind = 'ratio'\nbase_measure = 'train_m'",
+       "'claims[0].at_least': expected at_least, at_most or both for a ratio"},
+  });
+}
+
+TEST(ClaimSpec, OfACountHasOneThresholdAndEitherBoundsOrAPublishedCount) {
+  const char* const threshold =
+      "'claims[0].threshold': expected either 'threshold' or 'threshold_condition' for a count";
+  const char* const bounds =
+      "'claims[0].at_least': expected either bounds (at_least, at_most) or a published count (successes, "
+      "runs)";
+  expect_diagnostics({
+      {"kind = 'count'\nthreshold = 1.0\nat_least = 2", ""},
+      {"kind = 'count'\nthreshold = 1.0\nat_most = 2", ""},
+      {"kind = 'count'\nthreshold_condition = 'b'\nruns = 5\nsuccesses = 5", ""},
+      {"kind = 'count'\nthreshold = 1.0\nruns = 1", ""},
+      {"kind = 'count'\nthreshold = 1.0\nat_least = 2\nsuccesses = 3", ""},
+      {"kind = 'count'\nat_least = 2", threshold},
+      {"kind = 'count'\nthreshold = 1.0\nthreshold_condition = 'b'\nat_least = 2", threshold},
+      {"kind = 'count'\nthreshold_condition = 'c'\nat_least = 2",
+       "'claims[0].threshold_condition': expected the name of a condition, not \"c\""},
+      {"kind = 'count'\nthreshold = 1.0", bounds},
+      {"kind = 'count'\nthreshold = 1.0\nat_least = 2\nruns = 5", bounds},
+      {"kind = 'count'\nthreshold = 1.0\nat_most = 2\nruns = 5", bounds},
+      {"kind = 'count'\nthreshold = 1.0\nruns = 5\nsuccesses = 6",
+       "'claims[0].successes': expected at most 'runs'"},
+  });
+}
+
+TEST(ClaimSpec, OfEachOtherKindHasWhatItsRuleNeeds) {
+  const char* const spread = "'claims[0].sd': expected sd > 0 and runs > 1";
+  const char* const plateau = "'claims[0].at_most': expected at_most and from_generation for a plateau";
+  expect_diagnostics({
+      {"kind = 'difference'\nagainst = 'b'", ""},
+      {"kind = 'difference'", "'claims[0].against': expected the name of a condition, not \"\""},
+      {"kind = 'value'\nmean = 3.0\nsd = 1e-9\nruns = 2", ""},
+      {"kind = 'value'\nmean = 3.0\nsd = 0.0\nruns = 2", spread},
+      {"kind = 'value'\nmean = 3.0\nsd = 1.0\nruns = 1", spread},
+      {"kind = 'plateau'\nat_most = 0.1\nfrom_generation = 1", ""},
+      {"kind = 'plateau'\nat_most = 0.1", plateau},
+      {"kind = 'plateau'\nfrom_generation = 1", plateau},
+      {"kind = 'gaits'\nincludes = ['trot']",
+       "'claims[0].measure': expected the name of a test, not \"five.distance_m\""},
+  });
+  const auto gaits = [](const std::string& names) {
+    const std::string text = replaced(good, "five.distance_m", "five");
+    return diagnostic(replaced(text, "kind = \"difference\"", "kind = \"gaits\"" + names));
+  };
+  EXPECT_EQ(gaits("\nincludes = ['trot']"), "");
+  EXPECT_EQ(gaits("\nonly = ['trot']"), "");
+  EXPECT_NE(gaits("").find("'claims[0].includes': expected names of gaits here or in 'only'"),
+            std::string::npos);
+  EXPECT_NE(diagnostic(replaced(good, "A beats B.", "")).find("'claims[0].text': expected a sentence"),
+            std::string::npos);
+  EXPECT_NE(diagnostic(replaced(good, "condition = \"a\"", "condition = \"d\""))
+                .find("'claims[0].condition': expected the name of a condition, not \"d\""),
+            std::string::npos);
+}
+
+TEST(StudySpec, NumbersKeepToTheirRanges) {
+  struct Case {
+    const char *old, *key, *least, *most, *below, *beyond;
+  };
+  const auto with_key = [](const char* old, const std::string& key, const std::string& value) {
+    return diagnostic(replaced(good, old, std::string(old) + "\n" + key + " = " + value));
+  };
+  const char* const claim = "against = \"b\"";
+  const char* const condition = "config = \"a.toml\"";
+  const char* const test = "name = \"five\"";
+  for (const auto& [old, key, least, most, below, beyond] :
+       {Case{claim, "alpha", "1e-9", "0.5", "0.99e-9", "0.51"},
+        {claim, "sd", "0.0", "inf", "-1e-9", "nan"},
+        {claim, "runs", "0", "1000000000", "-1", "1000000001"},
+        {claim, "successes", "0", "1000000000", "-1", "1000000001"},
+        {claim, "from_generation", "0", "1000000000", "-1", "1000000001"},
+        {condition, "generations", "0", "1000000000", "-1", "1000000001"},
+        {condition, "seeds", "[0]", "[9007199254740992]", "[-1]", "[9007199254740994]"},
+        {"name = \"s\"", "generations", "0", "1000000000", "-1", "1000000001"},
+        {test, "reach_m", "0.0", "1e6", "-0.1", "1000000.1"}}) {
+    EXPECT_EQ(with_key(old, key, least), "") << key;
+    EXPECT_EQ(with_key(old, key, most), "") << key;
+    EXPECT_NE(with_key(old, key, below).find(key), std::string::npos) << key;
+    EXPECT_NE(with_key(old, key, beyond).find(key), std::string::npos) << key;
+  }
+  const auto of_test = [](const std::string& key, const std::string& value) {
+    const std::string more = key == "seconds" ? "" : "\nnoise = \"n.toml\"\nepisodes = " + value;
+    return diagnostic(
+        replaced(good, "seconds = 300", "seconds = " + (key == "seconds" ? value : "300") + more));
+  };
+  for (const char* accepted : {"1e-5", "1e6"}) EXPECT_EQ(of_test("seconds", accepted), "") << accepted;
+  for (const char* refused : {"0.99e-5", "1000000.1"}) EXPECT_NE(of_test("seconds", refused), "") << refused;
+  for (const char* accepted : {"1", "1000"}) EXPECT_EQ(of_test("episodes", accepted), "") << accepted;
+  for (const char* refused : {"0", "1001"}) EXPECT_NE(of_test("episodes", refused), "") << refused;
+}
+
+TEST(StudySpec, TestsHaveSeveralEpisodesWhereNoiseOrGroundMakesThemDiffer) {
+  const auto episodes = [](const std::string& more) {
+    return diagnostic(replaced(good, "seconds = 300", "seconds = 300\nepisodes = 2\n" + more));
+  };
+  EXPECT_EQ(episodes("noise = \"n.toml\""), "");
+  EXPECT_EQ(episodes("ground = \"n.toml\""), "");
+  EXPECT_NE(episodes("damage = \"n.toml\"").find("without noise all trials are the same"), std::string::npos);
+  EXPECT_EQ(diagnostic(replaced(good, "seconds = 300", "seconds = 300\nconditions = [\"b\"]")), "");
+  EXPECT_NE(diagnostic(replaced(good, "seconds = 300", "seconds = 300\nconditions = [\"b\", \"c\"]"))
+                .find("'tests[0].conditions' names \"c\", which is none of the conditions"),
+            std::string::npos);
+}
+
+TEST(StudySpec, EveryConditionHasAConfigSeedsAndAName) {
+  EXPECT_NE(diagnostic(replaced(good, "config = \"a.toml\"", "")).find("'conditions[0].config' is missing"),
+            std::string::npos);
+  EXPECT_NE(diagnostic(replaced(good, "seeds = [1, 2]", "")).find("'seeds' is missing"), std::string::npos);
+  EXPECT_EQ(diagnostic(replaced(replaced(good, "seeds = [1, 2]", ""), "config = \"a.toml\"",
+                                "config = \"a.toml\"\nseeds = [3]")),
+            "")
+      << "each condition has its own";
+  EXPECT_NE(diagnostic(replaced(good, "seeds = [5]", "seeds = [5, 6, 5]"))
+                .find("'conditions[1].seeds' has the seed 5"),
+            std::string::npos);
+  for (const char* name : {"a-z_09", "0", "_"})
+    EXPECT_EQ(diagnostic(replaced(good, "name = \"five\"\nseconds = 300\n[[claims]]",
+                                  std::string("name = \"five\"\nseconds = 300\n[[tests]]\nname = \"") + name +
+                                      "\"\n[[claims]]")),
+              "")
+        << name;
+  for (const char* name : {"A", "a b", "a.b", "`", "{", ":", "é"})
+    EXPECT_NE(diagnostic(replaced(good, "name = \"five\"", std::string("name = \"") + name + "\""))
+                  .find("expected 1 to 64 of a-z"),
+              std::string::npos)
+        << name;
+}
+
+TEST(StudySpec, FilesOfConditionsAndTestsAreResolvedEachByItsOwnKey) {
+  const TemporaryFolder folder;
+  io::write_file(folder.path() / "s.toml",
+                 replaced(replaced(good, "config = \"a.toml\"", "config = \"a.toml\"\nrobot = \"r.toml\""),
+                          "seconds = 300",
+                          "seconds = 300\nnoise = \"n.toml\"\nground = \"g.toml\"\ndamage = \"/d.toml\""));
+  const StudySpec study = load_study(folder.path() / "s.toml");
+  EXPECT_EQ(study.conditions[0].robot, (folder.path() / "r.toml").string());
+  EXPECT_EQ(study.conditions[1].robot, "");
+  EXPECT_EQ(study.tests[0].noise, (folder.path() / "n.toml").string());
+  EXPECT_EQ(study.tests[0].ground, (folder.path() / "g.toml").string());
+  EXPECT_EQ(study.tests[0].damage, "/d.toml");
+}
+
+TEST(StudySpec, DefaultsAreThoseOfAStudyThatSaysNothing) {
+  const ClaimSpec claim;
+  EXPECT_EQ(claim.kind, ClaimKind::difference);
+  EXPECT_EQ(claim.measure, "train_m");
+  EXPECT_EQ(claim.relation, Relation::greater);
+  EXPECT_EQ(claim.test, TwoSampleTest::student);
+  EXPECT_EQ(claim.alpha, 0.05);
+  EXPECT_EQ(claim.at_least, -unbounded);
+  EXPECT_EQ(claim.at_most, unbounded);
+  EXPECT_EQ(claim.threshold, -unbounded);
+  EXPECT_EQ(claim.mean, 0.0);
+  EXPECT_EQ(claim.sd, 0.0);
+  EXPECT_EQ(claim.runs, 0);
+  EXPECT_EQ(claim.successes, 0);
+  EXPECT_EQ(claim.from_generation, 0);
 }
 
 }  // namespace

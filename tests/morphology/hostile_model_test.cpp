@@ -85,5 +85,12 @@ TEST_F(HostileModel, AsUrdf) {
       "r.urdf:1002: too large a model: more than 1000 bodies");
 }
 
+TEST_F(HostileModel, MayHaveThirtyTwoIncludes) {
+  files_.write("part.xml", "<mujoco/>");
+  EXPECT_EQ(refusal("<mujoco>" + repeated("<include file=\"part.xml\"/>", 32) + "</mujoco>").find("includes"),
+            std::string::npos);
+  EXPECT_EQ(refusal("<mujoco>\n<include/></mujoco>"), "m.xml:2: <include> names no file");
+}
+
 }  // namespace
 }  // namespace amble::morphology

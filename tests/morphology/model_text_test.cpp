@@ -126,5 +126,13 @@ TEST_F(Meshes, ThatAreTooLargeAreNotRead) {
   EXPECT_THAT(found.notes.text(), HasSubstr("whose mesh is missing: shell.obj"));
 }
 
+TEST(ModelText, TakesOnlyPositiveNumbersBelowABillion) {
+  EXPECT_EQ(positive_or_zero("0.25"), 0.25);
+  EXPECT_EQ(positive_or_zero("999999999"), 999999999.0);
+  for (const char* text : {"1e9", "inf", "nan", "0", "-1", "fast", ""})
+    EXPECT_EQ(positive_or_zero(text), 0.0) << text;
+  EXPECT_EQ(positive_or_zero(std::nullopt), 0.0);
+}
+
 }  // namespace
 }  // namespace amble::morphology

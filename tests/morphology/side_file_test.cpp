@@ -121,5 +121,51 @@ TEST(SideFile, FillsInPatternsWhereverAndHoweverOftenTheirMarksStand) {
   EXPECT_EQ(side.names[1].foot, "BBBB.BB");
 }
 
+TEST(SideFile, TakesNumbersToTheEndsOfTheirRanges) {
+  const Files files;
+  const auto accepted = [&](std::string_view key, std::string_view old, std::string_view value) {
+    const std::string was = std::string(key) + " = " + std::string(old) + "\n";
+    const std::string line = std::string(key) + " = " + std::string(value) + "\n";
+    const std::string text = files.error_of([&] { read(files, with(one_leg_toml, was, line)); });
+    EXPECT_TRUE(text == "accepted" || text.find(key) != std::string::npos) << text;
+    return text == "accepted";
+  };
+  struct Case {
+    const char *key, *old, *least, *most, *below, *beyond;
+  };
+  for (const auto& [key, old, least, most, below, beyond] :
+       {Case{"erp", "0.1", "0.0", "1.0", "-0.001", "1.001"},
+        {"friction", "inf", "0.0", "inf", "-0.001", "nan"},
+        {"cfm_s_per_kg", "1e-4", "0.0", "1e308", "-1e-9", "inf"},
+        {"gain_per_s", "9.0", "0.0", "1e308", "-1e-9", "inf"},
+        {"max_torque_nm", "5.0", "0.0", "1e308", "-1e-9", "inf"},
+        {"fall_height_m", "0.5", "-1e308", "1e308", "-inf", "inf"}}) {
+    EXPECT_TRUE(accepted(key, old, least)) << key;
+    EXPECT_TRUE(accepted(key, old, most)) << key;
+    EXPECT_FALSE(accepted(key, old, below)) << key;
+    EXPECT_FALSE(accepted(key, old, beyond)) << key;
+  }
+  for (const int sweeps : {0, 1000})
+    EXPECT_TRUE(accepted("cfm_s_per_kg", "1e-4", fmt::format("1e-4\nsweeps = {}", sweeps))) << sweeps;
+  EXPECT_NE(files
+                .error_of([&] {
+                  read(files, with(one_leg_toml, "cfm_s_per_kg = 1e-4", "cfm_s_per_kg = 1e-4\nsweeps = -1"));
+                })
+                .find("'contact.sweeps' = -1: expected a whole number from 0 to 1000"),
+            std::string::npos);
+}
+
+TEST(SideFile, HasRangesOfCommandOfTwoRisingNumbers) {
+  const Files files;
+  const auto refusal = [&](const std::string& range) {
+    return files.error_of([&] { read(files, one_leg_toml + "[command]\nhip = " + range + "\n"); });
+  };
+  EXPECT_EQ(refusal("[-0.1, 0.1]"), "accepted");
+  for (const char* range : {"[0.1, 0.1]", "[0.2, 0.1]", "[0.1]", "[0.1, 0.2, 0.3]"})
+    EXPECT_NE(refusal(range).find("'command.hip': expected [lower, upper] with lower below upper"),
+              std::string::npos)
+        << range;
+}
+
 }  // namespace
 }  // namespace amble::morphology

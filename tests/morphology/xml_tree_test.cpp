@@ -91,5 +91,28 @@ TEST(XmlTree, HasANameForEveryElementAndAttribute) {
     EXPECT_NE(refusal(text), "accepted") << text;
 }
 
+TEST(XmlTree, HoldsAsMuchAsItsLimitsAndNoMore) {
+  const auto refused = [](const std::string& text, const XmlLimits& limits) -> std::string {
+    try {
+      parse_xml(text, "f", limits);
+    } catch (const UserError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const std::string tree = "<a><b><c/></b><body/><link/></a>";
+  EXPECT_EQ(refused(tree, {.elements = 5, .depth = 3, .bodies = 2}), "accepted");
+  EXPECT_EQ(refused(tree, {.elements = 4, .depth = 3, .bodies = 2}),
+            "f:1: too large a model: more than 4 elements");
+  EXPECT_EQ(refused(tree, {.elements = 5, .depth = 2, .bodies = 2}),
+            "f:1: too large a model: elements within each other 3 deep");
+  EXPECT_EQ(refused(tree, {.elements = 5, .depth = 3, .bodies = 1}),
+            "f:1: too large a model: more than 1 bodies");
+  const XmlLimits standard;
+  EXPECT_EQ(standard.elements, 200'000u);
+  EXPECT_EQ(standard.depth, 256u);
+  EXPECT_EQ(standard.bodies, 1000u);
+}
+
 }  // namespace
 }  // namespace amble::morphology

@@ -47,5 +47,24 @@ TEST(NeuralNetwork, NamesWhatIsWrong) {
             "walk.rec: controller: key 'possible_links' is missing");
 }
 
+TEST(NeuralNetwork, LinksNodesFromTheFirstToTheLast) {
+  using Json = nlohmann::json;
+  for (const char* end : {"source", "target"}) {
+    for (const int node : {0, 2})
+      EXPECT_EQ(error_after([&](Json& json) { json["links"][1][end] = node; }), "no error");
+    for (const int node : {-1, 3})
+      EXPECT_NE(
+          error_after([&](Json& json) { json["links"][1][end] = node; }).find("must be the index of a node"),
+          std::string::npos)
+          << end << " " << node;
+  }
+  EXPECT_NE(error_after([](Json& json) { json["links"][1]["weight"] = "inf"; }).find("a finite number"),
+            std::string::npos);
+  EXPECT_NE(error_after([](Json& json) {
+              json["nodes"][0]["at"] = {1, 2, 3};
+            }).find("a number for each coordinate"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace amble::motion

@@ -46,5 +46,31 @@ TEST(SupgPatterns, NamesWhatIsWrong) {
             "walk.rec: controller: key 'patterns_rad[3][4]' must be a finite number");
 }
 
+TEST(SupgPatterns, TellsEachEndOfTheRangesOfItsNumbers) {
+  const auto with_period = [](std::int64_t ticks) {
+    return error_after([=](auto& json) {
+      json["period_ticks"] = ticks;
+      for (auto& pattern : json["patterns_rad"]) pattern = {0.0, 0.1};
+    });
+  };
+  EXPECT_EQ(with_period(1), "no error");
+  EXPECT_NE(with_period(1'000'000).find("a number for each tick"), std::string::npos)
+      << "the period itself is sound";
+  for (const std::int64_t ticks : {std::int64_t{-1}, std::int64_t{1'000'001}, std::int64_t{1} << 40})
+    EXPECT_NE(with_period(ticks).find("a whole number from 1 to 1000000"), std::string::npos) << ticks;
+  EXPECT_EQ(error_after([](auto& json) { json["timestep_s"] = 1e-9; }), "no error");
+  for (const char* timestep : {"0", "\"inf\"", "\"-inf\""})
+    EXPECT_NE(error_after([&](auto& json) {
+                json["timestep_s"] = nlohmann::json::parse(timestep);
+              }).find("'timestep_s' must be a number above 0"),
+              std::string::npos)
+        << timestep;
+  EXPECT_NE(
+      error_after([](auto& json) { json["patterns_rad"][3].push_back(0.0); }).find("a number for each tick"),
+      std::string::npos);
+  EXPECT_NE(error_after([](auto& json) { json["offset_ticks"].erase(0); }).find("a number for each leg"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace amble::motion

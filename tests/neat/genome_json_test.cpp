@@ -72,5 +72,26 @@ TEST(GenomeJson, RefusesWeightsThatAreNotFinite) {
   EXPECT_EQ(error_about(json), "file.json: key 'links[0].weight' must be a number");
 }
 
+TEST(GenomeJson, ReadsNumbersUpToTheLargest) {
+  for (const std::uint32_t number : {0u, 0xffffffffu}) {
+    io::Json json = to_json(small());
+    for (const char* key : {"innovation", "from", "to"}) json["links"][1][key] = number;
+    json["nodes"][3]["id"] = number;
+    const Genome genome = genome_from_json(io::JsonView(json, "file.json"));
+    EXPECT_EQ(genome.links[1].innovation, number);
+    EXPECT_EQ(genome.links[1].from, number);
+    EXPECT_EQ(genome.links[1].to, number);
+    EXPECT_EQ(genome.nodes[3].id, number);
+  }
+  for (const auto& [list, index, key] :
+       {std::tuple{"links", 1, "innovation"}, {"links", 1, "from"}, {"links", 1, "to"}, {"nodes", 3, "id"}})
+    for (const std::int64_t number : {std::int64_t{-1}, std::int64_t{1} << 32}) {
+      io::Json json = to_json(small());
+      json[list][static_cast<std::size_t>(index)][key] = number;
+      EXPECT_NE(complaint_about(json).find("must be a whole number from 0 to 4294967295"), std::string::npos)
+          << key;
+    }
+}
+
 }  // namespace
 }  // namespace amble::neat

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "amble/core/error.hpp"
 #include "amble/io/json_file.hpp"
 #include "tests/neat/samples.hpp"
@@ -91,6 +94,97 @@ TEST(Settings, RefuseWhatDoesNotFitTogetherNamingTheKey) {
   EXPECT_EQ(
       error_about([](Settings& s) { s.genome.initial_link_probability = s.mutation.add_link_share = 0; }),
       "'mutation.add_link_share' = 0: expected more than 0, because genome.initial_link_probability is 0");
+}
+
+TEST(Settings, NeedOnlyOneShareOfEachRoulette) {
+  const auto accepted = [](const Settings& settings) {
+    return error_of([&] { settings.validate(); }).empty();
+  };
+  for (const auto share : {&MutationSettings::weights_share, &MutationSettings::add_link_share,
+                           &MutationSettings::add_node_share, &MutationSettings::delete_link_share}) {
+    Settings settings;
+    auto& m = settings.mutation;
+    m.weights_share = m.add_link_share = m.add_node_share = m.delete_link_share = 0.0;
+    m.*share = 1e-9;
+    EXPECT_TRUE(accepted(settings));
+  }
+  using Weights = WeightMutationSettings;
+  for (const auto share :
+       {&Weights::jiggle_many_share, &Weights::jiggle_few_share, &Weights::jiggle_one_share,
+        &Weights::reset_few_share, &Weights::reset_one_share}) {
+    Settings settings;
+    auto& w = settings.mutation.weights;
+    w.jiggle_many_share = w.jiggle_few_share = w.jiggle_one_share = w.reset_few_share = w.reset_one_share =
+        0.0;
+    EXPECT_FALSE(accepted(settings));
+    settings.mutation.weights_share = 0.0;
+    EXPECT_TRUE(accepted(settings)) << "weights are never changed";
+    settings.mutation.weights_share = 1.0;
+    w.*share = 1e-9;
+    EXPECT_TRUE(accepted(settings));
+  }
+  for (std::size_t i = 0; i < activation_names.size(); ++i) {
+    Settings settings;
+    settings.genome.activation_shares = {};
+    settings.genome.activation_shares[i] = 1e-9;
+    EXPECT_TRUE(accepted(settings));
+  }
+}
+
+TEST(Settings, NeedLinksFromTheStartOrLater) {
+  Settings settings;
+  settings.genome.initial_link_probability = 0.0;
+  EXPECT_NO_THROW(settings.validate());
+  settings = {};
+  settings.mutation.add_link_share = 0.0;
+  EXPECT_NO_THROW(settings.validate());
+}
+
+TEST(Settings, TakeTargetsOfOneNumberUpToThePopulation) {
+  Settings settings;
+  settings.population.size = settings.speciation.target_min = settings.speciation.target_max = 30;
+  EXPECT_NO_THROW(settings.validate());
+  settings.speciation.target_max = 31;
+  EXPECT_THROW(settings.validate(), SettingError);
+  settings.speciation.target_max = 29;
+  EXPECT_THROW(settings.validate(), SettingError);
+}
+
+TEST(Settings, NameTheKeysThatCouldBeChanged) {
+  const auto keys = [](void (*spoil)(Settings&)) -> std::vector<std::string> {
+    Settings settings;
+    spoil(settings);
+    try {
+      settings.validate();
+    } catch (const SettingError& error) {
+      return error.keys();
+    }
+    return {};
+  };
+  using Keys = std::vector<std::string>;
+  EXPECT_EQ(keys([](Settings& s) { s.speciation.target_min = 31; }),
+            (Keys{"speciation.target_max", "speciation.target_min"}));
+  EXPECT_EQ(keys([](Settings& s) { s.population.size = 20; }),
+            (Keys{"speciation.target_max", "population.size"}));
+  EXPECT_EQ(keys([](Settings& s) { s.genome.initial_link_probability = s.mutation.add_link_share = 0; }),
+            (Keys{"mutation.add_link_share", "genome.initial_link_probability"}));
+  EXPECT_EQ(keys([](Settings& s) { s.genome.activation_shares = {}; }),
+            Keys{"genome.activation_shares.bipolar_sigmoid"});
+}
+
+TEST(Settings, ScaleTheTargetsInProportionToThePopulation) {
+  struct Case {
+    int population, least, most;
+  };
+  // 28 and 30 of 300.
+  for (const auto& [population, least, most] :
+       {Case{300, 28, 30}, {600, 56, 60}, {100, 9, 10}, {16, 1, 2}, {2, 1, 1}}) {
+    SpeciationSettings settings;
+    settings.target_min = settings.target_max = 5;  // what was there before does not matter
+    settings.scale_targets(population);
+    EXPECT_EQ(settings.target_min, least) << population;
+    EXPECT_EQ(settings.target_max, most) << population;
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "amble/neat/distance.hpp"
+#include "amble/neat/genome_binary.hpp"
 #include "tests/neat/samples.hpp"
 
 namespace amble::neat {
@@ -298,6 +299,47 @@ TEST(Speciation, ComesBackFieldByFieldAfterSaveAndLoad) {
   EXPECT_EQ(loaded.threshold(), speciation.threshold());
   ASSERT_EQ(loaded.species().size(), 3u);
   EXPECT_EQ(loaded.species()[2].id, before[1].id + 1);
+}
+
+/// What a stored species of two genomes has; by default what can be.
+struct StoredSpecies {
+  std::uint32_t next_id = 1, id = 0;
+  std::vector<int> members = {0, 1};
+  int age = 0, without_improvement = 0;
+  double best = 1.0;
+};
+
+std::string refusal_of(const StoredSpecies& stored) {
+  io::BinaryWriter writer;
+  writer.put(1.0);  // threshold
+  writer.put(0.0);  // and its step
+  writer.put(stored.next_id);
+  writer.put(std::uint64_t{1});
+  writer.put(stored.id);
+  neat::save(sample_genome(1, 1, {}, {}), writer);
+  writer.put_span(std::span<const int>(stored.members));
+  writer.put(stored.age);
+  writer.put(stored.without_improvement);
+  writer.put(stored.best);
+  Speciation speciation({});
+  io::BinaryReader reader(writer.bytes(), "checkpoint");
+  return error_of([&] {
+    speciation.load(reader, 2);
+    reader.finish();
+  });
+}
+
+TEST(Speciation, LoadsNoSpeciesThatCannotBe) {
+  EXPECT_EQ(refusal_of({}), "");
+  EXPECT_EQ(refusal_of({.next_id = 8, .id = 7, .age = 3, .without_improvement = 3, .best = -1e300}), "");
+  for (const StoredSpecies& stored : {StoredSpecies{.next_id = 7, .id = 7},
+                                      {.members = {}},
+                                      {.age = -1},
+                                      {.without_improvement = -1},
+                                      {.best = std::nan("")}})
+    EXPECT_NE(refusal_of(stored).find("a species that cannot be"), std::string::npos);
+  for (const std::vector<int>& members : {std::vector{0}, {0, 0}, {0, 2}, {-1, 0}, {0, 1, 1}})
+    EXPECT_NE(refusal_of({.members = members}).find("a genome of no species or of two"), std::string::npos);
 }
 
 }  // namespace

@@ -118,5 +118,31 @@ TEST(Threshold, RefusesValuesThatCannotBe) {
   }
 }
 
+TEST(Threshold, LoadsItsLowestValueAndNothingBelowOrBeyondNumbers) {
+  const auto refused = [](double value, double step) {
+    io::BinaryWriter writer;
+    writer.put(value);
+    writer.put(step);
+    io::BinaryReader reader(writer.bytes(), "file");
+    Threshold threshold(1);
+    return !error_of([&] { threshold.load(reader); }).empty();
+  };
+  EXPECT_FALSE(refused(Threshold::lowest, -1.0));
+  EXPECT_TRUE(refused(std::nextafter(Threshold::lowest, 0.0), 0.0));
+  EXPECT_TRUE(refused(HUGE_VAL, 0.0));
+  EXPECT_TRUE(refused(1.0, HUGE_VAL));
+  EXPECT_TRUE(refused(1.0, -HUGE_VAL));
+}
+
+TEST(Threshold, ForgetsItsStepAtTheLowestValue) {
+  SpeciationSettings settings;
+  settings.first_step_up = 0.5;
+  Threshold threshold(0.05);
+  EXPECT_TRUE(threshold.steer(1, settings));
+  EXPECT_EQ(threshold.value(), Threshold::lowest);
+  EXPECT_TRUE(threshold.steer(300, settings));
+  EXPECT_DOUBLE_EQ(threshold.value(), Threshold::lowest + 0.1) << "not half a step back";
+}
+
 }  // namespace
 }  // namespace amble::neat

@@ -102,5 +102,36 @@ TEST(Validate, CallsItABadFile) {
   }
 }
 
+TEST(Validate, DrawsTheBordersBetweenKindsOfNodesWhereTheyAre) {
+  for (std::size_t node = 0; node < good().nodes.size(); ++node)
+    for (const NodeKind kind : {NodeKind::bias, NodeKind::input, NodeKind::output, NodeKind::hidden}) {
+      Genome genome = good();
+      const bool same = genome.nodes[node].kind == kind;
+      genome.nodes[node].kind = kind;
+      EXPECT_EQ(error_of([&] { validate(genome, 2, 1, false); }).empty(), same) << node;
+    }
+  for (std::size_t node = 0; node < 4; ++node) {
+    Genome genome = good();
+    ++genome.nodes[node].id;
+    EXPECT_NE(error_of([&] { validate(genome, 2, 1, false); }).find("expected"), std::string::npos) << node;
+  }
+  for (const std::size_t node : {0, 1, 2}) {
+    Genome genome = good();
+    genome.nodes[node].activation = Activation::gaussian;
+    EXPECT_NE(error_of([&] { validate(genome, 2, 1, false); }), "") << node;
+  }
+  Genome genome = good();
+  genome.nodes[3].activation = Activation::gaussian;
+  EXPECT_EQ(error_of([&] { validate(genome, 2, 1, false); }), "") << "outputs may have any function";
+  genome.nodes[4].id = 4;
+  genome.links[1].to = genome.links[2].from = 4;
+  EXPECT_EQ(error_of([&] { validate(genome, 2, 1, false); }), "") << "the first hidden id";
+  genome.nodes[5].id = 4;
+  EXPECT_NE(error_of([&] { validate(genome, 2, 1, false); }).find("out of order"), std::string::npos);
+  genome = good();
+  genome.links[1].innovation = genome.links[2].innovation;
+  EXPECT_NE(error_of([&] { validate(genome, 2, 1, false); }).find("out of order"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace amble::neat

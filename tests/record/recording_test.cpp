@@ -196,5 +196,25 @@ TEST(Mutation, Recording) {
   });
 }
 
+TEST(RecordingReader, TakesUpTo4096ColumnsAndFramesOfLessThanABillionSeconds) {
+  const test::TemporaryFolder folder;
+  const auto refusal = [&](const std::string& frame_s, int columns) {
+    std::string names;
+    for (int i = 0; i < columns; ++i) names += (i == 0 ? "\"c" : ", \"c") + std::to_string(i) + "\"";
+    const auto path = folder.put("r", io::seal("AMBLEREC", 1,
+                                               "{\"frame_s\": " + frame_s + ", \"columns\": [" + names +
+                                                   R"(], "robot": {}, "controller": {}, "origin": ""})"));
+    const std::string message = error_of(ExitCode::bad_file, [&] { read_all(path); });
+    return message.substr(std::min(message.size(), path.string().size()));
+  };
+  const std::string sound = ": truncated: the recording breaks off after 0 frames";
+  EXPECT_EQ(refusal("0.01", 4096), sound);
+  EXPECT_EQ(refusal("0.01", 4097), ": key 'columns' must be a list of 1 to 4096 names");
+  EXPECT_EQ(refusal("1e-9", 1), sound);
+  EXPECT_EQ(refusal("999999999.0", 1), sound);
+  EXPECT_EQ(refusal("1e9", 1), ": key 'frame_s' must be a time above 0");
+  EXPECT_EQ(refusal("-1", 1), ": key 'frame_s' must be a time above 0");
+}
+
 }  // namespace
 }  // namespace amble::record

@@ -70,5 +70,33 @@ TEST(Labels, AreCutWhereThereIsNoRoom) {
     for (const unsigned char c : fitted("größer", width).substr(0, 1)) EXPECT_NE(c & 0xC0U, 0x80U);
 }
 
+TEST(NumberText, ChangesItsDecimalsWhereRoundingReachesThePowersOfTen) {
+  for (const double sign : {-1.0, 1.0}) {
+    EXPECT_EQ(decimals_for({sign * 99.95}), 0);
+    EXPECT_EQ(decimals_for({sign * 99.94}), 1);
+    EXPECT_EQ(decimals_for({sign * 9.995}), 1);
+    EXPECT_EQ(decimals_for({sign * 9.994}), 2);
+    EXPECT_EQ(decimals_for({sign * 0.9995}), 2);
+    EXPECT_EQ(decimals_for({sign * 0.9994}), 3);
+    EXPECT_EQ(decimals_for({0.1, sign * 50.0, 3.0}), 1) << "of the largest";
+  }
+}
+
+TEST(NumberText, WritesPValuesAtTheEndsOfTheirRanges) {
+  EXPECT_EQ(p_text(0.00099), "p < 0.001");
+  EXPECT_EQ(p_text(0.99), "p = 0.99");
+  EXPECT_EQ(p_text(0.9901), "p > 0.99");
+  EXPECT_EQ(p_text(0.0994), "p = 0.099");
+  EXPECT_EQ(p_text(0.0995), "p = 0.10");
+  EXPECT_EQ(p_text(0.0100000001), "p = 0.01000000") << "no more than eight decimals";
+}
+
+TEST(NumberText, NamesUnitsOfMeasuresByTheirEnd) {
+  EXPECT_EQ(unit_of("train_m"), " m");
+  EXPECT_EQ(unit_of("five.walking_s"), " s");
+  EXPECT_EQ(unit_of("links"), "");
+  EXPECT_EQ(unit_of("five.kept"), "");
+}
+
 }  // namespace
 }  // namespace amble::report

@@ -96,5 +96,40 @@ TEST(GaitsRule, OnlyTheseMayOccur) {
   EXPECT_EQ(gaits_verdict({"pace"}, {"pace", "trot"}, {"pace", "trot"}, false), Verdict::contradicted);
 }
 
+TEST(BoundsRule, EachEndOfARangeCountsByItself) {
+  // A sound estimate from 1 to 2, claimed to be from the first number to the second.
+  struct Case {
+    double at_least, at_most;
+    Verdict verdict;
+  };
+  for (const auto& [at_least, at_most, verdict] : {Case{1.0, 2.0, Verdict::confirmed},
+                                                   {1.01, 2.0, Verdict::not_confirmed},
+                                                   {1.0, 1.99, Verdict::not_confirmed},
+                                                   {-none, 1.0, Verdict::not_confirmed},
+                                                   {-none, 0.99, Verdict::contradicted},
+                                                   {2.0, none, Verdict::not_confirmed},
+                                                   {2.01, none, Verdict::contradicted}})
+    EXPECT_EQ(bounds_verdict({1.0, 2.0}, at_least, at_most), verdict) << at_least << " to " << at_most;
+}
+
+TEST(CountRule, BoundsBelongToTheClaim) {
+  struct Case {
+    std::size_t successes, missing;
+    Verdict verdict;
+  };
+  // Claimed: from 2 to 4.
+  for (const auto& [successes, missing, verdict] : {Case{2, 0, Verdict::confirmed},
+                                                    {4, 0, Verdict::confirmed},
+                                                    {2, 2, Verdict::confirmed},
+                                                    {2, 3, Verdict::not_testable},
+                                                    {1, 1, Verdict::not_testable},
+                                                    {1, 0, Verdict::contradicted},
+                                                    {0, 1, Verdict::contradicted},
+                                                    {0, 2, Verdict::not_testable},
+                                                    {4, 1, Verdict::not_testable},
+                                                    {5, 0, Verdict::contradicted}})
+    EXPECT_EQ(count_verdict(successes, missing, 2, 4), verdict) << successes << " and " << missing;
+}
+
 }  // namespace
 }  // namespace amble::report

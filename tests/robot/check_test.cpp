@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "amble/core/index.hpp"
 #include "tests/morphology/files.hpp"
@@ -173,6 +176,140 @@ TEST(CheckRobot, TakesHullsOfFourCornersAndFourTriangles) {
   EXPECT_EQ(problem(0, 0), "");
   EXPECT_NE(problem(0, 1).find("must have at least four corners"), std::string::npos);
   EXPECT_NE(problem(1, 0).find("must have at least four corners"), std::string::npos);
+}
+
+using Change = std::function<void(RobotSpec&)>;
+
+void expect_refused(const std::vector<Change>& changes, const std::string& problem) {
+  for (std::size_t i = 0; i < changes.size(); ++i) EXPECT_EQ(problem_after(changes[i]), problem) << i;
+}
+
+TEST(CheckRobot, FindsEachNumberOfABodyThatCannotBe) {
+  expect_refused({[](RobotSpec& r) { r.bodies[2].position_m.x = nan; },
+                  [](RobotSpec& r) { r.bodies[2].position_m.y = nan; },
+                  [](RobotSpec& r) { r.bodies[2].position_m.z = nan; },
+                  [](RobotSpec& r) { r.bodies[2].rotation.z = 0.1; },
+                  [](RobotSpec& r) { r.bodies[2].rotation.x = nan; }},
+                 "body 'shin' must have a finite position and a unit rotation");
+  expect_refused({[](RobotSpec& r) { r.bodies[2].com_m.x = nan; },
+                  [](RobotSpec& r) { r.bodies[2].inertia_rotation.y = 0.1; }},
+                 "body 'shin' must have a finite centre of mass and unit principal axes");
+  expect_refused({[](RobotSpec& r) { r.bodies[2].inertia_kg_m2.x = 0.0; },
+                  [](RobotSpec& r) { r.bodies[2].inertia_kg_m2.y = 0.0; },
+                  [](RobotSpec& r) { r.bodies[2].inertia_kg_m2.z = 0.0; },
+                  [](RobotSpec& r) { r.bodies[2].inertia_kg_m2.y = HUGE_VAL; }},
+                 "body 'shin' must have positive moments of inertia");
+  expect_refused({[](RobotSpec& r) { r.bodies[2].mass_kg = HUGE_VAL; },
+                  [](RobotSpec& r) { r.bodies[2].mass_kg = -1.0; }},
+                 "body 'shin' must have a positive mass");
+}
+
+TEST(CheckRobot, FindsEachNumberOfAGeomThatCannotBe) {
+  expect_refused({[](RobotSpec& r) { r.geoms[1].body = -1; }, [](RobotSpec& r) { r.geoms[1].body = 3; }},
+                 "geom 'thigh' names a body that is not there");
+  expect_refused({[](RobotSpec& r) { r.geoms[1].position_m.y = nan; },
+                  [](RobotSpec& r) { r.geoms[1].rotation.w = 0.9; }},
+                 "geom 'thigh' must have a finite position and a unit rotation");
+  expect_refused(
+      {[](RobotSpec& r) { r.geoms[1].size_m.x = 0.0; }, [](RobotSpec& r) { r.geoms[1].size_m.y = HUGE_VAL; }},
+      "geom 'thigh' must have a positive size");
+  expect_refused({[](RobotSpec& r) { r.geoms[1].size_m.y = 0.0; }},
+                 "geom 'thigh' must have a positive length");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.geoms[1].size_m.z = 0.0; }), "") << "a capsule has two sizes";
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.geoms[3].size_m.y = r.geoms[3].size_m.z = 0.0; }), "")
+      << "a sphere has one";
+}
+
+TEST(CheckRobot, FindsEachNumberOfAJointThatCannotBe) {
+  expect_refused({[](RobotSpec& r) { r.joints[1].body = -1; }, [](RobotSpec& r) { r.joints[1].body = 0; },
+                  [](RobotSpec& r) { r.joints[1].body = 3; }},
+                 "joint 'A_knee' names a body that is not there, or the root");
+  expect_refused({[](RobotSpec& r) { r.joints[1].anchor_m.z = nan; }},
+                 "joint 'A_knee' must have a finite anchor");
+  expect_refused({[](RobotSpec& r) { r.joints[1].axis.x = nan; }},
+                 "joint 'A_knee' must have an axis of length 1");
+  expect_refused({[](RobotSpec& r) { r.joints[1].lower_rad = r.joints[1].upper_rad; }},
+                 "joint 'A_knee' must have a lower stop below its upper stop");
+  expect_refused({[](RobotSpec& r) { r.joints[1].lower_rad = -HUGE_VAL; },
+                  [](RobotSpec& r) { r.joints[1].upper_rad = HUGE_VAL; }},
+                 "joint 'A_knee' has no stops, so it needs a range of command");
+  const auto shifted = [](double lower_rad, double upper_rad) {
+    return problem_after([=](RobotSpec& r) {
+      r.joints[1].lower_rad = lower_rad;
+      r.joints[1].upper_rad = upper_rad;
+    });
+  };
+  EXPECT_EQ(shifted(0.0, 0.5), "");
+  EXPECT_EQ(shifted(-0.5, 0.0), "");
+  const std::string outside = "joint 'A_knee': the start pose, angle 0, lies outside its range ";
+  EXPECT_EQ(shifted(0.1, 0.5), outside + "0.1 … 0.5 rad");
+  EXPECT_EQ(shifted(-0.5, -0.1), outside + "-0.5 … -0.1 rad");
+}
+
+TEST(CheckRobot, TakesServosAndPassiveJointsFromNoughtOn) {
+  const auto after = [](auto member, double value) {
+    return problem_after([=](RobotSpec& r) { member(r.joints[1]) = value; });
+  };
+  using Member = double& (*)(Joint&);
+  const std::vector<Member> servo{[](Joint& j) -> double& { return j.servo.gain_per_s; },
+                                  [](Joint& j) -> double& { return j.servo.max_torque_nm; },
+                                  [](Joint& j) -> double& { return j.servo.kp_nm_per_rad; },
+                                  [](Joint& j) -> double& { return j.servo.kd_nm_s_per_rad; }};
+  const std::vector<Member> passive{[](Joint& j) -> double& { return j.armature_kg_m2; },
+                                    [](Joint& j) -> double& { return j.damping_nm_s_per_rad; },
+                                    [](Joint& j) -> double& { return j.friction_loss_nm; }};
+  for (const auto& [members, problem] :
+       {std::pair{servo, "servo numbers that are finite and not negative"},
+        std::pair{passive, "armature, damping and friction loss that are finite and not negative"}})
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      EXPECT_EQ(after(members[i], 0.0), "") << i;
+      for (const double value : {-1e-9, HUGE_VAL, nan})
+        EXPECT_EQ(after(members[i], value), std::string("joint 'A_knee' must have ") + problem) << i;
+    }
+}
+
+TEST(CheckRobot, TakesRotationsAndAxesThatRoundingMadeAMillionthLongerOrShorter) {
+  const auto rotated = [](double square) {
+    return problem_after([=](RobotSpec& r) { r.bodies[2].rotation = {std::sqrt(square), 0.0, 0.0, 0.0}; });
+  };
+  const auto along = [](double length) {
+    return problem_after([=](RobotSpec& r) { r.joints[0].axis = {0.0, length, 0.0}; });
+  };
+  for (const double sign : {-1.0, 1.0}) {
+    EXPECT_EQ(rotated(1.0 + sign * 0.9e-6), "");
+    EXPECT_NE(rotated(1.0 + sign * 1.1e-6), "");
+    EXPECT_EQ(along(1.0 + sign * 0.9e-6), "");
+    EXPECT_NE(along(1.0 + sign * 1.1e-6), "");
+  }
+}
+
+TEST(CheckRobot, FindsMeshesThatReachBeyondTheirRadiusOrNameCornersThatAreNotThere) {
+  const auto problem = [](const std::function<void(Geom&)>& spoil) {
+    return problem_after([&](RobotSpec& r) {
+      Geom& geom = r.geoms[0];
+      geom.shape = Shape::mesh;
+      geom.size_m = {0.1, 0, 0};
+      geom.vertices_m = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}};
+      geom.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+      spoil(geom);
+    });
+  };
+  const std::string radius = "geom 'torso' must have its vertices within its radius";
+  EXPECT_EQ(problem([](Geom& g) { g.vertices_m[3].z = 0.1000001; }), radius);
+  EXPECT_EQ(problem([](Geom& g) { g.vertices_m[3].z = nan; }), radius);
+  const std::string corner = "geom 'torso' has a triangle with a corner that is not there";
+  EXPECT_EQ(problem([](Geom& g) { g.triangles[3][2] = 4; }), corner);
+  EXPECT_EQ(problem([](Geom& g) { g.triangles[0][0] = -1; }), corner);
+}
+
+TEST(CheckRobot, FindsFeetAndGravityThatCannotBe) {
+  expect_refused({[](RobotSpec& r) { r.legs[0].foot_geom = 4; }}, "leg 'A' names a foot that is not there");
+  expect_refused({[](RobotSpec& r) { r.legs[0].foot_geom = 0; }},
+                 "leg 'A': its foot 'torso' is on body 'torso', which none of its joints moves");
+  expect_refused(
+      {[](RobotSpec& r) { r.gravity_m_s2.y = nan; }, [](RobotSpec& r) { r.gravity_m_s2.z = HUGE_VAL; }},
+      "gravity must be finite");
+  expect_refused({[](RobotSpec& r) { r.fall_height_m = HUGE_VAL; }}, "fall_height_m must be finite");
 }
 
 }  // namespace

@@ -126,5 +126,38 @@ TEST(RobotJson, RefusesWhatIsNotARobot) {
       "FILE: key 'robot' holds no valid robot: joint 'FL_knee' names a body that is not there, or the root");
 }
 
+TEST(RobotJson, TellsListsOfAWrongLengthAndIndicesOutOfRange) {
+  const auto error_at = [](const char* pointer, const io::Json& value) -> std::string {
+    io::Json json = to_json(quadruped());
+    json[io::Json::json_pointer(pointer)] = value;
+    try {
+      from_json({json, "FILE", "robot"});
+    } catch (const UserError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const auto says = [&](const char* pointer, const io::Json& value, const char* expected) {
+    EXPECT_NE(error_at(pointer, value).find(std::string(" must be ") + expected), std::string::npos)
+        << pointer << ": " << error_at(pointer, value);
+  };
+  const io::Json two{1.0, 0.0}, three{1.0, 0.0, 0.0}, four{1.0, 0.0, 0.0, 0.0}, five{1.0, 0.0, 0.0, 0.0, 0.0};
+  for (const char* pointer : {"/bodies/1/position_m", "/joints/0/axis", "/geoms/0/size_m"})
+    for (const io::Json& value : {two, four}) says(pointer, value, "an array of 3 numbers");
+  for (const char* pointer : {"/bodies/1/rotation", "/geoms/0/rotation", "/geoms/0/rgba"})
+    for (const io::Json& value : {three, five}) says(pointer, value, "an array of 4 numbers");
+  for (const io::Json& value : {io::Json{0.0}, three})
+    says("/joints/0/command_rad", value, "an array of 2 numbers");
+  EXPECT_EQ(error_at("/joints/0/command_rad", {0.0, 0.0}), "accepted");
+  for (const char* pointer : {"/bodies/1/parent", "/joints/0/body", "/joints/0/chain_index", "/geoms/0/body",
+                              "/legs/0/foot_geom", "/legs/0/joints/0", "/contact/sweeps"})
+    for (const int value : {-2, 1'000'001}) says(pointer, value, "an index");
+  for (const int value : {-1, 1'000'000})
+    EXPECT_NE(error_at("/joints/0/body", value).find("names a body that is not there"), std::string::npos)
+        << value;
+  EXPECT_EQ(error_at("/joints/0/chain_index", 1'000'000), "accepted");
+  says("/joints/0/servo/mode", "force", "one of velocity, torque");
+}
+
 }  // namespace
 }  // namespace amble::robot

@@ -100,5 +100,17 @@ TEST(HipJoint, IsTheOneNextToTheTorsoWhicheverJointsTheLegHas) {
   EXPECT_EQ(hip_joint(robot, leg), -1);
 }
 
+TEST(LegPairs, CallPlacesTheSameUpToAMicrometre) {
+  const auto side_by_side = [](double y_m) { return pairs_of({{0, y_m, 0}, {0, 0, 0}}).size(); };
+  EXPECT_EQ(side_by_side(0.9e-6), 0u);
+  EXPECT_EQ(side_by_side(1.1e-6), 1u);
+  const auto rows = [](double left_m, double right_m) {
+    return pairs_of({{left_m, 1, 0}, {0, 1, 0}, {right_m, -1, 0}, {0, -1, 0}}).size();
+  };
+  EXPECT_EQ(rows(1.1e-6, 1.1e-6), 2u);
+  EXPECT_EQ(rows(0.9e-6, 1.1e-6), 0u) << "on the left";
+  EXPECT_EQ(rows(1.1e-6, 0.9e-6), 0u) << "on the right";
+}
+
 }  // namespace
 }  // namespace amble::robot

@@ -322,5 +322,34 @@ TEST(ScoreSettings, AreRefusedWhereTheyNameNothingOrCannotBeKept) {
             "score.limits: uprightness: least = 0.9 is above most = 0.5");
 }
 
+TEST(ScoreSettings, AreTheDistanceOnlyWithoutLimitsAndWithThatTermAlone) {
+  EXPECT_TRUE((Settings{.terms = {{"distance", 1.0}}}).is_distance());
+  EXPECT_FALSE((Settings{.terms = {{"distance", 2.0}}}).is_distance());
+  EXPECT_FALSE((Settings{.terms = {{"forward", 1.0}}}).is_distance());
+  EXPECT_FALSE((Settings{.terms = {{"distance", 1.0}, {"forward", 1.0}}}).is_distance());
+  EXPECT_FALSE((Settings{.terms = {{"distance", 1.0}}, .limits = {{.quantity = "forward"}}}).is_distance());
+  EXPECT_FALSE((Settings{.terms = {}}).is_distance());
+}
+
+TEST(ScoreSettings, TakeALimitOfOneValueAndKeepATrialThatReachesEitherEnd) {
+  Settings settings{.limits = {{.quantity = "uprightness", .least = 0.5, .most = 0.5}}};
+  EXPECT_EQ(error_of(settings), "");
+  EXPECT_EQ(Score(settings, 15.0, 100.0).of(walk()), 5.0);
+  settings.limits[0].least = settings.limits[0].most = 0.51;
+  EXPECT_EQ(Score(settings, 15.0, 100.0).of(walk()), 0.0);
+  settings.limits[0].least = settings.limits[0].most = 0.49;
+  EXPECT_EQ(Score(settings, 15.0, 100.0).of(walk()), 0.0);
+  settings.breach_factor = 0.5;
+  settings.limits = {{.quantity = "uprightness", .least = 0.6}, {.quantity = "economy", .most = 2.0}};
+  EXPECT_EQ(Score(settings, 15.0, 100.0).of(walk()), 1.25) << "once for each limit";
+}
+
+TEST(ScoreSettings, HaveAUnitWhereAllTermsHaveIt) {
+  Settings settings{.terms = {{"distance", 2.0}, {"forward", 1.0}}};
+  EXPECT_EQ(with_unit("3", settings), "3 m");
+  settings.terms[0].quantity = "energy";
+  EXPECT_EQ(with_unit("3", settings), "3");
+}
+
 }  // namespace
 }  // namespace amble::score

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "amble/core/error.hpp"
 #include "amble/io/toml_settings.hpp"
+#include "amble/search/distance_estimates.hpp"
 
 namespace amble::search {
 namespace {
@@ -74,6 +78,38 @@ TEST(NoveltySettings, RefuseAnArchiveLargerThanMemoryAndSayHowLargeItMayBe) {
   EXPECT_EQ(error_of([&] { settings.check_memory(1500, 300, 4e9); }), "");
   settings.archive_limit = 554324;
   EXPECT_NE(error_of([&] { settings.check_memory(1500, 300, 4e9); }), "");
+}
+
+TEST(NoveltySettings, DrawTheirLimitsWhereTheMessagesSay) {
+  NoveltySettings settings;
+  EXPECT_EQ(error_of([&] { settings.validate(1); }), "");
+  EXPECT_EQ(error_of([&] { settings.validate(longest_behaviour); }), "");
+  EXPECT_NE(error_of([&] { settings.validate(longest_behaviour + 1); }).find("by a larger stride"),
+            std::string::npos);
+  settings.path_stride = settings.path_first_step = 7;
+  EXPECT_EQ(error_of([&] { settings.validate(1); }), "");
+  settings.path_first_step = 8;
+  EXPECT_NE(error_of([&] { settings.validate(1); }), "");
+}
+
+TEST(NoveltySettings, NameTheKeysThatCouldBeChanged) {
+  const auto keys = [](const auto& call) -> std::vector<std::string> {
+    try {
+      call();
+    } catch (const SettingError& error) {
+      return error.keys();
+    }
+    return {};
+  };
+  using Keys = std::vector<std::string>;
+  NoveltySettings settings;
+  const Keys length{"search.novelty.path_stride", "trial.duration_s"};
+  EXPECT_EQ(keys([&] { settings.validate(0); }), length);
+  EXPECT_EQ(keys([&] { settings.validate(longest_behaviour + 1); }), length);
+  EXPECT_EQ(keys([&] { settings.check_memory(10, 10, 1.0); }), Keys{"search.novelty.archive_limit"});
+  settings.path_first_step = 3;
+  EXPECT_EQ(keys([&] { settings.validate(1); }),
+            (Keys{"search.novelty.path_first_step", "search.novelty.path_stride"}));
 }
 
 }  // namespace

@@ -325,5 +325,30 @@ TEST(NoveltySearch, EqualsItsNaiveTwinOnPathsOfFullLength) {
   EXPECT_EQ(search.archive().rows(), twin.archive.size());
 }
 
+TEST(NoveltySearch, LoadsNoThresholdOrCountThatCannotBe) {
+  const auto refusal = [](double threshold, std::int32_t empty_generations) -> std::string {
+    io::BinaryWriter writer;
+    writer.put(threshold);
+    writer.put(empty_generations);
+    writer.put(std::uint64_t{0});
+    writer.put(std::uint64_t{0});
+    NoveltySearch search(plain_settings(), 1);
+    io::BinaryReader reader(writer.bytes(), "checkpoint.bin");
+    try {
+      search.load(reader);
+      reader.finish();
+    } catch (const UserError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal(0.0, 0), "");
+  EXPECT_EQ(refusal(1e300, 7), "");
+  for (const double threshold : {-1e-300, HUGE_VAL, std::nan("")})
+    EXPECT_NE(refusal(threshold, 0).find("a novelty threshold that cannot be"), std::string::npos)
+        << threshold;
+  EXPECT_NE(refusal(1.0, -1).find("a novelty threshold that cannot be"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace amble::search

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <string>
 
 #include "amble/core/error.hpp"
 #include "tests/substrate/fixture.hpp"
@@ -152,6 +153,49 @@ TEST(BadSubstrate, NetworkAmongSupgs) {
             "links: a controller of kind supg has no links");
   EXPECT_EQ(supg([](Settings& s) { s.nodes[0].joint = ""; }),
             "nodes[0]: \"FL.knee\" drives no joint: each node of a controller of kind supg must");
+}
+
+TEST(BadSubstrate, EmptyNamesAndEmptyLists) {
+  EXPECT_EQ(ctrnn([](Settings& s) { s.coordinates.clear(); }),
+            "coordinates is empty: expected a list of names");
+  EXPECT_EQ(ctrnn([](Settings& s) { s.coordinates[3] = ""; }), "coordinates[3] is empty: expected a name");
+  EXPECT_EQ(ctrnn([](Settings& s) { s.outputs[0] = ""; }), "outputs[0] is empty: expected a name");
+  EXPECT_EQ(ctrnn([](Settings& s) { s.outputs[3] = s.outputs[0]; }), "outputs[3] = \"intra\" is there twice");
+}
+
+TEST(BadSubstrate, SensorWithoutAnOwnerOrOfAKindThatRobotsLack) {
+  const std::string expected = "\": expected angle.JOINT, touch.LEG, roll, pitch, yaw or sine";
+  for (const std::string name : {"angle", "touch", "smell.FL", "roll.FL", "Angle.FL_knee"})
+    EXPECT_EQ(ctrnn([&](Settings& s) { s.nodes[0].sensor = name; }),
+              "nodes[0].sensor = \"" + name + expected);
+  EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[0].sensor = "touch.FL_knee"; }),
+            "nodes[0].sensor = \"touch.FL_knee\": the robot has no leg FL_knee");
+  EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[0].sensor = "angle.FL"; }),
+            "nodes[0].sensor = \"angle.FL\": the robot has no joint FL");
+}
+
+TEST(BadSubstrate, MoreThanAMillionLinks) {
+  const auto with_nodes = [](int sources, int targets) {
+    Settings settings = substrate_of(R"(coordinates = ["x"]
+outputs = ["weight"]
+links = [{from = "a", to = "b", weight = "weight"}]
+nodes = [{name = "K", group = "b", at = [-1], joint = "L_knee"}])");
+    for (int i = 0; i < sources + targets - 1; ++i) {
+      auto& node = settings.nodes.emplace_back();
+      node.name = std::to_string(i);
+      node.group = i < sources ? "a" : "b";
+      node.at = {static_cast<double>(i)};
+    }
+    return settings;
+  };
+  const Layout layout(with_nodes(1000, 1000), network_needs(), hopper());
+  EXPECT_EQ(layout.links().size(), 1'000'000u);
+  try {
+    const Layout more(with_nodes(1001, 1000), network_needs(), hopper());
+    FAIL();
+  } catch (const SettingError& error) {
+    EXPECT_STREQ(error.what(), "controller.substrate.links are more than 1000000");
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "amble/core/error.hpp"
 
@@ -65,6 +66,56 @@ TEST(NoiseSettings, RefusePushesMoreOftenThanSteps) {
   noise.push_m_s = 0.1;
   noise.push_interval_s = 0.005;
   EXPECT_EQ(error_of(noise), "noise.push_interval_s = 0.005: expected at least one timestep, 0.01 s");
+}
+
+TEST(NoiseSettings, DisturbTheStartWithEachOfItsAmountsAndNoOther) {
+  const auto disturbs = [](auto member) {
+    NoiseSettings noise;
+    noise.*member = 1;
+    return noise.disturbs_start();
+  };
+  for (const auto member :
+       {&NoiseSettings::start_joint_rad, &NoiseSettings::start_tilt_rad, &NoiseSettings::start_height_m})
+    EXPECT_TRUE(disturbs(member));
+  for (const auto member : {&NoiseSettings::push_m_s, &NoiseSettings::touch_flip_probability,
+                            &NoiseSettings::joint_sensor_rad, &NoiseSettings::attitude_sensor_rad})
+    EXPECT_FALSE(disturbs(member));
+  EXPECT_FALSE(disturbs(&NoiseSettings::latency_ticks));
+}
+
+TEST(NoiseSettings, TakeEpisodesWithoutNoiseThatStartAtOtherPlaces) {
+  NoiseSettings noise;
+  noise.episodes = 2;
+  EXPECT_NO_THROW(noise.validate({}, true));
+  EXPECT_THROW(noise.validate({}, false), SettingError);
+  noise.first_undisturbed = true;
+  EXPECT_NO_THROW(noise.validate({}, true));
+}
+
+TEST(NoiseSettings, TakeAPushInEachStepAndAnyIntervalWithoutPushes) {
+  NoiseSettings noise;
+  noise.push_interval_s = 0.005;
+  EXPECT_EQ(error_of(noise), "");
+  noise.push_m_s = 0.1;
+  EXPECT_NE(error_of(noise), "");
+  noise.push_interval_s = 0.01;
+  EXPECT_EQ(error_of(noise), "");
+}
+
+TEST(NoiseSettings, NameTheKeysThatCouldBeChanged) {
+  const auto keys = [](NoiseSettings noise) -> std::vector<std::string> {
+    try {
+      noise.validate({});
+    } catch (const SettingError& error) {
+      return error.keys();
+    }
+    return {};
+  };
+  using Keys = std::vector<std::string>;
+  EXPECT_EQ(keys({.first_undisturbed = true}), (Keys{"noise.first_undisturbed", "noise.episodes"}));
+  EXPECT_EQ(keys({.episodes = 2}), Keys{"noise.episodes"});
+  EXPECT_EQ(keys({.push_m_s = 0.1, .push_interval_s = 1e-5}),
+            (Keys{"noise.push_interval_s", "trial.timestep_s"}));
 }
 
 }  // namespace
