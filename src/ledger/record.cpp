@@ -66,6 +66,12 @@ int count_from(const io::JsonView& view) {
   return static_cast<int>(value);
 }
 
+std::uint64_t total_from(const io::JsonView& view) {
+  const std::int64_t value = view.integer();
+  if (value < 0) view.bad("a whole number from 0 to 9223372036854775807");
+  return static_cast<std::uint64_t>(value);
+}
+
 TestResult test_from(const io::JsonView& view) {
   TestResult test{.name = view.at("name").text(),
                   .settings = view.at("settings").text(),
@@ -85,8 +91,8 @@ TestResult test_from(const io::JsonView& view) {
   if (view.has("reached")) {
     const auto reached = view.at("reached");
     test.reached = {.generation = count_from(reached.at("generation")),
-                    .evaluations = static_cast<std::uint64_t>(reached.at("evaluations").integer()),
-                    .steps = static_cast<std::uint64_t>(reached.at("steps").integer())};
+                    .evaluations = total_from(reached.at("evaluations")),
+                    .steps = total_from(reached.at("steps"))};
   }
   return test;
 }
@@ -193,8 +199,8 @@ Record parse_record(const std::string& text, const std::string& what) {
                 .config = root.at("config").text(),
                 .generations = count_from(root.at("generations")),
                 .engine = root.at("engine").text(),
-                .evaluations = static_cast<std::uint64_t>(root.at("evaluations").integer()),
-                .steps = static_cast<std::uint64_t>(root.at("steps").integer()),
+                .evaluations = total_from(root.at("evaluations")),
+                .steps = total_from(root.at("steps")),
                 .best_m = root.at("best_m").finite_number(),
                 .best_generation = count_from(root.at("best_generation")),
                 .hidden = count_from(root.at("hidden")),

@@ -1,6 +1,7 @@
 #include "amble/motion/neural_network.hpp"
 
 #include <cstdint>
+#include <limits>
 
 #include "amble/io/json_file.hpp"
 
@@ -27,6 +28,12 @@ int read_index(const JsonView& json, std::size_t end) {
   return static_cast<int>(index);
 }
 
+int read_count(const JsonView& json) {
+  const std::int64_t count = json.integer();
+  if (count < 0 || count > std::numeric_limits<int>::max()) json.bad("a whole number from 0 to 2147483647");
+  return static_cast<int>(count);
+}
+
 NetworkLink read_link(const JsonView& json, std::size_t nodes) {
   const double weight = json.at("weight").finite_number();
   return {read_index(json.at("source"), nodes), read_index(json.at("target"), nodes), weight};
@@ -47,7 +54,7 @@ NeuralNetwork parse_network(const std::string& controller_json, const std::strin
   const JsonView links = json.at("links");
   for (std::size_t i = 0; i < links.size(); ++i)
     network.links.push_back(read_link(links.at(i), nodes.size()));
-  network.possible_links = static_cast<int>(json.at("possible_links").integer());
+  network.possible_links = read_count(json.at("possible_links"));
   return network;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 
 #include "amble/io/json_file.hpp"
 
@@ -21,6 +22,12 @@ std::int64_t read_period_ticks(const JsonView& json) {
   const std::int64_t ticks = json.integer();
   if (ticks < 1 || ticks > 1'000'000) json.bad("a whole number from 1 to 1000000");
   return ticks;
+}
+
+int read_offset_ticks(const JsonView& json) {
+  const std::int64_t ticks = json.integer();
+  if (std::abs(ticks) > 1'000'000) json.bad("a whole number from -1000000 to 1000000");
+  return static_cast<int>(ticks);
 }
 
 double read_timestep_s(const JsonView& json) {
@@ -53,7 +60,7 @@ SupgPatterns parse_supg(const std::string& controller_json, const robot::RobotSp
   const JsonView offsets = json.at("offset_ticks");
   if (offsets.size() != robot.legs.size()) offsets.bad("a number for each leg");
   for (std::size_t leg = 0; leg < offsets.size(); ++leg)
-    supg.offset_ticks.push_back(static_cast<int>(offsets.at(leg).integer()));
+    supg.offset_ticks.push_back(read_offset_ticks(offsets.at(leg)));
   const JsonView patterns = json.at("patterns_rad");
   if (patterns.size() != robot.leg_joint_count()) patterns.bad("a list for each joint of a leg");
   for (std::size_t joint = 0; joint < patterns.size(); ++joint)

@@ -50,14 +50,14 @@ TEST(SupgSettings, AreTheAuthorsByDefault) {
 }
 
 TEST(SupgSettings, TakePeriodsFromTwoTicksToAHundredThousandAndRoundingInTheTenthDigit) {
-  EXPECT_EQ(complaint(2.0, 1.0), "none");
-  EXPECT_NE(complaint(1.0, 1.0), "none");
-  EXPECT_EQ(complaint(1e5, 1.0), "none");
-  EXPECT_NE(complaint(1e5 + 1, 1.0), "none");
-  EXPECT_NE(complaint(std::nan(""), 1.0), "none");
+  EXPECT_EQ(refusal(2.0, 1.0), "none");
+  EXPECT_NE(refusal(1.0, 1.0), "none");
+  EXPECT_EQ(refusal(1e5, 1.0), "none");
+  EXPECT_NE(refusal(1e5 + 1, 1.0), "none");
+  EXPECT_NE(refusal(std::nan(""), 1.0), "none");
   for (const double sign : {-1.0, 1.0}) {
-    EXPECT_EQ(complaint(100.0 + sign * 0.9e-7, 1.0), "none");
-    EXPECT_NE(complaint(100.0 + sign * 1.1e-7, 1.0), "none");
+    EXPECT_EQ(refusal(100.0 + sign * 0.9e-7, 1.0), "none");
+    EXPECT_NE(refusal(100.0 + sign * 1.1e-7, 1.0), "none");
   }
   try {
     period_ticks({.period_s = 1.0}, 1.0);

@@ -90,6 +90,16 @@ TEST(Record, DigestIsOfResultsAndNotOfClocksAndMachines) {
   EXPECT_NE(other.digest(), record.digest());
 }
 
+TEST(Record, OfFewerThanNoEvaluationsOrStepsIsRefused) {
+  for (const bool of_evaluations : {true, false}) {
+    Record record = sample_record();
+    (of_evaluations ? record.evaluations : record.steps) = std::uint64_t{1} << 63;
+    EXPECT_THROW(parse_record(record_text(record), "r.json"), UserError);
+    (of_evaluations ? record.evaluations : record.steps) -= 1;
+    EXPECT_EQ(parse_record(record_text(record), "r.json").digest(), record.digest());
+  }
+}
+
 TEST(Record, CutAnywhereIsRefusedWithItsName) {
   const std::string text = record_text(sample_record());
   for (std::size_t length = 0; length + 2 < text.size(); length += 37) {

@@ -43,6 +43,9 @@ TEST(NeuralNetwork, NamesWhatIsWrong) {
             "walk.rec: controller: key 'nodes[0].at' must be a number for each coordinate");
   EXPECT_EQ(error_after([](Json& json) { json["nodes"][0]["role"] = "king"; }),
             "walk.rec: controller: key 'nodes[0].role' must be sensor, hidden or joint");
+  for (const std::int64_t count : {std::int64_t{-1}, std::int64_t{1} << 31})
+    EXPECT_EQ(error_after([count](Json& json) { json["possible_links"] = count; }),
+              "walk.rec: controller: key 'possible_links' must be a whole number from 0 to 2147483647");
   EXPECT_EQ(error_after([](Json& json) { json.erase("possible_links"); }),
             "walk.rec: controller: key 'possible_links' is missing");
 }

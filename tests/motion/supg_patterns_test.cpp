@@ -35,6 +35,9 @@ TEST(SupgPatterns, NamesWhatIsWrong) {
             "walk.rec: controller: key 'timestep_s' must be a number above 0");
   EXPECT_EQ(error_after([](auto& json) { json["offset"] = "late"; }),
             "walk.rec: controller: key 'offset' must be phase or delay");
+  for (const int ticks : {-1'000'001, 1'000'001})
+    EXPECT_EQ(error_after([ticks](auto& json) { json["offset_ticks"][3] = ticks; }),
+              "walk.rec: controller: key 'offset_ticks[3]' must be a whole number from -1000000 to 1000000");
   EXPECT_EQ(error_after([](auto& json) { json["offset_ticks"].push_back(1); }),
             "walk.rec: controller: key 'offset_ticks' must be a number for each leg");
   EXPECT_EQ(error_after([](auto& json) { json["patterns_rad"].erase(0); }),

@@ -88,7 +88,7 @@ TEST(GenomeJson, ReadsNumbersUpToTheLargest) {
     for (const std::int64_t number : {std::int64_t{-1}, std::int64_t{1} << 32}) {
       io::Json json = to_json(small());
       json[list][static_cast<std::size_t>(index)][key] = number;
-      EXPECT_NE(complaint_about(json).find("must be a whole number from 0 to 4294967295"), std::string::npos)
+      EXPECT_NE(error_about(json).find("must be a whole number from 0 to 4294967295"), std::string::npos)
           << key;
     }
 }

@@ -171,7 +171,7 @@ TEST(Innovations, RefuseWhatCannotBe) {
 
 TEST(Innovations, LoadNumbersUpToTheLargest) {
   // Two links, of new nodes too, and one node, in a generation's list that begins at these numbers.
-  const auto complaint = [](std::uint32_t first_link, std::uint32_t first_node, std::uint32_t from,
+  const auto refusal = [](std::uint32_t first_link, std::uint32_t first_node, std::uint32_t from,
                             std::uint32_t to, InnovationScope scope = InnovationScope::generation) {
     io::BinaryWriter writer;
     writer.put(std::uint32_t{4});
@@ -189,20 +189,20 @@ TEST(Innovations, LoadNumbersUpToTheLargest) {
   const auto says = [](const std::string& text, const char* part) {
     return text.find(part) != std::string::npos;
   };
-  EXPECT_EQ(complaint(0xfffffffdu, 9, 1, 3), "");
-  EXPECT_TRUE(says(complaint(0xfffffffeu, 9, 1, 3), "too many innovations"));
-  EXPECT_EQ(complaint(0, 0xfffffffeu, 1, 3), "");
-  EXPECT_TRUE(says(complaint(0, 0xffffffffu, 1, 3), "too many innovations"));
-  EXPECT_EQ(complaint(0, 9, 9, 3), "");
-  EXPECT_EQ(complaint(0, 9, 1, 9), "");
-  EXPECT_TRUE(says(complaint(0, 9, 10, 3), "a link that joins unknown nodes"));
-  EXPECT_TRUE(says(complaint(0, 9, 1, 10), "a link that joins unknown nodes"));
-  EXPECT_EQ(complaint(0, 4, 1, 3), "");
-  EXPECT_TRUE(says(complaint(0, 3, 1, 3), "begins where it cannot"));
+  EXPECT_EQ(refusal(0xfffffffdu, 9, 1, 3), "");
+  EXPECT_TRUE(says(refusal(0xfffffffeu, 9, 1, 3), "too many innovations"));
+  EXPECT_EQ(refusal(0, 0xfffffffeu, 1, 3), "");
+  EXPECT_TRUE(says(refusal(0, 0xffffffffu, 1, 3), "too many innovations"));
+  EXPECT_EQ(refusal(0, 9, 9, 3), "");
+  EXPECT_EQ(refusal(0, 9, 1, 9), "");
+  EXPECT_TRUE(says(refusal(0, 9, 10, 3), "a link that joins unknown nodes"));
+  EXPECT_TRUE(says(refusal(0, 9, 1, 10), "a link that joins unknown nodes"));
+  EXPECT_EQ(refusal(0, 4, 1, 3), "");
+  EXPECT_TRUE(says(refusal(0, 3, 1, 3), "begins where it cannot"));
   const auto whole = InnovationScope::run;
-  EXPECT_EQ(complaint(0, 4, 1, 3, whole), "");
-  EXPECT_TRUE(says(complaint(1, 4, 1, 3, whole), "begins where it cannot"));
-  EXPECT_TRUE(says(complaint(0, 5, 1, 3, whole), "begins where it cannot"));
+  EXPECT_EQ(refusal(0, 4, 1, 3, whole), "");
+  EXPECT_TRUE(says(refusal(1, 4, 1, 3, whole), "begins where it cannot"));
+  EXPECT_TRUE(says(refusal(0, 5, 1, 3, whole), "begins where it cannot"));
 }
 
 }  // namespace
