@@ -172,7 +172,7 @@ TEST(Innovations, RefuseWhatCannotBe) {
 TEST(Innovations, LoadNumbersUpToTheLargest) {
   // Two links, of new nodes too, and one node, in a generation's list that begins at these numbers.
   const auto refusal = [](std::uint32_t first_link, std::uint32_t first_node, std::uint32_t from,
-                            std::uint32_t to, InnovationScope scope = InnovationScope::generation) {
+                          std::uint32_t to, InnovationScope scope = InnovationScope::generation) {
     io::BinaryWriter writer;
     writer.put(std::uint32_t{4});
     writer.put(first_link);
