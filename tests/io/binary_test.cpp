@@ -142,7 +142,7 @@ TEST(Seal, TellsBytesBehindTheEnd) {
 }
 
 TEST(BinaryReader, TakesListsThatFillTheBytesExactly) {
-  for (const std::uint64_t count : {2, 3}) {
+  for (const std::uint64_t count : {2u, 3u}) {
     BinaryWriter writer;
     writer.put(count);
     writer.put(std::uint64_t{7});

@@ -237,7 +237,7 @@ INSTANTIATE_TEST_SUITE_P(LonePlaces, PopulationOfManySpecies,
 TEST(PopulationDeathTest, AbortsOnFitnessThatIsNoNumber) {
   Population population(small_settings(), 2, 1, true, 1);
   std::vector<Fitness> fitness(60);
-  for (const std::size_t i : {0, 7, 59}) {
+  for (const std::size_t i : {0u, 7u, 59u}) {
     fitness[i].objective = std::numeric_limits<double>::quiet_NaN();
     EXPECT_DEATH(population.advance(fitness), "fitness is finite");
     fitness[i] = {.selection = -1.0, .objective = 0.0};

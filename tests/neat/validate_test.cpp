@@ -115,7 +115,7 @@ TEST(Validate, DrawsTheBordersBetweenKindsOfNodesWhereTheyAre) {
     ++genome.nodes[node].id;
     EXPECT_NE(error_of([&] { validate(genome, 2, 1, false); }).find("expected"), std::string::npos) << node;
   }
-  for (const std::size_t node : {0, 1, 2}) {
+  for (const std::size_t node : {0u, 1u, 2u}) {
     Genome genome = good();
     genome.nodes[node].activation = Activation::gaussian;
     EXPECT_NE(error_of([&] { validate(genome, 2, 1, false); }), "") << node;
