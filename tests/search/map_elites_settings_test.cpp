@@ -52,7 +52,7 @@ TEST(MapElitesSettings, OfACvtArchiveHaveItsCellsWhateverTheBins) {
 }
 
 TEST(MapElitesSettings, NeedRangesOfSomeWidth) {
-  for (const std::size_t dimension : {0, 1}) {
+  for (const std::size_t dimension : {0u, 1u}) {
     MapElitesSettings settings = map_of({2, 2});
     auto& descriptor = settings.descriptors[dimension];
     descriptor.least = -3.0;
