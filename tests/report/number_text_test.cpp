@@ -67,7 +67,8 @@ TEST(Labels, AreCutWhereThereIsNoRoom) {
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_EQ(lines[0] + " " + lines[1], "friction infinite, torso heavy");
   for (double width = 1.0; width < 300.0; width += 1.0)  // never inside a character
-    for (const unsigned char c : fitted("größer", width).substr(0, 1)) EXPECT_NE(c & 0xC0U, 0x80U);
+    for (const char c : fitted("größer", width).substr(0, 1))
+      EXPECT_NE(static_cast<unsigned char>(c) & 0xC0U, 0x80U);
 }
 
 TEST(NumberText, ChangesItsDecimalsWhereRoundingReachesThePowersOfTen) {
