@@ -2,8 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "amble/core/check.hpp"
@@ -21,14 +27,35 @@ struct Curve {
   std::string_view css_class;
 };
 
+/// What curves are drawn over, one number per generation.
+struct Abscissa {
+  std::string_view name;
+  std::vector<double> values;
+};
+
+/// Generations; or, of a map, the evaluations up to the end of each, by which maps are compared.
+Abscissa abscissa_of(const record::Generations& generations) {
+  if (generations.coverage.empty() || generations.evaluations.empty())
+    return {"generation", generations.generation};
+  std::vector<double> evaluations(generations.evaluations);
+  std::partial_sum(evaluations.begin(), evaluations.end(), evaluations.begin());
+  const double all = evaluations.back();
+  const double unit = all >= 2e6 ? 1e6 : all >= 2e3 ? 1e3 : 1.0;
+  for (double& count : evaluations) count /= unit;
+  return {unit == 1e6   ? "million evaluations"
+          : unit == 1e3 ? "thousand evaluations"
+                        : "evaluations",
+          std::move(evaluations)};
+}
+
 /// A plot's area and scales.
 struct Panel {
   Box plot;
   Scale x, y;
 };
 
-Panel make_panel(const Box& plot, const record::Generations& generations, Interval values) {
-  Interval span{generations.generation.front(), generations.generation.back()};
+Panel make_panel(const Box& plot, const Abscissa& abscissa, Interval values) {
+  Interval span{abscissa.values.front(), abscissa.values.back()};
   if (span.length() <= 0.0) span.upper = span.lower + 1.0;
   if (values.length() <= 0.0) values.upper = values.lower + 1.0;
   return {plot, Scale{span, plot.x, plot.right()}, Scale{values, plot.bottom(), plot.y}};
@@ -43,39 +70,54 @@ Interval value_range(std::initializer_list<const std::vector<double>*> columns) 
   return range;
 }
 
-std::vector<Point> curve_points(const Panel& panel, const record::Generations& generations,
+/// Of the points in one column of pixels the first, the lowest, the highest and the last: what is drawn is
+/// the same, and a curve over ten thousand generations is as long as the picture is wide.
+std::vector<Point> thinned(const std::vector<Point>& points) {
+  std::vector<Point> kept;
+  for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
+    while (end < points.size() && std::floor(points[end].x) == std::floor(points[begin].x)) ++end;
+    const auto column = std::span(points).subspan(begin, end - begin);
+    const auto [highest, lowest] = std::ranges::minmax_element(column, {}, &Point::y);
+    const std::set<std::size_t> chosen{0, static_cast<std::size_t>(highest - column.begin()),
+                                       static_cast<std::size_t>(lowest - column.begin()), column.size() - 1};
+    for (const std::size_t i : chosen) kept.push_back(column[i]);
+  }
+  return kept;
+}
+
+std::vector<Point> curve_points(const Panel& panel, const Abscissa& abscissa,
                                 const std::vector<double>& values) {
   std::vector<Point> points;
   for (std::size_t i = 0; i < values.size(); ++i)
-    points.push_back({panel.x(generations.generation[i]), panel.y(values[i])});
-  return points;
+    points.push_back({panel.x(abscissa.values[i]), panel.y(values[i])});
+  return thinned(points);
 }
 
-void draw_curve(Svg& svg, const Panel& panel, const record::Generations& generations, const Curve& curve) {
-  const auto points = curve_points(panel, generations, curve.values);
+void draw_curve(Svg& svg, const Panel& panel, const Abscissa& abscissa, const Curve& curve) {
+  const auto points = curve_points(panel, abscissa, curve.values);
   svg.polyline(points, "curve " + std::string(curve.css_class));
   svg.circle(points.back(), 3.5, "dot " + std::string(curve.css_class));
 }
 
-void draw_objectives(Svg& svg, const record::Generations& generations, const Box& plot,
-                     const std::string& unit) {
+void draw_objectives(Svg& svg, const record::Generations& generations, const Abscissa& abscissa,
+                     const Box& plot, const std::string& unit) {
   const std::array<Curve, 3> curves{{{"median", generations.median, "median"},
                                      {"mean", generations.mean, "mean"},
                                      {"best", generations.best, "best"}}};
   const Panel panel =
-      make_panel(plot, generations, value_range({&generations.best, &generations.mean, &generations.median}));
+      make_panel(plot, abscissa, value_range({&generations.best, &generations.mean, &generations.median}));
   draw_y_axis(svg, panel.y, nice_ticks(panel.y.data, 6), plot.x, plot.right(), unit);
   draw_x_axis(svg, panel.x, nice_ticks(panel.x.data, plot.width > 500 ? 9 : 5, 1.0), plot.bottom(), "");
-  svg.text({plot.right() + 14, plot.bottom() + 19}, Anchor::start, "tick", "generation");
+  svg.text({plot.right() + 14, plot.bottom() + 19}, Anchor::start, "tick", abscissa.name);
 
-  auto area = curve_points(panel, generations, generations.best);
+  auto area = curve_points(panel, abscissa, generations.best);
   area.push_back({area.back().x, panel.y(panel.y.data.lower)});
   area.push_back({area.front().x, panel.y(panel.y.data.lower)});
   svg.polygon(area, "under-best");
 
   std::vector<double> label_px;
   for (const Curve& curve : curves) {
-    draw_curve(svg, panel, generations, curve);
+    draw_curve(svg, panel, abscissa, curve);
     label_px.push_back(panel.y(curve.values.back()));
   }
   spread(label_px, 17.0);
@@ -84,15 +126,15 @@ void draw_objectives(Svg& svg, const record::Generations& generations, const Box
              fmt::format("{} {}{}", curves[i].name, label(curves[i].values.back(), 2), unit));
 }
 
-void draw_small(Svg& svg, const record::Generations& generations, const Box& plot, std::string_view title,
+void draw_small(Svg& svg, const Abscissa& abscissa, const Box& plot, std::string_view title,
                 const std::vector<double>& values, int decimals) {
-  const Panel panel = make_panel(plot, generations, value_range({&values}));
+  const Panel panel = make_panel(plot, abscissa, value_range({&values}));
   svg.text({plot.x - 26, plot.y - 12}, Anchor::start, "title", title);
   svg.text({plot.right(), plot.y - 12}, Anchor::end, "value", label(values.back(), decimals));
   const Ticks ticks = nice_ticks(panel.y.data, 4, decimals == 0 ? 1.0 : 0.0);
   draw_y_axis(svg, panel.y, ticks, plot.x, plot.right(), "");
   draw_x_axis(svg, panel.x, nice_ticks(panel.x.data, plot.width > 150 ? 5 : 3, 1.0), plot.bottom(), "");
-  draw_curve(svg, panel, generations, {title, values, "small"});
+  draw_curve(svg, panel, abscissa, {title, values, "small"});
 }
 
 }  // namespace
@@ -108,7 +150,8 @@ std::string fitness_figure(const record::Generations& generations, Layout layout
           fmt::format("{0} over {2} generations: best {3}{1}, mean {4}{1}, median {5}{1} in the last",
                       objective.name, objective.unit, generations.count(), label(generations.best.back(), 2),
                       label(generations.mean.back(), 2), label(generations.median.back(), 2)));
-  draw_objectives(svg, generations, {42, 12, width - 42 - 114, main_height}, objective.unit);
+  const Abscissa abscissa = abscissa_of(generations);
+  draw_objectives(svg, generations, abscissa, {42, 12, width - 42 - 114, main_height}, objective.unit);
 
   struct Small {
     std::string_view wide_title, narrow_title;
@@ -126,7 +169,7 @@ std::string fitness_figure(const record::Generations& generations, Layout layout
   int shown = 0;
   for (const Small& small : smalls) {
     if (small.values.empty()) continue;  // a search without such a column
-    draw_small(svg, generations, {left + shown++ * (left + each + gap), small_top, each, small_height},
+    draw_small(svg, abscissa, {left + shown++ * (left + each + gap), small_top, each, small_height},
                wide ? small.wide_title : small.narrow_title, small.values, small.decimals);
   }
   return svg.finish();

@@ -51,6 +51,44 @@ TEST_P(FitnessFigure, DrawsCurvesInProportion) {
   EXPECT_NEAR((best[0].second - best[2].second) / (mean[0].second - mean[2].second), 2.54 / 0.75, 0.02);
 }
 
+TEST_P(FitnessFigure, DrawsAMapOverItsEvaluations) {
+  record::Generations generations = table();
+  generations.coverage = {0.1, 0.2, 0.25};
+  const auto drawn = [&](double first, double each) {
+    generations.evaluations = {first, each, each};
+    return tests::parse_xml(fitness_figure(generations, GetParam()));
+  };
+  const auto elements = drawn(4e6, 1e6);
+  const auto texts = tests::texts(elements);
+  EXPECT_THAT(texts, Contains("million evaluations"));
+  EXPECT_THAT(texts, Contains("5")) << "a tick of the axis from 4 to 6 million";
+  EXPECT_THAT(texts, testing::Not(Contains("generation")));
+  const auto best = tests::points(tests::with_class(elements, "best").at(0));
+  EXPECT_NEAR(best[1].first - best[0].first, best[2].first - best[1].first, 0.11) << "the first counts whole";
+  EXPECT_THAT(tests::texts(drawn(1000.0, 500.0)), Contains("thousand evaluations"));
+  EXPECT_THAT(tests::texts(drawn(999.0, 500.0)), Contains("evaluations"));
+  EXPECT_THAT(tests::texts(drawn(1e6, 499'999.0)), Contains("thousand evaluations"));
+}
+
+TEST_P(FitnessFigure, IsNoLongerThanWideWhateverTheGenerationsAndKeepsEachExtreme) {
+  record::Generations generations;
+  for (int n = 0; n < 20'000; ++n) {
+    generations.generation.push_back(n);
+    generations.best.push_back(n == 7777 ? 50.0 : n == 7778 ? -50.0 : 0.001 * (n % 7));
+    generations.mean.push_back(0.0);
+    generations.median.push_back(0.0);
+  }
+  const auto elements = tests::parse_xml(fitness_figure(generations, GetParam()));
+  const auto best = tests::points(tests::with_class(elements, "best").at(0));
+  EXPECT_LE(best.size(), 4.0 * graphics::width_px(GetParam()));
+  const auto [highest, lowest] =
+      std::ranges::minmax(best, {}, [](const auto& point) { return point.second; });
+  EXPECT_NEAR(highest.first, lowest.first, 0.11);
+  const double base = tests::with_class(elements, "axis").at(0).number("y1");
+  EXPECT_NEAR(lowest.second, base, 0.06) << "the lowest value is the axis";
+  EXPECT_TRUE(std::ranges::is_sorted(best, {}, [](const auto& point) { return point.first; }));
+}
+
 TEST_P(FitnessFigure, FillsWhatLiesBelowTheBestDownToTheAxis) {
   const auto elements = tests::parse_xml(fitness_figure(table(), GetParam()));
   const auto best = tests::points(tests::with_class(elements, "best").at(0));

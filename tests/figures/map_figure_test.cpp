@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "amble/core/error.hpp"
 #include "tests/graphics/xml.hpp"
@@ -61,6 +63,30 @@ TEST(MapFigure, DrawsEachCellAndNamesThoseThatAreFilled) {
   for (std::size_t at = svg.find("\"nobody\""); at != std::string::npos; at = svg.find("\"nobody\"", at + 1))
     ++empty_cells;
   EXPECT_EQ(empty_cells, 22u);
+}
+
+/// The numbers under the scale of colours.
+std::pair<std::string, std::string> scale(const GridMap& map) {
+  std::vector<std::string> ticks;
+  const std::string svg = map_svg(map);
+  const std::string tick = "class=\"tick\"";
+  for (std::size_t at = svg.find(tick); at != std::string::npos; at = svg.find(tick, at + 1)) {
+    const std::size_t begin = svg.find('>', at) + 1;
+    ticks.push_back(svg.substr(begin, svg.find('<', begin) - begin));
+  }
+  EXPECT_GE(ticks.size(), 2u);
+  ticks.resize(2);
+  return {ticks[0], ticks[1]};
+}
+
+TEST(MapFigure, HasAScaleFromZeroToTheBestAndNeverBelowZero) {
+  GridMap map = map_of({2, 2});
+  EXPECT_EQ(scale(map), (std::pair<std::string, std::string>{"0", "0 m"})) << "nobody";
+  map.objective[1] = -2.0;
+  EXPECT_EQ(scale(map), (std::pair<std::string, std::string>{"0", "0 m"})) << "only one that went backwards";
+  EXPECT_THAT(map_svg(map), testing::HasSubstr("shade0 cell1"));
+  map.objective[2] = 1.25;
+  EXPECT_EQ(scale(map), (std::pair<std::string, std::string>{"0", "1.25 m"}));
 }
 
 TEST(MapFigure, OfTooManyCellsIsRefused) {

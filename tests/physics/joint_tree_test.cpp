@@ -161,6 +161,28 @@ TEST_P(ManyTurns, AStopBeyondHalfATurnHolds) {
     }
 }
 
+TEST_P(ManyTurns, AJointWithOneStopBeyondHalfATurnPassesTheHalfTurnAtAnEvenSpeed) {
+  for (const double sign : {-1.0, 1.0}) {
+    robot::RobotSpec robot = weightless(scene("pendulum"));
+    robot::Joint& joint = robot.joints[0];
+    joint.lower_rad = sign < 0.0 ? -7.0 : -0.8;
+    joint.upper_rad = sign < 0.0 ? 0.8 : 7.0;
+    joint.command = robot::AngleRange{-0.8, 0.8};
+    joint.servo = {.mode = robot::ServoMode::velocity, .gain_per_s = 1.0, .max_torque_nm = 1e3};
+    Bench bench(GetParam(), robot);
+    // A target that stays ahead of the angle asks for 2 rad/s all the time.
+    for (int n = 0; sign * bench.angle(0) < 4.5; ++n) {
+      ASSERT_LT(n, 300) << "stuck at " << bench.angle(0);
+      bench.targets.at(0, 0) = static_cast<float>(bench.angle(0) + sign * 2.0);
+      const double before = bench.angle(0);
+      bench.steps(1);
+      if (n > 0) {
+        EXPECT_NEAR(sign * (bench.angle(0) - before), 0.02, 1e-3) << bench.angle(0);
+      }
+    }
+  }
+}
+
 TEST_P(ManyTurns, AStopBeyondHalfATurnHoldsOnEitherOfTwoHingesThatCross) {
   // The other stop is within half a turn.
   for (const int j : {1, 2}) {
