@@ -281,9 +281,13 @@ class PartsExtractor {
       throw UserError(fmt::format("{}: collision meshes that are missing, or neither STL, OBJ nor MSH: {}",
                                   file_.path.string(), fmt::join(lost_, ", ")),
                       ExitCode::io);
-    note(Reading::kept, "{} bodies, {} joints, {} geoms, {} keyframes", parts_.bodies.size(),
-         parts_.joints.size(), parts_.geoms.size() - to_index(hulls_ + shown_hulls_ + ellipsoids_),
-         model_.nkey);
+    const auto counted = [](std::size_t count, std::string_view one, std::string_view many) {
+      return fmt::format("{} {}", count, count == 1 ? one : many);
+    };
+    note(Reading::kept, "{}, {}, {}, {}", counted(parts_.bodies.size(), "body", "bodies"),
+         counted(parts_.joints.size(), "joint", "joints"),
+         counted(parts_.geoms.size() - to_index(hulls_ + shown_hulls_ + ellipsoids_), "geom", "geoms"),
+         counted(to_index(model_.nkey), "keyframe", "keyframes"));
     if (!springs_.empty()) note(Reading::left_out, "the springs of joints {}", fmt::join(springs_, ", "));
     if (hulls_ > 0)
       note(Reading::replaced, "{} meshes that collide: the convex hull of each, with at most {} corners",

@@ -26,12 +26,21 @@ double label_width_px(std::string_view label) {
 
 std::string fitted(std::string_view label, double width_px) {
   if (label_width_px(label) <= width_px) return std::string(label);
-  while (!label.empty() && label_width_px(label) > width_px - 10.0) {
-    while (continues(label.back()) && label.size() > 1) label.remove_suffix(1);
-    label.remove_suffix(1);
+  // Titles of a study often differ at their end, so both ends are kept, of the end a third.
+  constexpr double ellipsis_px = 10.0;
+  const double room_px = width_px - ellipsis_px;
+  std::string_view back = label, front = label;
+  while (!back.empty() && label_width_px(back) > room_px / 3.0) {
+    back.remove_prefix(1);
+    while (!back.empty() && continues(back.front())) back.remove_prefix(1);
   }
-  while (label.ends_with(' ') || label.ends_with(',')) label.remove_suffix(1);
-  return std::string(label) + "…";
+  while (back.starts_with(' ') || back.starts_with(',')) back.remove_prefix(1);
+  while (!front.empty() && label_width_px(front) > room_px - label_width_px(back)) {
+    while (continues(front.back()) && front.size() > 1) front.remove_suffix(1);
+    front.remove_suffix(1);
+  }
+  while (front.ends_with(' ') || front.ends_with(',')) front.remove_suffix(1);
+  return std::string(front) + "…" + std::string(back);
 }
 
 void draw_panel_title(graphics::Svg& svg, const PanelGrid& grid, const graphics::Box& plot,

@@ -13,7 +13,7 @@ namespace amble::report {
 
 /// Width of a label (13 px, semibold), estimated, as SVG text cannot be measured.
 double label_width_px(std::string_view label);
-/// The label, its end replaced by "…" if it needs more room.
+/// The label, its middle replaced by "…" if it needs more room.
 std::string fitted(std::string_view label, double width_px);
 
 /// The label in at most two lines; the second is fitted.

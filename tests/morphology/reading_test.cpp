@@ -190,7 +190,7 @@ TEST(Reading, CountsWhatIsKept) {
              R"(<asset><mesh name="tip" vertex="0 0 0 1 0 0 0 1 0 0 0 1"/></asset><worldbody>)");
   xml = with(xml, R"(type="sphere" pos="0 0 -0.4" size="0.06")", R"(type="mesh" mesh="tip")");
   const std::string notes = read_parts(files, xml, {.fixed_joints = {"A_knee"}}).notes.text();
-  EXPECT_THAT(notes, HasSubstr("kept      2 bodies, 2 joints, 3 geoms, 1 keyframes\n"));
+  EXPECT_THAT(notes, HasSubstr("kept      2 bodies, 2 joints, 3 geoms, 1 keyframe\n"));
   EXPECT_THAT(notes, HasSubstr("replaced  joint 'A_knee'"));
   EXPECT_THAT(notes, HasSubstr("replaced  1 meshes that collide"));
   EXPECT_THAT(notes, HasSubstr("replaced  1 ellipsoids: convex hulls of 32 points"));

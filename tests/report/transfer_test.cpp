@@ -36,11 +36,19 @@ TEST(Transfers, CompareOnlyWithATestAtHomeThatIsTheSameInAllElse) {
     std::string engine, noise;
     double seconds;
     int episodes;
+    std::string ground = "rough.toml", damage = "limp.toml";
   };
   const AtHome same{"batch", "hills.toml", 60.0, 5};
-  const std::vector<AtHome> others{{"mujoco", "hills.toml", 60.0, 5}, {"batch", "", 60.0, 5},
-                                   {"batch", "wind.toml", 60.0, 5},   {"batch", "hills.toml", 59.0, 5},
-                                   {"batch", "hills.toml", 60.0, 1},  {"batch", "hills.toml", 60.0, 6}};
+  const std::vector<AtHome> others{{"mujoco", "hills.toml", 60.0, 5},
+                                   {"batch", "", 60.0, 5},
+                                   {"batch", "wind.toml", 60.0, 5},
+                                   {"batch", "hills.toml", 59.0, 5},
+                                   {"batch", "hills.toml", 60.0, 1},
+                                   {"batch", "hills.toml", 60.0, 6},
+                                   {"batch", "hills.toml", 60.0, 5, "", "limp.toml"},
+                                   {"batch", "hills.toml", 60.0, 5, "stones.toml", "limp.toml"},
+                                   {"batch", "hills.toml", 60.0, 5, "rough.toml", ""},
+                                   {"batch", "hills.toml", 60.0, 5, "rough.toml", "slack.toml"}};
   StudyData data = small_study();
   data.study.tests.clear();
   for (ledger::Record& run : data.records) run.tests.clear();
@@ -49,6 +57,8 @@ TEST(Transfers, CompareOnlyWithATestAtHomeThatIsTheSameInAllElse) {
     test.name = name;
     test.engine = how.engine;
     test.noise = how.noise;
+    test.ground = how.ground;
+    test.damage = how.damage;
     test.seconds = how.seconds;
     test.episodes = how.episodes;
     data.study.tests.push_back(test);
@@ -77,6 +87,12 @@ TEST(Transfers, WithoutAReferenceHaveNoShare) {
   data = small_study();
   data.study.tests[1].noise = "noise.toml";
   EXPECT_FALSE(transfers(data)[0].share) << "there is no such noise at home";
+  data = small_study();
+  data.study.tests[1].ground = "hills.toml";
+  EXPECT_FALSE(transfers(data)[0].share) << "nor such a ground";
+  data = small_study();
+  data.study.tests[1].damage = "limp.toml";
+  EXPECT_FALSE(transfers(data)[0].share) << "nor such damage";
 }
 
 TEST(Transfers, AreOnlyTestsInOtherEngines) {
