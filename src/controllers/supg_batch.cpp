@@ -24,6 +24,14 @@ std::int32_t end_of_cycle(Idle idle, int period_ticks) {
   return stopped;
 }
 
+/// All bits of a condition, and by them one of two numbers.
+constexpr std::int32_t mask(bool condition) {
+  return -static_cast<std::int32_t>(condition);
+}
+constexpr std::int32_t select(std::int32_t mask, std::int32_t yes, std::int32_t no) {
+  return (mask & yes) | (~mask & no);
+}
+
 }  // namespace
 
 SupgBatch::SupgBatch(const SupgSettings& settings, std::vector<std::string> leg_names, SupgJoints joints,
@@ -76,29 +84,32 @@ void SupgBatch::step(const robot::SensorFrame& sensors, LaneArray& targets_rad) 
 }
 
 void SupgBatch::update_timers(int leg, const float* touch) {
-  // Copies, so that the compiler knows that nothing written here changes them, and uses SIMD instructions.
+  // Copies, values read before any is written, and masks in place of conditions: only so does GCC 12 use SIMD
+  // instructions, which is a twentieth of the time of a hexapod's trial.
   const std::int32_t period = period_ticks_, needed = airborne_ticks_needed_, end = end_of_cycle_,
                      start = start_tick_;
+  const int lanes = lanes_;
   const std::size_t first = index(leg, 0);
   std::int32_t* const timer = timer_.data() + first;
   std::int32_t* const airborne = airborne_ticks_.data() + first;
   std::int32_t* const wait = wait_ticks_.data() + first;
   std::int32_t* const fired = triggered_.data() + first;
   const std::int32_t* const first_timer = first_timer_.data() + first;
-  for (int lane = 0; lane < lanes_; ++lane) {
-    const bool touching = touch[lane] > 0.5f;
-    const bool started = wait[lane] < 0, starts = wait[lane] == 0;
-    const bool triggered = started & touching & (airborne[lane] >= needed);
+  for (int lane = 0; lane < lanes; ++lane) {
+    const std::int32_t before = timer[lane], waiting = wait[lane], off_ground = airborne[lane],
+                       first_value = first_timer[lane];
+    const std::int32_t touching = mask(touch[lane] > 0.5f);
+    const std::int32_t triggered = touching & mask(waiting < 0) & mask(off_ground >= needed);
 
-    std::int32_t next = timer[lane] + 1;
-    next = next >= period ? end : next;
-    next = timer[lane] == stopped ? stopped : next;
-    next = triggered ? start : next;
-    timer[lane] = starts ? first_timer[lane] : next;
+    std::int32_t next = before + 1;
+    next = select(mask(next >= period), end, next);
+    next = select(mask(before == stopped), stopped, next);
+    next = select(triggered, start, next);
+    timer[lane] = select(mask(waiting == 0), first_value, next);
 
-    fired[lane] = triggered ? 1 : 0;
-    wait[lane] = std::max(wait[lane] - 1, -1);
-    airborne[lane] = touching ? 0 : std::min(airborne[lane] + 1, needed);
+    fired[lane] = -triggered;
+    wait[lane] = std::max(waiting - 1, -1);
+    airborne[lane] = ~touching & std::min(off_ground + 1, needed);
   }
 }
 
