@@ -1,5 +1,6 @@
 #include "amble/physics/engine.hpp"
 
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +28,9 @@ ON_EACH_ENGINE(Place);
 ON_EACH_ENGINE(Retire);
 
 TEST(MakeEngine, RefusesAnUnknownName) {
-  EXPECT_EQ(refusal(quadruped(), "odd"), "unknown engine 'odd': expected ode, batch, mujoco");
+  EXPECT_EQ(refusal(quadruped(), "odd"),
+            fmt::format("unknown engine 'odd': expected {}", fmt::join(engine_names(), ", ")));
+  EXPECT_THAT(refusal(quadruped(), "odd"), testing::HasSubstr("expected ode, batch, mujoco"));
 }
 
 TEST(MakeEngine, MujocoRefusesAnImpossibleInertia) {
