@@ -13,9 +13,9 @@ struct Objective {
   std::string unit = " m";  ///< behind a number, with its space; may be empty
 };
 
-/// Best, mean and median objective over the generations (of a map: over its evaluations), and below it the number of species and the size of
-/// the genomes, or coverage, QD score and best of a map: what the search has columns of. An <svg> element.
-/// `generations` must not be empty.
+/// Best, mean and median objective over the generations (of a map: over its evaluations), and below it the
+/// number of species and the size of the genomes, or coverage, QD score and best of a map: what the search
+/// has columns of. An <svg> element. `generations` must not be empty.
 std::string fitness_figure(const record::Generations& generations, graphics::Layout layout,
                            const Objective& objective = {});
 
