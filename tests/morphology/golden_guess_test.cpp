@@ -33,7 +33,7 @@ TEST(GoldenGuess, OfEachSmallModelMatches) {
                                {"effort.txt", "c2e6598a1755acfb"},
                                {"fixed_base.txt", "3631917054e22f97"},
                                {"head.txt", "43ef2381f7c067f4"},
-                               {"keyframe.txt", "6c70783481c345db"},
+                               {"keyframe.txt", "6f5347ad425ad637"},
                                {"mesh_feet.txt", "6fc5ee05d7feab7e"},
                                {"newer_mujoco.txt", "ed72854906ce0278"},
                                {"no_limits.txt", "2bbac639a0b88a5c"},
