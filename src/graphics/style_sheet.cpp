@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "amble/core/check.hpp"
+#include "amble/graphics/svg.hpp"
 
 namespace amble::graphics {
 namespace {
@@ -187,11 +188,12 @@ std::string map_style_sheet() {
 }
 
 std::string standalone_svg(std::string element) {
+  element = with_margin(std::move(element), 16.0);
   const std::size_t head_end = element.find('>');
   AMBLE_CHECK(head_end != std::string::npos, "an SVG element begins with its tag");
   std::string style = "\n<style>";
   style += colours;
-  style += "svg { background: var(--paper); padding: 16px; overflow: visible; }";
+  style += "svg { background: var(--paper); overflow: visible; }";
   style += plots;
   style += maps;
   style += figures;

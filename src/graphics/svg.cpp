@@ -2,12 +2,26 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <charconv>
 #include <cmath>
 
 #include "amble/core/check.hpp"
 #include "amble/io/xml.hpp"
 
 namespace amble::graphics {
+
+namespace {
+
+constexpr std::string_view view_box = " viewBox=\"";
+constexpr std::string_view after_size = " role=";
+
+std::string size_attributes(const Box& box) {
+  return fmt::format(R"( viewBox="{0} {1} {2} {3}" width="{2}" height="{3}")", number(box.x), number(box.y),
+                     number(box.width), number(box.height));
+}
+
+}  // namespace
 
 std::string number(double value, int decimals) {
   AMBLE_CHECK(std::isfinite(value), "figures hold finite numbers");
@@ -20,10 +34,9 @@ std::string number(double value, int decimals) {
 }
 
 Svg::Svg(double width_px, double height_px, std::string_view description) {
-  out_ = fmt::format(
-      R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" role="img")",
-      number(width_px), number(height_px));
-  out_ += fmt::format(" aria-label=\"{}\">\n", io::escape_xml(description));
+  out_ = R"(<svg xmlns="http://www.w3.org/2000/svg")";
+  out_ += size_attributes({.x = 0.0, .y = 0.0, .width = width_px, .height = height_px});
+  out_ += fmt::format("{}\"img\" aria-label=\"{}\">\n", after_size, io::escape_xml(description));
 }
 
 void Svg::begin_group(std::string_view name, std::string_view tooltip) {
@@ -124,6 +137,19 @@ void Svg::points(std::span<const Point> corners) {
     out_ += number(corners[i].x, 1) + "," + number(corners[i].y, 1);
   }
   out_ += "\"/>\n";
+}
+
+std::string with_margin(std::string element, double margin_px) {
+  const std::size_t begin = element.find(view_box), end = element.find(after_size);
+  AMBLE_CHECK(begin != std::string::npos && end != std::string::npos, "an element written by Svg has a size");
+  std::array<double, 4> box{};
+  const char* at = element.data() + begin + view_box.size();
+  for (double& value : box) at = std::from_chars(at, element.data() + end, value).ptr + 1;
+  return element.replace(begin, end - begin,
+                         size_attributes({.x = box[0] - margin_px,
+                                          .y = box[1] - margin_px,
+                                          .width = box[2] + 2.0 * margin_px,
+                                          .height = box[3] + 2.0 * margin_px}));
 }
 
 }  // namespace amble::graphics

@@ -65,4 +65,8 @@ class Svg {
   int open_groups_ = 0;
 };
 
+/// An element written by Svg with that much empty space on each side. (Padding by CSS would do in a page, but
+/// cuts a file that an <img> shows.)
+std::string with_margin(std::string element, double margin_px);
+
 }  // namespace amble::graphics

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "amble/graphics/svg.hpp"
+
 namespace amble::graphics {
 namespace {
 
@@ -11,9 +13,15 @@ using testing::Not;
 using testing::StartsWith;
 
 TEST(StyleSheet, GoesIntoTheTagOfAFigureThatIsAFileOfItsOwn) {
-  const std::string svg = standalone_svg("<svg width=\"4\"><g class=\"plot\"></g></svg>");
-  EXPECT_THAT(svg, StartsWith("<svg width=\"4\">\n<style>"));
-  EXPECT_TRUE(svg.ends_with("</style><g class=\"plot\"></g></svg>")) << svg;
+  Svg figure(40, 20.5, "figure");
+  figure.line({0, 0}, {40, 20.5});
+  const std::string element = figure.finish(), svg = standalone_svg(element);
+  // The paper goes on around the figure: nothing is cut where it is shown as an image of its own size.
+  EXPECT_THAT(svg,
+              StartsWith("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-16 -16 72 52.5\" width=\"72\" "
+                         "height=\"52.5\" role=\"img\" aria-label=\"figure\">\n<style>"));
+  EXPECT_THAT(svg, Not(HasSubstr("svg { background: var(--paper); padding")));
+  EXPECT_TRUE(svg.ends_with("</style>" + element.substr(element.find('>') + 1))) << svg;
   // All that pages with a style of their own share, a figure needs as well.
   const std::string plots_and_maps = map_style_sheet(), shared = shared_style_sheet();
   EXPECT_THAT(svg, HasSubstr(plots_and_maps));
@@ -23,7 +31,8 @@ TEST(StyleSheet, GoesIntoTheTagOfAFigureThatIsAFileOfItsOwn) {
 }
 
 TEST(StyleSheet, KnowsColoursByLightAndByDark) {
-  for (const std::string& sheet : {style_sheet(), shared_style_sheet(), standalone_svg("<svg></svg>")}) {
+  for (const std::string& sheet :
+       {style_sheet(), shared_style_sheet(), standalone_svg(Svg(4, 4, "").finish())}) {
     for (const char* name : {"--paper", "--ink", "--c0"}) EXPECT_THAT(sheet, HasSubstr(name));
     EXPECT_THAT(sheet, HasSubstr("prefers-color-scheme: dark"));
   }

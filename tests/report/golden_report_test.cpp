@@ -24,36 +24,36 @@ std::map<std::string, std::string> everything_of(const Report& report) {
 TEST(GoldenReport, OfAStudyWithClaimsOfAllKindsMatchesTheGoldenHash) {
   tests::expect_golden(everything_of(make_report(small_study())), {{"bests.csv", "1c77f25a4bd6a929"},
                                                                    {"curves.csv", "d40556d895ef1a3b"},
-                                                                   {"curves.svg", "671d4cda456436f0"},
-                                                                   {"distance-long.svg", "e63c0d3c979bbb3c"},
-                                                                   {"distance-ode.svg", "6052cd62dbc62d2b"},
-                                                                   {"distance.svg", "b884d446a275f298"},
+                                                                   {"curves.svg", "9c7e368af984e1a6"},
+                                                                   {"distance-long.svg", "e8b351bf6d9ea0e3"},
+                                                                   {"distance-ode.svg", "413b2acbc8257273"},
+                                                                   {"distance.svg", "2cbeec806fb0b438"},
                                                                    {"gaits.csv", "959e7d3d2a7f6266"},
                                                                    {"report.html", "37582ef9c33b135e"},
                                                                    {"runs.csv", "dc398070b99324c7"},
                                                                    {"survival.csv", "a9e3ab0405e89883"},
-                                                                   {"upright-long.svg", "bea62a992745a80f"},
-                                                                   {"upright-ode.svg", "ee5cf03f60e62bca"},
-                                                                   {"walking-long.svg", "75797cadbdbaf7bf"},
-                                                                   {"walking-ode.svg", "e18b8241fb6636c1"}});
+                                                                   {"upright-long.svg", "214850ba04c593db"},
+                                                                   {"upright-ode.svg", "268ab588c02f97e7"},
+                                                                   {"walking-long.svg", "39c744fbb7dd5186"},
+                                                                   {"walking-ode.svg", "f597a1bd66f9e716"}});
 }
 
 TEST(GoldenReport, OfFiveConditionsMatchesTheGoldenHash) {
   tests::expect_golden(everything_of(make_report(large_study(5, 9))),
                        {{"bests.csv", "65b355680fcc9d62"},
                         {"curves.csv", "e722cbcdc2c0b6de"},
-                        {"curves.svg", "2b6b16ac1eafeaa7"},
-                        {"distance-long.svg", "172009886b9ff6a5"},
-                        {"distance-ode.svg", "204d79a82b26d9f9"},
-                        {"distance.svg", "aee8d37439e73fbb"},
+                        {"curves.svg", "319b861f836ab715"},
+                        {"distance-long.svg", "9f39cfb2d7ee4b04"},
+                        {"distance-ode.svg", "c4a736df7b5d40a1"},
+                        {"distance.svg", "a4fba0732c0439a0"},
                         {"gaits.csv", "624a2e0c41e13fe1"},
                         {"report.html", "e75d3eede8ecfc26"},
                         {"runs.csv", "390479e93ef5d2ce"},
                         {"survival.csv", "e924fdae1fbaf0c6"},
-                        {"upright-long.svg", "25e3279bdff332a8"},
-                        {"upright-ode.svg", "3d51ccc4489910bf"},
-                        {"walking-long.svg", "50f11938c1edc5e9"},
-                        {"walking-ode.svg", "50c4c1184a8f7a56"}});
+                        {"upright-long.svg", "d5e3a6926e39ed02"},
+                        {"upright-ode.svg", "8ab356e9f0255d09"},
+                        {"walking-long.svg", "d71877eed99c3d12"},
+                        {"walking-ode.svg", "66a09338ea0c272b"}});
 }
 
 TEST(GoldenReport, OfAStudyHalfDoneMatchesTheGoldenHash) {
