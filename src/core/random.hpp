@@ -17,6 +17,7 @@ enum class Purpose : std::uint32_t {
   ground = 6,
   centroids = 7,
   map_elites = 8,
+  mutants = 9,
 };
 
 /// A stream of random numbers that depends on its key alone, (seed, purpose, generation, individual), and so

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "amble/ledger/study_spec.hpp"
+#include "amble/statistics/descriptive.hpp"
 
 namespace amble::ledger {
 namespace {
@@ -29,10 +30,13 @@ constexpr std::array map_measures{MapMeasure{"coverage", "share of the cells fil
                                   MapMeasure{"map_best", "best objective of the map"},
                                   MapMeasure{"entering_share", "share of the candidates that enter the map"}};
 
+/// What a test must look for to have a measure.
+enum class Of { trials, reaching, mutants };
+
 struct TestMeasure {
   std::string_view name, label;
   double (*value)(const Record&, const TestResult&);
-  bool of_reaching = false;  ///< only of tests with TestSpec::reach_m
+  Of of = Of::trials;
 };
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -40,6 +44,23 @@ double reached_s(const Record& record, const TestResult& test) {
   const auto found = record.provenance.reached_s.find(test.name);
   return test.reached && found != record.provenance.reached_s.end() ? found->second : never;
 }
+
+double viable_share(const Record&, const TestResult& test) {
+  return static_cast<double>(std::ranges::count_if(test.mutants, &record::Mutant::viable)) /
+         static_cast<double>(test.mutants.size());
+}
+double mutants_kept(const Record&, const TestResult& test) {
+  std::vector<double> kept;
+  for (const record::Mutant& mutant : test.mutants) kept.push_back(mutant.kept);
+  return statistics::median(kept);
+}
+double gait_change(const Record&, const TestResult& test) {
+  double sum = 0.0, viable = 0.0;
+  for (const record::Mutant& mutant : test.mutants)
+    if (mutant.viable()) sum += mutant.change, ++viable;
+  return viable > 0.0 ? sum / viable : 0.0;
+}
+
 constexpr std::array test_measures{
     TestMeasure{"distance_m", "distance, m",
                 [](const Record&, const TestResult& t) { return t.distance_m(); }},
@@ -51,16 +72,19 @@ constexpr std::array test_measures{
                 [](const Record& r, const TestResult& t) {
                   return r.best_m > 0.0 ? t.distance_m() / r.best_m : 0.0;
                 }},
-    TestMeasure{"reached_s", "wall time until it was reached, s", reached_s, true},
+    TestMeasure{"reached_s", "wall time until it was reached, s", reached_s, Of::reaching},
     TestMeasure{
         "reached_generation", "generation that reached it",
         [](const Record&, const TestResult& t) { return t.reached ? 1.0 * t.reached->generation : never; },
-        true},
+        Of::reaching},
     TestMeasure{"reached_evaluations", "evaluations until it was reached",
                 [](const Record&, const TestResult& t) {
                   return t.reached ? static_cast<double>(t.reached->evaluations) : never;
                 },
-                true}};
+                Of::reaching},
+    TestMeasure{"viable_share", "share of mutants that are viable", viable_share, Of::mutants},
+    TestMeasure{"mutants_kept", "share of the score that mutants keep", mutants_kept, Of::mutants},
+    TestMeasure{"gait_change", "change of duty factors of viable mutants", gait_change, Of::mutants}};
 
 struct Parts {
   std::string_view test, measure;
@@ -80,7 +104,9 @@ bool is_measure(const StudySpec& study, std::string_view name) {
            std::ranges::find(map_measures, what, &MapMeasure::name) != map_measures.end();
   const TestSpec* const spec = study.find_test(test);
   const auto found = std::ranges::find(test_measures, what, &TestMeasure::name);
-  return spec != nullptr && found != test_measures.end() && (!found->of_reaching || spec->reach_m > 0.0);
+  if (spec == nullptr || found == test_measures.end()) return false;
+  if (found->of == Of::reaching) return spec->reach_m > 0.0;
+  return found->of != Of::mutants || spec->mutants > 0;
 }
 
 std::optional<double> measure(const Record& record, std::string_view name) {
@@ -94,7 +120,8 @@ std::optional<double> measure(const Record& record, std::string_view name) {
   const TestResult* const result = record.find_test(test);
   const auto found = std::ranges::find(test_measures, what, &TestMeasure::name);
   if (result == nullptr || found == test_measures.end()) return std::nullopt;
-  if (found->of_reaching && result->reach_m <= 0.0) return std::nullopt;
+  if (found->of == Of::reaching && result->reach_m <= 0.0) return std::nullopt;
+  if (found->of == Of::mutants && result->mutants.empty()) return std::nullopt;
   return found->value(record, *result);
 }
 

@@ -26,6 +26,12 @@ struct StudySpec;
 /// TEST.reached_generation  its generation
 /// TEST.reached_evaluations evaluations until then
 ///
+/// and of a test with `mutants`:
+///
+/// TEST.viable_share    share of the mutants that are viable (record::Mutant::viable)
+/// TEST.mutants_kept    share of the champion's score that a mutant keeps, the median
+/// TEST.gait_change     change of the gait of the viable mutants, the mean; 0 if there is none
+///
 /// Whether a study's records have a measure of that name.
 bool is_measure(const StudySpec& study, std::string_view name);
 

@@ -57,6 +57,13 @@ io::Json to_json(const TestResult& test) {
     json["reached"] = {{"generation", test.reached->generation},
                        {"evaluations", test.reached->evaluations},
                        {"steps", test.reached->steps}};
+  if (test.mutants.empty()) return json;
+  io::Json kept = io::Json::array(), change = io::Json::array();
+  for (const record::Mutant& mutant : test.mutants) {
+    kept.push_back(mutant.kept);
+    change.push_back(mutant.change);
+  }
+  json["mutants"] = {{"kept", std::move(kept)}, {"change", std::move(change)}};
   return json;
 }
 
@@ -70,6 +77,15 @@ std::uint64_t total_from(const io::JsonView& view) {
   const std::int64_t value = view.integer();
   if (value < 0) view.bad("a whole number from 0 to 9223372036854775807");
   return static_cast<std::uint64_t>(value);
+}
+
+std::vector<record::Mutant> mutants_from(const io::JsonView& view) {
+  const auto kept = view.at("kept"), change = view.at("change");
+  if (kept.size() != change.size()) change.bad("a list as long as 'kept'");
+  std::vector<record::Mutant> mutants;
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    mutants.push_back({.kept = kept.at(i).finite_number(), .change = change.at(i).finite_number()});
+  return mutants;
 }
 
 TestResult test_from(const io::JsonView& view) {
@@ -94,6 +110,7 @@ TestResult test_from(const io::JsonView& view) {
                     .evaluations = total_from(reached.at("evaluations")),
                     .steps = total_from(reached.at("steps"))};
   }
+  if (view.has("mutants")) test.mutants = mutants_from(view.at("mutants"));
   return test;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "amble/io/json_file.hpp"
+#include "amble/record/mutant.hpp"
 #include "amble/record/trajectory.hpp"
 
 namespace amble::ledger {
@@ -42,6 +43,7 @@ struct TestResult {
   std::vector<double> path_m;           ///< first episode: x0, y0, x1, y1, … from the start, rounded to mm
   double reach_m = 0.0;                 ///< TestSpec::reach_m; 0: not looked for
   std::optional<Reached> reached = {};  ///< nothing: not looked for, or no champion of the run gets that far
+  std::vector<record::Mutant> mutants = {};  ///< of the champion, rounded to thousandths; TestSpec::mutants
 
   double distance_m() const;  ///< median of the episodes
   double upright_s() const;   ///< median

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double largest_seed = 0x1p53;
 constexpr double most_generations = 1e9;
+constexpr double most_mutants = 1e5;  ///< a record has two numbers of each
 
 bool is_name(std::string_view text) {
   return !text.empty() && text.size() <= 64 && std::ranges::all_of(text, [](char c) {
@@ -107,6 +108,8 @@ void TestSpec::describe(io::SettingsVisitor& visitor) {
   visitor.integer("episodes", episodes, {1, 1000}, {"trials under noise that evolution has not met"});
   visitor.number("reach_m", reach_m, {0, 1e6},
                  {"the first best of the run whose median trial gets that far is found, m; 0: not"});
+  visitor.integer("mutants", mutants, {0, most_mutants},
+                  {"mutants of the champion that are tried beside it, in the same trials; 0: none"});
   visitor.texts("conditions", conditions, {"conditions whose champions are tested; empty: all"});
 }
 

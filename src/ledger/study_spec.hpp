@@ -39,6 +39,8 @@ struct TestSpec {
   int episodes = 1;
   /// > 0: also finds the first of the run's successive bests whose median trial gets that far, m.
   double reach_m = 0.0;
+  /// > 0: also tries so many mutants of the champion in the same trials (record::Mutant).
+  int mutants = 0;
   std::vector<std::string> conditions;  ///< names; empty: all
 
   bool applies_to(std::string_view condition) const;

@@ -17,6 +17,16 @@ Innovations::Innovations(int inputs, int outputs, const InnovationSettings& sett
       first_hidden_(static_cast<std::uint32_t>(1 + inputs + outputs)),
       first_node_(first_hidden_) {}
 
+Innovations Innovations::beyond(const Genome& genome, InnovationKey key) {
+  Innovations innovations(genome.count(NodeKind::input), genome.count(NodeKind::output),
+                          {InnovationScope::generation, key});
+  for (const NodeGene& node : genome.nodes)
+    innovations.first_node_ = std::max(innovations.first_node_, node.id + 1);
+  for (const LinkGene& link : genome.links)
+    innovations.first_link_ = std::max(innovations.first_link_, link.innovation + 1);
+  return innovations;
+}
+
 void Innovations::begin_generation() {
   if (settings_.scope == InnovationScope::run) return;
   first_link_ = static_cast<std::uint32_t>(next_link());

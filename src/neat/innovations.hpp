@@ -23,6 +23,9 @@ class Innovations {
  public:
   /// Ids below 1 + inputs + outputs are those of bias, inputs and outputs. No link is known yet.
   Innovations(int inputs, int outputs, const InnovationSettings& settings = {});
+  /// For mutations of one genome apart from its population: whatever it has is known, and what is new gets
+  /// numbers above all of its own.
+  static Innovations beyond(const Genome& genome, InnovationKey key);
 
   /// To be called before a generation is bred: with InnovationScope::generation the list is cleared, so that
   /// no earlier number is used again.

@@ -5,6 +5,7 @@
 #include "amble/core/index.hpp"
 #include "amble/graphics/style_sheet.hpp"
 #include "amble/report/curves_figure.hpp"
+#include "amble/report/mutants_figure.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/page_style.hpp"
 #include "amble/report/survival_figure.hpp"
@@ -59,6 +60,9 @@ std::vector<FigureFile> figure_files(const Report& report) {
     if (const auto rows = test_rows(report, test.name); !rows.empty())
       add("distance-" + test.name, rows_figure(rows, " m", "Distance in test " + test.name, Layout::wide));
   add("curves", curves_figure(report, Layout::wide));
+  for (const ledger::TestSpec& test : report.data.study.tests)
+    if (has_mutants(report, test.name))
+      add("mutants-" + test.name, mutants_figure(report, test.name, Layout::wide));
   for (const SurvivalTable& table : report.survival)
     add(fmt::format("{}-{}", activity_names[to_index(table.activity)], table.test),
         survival_figure(report, table, Layout::wide));

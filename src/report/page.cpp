@@ -103,6 +103,7 @@ std::string make_page(const Report& report) {
     parts.push_back({"survival", "Falls and stops", survival_section(report)});
     parts.push_back({"sizes", "CPPNs", sizes_section(report)});
     parts.push_back({"gaits", "Gaits", gaits_section(report)});
+    parts.push_back({"mutants", "Mutants", mutants_section(report)});
     parts.push_back({"transfer", "Other engines", transfer_section(report)});
     parts.push_back({"pairs", "Pairs", pairs_section(report)});
   }

@@ -13,6 +13,7 @@ std::string curves_section(const Report& report);
 std::string survival_section(const Report& report);
 std::string sizes_section(const Report& report);
 std::string gaits_section(const Report& report);
+std::string mutants_section(const Report& report);
 std::string transfer_section(const Report& report);
 std::string pairs_section(const Report& report);
 std::string made_section(const Report& report);

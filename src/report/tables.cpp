@@ -202,6 +202,18 @@ Table transfer_table(const Report& report) {
   return table;
 }
 
+Table mutants_table(const Report& report) {
+  Table table{"mutants",
+              "a mutant of a run’s champion: its share of the champion’s score, its change of gait",
+              {"test", "condition", "seed", "kept", "change"},
+              {}};
+  for (const ledger::Record& run : report.data.records)
+    for (const ledger::TestResult& test : run.tests)
+      for (const record::Mutant& mutant : test.mutants)
+        table.rows.push_back({test.name, run.condition, run.seed, mutant.kept, mutant.change});
+  return table;
+}
+
 Table claims_table(const Report& report) {
   Table table{"claims",
               "a claim with its verdict",
@@ -244,9 +256,9 @@ Table claims_table(const Report& report) {
 }  // namespace
 
 std::vector<Table> tables(const Report& report) {
-  return {claims_table(report), runs_table(report),    summary_table(report),  pairs_table(report),
-          curves_table(report), bests_table(report),   survival_table(report), log_rank_table(report),
-          gaits_table(report),  transfer_table(report)};
+  return {claims_table(report), runs_table(report),     summary_table(report),  pairs_table(report),
+          curves_table(report), bests_table(report),    survival_table(report), log_rank_table(report),
+          gaits_table(report),  transfer_table(report), mutants_table(report)};
 }
 
 }  // namespace amble::report

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "amble/core/index.hpp"
+#include "amble/experiment/mutants.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/io/file.hpp"
 #include "amble/record/generations_csv.hpp"
@@ -16,6 +17,11 @@ namespace amble::study {
 namespace {
 
 constexpr double most_path_samples = 300.0;
+
+/// As exact as records are: of metres, millimetres.
+double thousandths(double value) {
+  return std::round(value * 1000.0) / 1000.0;
+}
 
 /// Measures how long a robot walks, and samples its path.
 class WalkObserver : public trial::Observer {
@@ -33,16 +39,14 @@ class WalkObserver : public trial::Observer {
     }
     meter_->add(com_m);
     if (step % stride_ != 0) return;
-    path_m_.push_back(millimetres(com_m.x - start_m_.x));
-    path_m_.push_back(millimetres(com_m.y - start_m_.y));
+    path_m_.push_back(thousandths(com_m.x - start_m_.x));
+    path_m_.push_back(thousandths(com_m.y - start_m_.y));
   }
 
   double walking_s() const { return meter_ ? meter_->walking_s() : 0.0; }
   std::vector<double> path_m() const { return path_m_; }
 
  private:
-  static double millimetres(double value_m) { return std::round(value_m * 1000.0) / 1000.0; }
-
   double timestep_s_;
   int stride_;
   Vec3 start_m_;
@@ -125,7 +129,8 @@ std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experi
                             .path_interval_s = interval_s,
                             .path_m = {},
                             .reach_m = test.spec.reach_m,
-                            .reached = {}};
+                            .reached = {},
+                            .mutants = {}};
   for (int episode = 0; episode < test.spec.episodes; ++episode) {
     GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
     WalkObserver walk(problem.trial.timestep_s, interval_s);
@@ -145,6 +150,21 @@ std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experi
     result.path_m = walk.path_m();
   }
   return result;
+}
+
+std::optional<std::vector<record::Mutant>> mutants_in(const PlannedTest& test,
+                                                      const experiment::Champion& champion,
+                                                      const neat::Settings& neat,
+                                                      const std::atomic<bool>& stop) {
+  experiment::Problem problem = problem_of(test, champion);
+  problem.trial.duration_s = test.spec.seconds;
+  auto mutants =
+      experiment::try_mutants(problem, neat, champion.genome, champion.seed,
+                              {.count = test.spec.mutants, .episodes = test.spec.episodes}, 1, stop);
+  if (!mutants) return std::nullopt;
+  for (record::Mutant& mutant : *mutants)
+    mutant = {.kept = thousandths(mutant.kept), .change = thousandths(mutant.change)};
+  return mutants;
 }
 
 io::Json champion_to_json(experiment::Champion champion) {

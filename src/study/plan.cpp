@@ -84,6 +84,7 @@ std::string PlannedTest::settings_hash(std::string_view home) const {
                       {"episodes", spec.episodes},
                       {"noise", io::settings_to_json(noise)}};
   if (spec.reach_m > 0.0) definition["reach_m"] = spec.reach_m;
+  if (spec.mutants > 0) definition["mutants"] = spec.mutants;
   if (ground) definition["ground"] = io::settings_to_json(*ground);
   if (damage) definition["damage"] = io::settings_to_json(*damage);
   return hex(hash_text(definition.dump()));

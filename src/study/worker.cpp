@@ -165,6 +165,11 @@ class Worker {
       if (!result) return Step::interrupted;
       if (old == nullptr && test.spec.reach_m > 0.0 && !find_first_walker(run, test, record, *result))
         return Step::interrupted;
+      if (old == nullptr && test.spec.mutants > 0) {
+        auto mutants = mutants_in(test, champion, condition.config.neat, stop_);
+        if (!mutants) return Step::interrupted;
+        result->mutants = std::move(*mutants);
+      }
       results.push_back(std::move(*result));
     }
     const bool changed = is_new || results.size() != record.tests.size();

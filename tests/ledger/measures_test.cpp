@@ -31,6 +31,27 @@ TEST(Measures, ShareKeptOfNoDistanceIsZero) {
   EXPECT_EQ(measure(record, "five.kept"), 0.0);
 }
 
+TEST(Measures, OfMutantsAreTakenFromThoseOfTheTest) {
+  Record record = sample_record();
+  record.tests[0].mutants = {{0.2, 0.5}, {0.5, 0.125}, {0.7, 0.25}, {0.49, 0.5}, {1.1, 0.75}};
+  EXPECT_EQ(measure(record, "five.viable_share"), 0.6);
+  EXPECT_EQ(measure(record, "five.mutants_kept"), 0.5);
+  EXPECT_EQ(measure(record, "five.gait_change"), 0.375);
+  EXPECT_EQ(measure(record, "noisy.viable_share"), std::nullopt);
+  record.tests[0].mutants = {{0.2, 0.5}};
+  EXPECT_EQ(measure(record, "five.gait_change"), 0.0);
+}
+
+TEST(Measures, OfMutantsAreKnownOfTestsThatHaveThem) {
+  StudySpec study;
+  study.tests.emplace_back().name = "five";
+  EXPECT_FALSE(is_measure(study, "five.viable_share"));
+  study.tests[0].mutants = 10;
+  EXPECT_TRUE(is_measure(study, "five.viable_share"));
+  EXPECT_TRUE(is_measure(study, "five.walking_s"));
+  EXPECT_FALSE(is_measure(study, "five.reached_s"));
+}
+
 TEST(Measures, AreKnownByTheStudysTests) {
   StudySpec study;
   study.tests.emplace_back().name = "five";

@@ -33,6 +33,26 @@ TEST(Record, ReadsBackAsItWasWritten) {
   EXPECT_EQ(again.champion_file, record.champion_file);
 }
 
+TEST(Record, ReadsBackMutantsAndRefusesListsOfDifferentLengths) {
+  Record record = sample_record();
+  const std::string without = record.digest();
+  record.tests[1].mutants = {{.kept = 0.5, .change = 0.125}, {.kept = 1.25, .change = 0.0}};
+  EXPECT_NE(record.digest(), without);
+  const Record again = parse_record(record_text(record), "r.json");
+  EXPECT_EQ(again.tests[0].mutants, record.tests[0].mutants);
+  EXPECT_EQ(again.tests[1].mutants, record.tests[1].mutants);
+
+  auto document = io::parse_json(record_text(record), "r.json");
+  document["tests"][1]["mutants"]["change"].push_back(0.5);
+  document.erase("checksum");
+  document.erase("format");
+  document.erase("version");
+  const auto error = test::error_of(ExitCode::bad_file, [&] {
+    parse_record(io::sealed_json("amble-study-record", 2, document), "r.json");
+  });
+  EXPECT_NE(error.find("change"), std::string::npos) << error;
+}
+
 TEST(Record, ReadsBackTestByTestAndWithItsProvenance) {
   Record record = sample_record();
   record.provenance = {.version = "v",

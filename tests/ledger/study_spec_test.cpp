@@ -234,7 +234,8 @@ TEST(StudySpec, NumbersKeepToTheirRanges) {
         {condition, "generations", "0", "1000000000", "-1", "1000000001"},
         {condition, "seeds", "[0]", "[9007199254740992]", "[-1]", "[9007199254740994]"},
         {"name = \"s\"", "generations", "0", "1000000000", "-1", "1000000001"},
-        {test, "reach_m", "0.0", "1e6", "-0.1", "1000000.1"}}) {
+        {test, "reach_m", "0.0", "1e6", "-0.1", "1000000.1"},
+        {test, "mutants", "0", "100000", "-1", "100001"}}) {
     EXPECT_EQ(with_key(old, key, least), "") << key;
     EXPECT_EQ(with_key(old, key, most), "") << key;
     EXPECT_NE(with_key(old, key, below).find(key), std::string::npos) << key;

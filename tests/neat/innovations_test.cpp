@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <tuple>
 
 #include "amble/neat/mutation.hpp"
@@ -35,6 +36,38 @@ TEST(Innovations, GiveNumbersAnewInEachGenerationIfSet) {
   EXPECT_EQ(innovations.link(4, 3), 3u) << "nodes of earlier generations stay";
   EXPECT_EQ(innovations.node(0, Activation::sine, none), 5u) << "links of earlier generations can be split";
   EXPECT_EQ(innovations.node(0, Activation::sine, none), 5u);
+}
+
+TEST(Innovations, BeyondAGenomeKnowItAndNumberItsMutationsAboveAllItHas) {
+  for (const auto key : {InnovationKey::link, InnovationKey::link_and_function}) {
+    Innovations run(3, 2, {InnovationScope::generation, key});
+    Stream stream(9, Purpose::test);
+    for (int round = 0; round < 300; ++round) {
+      run.begin_generation();
+      const Genome genome = grown_genome(3, 2, round % 9, true, run, stream);
+      std::uint32_t last_node = 0, last_link = 0;
+      for (const auto& node : genome.nodes) last_node = std::max(last_node, node.id);
+      for (const auto& link : genome.links) last_link = std::max(last_link, link.innovation);
+      Innovations alone = Innovations::beyond(genome, key);
+      EXPECT_TRUE(alone.knows(genome));
+      Genome mutant = genome;
+      mutate(mutant, lively_settings(), true, alone, stream);
+      EXPECT_NO_THROW(validate(mutant, 3, 2, true));
+      EXPECT_TRUE(alone.knows(mutant));
+      for (const auto& node : mutant.nodes) {
+        if (genome.index_of(node.id) < 0) {
+          EXPECT_GT(node.id, last_node);
+        }
+      }
+      for (const auto& link : mutant.links) {
+        const bool is_new =
+            std::ranges::find(genome.links, link.innovation, &LinkGene::innovation) == genome.links.end();
+        if (is_new) {
+          EXPECT_GT(link.innovation, last_link);
+        }
+      }
+    }
+  }
 }
 
 TEST(Innovations, GiveTheSameSplitTheSameNodeWhateverItsFunctionIfTheLinkAloneCounts) {

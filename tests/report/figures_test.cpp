@@ -8,6 +8,7 @@
 #include <set>
 
 #include "amble/report/curves_figure.hpp"
+#include "amble/report/mutants_figure.hpp"
 #include "amble/report/survival_figure.hpp"
 #include "tests/graphics/xml.hpp"
 #include "tests/report/fixture.hpp"
@@ -191,6 +192,35 @@ TEST(SurvivalFigure, StepsDownWhereLifetimesEnd) {
   EXPECT_NEAR(steps[1].first, left + width * 40.0 / 300.0, 0.1);
   EXPECT_NEAR(steps[2].second, top + height / 3.0, 0.1);
   EXPECT_NEAR(steps[5].first, left + width * 120.0 / 300.0, 0.1);
+}
+
+TEST(MutantsFigure, HasACellForEachPlaceWithMutantsAtItsScoreAndChange) {
+  const Report report = make_report(mutated_study());
+  for (const auto layout : {Layout::wide, Layout::narrow}) {
+    const auto elements = parse_xml(mutants_figure(report, "long", layout));
+    const auto borders = with_class(elements, "whisker");
+    ASSERT_EQ(borders.size(), 2u) << "a panel per condition";
+    std::vector<tests::XmlElement> cells;
+    for (const auto& element : elements)
+      if (element.name == "rect") cells.push_back(element);
+    // Condition "a" keeps 0.25, 0.45, … 1.25, three runs of each in neighbouring changes.
+    std::set<double> left_of_a;
+    for (const auto& cell : cells)
+      if (cell.number("x") < borders[1].number("x1") - 10.0 || layout == Layout::narrow)
+        left_of_a.insert(cell.number("x"));
+    EXPECT_GE(left_of_a.size(), 6u);
+    const double column = cells[0].number("width"), half = borders[0].number("x1");
+    for (const auto& cell : cells) {
+      const double from_half = (cell.number("x") - half) / column;
+      EXPECT_NEAR(from_half, std::round(from_half), 0.6) << "viable and other mutants share no cell";
+    }
+  }
+}
+
+TEST(MutantsFigure, TellsTheShareOfViableMutantsOfEachCondition) {
+  const std::string svg = mutants_figure(make_report(mutated_study()), "long", Layout::wide);
+  EXPECT_NE(svg.find("67 % viable"), std::string::npos) << "a: from 0.65 on, four of six";
+  EXPECT_NE(svg.find("50 % viable"), std::string::npos) << "b: from 0.6 on, three of six";
 }
 
 TEST(FigureFiles, AreSelfContained) {

@@ -121,6 +121,17 @@ StudyData small_study() {
   return data;
 }
 
+StudyData mutated_study() {
+  StudyData data = small_study();
+  data.study.tests[0].mutants = 6;
+  for (ledger::Record& run : data.records) {
+    const double better = run.condition == "a" ? 0.25 : 0.0, of_seed = 0.01 * static_cast<double>(run.seed);
+    for (int i = 0; i < 6; ++i)
+      run.tests[0].mutants.push_back({.kept = 0.2 * i + better, .change = 0.04 * i + of_seed});
+  }
+  return data;
+}
+
 StudyData large_study(int count, int runs) {
   std::vector<std::string> names;
   for (int i = 0; i < count; ++i) names.push_back(fmt::format("c{}", i));

@@ -45,6 +45,22 @@ TEST(StudyData, HasMeasuresOfTheFirstWalkerOfTestsThatAskForADistance) {
   EXPECT_EQ(measures_of(data), expected);
 }
 
+TEST(StudyData, ComparesViableMutantsAndTheirGaitsOfTestsThatHaveMutants) {
+  const auto has = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::ranges::find(names, name) != names.end();
+  };
+  for (const bool with : {false, true}) {
+    const StudyData data = with ? mutated_study() : small_study();
+    for (const char* name : {"long.viable_share", "long.gait_change"}) {
+      EXPECT_EQ(has(measures_of(data), name), with) << name;
+      EXPECT_EQ(has(compared_measures_of(data), name), with) << name;
+    }
+    EXPECT_EQ(has(measures_of(data), "long.mutants_kept"), with);
+    EXPECT_FALSE(has(measures_of(data), "ode.viable_share"));
+  }
+  EXPECT_NEAR(mutated_study().values("a", "long.viable_share").at(0), 4.0 / 6.0, 1e-12);
+}
+
 TEST(StudyData, HasMeasuresOfMapsThatSomeRunsHave) {
   StudyData data = small_study();
   const std::size_t without = measures_of(data).size(), compared = compared_measures_of(data).size();

@@ -120,7 +120,11 @@ TEST(PlannedTest, IsTheSameOnlyWithTheSameEngineLengthEpisodesAndNoise) {
   PlannedTest damaged = test, otherwise = test;
   damaged.damage.emplace().parts = {{.kind = damage::Kind::missing, .leg = "FL"}};
   otherwise.damage.emplace().parts = {{.kind = damage::Kind::missing, .leg = "FR"}};
-  for (const PlannedTest& other : {longer, more, noisy, uneven, steeper, damaged, otherwise})
+  PlannedTest mutated = test, more_mutants = test;
+  mutated.spec.mutants = 10;
+  more_mutants.spec.mutants = 11;
+  for (const PlannedTest& other :
+       {longer, more, noisy, uneven, steeper, damaged, otherwise, mutated, more_mutants})
     EXPECT_TRUE(others.insert(other.settings_hash("batch")).second);
 }
 

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "amble/experiment/mutants.hpp"
 #include "amble/ledger/measures.hpp"
 #include "amble/record/generations_csv.hpp"
 #include "amble/study/champion_tests.hpp"
@@ -109,6 +110,30 @@ TEST(Worker, RecordsWhatAMapReached) {
   EXPECT_EQ(ledger::measure(plain, "coverage"), std::nullopt);
   const ledger::Ledger kept(ledger::StudyPaths(folder.path()));
   EXPECT_EQ(kept.load("map", 3).map_figures, record.map_figures);
+}
+
+TEST(Worker, TriesTheMutantsOfAFinishedRunsChampionInTheTrialsOfTheTest) {
+  const test::TemporaryFolder folder;
+  auto study = small_study();
+  Notes first, adding;
+  work_on(study, folder.path(), first, true);
+  study.tests = {trial_test("mutants", 2.0, config_file("robust/supg-objective"), 3)};
+  study.tests[0].mutants = 12;
+  EXPECT_EQ(work_on(study, folder.path(), adding).finished, 1);
+  const auto record = ledger::Ledger(ledger::StudyPaths(folder.path())).load("sine", 3);
+  ASSERT_EQ(record.tests.at(0).mutants.size(), 12u);
+
+  auto champion = champion_from_json(record.champion, "record");
+  const Plan plan = make_plan(study, folder.path());
+  champion.problem.noise = plan.conditions[0].tests[0].noise;
+  champion.problem.trial.duration_s = 2.0;
+  const std::atomic<bool> never{false};
+  const auto expected = experiment::try_mutants(champion.problem, plan.conditions[0].config.neat,
+                                                champion.genome, 3, {.count = 12, .episodes = 3}, 2, never);
+  for (std::size_t i = 0; i < 12; ++i) {
+    EXPECT_NEAR(record.tests[0].mutants[i].kept, (*expected)[i].kept, 0.0005 + 1e-12);
+    EXPECT_NEAR(record.tests[0].mutants[i].change, (*expected)[i].change, 0.0005 + 1e-12);
+  }
 }
 
 TEST(Worker, SaysThatItNeedsTheRunToFindItsFirstWalker) {

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "amble/graphics/layout.hpp"
+#include "amble/record/mutant.hpp"
+#include "amble/report/report.hpp"
+
+namespace amble::report {
+
+/// All mutants of a condition's champions in a test, run by run.
+std::vector<record::Mutant> mutants_of(const Report& report, std::string_view condition,
+                                       std::string_view test);
+
+/// Whether some run has mutants in that test.
+bool has_mutants(const Report& report, std::string_view test);
+
+/// Evolvability signatures (Tarapore & Mouret 2015): a small picture per condition, how many mutants keep how
+/// much of the score (to the right) with how different a gait (up), darker where there are more; a line where
+/// mutants begin to be viable. All have the same axes; what lies beyond them is in the outermost cells. An
+/// <svg> element. There must be a mutant.
+std::string mutants_figure(const Report& report, const std::string& test, graphics::Layout layout);
+
+}  // namespace amble::report
