@@ -46,6 +46,7 @@ std::string json_of(const experiment::Adaptation& adaptation, const experiment::
                           {"seed", repertoire.config.seed},
                           {"engine", options.settings.engine},
                           {"damage", options.damage},
+                          {"episodes", options.settings.episodes},
                           {"intact", adaptation.intact},
                           {"damaged", adaptation.damaged},
                           {"adapted", adaptation.adapted},
@@ -162,6 +163,11 @@ void add_adapt(CLI::App& app, Action& action) {
   command->add_option("--engine", options->settings.engine, "The engine that stands for reality")
       ->capture_default_str();
   command->add_option("--trials", options->settings.most_trials, "Most trials of the search")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--episodes", options->settings.episodes,
+                   "Attempts under different noise whose mean is the result of one trial")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command

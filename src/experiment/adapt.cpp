@@ -86,8 +86,8 @@ std::optional<Adaptation> adapt(const Repertoire& repertoire, const AdaptSetting
                    .predicted = search.mean(candidate),
                    .deviation = search.deviation(candidate)};
     // Judging trials come first in the numbering, so that they are unseen by the search.
-    const auto measured =
-        damaged.trials(number, settings.judges + static_cast<int>(adaptation.steps.size()), 1, stop);
+    const int first = settings.judges + static_cast<int>(adaptation.steps.size()) * settings.episodes;
+    const auto measured = damaged.trials(number, first, settings.episodes, stop);
     if (!measured) return std::nullopt;
     step.measured = *measured;
     search.tell(candidate, *measured);

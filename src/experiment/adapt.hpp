@@ -17,6 +17,7 @@ struct AdaptSettings {
   std::string engine = "ode";  ///< takes the place of the real robot
   damage::Settings damage;
   int most_trials = 20;
+  int episodes = 1;  ///< attempts under different noise whose mean is the result of one trial
   adaptation::TrialAndErrorSettings search = {};
   int judges = 20;  ///< trials that judge a gait before and after, under noise unseen by the search
 };

@@ -85,6 +85,20 @@ TEST_F(Adapting, MeasuresTheDamagedRobotInTrialsThatItsJudgesDoNotUse) {
   EXPECT_DOUBLE_EQ(adaptation.adapted, mean_of(damaged, map, numbers.at(adaptation.cell), 0, 3));
 }
 
+TEST_F(Adapting, TakesForATrialTheMeanOfAttemptsThatNoOtherTrialUses) {
+  const Repertoire map = this->map();
+  AdaptSettings thrice = settings();
+  thrice.episodes = 3;
+  const Adaptation adaptation = adapt(map, thrice, 2, unstopped).value();
+  const auto numbers = numbers_by_cell(map);
+  const Problem damaged = damaged_problem(map, thrice);
+  ASSERT_EQ(adaptation.steps.size(), 8u);
+  for (std::size_t s = 0; s < adaptation.steps.size(); ++s)
+    EXPECT_DOUBLE_EQ(adaptation.steps[s].measured, mean_of(damaged, map, numbers.at(adaptation.steps[s].cell),
+                                                           thrice.judges + 3 * static_cast<int>(s), 3))
+        << s;
+}
+
 TEST_F(Adapting, PredictsOfEachGaitWhatTheTrialsBeforeLeaveOfTheMap) {
   const Repertoire map = this->map();
   const Adaptation adaptation = adapt(map, settings(), 2, unstopped).value();
