@@ -4,7 +4,10 @@
 
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <utility>
+#include <vector>
 
 #include "amble/core/random.hpp"
 
@@ -102,6 +105,23 @@ TEST(GaussianProcess, EqualsATwinByEliminationForRandomObservations) {
       for (std::size_t j = 0; j < count; ++j) mean += k[j] * weights[j], variance -= k[j] * reduced[j];
       EXPECT_NEAR(process.predict(at).mean, mean, 1e-9);
       EXPECT_NEAR(process.predict(at).variance, variance, 1e-9);
+    }
+  }
+}
+
+TEST(GaussianProcess, PredictsWhatScikitLearnPredicts) {
+  const auto oracles =
+      nlohmann::json::parse(std::ifstream(AMBLE_SOURCE_DIR "/tests/adaptation/oracles.json"));
+  ASSERT_EQ(oracles.at("sets").size(), 24u);
+  for (const auto& set : oracles.at("sets")) {
+    const auto points = set.at("points").get<std::vector<Point>>(),
+               queries = set.at("queries").get<std::vector<Point>>();
+    GaussianProcess process(points[0].size(), set.at("length_scale"), set.at("noise_variance"));
+    for (std::size_t i = 0; i < points.size(); ++i) process.observe(points[i], set.at("values").at(i));
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const auto predicted = process.predict(queries[i]);
+      EXPECT_NEAR(predicted.mean, set.at("mean").at(i).get<double>(), 1e-9);
+      EXPECT_NEAR(predicted.variance, set.at("variance").at(i).get<double>(), 1e-9);
     }
   }
 }
