@@ -23,7 +23,16 @@ using graphics::Svg;
 
 constexpr int columns = 24, rows = 16, shades = 9;
 constexpr double most_kept = 1.2, viable_from = 0.5;
-constexpr double value_width_px = 92.0;
+
+/// The share of viable mutants, at the end of a panel's title.
+struct ViableText {
+  std::string_view unit;
+  double width_px;
+
+  static ViableText of(Layout layout) {
+    return layout == Layout::wide ? ViableText{" viable", 92.0} : ViableText{"", 44.0};
+  }
+};
 
 /// Share of a panel's mutants in each cell, row by row from below.
 using Shares = std::array<double, std::size_t{columns} * rows>;
@@ -96,6 +105,7 @@ std::string mutants_figure(const Report& report, const std::string& test, Layout
     std::string label, viable;
     std::vector<record::Mutant> mutants;
   };
+  const ViableText text = ViableText::of(layout);
   std::vector<Panel> panels;
   std::vector<std::string> labels;
   std::vector<double> changes;
@@ -106,13 +116,13 @@ std::string mutants_figure(const Report& report, const std::string& test, Layout
     const double viable = static_cast<double>(std::ranges::count_if(mutants, &record::Mutant::viable));
     labels.push_back(condition.label());
     panels.push_back({condition.label(),
-                      percent_text(viable / static_cast<double>(mutants.size())) + " viable",
+                      percent_text(viable / static_cast<double>(mutants.size())) + std::string(text.unit),
                       std::move(mutants)});
   }
   AMBLE_CHECK(!panels.empty(), "a mutant");
 
   PanelGrid grid = PanelGrid::of(panels.size(), layout);
-  grid.make_room(labels, value_width_px);
+  grid.make_room(labels, text.width_px);
   const double most_change = axis_end(std::move(changes));
   std::vector<Shares> shares;
   double largest = 0.0;
@@ -126,7 +136,7 @@ std::string mutants_figure(const Report& report, const std::string& test, Layout
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const Box plot = grid.plot(i);
     draw_panel(svg, shares[i], largest, plot, most_change);
-    draw_panel_title(svg, grid, plot, panels[i].label, panels[i].viable, value_width_px);
+    draw_panel_title(svg, grid, plot, panels[i].label, panels[i].viable, text.width_px);
   }
   return svg.finish();
 }

@@ -4,25 +4,29 @@
 #include "amble/report/mutants_figure.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/page_sections.hpp"
+#include "amble/report/survival_figure.hpp"
 
 namespace amble::report {
 namespace {
 
-std::string mean_text(const Report& report, const std::string& measure, const std::string& condition) {
+std::string mean_text(const Report& report, const std::string& measure, const std::string& condition,
+                      bool as_percent) {
   const auto* sample = find_summary(report.summaries, measure, condition);
-  return sample ? estimate_text(sample->summary.mean, sample->summary.mean_interval, "") : "–";
+  if (sample == nullptr) return "–";
+  const auto& summary = sample->summary;
+  return as_percent ? share_text(summary.mean, summary.mean_interval)
+                    : estimate_text(summary.mean, summary.mean_interval, "");
 }
 
 std::string mutants_table(const Report& report, const std::string& test) {
   TableWriter table(
-      {{"Condition", false}, {"Runs"}, {"Viable [95 %]"}, {"Score kept [95 %]"}, {"Change of gait [95 %]"}},
-      "dense");
+      {{"Condition", false}, {"Runs"}, {"Viable [95 %]"}, {"Score kept [95 %]"}, {"Change of gait [95 %]"}});
   for (const auto& condition : report.data.study.conditions)
     if (const auto* viable = find_summary(report.summaries, test + ".viable_share", condition.name))
       table.row({condition.label(), fmt::format("{}", viable->summary.n),
-                 share_text(viable->summary.mean, viable->summary.mean_interval),
-                 mean_text(report, test + ".mutants_kept", condition.name),
-                 mean_text(report, test + ".gait_change", condition.name)});
+                 mean_text(report, test + ".viable_share", condition.name, true),
+                 mean_text(report, test + ".mutants_kept", condition.name, true),
+                 mean_text(report, test + ".gait_change", condition.name, false)});
   return table.finish();
 }
 
@@ -33,13 +37,15 @@ std::string mutants_section(const Report& report) {
   for (const ledger::TestSpec& test : report.data.study.tests) {
     if (!has_mutants(report, test.name)) continue;
     content += subtitle("Test " + test.name);
-    content += paragraph(fmt::format("{} of each champion, beside it: {}.",
-                                     counted(static_cast<std::size_t>(test.mutants), "mutant"),
-                                     test_text(report, test)));
+    content += paragraph(fmt::format(
+        "{} of each champion, in the same trials of {} as the champion; scores and duty factors are means "
+        "over {}.",
+        counted(static_cast<std::size_t>(test.mutants), "mutant"), time_text(test.seconds),
+        counted(static_cast<std::size_t>(test.episodes), "episode")));
     content += figure([&](graphics::Layout layout) { return mutants_figure(report, test.name, layout); },
                       "To the right: how much of the champion’s score a mutant keeps. Up: how far its gait "
                       "differs, as the mean over the legs of the differences in duty factor. Darker: more "
-                      "mutants. Right of the line they are viable.");
+                      "mutants. Right of the line they are viable; their share is behind each name.");
     content += mutants_table(report, test.name);
   }
   if (content.empty()) return {};

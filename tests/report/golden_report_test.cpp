@@ -48,7 +48,7 @@ TEST(GoldenReport, OfMutantsMatchesTheGoldenHash) {
   });
   tests::expect_golden(made, {{"mutants-long.svg", "6da6a6d73208b1a1"},
                               {"mutants.csv", "83f46b3dfd1e8088"},
-                              {"report.html", "27e9a9cfc21fe9ef"}});
+                              {"report.html", "ba49e602356a38ef"}});
 }
 
 TEST(GoldenReport, OfFiveConditionsMatchesTheGoldenHash) {
