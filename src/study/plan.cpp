@@ -33,6 +33,12 @@ PlannedTest plan_test(const ledger::StudySpec& study, std::size_t index) {
                            fmt::format("{}: is without noise", test.spec.noise));
   }
   if (!test.spec.ground.empty()) test.ground = experiment::load_config(test.spec.ground, {}).ground;
+  if (test.ground && test.ground->start_place_m <= 0.0 && !test.noise.any() && test.spec.episodes != 1)
+    throw study.error_at(
+        key_of("tests", index, "episodes"),
+        fmt::format("'{}' = {}: without noise, and with all starts at one place of the ground "
+                    "(ground.start_place_m), all trials are the same",
+                    key_of("tests", index, "episodes"), test.spec.episodes));
   if (!test.spec.damage.empty()) test.damage = experiment::load_config(test.spec.damage, {}).damage;
   return test;
 }

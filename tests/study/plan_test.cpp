@@ -1,13 +1,15 @@
 #include "amble/study/plan.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include "amble/experiment/problem.hpp"
+#include "amble/io/file.hpp"
+#include "tests/io/expect_error.hpp"
 #include "tests/study/fixture.hpp"
 
 namespace amble::study {
@@ -126,6 +128,24 @@ TEST(PlannedTest, IsTheSameOnlyWithTheSameEngineLengthEpisodesAndNoise) {
   for (const PlannedTest& other :
        {longer, more, noisy, uneven, steeper, damaged, otherwise, mutated, more_mutants})
     EXPECT_TRUE(others.insert(other.settings_hash("batch")).second);
+}
+
+TEST(Plan, RefusesEpisodesThatWouldAllBeTheSameTrial) {
+  const test::TemporaryFolder folder;
+  const auto plan_with = [&](double start_place_m, const std::string& noise, int episodes) {
+    const auto file = folder.path() / "ground.toml";
+    io::write_file(file, fmt::format("include = [\"{}\"]\n[ground]\nkind = \"stones\"\nstart_place_m = {}\n",
+                                     config_file("authors/sine-objective"), start_place_m));
+    auto study = small_study();
+    study.tests = {trial_test("t", 1.0, noise, episodes)};
+    study.tests[0].ground = file.string();
+    return make_plan(study, "nowhere");
+  };
+  const auto error = test::error_of(ExitCode::bad_input, [&] { plan_with(0.0, "", 3); });
+  EXPECT_NE(error.find("'tests[0].episodes' = 3"), std::string::npos) << error;
+  EXPECT_NO_THROW(plan_with(0.0, "", 1));
+  EXPECT_NO_THROW(plan_with(2.0, "", 3));
+  EXPECT_NO_THROW(plan_with(0.0, config_file("robust/supg-objective"), 3));
 }
 
 TEST(Plan, CanBeMadeOfEveryStudyInTheFolder) {
