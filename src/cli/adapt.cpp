@@ -66,8 +66,9 @@ void print(const experiment::Adaptation& adaptation, const experiment::Repertoir
     fmt::print("{:>5} {:>8} {:>10} {:>20} {:>10}\n", i + 1, step.cell, text(step.expected),
                fmt::format("{:.3f} ± {:.3f}", step.predicted, step.deviation), text(step.measured));
   }
-  fmt::print("{} after {} trials\n\n", adaptation.done ? "nothing better is predicted" : "stopped",
-             adaptation.steps.size());
+  fmt::print("{} after {} trials{}\n\n", adaptation.done ? "nothing better is predicted" : "stopped",
+             adaptation.steps.size(),
+             options.settings.episodes > 1 ? fmt::format(" of {} attempts", options.settings.episodes) : "");
   fmt::print("in {}, means of {} trials:\n", options.settings.engine, options.settings.judges);
   fmt::print("  the map's best, intact     {}\n", text(adaptation.intact));
   fmt::print("  the same, damaged          {}\n", text(adaptation.damaged));
@@ -168,11 +169,12 @@ void add_adapt(CLI::App& app, Action& action) {
   command
       ->add_option("--episodes", options->settings.episodes,
                    "Attempts under different noise whose mean is the result of one trial")
-      ->check(CLI::Range(1, 1000))
+      ->check(CLI::Range(1, 100))
       ->capture_default_str();
   command
       ->add_option("--noise-variance", options->settings.search.noise_variance,
-                   "Variance of a trial, as a share of the map's best squared (0.001: trials nearly repeat; "
+                   "Variance of a trial (the mean of its episodes), as a share of the map's best squared "
+                   "(0.001: trials nearly repeat; "
                    "0.01: they "
                    "differ by a tenth of it)")
       ->check(CLI::Range(1e-9, 1e3))

@@ -73,6 +73,9 @@ std::optional<Adaptation> adapt(const Repertoire& repertoire, const AdaptSetting
   const search::Elites& elites = repertoire.elites;
   if (!(elites.best_objective() > 0.0))
     fail(ExitCode::bad_input, "the map has no elite that gets anywhere: there is nothing to adapt with");
+  if (settings.episodes > 1 && !repertoire.problem.disturbed())
+    fail(ExitCode::bad_input, "--episodes {}: the map was made without noise: all attempts are the same",
+         settings.episodes);
   Reality intact(repertoire, settings.engine, repertoire.problem.damage, jobs);
   Reality damaged(repertoire, settings.engine, settings.damage, jobs);
   adaptation::TrialAndError search(candidates_of(repertoire), settings.search);

@@ -45,7 +45,7 @@ Problem damaged_problem(const Repertoire& repertoire, const AdaptSettings& setti
 /// Intelligent trial and error (adaptation/trial_and_error.hpp) over the elites of a map, with trials of the
 /// damaged robot in another engine; each under noise of its own, if the map was made under noise. The result
 /// is the same for any number of `jobs`. Nothing if `stop` was set. Throws UserError: an unknown engine,
-/// damage that the robot cannot have, an empty map.
+/// damage that the robot cannot have, an empty map, several episodes where none differ.
 std::optional<Adaptation> adapt(const Repertoire& repertoire, const AdaptSettings& settings, int jobs,
                                 const std::atomic<bool>& stop);
 

@@ -1,10 +1,9 @@
 #include "amble/experiment/mutants.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
-#include <span>
 
-#include "amble/core/index.hpp"
 #include "amble/core/random.hpp"
 #include "amble/experiment/episodes.hpp"
 #include "amble/experiment/evaluator.hpp"
@@ -15,16 +14,15 @@
 namespace amble::experiment {
 namespace {
 
-/// The genome itself, then its mutants.
-std::vector<neat::Genome> family(const Problem& problem, const neat::Settings& neat,
-                                 const neat::Genome& genome, std::int64_t seed, int count) {
-  std::vector<neat::Genome> genomes(to_index(count) + 1, genome);
-  for (std::size_t i = 1; i < genomes.size(); ++i) {
-    auto innovations = neat::Innovations::beyond(genome, neat.innovations.key);
-    Stream stream(static_cast<std::uint64_t>(seed), Purpose::mutants, 0, static_cast<std::uint32_t>(i - 1));
-    neat::mutate(genomes[i], neat, problem.cppn.recurrent, innovations, stream);
-  }
-  return genomes;
+constexpr int block = 1024;  ///< genomes evaluated at a time, so that many mutants take no more memory
+
+neat::Genome mutant_of(const neat::Genome& parent, const neat::Settings& neat, bool recurrent,
+                       std::int64_t seed, int number) {
+  neat::Genome genome = parent;
+  auto innovations = neat::Innovations::beyond(parent, neat.innovations.key);
+  Stream stream(static_cast<std::uint64_t>(seed), Purpose::mutants, 0, static_cast<std::uint32_t>(number));
+  neat::mutate(genome, neat, recurrent, innovations, stream);
+  return genome;
 }
 
 /// The duty factor of each leg.
@@ -43,29 +41,68 @@ double mean_difference(std::span<const float> some, std::span<const float> other
   return some.empty() ? 0.0 : sum / static_cast<double>(some.size());
 }
 
+/// How a genome walks, in the mean over the trials.
+struct Walk {
+  double score = 0.0;
+  std::vector<float> gait;
+};
+
+/// The trials that all genomes of a family meet.
+class Trials {
+ public:
+  Trials(const Problem& problem, std::span<const trial::ScenarioKey> keys, int jobs)
+      : problem_(with_mean_scores(problem)),
+        gait_(duty_factors(problem.robot)),
+        evaluator_(problem_, record::PathSampling(), jobs, gait_->measures()),
+        ground_(problem_.make_ground(keys.empty() ? problem.ground_key : ground_of(keys.front()))) {
+    for (const auto& key : keys) scenarios_.push_back(problem_.scenario(key, ground_.get()));
+  }
+
+  std::optional<std::vector<Walk>> of(std::span<const neat::Genome> genomes, const std::atomic<bool>& stop) {
+    const auto result = evaluator_.evaluate(genomes, stop, scenarios_, ground_);
+    if (!result) return std::nullopt;
+    const auto scores = objectives(problem_, *result);
+    std::vector<Walk> walks;
+    for (std::size_t i = 0; i < genomes.size(); ++i)
+      walks.push_back({scores[i], gait_->of(result->of_genome(i))});
+    return walks;
+  }
+
+ private:
+  static Problem with_mean_scores(Problem problem) {
+    problem.noise.score = trial::EpisodeScore::mean;
+    return problem;
+  }
+
+  Problem problem_;
+  std::unique_ptr<const score::Behaviour> gait_;
+  Evaluator evaluator_;
+  std::shared_ptr<const ground::Ground> ground_;
+  std::vector<trial::Scenario> scenarios_;
+};
+
 }  // namespace
 
-std::optional<std::vector<record::Mutant>> try_mutants(const Problem& problem, const neat::Settings& neat,
-                                                       const neat::Genome& genome, std::int64_t seed,
-                                                       const MutantSettings& settings, int jobs,
-                                                       const std::atomic<bool>& stop) {
-  Problem same = problem;
-  same.noise.score = trial::EpisodeScore::mean;
-  const auto ground = same.make_ground(ground_of(unseen_key(seed)));
-  const auto scenarios = unseen_scenarios(same, seed, 0, settings.episodes, ground.get());
-  const auto gait = duty_factors(same.robot);
-  const auto genomes = family(same, neat, genome, seed, settings.count);
-  Evaluator evaluator(same, record::PathSampling(), jobs, gait->measures());
-  const auto result = evaluator.evaluate(genomes, stop, scenarios, ground);
-  if (!result) return std::nullopt;
-
-  const auto scores = objectives(same, *result);
-  const auto own = gait->of(result->of_genome(0));
-  std::vector<record::Mutant> mutants;
-  for (std::size_t i = 1; i < genomes.size(); ++i)
-    mutants.push_back({.kept = scores.front() > 0.0 ? scores[i] / scores.front() : 0.0,
-                       .change = mean_difference(gait->of(result->of_genome(i)), own)});
-  return mutants;
+std::optional<Family> try_mutants(const Problem& problem, const neat::Settings& neat,
+                                  const neat::Genome& genome, int count, std::int64_t seed,
+                                  std::span<const trial::ScenarioKey> keys, int jobs,
+                                  const std::atomic<bool>& stop) {
+  Trials trials(problem, keys, jobs);
+  const auto own = trials.of(std::span(&genome, 1), stop);
+  if (!own) return std::nullopt;
+  const Walk& parent = own->front();
+  Family family{.score = parent.score, .mutants = {}};
+  for (int first = 0; first < count; first += block) {
+    std::vector<neat::Genome> mutants;
+    for (int i = first; i < std::min(first + block, count); ++i)
+      mutants.push_back(mutant_of(genome, neat, problem.cppn.recurrent, seed, i));
+    const auto walks = trials.of(mutants, stop);
+    if (!walks) return std::nullopt;
+    for (const Walk& walk : *walks)
+      family.mutants.push_back({.kept = parent.score > 0.0 ? walk.score / parent.score : 0.0,
+                                .change = mean_difference(walk.gait, parent.gait)});
+  }
+  return family;
 }
 
 }  // namespace amble::experiment

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "amble/experiment/problem.hpp"
@@ -12,19 +13,21 @@
 
 namespace amble::experiment {
 
-struct MutantSettings {
-  int count = 200;   ///< mutants, ≥ 1
-  int episodes = 1;  ///< trials of each genome under noise unseen during evolution; without noise one is made
+/// A genome and what mutations make of it.
+struct Family {
+  double score = 0.0;  ///< of the genome itself: mean over the trials
+  std::vector<record::Mutant> mutants;
 };
 
 /// What becomes of a genome's walk by one mutation (neat::mutate with `neat`), `count` times over: how much
 /// of the score is kept and how far the gait changes, the two sides of evolvability (Tarapore & Mouret,
-/// Information Sciences 313, 2015). Parent and mutants meet the same trials; scores and duty factors are
-/// means over them. Mutant i depends on the genome, `seed` and i alone, and the result on no number of
-/// `jobs`. Of a genome whose own score is 0, mutants keep nothing. Nothing if `stop` was set.
-std::optional<std::vector<record::Mutant>> try_mutants(const Problem& problem, const neat::Settings& neat,
-                                                       const neat::Genome& genome, std::int64_t seed,
-                                                       const MutantSettings& settings, int jobs,
-                                                       const std::atomic<bool>& stop);
+/// Information Sciences 313, 2015). The genome and its mutants meet the same trials, one per key, which are
+/// on the same ground; without keys one trial without noise. Scores and duty factors are means over the
+/// trials. Mutant i depends on the genome, the settings, `seed` and i alone, not on `count` or the number of
+/// `jobs`. Nothing if `stop` was set.
+std::optional<Family> try_mutants(const Problem& problem, const neat::Settings& neat,
+                                  const neat::Genome& genome, int count, std::int64_t seed,
+                                  std::span<const trial::ScenarioKey> trials, int jobs,
+                                  const std::atomic<bool>& stop);
 
 }  // namespace amble::experiment

@@ -37,6 +37,7 @@ struct TestMeasure {
   std::string_view name, label;
   double (*value)(const Record&, const TestResult&);
   Of of = Of::trials;
+  bool is_compared = false;  ///< in all pairs of conditions
 };
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -63,7 +64,7 @@ double gait_change(const Record&, const TestResult& test) {
 
 constexpr std::array test_measures{
     TestMeasure{"distance_m", "distance, m",
-                [](const Record&, const TestResult& t) { return t.distance_m(); }},
+                [](const Record&, const TestResult& t) { return t.distance_m(); }, Of::trials, true},
     TestMeasure{"upright_s", "time upright, s",
                 [](const Record&, const TestResult& t) { return t.upright_s(); }},
     TestMeasure{"walking_s", "time walking, s",
@@ -82,13 +83,17 @@ constexpr std::array test_measures{
                   return t.reached ? static_cast<double>(t.reached->evaluations) : never;
                 },
                 Of::reaching},
-    TestMeasure{"viable_share", "share of mutants that are viable", viable_share, Of::mutants},
+    TestMeasure{"viable_share", "share of mutants that are viable", viable_share, Of::mutants, true},
     TestMeasure{"mutants_kept", "share of the score that mutants keep", mutants_kept, Of::mutants},
-    TestMeasure{"gait_change", "change of duty factors of viable mutants", gait_change, Of::mutants}};
+    TestMeasure{"gait_change", "change of duty factors of viable mutants", gait_change, Of::mutants, true}};
 
 struct Parts {
   std::string_view test, measure;
 };
+bool has(const TestSpec& test, Of of) {
+  return of == Of::trials || (of == Of::reaching ? test.reach_m > 0.0 : test.mutants > 0);
+}
+
 Parts split(std::string_view name) {
   const std::size_t dot = name.find('.');
   if (dot == std::string_view::npos) return {{}, name};
@@ -104,9 +109,21 @@ bool is_measure(const StudySpec& study, std::string_view name) {
            std::ranges::find(map_measures, what, &MapMeasure::name) != map_measures.end();
   const TestSpec* const spec = study.find_test(test);
   const auto found = std::ranges::find(test_measures, what, &TestMeasure::name);
-  if (spec == nullptr || found == test_measures.end()) return false;
-  if (found->of == Of::reaching) return spec->reach_m > 0.0;
-  return found->of != Of::mutants || spec->mutants > 0;
+  return spec != nullptr && found != test_measures.end() && has(*spec, found->of);
+}
+
+std::vector<std::string> measures_of(const TestSpec& test) {
+  std::vector<std::string> names;
+  for (const TestMeasure& row : test_measures)
+    if (has(test, row.of)) names.push_back(fmt::format("{}.{}", test.name, row.name));
+  return names;
+}
+
+std::vector<std::string> compared_measures_of(const TestSpec& test) {
+  std::vector<std::string> names;
+  for (const TestMeasure& row : test_measures)
+    if (row.is_compared && has(test, row.of)) names.push_back(fmt::format("{}.{}", test.name, row.name));
+  return names;
 }
 
 std::optional<double> measure(const Record& record, std::string_view name) {

@@ -3,12 +3,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "amble/ledger/record.hpp"
 
 namespace amble::ledger {
 
 struct StudySpec;
+struct TestSpec;
 
 /// Numbers that figures, tests and claims take from a record, by name:
 ///
@@ -34,6 +36,11 @@ struct StudySpec;
 ///
 /// Whether a study's records have a measure of that name.
 bool is_measure(const StudySpec& study, std::string_view name);
+
+/// Names of the measures that a test gives.
+std::vector<std::string> measures_of(const TestSpec& test);
+/// Those of them in which conditions are compared pair by pair: distance_m, viable_share, gait_change.
+std::vector<std::string> compared_measures_of(const TestSpec& test);
 
 /// Nothing if the record has no such test.
 std::optional<double> measure(const Record& record, std::string_view name);

@@ -63,7 +63,8 @@ io::Json to_json(const TestResult& test) {
     kept.push_back(mutant.kept);
     change.push_back(mutant.change);
   }
-  json["mutants"] = {{"kept", std::move(kept)}, {"change", std::move(change)}};
+  json["mutants"] = {
+      {"score", test.champion_score}, {"kept", std::move(kept)}, {"change", std::move(change)}};
   return json;
 }
 
@@ -79,13 +80,17 @@ std::uint64_t total_from(const io::JsonView& view) {
   return static_cast<std::uint64_t>(value);
 }
 
-std::vector<record::Mutant> mutants_from(const io::JsonView& view) {
+void read_mutants(const io::JsonView& view, TestResult& test) {
+  test.champion_score = view.at("score").finite_number();
   const auto kept = view.at("kept"), change = view.at("change");
+  if (kept.size() == 0) kept.bad("a list of at least one number");
   if (kept.size() != change.size()) change.bad("a list as long as 'kept'");
-  std::vector<record::Mutant> mutants;
-  for (std::size_t i = 0; i < kept.size(); ++i)
-    mutants.push_back({.kept = kept.at(i).finite_number(), .change = change.at(i).finite_number()});
-  return mutants;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const record::Mutant mutant{.kept = kept.at(i).finite_number(), .change = change.at(i).finite_number()};
+    if (mutant.kept < 0.0) kept.at(i).bad("a number of at least 0");
+    if (mutant.change < 0.0 || mutant.change > 1.0) change.at(i).bad("a number from 0 to 1");
+    test.mutants.push_back(mutant);
+  }
 }
 
 TestResult test_from(const io::JsonView& view) {
@@ -110,7 +115,7 @@ TestResult test_from(const io::JsonView& view) {
                     .evaluations = total_from(reached.at("evaluations")),
                     .steps = total_from(reached.at("steps"))};
   }
-  if (view.has("mutants")) test.mutants = mutants_from(view.at("mutants"));
+  if (view.has("mutants")) read_mutants(view.at("mutants"), test);
   return test;
 }
 
@@ -146,6 +151,7 @@ io::Json to_json(const Provenance& from) {
                 {"claims", from.claims},     {"evolution_s", from.evolution_s},
                 {"tests_s", from.tests_s},   {"workers", from.workers}};
   if (!from.reached_s.empty()) json["reached_s"] = from.reached_s;
+  if (!from.added_by.empty()) json["added_by"] = from.added_by;
   return json;
 }
 
@@ -167,8 +173,10 @@ Provenance provenance_from(const io::JsonView& view) {
                   .evolution_s = view.at("evolution_s").finite_number(),
                   .tests_s = view.at("tests_s").finite_number(),
                   .workers = count_from(view.at("workers"))};
-  if (!view.has("reached_s")) return from;
-  from.reached_s = numbers_from(view.at("reached_s"));
+  if (view.has("reached_s")) from.reached_s = numbers_from(view.at("reached_s"));
+  if (view.has("added_by"))
+    for (const auto& [name, value] : view.at("added_by").raw().items())
+      from.added_by[name] = view.at("added_by").at(name).text();
   return from;
 }
 

@@ -43,7 +43,8 @@ struct TestResult {
   std::vector<double> path_m;           ///< first episode: x0, y0, x1, y1, … from the start, rounded to mm
   double reach_m = 0.0;                 ///< TestSpec::reach_m; 0: not looked for
   std::optional<Reached> reached = {};  ///< nothing: not looked for, or no champion of the run gets that far
-  std::vector<record::Mutant> mutants = {};  ///< of the champion, rounded to thousandths; TestSpec::mutants
+  double champion_score = 0.0;  ///< mean over the episodes, of which mutants keep shares; 0 without mutants
+  std::vector<record::Mutant> mutants = {};  ///< of the champion, to thousandths; TestSpec::mutants
 
   double distance_m() const;  ///< median of the episodes
   double upright_s() const;   ///< median
@@ -64,11 +65,13 @@ struct CurvePoint {
 struct Provenance {
   std::string version, commit, compiler, flags, cpu;
   std::string finished_utc;  ///< ISO 8601
-  std::string claims;        ///< StudySpec::claims_hash() at that time
+  std::string claims;        ///< StudySpec::claims_hash() at that time; tests added later change none of this
   double evolution_s = 0.0;  ///< wall time of the run, by one worker unless `workers` says otherwise
   double tests_s = 0.0;
   /// Wall time of the evolution up to TestResult::reached, by the name of the test.
   std::map<std::string, double> reached_s = {};
+  /// Tests that were run later than the rest, by name: the commit of the program that ran them.
+  std::map<std::string, std::string> added_by = {};
   int workers = 1;
 };
 

@@ -51,6 +51,12 @@ std::string conditions_table(const Report& report) {
   return table.finish();
 }
 
+/// "0123456789ab"; with "+" if there were changes that were not committed.
+std::string short_commit(const std::string& commit) {
+  constexpr std::size_t length = 12;
+  return commit.substr(0, length) + (commit.ends_with('+') && commit.size() > length ? "+" : "");
+}
+
 /// Builds and machines that made the records.
 std::string builds_table(const Report& report) {
   struct Build {
@@ -59,6 +65,7 @@ std::string builds_table(const Report& report) {
     std::string first, last;
   };
   std::map<std::array<std::string, 5>, Build> builds;
+  std::map<std::pair<std::string, std::string>, std::size_t> added;  ///< test and commit: runs
   for (const ledger::Record& record : report.data.records) {
     const auto& made = record.provenance;
     Build& build = builds[{made.version, made.commit, made.compiler, made.flags, made.cpu}];
@@ -66,6 +73,7 @@ std::string builds_table(const Report& report) {
     build.seconds += made.evolution_s + made.tests_s;
     if (build.first.empty() || made.finished_utc < build.first) build.first = made.finished_utc;
     build.last = std::max(build.last, made.finished_utc);
+    for (const auto& [test, commit] : made.added_by) ++added[{test, commit}];
   }
   TableWriter table({{"Build", false},
                      {"Compiler and flags", false},
@@ -74,11 +82,12 @@ std::string builds_table(const Report& report) {
                      {"Hours"},
                      {"Finished", false}});
   for (const auto& [key, build] : builds)
-    table.row({fmt::format("amble {} ({})", key[0],
-                           key[1].substr(0, 12) + (key[1].ends_with('+') && key[1].size() > 12 ? "+" : "")),
-               key[2] + ", " + key[3], key[4], fmt::format("{}", build.runs),
-               fmt::format("{:.2f}", build.seconds / 3600.0),
+    table.row({fmt::format("amble {} ({})", key[0], short_commit(key[1])), key[2] + ", " + key[3], key[4],
+               fmt::format("{}", build.runs), fmt::format("{:.2f}", build.seconds / 3600.0),
                build.first == build.last ? build.first : build.first + " to " + build.last});
+  for (const auto& [key, runs] : added)
+    table.row({fmt::format("amble ({})", short_commit(key.second)),
+               fmt::format("test {}, added later", key.first), "–", fmt::format("{}", runs), "–", "–"});
   return table.finish();
 }
 

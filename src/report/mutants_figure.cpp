@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
@@ -22,7 +23,7 @@ using graphics::Scale;
 using graphics::Svg;
 
 constexpr int columns = 24, rows = 16, shades = 9;
-constexpr double most_kept = 1.2, viable_from = 0.5;
+constexpr double most_kept = 1.2;
 
 /// The share of viable mutants, at the end of a panel's title.
 struct ViableText {
@@ -38,7 +39,7 @@ struct ViableText {
 using Shares = std::array<double, std::size_t{columns} * rows>;
 
 int bin(double value, double most, int bins) {
-  return std::clamp(static_cast<int>(value / most * bins), 0, bins - 1);
+  return std::min(static_cast<int>(std::min(value / most, 1.0) * bins), bins - 1);
 }
 
 Shares shares_of(const std::vector<record::Mutant>& mutants, double most_change) {
@@ -78,12 +79,11 @@ void draw_panel(Svg& svg, const Shares& shares, double largest, const Box& plot,
   graphics::draw_y_axis(svg, y, graphics::nice_ticks(y.data, is_small ? 3 : 5), plot.x, plot.right(), "");
   graphics::draw_x_axis(svg, x, {{0.0, 50.0, 100.0}, 50.0, 0}, plot.bottom(), " %");
   draw_cells(svg, shares, largest, plot);
-  const double border = x(100.0 * viable_from);
+  const double border = x(100.0 * record::Mutant::viable_from);
   svg.line({border, plot.y}, {border, plot.bottom()}, "whisker");
 }
 
-}  // namespace
-
+/// All mutants of a condition's champions in a test, run by run.
 std::vector<record::Mutant> mutants_of(const Report& report, std::string_view condition,
                                        std::string_view test) {
   std::vector<record::Mutant> all;
@@ -92,6 +92,8 @@ std::vector<record::Mutant> mutants_of(const Report& report, std::string_view co
       all.insert(all.end(), result->mutants.begin(), result->mutants.end());
   return all;
 }
+
+}  // namespace
 
 bool has_mutants(const Report& report, std::string_view test) {
   return std::ranges::any_of(report.data.records, [test](const ledger::Record& record) {

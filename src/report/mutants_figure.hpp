@@ -1,17 +1,12 @@
 #pragma once
 
 #include <string>
-#include <vector>
+#include <string_view>
 
 #include "amble/graphics/layout.hpp"
-#include "amble/record/mutant.hpp"
 #include "amble/report/report.hpp"
 
 namespace amble::report {
-
-/// All mutants of a condition's champions in a test, run by run.
-std::vector<record::Mutant> mutants_of(const Report& report, std::string_view condition,
-                                       std::string_view test);
 
 /// Whether some run has mutants in that test.
 bool has_mutants(const Report& report, std::string_view test);

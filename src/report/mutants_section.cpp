@@ -18,7 +18,7 @@ std::string mean_text(const Report& report, const std::string& measure, const st
                     : estimate_text(summary.mean, summary.mean_interval, "");
 }
 
-std::string mutants_table(const Report& report, const std::string& test) {
+std::string mutants_summary(const Report& report, const std::string& test) {
   TableWriter table(
       {{"Condition", false}, {"Runs"}, {"Viable [95 %]"}, {"Score kept [95 %]"}, {"Change of gait [95 %]"}});
   for (const auto& condition : report.data.study.conditions)
@@ -42,11 +42,13 @@ std::string mutants_section(const Report& report) {
         "over {}.",
         counted(static_cast<std::size_t>(test.mutants), "mutant"), time_text(test.seconds),
         counted(static_cast<std::size_t>(test.episodes), "episode")));
-    content += figure([&](graphics::Layout layout) { return mutants_figure(report, test.name, layout); },
-                      "To the right: how much of the champion’s score a mutant keeps. Up: how far its gait "
-                      "differs, as the mean over the legs of the differences in duty factor. Darker: more "
-                      "mutants. Right of the line they are viable; their share is behind each name.");
-    content += mutants_table(report, test.name);
+    content +=
+        figure([&](graphics::Layout layout) { return mutants_figure(report, test.name, layout); },
+               "To the right: how much of the champion’s score a mutant keeps. Up: how far its gait "
+               "differs, as the mean over the legs of the differences in duty factor. Darker: more "
+               "mutants; at the edges are those beyond. Right of the line they are viable; their share is "
+               "behind each name.");
+    content += mutants_summary(report, test.name);
   }
   if (content.empty()) return {};
   return section("mutants", "What a mutation makes of them",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "amble/core/check.hpp"
@@ -121,16 +122,8 @@ std::vector<std::string> measures_of(const StudyData& data) {
   std::vector<std::string> measures{"train_m", "hidden", "links"};
   const auto of_maps = map_figures_of(data);
   measures.insert(measures.end(), of_maps.begin(), of_maps.end());
-  for (const ledger::TestSpec& test : data.study.tests) {
-    for (const char* what : {"distance_m", "upright_s", "walking_s", "kept"})
-      measures.push_back(test.name + "." + what);
-    if (test.reach_m > 0.0)
-      for (const char* what : {"reached_s", "reached_generation", "reached_evaluations"})
-        measures.push_back(test.name + "." + what);
-    if (test.mutants > 0)
-      for (const char* what : {"viable_share", "mutants_kept", "gait_change"})
-        measures.push_back(test.name + "." + what);
-  }
+  for (const ledger::TestSpec& test : data.study.tests)
+    std::ranges::move(ledger::measures_of(test), std::back_inserter(measures));
   return measures;
 }
 
@@ -138,11 +131,8 @@ std::vector<std::string> compared_measures_of(const StudyData& data) {
   std::vector<std::string> measures{"train_m"};
   const auto of_maps = map_figures_of(data);
   measures.insert(measures.end(), of_maps.begin(), of_maps.end());
-  for (const ledger::TestSpec& test : data.study.tests) {
-    measures.push_back(test.name + ".distance_m");
-    if (test.mutants > 0)
-      for (const char* what : {"viable_share", "gait_change"}) measures.push_back(test.name + "." + what);
-  }
+  for (const ledger::TestSpec& test : data.study.tests)
+    std::ranges::move(ledger::compared_measures_of(test), std::back_inserter(measures));
   return measures;
 }
 

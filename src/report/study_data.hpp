@@ -31,8 +31,8 @@ StudyData load_study_data(const std::filesystem::path& folder);
 /// Names of all measures that the study's records have: train_m, hidden, links, those of maps, then those of
 /// its tests.
 std::vector<std::string> measures_of(const StudyData& data);
-/// Those of them in which all pairs of conditions are compared: train_m, those of maps, TEST.distance_m,
-/// TEST.viable_share and TEST.gait_change.
+/// Those of them in which all pairs of conditions are compared: train_m, those of maps, and those of
+/// ledger::compared_measures_of().
 std::vector<std::string> compared_measures_of(const StudyData& data);
 
 /// Length of the trials in evolution, s, as the champion's file has it; none if it does not say.

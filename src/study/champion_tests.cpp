@@ -18,7 +18,7 @@ namespace {
 
 constexpr double most_path_samples = 300.0;
 
-/// As exact as records are: of metres, millimetres.
+/// Rounded as in records.
 double thousandths(double value) {
   return std::round(value * 1000.0) / 1000.0;
 }
@@ -130,6 +130,7 @@ std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experi
                             .path_m = {},
                             .reach_m = test.spec.reach_m,
                             .reached = {},
+                            .champion_score = 0.0,
                             .mutants = {}};
   for (int episode = 0; episode < test.spec.episodes; ++episode) {
     GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
@@ -152,19 +153,23 @@ std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experi
   return result;
 }
 
-std::optional<std::vector<record::Mutant>> mutants_in(const PlannedTest& test,
-                                                      const experiment::Champion& champion,
-                                                      const neat::Settings& neat,
-                                                      const std::atomic<bool>& stop) {
+bool add_mutants(const PlannedTest& test, const experiment::Champion& champion, const neat::Settings& neat,
+                 ledger::TestResult& result, const std::atomic<bool>& stop) {
   experiment::Problem problem = problem_of(test, champion);
   problem.trial.duration_s = test.spec.seconds;
-  auto mutants =
-      experiment::try_mutants(problem, neat, champion.genome, champion.seed,
-                              {.count = test.spec.mutants, .episodes = test.spec.episodes}, 1, stop);
-  if (!mutants) return std::nullopt;
-  for (record::Mutant& mutant : *mutants)
-    mutant = {.kept = thousandths(mutant.kept), .change = thousandths(mutant.change)};
-  return mutants;
+  std::vector<trial::ScenarioKey> trials;
+  for (int episode = 0; episode < test.spec.episodes; ++episode)
+    if (const auto key = scenario(test, problem, champion, episode)) trials.push_back(*key);
+  constexpr int one_worker = 1;
+  const auto family = experiment::try_mutants(problem, neat, champion.genome, test.spec.mutants,
+                                              champion.seed, trials, one_worker, stop);
+  if (!family) return false;
+  result.champion_score = family->score;
+  // Rounded down, what is not viable does not become so.
+  for (const record::Mutant& mutant : family->mutants)
+    result.mutants.push_back(
+        {.kept = std::floor(mutant.kept * 1000.0) / 1000.0, .change = thousandths(mutant.change)});
+  return true;
 }
 
 io::Json champion_to_json(experiment::Champion champion) {

@@ -8,7 +8,6 @@
 #include "amble/experiment/run_folder.hpp"
 #include "amble/ledger/record.hpp"
 #include "amble/neat/settings.hpp"
-#include "amble/record/mutant.hpp"
 #include "amble/study/plan.hpp"
 
 namespace amble::study {
@@ -17,12 +16,11 @@ namespace amble::study {
 std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experiment::Champion& champion,
                                            const std::atomic<bool>& stop);
 
-/// Tries TestSpec::mutants mutants of a champion, which mutate as in a run with these settings of NEAT, in
-/// the test's trials. Nothing if `stop` was set before it was done. Throws UserError.
-std::optional<std::vector<record::Mutant>> mutants_in(const PlannedTest& test,
-                                                      const experiment::Champion& champion,
-                                                      const neat::Settings& neat,
-                                                      const std::atomic<bool>& stop);
+/// Adds TestSpec::mutants mutants of a champion, which mutate as in a run with these settings of NEAT, tried
+/// in the same trials as the champion by run_test(). False if `stop` was set before it was done. Throws
+/// UserError.
+bool add_mutants(const PlannedTest& test, const experiment::Champion& champion, const neat::Settings& neat,
+                 ledger::TestResult& result, const std::atomic<bool>& stop);
 
 /// The first of a run's successive bests whose median trial in `test` gets as far as its `reach_m`.
 struct FirstReach {

@@ -165,17 +165,18 @@ class Worker {
       if (!result) return Step::interrupted;
       if (old == nullptr && test.spec.reach_m > 0.0 && !find_first_walker(run, test, record, *result))
         return Step::interrupted;
-      if (old == nullptr && test.spec.mutants > 0) {
-        auto mutants = mutants_in(test, champion, condition.config.neat, stop_);
-        if (!mutants) return Step::interrupted;
-        result->mutants = std::move(*mutants);
-      }
+      if (old == nullptr && test.spec.mutants > 0 &&
+          !add_mutants(test, champion, condition.config.neat, *result, stop_))
+        return Step::interrupted;
+      if (old == nullptr && !is_new)
+        record.provenance.added_by[test.spec.name] = experiment::build_info().commit;
       results.push_back(std::move(*result));
     }
     const bool changed = is_new || results.size() != record.tests.size();
     record.tests = std::move(results);
     if (!changed) return Step::nothing_to_do;
-    note_provenance(record, now_s() - start_s);
+    if (is_new) note_provenance(record);
+    record.provenance.tests_s += now_s() - start_s;
     ledger_.save(record);
     listener_.on_finish(run, record);
     return Step::done;
@@ -197,7 +198,7 @@ class Worker {
     return true;
   }
 
-  void note_provenance(ledger::Record& record, double tests_s) const {
+  void note_provenance(ledger::Record& record) const {
     const auto build = experiment::build_info();
     auto& provenance = record.provenance;
     provenance.version = build.version;
@@ -206,10 +207,7 @@ class Worker {
     provenance.flags = build.flags;
     provenance.cpu = experiment::cpu_name();
     provenance.finished_utc = utc_now();
-    // The rules as they were when the run's results were first known; a test that is added later changes
-    // nothing.
-    if (provenance.claims.empty()) provenance.claims = plan_.study.claims_hash();
-    provenance.tests_s += tests_s;
+    provenance.claims = plan_.study.claims_hash();
   }
 
   void discard(const std::filesystem::path& folder) const {

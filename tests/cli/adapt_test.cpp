@@ -81,6 +81,15 @@ TEST_F(AdaptCommand, GivesTheSameForAnyNumberOfWorkersAndInTheMapsOwnEngine) {
   EXPECT_EQ(amble(arguments).out, amble(three).out);
 }
 
+TEST_F(AdaptCommand, SaysOfHowManyAttemptsItsTrialsAre) {
+  const std::string out = scratch_ / "adapt.json";
+  const auto adapted = amble({"adapt", run_, "--damage", "missing:FL", "--engine", "batch", "--trials", "2",
+                              "--judge", "2", "--stop-share", "2", "--episodes", "3", "-o", out});
+  ASSERT_EQ(adapted.exit_code, 0) << adapted.err;
+  EXPECT_THAT(adapted.out, HasSubstr("stopped after 2 trials of 3 attempts"));
+  EXPECT_EQ(nlohmann::json::parse(slurp(out))["episodes"], 3);
+}
+
 TEST_F(AdaptCommand, RefusesWhatTheRobotDoesNotHaveInOneLine) {
   expect_refusal({"adapt", run_, "--damage", "missing:tail"}, ExitCode::bad_input, "tail");
   expect_refusal({"adapt", run_, "--damage", "missing:FL", "--engine", "bullet"}, ExitCode::bad_input,

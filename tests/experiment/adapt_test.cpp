@@ -149,6 +149,15 @@ TEST_F(Adapting, StopsWhenNothingBetterIsPredictedOrWhenItIsTold) {
   EXPECT_FALSE(adapt(map, settings(), 1, stop).has_value());
 }
 
+TEST_F(Adapting, RefusesAttemptsThatWouldAllBeTheSame) {
+  Repertoire map = this->map();
+  map.problem.noise = {};
+  AdaptSettings thrice = settings();
+  thrice.episodes = 3;
+  EXPECT_THROW(adapt(map, thrice, 1, unstopped), UserError);
+  EXPECT_NO_THROW(adapt(map, settings(), 1, unstopped));
+}
+
 TEST_F(Adapting, RefusesAnEngineOrADamageThatThereIsNot) {
   const Repertoire map = this->map();
   AdaptSettings unknown = settings();

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "amble/core/random.hpp"
-#include "amble/experiment/episodes.hpp"
 #include "amble/experiment/evaluator.hpp"
 #include "amble/neat/initial_genome.hpp"
 #include "amble/neat/innovations.hpp"
@@ -25,7 +24,7 @@ struct Sample {
   neat::Genome genome;
 };
 
-/// A SUPG that moves, under every kind of noise if `more` says so.
+/// A SUPG that moves.
 Sample sample(std::vector<std::string> more = {}) {
   more.insert(more.begin(), "engine=batch");
   Config config = small_config(std::move(more));
@@ -37,8 +36,23 @@ Sample sample(std::vector<std::string> more = {}) {
   return {std::move(config), std::move(problem), std::move(genome)};
 }
 
-std::vector<record::Mutant> tried(const Sample& of, const MutantSettings& settings, int jobs = 1) {
-  return try_mutants(of.problem, of.config.neat, of.genome, seed, settings, jobs, unstopped).value();
+/// Under every kind of noise, where evolution counts the worst episode.
+Sample noisy_sample() {
+  auto settings = all_noise();
+  settings.push_back("noise.score=worst");
+  return sample(std::move(settings));
+}
+
+std::vector<trial::ScenarioKey> keys(int count) {
+  std::vector<trial::ScenarioKey> keys;
+  for (int i = 0; i < count; ++i)
+    keys.push_back(
+        {.seed = 8, .generation = 2, .episode = first_unseen_episode + static_cast<std::uint32_t>(i)});
+  return keys;
+}
+
+Family tried(const Sample& of, int count, const std::vector<trial::ScenarioKey>& trials = {}, int jobs = 1) {
+  return try_mutants(of.problem, of.config.neat, of.genome, count, seed, trials, jobs, unstopped).value();
 }
 
 /// Score and duty factors of one genome by itself: means over the trials.
@@ -46,10 +60,12 @@ struct Walk {
   double score = 0.0;
   std::vector<double> duty_factors;
 };
-Walk walk_of(const Sample& of, const neat::Genome& genome, int episodes) {
-  const auto scenarios = unseen_scenarios(of.problem, seed, 0, episodes, nullptr);
+Walk walk_of(const Sample& of, const neat::Genome& genome, const std::vector<trial::ScenarioKey>& trials) {
+  const auto ground = of.problem.make_ground(trials.empty() ? of.problem.ground_key : ground_of(trials[0]));
+  std::vector<trial::Scenario> scenarios;
+  for (const auto& key : trials) scenarios.push_back(of.problem.scenario(key, ground.get()));
   Evaluator evaluator(of.problem, record::PathSampling(), 1, {.contacts = true});
-  const auto result = evaluator.evaluate(std::vector{genome}, unstopped, scenarios);
+  const auto result = evaluator.evaluate(std::vector{genome}, unstopped, scenarios, ground);
   Walk walk{.score = 0.0, .duty_factors = std::vector<double>(of.problem.robot.legs.size())};
   const double share = 1.0 / static_cast<double>(result->episodes);
   for (const auto& trajectory : result->of_genome(0)) {
@@ -61,49 +77,65 @@ Walk walk_of(const Sample& of, const neat::Genome& genome, int episodes) {
   return walk;
 }
 
-TEST(Mutants, AreOneMutationAwayAndTriedInTheTrialsOfTheirParent) {
-  for (const bool noisy : {false, true}) {
-    const Sample of = sample(noisy ? all_noise() : std::vector<std::string>{});
-    const int episodes = noisy ? 3 : 1;
-    const Walk own = walk_of(of, of.genome, episodes);
-    ASSERT_GT(own.score, 0.0);
-    const auto mutants = tried(of, {.count = 12, .episodes = episodes});
-    ASSERT_EQ(mutants.size(), 12u);
-    for (std::uint32_t i = 0; i < 12; ++i) {
-      neat::Genome genome = of.genome;
-      auto innovations = neat::Innovations::beyond(of.genome, of.config.neat.innovations.key);
-      Stream stream(seed, Purpose::mutants, 0, i);
-      neat::mutate(genome, of.config.neat, of.problem.cppn.recurrent, innovations, stream);
-      EXPECT_NE(genome, of.genome);
-      const Walk walk = walk_of(of, genome, episodes);
-      double change = 0.0;
-      for (std::size_t leg = 0; leg < own.duty_factors.size(); ++leg)
-        change += std::abs(walk.duty_factors[leg] - own.duty_factors[leg]) / 4.0;
-      EXPECT_NEAR(mutants[i].kept, walk.score / own.score, 1e-6);
-      EXPECT_NEAR(mutants[i].change, change, 1e-6);
-    }
+void expect_one_mutation_each(const Sample& of, const std::vector<trial::ScenarioKey>& trials) {
+  const Walk own = walk_of(of, of.genome, trials);
+  ASSERT_GT(own.score, 0.0);
+  const Family family = tried(of, 12, trials);
+  EXPECT_NEAR(family.score, own.score, 1e-9);
+  ASSERT_EQ(family.mutants.size(), 12u);
+  for (std::uint32_t i = 0; i < 12; ++i) {
+    neat::Genome genome = of.genome;
+    auto innovations = neat::Innovations::beyond(of.genome, of.config.neat.innovations.key);
+    Stream stream(seed, Purpose::mutants, 0, i);
+    neat::mutate(genome, of.config.neat, of.problem.cppn.recurrent, innovations, stream);
+    EXPECT_NE(genome, of.genome);
+    const Walk walk = walk_of(of, genome, trials);
+    double change = 0.0;
+    for (std::size_t leg = 0; leg < own.duty_factors.size(); ++leg)
+      change += std::abs(walk.duty_factors[leg] - own.duty_factors[leg]) / 4.0;
+    EXPECT_NEAR(family.mutants[i].kept, walk.score / own.score, 1e-6);
+    EXPECT_NEAR(family.mutants[i].change, change, 1e-6);
   }
 }
 
+TEST(Mutants, AreOneMutationAwayAndMeetTheTrialsOfTheirParent) {
+  expect_one_mutation_each(sample(), {});
+}
+
+TEST(Mutants, UnderNoiseCountByTheMeanOfTheirTrials) {
+  expect_one_mutation_each(noisy_sample(), keys(3));
+}
+
+TEST(Mutants, WalkOnTheGroundOfTheirTrials) {
+  const Sample of = sample(
+      {"ground.kind=stones", "ground.height_m=0.1", "ground.start_place_m=2", "ground.vary=generations"});
+  expect_one_mutation_each(of, keys(2));
+  expect_one_mutation_each(of, {});
+  EXPECT_NE(tried(of, 1, keys(2)).score, tried(of, 1).score);
+}
+
 TEST(Mutants, AreTheSameForAnyNumberOfWorkersAndTheFirstOfAnyNumberOfMutants) {
-  const Sample of = sample(all_noise());
-  const auto few = tried(of, {.count = 5, .episodes = 2}), many = tried(of, {.count = 40, .episodes = 2}, 3);
+  const Sample of = noisy_sample();
+  const auto few = tried(of, 5, keys(2)).mutants, many = tried(of, 1100, keys(2), 3).mutants;
+  ASSERT_EQ(many.size(), 1100u);
   EXPECT_EQ(std::vector(many.begin(), many.begin() + 5), few);
   std::set<double> different;
   for (const auto& mutant : many) different.insert(mutant.kept);
-  EXPECT_GT(different.size(), 30u) << "they are not one mutant over and over";
+  EXPECT_GT(different.size(), 500u) << "they are not one mutant over and over";
 }
 
 TEST(Mutants, OfOtherSeedsAreOthers) {
   const Sample of = sample();
   const auto other =
-      try_mutants(of.problem, of.config.neat, of.genome, seed + 1, {.count = 5}, 1, unstopped).value();
-  EXPECT_NE(other, tried(of, {.count = 5}));
+      try_mutants(of.problem, of.config.neat, of.genome, 5, seed + 1, {}, 1, unstopped).value();
+  EXPECT_NE(other.mutants, tried(of, 5).mutants);
 }
 
 TEST(Mutants, OfAGenomeThatGetsNowhereKeepNothing) {
-  Sample of = sample({"score.terms=[{quantity=\"distance\", weight=0}]"});
-  for (const auto& mutant : tried(of, {.count = 3})) {
+  const Sample of = sample({"score.terms=[{quantity=\"distance\", weight=0}]"});
+  const Family family = tried(of, 3);
+  EXPECT_EQ(family.score, 0.0);
+  for (const auto& mutant : family.mutants) {
     EXPECT_EQ(mutant.kept, 0.0);
     EXPECT_FALSE(mutant.viable());
   }
@@ -117,7 +149,7 @@ TEST(Mutants, AreViableFromHalfOfTheScoreOn) {
 TEST(Mutants, AreGivenUpWhenStopped) {
   const Sample of = sample();
   const std::atomic<bool> stopped{true};
-  EXPECT_FALSE(try_mutants(of.problem, of.config.neat, of.genome, seed, {}, 1, stopped));
+  EXPECT_FALSE(try_mutants(of.problem, of.config.neat, of.genome, 5, seed, {}, 1, stopped));
 }
 
 }  // namespace

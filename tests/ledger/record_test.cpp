@@ -33,24 +33,37 @@ TEST(Record, ReadsBackAsItWasWritten) {
   EXPECT_EQ(again.champion_file, record.champion_file);
 }
 
-TEST(Record, ReadsBackMutantsAndRefusesListsOfDifferentLengths) {
+/// A record whose second test has two mutants.
+Record mutated_record() {
   Record record = sample_record();
-  const std::string without = record.digest();
+  record.tests[1].champion_score = 2.5;
   record.tests[1].mutants = {{.kept = 0.5, .change = 0.125}, {.kept = 1.25, .change = 0.0}};
-  EXPECT_NE(record.digest(), without);
-  const Record again = parse_record(record_text(record), "r.json");
-  EXPECT_EQ(again.tests[0].mutants, record.tests[0].mutants);
-  EXPECT_EQ(again.tests[1].mutants, record.tests[1].mutants);
+  return record;
+}
 
-  auto document = io::parse_json(record_text(record), "r.json");
-  document["tests"][1]["mutants"]["change"].push_back(0.5);
-  document.erase("checksum");
-  document.erase("format");
-  document.erase("version");
-  const auto error = test::error_of(ExitCode::bad_file, [&] {
-    parse_record(io::sealed_json("amble-study-record", 2, document), "r.json");
-  });
-  EXPECT_NE(error.find("change"), std::string::npos) << error;
+TEST(Record, ReadsBackMutants) {
+  const Record record = mutated_record();
+  EXPECT_NE(record.digest(), sample_record().digest());
+  const Record again = parse_record(record_text(record), "r.json");
+  EXPECT_TRUE(again.tests[0].mutants.empty());
+  EXPECT_EQ(again.tests[1].mutants, record.tests[1].mutants);
+  EXPECT_EQ(again.tests[1].champion_score, 2.5);
+}
+
+TEST(Record, RefusesMutantsThatCannotBe) {
+  const auto refusal = [](const std::string& key, const io::Json& value) {
+    auto document = io::parse_json(record_text(mutated_record()), "r.json");
+    document["tests"][1]["mutants"][key] = value;
+    for (const char* seal : {"checksum", "format", "version"}) document.erase(seal);
+    return test::error_of(ExitCode::bad_file, [&] {
+      parse_record(io::sealed_json("amble-study-record", 2, document), "r.json");
+    });
+  };
+  EXPECT_NE(refusal("change", {0.5, 0.5, 0.5}).find("as long as 'kept'"), std::string::npos);
+  EXPECT_NE(refusal("kept", {0.5, -0.001}).find("at least 0"), std::string::npos);
+  EXPECT_NE(refusal("change", {0.5, 1.001}).find("from 0 to 1"), std::string::npos);
+  EXPECT_NE(refusal("change", {-0.001, 0.5}).find("from 0 to 1"), std::string::npos);
+  EXPECT_NE(refusal("kept", io::Json::array()).find("at least one"), std::string::npos);
 }
 
 TEST(Record, ReadsBackTestByTestAndWithItsProvenance) {
@@ -64,6 +77,7 @@ TEST(Record, ReadsBackTestByTestAndWithItsProvenance) {
                        .claims = "hash",
                        .evolution_s = 70.5,
                        .tests_s = 3.25,
+                       .added_by = {{"noisy", "later"}},
                        .workers = 4};
   const Record again = parse_record(record_text(record), "r.json");
   ASSERT_EQ(again.tests.size(), record.tests.size());
@@ -88,6 +102,7 @@ TEST(Record, ReadsBackTestByTestAndWithItsProvenance) {
   EXPECT_EQ(again.provenance.evolution_s, 70.5);
   EXPECT_EQ(again.provenance.tests_s, 3.25);
   EXPECT_EQ(again.provenance.workers, 4);
+  EXPECT_EQ(again.provenance.added_by, record.provenance.added_by);
 }
 
 TEST(Record, DigestIsOfResultsAndNotOfClocksAndMachines) {

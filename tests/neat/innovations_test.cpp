@@ -39,6 +39,7 @@ TEST(Innovations, GiveNumbersAnewInEachGenerationIfSet) {
 }
 
 TEST(Innovations, BeyondAGenomeKnowItAndNumberItsMutationsAboveAllItHas) {
+  int new_nodes = 0, new_links = 0;
   for (const auto key : {InnovationKey::link, InnovationKey::link_and_function}) {
     Innovations run(3, 2, {InnovationScope::generation, key});
     Stream stream(9, Purpose::test);
@@ -57,6 +58,7 @@ TEST(Innovations, BeyondAGenomeKnowItAndNumberItsMutationsAboveAllItHas) {
       for (const auto& node : mutant.nodes) {
         if (genome.index_of(node.id) < 0) {
           EXPECT_GT(node.id, last_node);
+          ++new_nodes;
         }
       }
       for (const auto& link : mutant.links) {
@@ -64,10 +66,13 @@ TEST(Innovations, BeyondAGenomeKnowItAndNumberItsMutationsAboveAllItHas) {
             std::ranges::find(genome.links, link.innovation, &LinkGene::innovation) == genome.links.end();
         if (is_new) {
           EXPECT_GT(link.innovation, last_link);
+          ++new_links;
         }
       }
     }
   }
+  EXPECT_GT(new_nodes, 20);
+  EXPECT_GT(new_links, 20);
 }
 
 TEST(Innovations, GiveTheSameSplitTheSameNodeWhateverItsFunctionIfTheLinkAloneCounts) {

@@ -194,27 +194,55 @@ TEST(SurvivalFigure, StepsDownWhereLifetimesEnd) {
   EXPECT_NEAR(steps[5].first, left + width * 120.0 / 300.0, 0.1);
 }
 
-TEST(MutantsFigure, HasACellForEachPlaceWithMutantsAtItsScoreAndChange) {
-  const Report report = make_report(mutated_study());
-  for (const auto layout : {Layout::wide, Layout::narrow}) {
-    const auto elements = parse_xml(mutants_figure(report, "long", layout));
-    const auto borders = with_class(elements, "whisker");
-    ASSERT_EQ(borders.size(), 2u) << "a panel per condition";
-    std::vector<tests::XmlElement> cells;
-    for (const auto& element : elements)
-      if (element.name == "rect") cells.push_back(element);
-    // Condition "a" keeps 0.25, 0.45, … 1.25, three runs of each in neighbouring changes.
-    std::set<double> left_of_a;
-    for (const auto& cell : cells)
-      if (cell.number("x") < borders[1].number("x1") - 10.0 || layout == Layout::narrow)
-        left_of_a.insert(cell.number("x"));
-    EXPECT_GE(left_of_a.size(), 6u);
-    const double column = cells[0].number("width"), half = borders[0].number("x1");
-    for (const auto& cell : cells) {
-      const double from_half = (cell.number("x") - half) / column;
-      EXPECT_NEAR(from_half, std::round(from_half), 0.6) << "viable and other mutants share no cell";
+/// Columns and rows of the cells of each panel of a figure of 24 × 16 cells, from its border at 50 % and its
+/// lowest line.
+std::vector<std::set<std::pair<int, int>>> cells_of(const std::string& svg) {
+  const auto elements = parse_xml(svg);
+  const auto borders = with_class(elements, "whisker");
+  std::vector<std::set<std::pair<int, int>>> panels(borders.size());
+  for (const auto& element : elements) {
+    if (element.name != "rect") continue;
+    const double width = element.number("width"), height = element.number("height");
+    for (std::size_t panel = 0; panel < borders.size(); ++panel) {
+      const double column = (element.number("x") - borders[panel].number("x1")) / width + 10.0;
+      const double bottom = std::max(borders[panel].number("y1"), borders[panel].number("y2"));
+      const double row = (bottom - element.number("y")) / height - 1.0;
+      if (column < -0.5 || column > 23.5) continue;
+      EXPECT_NEAR(column, std::round(column), 0.05);
+      EXPECT_NEAR(row, std::round(row), 0.05);
+      panels[panel].emplace(std::lround(column), std::lround(row));
     }
   }
+  return panels;
+}
+
+TEST(MutantsFigure, HasACellForEachScoreKeptAndChangeOfTheGait) {
+  StudyData data = mutated_study();
+  const auto mutate = [&](std::size_t record, const std::vector<record::Mutant>& mutants) {
+    data.records[record].tests[0].mutants = mutants;
+  };
+  for (std::size_t i = 0; i < 6; ++i) mutate(i, {{.kept = 0.02, .change = 0.49}});
+  mutate(0, {{.kept = 0.5, .change = 0.0}, {.kept = 0.499, .change = 0.1}});
+  mutate(1, {{.kept = 1e300, .change = 1.0}, {.kept = 1.19, .change = 0.27}});
+  mutate(2, {{.kept = 0.0, .change = 0.03}});
+  const std::set<std::pair<int, int>> of_a{{10, 0}, {9, 1}, {23, 15}, {23, 4}, {0, 0}}, of_b{{0, 7}};
+  for (const auto layout : {Layout::wide, Layout::narrow}) {
+    const auto panels = cells_of(mutants_figure(make_report(data), "long", layout));
+    ASSERT_EQ(panels.size(), 2u) << "a panel per condition";
+    EXPECT_EQ(panels[0], of_a);
+    EXPECT_EQ(panels[1], of_b);
+  }
+}
+
+TEST(MutantsFigure, IsDarkerWhereThereAreMore) {
+  StudyData data = mutated_study();
+  for (ledger::Record& record : data.records) {
+    record.tests[0].mutants.assign(9, {.kept = 0.9, .change = 0.02});
+    record.tests[0].mutants.push_back({.kept = 0.1, .change = 0.4});
+  }
+  const auto elements = parse_xml(mutants_figure(make_report(data), "long", Layout::wide));
+  EXPECT_EQ(with_class(elements, "shade8").size(), 2u) << "nine of ten";
+  EXPECT_EQ(with_class(elements, "shade3").size(), 2u) << "one of ten: a ninth, a third by the root";
 }
 
 TEST(MutantsFigure, TellsTheShareOfViableMutantsOfEachCondition) {

@@ -48,7 +48,7 @@ TEST(GoldenReport, OfMutantsMatchesTheGoldenHash) {
   });
   tests::expect_golden(made, {{"mutants-long.svg", "6da6a6d73208b1a1"},
                               {"mutants.csv", "83f46b3dfd1e8088"},
-                              {"report.html", "ba49e602356a38ef"}});
+                              {"report.html", "dc309bf65f9d3f00"}});
 }
 
 TEST(GoldenReport, OfFiveConditionsMatchesTheGoldenHash) {

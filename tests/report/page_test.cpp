@@ -41,6 +41,23 @@ TEST(Page, IsWellFormedWithTwoConditionsOrTwenty) {
   EXPECT_NO_THROW(parse_xml(page(large_study(1, 1))));
 }
 
+TEST(Page, ShowsMutantsWhereTestsHaveThem) {
+  const std::string html = page(mutated_study());
+  EXPECT_EQ(sections(html), (std::vector<std::string>{"claims", "distance", "curves", "survival", "sizes",
+                                                      "gaits", "mutants", "transfer", "pairs", "made"}));
+  EXPECT_THAT(html, HasSubstr("6 mutants of each champion, in the same trials of 300\u00a0s"));
+  EXPECT_THAT(html, HasSubstr("67\u00a0% [67,\u00a067]")) << "four of six are viable in every run of a";
+}
+
+TEST(Page, TellsWhichTestsWereAddedLaterByWhichBuild) {
+  StudyData data = small_study();
+  for (std::size_t i = 0; i < 4; ++i) data.records[i].provenance.added_by["ode"] = "fedcba9876543210+";
+  const std::string html = page(data);
+  EXPECT_THAT(html, HasSubstr("fedcba987654+"));
+  EXPECT_THAT(html, HasSubstr("test ode, added later"));
+  EXPECT_THAT(page(small_study()), Not(HasSubstr("added later")));
+}
+
 TEST(Page, HasAMatrixOfDifferencesThatIsAntisymmetricAndBoldWhereSignificant) {
   const Report report = make_report(large_study(9, 8));
   std::vector<std::pair<std::string, bool>> expected, found;

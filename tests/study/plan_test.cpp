@@ -102,7 +102,7 @@ TEST(ConfigHash, IsOfAllThatMakesARunButItsSeedLengthAndName) {
   EXPECT_TRUE(others.insert(hash_with({"robot=\"" + robot_file + "\""})).second);
 }
 
-TEST(PlannedTest, IsTheSameOnlyWithTheSameEngineLengthEpisodesAndNoise) {
+TEST(PlannedTest, IsTheSameOnlyIfNothingDiffersThatChangesItsTrials) {
   const PlannedTest test{.spec = trial_test("t", 10.0), .noise = {}};
   const std::string hash = test.settings_hash("batch");
   PlannedTest renamed = test, explicitly = test;
