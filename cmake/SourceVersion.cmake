@@ -1,7 +1,7 @@
 # amble_source_version(SOURCE_DIR BASE VERSION_VARIABLE COMMIT_VARIABLE): what `git describe` calls the sources, and their commit.
 # VERSION is "0.2.0" at the tag v0.2.0, "0.2.0-7-gabc1234" seven commits after it, and "<BASE>-dev-gabc1234" before the first tag; of an
-# archive made by `git archive` the same from cmake/archive.txt; "<BASE>" without either. COMMIT has a "+" where files differ from it;
-# "unknown" without git.
+# archive made by `git archive` the same from cmake/archive.txt; "<BASE>" without either. COMMIT has a "+" where files differ from it
+# that are neither results nor docs; "unknown" without git.
 function(amble_source_version source_dir base version_variable commit_variable)
   find_program(GIT git)
   set(version "")
@@ -10,7 +10,7 @@ function(amble_source_version source_dir base version_variable commit_variable)
     execute_process(COMMAND ${GIT} -C ${source_dir} rev-parse HEAD OUTPUT_VARIABLE head RESULT_VARIABLE bad
                     OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
     if(NOT bad)
-      execute_process(COMMAND ${GIT} -C ${source_dir} status --porcelain OUTPUT_VARIABLE changes ERROR_QUIET)
+      execute_process(COMMAND ${GIT} -C ${source_dir} status --porcelain -- . :!results :!docs OUTPUT_VARIABLE changes ERROR_QUIET)
       set(commit ${head})
       if(changes)
         string(APPEND commit "+")

@@ -69,6 +69,8 @@ constexpr std::array test_measures{
                 [](const Record&, const TestResult& t) { return t.upright_s(); }},
     TestMeasure{"walking_s", "time walking, s",
                 [](const Record&, const TestResult& t) { return t.walking_s(); }},
+    TestMeasure{"moving_s", "time in motion, s",
+                [](const Record&, const TestResult& t) { return t.moving_s(); }},
     TestMeasure{"kept", "distance / distance in evolution",
                 [](const Record& r, const TestResult& t) {
                   return r.best_m > 0.0 ? t.distance_m() / r.best_m : 0.0;

@@ -1,7 +1,9 @@
 #include "amble/ledger/record.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
@@ -14,6 +16,9 @@ namespace {
 
 constexpr std::string_view record_format = "amble-study-record";
 constexpr int record_version = 2;
+
+// A robot moves if it gets that far in that time: the rule of standing still of score/walking.hpp.
+constexpr double moving_window_s = 10.0, moving_m = 0.25;
 
 template <typename Value>
 double median_of(const std::vector<EpisodeResult>& episodes, Value EpisodeResult::*value) {
@@ -190,6 +195,23 @@ double TestResult::upright_s() const {
 }
 double TestResult::walking_s() const {
   return median_of(episodes, &EpisodeResult::walking_s);
+}
+
+double TestResult::moving_s() const {
+  const auto samples = static_cast<std::int64_t>(path_m.size() / 2);
+  if (samples == 0) return 0.0;
+  const std::int64_t window = std::max<std::int64_t>(1, std::llround(moving_window_s / path_interval_s));
+  const auto place = [this](std::int64_t sample) {  // 0 is the start
+    return sample == 0 ? std::pair(0.0, 0.0)
+                       : std::pair(path_m[to_index(2 * sample - 2)], path_m[to_index(2 * sample - 1)]);
+  };
+  std::int64_t moving = 0;
+  for (std::int64_t last = window; last <= samples; ++last) {
+    const auto [x, y] = place(last);
+    const auto [x_before, y_before] = place(last - window);
+    if (std::hypot(x - x_before, y - y_before) > moving_m) moving += last == window ? window : 1;
+  }
+  return static_cast<double>(moving) * path_interval_s;
 }
 
 const TestResult* Record::find_test(std::string_view name) const {

@@ -49,6 +49,9 @@ struct TestResult {
   double distance_m() const;  ///< median of the episodes
   double upright_s() const;   ///< median
   double walking_s() const;   ///< median
+  /// Of the first episode, s: windows of 10 s (or of one sample of the path, if that is more) over which it
+  /// gets farther than 25 cm, also after pauses; where one ends in each sample, the first counts whole.
+  double moving_s() const;
   /// Whether the median episode neither fell nor diverged.
   bool upright() const { return upright_s() >= trial_s * (1.0 - 1e-9); }
 };

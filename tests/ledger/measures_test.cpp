@@ -19,6 +19,38 @@ TEST(Measures, AreTakenFromTheRunOrFromANamedTest) {
   EXPECT_EQ(measure(record, "noisy.kept"), 3.0 / 4.25);
 }
 
+/// A test whose path goes `steps_m` along x from sample to sample.
+TestResult path_test(double interval_s, const std::vector<double>& steps_m) {
+  TestResult test = sample_record().tests[0];
+  test.name = "walk";
+  test.path_interval_s = interval_s;
+  test.path_m.clear();
+  double x_m = 0.0;
+  for (const double step_m : steps_m) {
+    x_m += step_m;
+    test.path_m.insert(test.path_m.end(), {x_m, 0.0});
+  }
+  return test;
+}
+
+TEST(Measures, TimeInMotionLeavesPausesOutAndCountsWhatFollowsThem) {
+  EXPECT_EQ(path_test(1.0, std::vector<double>(60, 0.03)).moving_s(), 60.0);
+  EXPECT_EQ(path_test(1.0, std::vector<double>(60, 0.02)).moving_s(), 0.0);
+  EXPECT_EQ(path_test(1.0, std::vector<double>(9, 1.0)).moving_s(), 0.0) << "no window";
+  EXPECT_EQ(path_test(1.0, {}).moving_s(), 0.0);
+  // 20 s of walking, 30 s of a pause, 20 s of walking: windows still see the last stride 9 s after it, and
+  // the next one when it has gone 25 cm.
+  std::vector<double> steps_m(20, 0.1);
+  steps_m.insert(steps_m.end(), 30, 0.0);
+  steps_m.insert(steps_m.end(), 20, 0.1);
+  EXPECT_EQ(path_test(1.0, steps_m).moving_s(), 20.0 + 7.0 + 18.0);
+  // Of a path sampled more rarely than once in a window, each step is one.
+  EXPECT_EQ(path_test(36.0, {1.0, 0.2, 0.3}).moving_s(), 72.0);
+  Record record = sample_record();
+  record.tests.push_back(path_test(1.0, std::vector<double>(12, 0.03)));
+  EXPECT_EQ(measure(record, "walk.moving_s"), 12.0);
+}
+
 TEST(Measures, OfATestThatWasNotMadeIsNothing) {
   EXPECT_EQ(measure(sample_record(), "ten.distance_m"), std::nullopt);
   EXPECT_EQ(measure(sample_record(), "five.height_m"), std::nullopt);
