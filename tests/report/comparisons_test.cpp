@@ -10,7 +10,7 @@ namespace {
 
 TEST(Summaries, HaveBootstrapIntervalsOfDistancesOnly) {
   const auto summaries = summarize(large_study(2, 6));
-  EXPECT_EQ(summaries.size(), 2u * (3u + 2u * 4u)) << "every measure in both conditions";
+  EXPECT_EQ(summaries.size(), 2u * (3u + 2u * 5u)) << "every measure in both conditions";
   const auto* distance = find_summary(summaries, "long.distance_m", "c0");
   ASSERT_NE(distance, nullptr);
   EXPECT_TRUE(distance->median && distance->interquartile_mean);

@@ -34,7 +34,7 @@ TEST(StudyData, ComesFromTheFolderAlone) {
 
 TEST(StudyData, HasMeasuresOfTheFirstWalkerOfTestsThatAskForADistance) {
   StudyData data = small_study();
-  const std::vector<std::string> of_test{"distance_m", "upright_s", "walking_s", "kept"};
+  const std::vector<std::string> of_test{"distance_m", "upright_s", "walking_s", "moving_s", "kept"};
   std::vector<std::string> expected{"train_m", "hidden", "links"};
   for (const char* test : {"long", "ode"})
     for (const std::string& what : of_test) expected.push_back(std::string(test).append(".").append(what));
