@@ -1,32 +1,32 @@
 #include "amble/graphics/style_sheet.hpp"
 
-#include <string_view>
-
 #include "amble/core/check.hpp"
+#include "amble/graphics/resolved_style.hpp"
 #include "amble/graphics/svg.hpp"
 
 namespace amble::graphics {
 namespace {
 
-constexpr std::string_view colours = R"css(
-:root {
-  color-scheme: light dark;
+constexpr std::string_view light_colours = R"css(
   --paper: #fcfcfb; --panel: #f3f4f4; --ground: #e6e8ea; --ink: #16191d; --soft: #5d6670; --line: #b9c0c7;
   --mid: #8e979f; --hair: #e4e7ea; --trunk: #d5dae0; --trunk-line: #7b8590;
   --c0: #00599c; --c1: #c2410c; --c2: #3b9ee0; --c3: #e8a013; --c4: #00796b; --c5: #8e4fb0; --c6: #7d8a1f; --c7: #c75c93;
-  --plus: #00796b; --minus: #c2410c;
+  --plus: #00796b; --minus: #c2410c;)css";
+
+constexpr std::string_view fonts = R"css(
   --sans: system-ui, -apple-system, "Segoe UI", Roboto, Inter, "Noto Sans", "Helvetica Neue", Arial, sans-serif;
   --mono: ui-monospace, SFMono-Regular, Menlo, Consolas, "Liberation Mono", "DejaVu Sans Mono", monospace;
-}
-@media screen and (prefers-color-scheme: dark) {
-  :root {
+)css";
+
+constexpr std::string_view dark_colours = R"css(
     --paper: #101317; --panel: #181c21; --ground: #232930; --ink: #e9ecef; --soft: #98a2ad; --line: #4a535d;
     --mid: #727d88; --hair: #262c33; --trunk: #39424c; --trunk-line: #8b97a3;
     --c0: #3d8fe0; --c1: #f0713a; --c2: #8ecbff; --c3: #ffc75a; --c4: #35b3a2; --c5: #b98ad6; --c6: #b3c043; --c7: #e58fbb;
     --plus: #35b3a2; --minus: #f0713a;
-  }
-}
-.leg0 { --leg: var(--c0); } .leg1 { --leg: var(--c1); } .leg2 { --leg: var(--c2); } .leg3 { --leg: var(--c3); }
+)css";
+
+constexpr std::string_view legs =
+    R"css(.leg0 { --leg: var(--c0); } .leg1 { --leg: var(--c1); } .leg2 { --leg: var(--c2); } .leg3 { --leg: var(--c3); }
 .leg4 { --leg: var(--c4); } .leg5 { --leg: var(--c5); } .leg6 { --leg: var(--c6); } .leg7 { --leg: var(--c7); }
 )css";
 
@@ -170,35 +170,45 @@ constexpr std::string_view phone_and_paper = R"css(
 }
 )css";
 
+/// The custom properties of both schemes, and the classes of legs.
+std::string colours() {
+  std::string sheet = "\n:root {\n  color-scheme: light dark;";
+  sheet += light_colours;
+  sheet += fonts;
+  sheet += "}\n@media screen and (prefers-color-scheme: dark) {\n  :root {";
+  sheet += dark_colours;
+  sheet += "  }\n}\n";
+  sheet += legs;
+  return sheet;
+}
+
 }  // namespace
 
 std::string style_sheet() {
-  std::string sheet;
-  for (const std::string_view part : {colours, text, in_page, plots, maps, figures, phone_and_paper})
-    sheet += part;
+  std::string sheet = colours();
+  for (const std::string_view part : {text, in_page, plots, maps, figures, phone_and_paper}) sheet += part;
   return sheet;
 }
 
 std::string shared_style_sheet() {
-  return std::string(colours) + std::string(cppn);
+  return colours() + std::string(cppn);
 }
 
 std::string map_style_sheet() {
   return std::string(plots) + std::string(maps);
 }
 
-std::string standalone_svg(std::string element) {
+std::string standalone_svg(std::string element, std::string_view more_rules) {
   element = with_margin(std::move(element), 16.0);
   const std::size_t head_end = element.find('>');
   AMBLE_CHECK(head_end != std::string::npos, "an SVG element begins with its tag");
-  std::string style = "\n<style>";
-  style += colours;
-  style += "svg { background: var(--paper); overflow: visible; }";
-  style += plots;
-  style += maps;
-  style += figures;
-  style += cppn;
-  style += "</style>";
+  std::string rules = "svg { color-scheme: light dark; background: var(--paper); overflow: visible; }";
+  for (const std::string_view part : {plots, maps, figures, cppn, more_rules}) rules += part;
+  const CustomProperties shared = custom_properties(fonts);
+  CustomProperties light = custom_properties(light_colours), dark = custom_properties(dark_colours);
+  light.insert(shared.begin(), shared.end());
+  dark.insert(shared.begin(), shared.end());
+  const std::string style = "\n<style>\n" + resolved_style(rules, light, dark, element) + "</style>";
   return element.insert(head_end + 1, style);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace amble::graphics {
 
@@ -16,8 +17,9 @@ std::string shared_style_sheet();
 /// For such pages: the style of plots and of maps of elites (figures/map_figure.hpp).
 std::string map_style_sheet();
 
-/// An <svg> element (svg.hpp) as a file of its own, with the part of the style sheet that figures need:
-/// light, or dark if the viewer prefers that.
-std::string standalone_svg(std::string element);
+/// An <svg> element (svg.hpp) as a file of its own, with the rules that apply to it, and of `more_rules` (for
+/// classes that this folder does not know) those that do: light, or dark if the viewer prefers that, and
+/// without custom properties (resolved_style.hpp).
+std::string standalone_svg(std::string element, std::string_view more_rules = {});
 
 }  // namespace amble::graphics

@@ -109,8 +109,7 @@ std::string style_sheet() {
 }
 
 std::string standalone_figure(std::string element) {
-  std::string svg = graphics::standalone_svg(std::move(element));
-  return svg.insert(svg.find("</style>"), figures);
+  return graphics::standalone_svg(std::move(element), figures);
 }
 
 }  // namespace amble::report

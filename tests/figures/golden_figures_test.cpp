@@ -123,10 +123,10 @@ TEST(GoldenFigures, OfMotionMatchTheGoldenHashes) {
               {"path-4-narrow.svg", "cbde9f1130e33b2a"},      {"path-4-wide.svg", "93bcfdab86b24316"},
               {"path-6-narrow.svg", "71937d27496770e2"},      {"path-6-wide.svg", "da7c728f54484a76"},
               {"pattern-2-narrow.svg", "6d27d43cb36e1e96"},   {"pattern-2-wide.svg", "4cf536fe099a30b7"},
-              {"pattern-2.svg", "cf53f7a9f67856f1"},          {"pattern-4-narrow.svg", "256c13593fbde4f9"},
-              {"pattern-4-wide.svg", "51743acd617459f8"},     {"pattern-4.svg", "8c610a8f76d07286"},
+              {"pattern-2.svg", "ecd9a6de58409f08"},          {"pattern-4-narrow.svg", "256c13593fbde4f9"},
+              {"pattern-4-wide.svg", "51743acd617459f8"},     {"pattern-4.svg", "cda3a6095880173a"},
               {"pattern-6-narrow.svg", "a49509cb3d5d4efc"},   {"pattern-6-wide.svg", "5232405e173bcba2"},
-              {"pattern-6.svg", "cbb8502a6f7b3e00"}});
+              {"pattern-6.svg", "b7437c99892982d6"}});
 }
 
 TEST(GoldenFigures, OfSearchesMatchTheGoldenHashes) {
@@ -138,11 +138,11 @@ TEST(GoldenFigures, OfSearchesMatchTheGoldenHashes) {
   }
   for (const std::vector<int>& bins : {std::vector{7}, {5, 4}, {3, 4, 2}, {2, 3, 4, 2}, {2, 2, 2, 2, 2, 2}})
     drawn[fmt::format("map-{}.svg", bins.size())] = map_svg(map_of(bins));
-  tests::expect_golden(drawn, {{"map-1.svg", "31fdcce5e98b142b"},
-                               {"map-2.svg", "d04ca13b3d53fd48"},
-                               {"map-3.svg", "6da14fb8f289222e"},
-                               {"map-4.svg", "5e6a7988293cab95"},
-                               {"map-6.svg", "51b3f93ecbe96414"},
+  tests::expect_golden(drawn, {{"map-1.svg", "26a2f31a3390ccf7"},
+                               {"map-2.svg", "c591a1eacf95bba4"},
+                               {"map-3.svg", "ce65f236d87df328"},
+                               {"map-4.svg", "742fa39def619ec5"},
+                               {"map-6.svg", "bfa667bd92a8b2ef"},
                                {"map-elites-narrow.svg", "adb35b484c89428f"},
                                {"map-elites-wide.svg", "28d62dfd230b774e"},
                                {"neat-narrow.svg", "12ac1f2c5ba53f49"},
@@ -159,17 +159,17 @@ TEST(GoldenFigures, OfNetworksMatchTheGoldenHashes) {
     drawn[fmt::format("substrate-{}-narrow.svg", coordinates)] =
         substrate_figure(places_in(coordinates), Layout::narrow);
   }
-  tests::expect_golden(drawn, {{"cppn.svg", "0257343c784e4068"},
+  tests::expect_golden(drawn, {{"cppn.svg", "c1d13f36db4e818a"},
                                {"substrate-1-narrow.svg", "31deb92fa81b4118"},
-                               {"substrate-1.svg", "af52093c86086fae"},
+                               {"substrate-1.svg", "12aa4ab765d1d636"},
                                {"substrate-2-narrow.svg", "e9fded149fbd3f26"},
-                               {"substrate-2.svg", "b742d64b3cb7b440"},
+                               {"substrate-2.svg", "696dfa00e7188200"},
                                {"substrate-3-narrow.svg", "8d9e718cf6ecd848"},
-                               {"substrate-3.svg", "af1944eca22cc204"},
+                               {"substrate-3.svg", "4ae046de7d6113c6"},
                                {"substrate-4-narrow.svg", "d80e8f33f8f67ed4"},
-                               {"substrate-4.svg", "e591d0c2794d1872"},
+                               {"substrate-4.svg", "63afcb56667d1f15"},
                                {"tangled-cppn.dot", "d1377aa703e7889f"},
-                               {"tangled-cppn.svg", "284fca2c0f5dd31d"}});
+                               {"tangled-cppn.svg", "4bdf63eba98922e0"}});
 }
 
 }  // namespace

@@ -22,17 +22,27 @@ TEST(StyleSheet, GoesIntoTheTagOfAFigureThatIsAFileOfItsOwn) {
                          "height=\"52.5\" role=\"img\" aria-label=\"figure\">\n<style>"));
   EXPECT_THAT(svg, Not(HasSubstr("svg { background: var(--paper); padding")));
   EXPECT_TRUE(svg.ends_with("</style>" + element.substr(element.find('>') + 1))) << svg;
-  // All that pages with a style of their own share, a figure needs as well.
-  const std::string plots_and_maps = map_style_sheet(), shared = shared_style_sheet();
-  EXPECT_THAT(svg, HasSubstr(plots_and_maps));
-  const std::size_t half = shared.find("@media");
-  ASSERT_NE(half, std::string::npos);
-  EXPECT_THAT(svg, HasSubstr(shared.substr(0, half)));
+}
+
+TEST(StyleSheet, OfAFigureThatIsAFileOfItsOwnNeedsNoCustomProperties) {
+  Svg figure(40, 20, "figure");
+  figure.begin_group("leg1");
+  figure.line({0, 0}, {40, 20}, "curve");
+  figure.end_group();
+  const std::string svg =
+      standalone_svg(figure.finish(), ".mine { fill: var(--ink); } .curve.x { fill: none; }");
+  EXPECT_THAT(svg, Not(HasSubstr("var(")));
+  EXPECT_THAT(svg, HasSubstr("svg text { font: 13px system-ui, "));
+  // Curves have the colour of their leg, light and dark, and no other leg and no other class has a rule.
+  EXPECT_THAT(svg, HasSubstr(".curve { fill: none; stroke-width: 2.4;"));
+  EXPECT_THAT(svg, HasSubstr(".leg1 .curve, .curve.leg1 { stroke: #c2410c; }"));
+  EXPECT_THAT(svg.substr(svg.find("prefers-color-scheme: dark")),
+              HasSubstr(".leg1 .curve, .curve.leg1 { stroke: #f0713a; }"));
+  for (const char* other : {"leg0", ".stance", ".mine", ".curve.x"}) EXPECT_THAT(svg, Not(HasSubstr(other)));
 }
 
 TEST(StyleSheet, KnowsColoursByLightAndByDark) {
-  for (const std::string& sheet :
-       {style_sheet(), shared_style_sheet(), standalone_svg(Svg(4, 4, "").finish())}) {
+  for (const std::string& sheet : {style_sheet(), shared_style_sheet()}) {
     for (const char* name : {"--paper", "--ink", "--c0"}) EXPECT_THAT(sheet, HasSubstr(name));
     EXPECT_THAT(sheet, HasSubstr("prefers-color-scheme: dark"));
   }

@@ -257,7 +257,13 @@ TEST(FigureFiles, AreSelfContained) {
   for (const FigureFile& file : files) {
     names.push_back(file.name);
     EXPECT_NO_THROW(parse_xml(file.svg)) << file.name;
-    EXPECT_NE(file.svg.find(".whisker"), std::string::npos) << file.name;
+    EXPECT_EQ(file.svg.find("var("), std::string::npos) << file.name;
+    const bool bars = file.name.starts_with("distance");
+    EXPECT_EQ(file.svg.find(".whisker {") != std::string::npos, bars) << file.name;
+    EXPECT_EQ(file.svg.find(".leg0 .bar") != std::string::npos ||
+                  file.svg.find(".strip.leg0 .bar") != std::string::npos,
+              bars)
+        << file.name;
   }
   EXPECT_EQ(names, (std::vector<std::string>{"distance.svg", "distance-long.svg", "distance-ode.svg",
                                              "curves.svg", "upright-long.svg", "walking-long.svg",

@@ -24,18 +24,18 @@ std::map<std::string, std::string> everything_of(const Report& report) {
 TEST(GoldenReport, OfAStudyWithClaimsOfAllKindsMatchesTheGoldenHash) {
   tests::expect_golden(everything_of(make_report(small_study())), {{"bests.csv", "1c77f25a4bd6a929"},
                                                                    {"curves.csv", "d40556d895ef1a3b"},
-                                                                   {"curves.svg", "9c7e368af984e1a6"},
-                                                                   {"distance-long.svg", "e8b351bf6d9ea0e3"},
-                                                                   {"distance-ode.svg", "413b2acbc8257273"},
-                                                                   {"distance.svg", "2cbeec806fb0b438"},
+                                                                   {"curves.svg", "e29fb40331f2521c"},
+                                                                   {"distance-long.svg", "3e7476a288a24dec"},
+                                                                   {"distance-ode.svg", "1bb5722a8fa841a0"},
+                                                                   {"distance.svg", "a1ae8b38baa8ff83"},
                                                                    {"gaits.csv", "959e7d3d2a7f6266"},
                                                                    {"report.html", "33c05df33efc83bf"},
                                                                    {"runs.csv", "1f4f4065d23006c9"},
                                                                    {"survival.csv", "a9e3ab0405e89883"},
-                                                                   {"upright-long.svg", "214850ba04c593db"},
-                                                                   {"upright-ode.svg", "268ab588c02f97e7"},
-                                                                   {"walking-long.svg", "39c744fbb7dd5186"},
-                                                                   {"walking-ode.svg", "f597a1bd66f9e716"}});
+                                                                   {"upright-long.svg", "684b338da7503a01"},
+                                                                   {"upright-ode.svg", "8a2373e38df39238"},
+                                                                   {"walking-long.svg", "649388c83894e8e3"},
+                                                                   {"walking-ode.svg", "fd2f2a57fe182348"}});
 }
 
 TEST(GoldenReport, OfMutantsMatchesTheGoldenHash) {
@@ -46,7 +46,7 @@ TEST(GoldenReport, OfMutantsMatchesTheGoldenHash) {
   std::erase_if(made, [](const auto& file) {
     return file.first.find("mutants") == std::string::npos && file.first != "report.html";
   });
-  tests::expect_golden(made, {{"mutants-long.svg", "6da6a6d73208b1a1"},
+  tests::expect_golden(made, {{"mutants-long.svg", "ebb4624d9e0add85"},
                               {"mutants.csv", "83f46b3dfd1e8088"},
                               {"report.html", "32258dae0791b430"}});
 }
@@ -55,18 +55,18 @@ TEST(GoldenReport, OfFiveConditionsMatchesTheGoldenHash) {
   tests::expect_golden(everything_of(make_report(large_study(5, 9))),
                        {{"bests.csv", "65b355680fcc9d62"},
                         {"curves.csv", "e722cbcdc2c0b6de"},
-                        {"curves.svg", "319b861f836ab715"},
-                        {"distance-long.svg", "9f39cfb2d7ee4b04"},
-                        {"distance-ode.svg", "c4a736df7b5d40a1"},
-                        {"distance.svg", "a4fba0732c0439a0"},
+                        {"curves.svg", "ed24ba3fbbad9670"},
+                        {"distance-long.svg", "6561ef7b2c7e5816"},
+                        {"distance-ode.svg", "4503123cb8ee6ffa"},
+                        {"distance.svg", "49e1cb5cbb00ada0"},
                         {"gaits.csv", "624a2e0c41e13fe1"},
                         {"report.html", "014b9fdcdcff0994"},
                         {"runs.csv", "e9026294e9c5c3d6"},
                         {"survival.csv", "e924fdae1fbaf0c6"},
-                        {"upright-long.svg", "d5e3a6926e39ed02"},
-                        {"upright-ode.svg", "8ab356e9f0255d09"},
-                        {"walking-long.svg", "d71877eed99c3d12"},
-                        {"walking-ode.svg", "66a09338ea0c272b"}});
+                        {"upright-long.svg", "4f9400e05eeb3e93"},
+                        {"upright-ode.svg", "cd29f0a56293b633"},
+                        {"walking-long.svg", "386740f9907fdc03"},
+                        {"walking-ode.svg", "cd85295829630920"}});
 }
 
 TEST(GoldenReport, OfAStudyHalfDoneMatchesTheGoldenHash) {
