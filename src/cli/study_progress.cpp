@@ -135,6 +135,8 @@ void StudyProgress::on(const StudyEvent& event) {
     case StudyEvent::Kind::finish:
       at_s_.erase(event.run);
       left_[event.run] = 0;
+      // Two processes may both have added the tests that a record lacked.
+      if (!finished_.insert(event.run).second) return;
       ++done_;
       print(fmt::format(
                 "{}: {}; {} of {} runs done", plan_.name(run),

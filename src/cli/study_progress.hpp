@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,6 +53,7 @@ class StudyProgress {
   bool terminal_;
   double start_s_, last_print_s_ = -1e9;
   int total_ = 0, done_ = 0, failed_ = 0;
+  std::set<std::size_t> finished_;      ///< since the start
   std::vector<int> left_;               ///< generations left, by run; 0: done or not of this shard
   std::map<std::size_t, double> at_s_;  ///< time of a run's last event
   std::vector<Pace> pace_;              ///< by condition, as observed here
