@@ -102,8 +102,12 @@ std::vector<std::string> within_class(const std::string& selector, const std::st
   const std::vector<std::string> compounds = split(selector, ' ');
   const auto joined = [&](std::size_t at, const std::string& before, const std::string& after) {
     std::string text;
-    for (std::size_t i = 0; i < compounds.size(); ++i)
-      text += (i == 0 ? "" : " ") + (i == at ? before + compounds[i] + after : compounds[i]);
+    for (std::size_t i = 0; i < compounds.size(); ++i) {
+      if (i > 0) text += ' ';
+      if (i == at) text += before;
+      text += compounds[i];
+      if (i == at) text += after;
+    }
     return text;
   };
   std::vector<std::string> selectors;
