@@ -83,7 +83,7 @@ class Worker {
   /// Throws UserError; ExitCode::locked if another process holds the run's folder.
   Step take(const PlannedRun& run) {
     const auto& name = plan_.condition(run).spec.name;
-    if (ledger_.has(name, run.seed)) return add_tests(run, ledger_.load(name, run.seed), false);
+    if (ledger_.has(name, run.seed)) return complete(run);
     const auto folder = plan_.folder(run);
     auto evolution = take_hold(run, folder);
     // Another process may have finished it between the look at the ledger and the lock.
@@ -150,6 +150,19 @@ class Worker {
             .champion_file = hex(hash_text(text)),
             .tests = {},
             .provenance = std::move(provenance)};
+  }
+
+  /// Adds the tests that a finished run lacks, one process at a time; its run folder may be gone, so another
+  /// is made for the lock.
+  Step complete(const PlannedRun& run) {
+    const std::filesystem::path folder = plan_.folder(run).string() + ".tests";
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) fail(ExitCode::io, "cannot make folder {}: {}", folder.string(), error.message());
+    const io::FolderLock lock(folder);
+    const Step step = add_tests(run, ledger_.load(plan_.condition(run).spec.name, run.seed), false);
+    std::filesystem::remove_all(folder, error);
+    return step;
   }
 
   /// Runs the tests that a record lacks, in the study's order, and writes the record.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <thread>
 
 #include "amble/io/file.hpp"
 
@@ -197,6 +198,25 @@ TEST(Worker, LeavesFinishedRunsAloneAndAddsTheTestsTheyLack) {
   ASSERT_EQ(after.provenance.added_by.size(), 1u);
   EXPECT_EQ(after.provenance.added_by.at("longer"), before.provenance.commit);
   EXPECT_EQ(ledger::Ledger(ledger::StudyPaths(folder.path())).load("sine", 3).digest(), after.digest());
+}
+
+TEST(Worker, SharesTheTestsThatFinishedRunsLackWithOthers) {
+  const test::TemporaryFolder folder;
+  auto study = small_study();
+  study.seeds = {1, 2, 3, 4, 5, 6};
+  Notes before, ours, theirs;
+  work_on(study, folder.path(), before, true);
+  study.tests = {trial_test("long", 60.0)};
+  const Plan plan = make_plan(study, folder.path());
+  const auto states = survey(plan);
+  const std::atomic<bool> never{false};
+  std::thread other([&] { work(plan, states, {.shard = {}}, theirs, never); });
+  work(plan, states, {.shard = {}}, ours, never);
+  other.join();
+  EXPECT_EQ(ours.records.size() + theirs.records.size(), study.seeds.size()) << "none is tested twice";
+  EXPECT_EQ(survey(plan), std::vector<RunStatus>(study.seeds.size(), RunStatus::done));
+  for (const auto& entry : std::filesystem::directory_iterator(plan.paths.runs))
+    EXPECT_FALSE(entry.is_directory()) << entry.path() << " is left";
 }
 
 TEST(Worker, KeepsTheHashOfTheClaimsAtTheEndOfTheRun) {
