@@ -152,10 +152,10 @@ class Worker {
             .provenance = std::move(provenance)};
   }
 
-  /// Adds the tests that a finished run lacks, one process at a time; its run folder may be gone, so another
-  /// is made for the lock.
+  /// Adds the tests that a finished run lacks, one process at a time: a folder is made for its lock, since
+  /// the run's own may be gone.
   Step complete(const PlannedRun& run) {
-    const std::filesystem::path folder = plan_.folder(run).string() + ".tests";
+    const auto folder = plan_.paths.folder / (".tests-" + plan_.folder(run).filename().string());
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) fail(ExitCode::io, "cannot make folder {}: {}", folder.string(), error.message());

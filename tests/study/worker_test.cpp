@@ -215,8 +215,8 @@ TEST(Worker, SharesTheTestsThatFinishedRunsLackWithOthers) {
   other.join();
   EXPECT_EQ(ours.records.size() + theirs.records.size(), study.seeds.size()) << "none is tested twice";
   EXPECT_EQ(survey(plan), std::vector<RunStatus>(study.seeds.size(), RunStatus::done));
-  for (const auto& entry : std::filesystem::directory_iterator(plan.paths.runs))
-    EXPECT_FALSE(entry.is_directory()) << entry.path() << " is left";
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    EXPECT_FALSE(entry.path().filename().string().starts_with(".tests")) << entry.path() << " is left";
 }
 
 TEST(Worker, KeepsTheHashOfTheClaimsAtTheEndOfTheRun) {
