@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "amble/core/error.hpp"
 #include "amble/experiment/problem.hpp"
 #include "amble/experiment/run_folder.hpp"
@@ -35,6 +37,34 @@ std::string folder_misfit(const PlannedCondition& condition, const experiment::R
   return {};
 }
 
+/// What the folders say of a run.
+struct Finding {
+  RunStatus status = RunStatus::missing;
+  std::filesystem::path place;  ///< the record or the run folder; empty if missing
+  std::string misfit;           ///< why it does not fit; empty if it does
+};
+
+Finding look_at(const Plan& plan, const ledger::Ledger& ledger, const PlannedRun& run) {
+  const PlannedCondition& condition = plan.condition(run);
+  if (ledger.has(condition.spec.name, run.seed)) {
+    bool untested = false;
+    auto misfit = record_misfit(condition, ledger.load(condition.spec.name, run.seed), untested);
+    return {.status = untested ? RunStatus::untested : RunStatus::done,
+            .place = plan.paths.record(condition.spec.name, run.seed),
+            .misfit = std::move(misfit)};
+  }
+  const auto folder = plan.folder(run);
+  if (!experiment::is_run_folder(folder)) return {};
+  try {
+    auto misfit = folder_misfit(condition, experiment::RunPaths(folder), run.seed);
+    return {.status = RunStatus::begun, .place = folder, .misfit = std::move(misfit)};
+  } catch (const UserError&) {
+    // Another process may have finished the run and removed its folder meanwhile.
+    if (!ledger.has(condition.spec.name, run.seed)) throw;
+    return look_at(plan, ledger, run);
+  }
+}
+
 }  // namespace
 
 std::vector<RunStatus> survey(const Plan& plan) {
@@ -42,22 +72,9 @@ std::vector<RunStatus> survey(const Plan& plan) {
   std::vector<RunStatus> states;
   std::vector<std::string> misfits;
   for (const PlannedRun& run : plan.runs) {
-    const PlannedCondition& condition = plan.condition(run);
-    RunStatus state = RunStatus::missing;
-    std::string misfit;
-    std::filesystem::path place;
-    if (ledger.has(condition.spec.name, run.seed)) {
-      place = plan.paths.record(condition.spec.name, run.seed);
-      bool untested = false;
-      misfit = record_misfit(condition, ledger.load(condition.spec.name, run.seed), untested);
-      state = untested ? RunStatus::untested : RunStatus::done;
-    } else if (experiment::is_run_folder(plan.folder(run))) {
-      place = plan.folder(run);
-      misfit = folder_misfit(condition, experiment::RunPaths(place), run.seed);
-      state = RunStatus::begun;
-    }
-    if (!misfit.empty()) misfits.push_back(fmt::format("{} ({})", place.string(), misfit));
-    states.push_back(state);
+    const Finding found = look_at(plan, ledger, run);
+    if (!found.misfit.empty()) misfits.push_back(fmt::format("{} ({})", found.place.string(), found.misfit));
+    states.push_back(found.status);
   }
   if (!misfits.empty())
     fail(ExitCode::bad_input,

@@ -3,6 +3,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <map>
@@ -152,17 +153,20 @@ class Worker {
             .provenance = std::move(provenance)};
   }
 
-  /// Adds the tests that a finished run lacks, one process at a time: a folder is made for its lock, since
-  /// the run's own may be gone.
+  /// Adds the tests that a finished run lacks, one process at a time. The record itself is locked: the run's
+  /// folder may be gone.
   Step complete(const PlannedRun& run) {
-    const auto folder = plan_.paths.folder / (".tests-" + plan_.folder(run).filename().string());
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) fail(ExitCode::io, "cannot make folder {}: {}", folder.string(), error.message());
-    const io::FolderLock lock(folder);
-    const Step step = add_tests(run, ledger_.load(plan_.condition(run).spec.name, run.seed), false);
-    std::filesystem::remove_all(folder, error);
-    return step;
+    const auto& name = plan_.condition(run).spec.name;
+    if (has_all_tests(run, ledger_.load(name, run.seed))) return Step::nothing_to_do;
+    const io::FileLock lock(plan_.paths.record(name, run.seed));
+    auto record = ledger_.load(name, run.seed);
+    return has_all_tests(run, record) ? Step::nothing_to_do : add_tests(run, std::move(record), false);
+  }
+
+  bool has_all_tests(const PlannedRun& run, const ledger::Record& record) const {
+    return std::ranges::all_of(plan_.condition(run).tests, [&](const PlannedTest& test) {
+      return record.find_test(test.spec.name) != nullptr;
+    });
   }
 
   /// Runs the tests that a record lacks, in the study's order, and writes the record.
@@ -185,9 +189,11 @@ class Worker {
         record.provenance.added_by[test.spec.name] = experiment::build_info().commit;
       results.push_back(std::move(*result));
     }
-    const bool changed = is_new || results.size() != record.tests.size();
+    // What was measured for a test that the study has no longer is kept.
+    for (ledger::TestResult& old : record.tests)
+      if (std::ranges::find(results, old.name, &ledger::TestResult::name) == results.end())
+        results.push_back(std::move(old));
     record.tests = std::move(results);
-    if (!changed) return Step::nothing_to_do;
     if (is_new) note_provenance(record);
     record.provenance.tests_s += now_s() - start_s;
     ledger_.save(record);

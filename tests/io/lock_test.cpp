@@ -6,6 +6,9 @@
 #include <unistd.h>
 
 #include <array>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "amble/io/file.hpp"
 #include "tests/io/expect_error.hpp"
@@ -76,6 +79,59 @@ TEST(FolderLock, SaysThatTheFolderIsMissing) {
   const std::string missing = (folder / "no").string();
   EXPECT_EQ(error_of(ExitCode::io, [&] { FolderLock lock(missing); }),
             "cannot lock " + missing + ": No such file or directory");
+}
+
+TEST(FileLock, KeepsAnotherHolderOutAndLeavesTheFileAsItIs) {
+  const test::TemporaryFolder folder;
+  const auto file = folder / "record.json";
+  write_file(file, "{}\n");
+  {
+    const FileLock lock(file);
+    EXPECT_EQ(error_of(ExitCode::locked, [&] { FileLock second(file); }),
+              file.string() + " is in use by another process");
+  }
+  const FileLock again(file);
+  EXPECT_EQ(read_file(file), "{}\n");
+}
+
+TEST(FileLock, OfAFileThatWasReplacedIsOfTheNewOne) {
+  const test::TemporaryFolder folder;
+  const auto file = folder / "record.json";
+  write_file(file, "old");
+  const FileLock old(file);
+  write_file(file, "new");
+  const FileLock of_new(file);
+  EXPECT_EQ(error_of(ExitCode::locked, [&] { FileLock third(file); }),
+            file.string() + " is in use by another process");
+}
+
+TEST(FileLock, LetsOneAtATimeReplaceTheFile) {
+  const test::TemporaryFolder folder;
+  const auto file = folder / "count";
+  write_file(file, "0");
+  constexpr int each = 200;
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 3; ++i)
+    threads.emplace_back([&] {
+      for (int done = 0; done < each;) try {
+          const FileLock lock(file);
+          write_file(file, std::to_string(std::stoi(read_file(file)) + 1));
+          ++done;
+        } catch (const UserError& error) {
+          ASSERT_EQ(error.code(), ExitCode::locked) << error.what();
+          std::this_thread::yield();
+        }
+    });
+  for (auto& thread : threads) thread.join();
+  EXPECT_EQ(read_file(file), std::to_string(3 * each));
+}
+
+TEST(FileLock, SaysThatTheFileIsMissingAndMakesNone) {
+  const test::TemporaryFolder folder;
+  const auto missing = folder / "no";
+  EXPECT_EQ(error_of(ExitCode::io, [&] { FileLock lock(missing); }),
+            "cannot lock " + missing.string() + ": No such file or directory");
+  EXPECT_FALSE(std::filesystem::exists(missing));
 }
 
 }  // namespace

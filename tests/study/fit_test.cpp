@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <thread>
+
 #include "amble/experiment/run.hpp"
 #include "tests/study/fixture.hpp"
 
@@ -43,6 +46,20 @@ class Fit : public testing::Test {
 };
 
 using States = std::vector<RunStatus>;
+
+TEST_F(Fit, IsFoundWhileAnotherProcessFinishesRunsAndRemovesTheirFolders) {
+  study_.seeds.clear();
+  for (int seed = 1; seed <= 12; ++seed) study_.seeds.push_back(seed);
+  study_.generations = 1;
+  std::atomic<bool> finished{false};
+  std::thread other([&] {
+    finish_all();
+    finished = true;
+  });
+  while (!finished) EXPECT_NO_THROW(states(study_));
+  other.join();
+  EXPECT_EQ(states(study_), States(12, RunStatus::done));
+}
 
 TEST_F(Fit, RunsAreMissingBegunUntestedOrDone) {
   study_.seeds = {3, 4};

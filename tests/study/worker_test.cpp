@@ -219,6 +219,24 @@ TEST(Worker, SharesTheTestsThatFinishedRunsLackWithOthers) {
     EXPECT_FALSE(entry.path().filename().string().starts_with(".tests")) << entry.path() << " is left";
 }
 
+TEST(Worker, AddsATestThatTakesThePlaceOfAnotherAndKeepsWhatWasMeasured) {
+  const test::TemporaryFolder folder;
+  auto study = small_study();
+  study.tests = {trial_test("short", 1.0)};
+  Notes notes;
+  work_on(study, folder.path(), notes, true);
+  const ledger::Ledger records{ledger::StudyPaths(folder.path())};
+  const auto before = records.load("sine", 3);
+  study.tests = {trial_test("long", 2.0)};
+  EXPECT_EQ(work_on(study, folder.path(), notes, true).finished, static_cast<int>(study.seeds.size()));
+  const auto after = records.load("sine", 3);
+  ASSERT_EQ(after.tests.size(), 2U);
+  EXPECT_EQ(after.tests[0].name, "long");
+  EXPECT_EQ(after.tests[1].name, "short");
+  EXPECT_EQ(after.tests[1].path_m, before.tests[0].path_m);
+  EXPECT_EQ(work_on(study, folder.path(), notes, true).finished, 0);
+}
+
 TEST(Worker, KeepsTheHashOfTheClaimsAtTheEndOfTheRun) {
   const test::TemporaryFolder folder;
   auto study = small_study();
