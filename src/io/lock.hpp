@@ -17,9 +17,9 @@ class FolderLock {
   int fd_ = -1;
 };
 
-/// Locks an existing file for one process without making or changing anything. The holder may replace the file
-/// (io::write_file): whoever locks it afterwards gets the new one. Throws UserError(ExitCode::locked) if another
-/// process holds it, ExitCode::io if there is no such file or it cannot be written to.
+/// Locks an existing file for one process without making or changing anything. The holder may replace the
+/// file (io::write_file): whoever locks it afterwards gets the new one. Throws UserError(ExitCode::locked) if
+/// another process holds it, ExitCode::io if there is no such file or it cannot be written to.
 class FileLock {
  public:
   explicit FileLock(const std::filesystem::path& file);
