@@ -72,7 +72,7 @@ std::unique_ptr<Robots> make(const py::object& robot, int n, const std::string& 
   physics::check_engine_name(engine, "engine: ");
   auto spec = robot_of(robot);
   // More threads than groups of lanes would only wait.
-  const int lanes = engine == "batch" ? 16 : 1;
+  const int lanes = physics::engine_traits(engine).lanes;
   const int useful = std::min(jobs_of(threads), (n + lanes - 1) / lanes);
   const py::gil_scoped_release release;
   return std::make_unique<Robots>(std::move(spec), engine, physics::EngineSettings{.timestep_s = step_s}, n,

@@ -86,8 +86,8 @@ RobotBatch::RobotBatch(robot::RobotSpec robot, const std::string& engine,
       settings_(settings),
       observations_(std::make_shared<Observations>(count, static_cast<int>(robot_.joints.size()),
                                                    static_cast<int>(robot_.legs.size()))),
-      // ODE has data for each thread, so the thread that places a robot must be the one that steps it.
-      team_(threads, engine != "ode") {
+      // A caller that takes a share itself may be another thread at the next call.
+      team_(threads, !physics::engine_traits(engine).keeps_to_a_thread) {
   for (int first = 0; first < count;) {
     Group group{.engine = physics::make_engine(engine, robot_, settings_), .targets_rad = {}, .first = first};
     group.size = std::min(group.engine->lanes(), count - first);

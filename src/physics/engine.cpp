@@ -9,6 +9,7 @@
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
 #include "amble/physics/batch/batch_engine.hpp"
+#include "amble/physics/batch/state_rows.hpp"
 #include "amble/physics/mujoco/mujoco_engine.hpp"
 #include "amble/physics/ode/ode_engine.hpp"
 
@@ -18,15 +19,18 @@ namespace {
 // The table of engines. A new one is a row here and a folder beside `ode`.
 struct Row {
   std::string_view name;
+  EngineTraits traits;
   std::unique_ptr<Engine> (*make)(const robot::RobotSpec& robot, const EngineSettings& settings);
 };
 constexpr std::array engines{
-    Row{"ode", make_ode_engine},
+    // ODE has data of its own for each thread.
+    Row{"ode", {.lanes = 1, .keeps_to_a_thread = true}, make_ode_engine},
     Row{"batch",
+        {.lanes = batch::lanes},
         [](const robot::RobotSpec& robot, const EngineSettings& settings) -> std::unique_ptr<Engine> {
           return make_batch_engine(robot, settings);
         }},
-    Row{"mujoco", make_mujoco_engine},
+    Row{"mujoco", {.lanes = 1}, make_mujoco_engine},
 };
 
 constexpr std::array names = [] {
@@ -54,6 +58,11 @@ bool is_engine(std::string_view name) {
 void check_engine_name(std::string_view name, std::string_view what) {
   if (!is_engine(name))
     fail(ExitCode::bad_input, "{}unknown engine '{}': expected {}", what, name, fmt::join(names, ", "));
+}
+
+EngineTraits engine_traits(std::string_view name) {
+  check_engine_name(name);
+  return std::ranges::find(engines, name, &Row::name)->traits;
 }
 
 std::unique_ptr<Engine> make_engine(std::string_view name, const robot::RobotSpec& robot,

@@ -45,9 +45,9 @@ inline constexpr double absurd_speed = 1000.0;
 
 /// Advances up to lanes() copies of one robot in lockstep, one copy per lane, on one ground: the plane z = 0
 /// unless set_ground() gives another. Lanes do not influence each other, not by one bit: a lane's states
-/// depend on its own targets alone. An engine belongs to one thread. Order within step(): find touches and
-/// contacts, advance by one timestep, then read joint angles and attitude: touch is that of the pose before
-/// the step.
+/// depend on its own targets alone. One thread at a time may use an engine (EngineTraits says which keep to
+/// one). Order within step(): find touches and contacts, advance by one timestep, then read joint angles and
+/// attitude: touch is that of the pose before the step.
 class Engine {
  public:
   virtual ~Engine() = default;
@@ -110,6 +110,14 @@ std::span<const std::string_view> engine_names();
 bool is_engine(std::string_view name);
 /// Throws UserError unless it is one of engine_names. `what` precedes the message, e.g. "--engines: ".
 void check_engine_name(std::string_view name, std::string_view what = "");
+
+/// What holds for every engine of a name, whatever the robot.
+struct EngineTraits {
+  int lanes = 1;                   ///< Engine::lanes()
+  bool keeps_to_a_thread = false;  ///< only the thread that placed a robot may step it
+};
+/// Throws UserError for an unknown name.
+EngineTraits engine_traits(std::string_view name);
 
 /// Makes the engine of that name. Throws UserError for an unknown name or a robot that the engine cannot
 /// simulate.

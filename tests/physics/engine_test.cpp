@@ -23,11 +23,18 @@ std::string refusal(const robot::RobotSpec& robot, std::string_view engine = "od
 }
 
 class Place : public OnEachEngine {};
+class Traits : public OnEachEngine {};
 class Retire : public OnEachEngine {};
 ON_EACH_ENGINE(Place);
+ON_EACH_ENGINE(Traits);
 ON_EACH_ENGINE(Retire);
 
+TEST_P(Traits, AreThoseOfTheEngineThatIsMade) {
+  EXPECT_EQ(engine_traits(GetParam()).lanes, make_engine(GetParam(), quadruped(), {})->lanes());
+}
+
 TEST(MakeEngine, RefusesAnUnknownName) {
+  EXPECT_THROW(engine_traits("odd"), UserError);
   EXPECT_EQ(refusal(quadruped(), "odd"),
             fmt::format("unknown engine 'odd': expected {}", fmt::join(engine_names(), ", ")));
   EXPECT_THAT(refusal(quadruped(), "odd"), testing::HasSubstr("expected ode, batch, mujoco"));
