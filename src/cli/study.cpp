@@ -42,14 +42,15 @@ ExitCode print_status(const study::Plan& plan, const std::vector<study::RunStatu
     return std::ranges::count_if(part, [&](std::size_t run) { return states[run] == state; });
   };
   fmt::print("{} of {} runs are done, digest {}\n", count(study::RunStatus::done), part.size(),
-             ledger::ledger_digest(ledger::Ledger(plan.paths).load_all(plan.study)));
+             ledger::ledger_digest(plan.study, ledger::Ledger(plan.paths).load_all(plan.study)));
   fmt::print("{} lack a test, {} are begun, {} not yet\n", count(study::RunStatus::untested),
              count(study::RunStatus::begun), count(study::RunStatus::missing));
   return ExitCode::ok;
 }
 
-/// Prints what was done and how to continue.
-ExitCode conclude(const study::Plan& plan, const StudyOptions& options, int failed, bool interrupted,
+/// Prints what was done and how to continue. `failed`: number of runs; `failure`: the exit code of the first,
+/// or of a process that ended before its time.
+ExitCode conclude(const study::Plan& plan, const StudyOptions& options, std::size_t failed, bool interrupted,
                   ExitCode failure) {
   const auto states = study::survey(plan);
   const auto part = plan.shard(study::Shard::parse(options.shard));
@@ -58,17 +59,20 @@ ExitCode conclude(const study::Plan& plan, const StudyOptions& options, int fail
   const std::string of_shard = options.shard == "1/1" ? "" : fmt::format(" of shard {}", options.shard);
   const std::string folder = options.out.string();
   fmt::print("{} of {} runs{} are done, digest {}\n", done, part.size(), of_shard,
-             ledger::ledger_digest(ledger::Ledger(plan.paths).load_all(plan.study)));
-  if (interrupted) {
-    print_message("stopped; go on by the same command\n");
-    return ExitCode::interrupted;
+             ledger::ledger_digest(plan.study, ledger::Ledger(plan.paths).load_all(plan.study)));
+  // What one process could not do another may have done.
+  if (to_index(done) < part.size()) {
+    if (interrupted) {
+      print_message("stopped; go on by the same command\n");
+      return ExitCode::interrupted;
+    }
+    if (failed > 0)
+      print_message(failed == 1 ? "1 run failed; the same command tries it again\n"
+                                : fmt::format("{} runs failed; the same command tries them again\n", failed));
+    else
+      print_message("other processes work on the rest, or were killed: the same command continues\n");
+    if (failure != ExitCode::ok) return failure;
   }
-  if (failed > 0) {
-    print_message(fmt::format("{} runs failed; the same command tries them again\n", failed));
-    return failure;
-  }
-  if (done < static_cast<std::ptrdiff_t>(part.size()))
-    print_message("other processes work on the rest, or were killed: the same command continues\n");
   fmt::print("look at it by: amble report {} -o report.html\n", folder);
   return ExitCode::ok;
 }
@@ -84,7 +88,7 @@ ExitCode work_here(const study::Plan& plan, const std::vector<study::RunStatus>&
       reporter, stop_signal());
   progress.reset();
   if (options.as_child) return result.interrupted ? ExitCode::interrupted : result.first_failure;
-  return conclude(plan, options, result.failed, result.interrupted, result.first_failure);
+  return conclude(plan, options, to_index(result.failed), result.interrupted, result.first_failure);
 }
 
 /// The same command for one of several processes.
@@ -104,41 +108,41 @@ ExitCode work_in_processes(const study::Plan& plan, const std::vector<study::Run
   StudyProgress progress(plan, states, study::Shard::parse(options.shard), processes);
   ChildProcesses children(
       std::vector<std::vector<std::string>>(to_index(processes), child_arguments(options)));
-  int failed = 0;
   const auto exits = children.wait(
       [&](const std::string& line) {
         StudyEvent event;
-        if (!StudyEvent::parse(line, event) || event.run >= plan.runs.size()) return;
-        failed += event.kind == StudyEvent::Kind::failure;
-        progress.on(event);
+        if (StudyEvent::parse(line, event) && event.run < plan.runs.size()) progress.on(event);
       },
       stop_signal());
   ExitCode failure = ExitCode::ok;
   bool interrupted = stop_signal();
   for (const auto& exit : exits) {
-    if (exit.signal != 0) {
+    if (exit.signal != 0 && !(interrupted && exit.signal == SIGTERM)) {
       print_message(fmt::format("a process of the study was ended by signal {}\n", exit.signal));
-      ++failed;
-      failure = ExitCode::internal;
+      const bool from_outside = exit.signal == SIGKILL || exit.signal == SIGTERM;
+      failure = from_outside ? ExitCode::interrupted : ExitCode::internal;
     } else if (exit.code == static_cast<int>(ExitCode::interrupted)) {
       interrupted = true;
-    } else if (exit.code != 0 && failure == ExitCode::ok) {
+    } else if (exit.signal == 0 && exit.code != 0 && failure == ExitCode::ok) {
       failure = static_cast<ExitCode>(exit.code);
-      failed = std::max(failed, 1);
     }
   }
-  return conclude(plan, options, failed, interrupted, failure);
+  return conclude(plan, options, progress.failed(), interrupted, failure);
 }
 
 ExitCode write_slurm_script(const study::Plan& plan, const StudyOptions& options) {
   namespace fs = std::filesystem;
   io::refuse_to_replace(*options.slurm, "#!/bin/bash", "a batch script");
+  if (options.shard != "1/1")
+    fail(ExitCode::bad_input, "--shard {}: the tasks of --slurm are shards themselves", options.shard);
   io::write_file(*options.slurm, study::slurm_script({.name = "amble-" + plan.study.name,
                                                       .program = fs::read_symlink("/proc/self/exe"),
                                                       .file = fs::absolute(options.file),
                                                       .out = fs::absolute(options.out),
                                                       .tasks = options.slurm_tasks,
-                                                      .cpus = options.jobs,
+                                                      .jobs = options.jobs,
+                                                      .workers = options.workers,
+                                                      .discard_runs = options.discard_runs,
                                                       .minutes = options.slurm_minutes}));
   fmt::print("{} runs in {} tasks; submit them by: sbatch {}\n", plan.runs.size(), options.slurm_tasks,
              options.slurm->string());
@@ -153,7 +157,7 @@ ExitCode run_study(const StudyOptions& options) {
   const auto states = study::survey(plan);
   if (options.slurm) return write_slurm_script(plan, options);
   if (options.status) return print_status(plan, states, shard);
-  ledger::keep_study(plan.paths, plan.study);
+  ledger::keep_study(plan.paths, plan.study, options.file);
   for (const auto& unknown : ledger::Ledger(plan.paths).unknown_files(plan.study))
     if (!options.as_child)
       print_message(fmt::format("{}: no run of this study; passed over\n", unknown.string()));
@@ -189,7 +193,8 @@ void add_study(CLI::App& app, Action& action) {
   auto* slurm = command->add_option("--slurm", options->slurm,
                                     "Only write a Slurm batch script, whose tasks are shards, to this file");
   command
-      ->add_option("--tasks", options->slurm_tasks, "Tasks of the Slurm array; each takes --jobs processors")
+      ->add_option("--tasks", options->slurm_tasks,
+                   "Tasks of the Slurm array; each takes --jobs × --workers processors")
       ->capture_default_str()
       ->needs(slurm)
       ->check(between(1, 100000));

@@ -98,7 +98,8 @@ double StudyProgress::left_s() const {
     all.generations += pace.generations;
     all.seconds += pace.seconds;
   }
-  if (all.generations <= 0.0) return -1.0;
+  // How long tests take is not known.
+  if (all.generations <= 0.0 || std::ranges::all_of(left_, [](int left) { return left == 0; })) return -1.0;
   double seconds = 0.0, longest_s = 0.0;
   for (std::size_t run = 0; run < left_.size(); ++run) {
     const Pace& own = pace_[plan_.runs[run].condition];
@@ -118,7 +119,7 @@ std::string StudyProgress::summary() const {
                            plan_.condition(plan_.runs[run]).config.generations);
   const double left = left_s();
   return fmt::format("{} of {} runs{}{}{}{}", done_, total_,
-                     failed_ > 0 ? fmt::format(", {} failed", failed_) : "",
+                     failed_.empty() ? "" : fmt::format(", {} failed", failed_.size()),
                      left < 0.0 ? "" : "  left " + clock_text(left), running.empty() ? "" : "  ", running);
 }
 
@@ -135,7 +136,7 @@ void StudyProgress::on(const StudyEvent& event) {
     case StudyEvent::Kind::finish:
       at_s_.erase(event.run);
       left_[event.run] = 0;
-      // Two processes may both have added the tests that a record lacked.
+      failed_.erase(event.run);
       if (!finished_.insert(event.run).second) return;
       ++done_;
       print(fmt::format(
@@ -147,7 +148,8 @@ void StudyProgress::on(const StudyEvent& event) {
     case StudyEvent::Kind::failure:
       at_s_.erase(event.run);
       left_[event.run] = 0;
-      ++failed_;
+      // Each process tries what the others could not do.
+      if (finished_.contains(event.run) || !failed_.insert(event.run).second) return;
       print(fmt::format("{}: failed: {}", plan_.name(run), event.reason), true);
       break;
   }

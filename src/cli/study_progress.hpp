@@ -37,6 +37,8 @@ class StudyProgress {
   StudyProgress& operator=(const StudyProgress&) = delete;
 
   void on(const StudyEvent& event);
+  /// Runs that failed and that no other process has finished since.
+  std::size_t failed() const { return failed_.size(); }
 
  private:
   struct Pace {
@@ -52,8 +54,9 @@ class StudyProgress {
   int processes_;
   bool terminal_;
   double start_s_, last_print_s_ = -1e9;
-  int total_ = 0, done_ = 0, failed_ = 0;
-  std::set<std::size_t> finished_;      ///< since the start
+  int total_ = 0, done_ = 0;
+  std::set<std::size_t> finished_;  ///< since the start
+  std::set<std::size_t> failed_;
   std::vector<int> left_;               ///< generations left, by run; 0: done or not of this shard
   std::map<std::size_t, double> at_s_;  ///< time of a run's last event
   std::vector<Pace> pace_;              ///< by condition, as observed here

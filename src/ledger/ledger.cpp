@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
@@ -63,9 +64,17 @@ std::vector<fs::path> Ledger::unknown_files(const StudySpec& study) const {
   return others;
 }
 
-std::string ledger_digest(const std::vector<Record>& records) {
+std::string ledger_digest(const StudySpec& study, const std::vector<Record>& records) {
   std::string digests;
-  for (const Record& record : records) digests += record.digest();
+  for (Record record : records) {
+    record.study = study.name;
+    std::vector<TestResult> tests;
+    for (const TestSpec& test : study.tests)
+      if (const auto* const result = record.find_test(test.name); result && test.applies_to(record.condition))
+        tests.push_back(*result);
+    record.tests = std::move(tests);
+    digests += record.digest();
+  }
   return hex(hash_text(digests));
 }
 
@@ -78,10 +87,28 @@ StudySpec load_kept_study(const StudyPaths& paths) {
   return load_study(paths.spec);
 }
 
-void keep_study(const StudyPaths& paths, const StudySpec& study) {
+namespace {
+
+/// Throws UserError unless what is in the place of the kept study may give way to `text`.
+void check_place(const StudyPaths& paths, const StudySpec& study, const std::string& text) {
+  io::refuse_to_replace(paths.spec, text.substr(0, text.find('\n')), "a study that amble keeps there");
+  const auto strangers = Ledger(paths).unknown_files(study);
+  if (strangers.empty()) return;
+  const StudySpec other = load_study(paths.spec);
+  if (other.name != study.name)
+    fail(ExitCode::bad_input,
+         "--out {}: has the study '{}', and records of it that are not of '{}'; name another folder",
+         paths.folder.string(), other.name, study.name);
+}
+
+}  // namespace
+
+void keep_study(const StudyPaths& paths, const StudySpec& study, const fs::path& file) {
+  std::error_code missing;
+  if (fs::equivalent(file, paths.spec, missing)) return;
   StudySpec kept = study;
-  const auto from_folder = [&paths](std::string& file) {
-    if (!file.empty()) file = fs::proximate(file, paths.folder).string();
+  const auto from_folder = [&paths](std::string& named) {
+    if (!named.empty()) named = fs::proximate(named, paths.folder).string();
   };
   for (ConditionSpec& condition : kept.conditions) {
     from_folder(condition.config);
@@ -93,7 +120,10 @@ void keep_study(const StudyPaths& paths, const StudySpec& study) {
     from_folder(test.damage);
   }
   const std::string text = kept.to_toml();
-  if (fs::exists(paths.spec) && io::read_file(paths.spec) == text) return;
+  if (fs::exists(paths.spec)) {
+    if (io::read_file(paths.spec) == text) return;
+    check_place(paths, study, text);
+  }
   std::error_code error;
   fs::create_directories(paths.folder, error);
   if (error) fail(ExitCode::io, "cannot make folder {}: {}", paths.folder.string(), error.message());

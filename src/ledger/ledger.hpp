@@ -39,12 +39,15 @@ class Ledger {
   StudyPaths paths_;
 };
 
-/// Hash of the digests of records, in their order, hexadecimal: equal for equal results on any machine.
-std::string ledger_digest(const std::vector<Record>& records);
+/// Hash of the digests of a study's records, in their order, hexadecimal: equal for equal results on any
+/// machine, in whatever order tests were added, and whatever tests the study had before.
+std::string ledger_digest(const StudySpec& study, const std::vector<Record>& records);
 
 /// The study of a folder, from the copy that `amble study` keeps there. Throws UserError if there is none.
 StudySpec load_kept_study(const StudyPaths& paths);
-/// Writes that copy, with paths relative to the folder, unless it is the same already.
-void keep_study(const StudyPaths& paths, const StudySpec& study);
+/// Writes that copy, with paths relative to the folder, unless it is the same already or `file`, from which
+/// the study was read. Throws UserError, and changes nothing, if the folder has a study.toml that amble has
+/// not written, or another study's records.
+void keep_study(const StudyPaths& paths, const StudySpec& study, const std::filesystem::path& file = {});
 
 }  // namespace amble::ledger

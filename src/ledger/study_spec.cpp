@@ -174,8 +174,11 @@ StudySpec load_study(const std::filesystem::path& path) {
   for (std::size_t i = 0; i < study.claims.size(); ++i) check_claim(study, i);
 
   const auto resolve = [&document](std::string& file, const std::string& key) {
-    if (!file.empty() && std::filesystem::path(file).is_relative())
-      file = (document->folder_of(key) / file).lexically_normal().string();
+    if (file.empty() || std::filesystem::path(file).is_absolute()) return;
+    // Where a folder is a link, its parent is not the one that the name says.
+    const auto full = document->folder_of(key) / file, plain = full.lexically_normal();
+    const bool same = std::filesystem::weakly_canonical(full) == std::filesystem::weakly_canonical(plain);
+    file = (same ? plain : full).string();
   };
   for (std::size_t i = 0; i < study.conditions.size(); ++i) {
     resolve(study.conditions[i].config, item("conditions", i, "config"));

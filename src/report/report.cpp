@@ -26,7 +26,7 @@ int Report::index(std::string_view condition) const {
 Report make_report(StudyData data) {
   Report report;
   report.data = std::move(data);
-  report.digest = ledger::ledger_digest(report.data.records);
+  report.digest = ledger::ledger_digest(report.data.study, report.data.records);
   report.remarks = remarks(report.data);
   report.judgements = judge(report.data);
   report.summaries = summarize(report.data);

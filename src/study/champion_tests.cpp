@@ -59,16 +59,6 @@ std::string gait_name(const gait::Report& report) {
   return std::string(gait::gait_names[to_index(report.classification->gait)]);
 }
 
-/// What a champion does in a test.
-experiment::Problem problem_of(const PlannedTest& test, const experiment::Champion& champion) {
-  experiment::Problem problem = champion.problem;
-  if (!test.spec.engine.empty()) problem.engine = test.spec.engine;
-  problem.noise = test.noise;
-  if (test.ground) problem.walk_on(*test.ground);
-  if (test.damage) problem.become(*test.damage);
-  return problem;
-}
-
 /// Noise and ground of an episode; nothing in a test without them.
 std::optional<trial::ScenarioKey> scenario(const PlannedTest& test, const experiment::Problem& problem,
                                            const experiment::Champion& champion, int episode) {
@@ -79,7 +69,7 @@ std::optional<trial::ScenarioKey> scenario(const PlannedTest& test, const experi
 /// Median distance of a champion in a test, m. Nothing if `stop` was set.
 std::optional<double> median_distance_m(const PlannedTest& test, const experiment::Champion& champion,
                                         const std::atomic<bool>& stop) {
-  const experiment::Problem problem = problem_of(test, champion);
+  const experiment::Problem problem = test.problem(champion.problem);
   std::vector<double> distances_m;
   for (int episode = 0; episode < test.spec.episodes; ++episode) {
     const experiment::ReplayOptions how{
@@ -118,7 +108,7 @@ std::optional<FirstReach> first_to_reach(const PlannedTest& test, const experime
 
 std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experiment::Champion& champion,
                                            const std::atomic<bool>& stop) {
-  const experiment::Problem problem = problem_of(test, champion);
+  const experiment::Problem problem = test.problem(champion.problem);
   const double interval_s = std::max(1.0, std::ceil(test.spec.seconds / most_path_samples));
   ledger::TestResult result{.name = test.spec.name,
                             .settings = test.settings_hash(champion.problem.engine),
@@ -155,8 +145,7 @@ std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experi
 
 bool add_mutants(const PlannedTest& test, const experiment::Champion& champion, const neat::Settings& neat,
                  ledger::TestResult& result, const std::atomic<bool>& stop) {
-  experiment::Problem problem = problem_of(test, champion);
-  problem.trial.duration_s = test.spec.seconds;
+  const experiment::Problem problem = test.problem(champion.problem);
   std::vector<trial::ScenarioKey> trials;
   for (int episode = 0; episode < test.spec.episodes; ++episode)
     if (const auto key = scenario(test, problem, champion, episode)) trials.push_back(*key);

@@ -47,15 +47,10 @@ PlannedTest plan_test(const ledger::StudySpec& study, std::size_t index) {
 void check_tests(const PlannedCondition& condition) {
   const auto home = experiment::Problem::make(condition.config, condition.robot);
   for (const PlannedTest& test : condition.tests) {
-    if (test.spec.engine.empty() && !test.damage) continue;
-    experiment::Problem problem = home;
-    if (!test.spec.engine.empty()) problem.engine = test.spec.engine;
     try {
-      if (test.damage) problem.become(*test.damage);
-      problem.make_engine();
+      test.problem(home).make_engine();
     } catch (const UserError& error) {
-      fail(error.code(), "test '{}' of condition '{}': {}", test.spec.name, condition.spec.name,
-           error.what());
+      fail(error.code(), "test '{}': {}", test.spec.name, error.what());
     }
   }
 }
@@ -83,6 +78,16 @@ PlannedCondition plan_condition(const ledger::StudySpec& study, std::size_t inde
 }
 
 }  // namespace
+
+experiment::Problem PlannedTest::problem(experiment::Problem home) const {
+  if (!spec.engine.empty()) home.engine = spec.engine;
+  home.noise = noise;
+  home.trial.duration_s = spec.seconds;
+  home.trial.validate();
+  if (ground) home.walk_on(*ground);
+  if (damage) home.become(*damage);
+  return home;
+}
 
 std::string PlannedTest::settings_hash(std::string_view home) const {
   io::Json definition{{"engine", spec.engine.empty() ? std::string(home) : spec.engine},

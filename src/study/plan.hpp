@@ -9,6 +9,7 @@
 
 #include "amble/damage/settings.hpp"
 #include "amble/experiment/config.hpp"
+#include "amble/experiment/problem.hpp"
 #include "amble/ground/settings.hpp"
 #include "amble/ledger/ledger.hpp"
 #include "amble/ledger/study_spec.hpp"
@@ -24,6 +25,9 @@ struct PlannedTest {
   std::optional<ground::Settings> ground = {};  ///< that of TestSpec::ground
   std::optional<damage::Settings> damage = {};  ///< that of TestSpec::damage
 
+  /// What a champion of `home` does in the test. Throws UserError if it cannot: a length that is no whole
+  /// number of timesteps, a ground or damage that does not fit the robot.
+  experiment::Problem problem(experiment::Problem home) const;
   /// Hash of what defines the test for runs that evolve in `home`; a result fits if its hash is the same.
   std::string settings_hash(std::string_view home) const;
 };

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
+
 #include "amble/core/check.hpp"
 
 namespace amble::study {
@@ -14,10 +16,19 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
+std::string job_name(std::string text) {
+  for (char& c : text)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_') c = '-';
+  return text;
+}
+
 }  // namespace
 
 std::string slurm_script(const SlurmJob& job) {
-  AMBLE_CHECK(job.tasks > 0 && job.cpus > 0 && job.minutes > 0, "a job has tasks, processors and time");
+  AMBLE_CHECK(job.tasks > 0 && job.jobs > 0 && job.workers > 0 && job.minutes > 0,
+              "a job has tasks, processors and time");
+  const std::string cpus = "${SLURM_CPUS_PER_TASK:-" + std::to_string(job.jobs * job.workers) + "}";
+  const std::string jobs = job.workers == 1 ? cpus : fmt::format("$(({} / {}))", cpus, job.workers);
   return fmt::format(
       R"(#!/bin/bash
 # {tasks} tasks, each a shard of the study. Submit with sbatch; submitted again, it does what is left.
@@ -31,7 +42,7 @@ std::string slurm_script(const SlurmJob& job) {
 #SBATCH --signal=B:USR1@60
 #SBATCH --output=slurm-%A_%a.out
 
-{program} study {file} --out {out} --shard "$SLURM_ARRAY_TASK_ID/{tasks}" --jobs "${{SLURM_CPUS_PER_TASK:-1}}" &
+{program} study {file} --out {out} --shard "$SLURM_ARRAY_TASK_ID/{tasks}" --jobs "{jobs}"{more} &
 child=$!
 out_of_time=
 trap 'out_of_time=1; kill -TERM $child 2>/dev/null' USR1  # a minute before the time limit
@@ -46,7 +57,10 @@ if [ $code = 7 ] && [ "$out_of_time" ]; then
 fi
 exit $code
 )",
-      fmt::arg("name", job.name), fmt::arg("tasks", job.tasks), fmt::arg("cpus", job.cpus),
+      fmt::arg("name", job_name(job.name)), fmt::arg("tasks", job.tasks),
+      fmt::arg("cpus", job.jobs * job.workers), fmt::arg("jobs", jobs),
+      fmt::arg("more", (job.workers == 1 ? "" : fmt::format(" --workers {}", job.workers)) +
+                           (job.discard_runs ? " --discard-runs" : "")),
       fmt::arg("minutes", job.minutes), fmt::arg("program", quoted(job.program.string())),
       fmt::arg("file", quoted(job.file.string())), fmt::arg("out", quoted(job.out.string())));
 }

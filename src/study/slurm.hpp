@@ -7,10 +7,12 @@ namespace amble::study {
 
 /// A Slurm array job whose tasks are the shards of a study.
 struct SlurmJob {
-  std::string name;
+  std::string name;                          ///< other characters than letters, digits, - and _ become -
   std::filesystem::path program, file, out;  ///< absolute: tasks begin in any folder, on any node
   int tasks = 1;                             ///< of the array; shard i of `tasks` each
-  int cpus = 1;                              ///< of a task: as many runs side by side
+  int jobs = 1;                              ///< runs side by side in a task
+  int workers = 1;                           ///< processors of each of them
+  bool discard_runs = false;                 ///< WorkOptions::discard_runs
   int minutes = 60;                          ///< time limit of a task; one that needs longer is requeued
 };
 

@@ -14,6 +14,7 @@
 
 #include "amble/core/clock.hpp"
 #include "amble/core/hash.hpp"
+#include "amble/core/index.hpp"
 #include "amble/experiment/build_info.hpp"
 #include "amble/experiment/run.hpp"
 #include "amble/io/file.hpp"
@@ -83,26 +84,44 @@ class Worker {
 
   /// Throws UserError; ExitCode::locked if another process holds the run's folder.
   Step take(const PlannedRun& run) {
-    const auto& name = plan_.condition(run).spec.name;
-    if (ledger_.has(name, run.seed)) return complete(run);
-    const auto folder = plan_.folder(run);
-    auto evolution = take_hold(run, folder);
-    // Another process may have finished it between the look at the ledger and the lock.
-    if (ledger_.has(name, run.seed)) {
-      discard(folder);
-      return Step::nothing_to_do;
+    auto evolution = take_hold(run);
+    if (!evolution) {
+      const Step step = complete(run);
+      if (step != Step::interrupted) discard(run);
+      return step;
     }
-    listener_.on_start(run, evolution.generation());
+    listener_.on_start(run, evolution->generation());
     RunProgress progress(run, listener_);
-    if (evolution.execute(progress, stop_) == experiment::RunStatus::interrupted) return Step::interrupted;
-    const Step step = add_tests(run, first_record(run, evolution), true);
-    if (step == Step::done) discard(folder);
+    if (evolution->execute(progress, stop_) == experiment::RunStatus::interrupted) return Step::interrupted;
+    const Step step = add_tests(run, first_record(run, *evolution), true);
+    evolution.reset();
+    if (step == Step::done) discard(run);
     return step;
   }
 
- private:
-  experiment::Run take_hold(const PlannedRun& run, const std::filesystem::path& folder) const {
+  /// Removes the folder of a finished run, if folders are to be removed and nobody works in it.
+  void discard(const PlannedRun& run) const {
+    const auto folder = plan_.folder(run);
+    if (!options_.discard_runs || !experiment::is_run_folder(folder)) return;
     const auto turn = wait_for_turn();
+    if (!experiment::is_run_folder(folder)) return;
+    try {
+      const io::FolderLock lock(folder);
+      std::filesystem::remove_all(folder);
+    } catch (const UserError& error) {
+      if (error.code() != ExitCode::locked) throw;
+    }
+  }
+
+ private:
+  /// Nothing if the run has a record.
+  std::optional<experiment::Run> take_hold(const PlannedRun& run) const {
+    const auto finished = [&] { return ledger_.has(plan_.condition(run).spec.name, run.seed); };
+    if (finished()) return std::nullopt;
+    const auto folder = plan_.folder(run);
+    const auto turn = wait_for_turn();
+    // Another process may have finished the run meanwhile, and may have removed its folder.
+    if (finished()) return std::nullopt;
     return experiment::is_run_folder(folder)
                ? experiment::Run::resume(folder, std::nullopt, options_.workers)
                : experiment::Run::start(folder, plan_.config(run), options_.workers);
@@ -169,25 +188,30 @@ class Worker {
     });
   }
 
-  /// Runs the tests that a record lacks, in the study's order, and writes the record.
+  /// Runs the tests that a record lacks, in the study's order, and writes the record. Throws UserError if one
+  /// of them cannot be run, after the others.
   Step add_tests(const PlannedRun& run, ledger::Record record, bool is_new) {
     const PlannedCondition& condition = plan_.condition(run);
     const auto champion =
         champion_from_json(record.champion, plan_.paths.record(record.condition, run.seed).string());
     const double start_s = now_s();
     std::vector<ledger::TestResult> results;
+    std::string obstacle;
+    bool added = is_new;
     for (const PlannedTest& test : condition.tests) {
-      const auto* const old = record.find_test(test.spec.name);
-      auto result = old != nullptr ? std::optional(*old) : run_test(test, champion, stop_);
+      if (const auto* const old = record.find_test(test.spec.name)) {
+        results.push_back(*old);
+        continue;
+      }
+      if (const auto reason = obstacle_to(test, run, record); !reason.empty()) {
+        obstacle = reason;
+        continue;
+      }
+      auto result = result_of(test, condition, champion, run, record);
       if (!result) return Step::interrupted;
-      if (old == nullptr && test.spec.reach_m > 0.0 && !find_first_walker(run, test, record, *result))
-        return Step::interrupted;
-      if (old == nullptr && test.spec.mutants > 0 &&
-          !add_mutants(test, champion, condition.config.neat, *result, stop_))
-        return Step::interrupted;
-      if (old == nullptr && !is_new)
-        record.provenance.added_by[test.spec.name] = experiment::build_info().commit;
+      if (!is_new) record.provenance.added_by[test.spec.name] = experiment::build_info().commit;
       results.push_back(std::move(*result));
+      added = true;
     }
     // What was measured for a test that the study has no longer is kept.
     for (ledger::TestResult& old : record.tests)
@@ -196,25 +220,45 @@ class Worker {
     record.tests = std::move(results);
     if (is_new) note_provenance(record);
     record.provenance.tests_s += now_s() - start_s;
-    ledger_.save(record);
+    if (added) ledger_.save(record);
+    if (!obstacle.empty()) fail(ExitCode::bad_input, "{}", obstacle);
     listener_.on_finish(run, record);
     return Step::done;
   }
 
-  /// Looks through the bests of the run for the first that gets as far as the test asks. False: interrupted.
-  bool find_first_walker(const PlannedRun& run, const PlannedTest& test, ledger::Record& record,
-                         ledger::TestResult& result) const {
+  /// All of a test for one champion. Nothing: interrupted.
+  std::optional<ledger::TestResult> result_of(const PlannedTest& test, const PlannedCondition& condition,
+                                              const experiment::Champion& champion, const PlannedRun& run,
+                                              ledger::Record& record) const {
+    auto result = run_test(test, champion, stop_);
+    if (!result) return std::nullopt;
+    if (test.spec.reach_m > 0.0) {
+      const auto first = first_to_reach(test, experiment::RunPaths(plan_.folder(run)), stop_);
+      if (!first) return std::nullopt;
+      result->reached = first->reached;
+      if (first->reached) record.provenance.reached_s[test.spec.name] = first->wall_s;
+    }
+    if (test.spec.mutants > 0 && !add_mutants(test, champion, condition.config.neat, *result, stop_))
+      return std::nullopt;
+    return result;
+  }
+
+  /// Why a test cannot be run; empty if it can. One with `reach_m` needs the run that the record is of,
+  /// finished.
+  std::string obstacle_to(const PlannedTest& test, const PlannedRun& run,
+                          const ledger::Record& record) const {
+    if (test.spec.reach_m <= 0.0) return {};
     const experiment::RunPaths paths(plan_.folder(run));
-    if (!experiment::is_run_folder(paths.folder))
-      fail(ExitCode::bad_input,
-           "test '{}' has 'reach_m' and looks through all champions of the run, but {} is gone; move {} away "
-           "to run it again",
-           test.spec.name, paths.folder.string(), plan_.paths.record(record.condition, record.seed).string());
-    const auto first = first_to_reach(test, paths, stop_);
-    if (!first) return false;
-    result.reached = first->reached;
-    if (first->reached) record.provenance.reached_s[test.spec.name] = first->wall_s;
-    return true;
+    const auto champions = paths.champion_files();
+    if (experiment::is_run_folder(paths.folder) && !champions.empty() &&
+        hex(hash_text(io::read_file(champions.back()))) == record.champion_file &&
+        record::read_generations(paths.generations).count() == to_index(record.generations))
+      return {};
+    return fmt::format(
+        "test '{}' has 'reach_m' and looks through all champions of the run, but {} is gone or is not that "
+        "run; "
+        "move {} away to run it again",
+        test.spec.name, paths.folder.string(), plan_.paths.record(record.condition, record.seed).string());
   }
 
   void note_provenance(ledger::Record& record) const {
@@ -229,12 +273,6 @@ class Worker {
     provenance.claims = plan_.study.claims_hash();
   }
 
-  void discard(const std::filesystem::path& folder) const {
-    if (!options_.discard_runs) return;
-    const auto turn = wait_for_turn();
-    std::filesystem::remove_all(folder);
-  }
-
   const Plan& plan_;
   ledger::Ledger ledger_;
   WorkOptions options_;
@@ -246,11 +284,14 @@ class Worker {
 
 WorkResult work(const Plan& plan, const std::vector<RunStatus>& states, const WorkOptions& options,
                 Listener& listener, const std::atomic<bool>& stop) {
+  Worker worker(plan, options, listener, stop);
   std::vector<PlannedRun> open;
   for (const std::size_t i : plan.shard(options.shard))
-    if (states[i] != RunStatus::done) open.push_back(plan.runs[i]);
+    if (states[i] == RunStatus::done)
+      worker.discard(plan.runs[i]);
+    else
+      open.push_back(plan.runs[i]);
 
-  Worker worker(plan, options, listener, stop);
   WorkResult result;
   int io_failures = 0;
   auto last_progress = std::chrono::steady_clock::now();

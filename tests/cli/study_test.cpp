@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/mount.h>
@@ -7,8 +8,10 @@
 #include <filesystem>
 #include <map>
 #include <random>
+#include <sstream>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "tests/cli/process.hpp"
 
@@ -223,9 +226,67 @@ TEST_F(Study, ARunThatFailsIsReportedAndTheOthersContinue) {
   fs::remove(folder / "checkpoint.bin");
   const auto rest = study("s", {"--jobs", "2"});
   EXPECT_EQ(rest.exit_code, 4) << rest.err;
-  EXPECT_NE(rest.err.find("supg, seed 1: failed"), std::string::npos) << rest.err;
+  const auto said = rest.err.find("supg, seed 1: failed");
+  EXPECT_NE(said, std::string::npos) << rest.err;
+  EXPECT_EQ(rest.err.find("supg, seed 1: failed", said + 1), std::string::npos)
+      << "by each process: " << rest.err;
   EXPECT_NE(rest.out.find("5 of 6 runs are done"), std::string::npos) << rest.out << rest.err;
-  EXPECT_NE(rest.err.find("the same command tries them again"), std::string::npos) << rest.err;
+  EXPECT_NE(rest.err.find("1 run failed; the same command tries it again"), std::string::npos) << rest.err;
+}
+
+/// The processes that a process has started.
+std::vector<pid_t> children_of(pid_t parent) {
+  std::vector<pid_t> children;
+  std::istringstream list(slurp(fmt::format("/proc/{0}/task/{0}/children", parent)));
+  for (pid_t child = 0; list >> child;) children.push_back(child);
+  return children;
+}
+
+TEST_F(Study, OneOfWhoseProcessesIsKilledIsDoneByTheOthers) {
+  write(replaced(study_toml, "generations = 4", "generations = 20"));
+  Process process(command("s", {"--jobs", "2"}));
+  const auto begun = folder_ / "s" / "runs" / "supg-001" / "checkpoint.bin";
+  std::vector<pid_t> children;
+  for (int tries = 0; tries < 4000 && (children.size() < 2 || !fs::exists(begun)); ++tries) {
+    children = children_of(process.pid());
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  ASSERT_EQ(children.size(), 2u);
+  ::kill(children[0], SIGKILL);
+  const auto finished = process.wait();
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_NE(finished.err.find("ended by signal 9"), std::string::npos) << finished.err;
+  EXPECT_EQ(digest(finished), digest(study("alone", {"--jobs", "1"})));
+}
+
+TEST_F(Study, ReplacesNoStudyFileInItsFolderThatItHasNotWritten) {
+  const auto own = slurp(folder_ / "study.toml");
+  const auto beside = study(".", {"--jobs", "2"});
+  EXPECT_EQ(beside.exit_code, 0) << beside.err;
+  EXPECT_EQ(slurp(folder_ / "study.toml"), own);
+  fs::create_directories(folder_ / "t");
+  spill(folder_ / "t" / "study.toml", "other = 1\n");
+  const auto refused = study("t");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
+  EXPECT_EQ(slurp(folder_ / "t" / "study.toml"), "other = 1\n");
+}
+
+TEST_F(Study, PassesItsOptionsOnToSlurmsTasks) {
+  write(replaced(study_toml, "name = \"tiny\"", "name = \"my study\\n#SBATCH --partition=all\""));
+  const auto script = folder_ / "batch.sh";
+  const auto written =
+      study("s", {"--slurm", script.string(), "--jobs", "2", "--workers", "3", "--discard-runs"});
+  ASSERT_EQ(written.exit_code, 0) << written.err;
+  const auto text = slurp(script);
+  EXPECT_NE(text.find("#SBATCH --job-name=amble-my-study--SBATCH---partition-all\n"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("#SBATCH --cpus-per-task=6\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("--jobs \"$((${SLURM_CPUS_PER_TASK:-6} / 3))\" --workers 3 --discard-runs &"),
+            std::string::npos)
+      << text;
+  const auto refused = study("s", {"--slurm", script.string(), "--shard", "1/2"});
+  EXPECT_EQ(refused.exit_code, 2) << refused.err;
 }
 
 TEST_F(Study, StoppedByASignalSaysHowToGoOn) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <string>
+#include <utility>
 
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
@@ -37,11 +39,33 @@ TEST(Ledger, RecordsOfTwoFoldersAreMergedByCopying) {
 
 TEST(Ledger, DigestDependsOnResultsAlone) {
   auto records = std::vector{sample_record("supg", 7), sample_record("sine", 8)};
-  const auto digest = ledger_digest(records);
+  const auto digest = ledger_digest(sample_study(), records);
   records[0].provenance.cpu = "another";
-  EXPECT_EQ(ledger_digest(records), digest);
+  EXPECT_EQ(ledger_digest(sample_study(), records), digest);
   records[0].best_m += 1.0;
-  EXPECT_NE(ledger_digest(records), digest);
+  EXPECT_NE(ledger_digest(sample_study(), records), digest);
+}
+
+TEST(Ledger, DigestIsOfTheTestsThatTheStudyHasInWhateverOrderTheyWereAdded) {
+  auto study = sample_study();
+  for (const char* name : {"first", "second"}) study.tests.emplace_back().name = name;
+  auto records = std::vector{sample_record("supg", 7)};
+  records[0].tests.resize(2, records[0].tests.at(0));
+  records[0].tests[0].name = "first";
+  records[0].tests[1].name = "second";
+  const auto digest = ledger_digest(study, records);
+  std::swap(records[0].tests[0], records[0].tests[1]);
+  records[0].study = "before it was renamed";
+  EXPECT_EQ(ledger_digest(study, records), digest);
+  records[0].tests.push_back(records[0].tests[0]);
+  records[0].tests[2].name = "of an earlier study file";
+  EXPECT_EQ(ledger_digest(study, records), digest);
+  study.tests[1].conditions = {"sine"};
+  EXPECT_NE(ledger_digest(study, records), digest);
+  records[0].tests[0].episodes.at(0).distance_m += 1.0;  // "second", which is not of supg any more
+  const auto narrowed = ledger_digest(study, records);
+  records[0].tests[0].episodes.at(0).distance_m += 1.0;
+  EXPECT_EQ(ledger_digest(study, records), narrowed);
 }
 
 TEST(Ledger, RecordUnderAnotherNameIsRefused) {
@@ -61,6 +85,60 @@ TEST(Ledger, FilesOfNoRunOfTheStudyAreNamed) {
   ASSERT_EQ(unknown_files.size(), 1u);
   EXPECT_EQ(unknown_files[0], paths.record("supg", 99));
   EXPECT_EQ(Ledger(paths).load_all(sample_study()).size(), 1u);
+}
+
+TEST(KeptStudy, TakesThePlaceOfNothingThatIsNotItsOwn) {
+  const TemporaryFolder folder;
+  const StudyPaths paths(folder / "s");
+  StudySpec study = sample_study();
+  study.name = "mine";
+  study.generations = 3;
+  for (ConditionSpec& condition : study.conditions) condition.config = "supg.toml";
+  const auto refusal = [&] {
+    const auto before = io::read_file(paths.spec);
+    try {
+      keep_study(paths, study);
+    } catch (const UserError& error) {
+      EXPECT_EQ(error.code(), ExitCode::bad_input);
+      EXPECT_EQ(io::read_file(paths.spec), before);
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  std::filesystem::create_directories(paths.folder);
+  io::write_file(paths.spec, "my = 'own'\n");
+  EXPECT_NE(refusal().find("is not a study that amble keeps there"), std::string::npos);
+
+  std::filesystem::remove(paths.spec);
+  keep_study(paths, study);
+  Ledger(paths).save(sample_record("supg", 7));
+  study.name = "renamed";
+  EXPECT_EQ(refusal(), "") << "its records are of this study, too";
+  Ledger(paths).save(sample_record("supg", 99));
+  study.name = "another";
+  EXPECT_NE(refusal().find("has the study 'renamed'"), std::string::npos);
+}
+
+TEST(KeptStudy, IsLeftAsItIsWhereTheStudyWasReadFromIt) {
+  const TemporaryFolder folder;
+  const StudyPaths paths(folder.path());
+  io::write_file(paths.spec, "# by hand\n");
+  keep_study(paths, sample_study(), folder / "study.toml");
+  EXPECT_EQ(io::read_file(paths.spec), "# by hand\n");
+}
+
+TEST(KeptStudy, FindsItsFilesThroughALinkToItsFolder) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "deep/er/s");
+  std::filesystem::create_directory_symlink(folder / "deep/er/s", folder / "link");
+  io::write_file(folder / "supg.toml", "name = \"found\"\n");
+  StudySpec study = sample_study();
+  study.name = "linked";
+  study.generations = 3;
+  for (ConditionSpec& condition : study.conditions) condition.config = (folder / "supg.toml").string();
+  const StudyPaths paths(folder / "link");
+  keep_study(paths, study);
+  EXPECT_EQ(io::read_file(load_study(paths.spec).conditions[0].config), "name = \"found\"\n");
 }
 
 TEST(KeptStudy, NamesTheSameFilesAsTheOriginalWhereverItsFolderIs) {

@@ -29,7 +29,8 @@ TEST(StudyData, ComesFromTheFolderAlone) {
   EXPECT_EQ(loaded.records.size(), 6u);
   EXPECT_EQ(loaded.planned(), 6u);
   EXPECT_THAT(loaded.values("a", "long.distance_m"), ElementsAre(12.0, 15.0, 18.0));
-  EXPECT_EQ(ledger::ledger_digest(loaded.records), ledger::ledger_digest(data.records));
+  EXPECT_EQ(ledger::ledger_digest(loaded.study, loaded.records),
+            ledger::ledger_digest(data.study, data.records));
 }
 
 TEST(StudyData, HasMeasuresOfTheFirstWalkerOfTestsThatAskForADistance) {

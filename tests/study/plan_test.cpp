@@ -148,6 +148,30 @@ TEST(Plan, RefusesEpisodesThatWouldAllBeTheSameTrial) {
   EXPECT_NO_THROW(plan_with(0.0, config_file("robust/supg-objective"), 3));
 }
 
+TEST(Plan, RefusesTestsThatNoChampionCouldBePutTo) {
+  auto study = small_study();
+  const auto refusal = [&] {
+    try {
+      make_plan(study, "nowhere");
+    } catch (const UserError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  study.tests = {trial_test("odd", 0.004)};
+  EXPECT_NE(refusal().find("test 'odd': trial.duration_s = 0.004: expected a whole number of timesteps"),
+            std::string::npos)
+      << refusal();
+
+  const test::TemporaryFolder folder;
+  io::write_file(folder / "ground.toml", fmt::format("include = [\"{}\"]\n[ground]\nkind = \"stones\"\n",
+                                                     config_file("authors/sine-objective")));
+  study.tests = {trial_test("rough", 1.0)};
+  study.tests[0].ground = (folder / "ground.toml").string();
+  study.settings.push_back("ground.friction=0.7");
+  EXPECT_NE(refusal().find("test 'rough': ground.friction = -1"), std::string::npos) << refusal();
+}
+
 TEST(Plan, CanBeMadeOfEveryStudyInTheFolder) {
   int studies = 0;
   for (const auto& file : std::filesystem::directory_iterator(AMBLE_SOURCE_DIR "/studies")) {

@@ -8,7 +8,9 @@
 #include <set>
 #include <thread>
 
+#include "amble/experiment/run.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/lock.hpp"
 
 #include "amble/ledger/measures.hpp"
 #include "amble/record/generations_csv.hpp"
@@ -175,6 +177,51 @@ TEST(Worker, SaysThatItNeedsTheRunToFindItsFirstWalker) {
             std::string::npos)
       << looking.failures.at(0);
   EXPECT_TRUE(ledger::Ledger(ledger::StudyPaths(folder.path())).load("sine", 3).tests.empty());
+}
+
+TEST(Worker, TakesNoOtherRunForTheOneWhoseFirstWalkerItLooksFor) {
+  const test::TemporaryFolder folder;
+  auto study = small_study();
+  Notes first, looking;
+  work_on(study, folder.path(), first, true);
+  const Plan plan = make_plan(study, folder.path());
+  experiment::Run::start(plan.folder(plan.runs[0]), plan.config(plan.runs[0]), 1);
+  study.tests = {trial_test("walks", 1.0), trial_test("plain", 1.0)};
+  study.tests[0].reach_m = 0.1;
+  EXPECT_EQ(work_on(study, folder.path(), looking).failed, 1);
+  EXPECT_NE(looking.failures.at(0).find("is gone or is not that run"), std::string::npos)
+      << looking.failures.at(0);
+  const auto record = ledger::Ledger(plan.paths).load("sine", 3);
+  ASSERT_EQ(record.tests.size(), 1u) << "the test that can be run is";
+  EXPECT_EQ(record.tests[0].name, "plain");
+}
+
+TEST(Worker, LeavesNoFolderOfRunsThatOthersFinishedSinceItLooked) {
+  const test::TemporaryFolder folder;
+  const auto study = small_study();
+  Notes notes;
+  work_on(study, folder.path(), notes, true);
+  const Plan plan = make_plan(study, folder.path());
+  const std::atomic<bool> never{false};
+  const auto result = work(plan, {RunStatus::missing}, {.shard = {}}, notes, never);
+  EXPECT_EQ(result.finished + result.failed + result.elsewhere, 0);
+  EXPECT_FALSE(std::filesystem::exists(plan.folder(plan.runs[0])));
+}
+
+TEST(Worker, RemovesTheFoldersOfRunsThatWereFinishedEarlier) {
+  const test::TemporaryFolder folder;
+  const auto study = small_study();
+  Notes notes;
+  work_on(study, folder.path(), notes);
+  const Plan plan = make_plan(study, folder.path());
+  ASSERT_TRUE(experiment::is_run_folder(plan.folder(plan.runs[0])));
+  {
+    const io::FolderLock somebody(plan.folder(plan.runs[0]));
+    work_on(study, folder.path(), notes, true);
+    EXPECT_TRUE(experiment::is_run_folder(plan.folder(plan.runs[0]))) << "it is in use";
+  }
+  work_on(study, folder.path(), notes, true);
+  EXPECT_FALSE(std::filesystem::exists(plan.folder(plan.runs[0])));
 }
 
 TEST(Worker, LeavesFinishedRunsAloneAndAddsTheTestsTheyLack) {
