@@ -8,6 +8,9 @@
 namespace amble::ledger {
 namespace {
 
+/// Beyond it squares of a sample have no meaning left in a double.
+constexpr double largest_value = 1e12;
+
 /// Checks of one claim, each with the place of its key.
 class ClaimCheck {
  public:
@@ -67,13 +70,16 @@ void ClaimSpec::describe(io::SettingsVisitor& visitor) {
   visitor.choice("relation", relation, relation_names, {"difference: what the condition is to the other"});
   visitor.choice("test", test, two_sample_test_names, {"difference: the test that decides"});
   visitor.number("alpha", alpha, {1e-9, 0.5}, {"difference, value: level of significance"});
-  visitor.number("at_least", at_least, {}, {"ratio, count: lower bound; -inf: none"});
-  visitor.number("at_most", at_most, {}, {"ratio, count, plateau: upper bound; inf: none"});
-  visitor.number("threshold", threshold, {}, {"count: runs whose measure is at least this; -inf: not given"});
+  visitor.number("at_least", at_least, {-unbounded, largest_value},
+                 {"ratio, count: lower bound; -inf: none"});
+  visitor.number("at_most", at_most, {-largest_value, unbounded},
+                 {"ratio, count, plateau: upper bound; inf: none"});
+  visitor.number("threshold", threshold, {-unbounded, largest_value},
+                 {"count: runs whose measure is at least this; -inf: not given"});
   visitor.text("threshold_condition", threshold_condition,
                {"count: the threshold is the mean of the measure in this condition"});
-  visitor.number("mean", mean, {}, {"value: the published mean"});
-  visitor.number("sd", sd, {0.0, unbounded}, {"value: the published standard deviation"});
+  visitor.number("mean", mean, {-largest_value, largest_value}, {"value: the published mean"});
+  visitor.number("sd", sd, {0.0, largest_value}, {"value: the published standard deviation"});
   visitor.integer("runs", runs, {0, 1e9}, {"value, count: runs behind the published figure"});
   visitor.integer("successes", successes, {0, 1e9}, {"count: the published count"});
   visitor.texts("includes", includes, {"gaits: all of these must occur"});

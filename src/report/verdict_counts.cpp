@@ -59,6 +59,7 @@ std::optional<double> threshold_of(const StudyData& data, const ClaimSpec& claim
   if (claim.threshold_condition.empty()) return claim.threshold;
   const auto others = data.values(claim.threshold_condition, claim.measure);
   reason = too_few(data, claim.threshold_condition, others.size(), 2);
+  if (reason.empty()) reason = without_mean(data, claim.threshold_condition, others);
   if (!reason.empty()) return std::nullopt;
   return statistics::mean(others);
 }
