@@ -116,29 +116,32 @@ std::string test_text(const Report& report, const ledger::TestSpec& test) {
 std::string distance_section(const Report& report) {
   const auto training = training_rows(report);
   std::string content = figure([&](Layout layout) {
-    return rows_figure(training, " m", "Distance in evolution, all conditions", layout);
+    return rows_figure(training, report.objective.unit,
+                       fmt::format("{} in evolution, all conditions", report.objective_title()), layout);
   });
+  const std::string grey =
+      report.objective.is_distance ? " Grey: the same champions’ distance in evolution." : "";
   for (const ledger::TestSpec& test : report.data.study.tests) {
     const auto rows = test_rows(report, test.name);
     if (rows.empty()) continue;
-    content +=
-        test_part(report, test.name, "Distance",
-                  paragraph(test_text(report, test) + ". Grey: the same champions’ distance in evolution.") +
-                      figure([&](Layout layout) {
-                        return rows_figure(rows, " m", "Distance in test " + test.name, layout);
-                      }));
+    content += test_part(report, test.name, "Distance",
+                         paragraph(test_text(report, test) + "." + grey) + figure([&](Layout layout) {
+                           return rows_figure(rows, " m", "Distance in test " + test.name, layout);
+                         }));
   }
-  return section("distance", "How far they walked",
-                 "Distance of each run’s champion in its evolution. Bars are means with Student’s 95 % "
-                 "intervals, each point is a run.",
+  return section("distance", report.objective.is_distance ? "How far they walked" : "What they reached",
+                 fmt::format("{} of each run’s champion in its evolution. Bars are means with Student’s 95 % "
+                             "intervals, each point is a run.",
+                             report.objective_title()),
                  content);
 }
 
 std::string curves_section(const Report& report) {
   return section(
       "curves", "How they learned",
-      "Best distance so far over the generations: median and quartiles over the runs of a condition, in "
-      "grey the medians of the others.",
+      fmt::format("Best {} so far over the generations: median and quartiles over the runs of a condition, "
+                  "in grey the medians of the others.",
+                  report.objective.name()),
       figure([&](Layout layout) { return curves_figure(report, layout); }));
 }
 

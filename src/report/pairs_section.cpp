@@ -102,6 +102,8 @@ std::string matrix(const Report& report, const PairTable& pairs) {
 
 std::string pairs_section(const Report& report) {
   const bool many = report.data.study.conditions.size() > most_listed;
+  const std::string evolution =
+      fmt::format("{} in evolution{}", report.objective_title(), report.objective.unit.empty() ? "" : ", m");
   std::string content;
   for (const std::string& measure : compared_measures_of(report.data)) {
     if (std::ranges::none_of(report.summaries, [&](const auto& sample) { return sample.measure == measure; }))
@@ -115,8 +117,8 @@ std::string pairs_section(const Report& report) {
               folded(fmt::format("All {} pairs", found->pairs.size()), pair_table(report, *found));
     else
       part += pair_table(report, *found);
-    content += folded(measure == "train_m" ? "Distance in evolution, m" : ledger::measure_label(measure),
-                      part, measure == "train_m");
+    content +=
+        folded(measure == "train_m" ? evolution : ledger::measure_label(measure), part, measure == "train_m");
   }
   return section(
       "pairs", "Every pair of conditions",

@@ -9,7 +9,7 @@
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
 #include "amble/ledger/ledger.hpp"
-#include "amble/ledger/measures.hpp"
+#include "amble/report/number_text.hpp"
 
 namespace amble::report {
 namespace {
@@ -36,6 +36,12 @@ std::size_t without_test(const StudyData& data, const ledger::TestSpec& test) {
 template <typename Function>
 bool differs(const std::vector<const ledger::Record*>& runs, Function&& value) {
   return std::ranges::any_of(runs, [&](const auto* run) { return value(*run) != value(*runs.front()); });
+}
+
+/// The settings of a champion's score; empty if that is the distance.
+std::string score_text(const ledger::Record& run) {
+  const auto score = run.champion.find("score");
+  return score == run.champion.end() ? std::string() : score->dump();
 }
 
 void remark_on_condition(const StudyData& data, const ledger::ConditionSpec& condition,
@@ -96,6 +102,20 @@ std::vector<double> StudyData::values(std::string_view condition, std::string_vi
   return values;
 }
 
+ledger::Objective StudyData::objective() const {
+  ledger::Objective all;
+  for (const ledger::Record& record : records) {
+    const ledger::Objective one = ledger::objective_of(record);
+    all.is_distance = all.is_distance && one.is_distance;
+    if (one.unit.empty()) all.unit.clear();
+  }
+  return all;
+}
+
+std::string StudyData::unit_of(std::string_view measure) const {
+  return measure == "train_m" ? objective().unit : report::unit_of(measure);
+}
+
 StudyData load_study_data(const std::filesystem::path& folder) {
   const ledger::StudyPaths paths(folder);
   StudyData data{.study = ledger::load_kept_study(paths), .records = {}, .unknown_files = {}};
@@ -153,6 +173,11 @@ std::vector<std::string> remarks(const StudyData& data) {
                     data.records.size(), data.planned(), missing));
   for (const ledger::ConditionSpec& condition : data.study.conditions)
     remark_on_condition(data, condition, remarks);
+  if (std::ranges::any_of(data.records, [&](const ledger::Record& run) {
+        return score_text(run) != score_text(data.records.front());
+      }))
+    remarks.push_back(
+        "Conditions were evolved by different scores; what they got in evolution cannot be compared.");
   for (const ledger::TestSpec& test : data.study.tests) remark_on_test(data, test, remarks);
   const std::string claims = data.study.claims_hash();
   const auto older = std::ranges::count_if(

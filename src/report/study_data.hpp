@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "amble/ledger/measures.hpp"
 #include "amble/ledger/record.hpp"
 #include "amble/ledger/study_spec.hpp"
 
@@ -23,6 +24,10 @@ struct StudyData {
   std::vector<const ledger::Record*> runs(std::string_view condition) const;
   /// Of all finished runs that have the measure (ledger/measures.hpp), in the order of seeds.
   std::vector<double> values(std::string_view condition, std::string_view measure) const;
+  /// Of all finished runs: a distance, or in m, if that of every one is.
+  ledger::Objective objective() const;
+  /// " m", " s" or "" of a measure.
+  std::string unit_of(std::string_view measure) const;
 };
 
 /// Reads DIR/study.toml and DIR/ledger. Throws UserError: no study, a damaged record.

@@ -19,7 +19,9 @@ std::string reference_measure(const StudyData& data, const ledger::TestSpec& tes
       return other.name + ".distance_m";
   }
   const bool as_in_evolution = test.noise.empty() && test.ground.empty() && test.damage.empty();
-  return as_in_evolution && training_s(run) == result->trial_s ? "train_m" : "";
+  return as_in_evolution && training_s(run) == result->trial_s && ledger::objective_of(run).is_distance
+             ? "train_m"
+             : "";
 }
 
 std::optional<Transfer> transfer(const StudyData& data, const ledger::TestSpec& test,

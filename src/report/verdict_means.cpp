@@ -189,12 +189,12 @@ Judgement judge_difference(const StudyData& data, const ClaimSpec& claim) {
       break;
   }
   judgement.ours = judgement.mean && judgement.mean_against
-                       ? two_means_text(judgement, unit_of(claim.measure))
+                       ? two_means_text(judgement, data.unit_of(claim.measure))
                        : reached_text(samples);
   if (judgement.estimate)
     judgement.ours += fmt::format(
         "; {} {}", rank_test ? "A12" : "difference",
-        estimate_text(*judgement.estimate, judgement.interval, rank_test ? "" : unit_of(claim.measure)));
+        estimate_text(*judgement.estimate, judgement.interval, rank_test ? "" : data.unit_of(claim.measure)));
   return judgement;
 }
 
@@ -243,7 +243,7 @@ Judgement judge_value(const StudyData& data, const ClaimSpec& claim) {
   const bool inside = judgement.interval->contains(claim.mean);
   judgement.verdict = agreement_verdict(test.p, claim.alpha, inside);
   judgement.ours =
-      fmt::format("{}, sd {}", estimate_text(moments.mean, judgement.interval, unit_of(claim.measure)),
+      fmt::format("{}, sd {}", estimate_text(moments.mean, judgement.interval, data.unit_of(claim.measure)),
                   number_text(moments.sd));
   judgement.reason =
       fmt::format("Published {} {}; the published mean lies {} our interval. {}", number_text(claim.mean),

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "amble/core/error.hpp"
 #include "amble/ledger/study_spec.hpp"
+#include "amble/score/score.hpp"
 #include "tests/ledger/samples.hpp"
 
 namespace amble::ledger {
@@ -61,6 +63,33 @@ TEST(Measures, ShareKeptOfNoDistanceIsZero) {
   Record record = sample_record();
   record.best_m = 0.0;
   EXPECT_EQ(measure(record, "five.kept"), 0.0);
+}
+
+TEST(Measures, ShareKeptIsNothingWhereTheObjectiveIsNoDistance) {
+  Record record = sample_record();
+  EXPECT_EQ(objective_of(record), Objective());
+  score::Settings score;
+  score.terms[0].weight = 2.0;
+  record.champion["score"] = io::settings_to_json(score);
+  EXPECT_EQ(objective_of(record), (Objective{.is_distance = false, .unit = " m"}));
+  EXPECT_EQ(measure(record, "five.kept"), std::nullopt);
+  EXPECT_EQ(measure(record, "five.distance_m"), 12.5);
+  score.terms.push_back({.quantity = "economy"});
+  record.champion["score"] = io::settings_to_json(score);
+  EXPECT_EQ(objective_of(record), (Objective{.is_distance = false, .unit = ""}));
+}
+
+TEST(Measures, OfAnUnreadableScoreNameTheRecord) {
+  Record record = sample_record();
+  record.champion["score"] = {{"terms", 3}};
+  try {
+    measure(record, "five.kept");
+    ADD_FAILURE();
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("the record of supg, seed 7: key 'champion.score.terms'"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(Measures, OfMutantsAreTakenFromThoseOfTheTest) {

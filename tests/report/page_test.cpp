@@ -160,6 +160,25 @@ TEST(Page, ShowsHowLongTheyLastedInTestsLongerThanEvolutionOnly) {
   EXPECT_EQ(curves, 2u) << "upright, and walking";
 }
 
+TEST(Page, OfAScoreThatIsNoDistanceClaimsNoMetres) {
+  const std::string html = page(scored_study("speed_kept"));
+  EXPECT_THAT(html, HasSubstr("Score in evolution"));
+  EXPECT_THAT(html, HasSubstr("median 5.00 after generation 9"));
+  EXPECT_THAT(html, HasSubstr("Best score so far"));
+  EXPECT_THAT(html, HasSubstr("5.00 against 1.83; difference 3.17 ["));
+  EXPECT_THAT(html, HasSubstr("15.0 m [")) << "of tests";
+  for (const char* wrong : {"istance in evolution", "Best distance", "How far they walked",
+                            "Distance of each run", "generation 9 m", "5.00\u00a0m"})
+    EXPECT_THAT(html, Not(HasSubstr(wrong)));
+}
+
+TEST(Page, OfAScoreInMetresSaysThatItIsOne) {
+  const std::string html = page(scored_study("heading"));
+  EXPECT_THAT(html, HasSubstr("Score in evolution, m"));
+  EXPECT_THAT(html, HasSubstr("median 5.00 m after generation 9"));
+  EXPECT_THAT(html, Not(HasSubstr("istance in evolution")));
+}
+
 TEST(Page, RepeatsToTheByte) {
   EXPECT_EQ(page(large_study(4, 5)), page(large_study(4, 5)));
   EXPECT_EQ(to_json(make_report(small_study())), to_json(make_report(small_study())));

@@ -89,6 +89,29 @@ TEST(Remarks, TellWhatIsMissing) {
                                          "Test ode: 1 finished run does not have it yet."));
 }
 
+TEST(StudyData, IsOfADistanceOrInMetresIfAllRunsAre) {
+  const ledger::Objective distance, metres{.is_distance = false, .unit = " m"},
+      score{.is_distance = false, .unit = ""};
+  EXPECT_EQ(small_study().objective(), distance);
+  EXPECT_EQ(scored_study("heading").objective(), metres);
+  EXPECT_EQ(scored_study("economy").objective(), score);
+  StudyData mixed = small_study();
+  mixed.records[4] = scored_study("economy").records[4];
+  EXPECT_EQ(mixed.objective(), score);
+  mixed.records[4] = scored_study("heading").records[4];
+  EXPECT_EQ(mixed.objective(), metres);
+  EXPECT_EQ(mixed.unit_of("train_m"), " m");
+  EXPECT_EQ(scored_study("economy").unit_of("train_m"), "");
+  EXPECT_EQ(scored_study("economy").unit_of("long.distance_m"), " m");
+}
+
+TEST(Remarks, TellOfScoresThatDiffer) {
+  EXPECT_THAT(remarks(scored_study("economy")), IsEmpty());
+  StudyData mixed = small_study();
+  mixed.records[4] = scored_study("economy").records[4];
+  EXPECT_THAT(remarks(mixed), ElementsAre(HasSubstr("different scores")));
+}
+
 TEST(Remarks, TellWhatDoesNotFit) {
   StudyData data = small_study();
   data.records[1].config = "another";
