@@ -100,16 +100,28 @@ std::string gait_table(const Report& report, const GaitTable& gaits) {
 
 }  // namespace
 
+std::string config_text(const std::string& path) {
+  const auto folder = path.find("configs/");
+  return path.substr(folder == std::string::npos ? path.find_last_of('/') + 1 : folder);
+}
+
 std::string test_text(const Report& report, const ledger::TestSpec& test) {
-  std::string text = time_text(test.seconds);
+  std::vector<std::string> engines;
   for (const ledger::Record& record : report.data.records)
-    if (const auto* result = record.find_test(test.name)) {
-      text += " in the engine " + result->engine;
-      break;
-    }
+    if (const auto* result = record.find_test(test.name);
+        result && std::ranges::find(engines, result->engine) == engines.end())
+      engines.push_back(result->engine);
+  std::string text = time_text(test.seconds);
+  if (!engines.empty())
+    text +=
+        fmt::format(" in the {} {}", engines.size() == 1 ? "engine" : "engines", fmt::join(engines, ", "));
+  if (!test.ground.empty()) text += ", on the ground of " + config_text(test.ground);
+  if (!test.damage.empty()) text += ", with the damage of " + config_text(test.damage);
+  const std::string episodes = counted(to_index(test.episodes), "episode");
   if (!test.noise.empty())
-    text += fmt::format(", {} under noise that evolution has not met (median)",
-                        counted(to_index(test.episodes), "episode"));
+    text += fmt::format(", {} under noise that evolution has not met (median)", episodes);
+  else if (test.episodes > 1)
+    text += fmt::format(", {} (median)", episodes);
   return text;
 }
 

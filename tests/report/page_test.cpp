@@ -237,6 +237,30 @@ TEST(Page, TellsOfEachConditionWhatItsRunsWereMadeWith) {
   EXPECT_EQ(cells, expected);
 }
 
+TEST(Page, TellsInWhichEnginesAndOnWhatGroundATestWasMade) {
+  StudyData data = small_study();
+  const auto text = [&data] { return test_text(make_report(data), data.study.tests[0]); };
+  EXPECT_EQ(text(), "300 s in the engine batch");
+  for (ledger::Record& run : data.records)
+    if (run.condition == "b") run.tests[0].engine = "ode";
+  EXPECT_EQ(text(), "300 s in the engines batch, ode");
+  ledger::TestSpec& test = data.study.tests[0];
+  test.episodes = 20;
+  test.ground = "../repo/studies/grounds/rough.toml";
+  EXPECT_EQ(text(), "300 s in the engines batch, ode, on the ground of rough.toml, 20 episodes (median)");
+  test.episodes = 1;
+  test.damage = "../repo/configs/damage/limp.toml";
+  EXPECT_EQ(text(),
+            "300 s in the engines batch, ode, on the ground of rough.toml, with the damage of "
+            "configs/damage/limp.toml");
+  test.ground = test.damage = "";
+  test.noise = "noise.toml";
+  EXPECT_EQ(text(),
+            "300 s in the engines batch, ode, 1 episode under noise that evolution has not met (median)");
+  data.records.clear();
+  EXPECT_EQ(text(), "300 s, 1 episode under noise that evolution has not met (median)");
+}
+
 TEST(Page, ShowsEachVerdictInTheTableOfClaims) {
   const Report report = make_report(small_study());
   const auto marks = with_class(parse_xml(make_page(report)), "verdict");
