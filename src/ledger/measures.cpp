@@ -77,7 +77,7 @@ constexpr std::array test_measures{
     TestMeasure{"walking_s", "time walking, s",
                 [](const Record&, const TestResult& t) -> Found { return t.walking_s(); }},
     TestMeasure{"moving_s", "time in motion, s",
-                [](const Record&, const TestResult& t) -> Found { return t.moving_s(); }},
+                [](const Record&, const TestResult& t) { return t.moving_s(); }},
     TestMeasure{"kept", "distance / distance in evolution", kept},
     TestMeasure{"reached_s", "wall time until it was reached, s", reached_s, Of::reaching},
     TestMeasure{"reached_generation", "generation that reached it",

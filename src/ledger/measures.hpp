@@ -31,7 +31,7 @@ Objective objective_of(const Record& record);
 /// TEST.distance_m    in the test of that name (median of its episodes), m
 /// TEST.upright_s     until the robot fell or the test ended, s
 /// TEST.walking_s     until it fell, stopped (score/walking.hpp) or the test ended, s
-/// TEST.moving_s      in motion, also after pauses (TestResult::moving_s), s
+/// TEST.moving_s      in motion, also after pauses (TestResult::moving_s), s; of trials of 10 s or more
 /// TEST.kept          distance in the test / distance in evolution; none if the objective is another
 ///
 /// and of a test that looks for the first best that gets as far as `reach_m`; infinite if none does:

@@ -53,6 +53,17 @@ TEST(Measures, TimeInMotionLeavesPausesOutAndCountsWhatFollowsThem) {
   EXPECT_EQ(measure(record, "walk.moving_s"), 12.0);
 }
 
+TEST(Measures, TimeInMotionIsNothingOfTrialsThatAreShorterThanItsWindow) {
+  Record record = sample_record();
+  record.tests.push_back(path_test(0.5, std::vector<double>(20, 0.1)));
+  TestResult& test = record.tests.back();
+  test.trial_s = 9.99;
+  EXPECT_EQ(measure(record, "walk.moving_s"), std::nullopt);
+  EXPECT_EQ(measure(record, "walk.walking_s"), 250.0);
+  test.trial_s = 10.0;
+  EXPECT_EQ(measure(record, "walk.moving_s"), 10.0);
+}
+
 TEST(Measures, OfATestThatWasNotMadeIsNothing) {
   EXPECT_EQ(measure(sample_record(), "ten.distance_m"), std::nullopt);
   EXPECT_EQ(measure(sample_record(), "five.height_m"), std::nullopt);
