@@ -31,7 +31,7 @@ SurvivalTable survival_table(const StudyData& data, const ledger::TestSpec& test
   for (const ledger::ConditionSpec& condition : data.study.conditions) {
     ConditionLifetimes lasted{.condition = condition.name, .lifetimes = {}, .curve = {}};
     for (const ledger::Record* run : data.runs(condition.name))
-      if (const auto* result = run->find_test(test.name)) {
+      if (const auto* result = data.result(*run, test.name)) {
         lasted.lifetimes.push_back(lifetime(*result, activity));
         table.trial_s = std::max(table.trial_s, result->trial_s);
         table.is_long = table.is_long || result->trial_s > training_s(*run).value_or(0.0);

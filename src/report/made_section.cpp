@@ -71,7 +71,8 @@ std::string builds_table(const Report& report) {
     build.seconds += made.evolution_s + made.tests_s;
     if (build.first.empty() || made.finished_utc < build.first) build.first = made.finished_utc;
     build.last = std::max(build.last, made.finished_utc);
-    for (const auto& [test, commit] : made.added_by) ++added[{test, commit}];
+    for (const auto& [test, commit] : made.added_by)
+      if (report.data.result(record, test) != nullptr) ++added[{test, commit}];
   }
   TableWriter table({{"Build", false},
                      {"Compiler and flags", false},

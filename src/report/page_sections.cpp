@@ -108,7 +108,7 @@ std::string config_text(const std::string& path) {
 std::string test_text(const Report& report, const ledger::TestSpec& test) {
   std::vector<std::string> engines;
   for (const ledger::Record& record : report.data.records)
-    if (const auto* result = record.find_test(test.name);
+    if (const auto* result = report.data.result(record, test.name);
         result && std::ranges::find(engines, result->engine) == engines.end())
       engines.push_back(result->engine);
   std::string text = time_text(test.seconds);

@@ -17,11 +17,16 @@ namespace amble::report {
 struct StudyData {
   ledger::StudySpec study;
   std::vector<ledger::Record> records;     ///< by condition and seed in the order of the study
-  std::vector<std::string> unknown_files;  ///< in the ledger, of no run of the study; names
+  std::vector<std::string> unknown_files;  ///< in the ledger, of no run of the study; names, printable
 
   std::size_t planned() const;                            ///< runs of all conditions
   std::size_t planned(std::string_view condition) const;  ///< a condition of the study
   std::vector<const ledger::Record*> runs(std::string_view condition) const;
+  /// The run's result of a test that the study has for its condition; nothing of other tests, which a study
+  /// may have had before, and of those that the run lacks. Everything in a report comes by this and value().
+  const ledger::TestResult* result(const ledger::Record& run, std::string_view test) const;
+  /// A measure (ledger/measures.hpp) of the run, or of such a result.
+  std::optional<double> value(const ledger::Record& run, std::string_view measure) const;
   /// Of all finished runs that have the measure (ledger/measures.hpp), in the order of seeds.
   std::vector<double> values(std::string_view condition, std::string_view measure) const;
   /// Of all finished runs: a distance, or in m, if that of every one is.
@@ -44,8 +49,8 @@ std::vector<std::string> compared_measures_of(const StudyData& data);
 std::optional<double> training_s(const ledger::Record& record);
 
 /// What a reader must know before the numbers: runs that are missing or lack tests, a condition whose records
-/// differ in config, engine or generations, tests of another length than in the study, unknown files. Empty
-/// if there is nothing to remark.
+/// differ in config, engine or generations, scores that differ, tests of another length than in the study or
+/// of several settings, records of other studies, unknown files. Empty if there is nothing to remark.
 std::vector<std::string> remarks(const StudyData& data);
 
 }  // namespace amble::report

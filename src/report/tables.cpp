@@ -40,9 +40,9 @@ Table runs_table(const Report& report) {
             static_cast<std::int64_t>(run.evaluations),
             static_cast<std::int64_t>(run.steps),
             std::int64_t{run.best_generation}};
-    for (const std::string& measure : measures) row.push_back(cell(ledger::measure(run, measure)));
+    for (const std::string& measure : measures) row.push_back(cell(report.data.value(run, measure)));
     for (const ledger::TestSpec& test : study.tests) {
-      const auto* result = run.find_test(test.name);
+      const auto* result = report.data.result(run, test.name);
       row.push_back(result ? Cell(result->engine) : Cell());
       row.push_back(result ? Cell(result->trial_s) : Cell());
       row.push_back(result ? Cell(result->gait) : Cell());
@@ -208,9 +208,11 @@ Table mutants_table(const Report& report) {
               {"test", "condition", "seed", "kept", "change"},
               {}};
   for (const ledger::Record& run : report.data.records)
-    for (const ledger::TestResult& test : run.tests)
+    for (const ledger::TestResult& test : run.tests) {
+      if (report.data.result(run, test.name) != &test) continue;
       for (const record::Mutant& mutant : test.mutants)
         table.rows.push_back({test.name, run.condition, run.seed, mutant.kept, mutant.change});
+    }
   return table;
 }
 

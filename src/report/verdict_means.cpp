@@ -135,8 +135,7 @@ void use_bootstrap(const std::optional<statistics::BootstrapInterval>& found, Ju
 Judgement judge_ratio_within(const StudyData& data, const ClaimSpec& claim) {
   std::vector<double> numerators, denominators;
   for (const ledger::Record* run : data.runs(claim.condition)) {
-    const auto above = ledger::measure(*run, claim.measure),
-               below = ledger::measure(*run, claim.base_measure);
+    const auto above = data.value(*run, claim.measure), below = data.value(*run, claim.base_measure);
     if (!above || !below) continue;
     numerators.push_back(*above);
     denominators.push_back(*below);
