@@ -2,6 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
+
+#include "amble/core/index.hpp"
+#include "amble/gait/gait.hpp"
+#include "amble/io/printable.hpp"
 #include "amble/ledger/measures.hpp"
 #include "amble/ledger/study_spec.hpp"
 
@@ -22,12 +28,18 @@ class ClaimCheck {
     throw study_.error_at(path, fmt::format("'{}': expected {}", path, expected));
   }
   void condition(std::string_view key, const std::string& name) const {
-    that(study_.find(name) != nullptr, key, fmt::format("the name of a condition, not \"{}\"", name));
+    that(study_.find(name) != nullptr, key,
+         fmt::format("the name of a condition, not \"{}\"", io::printable(name)));
   }
   void measure(std::string_view key, const std::string& name) const {
-    that(is_measure(study_, name), key,
-         fmt::format("train_m, hidden, links, or TEST.distance_m, .upright_s, .walking_s, .kept, not \"{}\"",
-                     name));
+    that(is_measure(study_, name), key, fmt::format("{}; not \"{}\"", measure_names(), io::printable(name)));
+  }
+  /// Names of regular gaits, "walk" for both walks among them: no others can occur.
+  void gaits(std::string_view key, const std::vector<std::string>& names) const {
+    const auto regular = std::span(gait::gait_names).first(to_index(gait::Gait::irregular));
+    for (const std::string& name : names)
+      that(std::ranges::find(regular, name) != regular.end(), key,
+           fmt::format("{}; not \"{}\"", fmt::join(regular, ", "), io::printable(name)));
   }
 
  private:
@@ -91,12 +103,16 @@ void check_claim(const StudySpec& study, std::size_t index) {
   const ClaimSpec& claim = study.claims[index];
   const ClaimCheck check(study, index);
   check.that(!claim.text.empty(), "text", "a sentence");
+  check.that(claim.at_least <= claim.at_most, "at_least",
+             fmt::format("at most 'at_most' = {}, not {}", claim.at_most, claim.at_least));
   check.condition("condition", claim.condition);
   if (claim.kind == ClaimKind::gaits) {
     check.that(study.find_test(claim.measure) != nullptr, "measure",
-               fmt::format("the name of a test, not \"{}\"", claim.measure));
+               fmt::format("the name of a test, not \"{}\"", io::printable(claim.measure)));
     check.that(!claim.includes.empty() || !claim.only.empty(), "includes",
                "names of gaits here or in 'only'");
+    check.gaits("includes", claim.includes);
+    check.gaits("only", claim.only);
     return;
   }
   check.measure("measure", claim.measure);

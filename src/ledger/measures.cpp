@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 
+#include "amble/core/index.hpp"
 #include "amble/ledger/study_spec.hpp"
 #include "amble/score/score.hpp"
 #include "amble/statistics/descriptive.hpp"
@@ -125,6 +126,19 @@ bool is_measure(const StudySpec& study, std::string_view name) {
   const TestSpec* const spec = study.find_test(test);
   const auto found = std::ranges::find(test_measures, what, &TestMeasure::name);
   return spec != nullptr && found != test_measures.end() && has(*spec, found->of);
+}
+
+std::string measure_names() {
+  std::string text;
+  for (const RunMeasure& row : run_measures) text += fmt::format("{}, ", row.name);
+  for (const MapMeasure& row : map_measures) text += fmt::format("{}, ", row.name);
+  std::array<std::string, 3> of_tests;
+  for (const TestMeasure& row : test_measures) {
+    std::string& names = of_tests.at(to_index(row.of));
+    names += fmt::format("{}.{}", names.empty() ? "" : ", ", row.name);
+  }
+  return fmt::format("{}TEST{}, with reach_m {}, with mutants {}", text, of_tests[0], of_tests[1],
+                     of_tests[2]);
 }
 
 std::vector<std::string> measures_of(const TestSpec& test) {

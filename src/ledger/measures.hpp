@@ -49,6 +49,9 @@ Objective objective_of(const Record& record);
 /// Whether a study's records have a measure of that name.
 bool is_measure(const StudySpec& study, std::string_view name);
 
+/// All names that is_measure() can know, for messages: "train_m, hidden, …, TEST.distance_m, .upright_s, …".
+std::string measure_names();
+
 /// Names of the measures that a test gives.
 std::vector<std::string> measures_of(const TestSpec& test);
 /// Those of them in which conditions are compared pair by pair: distance_m, viable_share, gait_change.

@@ -65,6 +65,27 @@ TEST_F(Claims, OfADifferenceTellsStudentsNumbers) {
   EXPECT_EQ(judged.ours, "4.20 m against 1.20 m; difference 3.00 m [2.77, 3.23]");
 }
 
+TEST_F(Claims, OfADifferenceHaveIntervalsAt95PercentWhateverTheirLevel) {
+  add_runs(data_, "a", {4.0, 4.1, 4.2, 4.3, 4.4});
+  add_runs(data_, "b", {1.0, 1.1, 1.2, 1.3, 1.4});
+  claim(ClaimKind::difference);
+  const auto usual = only().interval;
+  data_.study.claims[0].alpha = 0.001;
+  EXPECT_EQ(only().interval->lower, usual->lower);
+  EXPECT_EQ(only().interval->upper, usual->upper);
+}
+
+TEST_F(Claims, OfAValueHaveIntervalsAtTheirOwnLevel) {
+  add_runs(data_, "a", {4.0, 5.0, 6.0, 5.0});  // standard error 0.408
+  auto& value = claim(ClaimKind::value);
+  value.mean = 5.0;
+  value.sd = 1.0;
+  value.runs = 20;
+  EXPECT_NEAR(only().interval->upper, 5.0 + 3.182446 * 0.4082483, 1e-5);
+  data_.study.claims[0].alpha = 0.01;
+  EXPECT_NEAR(only().interval->upper, 5.0 + 5.840909 * 0.4082483, 1e-5);
+}
+
 TEST_F(Claims, TellWhatTheirEstimateIs) {
   add_runs(data_, "a", {4.0, 4.1, 4.2, 4.3, 4.4});
   add_runs(data_, "b", {1.0, 1.1, 1.2, 1.3, 1.4});
