@@ -27,6 +27,8 @@ Table runs_table(const Report& report) {
               {"condition", "seed", "engine", "generations", "evaluations", "steps", "best_generation"},
               {}};
   const auto measures = measures_of(report.data);
+  // Those of maps and tests follow the champion's distance and the sizes of its CPPN.
+  table.fixed_columns = table.header.size() + 3;
   table.header.insert(table.header.end(), measures.begin(), measures.end());
   for (const ledger::TestSpec& test : study.tests)
     for (const char* what : {"engine", "trial_s", "gait"}) table.header.push_back(test.name + "." + what);
