@@ -122,12 +122,13 @@ std::string pairs_section(const Report& report) {
   }
   return section(
       "pairs", "Every pair of conditions",
-      "Two-sided tests of all pairs in every distance and figure of a map: Student’s t (the paper’s), "
-      "Welch’s t, Mann–Whitney. "
-      "Below each p value is the one adjusted by Holm’s method; the family is all pairs of one measure "
-      "under one test. A12 is the probability that a run of the first condition beats one of the second. "
-      "The interval of a difference is Welch’s; IQM is the interquartile mean; BCa intervals, "
-      "from six runs on, come of 10 000 resamples with a fixed seed.",
+      fmt::format("Two-sided tests of all pairs in every {}distance and figure of a map: Student’s t (the "
+                  "paper’s), Welch’s t, Mann–Whitney. ",
+                  report.objective.is_distance ? "" : "score, ") +
+          "Below each p value is the one adjusted by Holm’s method; the family is all pairs of one measure "
+          "under one test. A12 is the probability that a run of the first condition beats one of the second. "
+          "The interval of a difference is Welch’s; IQM is the interquartile mean; BCa intervals, "
+          "from six runs on, come of 10 000 resamples with a fixed seed.",
       content);
 }
 

@@ -1,5 +1,7 @@
 #include "amble/report/tables.hpp"
 
+#include <fmt/format.h>
+
 #include "amble/core/index.hpp"
 #include "amble/ledger/measures.hpp"
 
@@ -69,7 +71,7 @@ Table bests_table(const Report& report) {
 
 Table curves_table(const Report& report) {
   Table table{"curves",
-              "quartiles over runs of the best distance so far",
+              fmt::format("quartiles over runs of the best {} so far", report.objective.name()),
               {"condition", "generation", "n", "lower_quartile_m", "median_m", "upper_quartile_m"},
               {}};
   for (const BestCurve& curve : report.curves)
