@@ -41,7 +41,7 @@ void draw_panel(Svg& svg, const Report& report, const BestCurve& curve, const Pa
     if (&other != &curve)
       svg.polyline(line(other, other.median_m, x, y, other.median_m.size() > 60 ? 3 : 1), "other");
 
-  const std::string median = number_text(curve.median_m.back()) + report.objective.unit;
+  const std::string median = number_text(curve.median_m.back()) + report.data.objective(curve.condition).unit;
   svg.begin_group("strip " + graphics::leg_class(report.index(curve.condition)),
                   fmt::format("{}: median {} after generation {}", report.label(curve.condition), median,
                               curve.generation.back()));

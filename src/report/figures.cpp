@@ -20,7 +20,7 @@ Strip make_strip(const Report& report, const SampleSummary& sample, std::string 
           .mean = sample.summary.mean,
           .interval = sample.summary.mean_interval,
           .text = estimate_text(sample.summary.mean, sample.summary.mean_interval,
-                                report.data.unit_of(sample.measure))};
+                                report.data.unit_of(sample.measure, sample.condition))};
 }
 
 }  // namespace
@@ -42,7 +42,8 @@ std::vector<StripRow> test_rows(const Report& report, const std::string& test) {
     const auto* trained = find_summary(report.summaries, "train_m", condition.name);
     if (tested == nullptr || trained == nullptr) continue;
     StripRow row{condition.label(), {}};
-    if (report.objective.is_distance) row.strips.push_back(make_strip(report, *trained, "evolution", "base"));
+    if (report.data.objective(condition.name).is_distance)
+      row.strips.push_back(make_strip(report, *trained, "evolution", "base"));
     row.strips.push_back(
         make_strip(report, *tested, "test", graphics::leg_class(report.index(condition.name))));
     rows.push_back(std::move(row));

@@ -131,11 +131,12 @@ std::string distance_section(const Report& report) {
     return rows_figure(training, report.objective.unit,
                        fmt::format("{} in evolution, all conditions", report.objective_title()), layout);
   });
-  const std::string grey =
-      report.objective.is_distance ? " Grey: the same champions’ distance in evolution." : "";
   for (const ledger::TestSpec& test : report.data.study.tests) {
     const auto rows = test_rows(report, test.name);
     if (rows.empty()) continue;
+    const bool compared =
+        std::ranges::any_of(rows, [](const StripRow& row) { return row.strips.size() > 1; });
+    const std::string grey = compared ? " Grey: the same champions’ distance in evolution." : "";
     content += test_part(report, test.name, "Distance",
                          paragraph(test_text(report, test) + "." + grey) + figure([&](Layout layout) {
                            return rows_figure(rows, " m", "Distance in test " + test.name, layout);

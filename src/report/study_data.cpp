@@ -130,9 +130,10 @@ std::vector<double> StudyData::values(std::string_view condition, std::string_vi
   return values;
 }
 
-ledger::Objective StudyData::objective() const {
+ledger::Objective StudyData::objective(std::string_view condition) const {
   ledger::Objective all;
   for (const ledger::Record& record : records) {
+    if (!condition.empty() && record.condition != condition) continue;
     const ledger::Objective one = ledger::objective_of(record);
     all.is_distance = all.is_distance && one.is_distance;
     if (one.unit.empty()) all.unit.clear();
@@ -140,8 +141,8 @@ ledger::Objective StudyData::objective() const {
   return all;
 }
 
-std::string StudyData::unit_of(std::string_view measure) const {
-  return measure == "train_m" ? objective().unit : report::unit_of(measure);
+std::string StudyData::unit_of(std::string_view measure, std::string_view condition) const {
+  return measure == "train_m" ? objective(condition).unit : report::unit_of(measure);
 }
 
 StudyData load_study_data(const std::filesystem::path& folder) {

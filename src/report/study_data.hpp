@@ -29,10 +29,10 @@ struct StudyData {
   std::optional<double> value(const ledger::Record& run, std::string_view measure) const;
   /// Of all finished runs that have the measure (ledger/measures.hpp), in the order of seeds.
   std::vector<double> values(std::string_view condition, std::string_view measure) const;
-  /// Of all finished runs: a distance, or in m, if that of every one is.
-  ledger::Objective objective() const;
-  /// " m", " s" or "" of a measure.
-  std::string unit_of(std::string_view measure) const;
+  /// Of the finished runs of a condition, or of all: a distance, or in m, if that of every one is.
+  ledger::Objective objective(std::string_view condition = {}) const;
+  /// " m", " s" or "" of a measure in a condition, or in all.
+  std::string unit_of(std::string_view measure, std::string_view condition = {}) const;
 };
 
 /// Reads DIR/study.toml and DIR/ledger. Throws UserError: no study, a damaged record.

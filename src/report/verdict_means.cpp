@@ -187,13 +187,14 @@ Judgement judge_difference(const StudyData& data, const ClaimSpec& claim) {
       use_mann_whitney(samples, claim.alpha, judgement);
       break;
   }
-  judgement.ours = judgement.mean && judgement.mean_against
-                       ? two_means_text(judgement, data.unit_of(claim.measure))
-                       : reached_text(samples);
+  const std::string of_first = data.unit_of(claim.measure, claim.condition);
+  const std::string unit = of_first == data.unit_of(claim.measure, claim.against) ? of_first : "";
+  judgement.ours =
+      judgement.mean && judgement.mean_against ? two_means_text(judgement, unit) : reached_text(samples);
   if (judgement.estimate)
-    judgement.ours += fmt::format(
-        "; {} {}", rank_test ? "A12" : "difference",
-        estimate_text(*judgement.estimate, judgement.interval, rank_test ? "" : data.unit_of(claim.measure)));
+    judgement.ours +=
+        fmt::format("; {} {}", rank_test ? "A12" : "difference",
+                    estimate_text(*judgement.estimate, judgement.interval, rank_test ? "" : unit));
   return judgement;
 }
 
@@ -241,9 +242,10 @@ Judgement judge_value(const StudyData& data, const ClaimSpec& claim) {
   const auto theirs = *statistics::mean_interval(published, 1.0 - claim.alpha);
   const bool inside = judgement.interval->contains(claim.mean);
   judgement.verdict = agreement_verdict(test.p, claim.alpha, inside);
-  judgement.ours =
-      fmt::format("{}, sd {}", estimate_text(moments.mean, judgement.interval, data.unit_of(claim.measure)),
-                  number_text(moments.sd));
+  judgement.ours = fmt::format(
+      "{}, sd {}",
+      estimate_text(moments.mean, judgement.interval, data.unit_of(claim.measure, claim.condition)),
+      number_text(moments.sd));
   judgement.reason =
       fmt::format("Published {} {}; the published mean lies {} our interval. {}", number_text(claim.mean),
                   interval_text(theirs, decimals_for({claim.mean, theirs.lower, theirs.upper})),

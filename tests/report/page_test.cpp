@@ -172,6 +172,17 @@ TEST(Page, OfAScoreThatIsNoDistanceClaimsNoMetres) {
     EXPECT_THAT(html, Not(HasSubstr(wrong)));
 }
 
+TEST(Page, OfConditionsWithSeveralScoresHasTheUnitOfEach) {
+  StudyData data = scored_study("speed_kept");
+  for (ledger::Record& run : data.records)
+    if (run.condition == "a") run.champion.erase("score");
+  const std::string html = page(data);
+  EXPECT_THAT(html, HasSubstr("a: median 5.00 m after generation 9"));
+  EXPECT_THAT(html, HasSubstr("b: median 2.00 after generation 9"));
+  EXPECT_THAT(html, HasSubstr("5.00 against 1.83; difference 3.17 ["));
+  EXPECT_THAT(html, HasSubstr("Grey: the same champions’ distance in evolution.")) << "of a";
+}
+
 TEST(Page, OfAScoreInMetresSaysThatItIsOne) {
   const std::string html = page(scored_study("heading"));
   EXPECT_THAT(html, HasSubstr("Score in evolution, m"));
