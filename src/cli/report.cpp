@@ -3,10 +3,13 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "amble/cli/commands.hpp"
+#include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/printable.hpp"
 #include "amble/report/csv.hpp"
 #include "amble/report/figures.hpp"
 #include "amble/report/json.hpp"
@@ -43,13 +46,62 @@ std::vector<Output> outputs(const report::Report& made, const ReportOptions& opt
   return files;
 }
 
-ExitCode make_report(const ReportOptions& options) {
-  const auto files = outputs(report::make_report(report::load_study_data(options.study)), options);
-  for (const Output& file : files) io::refuse_to_replace(file.path, file.beginning, file.what);
-  for (const Output& file : files) {
-    if (file.path.has_parent_path()) fs::create_directories(file.path.parent_path());
-    io::write_file(file.path, file.text);
+/// The path as it is written or, if it exists, as it is found through links.
+fs::path resolved(const fs::path& path) {
+  std::error_code error;
+  const fs::path found = fs::weakly_canonical(fs::absolute(path), error);
+  return error ? fs::absolute(path).lexically_normal() : found;
+}
+
+std::string printable(const fs::path& path) {
+  return io::printable(path.string());
+}
+
+/// Options that name a folder do, and those that name a file name none.
+void check_options(const ReportOptions& options) {
+  struct Named {
+    std::string_view option;
+    const std::optional<fs::path>& path;
+    bool is_folder;
+  };
+  const std::optional<fs::path> out = options.out;
+  for (const auto& [option, path, is_folder] :
+       {Named{"--out", out, false}, Named{"--csv", options.csv, true}, Named{"--json", options.json, false},
+        Named{"--figures", options.figures, true}}) {
+    if (!path) continue;
+    if (path->empty())
+      fail(ExitCode::bad_input, "{}: expected the name of a {}", option, is_folder ? "folder" : "file");
+    if (is_folder && fs::exists(*path) && !fs::is_directory(*path))
+      fail(ExitCode::bad_input, "{}: {} is a file: name a folder", option, printable(*path));
+    if (!is_folder && (fs::is_directory(*path) || !path->has_filename()))
+      fail(ExitCode::bad_input, "{}: {} is a folder: name a file", option, printable(*path));
   }
+}
+
+/// Makes the folders, after all files are found to be different ones that may be written there.
+void prepare(const std::vector<Output>& files) {
+  std::set<fs::path> paths;
+  for (const Output& file : files) {
+    if (!paths.insert(resolved(file.path)).second)
+      fail(ExitCode::bad_input, "{} would be written twice: name different files", printable(file.path));
+    if (fs::is_directory(file.path))
+      fail(ExitCode::bad_input, "{} is a folder: name another place", printable(file.path));
+    io::refuse_to_replace(file.path, file.beginning, file.what);
+  }
+  for (const Output& file : files) {
+    if (!file.path.has_parent_path()) continue;
+    std::error_code error;
+    fs::create_directories(file.path.parent_path(), error);
+    if (error)
+      fail(ExitCode::io, "cannot make folder {}: {}", printable(file.path.parent_path()), error.message());
+  }
+}
+
+ExitCode make_report(const ReportOptions& options) {
+  check_options(options);
+  const auto files = outputs(report::make_report(report::load_study_data(options.study)), options);
+  prepare(files);
+  for (const Output& file : files) io::write_file(file.path, file.text);
   fmt::print("{}\n", fs::absolute(options.out).lexically_normal().string());
   return ExitCode::ok;
 }

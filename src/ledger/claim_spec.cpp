@@ -2,11 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
+
+#include "amble/core/index.hpp"
+#include "amble/gait/gait.hpp"
+#include "amble/io/printable.hpp"
 #include "amble/ledger/measures.hpp"
 #include "amble/ledger/study_spec.hpp"
 
 namespace amble::ledger {
 namespace {
+
+/// Beyond it squares of a sample have no meaning left in a double.
+constexpr double largest_value = 1e12;
 
 /// Checks of one claim, each with the place of its key.
 class ClaimCheck {
@@ -19,12 +28,18 @@ class ClaimCheck {
     throw study_.error_at(path, fmt::format("'{}': expected {}", path, expected));
   }
   void condition(std::string_view key, const std::string& name) const {
-    that(study_.find(name) != nullptr, key, fmt::format("the name of a condition, not \"{}\"", name));
+    that(study_.find(name) != nullptr, key,
+         fmt::format("the name of a condition, not \"{}\"", io::printable(name)));
   }
   void measure(std::string_view key, const std::string& name) const {
-    that(is_measure(study_, name), key,
-         fmt::format("train_m, hidden, links, or TEST.distance_m, .upright_s, .walking_s, .kept, not \"{}\"",
-                     name));
+    that(is_measure(study_, name), key, fmt::format("{}; not \"{}\"", measure_names(), io::printable(name)));
+  }
+  /// Names of regular gaits, "walk" for both walks among them: no others can occur.
+  void gaits(std::string_view key, const std::vector<std::string>& names) const {
+    const auto regular = std::span(gait::gait_names).first(to_index(gait::Gait::irregular));
+    for (const std::string& name : names)
+      that(std::ranges::find(regular, name) != regular.end(), key,
+           fmt::format("{}; not \"{}\"", fmt::join(regular, ", "), io::printable(name)));
   }
 
  private:
@@ -67,13 +82,16 @@ void ClaimSpec::describe(io::SettingsVisitor& visitor) {
   visitor.choice("relation", relation, relation_names, {"difference: what the condition is to the other"});
   visitor.choice("test", test, two_sample_test_names, {"difference: the test that decides"});
   visitor.number("alpha", alpha, {1e-9, 0.5}, {"difference, value: level of significance"});
-  visitor.number("at_least", at_least, {}, {"ratio, count: lower bound; -inf: none"});
-  visitor.number("at_most", at_most, {}, {"ratio, count, plateau: upper bound; inf: none"});
-  visitor.number("threshold", threshold, {}, {"count: runs whose measure is at least this; -inf: not given"});
+  visitor.number("at_least", at_least, {-unbounded, largest_value},
+                 {"ratio, count: lower bound; -inf: none"});
+  visitor.number("at_most", at_most, {-largest_value, unbounded},
+                 {"ratio, count, plateau: upper bound; inf: none"});
+  visitor.number("threshold", threshold, {-unbounded, largest_value},
+                 {"count: runs whose measure is at least this; -inf: not given"});
   visitor.text("threshold_condition", threshold_condition,
                {"count: the threshold is the mean of the measure in this condition"});
-  visitor.number("mean", mean, {}, {"value: the published mean"});
-  visitor.number("sd", sd, {0.0, unbounded}, {"value: the published standard deviation"});
+  visitor.number("mean", mean, {-largest_value, largest_value}, {"value: the published mean"});
+  visitor.number("sd", sd, {0.0, largest_value}, {"value: the published standard deviation"});
   visitor.integer("runs", runs, {0, 1e9}, {"value, count: runs behind the published figure"});
   visitor.integer("successes", successes, {0, 1e9}, {"count: the published count"});
   visitor.texts("includes", includes, {"gaits: all of these must occur"});
@@ -85,12 +103,16 @@ void check_claim(const StudySpec& study, std::size_t index) {
   const ClaimSpec& claim = study.claims[index];
   const ClaimCheck check(study, index);
   check.that(!claim.text.empty(), "text", "a sentence");
+  check.that(claim.at_least <= claim.at_most, "at_least",
+             fmt::format("at most 'at_most' = {}, not {}", claim.at_most, claim.at_least));
   check.condition("condition", claim.condition);
   if (claim.kind == ClaimKind::gaits) {
     check.that(study.find_test(claim.measure) != nullptr, "measure",
-               fmt::format("the name of a test, not \"{}\"", claim.measure));
+               fmt::format("the name of a test, not \"{}\"", io::printable(claim.measure)));
     check.that(!claim.includes.empty() || !claim.only.empty(), "includes",
                "names of gaits here or in 'only'");
+    check.gaits("includes", claim.includes);
+    check.gaits("only", claim.only);
     return;
   }
   check.measure("measure", claim.measure);

@@ -6,7 +6,9 @@
 #include <array>
 #include <limits>
 
+#include "amble/core/index.hpp"
 #include "amble/ledger/study_spec.hpp"
+#include "amble/score/score.hpp"
 #include "amble/statistics/descriptive.hpp"
 
 namespace amble::ledger {
@@ -35,53 +37,57 @@ enum class Of { trials, reaching, mutants };
 
 struct TestMeasure {
   std::string_view name, label;
-  double (*value)(const Record&, const TestResult&);
+  std::optional<double> (*value)(const Record&, const TestResult&);
   Of of = Of::trials;
   bool is_compared = false;  ///< in all pairs of conditions
 };
 constexpr double never = std::numeric_limits<double>::infinity();
 
-double reached_s(const Record& record, const TestResult& test) {
+std::optional<double> kept(const Record& record, const TestResult& test) {
+  if (!objective_of(record).is_distance) return std::nullopt;
+  return record.best_m > 0.0 ? test.distance_m() / record.best_m : 0.0;
+}
+
+std::optional<double> reached_s(const Record& record, const TestResult& test) {
   const auto found = record.provenance.reached_s.find(test.name);
   return test.reached && found != record.provenance.reached_s.end() ? found->second : never;
 }
 
-double viable_share(const Record&, const TestResult& test) {
+std::optional<double> viable_share(const Record&, const TestResult& test) {
   return static_cast<double>(std::ranges::count_if(test.mutants, &record::Mutant::viable)) /
          static_cast<double>(test.mutants.size());
 }
-double mutants_kept(const Record&, const TestResult& test) {
+std::optional<double> mutants_kept(const Record&, const TestResult& test) {
   std::vector<double> kept;
   for (const record::Mutant& mutant : test.mutants) kept.push_back(mutant.kept);
   return statistics::median(kept);
 }
-double gait_change(const Record&, const TestResult& test) {
+std::optional<double> gait_change(const Record&, const TestResult& test) {
   double sum = 0.0, viable = 0.0;
   for (const record::Mutant& mutant : test.mutants)
     if (mutant.viable()) sum += mutant.change, ++viable;
   return viable > 0.0 ? sum / viable : 0.0;
 }
 
+using Found = std::optional<double>;
 constexpr std::array test_measures{
     TestMeasure{"distance_m", "distance, m",
-                [](const Record&, const TestResult& t) { return t.distance_m(); }, Of::trials, true},
+                [](const Record&, const TestResult& t) -> Found { return t.distance_m(); }, Of::trials, true},
     TestMeasure{"upright_s", "time upright, s",
-                [](const Record&, const TestResult& t) { return t.upright_s(); }},
+                [](const Record&, const TestResult& t) -> Found { return t.upright_s(); }},
     TestMeasure{"walking_s", "time walking, s",
-                [](const Record&, const TestResult& t) { return t.walking_s(); }},
+                [](const Record&, const TestResult& t) -> Found { return t.walking_s(); }},
     TestMeasure{"moving_s", "time in motion, s",
                 [](const Record&, const TestResult& t) { return t.moving_s(); }},
-    TestMeasure{"kept", "distance / distance in evolution",
-                [](const Record& r, const TestResult& t) {
-                  return r.best_m > 0.0 ? t.distance_m() / r.best_m : 0.0;
-                }},
+    TestMeasure{"kept", "distance / distance in evolution", kept},
     TestMeasure{"reached_s", "wall time until it was reached, s", reached_s, Of::reaching},
-    TestMeasure{
-        "reached_generation", "generation that reached it",
-        [](const Record&, const TestResult& t) { return t.reached ? 1.0 * t.reached->generation : never; },
-        Of::reaching},
+    TestMeasure{"reached_generation", "generation that reached it",
+                [](const Record&, const TestResult& t) -> Found {
+                  return t.reached ? 1.0 * t.reached->generation : never;
+                },
+                Of::reaching},
     TestMeasure{"reached_evaluations", "evaluations until it was reached",
-                [](const Record&, const TestResult& t) {
+                [](const Record&, const TestResult& t) -> Found {
                   return t.reached ? static_cast<double>(t.reached->evaluations) : never;
                 },
                 Of::reaching},
@@ -104,6 +110,14 @@ Parts split(std::string_view name) {
 
 }  // namespace
 
+Objective objective_of(const Record& record) {
+  const auto score = record.champion.find("score");
+  if (score == record.champion.end()) return {};
+  const std::string what = fmt::format("the record of {}, seed {}", record.condition, record.seed);
+  const auto settings = io::settings_from_json<score::Settings>(io::JsonView(*score, what, "champion.score"));
+  return {.is_distance = settings.is_distance(), .unit = score::with_unit("", settings)};
+}
+
 bool is_measure(const StudySpec& study, std::string_view name) {
   const auto [test, what] = split(name);
   if (test.empty())
@@ -112,6 +126,19 @@ bool is_measure(const StudySpec& study, std::string_view name) {
   const TestSpec* const spec = study.find_test(test);
   const auto found = std::ranges::find(test_measures, what, &TestMeasure::name);
   return spec != nullptr && found != test_measures.end() && has(*spec, found->of);
+}
+
+std::string measure_names() {
+  std::string text;
+  for (const RunMeasure& row : run_measures) text += fmt::format("{}, ", row.name);
+  for (const MapMeasure& row : map_measures) text += fmt::format("{}, ", row.name);
+  std::array<std::string, 3> of_tests;
+  for (const TestMeasure& row : test_measures) {
+    std::string& names = of_tests.at(to_index(row.of));
+    names += fmt::format("{}.{}", names.empty() ? "" : ", ", row.name);
+  }
+  return fmt::format("{}TEST{}, with reach_m {}, with mutants {}", text, of_tests[0], of_tests[1],
+                     of_tests[2]);
 }
 
 std::vector<std::string> measures_of(const TestSpec& test) {

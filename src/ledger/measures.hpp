@@ -12,16 +12,27 @@ namespace amble::ledger {
 struct StudySpec;
 struct TestSpec;
 
+/// What the champion of a run was chosen by: what train_m, its curve and `map_best` are.
+struct Objective {
+  bool is_distance = true;  ///< score::Settings::is_distance
+  std::string unit = " m";  ///< " m" if all terms of the score are lengths, else nothing
+
+  std::string_view name() const { return is_distance ? "distance" : "score"; }
+  friend bool operator==(const Objective&, const Objective&) = default;
+};
+/// By the champion in the record. Throws UserError if its score cannot be read.
+Objective objective_of(const Record& record);
+
 /// Numbers that figures, tests and claims take from a record, by name:
 ///
-/// train_m            distance of the champion in evolution, m
+/// train_m            objective of the champion in evolution: its distance, m, or its score
 /// hidden, links      hidden nodes and enabled links of its CPPN
 /// coverage, qd_score, map_best, entering_share    of runs that fill a map (Record::map_figures)
 /// TEST.distance_m    in the test of that name (median of its episodes), m
 /// TEST.upright_s     until the robot fell or the test ended, s
 /// TEST.walking_s     until it fell, stopped (score/walking.hpp) or the test ended, s
-/// TEST.moving_s      in motion, also after pauses (TestResult::moving_s), s
-/// TEST.kept          distance in the test / distance in evolution
+/// TEST.moving_s      in motion, also after pauses (TestResult::moving_s), s; of trials of 10 s or more
+/// TEST.kept          distance in the test / distance in evolution; none if the objective is another
 ///
 /// and of a test that looks for the first best that gets as far as `reach_m`; infinite if none does:
 ///
@@ -38,12 +49,15 @@ struct TestSpec;
 /// Whether a study's records have a measure of that name.
 bool is_measure(const StudySpec& study, std::string_view name);
 
+/// All names that is_measure() can know, for messages: "train_m, hidden, …, TEST.distance_m, .upright_s, …".
+std::string measure_names();
+
 /// Names of the measures that a test gives.
 std::vector<std::string> measures_of(const TestSpec& test);
 /// Those of them in which conditions are compared pair by pair: distance_m, viable_share, gait_change.
 std::vector<std::string> compared_measures_of(const TestSpec& test);
 
-/// Nothing if the record has no such test.
+/// Nothing if the record has no such test, or the test no such measure.
 std::optional<double> measure(const Record& record, std::string_view name);
 
 /// "distance in evolution, m"; for axes and tables.

@@ -197,7 +197,8 @@ double TestResult::walking_s() const {
   return median_of(episodes, &EpisodeResult::walking_s);
 }
 
-double TestResult::moving_s() const {
+std::optional<double> TestResult::moving_s() const {
+  if (trial_s < moving_window_s * (1.0 - 1e-9)) return std::nullopt;
   const auto samples = static_cast<std::int64_t>(path_m.size() / 2);
   if (samples == 0) return 0.0;
   const std::int64_t window = std::max<std::int64_t>(1, std::llround(moving_window_s / path_interval_s));

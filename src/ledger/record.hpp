@@ -51,7 +51,8 @@ struct TestResult {
   double walking_s() const;   ///< median
   /// Of the first episode, s: windows of 10 s (or of one sample of the path, if that is more) over which it
   /// gets farther than 25 cm, also after pauses; where one ends in each sample, the first counts whole.
-  double moving_s() const;
+  /// Nothing of trials that are shorter than 10 s, which have no window.
+  std::optional<double> moving_s() const;
   /// Whether the median episode neither fell nor diverged.
   bool upright() const { return upright_s() >= trial_s * (1.0 - 1e-9); }
 };

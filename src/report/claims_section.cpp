@@ -83,7 +83,7 @@ std::string claims_section(const Report& report) {
   }
   std::string lead =
       "Each claim is judged by the rule given with it in the study’s file (docs/STUDIES.md). Intervals "
-      "are at 95 % unless the claim has its own level.";
+      "are at 95 %, but those of a mean against a published one at 1 − alpha of the claim.";
   if (one_source && !claims[0].source.empty()) lead = fmt::format("From {}. ", claims[0].source) + lead;
   if (family > 1)
     lead += fmt::format(

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <span>
+
 namespace amble::report {
 namespace {
 
@@ -31,7 +33,8 @@ std::string to_csv(const Table& table) {
 }
 
 std::string csv_beginning(const Table& table) {
-  return fmt::format("{},{},", table.header[0], table.header[1]);
+  if (table.fixed_columns == 0) return fmt::format("{}\n", fmt::join(table.header, ","));
+  return fmt::format("{},", fmt::join(std::span(table.header).first(table.fixed_columns), ","));
 }
 
 }  // namespace amble::report

@@ -34,15 +34,16 @@ std::vector<Point> line(const BestCurve& curve, const std::vector<double>& value
 void draw_panel(Svg& svg, const Report& report, const BestCurve& curve, const PanelGrid& grid,
                 const Box& plot, const Scale& x, const Scale& y) {
   const bool is_small = plot.width < 200;
-  graphics::draw_y_axis(svg, y, graphics::nice_ticks(y.data, is_small ? 4 : 5), plot.x, plot.right(), " m");
+  graphics::draw_y_axis(svg, y, graphics::nice_ticks(y.data, is_small ? 4 : 5), plot.x, plot.right(),
+                        report.objective.unit);
   graphics::draw_x_axis(svg, x, graphics::nice_ticks(x.data, is_small ? 3 : 5, 1.0), plot.bottom(), "");
   for (const BestCurve& other : report.curves)
     if (&other != &curve)
       svg.polyline(line(other, other.median_m, x, y, other.median_m.size() > 60 ? 3 : 1), "other");
 
-  const std::string median = number_text(curve.median_m.back());
+  const std::string median = number_text(curve.median_m.back()) + report.data.objective(curve.condition).unit;
   svg.begin_group("strip " + graphics::leg_class(report.index(curve.condition)),
-                  fmt::format("{}: median {} m after generation {}", report.label(curve.condition), median,
+                  fmt::format("{}: median {} after generation {}", report.label(curve.condition), median,
                               curve.generation.back()));
   auto band = line(curve, curve.upper_quartile_m, x, y);
   auto below = line(curve, curve.lower_quartile_m, x, y);
@@ -51,7 +52,7 @@ void draw_panel(Svg& svg, const Report& report, const BestCurve& curve, const Pa
   svg.polygon(band, "band");
   svg.polyline(line(curve, curve.median_m, x, y), "curve");
   svg.end_group();
-  draw_panel_title(svg, grid, plot, report.label(curve.condition), median + " m", median_width_px);
+  draw_panel_title(svg, grid, plot, report.label(curve.condition), median, median_width_px);
 }
 
 }  // namespace
@@ -71,8 +72,8 @@ std::string curves_figure(const Report& report, Layout layout) {
   }
   const graphics::Interval generations{0.0, last}, distances{0.0, best > 0.0 ? 1.04 * best : 1.0};
   Svg svg(width_px(layout), grid.height_px(),
-          fmt::format("Best distance so far over {} generations, median and quartiles of {} conditions",
-                      static_cast<int>(last) + 1, curves.size()));
+          fmt::format("Best {} so far over {} generations, median and quartiles of {} conditions",
+                      report.objective.name(), static_cast<int>(last) + 1, curves.size()));
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const Box plot = grid.plot(i);
     draw_panel(svg, report, curves[i], grid, plot, Scale{generations, plot.x, plot.right()},

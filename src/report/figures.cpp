@@ -19,7 +19,8 @@ Strip make_strip(const Report& report, const SampleSummary& sample, std::string 
           .values = report.data.values(sample.condition, sample.measure),
           .mean = sample.summary.mean,
           .interval = sample.summary.mean_interval,
-          .text = estimate_text(sample.summary.mean, sample.summary.mean_interval, unit_of(sample.measure))};
+          .text = estimate_text(sample.summary.mean, sample.summary.mean_interval,
+                                report.data.unit_of(sample.measure, sample.condition))};
 }
 
 }  // namespace
@@ -40,10 +41,12 @@ std::vector<StripRow> test_rows(const Report& report, const std::string& test) {
     const auto* tested = find_summary(report.summaries, test + ".distance_m", condition.name);
     const auto* trained = find_summary(report.summaries, "train_m", condition.name);
     if (tested == nullptr || trained == nullptr) continue;
-    rows.push_back(
-        {condition.label(),
-         {make_strip(report, *trained, "evolution", "base"),
-          make_strip(report, *tested, "test", graphics::leg_class(report.index(condition.name)))}});
+    StripRow row{condition.label(), {}};
+    if (report.data.objective(condition.name).is_distance)
+      row.strips.push_back(make_strip(report, *trained, "evolution", "base"));
+    row.strips.push_back(
+        make_strip(report, *tested, "test", graphics::leg_class(report.index(condition.name))));
+    rows.push_back(std::move(row));
   }
   return rows;
 }
@@ -55,7 +58,8 @@ std::vector<FigureFile> figure_files(const Report& report) {
     files.push_back({name + ".svg", standalone_figure(std::move(element))});
   };
   if (report.data.records.empty()) return files;
-  add("distance", rows_figure(training_rows(report), " m", "Distance in evolution", Layout::wide));
+  add("distance", rows_figure(training_rows(report), report.objective.unit,
+                              fmt::format("{} in evolution", report.objective_title()), Layout::wide));
   for (const ledger::TestSpec& test : report.data.study.tests)
     if (const auto rows = test_rows(report, test.name); !rows.empty())
       add("distance-" + test.name, rows_figure(rows, " m", "Distance in test " + test.name, Layout::wide));

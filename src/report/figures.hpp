@@ -8,9 +8,10 @@
 
 namespace amble::report {
 
-/// Rows of figure 8 of Morse et al. 2013: distance in evolution, all conditions that have runs.
+/// Rows of figure 8 of Morse et al. 2013: distance (or score) in evolution, all conditions that have runs.
 std::vector<StripRow> training_rows(const Report& report);
-/// Rows of their figure 9: distance in a test below that in evolution, all conditions that have the test.
+/// Rows of their figure 9: distance in a test below that in evolution (of conditions in which that is a
+/// distance), all conditions that have the test.
 std::vector<StripRow> test_rows(const Report& report, const std::string& test);
 
 struct FigureFile {

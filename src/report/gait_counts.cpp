@@ -39,7 +39,7 @@ GaitCounts count_gaits(const StudyData& data, std::string_view test, std::string
   GaitCounts counts{.condition = std::string(condition), .n = 0, .runs = {}};
   std::map<std::string, std::size_t> runs;
   for (const ledger::Record* record : data.runs(condition))
-    if (const auto* result = record->find_test(test)) {
+    if (const auto* result = data.result(*record, test)) {
       ++counts.n;
       ++runs[result->gait.empty() ? std::string(nameless_gait) : result->gait];
     }

@@ -4,7 +4,7 @@
 
 namespace amble::report {
 
-/// Confidence of every interval in a report, unless a claim has a level of its own.
+/// Confidence of every interval in a report, but for claims of a value, which have theirs at 1 − alpha.
 inline constexpr double confidence = 0.95;
 
 /// Bootstrap intervals are given from so many runs on. Resamples cannot leave the range of a sample, and the

@@ -10,8 +10,14 @@ namespace {
 // Times are sums of steps; what ends this close to the end of a test lasted.
 constexpr double slack = 1e-9;
 
+/// Of the middle episode: of an even number the shorter of the two in the middle, because a mean of one that
+/// ended and one that lasted is the time of neither.
 statistics::Lifetime lifetime(const ledger::TestResult& result, Activity activity) {
-  const double time_s = activity == Activity::upright ? result.upright_s() : result.walking_s();
+  std::vector<double> times_s;
+  for (const ledger::EpisodeResult& episode : result.episodes)
+    times_s.push_back(activity == Activity::upright ? episode.seconds : episode.walking_s);
+  std::ranges::sort(times_s);
+  const double time_s = times_s.at((times_s.size() - 1) / 2);
   return {.time_s = time_s, .ended = time_s < result.trial_s * (1.0 - slack)};
 }
 
@@ -25,7 +31,7 @@ SurvivalTable survival_table(const StudyData& data, const ledger::TestSpec& test
   for (const ledger::ConditionSpec& condition : data.study.conditions) {
     ConditionLifetimes lasted{.condition = condition.name, .lifetimes = {}, .curve = {}};
     for (const ledger::Record* run : data.runs(condition.name))
-      if (const auto* result = run->find_test(test.name)) {
+      if (const auto* result = data.result(*run, test.name)) {
         lasted.lifetimes.push_back(lifetime(*result, activity));
         table.trial_s = std::max(table.trial_s, result->trial_s);
         table.is_long = table.is_long || result->trial_s > training_s(*run).value_or(0.0);

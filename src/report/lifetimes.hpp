@@ -36,8 +36,8 @@ struct SurvivalTable {
   std::optional<statistics::LogRank> log_rank;
 };
 
-/// Both activities in every test that any run has. With several episodes in a test, the median of a run's
-/// episodes is its lifetime.
+/// Both activities in every test that any run has. With several episodes in a test, a run's lifetime is that
+/// of its middle episode, of an even number the shorter one of the two.
 std::vector<SurvivalTable> survival_tables(const StudyData& data);
 
 }  // namespace amble::report

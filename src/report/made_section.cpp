@@ -39,9 +39,7 @@ std::string conditions_table(const Report& report) {
                      {"Settings’ hash", false}});
   for (const ledger::ConditionSpec& condition : report.data.study.conditions) {
     const auto runs = report.data.runs(condition.name);
-    std::string settings = condition.config.substr(condition.config.find_last_of('/') + 1);
-    if (const auto folder = condition.config.find("configs/"); folder != std::string::npos)
-      settings = condition.config.substr(folder);
+    std::string settings = config_text(condition.config);
     for (const std::string& setting : condition.settings) settings += ", " + setting;
     table.row({condition.label(), settings, ranges_text(report.data.study.seeds_of(condition)),
                fmt::format("{}", runs.size()),
@@ -73,7 +71,8 @@ std::string builds_table(const Report& report) {
     build.seconds += made.evolution_s + made.tests_s;
     if (build.first.empty() || made.finished_utc < build.first) build.first = made.finished_utc;
     build.last = std::max(build.last, made.finished_utc);
-    for (const auto& [test, commit] : made.added_by) ++added[{test, commit}];
+    for (const auto& [test, commit] : made.added_by)
+      if (report.data.result(record, test) != nullptr) ++added[{test, commit}];
   }
   TableWriter table({{"Build", false},
                      {"Compiler and flags", false},

@@ -88,7 +88,7 @@ std::vector<record::Mutant> mutants_of(const Report& report, std::string_view co
                                        std::string_view test) {
   std::vector<record::Mutant> all;
   for (const ledger::Record* run : report.data.runs(condition))
-    if (const auto* result = run->find_test(test))
+    if (const auto* result = report.data.result(*run, test))
       all.insert(all.end(), result->mutants.begin(), result->mutants.end());
   return all;
 }
@@ -96,8 +96,8 @@ std::vector<record::Mutant> mutants_of(const Report& report, std::string_view co
 }  // namespace
 
 bool has_mutants(const Report& report, std::string_view test) {
-  return std::ranges::any_of(report.data.records, [test](const ledger::Record& record) {
-    const auto* result = record.find_test(test);
+  return std::ranges::any_of(report.data.records, [&](const ledger::Record& record) {
+    const auto* result = report.data.result(record, test);
     return result && !result->mutants.empty();
   });
 }

@@ -100,45 +100,61 @@ std::string gait_table(const Report& report, const GaitTable& gaits) {
 
 }  // namespace
 
+std::string config_text(const std::string& path) {
+  const auto folder = path.find("configs/");
+  return path.substr(folder == std::string::npos ? path.find_last_of('/') + 1 : folder);
+}
+
 std::string test_text(const Report& report, const ledger::TestSpec& test) {
-  std::string text = time_text(test.seconds);
+  std::vector<std::string> engines;
   for (const ledger::Record& record : report.data.records)
-    if (const auto* result = record.find_test(test.name)) {
-      text += " in the engine " + result->engine;
-      break;
-    }
+    if (const auto* result = report.data.result(record, test.name);
+        result && std::ranges::find(engines, result->engine) == engines.end())
+      engines.push_back(result->engine);
+  std::string text = time_text(test.seconds);
+  if (!engines.empty())
+    text +=
+        fmt::format(" in the {} {}", engines.size() == 1 ? "engine" : "engines", fmt::join(engines, ", "));
+  if (!test.ground.empty()) text += ", on the ground of " + config_text(test.ground);
+  if (!test.damage.empty()) text += ", with the damage of " + config_text(test.damage);
+  const std::string episodes = counted(to_index(test.episodes), "episode");
   if (!test.noise.empty())
-    text += fmt::format(", {} under noise that evolution has not met (median)",
-                        counted(to_index(test.episodes), "episode"));
+    text += fmt::format(", {} under noise that evolution has not met (median)", episodes);
+  else if (test.episodes > 1)
+    text += fmt::format(", {} (median)", episodes);
   return text;
 }
 
 std::string distance_section(const Report& report) {
   const auto training = training_rows(report);
   std::string content = figure([&](Layout layout) {
-    return rows_figure(training, " m", "Distance in evolution, all conditions", layout);
+    return rows_figure(training, report.objective.unit,
+                       fmt::format("{} in evolution, all conditions", report.objective_title()), layout);
   });
   for (const ledger::TestSpec& test : report.data.study.tests) {
     const auto rows = test_rows(report, test.name);
     if (rows.empty()) continue;
-    content +=
-        test_part(report, test.name, "Distance",
-                  paragraph(test_text(report, test) + ". Grey: the same champions’ distance in evolution.") +
-                      figure([&](Layout layout) {
-                        return rows_figure(rows, " m", "Distance in test " + test.name, layout);
-                      }));
+    const bool compared =
+        std::ranges::any_of(rows, [](const StripRow& row) { return row.strips.size() > 1; });
+    const std::string grey = compared ? " Grey: the same champions’ distance in evolution." : "";
+    content += test_part(report, test.name, "Distance",
+                         paragraph(test_text(report, test) + "." + grey) + figure([&](Layout layout) {
+                           return rows_figure(rows, " m", "Distance in test " + test.name, layout);
+                         }));
   }
-  return section("distance", "How far they walked",
-                 "Distance of each run’s champion in its evolution. Bars are means with Student’s 95 % "
-                 "intervals, each point is a run.",
+  return section("distance", report.objective.is_distance ? "How far they walked" : "What they reached",
+                 fmt::format("{} of each run’s champion in its evolution. Bars are means with Student’s 95 % "
+                             "intervals, each point is a run.",
+                             report.objective_title()),
                  content);
 }
 
 std::string curves_section(const Report& report) {
   return section(
       "curves", "How they learned",
-      "Best distance so far over the generations: median and quartiles over the runs of a condition, in "
-      "grey the medians of the others.",
+      fmt::format("Best {} so far over the generations: median and quartiles over the runs of a condition, "
+                  "in grey the medians of the others.",
+                  report.objective.name()),
       figure([&](Layout layout) { return curves_figure(report, layout); }));
 }
 

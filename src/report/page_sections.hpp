@@ -18,7 +18,11 @@ std::string transfer_section(const Report& report);
 std::string pairs_section(const Report& report);
 std::string made_section(const Report& report);
 
-/// "test five-min: 300 s in ode, 10 episodes under noise".
+/// "configs/authors/supg.toml" of a path to it from elsewhere; of other files the name alone.
+std::string config_text(const std::string& path);
+
+/// "300 s in the engine ode, on the ground of rough.toml, 10 episodes (median)"; with all engines in which
+/// runs have the test.
 std::string test_text(const Report& report, const ledger::TestSpec& test);
 
 }  // namespace amble::report

@@ -102,6 +102,8 @@ std::string matrix(const Report& report, const PairTable& pairs) {
 
 std::string pairs_section(const Report& report) {
   const bool many = report.data.study.conditions.size() > most_listed;
+  const std::string evolution =
+      fmt::format("{} in evolution{}", report.objective_title(), report.objective.unit.empty() ? "" : ", m");
   std::string content;
   for (const std::string& measure : compared_measures_of(report.data)) {
     if (std::ranges::none_of(report.summaries, [&](const auto& sample) { return sample.measure == measure; }))
@@ -115,17 +117,18 @@ std::string pairs_section(const Report& report) {
               folded(fmt::format("All {} pairs", found->pairs.size()), pair_table(report, *found));
     else
       part += pair_table(report, *found);
-    content += folded(measure == "train_m" ? "Distance in evolution, m" : ledger::measure_label(measure),
-                      part, measure == "train_m");
+    content +=
+        folded(measure == "train_m" ? evolution : ledger::measure_label(measure), part, measure == "train_m");
   }
   return section(
       "pairs", "Every pair of conditions",
-      "Two-sided tests of all pairs in every distance and figure of a map: Student’s t (the paper’s), "
-      "Welch’s t, Mann–Whitney. "
-      "Below each p value is the one adjusted by Holm’s method; the family is all pairs of one measure "
-      "under one test. A12 is the probability that a run of the first condition beats one of the second. "
-      "The interval of a difference is Welch’s; IQM is the interquartile mean; BCa intervals, "
-      "from six runs on, come of 10 000 resamples with a fixed seed.",
+      fmt::format("Two-sided tests of all pairs in every {}distance and figure of a map: Student’s t (the "
+                  "paper’s), Welch’s t, Mann–Whitney. ",
+                  report.objective.is_distance ? "" : "score, ") +
+          "Below each p value is the one adjusted by Holm’s method; the family is all pairs of one measure "
+          "under one test. A12 is the probability that a run of the first condition beats one of the second. "
+          "The interval of a difference is Welch’s; IQM is the interquartile mean; BCa intervals, "
+          "from six runs on, come of 10 000 resamples with a fixed seed.",
       content);
 }
 

@@ -28,6 +28,7 @@ Report make_report(StudyData data) {
   report.data = std::move(data);
   report.digest = ledger::ledger_digest(report.data.study, report.data.records);
   report.remarks = remarks(report.data);
+  report.objective = report.data.objective();
   report.judgements = judge(report.data);
   report.summaries = summarize(report.data);
   report.curves = best_curves(report.data);

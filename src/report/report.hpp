@@ -19,6 +19,7 @@ struct Report {
   StudyData data;
   std::string digest;                ///< of the ledger (ledger::ledger_digest)
   std::vector<std::string> remarks;  ///< remarks() of the data
+  ledger::Objective objective;       ///< StudyData::objective()
   std::vector<Judgement> judgements;
   std::vector<SampleSummary> summaries;
   std::vector<BestCurve> curves;
@@ -28,6 +29,8 @@ struct Report {
   std::vector<PairTable> pairs;
 
   const std::string& label(std::string_view condition) const;
+  /// "Distance" or "Score": Objective::name() as titles have it.
+  std::string_view objective_title() const { return objective.is_distance ? "Distance" : "Score"; }
   std::string title() const;
   /// Index of a condition in the study, which decides its colour.
   int index(std::string_view condition) const;

@@ -8,8 +8,9 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
+#include "amble/io/printable.hpp"
 #include "amble/ledger/ledger.hpp"
-#include "amble/ledger/measures.hpp"
+#include "amble/report/number_text.hpp"
 
 namespace amble::report {
 namespace {
@@ -28,7 +29,7 @@ std::string missing_runs(const StudyData& data) {
 /// How many finished runs lack a test that the study has for them.
 std::size_t without_test(const StudyData& data, const ledger::TestSpec& test) {
   return to_index(std::ranges::count_if(data.records, [&](const ledger::Record& record) {
-    return test.applies_to(record.condition) && record.find_test(test.name) == nullptr;
+    return test.applies_to(record.condition) && data.result(record, test.name) == nullptr;
   }));
 }
 
@@ -36,6 +37,12 @@ std::size_t without_test(const StudyData& data, const ledger::TestSpec& test) {
 template <typename Function>
 bool differs(const std::vector<const ledger::Record*>& runs, Function&& value) {
   return std::ranges::any_of(runs, [&](const auto* run) { return value(*run) != value(*runs.front()); });
+}
+
+/// The settings of a champion's score; empty if that is the distance.
+std::string score_text(const ledger::Record& run) {
+  const auto score = run.champion.find("score");
+  return score == run.champion.end() ? std::string() : score->dump();
 }
 
 void remark_on_condition(const StudyData& data, const ledger::ConditionSpec& condition,
@@ -56,16 +63,32 @@ void remark_on_condition(const StudyData& data, const ledger::ConditionSpec& con
                                   condition.label(), runs.front()->generations, expected));
 }
 
+/// Conditions whose runs were not all tested by the same settings, which their hashes tell.
+void remark_on_settings(const StudyData& data, const ledger::TestSpec& test,
+                        std::vector<std::string>& remarks) {
+  for (const ledger::ConditionSpec& condition : data.study.conditions) {
+    std::set<std::string> settings;
+    for (const ledger::Record* run : data.runs(condition.name))
+      if (const auto* result = data.result(*run, test.name)) settings.insert(result->settings);
+    if (settings.size() > 1)
+      remarks.push_back(
+          fmt::format("Test {}: runs of {} were tested with different settings; they are no "
+                      "sample of one test.",
+                      test.name, condition.label()));
+  }
+}
+
 void remark_on_test(const StudyData& data, const ledger::TestSpec& test, std::vector<std::string>& remarks) {
   if (const std::size_t lacking = without_test(data, test); lacking > 0)
     remarks.push_back(fmt::format("Test {}: {} finished {} not have it yet.", test.name, lacking,
                                   lacking == 1 ? "run does" : "runs do"));
   for (const ledger::Record& record : data.records)
-    if (const auto* result = record.find_test(test.name); result && result->trial_s != test.seconds) {
+    if (const auto* result = data.result(record, test.name); result && result->trial_s != test.seconds) {
       remarks.push_back(fmt::format("Test {}: there are trials of {} s, the study asks for {} s.", test.name,
                                     result->trial_s, test.seconds));
-      return;
+      break;
     }
+  remark_on_settings(data, test, remarks);
 }
 
 }  // namespace
@@ -89,11 +112,37 @@ std::vector<const ledger::Record*> StudyData::runs(std::string_view condition) c
   return runs;
 }
 
+const ledger::TestResult* StudyData::result(const ledger::Record& run, std::string_view test) const {
+  const ledger::TestSpec* const spec = study.find_test(test);
+  return spec != nullptr && spec->applies_to(run.condition) ? run.find_test(test) : nullptr;
+}
+
+std::optional<double> StudyData::value(const ledger::Record& run, std::string_view measure) const {
+  const std::size_t dot = measure.find('.');
+  if (dot != std::string_view::npos && result(run, measure.substr(0, dot)) == nullptr) return std::nullopt;
+  return ledger::measure(run, measure);
+}
+
 std::vector<double> StudyData::values(std::string_view condition, std::string_view measure) const {
   std::vector<double> values;
   for (const ledger::Record* run : runs(condition))
-    if (const auto value = ledger::measure(*run, measure)) values.push_back(*value);
+    if (const auto one = value(*run, measure)) values.push_back(*one);
   return values;
+}
+
+ledger::Objective StudyData::objective(std::string_view condition) const {
+  ledger::Objective all;
+  for (const ledger::Record& record : records) {
+    if (!condition.empty() && record.condition != condition) continue;
+    const ledger::Objective one = ledger::objective_of(record);
+    all.is_distance = all.is_distance && one.is_distance;
+    if (one.unit.empty()) all.unit.clear();
+  }
+  return all;
+}
+
+std::string StudyData::unit_of(std::string_view measure, std::string_view condition) const {
+  return measure == "train_m" ? objective(condition).unit : report::unit_of(measure);
 }
 
 StudyData load_study_data(const std::filesystem::path& folder) {
@@ -102,7 +151,7 @@ StudyData load_study_data(const std::filesystem::path& folder) {
   const ledger::Ledger kept(paths);
   data.records = kept.load_all(data.study);
   for (const auto& unknown : kept.unknown_files(data.study))
-    data.unknown_files.push_back(unknown.filename().string());
+    data.unknown_files.push_back(io::printable(unknown.filename().string()));
   return data;
 }
 
@@ -151,8 +200,18 @@ std::vector<std::string> remarks(const StudyData& data) {
         fmt::format("The study is not finished: {} of {} runs are in ({}). Every number and "
                     "verdict on this page is of these runs and may change with the others.",
                     data.records.size(), data.planned(), missing));
+  if (const auto others = std::ranges::count_if(
+          data.records, [&](const ledger::Record& record) { return record.study != data.study.name; });
+      others > 0)
+    remarks.push_back(fmt::format("{} of {} records are of a study of another name than {}.", others,
+                                  data.records.size(), io::printable(data.study.name)));
   for (const ledger::ConditionSpec& condition : data.study.conditions)
     remark_on_condition(data, condition, remarks);
+  if (std::ranges::any_of(data.records, [&](const ledger::Record& run) {
+        return score_text(run) != score_text(data.records.front());
+      }))
+    remarks.push_back(
+        "Conditions were evolved by different scores; what they got in evolution cannot be compared.");
   for (const ledger::TestSpec& test : data.study.tests) remark_on_test(data, test, remarks);
   const std::string claims = data.study.claims_hash();
   const auto older = std::ranges::count_if(

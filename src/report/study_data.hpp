@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "amble/ledger/measures.hpp"
 #include "amble/ledger/record.hpp"
 #include "amble/ledger/study_spec.hpp"
 
@@ -16,13 +17,22 @@ namespace amble::report {
 struct StudyData {
   ledger::StudySpec study;
   std::vector<ledger::Record> records;     ///< by condition and seed in the order of the study
-  std::vector<std::string> unknown_files;  ///< in the ledger, of no run of the study; names
+  std::vector<std::string> unknown_files;  ///< in the ledger, of no run of the study; names, printable
 
   std::size_t planned() const;                            ///< runs of all conditions
   std::size_t planned(std::string_view condition) const;  ///< a condition of the study
   std::vector<const ledger::Record*> runs(std::string_view condition) const;
+  /// The run's result of a test that the study has for its condition; nothing of other tests, which a study
+  /// may have had before, and of those that the run lacks. Everything in a report comes by this and value().
+  const ledger::TestResult* result(const ledger::Record& run, std::string_view test) const;
+  /// A measure (ledger/measures.hpp) of the run, or of such a result.
+  std::optional<double> value(const ledger::Record& run, std::string_view measure) const;
   /// Of all finished runs that have the measure (ledger/measures.hpp), in the order of seeds.
   std::vector<double> values(std::string_view condition, std::string_view measure) const;
+  /// Of the finished runs of a condition, or of all: a distance, or in m, if that of every one is.
+  ledger::Objective objective(std::string_view condition = {}) const;
+  /// " m", " s" or "" of a measure in a condition, or in all.
+  std::string unit_of(std::string_view measure, std::string_view condition = {}) const;
 };
 
 /// Reads DIR/study.toml and DIR/ledger. Throws UserError: no study, a damaged record.
@@ -39,8 +49,8 @@ std::vector<std::string> compared_measures_of(const StudyData& data);
 std::optional<double> training_s(const ledger::Record& record);
 
 /// What a reader must know before the numbers: runs that are missing or lack tests, a condition whose records
-/// differ in config, engine or generations, tests of another length than in the study, unknown files. Empty
-/// if there is nothing to remark.
+/// differ in config, engine or generations, scores that differ, tests of another length than in the study or
+/// of several settings, records of other studies, unknown files. Empty if there is nothing to remark.
 std::vector<std::string> remarks(const StudyData& data);
 
 }  // namespace amble::report

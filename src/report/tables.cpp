@@ -1,5 +1,7 @@
 #include "amble/report/tables.hpp"
 
+#include <fmt/format.h>
+
 #include "amble/core/index.hpp"
 #include "amble/ledger/measures.hpp"
 
@@ -27,6 +29,8 @@ Table runs_table(const Report& report) {
               {"condition", "seed", "engine", "generations", "evaluations", "steps", "best_generation"},
               {}};
   const auto measures = measures_of(report.data);
+  // Those of maps and tests follow the champion's distance and the sizes of its CPPN.
+  table.fixed_columns = table.header.size() + 3;
   table.header.insert(table.header.end(), measures.begin(), measures.end());
   for (const ledger::TestSpec& test : study.tests)
     for (const char* what : {"engine", "trial_s", "gait"}) table.header.push_back(test.name + "." + what);
@@ -40,9 +44,9 @@ Table runs_table(const Report& report) {
             static_cast<std::int64_t>(run.evaluations),
             static_cast<std::int64_t>(run.steps),
             std::int64_t{run.best_generation}};
-    for (const std::string& measure : measures) row.push_back(cell(ledger::measure(run, measure)));
+    for (const std::string& measure : measures) row.push_back(cell(report.data.value(run, measure)));
     for (const ledger::TestSpec& test : study.tests) {
-      const auto* result = run.find_test(test.name);
+      const auto* result = report.data.result(run, test.name);
       row.push_back(result ? Cell(result->engine) : Cell());
       row.push_back(result ? Cell(result->trial_s) : Cell());
       row.push_back(result ? Cell(result->gait) : Cell());
@@ -67,7 +71,7 @@ Table bests_table(const Report& report) {
 
 Table curves_table(const Report& report) {
   Table table{"curves",
-              "quartiles over runs of the best distance so far",
+              fmt::format("quartiles over runs of the best {} so far", report.objective.name()),
               {"condition", "generation", "n", "lower_quartile_m", "median_m", "upper_quartile_m"},
               {}};
   for (const BestCurve& curve : report.curves)
@@ -208,9 +212,11 @@ Table mutants_table(const Report& report) {
               {"test", "condition", "seed", "kept", "change"},
               {}};
   for (const ledger::Record& run : report.data.records)
-    for (const ledger::TestResult& test : run.tests)
+    for (const ledger::TestResult& test : run.tests) {
+      if (report.data.result(run, test.name) != &test) continue;
       for (const record::Mutant& mutant : test.mutants)
         table.rows.push_back({test.name, run.condition, run.seed, mutant.kept, mutant.change});
+    }
   return table;
 }
 

@@ -19,6 +19,7 @@ struct Table {
   std::string about;                ///< what a row is
   std::vector<std::string> header;  ///< the same in every report, but for the tests of "runs"
   std::vector<std::vector<Cell>> rows;
+  std::size_t fixed_columns = 0;  ///< the first ones, which every report has; 0: all
 };
 
 /// All numbers of a report, and those of the runs from which they can be computed again: runs, bests, curves,

@@ -10,16 +10,18 @@ namespace {
 /// The measure with which a foreign engine's distance is compared.
 std::string reference_measure(const StudyData& data, const ledger::TestSpec& test,
                               const ledger::Record& run) {
-  const auto* result = run.find_test(test.name);
+  const auto* result = data.result(run, test.name);
   for (const ledger::TestSpec& other : data.study.tests) {
-    const auto* at_home = run.find_test(other.name);
+    const auto* at_home = data.result(run, other.name);
     if (at_home && at_home->engine == run.engine && at_home->trial_s == result->trial_s &&
         other.noise == test.noise && other.ground == test.ground && other.damage == test.damage &&
         other.episodes == test.episodes)
       return other.name + ".distance_m";
   }
   const bool as_in_evolution = test.noise.empty() && test.ground.empty() && test.damage.empty();
-  return as_in_evolution && training_s(run) == result->trial_s ? "train_m" : "";
+  return as_in_evolution && training_s(run) == result->trial_s && ledger::objective_of(run).is_distance
+             ? "train_m"
+             : "";
 }
 
 std::optional<Transfer> transfer(const StudyData& data, const ledger::TestSpec& test,
@@ -29,7 +31,7 @@ std::optional<Transfer> transfer(const StudyData& data, const ledger::TestSpec& 
   found.condition = condition;
   std::vector<double> distances, shares;
   for (const ledger::Record* run : data.runs(condition)) {
-    const auto* result = run->find_test(test.name);
+    const auto* result = data.result(*run, test.name);
     if (result == nullptr || result->engine == run->engine) continue;
     found.home = run->engine;
     found.engine = result->engine;

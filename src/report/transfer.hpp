@@ -15,7 +15,7 @@ struct Transfer {
   std::string home, engine;  ///< where they evolved, and where they were tried
   double trial_s = 0.0;
   /// The measure that the distance is compared with: a test of the same length in the home engine, or train_m
-  /// if the test is as long as the trials of evolution. Empty if there is neither.
+  /// if that is a distance and the test as long as the trials of evolution. Empty if there is neither.
   std::string reference;
   std::size_t n = 0;  ///< runs with the test
   double median_m = 0.0;

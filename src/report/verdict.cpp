@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "amble/core/index.hpp"
+#include "amble/report/number_text.hpp"
 #include "amble/report/verdict_kinds.hpp"
 #include "amble/statistics/multiple_tests.hpp"
 
@@ -41,6 +45,15 @@ std::string too_few(const StudyData& data, const std::string& condition, std::si
   const std::string& label = data.study.find(condition)->label();
   if (n == 0) return fmt::format("No finished run of {} has what is measured.", label);
   return fmt::format("Too few runs: {} has {}, {} are needed.", label, n, needed);
+}
+
+std::string without_mean(const StudyData& data, const std::string& condition,
+                         const std::vector<double>& values) {
+  const auto never =
+      to_index(std::ranges::count_if(values, [](double value) { return !std::isfinite(value); }));
+  if (never == 0) return {};
+  return fmt::format("{} of {} of {} never reached it: there is no mean.", never,
+                     counted(values.size(), "run"), data.study.find(condition)->label());
 }
 
 std::vector<Judgement> judge(const StudyData& data) {

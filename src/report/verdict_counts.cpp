@@ -59,6 +59,7 @@ std::optional<double> threshold_of(const StudyData& data, const ClaimSpec& claim
   if (claim.threshold_condition.empty()) return claim.threshold;
   const auto others = data.values(claim.threshold_condition, claim.measure);
   reason = too_few(data, claim.threshold_condition, others.size(), 2);
+  if (reason.empty()) reason = without_mean(data, claim.threshold_condition, others);
   if (!reason.empty()) return std::nullopt;
   return statistics::mean(others);
 }
@@ -96,7 +97,8 @@ Judgement judge_count(const StudyData& data, const ClaimSpec& claim) {
   judgement.ours = fmt::format("{} of {}, {}", successes, sample.size(),
                                share_text(*judgement.estimate, judgement.interval));
   if (!claim.threshold_condition.empty())
-    judgement.ours += fmt::format("; threshold {}{}", number_text(*threshold), unit_of(claim.measure));
+    judgement.ours += fmt::format("; threshold {}{}", number_text(*threshold),
+                                  data.unit_of(claim.measure, claim.threshold_condition));
   if (claim.runs > 0 && judgement.n < 2)
     judgement.reason = too_few(data, claim.condition, judgement.n, 2);
   else if (claim.runs > 0)

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "amble/core/index.hpp"
 #include "amble/graphics/svg.hpp"
@@ -23,14 +24,32 @@ struct TwoSamples {
   std::vector<double> first, second;
 };
 
-/// Sample sizes and means; says so if there are too few runs.
+bool is_finite(const std::vector<double>& values) {
+  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+}
+
+std::optional<double> mean_of(const std::vector<double>& values) {
+  return values.empty() || !is_finite(values) ? std::nullopt : std::optional(statistics::mean(values));
+}
+
+/// Says so if one of them has no mean.
+bool have_means(const StudyData& data, const ClaimSpec& claim, const TwoSamples& samples,
+                Judgement& judgement) {
+  judgement.reason = without_mean(data, claim.condition, samples.first);
+  const std::string against = without_mean(data, claim.against, samples.second);
+  if (!judgement.reason.empty() && !against.empty()) judgement.reason += " ";
+  judgement.reason += against;
+  return judgement.reason.empty();
+}
+
+/// Sample sizes, and the means of samples that have one; says so if there are too few runs.
 bool begin_two(const StudyData& data, const ClaimSpec& claim, const TwoSamples& samples, std::size_t fewest,
                Judgement& judgement) {
   judgement = begin_judgement(data, claim, samples.first.size());
   judgement.n_against = samples.second.size();
   judgement.planned_against = data.planned(claim.against);
-  if (!samples.first.empty()) judgement.mean = statistics::mean(samples.first);
-  if (!samples.second.empty()) judgement.mean_against = statistics::mean(samples.second);
+  judgement.mean = mean_of(samples.first);
+  judgement.mean_against = mean_of(samples.second);
   judgement.reason = too_few(data, claim.condition, judgement.n, fewest);
   if (judgement.reason.empty()) judgement.reason = too_few(data, claim.against, judgement.n_against, fewest);
   return judgement.reason.empty();
@@ -60,6 +79,15 @@ void use_mann_whitney(const TwoSamples& samples, double alpha, Judgement& judgem
   judgement.quantity = "A12";
   judgement.estimate = superiority->a12;
   judgement.interval = superiority->interval;
+}
+
+/// "18 of 20 runs reached it against 20 of 20".
+std::string reached_text(const TwoSamples& samples) {
+  const auto reached = [](const std::vector<double>& values) {
+    return std::ranges::count_if(values, [](double value) { return std::isfinite(value); });
+  };
+  return fmt::format("{} of {} reached it against {} of {}", reached(samples.first),
+                     counted(samples.first.size(), "run"), reached(samples.second), samples.second.size());
 }
 
 std::string two_means_text(const Judgement& judgement, std::string_view unit) {
@@ -107,8 +135,7 @@ void use_bootstrap(const std::optional<statistics::BootstrapInterval>& found, Ju
 Judgement judge_ratio_within(const StudyData& data, const ClaimSpec& claim) {
   std::vector<double> numerators, denominators;
   for (const ledger::Record* run : data.runs(claim.condition)) {
-    const auto above = ledger::measure(*run, claim.measure),
-               below = ledger::measure(*run, claim.base_measure);
+    const auto above = data.value(*run, claim.measure), below = data.value(*run, claim.base_measure);
     if (!above || !below) continue;
     numerators.push_back(*above);
     denominators.push_back(*below);
@@ -117,8 +144,11 @@ Judgement judge_ratio_within(const StudyData& data, const ClaimSpec& claim) {
   judgement.quantity = "ratio of sums";
   judgement.reason = too_few(data, claim.condition, judgement.n, fewest_resampled);
   if (!judgement.reason.empty()) return judgement;
-  judgement.mean = statistics::mean(numerators);
-  judgement.mean_against = statistics::mean(denominators);
+  judgement.mean = mean_of(numerators);
+  judgement.mean_against = mean_of(denominators);
+  for (const auto* values : {&numerators, &denominators})
+    if (judgement.reason.empty()) judgement.reason = without_mean(data, claim.condition, *values);
+  if (!judgement.reason.empty()) return judgement;
   use_bootstrap(statistics::bootstrap_paired_ratio(numerators, denominators), judgement);
   return judgement;
 }
@@ -129,7 +159,7 @@ Judgement judge_ratio_between(const StudyData& data, const ClaimSpec& claim) {
   Judgement judgement;
   const bool enough = begin_two(data, claim, samples, fewest_resampled, judgement);
   judgement.quantity = "ratio of means";
-  if (enough)
+  if (enough && have_means(data, claim, samples, judgement))
     use_bootstrap(statistics::bootstrap_ratio(samples.first, samples.second, statistics::mean), judgement);
   return judgement;
 }
@@ -141,6 +171,8 @@ Judgement judge_difference(const StudyData& data, const ClaimSpec& claim) {
                            data.values(claim.against, claim.measure)};
   Judgement judgement;
   if (!begin_two(data, claim, samples, 2, judgement)) return judgement;
+  const bool rank_test = claim.test == TwoSampleTest::mann_whitney;
+  if (!rank_test && !have_means(data, claim, samples, judgement)) return judgement;
   switch (claim.test) {
     case TwoSampleTest::student:
       judgement.test = "Student’s t";
@@ -155,12 +187,14 @@ Judgement judge_difference(const StudyData& data, const ClaimSpec& claim) {
       use_mann_whitney(samples, claim.alpha, judgement);
       break;
   }
-  const bool rank_test = claim.test == TwoSampleTest::mann_whitney;
-  judgement.ours = two_means_text(judgement, unit_of(claim.measure));
+  const std::string of_first = data.unit_of(claim.measure, claim.condition);
+  const std::string unit = of_first == data.unit_of(claim.measure, claim.against) ? of_first : "";
+  judgement.ours =
+      judgement.mean && judgement.mean_against ? two_means_text(judgement, unit) : reached_text(samples);
   if (judgement.estimate)
-    judgement.ours += fmt::format(
-        "; {} {}", rank_test ? "A12" : "difference",
-        estimate_text(*judgement.estimate, judgement.interval, rank_test ? "" : unit_of(claim.measure)));
+    judgement.ours +=
+        fmt::format("; {} {}", rank_test ? "A12" : "difference",
+                    estimate_text(*judgement.estimate, judgement.interval, rank_test ? "" : unit));
   return judgement;
 }
 
@@ -196,6 +230,7 @@ Judgement judge_value(const StudyData& data, const ClaimSpec& claim) {
   Judgement judgement = begin_judgement(data, claim, sample.size());
   judgement.quantity = "mean";
   judgement.reason = too_few(data, claim.condition, judgement.n, 2);
+  if (judgement.reason.empty()) judgement.reason = without_mean(data, claim.condition, sample);
   if (!judgement.reason.empty()) return judgement;
   const auto moments = *statistics::moments(sample);
   const statistics::Moments published{to_index(claim.runs), claim.mean, claim.sd};
@@ -207,9 +242,10 @@ Judgement judge_value(const StudyData& data, const ClaimSpec& claim) {
   const auto theirs = *statistics::mean_interval(published, 1.0 - claim.alpha);
   const bool inside = judgement.interval->contains(claim.mean);
   judgement.verdict = agreement_verdict(test.p, claim.alpha, inside);
-  judgement.ours =
-      fmt::format("{}, sd {}", estimate_text(moments.mean, judgement.interval, unit_of(claim.measure)),
-                  number_text(moments.sd));
+  judgement.ours = fmt::format(
+      "{}, sd {}",
+      estimate_text(moments.mean, judgement.interval, data.unit_of(claim.measure, claim.condition)),
+      number_text(moments.sd));
   judgement.reason =
       fmt::format("Published {} {}; the published mean lies {} our interval. {}", number_text(claim.mean),
                   interval_text(theirs, decimals_for({claim.mean, theirs.lower, theirs.upper})),

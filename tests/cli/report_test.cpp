@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 
@@ -98,9 +99,60 @@ TEST_F(ReportCommand, ReplacesNoFilesOfOtherKinds) {
   EXPECT_THAT(refused.err, HasSubstr("runs.csv exists and is not a table of a report"));
   EXPECT_FALSE(fs::exists(*shared_ / "mine/page.html")) << "nothing is written by halves";
   EXPECT_FALSE(fs::exists(*shared_ / "mine/claims.csv"));
+  for (const char* mine :
+       {"condition,seed,color\na,1,red\n", "condition,seed,engine,generations\na,1,mine,2\n"}) {
+    spill(*shared_ / "mine/runs.csv", mine);
+    EXPECT_EQ(report("s", "mine/page.html", {"--csv", *shared_ / "mine"}).exit_code, 2);
+    EXPECT_EQ(slurp(*shared_ / "mine/runs.csv"), mine);
+  }
   const std::string record = slurp(*shared_ / "s/ledger/supg-001.json");
   EXPECT_EQ(report("s", "page.html", {"--json", *shared_ / "s/ledger/supg-001.json"}).exit_code, 2);
   EXPECT_EQ(slurp(*shared_ / "s/ledger/supg-001.json"), record);
+}
+
+TEST_F(ReportCommand, ReplacesItsTablesOfAStudyWithOtherTests) {
+  fs::create_directories(*shared_ / "tested");
+  std::string study = slurp(*shared_ / "s/study.toml");
+  const std::string name = "name = \"longer\"";
+  study.replace(study.find(name), name.size(), "name = \"other\"");
+  spill(*shared_ / "tested/study.toml", study);
+  ASSERT_EQ(report("s", "replaced.html", {"--csv", *shared_ / "replaced"}).exit_code, 0);
+  const std::string before = slurp(*shared_ / "replaced/runs.csv");
+  const auto again = report("tested", "replaced.html", {"--csv", *shared_ / "replaced"});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_NE(slurp(*shared_ / "replaced/runs.csv"), before);
+}
+
+TEST_F(ReportCommand, ChecksAllItsOutputsBeforeItWritesAny) {
+  fs::create_directories(*shared_ / "folder");
+  fs::create_directories(*shared_ / "taken/runs.csv");
+  spill(*shared_ / "file", "");
+  struct Case {
+    std::string out;
+    std::vector<std::string> more;
+    std::string message;
+  };
+  const std::vector<Case> cases{
+      {"none.html", {"--json", *shared_ / "none.html"}, "none.html would be written twice"},
+      {"none.html", {"--json", *shared_ / "folder/../none.html"}, "would be written twice"},
+      {"none/runs.csv", {"--csv", *shared_ / "none"}, "runs.csv would be written twice"},
+      {"none.html", {"--csv", *shared_ / "file"}, "file is a file: name a folder"},
+      {"none.html", {"--figures", *shared_ / "file"}, "file is a file: name a folder"},
+      {"none.html", {"--csv", *shared_ / "taken"}, "runs.csv is a folder"},
+      {"none.html", {"--json", *shared_ / "folder"}, "folder is a folder: name a file"},
+      {"none.html", {"--csv", ""}, "--csv: expected the name of a folder"},
+      {"none.html", {"--figures", ""}, "--figures: expected the name of a folder"},
+      {"none.html", {"--json", ""}, "--json: expected the name of a file"},
+      {"none.html", {"--json", *shared_ / "file/below.json"}, "cannot make folder"},
+      {"folder", {}, "folder is a folder: name a file"}};
+  for (const auto& [out, more, message] : cases) {
+    const auto refused = report("s", out, more);
+    EXPECT_NE(refused.exit_code, 0) << message;
+    EXPECT_THAT(refused.err, HasSubstr(message));
+    EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
+    EXPECT_FALSE(fs::exists(*shared_ / "none.html")) << message;
+    EXPECT_FALSE(fs::exists(*shared_ / "none")) << message;
+  }
 }
 
 TEST_F(ReportCommand, SaysWhatIsWrongWithAStudy) {

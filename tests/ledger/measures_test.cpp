@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "amble/core/error.hpp"
 #include "amble/ledger/study_spec.hpp"
+#include "amble/score/score.hpp"
 #include "tests/ledger/samples.hpp"
 
 namespace amble::ledger {
@@ -51,6 +53,17 @@ TEST(Measures, TimeInMotionLeavesPausesOutAndCountsWhatFollowsThem) {
   EXPECT_EQ(measure(record, "walk.moving_s"), 12.0);
 }
 
+TEST(Measures, TimeInMotionIsNothingOfTrialsThatAreShorterThanItsWindow) {
+  Record record = sample_record();
+  record.tests.push_back(path_test(0.5, std::vector<double>(20, 0.1)));
+  TestResult& test = record.tests.back();
+  test.trial_s = 9.99;
+  EXPECT_EQ(measure(record, "walk.moving_s"), std::nullopt);
+  EXPECT_EQ(measure(record, "walk.walking_s"), 250.0);
+  test.trial_s = 10.0;
+  EXPECT_EQ(measure(record, "walk.moving_s"), 10.0);
+}
+
 TEST(Measures, OfATestThatWasNotMadeIsNothing) {
   EXPECT_EQ(measure(sample_record(), "ten.distance_m"), std::nullopt);
   EXPECT_EQ(measure(sample_record(), "five.height_m"), std::nullopt);
@@ -61,6 +74,33 @@ TEST(Measures, ShareKeptOfNoDistanceIsZero) {
   Record record = sample_record();
   record.best_m = 0.0;
   EXPECT_EQ(measure(record, "five.kept"), 0.0);
+}
+
+TEST(Measures, ShareKeptIsNothingWhereTheObjectiveIsNoDistance) {
+  Record record = sample_record();
+  EXPECT_EQ(objective_of(record), Objective());
+  score::Settings score;
+  score.terms[0].weight = 2.0;
+  record.champion["score"] = io::settings_to_json(score);
+  EXPECT_EQ(objective_of(record), (Objective{.is_distance = false, .unit = " m"}));
+  EXPECT_EQ(measure(record, "five.kept"), std::nullopt);
+  EXPECT_EQ(measure(record, "five.distance_m"), 12.5);
+  score.terms.push_back({.quantity = "economy"});
+  record.champion["score"] = io::settings_to_json(score);
+  EXPECT_EQ(objective_of(record), (Objective{.is_distance = false, .unit = ""}));
+}
+
+TEST(Measures, OfAnUnreadableScoreNameTheRecord) {
+  Record record = sample_record();
+  record.champion["score"] = {{"terms", 3}};
+  try {
+    measure(record, "five.kept");
+    ADD_FAILURE();
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("the record of supg, seed 7: key 'champion.score.terms'"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(Measures, OfMutantsAreTakenFromThoseOfTheTest) {

@@ -94,6 +94,11 @@ TEST(StudySpec, NamesHaveUpTo64Characters) {
   EXPECT_NE(named(65).find(refusal), std::string::npos);
 }
 
+const std::string all_measures =
+    "train_m, hidden, links, coverage, qd_score, map_best, entering_share, TEST.distance_m, .upright_s, "
+    ".walking_s, .moving_s, .kept, with reach_m .reached_s, .reached_generation, .reached_evaluations, with "
+    "mutants .viable_share, .mutants_kept, .gait_change";
+
 TEST(StudySpec, MistakesAreNamedWithTheirPlace) {
   EXPECT_EQ(diagnostic(good), "");
   EXPECT_EQ(diagnostic(replaced(good, "seeds = [1, 2]", "seeds = [1, 2, 1]")),
@@ -106,10 +111,8 @@ TEST(StudySpec, MistakesAreNamedWithTheirPlace) {
             "b\": expected 1 to 64 of a-z, 0-9, '-' and '_'");
   EXPECT_EQ(diagnostic(replaced(good, "against = \"b\"", "against = \"c\"")),
             "s.toml:17: 'claims[0].against': expected the name of a condition, not \"c\"");
-  EXPECT_EQ(
-      diagnostic(replaced(good, "five.distance_m", "six.distance_m")),
-      "s.toml:18: 'claims[0].measure': expected train_m, hidden, links, or TEST.distance_m, .upright_s, "
-      ".walking_s, .kept, not \"six.distance_m\"");
+  EXPECT_EQ(diagnostic(replaced(good, "five.distance_m", "six.distance_m")),
+            "s.toml:18: 'claims[0].measure': expected " + all_measures + "; not \"six.distance_m\"");
   EXPECT_EQ(diagnostic(replaced(good, "kind = \"difference\"", "kind = \"ratio\"")),
             "s.toml:13: 'claims[0].at_least': expected at_least, at_most or both for a ratio");
   EXPECT_EQ(diagnostic(replaced(good, "seconds = 300", "seconds = 300\nepisodes = 3")),
@@ -130,7 +133,7 @@ std::string claim_diagnostic(const std::string& claim) {
 
 struct ClaimCase {
   const char* claim;
-  const char* diagnostic;  ///< without its place; "": accepted
+  std::string diagnostic;  ///< without its place; "": accepted
 };
 
 void expect_diagnostics(const std::vector<ClaimCase>& cases) {
@@ -153,11 +156,45 @@ TEST(ClaimSpec, OfARatioHasOneDenominatorAndABound) {
       {"kind = 'ratio'\nagainst = 'c'\nat_least = 2.0",
        "'claims[0].against': expected the name of a condition, not \"c\""},
       {"kind = 'ratio'\nbase_measure = 'speed'\nat_least = 2.0",
-       "'claims[0].base_measure': expected train_m, hidden, links, or TEST.distance_m, .upright_s, "
-       ".walking_s, "
-       ".kept, not \"speed\""},
+       "'claims[0].base_measure': expected " + all_measures + "; not \"speed\""},
       {"kind = 'ratio'\nbase_measure = 'train_m'",
        "'claims[0].at_least': expected at_least, at_most or both for a ratio"},
+  });
+}
+
+TEST(ClaimSpec, ThatNoOutcomeCouldMeetIsRefused) {
+  expect_diagnostics({
+      {"kind = 'ratio'\nagainst = 'b'\nat_least = 2.0\nat_most = 2.0", ""},
+      {"kind = 'ratio'\nagainst = 'b'\nat_least = 2.5\nat_most = 2.0",
+       "'claims[0].at_least': expected at most 'at_most' = 2, not 2.5"},
+      {"kind = 'count'\nthreshold = 1.0\nat_least = 3\nat_most = 2",
+       "'claims[0].at_least': expected at most 'at_most' = 2, not 3"},
+      {"kind = 'plateau'\nat_least = 0.2\nat_most = 0.1\nfrom_generation = 1",
+       "'claims[0].at_least': expected at most 'at_most' = 0.1, not 0.2"},
+  });
+}
+
+TEST(ClaimSpec, OfGaitsNamesGaitsThatThereAre) {
+  const auto gaits = [](const std::string& names) {
+    const std::string text = replaced(good, "five.distance_m", "five");
+    return diagnostic(replaced(text, "kind = \"difference\"", "kind = \"gaits\"\n" + names));
+  };
+  const std::string known =
+      "walk lateral, walk diagonal, trot, pace, bound, pronk, gallop, tripod, tetrapod, wave, walk, run, hop";
+  EXPECT_EQ(gaits("includes = ['walk', 'walk lateral', 'trot']\nonly = ['hop', 'tripod']"), "");
+  EXPECT_EQ(gaits("includes = ['trot', 'canter']"),
+            "s.toml:16: 'claims[0].includes': expected " + known + "; not \"canter\"");
+  EXPECT_EQ(gaits("only = ['irregular']"),
+            "s.toml:16: 'claims[0].only': expected " + known + "; not \"irregular\"");
+  EXPECT_NE(gaits("only = [\"tr\\not\"]").find("; not \"tr\\x0aot\""), std::string::npos);
+}
+
+TEST(ClaimSpec, WhatItNamesStaysInOneLine) {
+  expect_diagnostics({
+      {"kind = 'difference'\nagainst = \"b\\nc\"",
+       "'claims[0].against': expected the name of a condition, not \"b\\x0ac\""},
+      {"kind = 'ratio'\nbase_measure = \"b\\nc\"\nat_least = 2.0",
+       "'claims[0].base_measure': expected " + all_measures + "; not \"b\\x0ac\""},
   });
 }
 
@@ -193,6 +230,12 @@ TEST(ClaimSpec, OfEachOtherKindHasWhatItsRuleNeeds) {
       {"kind = 'difference'", "'claims[0].against': expected the name of a condition, not \"\""},
       {"kind = 'value'\nmean = 3.0\nsd = 1e-9\nruns = 2", ""},
       {"kind = 'value'\nmean = 3.0\nsd = 0.0\nruns = 2", spread},
+      {"kind = 'value'\nmean = inf\nsd = 1.0\nruns = 2",
+       "'claims[0].mean' = inf: expected a number from -1000000000000 to 1000000000000"},
+      {"kind = 'value'\nmean = 3.0\nsd = inf\nruns = 2",
+       "'claims[0].sd' = inf: expected a number from 0 to 1000000000000"},
+      {"kind = 'count'\nthreshold = inf\nat_least = 2",
+       "'claims[0].threshold' = inf: expected a number from -inf to 1000000000000"},
       {"kind = 'value'\nmean = 3.0\nsd = 1.0\nruns = 1", spread},
       {"kind = 'plateau'\nat_most = 0.1\nfrom_generation = 1", ""},
       {"kind = 'plateau'\nat_most = 0.1", plateau},
@@ -227,7 +270,11 @@ TEST(StudySpec, NumbersKeepToTheirRanges) {
   const char* const test = "name = \"five\"";
   for (const auto& [old, key, least, most, below, beyond] :
        {Case{claim, "alpha", "1e-9", "0.5", "0.99e-9", "0.51"},
-        {claim, "sd", "0.0", "inf", "-1e-9", "nan"},
+        {claim, "sd", "0.0", "1e12", "-1e-9", "inf"},
+        {claim, "mean", "-1e12", "1e12", "-inf", "inf"},
+        {claim, "threshold", "-inf", "1e12", "nan", "inf"},
+        {claim, "at_least", "-inf", "1e12", "nan", "inf"},
+        {claim, "at_most", "-1e12", "inf", "-inf", "nan"},
         {claim, "runs", "0", "1000000000", "-1", "1000000001"},
         {claim, "successes", "0", "1000000000", "-1", "1000000001"},
         {claim, "from_generation", "0", "1000000000", "-1", "1000000001"},

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <random>
 
+#include "amble/score/score.hpp"
+
 namespace amble::report {
 namespace {
 
@@ -118,6 +120,14 @@ StudyData small_study() {
     add_test(run, "ode", 0.5 * run.best_m, 15.0, 15.0, 15.0, run.seed == 3 ? "irregular" : "pace", "ode");
     run.provenance.claims = data.study.claims_hash();
   }
+  return data;
+}
+
+StudyData scored_study(const std::string& quantity) {
+  StudyData data = small_study();
+  score::Settings score;
+  score.terms = {{.quantity = quantity, .weight = 2.0}};
+  for (ledger::Record& run : data.records) run.champion["score"] = io::settings_to_json(score);
   return data;
 }
 

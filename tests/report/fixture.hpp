@@ -26,7 +26,10 @@ void add_runs(StudyData& data, const std::string& condition, const std::vector<d
 /// of every kind.
 StudyData small_study();
 
-/// The same with six mutants of each champion in the test "long".
+/// The same, evolved by a score that has one term.
+StudyData scored_study(const std::string& quantity);
+
+/// The first with six mutants of each champion in the test "long".
 StudyData mutated_study();
 
 /// `count` conditions of `runs` runs, pseudo-random distances and lifetimes, the same tests.

@@ -37,6 +37,25 @@ TEST(Lifetimes, OfTestsAsLongAsEvolutionAreNotLong) {
   EXPECT_FALSE(tables[2].log_rank) << "nothing ended";
 }
 
+TEST(Lifetimes, OfSeveralEpisodesAreThatOfOneOfThem) {
+  StudyData data = small_study();
+  const auto lifetimes_of = [&data](const std::vector<double>& times_s) {
+    ledger::TestResult& test = data.records[0].tests[0];
+    test.episodes.clear();
+    for (const double time_s : times_s) test.episodes.push_back({1.0, time_s, 0.5 * time_s});
+    const auto tables = survival_tables(data);
+    return std::pair(tables[0].conditions[0].lifetimes[0], tables[1].conditions[0].lifetimes[0]);
+  };
+  const auto [two, two_walking] = lifetimes_of({300.0, 100.0});
+  EXPECT_EQ(two.time_s, 100.0) << "not 200 s, when nothing ended";
+  EXPECT_TRUE(two.ended);
+  EXPECT_EQ(two_walking.time_s, 50.0);
+  const auto [four, four_walking] = lifetimes_of({300.0, 20.0, 300.0, 300.0});
+  EXPECT_EQ(four.time_s, 300.0);
+  EXPECT_FALSE(four.ended);
+  EXPECT_EQ(lifetimes_of({10.0, 300.0, 90.0}).first.time_s, 90.0);
+}
+
 TEST(Lifetimes, OfATestOfTwoLengthsAreShownToTheEndOfTheLonger) {
   StudyData data = small_study();
   for (const std::size_t longer : {0u, 1u, 5u}) {

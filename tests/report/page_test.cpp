@@ -160,6 +160,36 @@ TEST(Page, ShowsHowLongTheyLastedInTestsLongerThanEvolutionOnly) {
   EXPECT_EQ(curves, 2u) << "upright, and walking";
 }
 
+TEST(Page, OfAScoreThatIsNoDistanceClaimsNoMetres) {
+  const std::string html = page(scored_study("speed_kept"));
+  EXPECT_THAT(html, HasSubstr("Score in evolution"));
+  EXPECT_THAT(html, HasSubstr("median 5.00 after generation 9"));
+  EXPECT_THAT(html, HasSubstr("Best score so far"));
+  EXPECT_THAT(html, HasSubstr("5.00 against 1.83; difference 3.17 ["));
+  EXPECT_THAT(html, HasSubstr("15.0 m [")) << "of tests";
+  for (const char* wrong : {"istance in evolution", "est distance so far", "How far they walked",
+                            "Distance of each run", "generation 9 m", "5.00\u00a0m"})
+    EXPECT_THAT(html, Not(HasSubstr(wrong)));
+}
+
+TEST(Page, OfConditionsWithSeveralScoresHasTheUnitOfEach) {
+  StudyData data = scored_study("speed_kept");
+  for (ledger::Record& run : data.records)
+    if (run.condition == "a") run.champion.erase("score");
+  const std::string html = page(data);
+  EXPECT_THAT(html, HasSubstr("a: median 5.00 m after generation 9"));
+  EXPECT_THAT(html, HasSubstr("b: median 2.00 after generation 9"));
+  EXPECT_THAT(html, HasSubstr("5.00 against 1.83; difference 3.17 ["));
+  EXPECT_THAT(html, HasSubstr("Grey: the same champions’ distance in evolution.")) << "of a";
+}
+
+TEST(Page, OfAScoreInMetresSaysThatItIsOne) {
+  const std::string html = page(scored_study("heading"));
+  EXPECT_THAT(html, HasSubstr("Score in evolution, m"));
+  EXPECT_THAT(html, HasSubstr("median 5.00 m after generation 9"));
+  EXPECT_THAT(html, Not(HasSubstr("istance in evolution")));
+}
+
 TEST(Page, RepeatsToTheByte) {
   EXPECT_EQ(page(large_study(4, 5)), page(large_study(4, 5)));
   EXPECT_EQ(to_json(make_report(small_study())), to_json(make_report(small_study())));
@@ -216,6 +246,30 @@ TEST(Page, TellsOfEachConditionWhatItsRunsWereMadeWith) {
   ASSERT_GE(cells.size(), expected.size());
   cells.resize(expected.size());
   EXPECT_EQ(cells, expected);
+}
+
+TEST(Page, TellsInWhichEnginesAndOnWhatGroundATestWasMade) {
+  StudyData data = small_study();
+  const auto text = [&data] { return test_text(make_report(data), data.study.tests[0]); };
+  EXPECT_EQ(text(), "300 s in the engine batch");
+  for (ledger::Record& run : data.records)
+    if (run.condition == "b") run.tests[0].engine = "ode";
+  EXPECT_EQ(text(), "300 s in the engines batch, ode");
+  ledger::TestSpec& test = data.study.tests[0];
+  test.episodes = 20;
+  test.ground = "../repo/studies/grounds/rough.toml";
+  EXPECT_EQ(text(), "300 s in the engines batch, ode, on the ground of rough.toml, 20 episodes (median)");
+  test.episodes = 1;
+  test.damage = "../repo/configs/damage/limp.toml";
+  EXPECT_EQ(text(),
+            "300 s in the engines batch, ode, on the ground of rough.toml, with the damage of "
+            "configs/damage/limp.toml");
+  test.ground = test.damage = "";
+  test.noise = "noise.toml";
+  EXPECT_EQ(text(),
+            "300 s in the engines batch, ode, 1 episode under noise that evolution has not met (median)");
+  data.records.clear();
+  EXPECT_EQ(text(), "300 s, 1 episode under noise that evolution has not met (median)");
 }
 
 TEST(Page, ShowsEachVerdictInTheTableOfClaims) {

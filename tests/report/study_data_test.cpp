@@ -6,7 +6,9 @@
 #include <filesystem>
 
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 #include "amble/ledger/ledger.hpp"
+#include "amble/report/tables.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/report/fixture.hpp"
 
@@ -88,6 +90,92 @@ TEST(Remarks, TellWhatIsMissing) {
   data.records[0].tests.pop_back();
   EXPECT_THAT(remarks(data), ElementsAre(HasSubstr("5 of 6 runs are in (a: 2 of 3)"),
                                          "Test ode: 1 finished run does not have it yet."));
+}
+
+TEST(StudyData, IsOfADistanceOrInMetresIfAllRunsAre) {
+  const ledger::Objective distance, metres{.is_distance = false, .unit = " m"},
+      score{.is_distance = false, .unit = ""};
+  EXPECT_EQ(small_study().objective(), distance);
+  EXPECT_EQ(scored_study("heading").objective(), metres);
+  EXPECT_EQ(scored_study("economy").objective(), score);
+  StudyData mixed = small_study();
+  mixed.records[4] = scored_study("economy").records[4];
+  EXPECT_EQ(mixed.objective(), score);
+  mixed.records[4] = scored_study("heading").records[4];
+  EXPECT_EQ(mixed.objective(), metres);
+  EXPECT_EQ(mixed.unit_of("train_m"), " m");
+  EXPECT_EQ(scored_study("economy").unit_of("train_m"), "");
+  EXPECT_EQ(scored_study("economy").unit_of("long.distance_m"), " m");
+}
+
+TEST(StudyData, LeavesOutTestsThatTheStudyNoLongerHasForACondition) {
+  StudyData data = mutated_study();
+  data.study.tests[0].conditions = {"b"};
+  data.study.tests.pop_back();
+  EXPECT_THAT(remarks(data), IsEmpty());
+  EXPECT_EQ(data.result(data.records[0], "long"), nullptr);
+  EXPECT_EQ(data.result(data.records[3], "long"), &data.records[3].tests[0]);
+  EXPECT_EQ(data.result(data.records[3], "ode"), nullptr);
+  EXPECT_THAT(data.values("a", "long.distance_m"), IsEmpty());
+  EXPECT_THAT(data.values("b", "ode.distance_m"), IsEmpty());
+  EXPECT_THAT(data.values("b", "long.distance_m"), ElementsAre(3.0, 7.5, 6.0));
+
+  data.study.claims.clear();
+  const Report report = make_report(data);
+  EXPECT_THAT(report.transfers, IsEmpty());
+  ASSERT_EQ(report.gaits.size(), 1u);
+  EXPECT_EQ(report.gaits[0].rows.size(), 1u);
+  for (const SurvivalTable& table : report.survival) {
+    EXPECT_EQ(table.test, "long");
+    EXPECT_EQ(table.conditions.size(), 1u);
+  }
+  for (const Table& table : tables(report)) {
+    if (table.name == "mutants") {
+      EXPECT_EQ(table.rows.size(), 18u) << "6 of each run of b";
+    }
+    if (table.name != "runs") continue;
+    const auto gait = to_index(std::ranges::find(table.header, "long.gait") - table.header.begin());
+    const auto distance = to_index(std::ranges::find(table.header, "long.distance_m") - table.header.begin());
+    for (const std::size_t column : {gait, distance}) {
+      EXPECT_TRUE(std::holds_alternative<std::monostate>(table.rows[0].at(column)));
+      EXPECT_FALSE(std::holds_alternative<std::monostate>(table.rows[3].at(column)));
+    }
+  }
+}
+
+TEST(Remarks, TellOfTestsBySeveralSettings) {
+  StudyData data = small_study();
+  data.records[1].tests[0].settings = "other";
+  for (std::size_t i : {3u, 4u, 5u}) data.records[i].tests[1].settings = "own";
+  EXPECT_THAT(remarks(data),
+              ElementsAre("Test long: runs of a were tested with different settings; they are no "
+                          "sample of one test."));
+}
+
+TEST(Remarks, TellOfRecordsOfOtherStudies) {
+  StudyData data = small_study();
+  data.records[1].study = "elsewhere";
+  data.study.name = "sam\nple";
+  EXPECT_THAT(remarks(data), ElementsAre("6 of 6 records are of a study of another name than sam\\x0aple."));
+  data.study.name = "sample";
+  EXPECT_THAT(remarks(data), ElementsAre("1 of 6 records are of a study of another name than sample."));
+}
+
+TEST(Remarks, NameUnknownFilesInOneLine) {
+  const test::TemporaryFolder folder;
+  const ledger::StudyPaths paths(std::filesystem::path(folder / "study"));
+  const StudyData data = small_study();
+  ledger::keep_study(paths, data.study);
+  ledger::Ledger(paths).save(data.records[0]);
+  std::filesystem::copy(paths.record("a", 1), paths.records / "two\nlines.json");
+  EXPECT_THAT(load_study_data(paths.folder).unknown_files, ElementsAre("two\\x0alines.json"));
+}
+
+TEST(Remarks, TellOfScoresThatDiffer) {
+  EXPECT_THAT(remarks(scored_study("economy")), IsEmpty());
+  StudyData mixed = small_study();
+  mixed.records[4] = scored_study("economy").records[4];
+  EXPECT_THAT(remarks(mixed), ElementsAre(HasSubstr("different scores")));
 }
 
 TEST(Remarks, TellWhatDoesNotFit) {

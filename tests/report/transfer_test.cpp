@@ -95,6 +95,15 @@ TEST(Transfers, WithoutAReferenceHaveNoShare) {
   EXPECT_FALSE(transfers(data)[0].share) << "nor such damage";
 }
 
+TEST(Transfers, AreNotComparedWithAScoreThatIsNoDistance) {
+  for (const char* quantity : {"speed_kept", "heading"}) {
+    const auto found = transfers(scored_study(quantity));
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_EQ(found[0].reference, "") << quantity;
+    EXPECT_FALSE(found[0].share) << quantity;
+  }
+}
+
 TEST(Transfers, AreOnlyTestsInOtherEngines) {
   StudyData data = small_study();
   for (ledger::Record& run : data.records) run.engine = "ode";

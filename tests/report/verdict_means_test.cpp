@@ -65,6 +65,27 @@ TEST_F(Claims, OfADifferenceTellsStudentsNumbers) {
   EXPECT_EQ(judged.ours, "4.20 m against 1.20 m; difference 3.00 m [2.77, 3.23]");
 }
 
+TEST_F(Claims, OfADifferenceHaveIntervalsAt95PercentWhateverTheirLevel) {
+  add_runs(data_, "a", {4.0, 4.1, 4.2, 4.3, 4.4});
+  add_runs(data_, "b", {1.0, 1.1, 1.2, 1.3, 1.4});
+  claim(ClaimKind::difference);
+  const auto usual = only().interval;
+  data_.study.claims[0].alpha = 0.001;
+  EXPECT_EQ(only().interval->lower, usual->lower);
+  EXPECT_EQ(only().interval->upper, usual->upper);
+}
+
+TEST_F(Claims, OfAValueHaveIntervalsAtTheirOwnLevel) {
+  add_runs(data_, "a", {4.0, 5.0, 6.0, 5.0});  // standard error 0.408
+  auto& value = claim(ClaimKind::value);
+  value.mean = 5.0;
+  value.sd = 1.0;
+  value.runs = 20;
+  EXPECT_NEAR(only().interval->upper, 5.0 + 3.182446 * 0.4082483, 1e-5);
+  data_.study.claims[0].alpha = 0.01;
+  EXPECT_NEAR(only().interval->upper, 5.0 + 5.840909 * 0.4082483, 1e-5);
+}
+
 TEST_F(Claims, TellWhatTheirEstimateIs) {
   add_runs(data_, "a", {4.0, 4.1, 4.2, 4.3, 4.4});
   add_runs(data_, "b", {1.0, 1.1, 1.2, 1.3, 1.4});
@@ -208,6 +229,59 @@ TEST_F(Claims, OfAValueAgreeDisagreeOrNeither) {
   data_.study.claims[0].sd = 6.0;  // so wide that no test finds a difference
   EXPECT_EQ(only().verdict, Verdict::not_confirmed);
   EXPECT_THAT(only().reason, HasSubstr("outside our interval"));
+}
+
+/// Runs of "a" and "b" with a test that is to reach a distance; those whose generation is negative never do.
+void add_reaching_runs(StudyData& data, const std::vector<int>& a, const std::vector<int>& b) {
+  data.study.tests.resize(1);
+  data.study.tests[0].name = "far";
+  data.study.tests[0].reach_m = 100.0;
+  add_runs(data, "a", std::vector<double>(a.size(), 2.0));
+  add_runs(data, "b", std::vector<double>(b.size(), 1.0));
+  for (std::size_t i = 0; i < data.records.size(); ++i) {
+    add_test(data.records[i], "far", 50.0);
+    ledger::TestResult& test = data.records[i].tests.back();
+    test.reach_m = 100.0;
+    const int generation = i < a.size() ? a[i] : b[i - a.size()];
+    if (generation >= 0) test.reached = {.generation = generation};
+  }
+}
+
+TEST_F(Claims, OfMeansSayHowManyRunsNeverReachedWhatIsMeasured) {
+  add_reaching_runs(data_, {3, -1, 4, 5, -1, 6}, {7, 8, 9, 8, 7, -1});
+  const std::string of_a = "2 of 6 runs of a never reached it: there is no mean.",
+                    of_b = "1 of 6 runs of b never reached it: there is no mean.";
+  for (const ClaimKind kind : {ClaimKind::difference, ClaimKind::ratio, ClaimKind::value, ClaimKind::count})
+    claim(kind).measure = "far.reached_generation";
+  auto& claims = data_.study.claims;
+  claims.push_back(claims[0]);
+  claims[4].test = TwoSampleTest::welch;
+  claims[1].against = "b";
+  claims.push_back(claims[1]);
+  claims[5].against.clear();
+  claims[5].base_measure = "train_m";
+  claims[2].sd = 1.0;
+  claims[2].runs = 20;
+  claims[3].threshold_condition = "b";
+  claims[3].at_least = 1;
+  const auto judged = judge(data_);
+  for (const Judgement& one : judged) EXPECT_EQ(one.verdict, Verdict::not_testable);
+  EXPECT_EQ(judged[0].reason, of_a + " " + of_b);
+  EXPECT_EQ(judged[1].reason, of_a + " " + of_b);
+  EXPECT_EQ(judged[2].reason, of_a);
+  EXPECT_EQ(judged[3].reason, of_b);
+  EXPECT_EQ(judged[4].reason, of_a + " " + of_b);
+  EXPECT_EQ(judged[5].reason, of_a);
+  for (const Judgement& one : judged) EXPECT_FALSE(one.p || one.estimate || one.mean);
+}
+
+TEST_F(Claims, OfRanksTakeRunsThatNeverReachItAsTheLargest) {
+  add_reaching_runs(data_, {-1, 30, -1, 40, -1}, {1, 2, 3, 4, 5});
+  claim(ClaimKind::difference).measure = "far.reached_generation";
+  data_.study.claims[0].test = TwoSampleTest::mann_whitney;
+  EXPECT_EQ(only().verdict, Verdict::confirmed);
+  EXPECT_EQ(only().estimate, 1.0);
+  EXPECT_THAT(only().ours, testing::StartsWith("2 of 5 runs reached it against 5 of 5; A12 1"));
 }
 
 TEST_F(Claims, OfAPlateauFollowTheIntervalOfTheGain) {

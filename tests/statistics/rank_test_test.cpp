@@ -128,6 +128,21 @@ TEST(MannWhitney, SaysNothingOfAnEmptySampleAndFindsNothingInEqualValues) {
   EXPECT_EQ(vargha_delaney(some, some)->a12, 0.5);
 }
 
+TEST(MannWhitney, RanksInfinityAboveAllNumbersAndEqualToItself) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const Sample with{1.0, 5.0, infinity}, against{2.0, infinity, infinity, 3.0};
+  const Sample large{1.0, 5.0, 9.0}, other{2.0, 9.0, 9.0, 3.0};
+  EXPECT_EQ(mann_whitney(with, against)->p, mann_whitney(large, other)->p);
+  EXPECT_EQ(mann_whitney(with, against)->u1, mann_whitney(large, other)->u1);
+  EXPECT_EQ(vargha_delaney(with, against)->a12, vargha_delaney(large, other)->a12);
+}
+
+TEST(MannWhitneyDeathTest, RanksNoNaN) {
+  const Sample bad{1.0, std::nan("")}, good{1.0, 2.0};
+  EXPECT_DEATH(mann_whitney(good, bad), "are numbers");
+  EXPECT_DEATH(vargha_delaney(bad, good), "are numbers");
+}
+
 TEST(MannWhitneyDeathTest, IsNotExactWithTies) {
   const Sample tied{1.0, 2.0};
   EXPECT_DEATH(mann_whitney(tied, tied, MannWhitneyMethod::exact), "knows no ties");
