@@ -49,11 +49,12 @@ std::string nearest(std::string_view key, const std::vector<std::string>& known)
   return best;
 }
 
-/// The value as a number if it may be one: a whole number will do.
-bool as_number(const TomlNode& node, double& value) {
+/// The number of a node, if it has one within the range: a whole number will do, and is compared exactly.
+bool read_number(const TomlNode& node, Range range, double& value) {
   if (node.kind == Kind::integer) value = static_cast<double>(node.integer);
   if (node.kind == Kind::number) value = node.number;
-  return node.kind == Kind::integer || node.kind == Kind::number;
+  return node.kind == Kind::integer ? in_range(range, node.integer)
+                                    : node.kind == Kind::number && in_range(range, value);
 }
 
 class TomlReader final : public SettingsReader {
@@ -75,7 +76,7 @@ class TomlReader final : public SettingsReader {
     const TomlNode* node = get(key);
     if (node == nullptr) return;
     double found = 0.0;
-    if (!as_number(*node, found) || !in_range(range, found)) refuse(key, *node, expected_number(range));
+    if (!read_number(*node, range, found)) refuse(key, *node, expected_number(range));
     value = found;
   }
   void integer(std::string_view key, std::int64_t& value, Range range, Doc) override {
@@ -113,9 +114,7 @@ class TomlReader final : public SettingsReader {
     if (node->kind != Kind::list) refuse(key, *node, expected_numbers(range));
     std::vector<double> found(node->items.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
-      if (!as_number(node->items[i], found[i]) || !in_range(range, found[i])) {
-        refuse(key, *node, expected_numbers(range));
-      }
+      if (!read_number(node->items[i], range, found[i])) refuse(key, *node, expected_numbers(range));
     }
     values = std::move(found);
   }

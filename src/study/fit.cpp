@@ -11,16 +11,14 @@
 namespace amble::study {
 namespace {
 
-/// Why a record does not fit; empty if it does. `untested` is set if it only lacks a test.
-std::string record_misfit(const PlannedCondition& condition, const ledger::Record& record, bool& untested) {
+/// Why a record does not fit; empty if it does, or only lacks tests.
+std::string record_misfit(const PlannedCondition& condition, const ledger::Record& record) {
   if (record.config != condition.hash) return "made with other settings or another robot";
   if (record.generations != condition.config.generations)
     return fmt::format("has {} generations instead of {}", record.generations, condition.config.generations);
   for (const PlannedTest& test : condition.tests) {
     const auto* const result = record.find_test(test.spec.name);
-    if (result == nullptr)
-      untested = true;
-    else if (result->settings != test.settings_hash(condition.config.engine))
+    if (result != nullptr && result->settings != test.settings_hash(condition.config.engine))
       return fmt::format("its test '{}' was another one", test.spec.name);
   }
   return {};
@@ -47,11 +45,10 @@ struct Finding {
 Finding look_at(const Plan& plan, const ledger::Ledger& ledger, const PlannedRun& run) {
   const PlannedCondition& condition = plan.condition(run);
   if (ledger.has(condition.spec.name, run.seed)) {
-    bool untested = false;
-    auto misfit = record_misfit(condition, ledger.load(condition.spec.name, run.seed), untested);
-    return {.status = untested ? RunStatus::untested : RunStatus::done,
+    const auto record = ledger.load(condition.spec.name, run.seed);
+    return {.status = condition.has_all_tests(record) ? RunStatus::done : RunStatus::untested,
             .place = plan.paths.record(condition.spec.name, run.seed),
-            .misfit = std::move(misfit)};
+            .misfit = record_misfit(condition, record)};
   }
   const auto folder = plan.folder(run);
   if (!experiment::is_run_folder(folder)) return {};

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 
 #include "amble/core/error.hpp"
@@ -99,6 +100,11 @@ std::string PlannedTest::settings_hash(std::string_view home) const {
   if (ground) definition["ground"] = io::settings_to_json(*ground);
   if (damage) definition["damage"] = io::settings_to_json(*damage);
   return hex(hash_text(definition.dump()));
+}
+
+bool PlannedCondition::has_all_tests(const ledger::Record& record) const {
+  return std::ranges::all_of(
+      tests, [&](const PlannedTest& test) { return record.find_test(test.spec.name) != nullptr; });
 }
 
 Shard Shard::parse(std::string_view text) {

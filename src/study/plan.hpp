@@ -12,6 +12,7 @@
 #include "amble/experiment/problem.hpp"
 #include "amble/ground/settings.hpp"
 #include "amble/ledger/ledger.hpp"
+#include "amble/ledger/record.hpp"
 #include "amble/ledger/study_spec.hpp"
 #include "amble/robot/spec.hpp"
 #include "amble/trial/noise_settings.hpp"
@@ -39,6 +40,9 @@ struct PlannedCondition {
   robot::RobotSpec robot;
   std::vector<PlannedTest> tests;
   std::string hash;  ///< config_hash() of it
+
+  /// Whether a record of the condition has a result of each of the tests.
+  bool has_all_tests(const ledger::Record& record) const;
 };
 
 /// One run of a study.

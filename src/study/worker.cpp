@@ -175,17 +175,12 @@ class Worker {
   /// Adds the tests that a finished run lacks, one process at a time. The record itself is locked: the run's
   /// folder may be gone.
   Step complete(const PlannedRun& run) {
-    const auto& name = plan_.condition(run).spec.name;
-    if (has_all_tests(run, ledger_.load(name, run.seed))) return Step::nothing_to_do;
+    const PlannedCondition& condition = plan_.condition(run);
+    const auto& name = condition.spec.name;
+    if (condition.has_all_tests(ledger_.load(name, run.seed))) return Step::nothing_to_do;
     const io::FileLock lock(plan_.paths.record(name, run.seed));
     auto record = ledger_.load(name, run.seed);
-    return has_all_tests(run, record) ? Step::nothing_to_do : add_tests(run, std::move(record), false);
-  }
-
-  bool has_all_tests(const PlannedRun& run, const ledger::Record& record) const {
-    return std::ranges::all_of(plan_.condition(run).tests, [&](const PlannedTest& test) {
-      return record.find_test(test.spec.name) != nullptr;
-    });
+    return condition.has_all_tests(record) ? Step::nothing_to_do : add_tests(run, std::move(record), false);
   }
 
   /// Runs the tests that a record lacks, in the study's order, and writes the record. Throws UserError if one
