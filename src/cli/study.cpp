@@ -30,6 +30,7 @@ struct StudyOptions {
   int jobs = 1, workers = 1;
   bool discard_runs = false, status = false;
   bool as_child = false;  ///< one of a parent's processes
+  std::vector<std::string> retest;
   std::optional<std::filesystem::path> slurm;
   int slurm_tasks = 20, slurm_minutes = 60;
 };
@@ -100,6 +101,7 @@ std::vector<std::string> child_arguments(const StudyOptions& options) {
                                      "--jobs",    "1",
                                      "--child"};
   if (options.discard_runs) arguments.emplace_back("--discard-runs");
+  for (const std::string& test : options.retest) arguments.insert(arguments.end(), {"--retest", test});
   return arguments;
 }
 
@@ -153,7 +155,8 @@ ExitCode run_study(const StudyOptions& options) {
   stop_signal();
   std::signal(SIGPIPE, SIG_IGN);
   const auto shard = study::Shard::parse(options.shard);
-  const auto plan = study::make_plan(ledger::load_study(options.file), options.out);
+  auto plan = study::make_plan(ledger::load_study(options.file), options.out);
+  plan.retest(options.retest);
   const auto states = study::survey(plan);
   if (options.slurm) return write_slurm_script(plan, options);
   if (options.status) return print_status(plan, states, shard);
@@ -190,8 +193,16 @@ void add_study(CLI::App& app, Action& action) {
   command->add_flag("--discard-runs", options->discard_runs,
                     "Remove a run's folder once its record is in the ledger");
   command->add_flag("--status", options->status, "Only say what is done");
-  auto* slurm = command->add_option("--slurm", options->slurm,
-                                    "Only write a Slurm batch script, whose tasks are shards, to this file");
+  auto* retest =
+      command
+          ->add_option("--retest", options->retest,
+                       "Make these tests of the study, by name, again where another build made them")
+          ->type_name("NAME,NAME")
+          ->delimiter(',');
+  auto* slurm = command
+                    ->add_option("--slurm", options->slurm,
+                                 "Only write a Slurm batch script, whose tasks are shards, to this file")
+                    ->excludes(retest);
   command
       ->add_option("--tasks", options->slurm_tasks,
                    "Tasks of the Slurm array; each takes --jobs × --workers processors")

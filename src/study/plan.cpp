@@ -8,6 +8,7 @@
 #include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"
+#include "amble/experiment/build_info.hpp"
 #include "amble/experiment/problem.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/toml_text.hpp"
@@ -102,9 +103,15 @@ std::string PlannedTest::settings_hash(std::string_view home) const {
   return hex(hash_text(definition.dump()));
 }
 
+bool PlannedTest::is_due(const ledger::Record& record) const {
+  if (record.find_test(spec.name) == nullptr) return true;
+  const auto& made = record.provenance;
+  const auto later = made.added_by.find(spec.name);
+  return !measured_by.empty() && measured_by != (later == made.added_by.end() ? made.commit : later->second);
+}
+
 bool PlannedCondition::has_all_tests(const ledger::Record& record) const {
-  return std::ranges::all_of(
-      tests, [&](const PlannedTest& test) { return record.find_test(test.spec.name) != nullptr; });
+  return std::ranges::none_of(tests, [&](const PlannedTest& test) { return test.is_due(record); });
 }
 
 Shard Shard::parse(std::string_view text) {
@@ -118,6 +125,20 @@ Shard Shard::parse(std::string_view text) {
       !number(text.substr(slash + 1), shard.count) || shard.index < 1 || shard.index > shard.count)
     fail(ExitCode::bad_input, "--shard {}: expected I/N with 1 <= I <= N, e.g. 2/8", text);
   return shard;
+}
+
+void Plan::retest(const std::vector<std::string>& tests) {
+  const auto commit = experiment::build_info().commit;
+  for (const std::string& name : tests) {
+    bool found = false;
+    for (PlannedCondition& condition : conditions)
+      for (PlannedTest& test : condition.tests)
+        if (test.spec.name == name) {
+          test.measured_by = commit;
+          found = true;
+        }
+    if (!found) fail(ExitCode::bad_input, "--retest {}: expected the name of a test of the study", name);
+  }
 }
 
 std::filesystem::path Plan::folder(const PlannedRun& run) const {

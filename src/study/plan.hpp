@@ -26,6 +26,11 @@ struct PlannedTest {
   std::optional<ground::Settings> ground = {};  ///< that of TestSpec::ground
   std::optional<damage::Settings> damage = {};  ///< that of TestSpec::damage
 
+  /// The commit of a program: a result that another one measured is to be measured again. Empty: any will do.
+  std::string measured_by = {};
+
+  /// Whether the record of a run still needs the test.
+  bool is_due(const ledger::Record& record) const;
   /// What a champion of `home` does in the test. Throws UserError if it cannot: a length that is no whole
   /// number of timesteps, a ground or damage that does not fit the robot.
   experiment::Problem problem(experiment::Problem home) const;
@@ -41,7 +46,7 @@ struct PlannedCondition {
   std::vector<PlannedTest> tests;
   std::string hash;  ///< config_hash() of it
 
-  /// Whether a record of the condition has a result of each of the tests.
+  /// Whether a record of the condition has all that the tests are to measure.
   bool has_all_tests(const ledger::Record& record) const;
 };
 
@@ -74,6 +79,9 @@ struct Plan {
   /// "supg-novelty, seed 7".
   std::string name(const PlannedRun& run) const;
   experiment::Config config(const PlannedRun& run) const;
+  /// Makes results of these tests that another build than this one measured due again, for engines that
+  /// have changed since. Throws UserError if no condition has a test of that name.
+  void retest(const std::vector<std::string>& tests);
   /// Indices of its runs.
   std::vector<std::size_t> shard(const Shard& shard) const;
 };

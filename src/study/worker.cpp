@@ -183,8 +183,8 @@ class Worker {
     return condition.has_all_tests(record) ? Step::nothing_to_do : add_tests(run, std::move(record), false);
   }
 
-  /// Runs the tests that a record lacks, in the study's order, and writes the record. Throws UserError if one
-  /// of them cannot be run, after the others.
+  /// Runs the tests that are due, in the study's order, and writes the record. Throws UserError if one of
+  /// them cannot be run, after the others.
   Step add_tests(const PlannedRun& run, ledger::Record record, bool is_new) {
     const PlannedCondition& condition = plan_.condition(run);
     const auto champion =
@@ -194,8 +194,8 @@ class Worker {
     std::string obstacle;
     bool added = is_new;
     for (const PlannedTest& test : condition.tests) {
-      if (const auto* const old = record.find_test(test.spec.name)) {
-        results.push_back(*old);
+      if (!test.is_due(record)) {
+        results.push_back(*record.find_test(test.spec.name));
         continue;
       }
       if (const auto reason = obstacle_to(test, run, record); !reason.empty()) {
@@ -208,7 +208,7 @@ class Worker {
       results.push_back(std::move(*result));
       added = true;
     }
-    // What was measured for a test that the study has no longer is kept.
+    // What was measured for a test that the study has no longer, or that cannot be run again, is kept.
     for (ledger::TestResult& old : record.tests)
       if (std::ranges::find(results, old.name, &ledger::TestResult::name) == results.end())
         results.push_back(std::move(old));

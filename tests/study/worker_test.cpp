@@ -266,6 +266,33 @@ TEST(Worker, SharesTheTestsThatFinishedRunsLackWithOthers) {
     EXPECT_FALSE(entry.path().filename().string().starts_with(".tests")) << entry.path() << " is left";
 }
 
+TEST(Worker, MakesATestAgainThatAnotherBuildMadeAndNoOther) {
+  const test::TemporaryFolder folder;
+  auto study = small_study();
+  study.tests = {trial_test("brief", 1.0), trial_test("longer", 2.0)};
+  Notes notes;
+  work_on(study, folder.path(), notes, true);
+  const ledger::Ledger records{ledger::StudyPaths(folder.path())};
+  const auto made_here = records.load("sine", 3);
+  auto from_elsewhere = made_here;
+  from_elsewhere.provenance.commit = "another";
+  for (ledger::TestResult& test : from_elsewhere.tests) test.gait = "of another build";
+  records.save(from_elsewhere);
+
+  Plan plan = make_plan(study, folder.path());
+  plan.retest({"longer"});
+  const std::atomic<bool> never{false};
+  EXPECT_EQ(survey(plan), std::vector{RunStatus::untested});
+  EXPECT_EQ(work(plan, survey(plan), {.shard = {}}, notes, never).finished, 1);
+  const auto after = records.load("sine", 3);
+  EXPECT_EQ(after.find_test("brief")->gait, "of another build");
+  EXPECT_EQ(after.find_test("longer")->gait, made_here.find_test("longer")->gait);
+  EXPECT_EQ(after.provenance.commit, "another");
+  EXPECT_EQ(after.provenance.added_by.at("longer"), made_here.provenance.commit);
+  EXPECT_EQ(survey(plan), std::vector{RunStatus::done}) << "it was made by this build now";
+  EXPECT_THROW(plan.retest({"brief", "no such test"}), UserError);
+}
+
 TEST(Worker, AddsATestThatTakesThePlaceOfAnotherAndKeepsWhatWasMeasured) {
   const test::TemporaryFolder folder;
   auto study = small_study();
