@@ -125,8 +125,8 @@ double walker_us(const Walkers& walkers) {
          });
 }
 
-/// What one step of the authors' robot takes, without and per contact, counted once in the program's
-/// instructions (docs/BATCH.md); a fused multiply-add is two.
+/// What one step of the authors' robot takes, without and per contact: the former from executed instructions,
+/// the latter added up from the source (docs/BATCH.md). A fused multiply-add is two.
 constexpr double step_flop = 13900.0, contact_flop = 2100.0;
 
 void measure_walkers(std::vector<Figure>& figures) {

@@ -19,6 +19,7 @@
 #include "amble/experiment/run.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/lock.hpp"
+#include "amble/physics/instruction_set.hpp"
 #include "amble/record/generations_csv.hpp"
 #include "amble/study/champion_tests.hpp"
 
@@ -263,7 +264,7 @@ class Worker {
     provenance.commit = build.commit;
     provenance.compiler = build.compiler;
     provenance.flags = build.flags;
-    provenance.cpu = experiment::cpu_name();
+    provenance.cpu = fmt::format("{}, {}", experiment::cpu_name(), physics::instruction_set());
     provenance.finished_utc = utc_now();
     provenance.claims = plan_.study.claims_hash();
   }

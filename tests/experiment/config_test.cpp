@@ -64,12 +64,18 @@ TEST(Config, PresetsOfNeatAndCppnsAreWhatTextAndCodeSay) {
     EXPECT_EQ(config.neat.innovations.key,
               authors ? neat::InnovationKey::link : neat::InnovationKey::link_and_function);
     EXPECT_EQ(config.neat.reproduction.lone_place, authors ? neat::LonePlace::child : neat::LonePlace::elite);
+    EXPECT_EQ(config.trial.first_command,
+              authors ? trial::FirstCommand::after_first_step : trial::FirstCommand::before_first_step);
+    EXPECT_EQ(config.controller.substrate.attitude,
+              authors ? substrate::Attitude::misordered_quaternion : substrate::Attitude::true_angles);
   }
 }
 
 TEST(Config, NoveltyPresetsAreWhatTextAndCodeSay) {
   const auto authors = load_config(configs + "authors/supg-novelty.toml", {});
   EXPECT_EQ(authors.make_behaviour()->length(), 1500u);
+  EXPECT_EQ(authors.search.novelty.path_first_step, 1);
+  EXPECT_EQ(authors.search.novelty.path_stride, 2);
   EXPECT_EQ(authors.search.novelty.distance, search::Distance::squared);
   EXPECT_EQ(authors.search.novelty.compare_with, search::Neighbours::archive);
   EXPECT_FALSE(authors.search.novelty.count_first_members);
