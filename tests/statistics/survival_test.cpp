@@ -45,7 +45,7 @@ void expect_curve(const std::vector<Lifetime>& lifetimes, const Json& expected) 
 }
 
 TEST(KaplanMeier, IsThatOfR) {
-  ASSERT_GE(oracles()["lifetimes"].size(), 15u);
+  ASSERT_GE(oracles()["lifetimes"].size(), 20u);
   for (const auto& set : oracles()["lifetimes"]) {
     const auto groups = tests::lifetimes_of(set["groups"]);
     for (std::size_t g = 0; g < groups.size(); ++g) {
