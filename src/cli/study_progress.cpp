@@ -37,6 +37,16 @@ bool take_number(std::string_view& line, Number& value) {
   return error == std::errc() && end == word.data() + word.size();
 }
 
+/// Of each run as far as is known before it begins.
+std::vector<int> generations_left(const study::Plan& plan, const std::vector<study::RunStatus>& states,
+                                  const study::Shard& shard) {
+  std::vector<int> left(plan.runs.size());
+  for (const std::size_t run : plan.shard(shard))
+    if (states[run] == study::RunStatus::missing || states[run] == study::RunStatus::begun)
+      left[run] = plan.condition(plan.runs[run]).config.generations;
+  return left;
+}
+
 }  // namespace
 
 std::string StudyEvent::line() const {
@@ -60,17 +70,11 @@ bool StudyEvent::parse(std::string_view line, StudyEvent& event) {
 StudyProgress::StudyProgress(const study::Plan& plan, const std::vector<study::RunStatus>& states,
                              const study::Shard& shard, int processes)
     : plan_(plan),
-      processes_(processes),
       terminal_(isatty(STDERR_FILENO) != 0),
-      start_s_(now_s()),
-      left_(plan.runs.size()),
-      pace_(plan.conditions.size()) {
+      time_left_(plan, generations_left(plan, states, shard), processes) {
   for (const std::size_t run : plan.shard(shard)) {
     ++total_;
-    if (states[run] == study::RunStatus::done)
-      ++done_;
-    else if (states[run] != study::RunStatus::untested)
-      left_[run] = plan.condition(plan.runs[run]).config.generations;
+    done_ += states[run] == study::RunStatus::done;
   }
 }
 
@@ -78,64 +82,28 @@ StudyProgress::~StudyProgress() {
   if (open_) print_message("\n");
 }
 
-void StudyProgress::note_pace(std::size_t run, int generations) {
-  const int total = plan_.condition(plan_.runs[run]).config.generations;
-  const int left = std::max(0, total - generations);
-  const double now = now_s();
-  if (const auto heard = at_s_.find(run); heard != at_s_.end()) {
-    Pace& pace = pace_[plan_.runs[run].condition];
-    pace.generations += left_[run] - left;
-    pace.seconds += now - heard->second;
-  }
-  at_s_[run] = now;
-  left_[run] = left;
-}
-
-// Each condition at the pace seen so far, those not yet seen at the mean of the others.
-double StudyProgress::left_s() const {
-  Pace all;
-  for (const Pace& pace : pace_) {
-    all.generations += pace.generations;
-    all.seconds += pace.seconds;
-  }
-  // How long tests take is not known.
-  if (all.generations <= 0.0 || std::ranges::all_of(left_, [](int left) { return left == 0; })) return -1.0;
-  double seconds = 0.0, longest_s = 0.0;
-  for (std::size_t run = 0; run < left_.size(); ++run) {
-    const Pace& own = pace_[plan_.runs[run].condition];
-    const Pace& pace = own.generations > 0.0 ? own : all;
-    const double run_s = left_[run] * pace.seconds / pace.generations;
-    seconds += run_s;
-    longest_s = std::max(longest_s, run_s);
-  }
-  return std::max(seconds / processes_, longest_s);
-}
-
 std::string StudyProgress::summary() const {
   std::string running;
-  for (const auto& [run, heard_s] : at_s_)
+  for (const auto& [run, generations] : time_left_.running())
     running += fmt::format("{}{} {}/{}", running.empty() ? "" : ", ", plan_.name(plan_.runs[run]),
-                           plan_.condition(plan_.runs[run]).config.generations - left_[run],
-                           plan_.condition(plan_.runs[run]).config.generations);
-  const double left = left_s();
+                           generations, plan_.condition(plan_.runs[run]).config.generations);
+  const auto left_s = time_left_.seconds();
   return fmt::format("{} of {} runs{}{}{}{}", done_, total_,
                      failed_.empty() ? "" : fmt::format(", {} failed", failed_.size()),
-                     left < 0.0 ? "" : "  left " + clock_text(left), running.empty() ? "" : "  ", running);
+                     left_s ? "  left " + clock_text(*left_s) : "", running.empty() ? "" : "  ", running);
 }
 
 void StudyProgress::on(const StudyEvent& event) {
   const auto& run = plan_.runs[event.run];
   switch (event.kind) {
     case StudyEvent::Kind::start:
-      left_[event.run] = plan_.condition(run).config.generations - event.generations;
-      at_s_[event.run] = now_s();
+      time_left_.begin(event.run, event.generations, now_s());
       break;
     case StudyEvent::Kind::generation:
-      note_pace(event.run, event.generations);
+      time_left_.advance(event.run, event.generations, now_s());
       break;
     case StudyEvent::Kind::finish:
-      at_s_.erase(event.run);
-      left_[event.run] = 0;
+      time_left_.end(event.run);
       failed_.erase(event.run);
       if (!finished_.insert(event.run).second) return;
       ++done_;
@@ -146,8 +114,7 @@ void StudyProgress::on(const StudyEvent& event) {
             true);
       break;
     case StudyEvent::Kind::failure:
-      at_s_.erase(event.run);
-      left_[event.run] = 0;
+      time_left_.end(event.run);
       // Each process tries what the others could not do.
       if (finished_.contains(event.run) || !failed_.insert(event.run).second) return;
       print(fmt::format("{}: failed: {}", plan_.name(run), event.reason), true);

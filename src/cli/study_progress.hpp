@@ -1,13 +1,13 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "amble/study/plan.hpp"
+#include "amble/study/time_left.hpp"
 #include "amble/study/worker.hpp"
 
 namespace amble::cli {
@@ -41,25 +41,16 @@ class StudyProgress {
   std::size_t failed() const { return failed_.size(); }
 
  private:
-  struct Pace {
-    double generations = 0.0, seconds = 0.0;
-  };
-
-  void note_pace(std::size_t run, int generations);
-  double left_s() const;
   std::string summary() const;
   void print(const std::string& line, bool stays);
 
   const study::Plan& plan_;
-  int processes_;
   bool terminal_;
-  double start_s_, last_print_s_ = -1e9;
+  double last_print_s_ = -1e9;
   int total_ = 0, done_ = 0;
   std::set<std::size_t> finished_;  ///< since the start
   std::set<std::size_t> failed_;
-  std::vector<int> left_;               ///< generations left, by run; 0: done or not of this shard
-  std::map<std::size_t, double> at_s_;  ///< time of a run's last event
-  std::vector<Pace> pace_;              ///< by condition, as observed here
+  study::TimeLeft time_left_;
   bool open_ = false;
 };
 

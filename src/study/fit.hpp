@@ -17,8 +17,8 @@ enum class RunStatus {
 /// The state of each run, in the order of Plan::runs, from the folders alone.
 ///
 /// Throws UserError, and changes nothing, if a record or a run folder does not fit the study any more (other
-/// settings, robot, generations or tests): one line that names the first of them and their number. A file
-/// that cannot be read is reported likewise.
+/// settings, robot, generations or tests): one line that names all of them and why. A file that cannot be
+/// read is reported likewise.
 std::vector<RunStatus> survey(const Plan& plan);
 
 }  // namespace amble::study

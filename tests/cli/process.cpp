@@ -23,18 +23,22 @@ std::filesystem::path scratch_name() {
 
 }  // namespace
 
-Process::Process(const std::vector<std::string>& arguments) : out_(scratch_name()), err_(scratch_name()) {
+Process::Process(const std::vector<std::string>& arguments, bool leads_group)
+    : out_(scratch_name()), err_(scratch_name()) {
   std::vector<char*> argv{const_cast<char*>(AMBLE_PROGRAM)};
   for (const auto& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   pid_ = fork();
   if (pid_ < 0) throw std::runtime_error("fork failed");
   if (pid_ == 0) {
+    if (leads_group) setpgid(0, 0);
     dup2(open(out_.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600), STDOUT_FILENO);
     dup2(open(err_.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600), STDERR_FILENO);
     execv(AMBLE_PROGRAM, argv.data());
     _exit(127);
   }
+  // Whichever of the two is first: the group is there from now on.
+  if (leads_group) setpgid(pid_, pid_);
 }
 
 Process::~Process() {
@@ -49,6 +53,16 @@ Process::~Process() {
 
 void Process::signal(int number) const {
   kill(pid_, number);
+}
+
+void Process::signal_group(int number) const {
+  kill(-pid_, number);
+}
+
+bool Process::running() const {
+  siginfo_t ended{};
+  return waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+         ended.si_pid == 0;
 }
 
 Finished Process::wait() {

@@ -22,12 +22,15 @@ struct Finished {
 /// A real process of the program under test.
 class Process {
  public:
-  explicit Process(const std::vector<std::string>& arguments);
+  /// `leads_group`: of itself and the processes that it starts, for signal_group().
+  explicit Process(const std::vector<std::string>& arguments, bool leads_group = false);
   ~Process();
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
   void signal(int number) const;
+  void signal_group(int number) const;
+  bool running() const;
   pid_t pid() const { return pid_; }
   Finished wait();
 

@@ -1,89 +1,20 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <sys/mount.h>
 
-#include <chrono>
-#include <cstdlib>
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <map>
-#include <random>
-#include <sstream>
 #include <string>
-#include <thread>
+#include <utility>
 #include <vector>
 
 #include "tests/cli/process.hpp"
+#include "tests/cli/study_fixture.hpp"
 
 namespace amble::tests {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// A study of two conditions and three seeds that takes a second or two.
-const std::string study_toml = R"(name = "tiny"
-seeds = [1, 2, 3]
-generations = 4
-settings = ["engine=batch", "population.size=30", "speciation.target_min=3", "speciation.target_max=6", "trial.duration_s=2"]
-[[conditions]]
-name = "supg"
-config = "SOURCE/configs/authors/supg-novelty.toml"
-[[conditions]]
-name = "sine"
-config = "SOURCE/configs/authors/sine-objective.toml"
-[[tests]]
-name = "longer"
-seconds = 6
-[[tests]]
-name = "noisy"
-seconds = 2
-noise = "SOURCE/configs/robust/supg-objective.toml"
-episodes = 2
-conditions = ["supg"]
-)";
-
-std::string replaced(std::string text, const std::string& old, const std::string& now) {
-  for (std::size_t at = 0; (at = text.find(old, at)) != std::string::npos; at += now.size())
-    text.replace(at, old.size(), now);
-  return text;
-}
-
-class Study : public testing::Test {
- protected:
-  Study() { write(study_toml); }
-
-  void write(const std::string& text) const {
-    spill(folder_ / "study.toml", replaced(text, "SOURCE", AMBLE_SOURCE_DIR));
-  }
-  std::vector<std::string> command(const std::string& out, std::vector<std::string> more = {}) const {
-    std::vector<std::string> words{"study", (folder_ / "study.toml").string(), "--out",
-                                   (folder_ / out).string()};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-  }
-  Finished study(const std::string& out, std::vector<std::string> more = {}) const {
-    return amble(command(out, std::move(more)));
-  }
-  fs::path record(const std::string& out, const std::string& name) const {
-    return folder_ / out / "ledger" / (name + ".json");
-  }
-
-  const TemporaryFolder folder_;
-};
-
-/// "…digest 0123456789abcdef" of what a study printed at its end.
-std::string digest(const Finished& finished) {
-  const auto at = finished.out.find("digest ");
-  return at == std::string::npos ? "none: " + finished.out + finished.err : finished.out.substr(at + 7, 16);
-}
-
-/// Every file of a study's folder.
-std::map<std::string, std::string> all_files(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file()) files[entry.path().string()] = slurp(entry.path());
-  return files;
-}
 
 TEST_F(Study, GivesTheSameLedgerForAnyNumberOfProcessesAndAnyShards) {
   const auto alone = study("alone", {"--jobs", "1"});
@@ -105,21 +36,6 @@ TEST_F(Study, GivesTheSameLedgerForAnyNumberOfProcessesAndAnyShards) {
   const auto merged = study("merged", {"--status"});
   EXPECT_EQ(digest(merged), digest(alone)) << merged.out << merged.err;
   EXPECT_NE(merged.out.find("6 of 6 runs are done"), std::string::npos) << merged.out;
-}
-
-TEST_F(Study, KilledAtRandomMomentsGoesOnToTheSameLedger) {
-  const auto undisturbed = study("undisturbed", {"--jobs", "2"});
-  ASSERT_EQ(undisturbed.exit_code, 0) << undisturbed.err;
-  std::mt19937 random(1);
-  for (int kill = 0; kill < 10; ++kill) {
-    Process process(command("killed", {"--jobs", "2"}));
-    std::this_thread::sleep_for(std::chrono::milliseconds(random() % 800));
-    process.signal(SIGKILL);
-    process.wait();
-  }
-  const auto last = study("killed", {"--jobs", "2"});
-  EXPECT_EQ(last.exit_code, 0) << last.err;
-  EXPECT_EQ(digest(last), digest(undisturbed));
 }
 
 TEST_F(Study, TwoStudiesOnOneFolderShareTheWork) {
@@ -163,20 +79,26 @@ TEST_F(Study, ThatWasChangedSaysWhatNoLongerFitsAndTouchesNothing) {
     write(replaced(study_toml, old, now));
     const auto refused = study("s", {"--jobs", "2"});
     EXPECT_EQ(refused.exit_code, 2);
-    EXPECT_NE(refused.err.find("runs no longer fit the study"), std::string::npos) << refused.err;
+    EXPECT_NE(
+        refused.err.find("6 runs no longer fit the study: supg-001, supg-003, sine-001 to sine-003 in "),
+        std::string::npos)
+        << refused.err;
     EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
   }
   EXPECT_EQ(all_files(folder_ / "s"), before);
 }
 
-TEST_F(Study, NamesARecordThatIsCutInHalf) {
+TEST_F(Study, NamesARecordThatIsCutInHalfAndTouchesNothing) {
   ASSERT_EQ(study("s", {"--jobs", "2"}).exit_code, 0);
   const auto text = slurp(record("s", "sine-003"));
   spill(record("s", "sine-003"), text.substr(0, text.size() / 2));
-  const auto refused = study("s");
+  fs::remove(record("s", "supg-002"));  // work that could be begun
+  const auto before = all_files(folder_ / "s");
+  const auto refused = study("s", {"--jobs", "2"});
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_NE(refused.err.find("sine-003.json"), std::string::npos) << refused.err;
   EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
+  EXPECT_EQ(all_files(folder_ / "s"), before);
 }
 
 TEST_F(Study, WithAConfigThatNoLongerParsesNamesItsLineAndLosesNothing) {
@@ -202,19 +124,63 @@ TEST_F(Study, WithASeedTwiceIsRefusedInOneLine) {
   EXPECT_FALSE(fs::exists(folder_ / "s"));
 }
 
-TEST_F(Study, OnAFullDiskSaysSoAndGoesOnWhereThereIsRoom) {
+void expect_unchanged(const std::map<std::string, std::string>& files) {
+  for (const auto& [path, text] : files) EXPECT_EQ(slurp(path), text) << path;
+}
+
+/// A file system in memory, with room for so many bytes.
+class SmallDisk {
+ public:
+  SmallDisk(fs::path folder, std::uintmax_t bytes) : folder_(std::move(folder)) {
+    fs::create_directories(folder_);
+    mounted_ = mount("tmpfs", folder_.c_str(), "tmpfs", 0, fmt::format("size={}", bytes).c_str()) == 0;
+  }
+  ~SmallDisk() {
+    if (mounted_) umount(folder_.c_str());
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+
+  bool mounted() const { return mounted_; }
+  bool resize(std::uintmax_t bytes) const {
+    const auto size = fmt::format("size={}", bytes);
+    return mount("tmpfs", folder_.c_str(), "tmpfs", MS_REMOUNT, size.c_str()) == 0;
+  }
+
+ private:
+  fs::path folder_;
+  bool mounted_ = false;
+};
+
+/// What a folder's files take up on a disk.
+std::uintmax_t disk_bytes(const fs::path& folder) {
+  constexpr std::uintmax_t page = 4096;
+  std::uintmax_t bytes = 0;
+  for (const auto& [path, text] : all_files(folder)) bytes += (text.size() + page - 1) / page * page;
+  return bytes;
+}
+
+TEST_F(Study, OnAFullDiskSaysSoKeepsWhatIsFinishedAndGoesOnWhenThereIsRoom) {
   const auto alone = study("alone", {"--jobs", "1"});
-  const auto disk = folder_ / "disk";
-  fs::create_directories(disk);
-  if (mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=300k") != 0) GTEST_SKIP() << "needs the right to mount";
+  ASSERT_EQ(alone.exit_code, 0) << alone.err;
+  const auto needed = disk_bytes(folder_ / "alone");
+  const SmallDisk disk(folder_ / "disk", needed / 2);
+  if (!disk.mounted()) GTEST_SKIP() << "needs the right to mount";
+  ASSERT_EQ(study("disk/s", {"--jobs", "1", "--shard", "1/6"}).exit_code, 0);
+  const auto records = folder_ / "disk" / "s" / "ledger";
+  const auto finished = all_files(records);
+  ASSERT_EQ(finished.size(), 1u);
   const auto full = study("disk/s", {"--jobs", "2"});
   EXPECT_EQ(full.exit_code, 4) << full.err;
   EXPECT_NE(full.err.find("No space left on device"), std::string::npos) << full.err;
-  fs::copy(disk / "s", folder_ / "moved", fs::copy_options::recursive);
-  umount(disk.c_str());
-  const auto rest = study("moved", {"--jobs", "2"});
+  const auto kept = all_files(records);
+  EXPECT_LT(kept.size(), 6u);
+  expect_unchanged(finished);
+  ASSERT_TRUE(disk.resize(4 * needed));
+  const auto rest = study("disk/s", {"--jobs", "2"});
   EXPECT_EQ(rest.exit_code, 0) << rest.err;
   EXPECT_EQ(digest(rest), digest(alone));
+  expect_unchanged(kept);
 }
 
 TEST_F(Study, ARunThatFailsIsReportedAndTheOthersContinue) {
@@ -232,31 +198,6 @@ TEST_F(Study, ARunThatFailsIsReportedAndTheOthersContinue) {
       << "by each process: " << rest.err;
   EXPECT_NE(rest.out.find("5 of 6 runs are done"), std::string::npos) << rest.out << rest.err;
   EXPECT_NE(rest.err.find("1 run failed; the same command tries it again"), std::string::npos) << rest.err;
-}
-
-/// The processes that a process has started.
-std::vector<pid_t> children_of(pid_t parent) {
-  std::vector<pid_t> children;
-  std::istringstream list(slurp(fmt::format("/proc/{0}/task/{0}/children", parent)));
-  for (pid_t child = 0; list >> child;) children.push_back(child);
-  return children;
-}
-
-TEST_F(Study, OneOfWhoseProcessesIsKilledIsDoneByTheOthers) {
-  write(replaced(study_toml, "generations = 4", "generations = 20"));
-  Process process(command("s", {"--jobs", "2"}));
-  const auto begun = folder_ / "s" / "runs" / "supg-001" / "checkpoint.bin";
-  std::vector<pid_t> children;
-  for (int tries = 0; tries < 4000 && (children.size() < 2 || !fs::exists(begun)); ++tries) {
-    children = children_of(process.pid());
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  ASSERT_EQ(children.size(), 2u);
-  ::kill(children[0], SIGKILL);
-  const auto finished = process.wait();
-  EXPECT_EQ(finished.exit_code, 0) << finished.err;
-  EXPECT_NE(finished.err.find("ended by signal 9"), std::string::npos) << finished.err;
-  EXPECT_EQ(digest(finished), digest(study("alone", {"--jobs", "1"})));
 }
 
 TEST_F(Study, ReplacesNoStudyFileInItsFolderThatItHasNotWritten) {
@@ -287,17 +228,6 @@ TEST_F(Study, PassesItsOptionsOnToSlurmsTasks) {
       << text;
   const auto refused = study("s", {"--slurm", script.string(), "--shard", "1/2"});
   EXPECT_EQ(refused.exit_code, 2) << refused.err;
-}
-
-TEST_F(Study, StoppedByASignalSaysHowToGoOn) {
-  write(replaced(study_toml, "generations = 4", "generations = 4000"));
-  Process process(command("s", {"--jobs", "2"}));
-  while (!fs::exists(folder_ / "s" / "runs" / "supg-001" / "checkpoint.bin"))
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  process.signal(SIGTERM);
-  const auto stopped = process.wait();
-  EXPECT_EQ(stopped.exit_code, 7) << stopped.err;
-  EXPECT_NE(stopped.err.find("go on by the same command"), std::string::npos) << stopped.err;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "amble/study/fit.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -82,7 +83,7 @@ void expect_refusals(const std::function<std::string(const ledger::StudySpec&)>&
   for (const int generations : {4, 6}) {
     auto changed = study;
     changed.generations = generations;
-    EXPECT_THAT(refusal(changed), HasSubstr("has 5 generations instead of " + std::to_string(generations)));
+    EXPECT_THAT(refusal(changed), HasSubstr("(5 generations instead of " + std::to_string(generations)));
   }
   auto changed = study;
   changed.settings.push_back("mutation.add_node_share=0.02");
@@ -94,7 +95,7 @@ TEST_F(Fit, ARecordOfAnotherStudyIsRefused) {
   expect_refusals([this](const auto& study) { return refusal(study); }, study_);
   auto changed = study_;
   changed.tests[0].seconds = 2.0;
-  EXPECT_THAT(refusal(changed), HasSubstr("its test 'brief' was another one"));
+  EXPECT_THAT(refusal(changed), HasSubstr("(the test 'brief' was another one)"));
 }
 
 TEST_F(Fit, ABegunRunOfAnotherStudyIsRefused) {
@@ -103,17 +104,28 @@ TEST_F(Fit, ABegunRunOfAnotherStudyIsRefused) {
   const ledger::StudyPaths paths(folder_.path());
   std::filesystem::rename(paths.run("sine", 3), paths.run("sine", 4));
   study_.seeds = {4};
-  EXPECT_THAT(refusal(study_), HasSubstr("has the seed 3"));
+  EXPECT_THAT(refusal(study_), HasSubstr("sine-004 in " + paths.runs.string() + " (has the seed 3)"));
 }
 
-TEST_F(Fit, RefusalsAreCountedAndTheFirstIsNamed) {
-  study_.seeds = {3, 4, 5};
+TEST_F(Fit, ARefusalNamesAllRunsThatDoNotFitAndWhy) {
+  study_.conditions.push_back(condition("wave", "authors/sine-objective"));
+  study_.seeds = {5, 9, 3, 4, 8};
   finish_all();
+  study_.seeds = {11};
+  begin();
+  study_.seeds = {5, 9, 3, 4, 8, 11};
   study_.generations = 6;
-  const auto text = refusal(study_);
-  EXPECT_THAT(text, HasSubstr("3 of 3 runs no longer fit the study: "));
-  EXPECT_THAT(text, HasSubstr("sine-003.json"));
-  EXPECT_THAT(text, HasSubstr(" and 2 more;"));
+  study_.conditions[1].settings = {"mutation.add_node_share=0.02"};
+  const ledger::StudyPaths paths(folder_.path());
+  EXPECT_EQ(
+      refusal(study_),
+      fmt::format(
+          "11 of 12 runs no longer fit the study: "
+          "sine-003 to sine-005, sine-008, sine-009 in {0} (5 generations instead of 6); "
+          "wave-003 to wave-005, wave-008, wave-009 in {0} (made with other settings or another robot); "
+          "sine-011 in {1} (5 generations instead of 6); "
+          "nothing was changed; name another --out, or move them away",
+          paths.records.string(), paths.runs.string()));
 }
 
 }  // namespace
