@@ -20,6 +20,13 @@
 namespace amble::tests {
 namespace {
 
+#ifdef AMBLE_SANITIZED
+constexpr int generations = 12;  // each takes ten times as long
+#else
+constexpr int generations = 40;
+#endif
+constexpr int all_generations = 6 * generations;
+
 /// The processes that a process has started.
 std::vector<pid_t> children_of(pid_t parent) {
   std::vector<pid_t> children;
@@ -67,8 +74,6 @@ void expect_kept(const std::map<fs::path, std::string>& beginnings) {
 /// A study of some seconds, each time in as many processes as the parameter says.
 class KilledStudy : public Study, public testing::WithParamInterface<int> {
  protected:
-  static constexpr int generations = 40, all_generations = 6 * generations;
-
   KilledStudy() {
     write(replaced(study_toml, "generations = 4", fmt::format("generations = {}", generations)));
   }
