@@ -33,12 +33,12 @@ constexpr std::array map_measures{MapMeasure{"coverage", "share of the cells fil
                                   MapMeasure{"entering_share", "share of the candidates that enter the map"}};
 
 /// What a test must look for to have a measure.
-enum class Of { trials, reaching, mutants };
+enum class Requires { trials, episodes, reaching, mutants };
 
 struct TestMeasure {
   std::string_view name, label;
   std::optional<double> (*value)(const Record&, const TestResult&);
-  Of of = Of::trials;
+  Requires needs = Requires::trials;
   bool is_compared = false;  ///< in all pairs of conditions
 };
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -72,7 +72,20 @@ std::optional<double> gait_change(const Record&, const TestResult& test) {
 using Found = std::optional<double>;
 constexpr std::array test_measures{
     TestMeasure{"distance_m", "distance, m",
-                [](const Record&, const TestResult& t) -> Found { return t.distance_m(); }, Of::trials, true},
+                [](const Record&, const TestResult& t) -> Found { return t.distance_m(); }, Requires::trials,
+                true},
+    TestMeasure{"lower_quartile_m", "lower quartile of the distance, m",
+                [](const Record&, const TestResult& t) -> Found { return t.typical().lower_quartile; },
+                Requires::episodes},
+    TestMeasure{"upper_quartile_m", "upper quartile of the distance, m",
+                [](const Record&, const TestResult& t) -> Found { return t.typical().upper_quartile; },
+                Requires::episodes},
+    TestMeasure{"best_m", "distance of the luckiest episode, m",
+                [](const Record&, const TestResult& t) -> Found { return t.typical().best; },
+                Requires::episodes},
+    TestMeasure{"fell_share", "share of the episodes that fell",
+                [](const Record&, const TestResult& t) -> Found { return t.typical().fell_share; },
+                Requires::episodes},
     TestMeasure{"upright_s", "time upright, s",
                 [](const Record&, const TestResult& t) -> Found { return t.upright_s(); }},
     TestMeasure{"walking_s", "time walking, s",
@@ -80,26 +93,37 @@ constexpr std::array test_measures{
     TestMeasure{"moving_s", "time in motion, s",
                 [](const Record&, const TestResult& t) { return t.moving_s(); }},
     TestMeasure{"kept", "distance / distance in evolution", kept},
-    TestMeasure{"reached_s", "wall time until it was reached, s", reached_s, Of::reaching},
+    TestMeasure{"reached_s", "wall time until it was reached, s", reached_s, Requires::reaching},
     TestMeasure{"reached_generation", "generation that reached it",
                 [](const Record&, const TestResult& t) -> Found {
                   return t.reached ? 1.0 * t.reached->generation : never;
                 },
-                Of::reaching},
+                Requires::reaching},
     TestMeasure{"reached_evaluations", "evaluations until it was reached",
                 [](const Record&, const TestResult& t) -> Found {
                   return t.reached ? static_cast<double>(t.reached->evaluations) : never;
                 },
-                Of::reaching},
-    TestMeasure{"viable_share", "share of mutants that are viable", viable_share, Of::mutants, true},
-    TestMeasure{"mutants_kept", "share of the score that mutants keep", mutants_kept, Of::mutants},
-    TestMeasure{"gait_change", "change of duty factors of viable mutants", gait_change, Of::mutants, true}};
+                Requires::reaching},
+    TestMeasure{"viable_share", "share of mutants that are viable", viable_share, Requires::mutants, true},
+    TestMeasure{"mutants_kept", "share of the score that mutants keep", mutants_kept, Requires::mutants},
+    TestMeasure{"gait_change", "change of duty factors of viable mutants", gait_change, Requires::mutants,
+                true}};
 
 struct Parts {
   std::string_view test, measure;
 };
-bool has(const TestSpec& test, Of of) {
-  return of == Of::trials || (of == Of::reaching ? test.reach_m > 0.0 : test.mutants > 0);
+bool has(const TestSpec& test, Requires needs) {
+  switch (needs) {
+    case Requires::episodes:
+      return test.episodes > 1;
+    case Requires::reaching:
+      return test.reach_m > 0.0;
+    case Requires::mutants:
+      return test.mutants > 0;
+    case Requires::trials:
+      break;
+  }
+  return true;
 }
 
 Parts split(std::string_view name) {
@@ -125,33 +149,33 @@ bool is_measure(const StudySpec& study, std::string_view name) {
            std::ranges::find(map_measures, what, &MapMeasure::name) != map_measures.end();
   const TestSpec* const spec = study.find_test(test);
   const auto found = std::ranges::find(test_measures, what, &TestMeasure::name);
-  return spec != nullptr && found != test_measures.end() && has(*spec, found->of);
+  return spec != nullptr && found != test_measures.end() && has(*spec, found->needs);
 }
 
 std::string measure_names() {
   std::string text;
   for (const RunMeasure& row : run_measures) text += fmt::format("{}, ", row.name);
   for (const MapMeasure& row : map_measures) text += fmt::format("{}, ", row.name);
-  std::array<std::string, 3> of_tests;
+  std::array<std::string, 4> of_tests;
   for (const TestMeasure& row : test_measures) {
-    std::string& names = of_tests.at(to_index(row.of));
+    std::string& names = of_tests.at(to_index(row.needs));
     names += fmt::format("{}.{}", names.empty() ? "" : ", ", row.name);
   }
-  return fmt::format("{}TEST{}, with reach_m {}, with mutants {}", text, of_tests[0], of_tests[1],
-                     of_tests[2]);
+  return fmt::format("{}TEST{}, with episodes {}, with reach_m {}, with mutants {}", text, of_tests[0],
+                     of_tests[1], of_tests[2], of_tests[3]);
 }
 
 std::vector<std::string> measures_of(const TestSpec& test) {
   std::vector<std::string> names;
   for (const TestMeasure& row : test_measures)
-    if (has(test, row.of)) names.push_back(fmt::format("{}.{}", test.name, row.name));
+    if (has(test, row.needs)) names.push_back(fmt::format("{}.{}", test.name, row.name));
   return names;
 }
 
 std::vector<std::string> compared_measures_of(const TestSpec& test) {
   std::vector<std::string> names;
   for (const TestMeasure& row : test_measures)
-    if (row.is_compared && has(test, row.of)) names.push_back(fmt::format("{}.{}", test.name, row.name));
+    if (row.is_compared && has(test, row.needs)) names.push_back(fmt::format("{}.{}", test.name, row.name));
   return names;
 }
 
@@ -166,8 +190,9 @@ std::optional<double> measure(const Record& record, std::string_view name) {
   const TestResult* const result = record.find_test(test);
   const auto found = std::ranges::find(test_measures, what, &TestMeasure::name);
   if (result == nullptr || found == test_measures.end()) return std::nullopt;
-  if (found->of == Of::reaching && result->reach_m <= 0.0) return std::nullopt;
-  if (found->of == Of::mutants && result->mutants.empty()) return std::nullopt;
+  if (found->needs == Requires::episodes && result->episodes.size() < 2) return std::nullopt;
+  if (found->needs == Requires::reaching && result->reach_m <= 0.0) return std::nullopt;
+  if (found->needs == Requires::mutants && result->mutants.empty()) return std::nullopt;
   return found->value(record, *result);
 }
 

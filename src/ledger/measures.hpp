@@ -34,6 +34,11 @@ Objective objective_of(const Record& record);
 /// TEST.moving_s      in motion, also after pauses (TestResult::moving_s), s; of trials of 10 s or more
 /// TEST.kept          distance in the test / distance in evolution; none if the objective is another
 ///
+/// and of a test with several episodes:
+///
+/// TEST.lower_quartile_m, TEST.upper_quartile_m, TEST.best_m    of their distances, m
+/// TEST.fell_share    share of them in which the robot fell, or its simulation diverged
+///
 /// and of a test that looks for the first best that gets as far as `reach_m`; infinite if none does:
 ///
 /// TEST.reached_s           wall time of the evolution until then, s

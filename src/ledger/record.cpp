@@ -187,6 +187,16 @@ Provenance provenance_from(const io::JsonView& view) {
 
 }  // namespace
 
+score::Typical TestResult::typical() const {
+  std::vector<double> distances_m;
+  std::vector<record::Outcome> outcomes;
+  for (const EpisodeResult& episode : episodes) {
+    distances_m.push_back(episode.distance_m);
+    outcomes.push_back(episode.outcome);
+  }
+  return score::typical(distances_m, outcomes);
+}
+
 double TestResult::distance_m() const {
   return median_of(episodes, &EpisodeResult::distance_m);
 }

@@ -10,6 +10,7 @@
 #include "amble/io/json_file.hpp"
 #include "amble/record/mutant.hpp"
 #include "amble/record/trajectory.hpp"
+#include "amble/score/typical.hpp"
 
 namespace amble::ledger {
 
@@ -47,8 +48,10 @@ struct TestResult {
   std::vector<record::Mutant> mutants = {};  ///< of the champion, to thousandths; TestSpec::mutants
 
   double distance_m() const;  ///< median of the episodes
-  double upright_s() const;   ///< median
-  double walking_s() const;   ///< median
+  /// Distances of the episodes, m.
+  score::Typical typical() const;
+  double upright_s() const;  ///< median
+  double walking_s() const;  ///< median
   /// Of the first episode, s: windows of 10 s (or of one sample of the path, if that is more) over which it
   /// gets farther than 25 cm, also after pauses; where one ends in each sample, the first counts whole.
   /// Nothing of trials that are shorter than 10 s, which have no window.

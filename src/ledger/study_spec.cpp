@@ -9,6 +9,7 @@
 
 #include "amble/core/hash.hpp"
 #include "amble/io/toml_settings.hpp"
+#include "amble/record/levels.hpp"
 
 namespace amble::ledger {
 namespace {
@@ -77,7 +78,15 @@ void check_tests(const StudySpec& study) {
     const TestSpec& test = study.tests[i];
     check_name(study, item("tests", i, "name"), test.name, names);
     check_condition_names(study, item("tests", i, "conditions"), test.conditions);
-    if (test.noise.empty() && test.ground.empty() && test.episodes != 1)
+    if (!test.level.empty() && record::find_level(test.level) == nullptr)
+      throw study.error_at(item("tests", i, "level"),
+                           fmt::format("'{}' = \"{}\": expected {}", item("tests", i, "level"), test.level,
+                                       record::level_names()));
+    if (!test.level.empty() && !test.noise.empty())
+      throw study.error_at(
+          item("tests", i, "level"),
+          fmt::format("'{}': the test has 'noise' as well; expected one of them", item("tests", i, "level")));
+    if (!test.is_disturbed() && test.ground.empty() && test.episodes != 1)
       throw study.error_at(item("tests", i, "episodes"),
                            fmt::format("'{}' = {}: without noise all trials are the same",
                                        item("tests", i, "episodes"), test.episodes));
@@ -103,6 +112,7 @@ void TestSpec::describe(io::SettingsVisitor& visitor) {
   visitor.text("engine", engine, {"physics engine; empty: the run's own"});
   visitor.number("seconds", seconds, {1e-5, 1e6}, {"length of the trials, s"});
   visitor.text("noise", noise, {"config file whose [noise] disturbs the trials; empty: none"});
+  visitor.text("level", level, {"level of disturbance of the trials, in place of noise; empty: none"});
   visitor.text("ground", ground, {"config file whose [ground] the champion walks on; empty: its own"});
   visitor.text("damage", damage, {"config file whose [damage] the champion's robot has; empty: its own"});
   visitor.integer("episodes", episodes, {1, 1000}, {"trials under noise that evolution has not met"});

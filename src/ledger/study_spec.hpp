@@ -33,6 +33,7 @@ struct TestSpec {
   std::string engine;  ///< empty: the engine of the run
   double seconds = 300.0;
   std::string noise;   ///< config file whose [noise] disturbs the trials; empty: no noise
+  std::string level;   ///< record::Level that disturbs them, in place of `noise`; empty: none
   std::string ground;  ///< config file whose [ground] the champion walks on; empty: that of its own config
   std::string damage;  ///< config file whose [damage] the champion has; empty: that of its own config
   /// Trials under noise, on uneven ground, or from places that evolution has not used; 1 without any of it.
@@ -44,6 +45,7 @@ struct TestSpec {
   std::vector<std::string> conditions;  ///< names; empty: all
 
   bool applies_to(std::string_view condition) const;
+  bool is_disturbed() const { return !noise.empty() || !level.empty(); }
   void describe(io::SettingsVisitor& visitor);
 };
 

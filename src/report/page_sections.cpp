@@ -118,7 +118,9 @@ std::string test_text(const Report& report, const ledger::TestSpec& test) {
   if (!test.ground.empty()) text += ", on the ground of " + config_text(test.ground);
   if (!test.damage.empty()) text += ", with the damage of " + config_text(test.damage);
   const std::string episodes = counted(to_index(test.episodes), "episode");
-  if (!test.noise.empty())
+  if (!test.level.empty())
+    text += fmt::format(", {} at the level {} (median)", episodes, test.level);
+  else if (!test.noise.empty())
     text += fmt::format(", {} under noise that evolution has not met (median)", episodes);
   else if (test.episodes > 1)
     text += fmt::format(", {} (median)", episodes);

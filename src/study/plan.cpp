@@ -34,6 +34,7 @@ PlannedTest plan_test(const ledger::StudySpec& study, std::size_t index) {
       throw study.error_at(key_of("tests", index, "noise"),
                            fmt::format("{}: is without noise", test.spec.noise));
   }
+  if (!test.spec.level.empty()) test.noise = trial::noise_of(*record::find_level(test.spec.level));
   if (!test.spec.ground.empty()) test.ground = experiment::load_config(test.spec.ground, {}).ground;
   if (test.ground && test.ground->start_place_m <= 0.0 && !test.noise.any() && test.spec.episodes != 1)
     throw study.error_at(

@@ -57,4 +57,13 @@ bool NoiseSettings::any() const {
          attitude_sensor_rad > 0.0 || latency_ticks > 0;
 }
 
+NoiseSettings noise_of(const record::Level& level) {
+  constexpr double drop_m_per_rad = 0.1;
+  NoiseSettings noise;
+  noise.start_joint_rad = noise.start_tilt_rad = level.start_rad;
+  noise.start_height_m = drop_m_per_rad * level.start_rad;
+  noise.push_m_s = level.push_m_s;
+  return noise;
+}
+
 }  // namespace amble::trial

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "amble/io/settings.hpp"
+#include "amble/record/levels.hpp"
 #include "amble/trial/settings.hpp"
 
 namespace amble::trial {
@@ -39,5 +40,8 @@ struct NoiseSettings {
   /// Whether there is any noise at all.
   bool any() const;
 };
+
+/// The noise of trials at a level: their starts, or pushes.
+NoiseSettings noise_of(const record::Level& level);
 
 }  // namespace amble::trial

@@ -21,6 +21,20 @@ TEST(Measures, AreTakenFromTheRunOrFromANamedTest) {
   EXPECT_EQ(measure(record, "noisy.kept"), 3.0 / 4.25);
 }
 
+TEST(Measures, OfSeveralEpisodesAreAlsoTheirQuartilesTheLuckiestAndWhatFell) {
+  Record record = sample_record();
+  record.tests[0].episodes = {{.distance_m = 1.0, .outcome = record::Outcome::fell},
+                              {.distance_m = 5.0},
+                              {.distance_m = 2.0},
+                              {.distance_m = 3.0, .outcome = record::Outcome::fell},
+                              {.distance_m = 4.0}};
+  EXPECT_EQ(measure(record, "five.distance_m"), 3.0);
+  EXPECT_EQ(measure(record, "five.lower_quartile_m"), 2.0);
+  EXPECT_EQ(measure(record, "five.upper_quartile_m"), 4.0);
+  EXPECT_EQ(measure(record, "five.best_m"), 5.0);
+  EXPECT_EQ(measure(record, "five.fell_share"), 0.4);
+}
+
 /// A test whose path goes `steps_m` along x from sample to sample.
 TestResult path_test(double interval_s, const std::vector<double>& steps_m) {
   TestResult test = sample_record().tests[0];

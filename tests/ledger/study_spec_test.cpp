@@ -96,8 +96,9 @@ TEST(StudySpec, NamesHaveUpTo64Characters) {
 
 const std::string all_measures =
     "train_m, hidden, links, coverage, qd_score, map_best, entering_share, TEST.distance_m, .upright_s, "
-    ".walking_s, .moving_s, .kept, with reach_m .reached_s, .reached_generation, .reached_evaluations, with "
-    "mutants .viable_share, .mutants_kept, .gait_change";
+    ".walking_s, .moving_s, .kept, with episodes .lower_quartile_m, .upper_quartile_m, .best_m, .fell_share, "
+    "with reach_m .reached_s, .reached_generation, .reached_evaluations, with mutants .viable_share, "
+    ".mutants_kept, .gait_change";
 
 TEST(StudySpec, MistakesAreNamedWithTheirPlace) {
   EXPECT_EQ(diagnostic(good), "");
@@ -310,6 +311,17 @@ TEST(StudySpec, TestsHaveSeveralEpisodesWhereNoiseOrGroundMakesThemDiffer) {
   EXPECT_NE(diagnostic(replaced(good, "seconds = 300", "seconds = 300\nconditions = [\"b\", \"c\"]"))
                 .find("'tests[0].conditions' names \"c\", which is none of the conditions"),
             std::string::npos);
+}
+
+TEST(StudySpec, LevelsOfDisturbanceAreKnownByNameAndTakeThePlaceOfNoise) {
+  const std::string five = "seconds = 300\n";
+  const auto with = [&five](const std::string& more) {
+    return diagnostic(replaced(good, five, five + more));
+  };
+  EXPECT_EQ(with("level = \"milli\"\nepisodes = 16\n"), "");
+  EXPECT_NE(with("level = \"mili\"\n").find("expected control, micro, 100-micro or milli"),
+            std::string::npos);
+  EXPECT_NE(with("level = \"milli\"\nnoise = \"n.toml\"\n").find("expected one of them"), std::string::npos);
 }
 
 TEST(StudySpec, EveryConditionHasAConfigSeedsAndAName) {

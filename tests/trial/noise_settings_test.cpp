@@ -118,5 +118,16 @@ TEST(NoiseSettings, NameTheKeysThatCouldBeChanged) {
             (Keys{"noise.push_interval_s", "trial.timestep_s"}));
 }
 
+TEST(NoiseSettings, OfALevelTurnTheStartAndDropItFromATenthAsMuch) {
+  const NoiseSettings milli = noise_of(*record::find_level("milli"));
+  EXPECT_EQ(milli.start_joint_rad, 1e-3);
+  EXPECT_EQ(milli.start_tilt_rad, 1e-3);
+  EXPECT_DOUBLE_EQ(milli.start_height_m, 1e-4);
+  EXPECT_EQ(milli.push_m_s, 0.0);
+  const NoiseSettings control = noise_of(*record::find_level("control"));
+  EXPECT_FALSE(control.disturbs_start());
+  EXPECT_EQ(control.push_m_s, 1e-20);
+}
+
 }  // namespace
 }  // namespace amble::trial
