@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "amble/ground/height_field.hpp"
+
 namespace amble::experiment {
 namespace {
 
@@ -36,8 +38,10 @@ class TogetherQueue : public trial::TaskQueue {
   std::vector<std::optional<record::Trajectory>> trajectories_;
 };
 
-ground::Key ground_of(const Problem& problem, const TogetherTrial& trial) {
-  return trial.noise ? ground_of(*trial.noise) : problem.ground_key;
+/// The same for trials on the same ground.
+ground::Key ground_key(const Problem& problem, const TogetherTrial& trial) {
+  const ground::Key key = trial.noise ? ground_of(*trial.noise) : problem.ground_key;
+  return ground::normalised(problem.ground, key);
 }
 
 /// Trials that are all on one ground. Appends their results; false if `stop` was set before the last ended.
@@ -73,12 +77,12 @@ std::optional<std::vector<TrialResult>> replay_together(const Problem& original,
   std::vector<TrialResult> results;
   while (results.size() < trials.size()) {
     auto rest = trials.subspan(results.size());
-    const ground::Key key = ground_of(problem, rest.front());
+    const ground::Key key = ground_key(problem, rest.front());
     const auto ground = problem.make_ground(key);
     // On the plane no trial has a ground of its own.
     if (ground) {
       const auto other = std::ranges::find_if(
-          rest, [&](const TogetherTrial& trial) { return ground_of(problem, trial) != key; });
+          rest, [&](const TogetherTrial& trial) { return ground_key(problem, trial) != key; });
       rest = rest.first(static_cast<std::size_t>(other - rest.begin()));
     }
     if (!replay_on(problem, ground, parameters, rest, results, stop)) return std::nullopt;
