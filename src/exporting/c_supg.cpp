@@ -108,8 +108,8 @@ void add_supg(const ControllerTables& tables, const CSourceOptions& options, CTe
   text.line("enum {{ period = {}, start_tick = {}, end_of_cycle = {}, stopped = -1 }};", supg.period_ticks,
             supg.start_tick, supg.end_of_cycle);
   const bool is_triggered = supg.airborne_ticks_needed != SupgTables::never;
-  text.line(is_triggered ? "/* Ticks off the ground after which a touch is a trigger. */"
-                         : "/* No touch is a trigger. */");
+  text.line("/* {} */", is_triggered ? "Ticks off the ground after which a touch is a trigger."
+                                     : "No touch is a trigger.");
   text.line("enum {{ airborne_needed = {} }};", supg.airborne_ticks_needed);
   text.array(fmt::format("static const {} wait_ticks[{}_LEGS]", type, upper), waits);
   text.array(fmt::format("static const {} first_timer[{}_LEGS]", type, upper), firsts);
