@@ -286,9 +286,12 @@ Table claims_table(const Report& report) {
 }  // namespace
 
 std::vector<Table> tables(const Report& report) {
-  return {claims_table(report),   runs_table(report),   summary_table(report),  typical_table(report),
-          pairs_table(report),    curves_table(report), bests_table(report),    survival_table(report),
-          log_rank_table(report), gaits_table(report),  transfer_table(report), mutants_table(report)};
+  std::vector<Table> all{claims_table(report),   runs_table(report),     summary_table(report),
+                         pairs_table(report),    curves_table(report),   bests_table(report),
+                         survival_table(report), log_rank_table(report), gaits_table(report),
+                         transfer_table(report), mutants_table(report)};
+  if (!report.typical.empty()) all.push_back(typical_table(report));
+  return all;
 }
 
 }  // namespace amble::report
