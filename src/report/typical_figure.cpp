@@ -26,6 +26,7 @@ constexpr double run_radius_px = 2.3, median_radius_px = 3.6, swarm_px = 13.0, v
 /// One column of panels on phones: names of disturbances need the width.
 PanelGrid make_grid(const std::vector<std::string>& labels, Layout layout) {
   PanelGrid grid;
+  grid.below_px = 42.0;
   const std::size_t most = layout == Layout::wide ? 3 : 1;
   grid.columns = labels.size() == 4 && most > 1 ? 2 : std::clamp<std::size_t>(labels.size(), 1, most);
   grid.rows = (labels.size() + grid.columns - 1) / grid.columns;

@@ -14,7 +14,9 @@ namespace {
 /// "6.97 [6.41, 7.52]" and below it how many of the trials fell.
 std::string cell_of(const TypicalPoint* point) {
   if (point == nullptr) return "–";
-  std::string text = estimate_text(point->summary.mean, point->summary.mean_interval, "");
+  const int decimals = point->summary.mean < 10.0 ? 2 : 1;
+  std::string text = number_text(point->summary.mean, decimals);
+  if (point->summary.mean_interval) text += " " + interval_text(*point->summary.mean_interval, decimals);
   if (point->fell_share)
     text += fmt::format("<br/><small>fell: {}</small>", percent_text(*point->fell_share));
   return tied(text);
@@ -24,7 +26,7 @@ std::string table_of(const Report& report, const TypicalTable& typical) {
   std::vector<Column> columns{{"Condition", false}};
   for (const TypicalTable::Column& column : typical.columns)
     columns.push_back({fmt::format("{}, m", disturbance_name(column))});
-  TableWriter table(columns, "dense");
+  TableWriter table(columns);
   for (const TypicalCurve& curve : typical.curves) {
     std::vector<std::string> cells{fmt::format("{} <small>n = {}</small>",
                                                io::escape_xml(report.label(curve.condition)),
