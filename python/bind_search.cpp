@@ -5,7 +5,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
-#include "amble/experiment/episodes.hpp"
+#include "amble/experiment/generation.hpp"
 #include "amble/experiment/run_state.hpp"
 #include "amble/neat/genome_json.hpp"
 #include "amble/physics/engine.hpp"
@@ -94,7 +94,6 @@ struct Evaluated {
   std::vector<bool> viable;
 };
 
-/// As Run::generations() evaluates a generation.
 Evaluated evaluate(Task& task, Arena& arena, std::span<const neat::Genome> genomes, int generation,
                    std::int64_t seed, int jobs, const std::atomic<bool>& stop) {
   const std::lock_guard lock(arena.mutex);
@@ -102,14 +101,12 @@ Evaluated evaluate(Task& task, Arena& arena, std::span<const neat::Genome> genom
   if (!evaluator)
     evaluator = std::make_unique<experiment::Evaluator>(arena.problem, task.behaviour().path(), jobs,
                                                         task.behaviour().measures());
-  const auto ground = arena.ground.of(arena.problem, seed, generation);
-  const auto scenarios = arena.problem.scenarios(seed, generation, ground.get());
-  const auto result = evaluator->evaluate(genomes, stop, scenarios, ground);
-  if (!result) return {};
-  Evaluated evaluated{
-      .objectives = experiment::objectives(arena.problem, *result), .behaviours = {}, .viable = {}};
+  auto all = experiment::evaluate_generation(*evaluator, arena.problem, task.config.value.evaluation,
+                                             arena.ground, seed, generation, genomes, stop);
+  if (!all) return {};
+  Evaluated evaluated{.objectives = std::move(all->objectives), .behaviours = {}, .viable = {}};
   for (std::size_t i = 0; i < genomes.size(); ++i) {
-    const auto episodes = result->of_genome(i);
+    const auto episodes = all->result.of_genome(i);
     evaluated.behaviours.push_back(task.behaviour().of(episodes));
     evaluated.viable.push_back(
         std::ranges::count(episodes, record::Outcome::diverged, &record::Trajectory::outcome) == 0);

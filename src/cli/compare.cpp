@@ -11,9 +11,11 @@
 
 #include "amble/cli/commands.hpp"
 #include "amble/cli/compare_table.hpp"
+#include "amble/cli/disturbance.hpp"
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/config.hpp"
+#include "amble/experiment/episodes.hpp"
 #include "amble/experiment/referees.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/physics/engine.hpp"
@@ -29,6 +31,7 @@ struct CompareOptions {
   std::string format = formats[0];
   std::optional<std::filesystem::path> noise;  ///< a config file, for its noise
   std::uint32_t episodes = 10;
+  DisturbanceOptions disturbance;
 };
 
 struct NamedChampion {
@@ -65,6 +68,22 @@ void disturb(std::vector<NamedChampion>& champions, const std::filesystem::path&
   for (auto& named : champions) named.champion.problem.noise = noise;
 }
 
+/// The trials that tell what a champion typically does, the same in all engines; their level's noise becomes
+/// the champion's.
+std::vector<trial::ScenarioKey> typical_noise(experiment::Champion& champion,
+                                              const DisturbanceOptions& options, std::string& under) {
+  DisturbanceOptions one = options;
+  one.trials = 1;
+  const auto trials = typical_trials(champion, champion.problem, one);
+  under = trials.under();
+  champion.problem.noise = trials.problem().noise;
+  trial::ScenarioKey key = experiment::typical_key(champion.seed);
+  std::vector<trial::ScenarioKey> keys;
+  const int count = options.trials > 0 ? options.trials : experiment::running_trials;
+  for (int i = 0; i < count; ++i, ++key.episode) keys.push_back(key);
+  return keys;
+}
+
 /// Noise that evolution has not used: its episodes have lower numbers.
 std::vector<trial::ScenarioKey> unseen_noise(const experiment::Champion& champion, std::uint32_t episodes) {
   std::vector<trial::ScenarioKey> keys;
@@ -74,14 +93,24 @@ std::vector<trial::ScenarioKey> unseen_noise(const experiment::Champion& champio
 
 ComparedChampion compare(const NamedChampion& named, double seconds, const std::vector<std::string>& engines,
                          const CompareOptions& options) {
-  const auto& [name, champion] = named;
+  auto [name, champion] = named;
   experiment::RefereeOptions referee_options{.seconds = seconds, .jobs = static_cast<int>(engines.size())};
-  if (options.noise) referee_options.noise = unseen_noise(champion, options.episodes);
+  std::string under = "without noise";
+  if (options.noise) {
+    referee_options.noise = unseen_noise(champion, options.episodes);
+    under = "under the noise of " + options.noise->string();
+  } else if (!options.disturbance.undisturbed) {
+    referee_options.noise = typical_noise(champion, options.disturbance, under);
+  }
   try {
     auto results = experiment::try_in_engines(champion.problem, champion.genome, engines, referee_options,
                                               stop_signal());
     if (!results) fail(ExitCode::interrupted, "stopped before all champions had walked");
-    return {.name = name, .home = champion.problem.engine, .trial_s = seconds, .in = std::move(*results)};
+    return {.name = name,
+            .home = champion.problem.engine,
+            .trial_s = seconds,
+            .under = under,
+            .in = std::move(*results)};
   } catch (const UserError& error) {
     if (error.code() == ExitCode::interrupted) throw;
     fail(error.code(), "{}: {} (--engines chooses engines)", name, error.what());
@@ -113,7 +142,8 @@ ExitCode run_compare(const CompareOptions& options) {
 void add_compare(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand(
       "compare",
-      "Let champions walk in several physics engines: distances, and their share of that where they evolved");
+      "Let champions walk in several physics engines: typical distances, and their share of that where they "
+      "evolved");
   auto options = std::make_shared<CompareOptions>();
   command->add_option("INPUT", options->inputs, "Champions (JSON) and run folders (their best champions)")
       ->required();
@@ -137,6 +167,9 @@ void add_compare(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->needs(noise)
       ->check(between(1u, 1000u));
+  add_disturbance(*command, options->disturbance);
+  for (const char* other : {"--level", "--trials", "--undisturbed"})
+    command->get_option(other)->excludes(noise);
   command->callback([options, &action] { action = [options] { return run_compare(*options); }; });
 }
 

@@ -50,7 +50,10 @@ std::string kept_text(double distance_m, double of_m) {
 }
 
 Cells row_cells(const ComparedChampion& row) {
-  Cells cells{row.name, row.home, fmt::format("{:g} s", row.trial_s)};
+  const std::size_t trials = row.in.front().trials.size();
+  Cells cells{
+      row.name, row.home,
+      fmt::format("{}{:g} s {}", trials > 1 ? fmt::format("{} x ", trials) : "", row.trial_s, row.under)};
   for (const auto& result : row.in) {
     const double walked_m = result.distance_m();
     cells.push_back(distance_text(walked_m) +
@@ -85,7 +88,7 @@ Cells summary_cells(const std::vector<ComparedChampion>& rows, double trial_s) {
 
 /// Head, rows, and a summary per length of time if there are several champions.
 std::vector<Cells> table(const std::vector<ComparedChampion>& rows) {
-  std::vector<Cells> lines{{"champion", "evolved in", "trial"}};
+  std::vector<Cells> lines{{"champion", "evolved in", "trials"}};
   if (rows.empty()) return lines;
   for (const auto& referee : rows.front().in) lines.front().push_back("in " + referee.engine);
   std::vector<double> lengths_s;
@@ -151,6 +154,7 @@ std::string compare_json(const std::vector<ComparedChampion>& rows, const std::v
     list.push_back({{"champion", row.name},
                     {"evolved_in", row.home},
                     {"trial_s", row.trial_s},
+                    {"under", row.under},
                     {"results", std::move(results)}});
     const auto map = std::ranges::find(maps, row.name, &ComparedMap::name);
     if (map != maps.end()) list.back()["map"] = map_json(*map);

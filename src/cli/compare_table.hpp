@@ -13,6 +13,7 @@ struct ComparedChampion {
   std::string name;
   std::string home;  ///< the engine in which it evolved
   double trial_s = 0.0;
+  std::string under;  ///< what disturbs the trials: "at the level milli", "without noise"
   std::vector<experiment::EngineResult> in;  ///< including its home; the same engines in every row
 };
 

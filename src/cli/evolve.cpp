@@ -1,15 +1,14 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/disturbance.hpp"
 #include "amble/cli/messages.hpp"
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/progress.hpp"
@@ -28,10 +27,6 @@ struct EvolveOptions {
   int jobs = 1;
 };
 
-int processors() {
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
 void add_jobs(CLI::App& command, int& jobs) {
   jobs = processors();
   command.add_option("--jobs", jobs, "Workers; the results do not depend on it")
@@ -39,11 +34,28 @@ void add_jobs(CLI::App& command, int& jobs) {
       ->check(between(1, most_jobs));
 }
 
+/// What the champion typically does, and behind it what made it the champion.
+void print_best(const experiment::Run& run) {
+  const auto& progress = run.progress();
+  const auto& score = run.config().score;
+  const auto champion = experiment::load_champion(run.paths().champion(progress.best_generation));
+  auto trials = typical_trials(champion, champion.problem, {});
+  const auto results = trials.run(champion.genome, stop_signal());
+  if (!results) fail(ExitCode::interrupted, "stopped before the best had walked; the run is complete");
+  const auto typical = experiment::typical_objective(champion.problem, *results);
+  const auto text = [&score](double value) { return score::with_unit(fmt::format("{:.3f}", value), score); };
+  fmt::print("best: {}\n",
+             experiment::typical_text(typical, score, champion.problem.trial.duration_s, trials.under()));
+  fmt::print("      {}{} without noise; generation {}, {} evaluations\n",
+             champion.problem.disturbed() ? fmt::format("{} in its evaluation, ", text(progress.best)) : "",
+             text(champion.result.value()), progress.best_generation, progress.evaluations);
+}
+
 ExitCode execute(experiment::Run run) {
   std::signal(SIGPIPE, SIG_IGN);  // the run goes on if the reader of its progress ends
   const std::string folder = run.paths().folder.string();
   if (run.generation() >= run.config().generations)
-    fmt::print("{}: all {} generations are done; more by --generations N\n", folder,
+    fmt::print("{}: all {} generations are done; for more: --generations N\n", folder,
                run.config().generations);
   experiment::RunStatus status;
   {
@@ -51,15 +63,14 @@ ExitCode execute(experiment::Run run) {
     status = run.execute(progress, stop_signal());
   }
   if (status == experiment::RunStatus::interrupted) {
-    print_message(fmt::format("stopped at generation {} of {}; go on by: amble resume {}\n", run.generation(),
-                              run.config().generations, folder));
+    print_message(fmt::format("stopped at generation {} of {}; to continue, run: amble resume {}\n",
+                              run.generation(), run.config().generations, folder));
     return ExitCode::interrupted;
   }
+  print_best(run);
   const bool has_map = experiment::fills_map(run.config());
-  fmt::print("best {} {:.3f} (generation {}), {} evaluations\nlook at it by: amble {} {} -o {}\n",
-             run.config().score.is_distance() ? "distance" : "score", run.progress().best,
-             run.progress().best_generation, run.progress().evaluations, has_map ? "repertoire" : "page",
-             folder, has_map ? "map.html" : "page.html");
+  fmt::print("to see it, run: amble {} {} -o {}\n", has_map ? "repertoire" : "view", folder,
+             has_map ? "map.html" : "walker.html");
   return ExitCode::ok;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/disturbance.hpp"
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/replay.hpp"
@@ -26,11 +27,17 @@ struct GaitOptions {
   std::optional<std::string> engine;
   std::optional<std::string> json;
   gait::Settings settings;
+  DisturbanceOptions disturbance;
 };
 
-/// Runs a champion and measures its gait. None if interrupted.
+/// Runs a champion, in the median of several trials where it was evolved under noise, and measures its gait.
+/// None if interrupted.
 std::optional<gait::Report> champion_gait(const fs::path& path, const GaitOptions& options) {
-  const auto champion = experiment::load_champion(path);
+  auto champion = experiment::load_champion(path);
+  const auto shown = shown_trial(champion, options.seconds, options.engine, options.disturbance);
+  champion.problem.noise = shown.noise;
+  if (!shown.typical.empty() && options.json != "-")
+    fmt::print("{}\nthe gait of the median trial:\n", shown.typical);
   study::GaitObserver observer(champion.problem.robot, champion.problem.trial.timestep_s, options.settings);
   const auto replay = experiment::replay(champion.problem, champion.genome,
                                          {.seconds = options.seconds,
@@ -38,7 +45,8 @@ std::optional<gait::Report> champion_gait(const fs::path& path, const GaitOption
                                           .record = {},
                                           .origin = path.string(),
                                           .observer = &observer,
-                                          .trace = false},
+                                          .trace = false,
+                                          .noise = shown.key},
                                          stop_signal());
   if (!replay) return std::nullopt;
   return observer.finish(replay->result.outcome);
@@ -48,6 +56,8 @@ std::optional<gait::Report> measure(const GaitOptions& options) {
   if (fs::is_directory(options.path) || options.path.extension() == ".json")
     return champion_gait(experiment::champion_at(options.path), options);
   if (options.engine) fail(ExitCode::bad_input, "--engine: a recording has been made already");
+  if (options.disturbance.asked() || options.disturbance.undisturbed)
+    fail(ExitCode::bad_input, "--level, --trials, --undisturbed: a recording has been made already");
   return gait::recorded_gait(options.path, options.settings, options.seconds);
 }
 
@@ -78,6 +88,7 @@ void add_gait(CLI::App& app, Action& action) {
                    "Length of the trial, s (default: as in its evolution), or of the part of a recording")
       ->check(seconds_check());
   add_engine(*command, options->engine, "Physics engine (default: as in its evolution)");
+  add_disturbance(*command, options->disturbance);
   command->add_option("--json", options->json, "Write all figures to this file; - prints them instead");
   auto& settings = options->settings;
   command->add_option("--debounce", settings.debounce_s, "Shorter gaps and touches are chatter, s")

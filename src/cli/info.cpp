@@ -14,6 +14,7 @@
 #include "amble/experiment/champion.hpp"
 #include "amble/experiment/repertoire.hpp"
 #include "amble/experiment/run_folder.hpp"
+#include "amble/experiment/typical.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/printable.hpp"
 #include "amble/record/frame_codec.hpp"
@@ -91,6 +92,11 @@ ExitCode run_info(const std::filesystem::path& folder) {
                rows.novelty_threshold.back());
   fmt::print("\n");
   print_stages(rows);
+  if (!rows.typical.empty())
+    fmt::print("typical     {}, half of {} trials {:.2f} to {:.2f}, {:.0f} % fell\n",
+               score::with_unit(fmt::format("{:.2f}", rows.typical.back()), config.score),
+               experiment::running_trials, rows.typical_lower.back(), rows.typical_upper.back(),
+               100.0 * rows.typical_fell.back());
   const auto champions = paths.champion_files();
   fmt::print("champions   {}\n", champions.size());
   if (!champions.empty()) {
@@ -98,7 +104,7 @@ ExitCode run_info(const std::filesystem::path& folder) {
     print_champion(experiment::load_champion(champions.back()));
   }
   if (rows.count() < to_index(config.generations))
-    fmt::print("\ngo on by: amble resume {}\n", folder.string());
+    fmt::print("\nto continue, run: amble resume {}\n", folder.string());
   return ExitCode::ok;
 }
 

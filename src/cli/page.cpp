@@ -11,6 +11,7 @@
 
 #include "amble/cli/commands.hpp"
 #include "amble/cli/compare_table.hpp"
+#include "amble/cli/disturbance.hpp"
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/build_info.hpp"
@@ -29,16 +30,16 @@ struct PageOptions {
   fs::path run, out;
   std::optional<fs::path> figures;
   std::optional<std::string> engine;
+  DisturbanceOptions disturbance;
 };
 
 std::string noise_text(const trial::NoiseSettings& noise) {
   if (!noise.any()) return "none";
-  return fmt::format("{} of {} episodes; what is shown walked without",
-                     trial::episode_score_names[to_index(noise.score)], noise.episodes);
+  return fmt::format("{} of {} episodes", trial::episode_score_names[to_index(noise.score)], noise.episodes);
 }
 
 std::vector<page::Fact> facts(const experiment::Config& config, const experiment::Champion& champion,
-                              const std::string& shown_in) {
+                              const std::string& shown_in, const ShownTrial& shown) {
   const auto build = experiment::build_info();
   const auto& robot = champion.problem.robot;
   std::vector<page::Fact> facts{
@@ -51,9 +52,11 @@ std::vector<page::Fact> facts(const experiment::Config& config, const experiment
       {"Trial", fmt::format("{} s, or until the robot falls", config.trial.duration_s)},
       {"Noise", noise_text(config.noise)},
       {"Seed", fmt::format("{}", config.seed)},
-      {"Champion", fmt::format("generation {}, genome {}: {:.3f} m in the engine {}", champion.generation,
-                               champion.index, champion.result.distance_m, config.engine)},
-      {"Shown", fmt::format("as it walks in the engine {}", shown_in)},
+      {"Champion",
+       fmt::format("generation {}, genome {}: {:.3f} m in the engine {} without noise", champion.generation,
+                   champion.index, champion.result.distance_m, config.engine)},
+      {"Shown", fmt::format("as it walks in the engine {}, {}", shown_in,
+                            shown.key ? "the median of these trials: " + shown.typical : "without noise")},
       {"Made by",
        fmt::format("amble {} ({}), {}", build.version, experiment::short_commit(build), build.compiler)}};
   for (const auto& [engine, judged] : champion.referees)
@@ -70,23 +73,25 @@ void refuse_to_replace_others(const PageOptions& options) {
     io::refuse_to_replace(*options.figures / name, "<svg", "a figure");
 }
 
-/// Runs the champion again, without noise, and reads what was recorded.
+/// Runs the champion again and reads what was recorded.
 motion::RecordedTrial record_again(const experiment::Champion& champion, const fs::path& champion_path,
-                                   const std::optional<std::string>& engine) {
+                                   const std::optional<std::string>& engine,
+                                   const std::optional<trial::ScenarioKey>& noise) {
   const io::ScratchFile recording("walk.rec");
   const auto replay = experiment::replay(champion.problem, champion.genome,
                                          {.seconds = {},
                                           .engine = engine,
                                           .record = recording.path(),
                                           .origin = champion_path.string(),
-                                          .noise = {}},
+                                          .noise = noise},
                                          stop_signal());
   if (!replay) fail(ExitCode::interrupted, "stopped before the champion had walked");
   return motion::read_recorded_trial(recording.path());
 }
 
 page::RunPage page_of(const experiment::RunPaths& paths, const experiment::Config& config,
-                      const experiment::Champion& champion, const std::optional<std::string>& engine) {
+                      const experiment::Champion& champion, const std::optional<std::string>& engine,
+                      const ShownTrial& shown) {
   return {
       .title = config.name,
       .subtitle = fmt::format("the champion of {} generations of {}, evolved by amble",
@@ -96,7 +101,7 @@ page::RunPage page_of(const experiment::RunPaths& paths, const experiment::Confi
                        ? figures::Objective()
                        : figures::Objective{.name = "Score", .unit = score::with_unit("", config.score)},
       .cppn = page::CppnSize{champion.genome.count(neat::NodeKind::hidden), champion.genome.enabled_links()},
-      .facts = facts(config, champion, engine.value_or(config.engine)),
+      .facts = facts(config, champion, engine.value_or(config.engine), shown),
       .commands = {fmt::format("amble evolve {} --out AGAIN", paths.config.string()),
                    fmt::format("amble page AGAIN{} -o page.html", engine ? " --engine " + *engine : "")}};
 }
@@ -106,9 +111,11 @@ ExitCode make_page(const PageOptions& options) {
   refuse_to_replace_others(options);
   const auto config = experiment::load_config(paths.config, {});
   const auto champion_path = paths.best_champion();
-  const auto champion = experiment::load_champion(champion_path);
-  const auto recorded = record_again(champion, champion_path, options.engine);
-  const page::RunPage contents = page_of(paths, config, champion, options.engine);
+  auto champion = experiment::load_champion(champion_path);
+  const auto shown = shown_trial(champion, {}, options.engine, options.disturbance);
+  champion.problem.noise = shown.noise;
+  const auto recorded = record_again(champion, champion_path, options.engine, shown.key);
+  const page::RunPage contents = page_of(paths, config, champion, options.engine, shown);
 
   if (options.out.has_parent_path()) fs::create_directories(options.out.parent_path());
   io::write_file(options.out, page::make_page(contents, recorded));
@@ -128,6 +135,7 @@ void add_page(CLI::App& app, Action& action) {
   command->add_option("-o,--out", options->out, "The page to write (HTML)")->required();
   command->add_option("--figures", options->figures,
                       "Also write each figure as an SVG file into this folder");
+  add_disturbance(*command, options->disturbance);
   add_engine(*command, options->engine,
              "Physics engine in which the champion is shown (default: as in its evolution)");
   command->callback([options, &action] { action = [options] { return make_page(*options); }; });

@@ -64,7 +64,7 @@ ExitCode conclude(const study::Plan& plan, const StudyOptions& options, std::siz
   // What one process could not do another may have done.
   if (to_index(done) < part.size()) {
     if (interrupted) {
-      print_message("stopped; go on by the same command\n");
+      print_message("stopped; to continue, run the same command\n");
       return ExitCode::interrupted;
     }
     if (failed > 0)

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/disturbance.hpp"
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
@@ -30,6 +31,7 @@ struct TrialOptions {
   std::optional<std::uint32_t> noise;
   std::optional<std::filesystem::path> ground;
   std::optional<std::string> damage;
+  DisturbanceOptions disturbance;
 };
 
 constexpr std::uint32_t most_episodes = 1000000;
@@ -54,6 +56,20 @@ void damage_as_in(const std::string& spec, experiment::Champion& champion) {
     change_as_in(spec, [&](const experiment::Config& config) { champion.problem.become(config.damage); });
 }
 
+/// What the champion typically does in trials like this one.
+void print_typical(const experiment::Champion& champion, const TrialOptions& options) {
+  experiment::Problem problem = champion.problem;
+  if (options.seconds) problem.trial.duration_s = *options.seconds;
+  if (options.engine) problem.engine = *options.engine;
+  problem.trial.validate();
+  auto trials = typical_trials(champion, problem, options.disturbance);
+  const auto results = trials.run(champion.genome, stop_signal());
+  if (!results) fail(ExitCode::interrupted, "stopped before the end of the trials");
+  fmt::print("{}\n\nits trial without noise:\n",
+             experiment::typical_text(experiment::typical_distance(*results), {}, problem.trial.duration_s,
+                                      trials.under()));
+}
+
 ExitCode run_trial(const TrialOptions& options) {
   const auto path = experiment::champion_at(options.champion);
   auto champion = experiment::load_champion(path);
@@ -75,6 +91,7 @@ ExitCode run_trial(const TrialOptions& options) {
       fail(ExitCode::bad_input, "--noise: {} was evolved without noise, and from one place", path.string());
     how.noise = champion.scenario_key(*options.noise);
   }
+  if (!options.noise && !options.disturbance.undisturbed) print_typical(champion, options);
   const auto replay = experiment::replay(champion.problem, champion.genome, how, stop_signal());
   if (!replay) fail(ExitCode::interrupted, "stopped before the end of the trial");
   const auto& result = replay->result;
@@ -97,7 +114,8 @@ ExitCode run_trial(const TrialOptions& options) {
 }  // namespace
 
 void add_trial(CLI::App& app, Action& action) {
-  auto* command = app.add_subcommand("trial", "Let a champion walk again, for as long as you like");
+  auto* command = app.add_subcommand(
+      "trial", "Let a champion walk again, for as long as you like: what it typically does, and one trial");
   auto options = std::make_shared<TrialOptions>();
   command->add_option("CHAMPION", options->champion, "Champion file, or run folder (its best champion)")
       ->required();
@@ -105,6 +123,7 @@ void add_trial(CLI::App& app, Action& action) {
       ->check(seconds_check());
   add_engine(*command, options->engine, "Physics engine (default: as in its evolution)");
   command->add_option("--record", options->record, "Write every step to this recording");
+  add_disturbance(*command, options->disturbance);
   command
       ->add_option(
           "--noise", options->noise,

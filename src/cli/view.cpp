@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/disturbance.hpp"
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
@@ -31,6 +32,7 @@ struct ViewOptions {
   fs::path out;
   presentation::WalkOptions walk;
   std::optional<std::string> title;
+  DisturbanceOptions disturbance;
 };
 
 /// The run that a champion file is of: the folder that has the champions' folder; else the file itself.
@@ -91,14 +93,20 @@ ExitCode make_view(const ViewOptions& options) {
       continue;
     }
     const fs::path path = experiment::champion_at(input);
-    const auto champion = experiment::load_champion(path);
+    auto champion = experiment::load_champion(path);
+    presentation::WalkOptions how = options.walk;
+    const auto shown = shown_trial(champion, how.seconds, how.engine, options.disturbance);
+    champion.problem.noise = shown.noise;
+    how.noise = shown.key;
+    if (!shown.typical.empty())
+      fmt::print("{}: {}; its median trial is shown\n", input.string(), shown.typical);
     const fs::path& recording = scratch.emplace_back("walk.rec").path();
-    auto walker = presentation::walk(champion, path, options.walk, recording, stop_signal());
+    auto walker = presentation::walk(champion, path, how, recording, stop_signal());
     if (!walker) fail(ExitCode::interrupted, "stopped before all champions had walked");
     page.walkers.push_back(std::move(*walker));
     origins.push_back({champion.problem.robot.name, is_run ? input : run_of(path),
                        (is_run ? "" : fmt::format(", generation {}", champion.generation)) +
-                           presentation::engine_note(champion, options.walk)});
+                           presentation::engine_note(champion, how)});
   }
   if (page.walkers.size() > 1) {
     const std::vector<std::string> names = names_of(origins);
@@ -131,6 +139,7 @@ void add_view(CLI::App& app, Action& action) {
       ->check(seconds_check());
   add_engine(*command, options->walk.engine,
              "Physics engine in which champions walk (default: as in their evolution)");
+  add_disturbance(*command, options->disturbance);
   command->add_option("--title", options->title, "Title of the page")->type_name("WORDS");
   command->callback([options, &action] { action = [options] { return make_view(*options); }; });
 }

@@ -108,6 +108,12 @@ std::vector<RefereeResult> parse_referees(const io::JsonView& root) {
   return referees;
 }
 
+Draw parse_draw(const io::JsonView& root) {
+  if (!root.has("draw")) return Draw::each_generation;
+  if (root.at("draw").text() != draw_names[to_index(Draw::once)]) root.at("draw").bad("\"once\"");
+  return Draw::once;
+}
+
 Problem parse_problem(const io::JsonView& root) {
   Problem problem{
       .robot = robot::from_json(root.at("robot")),
@@ -153,12 +159,13 @@ TrialResult summarise(const Problem& problem, const record::Trajectory& trajecto
 }
 
 ground::Key Champion::ground_key() const {
-  return {.seed = static_cast<std::uint64_t>(seed), .generation = static_cast<std::uint32_t>(generation)};
+  return {.seed = static_cast<std::uint64_t>(seed),
+          .generation = static_cast<std::uint32_t>(noise_generation(draw, generation))};
 }
 
 trial::ScenarioKey Champion::scenario_key(std::size_t episode) const {
   return {.seed = static_cast<std::uint64_t>(seed),
-          .generation = static_cast<std::uint32_t>(generation),
+          .generation = static_cast<std::uint32_t>(noise_generation(draw, generation)),
           .episode = static_cast<std::uint32_t>(episode)};
 }
 
@@ -189,6 +196,7 @@ std::string champion_text(const Champion& champion) {
   document.update(problem_json(champion.problem));
   document["trace"] = trace_text(champion.trace);
   if (!champion.episodes.empty()) document["noise"] = noise_json(champion);
+  if (champion.draw == Draw::once) document["draw"] = draw_names[to_index(champion.draw)];
   if (!champion.referees.empty()) document["referees"] = referees_json(champion);
   return io::sealed_json(champion_format, champion_version, document);
 }
@@ -206,7 +214,8 @@ LoadedChampion parse_champion(const std::string& text, const std::string& what, 
                       .result = parse_result(root.at("result")),
                       .trace = parse_trace(root.at("trace")),
                       .episodes = parse_episodes(root),
-                      .referees = parse_referees(root)};
+                      .referees = parse_referees(root),
+                      .draw = parse_draw(root)};
     champion.problem.ground_key = champion.ground_key();
     neat::validate(champion.genome, champion.problem.cppn_inputs(), champion.problem.cppn_outputs(),
                    champion.problem.cppn.recurrent);

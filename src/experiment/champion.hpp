@@ -50,6 +50,7 @@ struct Champion {
   std::vector<std::uint32_t> trace;          ///< trial::TraceObserver of that trial: one hash per step
   std::vector<NoisyTrial> episodes;          ///< Problem::noise; empty if there is none
   std::vector<RefereeResult> referees = {};  ///< in the order of Config::referees; empty if there are none
+  Draw draw = Draw::each_generation;         ///< EvaluationSettings::draw
 
   /// Key of the ground of its generation.
   ground::Key ground_key() const;

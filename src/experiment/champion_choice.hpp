@@ -3,6 +3,7 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "amble/experiment/checkpoint.hpp"
@@ -14,10 +15,11 @@ namespace amble::experiment {
 /// Decides whether the best genome of a generation becomes the run's champion: by its objective, or, with
 /// `champion.episodes`, by its objective in as many further trials, the same for all genomes of the run and
 /// none of which evolution meets. So one lucky evaluation cannot make a champion. Judgements follow from
-/// genome, seed and config alone, so they are not stored: a resumed run judges its champion again.
+/// genome, seed and config alone, so they are not stored: a resumed run judges its champion again. How the
+/// trials are combined is `champion.score`.
 class ChampionChoice {
  public:
-  /// Keeps pointers to `problem` and `paths`.
+  /// Keeps a pointer to `paths`.
   ChampionChoice(const Config& config, const Problem& problem, const RunPaths& paths);
 
   /// Whether the genome, which reached `objective` in its evaluation, is better than the champion of
@@ -29,12 +31,14 @@ class ChampionChoice {
  private:
   std::optional<double> judged(const neat::Genome& genome, const std::atomic<bool>& stop);
 
-  const Problem* problem_;
+  Problem problem_;  ///< with the noise of the trials that decide
   const RunPaths* paths_;
   std::shared_ptr<const ground::Ground> ground_;
   std::vector<trial::Scenario> scenarios_;
   std::unique_ptr<Evaluator> evaluator_;
   std::optional<double> champion_;  ///< what the champion reached; nothing: not judged by this process
+  /// The last one judged and what it reached: an elite is often the best of several generations.
+  std::optional<std::pair<neat::Genome, double>> last_;
 };
 
 }  // namespace amble::experiment

@@ -43,7 +43,9 @@ std::optional<Champion> try_champion(const Config& config, const Problem& proble
                     .genome = best.genome,
                     .result = {},
                     .trace = {},
-                    .episodes = {}};
+                    .episodes = {},
+                    .draw = config.evaluation.draw};
+  champion.problem.noise.episodes = config.evaluation.episodes_of_best(problem.noise.episodes);
   champion.problem.ground_key = champion.ground_key();
   if (!try_at_home(champion, times, stop)) return std::nullopt;
   if (best.objective && champion.objective() != *best.objective)

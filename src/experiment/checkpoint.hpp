@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "amble/experiment/config.hpp"
+#include "amble/score/typical.hpp"
 #include "amble/search/strategy.hpp"
 
 namespace amble::experiment {
@@ -15,6 +17,9 @@ namespace amble::experiment {
 struct Progress {
   double best = -1.0;  ///< objective of the champion; −1 before the first generation
   int best_generation = -1;
+  /// What the champion typically does (objective, running_trials trials); not in checkpoints, as it follows
+  /// from the champion. Nothing before the first generation.
+  std::optional<score::Typical> typical = {};
   std::uint64_t evaluations = 0;
   std::uint64_t steps = 0;
   double wall_s = 0.0;          ///< over all processes that worked on the run

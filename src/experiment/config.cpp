@@ -40,6 +40,8 @@ void Config::describe(io::SettingsVisitor& visitor) {
   visitor.table("controller", controller, {"how a CPPN becomes a controller"});
   visitor.table("trial", trial, {"one trial of one controller"});
   visitor.table("noise", noise, {"noise in trials, and how many of them make an evaluation; off by default"});
+  visitor.table("evaluation", evaluation,
+                {"how trials are spent under noise; by default alike for all genomes"});
   visitor.table("ground", ground, {"what robots walk on: flat by default"});
   visitor.table("damage", damage, {"what is wrong with the robot: nothing by default"});
   visitor.table("score", score, {"what makes a gait good"});
@@ -51,6 +53,24 @@ void ChampionSettings::describe(io::SettingsVisitor& visitor) {
   visitor.integer("episodes", episodes, {0, first_unseen_episode},
                   {"further trials under noise, the same throughout the run, that decide whether the best of "
                    "a generation becomes the champion; 0: its evaluation decides, luck included"});
+  visitor.choice("score", score, champion_score_names,
+                 {"what counts of their scores; median: what the walker typically does"});
+}
+
+trial::EpisodeScore ChampionSettings::episode_score(trial::EpisodeScore of_evolution) const {
+  switch (score) {
+    case ChampionScore::mean:
+      return trial::EpisodeScore::mean;
+    case ChampionScore::worst:
+      return trial::EpisodeScore::worst;
+    case ChampionScore::median:
+      return trial::EpisodeScore::median;
+    case ChampionScore::lower_quartile:
+      return trial::EpisodeScore::lower_quartile;
+    case ChampionScore::as_in_evolution:
+      break;
+  }
+  return of_evolution;
 }
 
 void Config::validate() const {
@@ -64,11 +84,30 @@ void Config::validate() const {
   ground.validate();
   noise.validate(trial, ground.start_place_m > 0.0);
   score.validate();
+  check_evaluation();
   if (champion.episodes > 0 && !noise.any() && ground.start_place_m <= 0.0)
     fail_setting({"champion.episodes"},
                  "champion.episodes = {}: without any noise they would all be the same; expected 0",
                  champion.episodes);
   search::strategy_kind(search).validate(search, make_behaviour()->length());
+}
+
+void Config::check_evaluation() const {
+  const bool disturbed = noise.any() || ground.start_place_m > 0.0;
+  if (evaluation.finalists > 0.0 && !disturbed)
+    fail_setting(
+        {"evaluation.finalists"},
+        "evaluation.finalists = {}: without any noise their trials would all be the same; expected 0",
+        evaluation.finalists);
+  const int most = evaluation.episodes_of_best(noise.episodes);
+  if (most > static_cast<int>(first_unseen_episode))
+    fail_setting({"evaluation.finalist_episodes", "noise.episodes"},
+                 "noise.episodes + evaluation.finalist_episodes = {}: expected at most {}", most,
+                 first_unseen_episode);
+  if (evaluation.finalists > 0.0 && search.kind == "map-elites")
+    fail_setting({"evaluation.finalists", "search.kind"},
+                 "evaluation.finalists = {}: a map compares each candidate with its own cell; expected 0",
+                 evaluation.finalists);
 }
 
 void Config::check_referees() const {
@@ -116,7 +155,11 @@ io::Json Config::identity() const {
   if (copy.ground.is_default()) values.erase("ground");
   if (copy.search.kind != "map-elites") values.at("search").erase("map_elites");
   if (copy.damage.is_default()) values.erase("damage");
-  if (copy.champion.is_default()) values.erase("champion");
+  if (copy.evaluation.is_default()) values.erase("evaluation");
+  if (copy.champion.is_default())
+    values.erase("champion");
+  else if (copy.champion.score == ChampionScore::as_in_evolution)
+    values.at("champion").erase("score");
   return values;
 }
 

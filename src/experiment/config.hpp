@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -7,12 +8,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "amble/controllers/factory.hpp"
 #include "amble/core/error.hpp"
 #include "amble/cppn/settings.hpp"
 #include "amble/damage/settings.hpp"
+#include "amble/experiment/evaluation_settings.hpp"
 #include "amble/ground/settings.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/settings.hpp"
@@ -30,12 +33,20 @@ namespace amble::experiment {
 inline constexpr std::int64_t largest_seed = std::int64_t{1} << 53;  ///< as a JSON number it is exact
 inline constexpr int most_generations = 1'000'000'000;
 
+/// How the trials that decide on a champion are combined: as those of an evaluation (NoiseSettings::score),
+/// or as trial::EpisodeScore says.
+enum class ChampionScore { as_in_evolution, mean, worst, median, lower_quartile };
+inline constexpr std::array<std::string_view, 5> champion_score_names{"as_in_evolution", "mean", "worst",
+                                                                      "median", "lower_quartile"};
+
 /// How a run chooses its champion among the best of the generations.
 struct ChampionSettings {
   int episodes = 0;  ///< 0: by the objective of its evaluation
+  ChampionScore score = ChampionScore::as_in_evolution;
 
   void describe(io::SettingsVisitor& visitor);
   bool is_default() const { return episodes == 0; }
+  trial::EpisodeScore episode_score(trial::EpisodeScore of_evolution) const;
 };
 
 /// Everything that determines the result of a run, except the robot's own data. docs/SETTINGS.md lists each
@@ -53,6 +64,7 @@ struct Config {
   controllers::ControllerSettings controller;
   trial::Settings trial;
   trial::NoiseSettings noise;
+  EvaluationSettings evaluation;
   score::Settings score;
   ground::Settings ground;
   damage::Settings damage;
@@ -77,6 +89,7 @@ struct Config {
 
  private:
   void check_referees() const;
+  void check_evaluation() const;
 };
 
 /// Overrides of a config file on the command line.

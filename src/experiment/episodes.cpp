@@ -4,23 +4,46 @@
 
 #include "amble/core/check.hpp"
 #include "amble/score/score.hpp"
+#include "amble/statistics/descriptive.hpp"
 
 namespace amble::experiment {
 
 double objective(trial::EpisodeScore combined, std::span<const double> scores) {
   AMBLE_CHECK(!scores.empty(), "an evaluation has an episode");
-  if (combined == trial::EpisodeScore::worst) return *std::ranges::min_element(scores);
+  switch (combined) {
+    case trial::EpisodeScore::worst:
+      return std::ranges::min(scores);
+    case trial::EpisodeScore::median:
+      return statistics::median(scores);
+    case trial::EpisodeScore::lower_quartile:
+      return statistics::quantile(scores, 0.25);
+    case trial::EpisodeScore::mean:
+      break;
+  }
   double sum = 0.0;
   for (const double score : scores) sum += score;
   return sum / static_cast<double>(scores.size());
 }
 
+namespace {
+
+/// The first trial of the set of this number (ground_of): 1 unseen, 1000 deciding, 2000 typical ones.
+trial::ScenarioKey first_of(std::int64_t seed, std::uint32_t set) {
+  return {.seed = static_cast<std::uint64_t>(seed), .generation = 0, .episode = set * first_unseen_episode};
+}
+
+}  // namespace
+
 trial::ScenarioKey unseen_key(std::int64_t seed) {
-  return {.seed = static_cast<std::uint64_t>(seed), .generation = 0, .episode = first_unseen_episode};
+  return first_of(seed, 1);
 }
 
 trial::ScenarioKey judging_key(std::int64_t seed) {
-  return {.seed = static_cast<std::uint64_t>(seed), .generation = 0, .episode = 1000 * first_unseen_episode};
+  return first_of(seed, 1000);
+}
+
+trial::ScenarioKey typical_key(std::int64_t seed) {
+  return first_of(seed, 2000);
 }
 
 std::vector<trial::Scenario> unseen_scenarios(const Problem& problem, std::int64_t seed, int first, int count,
@@ -34,15 +57,19 @@ std::vector<trial::Scenario> unseen_scenarios(const Problem& problem, std::int64
   return scenarios;
 }
 
-std::vector<double> objectives(const Problem& problem, const GenerationResult& result) {
+std::vector<double> credited_scores(const Problem& problem, std::span<const record::Trajectory> trials) {
   const score::Score score = problem.scorer();
-  std::vector<double> objectives, scores;
-  for (std::size_t i = 0; i < result.trajectories.size() / result.episodes; ++i) {
-    scores.clear();
-    for (const auto& trajectory : result.of_genome(i))
-      scores.push_back(score::credited(score.of(trajectory), trajectory.outcome, problem.trial.fall_factor));
-    objectives.push_back(objective(problem.noise.score, scores));
-  }
+  std::vector<double> scores;
+  for (const auto& trajectory : trials)
+    scores.push_back(score::credited(score.of(trajectory), trajectory.outcome, problem.trial.fall_factor));
+  return scores;
+}
+
+std::vector<double> objectives(const Problem& problem, const GenerationResult& result) {
+  const auto scores = credited_scores(problem, result.trajectories);
+  std::vector<double> objectives;
+  for (std::size_t first = 0; first < scores.size(); first += result.episodes)
+    objectives.push_back(objective(problem.noise.score, std::span(scores).subspan(first, result.episodes)));
   return objectives;
 }
 

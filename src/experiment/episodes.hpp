@@ -22,6 +22,12 @@ trial::ScenarioKey unseen_key(std::int64_t seed);
 /// The same of the trials that decide on champions, of which neither evolution nor unseen_scenarios() has
 /// any.
 trial::ScenarioKey judging_key(std::int64_t seed);
+/// The same of the trials that tell what a champion typically does (TypicalTrials): none of them decides on
+/// anything.
+trial::ScenarioKey typical_key(std::int64_t seed);
+
+/// What each trial of a genome counts in evolution: the problem's score, with its factor for falls.
+std::vector<double> credited_scores(const Problem& problem, std::span<const record::Trajectory> trials);
 
 /// The objective of each genome of a generation, by the problem's score; Morse et al. 2013, sec. 4: m.
 std::vector<double> objectives(const Problem& problem, const GenerationResult& result);

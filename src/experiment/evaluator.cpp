@@ -15,20 +15,39 @@
 namespace amble::experiment {
 namespace {
 
-/// The generation being evaluated, shared by all workers: dispenses genomes by rising index, collects
-/// results.
+/// Part of the episodes of one genome.
+struct Share {
+  std::size_t genome = 0, first = 0, end = 0;
+};
+
+/// The generation being evaluated, shared by all workers: dispenses the episodes of genomes by rising index,
+/// collects results. A genome's episodes go to one worker, which decodes it once, unless there are fewer
+/// genomes than workers; then each worker's share fills its lanes.
 class Generation {
  public:
   Generation(const Problem& problem_in, std::span<const neat::Genome> genomes_in,
-             std::span<const trial::Scenario> scenarios_in, std::shared_ptr<const ground::Ground> ground_in)
+             std::span<const trial::Scenario> scenarios_in, std::shared_ptr<const ground::Ground> ground_in,
+             std::size_t workers)
       : problem(problem_in),
         genomes(genomes_in),
         scenarios(scenarios_in),
         ground(std::move(ground_in)),
-        trajectories_(genomes.size() * episodes()) {}
+        trajectories_(genomes.size() * episodes()) {
+    if (genomes.size() >= workers) return;
+    const auto lanes = to_index(physics::engine_traits(problem.engine).lanes);
+    shares_ = std::max<std::size_t>(1, std::min(workers, episodes() / lanes));
+  }
 
   std::size_t episodes() const { return std::max<std::size_t>(1, scenarios.size()); }
-  std::size_t next_genome() { return next_.fetch_add(1, std::memory_order_relaxed); }
+  /// Nothing when all are given out.
+  std::optional<Share> next_share() {
+    const std::size_t index = next_.fetch_add(1, std::memory_order_relaxed);
+    if (index >= genomes.size() * shares_) return std::nullopt;
+    const std::size_t part = index % shares_;
+    return Share{.genome = index / shares_,
+                 .first = episodes() * part / shares_,
+                 .end = episodes() * (part + 1) / shares_};
+  }
   void done(std::size_t index, record::Trajectory trajectory) {
     trajectories_[index] = std::move(trajectory);
     done_.fetch_add(1, std::memory_order_relaxed);
@@ -43,21 +62,23 @@ class Generation {
 
  private:
   std::vector<record::Trajectory> trajectories_;
+  std::size_t shares_ = 1;  ///< of each genome's episodes
   std::atomic<std::size_t> next_{0};
   std::atomic<std::size_t> done_{0};
 };
 
-/// The tasks of one worker: takes a genome, decodes it once, and gives out its episodes in order. A task's
-/// index is that of its trajectory.
+/// The tasks of one worker: takes a share, decodes its genome once, and gives out the episodes in order. A
+/// task's index is that of its trajectory.
 class WorkerQueue : public trial::TaskQueue {
  public:
-  explicit WorkerQueue(Generation& generation) : generation_(generation), episode_(generation.episodes()) {}
+  explicit WorkerQueue(Generation& generation) : generation_(generation) {}
 
   std::optional<trial::Task> next() override {
-    if (episode_ == generation_.episodes() && !take_genome()) return std::nullopt;
+    if (share_.first == share_.end && !take_share()) return std::nullopt;
+    const std::size_t episode = share_.first++;
     const trial::Scenario* const scenario =
-        generation_.scenarios.empty() ? nullptr : &generation_.scenarios[episode_];
-    const std::size_t index = genome_ * generation_.episodes() + episode_++;
+        generation_.scenarios.empty() ? nullptr : &generation_.scenarios[episode];
+    const std::size_t index = share_.genome * generation_.episodes() + episode;
     return trial::Task{index, parameters_, nullptr, scenario};
   }
   void done(std::size_t index, record::Trajectory trajectory) override {
@@ -66,17 +87,17 @@ class WorkerQueue : public trial::TaskQueue {
   double decode_s() const { return decode_s_; }
 
  private:
-  bool take_genome() {
-    genome_ = generation_.next_genome();
-    if (genome_ >= generation_.genomes.size()) return false;
+  bool take_share() {
+    const auto share = generation_.next_share();
+    if (!share) return false;
     const Stopwatch watch(decode_s_);
-    parameters_ = generation_.problem.decode(generation_.genomes[genome_]);
-    episode_ = 0;
+    parameters_ = generation_.problem.decode(generation_.genomes[share->genome]);
+    share_ = *share;
     return true;
   }
 
   Generation& generation_;
-  std::size_t genome_ = 0, episode_;  ///< of the next trial; past the last episode: of a new genome
+  Share share_;  ///< what is left of it
   std::shared_ptr<const controllers::Parameters> parameters_;
   double decode_s_ = 0.0;
 };
@@ -193,7 +214,7 @@ std::optional<GenerationResult> Evaluator::evaluate(std::span<const neat::Genome
                                                     std::span<const trial::Scenario> scenarios,
                                                     std::shared_ptr<const ground::Ground> ground) {
   Shared& shared = *shared_;
-  Generation generation(shared.problem, genomes, scenarios, std::move(ground));
+  Generation generation(shared.problem, genomes, scenarios, std::move(ground), shared.workers.size());
   std::unique_lock lock(shared.mutex);
   shared.generation = &generation;
   shared.stop = &stop;

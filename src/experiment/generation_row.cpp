@@ -28,6 +28,10 @@ Cells cells_of(const GenerationRow& row) {
   add(column::best_so_far, row.best_so_far);
   add(column::mean, row.mean);
   add(column::median, row.median);
+  add(column::typical, row.typical.median);
+  add(column::typical_lower, row.typical.lower_quartile);
+  add(column::typical_upper, row.typical.upper_quartile);
+  add(column::typical_fell, row.typical.fell_share);
   add(column::best_hidden, row.best_hidden);
   add(column::best_links, row.best_links);
   add(column::fell, row.fell);

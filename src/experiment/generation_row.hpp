@@ -9,6 +9,7 @@
 
 #include "amble/experiment/stage_times.hpp"
 #include "amble/record/trajectory.hpp"
+#include "amble/score/typical.hpp"
 #include "amble/search/metric.hpp"
 
 namespace amble::experiment {
@@ -18,12 +19,13 @@ namespace amble::experiment {
 struct GenerationRow {
   int generation = 0;
   double best = 0.0, best_so_far = 0.0, mean = 0.0, median = 0.0;  ///< objective
-  int best_hidden = 0, best_links = 0;                             ///< of this generation's best genome
-  int fell = 0, diverged = 0;                                      ///< trials
-  std::uint64_t evaluations = 0, steps = 0;                        ///< of this generation
-  std::vector<search::Metric> search;                              ///< columns of the search
-  double wall_s = 0.0;                                             ///< since the row before
-  StageTimes times;  ///< part of it; files_s is of the row before
+  score::Typical typical;                    ///< of the champion so far: objective, running_trials trials
+  int best_hidden = 0, best_links = 0;       ///< of this generation's best genome
+  int fell = 0, diverged = 0;                ///< trials
+  std::uint64_t evaluations = 0, steps = 0;  ///< of this generation
+  std::vector<search::Metric> search;        ///< columns of the search
+  double wall_s = 0.0;                       ///< since the row before
+  StageTimes times;                          ///< part of it; files_s is of the row before
 
   double outside_s() const { return wall_s - times.physics_s - times.referees_s; }
   /// The search's metric of this name; nothing if it has none.

@@ -9,7 +9,9 @@
 #include "amble/experiment/champion_choice.hpp"
 #include "amble/experiment/champion_trials.hpp"
 #include "amble/experiment/episodes.hpp"
+#include "amble/experiment/generation.hpp"
 #include "amble/experiment/recovery.hpp"
+#include "amble/experiment/typical.hpp"
 
 namespace amble::experiment {
 namespace {
@@ -81,23 +83,27 @@ RunStatus Run::execute(RunListener& listener, const std::atomic<bool>& stop) {
 RunStatus Run::generations(RunListener& listener, const std::atomic<bool>& stop) {
   Evaluator evaluator(*problem_, behaviour_->path(), jobs_, behaviour_->measures());
   ChampionChoice choice(config_, *problem_, folder_.paths());
+  TypicalTrials typical(*problem_, config_.seed, running_trials);
+  if (const int best = progress().best_generation; best >= 0) {
+    const auto champion = load_champion(paths().champion(best));
+    if (!measure_typical(typical, champion.genome, stop)) return RunStatus::interrupted;
+  }
   double last_row_s = now_s(), files_s = 0.0;
   while (generation() < config_.generations) {
     const auto candidates = state_.strategy->ask();
-    const auto ground = ground_.of(*problem_, config_.seed, generation());
-    const auto scenarios = problem_->scenarios(config_.seed, generation(), ground.get());
-    const auto result = evaluator.evaluate(candidates, stop, scenarios, ground);
-    if (!result) return RunStatus::interrupted;
+    const auto evaluated = evaluate_generation(evaluator, *problem_, config_.evaluation, ground_,
+                                               config_.seed, generation(), candidates, stop);
+    if (!evaluated) return RunStatus::interrupted;
+    const auto& [result, objectives] = *evaluated;
 
     GenerationRow row;
     row.generation = generation();
-    row.times = result->times;
+    row.times = result.times;
     row.evaluations = candidates.size();
-    row.steps = result->steps;
-    const auto objectives = experiment::objectives(*problem_, *result);
-    summarise_trials(objectives, result->trajectories, row);
-    if (!keep_best(candidates, objectives, choice, row, stop)) return RunStatus::interrupted;
-    tell(*result, objectives, row);
+    row.steps = result.steps;
+    summarise_trials(objectives, result.trajectories, row);
+    if (!keep_best(candidates, objectives, choice, typical, row, stop)) return RunStatus::interrupted;
+    tell(result, objectives, row);
 
     const double row_s = now_s();
     row.wall_s = row_s - std::exchange(last_row_s, row_s);
@@ -112,7 +118,8 @@ RunStatus Run::generations(RunListener& listener, const std::atomic<bool>& stop)
 }
 
 bool Run::keep_best(std::span<const neat::Genome> candidates, std::span<const double> objectives,
-                    ChampionChoice& choice, GenerationRow& row, const std::atomic<bool>& stop) {
+                    ChampionChoice& choice, TypicalTrials& typical, GenerationRow& row,
+                    const std::atomic<bool>& stop) {
   const auto best = to_index(std::ranges::max_element(objectives) - objectives.begin());
   const neat::Genome& genome = candidates[best];
   row.best_hidden = genome.count(neat::NodeKind::hidden);
@@ -126,14 +133,22 @@ bool Run::keep_best(std::span<const neat::Genome> candidates, std::span<const do
                         .genome = genome,
                         .objective = row.best};
     const auto champion = try_champion(config_, *problem_, found, jobs_, row.times, stop);
-    if (!champion) return false;
+    if (!champion || !measure_typical(typical, genome, stop)) return false;
     const Stopwatch watch(row.times.files_s);
     folder_.save_champion(*champion);
     progress.best = row.best;
     progress.best_generation = row.generation;
   }
   row.best_so_far = progress.best;
+  row.typical = progress.typical.value_or(score::Typical());
   return true;
+}
+
+bool Run::measure_typical(TypicalTrials& trials, const neat::Genome& champion,
+                          const std::atomic<bool>& stop) {
+  const auto results = trials.run(champion, stop);
+  if (results) state_.progress.typical = typical_objective(*problem_, *results);
+  return results.has_value();
 }
 
 void Run::tell(const GenerationResult& result, std::span<const double> objectives, GenerationRow& row) {

@@ -25,6 +25,7 @@ class RunListener {
 };
 
 class ChampionChoice;
+class TypicalTrials;
 
 enum class RunStatus { finished, interrupted };
 
@@ -55,7 +56,10 @@ class Run {
   RunStatus generations(RunListener& listener, const std::atomic<bool>& stop);
   /// Saves the best of a generation if it becomes the champion; false if `stop` was set meanwhile.
   bool keep_best(std::span<const neat::Genome> candidates, std::span<const double> objectives,
-                 ChampionChoice& choice, GenerationRow& row, const std::atomic<bool>& stop);
+                 ChampionChoice& choice, TypicalTrials& typical, GenerationRow& row,
+                 const std::atomic<bool>& stop);
+  /// Measures what the champion typically does; false if `stop` was set meanwhile.
+  bool measure_typical(TypicalTrials& trials, const neat::Genome& champion, const std::atomic<bool>& stop);
   void tell(const GenerationResult& result, std::span<const double> objectives, GenerationRow& row);
 
   RunFolder folder_;

@@ -87,7 +87,9 @@ void compare(const Champion& champion, const std::filesystem::path& path, const 
     if (own.value(key, io::Json()) != value) found.push_back(fmt::format("its {} is not the run's", key));
   for (const auto& [key, value] : own.items())
     if (!expected.contains(key)) found.push_back(fmt::format("its {} is not the run's", key));
-  const auto &noise = champion.problem.noise, &expected_noise = origin.problem.noise;
+  const auto& noise = champion.problem.noise;
+  trial::NoiseSettings expected_noise = origin.problem.noise;
+  expected_noise.episodes = origin.config.evaluation.episodes_of_best(expected_noise.episodes);
   // Without noise a champion's file has no settings of noise.
   if ((noise.any() || expected_noise.any()) &&
       io::settings_to_json(noise) != io::settings_to_json(expected_noise))

@@ -22,7 +22,8 @@ io::Json gait_of(const gait::Report& report) {
 std::string engine_note(const experiment::Champion& champion, const WalkOptions& options) {
   const auto& home = champion.problem.engine;
   const auto& judge = options.engine.value_or(home);
-  return judge == home ? "" : fmt::format(", in the engine {}", judge);
+  return (judge == home ? "" : fmt::format(", in the engine {}", judge)) +
+         (options.noise ? ", median trial" : "");
 }
 
 std::optional<view::Walker> walk(const experiment::Champion& champion, const std::filesystem::path& path,
@@ -46,7 +47,8 @@ std::optional<view::Walker> walk(const experiment::Problem& problem, const neat:
                                           .record = recording,
                                           .origin = origin,
                                           .observer = &gait,
-                                          .trace = false},
+                                          .trace = false,
+                                          .noise = options.noise},
                                          stop);
   if (!replay) return std::nullopt;
   return view::Walker{.title = {},

@@ -14,12 +14,14 @@ namespace amble::presentation {
 struct WalkOptions {
   std::optional<double> seconds = {};
   std::optional<std::string> engine = {};
+  std::optional<trial::ScenarioKey> noise = {};  ///< experiment::ReplayOptions::noise
 };
 
-/// ", in the engine ode" where that is not the one in which the champion evolved; else empty.
+/// ", in the engine ode" where that is not the one in which the champion evolved, and ", median trial" under
+/// noise; else empty.
 std::string engine_note(const experiment::Champion& champion, const WalkOptions& options);
 
-/// Lets a champion walk again, without noise, and writes its recording to `recording`, which the page reads.
+/// Lets a champion walk again and writes its recording to `recording`, which the page reads.
 /// `path`: the champion's file, named in the recording. Nothing if `stop` was set. Throws UserError.
 std::optional<view::Walker> walk(const experiment::Champion& champion, const std::filesystem::path& path,
                                  const WalkOptions& options, const std::filesystem::path& recording,

@@ -26,18 +26,33 @@ constexpr std::array<std::pair<std::string_view, Column>, 6> columns{{
 }};
 
 /// Columns that may be absent, or whose cells may be empty in every row.
-constexpr std::array<std::pair<std::string_view, Column>, 22> optional_columns{{
-    {"species", &Generations::species},           {"threshold", &Generations::threshold},
-    {"mean_hidden", &Generations::mean_hidden},   {"mean_links", &Generations::mean_links},
-    {"archive", &Generations::archive},           {"novelty_threshold", &Generations::novelty_threshold},
-    {"best_novelty", &Generations::best_novelty}, {"coverage", &Generations::coverage},
-    {"qd_score", &Generations::qd_score},         {"map_best", &Generations::map_best},
-    {"entered", &Generations::entered},           {"improved", &Generations::improved},
-    {"reevaluated", &Generations::reevaluated},   {column::wall_s, &Generations::wall_s},
-    {"physics_s", &Generations::physics_s},       {"decode_s", &Generations::decode_s},
-    {"control_s", &Generations::control_s},       {"waiting_s", &Generations::waiting_s},
-    {"search_s", &Generations::search_s},         {"referees_s", &Generations::referees_s},
-    {"files_s", &Generations::files_s},           {column::best_so_far, &Generations::best_so_far},
+constexpr std::array<std::pair<std::string_view, Column>, 26> optional_columns{{
+    {"species", &Generations::species},
+    {"threshold", &Generations::threshold},
+    {"mean_hidden", &Generations::mean_hidden},
+    {"mean_links", &Generations::mean_links},
+    {"archive", &Generations::archive},
+    {"novelty_threshold", &Generations::novelty_threshold},
+    {"best_novelty", &Generations::best_novelty},
+    {"coverage", &Generations::coverage},
+    {"qd_score", &Generations::qd_score},
+    {"map_best", &Generations::map_best},
+    {"entered", &Generations::entered},
+    {"improved", &Generations::improved},
+    {"reevaluated", &Generations::reevaluated},
+    {column::wall_s, &Generations::wall_s},
+    {"physics_s", &Generations::physics_s},
+    {"decode_s", &Generations::decode_s},
+    {"control_s", &Generations::control_s},
+    {"waiting_s", &Generations::waiting_s},
+    {"search_s", &Generations::search_s},
+    {"referees_s", &Generations::referees_s},
+    {"files_s", &Generations::files_s},
+    {column::best_so_far, &Generations::best_so_far},
+    {column::typical, &Generations::typical},
+    {column::typical_lower, &Generations::typical_lower},
+    {column::typical_upper, &Generations::typical_upper},
+    {column::typical_fell, &Generations::typical_fell},
 }};
 
 std::vector<std::string_view> split(std::string_view line) {

@@ -15,6 +15,8 @@ struct Generations {
   std::vector<double> best, mean, median;  ///< objective; best of the generation
   std::vector<double> evaluations, steps;  ///< of this generation; simulation steps
   std::vector<double> best_so_far;         ///< objective of the run's champion; may be empty
+  /// What that champion typically does: median and quartiles of the objective, share of falls; may be empty.
+  std::vector<double> typical, typical_lower, typical_upper, typical_fell;
   /// Of NEAT; empty for searches without. threshold: compatibility threshold of the speciation.
   std::vector<double> species, threshold, mean_hidden, mean_links;
   /// Of novelty search; empty for runs without.

@@ -10,8 +10,9 @@
 namespace amble::trial {
 
 /// How the scores of several episodes are combined.
-enum class EpisodeScore { mean, worst };
-inline constexpr std::array<std::string_view, 2> episode_score_names{"mean", "worst"};
+enum class EpisodeScore { mean, worst, median, lower_quartile };
+inline constexpr std::array<std::string_view, 4> episode_score_names{"mean", "worst", "median",
+                                                                     "lower_quartile"};
 
 /// Noise against controllers that exploit the quirks of one simulator (Jakobi, Husbands & Harvey 1995): what
 /// works in each of several disturbed trials ("episodes") does not depend on a detail. All amounts are 0 by

@@ -50,11 +50,13 @@ TEST_F(Compare, MakesATableOfTheRequestedEnginesAndTheChampionsOwn) {
   EXPECT_THAT(table.out,
               testing::EndsWith("kept 70 %: of how many champions the distance in this engine is at "
                                 "least 70 % of that in the engine in which they evolved\n"));
-  EXPECT_THAT(table.out, HasSubstr("  " + distance({"trial", champion_, "--engine", "mujoco"}) + ", "));
+  const auto one = amble({"compare", champion_, "--engines", "mujoco", "--undisturbed"});
+  EXPECT_THAT(one.out, HasSubstr("  " + distance({"trial", champion_, "--engine", "mujoco"}) + ", "));
+  EXPECT_THAT(one.out, HasSubstr("1 s without noise"));
   const auto markdown = amble({"compare", champion_, "--engines", "mujoco", "--format", "markdown"}).out;
   EXPECT_THAT(
       markdown,
-      StartsWith("| champion | evolved in | trial | in batch | in mujoco |\n|---|---|---|---|---|\n"));
+      StartsWith("| champion | evolved in | trials | in batch | in mujoco |\n|---|---|---|---|---|\n"));
 }
 
 TEST_F(Compare, TrialTakesARunFolderForItsBestChampion) {
@@ -68,8 +70,8 @@ TEST_F(Compare, TrialTakesARunFolderForItsBestChampion) {
 }
 
 TEST_F(Compare, ListsEveryLengthAndEngineAsJson) {
-  const auto list =
-      io::Json::parse(amble({"compare", champion_, "--seconds", "1,2", "--format", "json"}).out);
+  const auto list = io::Json::parse(
+      amble({"compare", champion_, "--seconds", "1,2", "--undisturbed", "--format", "json"}).out);
   ASSERT_EQ(list.size(), 2u);
   EXPECT_EQ(list[1]["trial_s"], 2.0);
   EXPECT_EQ(list[0]["evolved_in"], "batch");
@@ -97,6 +99,45 @@ TEST_F(Compare, TakesTheMedianOfTrialsUnderNoiseThatEvolutionHasNotMet) {
     EXPECT_EQ(judged["distance_m"], distances_m[1]) << judged["engine"];
     EXPECT_NE(distances_m[0], distances_m[2]) << "each episode has noise of its own";
   }
+}
+
+TEST_F(Compare, SaysByDefaultWhatAChampionTypicallyDoes) {
+  const auto compared =
+      amble({"compare", champion_, "--engines", "batch", "--trials", "5", "--format", "json"});
+  ASSERT_EQ(compared.exit_code, 0) << compared.err;
+  const auto row = io::Json::parse(compared.out)[0];
+  EXPECT_EQ(row["under"], "under its own noise");
+  EXPECT_EQ(row["results"][0]["trials"].size(), 5u);
+  // The same trials as those of `amble trial`.
+  const auto trial = amble({"trial", champion_, "--trials", "5"});
+  EXPECT_THAT(trial.out,
+              StartsWith(fmt::format("typically {:.2f} m in 1 s: half of 5 trials under its own noise ",
+                                     row["results"][0]["distance_m"].get<double>())));
+}
+
+TEST_F(Compare, TheMedianTrialIsWhatGaitViewAndPageShowOfAWalkerEvolvedUnderNoise) {
+  const auto gait = amble({"gait", champion_, "--trials", "5"});
+  EXPECT_THAT(gait.out, StartsWith("typically "));
+  EXPECT_THAT(gait.out, HasSubstr("\nthe gait of the median trial:\n"));
+  EXPECT_THAT(amble({"gait", champion_, "--undisturbed"}).out, Not(HasSubstr("typically")));
+  const std::string view = scratch_ / "view.html", page = scratch_ / "page.html";
+  EXPECT_THAT(amble({"view", champion_, "--trials", "5", "-o", view}).out,
+              HasSubstr("its median trial is shown"));
+  EXPECT_THAT(slurp(view), HasSubstr(", median trial"));
+  EXPECT_EQ(amble({"page", run_, "--trials", "5", "-o", page}).exit_code, 0);
+  EXPECT_THAT(slurp(page), HasSubstr("the median of these trials: typically "));
+  EXPECT_EQ(amble({"view", run_, "--undisturbed", "-o", view}).exit_code, 0);
+  EXPECT_THAT(slurp(view), Not(HasSubstr(", median trial")));
+}
+
+TEST_F(Compare, LevelsAreKnownByNameAndExcludeOtherNoise) {
+  const auto unknown = amble({"trial", champion_, "--level", "nano"});
+  EXPECT_EQ(unknown.exit_code, static_cast<int>(ExitCode::bad_input));
+  EXPECT_THAT(unknown.err, HasSubstr("level 'nano': expected own or control, micro, 100-micro or milli"));
+  EXPECT_EQ(amble({"compare", champion_, "--level", "milli", "--undisturbed"}).exit_code,
+            static_cast<int>(ExitCode::bad_input));
+  EXPECT_EQ(amble({"compare", champion_, "--noise", robust, "--level", "milli"}).exit_code,
+            static_cast<int>(ExitCode::bad_input));
 }
 
 TEST_F(Compare, RefusesANoiseThatIsNoneAndEpisodesWithoutNoise) {

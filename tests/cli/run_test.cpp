@@ -94,7 +94,8 @@ TEST_P(StopSignal, EndsARunWithItsOwnExitCodeAndACheckpointToGoOnFrom) {
   process.signal(GetParam());
   const auto finished = process.wait();
   EXPECT_EQ(finished.exit_code, interrupted);
-  EXPECT_NE(finished.err.find("go on by: amble resume " + (scratch / "run").string()), std::string::npos)
+  EXPECT_NE(finished.err.find("to continue, run: amble resume " + (scratch / "run").string()),
+            std::string::npos)
       << finished.err;
   const auto csv = slurp(scratch / "run/generations.csv");
   const auto rows = std::count(csv.begin(), csv.end(), '\n') - 1;
@@ -178,6 +179,14 @@ TEST_P(RunOnEngine, HasNoiseOnlyWhereItIsSetAndIsVerified) {
 
   ASSERT_EQ(amble(evolve(scratch / "quiet", 1, 2)).exit_code, ok);
   const auto quiet = std::filesystem::directory_iterator(scratch / "quiet/champions")->path().string();
+  EXPECT_TRUE(trial({}).starts_with("typically ")) << trial({});
+  EXPECT_NE(trial({}).find(" trials under its own noise "), std::string::npos) << trial({});
+  const auto at_level = amble({"trial", quiet, "--trials", "3"});
+  EXPECT_NE(at_level.out.find("half of 3 trials at the level milli "), std::string::npos) << at_level.out;
+  EXPECT_NE(at_level.out.find("\n\nits trial without noise:\nengine    ode\n"), std::string::npos);
+  const auto own = amble({"gait", quiet, "--level", "own"});
+  EXPECT_EQ(own.exit_code, static_cast<int>(ExitCode::bad_input));
+  EXPECT_NE(own.err.find("evolved without noise"), std::string::npos) << own.err;
   const auto refused = amble({"trial", quiet, "--noise", "0"});
   EXPECT_EQ(refused.exit_code, static_cast<int>(ExitCode::bad_input));
   EXPECT_NE(refused.err.find("was evolved without noise"), std::string::npos) << refused.err;
@@ -195,7 +204,7 @@ TEST(Referees, AreShownByInfoAndTrialAndLeaveVerifyAlone) {
   std::string champion;  // the best, which is the last
   for (const auto& file : std::filesystem::directory_iterator(scratch / "run/champions"))
     champion = std::max(champion, file.path().string());
-  const auto trial = amble({"trial", champion, "--engine", "mujoco"});
+  const auto trial = amble({"trial", champion, "--engine", "mujoco", "--undisturbed"});
   EXPECT_TRUE(trial.out.starts_with("engine    mujoco (evolved in batch)\n")) << trial.out;
   const auto label = trial.out.find("distance  ") + 10;
   const auto distance = trial.out.substr(label, trial.out.find('\n', label) - label);

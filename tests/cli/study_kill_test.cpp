@@ -161,7 +161,7 @@ TEST_F(Study, StoppedByASignalSaysHowToGoOn) {
   process.signal(SIGTERM);
   const auto stopped = process.wait();
   EXPECT_EQ(stopped.exit_code, 7) << stopped.err;
-  EXPECT_NE(stopped.err.find("go on by the same command"), std::string::npos) << stopped.err;
+  EXPECT_NE(stopped.err.find("to continue, run the same command"), std::string::npos) << stopped.err;
 }
 
 }  // namespace

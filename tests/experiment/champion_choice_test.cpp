@@ -118,6 +118,31 @@ TEST(ChampionChoice, HasChampionsThatVerify) {
     EXPECT_TRUE(verify_champion(file, never, &origin).value().agrees) << file;
 }
 
+TEST(ChampionChoice, ByTheMedianKeepsWhatTypicallyDoesBest) {
+  const TemporaryFolder scratch;
+  Config config = judged_config(7);
+  config.champion.score = ChampionScore::median;
+  run(scratch / "run", config, 2);
+  const auto kept = champions(scratch / "run");
+  ASSERT_GE(kept.size(), 3u);
+  double before = -1.0;
+  for (const Champion& champion : kept) {
+    std::vector<double> scores;
+    for (std::uint32_t i = 0; i < 7; ++i) {
+      trial::ScenarioKey key = judging_key(config.seed);
+      key.episode += i;
+      const std::vector<trial::Scenario> scenario{champion.problem.scenario(key, nullptr)};
+      Evaluator evaluator(champion.problem, {}, 1);
+      scores.push_back(
+          objectives(champion.problem, *evaluator.evaluate(std::span(&champion.genome, 1), never, scenario))
+              .front());
+    }
+    std::ranges::sort(scores);
+    EXPECT_GT(scores[3], before);
+    before = scores[3];
+  }
+}
+
 TEST(ChampionChoice, NeedsNoise) {
   try {
     small_config({"champion.episodes=4"});
@@ -132,6 +157,8 @@ TEST(ChampionChoice, NeedsNoise) {
 TEST(ChampionChoice, IsNoPartOfAConfigsIdentityUnlessItIsMade) {
   EXPECT_FALSE(small_config().identity().contains("champion"));
   EXPECT_TRUE(judged_config(4).identity().contains("champion"));
+  EXPECT_FALSE(judged_config(4).identity().at("champion").contains("score"))
+      << "as before it could be chosen";
 }
 
 }  // namespace

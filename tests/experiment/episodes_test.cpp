@@ -9,10 +9,12 @@
 namespace amble::experiment {
 namespace {
 
-TEST(Episodes, CountByTheirMeanOrTheirWorst) {
+TEST(Episodes, CountByTheirMeanMedianLowerQuartileOrWorst) {
   const std::array<double, 3> distances_m{3.0, 1.0, 5.0};
   EXPECT_EQ(objective(trial::EpisodeScore::mean, distances_m), 3.0);
   EXPECT_EQ(objective(trial::EpisodeScore::worst, distances_m), 1.0);
+  EXPECT_EQ(objective(trial::EpisodeScore::median, std::array{9.0, 1.0, 2.0}), 2.0);
+  EXPECT_EQ(objective(trial::EpisodeScore::lower_quartile, std::array{1.0, 2.0, 3.0, 4.0, 5.0}), 2.0);
 }
 
 TEST(Episodes, OfWhichThereIsButOneCountAsItsDistanceToTheBit) {

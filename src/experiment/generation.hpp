@@ -1,0 +1,34 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "amble/experiment/evaluation_settings.hpp"
+#include "amble/experiment/evaluator.hpp"
+#include "amble/experiment/problem.hpp"
+
+namespace amble::experiment {
+
+/// A generation after all its trials.
+struct EvaluatedGeneration {
+  GenerationResult result;         ///< of the trials that every genome has; steps and times of all trials
+  std::vector<double> objectives;  ///< of all trials of each genome, by the problem's score; default m
+};
+
+/// The generation's trials: one per genome and episode of the problem's noise, then those of the finalists
+/// (sequential halving in two rounds; Karnin, Koren & Somekh, ICML 2013). A genome that was not tried again
+/// counts at most as much as the worst of those that were: what it reached beyond may be luck. Nothing if
+/// `stop` was set before all trials had ended. `ground` remembers the ground of the call before.
+std::optional<EvaluatedGeneration> evaluate_generation(Evaluator& evaluator, const Problem& problem,
+                                                       const EvaluationSettings& settings,
+                                                       GenerationGround& ground, std::int64_t seed,
+                                                       int generation, std::span<const neat::Genome> genomes,
+                                                       const std::atomic<bool>& stop);
+
+/// Indices of the best share of the genomes, at least one, ascending; of equal objectives the first.
+std::vector<std::size_t> finalists_of(std::span<const double> objectives, double share);
+
+}  // namespace amble::experiment

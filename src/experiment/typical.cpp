@@ -1,0 +1,106 @@
+#include "amble/experiment/typical.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "amble/core/check.hpp"
+#include "amble/core/error.hpp"
+#include "amble/experiment/episodes.hpp"
+#include "amble/physics/engine.hpp"
+#include "amble/record/levels.hpp"
+#include "amble/score/score.hpp"
+
+namespace amble::experiment {
+namespace {
+
+std::string level_of(const Problem& problem, const std::string& asked) {
+  if (asked.empty()) return std::string(problem.disturbed() ? own_noise : record::default_level);
+  if (asked == own_noise && !problem.disturbed())
+    fail(ExitCode::bad_input, "level '{}': it was evolved without noise, and from one place; expected {}",
+         asked, record::level_names());
+  if (asked != own_noise && record::find_level(asked) == nullptr)
+    fail(ExitCode::bad_input, "level '{}': expected {} or {}", asked, own_noise, record::level_names());
+  return asked;
+}
+
+score::Typical typical_of(std::span<const TrialResult> trials, auto value) {
+  std::vector<double> values;
+  std::vector<record::Outcome> outcomes;
+  for (const TrialResult& trial : trials) {
+    values.push_back(value(trial));
+    outcomes.push_back(trial.outcome);
+  }
+  return score::typical(values, outcomes);
+}
+
+}  // namespace
+
+int reported_trials(std::string_view engine) {
+  return physics::engine_traits(engine).lanes > 1 ? 64 : running_trials;
+}
+
+TypicalTrials::TypicalTrials(const Problem& problem, std::int64_t seed, int trials, const std::string& level,
+                             int jobs)
+    : level_(level_of(problem, level)) {
+  AMBLE_CHECK(trials >= 1, "what is typical needs a trial");
+  auto disturbed = std::make_unique<Problem>(problem);
+  if (level_ != own_noise) disturbed->noise = trial::noise_of(*record::find_level(level_));
+  disturbed->noise.first_undisturbed = false;
+  problem_ = std::move(disturbed);
+  trial::ScenarioKey key = typical_key(seed);
+  ground_ = problem_->make_ground(ground_of(key));
+  for (int i = 0; i < trials; ++i, ++key.episode)
+    scenarios_.push_back(problem_->scenario(key, ground_.get()));
+  evaluator_ = std::make_unique<Evaluator>(*problem_, record::PathSampling(), jobs);
+}
+
+std::string TypicalTrials::under() const {
+  return level_ == own_noise ? "under its own noise" : fmt::format("at the level {}", level_);
+}
+
+std::optional<std::vector<TrialResult>> TypicalTrials::run(const neat::Genome& genome,
+                                                           const std::atomic<bool>& stop) {
+  const auto result = evaluator_->evaluate(std::span(&genome, 1), stop, scenarios_, ground_);
+  if (!result) return std::nullopt;
+  std::vector<TrialResult> trials;
+  for (const auto& trajectory : result->trajectories) trials.push_back(summarise(*problem_, trajectory));
+  return trials;
+}
+
+score::Typical typical_distance(std::span<const TrialResult> trials) {
+  return typical_of(trials, [](const TrialResult& trial) { return trial.distance_m; });
+}
+
+score::Typical typical_objective(const Problem& problem, std::span<const TrialResult> trials) {
+  return typical_of(trials, [&problem](const TrialResult& trial) {
+    return score::credited(trial.value(), trial.outcome, problem.trial.fall_factor);
+  });
+}
+
+std::optional<MedianTrial> median_trial(TypicalTrials& trials, const neat::Genome& genome, std::int64_t seed,
+                                        const std::atomic<bool>& stop) {
+  const auto results = trials.run(genome, stop);
+  if (!results) return std::nullopt;
+  std::vector<std::uint32_t> order(results->size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return (*results)[i].distance_m; });
+  trial::ScenarioKey key = typical_key(seed);
+  key.episode += order[(order.size() - 1) / 2];
+  return MedianTrial{.problem = trials.problem(),
+                     .key = key,
+                     .distance = typical_distance(*results),
+                     .under = trials.under()};
+}
+
+std::string typical_text(const score::Typical& typical, const score::Settings& score, double seconds,
+                         const std::string& under) {
+  const auto text = [&score](double value) { return score::with_unit(fmt::format("{:.2f}", value), score); };
+  return fmt::format("typically {} in {:g} s: half of {} trials {} {:.2f} to {}, {:.0f} % fell (luckiest {})",
+                     text(typical.median), seconds, typical.trials, under, typical.lower_quartile,
+                     text(typical.upper_quartile), 100.0 * typical.fell_share, text(typical.best));
+}
+
+}  // namespace amble::experiment

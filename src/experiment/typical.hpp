@@ -1,0 +1,76 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "amble/experiment/champion.hpp"
+#include "amble/experiment/evaluator.hpp"
+#include "amble/score/typical.hpp"
+
+namespace amble::experiment {
+
+/// In place of a level's name: the noise of the run itself.
+inline constexpr std::string_view own_noise = "own";
+
+/// Trials that tell what a walker typically does while a run goes on.
+inline constexpr int running_trials = 16;
+/// The same for what commands say of it: 64, or 16 in an engine that has one lane.
+int reported_trials(std::string_view engine);
+
+/// Runs trials that neither evolution, nor the choice of champions, nor unseen_scenarios() has: the same for
+/// all genomes of a run. They are as new to a champion as its next trial will be.
+class TypicalTrials {
+ public:
+  /// `level`: the name of a record::Level, or `own_noise`; empty: own noise where the problem has some, else
+  /// record::default_level. `trials` ≥ 1, of the problem's length and in its engine. Throws UserError for an
+  /// unknown level, and for own noise where there is none.
+  TypicalTrials(const Problem& problem, std::int64_t seed, int trials, const std::string& level = {},
+                int jobs = 1);
+
+  /// The level's name, or `own_noise`.
+  const std::string& level() const { return level_; }
+  /// "under its own noise" or "at the level milli".
+  std::string under() const;
+  /// The problem with the noise of these trials: their scenarios are those of typical_key(seed) and the
+  /// episodes after it.
+  const Problem& problem() const { return *problem_; }
+  /// All trials of one genome. Nothing if `stop` was set meanwhile.
+  std::optional<std::vector<TrialResult>> run(const neat::Genome& genome, const std::atomic<bool>& stop);
+
+ private:
+  std::string level_;
+  std::unique_ptr<const Problem> problem_;
+  std::shared_ptr<const ground::Ground> ground_;
+  std::vector<trial::Scenario> scenarios_;
+  std::unique_ptr<Evaluator> evaluator_;
+};
+
+/// Of their distances, m.
+score::Typical typical_distance(std::span<const TrialResult> trials);
+/// Of what they count in evolution: the problem's score, with its factor for falls.
+score::Typical typical_objective(const Problem& problem, std::span<const TrialResult> trials);
+
+/// The trial that shows what is typical: that of the median distance; of an even number the lower one of the
+/// two in the middle.
+struct MedianTrial {
+  Problem problem;          ///< with the noise of the trials
+  trial::ScenarioKey key;   ///< of this one, for ReplayOptions::noise
+  score::Typical distance;  ///< of all trials, m
+  std::string under;        ///< TypicalTrials::under()
+};
+/// Nothing if `stop` was set meanwhile.
+std::optional<MedianTrial> median_trial(TypicalTrials& trials, const neat::Genome& genome, std::int64_t seed,
+                                        const std::atomic<bool>& stop);
+
+/// "typically 3.12 m in 15 s: half of 64 trials under its own noise 2.40 to 3.80 m, 3 % fell (luckiest 5.10
+/// m)". `score`: what the values are.
+std::string typical_text(const score::Typical& typical, const score::Settings& score, double seconds,
+                         const std::string& under);
+
+}  // namespace amble::experiment
