@@ -9,9 +9,9 @@
 namespace amble::report {
 namespace {
 
-/// "10 s, 0.25 m".
+/// "10 s, 0.25 m", to be broken at the comma alone.
 std::string rule_text(const score::StandingRule& rule) {
-  return fmt::format("{} s, {} m", graphics::number(rule.window_s), graphics::number(rule.radius_m));
+  return fmt::format("{}\u00A0s, {}\u00A0m", graphics::number(rule.window_s), graphics::number(rule.radius_m));
 }
 
 /// "compatible by 9 of 9 rules", "confirmed by 3 of 9, not confirmed by 6".
@@ -35,7 +35,7 @@ std::string test_table(const Report& report, const std::string& test) {
   std::vector<Column> columns{{"Walk to the end", false}, {"Runs"}, {"As metered"}};
   for (const auto& rule : stop_rules) columns.push_back({rule_text(rule)});
   columns.push_back({"Verdicts", false});
-  TableWriter table(columns, "dense");
+  TableWriter table(columns);
   std::size_t rows = 0;
   for (const StopCounts& counts : report.stops) {
     if (counts.test != test) continue;
