@@ -11,7 +11,8 @@ namespace {
 
 /// "10 s, 0.25 m", to be broken at the comma alone.
 std::string rule_text(const score::StandingRule& rule) {
-  return fmt::format("{}\u00A0s, {}\u00A0m", graphics::number(rule.window_s), graphics::number(rule.radius_m));
+  return fmt::format("{}\u00A0s, {}\u00A0m", graphics::number(rule.window_s),
+                     graphics::number(rule.radius_m));
 }
 
 /// "compatible by 9 of 9 rules", "confirmed by 3 of 9, not confirmed by 6".
