@@ -13,8 +13,7 @@ inline constexpr double confidence = 0.95;
 inline constexpr std::size_t fewest_resampled = 6;
 
 /// Fewer runs of a condition decide no claim, whatever its test says. Five against five are the fewest with
-/// which a rank test can reach the paper's level of 0.01 (0.008; four against four 0.029), and with which a
-/// proportion's 95 % interval leaves out half of all shares (five of five: 48 % and more).
+/// which a rank test can reach the paper's level of 0.01 (0.008; four against four 0.029).
 inline constexpr std::size_t fewest_judged = 5;
 
 }  // namespace amble::report
