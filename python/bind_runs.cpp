@@ -8,6 +8,7 @@
 #include "amble/gait/report_text.hpp"
 #include "amble/io/file.hpp"
 #include "amble/neat/genome_json.hpp"
+#include "amble/presentation/shown_trial.hpp"
 #include "amble/record/frame_codec.hpp"
 #include "amble/record/generations_csv.hpp"
 #include "amble/record/recording.hpp"
@@ -130,6 +131,39 @@ py::dict trial(const ReadableChampion& self, std::optional<double> seconds, std:
   return result;
 }
 
+py::dict typical(const ReadableChampion& self, std::optional<double> seconds,
+                 std::optional<std::string> engine, std::string level, int trials, std::optional<int> jobs) {
+  check_seconds(seconds);
+  if (trials < 0)
+    throw py::value_error(fmt::format("trials: {}: expected a whole number, at least 1", trials));
+  const int workers = jobs_of(jobs);
+  experiment::Problem problem = self.value.problem;
+  if (seconds) problem.trial.duration_s = *seconds;
+  if (engine) problem.engine = *engine;
+  problem.trial.validate();
+  std::optional<std::vector<experiment::TrialResult>> results;
+  std::string used;
+  Interruptible interruptible;
+  interruptible.run([&] {
+    auto runner = presentation::typical_trials(problem, self.value.seed,
+                                               {.level = std::move(level), .trials = trials}, workers);
+    used = runner.level();
+    results = runner.run(self.value.genome, interruptible.stop());
+  });
+  const auto distance = experiment::typical_distance(*results);
+  py::list all;
+  for (const auto& result : *results) all.append(result_dict(result));
+  py::dict dict;
+  dict["level"] = used;
+  dict["distance_m"] = distance.median;
+  dict["lower_quartile_m"] = distance.lower_quartile;
+  dict["upper_quartile_m"] = distance.upper_quartile;
+  dict["best_m"] = distance.best;
+  dict["fell_share"] = distance.fell_share;
+  dict["trials"] = all;
+  return dict;
+}
+
 constexpr py::ssize_t number_size = sizeof(float);
 
 /// A view that keeps its owner and cannot be written to.
@@ -189,6 +223,15 @@ steps), referees (the same by engine).)")
 
 seconds: length, s. engine: "ode", "batch" or "mujoco". record: path of a recording to write.
 Returns a dict: outcome, distance_m, score, seconds, steps, events (of the controller, by name).)")
+      .def("typical", typical, py::arg("seconds") = py::none(), py::arg("engine") = py::none(),
+           py::arg("level") = "", py::arg("trials") = 0, py::kw_only(), py::arg("jobs") = py::none(),
+           R"(What it typically does: many trials that evolution has not met, each disturbed otherwise.
+
+seconds, engine: as in trial(). level: "own" (the noise of its evolution), "control", "micro", "100-micro"
+or "milli" (starts that differ by so many radians); default: its own noise, or "milli" without any.
+trials: their number (default: 64, or 16 in engines that run one at a time). jobs: workers.
+Returns a dict: level, distance_m (the median), lower_quartile_m, upper_quartile_m, best_m (the luckiest),
+fell_share, trials (a list of dicts as trial() returns them, without events).)")
       .def("__repr__", [](const ReadableChampion& self) {
         return fmt::format("<amble.Champion of generation {}, {:.3f}: {}>", self.value.generation,
                            self.value.objective(), self.path.string());

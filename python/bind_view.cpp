@@ -2,6 +2,7 @@
 
 #include "amble/experiment/champion.hpp"
 #include "amble/io/scratch_file.hpp"
+#include "amble/presentation/shown_trial.hpp"
 #include "amble/presentation/walker.hpp"
 #include "python/bind.hpp"
 #include "python/readable.hpp"
@@ -15,12 +16,12 @@ bool is_recording_file(const std::filesystem::path& path) {
 }
 
 view::Walker walker_of(const py::object& object, const presentation::WalkOptions& options,
-                       const io::ScratchFile& scratch) {
+                       const presentation::TrialChoice& choice, const io::ScratchFile& scratch) {
   const bool is_recording = py::isinstance<ReadRecording>(object);
   if (is_recording || (!py::isinstance<ReadableChampion>(object) && !py::isinstance<ReadableRun>(object) &&
                        is_recording_file(path_of(object)))) {
-    if (options.seconds || options.engine)
-      throw py::value_error("a recording has been made already: no seconds, no engine");
+    if (options.seconds || options.engine || choice.undisturbed)
+      throw py::value_error("a recording has been made already: no seconds, no engine, not undisturbed");
     const auto path = is_recording ? object.cast<const ReadRecording&>().path : path_of(object);
     const py::gil_scoped_release release;
     return presentation::recorded(path);
@@ -33,17 +34,25 @@ view::Walker walker_of(const py::object& object, const presentation::WalkOptions
   std::optional<view::Walker> walker;
   Interruptible interruptible;
   interruptible.run([&] {
-    walker = presentation::walk(champion.value, champion.path, options, scratch.path(), interruptible.stop());
+    experiment::Champion shown_of = champion.value;
+    presentation::WalkOptions how = options;
+    const auto shown = presentation::shown_trial(shown_of, how.seconds, how.engine, choice, jobs_of({}),
+                                                 interruptible.stop());
+    if (!shown) return;
+    shown_of.problem.noise = shown->noise;
+    how.noise = shown->key;
+    walker = presentation::walk(shown_of, champion.path, how, scratch.path(), interruptible.stop());
   });
   return std::move(*walker);
 }
 
 std::string page_of(const py::object& champion, std::optional<double> seconds,
-                    std::optional<std::string> engine) {
+                    std::optional<std::string> engine, bool undisturbed) {
   check_seconds(seconds);
   const io::ScratchFile scratch("walk.rec");
   view::ReplayPage page{.title = {}, .walkers = {}, .made_by = presentation::made_by()};
-  page.walkers.push_back(walker_of(champion, {.seconds = seconds, .engine = std::move(engine)}, scratch));
+  page.walkers.push_back(walker_of(champion, {.seconds = seconds, .engine = std::move(engine)},
+                                   {.level = {}, .undisturbed = undisturbed}, scratch));
   page.title = page.walkers.front().title;
   const py::gil_scoped_release release;
   return view::make_page(page);
@@ -53,7 +62,7 @@ std::string page_of(const py::object& champion, std::optional<double> seconds,
 
 void bind_view(py::module_& module) {
   module.def("_page", page_of, py::arg("champion"), py::arg("seconds"), py::arg("engine"),
-             "The page of amble.view(), as text.");
+             py::arg("undisturbed"), "The page of amble.view(), as text.");
 }
 
 }  // namespace amble::python

@@ -25,8 +25,9 @@ class Page:
         return f"<amble.Page of {len(self.html)} characters: show it in a notebook, or save() it>"
 
 
-def view(champion, seconds=None, engine=None, *, height=720):
-    """Lets a champion walk, without noise, and returns a Page that shows it, the page of `amble view`.
+def view(champion, seconds=None, engine=None, *, undisturbed=False, height=720):
+    """Lets a champion walk and returns a Page that shows it, the page of `amble view`: where it was evolved under noise the
+    median of several trials, else, or with undisturbed=True, its trial without noise.
 
     champion: Champion, Run, Recording, or path of one of them. seconds: length, s (default: as in its evolution; not for
     recordings). engine: "ode", "batch" or "mujoco" (default: as in its evolution). height: in a notebook, pixels.
@@ -34,4 +35,4 @@ def view(champion, seconds=None, engine=None, *, height=720):
     """
     if not isinstance(height, int) or height < 1:
         raise ValueError(f"height: {height!r}: expected a whole number of pixels")
-    return Page(_page(champion, seconds, engine), height)
+    return Page(_page(champion, seconds, engine, undisturbed), height)

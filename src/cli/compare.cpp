@@ -31,7 +31,7 @@ struct CompareOptions {
   std::string format = formats[0];
   std::optional<std::filesystem::path> noise;  ///< a config file, for its noise
   std::uint32_t episodes = 10;
-  DisturbanceOptions disturbance;
+  presentation::TrialChoice disturbance;
 };
 
 struct NamedChampion {
@@ -71,10 +71,10 @@ void disturb(std::vector<NamedChampion>& champions, const std::filesystem::path&
 /// The trials that tell what a champion typically does, the same in all engines; their level's noise becomes
 /// the champion's.
 std::vector<trial::ScenarioKey> typical_noise(experiment::Champion& champion,
-                                              const DisturbanceOptions& options, std::string& under) {
-  DisturbanceOptions one = options;
+                                              const presentation::TrialChoice& options, std::string& under) {
+  presentation::TrialChoice one = options;
   one.trials = 1;
-  const auto trials = typical_trials(champion, champion.problem, one);
+  const auto trials = presentation::typical_trials(champion.problem, champion.seed, one, 1);
   under = trials.under();
   champion.problem.noise = trials.problem().noise;
   trial::ScenarioKey key = experiment::typical_key(champion.seed);

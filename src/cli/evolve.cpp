@@ -39,7 +39,7 @@ void print_best(const experiment::Run& run) {
   const auto& progress = run.progress();
   const auto& score = run.config().score;
   const auto champion = experiment::load_champion(run.paths().champion(progress.best_generation));
-  auto trials = typical_trials(champion, champion.problem, {});
+  auto trials = presentation::typical_trials(champion.problem, champion.seed, {}, processors());
   const auto results = trials.run(champion.genome, stop_signal());
   if (!results) fail(ExitCode::interrupted, "stopped before the best had walked; the run is complete");
   const auto typical = experiment::typical_objective(champion.problem, *results);

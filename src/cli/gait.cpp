@@ -27,7 +27,7 @@ struct GaitOptions {
   std::optional<std::string> engine;
   std::optional<std::string> json;
   gait::Settings settings;
-  DisturbanceOptions disturbance;
+  presentation::TrialChoice disturbance;
 };
 
 /// Runs a champion, in the median of several trials where it was evolved under noise, and measures its gait.

@@ -11,6 +11,7 @@
 #include "amble/cli/compare_table.hpp"
 #include "amble/cli/progress.hpp"
 #include "amble/core/index.hpp"
+#include "amble/cppn/sensitivity.hpp"
 #include "amble/experiment/champion.hpp"
 #include "amble/experiment/repertoire.hpp"
 #include "amble/experiment/run_folder.hpp"
@@ -24,6 +25,18 @@
 namespace amble::cli {
 namespace {
 
+/// Whether the CPPN's outputs at the points where the controller asks for them depend on the precision.
+void print_sensitivity(const experiment::Champion& champion) {
+  const auto& problem = champion.problem;
+  const auto* const substrate = problem.architecture->substrate();
+  if (substrate == nullptr) return;
+  constexpr double noticeable = 0.01;
+  const double largest = cppn::precision_sensitivity(champion.genome, problem.cppn, substrate->points());
+  fmt::print("precision   outputs change by at most {:.2g} in double precision, at {} points{}\n", largest,
+             substrate->points().count(),
+             largest > noticeable ? ": a chaotic CPPN (docs/CONTROLLERS.md)" : "");
+}
+
 void print_champion(const experiment::Champion& champion) {
   const auto& problem = champion.problem;
   fmt::print("experiment  {} (seed {})\ngeneration  {}, genome {}\n", io::printable(champion.experiment),
@@ -33,6 +46,7 @@ void print_champion(const experiment::Champion& champion) {
   fmt::print("CPPN        {} inputs, {} outputs, {} hidden nodes, {} links\n", problem.cppn_inputs(),
              problem.cppn_outputs(), champion.genome.count(neat::NodeKind::hidden),
              champion.genome.enabled_links());
+  print_sensitivity(champion);
   fmt::print("result      {:.3f} m in {:.2f} s, {}\n", champion.result.distance_m, champion.result.seconds,
              record::outcome_names[to_index(champion.result.outcome)]);
   if (champion.result.score) fmt::print("score       {:.3f}\n", *champion.result.score);

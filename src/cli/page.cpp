@@ -30,7 +30,7 @@ struct PageOptions {
   fs::path run, out;
   std::optional<fs::path> figures;
   std::optional<std::string> engine;
-  DisturbanceOptions disturbance;
+  presentation::TrialChoice disturbance;
 };
 
 std::string noise_text(const trial::NoiseSettings& noise) {
@@ -39,7 +39,7 @@ std::string noise_text(const trial::NoiseSettings& noise) {
 }
 
 std::vector<page::Fact> facts(const experiment::Config& config, const experiment::Champion& champion,
-                              const std::string& shown_in, const ShownTrial& shown) {
+                              const std::string& shown_in, const presentation::ShownTrial& shown) {
   const auto build = experiment::build_info();
   const auto& robot = champion.problem.robot;
   std::vector<page::Fact> facts{
@@ -91,7 +91,7 @@ motion::RecordedTrial record_again(const experiment::Champion& champion, const f
 
 page::RunPage page_of(const experiment::RunPaths& paths, const experiment::Config& config,
                       const experiment::Champion& champion, const std::optional<std::string>& engine,
-                      const ShownTrial& shown) {
+                      const presentation::ShownTrial& shown) {
   return {
       .title = config.name,
       .subtitle = fmt::format("the champion of {} generations of {}, evolved by amble",

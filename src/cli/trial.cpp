@@ -31,7 +31,7 @@ struct TrialOptions {
   std::optional<std::uint32_t> noise;
   std::optional<std::filesystem::path> ground;
   std::optional<std::string> damage;
-  DisturbanceOptions disturbance;
+  presentation::TrialChoice disturbance;
 };
 
 constexpr std::uint32_t most_episodes = 1000000;
@@ -62,7 +62,7 @@ void print_typical(const experiment::Champion& champion, const TrialOptions& opt
   if (options.seconds) problem.trial.duration_s = *options.seconds;
   if (options.engine) problem.engine = *options.engine;
   problem.trial.validate();
-  auto trials = typical_trials(champion, problem, options.disturbance);
+  auto trials = presentation::typical_trials(problem, champion.seed, options.disturbance, processors());
   const auto results = trials.run(champion.genome, stop_signal());
   if (!results) fail(ExitCode::interrupted, "stopped before the end of the trials");
   fmt::print("{}\n\nits trial without noise:\n",

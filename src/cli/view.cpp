@@ -32,7 +32,7 @@ struct ViewOptions {
   fs::path out;
   presentation::WalkOptions walk;
   std::optional<std::string> title;
-  DisturbanceOptions disturbance;
+  presentation::TrialChoice disturbance;
 };
 
 /// The run that a champion file is of: the folder that has the champions' folder; else the file itself.

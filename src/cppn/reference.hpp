@@ -9,7 +9,7 @@
 namespace amble::cppn {
 
 /// The reference implementation of Network: one point at a time, in double precision, with the functions of
-/// <cmath>. It defines what a CPPN computes; only tests and benchmarks use it.
+/// <cmath>. It defines what a CPPN computes; tests, benchmarks and precision_sensitivity() use it.
 class Reference {
  public:
   Reference(const neat::Genome& genome, const Settings& settings);

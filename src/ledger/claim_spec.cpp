@@ -68,6 +68,14 @@ void check_count(const ClaimSpec& claim, const ClaimCheck& check) {
   check.that(claim.successes <= claim.runs || claim.runs == 0, "successes", "at most 'runs'");
 }
 
+void check_difference(const ClaimSpec& claim, const ClaimCheck& check) {
+  check.condition("against", claim.against);
+  check.that(claim.margin == 0.0 || claim.relation == Relation::not_less, "margin",
+             "0 unless relation = \"not_less\"");
+  check.that(claim.margin == 0.0 || claim.test != TwoSampleTest::mann_whitney, "margin",
+             "0 for ranks: test = \"student\" or \"welch\" have a margin");
+}
+
 }  // namespace
 
 void ClaimSpec::describe(io::SettingsVisitor& visitor) {
@@ -82,6 +90,8 @@ void ClaimSpec::describe(io::SettingsVisitor& visitor) {
   visitor.choice("relation", relation, relation_names, {"difference: what the condition is to the other"});
   visitor.choice("test", test, two_sample_test_names, {"difference: the test that decides"});
   visitor.number("alpha", alpha, {1e-9, 0.5}, {"difference, value: level of significance"});
+  visitor.number("margin", margin, {0.0, largest_value},
+                 {"difference that is not_less: by how much less is no worse; 0: not stated"});
   visitor.number("at_least", at_least, {-unbounded, largest_value},
                  {"ratio, count: lower bound; -inf: none"});
   visitor.number("at_most", at_most, {-largest_value, unbounded},
@@ -92,6 +102,8 @@ void ClaimSpec::describe(io::SettingsVisitor& visitor) {
                {"count: the threshold is the mean of the measure in this condition"});
   visitor.number("mean", mean, {-largest_value, largest_value}, {"value: the published mean"});
   visitor.number("sd", sd, {0.0, largest_value}, {"value: the published standard deviation"});
+  visitor.number("within", within, {1e-9, 1.0},
+                 {"value: means within this share of the published one are equivalent"});
   visitor.integer("runs", runs, {0, 1e9}, {"value, count: runs behind the published figure"});
   visitor.integer("successes", successes, {0, 1e9}, {"count: the published count"});
   visitor.texts("includes", includes, {"gaits: all of these must occur"});
@@ -116,7 +128,7 @@ void check_claim(const StudySpec& study, std::size_t index) {
     return;
   }
   check.measure("measure", claim.measure);
-  if (claim.kind == ClaimKind::difference) check.condition("against", claim.against);
+  if (claim.kind == ClaimKind::difference) check_difference(claim, check);
   if (claim.kind == ClaimKind::ratio) check_ratio(claim, check);
   if (claim.kind == ClaimKind::count) check_count(claim, check);
   if (claim.kind == ClaimKind::value)

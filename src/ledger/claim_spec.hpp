@@ -42,19 +42,21 @@ struct ClaimSpec {
   ClaimKind kind = ClaimKind::difference;
   std::string measure = "train_m";  ///< ledger/measures.hpp
   std::string condition;
-  std::string against;                                ///< difference; ratio between conditions
-  std::string base_measure;                           ///< ratio within a condition
-  Relation relation = Relation::greater;              ///< difference
-  TwoSampleTest test = TwoSampleTest::student;        ///< difference
-  double alpha = 0.05;                                ///< difference, value
+  std::string against;                          ///< difference; ratio between conditions
+  std::string base_measure;                     ///< ratio within a condition
+  Relation relation = Relation::greater;        ///< difference
+  TwoSampleTest test = TwoSampleTest::student;  ///< difference
+  double alpha = 0.05;                          ///< difference, value
+  double margin = 0.0;  ///< difference that is not_less: how much less is no worse; 0: none was stated
   double at_least = -unbounded, at_most = unbounded;  ///< ratio, count, plateau
   double threshold = -unbounded;                      ///< count: a run counts from here on
   std::string threshold_condition;                    ///< count: the threshold is the mean of this condition
   double mean = 0.0, sd = 0.0;                        ///< value: as published
-  int runs = 0;                                       ///< value, count: runs behind the published figure
-  int successes = 0;                                  ///< count: as published, of `runs`
-  std::vector<std::string> includes, only;            ///< gaits: must occur; nothing else may occur
-  int from_generation = 0;                            ///< plateau
+  double within = 0.25;  ///< value: means are equivalent within this share of the published one
+  int runs = 0;          ///< value, count: runs behind the published figure
+  int successes = 0;     ///< count: as published, of `runs`
+  std::vector<std::string> includes, only;  ///< gaits: must occur; nothing else may occur
+  int from_generation = 0;                  ///< plateau
 
   void describe(io::SettingsVisitor& visitor);
 };

@@ -161,10 +161,19 @@ std::string StudySpec::to_toml() const {
   return io::settings_to_toml([&copy](io::SettingsVisitor& visitor) { copy.describe(visitor); });
 }
 
-std::string StudySpec::claims_hash() const {
+std::string StudySpec::claims_hash(JudgingRules rules) const {
   std::vector<ClaimSpec> copy = claims;
-  return hex(hash_text(
-      io::settings_to_toml([&copy](io::SettingsVisitor& visitor) { visitor.tables("claims", copy, {""}); })));
+  std::string text =
+      io::settings_to_toml([&copy](io::SettingsVisitor& visitor) { visitor.tables("claims", copy, {""}); });
+  if (rules != first_rules) text += fmt::format("verdicts {}, stop {}\n", rules.verdicts, rules.stop);
+  return hex(hash_text(text));
+}
+
+std::optional<JudgingRules> StudySpec::rules_of(const std::string& claims_hash) const {
+  for (int verdicts = current_rules.verdicts; verdicts >= 1; --verdicts)
+    for (int stop = current_rules.stop; stop >= 1; --stop)
+      if (this->claims_hash({verdicts, stop}) == claims_hash) return JudgingRules{verdicts, stop};
+  return std::nullopt;
 }
 
 UserError StudySpec::error_at(const std::string& key, const std::string& text) const {

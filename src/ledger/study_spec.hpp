@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "amble/core/error.hpp"
 #include "amble/io/settings.hpp"
 #include "amble/ledger/claim_spec.hpp"
+#include "amble/ledger/judging_rules.hpp"
 
 namespace amble::ledger {
 
@@ -67,8 +69,10 @@ struct StudySpec {
   const ConditionSpec* find(std::string_view condition) const;
   const TestSpec* find_test(std::string_view test) const;
   std::string to_toml() const;
-  /// Hash of the claims and their rules, hexadecimal.
-  std::string claims_hash() const;
+  /// Hash of the claims and of the versions of the rules that judge them, hexadecimal.
+  std::string claims_hash(JudgingRules rules = current_rules) const;
+  /// The versions under which these claims, word for word, have that hash; nothing if they are others.
+  std::optional<JudgingRules> rules_of(const std::string& claims_hash) const;
   /// A UserError with the place of a key in front, if that is known.
   UserError error_at(const std::string& key, const std::string& text) const;
 };

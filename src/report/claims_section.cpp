@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
+#include "amble/core/index.hpp"
 #include "amble/io/xml.hpp"
 #include "amble/report/html.hpp"
 #include "amble/report/number_text.hpp"
@@ -47,7 +49,29 @@ std::string test_cell(const Judgement& judgement) {
     cell += "<br/>" + fmt::format("<span class=\"p\">{}</span>", escape_xml(p_text(*judgement.p)));
   if (judgement.p_holm)
     cell += fmt::format("<br/><small class=\"p\">Holm {}</small>", escape_xml(p_number(*judgement.p_holm)));
+  if (judgement.p_spread)
+    cell +=
+        fmt::format("<br/><small class=\"p\">spread {}</small>", escape_xml(p_number(*judgement.p_spread)));
+  if (judgement.p_equivalence)
+    cell += fmt::format("<br/><small class=\"p\">{} {}</small>",
+                        judgement.p_spread ? "equivalence" : "not inferior",
+                        escape_xml(p_number(*judgement.p_equivalence)));
   return cell;
+}
+
+/// Which claims' p values are adjusted together; `families`: tests by relation.
+std::string families_text(const std::array<std::size_t, 2>& families) {
+  const auto [greater, not_less] = families;
+  if (greater + not_less < 2) return {};
+  if (not_less == 0 || greater == 0)
+    return fmt::format(
+        " Claims of differences are one family of {}, whose p values are adjusted by Holm’s method.",
+        counted(greater + not_less, "test"));
+  return fmt::format(
+      " Claims that one condition is ahead are one family of {}, claims that it is not behind another of {}: "
+      "the p "
+      "values of each are adjusted by Holm’s method.",
+      counted(greater, "test"), not_less);
 }
 
 }  // namespace
@@ -64,11 +88,11 @@ std::string claims_section(const Report& report) {
                     "cards claims");
   const bool one_source = std::ranges::all_of(
       claims, [&](const ledger::ClaimSpec& claim) { return claim.source == claims[0].source; });
-  std::size_t family = 0;
+  std::array<std::size_t, 2> families{};
   for (std::size_t i = 0; i < claims.size(); ++i) {
     const ledger::ClaimSpec& claim = claims[i];
     const Judgement& judgement = report.judgements[i];
-    family += judgement.p_holm.has_value();
+    if (judgement.p_holm) ++families.at(to_index(claim.relation));
     const std::string source = claim.source.empty() || one_source
                                    ? ""
                                    : fmt::format("<br/><small>{}</small>", escape_xml(claim.source));
@@ -85,10 +109,7 @@ std::string claims_section(const Report& report) {
       "Each claim is judged by the rule given with it in the study’s file (docs/STUDIES.md). Intervals "
       "are at 95 %, but those of a mean against a published one at 1 − alpha of the claim.";
   if (one_source && !claims[0].source.empty()) lead = fmt::format("From {}. ", claims[0].source) + lead;
-  if (family > 1)
-    lead += fmt::format(
-        " Claims of differences are one family of {}, whose p values are adjusted by Holm’s method.",
-        counted(family, "test"));
+  lead += families_text(families);
   return section("claims", "The claims", lead, verdict_counts(report) + table.finish());
 }
 

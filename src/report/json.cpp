@@ -29,13 +29,16 @@ std::string to_json(const Report& report) {
   io::Json verdicts = io::Json::object();
   const auto counts = count_verdicts(report.judgements);
   for (std::size_t i = 0; i < counts.size(); ++i) verdicts[std::string(verdict_names[i])] = counts[i];
-  io::Json document{{"study", report.data.study.name},
-                    {"title", report.title()},
-                    {"digest", report.digest},
-                    {"runs_done", report.data.records.size()},
-                    {"runs_planned", report.data.planned()},
-                    {"remarks", report.remarks},
-                    {"verdicts", verdicts}};
+  io::Json document{
+      {"study", report.data.study.name},
+      {"title", report.title()},
+      {"digest", report.digest},
+      {"runs_done", report.data.records.size()},
+      {"runs_planned", report.data.planned()},
+      {"remarks", report.remarks},
+      {"judged_by",
+       {{"verdict_rules", ledger::current_rules.verdicts}, {"stop_rule", ledger::current_rules.stop}}},
+      {"verdicts", verdicts}};
   for (const Table& table : tables(report)) document[table.name] = rows_of(table);
   return io::sealed_json(report_format, report_version, document);
 }

@@ -50,14 +50,19 @@ std::string headline(const Report& report) {
   return out + "</dl>\n";
 }
 
-/// Says so if the claims were the same when each run finished.
+/// Says so if the claims were the same when each run finished, and by which rules they are judged.
 std::string claims_text(const Report& report) {
   const auto& data = report.data;
   if (data.study.claims.empty() || data.records.empty()) return {};
-  const std::string hash = data.study.claims_hash();
-  for (const ledger::Record& record : data.records)
-    if (record.provenance.claims != hash) return {};
-  return fmt::format(" The claims and their rules were the same when each run finished ({}).", hash);
+  const std::string rules = rules_text(ledger::current_rules);
+  const ClaimsWritten written = claims_written(data);
+  if (written.differently > 0) return fmt::format(" Claims are judged by {}.", rules);
+  if (written.under.size() == 1 && written.under[0].rules == ledger::current_rules)
+    return fmt::format(
+        " The claims and the rules that judge them ({}) were the same when each run finished ({}).", rules,
+        data.study.claims_hash());
+  return fmt::format(
+      " The claims were the same, word for word, when each run finished; they are judged by {}.", rules);
 }
 
 std::string header(const Report& report) {
@@ -102,6 +107,7 @@ std::string make_page(const Report& report) {
     parts.push_back({"typical", "Typical", typical_section(report)});
     parts.push_back({"curves", "Curves", curves_section(report)});
     parts.push_back({"survival", "Falls and stops", survival_section(report)});
+    parts.push_back({"stops", "Stop rules", stop_rules_section(report)});
     parts.push_back({"sizes", "CPPNs", sizes_section(report)});
     parts.push_back({"gaits", "Gaits", gaits_section(report)});
     parts.push_back({"mutants", "Mutants", mutants_section(report)});

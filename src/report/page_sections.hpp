@@ -12,6 +12,7 @@ std::string distance_section(const Report& report);
 std::string typical_section(const Report& report);
 std::string curves_section(const Report& report);
 std::string survival_section(const Report& report);
+std::string stop_rules_section(const Report& report);
 std::string sizes_section(const Report& report);
 std::string gaits_section(const Report& report);
 std::string mutants_section(const Report& report);

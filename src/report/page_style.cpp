@@ -19,9 +19,9 @@ constexpr std::string_view figures = R"css(
 )css";
 
 constexpr std::string_view text = R"css(
-:root { --good: #00705f; --bad: #b23a06; --open: #7a5b00; --void: #5d6670; }
+:root { --good: #00705f; --bad: #b23a06; --open: #7a5b00; --near: #2f5f9e; --void: #5d6670; }
 @media screen and (prefers-color-scheme: dark) {
-  :root { --good: #45c2b0; --bad: #ff8a54; --open: #e4b54a; --void: #98a2ad; }
+  :root { --good: #45c2b0; --bad: #ff8a54; --open: #e4b54a; --near: #8db4ea; --void: #98a2ad; }
 }
 h3 { margin: 44px 0 0; font-size: 17px; line-height: 1.35; font-weight: 640; }
 h4 { margin: 26px 0 0; font-size: 15px; font-weight: 600; } h4 + p { margin: 2px 0 0; color: var(--soft); font-size: 14.5px; }
@@ -36,12 +36,12 @@ nav a { color: var(--soft); text-underline-offset: 3px; }
 .verdicts b { font-size: 26px; font-weight: 640; letter-spacing: -.015em; }
 .share { display: flex; height: 8px; margin-top: 12px; gap: 2px; }
 .share i { border-radius: 2px; background: var(--tone); }
-.confirmed { --tone: var(--good); } .not-confirmed { --tone: var(--open); } .contradicted { --tone: var(--bad); } .not-testable { --tone: var(--line); }
+.confirmed { --tone: var(--good); } .compatible { --tone: var(--near); } .not-confirmed { --tone: var(--open); } .contradicted { --tone: var(--bad); } .not-testable { --tone: var(--line); }
 .not-testable .verdict, .verdicts .not-testable { color: var(--void); }
 .verdict { color: var(--tone); font-weight: 640; white-space: nowrap; }
 .verdict.not-testable { color: var(--void); }
 .verdict::before { display: inline-block; width: 1.3em; }
-.verdict.confirmed::before { content: "\2713"; } .verdict.not-confirmed::before { content: "\25CB"; }
+.verdict.confirmed::before { content: "\2713"; } .verdict.compatible::before { content: "\2248"; } .verdict.not-confirmed::before { content: "\25CB"; }
 .verdict.contradicted::before { content: "\2715"; } .verdict.not-testable::before { content: "\2013"; }
 
 .data { font-size: 14px; line-height: 1.45; }

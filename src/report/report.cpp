@@ -33,6 +33,7 @@ Report make_report(StudyData data) {
   report.summaries = summarize(report.data);
   report.curves = best_curves(report.data);
   report.survival = survival_tables(report.data);
+  report.stops = stop_counts(report.data);
   report.gaits = gait_tables(report.data);
   report.transfers = transfers(report.data);
   report.pairs = compare_pairs(report.data);

@@ -7,6 +7,7 @@
 #include "amble/report/curves.hpp"
 #include "amble/report/gait_counts.hpp"
 #include "amble/report/lifetimes.hpp"
+#include "amble/report/stop_rules.hpp"
 #include "amble/report/study_data.hpp"
 #include "amble/report/transfer.hpp"
 #include "amble/report/typical.hpp"
@@ -25,6 +26,7 @@ struct Report {
   std::vector<SampleSummary> summaries;
   std::vector<BestCurve> curves;
   std::vector<SurvivalTable> survival;
+  std::vector<StopCounts> stops;
   std::vector<GaitTable> gaits;
   std::vector<Transfer> transfers;
   std::vector<PairTable> pairs;

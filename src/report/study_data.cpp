@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <set>
 
 #include "amble/core/check.hpp"
@@ -193,6 +194,41 @@ std::optional<double> training_s(const ledger::Record& record) {
   return duration->get<double>();
 }
 
+ClaimsWritten claims_written(const StudyData& data) {
+  std::map<std::string, std::size_t> by_hash;
+  for (const ledger::Record& record : data.records) ++by_hash[record.provenance.claims];
+  ClaimsWritten written;
+  for (const auto& [hash, count] : by_hash)
+    if (const auto rules = data.study.rules_of(hash))
+      written.under.push_back({*rules, count});
+    else
+      written.differently += count;
+  return written;
+}
+
+std::string rules_text(const ledger::JudgingRules& rules) {
+  return fmt::format("verdict rules {} and stop rule {}", rules.verdicts, rules.stop);
+}
+
+namespace {
+
+void remark_on_claims(const StudyData& data, std::vector<std::string>& remarks) {
+  const ClaimsWritten written = claims_written(data);
+  if (written.differently > 0)
+    remarks.push_back(fmt::format(
+        "The claims were changed after runs had finished: {} of {} records were made when they were "
+        "others.",
+        written.differently, data.records.size()));
+  for (const auto& [rules, count] : written.under)
+    if (rules != ledger::current_rules)
+      remarks.push_back(fmt::format(
+          "The claims of {} of {} records were written under {} and are judged here under {}: the "
+          "same sentences, other rules, of which docs/STUDIES.md says what changed and why.",
+          count, data.records.size(), rules_text(rules), rules_text(ledger::current_rules)));
+}
+
+}  // namespace
+
 std::vector<std::string> remarks(const StudyData& data) {
   std::vector<std::string> remarks;
   if (const std::string missing = missing_runs(data); !missing.empty())
@@ -213,14 +249,7 @@ std::vector<std::string> remarks(const StudyData& data) {
     remarks.push_back(
         "Conditions were evolved by different scores; what they got in evolution cannot be compared.");
   for (const ledger::TestSpec& test : data.study.tests) remark_on_test(data, test, remarks);
-  const std::string claims = data.study.claims_hash();
-  const auto older = std::ranges::count_if(
-      data.records, [&](const ledger::Record& record) { return record.provenance.claims != claims; });
-  if (older > 0 && !data.study.claims.empty())
-    remarks.push_back(
-        fmt::format("The claims or their rules were changed after runs had finished: {} of {} "
-                    "records were made when they were others.",
-                    older, data.records.size()));
+  if (!data.study.claims.empty()) remark_on_claims(data, remarks);
   if (!data.unknown_files.empty())
     remarks.push_back(fmt::format("The ledger has {} that {} no run of this study and not counted: {}.",
                                   data.unknown_files.size() == 1 ? "a file" : "files",

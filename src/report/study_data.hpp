@@ -48,6 +48,19 @@ std::vector<std::string> compared_measures_of(const StudyData& data);
 /// Length of the trials in evolution, s, as the champion's file has it; none if it does not say.
 std::optional<double> training_s(const ledger::Record& record);
 
+/// Under which rules the claims were written that the records' runs were made for.
+struct ClaimsWritten {
+  struct Records {
+    ledger::JudgingRules rules;
+    std::size_t count = 0;
+  };
+  std::vector<Records> under;   ///< records whose claims are the study's, word for word
+  std::size_t differently = 0;  ///< records whose claims were others
+};
+ClaimsWritten claims_written(const StudyData& data);
+/// "verdict rules 2 and stop rule 1".
+std::string rules_text(const ledger::JudgingRules& rules);
+
 /// What a reader must know before the numbers: runs that are missing or lack tests, a condition whose records
 /// differ in config, engine or generations, scores that differ, tests of another length than in the study or
 /// of several settings, records of other studies, unknown files. Empty if there is nothing to remark.

@@ -184,6 +184,24 @@ Table survival_table(const Report& report) {
   return table;
 }
 
+Table stops_table(const Report& report) {
+  Table table{
+      "stops",
+      "champions of a condition that walk for at least so long by a rule of stopping; those that a claim "
+      "counts, with its verdict",
+      {"test", "condition", "at_least_s", "claim", "window_s", "radius_m", "runs", "n", "runs_metered",
+       "verdict"},
+      {}};
+  for (const StopCounts& counts : report.stops)
+    for (std::size_t i = 0; i < stop_rules.size(); ++i)
+      table.rows.push_back({counts.test, counts.condition, counts.at_least_s,
+                            counts.claim ? cell(*counts.claim + 1) : Cell(), stop_rules[i].window_s,
+                            stop_rules[i].radius_m, cell(counts.runs[i]), cell(counts.n),
+                            i == ledger_stop_rule ? cell(counts.metered) : Cell(),
+                            counts.claim ? Cell(std::string(name_of(counts.verdicts[i]))) : Cell()});
+  return table;
+}
+
 Table log_rank_table(const Report& report) {
   Table table{"log_rank",
               "how long a condition lasted in a test; the log-rank test is over all its conditions",
@@ -247,10 +265,10 @@ Table mutants_table(const Report& report) {
 Table claims_table(const Report& report) {
   Table table{"claims",
               "a claim with its verdict",
-              {"claim",    "text",     "source", "figure", "kind",    "measure",      "condition",
-               "against",  "verdict",  "reason", "n",      "planned", "n_against",    "planned_against",
-               "quantity", "estimate", "lower",  "upper",  "mean",    "mean_against", "test",
-               "p",        "p_holm",   "alpha",  "ours"},
+              {"claim",    "text",     "source", "figure", "kind",     "measure",       "condition",
+               "against",  "verdict",  "reason", "n",      "planned",  "n_against",     "planned_against",
+               "quantity", "estimate", "lower",  "upper",  "mean",     "mean_against",  "test",
+               "p",        "p_holm",   "alpha",  "ours",   "relation", "p_equivalence", "p_spread"},
               {}};
   for (std::size_t i = 0; i < report.judgements.size(); ++i) {
     const ledger::ClaimSpec& claim = report.data.study.claims[i];
@@ -278,6 +296,10 @@ Table claims_table(const Report& report) {
     for (const auto& value : {judgement.p, judgement.p_holm}) row.push_back(cell(value));
     row.emplace_back(claim.alpha);
     row.emplace_back(judgement.ours);
+    const bool is_difference = claim.kind == ledger::ClaimKind::difference;
+    row.push_back(is_difference ? Cell(std::string(ledger::relation_names[to_index(claim.relation)]))
+                                : Cell());
+    for (const auto& value : {judgement.p_equivalence, judgement.p_spread}) row.push_back(cell(value));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -288,8 +310,8 @@ Table claims_table(const Report& report) {
 std::vector<Table> tables(const Report& report) {
   std::vector<Table> all{claims_table(report),   runs_table(report),     summary_table(report),
                          pairs_table(report),    curves_table(report),   bests_table(report),
-                         survival_table(report), log_rank_table(report), gaits_table(report),
-                         transfer_table(report), mutants_table(report)};
+                         survival_table(report), log_rank_table(report), stops_table(report),
+                         gaits_table(report),    transfer_table(report), mutants_table(report)};
   if (!report.typical.empty()) all.push_back(typical_table(report));
   return all;
 }

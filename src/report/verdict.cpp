@@ -22,13 +22,51 @@ Judgement judge_one(const StudyData& data, const ledger::ClaimSpec& claim) {
     case ledger::ClaimKind::value:
       return judge_value(data, claim);
     case ledger::ClaimKind::count:
-      return judge_count(data, claim);
+      return judge_count(data, claim, data.values(claim.condition, claim.measure));
     case ledger::ClaimKind::gaits:
       return judge_gaits(data, claim);
     case ledger::ClaimKind::plateau:
       return judge_plateau(data, claim);
   }
   return {};
+}
+
+/// Adjusts what `member` has of the claims' p values by Holm's method.
+void adjust(const std::vector<std::size_t>& family, std::vector<Judgement>& judgements,
+            std::optional<double> Judgement::*member, std::optional<double> Judgement::*adjusted) {
+  std::vector<std::size_t> having;
+  std::vector<double> p;
+  for (const std::size_t i : family)
+    if (judgements[i].*member) {
+      having.push_back(i);
+      p.push_back(*(judgements[i].*member));
+    }
+  const auto holm = statistics::holm(p);
+  for (std::size_t k = 0; k < having.size(); ++k) judgements[having[k]].*adjusted = holm[k];
+}
+
+/// The verdicts on all claims of differences of one relation, which are a family. A claim of not_less is none
+/// of superiority: counted among these it would only take from their power.
+void conclude_differences(const std::vector<ledger::ClaimSpec>& claims, ledger::Relation relation,
+                          std::vector<Judgement>& judgements) {
+  std::vector<std::size_t> family;
+  for (std::size_t i = 0; i < claims.size(); ++i)
+    if (claims[i].kind == ledger::ClaimKind::difference && claims[i].relation == relation && judgements[i].p)
+      family.push_back(i);
+  adjust(family, judgements, &Judgement::p, &Judgement::p_holm);
+  adjust(family, judgements, &Judgement::p_equivalence, &Judgement::p_equivalence);
+  for (const std::size_t i : family) conclude_difference(claims[i], judgements[i]);
+}
+
+/// Takes back what too few runs say.
+void need_enough_runs(const StudyData& data, const ledger::ClaimSpec& claim, Judgement& judgement) {
+  if (judgement.verdict == Verdict::not_testable) return;
+  std::string lacking = too_few(data, claim.condition, judgement.n, fewest_judged);
+  if (lacking.empty() && judgement.planned_against > 0)
+    lacking = too_few(data, claim.against, judgement.n_against, fewest_judged);
+  if (lacking.empty()) return;
+  judgement.verdict = Verdict::not_confirmed;
+  judgement.reason = lacking + " " + judgement.reason;
 }
 
 }  // namespace
@@ -56,29 +94,27 @@ std::string without_mean(const StudyData& data, const std::string& condition,
                      counted(values.size(), "run"), data.study.find(condition)->label());
 }
 
+Judgement judge_count_of(const StudyData& data, const ledger::ClaimSpec& claim,
+                         const std::vector<double>& sample) {
+  Judgement judgement = judge_count(data, claim, sample);
+  need_enough_runs(data, claim, judgement);
+  return judgement;
+}
+
 std::vector<Judgement> judge(const StudyData& data) {
   const auto& claims = data.study.claims;
   std::vector<Judgement> judgements;
   judgements.reserve(claims.size());
   for (const ledger::ClaimSpec& claim : claims) judgements.push_back(judge_one(data, claim));
 
-  std::vector<std::size_t> family;
-  std::vector<double> p;
-  for (std::size_t i = 0; i < claims.size(); ++i)
-    if (claims[i].kind == ledger::ClaimKind::difference && judgements[i].p) {
-      family.push_back(i);
-      p.push_back(*judgements[i].p);
-    }
-  const auto adjusted = statistics::holm(p);
-  for (std::size_t k = 0; k < family.size(); ++k) {
-    judgements[family[k]].p_holm = adjusted[k];
-    conclude_difference(claims[family[k]], judgements[family[k]]);
-  }
+  for (const auto relation : {ledger::Relation::greater, ledger::Relation::not_less})
+    conclude_differences(claims, relation, judgements);
+  for (std::size_t i = 0; i < claims.size(); ++i) need_enough_runs(data, claims[i], judgements[i]);
   return judgements;
 }
 
-std::array<std::size_t, 4> count_verdicts(const std::vector<Judgement>& judgements) {
-  std::array<std::size_t, 4> counts{};
+std::array<std::size_t, verdict_names.size()> count_verdicts(const std::vector<Judgement>& judgements) {
+  std::array<std::size_t, verdict_names.size()> counts{};
   for (const Judgement& judgement : judgements) ++counts[to_index(judgement.verdict)];
   return counts;
 }

@@ -44,13 +44,14 @@ void conclude_published_count(const ClaimSpec& claim, const statistics::Count& o
   const bool inside = judgement.interval->contains(share);
   judgement.test = "Fisher’s exact";
   judgement.p = test.p;
-  judgement.verdict = agreement_verdict(test.p, count_alpha, inside);
+  judgement.verdict = agreement_verdict({.p = test.p, .alpha = count_alpha, .inside = inside});
   const auto theirs = *statistics::clopper_pearson(published, confidence);
   judgement.reason =
       fmt::format("Published {} of {}, {}; that share lies {} our interval. {}", claim.successes, claim.runs,
                   share_text(share, theirs), inside ? "in" : "outside",
-                  judgement.verdict == Verdict::contradicted
-                      ? "The shares differ significantly."
+                  judgement.verdict == Verdict::contradicted ? "The shares differ significantly."
+                  : judgement.verdict == Verdict::compatible
+                      ? "The data do not contradict the claim; that is not evidence for it."
                       : "No difference was found, which does not prove that there is none.");
 }
 
@@ -81,8 +82,7 @@ std::string gaits_misfit(const ClaimSpec& claim, const std::set<std::string>& oc
 
 }  // namespace
 
-Judgement judge_count(const StudyData& data, const ClaimSpec& claim) {
-  const auto sample = data.values(claim.condition, claim.measure);
+Judgement judge_count(const StudyData& data, const ClaimSpec& claim, const std::vector<double>& sample) {
   Judgement judgement = begin_judgement(data, claim, sample.size());
   judgement.quantity = "share of runs";
   judgement.reason = too_few(data, claim.condition, judgement.n, 1);

@@ -11,10 +11,11 @@ Judgement judge_difference(const StudyData& data, const ledger::ClaimSpec& claim
 Judgement judge_ratio(const StudyData& data, const ledger::ClaimSpec& claim);
 Judgement judge_value(const StudyData& data, const ledger::ClaimSpec& claim);
 Judgement judge_plateau(const StudyData& data, const ledger::ClaimSpec& claim);
-Judgement judge_count(const StudyData& data, const ledger::ClaimSpec& claim);
+Judgement judge_count(const StudyData& data, const ledger::ClaimSpec& claim,
+                      const std::vector<double>& sample);
 Judgement judge_gaits(const StudyData& data, const ledger::ClaimSpec& claim);
 
-/// `judgement` has an estimate, p and p_holm.
+/// `judgement` has an estimate, p and p_holm, and p_equivalence if the claim states a margin.
 void conclude_difference(const ledger::ClaimSpec& claim, Judgement& judgement);
 
 /// A judgement with how many runs of the condition have the measure.

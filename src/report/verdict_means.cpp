@@ -8,6 +8,7 @@
 #include "amble/ledger/measures.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/verdict_kinds.hpp"
+#include "amble/statistics/agreement.hpp"
 #include "amble/statistics/bootstrap.hpp"
 #include "amble/statistics/descriptive.hpp"
 #include "amble/statistics/rank_test.hpp"
@@ -55,7 +56,7 @@ bool begin_two(const StudyData& data, const ClaimSpec& claim, const TwoSamples& 
   return judgement.reason.empty();
 }
 
-void use_t_test(const std::optional<statistics::TTest>& test, Judgement& judgement) {
+void use_t_test(const std::optional<statistics::TTest>& test, double margin, Judgement& judgement) {
   judgement.quantity = "difference of means";
   if (!test) {
     judgement.reason =
@@ -65,6 +66,7 @@ void use_t_test(const std::optional<statistics::TTest>& test, Judgement& judgeme
   judgement.p = test->p;
   judgement.estimate = test->difference;
   judgement.interval = test->interval;
+  if (margin > 0.0) judgement.p_equivalence = statistics::non_inferiority_p(*test, margin);
 }
 
 void use_mann_whitney(const TwoSamples& samples, double alpha, Judgement& judgement) {
@@ -164,6 +166,38 @@ Judgement judge_ratio_between(const StudyData& data, const ClaimSpec& claim) {
   return judgement;
 }
 
+/// What there is to add of a claim that the condition does not do worse.
+std::string no_loss_text(const ClaimSpec& claim, const Judgement& judgement, bool not_inferior) {
+  std::string text;
+  if (claim.margin > 0.0)
+    text = fmt::format(" That it is not worse by more than the stated {} is {} (one-sided {}).",
+                       graphics::number(claim.margin, 9), not_inferior ? "shown" : "not shown",
+                       p_text(*judgement.p_equivalence));
+  else if (judgement.verdict == Verdict::compatible)
+    text = " No margin was stated, so no test can show that it does not do worse.";
+  if (judgement.verdict == Verdict::compatible)
+    text += " The data do not contradict the claim; that is not evidence for it.";
+  return text;
+}
+
+/// Of a value: how spreads and means compare with the published ones.
+std::string agreement_text(const ClaimSpec& claim, const Judgement& judgement, const Agreement& agreement) {
+  std::string text = fmt::format(
+      " The spreads {} (F test, {}). That the means differ by less than {} of the published one is {} (two "
+      "one-sided tests, {}).",
+      agreement.spreads_differ ? "differ significantly" : "do not differ significantly",
+      p_text(*judgement.p_spread), percent_text(claim.within), agreement.equivalent ? "shown" : "not shown",
+      p_text(*judgement.p_equivalence));
+  switch (judgement.verdict) {
+    case Verdict::contradicted:
+      return " The means differ significantly." + text;
+    case Verdict::compatible:
+      return text + " The data do not contradict the claim; that is not evidence for it.";
+    default:
+      return text;
+  }
+}
+
 }  // namespace
 
 Judgement judge_difference(const StudyData& data, const ClaimSpec& claim) {
@@ -176,11 +210,13 @@ Judgement judge_difference(const StudyData& data, const ClaimSpec& claim) {
   switch (claim.test) {
     case TwoSampleTest::student:
       judgement.test = "Student’s t";
-      use_t_test(statistics::student_t_test(samples.first, samples.second, confidence), judgement);
+      use_t_test(statistics::student_t_test(samples.first, samples.second, confidence), claim.margin,
+                 judgement);
       break;
     case TwoSampleTest::welch:
       judgement.test = "Welch’s t";
-      use_t_test(statistics::welch_t_test(samples.first, samples.second, confidence), judgement);
+      use_t_test(statistics::welch_t_test(samples.first, samples.second, confidence), claim.margin,
+                 judgement);
       break;
     case TwoSampleTest::mann_whitney:
       judgement.test = "Mann–Whitney";
@@ -201,7 +237,10 @@ Judgement judge_difference(const StudyData& data, const ClaimSpec& claim) {
 void conclude_difference(const ClaimSpec& claim, Judgement& judgement) {
   const double neutral = claim.test == TwoSampleTest::mann_whitney ? 0.5 : 0.0;
   const auto direction = statistics::direction_of(*judgement.estimate - neutral);
-  judgement.verdict = difference_verdict(claim.relation, direction, *judgement.p_holm, claim.alpha);
+  // One-sided at alpha / 2, as the end of an interval at 1 − alpha.
+  const bool not_inferior = judgement.p_equivalence && *judgement.p_equivalence < 0.5 * claim.alpha;
+  judgement.verdict =
+      difference_verdict(claim.relation, direction, *judgement.p_holm, claim.alpha, not_inferior);
   const bool significant = *judgement.p_holm < claim.alpha;
   const std::string_view where =
       direction == statistics::Direction::less      ? "The difference points the other way"
@@ -212,8 +251,8 @@ void conclude_difference(const ClaimSpec& claim, Judgement& judgement) {
           ? std::string(where) + "."
           : fmt::format("{} {} significant at {} after Holm’s adjustment.", where,
                         significant ? "and is" : "but is not", graphics::number(claim.alpha, 9));
-  if (claim.relation == ledger::Relation::not_less && judgement.verdict == Verdict::confirmed)
-    judgement.reason += " The claim is that the condition does not do worse; it need not do better.";
+  if (claim.relation == ledger::Relation::not_less)
+    judgement.reason += no_loss_text(claim, judgement, not_inferior);
 }
 
 Judgement judge_ratio(const StudyData& data, const ClaimSpec& claim) {
@@ -240,19 +279,22 @@ Judgement judge_value(const StudyData& data, const ClaimSpec& claim) {
   judgement.mean = judgement.estimate = moments.mean;
   judgement.interval = *statistics::mean_interval(moments, 1.0 - claim.alpha);
   const auto theirs = *statistics::mean_interval(published, 1.0 - claim.alpha);
-  const bool inside = judgement.interval->contains(claim.mean);
-  judgement.verdict = agreement_verdict(test.p, claim.alpha, inside);
+  judgement.p_spread = statistics::f_test(moments, published)->p;
+  judgement.p_equivalence = statistics::equivalence_p(test, claim.within * std::abs(claim.mean));
+  const Agreement agreement{.p = test.p,
+                            .alpha = claim.alpha,
+                            .inside = judgement.interval->contains(claim.mean),
+                            .spreads_differ = *judgement.p_spread < claim.alpha,
+                            .equivalent = *judgement.p_equivalence < 0.5 * claim.alpha};
+  judgement.verdict = agreement_verdict(agreement);
   judgement.ours = fmt::format(
       "{}, sd {}",
       estimate_text(moments.mean, judgement.interval, data.unit_of(claim.measure, claim.condition)),
       number_text(moments.sd));
   judgement.reason =
-      fmt::format("Published {} {}; the published mean lies {} our interval. {}", number_text(claim.mean),
+      fmt::format("Published {} {}; the published mean lies {} our interval.{}", number_text(claim.mean),
                   interval_text(theirs, decimals_for({claim.mean, theirs.lower, theirs.upper})),
-                  inside ? "in" : "outside",
-                  judgement.verdict == Verdict::contradicted
-                      ? "The means differ significantly."
-                      : "No difference was found, which does not prove that there is none.");
+                  agreement.inside ? "in" : "outside", agreement_text(claim, judgement, agreement));
   return judgement;
 }
 

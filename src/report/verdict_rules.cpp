@@ -4,14 +4,14 @@
 
 namespace amble::report {
 
-Verdict difference_verdict(ledger::Relation relation, statistics::Direction direction, double p,
-                           double alpha) {
-  const bool significant = p < alpha;
+Verdict difference_verdict(ledger::Relation relation, statistics::Direction direction, double p, double alpha,
+                           bool not_inferior) {
+  const bool significant = p < alpha, is_claim_of_no_loss = relation == ledger::Relation::not_less;
+  if (is_claim_of_no_loss && not_inferior) return Verdict::confirmed;
   if (direction == statistics::Direction::less)
     return significant ? Verdict::contradicted : Verdict::not_confirmed;
-  if (relation == ledger::Relation::not_less) return Verdict::confirmed;
-  return significant && direction == statistics::Direction::greater ? Verdict::confirmed
-                                                                    : Verdict::not_confirmed;
+  if (significant && direction == statistics::Direction::greater) return Verdict::confirmed;
+  return is_claim_of_no_loss ? Verdict::compatible : Verdict::not_confirmed;
 }
 
 Verdict bounds_verdict(const statistics::Interval& interval, double at_least, double at_most) {
@@ -20,9 +20,10 @@ Verdict bounds_verdict(const statistics::Interval& interval, double at_least, do
                                                                  : Verdict::not_confirmed;
 }
 
-Verdict agreement_verdict(double p, double alpha, bool inside) {
-  if (p < alpha) return Verdict::contradicted;
-  return inside ? Verdict::confirmed : Verdict::not_confirmed;
+Verdict agreement_verdict(const Agreement& agreement) {
+  if (agreement.p < agreement.alpha) return Verdict::contradicted;
+  if (!agreement.inside || agreement.spreads_differ) return Verdict::not_confirmed;
+  return agreement.equivalent ? Verdict::confirmed : Verdict::compatible;
 }
 
 Verdict count_verdict(std::size_t successes, std::size_t missing, double at_least, double at_most) {

@@ -2,6 +2,7 @@
 
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
@@ -36,6 +37,11 @@ double student_quantile(double probability, double degrees_of_freedom) {
 
 double chi_square_upper_tail(double x, double degrees_of_freedom) {
   return math::cdf(math::complement(math::chi_squared_distribution<>(degrees_of_freedom), x));
+}
+
+double f_upper_tail(double f, double first_degrees_of_freedom, double second_degrees_of_freedom) {
+  return math::cdf(math::complement(
+      math::fisher_f_distribution<>(first_degrees_of_freedom, second_degrees_of_freedom), f));
 }
 
 double beta_quantile(double probability, double a, double b) {

@@ -16,6 +16,9 @@ double student_quantile(double probability, double degrees_of_freedom);
 /// P(X > x), x ≥ 0.
 double chi_square_upper_tail(double x, double degrees_of_freedom);
 
+/// P(F > f), f ≥ 0.
+double f_upper_tail(double f, double first_degrees_of_freedom, double second_degrees_of_freedom);
+
 double beta_quantile(double probability, double a, double b);
 
 /// z such that a standard normal variable is in [−z, z] with probability `confidence`, which is in (0, 1).

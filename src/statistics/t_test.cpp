@@ -26,6 +26,7 @@ TTest test_of(double difference, double standard_error, double degrees_of_freedo
           .degrees_of_freedom = degrees_of_freedom,
           .p = std::min(1.0, 2.0 * student_upper_tail(std::abs(t), degrees_of_freedom)),
           .difference = difference,
+          .standard_error = standard_error,
           .interval = {difference - half, difference + half},
           .direction = direction_of(difference)};
 }

@@ -13,8 +13,9 @@ struct TTest {
   double t = 0.0;
   double degrees_of_freedom = 0.0;
   double p = 1.0;
-  double difference = 0.0;  ///< mean of the first sample minus that of the second
-  Interval interval;        ///< of the difference
+  double difference = 0.0;      ///< mean of the first sample minus that of the second
+  double standard_error = 0.0;  ///< of the difference
+  Interval interval;            ///< of the difference
   Direction direction = Direction::equal;
 };
 

@@ -210,6 +210,7 @@ TEST(Referees, AreShownByInfoAndTrialAndLeaveVerifyAlone) {
   const auto distance = trial.out.substr(label, trial.out.find('\n', label) - label);
 
   const auto info = amble({"info", champion});
+  EXPECT_NE(info.out.find("precision   outputs change by at most "), std::string::npos) << info.out;
   EXPECT_NE(info.out.find("in mujoco   " + distance + ", "), std::string::npos) << info.out;
 }
 

@@ -110,6 +110,9 @@ TEST(Config, RobustPresetDiffersFromTheAuthorsInNoiseDropIdleRuleAndNameAlone) {
   robust.noise = {};
   robust.drop_m = authors.drop_m;
   robust.controller.supg.idle = authors.controller.supg.idle;
+  EXPECT_EQ(robust.champion.episodes, 16);
+  EXPECT_EQ(robust.champion.score, ChampionScore::median);
+  robust.champion = authors.champion;
   robust.name = authors.name;
   EXPECT_EQ(robust.to_toml(), authors.to_toml());
 }

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
+#include "amble/ledger/ledger.hpp"
 #include "tests/io/temporary_folder.hpp"
 
 namespace amble::ledger {
@@ -82,6 +84,27 @@ TEST(StudySpec, HashOfClaimsIsThatOfAnyStudyWithTheSameClaims) {
   EXPECT_EQ(study.claims_hash(), claims);
   study.claims.emplace_back();
   EXPECT_NE(study.claims_hash(), claims);
+}
+
+TEST(StudySpec, HashOfClaimsCoversTheVersionsOfTheirRules) {
+  const TemporaryFolder folder;
+  io::write_file(folder.path() / "s.toml", good);
+  StudySpec study = load_study(folder.path() / "s.toml");
+  std::set<std::string> hashes;
+  for (const int verdicts : {1, 2, 3})
+    for (const int stop : {1, 2}) hashes.insert(study.claims_hash({verdicts, stop}));
+  EXPECT_EQ(hashes.size(), 6u);
+  EXPECT_EQ(study.claims_hash(), study.claims_hash(current_rules));
+  study.claims[0].margin = 0.5;
+  EXPECT_FALSE(hashes.contains(study.claims_hash(first_rules)));
+}
+
+TEST(StudySpec, RecordsFromBeforeTheRulesHadVersionsHoldTheHashOfTheirClaimsAlone) {
+  const StudyPaths paths(AMBLE_SOURCE_DIR "/results/legs");
+  const StudySpec study = load_kept_study(paths);
+  const auto records = Ledger(paths).load_all(study);
+  EXPECT_EQ(records.size(), 4u);
+  for (const Record& record : records) EXPECT_EQ(study.rules_of(record.provenance.claims), first_rules);
 }
 
 TEST(StudySpec, NamesHaveUpTo64Characters) {
@@ -229,6 +252,11 @@ TEST(ClaimSpec, OfEachOtherKindHasWhatItsRuleNeeds) {
   expect_diagnostics({
       {"kind = 'difference'\nagainst = 'b'", ""},
       {"kind = 'difference'", "'claims[0].against': expected the name of a condition, not \"\""},
+      {"kind = 'difference'\nagainst = 'b'\nrelation = 'not_less'\nmargin = 0.5", ""},
+      {"kind = 'difference'\nagainst = 'b'\nmargin = 0.5",
+       "'claims[0].margin': expected 0 unless relation = \"not_less\""},
+      {"kind = 'difference'\nagainst = 'b'\nrelation = 'not_less'\ntest = 'mann_whitney'\nmargin = 0.5",
+       "'claims[0].margin': expected 0 for ranks: test = \"student\" or \"welch\" have a margin"},
       {"kind = 'value'\nmean = 3.0\nsd = 1e-9\nruns = 2", ""},
       {"kind = 'value'\nmean = 3.0\nsd = 0.0\nruns = 2", spread},
       {"kind = 'value'\nmean = inf\nsd = 1.0\nruns = 2",

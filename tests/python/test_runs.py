@@ -126,6 +126,23 @@ def test_champions_walk_again_as_they_did(run):
     assert [c.path for c in run.champions()][-1] == champion.path
 
 
+def test_what_a_champion_typically_does_is_the_median_of_disturbed_trials(run):
+    champion = run.champion()
+    typical = champion.typical(trials=5)
+    assert typical["level"] == "milli"
+    distances = sorted(trial["distance_m"] for trial in typical["trials"])
+    assert len(distances) == 5 and typical["distance_m"] == distances[2] and typical["best_m"] == distances[4]
+    assert typical["lower_quartile_m"] == distances[1] and typical["upper_quartile_m"] == distances[3]
+    assert typical["fell_share"] == sum(t["outcome"] != "completed" for t in typical["trials"]) / 5
+    assert champion.typical(trials=5, jobs=2) == typical
+    assert champion.typical(level="control", trials=2)["trials"][1]["distance_m"] == champion.trial()["distance_m"]
+    for wrong in ({"level": "nano"}, {"level": "own"}):
+        with pytest.raises(amble.Error):
+            champion.typical(**wrong)
+    with pytest.raises(ValueError):
+        champion.typical(trials=-1)
+
+
 def test_recordings_have_their_columns_as_views(recording):
     assert recording.frames.shape == (len(recording), len(recording.columns)) == (200, len(recording.columns))
     assert recording.frames.dtype == np.float32

@@ -31,17 +31,17 @@ struct OneClaim {
 };
 
 TEST(CountClaims, CountFromTheThresholdOn) {
-  OneClaim one(ClaimKind::count, 4, {3.0, 4.0, 5.0, 3.9});
+  OneClaim one(ClaimKind::count, 5, {3.0, 4.0, 5.0, 3.9, 1.0});
   one.claim().threshold = 4.0;
   one.claim().at_least = 2;
   EXPECT_EQ(one.judged().verdict, Verdict::confirmed) << "4.0 itself counts";
-  EXPECT_EQ(one.judged().ours, "2 of 4, 50 % [7, 93]");
+  EXPECT_EQ(one.judged().ours, "2 of 5, 40 % [5, 85]");
   one.claim().at_least = 3;
   EXPECT_EQ(one.judged().verdict, Verdict::contradicted);
 }
 
 TEST(CountClaims, WaitForRunsThatCouldDecide) {
-  OneClaim one(ClaimKind::count, 6, {3.0, 4.0, 5.0, 3.9});
+  OneClaim one(ClaimKind::count, 7, {3.0, 4.0, 5.0, 3.9, 1.0});
   one.claim().threshold = 4.0;
   one.claim().at_least = 3;
   EXPECT_EQ(one.judged().verdict, Verdict::not_testable);
@@ -51,12 +51,12 @@ TEST(CountClaims, WaitForRunsThatCouldDecide) {
 }
 
 TEST(CountClaims, TakeAnothersMeanAsThreshold) {
-  OneClaim one(ClaimKind::count, 4, {3.0, 4.0, 5.0, 3.9});
+  OneClaim one(ClaimKind::count, 5, {3.0, 4.0, 5.0, 3.9, 1.0});
   one.claim().threshold_condition = "b";
   one.claim().at_most = 1;
   EXPECT_EQ(one.judged().verdict, Verdict::not_testable);
   EXPECT_THAT(one.judged().reason, HasSubstr("No finished run of b"));
-  add_runs(one.data, "b", {4.0, 5.0, 6.0, 5.0});
+  add_runs(one.data, "b", {4.0, 5.0, 6.0, 5.0, 5.0});
   EXPECT_EQ(one.judged().verdict, Verdict::confirmed);
   EXPECT_THAT(one.judged().ours, HasSubstr("threshold 5.00 m"));
 }
@@ -70,27 +70,38 @@ TEST(CountClaims, AreComparedWithAPublishedCount) {
     for (int i = 0; i < 20; ++i) one.data.records[static_cast<std::size_t>(i)].best_m = i < count ? 5.0 : 1.0;
     return one.judged().verdict;
   };
-  EXPECT_EQ(with_successes(0), Verdict::confirmed);
+  EXPECT_EQ(with_successes(0), Verdict::compatible) << "one in six would go unseen in 20";
   EXPECT_EQ(with_successes(1), Verdict::not_confirmed) << "0 of 20 is outside the interval of 1 of 20";
   EXPECT_EQ(with_successes(4), Verdict::not_confirmed) << "Fisher: p = 0.106";
   EXPECT_EQ(with_successes(5), Verdict::contradicted) << "Fisher: p = 0.047";
   one.claim().successes = 5;
-  EXPECT_EQ(with_successes(2), Verdict::confirmed);
-  EXPECT_EQ(with_successes(9), Verdict::confirmed);
+  EXPECT_EQ(with_successes(2), Verdict::compatible);
+  EXPECT_EQ(with_successes(9), Verdict::compatible);
   EXPECT_EQ(with_successes(12), Verdict::not_confirmed);
   EXPECT_EQ(with_successes(15), Verdict::contradicted);
 }
 
+TEST(CountClaims, OfFewRunsAreNeitherConfirmedNorContradicted) {
+  OneClaim one(ClaimKind::count, 2, {5.0, 5.0});
+  one.claim().threshold = 4.0;
+  one.claim().runs = 20;
+  for (const int successes : {0, 1, 10, 20}) {
+    one.claim().successes = successes;
+    EXPECT_EQ(one.judged().verdict, Verdict::not_confirmed) << "two of two say little";
+    EXPECT_THAT(one.judged().reason, HasSubstr("Too few runs: a has 2, 5 are needed."));
+  }
+}
+
 TEST(GaitClaims, LookAtTheGaitsOfATest) {
-  OneClaim one(ClaimKind::gaits, 3, {1.0, 1.0, 1.0});
+  OneClaim one(ClaimKind::gaits, 5, {1.0, 1.0, 1.0, 1.0, 1.0});
   one.data.study.tests.resize(1);
   one.data.study.tests[0].name = one.claim().measure = "long";
-  const char* gaits[] = {"pace", "irregular", ""};
-  for (std::size_t i = 0; i < 3; ++i)
+  const char* gaits[] = {"pace", "irregular", "", "", "irregular"};
+  for (std::size_t i = 0; i < 5; ++i)
     add_test(one.data.records[i], "long", 1.0, 300.0, 300.0, 300.0, gaits[i]);
   one.claim().only = {"pace"};
   EXPECT_EQ(one.judged().verdict, Verdict::confirmed) << "irregular and nameless gaits are no gaits";
-  EXPECT_EQ(one.judged().ours, "pace 1, irregular 1, no name 1");
+  EXPECT_EQ(one.judged().ours, "pace 1, irregular 2, no name 2");
   one.claim().only = {"trot"};
   EXPECT_EQ(one.judged().verdict, Verdict::contradicted);
   EXPECT_EQ(one.judged().reason, "Besides: pace.");

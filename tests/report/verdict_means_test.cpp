@@ -111,7 +111,8 @@ TEST_F(Claims, OfADifferenceThatIsNotSignificantAreNotConfirmed) {
   claim(ClaimKind::difference).relation = Relation::not_less;
   const auto judged = judge(data_);
   EXPECT_EQ(judged[0].verdict, Verdict::not_confirmed);
-  EXPECT_EQ(judged[1].verdict, Verdict::confirmed);
+  EXPECT_EQ(judged[1].verdict, Verdict::compatible);
+  EXPECT_THAT(judged[1].reason, HasSubstr("not evidence for it"));
   std::swap(data_.study.claims[1].condition, data_.study.claims[1].against);
   EXPECT_EQ(judge(data_)[1].verdict, Verdict::not_confirmed);
 }
@@ -212,23 +213,83 @@ TEST_F(Claims, OfRanksNeedSamplesThatCanReachTheLevel) {
   EXPECT_EQ(only().verdict, Verdict::not_testable) << "3 against 3 stay at p = 0.1";
   EXPECT_EQ(only().reason, "Too few runs: with 3 and 3 no outcome of this test has a p below 0.10.");
   data_.study.claims[0].alpha = 0.2;
-  EXPECT_EQ(only().verdict, Verdict::confirmed);
+  EXPECT_EQ(only().verdict, Verdict::not_confirmed) << "significant, but of fewer than five";
+  EXPECT_THAT(only().reason, HasSubstr("Too few runs: a has 3, 5 are needed."));
 }
 
 TEST_F(Claims, OfAValueAgreeDisagreeOrNeither) {
-  add_runs(data_, "a", {4.0, 5.0, 6.0, 5.0});  // mean 5, sd 0.816, 95 % interval [3.70, 6.30]
+  add_runs(data_, "a", {4.0, 5.0, 6.0, 4.0, 6.0});  // mean 5, sd 1, 95 % interval [3.76, 6.24]
   auto& value = claim(ClaimKind::value);
   value.sd = 1.0;
   value.runs = 20;
   value.mean = 5.2;
-  EXPECT_EQ(only().verdict, Verdict::confirmed);
-  EXPECT_THAT(only().reason, HasSubstr("does not prove"));
+  EXPECT_EQ(only().verdict, Verdict::compatible);
+  EXPECT_THAT(only().reason, HasSubstr("not evidence for it"));
+  EXPECT_THAT(only().reason, HasSubstr("less than 25 % of the published one is not shown"));
   data_.study.claims[0].mean = 9.0;
   EXPECT_EQ(only().verdict, Verdict::contradicted);
   data_.study.claims[0].mean = 6.5;
   data_.study.claims[0].sd = 6.0;  // so wide that no test finds a difference
   EXPECT_EQ(only().verdict, Verdict::not_confirmed);
   EXPECT_THAT(only().reason, HasSubstr("outside our interval"));
+}
+
+TEST_F(Claims, OfAValueAreConfirmedByEquivalenceAndTheSpreadOnly) {
+  data_.study = sample_study({"a"}, 20);
+  std::vector<double> best_m;
+  for (int i = 0; i < 20; ++i) best_m.push_back(5.0 + 0.1 * (i % 5 - 2));  // mean 5, sd 0.145
+  add_runs(data_, "a", best_m);
+  auto& value = claim(ClaimKind::value);
+  value.mean = 5.05;
+  value.sd = 0.15;
+  value.runs = 20;
+  EXPECT_EQ(only().verdict, Verdict::confirmed);
+  EXPECT_LT(*only().p_equivalence, 1e-10);
+  data_.study.claims[0].within = 0.02;
+  EXPECT_EQ(only().verdict, Verdict::compatible) << "0.1 m is too narrow a margin for the difference";
+  data_.study.claims[0].within = 0.25;
+  data_.study.claims[0].sd = 0.4;
+  EXPECT_EQ(only().verdict, Verdict::not_confirmed) << "so wide a spread was not found";
+  EXPECT_LT(*only().p_spread, 0.001);
+  EXPECT_THAT(only().reason, HasSubstr("The spreads differ significantly"));
+}
+
+TEST_F(Claims, OfNoLossAreConfirmedByAMarginThatWasStated) {
+  data_.study = sample_study({"a", "b"}, 20);
+  std::vector<double> best_m;
+  for (int i = 0; i < 20; ++i) best_m.push_back(5.0 + 0.1 * (i % 5 - 2));
+  add_runs(data_, "a", best_m);
+  add_runs(data_, "b", best_m);
+  claim(ClaimKind::difference).relation = Relation::not_less;
+  EXPECT_EQ(only().verdict, Verdict::compatible);
+  EXPECT_FALSE(only().p_equivalence);
+  data_.study.claims[0].margin = 0.2;
+  EXPECT_EQ(only().verdict, Verdict::confirmed);
+  EXPECT_THAT(only().reason, HasSubstr("not worse by more than the stated 0.2 is shown"));
+  data_.study.claims[0].margin = 0.05;
+  EXPECT_EQ(only().verdict, Verdict::compatible);
+  EXPECT_THAT(only().reason, HasSubstr("is not shown"));
+}
+
+TEST_F(Claims, ThatNothingIsLostTakeNoPowerFromThoseOfALead) {
+  data_.study = sample_study({"a", "b", "c"}, 5);
+  add_runs(data_, "a", {1.0, 2.0, 3.0, 4.0, 5.0});
+  add_runs(data_, "b", {3.0, 4.0, 5.0, 6.0, 7.0});
+  add_runs(data_, "c", {4.5, 5.5, 6.5, 7.5, 8.5});
+  const std::vector<std::pair<const char*, const char*>> pairs{{"b", "a"}, {"c", "a"}, {"c", "b"}};
+  for (const auto relation : {Relation::greater, Relation::not_less})
+    for (const auto& [first, second] : pairs) {
+      ClaimSpec& one = claim(ClaimKind::difference);
+      one.condition = first;
+      one.against = second;
+      one.relation = relation;
+    }
+  const auto judged = judge(data_);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(judged[i].p, judged[i + 3].p);
+    EXPECT_EQ(judged[i].p_holm, judged[i + 3].p_holm) << "two families of three";
+  }
+  EXPECT_DOUBLE_EQ(*judged[1].p_holm, 3.0 * *judged[1].p);
 }
 
 /// Runs of "a" and "b" with a test that is to reach a distance; those whose generation is negative never do.

@@ -20,14 +20,23 @@ TEST(DifferenceRule, GreaterNeedsDirectionAndSignificance) {
   EXPECT_EQ(verdict(Direction::equal, 1.0), Verdict::not_confirmed);
 }
 
-TEST(DifferenceRule, NotLessIsContradictedOnlyBySignificance) {
+TEST(DifferenceRule, NotLessIsConfirmedAndContradictedOnlyBySignificance) {
   const auto verdict = [](Direction direction, double p) {
     return difference_verdict(Relation::not_less, direction, p, 0.01);
   };
-  EXPECT_EQ(verdict(Direction::greater, 0.9), Verdict::confirmed);
-  EXPECT_EQ(verdict(Direction::equal, 1.0), Verdict::confirmed);
+  EXPECT_EQ(verdict(Direction::greater, 0.0099), Verdict::confirmed) << "better is not worse";
+  EXPECT_EQ(verdict(Direction::greater, 0.01), Verdict::compatible) << "a sign is no test";
+  EXPECT_EQ(verdict(Direction::equal, 1.0), Verdict::compatible);
   EXPECT_EQ(verdict(Direction::less, 0.01), Verdict::not_confirmed);
   EXPECT_EQ(verdict(Direction::less, 0.0099), Verdict::contradicted);
+}
+
+TEST(DifferenceRule, NotLessByMoreThanAMarginNeedsATestOfIt) {
+  for (const auto direction : {Direction::greater, Direction::equal, Direction::less}) {
+    EXPECT_EQ(difference_verdict(Relation::not_less, direction, 0.5, 0.05, true), Verdict::confirmed);
+    EXPECT_NE(difference_verdict(Relation::greater, direction, 0.5, 0.05, true), Verdict::confirmed)
+        << "no worse is not better";
+  }
 }
 
 TEST(BoundsRule, BoundsBelongToTheClaimedRange) {
@@ -47,11 +56,18 @@ TEST(BoundsRule, ARangeHasTwoSides) {
   EXPECT_EQ(bounds_verdict({1.3, 1.6}, 1.18, 1.54), Verdict::not_confirmed);
 }
 
-TEST(AgreementRule, IsMoreThanALackOfSignificance) {
-  EXPECT_EQ(agreement_verdict(0.05, 0.05, true), Verdict::confirmed);
-  EXPECT_EQ(agreement_verdict(0.9, 0.05, false), Verdict::not_confirmed);
-  EXPECT_EQ(agreement_verdict(0.049, 0.05, true), Verdict::contradicted);
-  EXPECT_EQ(agreement_verdict(0.049, 0.05, false), Verdict::contradicted);
+TEST(AgreementRule, LackOfSignificanceIsCompatibleAtBest) {
+  const auto verdict = [](double p, bool inside, bool spreads_differ, bool equivalent) {
+    return agreement_verdict({p, 0.05, inside, spreads_differ, equivalent});
+  };
+  EXPECT_EQ(verdict(0.05, true, false, false), Verdict::compatible);
+  EXPECT_EQ(verdict(0.9, false, false, false), Verdict::not_confirmed);
+  EXPECT_EQ(verdict(0.9, true, true, false), Verdict::not_confirmed)
+      << "the mean is half of what was printed";
+  EXPECT_EQ(verdict(0.9, true, true, true), Verdict::not_confirmed);
+  EXPECT_EQ(verdict(0.9, false, false, true), Verdict::not_confirmed);
+  EXPECT_EQ(verdict(0.9, true, false, true), Verdict::confirmed) << "equivalence is evidence";
+  for (const bool any : {false, true}) EXPECT_EQ(verdict(0.049, any, !any, any), Verdict::contradicted);
 }
 
 TEST(CountRule, DecidesOnceMissingRunsCannotChangeIt) {
