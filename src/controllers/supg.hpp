@@ -67,6 +67,7 @@ struct SupgJoints {
 /// The SUPGs of a leg share one timer, in ticks; −1 means stopped. In each tick, in this order:
 /// 1. Touch is read. It is a trigger with Trigger::level; with Trigger::edge only if the foot was off the
 ///    ground in at least the trigger_debounce_ticks ticks before. All feet count as touching before tick 1.
+///    With Trigger::none there are no triggers; with Trigger::random they come when RandomTriggers says.
 /// 2. The timer is set. Offset::phase: before tick 1 its value is the offset, from which it grows; a trigger
 ///    in tick 1 is ignored. Offset::delay: it is stopped for `offset` ticks and starts at start_tick in the
 ///    next. From the tick after this first start on, a trigger sets it to start_tick; triggers before are

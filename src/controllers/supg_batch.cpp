@@ -40,6 +40,7 @@ SupgBatch::SupgBatch(const SupgSettings& settings, std::vector<std::string> leg_
       start_tick_(settings.start_tick),
       period_ticks_(parked.period_ticks()),
       airborne_ticks_needed_(settings.trigger == Trigger::level ? 0 : settings.trigger_debounce_ticks),
+      by_touch_(mask(settings.trigger == Trigger::edge || settings.trigger == Trigger::level)),
       end_of_cycle_(end_of_cycle(settings.idle, parked.period_ticks())),
       leg_names_(std::move(leg_names)),
       joints_(std::move(joints)),
@@ -50,6 +51,8 @@ SupgBatch::SupgBatch(const SupgSettings& settings, std::vector<std::string> leg_
   tables_.resize(static_cast<std::size_t>(lanes));
   for (auto* const values : {&timer_, &airborne_ticks_, &wait_ticks_, &first_timer_, &triggered_})
     values->resize(size);
+  no_chance_.resize(static_cast<std::size_t>(lanes));
+  if (settings.trigger == Trigger::random) random_.emplace(period_ticks_, parked_.legs(), lanes);
   for (int lane = 0; lane < lanes; ++lane) load(lane, parked_);
 }
 
@@ -60,6 +63,7 @@ void SupgBatch::load(int lane, const Parameters& parameters) {
                   supg->period_ticks() == period_ticks_,
               "the parameters belong to another architecture");
   tables_[static_cast<std::size_t>(lane)] = supg->targets_rad(0, 0);
+  if (random_) random_->load(lane);
   for (int leg = 0; leg < supg->legs(); ++leg) {
     const std::size_t i = index(leg, lane);
     const bool phase = offset_ == Offset::phase;
@@ -76,18 +80,18 @@ void SupgBatch::step(const robot::SensorFrame& sensors, LaneArray& targets_rad) 
               "touch must be legs × lanes");
   AMBLE_CHECK(targets_rad.lanes() == lanes_, "targets must be joints × lanes");
   for (int leg = 0; leg < parked_.legs(); ++leg) {
-    update_timers(leg, sensors.touch.row(leg));
+    update_timers(leg, sensors.touch.row(leg), random_ ? random_->advance(leg) : no_chance_.data());
     write_targets(leg, targets_rad);
   }
   for (const auto& [joint, target_rad] : joints_.others)
     std::fill_n(targets_rad.row(joint), lanes_, target_rad);
 }
 
-void SupgBatch::update_timers(int leg, const float* touch) {
+void SupgBatch::update_timers(int leg, const float* touch, const std::int32_t* by_chance) {
   // Copies, values read before any is written, and masks in place of conditions: only so does GCC 12 use SIMD
   // instructions, which is a twentieth of the time of a hexapod's trial.
   const std::int32_t period = period_ticks_, needed = airborne_ticks_needed_, end = end_of_cycle_,
-                     start = start_tick_;
+                     start = start_tick_, by_touch = by_touch_;
   const int lanes = lanes_;
   const std::size_t first = index(leg, 0);
   std::int32_t* const timer = timer_.data() + first;
@@ -97,9 +101,10 @@ void SupgBatch::update_timers(int leg, const float* touch) {
   const std::int32_t* const first_timer = first_timer_.data() + first;
   for (int lane = 0; lane < lanes; ++lane) {
     const std::int32_t before = timer[lane], waiting = wait[lane], off_ground = airborne[lane],
-                       first_value = first_timer[lane];
+                       first_value = first_timer[lane], drawn = by_chance[lane];
     const std::int32_t touching = mask(touch[lane] > 0.5f);
-    const std::int32_t triggered = touching & mask(waiting < 0) & mask(off_ground >= needed);
+    const std::int32_t triggered =
+        mask(waiting < 0) & ((touching & by_touch & mask(off_ground >= needed)) | drawn);
 
     std::int32_t next = before + 1;
     next = select(mask(next >= period), end, next);

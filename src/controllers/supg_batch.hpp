@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "amble/controllers/random_triggers.hpp"
 #include "amble/controllers/supg.hpp"
 
 namespace amble::controllers {
@@ -29,12 +31,14 @@ class SupgBatch : public Batch {
   std::int32_t after(std::int32_t timer) const {
     return timer + 1 >= period_ticks_ ? end_of_cycle_ : timer + 1;
   }
-  void update_timers(int leg, const float* touch);
+  /// `by_chance`: by lane, all bits or 0.
+  void update_timers(int leg, const float* touch, const std::int32_t* by_chance);
   void write_targets(int leg, LaneArray& targets_rad) const;
 
   Offset offset_;
   std::int32_t start_tick_, period_ticks_;
   std::int32_t airborne_ticks_needed_;  ///< for a touch to be a trigger
+  std::int32_t by_touch_;               ///< all bits if touches are triggers, else 0
   std::int32_t end_of_cycle_;           ///< what the timer becomes on reaching the period
   std::vector<std::string> leg_names_;
   SupgJoints joints_;
@@ -48,6 +52,8 @@ class SupgBatch : public Batch {
       wait_ticks_;  ///< ticks before the timer starts for the first time; −1 once it has
   std::vector<std::int32_t> first_timer_;  ///< timer value of that start
   std::vector<std::int32_t> triggered_;    ///< 1 if a trigger fired in this tick
+  std::vector<std::int32_t> no_chance_;    ///< by lane: 0
+  std::optional<RandomTriggers> random_;
 };
 
 }  // namespace amble::controllers

@@ -12,8 +12,9 @@ void SupgSettings::describe(io::SettingsVisitor& visitor) {
                  {"length of a SUPG's pattern, s; a whole number of ticks",
                   "the authors' code; Morse et al. 2013, sec. 4"});
   visitor.choice("trigger", trigger, trigger_names,
-                 {"a leg's SUPGs are triggered when its foot comes down (edge) or in each tick in which it "
-                  "is down (level)",
+                 {"a leg's SUPGs are triggered when its foot comes down (edge), in each tick in which it "
+                  "is down (level), never (none), or, whatever the foot does, at moments drawn by chance, "
+                  "a period apart on average and the same in every trial (random)",
                   "the authors' code: edge"});
   visitor.integer("trigger_debounce_ticks", trigger_debounce_ticks, {1, 1000},
                   {"ticks a foot must have been off the ground before its next touch is an edge",

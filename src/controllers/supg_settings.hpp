@@ -7,9 +7,11 @@
 
 namespace amble::controllers {
 
-/// What triggers the SUPGs of a leg: its foot coming down, or its foot being down.
-enum class Trigger { edge, level };
-inline constexpr std::array<std::string_view, 2> trigger_names{"edge", "level"};
+/// What triggers the SUPGs of a leg: its foot coming down, its foot being down, nothing, or moments drawn by
+/// chance (controllers/random_triggers.hpp). The last two are controls: no trigger, and one that says nothing
+/// of the ground.
+enum class Trigger { edge, level, none, random };
+inline constexpr std::array<std::string_view, 4> trigger_names{"edge", "level", "none", "random"};
 
 /// What the evolved offset of a leg is: the timer's value before the first tick, or how long the leg waits
 /// before its timer starts.

@@ -18,6 +18,7 @@ enum class Purpose : std::uint32_t {
   centroids = 7,
   map_elites = 8,
   mutants = 9,
+  random_triggers = 10,
 };
 
 /// A stream of random numbers that depends on its key alone, (seed, purpose, generation, individual), and so

@@ -40,7 +40,7 @@ constexpr std::string_view init = R"(void $p_init($p_state *state) {
 constexpr std::string_view update = R"(/* Advances the timer of a leg by one tick. */
 static void update_timer($p_state *state, int leg, int touching) {
   const int started = state->wait[leg] < 0, starts = state->wait[leg] == 0;
-  const int triggered = started && touching && state->airborne[leg] >= airborne_needed;
+  const int triggered = $triggered;
   $timer next = state->timer[leg];
   if (next != stopped) next = ($timer)(next + 1 >= period ? end_of_cycle : next + 1);
   if (triggered) next = start_tick;
@@ -107,7 +107,9 @@ void add_supg(const ControllerTables& tables, const CSourceOptions& options, CTe
   text.line("/* Ticks of a cycle, of a timer that a trigger sets, and of what it becomes at the end. */");
   text.line("enum {{ period = {}, start_tick = {}, end_of_cycle = {}, stopped = -1 }};", supg.period_ticks,
             supg.start_tick, supg.end_of_cycle);
-  text.line("/* Ticks off the ground after which a touch is a trigger. */");
+  const bool is_triggered = supg.airborne_ticks_needed != SupgTables::never;
+  text.line("/* {} */", is_triggered ? "Ticks off the ground after which a touch is a trigger."
+                                     : "No touch is a trigger.");
   text.line("enum {{ airborne_needed = {} }};", supg.airborne_ticks_needed);
   text.array(fmt::format("static const {} wait_ticks[{}_LEGS]", type, upper), waits);
   text.array(fmt::format("static const {} first_timer[{}_LEGS]", type, upper), firsts);
@@ -122,6 +124,8 @@ void add_supg(const ControllerTables& tables, const CSourceOptions& options, CTe
   text.line("");
   text.block(init);
   std::string step = replaced(update, "$timer", type);
+  step = replaced(step, "$triggered",
+                  is_triggered ? "started && touching && state->airborne[leg] >= airborne_needed" : "0");
   step = replaced(step, "$half", fixed ? "0" : "0.5f");
   text.block(replaced(step, "$unit", fixed ? "" : "_rad"));
 }

@@ -43,13 +43,28 @@ int end_of_cycle(controllers::Idle idle, int period_ticks) {
   return SupgParameters::stopped;
 }
 
+int airborne_ticks_needed(const controllers::SupgSettings& settings) {
+  switch (settings.trigger) {
+    case controllers::Trigger::edge:
+      return settings.trigger_debounce_ticks;
+    case controllers::Trigger::level:
+      return 0;
+    case controllers::Trigger::none:
+      return SupgTables::never;
+    case controllers::Trigger::random:
+      break;
+  }
+  fail(ExitCode::bad_input,
+       "controller.supg.trigger = \"random\" cannot be exported: it is a control for simulations; expected "
+       "\"edge\", \"level\" or \"none\"");
+}
+
 /// The values of the timers are those of controllers::SupgBatch::load.
 SupgTables supg_tables(const Problem& problem, const SupgParameters& parameters) {
   const controllers::SupgSettings& settings = problem.controller.supg;
   const int period = parameters.period_ticks();
   SupgTables tables{.period_ticks = period,
-                    .airborne_ticks_needed =
-                        settings.trigger == controllers::Trigger::level ? 0 : settings.trigger_debounce_ticks,
+                    .airborne_ticks_needed = airborne_ticks_needed(settings),
                     .start_tick = settings.start_tick,
                     .end_of_cycle = end_of_cycle(settings.idle, period),
                     .legs = {},

@@ -30,7 +30,9 @@ struct SupgTables {
   };
 
   int period_ticks = 0;
-  int airborne_ticks_needed = 0;  ///< ticks off the ground before a touch is a trigger; 0: each touch is
+  static constexpr int never = -1;
+  int airborne_ticks_needed = 0;  ///< ticks off the ground before a touch is a trigger; 0: each touch is;
+                                  ///< `never`: no touch is
   int start_tick = 0;             ///< timer value in the tick of a trigger
   int end_of_cycle = -1;          ///< timer value after period_ticks − 1; −1: stopped
   std::vector<Leg> legs;

@@ -9,6 +9,7 @@
 #include "amble/report/number_text.hpp"
 #include "amble/report/page_style.hpp"
 #include "amble/report/survival_figure.hpp"
+#include "amble/report/typical_figure.hpp"
 
 namespace amble::report {
 namespace {
@@ -63,6 +64,8 @@ std::vector<FigureFile> figure_files(const Report& report) {
   for (const ledger::TestSpec& test : report.data.study.tests)
     if (const auto rows = test_rows(report, test.name); !rows.empty())
       add("distance-" + test.name, rows_figure(rows, " m", "Distance in test " + test.name, Layout::wide));
+  for (const TypicalTable& typical : report.typical)
+    if (typical.columns.size() > 1) add(typical.name(), typical_figure(report, typical, Layout::wide));
   add("curves", curves_figure(report, Layout::wide));
   for (const ledger::TestSpec& test : report.data.study.tests)
     if (has_mutants(report, test.name))

@@ -104,6 +104,7 @@ std::string make_page(const Report& report) {
   parts.push_back({"claims", "Claims", claims_section(report)});
   if (!report.data.records.empty()) {
     parts.push_back({"distance", report.objective_title(), distance_section(report)});
+    parts.push_back({"typical", "Typical", typical_section(report)});
     parts.push_back({"curves", "Curves", curves_section(report)});
     parts.push_back({"survival", "Falls and stops", survival_section(report)});
     parts.push_back({"stops", "Stop rules", stop_rules_section(report)});

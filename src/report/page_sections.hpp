@@ -9,6 +9,7 @@ namespace amble::report {
 /// The sections of a page, each as markup; empty where there is nothing to show.
 std::string claims_section(const Report& report);
 std::string distance_section(const Report& report);
+std::string typical_section(const Report& report);
 std::string curves_section(const Report& report);
 std::string survival_section(const Report& report);
 std::string stop_rules_section(const Report& report);

@@ -37,6 +37,7 @@ Report make_report(StudyData data) {
   report.gaits = gait_tables(report.data);
   report.transfers = transfers(report.data);
   report.pairs = compare_pairs(report.data);
+  report.typical = typical_tables(report.data);
   return report;
 }
 

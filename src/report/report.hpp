@@ -10,6 +10,7 @@
 #include "amble/report/stop_rules.hpp"
 #include "amble/report/study_data.hpp"
 #include "amble/report/transfer.hpp"
+#include "amble/report/typical.hpp"
 #include "amble/report/verdict.hpp"
 
 namespace amble::report {
@@ -29,6 +30,7 @@ struct Report {
   std::vector<GaitTable> gaits;
   std::vector<Transfer> transfers;
   std::vector<PairTable> pairs;
+  std::vector<TypicalTable> typical;
 
   const std::string& label(std::string_view condition) const;
   /// "Distance" or "Score": Objective::name() as titles have it.

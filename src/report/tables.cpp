@@ -104,6 +104,30 @@ Table summary_table(const Report& report) {
   return table;
 }
 
+Table typical_table(const Report& report) {
+  Table table{
+      "typical",
+      "a condition’s champions at a level of disturbance; each champion’s typical (median) distance",
+      {"trial_s", "engine", "level", "measure", "condition", "n", "mean_m", "mean_lower", "mean_upper",
+       "lower_quartile_m", "median_m", "upper_quartile_m", "median_lower", "median_upper", "fell_share"},
+      {}};
+  for (const TypicalTable& typical : report.typical)
+    for (const TypicalCurve& curve : typical.curves)
+      for (const TypicalPoint& point : curve.points) {
+        const TypicalTable::Column& column = typical.columns[point.column];
+        const statistics::Summary& s = point.summary;
+        Row row{typical.trial_s, typical.engine,  std::string(disturbance_name(column)),
+                column.measure,  curve.condition, cell(s.n),
+                s.mean};
+        append(row, s.mean_interval);
+        for (const double value : {s.lower_quartile, s.median, s.upper_quartile}) row.emplace_back(value);
+        append(row, point.median ? std::optional(point.median->interval) : std::nullopt);
+        row.push_back(cell(point.fell_share));
+        table.rows.push_back(std::move(row));
+      }
+  return table;
+}
+
 void append(Row& row, const std::optional<AdjustedTest<statistics::TTest>>& test) {
   if (!test) {
     row.resize(row.size() + 7);
@@ -284,9 +308,12 @@ Table claims_table(const Report& report) {
 }  // namespace
 
 std::vector<Table> tables(const Report& report) {
-  return {claims_table(report), runs_table(report),  summary_table(report),  pairs_table(report),
-          curves_table(report), bests_table(report), survival_table(report), log_rank_table(report),
-          stops_table(report),  gaits_table(report), transfer_table(report), mutants_table(report)};
+  std::vector<Table> all{claims_table(report),   runs_table(report),     summary_table(report),
+                         pairs_table(report),    curves_table(report),   bests_table(report),
+                         survival_table(report), log_rank_table(report), stops_table(report),
+                         gaits_table(report),    transfer_table(report), mutants_table(report)};
+  if (!report.typical.empty()) all.push_back(typical_table(report));
+  return all;
 }
 
 }  // namespace amble::report

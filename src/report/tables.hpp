@@ -23,7 +23,8 @@ struct Table {
 };
 
 /// All numbers of a report, and those of the runs from which they can be computed again: runs, bests, curves,
-/// summary, pairs, survival, log_rank, gaits, transfer, mutants, claims.
+/// summary, pairs, survival, log_rank, gaits, transfer, mutants, claims; of studies with tests at a level:
+/// typical.
 std::vector<Table> tables(const Report& report);
 
 }  // namespace amble::report

@@ -5,7 +5,7 @@
 
 #include "amble/core/index.hpp"
 #include "amble/experiment/mutants.hpp"
-#include "amble/experiment/replay.hpp"
+#include "amble/experiment/replay_together.hpp"
 #include "amble/io/file.hpp"
 #include "amble/record/generations_csv.hpp"
 #include "amble/score/walking.hpp"
@@ -66,18 +66,25 @@ std::optional<trial::ScenarioKey> scenario(const PlannedTest& test, const experi
   return champion.unseen_scenario_key(to_index(episode));
 }
 
+/// The trials of a test, without observers.
+std::vector<experiment::TogetherTrial> trials_of(const PlannedTest& test, const experiment::Problem& problem,
+                                                 const experiment::Champion& champion) {
+  std::vector<experiment::TogetherTrial> trials;
+  for (int episode = 0; episode < test.spec.episodes; ++episode)
+    trials.push_back({.noise = scenario(test, problem, champion, episode)});
+  return trials;
+}
+
 /// Median distance of a champion in a test, m. Nothing if `stop` was set.
 std::optional<double> median_distance_m(const PlannedTest& test, const experiment::Champion& champion,
                                         const std::atomic<bool>& stop) {
   const experiment::Problem problem = test.problem(champion.problem);
+  const auto trials = trials_of(test, problem, champion);
+  const auto replayed =
+      experiment::replay_together(problem, champion.genome, test.spec.seconds, trials, stop);
+  if (!replayed) return std::nullopt;
   std::vector<double> distances_m;
-  for (int episode = 0; episode < test.spec.episodes; ++episode) {
-    const experiment::ReplayOptions how{
-        .seconds = test.spec.seconds, .trace = false, .noise = scenario(test, problem, champion, episode)};
-    const auto replay = experiment::replay(problem, champion.genome, how, stop);
-    if (!replay) return std::nullopt;
-    distances_m.push_back(replay->result.distance_m);
-  }
+  for (const experiment::TrialResult& trial : *replayed) distances_m.push_back(trial.distance_m);
   return statistics::median(distances_m);
 }
 
@@ -122,24 +129,27 @@ std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experi
                             .reached = {},
                             .champion_score = 0.0,
                             .mutants = {}};
-  for (int episode = 0; episode < test.spec.episodes; ++episode) {
-    GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
-    WalkObserver walk(problem.trial.timestep_s, interval_s);
-    trial::ObserverList observers;
-    observers.add(walk);
-    if (episode == 0) observers.add(gait);
-    experiment::ReplayOptions how{.seconds = test.spec.seconds, .observer = &observers, .trace = false};
-    how.noise = scenario(test, problem, champion, episode);
-    const auto replay = experiment::replay(problem, champion.genome, how, stop);
-    if (!replay) return std::nullopt;
-    result.episodes.push_back({.distance_m = replay->result.distance_m,
-                               .seconds = replay->result.seconds,
-                               .walking_s = std::min(walk.walking_s(), replay->result.seconds),
-                               .outcome = replay->result.outcome});
-    if (episode > 0) continue;
-    result.gait = gait_name(gait.finish(replay->result.outcome));
-    result.path_m = walk.path_m();
+  GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
+  std::vector<WalkObserver> walks(to_index(test.spec.episodes),
+                                  WalkObserver(problem.trial.timestep_s, interval_s));
+  trial::ObserverList first;
+  first.add(walks.front());
+  first.add(gait);
+  auto trials = trials_of(test, problem, champion);
+  for (std::size_t i = 0; i < trials.size(); ++i)
+    trials[i].observer = i == 0 ? static_cast<trial::Observer*>(&first) : &walks[i];
+  const auto replayed =
+      experiment::replay_together(problem, champion.genome, test.spec.seconds, trials, stop);
+  if (!replayed) return std::nullopt;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const experiment::TrialResult& trial = (*replayed)[i];
+    result.episodes.push_back({.distance_m = trial.distance_m,
+                               .seconds = trial.seconds,
+                               .walking_s = std::min(walks[i].walking_s(), trial.seconds),
+                               .outcome = trial.outcome});
   }
+  result.gait = gait_name(gait.finish(replayed->front().outcome));
+  result.path_m = walks.front().path_m();
   return result;
 }
 

@@ -4,7 +4,9 @@
 
 #include <bit>
 #include <memory>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "amble/core/random.hpp"
 #include "tests/controllers/supg_substrate.hpp"
@@ -162,6 +164,30 @@ TEST(SupgTimer, IgnoresContactChatterWithDebounce) {
   const TimerStory story = play(settings, 1, "#.#..#...#.#...");
   EXPECT_EQ(story.timers, /*              */ "234501234123450");
   EXPECT_EQ(story.triggers, /*            */ "         ^     ");
+}
+
+TEST(SupgTimer, RunsOnByItselfWithoutATrigger) {
+  SupgSettings settings = short_settings();
+  settings.trigger = Trigger::none;
+  settings.idle = Idle::wrap;
+  const TimerStory story = play(settings, 3, "#.##.######.#");
+  EXPECT_EQ(story.timers, /*              */ "4501234501234");
+  EXPECT_EQ(story.triggers, /*            */ "             ");
+}
+
+TEST(SupgTimer, IsTriggeredByChanceWhateverItsFootDoes) {
+  SupgSettings settings = short_settings();
+  settings.trigger = Trigger::random;
+  const std::string down(600, '#'), up(600, '.');
+  const TimerStory story = play(settings, 3, down);
+  EXPECT_EQ(story.timers, play(settings, 3, up).timers);
+  std::vector<std::size_t> moments;
+  for (std::size_t tick = 0; tick < story.triggers.size(); ++tick)
+    if (story.triggers[tick] == '^') moments.push_back(tick);
+  std::set<std::size_t> gaps;
+  for (std::size_t i = 1; i < moments.size(); ++i) gaps.insert(moments[i] - moments[i - 1]);
+  EXPECT_EQ(gaps, (std::set<std::size_t>{3, 4, 5, 6, 7, 8, 9})) << "a period of 6 ticks, and half of one";
+  EXPECT_NEAR(static_cast<double>(moments.size()), 100.0, 7.0) << "a period apart on average";
 }
 
 TEST(SupgTimer, GivesEachLegItsOwnTimerAndOffset) {

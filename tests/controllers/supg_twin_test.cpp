@@ -16,8 +16,8 @@ constexpr int legs = 4, types = 3, period = 9;
 /// The timer of one leg, told step by step.
 class PlainTimer {
  public:
-  PlainTimer(const SupgSettings& settings, int offset_ticks)
-      : settings_(settings), offset_ticks_(offset_ticks) {}
+  PlainTimer(const SupgSettings& settings, int leg, int offset_ticks)
+      : settings_(settings), leg_(leg), offset_ticks_(offset_ticks) {}
 
   bool triggered() const { return triggered_; }
   int timer() const { return timer_; }
@@ -42,8 +42,19 @@ class PlainTimer {
 
  private:
   bool is_trigger(bool touching) const {
+    if (settings_.trigger == Trigger::none) return false;
+    if (settings_.trigger == Trigger::random) return is_drawn();
     if (!touching) return false;
     return settings_.trigger == Trigger::level || up_for_ >= settings_.trigger_debounce_ticks;
+  }
+  /// Whether this tick is a sum of gaps, added up from the first on.
+  bool is_drawn() const {
+    int at = 0;
+    for (std::uint32_t number = 0; at < tick_; ++number) {
+      Stream stream(1, Purpose::random_triggers, number, static_cast<std::uint32_t>(leg_));
+      at += period - period / 2 + static_cast<int>(stream.below(2 * (period / 2) + 1));
+    }
+    return at == tick_;
   }
   void go_on() {
     if (timer_ < period) ++timer_;
@@ -53,6 +64,7 @@ class PlainTimer {
   }
 
   SupgSettings settings_;
+  int leg_;
   int offset_ticks_;
   int tick_ = 0, timer_ = SupgParameters::stopped, up_for_ = 0;
   bool triggered_ = false;
@@ -90,7 +102,7 @@ class Pair {
     batch_->load(lane, *parameters_[i]);
     timers_[i].clear();
     for (int leg = 0; leg < legs; ++leg)
-      timers_[i].emplace_back(settings_, parameters_[i]->offset_ticks(leg));
+      timers_[i].emplace_back(settings_, leg, parameters_[i]->offset_ticks(leg));
   }
 
   void step_and_compare() {
@@ -132,7 +144,7 @@ class Pair {
 
 std::vector<SupgSettings> all_switches() {
   std::vector<SupgSettings> all;
-  for (const Trigger trigger : {Trigger::edge, Trigger::level})
+  for (const Trigger trigger : {Trigger::edge, Trigger::level, Trigger::none, Trigger::random})
     for (const int debounce : {1, 2, 4})
       for (const Offset offset : {Offset::phase, Offset::delay})
         for (const int start : {0, 1})

@@ -31,6 +31,10 @@ std::vector<Sample> samples() {
         some.push_back(sample);
         break;
       }
+  some.push_back({"untriggered",
+                  "authors/supg",
+                  "quadruped",
+                  {"controller.supg.trigger=none", "controller.supg.idle=wrap"}});
   return some;
 }
 

@@ -4,6 +4,7 @@
 
 #include <variant>
 
+#include "amble/core/error.hpp"
 #include "tests/exporting/champions.hpp"
 
 namespace amble::exporting {
@@ -28,6 +29,20 @@ TEST(ControllerTables, OfAPhaseAtTheEndOfThePeriodBeginWithWhatFollowsACycle) {
     }
     // A target for each value of the timer, from −1 on.
     for (const auto& targets : tables.targets_rad) EXPECT_EQ(targets.size(), idle == Idle::hold ? 4u : 3u);
+  }
+}
+
+TEST(ControllerTables, RefuseTriggersByChance) {
+  experiment::Champion champion = tests::evolve({.name = "", .preset = "authors/supg"});
+  champion.problem.controller.supg.trigger = controllers::Trigger::random;
+  try {
+    controller_tables(champion.problem, champion.genome);
+    ADD_FAILURE() << "expected a refusal";
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_input);
+    EXPECT_STREQ(error.what(),
+                 "controller.supg.trigger = \"random\" cannot be exported: it is a control for simulations; "
+                 "expected \"edge\", \"level\" or \"none\"");
   }
 }
 

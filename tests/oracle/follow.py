@@ -27,6 +27,7 @@ RUNS = {
         ["controller.supg.trigger=level"],
         ["controller.supg.idle=hold", "trial.first_command=before_first_step"],
         ["controller.supg.idle=wrap", "controller.supg.period_s=0.4"],
+        ["controller.supg.idle=wrap", "controller.supg.trigger=none"],
         ["controller.supg.offset=delay", "controller.supg.trigger_debounce_ticks=4"],
     ],
     "paper": [

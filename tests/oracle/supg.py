@@ -80,7 +80,9 @@ class Leg:
 
     def tick(self, touching):
         self.tick_number += 1
-        lands = touching and (
+        if self.settings["trigger"] == "random":
+            raise ValueError("triggers drawn by chance are not part of the model")
+        lands = touching and self.settings["trigger"] != "none" and (
             self.settings["trigger"] == "level" or self.ticks_in_the_air >= self.settings["trigger_debounce_ticks"]
         )
         if touching and self.ticks_in_the_air > 0 and not lands:

@@ -10,6 +10,7 @@
 #include "amble/experiment/replay.hpp"
 #include "amble/gait/recorded_gait.hpp"
 #include "amble/io/file.hpp"
+#include "amble/record/levels.hpp"
 #include "amble/score/walking.hpp"
 #include "amble/study/gait_observer.hpp"
 #include "tests/study/fixture.hpp"
@@ -166,6 +167,26 @@ TEST(ChampionTest, ShowsGaitAndPathOfTheFirstOfItsEpisodes) {
   EXPECT_EQ(four.episodes[0], one.episodes[0]);
   EXPECT_EQ(four.path_m, one.path_m);
   EXPECT_EQ(four.gait, one.gait);
+}
+
+TEST(ChampionTest, OfManyEpisodesIsToTheBitWhatTheyAreOneByOne) {
+  // More episodes than the engine has lanes, and some that end early.
+  PlannedTest test{.spec = trial_test("t", 8.0, "", 37), .noise = {}};
+  test.noise = trial::noise_of(*record::find_level("milli"));
+  const auto together = run_test(test, champion(), never);
+  ASSERT_EQ(together->episodes.size(), 37u);
+  experiment::Problem problem = champion().problem;
+  problem.noise = test.noise;
+  std::set<double> distances_m;
+  for (std::size_t episode = 0; episode < 37; ++episode) {
+    const auto alone =
+        experiment::replay(problem, champion().genome,
+                           {.seconds = 8.0, .noise = champion().unseen_scenario_key(episode)}, never);
+    EXPECT_EQ(together->episodes[episode].distance_m, alone->result.distance_m) << episode;
+    EXPECT_EQ(together->episodes[episode].seconds, alone->result.seconds) << episode;
+    distances_m.insert(alone->result.distance_m);
+  }
+  EXPECT_EQ(distances_m.size(), 37u) << "episodes differ";
 }
 
 /// Walking time by the centre of mass after each step.
