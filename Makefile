@@ -8,8 +8,8 @@ SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 
 demo: build
 	rm -rf demo
-	build/release/src/cli/amble evolve configs/quick/quadruped.toml --seed 8 --jobs $(JOBS) --out demo/run
-	build/release/src/cli/amble compare demo/run --seconds 15,300
+	build/release/src/cli/amble evolve configs/quick/quadruped.toml --seed 8 --generations 350 --jobs $(JOBS) --out demo/run
+	build/release/src/cli/amble compare demo/run --seconds 15,300 --trials 5
 	build/release/src/cli/amble page demo/run --engine ode -o demo/index.html
 	build/release/src/cli/amble view demo/run --engine ode -o demo/walk.html
 

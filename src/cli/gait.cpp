@@ -37,7 +37,8 @@ std::optional<gait::Report> champion_gait(const fs::path& path, const GaitOption
   const auto shown = shown_trial(champion, options.seconds, options.engine, options.disturbance);
   champion.problem.noise = shown.noise;
   if (!shown.typical.empty() && options.json != "-")
-    fmt::print("{}\nthe gait of the median trial:\n", shown.typical);
+    fmt::print("{}\nthe gait of {}:\n", shown.typical,
+               shown.key ? "the median trial" : "its trial without noise");
   study::GaitObserver observer(champion.problem.robot, champion.problem.trial.timestep_s, options.settings);
   const auto replay = experiment::replay(champion.problem, champion.genome,
                                          {.seconds = options.seconds,

@@ -56,9 +56,10 @@ std::vector<page::Fact> facts(const experiment::Config& config, const experiment
        fmt::format("generation {}, genome {}: {:.3f} m in the engine {} without noise", champion.generation,
                    champion.index, champion.result.distance_m, config.engine)},
       {"Shown", fmt::format("as it walks in the engine {}, {}", shown_in,
-                            shown.key ? "the median of these trials: " + shown.typical : "without noise")},
+                            shown.key ? "the median of these trials" : "without noise")},
       {"Made by",
        fmt::format("amble {} ({}), {}", build.version, experiment::short_commit(build), build.compiler)}};
+  if (!shown.typical.empty()) facts.insert(facts.end() - 2, {"Typical", shown.typical});
   for (const auto& [engine, judged] : champion.referees)
     facts.insert(facts.end() - 1,
                  {"In the engine " + engine, result_text(judged, champion.result.distance_m)});

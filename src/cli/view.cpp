@@ -99,7 +99,8 @@ ExitCode make_view(const ViewOptions& options) {
     champion.problem.noise = shown.noise;
     how.noise = shown.key;
     if (!shown.typical.empty())
-      fmt::print("{}: {}; its median trial is shown\n", input.string(), shown.typical);
+      fmt::print("{}: {}; {} is shown\n", input.string(), shown.typical,
+                 shown.key ? "its median trial" : "its trial without noise");
     const fs::path& recording = scratch.emplace_back("walk.rec").path();
     auto walker = presentation::walk(champion, path, how, recording, stop_signal());
     if (!walker) fail(ExitCode::interrupted, "stopped before all champions had walked");

@@ -99,13 +99,25 @@ void draw_curve(Svg& svg, const Panel& panel, const Abscissa& abscissa, const Cu
   svg.circle(points.back(), 3.5, "dot " + std::string(curve.css_class));
 }
 
+/// Between the quartiles of what the champion typically does.
+std::vector<Point> band_points(const Panel& panel, const Abscissa& abscissa,
+                               const record::Generations& generations) {
+  auto band = curve_points(panel, abscissa, generations.typical_upper);
+  const auto lower = curve_points(panel, abscissa, generations.typical_lower);
+  band.insert(band.end(), lower.rbegin(), lower.rend());
+  return band;
+}
+
 void draw_objectives(Svg& svg, const record::Generations& generations, const Abscissa& abscissa,
                      const Box& plot, const std::string& unit) {
-  const std::array<Curve, 3> curves{{{"median", generations.median, "median"},
-                                     {"mean", generations.mean, "mean"},
-                                     {"best", generations.best, "best"}}};
-  const Panel panel =
-      make_panel(plot, abscissa, value_range({&generations.best, &generations.mean, &generations.median}));
+  std::vector<Curve> curves{{"median", generations.median, "median"},
+                            {"mean", generations.mean, "mean"},
+                            {"best", generations.best, "best"}};
+  const bool has_typical = generations.typical.size() == generations.count();
+  if (has_typical) curves.insert(curves.end() - 1, {"typical", generations.typical, "typical"});
+  const Panel panel = make_panel(
+      plot, abscissa,
+      value_range({&generations.best, &generations.mean, &generations.median, &generations.typical_upper}));
   draw_y_axis(svg, panel.y, nice_ticks(panel.y.data, 6), plot.x, plot.right(), unit);
   draw_x_axis(svg, panel.x, nice_ticks(panel.x.data, plot.width > 500 ? 9 : 5, 1.0), plot.bottom(), "");
   svg.text({plot.right() + 14, plot.bottom() + 19}, Anchor::start, "tick", abscissa.name);
@@ -114,6 +126,7 @@ void draw_objectives(Svg& svg, const record::Generations& generations, const Abs
   area.push_back({area.back().x, panel.y(panel.y.data.lower)});
   area.push_back({area.front().x, panel.y(panel.y.data.lower)});
   svg.polygon(area, "under-best");
+  if (has_typical) svg.polygon(band_points(panel, abscissa, generations), "quartiles");
 
   std::vector<double> label_px;
   for (const Curve& curve : curves) {

@@ -13,7 +13,8 @@ struct Objective {
   std::string unit = " m";  ///< behind a number, with its space; may be empty
 };
 
-/// Best, mean and median objective over the generations (of a map: over its evaluations), and below it the
+/// Best, mean and median objective over the generations (of a map: over its evaluations), what the champion
+/// so far typically does with the band between its quartiles, if the table has it, and below all this the
 /// number of species and the size of the genomes, or coverage, QD score and best of a map: what the search
 /// has columns of. An <svg> element. `generations` must not be empty.
 std::string fitness_figure(const record::Generations& generations, graphics::Layout layout,

@@ -100,6 +100,8 @@ svg text.halo { paint-order: stroke; stroke: var(--paper); stroke-width: 4px; st
 .curve.small { stroke: var(--ink); stroke-width: 1.6; } .dot.small { fill: var(--ink); }
 svg text.mean, svg text.median { font-weight: 450; fill: var(--soft); }
 .under-best { fill: var(--ink); opacity: .05; }
+.curve.typical { stroke: var(--c0); stroke-width: 2; } .dot.typical { fill: var(--c0); }
+.quartiles { fill: var(--c0); opacity: .16; } svg text.typical { fill: var(--c0); }
 )css";
 
 constexpr std::string_view maps = R"css(

@@ -12,18 +12,23 @@ std::optional<ShownTrial> shown_trial(const experiment::Champion& champion, std:
                                       const std::optional<std::string>& engine, const TrialChoice& choice,
                                       int jobs, const std::atomic<bool>& stop) {
   experiment::Problem problem = champion.problem;
-  if (choice.undisturbed || (!choice.asked() && !problem.disturbed()))
-    return ShownTrial{.noise = problem.noise, .key = {}, .typical = {}};
+  if (choice.undisturbed) return ShownTrial{.noise = problem.noise, .key = {}, .typical = {}};
+  const bool evolved_without = !choice.asked() && !problem.disturbed();
   if (seconds) problem.trial.duration_s = *seconds;
   if (engine) problem.engine = *engine;
   problem.trial.validate();
   auto trials = typical_trials(problem, champion.seed, choice, jobs);
   const auto median = experiment::median_trial(trials, champion.genome, champion.seed, stop);
   if (!median) return std::nullopt;
-  return ShownTrial{
-      .noise = median->problem.noise,
-      .key = median->key,
+  ShownTrial shown{
+      .noise = problem.noise,
+      .key = {},
       .typical = experiment::typical_text(median->distance, {}, problem.trial.duration_s, median->under)};
+  if (!evolved_without) {
+    shown.noise = median->problem.noise;
+    shown.key = median->key;
+  }
+  return shown;
 }
 
 }  // namespace amble::presentation

@@ -28,7 +28,7 @@ experiment::TypicalTrials typical_trials(const experiment::Problem& problem, std
 struct ShownTrial {
   trial::NoiseSettings noise;             ///< under which `key` is
   std::optional<trial::ScenarioKey> key;  ///< for ReplayOptions::noise; nothing: the trial without noise
-  std::string typical;                    ///< experiment::typical_text() of all of them; empty without
+  std::string typical;  ///< experiment::typical_text(); empty if `undisturbed` was asked for
 };
 /// `seconds` and `engine`: as in experiment::ReplayOptions. Nothing if `stop` was set meanwhile. Throws
 /// UserError.

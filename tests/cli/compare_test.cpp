@@ -125,7 +125,8 @@ TEST_F(Compare, TheMedianTrialIsWhatGaitViewAndPageShowOfAWalkerEvolvedUnderNois
               HasSubstr("its median trial is shown"));
   EXPECT_THAT(slurp(view), HasSubstr(", median trial"));
   EXPECT_EQ(amble({"page", run_, "--trials", "5", "-o", page}).exit_code, 0);
-  EXPECT_THAT(slurp(page), HasSubstr("the median of these trials: typically "));
+  EXPECT_THAT(slurp(page), HasSubstr("typically "));
+  EXPECT_THAT(slurp(page), HasSubstr("the median of these trials"));
   EXPECT_EQ(amble({"view", run_, "--undisturbed", "-o", view}).exit_code, 0);
   EXPECT_THAT(slurp(view), Not(HasSubstr(", median trial")));
 }

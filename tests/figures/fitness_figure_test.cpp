@@ -51,6 +51,22 @@ TEST_P(FitnessFigure, DrawsCurvesInProportion) {
   EXPECT_NEAR((best[0].second - best[2].second) / (mean[0].second - mean[2].second), 2.54 / 0.75, 0.02);
 }
 
+TEST_P(FitnessFigure, DrawsWhatTheChampionTypicallyDoesWithTheBandOfItsQuartiles) {
+  record::Generations generations = table();
+  EXPECT_TRUE(
+      tests::with_class(tests::parse_xml(fitness_figure(generations, GetParam())), "typical").empty());
+  generations.typical = {0.4, 1.0, 2.0};
+  generations.typical_lower = {0.3, 0.8, 1.5};
+  generations.typical_upper = {0.5, 1.2, 2.5};
+  const auto elements = tests::parse_xml(fitness_figure(generations, GetParam()));
+  EXPECT_THAT(tests::texts(elements), Contains("typical 2.00 m"));
+  const auto typical = tests::points(tests::with_class(elements, "typical").at(0));
+  const auto band = tests::points(tests::with_class(elements, "quartiles").at(0));
+  ASSERT_EQ(band.size(), 6u);
+  EXPECT_LT(band[2].second, typical[2].second) << "the upper quartile is above";
+  EXPECT_GT(band[3].second, typical[2].second) << "the lower one below";
+}
+
 TEST_P(FitnessFigure, DrawsAMapOverItsEvaluations) {
   record::Generations generations = table();
   generations.coverage = {0.1, 0.2, 0.25};

@@ -35,7 +35,8 @@ experiment::Champion champion_of(std::vector<std::string> settings) {
 TEST(ShownTrial, IsWithoutNoiseOfAWalkerThatEvolvedWithout) {
   const auto shown = shown_trial(champion_of({}), {}, {}, {}, 1, unstopped).value();
   EXPECT_FALSE(shown.key);
-  EXPECT_EQ(shown.typical, "");
+  EXPECT_FALSE(shown.noise.any());
+  EXPECT_NE(shown.typical.find("64 trials at the level milli"), std::string::npos) << shown.typical;
 }
 
 TEST(ShownTrial, IsTheMedianOfSeveralWhereTheWalkerEvolvedUnderNoiseOrALevelIsAskedFor) {
@@ -55,7 +56,9 @@ TEST(ShownTrial, IsTheMedianOfSeveralWhereTheWalkerEvolvedUnderNoiseOrALevelIsAs
 
 TEST(ShownTrial, IsWithoutNoiseWhereThatIsAskedFor) {
   const auto noisy = champion_of({"noise.push_m_s=0.3"});
-  EXPECT_FALSE(shown_trial(noisy, {}, {}, {.level = {}, .undisturbed = true}, 1, unstopped).value().key);
+  const auto shown = shown_trial(noisy, {}, {}, {.level = {}, .undisturbed = true}, 1, unstopped).value();
+  EXPECT_FALSE(shown.key);
+  EXPECT_EQ(shown.typical, "");
 }
 
 TEST(ShownTrial, IsNothingIfItWasStopped) {
