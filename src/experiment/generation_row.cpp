@@ -45,13 +45,21 @@ Cells cells_of(const GenerationRow& row) {
   return cells;
 }
 
-std::string line_of(const Cells& cells, auto member) {
-  std::string line;
-  for (const auto& cell : cells) {
-    if (!line.empty()) line += ',';
-    line += cell.*member;
-  }
-  return line + "\n";
+/// The names in a header, which may end in a newline.
+std::vector<std::string_view> names_in(std::string_view header) {
+  if (header.ends_with('\n')) header.remove_suffix(1);
+  std::vector<std::string_view> names;
+  for (std::size_t comma; (comma = header.find(',')) != std::string_view::npos;
+       header.remove_prefix(comma + 1))
+    names.push_back(header.substr(0, comma));
+  names.push_back(header);
+  return names;
+}
+
+Cells cells_of(std::span<const search::Metric> search) {
+  GenerationRow row;
+  row.search.assign(search.begin(), search.end());
+  return cells_of(row);
 }
 
 }  // namespace
@@ -62,13 +70,28 @@ std::optional<double> GenerationRow::metric(std::string_view name) const {
 }
 
 std::string csv_header(std::span<const search::Metric> search) {
-  GenerationRow row;
-  row.search.assign(search.begin(), search.end());
-  return line_of(cells_of(row), &Cells::value_type::first);
+  std::string line;
+  for (const auto& [name, value] : cells_of(search))
+    line += fmt::format("{}{}", line.empty() ? "" : ",", name);
+  return line + "\n";
 }
 
-std::string csv_line(const GenerationRow& row) {
-  return line_of(cells_of(row), &Cells::value_type::second);
+std::string csv_line(const GenerationRow& row, std::string_view header) {
+  const Cells cells = cells_of(row);
+  std::string line;
+  for (const std::string_view name : names_in(header)) {
+    const auto cell = std::ranges::find(cells, name, &Cells::value_type::first);
+    AMBLE_CHECK(cell != cells.end(), "a column that a run has");
+    line += (line.empty() ? "" : ",") + cell->second;
+  }
+  return line + "\n";
+}
+
+std::string unknown_column(std::string_view header, std::span<const search::Metric> search) {
+  const Cells cells = cells_of(search);
+  for (const std::string_view name : names_in(header))
+    if (std::ranges::find(cells, name, &Cells::value_type::first) == cells.end()) return std::string(name);
+  return {};
 }
 
 void summarise_trials(std::span<const double> objectives, std::span<const record::Trajectory> trajectories,

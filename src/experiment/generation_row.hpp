@@ -34,7 +34,11 @@ struct GenerationRow {
 
 /// Names of the columns for a search with these metrics, one line.
 std::string csv_header(std::span<const search::Metric> search);
-std::string csv_line(const GenerationRow& row);
+/// The row under a header: csv_header() of its search, or that of an earlier build, which lacked some
+/// columns. AMBLE_CHECK: it names no other columns (unknown_column).
+std::string csv_line(const GenerationRow& row, std::string_view header);
+/// The first column of a header that a search with these metrics does not have; empty: none.
+std::string unknown_column(std::string_view header, std::span<const search::Metric> search);
 
 /// The columns that come from the trials: best, mean, median, fell, diverged.
 void summarise_trials(std::span<const double> objectives, std::span<const record::Trajectory> trajectories,

@@ -1,14 +1,34 @@
 #include "amble/experiment/run_files.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "amble/core/error.hpp"
+#include "amble/io/printable.hpp"
 
 namespace amble::experiment {
 
-RunFiles::RunFiles(const RunPaths& paths, const search::Strategy& strategy, std::uint64_t table_bytes,
-                   std::span<const std::uint64_t> log_bytes)
+namespace {
+
+/// The first line of a run's table. Throws UserError if it is not one that this build can go on with.
+std::string header_of(const RunPaths& paths, const search::Strategy& strategy) {
+  constexpr std::size_t most_bytes = 65536;
+  std::string text = io::InputFile(paths.generations).read(most_bytes);
+  text.resize(std::min(text.size(), text.find('\n')));
+  if (const auto unknown = unknown_column(text, strategy.metrics()); !unknown.empty())
+    fail(ExitCode::bad_file,
+         "{}:1: column '{}': expected the columns of the run, unchanged since it was stopped; restore the "
+         "file",
+         paths.generations.string(), io::printable(unknown));
+  return text;
+}
+
+}  // namespace
+
+RunFiles::RunFiles(const RunPaths& paths, const search::Strategy& strategy, std::string header,
+                   std::uint64_t table_bytes, std::span<const std::uint64_t> log_bytes)
     : checkpoint_(paths.checkpoint),
+      header_(std::move(header)),
       table_(std::make_unique<io::AppendFile>(paths.generations, table_bytes)) {
   const auto names = strategy.logs();
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -16,8 +36,9 @@ RunFiles::RunFiles(const RunPaths& paths, const search::Strategy& strategy, std:
 }
 
 RunFiles RunFiles::start(const RunPaths& paths, const Config& config, RunState& state) {
-  RunFiles files(paths, *state.strategy, 0, std::vector<std::uint64_t>(state.strategy->logs().size(), 0));
-  files.table_->append(csv_header(state.strategy->metrics()));
+  RunFiles files(paths, *state.strategy, csv_header(state.strategy->metrics()), 0,
+                 std::vector<std::uint64_t>(state.strategy->logs().size(), 0));
+  files.table_->append(files.header_);
   state.progress.csv_bytes = files.table_->size();
   for (std::size_t i = 0; i < files.logs_.size(); ++i)
     files.logs_[i]->append(state.strategy->take_log_growth(i));
@@ -27,7 +48,8 @@ RunFiles RunFiles::start(const RunPaths& paths, const Config& config, RunState& 
 
 RunFiles RunFiles::resume(const RunPaths& paths, const RunState& state,
                           std::span<const std::uint64_t> log_bytes) {
-  return RunFiles(paths, *state.strategy, state.progress.csv_bytes, log_bytes);
+  return RunFiles(paths, *state.strategy, header_of(paths, *state.strategy), state.progress.csv_bytes,
+                  log_bytes);
 }
 
 void RunFiles::write(const GenerationRow& row, const Config& config, RunState& state) {
@@ -35,7 +57,7 @@ void RunFiles::write(const GenerationRow& row, const Config& config, RunState& s
   state.progress.evaluations += row.evaluations;
   state.progress.steps += row.steps;
   state.progress.wall_s += row.wall_s;
-  table_->write(csv_line(row));
+  table_->write(csv_line(row, header_));
   state.progress.csv_bytes = table_->size();
   for (std::size_t i = 0; i < logs_.size(); ++i)
     if (const auto growth = state.strategy->take_log_growth(i); !growth.empty()) logs_[i]->write(growth);

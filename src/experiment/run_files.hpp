@@ -4,6 +4,7 @@
 #include <future>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "amble/experiment/config.hpp"
@@ -32,10 +33,11 @@ class RunFiles {
   void settle();
 
  private:
-  RunFiles(const RunPaths& paths, const search::Strategy& strategy, std::uint64_t table_bytes,
-           std::span<const std::uint64_t> log_bytes);
+  RunFiles(const RunPaths& paths, const search::Strategy& strategy, std::string header,
+           std::uint64_t table_bytes, std::span<const std::uint64_t> log_bytes);
 
   std::filesystem::path checkpoint_;
+  std::string header_;  ///< of the table; that of the build which began it
   std::unique_ptr<io::AppendFile> table_;
   std::vector<std::unique_ptr<io::AppendFile>> logs_;
   std::future<void> settling_;

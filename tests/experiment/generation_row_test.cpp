@@ -36,14 +36,14 @@ TEST(GenerationRow, LineHasAsManyColumnsAsTheHeaderAndRoundTripsNumbers) {
   GenerationRow row;
   row.best = 0.1 + 0.2;
   row.search = {{"archive", 1.0}};
-  const auto line = csv_line(row), header = csv_header(row.search);
+  const auto header = csv_header(row.search), line = csv_line(row, header);
   EXPECT_EQ(std::count(line.begin(), line.end(), ','), std::count(header.begin(), header.end(), ','));
   EXPECT_EQ(std::stod(line.substr(line.find(',') + 1)), 0.1 + 0.2);
 }
 
 /// The cell of a row under this column.
 std::string cell(const GenerationRow& row, const std::string& column) {
-  std::istringstream names(csv_header(row.search)), cells(csv_line(row));
+  std::istringstream names(csv_header(row.search)), cells(csv_line(row, csv_header(row.search)));
   for (std::string name, found; std::getline(names, name, ',') && std::getline(cells, found, ',');)
     if (name == column) return found;
   return "no such column";
@@ -64,6 +64,19 @@ TEST(GenerationRow, HasTheColumnsOfItsSearchBetweenItsOwnAndItsTimes) {
   EXPECT_FALSE(row.metric("species"));
 }
 
+TEST(GenerationRow, UnderAnEarlierHeaderHasItsColumnsAlone) {
+  GenerationRow row;
+  row.generation = 4;
+  row.best = 2.5;
+  row.typical.median = 1.5;
+  row.search = {{"archive", 17.0}};
+  EXPECT_EQ(csv_line(row, "generation,best,archive"), "4,2.5,17\n");
+  EXPECT_EQ(csv_line(row, "typical,generation\n"), "1.5,4\n");
+  EXPECT_EQ(unknown_column(csv_header(row.search), row.search), "");
+  EXPECT_EQ(unknown_column("generation,colour", row.search), "colour");
+  EXPECT_EQ(unknown_column("generation,archive", {}), "archive");
+}
+
 TEST(GenerationRow, EndsWithItsTimes) {
   EXPECT_TRUE(csv_header({}).ends_with(
       ",steps,wall_s,outside_s,physics_s,decode_s,control_s,waiting_s,search_s,referees_s,files_s\n"));
@@ -72,7 +85,7 @@ TEST(GenerationRow, EndsWithItsTimes) {
   row.times = {.physics_s = 1.25, .referees_s = 0.25, .files_s = 0.125};
   EXPECT_EQ(cell(row, "outside_s"), "0.500000");
   EXPECT_EQ(cell(row, "physics_s"), "1.250000");
-  EXPECT_TRUE(csv_line(row).ends_with(",0.125000\n"));
+  EXPECT_TRUE(csv_line(row, csv_header(row.search)).ends_with(",0.125000\n"));
 }
 
 }  // namespace

@@ -4,13 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "amble/core/error.hpp"
+#include "amble/experiment/checkpoint.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/io/file.hpp"
+#include "amble/record/generations_csv.hpp"
 #include "tests/experiment/fixture.hpp"
 
 namespace amble::experiment {
@@ -388,6 +391,61 @@ TEST(Run, CountsEvaluationsAndStepsOfAllItsGenerations) {
   const std::atomic<bool> never{false};
   EXPECT_EQ(Run::start(scratch / "run", small_config({"engine=batch"}), 1).execute(sums, never),
             RunStatus::finished);
+}
+
+/// The lines without the columns that tell what is typical, as builds before there were such wrote them.
+std::string without_typical(const std::string& table) {
+  std::istringstream lines(table);
+  std::string earlier;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream cells(line);
+    std::string cell;
+    for (int column = 0; std::getline(cells, cell, ','); ++column)
+      if (column < 5 || column > 8) earlier += (column > 0 ? "," : "") + cell;
+    earlier += "\n";
+  }
+  return earlier;
+}
+
+TEST(Run, GoesOnWithTheColumnsOfATableThatAnEarlierBuildBegan) {
+  const TemporaryFolder scratch;
+  Config config = small_config();
+  config.generations = 2;
+  Listener listener;
+  ASSERT_EQ(Run::start(scratch / "run", config, 1).execute(listener, listener.stop), RunStatus::finished);
+  const RunPaths paths(scratch / "run");
+  const std::string earlier = without_typical(io::read_file(paths.generations));
+  ASSERT_EQ(earlier.find("typical"), std::string::npos) << earlier;
+  io::write_file(paths.generations, earlier);
+  RunState state(config, small_problem(config));
+  state.progress = load_checkpoint(paths.checkpoint, config, *state.strategy);
+  state.progress.csv_bytes = earlier.size();
+  save_checkpoint(paths.checkpoint, config, state.progress, *state.strategy);
+
+  ASSERT_EQ(Run::resume(scratch / "run", 4, 1).execute(listener, listener.stop), RunStatus::finished);
+  const auto table = record::read_generations(paths.generations);
+  EXPECT_EQ(table.count(), 4u);
+  EXPECT_TRUE(table.typical.empty());
+  EXPECT_EQ(table.best.back(), listener.rows.back().best);
+}
+
+TEST(Run, RefusesToGoOnWithATableOfOtherColumns) {
+  const TemporaryFolder scratch;
+  Config config = small_config();
+  config.generations = 2;
+  Listener listener;
+  ASSERT_EQ(Run::start(scratch / "run", config, 1).execute(listener, listener.stop), RunStatus::finished);
+  const RunPaths paths(scratch / "run");
+  std::string table = io::read_file(paths.generations);
+  io::write_file(paths.generations, table.replace(0, 10, "GENERATION"));
+  try {
+    Run::resume(scratch / "run", 3, 1);
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("generations.csv:1: column 'GENERATION'"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_EQ(io::read_file(paths.generations), table) << "nothing was changed";
 }
 
 }  // namespace
