@@ -28,8 +28,8 @@ class CallbackListener : public experiment::RunListener {
     if (callback_ == nullptr) return;
     caller_.call([&] {
       py::dict line;
-      for (const auto& [name, values] :
-           parse_columns(experiment::csv_header(row.search) + experiment::csv_line(row)))
+      const std::string header = experiment::csv_header(row.search);
+      for (const auto& [name, values] : parse_columns(header + experiment::csv_line(row, header)))
         line[py::str(name)] = values.front();
       (*callback_)(line);
     });
