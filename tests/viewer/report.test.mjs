@@ -83,7 +83,7 @@ for (const colorScheme of ["light", "dark"])
   for (const width of WIDTHS)
     test(`at ${width} px, ${colorScheme}: nothing sticks out, no labels overlap, no errors`, () =>
       onPage({ viewport: { width, height: 800 }, colorScheme }, async (page) => {
-        assert.equal(await page.locator("section").count(), 9);
+        assert.equal(await page.locator("section").count(), 11);
         assert.ok((await overflow(page)) <= 0, "wider than the window");
         assert.deepEqual(await overlaps(page), []);
         for (const part of [".verdict.confirmed", ".verdict.contradicted", ".verdict.not-confirmed", "section > p"])
