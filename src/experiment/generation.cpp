@@ -17,6 +17,7 @@ namespace {
 std::vector<trial::Scenario> further_scenarios(const Problem& problem, int count, std::int64_t seed,
                                                int generation, const ground::Ground* ground) {
   std::vector<trial::Scenario> scenarios;
+  scenarios.reserve(to_index(count));
   for (int i = 0; i < count; ++i)
     scenarios.push_back(problem.scenario({.seed = static_cast<std::uint64_t>(seed),
                                           .generation = static_cast<std::uint32_t>(generation),
@@ -32,6 +33,7 @@ bool final_round(Evaluator& evaluator, const Problem& problem, std::span<const n
                  const std::atomic<bool>& stop) {
   const auto finalists = finalists_of(evaluated.objectives, share);
   std::vector<neat::Genome> best;
+  best.reserve(finalists.size());
   for (const std::size_t i : finalists) best.push_back(genomes[i]);
   const auto again = evaluator.evaluate(best, stop, scenarios, ground);
   if (!again) return false;

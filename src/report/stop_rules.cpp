@@ -46,10 +46,12 @@ StopCounts count_stops(const StudyData& data, const std::vector<const ledger::Te
                        StopCounts counts) {
   counts.n = results.size();
   std::vector<double> metered_s;
+  metered_s.reserve(results.size());
   for (const auto* result : results) metered_s.push_back(result->episodes.front().walking_s);
   counts.metered = count_from(metered_s, counts.at_least_s);
   for (std::size_t rule = 0; rule < stop_rules.size(); ++rule) {
     std::vector<double> walking_s;
+    walking_s.reserve(results.size());
     for (const auto* result : results) walking_s.push_back(*walking_by_path_s(*result, stop_rules[rule]));
     counts.runs[rule] = count_from(walking_s, counts.at_least_s);
     if (counts.claim)

@@ -70,6 +70,7 @@ std::optional<trial::ScenarioKey> scenario(const PlannedTest& test, const experi
 std::vector<experiment::TogetherTrial> trials_of(const PlannedTest& test, const experiment::Problem& problem,
                                                  const experiment::Champion& champion) {
   std::vector<experiment::TogetherTrial> trials;
+  trials.reserve(to_index(test.spec.episodes));
   for (int episode = 0; episode < test.spec.episodes; ++episode)
     trials.push_back({.noise = scenario(test, problem, champion, episode)});
   return trials;
