@@ -110,11 +110,10 @@ std::vector<Point> band_points(const Panel& panel, const Abscissa& abscissa,
 
 void draw_objectives(Svg& svg, const record::Generations& generations, const Abscissa& abscissa,
                      const Box& plot, const std::string& unit) {
-  std::vector<Curve> curves{{"median", generations.median, "median"},
-                            {"mean", generations.mean, "mean"},
-                            {"best", generations.best, "best"}};
+  std::vector<Curve> curves{{"median", generations.median, "median"}, {"mean", generations.mean, "mean"}};
   const bool has_typical = generations.typical.size() == generations.count();
-  if (has_typical) curves.insert(curves.end() - 1, {"typical", generations.typical, "typical"});
+  if (has_typical) curves.push_back({"typical", generations.typical, "typical"});
+  curves.push_back({"best", generations.best, "best"});
   const Panel panel = make_panel(
       plot, abscissa,
       value_range({&generations.best, &generations.mean, &generations.median, &generations.typical_upper}));
