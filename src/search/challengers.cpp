@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <tuple>
 #include <utility>
 
 namespace amble::search {
@@ -68,20 +70,22 @@ double worth(const Cells& cells, const Elite& elite, std::span<const float> desc
 
 std::vector<Challenger> most_promising(std::vector<Challenger> challengers, std::size_t most,
                                        const Cells& cells, const Elites& elites) {
-  if (challengers.size() <= most) return challengers;
-  std::vector<std::pair<double, std::size_t>> losses;  // the largest gain first, of equal ones the first
+  // Those that have been tried again first, then the largest gain first, of equal ones the first.
+  std::vector<std::tuple<bool, double, std::size_t>> ranks;
   for (std::size_t i = 0; i < challengers.size(); ++i) {
     const auto& [elite, descriptor, parent] = challengers[i];
     const std::uint32_t there = elites.in(elite.cell);
     const double ahead = elite.objective - (there == Elites::none ? 0.0 : elites[there].objective);
-    losses.emplace_back(-ahead * staying_probability(cells, elite, descriptor), i);
+    ranks.emplace_back(elite.evaluations == 1, -ahead * staying_probability(cells, elite, descriptor), i);
   }
-  std::ranges::nth_element(losses, losses.begin() + static_cast<std::ptrdiff_t>(most));
+  std::ranges::sort(ranks);
+  std::set<std::uint32_t> taken;
   std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < most; ++i) kept.push_back(losses[i].second);
+  for (const auto& [is_new, loss, i] : ranks)
+    if (kept.size() < most && taken.insert(challengers[i].elite.cell).second) kept.push_back(i);
   std::ranges::sort(kept);
   std::vector<Challenger> promising;
-  promising.reserve(most);
+  promising.reserve(kept.size());
   for (const std::size_t i : kept) promising.push_back(std::move(challengers[i]));
   return promising;
 }

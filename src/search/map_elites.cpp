@@ -204,15 +204,28 @@ void MapElites::take_challenger(Challenger challenger, const Evaluation& evaluat
 void MapElites::decide(Challenger challenger) {
   Elite& elite = challenger.elite;
   if (!would_enter(elite)) return credit_parent(challenger.parent, false);
-  if (elite.evaluations < static_cast<std::uint32_t>(settings_.trials) ||
-      !prevails(elite, challenger.descriptor)) {
-    challengers_.push_back(std::move(challenger));
+  const bool is_tried = elite.evaluations >= static_cast<std::uint32_t>(settings_.trials);
+  if (!is_tried || !prevails(elite, challenger.descriptor)) {
+    if (elite.evaluations < most_evaluations(elite.cell))
+      challengers_.push_back(std::move(challenger));
+    else
+      credit_parent(challenger.parent, false);
     return;
   }
   ++(elites().in(elite.cell) == Elites::none ? counts_.entered : counts_.improved);
   if (!curiosity_.empty()) curiosity_[elite.cell] = 0.0f;
   map_.put(std::move(elite), challenger.descriptor);
   credit_parent(challenger.parent, true);
+}
+
+/// A candidate that has been tried so often and does not prevail over the elite of the cell is dropped: as
+/// often as that elite, but no more than four times the least.
+std::uint32_t MapElites::most_evaluations(std::uint32_t cell) const {
+  constexpr std::uint32_t most_times = 4;
+  const auto trials = static_cast<std::uint32_t>(settings_.trials);
+  const std::uint32_t there = elites().in(cell);
+  if (there == Elites::none) return trials;
+  return std::clamp(elites()[there].evaluations, trials, most_times * trials);
 }
 
 /// One more evaluation of an elite, unless another took its cell in this round.

@@ -71,6 +71,7 @@ class MapElites : public Strategy {
   static neat::Genome expanded(const Parent& parent);
   bool is_there(const EliteName& elite) const;
   bool would_enter(const Elite& elite) const;
+  std::uint32_t most_evaluations(std::uint32_t cell) const;
   bool prevails(const Elite& elite, std::span<const float> descriptor) const;
 
   void take_child(std::uint32_t candidate, const Evaluation& evaluation);

@@ -102,6 +102,23 @@ TEST(MostPromising, AreThoseThatAddMostToTheMapInTheirOldOrder) {
   EXPECT_EQ(most_promising(unsure, 2, cells, elites)[0].elite.genome, "genome 1") << "in place of genome 3";
 }
 
+TEST(MostPromising, AreOneInEachCellAndThoseThatWereTriedAgainFirst) {
+  const auto settings = two_dimensions(5);
+  const GridCells cells(settings);
+  const Elites elites(cells.count(), 2);
+  auto challengers = challengers_of(5);
+  challengers[4].elite.cell = 3;
+  auto kept = most_promising(challengers, 5, cells, elites);
+  ASSERT_EQ(kept.size(), 4u);
+  EXPECT_EQ(kept[3].elite.genome, "genome 4") << "more to gain than genome 3 of that cell";
+  challengers[3].elite.evaluations = 2;
+  kept = most_promising(challengers, 5, cells, elites);
+  ASSERT_EQ(kept.size(), 4u);
+  EXPECT_EQ(kept[3].elite.genome, "genome 3") << "it was begun with";
+  challengers[0].elite.evaluations = 3;
+  EXPECT_EQ(most_promising(challengers, 2, cells, elites)[0].elite.genome, "genome 0");
+}
+
 TEST(Challengers, AreReadBackAsTheyWereAndRefusedIfTheyCannotBe) {
   auto challengers = challengers_of(3);
   challengers[1].elite.spread = 0.25;

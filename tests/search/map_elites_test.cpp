@@ -111,11 +111,27 @@ class SlowMap {
 
   /// At the end of a round.
   void drop_challengers(std::size_t most) {
+    const auto comes_before = [this](const Entry& a, const Entry& b) {
+      if ((a.evaluations > 1) != (b.evaluations > 1)) return a.evaluations > 1;
+      return gain(a) > gain(b);
+    };
+    for (std::size_t i = 0; i < challengers.size(); ++i)
+      for (std::size_t j = i + 1; j < challengers.size();) {
+        const bool are_rivals = cell_of(challengers[i].descriptor) == cell_of(challengers[j].descriptor);
+        if (are_rivals && comes_before(challengers[j], challengers[i])) {
+          challengers.erase(challengers.begin() + static_cast<std::ptrdiff_t>(i));
+          j = i + 1;
+        } else if (are_rivals) {
+          challengers.erase(challengers.begin() + static_cast<std::ptrdiff_t>(j));
+        } else {
+          ++j;
+        }
+      }
     while (challengers.size() > most) {
-      auto least = challengers.begin();
+      auto last = challengers.begin();
       for (auto it = challengers.begin(); it != challengers.end(); ++it)
-        if (gain(*it) <= gain(*least)) least = it;
-      challengers.erase(least);
+        if (!comes_before(*it, *last)) last = it;
+      challengers.erase(last);
     }
   }
 
@@ -156,10 +172,15 @@ class SlowMap {
 
   void decide(Entry entry) {
     if (!would_enter(entry)) return;
-    if (static_cast<int>(entry.evaluations) < settings_.trials || !prevails(entry))
-      challengers.push_back(std::move(entry));
-    else
+    const int evaluations = static_cast<int>(entry.evaluations);
+    const int most =
+        rival(entry) ? std::max(settings_.trials,
+                                std::min(static_cast<int>(rival(entry)->evaluations), 4 * settings_.trials))
+                     : settings_.trials;
+    if (evaluations >= settings_.trials && prevails(entry))
       put(std::move(entry));
+    else if (evaluations < most)
+      challengers.push_back(std::move(entry));
   }
 
   void put(Entry entry) {
