@@ -10,9 +10,11 @@
 #include "amble/cli/commands.hpp"
 #include "amble/cli/compare_table.hpp"
 #include "amble/cli/progress.hpp"
+#include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
 #include "amble/cppn/sensitivity.hpp"
 #include "amble/experiment/champion.hpp"
+#include "amble/experiment/corrected_map.hpp"
 #include "amble/experiment/repertoire.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/experiment/typical.hpp"
@@ -87,6 +89,31 @@ void print_stages(const record::Generations& rows) {
   print("overhead", rest_s);
 }
 
+/// A map's figures, and what they are in new trials if that takes seconds.
+ExitCode print_map(const experiment::RunPaths& paths) {
+  const auto repertoire = experiment::load_repertoire(paths);
+  const auto& elites = repertoire.elites;
+  const auto cells_text = [&](std::uint32_t filled) {
+    return fmt::format("{} of {} cells, {:.1f} %", filled, elites.cells(), 100.0 * filled / elites.cells());
+  };
+  fmt::print("map         {}; QD score {:.2f}\n", cells_text(elites.size()), elites.objective_sum());
+  if (!repertoire.problem.disturbed() || elites.size() == 0) return ExitCode::ok;
+  constexpr int trials = 20;
+  constexpr std::uint32_t most_elites = 1000;
+  if (elites.size() > most_elites) {
+    fmt::print("corrected   `amble repertoire {} --retest {}` makes {} trials\n", paths.folder.string(),
+               trials, trials * elites.size());
+    return ExitCode::ok;
+  }
+  constexpr int one_worker = 1;
+  const auto corrected = experiment::correct_map(repertoire, trials, one_worker, stop_signal());
+  if (!corrected) return ExitCode::interrupted;
+  fmt::print(
+      "corrected   {}; QD score {:.2f}; {:.1f} % of the elites stay in their cell ({} new trials each)\n",
+      cells_text(corrected->filled()), corrected->qd_score(), 100.0 * corrected->staying_share(), trials);
+  return ExitCode::ok;
+}
+
 ExitCode run_info(const std::filesystem::path& folder) {
   const experiment::RunPaths paths = experiment::find_run(folder);
   const auto config = experiment::load_config(paths.config, {});
@@ -105,6 +132,8 @@ ExitCode run_info(const std::filesystem::path& folder) {
     fmt::print(": archive of {:.0f} behaviours, threshold {:.4g} in the last generation", rows.archive.back(),
                rows.novelty_threshold.back());
   fmt::print("\n");
+  if (experiment::fills_map(config))
+    if (const auto code = print_map(paths); code != ExitCode::ok) return code;
   print_stages(rows);
   if (!rows.typical.empty())
     fmt::print("typical     {}, half of {} trials {:.2f} to {:.2f}, {:.0f} % fell\n",

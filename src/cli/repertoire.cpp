@@ -3,16 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "amble/cli/commands.hpp"
 #include "amble/cli/repertoire_page.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
+#include "amble/experiment/corrected_map.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/printable.hpp"
 
@@ -31,6 +34,7 @@ struct RepertoireOptions {
 };
 
 constexpr std::size_t listed = 10;
+constexpr int usual_trials = 20;
 
 /// Elites by falling objective, of equal ones by cell.
 std::vector<std::uint32_t> ranking(const search::Elites& elites) {
@@ -73,43 +77,71 @@ void print_summary(const experiment::Repertoire& repertoire, const fs::path& run
       run.string(), elites[numbers.front()].cell);
 }
 
-ExitCode run_retest(const experiment::Repertoire& repertoire, const RepertoireOptions& options) {
-  const auto result = experiment::retest(repertoire, *options.retest, options.jobs, stop_signal());
-  if (!result) return ExitCode::interrupted;
-  const auto share = [&](double part, double whole) { return whole > 0.0 ? 100.0 * part / whole : 0.0; };
-  fmt::print("{} elites, each in {} new trials\n", result->elites, *options.retest);
-  fmt::print("objective   {:.1f} % of what the map says\n", share(result->kept, result->promised));
-  fmt::print("in place    {:.1f} % of the elites\n", share(result->in_place, result->elites));
-  fmt::print("corrected   {} cells, QD score {:.2f} (the map says {} and {:.2f})\n", result->corrected_elites,
-             result->corrected_score, result->elites, result->promised);
+void print_corrected(const experiment::CorrectedMap& corrected) {
+  const double promised = corrected.promised();
+  fmt::print("{} elites, each in {} new trials\n", corrected.elites.size(), corrected.trials);
+  fmt::print("objective   {:.1f} % of what the map says\n",
+             promised > 0.0 ? 100.0 * corrected.kept() / promised : 0.0);
+  fmt::print("in place    {:.1f} % of the elites\n", 100.0 * corrected.staying_share());
+  fmt::print("corrected   {} cells, QD score {:.2f} (the map says {} and {:.2f})\n", corrected.filled(),
+             corrected.qd_score(), corrected.elites.size(), promised);
+}
+
+/// A kind of file with a whole map.
+struct MapFile {
+  std::string_view extension, beginning, what;
+  bool has_new_trials;  ///< what each elite does in some, unless --retest 0
+};
+constexpr std::array map_files{
+    MapFile{".html", "<!DOCTYPE html>", "a page", true}, MapFile{".svg", "<svg", "a picture", true},
+    MapFile{".csv", "cell,", "a table", true},
+    MapFile{".json", "{\n  \"format\": \"amble-repertoire\"", "a repertoire", false}};
+
+ExitCode write_elite(const experiment::Repertoire& repertoire, std::uint32_t cell,
+                     const std::optional<fs::path>& out) {
+  if (!out || out->extension() != ".json")
+    fail(ExitCode::bad_input, "--cell {}: expected -o FILE.json", cell);
+  io::refuse_to_replace(*out, "{\n  \"format\": \"amble-champion\"", "a champion");
+  const auto champion = experiment::elite_champion(repertoire, cell, 1, stop_signal());
+  if (!champion) return ExitCode::interrupted;
+  io::write_file(*out, experiment::champion_text(*champion));
+  fmt::print("look at it by: amble view {}\n", out->string());
+  return ExitCode::ok;
+}
+
+ExitCode write_map(const experiment::Repertoire& repertoire, const RepertoireOptions& options) {
+  const fs::path& out = *options.out;
+  const auto file = std::ranges::find(map_files, out.extension().string(), &MapFile::extension);
+  if (file == map_files.end())
+    fail(ExitCode::bad_input, "--out {}: expected FILE.html, FILE.json, FILE.csv or FILE.svg", out.string());
+  io::refuse_to_replace(out, std::string(file->beginning), std::string(file->what));
+  if (!file->has_new_trials) {
+    io::write_file(out, experiment::repertoire_json(repertoire));
+    return ExitCode::ok;
+  }
+  if (file->extension != ".csv") map_picture(repertoire);  // refuses before the trials
+  const int trials = options.retest.value_or(repertoire.problem.disturbed() ? usual_trials : 0);
+  std::optional<experiment::CorrectedMap> corrected;
+  if (trials > 0 && !(corrected = experiment::correct_map(repertoire, trials, options.jobs, stop_signal())))
+    return ExitCode::interrupted;
+  if (file->extension == ".html")
+    return write_map_page(repertoire, corrected, options.run, options.walkers, out);
+  io::write_file(out, file->extension == ".csv" ? experiment::repertoire_csv(repertoire, corrected)
+                                                : figures::map_svg(map_picture(repertoire, corrected)));
   return ExitCode::ok;
 }
 
 ExitCode run_repertoire(const RepertoireOptions& options) {
   const auto repertoire = experiment::load_repertoire(experiment::find_run(options.run));
-  const std::string extension = options.out ? options.out->extension().string() : "";
-  if (options.cell) {
-    if (extension != ".json") fail(ExitCode::bad_input, "--cell {}: expected -o FILE.json", *options.cell);
-    io::refuse_to_replace(*options.out, "{\n  \"format\": \"amble-champion\"", "a champion");
-    const auto champion = experiment::elite_champion(repertoire, *options.cell, 1, stop_signal());
-    if (!champion) return ExitCode::interrupted;
-    io::write_file(*options.out, experiment::champion_text(*champion));
-    fmt::print("look at it by: amble view {}\n", options.out->string());
-  } else if (options.retest) {
-    return run_retest(repertoire, options);
-  } else if (!options.out) {
+  if (options.cell) return write_elite(repertoire, *options.cell, options.out);
+  if (options.out) return write_map(repertoire, options);
+  if (options.retest.value_or(0) == 0) {
     print_summary(repertoire, options.run);
-  } else if (extension == ".json") {
-    io::refuse_to_replace(*options.out, "{\n  \"format\": \"amble-repertoire\"", "a repertoire");
-    io::write_file(*options.out, experiment::repertoire_json(repertoire));
-  } else if (extension == ".svg") {
-    io::refuse_to_replace(*options.out, "<svg", "a picture");
-    io::write_file(*options.out, figures::map_svg(map_picture(repertoire)));
-  } else if (extension == ".html") {
-    return write_map_page(repertoire, options.run, options.walkers, *options.out);
-  } else {
-    fail(ExitCode::bad_input, "--out {}: expected FILE.html, FILE.json or FILE.svg", options.out->string());
+    return ExitCode::ok;
   }
+  const auto corrected = experiment::correct_map(repertoire, *options.retest, options.jobs, stop_signal());
+  if (!corrected) return ExitCode::interrupted;
+  print_corrected(*corrected);
   return ExitCode::ok;
 }
 
@@ -122,13 +154,15 @@ void add_repertoire(CLI::App& app, Action& action) {
   command->add_option("RUN", options->run, "Run folder")->required();
   command->add_option(
       "-o,--out", options->out,
-      "FILE.html: a page in which cells are chosen and walk; FILE.svg: a picture of the map; FILE.json: "
-      "the whole map, or with --cell one elite");
+      "FILE.html: a page in which cells are chosen and walk; FILE.svg: a picture of the map; FILE.csv: its "
+      "elites as a table; FILE.json: the whole map, or with --cell one elite");
   command->add_option("--cell", options->cell, "The elite of this cell, as a champion file");
   command
-      ->add_option("--retest", options->retest,
-                   "Try each elite in so many new trials under noise: what the map keeps of what it says")
-      ->check(CLI::Range(1, 1000));
+      ->add_option(
+          "--retest", options->retest,
+          "Try each elite in so many new trials under noise: what the map keeps of what it says; with "
+          "-o FILE.html, .svg or .csv what each elite keeps (20 if the map was made under noise; 0: not)")
+      ->check(CLI::Range(0, 1000));
   command->add_option("--walkers", options->walkers, "Cells at most that can be chosen in FILE.html")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();

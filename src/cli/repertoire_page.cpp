@@ -45,9 +45,24 @@ std::vector<std::uint32_t> chosen_elites(const search::Elites& elites, std::size
   return chosen;
 }
 
-std::string title_of(const experiment::Repertoire& repertoire, const search::Elite& elite) {
-  return fmt::format("cell {} ({} in the map)", elite.cell,
-                     score::with_unit(fmt::format("{:.2f}", elite.objective), repertoire.config.score));
+std::string title_of(const experiment::Repertoire& repertoire,
+                     const std::optional<experiment::CorrectedMap>& corrected, std::uint32_t number) {
+  const search::Elite& elite = repertoire.elites[number];
+  const auto text = [&](double value) {
+    return score::with_unit(fmt::format("{:.2f}", value), repertoire.config.score);
+  };
+  if (!corrected) return fmt::format("cell {} ({} in the map)", elite.cell, text(elite.objective));
+  return fmt::format("cell {} ({} in the map, {} in new trials)", elite.cell, text(elite.objective),
+                     text(corrected->elites[number].objective));
+}
+
+std::string kept_text(const experiment::CorrectedMap& corrected) {
+  return fmt::format(
+      " In {} new trials of each elite {:.0f} % stay in their cell; those that leave it have small squares. "
+      "The map "
+      "has {} elites and a QD score of {:.2f}; the one that the new trials fill {} and {:.2f}.",
+      corrected.trials, 100.0 * corrected.staying_share(), corrected.elites.size(), corrected.promised(),
+      corrected.filled(), corrected.qd_score());
 }
 
 /// How the map filled; empty before the first round.
@@ -61,7 +76,8 @@ std::string curves_of(const experiment::Repertoire& repertoire, const fs::path& 
 
 }  // namespace
 
-figures::GridMap map_picture(const experiment::Repertoire& repertoire) {
+figures::GridMap map_picture(const experiment::Repertoire& repertoire,
+                             const std::optional<experiment::CorrectedMap>& corrected) {
   const auto& settings = repertoire.config.search.map_elites;
   if (settings.archive != search::Archive::grid)
     fail(ExitCode::bad_input, "--out: a map of centroids has no picture: expected FILE.json");
@@ -75,16 +91,20 @@ figures::GridMap map_picture(const experiment::Repertoire& repertoire) {
                                                            : elites[number].objective);
   }
   map.unit = score::with_unit("", repertoire.config.score);
+  if (!corrected) return map;
+  map.trials = corrected->trials;
+  map.typical.resize(map.objective.size());
+  for (const auto& elite : corrected->elites) map.typical[elite.cell] = {elite.objective, elite.stays()};
   return map;
 }
 
 view::ReplayPage map_page(const experiment::Repertoire& repertoire, const std::string& title,
-                          const std::string& note) {
+                          const std::string& note, const std::optional<experiment::CorrectedMap>& corrected) {
   view::ReplayPage page;
   page.title = title;
   page.made_by = presentation::made_by();
-  page.map =
-      view::MapPanel{.map_svg = figures::map_figure(map_picture(repertoire)), .curves_svg = {}, .note = note};
+  page.map = view::MapPanel{
+      .map_svg = figures::map_figure(map_picture(repertoire, corrected)), .curves_svg = {}, .note = note};
   return page;
 }
 
@@ -101,9 +121,9 @@ std::optional<view::Walker> elite_walker(const experiment::Repertoire& repertoir
   return walker;
 }
 
-ExitCode write_map_page(const experiment::Repertoire& repertoire, const fs::path& run, int walkers,
-                        const fs::path& out) {
-  io::refuse_to_replace(out, "<!DOCTYPE html>", "a page");
+ExitCode write_map_page(const experiment::Repertoire& repertoire,
+                        const std::optional<experiment::CorrectedMap>& corrected, const fs::path& run,
+                        int walkers, const fs::path& out) {
   const search::Elites& elites = repertoire.elites;
   const auto chosen = chosen_elites(elites, to_index(walkers));
   const std::string who = chosen.size() == elites.size()
@@ -111,13 +131,15 @@ ExitCode write_map_page(const experiment::Repertoire& repertoire, const fs::path
                               : fmt::format("Choose one of the {} outlined cells of {}, and its elite walks",
                                             chosen.size(), elites.size());
   auto page = map_page(repertoire, fmt::format("Map of {}", repertoire.config.name),
-                       who + "; with the Shift key, beside the one that walks there already.");
+                       who + "; with the Shift key, beside the one that walks there already." +
+                           (corrected ? kept_text(*corrected) : ""),
+                       corrected);
   page.map->curves_svg = curves_of(repertoire, run);
   std::vector<std::unique_ptr<io::ScratchFile>> recordings;
   for (const std::uint32_t number : chosen) {
     recordings.push_back(std::make_unique<io::ScratchFile>("walk.rec"));
     auto walker = elite_walker(repertoire, repertoire.problem, elites[number].cell,
-                               title_of(repertoire, elites[number]), run, *recordings.back());
+                               title_of(repertoire, corrected, number), run, *recordings.back());
     if (!walker) return ExitCode::interrupted;
     page.walkers.push_back(std::move(*walker));
   }

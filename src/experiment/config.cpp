@@ -150,10 +150,15 @@ io::Json Config::identity() const {
   copy.generations = 1;
   io::Json values = io::Json::object();
   copy.describe(*io::json_writer(values));
-  // Later tables are omitted at their defaults, so that earlier results still match.
+  // Later tables and keys are omitted at their defaults, so that earlier results still match.
   if (copy.score.is_distance()) values.erase("score");
   if (copy.ground.is_default()) values.erase("ground");
-  if (copy.search.kind != "map-elites") values.at("search").erase("map_elites");
+  if (copy.search.kind != "map-elites") {
+    values.at("search").erase("map_elites");
+  } else if (!copy.search.map_elites.tries_candidates_again()) {
+    values.at("search").at("map_elites").erase("trials");
+    values.at("search").at("map_elites").erase("challenger_share");
+  }
   if (copy.damage.is_default()) values.erase("damage");
   if (copy.evaluation.is_default()) values.erase("evaluation");
   if (copy.champion.is_default())

@@ -1,19 +1,14 @@
 #include "amble/experiment/repertoire.hpp"
 
-#include <algorithm>
-#include <map>
 #include <utility>
 #include <vector>
 
 #include "amble/core/error.hpp"
 #include "amble/experiment/champion_trials.hpp"
-#include "amble/experiment/episodes.hpp"
-#include "amble/experiment/evaluator.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/neat/genome_compact.hpp"
 #include "amble/neat/genome_json.hpp"
-#include "amble/search/cells.hpp"
 #include "amble/search/elite_log.hpp"
 
 namespace amble::experiment {
@@ -105,40 +100,6 @@ std::optional<Champion> elite_champion(const Repertoire& repertoire, std::uint32
                        .genome = genome,
                        .objective = std::nullopt},
                       jobs, times, stop);
-}
-
-std::optional<Retest> retest(const Repertoire& repertoire, int episodes, int jobs,
-                             const std::atomic<bool>& stop) {
-  const Config& config = repertoire.config;
-  Problem problem = repertoire.problem;
-  problem.noise.score = trial::EpisodeScore::mean;
-  const search::Elites& elites = repertoire.elites;
-  std::vector<neat::Genome> genomes;
-  genomes.reserve(elites.size());
-  for (std::uint32_t i = 0; i < elites.size(); ++i)
-    genomes.push_back(neat::expand(elites[i].genome, "archive.bin"));
-
-  const auto ground = problem.make_ground(ground_of(unseen_key(config.seed)));
-  const auto scenarios = unseen_scenarios(problem, config.seed, 0, episodes, ground.get());
-  const auto behaviour = config.make_behaviour(&problem.robot);
-  Evaluator evaluator(problem, behaviour->path(), jobs, behaviour->measures());
-  const auto result = evaluator.evaluate(genomes, stop, scenarios, ground);
-  if (!result) return std::nullopt;
-
-  const auto objectives = experiment::objectives(problem, *result);
-  const auto cells = search::make_cells(config.search.map_elites);
-  Retest retest{.elites = elites.size(), .promised = elites.objective_sum()};
-  std::map<std::uint32_t, double> corrected;
-  for (std::uint32_t i = 0; i < elites.size(); ++i) {
-    const std::uint32_t cell = cells->of(behaviour->of(result->of_genome(i)));
-    retest.kept += objectives[i];
-    retest.in_place += cell == elites[i].cell;
-    const auto [entry, is_new] = corrected.try_emplace(cell, objectives[i]);
-    if (!is_new) entry->second = std::max(entry->second, objectives[i]);
-  }
-  retest.corrected_elites = static_cast<std::uint32_t>(corrected.size());
-  for (const auto& [cell, objective] : corrected) retest.corrected_score += objective;
-  return retest;
 }
 
 }  // namespace amble::experiment

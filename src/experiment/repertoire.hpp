@@ -35,21 +35,4 @@ std::string repertoire_json(const Repertoire& repertoire);
 std::optional<Champion> elite_champion(const Repertoire& repertoire, std::uint32_t cell, int jobs,
                                        const std::atomic<bool>& stop);
 
-/// How far a map's objectives hold up when its elites are tested again, under noise unseen during evolution.
-struct Retest {
-  std::uint32_t elites = 0;
-  double promised = 0.0;       ///< sum of the elites' objectives: the map's QD score
-  double kept = 0.0;           ///< of the objectives in the new trials
-  std::uint32_t in_place = 0;  ///< elites whose new descriptor belongs to their cell
-  /// Of a map filled with the new objectives and descriptors, as by MAP-Elites (the "corrected" figures of
-  /// Flageat & Cully 2020).
-  std::uint32_t corrected_elites = 0;
-  double corrected_score = 0.0;
-};
-
-/// Tries each elite in `episodes` ≥ 1 new trials; its objective and descriptor are the means over these. The
-/// same trials for all, and for any number of `jobs`. Nothing if `stop` was set.
-std::optional<Retest> retest(const Repertoire& repertoire, int episodes, int jobs,
-                             const std::atomic<bool>& stop);
-
 }  // namespace amble::experiment

@@ -81,6 +81,9 @@ class CellGrid {
 std::string cell_tooltip(const GridMap& map, std::size_t cell) {
   const auto bins = cell_bins(map, cell);
   std::string text = fmt::format("cell {}: {:.3f}{}", cell, map.objective[cell], map.unit);
+  if (map.trials > 0)
+    text += fmt::format("\nin {} new trials {:.3f}{}, {}", map.trials, map.typical[cell].objective, map.unit,
+                        map.typical[cell].stays ? "stays in this cell" : "leaves this cell");
   for (std::size_t i = 0; i < bins.size(); ++i) {
     const GridMap::Dimension& dimension = map.dimensions[i];
     const double width = (dimension.most - dimension.least) / dimension.bins;
@@ -110,6 +113,15 @@ void draw_scale(Svg& svg, const GridMap& map, double best) {
   svg.text({border_px + 18.0 * shades, 40.0}, Anchor::end, "tick", fmt::format("{:.3g}{}", best, map.unit));
 }
 
+/// Of an elite that leaves its cell a small one in an empty square, which takes the pointer as well.
+void draw_square(Svg& svg, const graphics::Box& box, bool is_whole) {
+  if (is_whole) return svg.rect(box);
+  constexpr double share = 0.4;
+  svg.rect(box, "nobody");
+  svg.rect({box.x + 0.5 * (1.0 - share) * box.width, box.y + 0.5 * (1.0 - share) * box.height,
+            share * box.width, share * box.height});
+}
+
 }  // namespace
 
 MapPlace place_of(const GridMap& map, std::size_t cell) {
@@ -126,6 +138,7 @@ std::string map_figure(const GridMap& map) {
   AMBLE_CHECK(
       !map.dimensions.empty() && map.objective.size() == to_index(extent(map, 0)) * to_index(extent(map, 1)),
       "a number per cell");
+  AMBLE_CHECK(map.typical.size() == (map.trials > 0 ? map.objective.size() : 0), "new trials of each cell");
   if (map.objective.size() > most_drawn)
     fail(ExitCode::bad_input, "a map of {} cells: a picture has at most {}", map.objective.size(),
          most_drawn);
@@ -146,12 +159,15 @@ std::string map_figure(const GridMap& map) {
     }
     const int shade = best > 0.0 ? std::min(shades - 1, static_cast<int>(shades * objective / best)) : 0;
     svg.begin_group(fmt::format("shade{} cell{}", shade, cell), cell_tooltip(map, cell));
-    svg.rect(grid.box(place_of(map, cell)));
+    draw_square(svg, grid.box(place_of(map, cell)), map.trials == 0 || map.typical[cell].stays);
     svg.end_group();
   }
   const double below = scale_px + grid.height_px();
   svg.text({border_px, below + 22.0}, Anchor::start, "tick", axis_text(map, 0, "to the right"));
   svg.text({border_px, below + 42.0}, Anchor::start, "tick", axis_text(map, 1, "up"));
+  if (map.trials > 0)
+    svg.text({border_px + 18.0 * shades + 24.0, 25.0}, Anchor::start, "tick",
+             fmt::format("small: leaves its cell in {} new trials", map.trials));
   return svg.finish();
 }
 

@@ -17,6 +17,14 @@ struct GridMap {
   /// By cell, the last dimension's bin running fastest; NaN: empty.
   std::vector<double> objective;
   std::string unit;  ///< of the objective, e.g. " m"
+
+  /// What the elite of a cell does in new trials.
+  struct Typical {
+    double objective = 0.0;
+    bool stays = false;  ///< in its cell, by the mean of its descriptor
+  };
+  int trials = 0;                     ///< of each elite; 0: not tried again
+  std::vector<Typical> typical = {};  ///< by cell, of those that are filled; empty without trials
 };
 
 /// The place of a cell in the picture, in cells from its left and its bottom. Dimensions nest (Cully et al.
@@ -28,7 +36,8 @@ struct MapPlace {
 MapPlace place_of(const GridMap& map, std::size_t cell);
 
 /// Cells as squares, darker where the objective is larger; a tooltip has the cell's number, bins and
-/// objective, and the group of cell 12's square has the class "cell12". An <svg> element. Throws UserError
+/// objective, and the group of cell 12's square has the class "cell12". With new trials the tooltip has their
+/// result too, and elites that leave their cell have small squares. An <svg> element. Throws UserError
 /// for maps of more than 200,000 cells.
 std::string map_figure(const GridMap& map);
 

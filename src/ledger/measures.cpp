@@ -26,11 +26,16 @@ constexpr std::array run_measures{
 /// Of runs that fill a map.
 struct MapMeasure {
   std::string_view name, label;
+  bool is_corrected = false;  ///< only of studies with `map_trials`
 };
-constexpr std::array map_measures{MapMeasure{"coverage", "share of the cells filled"},
-                                  MapMeasure{"qd_score", "QD score"},
-                                  MapMeasure{"map_best", "best objective of the map"},
-                                  MapMeasure{"entering_share", "share of the candidates that enter the map"}};
+constexpr std::array map_measures{
+    MapMeasure{"coverage", "share of the cells filled"},
+    MapMeasure{"qd_score", "QD score"},
+    MapMeasure{"map_best", "best objective of the map"},
+    MapMeasure{"entering_share", "share of the candidates that enter the map"},
+    MapMeasure{"corrected_coverage", "share of the cells filled, corrected", true},
+    MapMeasure{"corrected_qd_score", "QD score, corrected", true},
+    MapMeasure{"staying_share", "share of the elites that stay in their cell", true}};
 
 /// What a test must look for to have a measure.
 enum class Requires { trials, episodes, reaching, mutants };
@@ -144,9 +149,11 @@ Objective objective_of(const Record& record) {
 
 bool is_measure(const StudySpec& study, std::string_view name) {
   const auto [test, what] = split(name);
-  if (test.empty())
-    return std::ranges::find(run_measures, what, &RunMeasure::name) != run_measures.end() ||
-           std::ranges::find(map_measures, what, &MapMeasure::name) != map_measures.end();
+  if (test.empty()) {
+    if (std::ranges::find(run_measures, what, &RunMeasure::name) != run_measures.end()) return true;
+    const auto of_map = std::ranges::find(map_measures, what, &MapMeasure::name);
+    return of_map != map_measures.end() && (!of_map->is_corrected || study.map_trials > 0);
+  }
   const TestSpec* const spec = study.find_test(test);
   const auto found = std::ranges::find(test_measures, what, &TestMeasure::name);
   return spec != nullptr && found != test_measures.end() && has(*spec, found->needs);
@@ -155,13 +162,15 @@ bool is_measure(const StudySpec& study, std::string_view name) {
 std::string measure_names() {
   std::string text;
   for (const RunMeasure& row : run_measures) text += fmt::format("{}, ", row.name);
-  for (const MapMeasure& row : map_measures) text += fmt::format("{}, ", row.name);
+  std::string corrected;
+  for (const MapMeasure& row : map_measures)
+    (row.is_corrected ? corrected : text) += fmt::format("{}, ", row.name);
   std::array<std::string, 4> of_tests;
   for (const TestMeasure& row : test_measures) {
     std::string& names = of_tests.at(to_index(row.needs));
     names += fmt::format("{}.{}", names.empty() ? "" : ", ", row.name);
   }
-  return fmt::format("{}TEST{}, with episodes {}, with reach_m {}, with mutants {}", text, of_tests[0],
+  return fmt::format("{}with map_trials {}TEST{}, with episodes {}, with reach_m {}, with mutants {}", text, corrected, of_tests[0],
                      of_tests[1], of_tests[2], of_tests[3]);
 }
 

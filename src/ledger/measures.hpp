@@ -28,6 +28,7 @@ Objective objective_of(const Record& record);
 /// train_m            objective of the champion in evolution: its distance, m, or its score
 /// hidden, links      hidden nodes and enabled links of its CPPN
 /// coverage, qd_score, map_best, entering_share    of runs that fill a map (Record::map_figures)
+/// corrected_coverage, corrected_qd_score, staying_share    likewise, in studies with `map_trials`
 /// TEST.distance_m    in the test of that name (median of its episodes), m
 /// TEST.upright_s     until the robot fell or the test ended, s
 /// TEST.walking_s     until it fell, stopped (score/walking.hpp) or the test ended, s

@@ -93,7 +93,8 @@ struct Record {
   double best_m = 0.0;  ///< objective of the best genome
   int best_generation = 0;
   int hidden = 0, links = 0;  ///< of the champion's CPPN
-  /// Of a run that fills a map, at its end: coverage, qd_score, map_best, entering_share (docs/STUDIES.md).
+  /// Of a run that fills a map, at its end: coverage, qd_score, map_best, entering_share, and in studies
+  /// with `map_trials` corrected_coverage, corrected_qd_score, staying_share (docs/STUDIES.md).
   std::map<std::string, double> map_figures = {};
   std::vector<CurvePoint> curve;  ///< ascending; the best so far stays until the next point
   io::Json champion;              ///< a champion file without its traces (docs/FORMATS.md)

@@ -133,6 +133,8 @@ void StudySpec::describe(io::SettingsVisitor& visitor) {
   visitor.numbers("seeds", seeds, {0, largest_seed}, {"one run of each condition per seed"});
   visitor.integer("generations", generations, {0, most_generations},
                   {"generations of every run; 0: as in its config"});
+  visitor.integer("map_trials", map_trials, {0, 1000},
+                  {"new trials in which each elite of a run's map is tried when the run ends; 0: none"});
   visitor.texts("settings", settings, {"\"key.path=value\", laid over every config"});
   visitor.tables("conditions", conditions, {"what is compared"});
   visitor.tables("tests", tests, {"trials of each run's champion"});

@@ -57,6 +57,7 @@ struct StudySpec {
   std::string title;
   std::vector<double> seeds;  ///< whole numbers, all different
   int generations = 0;        ///< 0: as in each config
+  int map_trials = 0;         ///< > 0: each elite of a run's map is tried again so often (corrected maps)
   std::vector<std::string> settings;
   std::vector<ConditionSpec> conditions;
   std::vector<TestSpec> tests;

@@ -9,6 +9,7 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/random.hpp"
+#include "amble/statistics/distributions.hpp"
 
 namespace amble::search {
 namespace {
@@ -37,6 +38,22 @@ std::uint32_t GridCells::of(std::span<const float> descriptor) const {
     cell = cell * static_cast<std::uint32_t>(dimension.bins) + static_cast<std::uint32_t>(bin);
   }
   return cell;
+}
+
+double GridCells::share_inside(std::span<const float> descriptor, double deviation) const {
+  double share = 1.0;
+  for (std::size_t i = 0; i < descriptors_.size(); ++i) {
+    const DescriptorSettings& dimension = descriptors_[i];
+    const double place = (double{descriptor[i]} - dimension.least) / (dimension.most - dimension.least);
+    const double bin = std::clamp(std::floor(place * dimension.bins), 0.0, dimension.bins - 1.0);
+    // The outermost bins have what is beyond them as well.
+    const double below = bin > 0.0 ? statistics::normal_cdf((bin / dimension.bins - place) / deviation) : 0.0;
+    const double above = bin < dimension.bins - 1.0
+                             ? statistics::normal_cdf((place - (bin + 1.0) / dimension.bins) / deviation)
+                             : 0.0;
+    share *= 1.0 - below - above;
+  }
+  return share;
 }
 
 /// k-d tree (Bentley 1975) over points in the unit cube: exact nearest neighbour.
@@ -126,6 +143,18 @@ std::uint32_t CentroidCells::of(std::span<const float> descriptor) const {
   std::array<float, 256> point;
   for (std::size_t i = 0; i < dimensions_; ++i) point[i] = scaled(descriptors_[i], descriptor[i]);
   return tree_->nearest(point.data());
+}
+
+double CentroidCells::share_inside(std::span<const float> descriptor, double deviation) const {
+  const float* const centroid = centroids_.data() + of(descriptor) * dimensions_;
+  const double half = 0.5 * std::pow(count(), -1.0 / static_cast<double>(dimensions_));
+  double share = 1.0;
+  for (std::size_t i = 0; i < dimensions_; ++i) {
+    const double from_centre = double{scaled(descriptors_[i], descriptor[i])} - double{centroid[i]};
+    share *= statistics::normal_cdf((half - from_centre) / deviation) -
+             statistics::normal_cdf((-half - from_centre) / deviation);
+  }
+  return share;
 }
 
 std::vector<float> spread_centroids(std::size_t count, std::size_t dimensions, std::size_t samples,

@@ -18,6 +18,9 @@ class Cells {
   virtual std::uint32_t count() const = 0;
   /// The cell of a descriptor: as many finite numbers as there are descriptors.
   virtual std::uint32_t of(std::span<const float> descriptor) const = 0;
+  /// Probability that a descriptor known with a normal error of this standard deviation in each dimension, >
+  /// 0 and in units of its range, is in the cell of `descriptor`.
+  virtual double share_inside(std::span<const float> descriptor, double deviation) const = 0;
 };
 
 /// A grid (Mouret & Clune 2015): each descriptor's range in bins of equal width. The cell's number is
@@ -27,6 +30,7 @@ class GridCells : public Cells {
   explicit GridCells(std::span<const DescriptorSettings> descriptors);
   std::uint32_t count() const override { return count_; }
   std::uint32_t of(std::span<const float> descriptor) const override;
+  double share_inside(std::span<const float> descriptor, double deviation) const override;
 
  private:
   std::vector<DescriptorSettings> descriptors_;
@@ -42,6 +46,8 @@ class CentroidCells : public Cells {
   ~CentroidCells() override;
   std::uint32_t count() const override { return static_cast<std::uint32_t>(centroids_.size() / dimensions_); }
   std::uint32_t of(std::span<const float> descriptor) const override;
+  /// As if the cell were a cube around its centroid, with its share of the volume.
+  double share_inside(std::span<const float> descriptor, double deviation) const override;
   std::span<const float> centroids() const { return centroids_; }
 
  private:

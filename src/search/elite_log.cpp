@@ -12,23 +12,24 @@ namespace amble::search {
 namespace {
 
 constexpr std::string_view map_magic = "AMBLEMAP";
-constexpr std::uint32_t map_version = 1;
+constexpr std::uint32_t plain_version = 1, spread_version = 2;
 constexpr std::size_t header_bytes = 8 + 4 + 4 + 4;
 constexpr std::uint32_t longest_record = 100'000'000;
 
 enum class Change : std::uint8_t { put = 0, update = 1, remove = 2 };
 constexpr std::uint64_t changes = 3;
 
-std::string map_header(std::uint32_t cells, std::size_t dimensions) {
+std::string map_header(std::uint32_t cells, std::size_t dimensions, bool has_spread) {
   io::BinaryWriter writer;
-  writer.put(map_version);
+  writer.put(has_spread ? spread_version : plain_version);
   writer.put(cells);
   writer.put(static_cast<std::uint32_t>(dimensions));
   return std::string(map_magic) + writer.bytes();
 }
 
-void check_map_header(const std::string& found, std::uint32_t cells, std::size_t dimensions,
-                      const std::string& what) {
+/// Whether the file has spreads. Throws UserError for a file that is not of this map.
+bool read_map_header(const std::string& found, std::uint32_t cells, std::size_t dimensions,
+                     const std::string& what) {
   const std::size_t common = std::min(found.size(), map_magic.size());
   if (found.substr(0, common) != map_magic.substr(0, common))
     fail(ExitCode::bad_file, "{}: not a file of this kind: it does not begin with {}", what, map_magic);
@@ -36,13 +37,15 @@ void check_map_header(const std::string& found, std::uint32_t cells, std::size_t
     fail(ExitCode::bad_file, "{}: truncated: {} bytes are less than the header's {}", what, found.size(),
          header_bytes);
   io::BinaryReader reader(std::string_view(found).substr(map_magic.size()), what);
-  if (const auto its_version = reader.get<std::uint32_t>(); its_version != map_version)
-    fail(ExitCode::bad_file, "{}: version {} of the file format; this program reads version {}", what,
-         its_version, map_version);
+  const auto its_version = reader.get<std::uint32_t>();
+  if (its_version != plain_version && its_version != spread_version)
+    fail(ExitCode::bad_file, "{}: version {} of the file format; this program reads versions {} and {}", what,
+         its_version, plain_version, spread_version);
   const auto its_cells = reader.get<std::uint32_t>(), its_dimensions = reader.get<std::uint32_t>();
   if (its_cells != cells || its_dimensions != dimensions)
     fail(ExitCode::bad_file, "{}: a map of {} cells in {} dimensions, this run's has {} in {}", what,
          its_cells, its_dimensions, cells, dimensions);
+  return its_version == spread_version;
 }
 
 void put_descriptor(io::BinaryWriter& writer, std::span<const float> descriptor) {
@@ -78,7 +81,7 @@ std::vector<float> get_descriptor(io::BinaryReader& reader, std::size_t dimensio
 }
 
 /// Applies a record to a map.
-void apply(io::BinaryReader& reader, Elites& elites) {
+void apply(io::BinaryReader& reader, bool has_spread, Elites& elites) {
   const auto change = reader.get_enum<Change>(changes);
   Elite elite;
   elite.cell = reader.get<std::uint32_t>();
@@ -90,9 +93,11 @@ void apply(io::BinaryReader& reader, Elites& elites) {
     elite.evaluations = reader.get<std::uint32_t>();
     elite.objective = reader.get<double>();
     if (!std::isfinite(elite.objective)) reader.bad("an objective is not finite");
+    if (has_spread) elite.spread = reader.get<double>();
+    if (!(elite.spread >= 0.0 && std::isfinite(elite.spread))) reader.bad("a spread below 0");
     const auto descriptor = get_descriptor(reader, elites.dimensions());
     if (change == Change::update) {
-      elites.update(elite.cell, elite.evaluations, elite.objective, descriptor);
+      elites.update(elite, descriptor);
     } else {
       elite.round = reader.get<std::uint32_t>();
       elite.candidate = reader.get<std::uint32_t>();
@@ -120,6 +125,7 @@ void LoggedElites::put(Elite elite, std::span<const float> descriptor) {
   record.put(elite.cell);
   record.put(elite.evaluations);
   record.put(elite.objective);
+  if (has_spread_) record.put(elite.spread);
   put_descriptor(record, descriptor);
   record.put(elite.round);
   record.put(elite.candidate);
@@ -128,16 +134,16 @@ void LoggedElites::put(Elite elite, std::span<const float> descriptor) {
   elites_.put(std::move(elite), descriptor);
 }
 
-void LoggedElites::update(std::uint32_t cell, std::uint32_t evaluations, double objective,
-                          std::span<const float> descriptor) {
+void LoggedElites::update(const Elite& elite, std::span<const float> descriptor) {
   io::BinaryWriter record;
   record.put(Change::update);
-  record.put(cell);
-  record.put(evaluations);
-  record.put(objective);
+  record.put(elite.cell);
+  record.put(elite.evaluations);
+  record.put(elite.objective);
+  if (has_spread_) record.put(elite.spread);
   put_descriptor(record, descriptor);
   log(record.bytes());
-  elites_.update(cell, evaluations, objective, descriptor);
+  elites_.update(elite, descriptor);
 }
 
 void LoggedElites::remove(std::uint32_t cell) {
@@ -149,7 +155,8 @@ void LoggedElites::remove(std::uint32_t cell) {
 }
 
 std::string LoggedElites::take_growth() {
-  if (!std::exchange(has_header_, true)) growth_.insert(0, map_header(elites_.cells(), elites_.dimensions()));
+  if (!std::exchange(has_header_, true))
+    growth_.insert(0, map_header(elites_.cells(), elites_.dimensions(), has_spread_));
   bytes_ += growth_.size();
   return std::exchange(growth_, {});
 }
@@ -171,14 +178,15 @@ void LoggedElites::load(io::BinaryReader& reader) {
 
 std::uint64_t LoggedElites::restore(io::InputFile& file, const std::string& what) {
   AMBLE_CHECK(elites_.size() == 0, "restored into an empty map");
-  check_map_header(file.read(header_bytes), elites_.cells(), elites_.dimensions(), what);
+  if (read_map_header(file.read(header_bytes), elites_.cells(), elites_.dimensions(), what) != has_spread_)
+    fail(ExitCode::bad_file, "{}: a map of other settings of search.map_elites.trials", what);
   std::uint64_t checksum = 0;
   for (std::uint64_t i = 0; i < records_; ++i) {
     bool whole = false;
     const std::string record = read_record(file, checksum, what, whole);
     if (!whole) fail(ExitCode::bad_file, "{}: truncated: it has {} of {} records", what, i, records_);
     io::BinaryReader reader(record, what);
-    apply(reader, elites_);
+    apply(reader, has_spread_, elites_);
   }
   if (checksum != checksum_)
     fail(ExitCode::bad_file, "{}: not the archive that the checkpoint was written with", what);
@@ -187,14 +195,14 @@ std::uint64_t LoggedElites::restore(io::InputFile& file, const std::string& what
 
 Elites read_elites(io::InputFile& file, const std::string& what, std::uint32_t cells,
                    std::size_t dimensions) {
-  check_map_header(file.read(header_bytes), cells, dimensions, what);
+  const bool has_spread = read_map_header(file.read(header_bytes), cells, dimensions, what);
   Elites elites(cells, dimensions);
   std::uint64_t checksum = 0;
   for (bool whole = true; whole;) {
     const std::string record = read_record(file, checksum, what, whole);
     if (!whole) break;
     io::BinaryReader reader(record, what);
-    apply(reader, elites);
+    apply(reader, has_spread, elites);
   }
   return elites;
 }

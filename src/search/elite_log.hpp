@@ -15,14 +15,15 @@ namespace amble::search {
 /// contains the last of these: it stays small, and still fits this map only.
 class LoggedElites {
  public:
-  LoggedElites(std::uint32_t cells, std::size_t dimensions) : elites_(cells, dimensions) {}
+  /// `has_spread`: whether Elite::spread is in the file.
+  LoggedElites(std::uint32_t cells, std::size_t dimensions, bool has_spread = false)
+      : elites_(cells, dimensions), has_spread_(has_spread) {}
 
   const Elites& elites() const { return elites_; }
 
   /// As those of Elites, and logged.
   void put(Elite elite, std::span<const float> descriptor);
-  void update(std::uint32_t cell, std::uint32_t evaluations, double objective,
-              std::span<const float> descriptor);
+  void update(const Elite& elite, std::span<const float> descriptor);
   void remove(std::uint32_t cell);
 
   /// Bytes to append to the file for the changes since the last call; initially with the header.
@@ -40,6 +41,7 @@ class LoggedElites {
   void replay(io::BinaryReader& reader);
 
   Elites elites_;
+  bool has_spread_;
   bool has_header_ = false;
   std::string growth_;
   std::uint64_t records_ = 0, bytes_ = 0;

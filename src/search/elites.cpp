@@ -26,13 +26,13 @@ void Elites::put(Elite elite, std::span<const float> descriptor) {
   note_evaluated(number);
 }
 
-void Elites::update(std::uint32_t cell, std::uint32_t evaluations, double objective,
-                    std::span<const float> descriptor) {
-  const std::uint32_t number = in(cell);
+void Elites::update(const Elite& elite, std::span<const float> descriptor) {
+  const std::uint32_t number = in(elite.cell);
   AMBLE_CHECK(number != none && descriptor.size() == dimensions_, "an elite to be updated");
   forget_evaluated(number);
-  elites_[number].evaluations = evaluations;
-  elites_[number].objective = objective;
+  elites_[number].evaluations = elite.evaluations;
+  elites_[number].objective = elite.objective;
+  elites_[number].spread = elite.spread;
   std::ranges::copy(descriptor, descriptors_.begin() + static_cast<std::ptrdiff_t>(number * dimensions_));
   note_evaluated(number);
 }

@@ -19,7 +19,16 @@ struct Elite {
   std::uint32_t candidate = 0;    ///< its index in that round; both together name it
   std::uint32_t evaluations = 1;  ///< of which `objective` and its descriptor are the means
   double objective = 0.0;
+  /// Sum over its evaluations of the squared differences of their descriptors from that mean, the mean over
+  /// the dimensions, in units of their ranges. Kept where the search needs it; else 0.
+  double spread = 0.0;
   std::string genome;  ///< in whatever form the search keeps it
+};
+
+/// An elite, wherever it is by now.
+struct EliteName {
+  std::uint32_t cell = std::numeric_limits<std::uint32_t>::max();  ///< where it was; the largest: of no elite
+  std::uint32_t round = 0, candidate = 0;
 };
 
 /// The elites of a map, at most one per cell; there is no admission rule. Elites are numbered from 0
@@ -43,9 +52,8 @@ class Elites {
 
   /// Puts an elite into its cell, in the place of the one that was there.
   void put(Elite elite, std::span<const float> descriptor);
-  /// Replaces the means of an elite.
-  void update(std::uint32_t cell, std::uint32_t evaluations, double objective,
-              std::span<const float> descriptor);
+  /// Replaces the means of the elite that is in the cell of `elite` by those of `elite`.
+  void update(const Elite& elite, std::span<const float> descriptor);
   /// Empties a cell that has an elite.
   void remove(std::uint32_t cell);
 

@@ -25,6 +25,21 @@ double mean_with(double before, double last, std::uint32_t count) {
   return before + (last - before) / count;
 }
 
+/// One more evaluation in the means of an elite. The spread by Welford's formula.
+void add_evaluation(Elite& elite, std::vector<float>& descriptor, const Evaluation& evaluation,
+                    std::span<const DescriptorSettings> dimensions) {
+  const double before = elite.evaluations, after = ++elite.evaluations;
+  elite.objective = mean_with(elite.objective, evaluation.objective, elite.evaluations);
+  double squares = 0.0;
+  for (std::size_t i = 0; i < descriptor.size(); ++i) {
+    const double value = double{evaluation.behaviour[i]}, mean = double{descriptor[i]};
+    const double difference = (value - mean) / (dimensions[i].most - dimensions[i].least);
+    squares += difference * difference;
+    descriptor[i] = static_cast<float>(mean_with(mean, value, elite.evaluations));
+  }
+  elite.spread += squares * before / after / static_cast<double>(descriptor.size());
+}
+
 }  // namespace
 
 MapElites::MapElites(const MapElitesSettings& settings, const SearchSpace& space)
@@ -35,7 +50,7 @@ MapElites::MapElites(const MapElitesSettings& settings, const SearchSpace& space
       recurrent_(space.recurrent),
       seed_(space.seed),
       cells_(make_cells(settings)),
-      map_(cells_->count(), settings.descriptors.size()),
+      map_(cells_->count(), settings.descriptors.size(), settings.tries_candidates_again()),
       curiosity_(settings.select == Selection::curiosity ? cells_->count() : 0),
       before_(space.inputs, space.outputs, space.neat.innovations),
       innovations_(before_) {
@@ -49,66 +64,81 @@ void MapElites::breed() {
   origins_.clear();
   const int batch = settings_.batch;
   // After the first rounds only for a map that is still empty.
-  const bool random = std::int64_t{round_} * batch < settings_.initial || elites().size() == 0;
-  if (random) {
-    for (int i = 0; i < batch; ++i) {
-      Stream stream(seed_, Purpose::initial_genome, static_cast<std::uint32_t>(round_),
-                    static_cast<std::uint32_t>(i));
-      candidates_.push_back(neat::initial_genome(neat_.genome, inputs_, outputs_, innovations_, stream));
-    }
-    origins_.resize(candidates_.size());
-    return;
+  const bool random =
+      std::int64_t{round_} * batch < settings_.initial || elites().size() + challengers_.size() == 0;
+  if (!random) {
+    innovations_.begin_generation();
+    const std::size_t free = to_index(batch) - challengers_.size();
+    const std::size_t again = std::min(free, settings_.reevaluations(elites().size()));
+    for (const std::uint32_t cell : elites().least_evaluated(again)) add_elite_again(cell);
   }
-  innovations_.begin_generation();
-  for (const std::uint32_t cell : elites().least_evaluated(settings_.reevaluations(elites().size())))
-    add_elite_again(cell);
+  for (const Challenger& challenger : challengers_) {
+    candidates_.push_back(neat::expand(challenger.elite.genome, "the map"));
+    origins_.push_back({Origin::Kind::challenger, challenger.parent});
+  }
   while (candidates_.size() < to_index(batch)) {
-    Stream stream(seed_, Purpose::map_elites, static_cast<std::uint32_t>(round_),
-                  static_cast<std::uint32_t>(candidates_.size()));
-    add_child(stream);
+    const auto index = static_cast<std::uint32_t>(candidates_.size());
+    Stream stream(seed_, random ? Purpose::initial_genome : Purpose::map_elites,
+                  static_cast<std::uint32_t>(round_), index);
+    if (!random) {
+      add_child(stream);
+      continue;
+    }
+    candidates_.push_back(neat::initial_genome(neat_.genome, inputs_, outputs_, innovations_, stream));
+    origins_.emplace_back();
   }
 }
 
 void MapElites::add_elite_again(std::uint32_t cell) {
   const std::uint32_t number = elites().in(cell);
   const Elite& elite = elites()[number];
-  candidates_.push_back(genome_of(number));
-  origins_.push_back({{cell, elite.round, elite.candidate}, true});
+  candidates_.push_back(neat::expand(elite.genome, "the map"));
+  origins_.push_back({Origin::Kind::again, {cell, elite.round, elite.candidate}});
 }
 
 void MapElites::add_child(Stream& stream) {
-  const std::uint32_t parent = draw(stream);
-  const Elite& elite = elites()[parent];
-  origins_.push_back({{elite.cell, elite.round, elite.candidate}, false});
+  const Parent parent = draw(stream);
+  origins_.push_back({Origin::Kind::child, parent.elite});
   if (stream.chance(settings_.crossover_probability)) {
-    const std::uint32_t mate = draw(stream);
-    const bool mate_is_fitter = elites()[mate].objective > elite.objective;
-    candidates_.push_back(neat::crossover(genome_of(mate_is_fitter ? mate : parent),
-                                          genome_of(mate_is_fitter ? parent : mate), neat_.crossover,
+    const Parent mate = draw(stream);
+    const bool mate_is_fitter = mate.objective > parent.objective;
+    candidates_.push_back(neat::crossover(expanded(mate_is_fitter ? mate : parent),
+                                          expanded(mate_is_fitter ? parent : mate), neat_.crossover,
                                           recurrent_, stream));
-    if (!neat_.crossover.mutate_child && mate != parent) return;
+    if (!neat_.crossover.mutate_child && mate.genome != parent.genome) return;
   } else {
-    candidates_.push_back(genome_of(parent));
+    candidates_.push_back(expanded(parent));
   }
   neat::mutate(candidates_.back(), neat_, recurrent_, innovations_, stream);
 }
 
-std::uint32_t MapElites::draw(Stream& stream) const {
-  const std::uint32_t one = stream.below(elites().size());
+/// Any elite or challenger, or of two of them that which is worth more.
+MapElites::Parent MapElites::draw(Stream& stream) const {
+  const auto count = elites().size() + static_cast<std::uint32_t>(challengers_.size());
+  const Parent one = parent(stream.below(count));
   if (settings_.select == Selection::uniform) return one;
-  const std::uint32_t other = stream.below(elites().size());
-  const auto worth = [this](std::uint32_t number) {
-    const Elite& elite = elites()[number];
-    return settings_.select == Selection::objective ? elite.objective : double{curiosity_[elite.cell]};
+  const Parent other = parent(stream.below(count));
+  const auto worth = [this](const Parent& it) {
+    if (settings_.select == Selection::objective) return it.objective;
+    return it.elite.cell == Elites::none ? 0.0 : double{curiosity_[it.elite.cell]};
   };
   return worth(other) > worth(one) ? other : one;
 }
 
-neat::Genome MapElites::genome_of(std::uint32_t number) const {
-  return neat::expand(elites()[number].genome, "the map");
+MapElites::Parent MapElites::parent(std::uint32_t number) const {
+  if (number < elites().size()) {
+    const Elite& elite = elites()[number];
+    return {&elite.genome, elite.objective, {elite.cell, elite.round, elite.candidate}};
+  }
+  const Elite& challenger = challengers_[number - elites().size()].elite;
+  return {&challenger.genome, challenger.objective, {}};
 }
 
-bool MapElites::is_there(const Identity& elite) const {
+neat::Genome MapElites::expanded(const Parent& parent) {
+  return neat::expand(*parent.genome, "the map");
+}
+
+bool MapElites::is_there(const EliteName& elite) const {
   if (elite.cell == Elites::none) return false;
   const std::uint32_t number = elites().in(elite.cell);
   if (number == Elites::none) return false;
@@ -116,69 +146,115 @@ bool MapElites::is_there(const Identity& elite) const {
   return there.round == elite.round && there.candidate == elite.candidate;
 }
 
+/// Whether its cell is empty, or the elite there is not as good by their means.
+bool MapElites::would_enter(const Elite& elite) const {
+  const std::uint32_t there = elites().in(elite.cell);
+  return there == Elites::none || elite.objective > elites()[there].objective;
+}
+
+/// Whether the elite of its cell, if there is one, gives way to it.
+bool MapElites::prevails(const Elite& elite, std::span<const float> descriptor) const {
+  const std::uint32_t there = elites().in(elite.cell);
+  if (there == Elites::none || !settings_.tries_candidates_again()) return would_enter(elite);
+  return worth(*cells_, elite, descriptor) > worth(*cells_, elites()[there], elites().descriptor(there));
+}
+
 void MapElites::tell(std::span<const Evaluation> evaluations) {
   AMBLE_CHECK(evaluations.size() == candidates_.size(), "one evaluation per candidate");
   counts_ = {};
+  std::vector<Challenger> challengers = std::exchange(challengers_, {});
+  auto challenger = challengers.begin();
   for (std::size_t i = 0; i < evaluations.size(); ++i) {
-    const Origin& origin = origins_[i];
-    if (origin.again)
-      take_again(origin.elite, evaluations[i]);
+    if (origins_[i].kind == Origin::Kind::again)
+      take_again(origins_[i].elite, evaluations[i]);
+    else if (origins_[i].kind == Origin::Kind::challenger)
+      take_challenger(std::move(*challenger++), evaluations[i]);
     else
-      credit_parent(origin.elite, take(static_cast<std::uint32_t>(i), evaluations[i]));
+      take_child(static_cast<std::uint32_t>(i), evaluations[i]);
   }
+  challengers_ = most_promising(std::move(challengers_), settings_.most_challengers(), *cells_, elites());
   ++round_;
   before_ = innovations_;
   breed();
 }
 
-/// A new candidate; returns whether it entered the map.
-bool MapElites::take(std::uint32_t candidate, const Evaluation& evaluation) {
-  if (!evaluation.viable) return false;
+void MapElites::take_child(std::uint32_t candidate, const Evaluation& evaluation) {
+  const EliteName& parent = origins_[candidate].elite;
+  if (!evaluation.viable) return credit_parent(parent, false);
   Elite elite{.cell = cells_->of(evaluation.behaviour),
               .round = static_cast<std::uint32_t>(round_),
               .candidate = candidate,
               .evaluations = 1,
               .objective = evaluation.objective,
               .genome = {}};
-  const std::uint32_t there = elites().in(elite.cell);
-  if (there != Elites::none && !(elite.objective > elites()[there].objective)) return false;
-  ++(there == Elites::none ? counts_.entered : counts_.improved);
-  if (!curiosity_.empty()) curiosity_[elite.cell] = 0.0f;
+  if (!would_enter(elite)) return credit_parent(parent, false);
   elite.genome = neat::compact(candidates_[candidate]);
-  map_.put(std::move(elite), evaluation.behaviour);
-  return true;
+  decide({std::move(elite), {evaluation.behaviour.begin(), evaluation.behaviour.end()}, parent});
+}
+
+void MapElites::take_challenger(Challenger challenger, const Evaluation& evaluation) {
+  ++counts_.reevaluated;
+  if (!evaluation.viable) return credit_parent(challenger.parent, false);
+  add_evaluation(challenger.elite, challenger.descriptor, evaluation, settings_.descriptors);
+  challenger.elite.cell = cells_->of(challenger.descriptor);
+  decide(std::move(challenger));
+}
+
+/// Whether a candidate enters the map, is tried once more, or is dropped.
+void MapElites::decide(Challenger challenger) {
+  Elite& elite = challenger.elite;
+  if (!would_enter(elite)) return credit_parent(challenger.parent, false);
+  const bool is_tried = elite.evaluations >= static_cast<std::uint32_t>(settings_.trials);
+  if (!is_tried || !prevails(elite, challenger.descriptor)) {
+    if (elite.evaluations < most_evaluations(elite.cell))
+      challengers_.push_back(std::move(challenger));
+    else
+      credit_parent(challenger.parent, false);
+    return;
+  }
+  ++(elites().in(elite.cell) == Elites::none ? counts_.entered : counts_.improved);
+  if (!curiosity_.empty()) curiosity_[elite.cell] = 0.0f;
+  map_.put(std::move(elite), challenger.descriptor);
+  credit_parent(challenger.parent, true);
+}
+
+/// A candidate that has been tried so often and does not prevail over the elite of the cell is dropped: as
+/// often as that elite, but no more than four times the least.
+std::uint32_t MapElites::most_evaluations(std::uint32_t cell) const {
+  constexpr std::uint32_t most_times = 4;
+  const auto trials = static_cast<std::uint32_t>(settings_.trials);
+  const std::uint32_t there = elites().in(cell);
+  if (there == Elites::none) return trials;
+  return std::clamp(elites()[there].evaluations, trials, most_times * trials);
 }
 
 /// One more evaluation of an elite, unless another took its cell in this round.
-void MapElites::take_again(const Identity& identity, const Evaluation& evaluation) {
-  if (!is_there(identity)) return;
+void MapElites::take_again(const EliteName& name, const Evaluation& evaluation) {
+  if (!is_there(name)) return;
   ++counts_.reevaluated;
-  const std::uint32_t number = elites().in(identity.cell);
+  const std::uint32_t number = elites().in(name.cell);
   Elite elite = elites()[number];
-  ++elite.evaluations;
-  elite.objective = mean_with(elite.objective, evaluation.objective, elite.evaluations);
+  if (!evaluation.viable) {
+    ++counts_.lost;
+    return map_.remove(elite.cell);
+  }
   const auto before = elites().descriptor(number);
   std::vector<float> descriptor(before.begin(), before.end());
-  // What a simulation that diverged did says nothing of the gait.
-  for (std::size_t i = 0; i < descriptor.size() && evaluation.viable; ++i)
-    descriptor[i] = static_cast<float>(
-        mean_with(double{descriptor[i]}, double{evaluation.behaviour[i]}, elite.evaluations));
+  add_evaluation(elite, descriptor, evaluation, settings_.descriptors);
   const std::uint32_t cell = cells_->of(descriptor);
-  if (cell == elite.cell) return map_.update(cell, elite.evaluations, elite.objective, descriptor);
+  if (cell == elite.cell) return map_.update(elite, descriptor);
 
-  map_.remove(elite.cell);
-  const std::uint32_t there = elites().in(cell);
-  if (there != Elites::none && !(elite.objective > elites()[there].objective)) {
+  map_.remove(std::exchange(elite.cell, cell));
+  if (!prevails(elite, descriptor)) {
     ++counts_.lost;
     return;
   }
   ++counts_.moved;
-  if (!curiosity_.empty()) curiosity_[cell] = curiosity_[elite.cell];
-  elite.cell = cell;
+  if (!curiosity_.empty()) curiosity_[cell] = curiosity_[name.cell];
   map_.put(std::move(elite), descriptor);
 }
 
-void MapElites::credit_parent(const Identity& parent, bool entered) {
+void MapElites::credit_parent(const EliteName& parent, bool entered) {
   if (curiosity_.empty() || !is_there(parent)) return;
   float& curiosity = curiosity_[parent.cell];
   curiosity = std::max(0.0f, entered ? curiosity + curiosity_gain : curiosity - curiosity_loss);
@@ -205,17 +281,22 @@ void MapElites::save(io::BinaryWriter& writer) const {
   for (std::uint32_t number = 0; number < elites().size() && !curiosity_.empty(); ++number)
     curiosity.push_back(curiosity_[elites()[number].cell]);
   writer.put_span(std::span<const float>(curiosity));
+  if (settings_.tries_candidates_again()) save_challengers(challengers_, writer);
 }
 
 void MapElites::load(io::BinaryReader& reader) {
   round_ = reader.get<std::int32_t>();
   if (round_ < 0) reader.bad("a negative round");
-  map_ = LoggedElites(cells_->count(), settings_.descriptors.size());
+  map_ = LoggedElites(cells_->count(), settings_.descriptors.size(), settings_.tries_candidates_again());
   map_.load(reader);
   before_.load(reader);
   loaded_curiosity_ = reader.get_vector<float>();
   for (const float curiosity : loaded_curiosity_)
     if (!(curiosity >= 0.0f && std::isfinite(curiosity))) reader.bad("a curiosity below 0");
+  challengers_.clear();
+  if (settings_.tries_candidates_again())
+    challengers_ =
+        load_challengers(reader, settings_.most_challengers(), cells_->count(), settings_.descriptors.size());
 }
 
 std::string MapElites::take_log_growth(std::size_t i) {

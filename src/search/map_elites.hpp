@@ -8,6 +8,7 @@
 #include "amble/core/random.hpp"
 #include "amble/neat/innovations.hpp"
 #include "amble/search/cells.hpp"
+#include "amble/search/challengers.hpp"
 #include "amble/search/elite_log.hpp"
 #include "amble/search/map_elites_settings.hpp"
 #include "amble/search/strategies.hpp"
@@ -45,30 +46,39 @@ class MapElites : public Strategy {
   const Elites& elites() const { return map_.elites(); }
 
  private:
-  /// An elite, wherever it is by now.
-  struct Identity {
-    std::uint32_t cell = Elites::none, round = 0, candidate = 0;
-  };
   /// Where a candidate comes from.
   struct Origin {
-    Identity elite;      ///< its (first) parent, or itself; cell `none`: a random genome
-    bool again = false;  ///< is that elite, evaluated again
+    enum class Kind { child, again, challenger } kind = Kind::child;
+    EliteName elite;  ///< its (first) parent, or of `again` itself; of no elite: a random genome
   };
   /// What a round changed.
   struct Counts {
     int entered = 0, improved = 0, reevaluated = 0, moved = 0, lost = 0;
   };
 
+  /// A genome of which children are bred.
+  struct Parent {
+    const std::string* genome = nullptr;  ///< compact
+    double objective = 0.0;
+    EliteName elite;  ///< of no elite: a challenger
+  };
+
   void breed();
   void add_elite_again(std::uint32_t cell);
   void add_child(Stream& stream);
-  std::uint32_t draw(Stream& stream) const;
-  neat::Genome genome_of(std::uint32_t number) const;
-  bool is_there(const Identity& elite) const;
+  Parent draw(Stream& stream) const;
+  Parent parent(std::uint32_t number) const;
+  static neat::Genome expanded(const Parent& parent);
+  bool is_there(const EliteName& elite) const;
+  bool would_enter(const Elite& elite) const;
+  std::uint32_t most_evaluations(std::uint32_t cell) const;
+  bool prevails(const Elite& elite, std::span<const float> descriptor) const;
 
-  bool take(std::uint32_t candidate, const Evaluation& evaluation);
-  void take_again(const Identity& elite, const Evaluation& evaluation);
-  void credit_parent(const Identity& parent, bool entered);
+  void take_child(std::uint32_t candidate, const Evaluation& evaluation);
+  void take_again(const EliteName& elite, const Evaluation& evaluation);
+  void take_challenger(Challenger challenger, const Evaluation& evaluation);
+  void decide(Challenger challenger);
+  void credit_parent(const EliteName& parent, bool entered);
 
   MapElitesSettings settings_;
   neat::Settings neat_;
@@ -79,8 +89,9 @@ class MapElites : public Strategy {
 
   int round_ = 0;
   LoggedElites map_;
-  std::vector<float> curiosity_;  ///< by cell; empty unless parents are drawn by it
-  neat::Innovations before_;      ///< before the candidates were bred: with them save() need not write these
+  std::vector<Challenger> challengers_;  ///< in the order of their candidates
+  std::vector<float> curiosity_;         ///< by cell; empty unless parents are drawn by it
+  neat::Innovations before_;  ///< before the candidates were bred: with them save() need not write these
   neat::Innovations innovations_;
   Counts counts_;  ///< of the last completed round
 

@@ -38,6 +38,16 @@ void MapElitesSettings::describe(io::SettingsVisitor& visitor) {
   visitor.number("reevaluate_share", reevaluate_share, {0, 0.9},
                  {"share of each batch in which elites are evaluated again, those with the fewest "
                   "evaluations first; makes sense under noise"});
+  visitor.integer(
+      "trials", trials, {1, 1e6},
+      {"evaluations, each under another generation's noise, that a candidate needs at least before it "
+       "enters the map; from 2 on it must be worth more than the elite there, if their descriptors are "
+       "known no better than they are (docs/REPERTOIRES.md)",
+       "Justesen, Risi & Mouret 2019; Flageat & Cully 2023"});
+  visitor.number(
+      "challenger_share", challenger_share, {0, 0.9},
+      {"share of each batch at most in which candidates that would enter are tried again, the most "
+       "promising ones; without effect if trials = 1"});
 }
 
 void MapElitesSettings::validate() const {
@@ -55,6 +65,18 @@ void MapElitesSettings::validate() const {
                  "search.map_elites.descriptors: expected at most {} cells; archive = \"cvt\" has as many as "
                  "wanted in any number of dimensions",
                  most_cells);
+  if (trials > 1 && challenger_share + reevaluate_share > 0.95)
+    fail_setting(
+        {"search.map_elites.challenger_share", "search.map_elites.reevaluate_share"},
+        "search.map_elites.challenger_share + reevaluate_share = {}: expected at most 0.95, or hardly a new "
+        "genome is tried",
+        challenger_share + reevaluate_share);
+  if (trials > 1 && most_challengers() == 0)
+    fail_setting(
+        {"search.map_elites.challenger_share", "search.map_elites.trials"},
+        "search.map_elites.challenger_share = {}: expected more if trials = {}: no candidate could be tried "
+        "again",
+        challenger_share, trials);
   if (archive == Archive::cvt && centroid_samples < cells)
     fail_setting({"search.map_elites.centroid_samples", "search.map_elites.cells"},
                  "search.map_elites.centroid_samples = {}: expected at least search.map_elites.cells, {}",
@@ -69,6 +91,10 @@ std::uint32_t MapElitesSettings::cell_count() const {
     if (count > most_cells) return 0;
   }
   return static_cast<std::uint32_t>(count);
+}
+
+std::size_t MapElitesSettings::most_challengers() const {
+  return static_cast<std::size_t>(std::lround(challenger_share * batch));
 }
 
 std::size_t MapElitesSettings::reevaluations(std::size_t elites) const {

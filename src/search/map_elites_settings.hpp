@@ -41,6 +41,8 @@ struct MapElitesSettings {
   Selection select = Selection::uniform;
   double crossover_probability = 0.0;
   double reevaluate_share = 0.0;
+  int trials = 1;
+  double challenger_share = 0.35;
 
   void describe(io::SettingsVisitor& visitor);
   /// Throws SettingError for what cannot be: a map without descriptors, an empty range, too many cells.
@@ -49,6 +51,10 @@ struct MapElitesSettings {
   std::uint32_t cell_count() const;
   /// Of a batch, the candidates that are elites evaluated again; at most the number of elites.
   std::size_t reevaluations(std::size_t elites) const;
+  /// Whether a candidate can need more than one evaluation to enter the map.
+  bool tries_candidates_again() const { return trials > 1; }
+  /// Candidates at most that are tried again in a round before they enter.
+  std::size_t most_challengers() const;
 };
 
 inline constexpr std::uint32_t most_cells = 20'000'000;

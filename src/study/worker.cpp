@@ -16,6 +16,7 @@
 #include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"
 #include "amble/experiment/build_info.hpp"
+#include "amble/experiment/corrected_map.hpp"
 #include "amble/experiment/run.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/lock.hpp"
@@ -94,7 +95,9 @@ class Worker {
     listener_.on_start(run, evolution->generation());
     RunProgress progress(run, listener_);
     if (evolution->execute(progress, stop_) == experiment::RunStatus::interrupted) return Step::interrupted;
-    const Step step = add_tests(run, first_record(run, *evolution), true);
+    auto record = first_record(run, *evolution);
+    if (!correct_map_of(*evolution, record)) return Step::interrupted;
+    const Step step = add_tests(run, std::move(record), true);
     evolution.reset();
     if (step == Step::done) discard(run);
     return step;
@@ -171,6 +174,19 @@ class Worker {
             .champion_file = hex(hash_text(text)),
             .tests = {},
             .provenance = std::move(provenance)};
+  }
+
+  /// Adds what the run's map keeps in new trials, if the study asks for it and there is a map. False:
+  /// interrupted.
+  bool correct_map_of(const experiment::Run& evolution, ledger::Record& record) const {
+    if (plan_.study.map_trials == 0 || !experiment::fills_map(evolution.config())) return true;
+    const auto corrected = experiment::correct_map(experiment::load_repertoire(evolution.paths()),
+                                                   plan_.study.map_trials, options_.workers, stop_);
+    if (!corrected) return false;
+    record.map_figures["corrected_coverage"] = corrected->coverage();
+    record.map_figures["corrected_qd_score"] = corrected->qd_score();
+    record.map_figures["staying_share"] = corrected->staying_share();
+    return true;
   }
 
   /// Adds the tests that a finished run lacks, one process at a time. The record itself is locked: the run's

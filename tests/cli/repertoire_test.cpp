@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -5,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "tests/cli/bad_input.hpp"
 
@@ -38,7 +40,14 @@ TEST_F(RepertoireCommand, ShowsTheMapAndSaysHowToGoOn) {
   EXPECT_THAT(shown.out, HasSubstr("of 625 cells"));
   EXPECT_THAT(shown.out, HasSubstr("duty_factor FL (0 … 1)"));
   EXPECT_THAT(shown.out, HasSubstr("amble repertoire " + folder + " --cell"));
-  EXPECT_THAT(amble({"info", folder}).out, HasSubstr("`amble repertoire " + folder + "` shows the map"));
+  const auto info = amble({"info", folder}).out;
+  EXPECT_THAT(info, HasSubstr("`amble repertoire " + folder + "` shows the map"));
+  EXPECT_THAT(info, testing::ContainsRegex("map +[0-9]+ of 625 cells, [0-9.]+ %; QD score [0-9.]+\n"));
+  const auto corrected = amble({"repertoire", folder, "--retest", "20"}).out;
+  const auto score = corrected.find("QD score"), end = corrected.find(' ', score + 9);
+  EXPECT_THAT(info, testing::ContainsRegex(
+                        "corrected +[0-9]+ of 625 cells, [0-9.]+ %; " + corrected.substr(score, end - score) +
+                        "; [0-9.]+ % of the elites stay in their cell \\(20 new trials each\\)"));
 }
 
 TEST_F(RepertoireCommand, WritesAllElitesAndEachOfThemAsAChampion) {
@@ -80,8 +89,35 @@ TEST_F(RepertoireCommand, TriesElitesAgainWithTheSameResultForAnyNumberOfWorkers
 }
 
 TEST_F(RepertoireCommand, DrawsTheMap) {
-  ASSERT_EQ(amble({"repertoire", run(), "-o", scratch_ / "map.svg"}).exit_code, 0);
+  const auto folder = run();
+  ASSERT_EQ(amble({"repertoire", folder, "-o", scratch_ / "map.svg"}).exit_code, 0);
   EXPECT_THAT(slurp(scratch_ / "map.svg"), testing::StartsWith("<svg"));
+  EXPECT_THAT(slurp(scratch_ / "map.svg"), HasSubstr("in 20 new trials"));
+  ASSERT_EQ(amble({"repertoire", folder, "--retest", "0", "-o", scratch_ / "map.svg"}).exit_code, 0);
+  EXPECT_THAT(slurp(scratch_ / "map.svg"), testing::Not(HasSubstr("new trials")));
+}
+
+TEST_F(RepertoireCommand, WritesATableOfWhatEachEliteKeeps) {
+  const auto folder = run();
+  ASSERT_EQ(amble({"repertoire", folder, "--retest", "4", "-o", scratch_ / "map.csv"}).exit_code, 0);
+  ASSERT_EQ(amble({"repertoire", folder, "-o", scratch_ / "map.json"}).exit_code, 0);
+  std::istringstream table(slurp(scratch_ / "map.csv"));
+  std::string line;
+  std::getline(table, line);
+  EXPECT_THAT(line, testing::StartsWith("cell,objective,evaluations,duty_factor FL,"));
+  EXPECT_THAT(line, testing::EndsWith(",typical duty_factor BR,stays"));
+  const auto elites = json(scratch_ / "map.json")["elites"];
+  std::size_t count = 0, stays = 0;
+  for (; std::getline(table, line); ++count) {
+    ASSERT_LT(count, elites.size());
+    EXPECT_THAT(line, testing::StartsWith(elites[count]["cell"].dump() + ","));
+    EXPECT_EQ(std::ranges::count(line, ','), 13);
+    stays += line.ends_with(",1");
+  }
+  EXPECT_EQ(count, elites.size());
+  const auto share = 100.0 * static_cast<double>(stays) / static_cast<double>(count);
+  EXPECT_THAT(amble({"repertoire", folder, "--retest", "4"}).out,
+              HasSubstr(fmt::format("in place    {:.1f} %", share)));
 }
 
 TEST_F(RepertoireCommand, MakesAPageInWhichAsManyCellsWalkAsAreAskedFor) {
@@ -165,7 +201,7 @@ TEST_F(RepertoireCommand, RefusesWhatItCannotDoInOneLine) {
                  "the map has the cells 0 … 624");
   expect_refusal({"repertoire", folder, "--cell", "0"}, ExitCode::bad_input, "expected -o FILE.json");
   expect_refusal({"repertoire", folder, "-o", scratch_ / "map.png"}, ExitCode::bad_input,
-                 "expected FILE.html, FILE.json or FILE.svg");
+                 "expected FILE.html, FILE.json, FILE.csv or FILE.svg");
   expect_refusal({"repertoire", scratch_ / "gone"}, ExitCode::io, "gone");
   spill(scratch_ / "map.svg", "mine");
   expect_refusal({"repertoire", folder, "-o", scratch_ / "map.svg"}, ExitCode::bad_input, "map.svg");

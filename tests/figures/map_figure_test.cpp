@@ -65,6 +65,29 @@ TEST(MapFigure, DrawsEachCellAndNamesThoseThatAreFilled) {
   EXPECT_EQ(empty_cells, 22u);
 }
 
+TEST(MapFigure, SaysWhichElitesStayInTheirCellInNewTrials) {
+  GridMap map = map_of({4, 3});
+  map.objective[5] = 2.0;
+  map.objective[7] = 3.0;
+  const std::string before = map_svg(map);
+  EXPECT_THAT(before, testing::Not(testing::HasSubstr("new trials")));
+  map.trials = 20;
+  map.typical.resize(12);
+  map.typical[5] = {1.5, true};
+  map.typical[7] = {0.25, false};
+  const std::string svg = map_svg(map);
+  EXPECT_FALSE(amble::tests::parse_xml(svg).empty()) << "well-formed";
+  EXPECT_THAT(svg, testing::HasSubstr("cell 5: 2.000 m\nin 20 new trials 1.500 m, stays in this cell\n"));
+  EXPECT_THAT(svg, testing::HasSubstr("cell 7: 3.000 m\nin 20 new trials 0.250 m, leaves this cell\n"));
+  const auto rects = [](const std::string& text) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find("<rect"); at != std::string::npos; at = text.find("<rect", at + 1))
+      ++count;
+    return count;
+  };
+  EXPECT_EQ(rects(svg), rects(before) + 1) << "the small square of cell 7 in its empty one";
+}
+
 /// The numbers under the scale of colours.
 std::pair<std::string, std::string> scale(const GridMap& map) {
   std::vector<std::string> ticks;

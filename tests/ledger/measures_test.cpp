@@ -138,6 +138,18 @@ TEST(Measures, OfMutantsAreKnownOfTestsThatHaveThem) {
   EXPECT_FALSE(is_measure(study, "five.reached_s"));
 }
 
+TEST(Measures, OfCorrectedMapsAreKnownOfStudiesThatMakeThem) {
+  StudySpec study;
+  EXPECT_TRUE(is_measure(study, "qd_score"));
+  for (const auto* name : {"corrected_coverage", "corrected_qd_score", "staying_share"}) {
+    study.map_trials = 0;
+    EXPECT_FALSE(is_measure(study, name));
+    study.map_trials = 20;
+    EXPECT_TRUE(is_measure(study, name));
+    EXPECT_NE(measure_label(name), name);
+  }
+}
+
 TEST(Measures, AreKnownByTheStudysTests) {
   StudySpec study;
   study.tests.emplace_back().name = "five";

@@ -118,7 +118,8 @@ TEST(StudySpec, NamesHaveUpTo64Characters) {
 }
 
 const std::string all_measures =
-    "train_m, hidden, links, coverage, qd_score, map_best, entering_share, TEST.distance_m, .upright_s, "
+    "train_m, hidden, links, coverage, qd_score, map_best, entering_share, with map_trials "
+    "corrected_coverage, corrected_qd_score, staying_share, TEST.distance_m, .upright_s, "
     ".walking_s, .moving_s, .kept, with episodes .lower_quartile_m, .upper_quartile_m, .best_m, .fell_share, "
     "with reach_m .reached_s, .reached_generation, .reached_evaluations, with mutants .viable_share, "
     ".mutants_kept, .gait_change";

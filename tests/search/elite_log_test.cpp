@@ -136,8 +136,8 @@ TEST(EliteLog, RefusesRecordsOfMoreThanAHundredMillionBytes) {
 
 TEST(EliteLog, RefusesTheHeaderOfAnotherMap) {
   EXPECT_EQ(log_refusal(log_header()), "");
-  EXPECT_EQ(log_refusal(log_header(2)),
-            "archive.bin: version 2 of the file format; this program reads version 1");
+  EXPECT_EQ(log_refusal(log_header(3)),
+            "archive.bin: version 3 of the file format; this program reads versions 1 and 2");
   EXPECT_EQ(log_refusal(log_header(1, 6)),
             "archive.bin: a map of 6 cells in 1 dimensions, this run's has 5 in 1");
   EXPECT_EQ(log_refusal(log_header(1, log_cells, 2)),

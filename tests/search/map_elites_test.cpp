@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <tuple>
 
 #include "amble/core/error.hpp"
@@ -45,8 +46,11 @@ Result result_of(const neat::Genome& genome, int round, std::size_t candidate) {
     result.descriptor[i % dimensions] += static_cast<float>(std::abs(genome.links[i].weight) / 4.0);
   for (float& value : result.descriptor) value += static_cast<float>(luck.uniform(-0.1, 0.1));
   // In steps, so that some are equal.
-  result.objective = std::floor(4.0 * luck.uniform()) + static_cast<double>(genome.links.size());
-  result.viable = !luck.chance(0.1);
+  double weights = 0.0;
+  for (const auto& link : genome.links) weights += link.weight;
+  result.objective = std::floor(2.0 * luck.uniform()) + static_cast<double>(genome.links.size()) +
+                     std::floor(std::abs(4.0 * weights));
+  result.viable = !luck.chance(0.03);
   return result;
 }
 
@@ -59,7 +63,10 @@ class SlowMap {
     std::uint32_t evaluations = 1;
     int last = 0;  ///< when it was last evaluated
     neat::Genome genome;
+    double spread = 0.0;
   };
+
+  explicit SlowMap(const MapElitesSettings& settings) : settings_(settings), cells_(make_cells(settings)) {}
 
   std::uint32_t cell_of(const std::vector<float>& descriptor) const {
     std::uint32_t cell = 0;
@@ -80,36 +87,117 @@ class SlowMap {
   }
 
   void enter(const neat::Genome& genome, const Result& result) {
-    if (!result.viable) return;
-    offer({result.objective, result.descriptor, 1, 0, genome});
+    if (result.viable) decide({result.objective, result.descriptor, 1, 0, genome});
   }
 
-  /// `number`: which of the round's evaluations of elites it is.
+  /// Of the round before's challengers the first that has not been tried again.
+  void challenge_again(const Result& result) {
+    Entry entry = challengers.front();
+    challengers.erase(challengers.begin());
+    if (!result.viable) return;
+    add(entry, result);
+    decide(std::move(entry));
+  }
+
   void evaluate_again(std::uint32_t cell, const neat::Genome& genome, const Result& result) {
     const auto found = entries.find(cell);
     if (found == entries.end() || !(found->second.genome == genome)) return;
     Entry entry = found->second;
     entries.erase(found);
-    const double n = ++entry.evaluations;
-    entry.objective += (result.objective - entry.objective) / n;
-    if (result.viable)
-      for (std::size_t i = 0; i < entry.descriptor.size(); ++i)
-        entry.descriptor[i] = static_cast<float>(
-            double{entry.descriptor[i]} + (double{result.descriptor[i]} - double{entry.descriptor[i]}) / n);
-    offer(std::move(entry));
+    if (!result.viable) return;
+    add(entry, result);
+    if (cell_of(entry.descriptor) == cell || prevails(entry)) put(std::move(entry));
+  }
+
+  /// At the end of a round.
+  void drop_challengers(std::size_t most) {
+    const auto comes_before = [this](const Entry& a, const Entry& b) {
+      if ((a.evaluations > 1) != (b.evaluations > 1)) return a.evaluations > 1;
+      return gain(a) > gain(b);
+    };
+    for (std::size_t i = 0; i < challengers.size(); ++i)
+      for (std::size_t j = i + 1; j < challengers.size();) {
+        const bool are_rivals = cell_of(challengers[i].descriptor) == cell_of(challengers[j].descriptor);
+        if (are_rivals && comes_before(challengers[j], challengers[i])) {
+          challengers.erase(challengers.begin() + static_cast<std::ptrdiff_t>(i));
+          j = i + 1;
+        } else if (are_rivals) {
+          challengers.erase(challengers.begin() + static_cast<std::ptrdiff_t>(j));
+        } else {
+          ++j;
+        }
+      }
+    while (challengers.size() > most) {
+      auto last = challengers.begin();
+      for (auto it = challengers.begin(); it != challengers.end(); ++it)
+        if (!comes_before(*it, *last)) last = it;
+      challengers.erase(last);
+    }
   }
 
   std::map<std::uint32_t, Entry> entries;
+  std::vector<Entry> challengers;  ///< in the order in which they are tried again
 
  private:
-  void offer(Entry entry) {
-    entry.last = ++clock_;
-    const std::uint32_t cell = cell_of(entry.descriptor);
-    const auto there = entries.find(cell);
-    if (there == entries.end() || entry.objective > there->second.objective) entries[cell] = std::move(entry);
+  static void add(Entry& entry, const Result& result) {
+    const double n = ++entry.evaluations;
+    entry.objective += (result.objective - entry.objective) / n;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < entry.descriptor.size(); ++i) {
+      const double difference = double{result.descriptor[i]} - double{entry.descriptor[i]};
+      squares += difference * difference;
+      entry.descriptor[i] = static_cast<float>(double{entry.descriptor[i]} + difference / n);
+    }
+    entry.spread += squares * (n - 1.0) / n / dimensions;
   }
 
+  const Entry* rival(const Entry& entry) const {
+    const auto there = entries.find(cell_of(entry.descriptor));
+    return there == entries.end() ? nullptr : &there->second;
+  }
+  bool would_enter(const Entry& entry) const {
+    return !rival(entry) || entry.objective > rival(entry)->objective;
+  }
+  double stays(const Entry& entry) const {
+    const Elite elite{.evaluations = entry.evaluations, .spread = entry.spread, .genome = {}};
+    return staying_probability(*cells_, elite, entry.descriptor);
+  }
+  bool prevails(const Entry& entry) const {
+    if (settings_.trials == 1 || !rival(entry)) return would_enter(entry);
+    return entry.objective * stays(entry) > rival(entry)->objective * stays(*rival(entry));
+  }
+  double gain(const Entry& entry) const {
+    return (entry.objective - (rival(entry) ? rival(entry)->objective : 0.0)) * stays(entry);
+  }
+
+  void decide(Entry entry) {
+    if (!would_enter(entry)) return;
+    const int evaluations = static_cast<int>(entry.evaluations);
+    const int most =
+        rival(entry) ? std::max(settings_.trials,
+                                std::min(static_cast<int>(rival(entry)->evaluations), 4 * settings_.trials))
+                     : settings_.trials;
+    if (evaluations >= settings_.trials && prevails(entry))
+      put(std::move(entry));
+    else if (evaluations < most)
+      challengers.push_back(std::move(entry));
+  }
+
+  void put(Entry entry) {
+    entry.last = ++clock_;
+    const std::uint32_t cell = cell_of(entry.descriptor);
+    entries[cell] = std::move(entry);
+  }
+
+  MapElitesSettings settings_;
+  std::unique_ptr<const Cells> cells_;
   int clock_ = 0;
+};
+
+/// What happened while a search and its slow twin were compared.
+struct Seen {
+  int moved = 0, lost = 0, challenged = 0;
+  std::size_t filled = 0;
 };
 
 class MapElitesSearch : public testing::TestWithParam<Selection> {
@@ -152,74 +240,106 @@ class MapElitesSearch : public testing::TestWithParam<Selection> {
     return writer.bytes();
   }
 
+  Seen compare_with_twin(int rounds) const {
+    MapElites search = make();
+    SlowMap twin(settings_);
+    Seen seen;
+    for (int round = 0; round < rounds; ++round) {
+      const std::vector<neat::Genome> candidates(search.ask().begin(), search.ask().end());
+      const std::size_t challengers = twin.challengers.size();
+      const bool random = round * 40 < 70 || twin.entries.size() + challengers == 0;
+      const auto again =
+          random ? std::vector<std::uint32_t>() : twin.again(std::min<std::size_t>(10, 40 - challengers));
+      EXPECT_EQ(candidates.size(), 40u);
+      for (std::size_t i = 0; i < again.size(); ++i)
+        EXPECT_EQ(candidates[i], twin.entries.at(again[i]).genome);
+      for (std::size_t i = 0; i < challengers; ++i)
+        EXPECT_EQ(candidates[again.size() + i], twin.challengers[i].genome);
+      const auto results = advance(search);
+      for (std::size_t i = 0; i < candidates.size(); ++i)
+        if (i < again.size())
+          twin.evaluate_again(again[i], candidates[i], results[i]);
+        else if (i < again.size() + challengers)
+          twin.challenge_again(results[i]);
+        else
+          twin.enter(candidates[i], results[i]);
+      twin.drop_challengers(settings_.most_challengers());
+      expect_same(search.elites(), twin, round);
+      if (HasFatalFailure()) return seen;
+      seen.challenged += static_cast<int>(challengers);
+      for (const Metric& metric : search.metrics()) {
+        if (metric.name == "moved") seen.moved += static_cast<int>(metric.value);
+        if (metric.name == "lost") seen.lost += static_cast<int>(metric.value);
+      }
+    }
+    seen.filled = twin.entries.size();
+    return seen;
+  }
+
+  void expect_resumption() const {
+    MapElites whole = make();
+    std::string log = whole.take_log_growth(0);
+    std::vector<std::string> checkpoints{checkpoint(whole)};
+    std::vector<std::string> logs{log};
+    for (int round = 0; round < 12; ++round) {
+      advance(whole);
+      log += whole.take_log_growth(0);
+      logs.push_back(log);
+      checkpoints.push_back(checkpoint(whole));
+    }
+    for (std::size_t from = 0; from < checkpoints.size(); ++from) {
+      MapElites other = make();
+      advance(other);  // its state is replaced
+      io::BinaryReader reader(checkpoints[from], "checkpoint.bin");
+      other.load(reader);
+      reader.finish();
+      io::InputFile file(folder_.put("archive.bin", log));  // ahead of the checkpoint
+      EXPECT_EQ(other.restore_log(0, file, "archive.bin"), logs[from].size());
+      std::string its_log = logs[from];
+      while (other.round() < whole.round()) {
+        advance(other);
+        its_log += other.take_log_growth(0);
+      }
+      EXPECT_EQ(its_log, log) << from;
+      EXPECT_EQ(checkpoint(other), checkpoints.back()) << from;
+      EXPECT_TRUE(std::ranges::equal(other.ask(), whole.ask())) << from;
+    }
+  }
+
+  static void expect_same(const Elites& elites, const SlowMap& twin, int round) {
+    ASSERT_EQ(elites.size(), twin.entries.size()) << round;
+    for (const auto& [cell, entry] : twin.entries) {
+      const auto number = elites.in(cell);
+      ASSERT_NE(number, Elites::none) << round;
+      ASSERT_EQ(elites[number].objective, entry.objective);
+      ASSERT_EQ(elites[number].evaluations, entry.evaluations);
+      ASSERT_EQ(neat::expand(elites[number].genome, ""), entry.genome);
+      ASSERT_TRUE(std::ranges::equal(elites.descriptor(number), entry.descriptor));
+    }
+  }
+
   MapElitesSettings settings_ = small_map();
   neat::Settings neat_;
   test::TemporaryFolder folder_;
 };
 
 TEST_P(MapElitesSearch, KeepsTheElitesOfASlowTwinRoundByRound) {
-  MapElites search = make();
-  SlowMap twin;
-  int moved = 0, lost = 0;
-  for (int round = 0; round < 60; ++round) {
-    const std::vector<neat::Genome> candidates(search.ask().begin(), search.ask().end());
-    ASSERT_EQ(candidates.size(), 40u);
-    const bool random = round * 40 < 70;
-    const auto again = random ? std::vector<std::uint32_t>() : twin.again(10);
-    for (std::size_t i = 0; i < again.size(); ++i) ASSERT_EQ(candidates[i], twin.entries.at(again[i]).genome);
-    const auto results = advance(search);
-    for (std::size_t i = 0; i < candidates.size(); ++i)
-      if (i < again.size())
-        twin.evaluate_again(again[i], candidates[i], results[i]);
-      else
-        twin.enter(candidates[i], results[i]);
-    ASSERT_EQ(search.elites().size(), twin.entries.size()) << round;
-    for (const auto& [cell, entry] : twin.entries) {
-      const auto number = search.elites().in(cell);
-      ASSERT_NE(number, Elites::none) << round;
-      ASSERT_EQ(search.elites()[number].objective, entry.objective);
-      ASSERT_EQ(search.elites()[number].evaluations, entry.evaluations);
-      ASSERT_EQ(neat::expand(search.elites()[number].genome, ""), entry.genome);
-      ASSERT_TRUE(std::ranges::equal(search.elites().descriptor(number), entry.descriptor));
-    }
-    for (const Metric& metric : search.metrics()) {
-      if (metric.name == "moved") moved += static_cast<int>(metric.value);
-      if (metric.name == "lost") lost += static_cast<int>(metric.value);
-    }
+  for (const int trials : {1, 2, 3}) {
+    settings_.trials = trials;
+    const Seen seen = compare_with_twin(trials > 1 ? 200 : 60);  // tried again, fewer enter
+    EXPECT_EQ(seen.challenged > 100, trials > 1);
+    // Children of the best alone are all of a kind here.
+    if (trials > 1 && GetParam() == Selection::objective) continue;
+    EXPECT_GT(seen.moved, 10) << "the test should see elites that move";
+    EXPECT_GT(seen.lost, 10);
+    EXPECT_GE(seen.filled, trials > 1 ? 3u : 20u);
   }
-  EXPECT_GT(moved, 10) << "the test should see elites that move";
-  EXPECT_GT(lost, 10);
-  EXPECT_GT(twin.entries.size(), 20u);
 }
 
 TEST_P(MapElitesSearch, GoesOnToTheSameBitsFromACheckpointOfAnyRound) {
-  MapElites whole = make();
-  std::string log = whole.take_log_growth(0);
-  std::vector<std::string> checkpoints{checkpoint(whole)};
-  std::vector<std::string> logs{log};
-  for (int round = 0; round < 12; ++round) {
-    advance(whole);
-    log += whole.take_log_growth(0);
-    logs.push_back(log);
-    checkpoints.push_back(checkpoint(whole));
-  }
-  for (std::size_t from = 0; from < checkpoints.size(); ++from) {
-    MapElites other = make();
-    advance(other);  // its state is replaced
-    io::BinaryReader reader(checkpoints[from], "checkpoint.bin");
-    other.load(reader);
-    reader.finish();
-    io::InputFile file(folder_.put("archive.bin", log));  // ahead of the checkpoint
-    EXPECT_EQ(other.restore_log(0, file, "archive.bin"), logs[from].size());
-    std::string its_log = logs[from];
-    while (other.round() < whole.round()) {
-      advance(other);
-      its_log += other.take_log_growth(0);
-    }
-    EXPECT_EQ(its_log, log) << from;
-    EXPECT_EQ(checkpoint(other), checkpoints.back()) << from;
-    EXPECT_TRUE(std::ranges::equal(other.ask(), whole.ask())) << from;
-  }
+  expect_resumption();
+  settings_.trials = 3;
+  expect_resumption();
 }
 
 TEST_P(MapElitesSearch, DrawsParentsAsItsSettingSays) {
@@ -257,6 +377,51 @@ INSTANTIATE_TEST_SUITE_P(Parents, MapElitesSearch,
                          [](const auto& selection) {
                            return std::string(selection_names[static_cast<std::size_t>(selection.param)]);
                          });
+
+TEST_P(MapElitesSearch, CannotBeEnteredByOneLuckyTrial) {
+  // One cell. All genomes are worth the same; one in a hundred evaluations is lucky.
+  settings_.descriptors.assign(1, {});
+  settings_.descriptors[0].bins = 1;
+  SearchSpace one = space();
+  one.behaviour_length = 1;
+  const std::vector<float> descriptor{0.5f};
+  const auto promised = [&](int trials) {
+    settings_.trials = trials;
+    settings_.reevaluate_share = 0.0;
+    MapElites search(settings_, one);
+    while (search.round() < 100) {
+      std::vector<Evaluation> evaluations;
+      for (std::size_t i = 0; i < search.ask().size(); ++i) {
+        Stream luck(7, Purpose::test, static_cast<std::uint32_t>(search.round()),
+                    static_cast<std::uint32_t>(i));
+        evaluations.push_back({.objective = luck.chance(0.01) ? 2.0 : 1.0, .behaviour = descriptor});
+      }
+      search.tell(evaluations);
+    }
+    return search.elites().best_objective();
+  };
+  EXPECT_EQ(promised(1), 2.0);
+  EXPECT_LT(promised(8), 1.3);
+}
+
+TEST_P(MapElitesSearch, LosesAnEliteWhoseSimulationDiverges) {
+  settings_.descriptors.assign(1, {});
+  settings_.descriptors[0].bins = 1;
+  settings_.initial = settings_.batch;
+  SearchSpace one = space();
+  one.behaviour_length = 1;
+  MapElites search(settings_, one);
+  const std::vector<float> descriptor{0.5f};
+  const auto tell = [&](double objective_of_the_first, bool is_viable) {
+    std::vector<Evaluation> evaluations(search.ask().size(), {.objective = 1.0, .behaviour = descriptor});
+    evaluations[0] = {.objective = objective_of_the_first, .behaviour = descriptor, .viable = is_viable};
+    search.tell(evaluations);
+  };
+  tell(5.0, true);
+  ASSERT_EQ(search.elites().best_objective(), 5.0);
+  tell(5.0, false);  // the elite again
+  EXPECT_EQ(search.elites().best_objective(), 1.0) << "another took its place";
+}
 
 class MapFile : public MapElitesSearch {
  protected:

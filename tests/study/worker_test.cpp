@@ -8,10 +8,10 @@
 #include <set>
 #include <thread>
 
+#include "amble/experiment/corrected_map.hpp"
 #include "amble/experiment/run.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/lock.hpp"
-
 #include "amble/ledger/measures.hpp"
 #include "amble/record/generations_csv.hpp"
 #include "amble/study/champion_tests.hpp"
@@ -115,6 +115,29 @@ TEST(Worker, RecordsWhatAMapReached) {
   EXPECT_EQ(ledger::measure(record, "entering_share"),
             entering / (static_cast<double>(record.evaluations) - again));
   EXPECT_EQ(ledger::measure(plain, "coverage"), std::nullopt);
+  EXPECT_EQ(ledger::measure(record, "staying_share"), std::nullopt) << "the study does not ask for it";
+  const ledger::Ledger kept(ledger::StudyPaths(folder.path()));
+  EXPECT_EQ(kept.load("map", 3).map_figures, record.map_figures);
+}
+
+TEST(Worker, RecordsWhatAMapKeepsInNewTrialsIfTheStudyAsks) {
+  const test::TemporaryFolder folder;
+  auto study = small_study({"search.map_elites.batch=64", "search.map_elites.initial=64"});
+  study.conditions = {condition("map", "repertoire/quadruped"), condition("sine", "authors/sine-objective")};
+  study.settings = {"engine=batch", "population.size=20", "trial.duration_s=1", "search.map_elites.batch=64",
+                    "search.map_elites.initial=64"};
+  study.map_trials = 3;
+  Notes notes;
+  work_on(study, folder.path(), notes);
+  const auto& record = notes.records[notes.records[0].condition == "map" ? 0 : 1];
+  const auto& plain = notes.records[notes.records[0].condition == "map" ? 1 : 0];
+  const experiment::RunPaths run(ledger::StudyPaths(folder.path()).run("map", 3));
+  const std::atomic<bool> stop = false;
+  const auto corrected = experiment::correct_map(experiment::load_repertoire(run), 3, 1, stop).value();
+  EXPECT_EQ(ledger::measure(record, "corrected_coverage"), corrected.coverage());
+  EXPECT_EQ(ledger::measure(record, "corrected_qd_score"), corrected.qd_score());
+  EXPECT_EQ(ledger::measure(record, "staying_share"), corrected.staying_share());
+  EXPECT_EQ(ledger::measure(plain, "staying_share"), std::nullopt) << "it has no map";
   const ledger::Ledger kept(ledger::StudyPaths(folder.path()));
   EXPECT_EQ(kept.load("map", 3).map_figures, record.map_figures);
 }
