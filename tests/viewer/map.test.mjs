@@ -52,7 +52,7 @@ test("the first walker is the map's best, and cells that are chosen walk instead
   await loaded(page, [a]);
   assert.equal(await page.locator(`#map .cell${a}`).getAttribute("aria-pressed"), "true");
   await page.locator("summary", { hasText: "How it filled" }).click();
-  assert.ok(await page.getByText("QD score").isVisible());
+  assert.ok(await page.getByText("QD score", { exact: true }).isVisible());
   assert.deepEqual(problems, []);
   await page.close();
 });
