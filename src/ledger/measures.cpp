@@ -170,8 +170,8 @@ std::string measure_names() {
     std::string& names = of_tests.at(to_index(row.needs));
     names += fmt::format("{}.{}", names.empty() ? "" : ", ", row.name);
   }
-  return fmt::format("{}with map_trials {}TEST{}, with episodes {}, with reach_m {}, with mutants {}", text, corrected, of_tests[0],
-                     of_tests[1], of_tests[2], of_tests[3]);
+  return fmt::format("{}with map_trials {}TEST{}, with episodes {}, with reach_m {}, with mutants {}", text,
+                     corrected, of_tests[0], of_tests[1], of_tests[2], of_tests[3]);
 }
 
 std::vector<std::string> measures_of(const TestSpec& test) {
