@@ -147,7 +147,7 @@ py::dict typical(const ReadableChampion& self, std::optional<double> seconds,
   interruptible.run([&] {
     auto runner = presentation::typical_trials(problem, self.value.seed,
                                                {.level = std::move(level), .trials = trials}, workers);
-    used = runner.level();
+    used = runner.level().name;
     results = runner.run(self.value.genome, interruptible.stop());
   });
   const auto distance = experiment::typical_distance(*results);

@@ -68,19 +68,11 @@ void disturb(std::vector<NamedChampion>& champions, const std::filesystem::path&
   for (auto& named : champions) named.champion.problem.noise = noise;
 }
 
-/// The trials that tell what a champion typically does, the same in all engines; their level's noise becomes
-/// the champion's.
-std::vector<trial::ScenarioKey> typical_noise(experiment::Champion& champion,
-                                              const presentation::TrialChoice& options, std::string& under) {
-  presentation::TrialChoice one = options;
-  one.trials = 1;
-  const auto trials = presentation::typical_trials(champion.problem, champion.seed, one, 1);
-  under = trials.under();
-  champion.problem.noise = trials.problem().noise;
+/// The trials that tell what a champion typically does, the same in all engines.
+std::vector<trial::ScenarioKey> typical_keys(const experiment::Champion& champion, int trials) {
   trial::ScenarioKey key = experiment::typical_key(champion.seed);
   std::vector<trial::ScenarioKey> keys;
-  const int count = options.trials > 0 ? options.trials : experiment::running_trials;
-  for (int i = 0; i < count; ++i, ++key.episode) keys.push_back(key);
+  for (int i = 0; i < trials; ++i, ++key.episode) keys.push_back(key);
   return keys;
 }
 
@@ -100,7 +92,11 @@ ComparedChampion compare(const NamedChampion& named, double seconds, const std::
     referee_options.noise = unseen_noise(champion, options.episodes);
     under = "under the noise of " + options.noise->string();
   } else if (!options.disturbance.undisturbed) {
-    referee_options.noise = typical_noise(champion, options.disturbance, under);
+    const auto level = experiment::typical_level(champion.problem, options.disturbance.level);
+    champion.problem.noise = level.noise;
+    under = level.under();
+    const int asked = options.disturbance.trials;
+    referee_options.noise = typical_keys(champion, asked > 0 ? asked : experiment::running_trials);
   }
   try {
     auto results = experiment::try_in_engines(champion.problem, champion.genome, engines, referee_options,
@@ -167,7 +163,7 @@ void add_compare(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->needs(noise)
       ->check(between(1u, 1000u));
-  add_disturbance(*command, options->disturbance);
+  add_disturbance(*command, options->disturbance, fmt::format("{}", experiment::running_trials));
   for (const char* other : {"--level", "--trials", "--undisturbed"})
     command->get_option(other)->excludes(noise);
   command->callback([options, &action] { action = [options] { return run_compare(*options); }; });

@@ -25,7 +25,7 @@ std::string level_values() {
 
 }  // namespace
 
-void add_disturbance(CLI::App& command, presentation::TrialChoice& choice) {
+void add_disturbance(CLI::App& command, presentation::TrialChoice& choice, const std::string& by_default) {
   auto* const level =
       command
           .add_option("--level", choice.level,
@@ -33,11 +33,10 @@ void add_disturbance(CLI::App& command, presentation::TrialChoice& choice) {
                       "evolution, or, without any, " +
                           std::string(record::default_level) + ": starts that differ by a milli-radian)")
           ->type_name(level_values());
-  auto* const trials =
-      command
-          .add_option("--trials", choice.trials,
-                      "Number of these trials (default: 64, or 16 in engines that run one at a time)")
-          ->check(between(1, most_trials));
+  auto* const trials = command
+                           .add_option("--trials", choice.trials,
+                                       fmt::format("Number of these trials (default: {})", by_default))
+                           ->check(between(1, most_trials));
   command.add_flag("--undisturbed", choice.undisturbed, "The one trial without noise instead")
       ->excludes(level)
       ->excludes(trials);

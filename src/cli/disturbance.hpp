@@ -9,8 +9,9 @@
 
 namespace amble::cli {
 
-/// Adds --level, --trials and --undisturbed.
-void add_disturbance(CLI::App& command, presentation::TrialChoice& choice);
+/// Adds --level, --trials and --undisturbed. `trials`: how many there are by default, for the help.
+void add_disturbance(CLI::App& command, presentation::TrialChoice& choice,
+                     const std::string& trials = "64, or 16 in engines that run one at a time");
 
 /// presentation::shown_trial() on all processors. Throws UserError(interrupted) on a stop signal.
 presentation::ShownTrial shown_trial(const experiment::Champion& champion, std::optional<double> seconds,

@@ -35,23 +35,23 @@ void add_jobs(CLI::App& command, int& jobs) {
 }
 
 /// What the champion typically does, and behind it what made it the champion.
-void print_best(const experiment::Run& run) {
+void print_best(const experiment::Run& run, int jobs) {
   const auto& progress = run.progress();
   const auto& score = run.config().score;
   const auto champion = experiment::load_champion(run.paths().champion(progress.best_generation));
-  auto trials = presentation::typical_trials(champion.problem, champion.seed, {}, processors());
+  auto trials = presentation::typical_trials(champion.problem, champion.seed, {}, jobs);
   const auto results = trials.run(champion.genome, stop_signal());
   if (!results) fail(ExitCode::interrupted, "stopped before the best had walked; the run is complete");
   const auto typical = experiment::typical_objective(champion.problem, *results);
   const auto text = [&score](double value) { return score::with_unit(fmt::format("{:.3f}", value), score); };
-  fmt::print("best: {}\n",
-             experiment::typical_text(typical, score, champion.problem.trial.duration_s, trials.under()));
+  fmt::print("best: {}\n", experiment::typical_text(typical, score, champion.problem.trial.duration_s,
+                                                    trials.level().under()));
   fmt::print("      {}{} without noise; generation {}, {} evaluations\n",
              champion.problem.disturbed() ? fmt::format("{} in its evaluation, ", text(progress.best)) : "",
              text(champion.result.value()), progress.best_generation, progress.evaluations);
 }
 
-ExitCode execute(experiment::Run run) {
+ExitCode execute(experiment::Run run, int jobs) {
   std::signal(SIGPIPE, SIG_IGN);  // the run goes on if the reader of its progress ends
   const std::string folder = run.paths().folder.string();
   if (run.generation() >= run.config().generations)
@@ -67,7 +67,7 @@ ExitCode execute(experiment::Run run) {
                               run.generation(), run.config().generations, folder));
     return ExitCode::interrupted;
   }
-  print_best(run);
+  print_best(run, jobs);
   const bool has_map = experiment::fills_map(run.config());
   fmt::print("to see it, run: amble {} {} -o {}\n", has_map ? "repertoire" : "view", folder,
              has_map ? "map.html" : "walker.html");
@@ -97,7 +97,7 @@ void add_evolve(CLI::App& app, Action& action) {
     action = [options] {
       stop_signal();
       const auto config = experiment::load_config(options->config, options->overrides);
-      return execute(experiment::Run::start(options->out, config, options->jobs));
+      return execute(experiment::Run::start(options->out, config, options->jobs), options->jobs);
     };
   });
 }
@@ -117,7 +117,8 @@ void add_resume(CLI::App& app, Action& action) {
   command->callback([options, &action] {
     action = [options] {
       stop_signal();
-      return execute(experiment::Run::resume(options->folder, options->generations, options->jobs));
+      return execute(experiment::Run::resume(options->folder, options->generations, options->jobs),
+                     options->jobs);
     };
   });
 }

@@ -67,7 +67,7 @@ void print_typical(const experiment::Champion& champion, const TrialOptions& opt
   if (!results) fail(ExitCode::interrupted, "stopped before the end of the trials");
   fmt::print("{}\n\nits trial without noise:\n",
              experiment::typical_text(experiment::typical_distance(*results), {}, problem.trial.duration_s,
-                                      trials.under()));
+                                      trials.level().under()));
 }
 
 ExitCode run_trial(const TrialOptions& options) {

@@ -16,16 +16,6 @@
 namespace amble::experiment {
 namespace {
 
-std::string level_of(const Problem& problem, const std::string& asked) {
-  if (asked.empty()) return std::string(problem.disturbed() ? own_noise : record::default_level);
-  if (asked == own_noise && !problem.disturbed())
-    fail(ExitCode::bad_input, "level '{}': it was evolved without noise, and from one place; expected {}",
-         asked, record::level_names());
-  if (asked != own_noise && record::find_level(asked) == nullptr)
-    fail(ExitCode::bad_input, "level '{}': expected {} or {}", asked, own_noise, record::level_names());
-  return asked;
-}
-
 score::Typical typical_of(std::span<const TrialResult> trials, auto value) {
   std::vector<double> values;
   std::vector<record::Outcome> outcomes;
@@ -42,23 +32,38 @@ int reported_trials(std::string_view engine) {
   return physics::engine_traits(engine).lanes > 1 ? 64 : running_trials;
 }
 
+TypicalLevel typical_level(const Problem& problem, const std::string& asked) {
+  const bool own = asked == own_noise || (asked.empty() && problem.disturbed());
+  if (own && !problem.disturbed())
+    fail(ExitCode::bad_input, "level '{}': it was evolved without noise, and from one place; expected {}",
+         asked, record::level_names());
+  TypicalLevel found{.name = std::string(own_noise), .noise = problem.noise};
+  if (!own) {
+    const record::Level* const level = record::find_level(asked.empty() ? record::default_level : asked);
+    if (level == nullptr)
+      fail(ExitCode::bad_input, "level '{}': expected {} or {}", asked, own_noise, record::level_names());
+    found = {.name = std::string(level->name), .noise = trial::noise_of(*level)};
+  }
+  found.noise.first_undisturbed = false;
+  return found;
+}
+
+std::string TypicalLevel::under() const {
+  return name == own_noise ? "under its own noise" : fmt::format("at the level {}", name);
+}
+
 TypicalTrials::TypicalTrials(const Problem& problem, std::int64_t seed, int trials, const std::string& level,
                              int jobs)
-    : level_(level_of(problem, level)) {
+    : level_(typical_level(problem, level)) {
   AMBLE_CHECK(trials >= 1, "what is typical needs a trial");
   auto disturbed = std::make_unique<Problem>(problem);
-  if (level_ != own_noise) disturbed->noise = trial::noise_of(*record::find_level(level_));
-  disturbed->noise.first_undisturbed = false;
+  disturbed->noise = level_.noise;
   problem_ = std::move(disturbed);
   trial::ScenarioKey key = typical_key(seed);
   ground_ = problem_->make_ground(ground_of(key));
   for (int i = 0; i < trials; ++i, ++key.episode)
     scenarios_.push_back(problem_->scenario(key, ground_.get()));
   evaluator_ = std::make_unique<Evaluator>(*problem_, record::PathSampling(), jobs);
-}
-
-std::string TypicalTrials::under() const {
-  return level_ == own_noise ? "under its own noise" : fmt::format("at the level {}", level_);
 }
 
 std::optional<std::vector<TrialResult>> TypicalTrials::run(const neat::Genome& genome,
@@ -92,7 +97,7 @@ std::optional<MedianTrial> median_trial(TypicalTrials& trials, const neat::Genom
   return MedianTrial{.problem = trials.problem(),
                      .key = key,
                      .distance = typical_distance(*results),
-                     .under = trials.under()};
+                     .under = trials.level().under()};
 }
 
 std::string typical_text(const score::Typical& typical, const score::Settings& score, double seconds,

@@ -23,20 +23,28 @@ inline constexpr int running_trials = 16;
 /// The same for what commands say of it: 64, or 16 in an engine that has one lane.
 int reported_trials(std::string_view engine);
 
+/// What disturbs a problem's typical trials.
+struct TypicalLevel {
+  std::string name;  ///< of a record::Level, or `own_noise`
+  trial::NoiseSettings noise;
+
+  /// "under its own noise" or "at the level milli".
+  std::string under() const;
+};
+/// `asked`: a level's name, or `own_noise`; empty: own noise where the problem has some, else
+/// record::default_level. Throws UserError for an unknown level, and for own noise where there is none.
+TypicalLevel typical_level(const Problem& problem, const std::string& asked = {});
+
 /// Runs trials that neither evolution, nor the choice of champions, nor unseen_scenarios() has: the same for
 /// all genomes of a run. They are as new to a champion as its next trial will be.
 class TypicalTrials {
  public:
-  /// `level`: the name of a record::Level, or `own_noise`; empty: own noise where the problem has some, else
-  /// record::default_level. `trials` ≥ 1, of the problem's length and in its engine. Throws UserError for an
-  /// unknown level, and for own noise where there is none.
+  /// `level`: as typical_level() takes it. `trials` ≥ 1, of the problem's length and in its engine. Throws
+  /// UserError.
   TypicalTrials(const Problem& problem, std::int64_t seed, int trials, const std::string& level = {},
                 int jobs = 1);
 
-  /// The level's name, or `own_noise`.
-  const std::string& level() const { return level_; }
-  /// "under its own noise" or "at the level milli".
-  std::string under() const;
+  const TypicalLevel& level() const { return level_; }
   /// The problem with the noise of these trials: their scenarios are those of typical_key(seed) and the
   /// episodes after it.
   const Problem& problem() const { return *problem_; }
@@ -44,7 +52,7 @@ class TypicalTrials {
   std::optional<std::vector<TrialResult>> run(const neat::Genome& genome, const std::atomic<bool>& stop);
 
  private:
-  std::string level_;
+  TypicalLevel level_;
   std::unique_ptr<const Problem> problem_;
   std::shared_ptr<const ground::Ground> ground_;
   std::vector<trial::Scenario> scenarios_;
@@ -62,7 +70,7 @@ struct MedianTrial {
   Problem problem;          ///< with the noise of the trials
   trial::ScenarioKey key;   ///< of this one, for ReplayOptions::noise
   score::Typical distance;  ///< of all trials, m
-  std::string under;        ///< TypicalTrials::under()
+  std::string under;        ///< TypicalLevel::under()
 };
 /// Nothing if `stop` was set meanwhile.
 std::optional<MedianTrial> median_trial(TypicalTrials& trials, const neat::Genome& genome, std::int64_t seed,

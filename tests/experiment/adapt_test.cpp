@@ -15,20 +15,8 @@
 namespace amble::experiment {
 namespace {
 
-/// A map of a few generations under noise, and a robot whose leg FL is missing.
-class Adapting : public testing::Test {
- protected:
-  Adapting() {
-    auto config = small_map_config(all_noise());
-    config.generations = 6;
-    Listener listener;
-    Run::start(scratch_ / "run", config, 2).execute(listener, listener.stop);
-  }
-  Repertoire map() const { return load_repertoire(RunPaths(scratch_ / "run")); }
-
- private:
-  TemporaryFolder scratch_;
-};
+/// The map, and a robot whose leg FL is missing.
+class Adapting : public EvolvedMap {};
 
 AdaptSettings settings() {
   AdaptSettings settings;

@@ -39,19 +39,7 @@ std::vector<Tried> try_again(const Repertoire& map, int episodes) {
   return tried;
 }
 
-class TriedAgain : public testing::Test {
- protected:
-  TriedAgain() {
-    auto config = small_map_config(all_noise());
-    config.generations = 6;
-    Listener listener;
-    Run::start(scratch_ / "run", config, 2).execute(listener, listener.stop);
-  }
-  Repertoire map() const { return load_repertoire(RunPaths(scratch_ / "run")); }
-
- private:
-  TemporaryFolder scratch_;
-};
+class TriedAgain : public EvolvedMap {};
 
 TEST_F(TriedAgain, IsWhatMapElitesFillsWithTheNewTrials) {
   const Repertoire map = this->map();

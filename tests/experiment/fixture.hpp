@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <atomic>
 #include <cstdlib>
 #include <filesystem>
@@ -7,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "amble/experiment/repertoire.hpp"
 #include "amble/experiment/run.hpp"
 #include "amble/io/file.hpp"
 #include "amble/neat/population.hpp"
@@ -86,6 +89,21 @@ class Listener : public RunListener {
 
  private:
   int left_;
+};
+
+/// A map of six generations under every kind of noise.
+class EvolvedMap : public testing::Test {
+ protected:
+  EvolvedMap() {
+    auto config = small_map_config(all_noise());
+    config.generations = 6;
+    Listener listener;
+    Run::start(scratch_ / "run", config, 2).execute(listener, listener.stop);
+  }
+  Repertoire map() const { return load_repertoire(RunPaths(scratch_ / "run")); }
+
+ private:
+  TemporaryFolder scratch_;
 };
 
 }  // namespace amble::experiment

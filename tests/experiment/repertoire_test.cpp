@@ -12,20 +12,6 @@
 namespace amble::experiment {
 namespace {
 
-class EvolvedMap : public testing::Test {
- protected:
-  EvolvedMap() {
-    auto config = small_map_config(all_noise());
-    config.generations = 6;
-    Listener listener;
-    Run::start(scratch_ / "run", config, 2).execute(listener, listener.stop);
-  }
-  Repertoire map() const { return load_repertoire(RunPaths(scratch_ / "run")); }
-
- private:
-  TemporaryFolder scratch_;
-};
-
 TEST_F(EvolvedMap, HasElitesWhoseChampionsHaveTheEpisodesOfTheirEvaluation) {
   const Repertoire map = this->map();
   int evaluated_once = 0;

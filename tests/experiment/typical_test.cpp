@@ -57,9 +57,9 @@ TEST(TypicalTrials, AreTheSameForAnyNumberOfWorkers) {
 
 TEST(TypicalTrials, AreUnderTheNoiseOfTheRunOrElseAtTheDefaultLevel) {
   const Problem quiet = batch_problem(), noisy = batch_problem(all_noise());
-  EXPECT_EQ(TypicalTrials(quiet, 1, 1).under(), "at the level milli");
-  EXPECT_EQ(TypicalTrials(noisy, 1, 1).under(), "under its own noise");
-  EXPECT_EQ(TypicalTrials(noisy, 1, 1, "micro").under(), "at the level micro");
+  EXPECT_EQ(TypicalTrials(quiet, 1, 1).level().under(), "at the level milli");
+  EXPECT_EQ(TypicalTrials(noisy, 1, 1).level().under(), "under its own noise");
+  EXPECT_EQ(TypicalTrials(noisy, 1, 1, "micro").level().under(), "at the level micro");
   EXPECT_EQ(TypicalTrials(noisy, 1, 1, "micro").problem().noise.push_m_s, 0.0);
   EXPECT_THROW(TypicalTrials(quiet, 1, 1, "own"), UserError);
   EXPECT_THROW(TypicalTrials(quiet, 1, 1, "nano"), UserError);
