@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/help.hpp"
+#include "amble/cli/option_checks.hpp"
 #include "amble/cli/repertoire_page.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/damage/text.hpp"
@@ -164,12 +166,12 @@ void add_adapt(CLI::App& app, Action& action) {
   command->add_option("--engine", options->settings.engine, "The engine that stands for reality")
       ->capture_default_str();
   command->add_option("--trials", options->settings.most_trials, "Most trials of the search")
-      ->check(CLI::Range(1, 1000))
+      ->check(between(1, 1000))
       ->capture_default_str();
   command
       ->add_option("--episodes", options->settings.episodes,
                    "Attempts under different noise whose mean is the result of one trial")
-      ->check(CLI::Range(1, 100))
+      ->check(between(1, 100))
       ->capture_default_str();
   command
       ->add_option("--noise-variance", options->settings.search.noise_variance,
@@ -177,36 +179,37 @@ void add_adapt(CLI::App& app, Action& action) {
                    "(0.001: trials nearly repeat; "
                    "0.01: they "
                    "differ by a tenth of it)")
-      ->check(CLI::Range(1e-9, 1e3))
+      ->check(between(1e-9, 1e3))
       ->capture_default_str();
   command
       ->add_option(
           "--exploration", options->settings.search.exploration,
           "Standard deviations by which a gait that is uncertain counts as better when the next is chosen")
-      ->check(CLI::Range(0.0, 1e3))
+      ->check(between(0.0, 1e3))
       ->capture_default_str();
   command
       ->add_option(
           "--length-scale", options->settings.search.length_scale,
           "How far apart gaits are that tell little of each other, as a share of the map's dimensions")
-      ->check(CLI::Range(1e-3, 1e3))
+      ->check(between(1e-3, 1e3))
       ->capture_default_str();
   command
       ->add_option("--stop-share", options->settings.search.stop_share,
                    "Stop when a gait that was tried is predicted to reach this share of the best; above 1: "
                    "use all trials")
-      ->check(CLI::Range(0.0, 10.0))
+      ->check(between(0.0, 10.0))
       ->capture_default_str();
   command
       ->add_option("--judge", options->settings.judges,
                    "Trials that judge a gait before and after, under noise of their own")
-      ->check(CLI::Range(1, 100000))
+      ->check(between(1, 100000))
       ->capture_default_str();
-  command->add_option("--jobs", options->jobs, "Workers")->check(CLI::Range(1, 1024))->capture_default_str();
+  add_jobs(*command, options->jobs);
   command->add_option(
       "-o,--out", options->out,
       "FILE.html: a page with the map, the trials, and the elites that were tried; FILE.json: the "
       "steps and results");
+  add_examples(*command, {{"amble adapt runs/map --damage missing:FL -o recovery.html", ""}});
   command->callback([options, &action] { action = [options] { return run_adapt(*options); }; });
 }
 

@@ -12,6 +12,7 @@
 #include "amble/cli/commands.hpp"
 #include "amble/cli/compare_table.hpp"
 #include "amble/cli/disturbance.hpp"
+#include "amble/cli/help.hpp"
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/config.hpp"
@@ -29,8 +30,7 @@ struct CompareOptions {
   std::vector<double> seconds;  ///< none: as in the champion's evolution
   std::vector<std::string> engines{physics::engine_names().begin(), physics::engine_names().end()};
   std::string format = formats[0];
-  std::optional<std::filesystem::path> noise;  ///< a config file, for its noise
-  std::uint32_t episodes = 10;
+  std::optional<std::uint32_t> episodes;  ///< of an evaluation, that it has not met
   presentation::TrialChoice disturbance;
 };
 
@@ -60,14 +60,6 @@ std::vector<std::string> columns(const std::vector<std::string>& requested,
   return engines;
 }
 
-/// Sets the noise of all champions, whatever they were evolved under.
-void disturb(std::vector<NamedChampion>& champions, const std::filesystem::path& config) {
-  auto noise = experiment::load_config(config, {}).noise;
-  if (!noise.any()) fail(ExitCode::bad_input, "--noise: {} is without noise", config.string());
-  noise.first_undisturbed = false;
-  for (auto& named : champions) named.champion.problem.noise = noise;
-}
-
 /// The trials that tell what a champion typically does, the same in all engines.
 std::vector<trial::ScenarioKey> typical_keys(const experiment::Champion& champion, int trials) {
   trial::ScenarioKey key = experiment::typical_key(champion.seed);
@@ -88,15 +80,14 @@ ComparedChampion compare(const NamedChampion& named, double seconds, const std::
   auto [name, champion] = named;
   experiment::RefereeOptions referee_options{.seconds = seconds, .jobs = static_cast<int>(engines.size())};
   std::string under = "without noise";
-  if (options.noise) {
-    referee_options.noise = unseen_noise(champion, options.episodes);
-    under = "under the noise of " + options.noise->string();
-  } else if (!options.disturbance.undisturbed) {
-    const auto level = experiment::typical_level(champion.problem, options.disturbance.level);
+  if (!options.disturbance.undisturbed) {
+    const auto level = presentation::level_of(champion.problem, options.disturbance);
     champion.problem.noise = level.noise;
     under = level.under();
     const int asked = options.disturbance.trials;
-    referee_options.noise = typical_keys(champion, asked > 0 ? asked : experiment::running_trials);
+    referee_options.noise = options.episodes
+                                ? unseen_noise(champion, *options.episodes)
+                                : typical_keys(champion, asked > 0 ? asked : experiment::running_trials);
   }
   try {
     auto results = experiment::try_in_engines(champion.problem, champion.genome, engines, referee_options,
@@ -114,8 +105,7 @@ ComparedChampion compare(const NamedChampion& named, double seconds, const std::
 }
 
 ExitCode run_compare(const CompareOptions& options) {
-  auto champions = load(options.inputs);
-  if (options.noise) disturb(champions, *options.noise);
+  const auto champions = load(options.inputs);
   const auto engines = columns(options.engines, champions);
   std::vector<ComparedChampion> rows;
   for (const auto& named : champions) {
@@ -155,17 +145,18 @@ void add_compare(CLI::App& app, Action& action) {
   command->add_option("--format", options->format, "What to print: text, markdown or json")
       ->capture_default_str()
       ->check(CLI::IsMember(std::vector<std::string>(formats.begin(), formats.end())));
-  auto* noise =
-      command->add_option("--noise", options->noise,
-                          "Disturb all trials by the [noise] of this config file, in ways evolution "
-                          "has not met; distances are medians of the episodes");
-  command->add_option("--episodes", options->episodes, "Trials under --noise per champion, length and engine")
-      ->capture_default_str()
-      ->needs(noise)
-      ->check(between(1u, 1000u));
   add_disturbance(*command, options->disturbance, fmt::format("{}", experiment::running_trials));
-  for (const char* other : {"--level", "--trials", "--undisturbed"})
-    command->get_option(other)->excludes(noise);
+  command
+      ->add_option("--episodes", options->episodes,
+                   "With --noise: in place of --trials so many episodes of an evaluation that it has not "
+                   "met, those that "
+                   "amble trial numbers from 1000")
+      ->needs(command->get_option("--noise"))
+      ->excludes(command->get_option("--trials"))
+      ->check(between(1u, 1000u));
+  add_examples(*command,
+               {{"amble compare runs/1 --seconds 15,300", ""},
+                {"amble compare runs/1 runs/2 --noise configs/robust/supg-objective.toml --trials 30", ""}});
   command->callback([options, &action] { action = [options] { return run_compare(*options); }; });
 }
 

@@ -67,6 +67,18 @@ constexpr std::string_view summary_note =
     "kept 70 %: of how many champions the distance in this engine is at least 70 % of that in the engine in "
     "which they evolved\n";
 
+/// What a row's percentages mean.
+constexpr std::string_view percent_note = "%: share of the distance in the engine in which it evolved\n";
+
+/// What is below a table with so many rows of champions.
+std::string notes(const std::vector<Cells>& lines, std::size_t rows) {
+  const bool percent = std::ranges::any_of(lines, [](const Cells& cells) {
+    return std::ranges::any_of(cells,
+                               [](const std::string& cell) { return cell.find(" %") != std::string::npos; });
+  });
+  return std::string(percent ? percent_note : "") + std::string(lines.size() > rows + 1 ? summary_note : "");
+}
+
 /// All champions for one length of time.
 Cells summary_cells(const std::vector<ComparedChampion>& rows, double trial_s) {
   Cells cells{"median; kept 70 %", "", fmt::format("{:g} s", trial_s)};
@@ -130,12 +142,13 @@ std::string markdown_text(const std::vector<Cells>& lines) {
 
 std::string compare_text(const std::vector<ComparedChampion>& rows) {
   const auto lines = table(rows);
-  return aligned_text(lines) + std::string(lines.size() > rows.size() + 1 ? summary_note : "");
+  return aligned_text(lines) + notes(lines, rows.size());
 }
 
 std::string compare_markdown(const std::vector<ComparedChampion>& rows) {
   const auto lines = table(rows);
-  return markdown_text(lines) + (lines.size() > rows.size() + 1 ? fmt::format("\n{}", summary_note) : "");
+  const std::string text = notes(lines, rows.size());
+  return markdown_text(lines) + (text.empty() ? "" : "\n" + text);
 }
 
 std::string compare_json(const std::vector<ComparedChampion>& rows, const std::vector<ComparedMap>& maps) {

@@ -10,6 +10,9 @@
 
 #include "amble/cli/commands.hpp"
 #include "amble/cli/completion_scripts.hpp"
+#include "amble/cli/help.hpp"
+#include "amble/experiment/config.hpp"
+#include "amble/io/toml_settings.hpp"
 
 namespace amble::cli {
 namespace {
@@ -18,6 +21,9 @@ struct Shell {
   std::string_view name;
   std::string (*script)(const ProgramSummary& program);
 };
+/// The type of an option that lays a setting over a config.
+constexpr std::string_view key_value = "KEY=VALUE";
+
 constexpr std::array shells{Shell{"bash", bash_completion}, Shell{"zsh", zsh_completion},
                             Shell{"fish", fish_completion}};
 
@@ -38,13 +44,21 @@ std::vector<std::string> choices_of(std::string_view type) {
   return pieces(type.substr(open + 1, close - open - 1), ',');
 }
 
+/// "population.size=" of each setting.
+std::vector<std::string> assignable_keys() {
+  experiment::Config config;
+  auto keys = io::setting_keys({"", [&](io::SettingsVisitor& visitor) { config.describe(visitor); }});
+  for (std::string& key : keys) key += '=';
+  return keys;
+}
+
 OptionSummary summary_of(const CLI::Option& option) {
   OptionSummary summary;
   summary.what = option.get_description();
   for (const std::string& name : option.get_snames()) summary.names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) summary.names.push_back("--" + name);
   const std::string type = option.get_type_name();
-  summary.choices = choices_of(type);
+  summary.choices = type == key_value ? assignable_keys() : choices_of(type);
   if (option.get_items_expected_max() > 0)
     summary.value = type.starts_with("TEXT") ? Value::file : Value::other;
   return summary;
@@ -85,6 +99,8 @@ void add_completion(CLI::App& app, Action& action) {
   command->add_option("SHELL", *name, "For bash: source <(amble completion bash)")
       ->required()
       ->check(CLI::IsMember(names));
+  add_examples(*command,
+               {{"source <(amble completion bash)", "in ~/.bashrc"}, {"amble completion fish | source", ""}});
   command->callback([name, &app, &action] {
     action = [name, &app] {
       for (const Shell& shell : shells)

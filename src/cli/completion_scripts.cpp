@@ -53,11 +53,13 @@ std::string bash_value(const std::string& command, const OptionSummary& option) 
 /// An entry of zsh's _arguments; `what` must not have a line break.
 std::string zsh_option(const OptionSummary& option) {
   const std::string what = escaped(option.what, "[]:\\");
-  const std::string value = option.value == Value::none ? ""
-                            : takes_files(option)       ? ":file:_files"
-                            : option.choices.empty()
-                                ? ":value: "
-                                : fmt::format(":value:({})", joined(option.choices, " "));
+  const std::string value =
+      option.value == Value::none ? ""
+      : takes_files(option)       ? ":file:_files"
+      : option.choices.empty()    ? ":value: "
+      : option.choices.front().ends_with('=')
+          ? fmt::format(":setting:{{compadd -S \"\" -- {}}}", joined(option.choices, " "))
+          : fmt::format(":value:({})", joined(option.choices, " "));
   std::string entries;
   for (const std::string& name : option.names)
     entries += " \\\n        " + shell_quoted(fmt::format("*{}[{}]{}", name, what, value));
@@ -79,6 +81,8 @@ std::string fish_option(const std::string& condition, const OptionSummary& optio
 constexpr std::string_view bash_head = R"(# Completion of amble in bash: source <(amble completion bash)
 _amble_words() {
   mapfile -t COMPREPLY < <(compgen -W "$1" -- "$word")
+  # Behind a key comes its value.
+  if [[ ${COMPREPLY[0]-} == *= ]]; then compopt -o nospace; fi
 }
 _amble_files() {
   compopt -o filenames

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <thread>
 #include <utility>
 
 #include "amble/cli/option_checks.hpp"
@@ -33,12 +31,18 @@ void add_disturbance(CLI::App& command, presentation::TrialChoice& choice, const
                       "evolution, or, without any, " +
                           std::string(record::default_level) + ": starts that differ by a milli-radian)")
           ->type_name(level_values());
+  auto* const noise =
+      command
+          .add_option("--noise", choice.noise,
+                      "Disturb these trials by the [noise] of this config file in place of a level")
+          ->excludes(level);
   auto* const trials = command
                            .add_option("--trials", choice.trials,
                                        fmt::format("Number of these trials (default: {})", by_default))
                            ->check(between(1, most_trials));
   command.add_flag("--undisturbed", choice.undisturbed, "The one trial without noise instead")
       ->excludes(level)
+      ->excludes(noise)
       ->excludes(trials);
 }
 
@@ -48,10 +52,6 @@ presentation::ShownTrial shown_trial(const experiment::Champion& champion, std::
   auto shown = presentation::shown_trial(champion, seconds, engine, choice, processors(), stop_signal());
   if (!shown) fail(ExitCode::interrupted, "stopped before the end of the trials");
   return std::move(*shown);
-}
-
-int processors() {
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 }  // namespace amble::cli

@@ -9,7 +9,7 @@
 
 namespace amble::cli {
 
-/// Adds --level, --trials and --undisturbed. `trials`: how many there are by default, for the help.
+/// Adds --level, --noise, --trials and --undisturbed. `trials`: how many there are by default, for the help.
 void add_disturbance(CLI::App& command, presentation::TrialChoice& choice,
                      const std::string& trials = "64, or 16 in engines that run one at a time");
 
@@ -17,8 +17,5 @@ void add_disturbance(CLI::App& command, presentation::TrialChoice& choice,
 presentation::ShownTrial shown_trial(const experiment::Champion& champion, std::optional<double> seconds,
                                      const std::optional<std::string>& engine,
                                      const presentation::TrialChoice& choice);
-
-/// As many as the machine has, at least 1.
-int processors();
 
 }  // namespace amble::cli

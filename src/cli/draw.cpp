@@ -6,6 +6,7 @@
 #include <string>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/help.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/figures/cppn_dot.hpp"
 #include "amble/figures/cppn_figure.hpp"
@@ -72,6 +73,7 @@ void add_draw(CLI::App& app, Action& action) {
       "DOT to the standard output)");
   command->add_option("--patterns", options->patterns,
                       "Draw the target angle of each leg and joint over the time of a period (SVG)");
+  add_examples(*command, {{"amble draw runs/1 -o cppn.svg --patterns patterns.svg", ""}});
   command->callback([options, &action] { action = [options] { return draw(*options); }; });
 }
 

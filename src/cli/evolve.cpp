@@ -9,6 +9,7 @@
 
 #include "amble/cli/commands.hpp"
 #include "amble/cli/disturbance.hpp"
+#include "amble/cli/help.hpp"
 #include "amble/cli/messages.hpp"
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/progress.hpp"
@@ -19,20 +20,11 @@
 namespace amble::cli {
 namespace {
 
-constexpr int most_jobs = 1024;
-
 struct EvolveOptions {
   std::filesystem::path config, out;
   experiment::Overrides overrides;
   int jobs = 1;
 };
-
-void add_jobs(CLI::App& command, int& jobs) {
-  jobs = processors();
-  command.add_option("--jobs", jobs, "Workers; the results do not depend on it")
-      ->capture_default_str()
-      ->check(between(1, most_jobs));
-}
 
 /// What the champion typically does, and behind it what made it the champion.
 void print_best(const experiment::Run& run, int jobs) {
@@ -93,6 +85,11 @@ void add_evolve(CLI::App& app, Action& action) {
       ->check(between(1, experiment::most_generations));
   command->add_option("--out", options->out, "The run folder to make; it must be new or empty")->required();
   add_jobs(*command, options->jobs);
+  add_examples(
+      *command,
+      {{"amble evolve configs/quick/quadruped.toml --seed 8 --out runs/1", "a walker in half a minute"},
+       {"amble evolve configs/quick/quadruped.toml --set population.size=300 --generations 100 --out runs/2",
+        ""}});
   command->callback([options, &action] {
     action = [options] {
       stop_signal();
@@ -114,6 +111,8 @@ void add_resume(CLI::App& app, Action& action) {
   command->add_option("--generations", options->generations, "Generations to evaluate in all")
       ->check(between(1, experiment::most_generations));
   add_jobs(*command, options->jobs);
+  add_examples(*command, {{"amble resume runs/1", "on after Ctrl-C, kill -9, a power cut"},
+                          {"amble resume runs/1 --generations 800", "longer"}});
   command->callback([options, &action] {
     action = [options] {
       stop_signal();

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/help.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/exporting/c_source.hpp"
@@ -122,6 +123,8 @@ void add_export(CLI::App& app, Action& action) {
       "This file (c: FILE.c, beside it FILE.h; its name is the prefix of all names). Without: "
       "json and mjcf to the standard output");
   command->add_flag("--fixed", options->fixed, "c: SUPGs in fixed point, without any floating point");
+  add_examples(*command, {{"amble export runs/1 --format c -o walker.c", "for a microcontroller"},
+                          {"amble export runs/1 --format mjcf -o robot.xml", ""}});
   command->callback([options, &action] { action = [options] { return run_export(*options); }; });
 }
 

@@ -7,6 +7,7 @@
 
 #include "amble/cli/commands.hpp"
 #include "amble/cli/disturbance.hpp"
+#include "amble/cli/help.hpp"
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/replay.hpp"
@@ -101,6 +102,9 @@ void add_gait(CLI::App& app, Action& action) {
           "--window", settings.window_s,
           "Least length of the windows in which the gait is classified; each has 4 strides of each foot, s")
       ->capture_default_str();
+  add_examples(*command,
+               {{"amble gait runs/1", ""},
+                {"amble gait walk.rec --json gait.json", "of a recording by amble trial --record"}});
   command->callback([options, &action] { action = [options] { return run_gait(*options); }; });
 }
 

@@ -9,6 +9,7 @@
 
 #include "amble/cli/commands.hpp"
 #include "amble/cli/compare_table.hpp"
+#include "amble/cli/help.hpp"
 #include "amble/cli/progress.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
@@ -182,6 +183,7 @@ void add_info(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("info", "Say what a run folder, champion or recording holds");
   auto path = std::make_shared<std::filesystem::path>();
   command->add_option("PATH", *path, "Run folder, champion file or recording")->required();
+  add_examples(*command, {{"amble info runs/1", ""}});
   command->callback([path, &action] { action = [path] { return info(*path); }; });
 }
 

@@ -5,9 +5,12 @@
 #include <cstdio>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/help.hpp"
 #include "amble/cli/messages.hpp"
+#include "amble/cli/usage_error.hpp"
 #include "amble/experiment/build_info.hpp"
 #include "amble/physics/engine.hpp"
 #include "amble/physics/instruction_set.hpp"
@@ -35,31 +38,37 @@ std::string version_text() {
       amble::experiment::cpu_name());
 }
 
+/// Under what heading help lists a command.
+struct Group {
+  const char* name;
+  std::vector<void (*)(CLI::App&, amble::cli::Action&)> commands;
+};
+
+void add_commands(CLI::App& app, amble::cli::Action& action) {
+  using namespace amble::cli;
+  const std::vector<Group> groups{
+      {"Evolve", {add_evolve, add_resume, add_study}},
+      {"See", {add_view, add_page, add_repertoire, add_draw}},
+      {"Measure", {add_trial, add_compare, add_gait, add_report, add_info, add_verify}},
+      {"Take away, and adapt", {add_export, add_adapt}},
+      {"Robots and settings", {add_robot, add_settings, add_substrate}},
+      {"The command line", {add_completion, add_help}}};
+  for (const Group& group : groups)
+    for (const auto add : group.commands) {
+      const std::size_t before = app.get_subcommands({}).size();
+      add(app, action);
+      app.get_subcommands({}).at(before)->group(group.name);
+    }
+}
+
 ExitCode run(int argc, char** argv) {
   CLI::App app("Evolves walking controllers for legged robots.", "amble");
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
-  app.footer("Each command explains itself: amble COMMAND --help");
+  app.formatter(amble::cli::help_formatter());
+  app.footer("amble help COMMAND explains a command, with examples.");
   amble::cli::Action action;
-  amble::cli::add_evolve(app, action);
-  amble::cli::add_resume(app, action);
-  amble::cli::add_trial(app, action);
-  amble::cli::add_compare(app, action);
-  amble::cli::add_gait(app, action);
-  amble::cli::add_info(app, action);
-  amble::cli::add_robot(app, action);
-  amble::cli::add_study(app, action);
-  amble::cli::add_report(app, action);
-  amble::cli::add_verify(app, action);
-  amble::cli::add_page(app, action);
-  amble::cli::add_view(app, action);
-  amble::cli::add_draw(app, action);
-  amble::cli::add_export(app, action);
-  amble::cli::add_repertoire(app, action);
-  amble::cli::add_adapt(app, action);
-  amble::cli::add_settings(app, action);
-  amble::cli::add_substrate(app, action);
-  amble::cli::add_completion(app, action);
+  add_commands(app, action);
   if (argc == 1) {
     fmt::print("{}", app.help());
     return ExitCode::ok;
@@ -70,9 +79,7 @@ ExitCode run(int argc, char** argv) {
     app.exit(request);
     return ExitCode::ok;
   } catch (const CLI::ParseError& error) {
-    if (argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty())
-      return report(ExitCode::bad_input, fmt::format("unknown command '{}' (amble --help)", argv[1]));
-    return report(ExitCode::bad_input, std::string(error.what()) + " (amble --help)");
+    throw amble::cli::usage_error(app, error, argc, argv);
   }
   return action();
 }

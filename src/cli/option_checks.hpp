@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <concepts>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "amble/physics/engine.hpp"
 
@@ -31,6 +33,18 @@ inline std::string engine_values() {
 /// Adds the option --engine.
 inline void add_engine(CLI::App& command, std::optional<std::string>& engine, const std::string& what) {
   command.add_option("--engine", engine, what)->type_name(engine_values());
+}
+
+/// As many as the machine has, at least 1.
+inline int processors() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+/// Adds the option --jobs, of the same meaning everywhere: all processors by default.
+inline void add_jobs(CLI::App& command, int& jobs,
+                     const std::string& what = "Processors to use; the results do not depend on it") {
+  jobs = processors();
+  command.add_option("--jobs", jobs, what)->capture_default_str()->check(between(1, 1024));
 }
 
 /// Check of the length of a trial.

@@ -12,6 +12,7 @@
 #include "amble/cli/commands.hpp"
 #include "amble/cli/compare_table.hpp"
 #include "amble/cli/disturbance.hpp"
+#include "amble/cli/help.hpp"
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/build_info.hpp"
@@ -139,6 +140,8 @@ void add_page(CLI::App& app, Action& action) {
   add_disturbance(*command, options->disturbance);
   add_engine(*command, options->engine,
              "Physics engine in which the champion is shown (default: as in its evolution)");
+  add_examples(*command, {{"amble page runs/1 -o figures.html", ""},
+                          {"amble page runs/1 -o figures.html --engine ode --figures figures", ""}});
   command->callback([options, &action] { action = [options] { return make_page(*options); }; });
 }
 

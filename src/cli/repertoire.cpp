@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/help.hpp"
+#include "amble/cli/option_checks.hpp"
 #include "amble/cli/repertoire_page.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
@@ -162,13 +164,13 @@ void add_repertoire(CLI::App& app, Action& action) {
           "--retest", options->retest,
           "Try each elite in so many new trials under noise: what the map keeps of what it says; with "
           "-o FILE.html, .svg or .csv what each elite keeps (20 if the map was made under noise; 0: not)")
-      ->check(CLI::Range(0, 1000));
+      ->check(between(0, 1000));
   command->add_option("--walkers", options->walkers, "Cells at most that can be chosen in FILE.html")
-      ->check(CLI::Range(1, 10000))
+      ->check(between(1, 10000))
       ->capture_default_str();
-  command->add_option("--jobs", options->jobs, "Workers for --retest")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  add_jobs(*command, options->jobs, "Processors for --retest; the results do not depend on it");
+  add_examples(*command, {{"amble repertoire runs/map", "coverage, QD score, what its elites keep"},
+                          {"amble repertoire runs/map -o map.html", ""}});
   command->callback([options, &action] { action = [options] { return run_repertoire(*options); }; });
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/help.hpp"
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/printable.hpp"
@@ -118,6 +119,8 @@ void add_report(CLI::App& app, Action& action) {
   command->add_option("--json", options->json, "Also write them as one JSON document");
   command->add_option("--figures", options->figures,
                       "Also write each figure as an SVG file into this folder");
+  add_examples(*command, {{"amble report results/smoke -o report.html", ""},
+                          {"amble report results/smoke -o report.html --csv tables --figures figures", ""}});
   command->callback([options, &action] { action = [options] { return make_report(*options); }; });
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/help.hpp"
 #include "amble/cli/robot_init.hpp"
 #include "amble/cli/robot_solver.hpp"
 #include "amble/experiment/problem.hpp"
@@ -28,6 +29,9 @@ void add_robot(CLI::App& app, Action& action) {
   command->add_option("-o,--out", options->folder, "Folder for both (default: one of the model's name)")
       ->needs(init);
   init->excludes(file)->excludes(mjcf);
+  add_examples(*command, {{"amble robot --init my_robot.xml -o my_robot",
+                           "then: amble evolve my_robot/evolve.toml --out runs/1"},
+                          {"amble robot robots/hexapod/hexapod.toml", ""}});
   command->callback([options, &action] {
     if (options->file.empty() && options->model.empty()) throw CLI::RequiredError("FILE or --init MODEL");
     action = [options] {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/help.hpp"
 #include "amble/experiment/config.hpp"
 #include "amble/io/toml_settings.hpp"
 
@@ -49,6 +50,10 @@ void add_settings(CLI::App& app, Action& action) {
   auto options = std::make_shared<SettingsOptions>();
   command->add_option("CONFIG", options->files, "Config files whose values are shown beside the defaults");
   command->add_flag("--differing", options->differing, "Only settings in which the config files differ");
+  add_examples(
+      *command,
+      {{"amble settings", "all with their defaults"},
+       {"amble settings --differing configs/authors/supg-novelty.toml configs/paper/supg-novelty.toml", ""}});
   command->callback([options, &action] { action = [options] { return print_settings(*options); }; });
 }
 

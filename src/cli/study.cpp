@@ -6,10 +6,10 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/help.hpp"
 #include "amble/cli/messages.hpp"
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/stop_signal.hpp"
@@ -27,13 +27,23 @@ namespace {
 struct StudyOptions {
   std::filesystem::path file, out;
   std::string shard = "1/1";
-  int jobs = 1, workers = 1;
+  int jobs = 1, per_run = 1;
+  std::optional<int> workers;  ///< an old name
   bool discard_runs = false, status = false;
   bool as_child = false;  ///< one of a parent's processes
   std::vector<std::string> retest;
   std::optional<std::filesystem::path> slurm;
   int slurm_tasks = 20, slurm_minutes = 60;
 };
+
+/// `--workers`, which once were those within each of `--jobs` processes.
+void take_old_workers(StudyOptions& options) {
+  if (!options.workers) return;
+  options.per_run = *options.workers;
+  options.jobs *= *options.workers;
+  print_message(fmt::format("--workers {0}: asked for by --jobs {1} --per-run {0} now\n", *options.workers,
+                            options.jobs));
+}
 
 /// How much of a study's part is done, begun and neither.
 ExitCode print_status(const study::Plan& plan, const std::vector<study::RunStatus>& states,
@@ -85,7 +95,7 @@ ExitCode work_here(const study::Plan& plan, const std::vector<study::RunStatus>&
   if (!options.as_child) progress.emplace(plan, states, shard, 1);
   StudyReporter reporter(plan, progress ? &*progress : nullptr);
   const auto result = study::work(
-      plan, states, {.shard = shard, .workers = options.workers, .discard_runs = options.discard_runs},
+      plan, states, {.shard = shard, .workers = options.per_run, .discard_runs = options.discard_runs},
       reporter, stop_signal());
   progress.reset();
   if (options.as_child) return result.interrupted ? ExitCode::interrupted : result.first_failure;
@@ -97,8 +107,8 @@ std::vector<std::string> child_arguments(const StudyOptions& options) {
   std::vector<std::string> arguments{"study",     options.file.string(),
                                      "--out",     options.out.string(),
                                      "--shard",   options.shard,
-                                     "--workers", std::to_string(options.workers),
-                                     "--jobs",    "1",
+                                     "--jobs",    std::to_string(options.per_run),
+                                     "--per-run", std::to_string(options.per_run),
                                      "--child"};
   if (options.discard_runs) arguments.emplace_back("--discard-runs");
   for (const std::string& test : options.retest) arguments.insert(arguments.end(), {"--retest", test});
@@ -143,7 +153,7 @@ ExitCode write_slurm_script(const study::Plan& plan, const StudyOptions& options
                                                       .out = fs::absolute(options.out),
                                                       .tasks = options.slurm_tasks,
                                                       .jobs = options.jobs,
-                                                      .workers = options.workers,
+                                                      .per_run = options.per_run,
                                                       .discard_runs = options.discard_runs,
                                                       .minutes = options.slurm_minutes}));
   fmt::print("{} runs in {} tasks; submit them by: sbatch {}\n", plan.runs.size(), options.slurm_tasks,
@@ -167,7 +177,8 @@ ExitCode run_study(const StudyOptions& options) {
   const auto part = plan.shard(shard);
   const auto open =
       std::ranges::count_if(part, [&](std::size_t run) { return states[run] != study::RunStatus::done; });
-  const int processes = std::min(options.jobs, std::max(1, static_cast<int>(open)));
+  const int processes =
+      std::min(std::max(1, options.jobs / options.per_run), std::max(1, static_cast<int>(open)));
   if (processes == 1 || options.as_child) return work_here(plan, states, options);
   return work_in_processes(plan, states, options, processes);
 }
@@ -178,15 +189,13 @@ void add_study(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand(
       "study", "Compare conditions over many seeds: evolve, test champions, keep a record of each run");
   auto options = std::make_shared<StudyOptions>();
-  options->jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   command->add_option("FILE", options->file, "Study file (TOML)")->required();
   command->add_option("--out", options->out, "Folder of the study; goes on with what is there")->required();
-  command->add_option("--jobs", options->jobs, "Processes, each with a run of its own")
+  add_jobs(*command, options->jobs, "Processors to use; as many runs go on side by side");
+  command->add_option("--per-run", options->per_run, "How many of them each run takes")
       ->capture_default_str()
       ->check(between(1, 1024));
-  command->add_option("--workers", options->workers, "Workers within each run")
-      ->capture_default_str()
-      ->check(between(1, 1024));
+  command->add_option("--workers", options->workers)->group("")->check(between(1, 1024));
   command->add_option("--shard", options->shard, "The I-th of N parts of the study, e.g. 2/8")
       ->type_name("I/N")
       ->capture_default_str();
@@ -204,8 +213,7 @@ void add_study(CLI::App& app, Action& action) {
                                  "Only write a Slurm batch script, whose tasks are shards, to this file")
                     ->excludes(retest);
   command
-      ->add_option("--tasks", options->slurm_tasks,
-                   "Tasks of the Slurm array; each takes --jobs × --workers processors")
+      ->add_option("--tasks", options->slurm_tasks, "Tasks of the Slurm array; each takes --jobs processors")
       ->capture_default_str()
       ->needs(slurm)
       ->check(between(1, 100000));
@@ -214,7 +222,16 @@ void add_study(CLI::App& app, Action& action) {
       ->needs(slurm)
       ->check(between(3, 100000));
   command->add_flag("--child", options->as_child)->group("");
-  command->callback([options, &action] { action = [options] { return run_study(*options); }; });
+  add_examples(*command,
+               {{"amble study studies/smoke.toml --out results/smoke", ""},
+                {"amble study studies/smoke.toml --out results/smoke --status", ""},
+                {"amble study studies/paper.toml --out results/paper --slurm job.sh --tasks 20", ""}});
+  command->callback([options, &action] {
+    action = [options] {
+      take_old_workers(*options);
+      return run_study(*options);
+    };
+  });
 }
 
 }  // namespace amble::cli

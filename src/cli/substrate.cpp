@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/help.hpp"
 #include "amble/experiment/problem.hpp"
 #include "amble/figures/substrate_figure.hpp"
 #include "amble/io/file.hpp"
@@ -74,6 +75,9 @@ void add_substrate(CLI::App& app, Action& action) {
   command->add_flag("--toml", options->toml,
                     "Print them as the table [controller.substrate] of a config, to be edited");
   command->add_option("-o,--out", options->out, "Draw them into this file (SVG)");
+  add_examples(*command,
+               {{"amble substrate configs/authors/ctrnn-objective.toml -o substrate.svg", ""},
+                {"amble substrate configs/authors/ctrnn-objective.toml --toml", "as text to be edited"}});
   command->callback([options, &action] { action = [options] { return show_substrate(*options); }; });
 }
 

@@ -9,6 +9,8 @@
 
 #include "amble/cli/commands.hpp"
 #include "amble/cli/disturbance.hpp"
+#include "amble/cli/help.hpp"
+#include "amble/cli/messages.hpp"
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
@@ -28,13 +30,26 @@ struct TrialOptions {
   std::optional<double> seconds;
   std::optional<std::string> engine;
   std::optional<std::filesystem::path> record;
-  std::optional<std::uint32_t> noise;
+  std::optional<std::uint32_t> episode;
   std::optional<std::filesystem::path> ground;
   std::optional<std::string> damage;
   presentation::TrialChoice disturbance;
 };
 
 constexpr std::uint32_t most_episodes = 1000000;
+
+/// `--noise 3`, which once meant an episode.
+void take_old_episode(TrialOptions& options) {
+  auto& noise = options.disturbance.noise;
+  std::error_code error;
+  if (!noise || std::filesystem::exists(*noise, error)) return;
+  const std::string text = noise->string();
+  std::uint32_t number = 0;
+  if (!CLI::detail::lexical_cast(text, number) || number > most_episodes) return;
+  print_message(fmt::format("--noise {0}: an episode is asked for by --episode {0} now\n", text));
+  options.episode = number;
+  noise.reset();
+}
 
 /// Puts a champion on the ground of a config, or gives it the damage of a config.
 template <typename Change>
@@ -86,12 +101,12 @@ ExitCode run_trial(const TrialOptions& options) {
                                 .observer = &gait,
                                 .trace = false,
                                 .noise = {}};
-  if (options.noise) {
+  if (options.episode) {
     if (!champion.problem.disturbed())
-      fail(ExitCode::bad_input, "--noise: {} was evolved without noise, and from one place", path.string());
-    how.noise = champion.scenario_key(*options.noise);
+      fail(ExitCode::bad_input, "--episode: {} was evolved without noise, and from one place", path.string());
+    how.noise = champion.scenario_key(*options.episode);
   }
-  if (!options.noise && !options.disturbance.undisturbed) print_typical(champion, options);
+  if (!options.episode && !options.disturbance.undisturbed) print_typical(champion, options);
   const auto replay = experiment::replay(champion.problem, champion.genome, how, stop_signal());
   if (!replay) fail(ExitCode::interrupted, "stopped before the end of the trial");
   const auto& result = replay->result;
@@ -126,9 +141,9 @@ void add_trial(CLI::App& app, Action& action) {
   add_disturbance(*command, options->disturbance);
   command
       ->add_option(
-          "--noise", options->noise,
-          "Disturb the trial as in this episode of its evaluation, from 0; higher numbers are noise that "
-          "it has not met (default: no noise)")
+          "--episode", options->episode,
+          "Only one trial, disturbed as in this episode of its evaluation, from 0; higher numbers are noise "
+          "that it has not met")
       ->check(between(0u, most_episodes));
   command->add_option("--ground", options->ground,
                       "Walk on the [ground] of this config (default: as in its evolution)");
@@ -136,7 +151,15 @@ void add_trial(CLI::App& app, Action& action) {
                       "With the robot damaged as in the [damage] of this config, or as "
                       "KIND:NAME[=NUMBER][@SECONDS] says, e.g. "
                       "missing:FL,weak:FR_knee=0.3@5 (default: as in its evolution)");
-  command->callback([options, &action] { action = [options] { return run_trial(*options); }; });
+  add_examples(*command, {{"amble trial runs/1", "what it typically does"},
+                          {"amble trial runs/1 --seconds 300 --engine ode", ""},
+                          {"amble trial runs/1 --damage missing:FL", "with its front left leg missing"}});
+  command->callback([options, &action] {
+    action = [options] {
+      take_old_episode(*options);
+      return run_trial(*options);
+    };
+  });
 }
 
 }  // namespace amble::cli

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/help.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/record/generations_csv.hpp"
@@ -59,6 +60,7 @@ void add_verify(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("verify", "Run every champion of a run again and compare step by step");
   auto folder = std::make_shared<fs::path>();
   command->add_option("DIR", *folder, "Run folder")->required();
+  add_examples(*command, {{"amble verify runs/1", ""}});
   command->callback([folder, &action] { action = [folder] { return verify(*folder); }; });
 }
 

@@ -11,6 +11,7 @@
 
 #include "amble/cli/commands.hpp"
 #include "amble/cli/disturbance.hpp"
+#include "amble/cli/help.hpp"
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
@@ -142,6 +143,8 @@ void add_view(CLI::App& app, Action& action) {
              "Physics engine in which champions walk (default: as in their evolution)");
   add_disturbance(*command, options->disturbance);
   command->add_option("--title", options->title, "Title of the page")->type_name("WORDS");
+  add_examples(*command, {{"amble view runs/1 -o walker.html", ""},
+                          {"amble view runs/1 runs/2 -o both.html --seconds 60", "side by side"}});
   command->callback([options, &action] { action = [options] { return make_view(*options); }; });
 }
 

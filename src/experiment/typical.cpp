@@ -8,6 +8,7 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
+#include "amble/experiment/config.hpp"
 #include "amble/experiment/episodes.hpp"
 #include "amble/physics/engine.hpp"
 #include "amble/record/levels.hpp"
@@ -49,12 +50,20 @@ TypicalLevel typical_level(const Problem& problem, const std::string& asked) {
 }
 
 std::string TypicalLevel::under() const {
+  if (name.empty()) return "under the noise of " + from;
   return name == own_noise ? "under its own noise" : fmt::format("at the level {}", name);
 }
 
-TypicalTrials::TypicalTrials(const Problem& problem, std::int64_t seed, int trials, const std::string& level,
+TypicalLevel level_of_config(const std::filesystem::path& config) {
+  auto noise = load_config(config, {}).noise;
+  if (!noise.any()) fail(ExitCode::bad_input, "--noise: {} is without noise", config.string());
+  noise.first_undisturbed = false;
+  return {.name = {}, .noise = noise, .from = config.string()};
+}
+
+TypicalTrials::TypicalTrials(const Problem& problem, std::int64_t seed, int trials, TypicalLevel level,
                              int jobs)
-    : level_(typical_level(problem, level)) {
+    : level_(std::move(level)) {
   AMBLE_CHECK(trials >= 1, "what is typical needs a trial");
   auto disturbed = std::make_unique<Problem>(problem);
   disturbed->noise = level_.noise;

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -25,24 +26,30 @@ int reported_trials(std::string_view engine);
 
 /// What disturbs a problem's typical trials.
 struct TypicalLevel {
-  std::string name;  ///< of a record::Level, or `own_noise`
+  std::string name;  ///< of a record::Level, or `own_noise`; empty: noise from elsewhere
   trial::NoiseSettings noise;
+  std::string from = {};  ///< where that noise is from: a config's name
 
-  /// "under its own noise" or "at the level milli".
+  /// "under its own noise", "at the level milli" or "under the noise of windy.toml".
   std::string under() const;
 };
 /// `asked`: a level's name, or `own_noise`; empty: own noise where the problem has some, else
 /// record::default_level. Throws UserError for an unknown level, and for own noise where there is none.
 TypicalLevel typical_level(const Problem& problem, const std::string& asked = {});
 
+/// The [noise] of a config. Throws UserError if it is none.
+TypicalLevel level_of_config(const std::filesystem::path& config);
+
 /// Runs trials that neither evolution, nor the choice of champions, nor unseen_scenarios() has: the same for
 /// all genomes of a run. They are as new to a champion as its next trial will be.
 class TypicalTrials {
  public:
-  /// `level`: as typical_level() takes it. `trials` ≥ 1, of the problem's length and in its engine. Throws
-  /// UserError.
+  /// `trials` ≥ 1, of the problem's length and in its engine.
+  TypicalTrials(const Problem& problem, std::int64_t seed, int trials, TypicalLevel level, int jobs = 1);
+  /// `level`: as typical_level() takes it. Throws UserError.
   TypicalTrials(const Problem& problem, std::int64_t seed, int trials, const std::string& level = {},
-                int jobs = 1);
+                int jobs = 1)
+      : TypicalTrials(problem, seed, trials, typical_level(problem, level), jobs) {}
 
   const TypicalLevel& level() const { return level_; }
   /// The problem with the noise of these trials: their scenarios are those of typical_key(seed) and the

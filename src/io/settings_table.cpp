@@ -72,6 +72,16 @@ std::string cell(std::string_view text) {
 
 }  // namespace
 
+std::vector<std::string> setting_keys(const SettingsColumn& column) {
+  std::vector<Row> rows;
+  ColumnCollector collector(rows, 0, 1);
+  column.describe(collector);
+  std::vector<std::string> keys;
+  for (const Row& row : rows)
+    if (row.key.find('[') == std::string::npos) keys.push_back(row.key);
+  return keys;
+}
+
 std::string settings_to_markdown(const std::vector<SettingsColumn>& columns, SettingsRows wanted) {
   std::vector<Row> rows;
   for (std::size_t i = 0; i < columns.size(); ++i) {

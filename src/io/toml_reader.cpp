@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "amble/core/error.hpp"
 #include "amble/io/expectation.hpp"
+#include "amble/io/spelling.hpp"
 #include "amble/io/toml_node.hpp"
 #include "amble/io/toml_text.hpp"
 
@@ -12,22 +12,6 @@ namespace amble::io {
 namespace {
 
 using Kind = TomlNode::Kind;
-
-/// Fewest single-character edits that turn one word into the other (Levenshtein 1966).
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row.back();
-}
 
 std::string_view last_part(std::string_view path) {
   const std::size_t dot = path.rfind('.');
@@ -37,7 +21,7 @@ std::string_view last_part(std::string_view path) {
 /// The known key that the user may have meant, or nothing. A key in the wrong table counts as one edit.
 std::string nearest(std::string_view key, const std::vector<std::string>& known) {
   std::string best;
-  std::size_t fewest = 1 + key.size() / 3;
+  std::size_t fewest = 1 + most_misspelt(key);
   for (const std::string& candidate : known) {
     const bool misplaced = last_part(key) == last_part(candidate);
     const std::size_t edits = misplaced ? 1 : edit_distance(key, candidate);

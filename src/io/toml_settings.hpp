@@ -68,6 +68,8 @@ enum class SettingsRows {
   all,
   differing,  ///< only those in which the columns after the first differ from each other
 };
+/// The paths of all settings that `--set` takes, in their order: not those of items in lists.
+std::vector<std::string> setting_keys(const SettingsColumn& column);
 /// A Markdown table: key, what it means, allowed values, the value in each column, source. The first column
 /// has the defaults; for a list of tables it also has those of an item's keys, and the others only the
 /// number of items.

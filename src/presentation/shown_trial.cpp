@@ -2,10 +2,15 @@
 
 namespace amble::presentation {
 
+experiment::TypicalLevel level_of(const experiment::Problem& problem, const TrialChoice& choice) {
+  return choice.noise ? experiment::level_of_config(*choice.noise)
+                      : experiment::typical_level(problem, choice.level);
+}
+
 experiment::TypicalTrials typical_trials(const experiment::Problem& problem, std::int64_t seed,
                                          const TrialChoice& choice, int jobs) {
   const int trials = choice.trials > 0 ? choice.trials : experiment::reported_trials(problem.engine);
-  return {problem, seed, trials, choice.level, jobs};
+  return {problem, seed, trials, level_of(problem, choice), jobs};
 }
 
 std::optional<ShownTrial> shown_trial(const experiment::Champion& champion, std::optional<double> seconds,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -11,13 +12,17 @@ namespace amble::presentation {
 
 /// Which trial of a champion is measured or shown.
 struct TrialChoice {
-  std::string level;         ///< as in experiment::TypicalTrials
-  int trials = 0;            ///< 0: experiment::reported_trials()
-  bool undisturbed = false;  ///< the one trial without noise instead
+  std::string level;                                ///< as experiment::typical_level() takes it
+  std::optional<std::filesystem::path> noise = {};  ///< a config whose [noise] disturbs, in place of a level
+  int trials = 0;                                   ///< 0: experiment::reported_trials()
+  bool undisturbed = false;                         ///< the one trial without noise instead
 
-  /// Whether a level or a number of trials was asked for.
-  bool asked() const { return !level.empty() || trials > 0; }
+  /// Whether a level, a noise or a number of trials was asked for.
+  bool asked() const { return !level.empty() || noise || trials > 0; }
 };
+
+/// What disturbs the trials. Throws UserError.
+experiment::TypicalLevel level_of(const experiment::Problem& problem, const TrialChoice& choice);
 
 /// Trials of `problem`, a champion's or one made of it, by `jobs` workers. Throws UserError.
 experiment::TypicalTrials typical_trials(const experiment::Problem& problem, std::int64_t seed,

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
+#include <vector>
 
 #include "amble/core/index.hpp"
 #include "amble/io/xml.hpp"
@@ -59,6 +61,11 @@ std::string test_cell(const Judgement& judgement) {
   return cell;
 }
 
+/// Whether somebody else has published what the claim says.
+bool has_published_figure(const ledger::ClaimSpec& claim) {
+  return !claim.figure.empty() && claim.source != "amble";
+}
+
 /// Which claims' p values are adjusted together; `families`: tests by relation.
 std::string families_text(const std::array<std::size_t, 2>& families) {
   const auto [greater, not_less] = families;
@@ -79,13 +86,12 @@ std::string families_text(const std::array<std::size_t, 2>& families) {
 std::string claims_section(const Report& report) {
   const auto& claims = report.data.study.claims;
   if (claims.empty()) return {};
-  TableWriter table({{"", false, "index"},
-                     {"Claim", false, "sentence"},
-                     {"Published", false, "published"},
-                     {"Here", false, "here"},
-                     {"Test", false, "test"},
-                     {"Verdict", false, "judged"}},
-                    "cards claims");
+  const bool published = std::ranges::any_of(claims, has_published_figure);
+  std::vector<Column> columns{{"", false, "index"}, {"Claim", false, "sentence"}};
+  if (published) columns.push_back({"Published", false, "published"});
+  columns.insert(columns.end(),
+                 {{"Here", false, "here"}, {"Test", false, "test"}, {"Verdict", false, "judged"}});
+  TableWriter table(columns, "cards claims");
   const bool one_source = std::ranges::all_of(
       claims, [&](const ledger::ClaimSpec& claim) { return claim.source == claims[0].source; });
   std::array<std::size_t, 2> families{};
@@ -97,13 +103,15 @@ std::string claims_section(const Report& report) {
                                    ? ""
                                    : fmt::format("<br/><small>{}</small>", escape_xml(claim.source));
     const std::string ours = judgement.ours.empty() ? "" : tied(escape_xml(judgement.ours)) + "<br/>";
-    table.row_of_markup({fmt::format("{}", i + 1),
-                         fmt::format("{}{}<span class=\"reason\">{}</span>", escape_xml(claim.text), source,
-                                     tied(escape_xml(judgement.reason))),
-                         tied(escape_xml(claim.figure)),
-                         fmt::format("{}<small>{}</small>", ours, runs_text(judgement)), test_cell(judgement),
-                         fmt::format("<span class=\"verdict {}\">{}</span>", css_class(judgement.verdict),
-                                     name_of(judgement.verdict))});
+    std::vector<std::string> cells{fmt::format("{}", i + 1),
+                                   fmt::format("{}{}<span class=\"reason\">{}</span>", escape_xml(claim.text),
+                                               source, tied(escape_xml(judgement.reason)))};
+    if (published) cells.push_back(has_published_figure(claim) ? tied(escape_xml(claim.figure)) : "");
+    cells.insert(cells.end(),
+                 {fmt::format("{}<small>{}</small>", ours, runs_text(judgement)), test_cell(judgement),
+                  fmt::format("<span class=\"verdict {}\">{}</span>", css_class(judgement.verdict),
+                              name_of(judgement.verdict))});
+    table.row_of_markup(cells);
   }
   std::string lead =
       "Each claim is judged by the rule given with it in the study’s file (docs/STUDIES.md). Intervals "

@@ -25,10 +25,9 @@ std::string job_name(std::string text) {
 }  // namespace
 
 std::string slurm_script(const SlurmJob& job) {
-  AMBLE_CHECK(job.tasks > 0 && job.jobs > 0 && job.workers > 0 && job.minutes > 0,
+  AMBLE_CHECK(job.tasks > 0 && job.jobs > 0 && job.per_run > 0 && job.minutes > 0,
               "a job has tasks, processors and time");
-  const std::string cpus = "${SLURM_CPUS_PER_TASK:-" + std::to_string(job.jobs * job.workers) + "}";
-  const std::string jobs = job.workers == 1 ? cpus : fmt::format("$(({} / {}))", cpus, job.workers);
+  const std::string cpus = "${SLURM_CPUS_PER_TASK:-" + std::to_string(job.jobs) + "}";
   return fmt::format(
       R"(#!/bin/bash
 # {tasks} tasks, each a shard of the study. Submit with sbatch; submitted again, it does what is left.
@@ -57,9 +56,9 @@ if [ $code = 7 ] && [ "$out_of_time" ]; then
 fi
 exit $code
 )",
-      fmt::arg("name", job_name(job.name)), fmt::arg("tasks", job.tasks),
-      fmt::arg("cpus", job.jobs * job.workers), fmt::arg("jobs", jobs),
-      fmt::arg("more", (job.workers == 1 ? "" : fmt::format(" --workers {}", job.workers)) +
+      fmt::arg("name", job_name(job.name)), fmt::arg("tasks", job.tasks), fmt::arg("cpus", job.jobs),
+      fmt::arg("jobs", cpus),
+      fmt::arg("more", (job.per_run == 1 ? "" : fmt::format(" --per-run {}", job.per_run)) +
                            (job.discard_runs ? " --discard-runs" : "")),
       fmt::arg("minutes", job.minutes), fmt::arg("program", quoted(job.program.string())),
       fmt::arg("file", quoted(job.file.string())), fmt::arg("out", quoted(job.out.string())));

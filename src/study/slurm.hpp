@@ -10,8 +10,8 @@ struct SlurmJob {
   std::string name;                          ///< other characters than letters, digits, - and _ become -
   std::filesystem::path program, file, out;  ///< absolute: tasks begin in any folder, on any node
   int tasks = 1;                             ///< of the array; shard i of `tasks` each
-  int jobs = 1;                              ///< runs side by side in a task
-  int workers = 1;                           ///< processors of each of them
+  int jobs = 1;                              ///< processors of a task
+  int per_run = 1;                           ///< of these for each run
   bool discard_runs = false;                 ///< WorkOptions::discard_runs
   int minutes = 60;                          ///< time limit of a task; one that needs longer is requeued
 };

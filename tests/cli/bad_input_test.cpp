@@ -10,7 +10,26 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 TEST_F(BadInput, AnUnknownCommand) {
-  expect_refusal({"dance"}, ExitCode::bad_input, "dance");
+  expect_refusal({"dance"}, ExitCode::bad_input, "unknown command 'dance'; amble help lists all");
+  expect_refusal({"evole", config}, ExitCode::bad_input, "unknown command 'evole' (did you mean 'evolve'?)");
+  expect_refusal({"help", "repotr"}, ExitCode::bad_input,
+                 "unknown command 'repotr' (did you mean 'report'?)");
+}
+
+TEST_F(BadInput, AnUnknownOption) {
+  expect_refusal({"evolve", config, "--sed", "3", "--out", out_}, ExitCode::bad_input,
+                 "unknown option '--sed' (did you mean '--seed'?) (amble evolve --help)");
+  expect_refusal({"trial", config, "--second=3"}, ExitCode::bad_input,
+                 "unknown option '--second' (did you mean '--seconds'?) (amble trial --help)");
+  expect_refusal({"info", config, config}, ExitCode::bad_input, "unexpected argument '");
+}
+
+TEST_F(BadInput, AnInputThatDoesNotExistIsNamedBeforeAnOptionThatIsMissing) {
+  const auto none = scratch_ / "none.toml";
+  for (const char* command : {"evolve", "study", "view", "page", "export", "report"})
+    expect_refusal({command, none}, ExitCode::io, "none.toml: No such file or directory");
+  expect_refusal({"evolve", config}, ExitCode::bad_input, "--out is required (amble evolve --help)");
+  expect_refusal({"evolve"}, ExitCode::bad_input, "CONFIG is required (amble evolve --help)");
 }
 
 TEST_F(BadInput, MissingConfig) {

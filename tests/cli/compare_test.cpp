@@ -92,7 +92,7 @@ TEST_F(Compare, TakesTheMedianOfTrialsUnderNoiseThatEvolutionHasNotMet) {
     for (std::size_t e = 0; e < 3; ++e) {
       distances_m.push_back(judged["trials"].at(e)["distance_m"]);
       const auto alone = distance({"trial", champion_, "--engine", judged["engine"].get<std::string>(),
-                                   "--noise", std::to_string(1000 + e)});
+                                   "--episode", std::to_string(1000 + e)});
       EXPECT_NEAR(std::stod(alone), distances_m.back(), 0.0005) << judged["engine"];
     }
     std::ranges::sort(distances_m);
@@ -113,6 +113,26 @@ TEST_F(Compare, SaysByDefaultWhatAChampionTypicallyDoes) {
   EXPECT_THAT(trial.out,
               StartsWith(fmt::format("typically {:.2f} m in 1 s: half of 5 trials under its own noise ",
                                      row["results"][0]["distance_m"].get<double>())));
+}
+
+TEST_F(Compare, TheNoiseOfAConfigIsTheSameTrialsInEveryCommand) {
+  const auto compared = amble(
+      {"compare", champion_, "--engines", "batch", "--noise", robust, "--trials", "3", "--format", "json"});
+  ASSERT_EQ(compared.exit_code, 0) << compared.err;
+  const auto row = io::Json::parse(compared.out)[0];
+  const std::string typical =
+      fmt::format("typically {:.2f} m in 1 s: half of 3 trials under the noise of {} ",
+                  row["results"][0]["distance_m"].get<double>(), robust);
+  for (const char* command : {"trial", "gait"})
+    EXPECT_THAT(amble({command, champion_, "--noise", robust, "--trials", "3"}).out, StartsWith(typical))
+        << command;
+}
+
+TEST_F(Compare, AnEpisodeAskedForByAnOldNameIsToldTheNewOne) {
+  const auto old = amble({"trial", champion_, "--noise", "1000"});
+  EXPECT_EQ(old.exit_code, 0);
+  EXPECT_EQ(old.err, "--noise 1000: an episode is asked for by --episode 1000 now\n");
+  EXPECT_EQ(old.out, amble({"trial", champion_, "--episode", "1000"}).out);
 }
 
 TEST_F(Compare, TheMedianTrialIsWhatGaitViewAndPageShowOfAWalkerEvolvedUnderNoise) {

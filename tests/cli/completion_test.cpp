@@ -75,6 +75,13 @@ TEST_F(BashCompletion, OffersValuesThatAreKnown) {
   EXPECT_THAT(offered({"amble", "completion", ""}), UnorderedElementsAre("bash", "zsh", "fish"));
 }
 
+TEST_F(BashCompletion, OffersTheKeysOfSettings) {
+  EXPECT_THAT(offered({"amble", "evolve", "--set", "population.si"}), ElementsAre("population.size="));
+  EXPECT_THAT(offered({"amble", "substrate", "--set", "controller.supg.tri"}),
+              IsSupersetOf({"controller.supg.trigger="}));
+  EXPECT_THAT(offered({"amble", "evolve", "--set", "nothing."}), ElementsAre());
+}
+
 TEST_F(BashCompletion, OffersFilesWhereAPathIsExpectedAndNothingWhereANumberIs) {
   EXPECT_THAT(offered({"amble", "evolve", "w"}), ElementsAre("walk.toml"));
   EXPECT_THAT(offered({"amble", "trial", "runs"}), ElementsAre("runs of may"));

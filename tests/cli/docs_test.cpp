@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "tests/cli/process.hpp"
 
@@ -35,6 +36,36 @@ TEST(Docs, EveryCommandExplainsItself) {
     const auto help = amble({command, "--help"});
     EXPECT_EQ(help.exit_code, 0) << command;
     EXPECT_NE(help.out.find("Usage"), std::string::npos) << command;
+  }
+}
+
+TEST(Docs, HelpOfACommandIsThatOfItsOption) {
+  const auto help = amble({"help", "evolve"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_EQ(help.out, amble({"evolve", "--help"}).out);
+  EXPECT_EQ(amble({"help"}).out, amble({"--help"}).out);
+}
+
+/// The commands that help lists.
+std::vector<std::string> commands() {
+  std::vector<std::string> names;
+  std::istringstream lines(amble({"help"}).out.substr(amble({"help"}).out.find("\nEvolve:\n")));
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("  ") && line[2] != ' ') names.push_back(line.substr(2, line.find(' ', 2) - 2));
+  return names;
+}
+
+TEST(Docs, EveryCommandsHelpHasExamplesAndLinesThatFitAScreen) {
+  EXPECT_EQ(commands().size(), 20u);
+  for (const std::string& command : commands()) {
+    const auto help = amble({"help", command});
+    EXPECT_EQ(help.exit_code, 0) << command;
+    const auto examples = help.out.find("\nExample");
+    ASSERT_NE(examples, std::string::npos) << command;
+    EXPECT_NE(help.out.find("amble " + command, examples), std::string::npos) << command;
+    std::istringstream lines(help.out.substr(0, examples));
+    for (std::string line; std::getline(lines, line);)
+      EXPECT_LE(line.size(), 102u) << command << ": " << line;
   }
 }
 

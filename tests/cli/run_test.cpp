@@ -164,11 +164,11 @@ TEST_P(RunOnEngine, HasNoiseOnlyWhereItIsSetAndIsVerified) {
     return run.out;
   };
   EXPECT_EQ(trial({}), trial({}));
-  EXPECT_EQ(trial({"--noise", "1"}), trial({"--noise", "1"}));
-  EXPECT_NE(trial({"--noise", "1"}), trial({}));
-  EXPECT_NE(trial({"--noise", "1"}), trial({"--noise", "2"}));
+  EXPECT_EQ(trial({"--episode", "1"}), trial({"--episode", "1"}));
+  EXPECT_NE(trial({"--episode", "1"}), trial({}));
+  EXPECT_NE(trial({"--episode", "1"}), trial({"--episode", "2"}));
   const std::string rough = AMBLE_SOURCE_DIR "/studies/grounds/supg-rough.toml";
-  EXPECT_NE(trial({"--noise", "1", "--ground", rough}), trial({"--noise", "1"}));
+  EXPECT_NE(trial({"--episode", "1", "--ground", rough}), trial({"--episode", "1"}));
 
   EXPECT_NE(trial({"--damage", "missing:FL"}), trial({}));
   EXPECT_EQ(trial({"--damage", "numb:FL@100"}), trial({}));
@@ -187,7 +187,7 @@ TEST_P(RunOnEngine, HasNoiseOnlyWhereItIsSetAndIsVerified) {
   const auto own = amble({"gait", quiet, "--level", "own"});
   EXPECT_EQ(own.exit_code, static_cast<int>(ExitCode::bad_input));
   EXPECT_NE(own.err.find("evolved without noise"), std::string::npos) << own.err;
-  const auto refused = amble({"trial", quiet, "--noise", "0"});
+  const auto refused = amble({"trial", quiet, "--episode", "0"});
   EXPECT_EQ(refused.exit_code, static_cast<int>(ExitCode::bad_input));
   EXPECT_NE(refused.err.find("was evolved without noise"), std::string::npos) << refused.err;
 }

@@ -217,17 +217,21 @@ TEST_F(Study, PassesItsOptionsOnToSlurmsTasks) {
   write(replaced(study_toml, "name = \"tiny\"", "name = \"my study\\n#SBATCH --partition=all\""));
   const auto script = folder_ / "batch.sh";
   const auto written =
-      study("s", {"--slurm", script.string(), "--jobs", "2", "--workers", "3", "--discard-runs"});
+      study("s", {"--slurm", script.string(), "--jobs", "6", "--per-run", "3", "--discard-runs"});
   ASSERT_EQ(written.exit_code, 0) << written.err;
   const auto text = slurp(script);
   EXPECT_NE(text.find("#SBATCH --job-name=amble-my-study--SBATCH---partition-all\n"), std::string::npos)
       << text;
   EXPECT_NE(text.find("#SBATCH --cpus-per-task=6\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("--jobs \"$((${SLURM_CPUS_PER_TASK:-6} / 3))\" --workers 3 --discard-runs &"),
-            std::string::npos)
+  EXPECT_NE(text.find("--jobs \"${SLURM_CPUS_PER_TASK:-6}\" --per-run 3 --discard-runs &"), std::string::npos)
       << text;
   const auto refused = study("s", {"--slurm", script.string(), "--shard", "1/2"});
   EXPECT_EQ(refused.exit_code, 2) << refused.err;
+  // As these options were once called, with a word.
+  const auto old =
+      study("s", {"--slurm", script.string(), "--jobs", "2", "--workers", "3", "--discard-runs"});
+  EXPECT_EQ(slurp(script), text);
+  EXPECT_NE(old.err.find("--workers 3: asked for by --jobs 6 --per-run 3 now"), std::string::npos) << old.err;
 }
 
 }  // namespace

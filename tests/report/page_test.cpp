@@ -42,6 +42,18 @@ TEST(Page, IsWellFormedWithTwoConditionsOrTwenty) {
   EXPECT_NO_THROW(parse_xml(page(large_study(1, 1))));
 }
 
+TEST(Page, HeadsOnlyFiguresThatSomebodyPublished) {
+  StudyData data = small_study();
+  for (auto& claim : data.study.claims) claim.figure = "none of ours", claim.source = "amble";
+  EXPECT_THAT(claims_section(make_report(data)), Not(HasSubstr("Published")));
+  data.study.claims[0].source = "Somebody 2013";
+  data.study.claims[0].figure = "9 of 20";
+  const std::string mixed = claims_section(make_report(data));
+  EXPECT_THAT(mixed, HasSubstr("Published"));
+  EXPECT_THAT(mixed, HasSubstr("9\u00a0of\u00a020"));
+  EXPECT_THAT(mixed, Not(HasSubstr("of ours")));
+}
+
 TEST(Page, ShowsMutantsWhereTestsHaveThem) {
   const std::string html = page(mutated_study());
   EXPECT_EQ(sections(html), (std::vector<std::string>{"claims", "distance", "curves", "survival", "sizes",
