@@ -214,4 +214,10 @@ std::string standalone_svg(std::string element, std::string_view more_rules) {
   return element.insert(head_end + 1, style);
 }
 
+std::string with_rules(std::string svg, std::string_view rules) {
+  const std::size_t end = svg.find("</style>");
+  AMBLE_CHECK(end != std::string::npos, "a file by standalone_svg() has a style");
+  return svg.insert(end, rules);
+}
+
 }  // namespace amble::graphics

@@ -22,4 +22,7 @@ std::string map_style_sheet();
 /// without custom properties (resolved_style.hpp).
 std::string standalone_svg(std::string element, std::string_view more_rules = {});
 
+/// A file by standalone_svg() with more rules behind its own, as they are: such as animations.
+std::string with_rules(std::string svg, std::string_view rules);
+
 }  // namespace amble::graphics

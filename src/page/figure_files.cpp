@@ -15,7 +15,12 @@ std::vector<FigureFile> figure_files(const RunPage& page, const motion::Recorded
     files.push_back({std::move(name), graphics::standalone_svg(std::move(svg))});
   };
   const bool moved = motion.frames() > 0;
-  if (moved) add("filmstrip.svg", figures::filmstrip_figure(robot, motion, Layout::wide));
+  if (moved) {
+    add("filmstrip.svg", figures::filmstrip_figure(robot, motion, Layout::wide));
+    files.push_back(
+        {"walk.svg", graphics::with_rules(graphics::standalone_svg(figures::walk_animation(robot, motion)),
+                                          figures::animation_style(motion))});
+  }
   if (page.generations && page.generations->count() > 0)
     add("fitness.svg", figures::fitness_figure(*page.generations, Layout::wide, page.objective));
   if (moved) {

@@ -16,12 +16,12 @@ struct FigureFile {
 };
 
 /// All names of figure files.
-inline constexpr std::array<std::string_view, 6> figure_names{"filmstrip.svg", "fitness.svg", "footfalls.svg",
-                                                              "patterns.svg",  "network.svg", "path.svg"};
+inline constexpr std::array<std::string_view, 7> figure_names{
+    "filmstrip.svg", "walk.svg", "fitness.svg", "footfalls.svg", "patterns.svg", "network.svg", "path.svg"};
 
-/// The figures of the page, in its order: filmstrip, fitness (if page.generations has any), footfalls,
-/// patterns (SUPGs only), network (network controllers only) and path. Without a recorded step there is
-/// fitness only.
+/// The figures of the page, in its order: filmstrip and the same as an animation, fitness (if
+/// page.generations has any), footfalls, patterns (SUPGs only), network (network controllers only) and path.
+/// Without a recorded step there is fitness only.
 std::vector<FigureFile> figure_files(const RunPage& page, const motion::RecordedTrial& recorded);
 
 }  // namespace amble::page

@@ -20,7 +20,7 @@ TEST(Figures, AreOnePerSectionOfThePage) {
   using Names = std::vector<std::string>;
   RunPage input;
   EXPECT_EQ(names(figure_files(input, tests::walk(150))),
-            (Names{"filmstrip.svg", "footfalls.svg", "patterns.svg", "path.svg"}));
+            (Names{"filmstrip.svg", "walk.svg", "footfalls.svg", "patterns.svg", "path.svg"}));
   input.generations = record::Generations();
   EXPECT_EQ(names(figure_files(input, tests::walk(0))), Names{}) << "no generation is complete yet";
   input.generations = record::parse_generations(
@@ -33,7 +33,7 @@ TEST(Figures, AreOnePerSectionOfThePage) {
   auto other_kind = tests::walk(150);
   other_kind.supg.reset();
   EXPECT_EQ(names(figure_files(input, other_kind)),
-            (Names{"filmstrip.svg", "fitness.svg", "footfalls.svg", "path.svg"}));
+            (Names{"filmstrip.svg", "walk.svg", "fitness.svg", "footfalls.svg", "path.svg"}));
 }
 
 TEST(Figures, AreSelfContainedWithTheirOwnStyle) {
