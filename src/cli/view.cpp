@@ -33,8 +33,22 @@ struct ViewOptions {
   fs::path out;
   presentation::WalkOptions walk;
   std::optional<std::string> title;
+  bool history = false;
   presentation::TrialChoice disturbance;
 };
+
+/// Most champions of a history.
+constexpr std::size_t most_ages = 8;
+
+/// Champions of a run from first to last: all if there are few, else evenly among them.
+std::vector<fs::path> ages_of(const fs::path& run) {
+  const auto files = experiment::find_run(run).champion_files();
+  if (files.size() <= most_ages) return files;
+  std::vector<fs::path> ages;
+  for (std::size_t i = 0; i < most_ages; ++i)
+    ages.push_back(files[(i * (files.size() - 1) + (most_ages - 1) / 2) / (most_ages - 1)]);
+  return ages;
+}
 
 /// The run that a champion file is of: the folder that has the champions' folder; else the file itself.
 fs::path run_of(const fs::path& champion) {
@@ -76,48 +90,73 @@ std::vector<std::string> names_of(const std::vector<Origin>& origins) {
   return names;
 }
 
-ExitCode make_view(const ViewOptions& options) {
-  io::refuse_to_replace(options.out, "<!DOCTYPE html>", "a page");
+/// The page as it grows.
+struct Walkers {
   std::deque<io::ScratchFile> scratch;
   std::vector<Origin> origins;
   view::ReplayPage page;
-  for (const fs::path& input : options.inputs) {
-    const bool is_run = fs::is_directory(input);
-    if (!is_run && input.extension() != ".json") {
-      if (options.walk.engine || options.walk.seconds)
-        fail(ExitCode::bad_input, "{}: {} has been made already",
-             options.walk.engine ? "--engine" : "--seconds", input.string());
-      page.walkers.push_back(presentation::recorded(input));
-      const record::RecordingReader reader(input);
-      origins.push_back({robot::parse_robot(reader.header().robot_json, input.string()).name,
-                         fs::path(input).replace_extension(), ""});
-      continue;
-    }
-    const fs::path path = experiment::champion_at(input);
-    auto champion = experiment::load_champion(path);
-    presentation::WalkOptions how = options.walk;
-    const auto shown = shown_trial(champion, how.seconds, how.engine, options.disturbance);
-    champion.problem.noise = shown.noise;
-    how.noise = shown.key;
-    if (!shown.typical.empty())
-      fmt::print("{}: {}; {} is shown\n", input.string(), shown.typical,
-                 shown.key ? "its median trial" : "its trial without noise");
-    const fs::path& recording = scratch.emplace_back("walk.rec").path();
-    auto walker = presentation::walk(champion, path, how, recording, stop_signal());
-    if (!walker) fail(ExitCode::interrupted, "stopped before all champions had walked");
-    page.walkers.push_back(std::move(*walker));
-    origins.push_back({champion.problem.robot.name, is_run ? input : run_of(path),
-                       (is_run ? "" : fmt::format(", generation {}", champion.generation)) +
-                           presentation::engine_note(champion, how)});
+};
+
+void add_recording(Walkers& walkers, const fs::path& input, const ViewOptions& options) {
+  if (options.walk.engine || options.walk.seconds)
+    fail(ExitCode::bad_input, "{}: {} has been made already", options.walk.engine ? "--engine" : "--seconds",
+         input.string());
+  walkers.page.walkers.push_back(presentation::recorded(input));
+  const record::RecordingReader reader(input);
+  walkers.origins.push_back({robot::parse_robot(reader.header().robot_json, input.string()).name,
+                             fs::path(input).replace_extension(), ""});
+}
+
+void add_champion(Walkers& walkers, const fs::path& input, const ViewOptions& options) {
+  const fs::path path = experiment::champion_at(input);
+  auto champion = experiment::load_champion(path);
+  presentation::WalkOptions how = options.walk;
+  const auto shown = shown_trial(champion, how.seconds, how.engine, options.disturbance);
+  champion.problem.noise = shown.noise;
+  how.noise = shown.key;
+  if (!shown.typical.empty())
+    fmt::print("{}: {}; {} is shown\n", input.string(), shown.typical,
+               shown.key ? "its median trial" : "its trial without noise");
+  const fs::path& recording = walkers.scratch.emplace_back("walk.rec").path();
+  auto walker = presentation::walk(champion, path, how, recording, stop_signal());
+  if (!walker) fail(ExitCode::interrupted, "stopped before all champions had walked");
+  if (options.history) {
+    walker->title = fmt::format("gen {}", champion.generation);
+    walkers.page.title = champion.experiment + ": its history";
   }
-  if (page.walkers.size() > 1) {
-    const std::vector<std::string> names = names_of(origins);
+  walkers.page.walkers.push_back(std::move(*walker));
+  const bool is_run = fs::is_directory(input);
+  walkers.origins.push_back({champion.problem.robot.name, is_run ? input : run_of(path),
+                             (is_run ? "" : fmt::format(", generation {}", champion.generation)) +
+                                 presentation::engine_note(champion, how)});
+}
+
+void give_titles(Walkers& walkers, const ViewOptions& options) {
+  view::ReplayPage& page = walkers.page;
+  if (page.walkers.size() > 1 && !options.history) {
+    const std::vector<std::string> names = names_of(walkers.origins);
     for (std::size_t i = 0; i < names.size(); ++i) page.walkers[i].title = names[i];
   }
-  page.title = options.title.value_or(
-      page.walkers.size() == 1 ? page.walkers.front().title : fmt::format("{} walkers", page.walkers.size()));
-  page.made_by = presentation::made_by();
-  const std::string html = view::make_page(page);
+  if (options.title)
+    page.title = *options.title;
+  else if (!options.history)
+    page.title = page.walkers.size() == 1 ? page.walkers.front().title
+                                          : fmt::format("{} walkers", page.walkers.size());
+}
+
+ExitCode make_view(const ViewOptions& options) {
+  io::refuse_to_replace(options.out, "<!DOCTYPE html>", "a page");
+  if (options.history && options.inputs.size() > 1)
+    fail(ExitCode::bad_input, "--history: expected one run folder, not {} inputs", options.inputs.size());
+  Walkers walkers;
+  for (const fs::path& input : options.history ? ages_of(options.inputs.front()) : options.inputs)
+    if (fs::is_directory(input) || input.extension() == ".json")
+      add_champion(walkers, input, options);
+    else
+      add_recording(walkers, input, options);
+  give_titles(walkers, options);
+  walkers.page.made_by = presentation::made_by();
+  const std::string html = view::make_page(walkers.page);
   if (options.out.has_parent_path()) fs::create_directories(options.out.parent_path());
   io::write_file(options.out, html);
   fmt::print("{}\n", fs::absolute(options.out).lexically_normal().string());
@@ -142,9 +181,13 @@ void add_view(CLI::App& app, Action& action) {
   add_engine(*command, options->walk.engine,
              "Physics engine in which champions walk (default: as in their evolution)");
   add_disturbance(*command, options->disturbance);
+  command->add_flag("--history", options->history,
+                    "Of one run folder up to eight champions, from the first to the last, side by side");
   command->add_option("--title", options->title, "Title of the page")->type_name("WORDS");
-  add_examples(*command, {{"amble view runs/1 -o walker.html", ""},
-                          {"amble view runs/1 runs/2 -o both.html --seconds 60", "side by side"}});
+  add_examples(*command,
+               {{"amble view runs/1 -o walker.html", ""},
+                {"amble view runs/1 --history -o history.html", "from its first champion to its last"},
+                {"amble view runs/1 runs/2 -o both.html --seconds 60", "side by side"}});
   command->callback([options, &action] { action = [options] { return make_view(*options); }; });
 }
 

@@ -151,6 +151,33 @@ TEST_F(Compare, TheMedianTrialIsWhatGaitViewAndPageShowOfAWalkerEvolvedUnderNois
   EXPECT_THAT(slurp(view), Not(HasSubstr(", median trial")));
 }
 
+TEST(View, AHistoryIsUpToEightChampionsFromFirstToLast) {
+  const TemporaryFolder scratch;
+  const auto evolved = amble({"evolve", configs + "authors/supg-objective.toml", "--set", "engine=batch",
+                              "--set", "population.size=20", "--set", "trial.duration_s=0.5", "--generations",
+                              "40", "--out", scratch / "run"});
+  ASSERT_EQ(evolved.exit_code, 0) << evolved.err;
+  std::vector<std::string> champions;
+  for (const auto& file : std::filesystem::directory_iterator(scratch / "run/champions"))
+    champions.push_back(file.path().stem());
+  std::ranges::sort(champions);
+  ASSERT_GT(champions.size(), 1u);
+  const auto made = amble({"view", scratch / "run", "--history", "-o", scratch / "h.html"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const std::string page = slurp(scratch / "h.html");
+  const auto title = [](const std::string& stem) {
+    return "\"gen " + std::to_string(std::stoi(stem)) + "\"";
+  };
+  EXPECT_THAT(page, HasSubstr(title(champions.front())));
+  EXPECT_THAT(page, HasSubstr(title(champions.back())));
+  std::size_t shown = 0;
+  for (const std::string& stem : champions) shown += page.find(title(stem)) != std::string::npos;
+  EXPECT_EQ(shown, std::min<std::size_t>(champions.size(), 8));
+  EXPECT_THAT(page, HasSubstr("supg-objective (authors): its history"));
+  const auto two = amble({"view", scratch / "run", scratch / "run", "--history", "-o", scratch / "two.html"});
+  EXPECT_THAT(two.err, HasSubstr("--history: expected one run folder, not 2 inputs"));
+}
+
 TEST_F(Compare, LevelsAreKnownByNameAndExcludeOtherNoise) {
   const auto unknown = amble({"trial", champion_, "--level", "nano"});
   EXPECT_EQ(unknown.exit_code, static_cast<int>(ExitCode::bad_input));

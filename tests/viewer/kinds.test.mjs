@@ -43,6 +43,26 @@ test("two walkers move by one clock, side by side or one as a ghost of the other
     assert.equal(await page.locator("#now dd").nth(1).textContent(), "1.00 m");
   }));
 
+test("many walkers are a list above the picture, which folds, and one story is told", () =>
+  onPage(makePage("many.html", ...Array(6).fill(recording("walk.rec")), recording("slow.rec")), {}, async (page) => {
+    const box = (selector) => page.locator(selector).boundingBox();
+    const [list, stage] = [await box(".walker-list"), await box("#stage")];
+    assert.ok(list.y + list.height <= stage.y, "the list is over the picture");
+    assert.equal(await page.locator("#who").textContent(), "");
+    await page.locator(".walkers button").nth(6).click();
+    assert.match(await page.locator("#subtitle").textContent(), /^[^:]*slow[^:]*: 1\.\d+ m[^:]*$/);
+    await page.locator(".walker-list summary").click();
+    assert.equal(await page.locator(".walkers").isVisible(), false);
+    assert.ok((await box(".walker-list")).height < list.height);
+  }));
+
+test("a list of very many walkers is folded at first", () =>
+  onPage(makePage("very-many.html", ...Array(13).fill(recording("walk.rec"))), {}, async (page) => {
+    assert.equal(await page.locator(".walkers").isVisible(), false);
+    await page.locator(".walker-list summary").click();
+    assert.equal(await page.locator(".walkers button").count(), 13);
+  }));
+
 test("the camera keeps walkers in sight that part", () =>
   onPage(makePage("parting.html", recording("walk.rec"), recording("long.rec")), {}, async (page) => {
     await page.evaluate(() => { window.amble.seek(60); window.amble.render(); });

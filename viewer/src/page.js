@@ -9,6 +9,8 @@ import { element, onThemeChange } from "./theme.js";
 
 const SPANS_S = [2, 5, 15, 60];
 const SLOW_S = 0.07, SLOW_FRAMES = 40; // frames so far apart, so many of them, are too much for the machine
+const FEW = 4; // walkers whose names stand in the picture, and whose stories fit above it
+const FOLDED = 12; // more than so many are in a list that is closed at first
 const FRAMES_KEPT = 2000; // of their times, for amble.frames()
 const byId = (id) => document.getElementById(id);
 
@@ -40,7 +42,16 @@ export class Page {
 
   head({ title }) {
     byId("title").textContent = title;
-    byId("subtitle").textContent = this.walks.map((walk) => story(walk, this.walks.length > 1)).join(" ");
+    if (this.walks.length <= FEW)
+      byId("subtitle").textContent = this.walks.map((walk) => story(walk, this.walks.length > 1)).join(" ");
+  }
+
+  /** Of many walkers a list above the picture, which folds; of few their names in it. */
+  placeWalkers(choiceElement) {
+    if (this.walks.length <= FEW) return byId("who").append(choiceElement);
+    const list = element("details", { class: "walker-list" }, element("summary", {}, `${this.walks.length} walkers`), choiceElement);
+    list.open = this.walks.length <= FOLDED;
+    byId("stage").before(list);
   }
 
   foot({ made_by }) {
@@ -78,7 +89,7 @@ export class Page {
                                  (i) => this.select(Number(i)));
       this.walkerChoice.element.classList.add("walkers");
       [...this.walkerChoice.element.children].forEach((button, i) => button.classList.add(`walker${i % 4}`));
-      byId("who").append(this.walkerChoice.element);
+      this.placeWalkers(this.walkerChoice.element);
     }
     const spans = SPANS_S.filter((span) => span < this.clock.duration_s).map((span) => [span, `${span} s`]);
     if (spans.length) {
@@ -104,6 +115,7 @@ export class Page {
     this.selected = i;
     this.stage?.arrange(this.layout === "side", i);
     this.walkerChoice?.choose(i);
+    if (this.walks.length > FEW) byId("subtitle").textContent = story(this.walks[i], true);
     this.analysis.select(i);
     if (this.spanChoice) byId("analysis").prepend(element("div", { class: "span-row" }, "Show ", this.spanChoice.element));
     this.overview.setWalk(this.walks[i]);
