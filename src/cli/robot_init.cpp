@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +15,7 @@
 #include "amble/morphology/robot_file.hpp"
 #include "amble/morphology/robot_guess.hpp"
 #include "amble/physics/engine.hpp"
+#include "amble/robot/legs.hpp"
 #include "amble/robot/summary.hpp"
 
 namespace amble::cli {
@@ -20,10 +23,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Of all presets the one that makes walkers of most robots in a minute (docs/ROBOTS.md).
+constexpr const char* preset_name = "configs/quick/supg.toml";
+
 /// The config that the new one extends: in the source tree or the installation that this program is part of,
 /// or below the current folder.
 std::optional<fs::path> preset() {
-  const fs::path name = "configs/robust/supg-objective.toml";
+  const fs::path name = preset_name;
   std::error_code error;
   std::vector<fs::path> folders;
   for (fs::path at = fs::read_symlink("/proc/self/exe", error).parent_path(); at.has_relative_path();
@@ -60,11 +66,42 @@ constexpr const char* score_of_two_legs =
     "[score]  # in m; on two legs a fall forwards is the first to win by distance alone\n"
     "terms = [{ quantity = \"distance\", weight = 1.0 }, { quantity = \"upright_time\", weight = 1.0 }]\n";
 
-std::string config_text(const std::string& name, const std::string& engine, std::size_t legs,
-                        const fs::path& folder) {
+/// The quadruped for which the presets' times and speeds are: the height of its hips over its feet.
+constexpr double preset_leg_height_m = 0.88;
+constexpr double preset_gravity_m_s2 = 9.8, preset_period_s = 1.0, preset_push_m_s = 0.2,
+                 preset_drop_m = 0.01;
+
+/// Times and speeds of walkers of another size, by Froude's rule: times go with the square root of the legs'
+/// height over gravity, speeds with that of the legs' height times gravity. Nothing for robots of about the
+/// presets' size.
+std::string settings_of_size(const robot::RobotSpec& robot) {
+  const double height_m = robot::leg_height_m(robot), gravity_m_s2 = norm(robot.gravity_m_s2);
+  if (!(height_m > 0.0) || !(gravity_m_s2 > 0.0)) return {};
+  const double size = height_m / preset_leg_height_m, pull = gravity_m_s2 / preset_gravity_m_s2;
+  const double time = std::sqrt(size / pull);
+  constexpr double alike = 0.15;
+  if (std::abs(time - 1.0) < alike) return {};
+  const double period_s = std::clamp(std::round(100.0 * preset_period_s * time) / 100.0, 0.05, 5.0);
+  return fmt::format(
+      "\n"
+      "[controller.supg]\n"
+      "period_s = {:g}  # hips {:.2g} m over the feet; 1 s where they are {:g} m, by the square root "
+      "(Froude)\n"
+      "\n"
+      "[noise]  # what the preset's pushes and drops are for a robot of that size\n"
+      "push_m_s = {:.2g}\n"
+      "start_height_m = {:.2g}\n",
+      period_s, height_m, preset_leg_height_m, preset_push_m_s * std::sqrt(size * pull),
+      preset_drop_m * size);
+}
+
+std::string config_text(const std::string& name, const std::string& engine,
+                        const std::optional<robot::RobotSpec>& robot, const fs::path& folder) {
+  const std::size_t legs = robot ? robot->legs.size() : 0;
   const auto base = preset();
   return fmt::format(
-      "# {0}: SUPGs under noise. `amble settings` lists all that may be set.\n"
+      "# {0}: SUPGs under noise. Beside the preset are sine.toml and ctrnn.toml; `amble settings` lists all "
+      "that may be set.\n"
       "{1}include = [{2}]\n"
       "name = {3}\n"
       "robot = {4}\n"
@@ -72,10 +109,10 @@ std::string config_text(const std::string& name, const std::string& engine, std:
       "\n"
       "[controller]\n"
       "substrate = \"auto\"  # a node for each joint, made from the robot's legs and joint types\n"
-      "{6}",
+      "{6}{7}",
       io::printable(name), base ? "" : "# The presets of amble were not found: correct this path.\n",
-      io::toml_quoted(base ? path_from(folder, *base) : "configs/robust/supg-objective.toml"),
-      io::toml_quoted(name), io::toml_quoted(name + ".toml"), engine,
+      io::toml_quoted(base ? path_from(folder, *base) : preset_name), io::toml_quoted(name),
+      io::toml_quoted(name + ".toml"), engine, robot ? settings_of_size(*robot) : "",
       legs == 1 || legs == 2 ? score_of_two_legs : "");
 }
 
@@ -111,7 +148,7 @@ ExitCode init_robot(const fs::path& model, fs::path folder) {
     asked.emplace_back(error.what());
   }
   const std::string engine = robot ? engine_line(*robot) : "engine = \"batch\"\n";
-  io::write_file(config_path, config_text(guess.name, engine, robot ? robot->legs.size() : 0, folder));
+  io::write_file(config_path, config_text(guess.name, engine, robot, folder));
   if (robot) fmt::print("{}", robot::summary(*robot));
   if (!notes.lines().empty()) fmt::print("\nimport notes:\n{}", notes.text());
   fmt::print("\nwrote {} and {}\n", robot_path.string(), config_path.string());

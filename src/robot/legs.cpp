@@ -43,6 +43,16 @@ std::vector<Vec3> feet_m(const RobotSpec& robot, std::span<const Pose> poses) {
   return places_m;
 }
 
+double leg_height_m(const RobotSpec& robot) {
+  if (robot.legs.empty()) return 0.0;
+  const std::vector<Pose> poses = start_poses(robot);
+  const std::vector<Vec3> hips = hips_m(robot, poses);
+  double sum_m = 0.0;
+  for (std::size_t l = 0; l < robot.legs.size(); ++l)
+    sum_m += hips[l].z - bottom_m(robot.geoms[to_index(robot.legs[l].foot_geom)], poses);
+  return sum_m / static_cast<double>(robot.legs.size());
+}
+
 std::vector<LegPair> leg_pairs(std::span<const Vec3> places_m) {
   const std::size_t half = places_m.size() / 2;
   if (half == 0 || places_m.size() % 2 != 0) return {};

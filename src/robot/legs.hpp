@@ -18,6 +18,10 @@ std::vector<Vec3> hips_m(const RobotSpec& robot, std::span<const Pose> poses);
 /// Centres of the feet, leg by leg.
 std::vector<Vec3> feet_m(const RobotSpec& robot, std::span<const Pose> poses);
 
+/// How high the legs carry: the mean over them of the height of the hip joint (hips_m) over the lowest point
+/// of the foot, in the start pose, m. 0 for a robot without legs.
+double leg_height_m(const RobotSpec& robot);
+
 /// A left and a right leg beside each other, as indices.
 struct LegPair {
   int left = 0, right = 0;

@@ -100,6 +100,19 @@ TEST(HipJoint, IsTheOneNextToTheTorsoWhicheverJointsTheLegHas) {
   EXPECT_EQ(hip_joint(robot, leg), -1);
 }
 
+TEST(LegHeight, IsThatOfTheHipsOverTheFeetInTheStartPose) {
+  RobotSpec robot = tests::legged_robot(2);
+  const double height_m = leg_height_m(robot);
+  const auto poses = start_poses(robot);
+  EXPECT_NEAR(height_m,
+              hips_m(robot, poses)[0].z - bottom_m(robot.geoms[to_index(robot.legs[0].foot_geom)], poses),
+              1e-12);
+  robot.bodies[0].position_m.z += 0.3;
+  EXPECT_NEAR(leg_height_m(robot), height_m, 1e-12) << "wherever the ground is";
+  robot.legs.clear();
+  EXPECT_EQ(leg_height_m(robot), 0.0);
+}
+
 TEST(LegPairs, CallPlacesTheSameUpToAMicrometre) {
   const auto side_by_side = [](double y_m) { return pairs_of({{0, y_m, 0}, {0, 0, 0}}).size(); };
   EXPECT_EQ(side_by_side(0.9e-6), 0u);
