@@ -23,15 +23,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The numbers of the elites that the page can show: the best first, then in the order of their cells.
-std::vector<std::uint32_t> chosen_elites(const search::Elites& elites, std::size_t most) {
+/// Which of two elites is shown first: by what they do in new trials, if there were any, one that stays in
+/// its cell before one that leaves it; then by the objective.
+bool comes_first(const search::Elites& elites, const std::optional<experiment::CorrectedMap>& corrected,
+                 std::uint32_t one, std::uint32_t other) {
+  if (!corrected) return elites[one].objective > elites[other].objective;
+  const auto &here = corrected->elites[one], &there = corrected->elites[other];
+  return here.stays() != there.stays() ? here.stays() : here.objective > there.objective;
+}
+
+/// The numbers of the elites that the page can show: the first (comes_first), then in the order of their
+/// cells.
+std::vector<std::uint32_t> chosen_elites(const search::Elites& elites,
+                                         const std::optional<experiment::CorrectedMap>& corrected,
+                                         std::size_t most) {
   std::vector<std::uint32_t> filled;
   std::uint32_t best = search::Elites::none;
   for (std::uint32_t cell = 0; cell < elites.cells(); ++cell) {
     const std::uint32_t number = elites.in(cell);
     if (number == search::Elites::none) continue;
     filled.push_back(number);
-    if (best == search::Elites::none || elites[number].objective > elites[best].objective) best = number;
+    if (best == search::Elites::none || comes_first(elites, corrected, number, best)) best = number;
   }
   if (filled.empty()) fail(ExitCode::bad_input, "the map has no elite yet");
   std::vector<std::uint32_t> chosen{best};
@@ -125,9 +137,9 @@ ExitCode write_map_page(const experiment::Repertoire& repertoire,
                         const std::optional<experiment::CorrectedMap>& corrected, const fs::path& run,
                         int walkers, const fs::path& out) {
   const search::Elites& elites = repertoire.elites;
-  const auto chosen = chosen_elites(elites, to_index(walkers));
+  const auto chosen = chosen_elites(elites, corrected, to_index(walkers));
   const std::string who = chosen.size() == elites.size()
-                              ? std::string("Choose a cell and its elite walks")
+                              ? std::string("Choose a framed cell, and its elite walks")
                               : fmt::format("Choose one of the {} outlined cells of {}, and its elite walks",
                                             chosen.size(), elites.size());
   auto page = map_page(repertoire, fmt::format("Map of {}", repertoire.config.name),

@@ -20,7 +20,7 @@ using graphics::Svg;
 
 constexpr int shades = 9;
 constexpr std::size_t most_drawn = 200'000;
-constexpr double picture_px = 720.0, border_px = 56.0, scale_px = 54.0;
+constexpr double picture_px = 720.0, border_px = 56.0, scale_px = 54.0, below_px = 84.0;
 
 /// The bin of each dimension.
 std::vector<int> cell_bins(const GridMap& map, std::size_t cell) {
@@ -93,14 +93,31 @@ std::string cell_tooltip(const GridMap& map, std::size_t cell) {
   return text;
 }
 
-std::string axis_text(const GridMap& map, std::size_t first, std::string_view towards) {
+/// "→ duty factor FL; within each block duty factor BL".
+std::string axis_text(const GridMap& map, std::size_t first, std::string_view arrow) {
   std::string text;
-  for (std::size_t i = first; i < map.dimensions.size(); i += 2) {
-    const GridMap::Dimension& dimension = map.dimensions[i];
-    text += fmt::format("{}{} {:g} … {:g}", text.empty() ? "" : ", within it ", dimension.name,
-                        dimension.least, dimension.most);
+  for (std::size_t i = first; i < map.dimensions.size(); i += 2)
+    text += (text.empty() ? std::string(arrow) + " " : "; within each block ") + map.dimensions[i].name;
+  std::ranges::replace(text, '_', ' ');
+  return text;
+}
+
+/// The numbers between the bins of the outermost dimension in this direction, where there is room for them.
+void draw_edges(Svg& svg, const GridMap& map, const CellGrid& grid, std::size_t first) {
+  constexpr double least_px = 34.0;
+  if (first >= map.dimensions.size()) return;
+  const GridMap::Dimension& dimension = map.dimensions[first];
+  const double length_px = first == 0 ? grid.width_px() : grid.height_px();
+  const int every = std::max(1, static_cast<int>(std::ceil(least_px * dimension.bins / length_px)));
+  for (int bin = 0; bin <= dimension.bins; bin += every) {
+    const double value = dimension.least + bin * (dimension.most - dimension.least) / dimension.bins;
+    const double px = length_px * bin / dimension.bins;
+    const std::string text = fmt::format("{:.3g}", value);
+    if (first == 0)
+      svg.text({border_px + px, scale_px + grid.height_px() + 20.0}, Anchor::middle, "map-axis", text);
+    else
+      svg.text({border_px - 8.0, scale_px + grid.height_px() - px + 6.0}, Anchor::end, "map-axis", text);
   }
-  return text.empty() ? text : fmt::format("{}: {}", towards, text);
 }
 
 void draw_scale(Svg& svg, const GridMap& map, double best) {
@@ -109,8 +126,9 @@ void draw_scale(Svg& svg, const GridMap& map, double best) {
     svg.rect({border_px + 18.0 * shade, 14.0, 18.0, 12.0});
     svg.end_group();
   }
-  svg.text({border_px, 40.0}, Anchor::start, "tick", "0");
-  svg.text({border_px + 18.0 * shades, 40.0}, Anchor::end, "tick", fmt::format("{:.3g}{}", best, map.unit));
+  svg.text({border_px, 44.0}, Anchor::start, "map-axis", "0");
+  svg.text({border_px + 18.0 * shades, 44.0}, Anchor::end, "map-axis",
+           fmt::format("{:.3g}{}", best, map.unit));
 }
 
 /// Of an elite that leaves its cell a small one in an empty square, which takes the pointer as well.
@@ -148,7 +166,7 @@ std::string map_figure(const GridMap& map) {
     if (!std::isnan(objective)) best = std::max(best, objective), ++filled;
 
   const CellGrid grid(map);
-  Svg svg(std::max(grid.width_px() + 2.0 * border_px, 420.0), grid.height_px() + scale_px + 58.0,
+  Svg svg(std::max(grid.width_px() + 2.0 * border_px, 420.0), grid.height_px() + scale_px + below_px,
           fmt::format("Map of {} elites in {} cells", filled, map.objective.size()));
   draw_scale(svg, map, best);
   for (std::size_t cell = 0; cell < map.objective.size(); ++cell) {
@@ -163,10 +181,11 @@ std::string map_figure(const GridMap& map) {
     svg.end_group();
   }
   const double below = scale_px + grid.height_px();
-  svg.text({border_px, below + 22.0}, Anchor::start, "tick", axis_text(map, 0, "to the right"));
-  svg.text({border_px, below + 42.0}, Anchor::start, "tick", axis_text(map, 1, "up"));
+  for (const std::size_t direction : {0u, 1u}) draw_edges(svg, map, grid, direction);
+  svg.text({border_px, below + 48.0}, Anchor::start, "map-axis", axis_text(map, 0, "→"));
+  svg.text({border_px, below + 72.0}, Anchor::start, "map-axis", axis_text(map, 1, "↑"));
   if (map.trials > 0)
-    svg.text({border_px + 18.0 * shades + 24.0, 25.0}, Anchor::start, "tick",
+    svg.text({border_px + 18.0 * shades + 24.0, 25.0}, Anchor::start, "map-axis",
              fmt::format("small: leaves its cell in {} new trials", map.trials));
   return svg.finish();
 }

@@ -105,6 +105,7 @@ svg text.mean, svg text.median { font-weight: 450; fill: var(--soft); }
 )css";
 
 constexpr std::string_view maps = R"css(
+svg text.map-axis { font-size: 17px; fill: var(--soft); }
 .nobody { fill: var(--panel); }
 .shade0 { fill: var(--c0); opacity: 0.16; }
 .shade1 { fill: var(--c0); opacity: 0.265; }

@@ -128,7 +128,8 @@ TEST_F(RepertoireCommand, MakesAPageInWhichAsManyCellsWalkAsAreAskedFor) {
   for (const auto& elite : elites) best = std::max(best, elite["objective"].get<double>());
   for (const std::size_t most : {1u, 5u, 1000u}) {
     const std::string page = scratch_ / ("map" + std::to_string(most) + ".html");
-    const auto made = amble({"repertoire", folder, "-o", page, "--walkers", std::to_string(most)});
+    const auto made =
+        amble({"repertoire", folder, "--retest", "0", "-o", page, "--walkers", std::to_string(most)});
     ASSERT_EQ(made.exit_code, 0) << made.err;
     const auto data = page_data(slurp(page));
     std::set<int> cells;
@@ -142,6 +143,33 @@ TEST_F(RepertoireCommand, MakesAPageInWhichAsManyCellsWalkAsAreAskedFor) {
     EXPECT_THAT(data["map"]["svg"].get<std::string>(), HasSubstr("cell" + std::to_string(*cells.begin())));
     EXPECT_THAT(data["map"]["curves_svg"].get<std::string>(), HasSubstr("QD score"));
   }
+}
+
+TEST_F(RepertoireCommand, ShowsFirstTheEliteThatDoesBestInNewTrialsAmongThoseThatStay) {
+  const auto folder = run();
+  const std::string table = scratch_ / "map.csv", page = scratch_ / "map.html";
+  ASSERT_EQ(amble({"repertoire", folder, "--retest", "4", "-o", table}).exit_code, 0);
+  ASSERT_EQ(amble({"repertoire", folder, "--retest", "4", "--walkers", "5", "-o", page}).exit_code, 0);
+  std::istringstream lines(slurp(table));
+  std::string line;
+  std::getline(lines, line);
+  std::vector<std::string> names;
+  std::istringstream head(line);
+  for (std::string name; std::getline(head, name, ',');) names.push_back(name);
+  const auto column = [&](const std::string& name) { return std::ranges::find(names, name) - names.begin(); };
+  std::pair<bool, double> best{false, -1e9};
+  int cell = -1;
+  while (std::getline(lines, line)) {
+    std::vector<std::string> values;
+    std::istringstream row(line);
+    for (std::string value; std::getline(row, value, ',');) values.push_back(value);
+    const auto at = [&](const std::string& name) {
+      return values.at(static_cast<std::size_t>(column(name)));
+    };
+    const std::pair<bool, double> these{at("stays") == "1", std::stod(at("typical objective"))};
+    if (these > best) best = these, cell = std::stoi(at("cell"));
+  }
+  EXPECT_EQ(page_data(slurp(page))["walkers"][0]["cell"], cell);
 }
 
 TEST_F(RepertoireCommand, IsComparedCellByCellWithMapsOfTheSameCells) {

@@ -92,7 +92,7 @@ TEST(MapFigure, SaysWhichElitesStayInTheirCellInNewTrials) {
 std::pair<std::string, std::string> scale(const GridMap& map) {
   std::vector<std::string> ticks;
   const std::string svg = map_svg(map);
-  const std::string tick = "class=\"tick\"";
+  const std::string tick = "class=\"map-axis\"";
   for (std::size_t at = svg.find(tick); at != std::string::npos; at = svg.find(tick, at + 1)) {
     const std::size_t begin = svg.find('>', at) + 1;
     ticks.push_back(svg.substr(begin, svg.find('<', begin) - begin));
