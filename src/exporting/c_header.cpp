@@ -35,6 +35,7 @@ std::vector<std::string> sensor_lines(const ControllerTables& tables, bool fixed
     lines.push_back(
         "  roll_rad, pitch_rad, yaw_rad  of the trunk against the world (x forward, y left, z up): "
         "R_z(yaw) R_y(pitch) R_x(roll)");
+  if (lines.size() == 1) lines = {"Sensors: it reads none."};
   if (const auto* const neural = std::get_if<NeuralTables>(&tables.parts)) {
     std::vector<std::string> names;
     for (const NeuralTables::Sensor& sensor : neural->sensors) names.push_back(sensor.name);
@@ -81,6 +82,28 @@ void add_enumerators(const std::vector<std::string>& names, CText& text) {
     text.line("  {} = {}{}", names[i], i, i + 1 < names.size() ? "," : "");
   text.line("}};");
   text.line("");
+}
+
+/// Rows of macros cost nothing where they are not used, and firmware makes of them what it needs, on an AVR
+/// in flash.
+void add_rows(const ControllerTables& tables, const Trace& trace, const std::vector<std::string>& joints,
+              const std::vector<std::string>& legs, CText& text) {
+  text.block(
+      "/* Tables for firmware: ROW(joint, name, leg or -1, least, greatest and first target, rad), and "
+      "ROW(leg,\n"
+      " * name). The first target is that of the first step of the controller's own trial. */\n"
+      "#define $P_EACH_JOINT(ROW)");
+  for (std::size_t j = 0; j < tables.joints.size(); ++j) {
+    const CommandedJoint& joint = tables.joints[j];
+    text.block(fmt::format(" \\\n  ROW({}, {}, {}, {}, {}, {})", joints[j], c_string(joint.name), joint.leg,
+                           c_float(static_cast<float>(joint.lower_rad)),
+                           c_float(static_cast<float>(joint.upper_rad)),
+                           c_float(trace.ticks.front().target_rad[j])));
+  }
+  text.block("\n#define $P_EACH_LEG(ROW)");
+  for (std::size_t leg = 0; leg < tables.legs.size(); ++leg)
+    text.block(fmt::format(" \\\n  ROW({}, {})", legs[leg], c_string(tables.legs[leg])));
+  text.block("\n\n");
 }
 
 void add_structs(const ControllerTables& tables, bool fixed, CText& text) {
@@ -169,7 +192,9 @@ std::string c_header(const ControllerTables& tables, const robot::RobotSpec& rob
       "#ifndef $P_H\n#define $P_H\n\n#include <stdint.h>\n\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n");
   add_constants(tables, fixed, text);
   add_enumerators(joints, text);
-  add_enumerators(c_leg_names(tables, options.prefix), text);
+  const std::vector<std::string> legs = c_leg_names(tables, options.prefix);
+  add_enumerators(legs, text);
+  add_rows(tables, trace, joints, legs, text);
   add_structs(tables, fixed, text);
   text.block(functions);
   return text.take();

@@ -56,12 +56,12 @@ static void update_timer($p_state *state, int leg, int touching) {
 
 void $p_step($p_state *state, const $p_sensors *sensors, $p_targets *targets) {
   int leg, joint;
-  for (leg = 0; leg < $P_LEGS; ++leg) update_timer(state, leg, sensors->touch[leg] > $half);
+  for (leg = 0; leg < $P_LEGS; ++leg) update_timer(state, leg, $touching);
   for (joint = 0; joint < $P_JOINTS; ++joint) {
     leg = leg_of_joint[joint]; /* -1: a joint of no leg, which is held */
     targets->angle$unit[joint] = READ_TARGET(&pattern[joint][leg < 0 ? 0 : state->timer[leg] + 1]);
   }
-}
+$unread}
 )";
 
 std::vector<std::vector<std::string>> pattern_rows(const ControllerTables& tables, const SupgTables& supg,
@@ -107,7 +107,7 @@ void add_supg(const ControllerTables& tables, const CSourceOptions& options, CTe
   text.line("/* Ticks of a cycle, of a timer that a trigger sets, and of what it becomes at the end. */");
   text.line("enum {{ period = {}, start_tick = {}, end_of_cycle = {}, stopped = -1 }};", supg.period_ticks,
             supg.start_tick, supg.end_of_cycle);
-  const bool is_triggered = supg.airborne_ticks_needed != SupgTables::never;
+  const bool is_triggered = supg.is_triggered();
   text.line("/* {} */", is_triggered ? "Ticks off the ground after which a touch is a trigger."
                                      : "No touch is a trigger.");
   text.line("enum {{ airborne_needed = {} }};", supg.airborne_ticks_needed);
@@ -126,7 +126,11 @@ void add_supg(const ControllerTables& tables, const CSourceOptions& options, CTe
   std::string step = replaced(update, "$timer", type);
   step = replaced(step, "$triggered",
                   is_triggered ? "started && touching && state->airborne[leg] >= airborne_needed" : "0");
-  step = replaced(step, "$half", fixed ? "0" : "0.5f");
+  step = replaced(step, "$touching",
+                  !is_triggered ? "0"
+                  : fixed       ? "sensors->touch[leg] > 0"
+                                : "sensors->touch[leg] > 0.5f");
+  step = replaced(step, "$unread", is_triggered ? "" : "  (void)sensors; /* no touch is a trigger */\n");
   text.block(replaced(step, "$unit", fixed ? "" : "_rad"));
 }
 

@@ -45,6 +45,15 @@ std::string in_comment(std::string_view text) {
   return safe;
 }
 
+std::string c_string(std::string_view text) {
+  std::string literal = "\"";
+  for (const char c : in_comment(text)) {
+    if (c == '"' || c == '\\') literal += '\\';
+    literal += c;
+  }
+  return literal + '"';
+}
+
 std::string c_float(float value) {
   AMBLE_CHECK(std::isfinite(value), "C has no literals for numbers that are not finite");
   return with_point(fmt::format("{}", value)) + "f";

@@ -21,6 +21,9 @@ std::string upper_case(std::string text);
 /// Text that can be anywhere in a block comment: one line of ASCII without "*/", "/*" and trigraphs.
 std::string in_comment(std::string_view text);
 
+/// A string literal of in_comment(text).
+std::string c_string(std::string_view text);
+
 /// A float literal that reads back to the same bits, in decimal ("0.25f"); `value` is finite.
 std::string c_float(float value);
 /// The same of a double.

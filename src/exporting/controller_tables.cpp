@@ -170,8 +170,8 @@ bool ControllerTables::reads_angles() const {
 }
 
 bool ControllerTables::reads_touch() const {
-  return std::holds_alternative<SupgTables>(parts) ||
-         reads(*this, [](auto sensed) { return sensed == substrate::Sensor::Kind::touch; });
+  if (const auto* const supg = std::get_if<SupgTables>(&parts)) return supg->is_triggered();
+  return reads(*this, [](auto sensed) { return sensed == substrate::Sensor::Kind::touch; });
 }
 
 bool ControllerTables::reads_attitude() const {

@@ -33,8 +33,9 @@ struct SupgTables {
   static constexpr int never = -1;
   int airborne_ticks_needed = 0;  ///< ticks off the ground before a touch is a trigger; 0: each touch is;
                                   ///< `never`: no touch is
-  int start_tick = 0;             ///< timer value in the tick of a trigger
-  int end_of_cycle = -1;          ///< timer value after period_ticks − 1; −1: stopped
+  bool is_triggered() const { return airborne_ticks_needed != never; }
+  int start_tick = 0;     ///< timer value in the tick of a trigger
+  int end_of_cycle = -1;  ///< timer value after period_ticks − 1; −1: stopped
   std::vector<Leg> legs;
   /// Joint by joint: target at timer −1 (stopped), 0, …, up to the largest value that the timer can have.
   /// Of a joint that belongs to no leg, the angle at which it is held.

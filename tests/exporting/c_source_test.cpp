@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "amble/core/error.hpp"
+#include "amble/io/file.hpp"
 #include "tests/exporting/champions.hpp"
 #include "tests/exporting/compiled.hpp"
 #include "tests/io/temporary_folder.hpp"
@@ -177,6 +178,51 @@ TEST(CSource, SaysWhereItComesFromAndWhatItNeeds) {
         std::string("'FL_knee', body 'FL_lower', axis 0 1 0: targets from -0.8 to 0 rad"),
         std::string("WALKER_TICK_US 10000")})
     EXPECT_NE(header.find(part), std::string::npos) << part << "\n" << header;
+}
+
+constexpr std::string_view rows_main = R"(#include <stdio.h>
+#include "walker.h"
+#define JOINT(joint, name, leg, least, most, first) printf("%d %s %d %.9g %.9g %.9g\n", joint, name, leg, least, most, first);
+#define LEG(leg, name) printf("%d %s\n", leg, name);
+int main(void) {
+  WALKER_EACH_JOINT(JOINT)
+  WALKER_EACH_LEG(LEG)
+  return 0;
+}
+)";
+
+TEST(CSource, HasARowForEachJointAndLegWhateverTheirNames) {
+  const TemporaryFolder scratch;
+  experiment::Champion champion = simple_champion();
+  champion.problem.robot.joints[1].name = "\"*/\\ hip";
+  write_walker(scratch.path(), champion);
+  io::write_file(scratch / "rows.c", std::string(rows_main));
+  ASSERT_EQ(compile(scratch.path(), "gcc", "-std=c99 -Wall -Wextra -Werror", scratch / "rows.c", "rows"), "");
+  const auto tables = exporting::controller_tables(champion.problem, champion.genome);
+  const Trace trace = trace_of(champion, 1);
+  std::string expected;
+  for (std::size_t j = 0; j < tables.joints.size(); ++j) {
+    const auto& joint = tables.joints[j];
+    expected += fmt::format("{} {} {} {:.9g} {:.9g} {:.9g}\n", j, j == 1 ? "\"* /\\ hip" : joint.name,
+                            joint.leg, static_cast<float>(joint.lower_rad),
+                            static_cast<float>(joint.upper_rad), trace.ticks[0].target_rad[j]);
+  }
+  for (std::size_t leg = 0; leg < tables.legs.size(); ++leg)
+    expected += fmt::format("{} {}\n", leg, tables.legs[leg]);
+  EXPECT_EQ(run_shell("'" + (scratch / "rows").string() + "'").out, expected);
+}
+
+TEST(CSource, WithoutTriggersReadsNoSensor) {
+  for (const Arithmetic arithmetic : {Arithmetic::float32, Arithmetic::fixed}) {
+    const TemporaryFolder scratch;
+    const auto untriggered = write_walker(scratch.path(), evolve(samples().back()), arithmetic);
+    EXPECT_EQ(untriggered.header.find("touch["), std::string::npos);
+    EXPECT_EQ(untriggered.source.find("touch["), std::string::npos);
+    EXPECT_NE(untriggered.header.find("#define WALKER_READS_TOUCH 0"), std::string::npos);
+    EXPECT_NE(untriggered.header.find("char none;"), std::string::npos);
+    ASSERT_EQ(compile(scratch.path(), "gcc", strict_flags + " -DWALKER_SELF_TEST", {}, "self"), "");
+    EXPECT_EQ(run_shell("'" + (scratch / "self").string() + "'").exit_code, 0);
+  }
 }
 
 TEST(FixedPoint, HasAsManyFractionBitsAsTheWidestRangeLeaves) {

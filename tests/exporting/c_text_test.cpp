@@ -51,6 +51,11 @@ TEST(CText, WritesFloatsThatReadBackToTheSameBits) {
   EXPECT_EQ(c_double(3.0), "3.0");
 }
 
+TEST(CText, QuotesStrings) {
+  EXPECT_EQ(c_string("FL_knee"), R"("FL_knee")");
+  EXPECT_EQ(c_string("a\"b\\c\n"), R"("a\"b\\c?")");
+}
+
 TEST(CText, FillsInPrefixes) {
   EXPECT_EQ(with_prefix("$p_init($P_LEGS) $", "walker"), "walker_init(WALKER_LEGS) $");
 }
