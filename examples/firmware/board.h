@@ -1,18 +1,27 @@
-/* What the main loop needs of a board. */
+/* What the robot needs of a board. */
 #ifndef BOARD_H
 #define BOARD_H
 
 #include "walker.h"
 
-/* Clocks, pins, servos; servos hold the start pose, all angles 0. */
-void board_init(void);
-/* Waits for the next tick, WALKER_TICK_US after the one before. 0: the end (a board that is switched off). */
-int board_wait_for_tick(void);
-/* The sensors of this moment. */
-void board_read(walker_sensors *sensors);
-/* Sends targets to the servos. */
-void board_command(const walker_targets *targets);
+#ifdef __cplusplus
+extern "C" {
+#endif
 
-void walk(void);
+/* The sensors of this moment. 0: they did not answer. */
+int board_read(walker_sensors *sensors);
+/* 1: the emergency stop is pressed, or its wire is broken (a switch that opens, from the pin to ground). */
+int board_stop_pressed(void);
+/* 1: the button that arms the robot is pressed. */
+int board_arm_pressed(void);
+/* Sends a pulse to the servo at a pin of the table; 0 us: none, so that the servo is limp. */
+void board_pulse(uint8_t pin, int16_t pulse_us);
+/* The next character of the serial port; -1: there is none. */
+int board_get_character(void);
+void board_print(const char *text);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -1,11 +1,11 @@
-/* Controller exported by amble 0.1.0 (376e36476d9b): single-unit pattern generators (SUPG).
+/* Controller exported by amble 0.1.0-dev-g117ba20 (117ba209352b+): single-unit pattern generators (SUPG).
  *
- * experiment  amble demo, seed 1, generation 116, number 72
- * robot       quadruped (authors)
+ * experiment  servo, seed 1, generation 37, number 27
+ * robot       servo
  * engine      batch
- * result      3.733425195643953 m in 15 s, completed
- * settings    XXH3 3f5ad92b4c2975b9
- * genome      XXH3 95196b2f7ad40dde
+ * result      0.5386324175961085 m in 15 s, completed
+ * settings    XXH3 737237114f9651c1
+ * genome      XXH3 e98fcbe55cbf8929
  *
  * Rate: 100 steps per second, one every 0.01 s. The robot starts in its start pose; its motors hold
  *   the joints where they are for one tick, then the first step.
@@ -15,23 +15,35 @@
  *
  * Joints: angle 0 is the start pose; positive angles turn the body by the right-hand rule about the
  *   axis, which is in the body's own frame.
- *   WALKER_JOINT_FL_KNEE  'FL_knee', body 'FL_lower', axis 0 1 0: targets from -0.8 to 0 rad
- *   WALKER_JOINT_FL_HIP_FB  'FL_hip_fb', body 'FL_upper', axis 0 1 0: targets from -0.8 to 0.8 rad
- *   WALKER_JOINT_FL_HIP_IO  'FL_hip_io', body 'FL_upper', axis 1 0 0: targets from 0 to 0.4 rad
- *   WALKER_JOINT_FR_KNEE  'FR_knee', body 'FR_lower', axis 0 1 0: targets from -0.8 to 0 rad
- *   WALKER_JOINT_FR_HIP_FB  'FR_hip_fb', body 'FR_upper', axis 0 1 0: targets from -0.8 to 0.8 rad
- *   WALKER_JOINT_FR_HIP_IO  'FR_hip_io', body 'FR_upper', axis -1 0 0: targets from 0 to 0.4 rad
- *   WALKER_JOINT_BL_KNEE  'BL_knee', body 'BL_lower', axis 0 1 0: targets from 0 to 0.8 rad
- *   WALKER_JOINT_BL_HIP_FB  'BL_hip_fb', body 'BL_upper', axis 0 1 0: targets from -0.8 to 0.8 rad
- *   WALKER_JOINT_BL_HIP_IO  'BL_hip_io', body 'BL_upper', axis 1 0 0: targets from 0 to 0.4 rad
- *   WALKER_JOINT_BR_KNEE  'BR_knee', body 'BR_lower', axis 0 1 0: targets from 0 to 0.8 rad
- *   WALKER_JOINT_BR_HIP_FB  'BR_hip_fb', body 'BR_upper', axis 0 1 0: targets from -0.8 to 0.8 rad
- *   WALKER_JOINT_BR_HIP_IO  'BR_hip_io', body 'BR_upper', axis -1 0 0: targets from 0 to 0.4 rad
+ *   WALKER_JOINT_FRONT_LEFT_KNEE  'front_left_knee', body 'front_left_shank', axis 0 1 0: targets
+ *     from -0.8 to 0.7 rad
+ *   WALKER_JOINT_FRONT_LEFT_HIP  'front_left_hip', body 'front_left_thigh', axis 0 1 0: targets
+ *     from -0.8 to 0.8 rad
+ *   WALKER_JOINT_FRONT_LEFT_ROLL  'front_left_roll', body 'front_left_shoulder', axis 1 0 0:
+ *     targets from -0.4 to 0.8 rad
+ *   WALKER_JOINT_FRONT_RIGHT_KNEE  'front_right_knee', body 'front_right_shank', axis 0 1 0:
+ *     targets from -0.8 to 0.7 rad
+ *   WALKER_JOINT_FRONT_RIGHT_HIP  'front_right_hip', body 'front_right_thigh', axis 0 1 0: targets
+ *     from -0.8 to 0.8 rad
+ *   WALKER_JOINT_FRONT_RIGHT_ROLL  'front_right_roll', body 'front_right_shoulder', axis -1 0 0:
+ *     targets from -0.4 to 0.8 rad
+ *   WALKER_JOINT_REAR_LEFT_KNEE  'rear_left_knee', body 'rear_left_shank', axis 0 1 0: targets from
+ *     -0.8 to 0.7 rad
+ *   WALKER_JOINT_REAR_LEFT_HIP  'rear_left_hip', body 'rear_left_thigh', axis 0 1 0: targets from
+ *     -0.8 to 0.8 rad
+ *   WALKER_JOINT_REAR_LEFT_ROLL  'rear_left_roll', body 'rear_left_shoulder', axis 1 0 0: targets
+ *     from -0.4 to 0.8 rad
+ *   WALKER_JOINT_REAR_RIGHT_KNEE  'rear_right_knee', body 'rear_right_shank', axis 0 1 0: targets
+ *     from -0.8 to 0.7 rad
+ *   WALKER_JOINT_REAR_RIGHT_HIP  'rear_right_hip', body 'rear_right_thigh', axis 0 1 0: targets
+ *     from -0.8 to 0.8 rad
+ *   WALKER_JOINT_REAR_RIGHT_ROLL  'rear_right_roll', body 'rear_right_shoulder', axis -1 0 0:
+ *     targets from -0.4 to 0.8 rad
  *
  * First step of its own trial, for a look:
  *   touch      0 0 0 0
- *   targets    -0.063373014 0.04159931 0.13596329 -0.14266756 0.07051812 0.039357174 0.4780719
- *     -0.30180365 0.037795044 0.6268537 0.47768474 0.03524394
+ *   targets    0.15406923 -0.28628668 -0.26385748 0.16054372 -0.27974513 -0.26158485 0.16688849
+ *     -0.27325922 -0.2593139 0.1732949 -0.26663312 -0.25697565
  */
 #ifndef WALKER_H
 #define WALKER_H
@@ -51,26 +63,47 @@ extern "C" {
 #define WALKER_READS_ATTITUDE 0
 
 enum {
-  WALKER_JOINT_FL_KNEE = 0,
-  WALKER_JOINT_FL_HIP_FB = 1,
-  WALKER_JOINT_FL_HIP_IO = 2,
-  WALKER_JOINT_FR_KNEE = 3,
-  WALKER_JOINT_FR_HIP_FB = 4,
-  WALKER_JOINT_FR_HIP_IO = 5,
-  WALKER_JOINT_BL_KNEE = 6,
-  WALKER_JOINT_BL_HIP_FB = 7,
-  WALKER_JOINT_BL_HIP_IO = 8,
-  WALKER_JOINT_BR_KNEE = 9,
-  WALKER_JOINT_BR_HIP_FB = 10,
-  WALKER_JOINT_BR_HIP_IO = 11
+  WALKER_JOINT_FRONT_LEFT_KNEE = 0,
+  WALKER_JOINT_FRONT_LEFT_HIP = 1,
+  WALKER_JOINT_FRONT_LEFT_ROLL = 2,
+  WALKER_JOINT_FRONT_RIGHT_KNEE = 3,
+  WALKER_JOINT_FRONT_RIGHT_HIP = 4,
+  WALKER_JOINT_FRONT_RIGHT_ROLL = 5,
+  WALKER_JOINT_REAR_LEFT_KNEE = 6,
+  WALKER_JOINT_REAR_LEFT_HIP = 7,
+  WALKER_JOINT_REAR_LEFT_ROLL = 8,
+  WALKER_JOINT_REAR_RIGHT_KNEE = 9,
+  WALKER_JOINT_REAR_RIGHT_HIP = 10,
+  WALKER_JOINT_REAR_RIGHT_ROLL = 11
 };
 
 enum {
-  WALKER_LEG_FL = 0,
-  WALKER_LEG_FR = 1,
-  WALKER_LEG_BL = 2,
-  WALKER_LEG_BR = 3
+  WALKER_LEG_FRONT_LEFT = 0,
+  WALKER_LEG_FRONT_RIGHT = 1,
+  WALKER_LEG_REAR_LEFT = 2,
+  WALKER_LEG_REAR_RIGHT = 3
 };
+
+/* Tables for firmware: ROW(joint, name, leg or -1, least, greatest and first target, rad), and ROW(leg,
+ * name). The first target is that of the first step of the controller's own trial. */
+#define WALKER_EACH_JOINT(ROW) \
+  ROW(WALKER_JOINT_FRONT_LEFT_KNEE, "front_left_knee", 0, -0.8f, 0.7f, 0.15406923f) \
+  ROW(WALKER_JOINT_FRONT_LEFT_HIP, "front_left_hip", 0, -0.8f, 0.8f, -0.28628668f) \
+  ROW(WALKER_JOINT_FRONT_LEFT_ROLL, "front_left_roll", 0, -0.4f, 0.8f, -0.26385748f) \
+  ROW(WALKER_JOINT_FRONT_RIGHT_KNEE, "front_right_knee", 1, -0.8f, 0.7f, 0.16054372f) \
+  ROW(WALKER_JOINT_FRONT_RIGHT_HIP, "front_right_hip", 1, -0.8f, 0.8f, -0.27974513f) \
+  ROW(WALKER_JOINT_FRONT_RIGHT_ROLL, "front_right_roll", 1, -0.4f, 0.8f, -0.26158485f) \
+  ROW(WALKER_JOINT_REAR_LEFT_KNEE, "rear_left_knee", 2, -0.8f, 0.7f, 0.16688849f) \
+  ROW(WALKER_JOINT_REAR_LEFT_HIP, "rear_left_hip", 2, -0.8f, 0.8f, -0.27325922f) \
+  ROW(WALKER_JOINT_REAR_LEFT_ROLL, "rear_left_roll", 2, -0.4f, 0.8f, -0.2593139f) \
+  ROW(WALKER_JOINT_REAR_RIGHT_KNEE, "rear_right_knee", 3, -0.8f, 0.7f, 0.1732949f) \
+  ROW(WALKER_JOINT_REAR_RIGHT_HIP, "rear_right_hip", 3, -0.8f, 0.8f, -0.26663312f) \
+  ROW(WALKER_JOINT_REAR_RIGHT_ROLL, "rear_right_roll", 3, -0.4f, 0.8f, -0.25697565f)
+#define WALKER_EACH_LEG(ROW) \
+  ROW(WALKER_LEG_FRONT_LEFT, "front_left") \
+  ROW(WALKER_LEG_FRONT_RIGHT, "front_right") \
+  ROW(WALKER_LEG_REAR_LEFT, "rear_left") \
+  ROW(WALKER_LEG_REAR_RIGHT, "rear_right")
 
 typedef struct {
   uint8_t touch[WALKER_LEGS];

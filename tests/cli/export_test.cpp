@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "tests/cli/process.hpp"
@@ -60,6 +61,23 @@ TEST(ExportCommand, PrintsJsonAndMjcfOrWritesThem) {
   EXPECT_EQ(slurp(scratch / "a.json"), json.out);
   EXPECT_EQ(amble({"export", run, "--format", "mjcf", "-o", scratch / "a.xml"}).exit_code, 0);
   EXPECT_EQ(slurp(scratch / "a.xml"), mjcf.out);
+}
+
+/// Without the line that names version and commit.
+std::string from_second_line(const std::string& text) {
+  return text.substr(std::min(text.find('\n'), text.size()));
+}
+
+TEST(ExportCommand, WroteTheControllerOfTheExampleFirmware) {
+  const TemporaryFolder scratch;
+  const std::string example = source_folder + "/examples/firmware/walker";
+  const auto written = amble({"export", source_folder + "/robots/servo/champion.json", "--format", "c",
+                              "--fixed", "-o", scratch / "walker.c"});
+  ASSERT_EQ(written.exit_code, 0) << written.err;
+  for (const char* extension : {".h", ".c"})
+    EXPECT_EQ(from_second_line(slurp(scratch / "walker" + extension)),
+              from_second_line(slurp(example + extension)))
+        << "amble export robots/servo/champion.json --format c --fixed -o examples/firmware/walker.c";
 }
 
 TEST(ExportCommand, RefusesInOneLine) {

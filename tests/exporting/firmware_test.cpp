@@ -1,9 +1,14 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <sstream>
 
 #include "amble/exporting/c_source.hpp"
+#include "amble/io/file.hpp"
 #include "tests/exporting/champions.hpp"
 #include "tests/exporting/compiled.hpp"
 #include "tests/io/temporary_folder.hpp"
@@ -124,7 +129,8 @@ TEST(Firmware, InFixedPointPassesItsSelfTestOnAnAvr) {
 }
 
 Ran make_example(const TemporaryFolder& scratch, const std::string& goal) {
-  return run_shell("make -s -C " + example + " OUT='" + scratch.path().string() + "' " + goal);
+  return run_shell("make -s --no-print-directory -C " + example + " OUT='" + scratch.path().string() + "' " +
+                   goal);
 }
 
 TEST(Firmware, ExampleWalksInQemuOnBothProcessorsAlike) {
@@ -135,15 +141,123 @@ TEST(Firmware, ExampleWalksInQemuOnBothProcessorsAlike) {
   const Ran arm = make_example(scratch, "run"), riscv = make_example(scratch, "run-riscv");
   EXPECT_EQ(arm.exit_code, 0) << arm.out;
   EXPECT_EQ(riscv.exit_code, 0) << riscv.out;
-  EXPECT_NE(arm.out.find("300 ticks, late 0"), std::string::npos) << arm.out;
+  EXPECT_NE(arm.out.find("600 ticks, late 0"), std::string::npos) << arm.out;
   EXPECT_EQ(arm.out, riscv.out);
 }
 
-TEST(Firmware, ExampleCompilesForAnEsp32) {
+bool installed_for_esp32() {
+  return installed("riscv64-unknown-elf-gcc") && installed("qemu-system-riscv32");
+}
+
+bool installed_for_arduino() {
+  return installed("avr-g++") && std::filesystem::exists("/usr/include/simavr/sim_avr.h") &&
+         std::filesystem::exists("/usr/share/arduino/hardware/arduino/avr/cores/arduino/Arduino.h");
+}
+
+/// From the first line of a Markdown table on.
+std::string table_of(const std::string& text) {
+  const std::size_t start = text.find("| what |");
+  return start == std::string::npos ? "no table: " + text : text.substr(start);
+}
+
+void expect_in_page(const std::string& table) {
+  EXPECT_NE(io::read_file(example + "README.md").find(table), std::string::npos)
+      << "examples/firmware/README.md does not have\n"
+      << table;
+}
+
+TEST(Firmware, OfAnEsp32WalksStopsAndKeepsItsLimitsIn60EmulatedSecondsAsItsPageSays) {
+  if (!installed_for_esp32()) GTEST_SKIP() << "compiler and emulator: ./setup --firmware";
+  const TemporaryFolder scratch;
+  const Ran ran = make_example(scratch, "run-60s-esp32 run-60s-host");
+  ASSERT_EQ(ran.exit_code, 0) << ran.out;
+  EXPECT_EQ(io::read_file(scratch / "esp32.log"), io::read_file(scratch / "host.log"));
+  const Ran judged = run_shell("cd '" + scratch.path().string() + "' && ./check_run <esp32.log");
+  expect_in_page(table_of(judged.out));
+}
+
+TEST(Firmware, OfAnArduinoDoesTheSameWithAPca9685) {
+  if (!installed_for_arduino()) GTEST_SKIP() << "compiler, core and emulator: ./setup --firmware";
+  const TemporaryFolder scratch;
+  const Ran ran = make_example(scratch, "run-60s-arduino");
+  ASSERT_EQ(ran.exit_code, 0) << ran.out;
+  expect_in_page(table_of(ran.out));
+}
+
+TEST(Firmware, CheckOfARunSeesEachKindOfFault) {
+  const TemporaryFolder scratch;
+  const Ran ran = make_example(scratch, "run-60s-host");
+  ASSERT_EQ(ran.exit_code, 0) << ran.out;
+  for (const auto& [fault, row] : std::map<std::string, std::string>{
+           {"s/^P 13 15../P 13 1777/", "those of the exported controller"},
+           {"s/^P 14 12../P 14 650/", "beyond `least_us`"},
+           {"s/^P 16 13[0-4]./P 16 1400/", "largest change"},
+           {"/^T 200 /,/^T 201 /s/^P 17 .*/P 17 1700/", "ramps"},
+           {"/^T 1850 /,/^T 1851 /s/^P 17 .*/P 17 1700/", "pressed at 18.00 s"},
+           {"/^T 3200 /,/^T 3201 /s/^P 17 .*/P 17 1700/", "a tick 70 ms late"},
+           {"/^T 50 /,/^T 51 /s/^P 17 .*/P 17 1700/", "before it is armed"},
+           {"/^T 4000 /,/^T 4001 /d", "got its pulse"}}) {
+    const Ran judged =
+        run_shell("cd '" + scratch.path().string() + "' && sed '" + fault + "' host.log | ./check_run");
+    EXPECT_EQ(judged.exit_code, 1) << fault;
+    const std::size_t at = judged.out.find(row);
+    ASSERT_NE(at, std::string::npos);
+    const std::string line = judged.out.substr(at, judged.out.find('\n', at) - at);
+    EXPECT_NE(line.find("not as wanted"), std::string::npos) << fault << "\n" << judged.out;
+  }
+}
+
+/// The lines of a code block of a page, from the one that begins with `first` on.
+std::vector<std::string> block(const std::string& page, const std::string& first) {
+  std::vector<std::string> lines;
+  std::istringstream text(page.substr(std::min(page.find("\n" + first), page.size() - 1) + 1));
+  for (std::string line; std::getline(text, line) && line != "```";) lines.push_back(line);
+  return lines;
+}
+
+TEST(Firmware, CalibrationAnswersAsItsPageSaysAndItsTableCompiles) {
+  const TemporaryFolder scratch;
+  const Ran ran = make_example(scratch, "run-calibration");
+  ASSERT_EQ(ran.exit_code, 0) << ran.out;
+  std::size_t at = 0;
+  const auto shown = block(io::read_file(AMBLE_SOURCE_DIR "/docs/BUILDING.md"), "> calibrate");
+  ASSERT_GT(shown.size(), 10u);
+  for (const std::string& line : shown) {
+    if (line == "…") continue;
+    const std::size_t found = ran.out.find(line + "\n", at);
+    ASSERT_NE(found, std::string::npos) << line << "\n" << ran.out;
+    at = found;
+  }
+  // What a builder does: all rows in place of those of servos that nobody has calibrated.
+  std::string rows;
+  std::istringstream text(ran.out);
+  for (std::string line; std::getline(text, line);)
+    if (line.starts_with("[WALKER_JOINT_")) rows += line + "\n";
+  io::write_file(scratch / "my_robot.c", "#include \"robot.h\"\nconst servo robot_servos[] = {\n" + rows +
+                                             "};\ntypedef char all[sizeof robot_servos == WALKER_JOINTS * "
+                                             "sizeof(servo) ? 1 : -1];\n");
+  const Ran compiled =
+      run_shell("gcc -std=c99 -pedantic -Wall -Wextra -Werror -I" + example + " -c '" +
+                (scratch / "my_robot.c").string() + "' -o '" + (scratch / "a.o").string() + "'");
+  EXPECT_EQ(compiled.exit_code, 0) << compiled.out;
+}
+
+TEST(Firmware, OfAnEsp32ComesAsAComponentOfEspIdf) {
   if (!installed("riscv64-unknown-elf-gcc")) GTEST_SKIP() << "riscv64-unknown-elf-gcc: ./setup --firmware";
   const TemporaryFolder scratch;
   const Ran ran = make_example(scratch, "esp32");
   EXPECT_EQ(ran.exit_code, 0) << ran.out;
+  EXPECT_TRUE(std::filesystem::exists(scratch / "main/main.c"));
+}
+
+TEST(Firmware, NamesNoLegAndNoJoint) {
+  for (const char* file : {"robot.c", "robot.h", "my_robot.c", "board.h", "safety.c", "calibrate.c",
+                           "servos.c", "arduino/arduino.ino", "esp32/main.c", "emulator/board_qemu.c",
+                           "emulator/esp_idf_fake.c", "emulator/check_run.c"}) {
+    const std::string text = io::read_file(example + file);
+    for (const char* name : {"WALKER_JOINT_", "WALKER_LEG_", "front", "rear", "knee", "roll"})
+      EXPECT_EQ(text.find(name), std::string::npos) << file << " " << name;
+  }
 }
 
 }  // namespace

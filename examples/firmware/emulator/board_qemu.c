@@ -1,16 +1,13 @@
 /* Two bare processors in QEMU: a Cortex-M0 (nRF51, BBC micro:bit), whose ticks are those of SysTick, and RV32IMC as in
- * an ESP32-C3, whose ticks are those of RISC-V's machine timer. The feet are those of somebody who walks on the spot,
- * and the servos' pulses go to the standard output by semihosting. On a robot board_read() reads pins and
- * board_command() sets timers. */
-#include "board.h"
+ * an ESP32-C3, whose ticks are those of RISC-V's machine timer. The robot is armed at once, its feet are those of
+ * somebody who walks on the spot, and the servos' pulses go to the standard output by semihosting. */
+#include "robot.h"
+#include "script.h"
 #include "semihosting.h"
 
-enum {
-  last_tick = 300, /* 3 s */
-  pulse_middle_us = 1500,
-  pulse_us_per_rad = 637 /* 1000 us for 90 degrees */
-};
+enum { arm_tick = 2, last_tick = 600 /* 6 s */ };
 
+static robot walker;
 static uint32_t ticks_done, missed;
 
 #ifdef __riscv
@@ -22,7 +19,7 @@ enum { counts_per_tick = 10 * WALKER_TICK_US, machine_timer = 1 << 7 };
 
 static uint32_t start;
 
-void board_init(void) {
+static void start_ticks(void) {
   start = MTIME;
   __asm__ volatile(".option push\n.option arch, +zicsr\ncsrs mie, %0\n.option pop" : : "r"(machine_timer));
 }
@@ -47,7 +44,7 @@ static volatile uint32_t ticks;
 void systick_handler(void);
 void systick_handler(void) { ++ticks; }
 
-void board_init(void) {
+static void start_ticks(void) {
   SYSTICK[1] = (uint32_t)((uint64_t)clock_hz * WALKER_TICK_US / 1000000u) - 1u;
   SYSTICK[2] = 0;
   SYSTICK[0] = 7; /* the processor's clock, with interrupts */
@@ -73,40 +70,41 @@ static void print_number(const char *before, int32_t number) {
   semihosting_print(text + at);
 }
 
-int board_wait_for_tick(void) {
+static int wait_for_tick(void) {
   missed += ticks_now() - ticks_done;
   while (ticks_now() == ticks_done) sleep();
   ticks_done = ticks_now();
-  if (ticks_done <= last_tick) return 1;
+  return ticks_done <= last_tick;
+}
+
+int board_read(walker_sensors *sensors) {
+  uint32_t leg;
+  for (leg = 0; leg < WALKER_LEGS; ++leg) sensors->touch[leg] = (uint8_t)script_touch(ticks_done, leg);
+  return 1;
+}
+
+int board_stop_pressed(void) { return 0; }
+int board_arm_pressed(void) { return ticks_done == arm_tick; }
+int board_get_character(void) { return -1; }
+void board_print(const char *text) { semihosting_print(text); }
+
+void board_pulse(uint8_t pin, int16_t pulse_us) {
+  if (ticks_done % 50u != 0) return;
+  if (pin == robot_servos[0].pin) {
+    print_number("tick ", (int32_t)ticks_done);
+    semihosting_print(": pulses, us");
+  }
+  print_number(" ", pulse_us);
+  if (pin == robot_servos[WALKER_JOINTS - 1].pin) semihosting_print("\n");
+}
+
+int main(void) {
+  start_ticks();
+  robot_init(&walker);
+  while (wait_for_tick()) robot_tick(&walker, ticks_done * WALKER_TICK_US);
   print_number("", last_tick);
   print_number(" ticks, late ", (int32_t)missed);
   semihosting_print("\n");
   semihosting_exit(missed == 0);
-  return 0;
-}
-
-/* Each foot is down for 0.4 of 0.8 s, diagonal pairs together. */
-void board_read(walker_sensors *sensors) {
-  int leg;
-  for (leg = 0; leg < WALKER_LEGS; ++leg) {
-    const uint32_t phase = (ticks_done + ((leg == WALKER_LEG_FR || leg == WALKER_LEG_BL) ? 40u : 0u)) % 80u;
-    sensors->touch[leg] = phase < 40u;
-  }
-}
-
-void board_command(const walker_targets *targets) {
-  int joint;
-  if (ticks_done % 50u != 0) return;
-  print_number("tick ", (int32_t)ticks_done);
-  semihosting_print(": pulses, us");
-  for (joint = 0; joint < WALKER_JOINTS; ++joint) {
-    const int32_t angle = targets->angle[joint];
-    print_number(" ", pulse_middle_us + (angle * pulse_us_per_rad) / (1 << WALKER_FRACTION_BITS));
-  }
-  semihosting_print("\n");
-}
-
-int main(void) {
-  walk();
   return 0;
 }

@@ -1,58 +1,107 @@
-/* A board of the ESP32 family under ESP-IDF: switches under the feet, hobby servos on the LED PWM controller (16
- * channels of the ESP32). Pins are examples. Without ESP-IDF (make esp32) it is only compiled, by the declarations
- * below. */
-#include "board.h"
-
-#ifdef ESP_PLATFORM
+/* A walking robot on an ESP32 under ESP-IDF: servos on its LED PWM controller, 16 channels. */
 #include "driver/gpio.h"
 #include "driver/ledc.h"
+#include "driver/uart.h"
+#include "esp_task_wdt.h"
+#include "esp_timer.h"
 #include "freertos/FreeRTOS.h"
 #include "freertos/task.h"
+
+#include "robot.h"
+
+/* The button BOOT is at GPIO 0. */
+enum { stop_pin = 32, arm_pin = 0, channels = 8, period_us = 20000, serial_buffer = 2048 };
+
+typedef char a_channel_for_each_joint[WALKER_JOINTS <= 2 * channels ? 1 : -1];
+
+static robot walker;
+
+int board_read(walker_sensors *sensors) {
+#if WALKER_READS_TOUCH
+  int leg;
+  for (leg = 0; leg < WALKER_LEGS; ++leg)
+    sensors->touch[leg] = gpio_get_level((gpio_num_t)robot_switch_pins[leg]) == 0;
 #else
-typedef uint32_t TickType_t;
-int gpio_get_level(int pin);
-int ledc_set_duty(int speed_mode, int channel, uint32_t duty);
-int ledc_update_duty(int speed_mode, int channel);
-TickType_t xTaskGetTickCount(void);
-int xTaskDelayUntil(TickType_t *previous, TickType_t ticks);
-#define pdMS_TO_TICKS(ms) ((TickType_t)(ms) * 1000u / 1000u)
+  (void)sensors;
 #endif
-
-void board_configure_pins(void); /* gpio_config(), ledc_timer_config() at 50 Hz and 16 bits, ledc_channel_config() */
-
-enum { channels = 8, pulse_middle_us = 1500, pulse_us_per_rad = 637, period_us = 20000 };
-
-static const int foot_pin[WALKER_LEGS] = {34, 35, 36, 39};
-static TickType_t last_wake;
-
-static void set_pulse(int joint, int32_t pulse_us) {
-  const uint32_t duty = (uint32_t)pulse_us * 65536u / period_us;
-  ledc_set_duty(joint / channels, joint % channels, duty);
-  ledc_update_duty(joint / channels, joint % channels);
-}
-
-void board_init(void) {
-  int joint;
-  board_configure_pins();
-  for (joint = 0; joint < WALKER_JOINTS; ++joint) set_pulse(joint, pulse_middle_us);
-  last_wake = xTaskGetTickCount();
-}
-
-int board_wait_for_tick(void) {
-  xTaskDelayUntil(&last_wake, pdMS_TO_TICKS(WALKER_TICK_US / 1000));
+#if WALKER_READS_ANGLES || WALKER_READS_ATTITUDE
+#error "This controller reads angles or attitude: read them here, and return 0 where they do not answer"
+#endif
   return 1;
 }
 
-void board_read(walker_sensors *sensors) {
-  int leg;
-  for (leg = 0; leg < WALKER_LEGS; ++leg) sensors->touch[leg] = gpio_get_level(foot_pin[leg]) == 0;
+int board_stop_pressed(void) { return gpio_get_level((gpio_num_t)stop_pin) == 1; }
+int board_arm_pressed(void) { return gpio_get_level((gpio_num_t)arm_pin) == 0; }
+
+/* Channels are in the order of the joints. */
+static int joint_of(uint8_t pin) {
+  int joint = 0;
+  while (joint + 1 < WALKER_JOINTS && robot_servos[joint].pin != pin) ++joint;
+  return joint;
 }
 
-void board_command(const walker_targets *targets) {
-  int joint;
-  for (joint = 0; joint < WALKER_JOINTS; ++joint)
-    set_pulse(joint, pulse_middle_us + targets->angle[joint] * pulse_us_per_rad / (1 << WALKER_FRACTION_BITS));
+void board_pulse(uint8_t pin, int16_t pulse_us) {
+  const int joint = joint_of(pin);
+  const ledc_mode_t mode = joint < channels ? LEDC_HIGH_SPEED_MODE : LEDC_LOW_SPEED_MODE;
+  const ledc_channel_t channel = (ledc_channel_t)(joint % channels);
+  ledc_set_duty(mode, channel, ((uint32_t)pulse_us * 65536u + period_us / 2) / period_us);
+  ledc_update_duty(mode, channel);
+}
+
+int board_get_character(void) {
+  uint8_t character;
+  return uart_read_bytes(UART_NUM_0, &character, 1, 0) == 1 ? character : -1;
+}
+
+void board_print(const char *text) {
+  size_t length = 0;
+  while (text[length]) ++length;
+  uart_write_bytes(UART_NUM_0, text, length);
+}
+
+/* GPIOs from 34 on have no pull-ups: there resistors do it. */
+static void configure_input(int pin) {
+  const gpio_config_t config = {.pin_bit_mask = 1ull << pin,
+                                .mode = GPIO_MODE_INPUT,
+                                .pull_up_en = pin < 34 ? GPIO_PULLUP_ENABLE : GPIO_PULLUP_DISABLE};
+  gpio_config(&config);
+}
+
+static void configure_servos(void) {
+  int mode, joint;
+  for (mode = 0; mode < 2; ++mode) {
+    const ledc_timer_config_t timer = {.speed_mode = mode ? LEDC_LOW_SPEED_MODE : LEDC_HIGH_SPEED_MODE,
+                                       .duty_resolution = LEDC_TIMER_16_BIT,
+                                       .timer_num = LEDC_TIMER_0,
+                                       .freq_hz = 1000000 / period_us,
+                                       .clk_cfg = LEDC_AUTO_CLK};
+    ledc_timer_config(&timer);
+  }
+  for (joint = 0; joint < WALKER_JOINTS; ++joint) {
+    const ledc_channel_config_t channel = {
+        .gpio_num = robot_servos[joint].pin,
+        .speed_mode = joint < channels ? LEDC_HIGH_SPEED_MODE : LEDC_LOW_SPEED_MODE,
+        .channel = (ledc_channel_t)(joint % channels),
+        .timer_sel = LEDC_TIMER_0};
+    ledc_channel_config(&channel);
+  }
 }
 
 void app_main(void);
-void app_main(void) { walk(); }
+void app_main(void) {
+  TickType_t last_wake;
+  int leg;
+  configure_servos();
+  for (leg = 0; leg < WALKER_LEGS; ++leg) configure_input(robot_switch_pins[leg]);
+  configure_input(stop_pin);
+  configure_input(arm_pin);
+  uart_driver_install(UART_NUM_0, serial_buffer, serial_buffer, 0, 0, 0);
+  robot_init(&walker);
+  esp_task_wdt_add(0); /* with CONFIG_ESP_TASK_WDT_PANIC a program that hangs is reset, which leaves pins without pulses */
+  last_wake = xTaskGetTickCount();
+  for (;;) {
+    xTaskDelayUntil(&last_wake, pdMS_TO_TICKS(WALKER_TICK_US / 1000));
+    esp_task_wdt_reset();
+    robot_tick(&walker, (uint32_t)esp_timer_get_time());
+  }
+}

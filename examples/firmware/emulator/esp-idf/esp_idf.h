@@ -1,0 +1,63 @@
+/* As much of ESP-IDF 5 as esp32/main.c calls: names, types and order of arguments, for compilers without ESP-IDF.
+ * esp_idf_fake.c is behind it. It says nothing of an ESP32's clocks, pins or drivers. */
+#ifndef ESP_IDF_H
+#define ESP_IDF_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef int esp_err_t;
+
+typedef int gpio_num_t;
+typedef enum { GPIO_MODE_INPUT = 1 } gpio_mode_t;
+typedef enum { GPIO_PULLUP_DISABLE, GPIO_PULLUP_ENABLE } gpio_pullup_t;
+typedef struct {
+  uint64_t pin_bit_mask;
+  gpio_mode_t mode;
+  gpio_pullup_t pull_up_en;
+  int pull_down_en, intr_type;
+} gpio_config_t;
+esp_err_t gpio_config(const gpio_config_t *config);
+int gpio_get_level(gpio_num_t pin);
+
+typedef enum { LEDC_HIGH_SPEED_MODE, LEDC_LOW_SPEED_MODE } ledc_mode_t;
+typedef int ledc_channel_t;
+typedef enum { LEDC_TIMER_0 } ledc_timer_t;
+typedef enum { LEDC_TIMER_16_BIT = 16 } ledc_timer_bit_t;
+typedef enum { LEDC_AUTO_CLK } ledc_clk_cfg_t;
+typedef struct {
+  ledc_mode_t speed_mode;
+  ledc_timer_bit_t duty_resolution;
+  ledc_timer_t timer_num;
+  uint32_t freq_hz;
+  ledc_clk_cfg_t clk_cfg;
+} ledc_timer_config_t;
+typedef struct {
+  int gpio_num;
+  ledc_mode_t speed_mode;
+  ledc_channel_t channel;
+  int intr_type;
+  ledc_timer_t timer_sel;
+  uint32_t duty;
+  int hpoint;
+} ledc_channel_config_t;
+esp_err_t ledc_timer_config(const ledc_timer_config_t *config);
+esp_err_t ledc_channel_config(const ledc_channel_config_t *config);
+esp_err_t ledc_set_duty(ledc_mode_t mode, ledc_channel_t channel, uint32_t duty);
+esp_err_t ledc_update_duty(ledc_mode_t mode, ledc_channel_t channel);
+
+typedef enum { UART_NUM_0 } uart_port_t;
+typedef uint32_t TickType_t;
+typedef void *TaskHandle_t;
+esp_err_t uart_driver_install(uart_port_t port, int receives, int sends, int queue_size, void *queue, int flags);
+int uart_read_bytes(uart_port_t port, void *to, uint32_t length, TickType_t ticks);
+int uart_write_bytes(uart_port_t port, const void *from, size_t length);
+
+#define pdMS_TO_TICKS(ms) ((TickType_t)(ms) / 10u) /* 100 Hz */
+TickType_t xTaskGetTickCount(void);
+int xTaskDelayUntil(TickType_t *previous, TickType_t ticks);
+int64_t esp_timer_get_time(void);
+esp_err_t esp_task_wdt_add(TaskHandle_t task);
+esp_err_t esp_task_wdt_reset(void);
+
+#endif

@@ -1,0 +1,183 @@
+/* ESP-IDF as esp32/main.c sees it, with a clock that stands still but for waits, switches that script.h works, and
+ * servos whose pulses are written down:
+ *   T tick microseconds     a tick begins
+ *   P pin microseconds      a pulse, 0: none
+ *   S text                  what the robot prints
+ * On a bare processor in QEMU the log goes to the host by semihosting, on the host to the standard output. With
+ * -DSERIAL the standard input is the serial port, a line each second; nothing else happens, and nothing is logged but
+ * lines and answers. */
+#include "esp_idf.h"
+#include "robot.h"
+#include "script.h"
+
+enum { stop_pin = 32, arm_pin = 0, all_channels = 16, line_ticks = 100 };
+
+static uint32_t tick;
+static int64_t now_us;
+static int pin_of[all_channels];
+static uint32_t duty_of[all_channels];
+
+#ifdef __riscv
+#include "semihosting.h"
+static void put_now(const char *text) { semihosting_print(text); }
+static void exit_good(void) { semihosting_exit(1); }
+#else
+#include <stdio.h>
+#include <stdlib.h>
+static void put_now(const char *text) { fputs(text, stdout); }
+static void exit_good(void) { exit(0); }
+#endif
+
+static char waiting[1024];
+static uint32_t filled;
+
+static void flush(void) {
+  waiting[filled] = 0;
+  put_now(waiting);
+  filled = 0;
+}
+
+static void put(const char *text) {
+  for (; *text; ++text) {
+    if (filled + 1 == sizeof waiting) flush();
+    waiting[filled++] = *text;
+  }
+}
+
+static void put_number(uint32_t number) {
+  char text[11];
+  int at = 10;
+  text[at] = 0;
+  do {
+    text[--at] = (char)('0' + number % 10u);
+    number /= 10u;
+  } while (number > 0);
+  put(text + at);
+}
+
+static void log_numbers(const char *kind, uint32_t a, uint32_t b) {
+#ifndef SERIAL
+  put(kind);
+  put_number(a);
+  put(" ");
+  put_number(b);
+  put("\n");
+#else
+  (void)kind, (void)a, (void)b, (void)put_number;
+#endif
+}
+
+/* ---- time ---- */
+
+TickType_t xTaskGetTickCount(void) { return (TickType_t)(now_us / 10000); }
+int64_t esp_timer_get_time(void) { return now_us; }
+
+int xTaskDelayUntil(TickType_t *previous, TickType_t ticks) {
+  *previous += ticks;
+  if (now_us < (int64_t)*previous * 10000) now_us = (int64_t)*previous * 10000;
+#ifndef SERIAL
+  if (tick == script_ticks) {
+    flush();
+    exit_good();
+  }
+  if (tick == late_tick) now_us += late_by_us;
+#endif
+  log_numbers("T ", tick++, (uint32_t)now_us);
+  return 1;
+}
+
+esp_err_t esp_task_wdt_add(TaskHandle_t task) { return task != 0; }
+esp_err_t esp_task_wdt_reset(void) { return 0; }
+
+/* ---- switches; `tick` is already the next one's ---- */
+
+esp_err_t gpio_config(const gpio_config_t *config) { return config->pin_bit_mask == 0; }
+
+int gpio_get_level(gpio_num_t pin) {
+#ifndef SERIAL
+  uint32_t leg;
+  if (pin == stop_pin) return script_stops(tick - 1);
+  if (pin == arm_pin) return !script_arms(tick - 1);
+  for (leg = 0; leg < WALKER_LEGS; ++leg)
+    if (pin == robot_switch_pins[leg]) return !script_touch(tick - 1, leg);
+#endif
+  return pin != stop_pin;
+}
+
+/* ---- servos ---- */
+
+static int index_of(ledc_mode_t mode, ledc_channel_t channel) { return (mode == LEDC_LOW_SPEED_MODE ? all_channels / 2 : 0) + channel; }
+
+esp_err_t ledc_timer_config(const ledc_timer_config_t *config) {
+  return config->freq_hz != 50 || config->duty_resolution != LEDC_TIMER_16_BIT;
+}
+
+esp_err_t ledc_channel_config(const ledc_channel_config_t *config) {
+  pin_of[index_of(config->speed_mode, config->channel)] = config->gpio_num;
+  return 0;
+}
+
+esp_err_t ledc_set_duty(ledc_mode_t mode, ledc_channel_t channel, uint32_t duty) {
+  duty_of[index_of(mode, channel)] = duty;
+  return 0;
+}
+
+esp_err_t ledc_update_duty(ledc_mode_t mode, ledc_channel_t channel) {
+  const int i = index_of(mode, channel);
+  log_numbers("P ", (uint32_t)pin_of[i], (duty_of[i] * 20000u + 32768u) / 65536u);
+  return 0;
+}
+
+/* ---- serial port ---- */
+
+esp_err_t uart_driver_install(uart_port_t port, int receives, int sends, int queue_size, void *queue, int flags) {
+  return port != UART_NUM_0 || receives < 256 || sends < 256 || queue_size != 0 || queue != 0 || flags != 0;
+}
+
+int uart_read_bytes(uart_port_t port, void *to, uint32_t length, TickType_t ticks) {
+#ifdef SERIAL
+  static int begun = 0;
+  int character;
+  if (port != UART_NUM_0 || length != 1 || ticks != 0 || (!begun && tick % line_ticks != 0)) return 0;
+  character = getchar();
+  if (character == EOF) {
+    flush();
+    exit_good();
+  }
+  if (!begun) put("> ");
+  begun = character != '\n';
+  {
+    const char echo[2] = {(char)character, 0};
+    put(echo);
+  }
+  *(uint8_t *)to = (uint8_t)character;
+  return 1;
+#else
+  (void)port, (void)to, (void)length, (void)ticks;
+  return 0;
+#endif
+}
+
+int uart_write_bytes(uart_port_t port, const void *from, size_t length) {
+  const char *const text = from;
+#ifndef SERIAL
+  static int in_line = 0;
+  size_t i;
+  for (i = 0; i < length; ++i) {
+    const char one[2] = {text[i], 0};
+    if (!in_line) put("S ");
+    put(one);
+    in_line = text[i] != '\n';
+  }
+#else
+  put(text);
+#endif
+  (void)port;
+  return (int)length;
+}
+
+void app_main(void);
+int main(void) {
+  app_main();
+  return 0;
+}

@@ -1,0 +1,44 @@
+/* A robot that walks, in one call per tick: servos without pulses, ramp to the first pose, controller, stop. */
+#ifndef ROBOT_H
+#define ROBOT_H
+
+#include "board.h"
+#include "calibrate.h"
+#include "safety.h"
+#include "servos.h"
+#include "walker.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The builder's numbers: my_robot.c. Servos by joint, GPIOs of foot switches by leg. */
+extern const servo robot_servos[];
+extern const uint8_t robot_switch_pins[];
+extern const safety_limits robot_safety_limits;
+
+typedef enum { ROBOT_STOPPED, ROBOT_RAMPS, ROBOT_WALKS, ROBOT_CALIBRATES } robot_mode;
+
+typedef struct {
+  robot_mode mode;
+  uint16_t ramp_ticks;             /* since the ramp began */
+  int16_t pulse_us[WALKER_JOINTS]; /* 0: none */
+  servo servos[WALKER_JOINTS];     /* those of my_robot.c, as calibration has changed them */
+  walker_state controller;
+  walker_sensors sensors;
+  safety safety;
+  calibration calibration;
+  uint8_t arm_was_pressed, line_length;
+  char line[24];
+} robot;
+
+/* Stopped, no pulses. Once the board is ready. */
+void robot_init(robot *r);
+/* Once per tick, every WALKER_TICK_US. */
+void robot_tick(robot *r, uint32_t now_us);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

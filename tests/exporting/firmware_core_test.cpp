@@ -1,0 +1,222 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "examples/firmware/calibrate.c"
+#include "examples/firmware/pca9685.c"
+#include "examples/firmware/safety.c"
+#include "examples/firmware/servos.c"
+
+// The parts of examples/firmware that need no board. tests/exporting/firmware_test.cpp runs all of it.
+namespace amble::tests {
+namespace {
+
+constexpr servo typical{.pin = 3,
+                        .sign = 1,
+                        .zero_us = 1500,
+                        .least_us = 900,
+                        .most_us = 2100,
+                        .slew_us_per_s = 4100,
+                        .us_per_rad = 637};
+constexpr std::int32_t tick_us = 10000;
+
+TEST(FirmwareServos, PulsesAreTheNearestOfAnAngleWithinTheLimits) {
+  std::mt19937 random(1);
+  for (const int sign : {1, -1})
+    for (int i = 0; i < 10000; ++i) {
+      servo s = typical;
+      s.sign = static_cast<int8_t>(sign);
+      const auto angle = static_cast<std::int32_t>(random() % 262144) - 131072;  // ± 4 rad
+      const double wanted_us = 1500 + sign * (angle / 32768.0) * 637;
+      const int16_t pulse_us = servo_goal_us(&s, angle, 15);
+      EXPECT_NEAR(pulse_us, std::clamp(wanted_us, 900.0, 2100.0), 0.5001);
+      EXPECT_GE(pulse_us, 900);
+      EXPECT_LE(pulse_us, 2100);
+    }
+}
+
+TEST(FirmwareServos, AreNoFasterThanTheirSlewAndArrive) {
+  int16_t pulse_us = 900;
+  int ticks = 0;
+  for (; pulse_us != 2100 && ticks < 1000; ++ticks) {
+    const int16_t next_us = servo_towards_us(&typical, pulse_us, 2100, tick_us);
+    EXPECT_LE(next_us - pulse_us, 41);
+    EXPECT_GT(next_us, pulse_us);
+    pulse_us = next_us;
+  }
+  EXPECT_EQ(ticks, 30);  // 1200 us at 41 us a tick
+  servo slow = typical;
+  slow.slew_us_per_s = 1;
+  EXPECT_EQ(servo_towards_us(&slow, 1500, 1000, tick_us), 1499);
+}
+
+constexpr safety_limits watched{
+    .late_us = 50000, .silent_ticks = 10, .stuck_ticks = 500, .airborne_ticks = 100};
+
+/// A robot of four legs that walks: each call is a tick.
+struct Watched {
+  safety state;
+  safety_inputs in;
+  Watched()
+      : in{.now_us = 0xffff0000u,
+           .stop = 0,
+           .answered = 1,
+           .timed = 1,
+           .walks = 1,
+           .tilted = 0,
+           .legs = 4,
+           .touch = {1, 0, 0, 1}} {
+    safety_init(&state);
+    EXPECT_EQ(state.reason, STOP_POWER_ON);
+    EXPECT_EQ(safety_arm(&state, &in), 1);
+  }
+  stop_reason tick(int ticks = 1, bool steps = true) {
+    for (int i = 0; i < ticks; ++i) {
+      in.now_us += tick_us;
+      if (steps)
+        for (uint8_t& touch : in.touch) touch = !touch;
+      safety_check(&state, &watched, tick_us, &in);
+    }
+    return state.reason;
+  }
+};
+
+TEST(FirmwareSafety, LetsARobotWalkAlsoWhenItsClockGoesRound) {
+  Watched robot;
+  EXPECT_EQ(robot.tick(100000), STOP_NONE);
+}
+
+TEST(FirmwareSafety, StopsStayUntilItIsArmedAgainWithTheSwitchReleased) {
+  Watched robot;
+  robot.in.stop = 1;
+  EXPECT_EQ(robot.tick(), STOP_SWITCH);
+  EXPECT_EQ(safety_arm(&robot.state, &robot.in), 0);
+  EXPECT_EQ(robot.tick(), STOP_SWITCH);
+  robot.in.stop = 0;
+  EXPECT_EQ(robot.tick(100), STOP_SWITCH);
+  EXPECT_EQ(safety_arm(&robot.state, &robot.in), 1);
+  EXPECT_EQ(robot.tick(100), STOP_NONE);
+}
+
+TEST(FirmwareSafety, StopsAtATickThatIsTooLate) {
+  Watched robot;
+  robot.in.now_us += 50000;
+  EXPECT_EQ(robot.tick(), STOP_NONE);
+  robot.in.now_us += 50001;
+  EXPECT_EQ(robot.tick(), STOP_LATE);
+  Watched calibrated;
+  calibrated.in.timed = 0;
+  calibrated.in.now_us += 90000;
+  EXPECT_EQ(calibrated.tick(), STOP_NONE);
+}
+
+TEST(FirmwareSafety, StopsWhenSensorsAreSilentForTooManyTicksInARow) {
+  Watched robot;
+  robot.in.answered = 0;
+  EXPECT_EQ(robot.tick(9), STOP_NONE);
+  robot.in.answered = 1;
+  EXPECT_EQ(robot.tick(), STOP_NONE);
+  robot.in.answered = 0;
+  EXPECT_EQ(robot.tick(9), STOP_NONE);
+  EXPECT_EQ(robot.tick(), STOP_SILENT);
+}
+
+TEST(FirmwareSafety, StopsWhenASwitchIsStuckButOnlyWhileWalking) {
+  Watched robot;
+  EXPECT_EQ(robot.tick(2), STOP_NONE);
+  EXPECT_EQ(robot.tick(499, false), STOP_NONE);
+  EXPECT_EQ(robot.tick(1, false), STOP_STUCK);
+  Watched standing;
+  standing.in.walks = 0;
+  EXPECT_EQ(standing.tick(5000, false), STOP_NONE);
+}
+
+TEST(FirmwareSafety, StopsWhenNoFootIsOnTheGroundForTooLongOrTheTrunkIsTilted) {
+  Watched robot;
+  for (uint8_t& touch : robot.in.touch) touch = 0;
+  EXPECT_EQ(robot.tick(99, false), STOP_NONE);
+  EXPECT_EQ(robot.tick(1, false), STOP_FALLEN);
+  Watched tilted;
+  tilted.in.tilted = 1;
+  EXPECT_EQ(tilted.tick(), STOP_FALLEN);
+}
+
+TEST(FirmwareSafety, WithoutSwitchesWatchesNoFoot) {
+  Watched robot;
+  robot.in.legs = 0;
+  EXPECT_EQ(robot.tick(5000, false), STOP_NONE);
+}
+
+std::string& said() {
+  static std::string text;
+  return text;
+}
+
+/// Two joints with targets of ± 0.5 rad.
+struct Calibrated {
+  servo servos[2] = {typical, typical};
+  calibrated_joint joints[2] = {{"KNEE", -16384, 16384}, {"HIP", -16384, 16384}};
+  calibration state{.servos = servos,
+                    .joints = joints,
+                    .count = 2,
+                    .fraction_bits = 15,
+                    .joint = -1,
+                    .pulse_us = 0,
+                    .print = [](const char* text) { said() += text; }};
+  Calibrated() { calibrate_begin(&state); }
+  std::string operator()(const std::string& line, int goes_on = 1) {
+    said().clear();
+    EXPECT_EQ(calibrate_line(&state, line.c_str()), goes_on) << line;
+    return said();
+  }
+};
+
+TEST(FirmwareCalibration, FindsZeroSignScaleAndLimits) {
+  Calibrated say;
+  EXPECT_EQ(say("joint 1"), "1 HIP: 1500 us\n");
+  EXPECT_EQ(say("-20"), "1 HIP: 1480 us\n");
+  say("zero");
+  for (int i = 0; i < 5; ++i) say("-100");
+  EXPECT_EQ(say("at 45"), "sign -1, us_per_rad 637\n");
+  EXPECT_EQ(say("least"), "least 980 us\n");
+  for (int i = 0; i < 8; ++i) say("+100");
+  EXPECT_EQ(say("most"), "most 1780 us\n");
+  EXPECT_THAT(
+      say("table"),
+      testing::EndsWith(
+          "[HIP] = {3, -1, 1480, 980, 1780, 4100, 637}, /* targets 1161 to 1799 us: BEYOND THE LIMITS */\n"));
+  EXPECT_EQ(say.servos[0].zero_us, typical.zero_us);
+  EXPECT_EQ(say("quit", 0), "");
+}
+
+TEST(FirmwareCalibration, RefusesWhatItDoesNotUnderstandAndMovesNothing) {
+  Calibrated say;
+  EXPECT_THAT(say("+20"), testing::HasSubstr("first choose a joint"));
+  say("joint 0");
+  for (const char* line : {"joint 2", "joint -1", "joint", "joint 1x", "+101", "-500", "+", "+9999999",
+                           "at 0", "at", "at x", "at 45", "zeros", "", " ", "jointzero"}) {
+    EXPECT_THAT(say(line), testing::AnyOf(testing::HasSubstr("expected"))) << line;
+    EXPECT_EQ(say.state.pulse_us, 1500) << line;
+    EXPECT_EQ(say.state.joint, 0) << line;
+    EXPECT_EQ(std::memcmp(say.servos, Calibrated().servos, sizeof say.servos), 0) << line;
+  }
+}
+
+TEST(FirmwareCalibration, StaysWithinWhatServosBear) {
+  Calibrated say;
+  say("joint 0");
+  for (int i = 0; i < 30; ++i) say("+100");
+  EXPECT_EQ(say.state.pulse_us, 2500);
+  for (int i = 0; i < 30; ++i) say("-100");
+  EXPECT_EQ(say.state.pulse_us, 500);
+}
+
+TEST(FirmwarePca9685, CountsTheNearestOfItsClock) {
+  for (int16_t us = 0; us < 3000; ++us) EXPECT_NEAR(pca9685_counts(us), us / 4.88, 0.5001);
+}
+
+}  // namespace
+}  // namespace amble::tests
