@@ -10,6 +10,7 @@
 #include "amble/experiment/problem.hpp"
 #include "amble/io/file.hpp"
 #include "amble/morphology/mjcf_writer.hpp"
+#include "amble/robot/doubts.hpp"
 #include "amble/robot/summary.hpp"
 
 namespace amble::cli {
@@ -43,6 +44,7 @@ void add_robot(CLI::App& app, Action& action) {
       fmt::print("{}", robot::summary(robot));
       if (const auto line = solver_line(robot)) fmt::print("{}", *line);
       if (!notes.lines().empty()) fmt::print("\nimport notes:\n{}", notes.text());
+      fmt::print("{}", doubts_text(robot::doubts(robot)));
       return ExitCode::ok;
     };
   });

@@ -15,6 +15,7 @@
 #include "amble/morphology/robot_file.hpp"
 #include "amble/morphology/robot_guess.hpp"
 #include "amble/physics/engine.hpp"
+#include "amble/robot/doubts.hpp"
 #include "amble/robot/legs.hpp"
 #include "amble/robot/summary.hpp"
 
@@ -118,6 +119,12 @@ std::string config_text(const std::string& name, const std::string& engine,
 
 }  // namespace
 
+std::string doubts_text(const std::vector<std::string>& doubts) {
+  std::string text = doubts.empty() ? "" : "warnings:\n";
+  for (const std::string& line : doubts) text += "  " + line + "\n";
+  return text;
+}
+
 ExitCode init_robot(const fs::path& model, fs::path folder) {
   if (model.extension() == ".toml" || model.extension() == ".json")
     fail(ExitCode::bad_input, "--init: {} is a robot file: expected a model, MJCF (.xml) or URDF (.urdf)",
@@ -156,6 +163,10 @@ ExitCode init_robot(const fs::path& model, fs::path folder) {
     fmt::print("still to be given in {}:\n", robot_path.string());
     for (const std::string& line : asked) fmt::print("  {}\n", line);
   }
+  std::vector<std::string> doubts = guess.doubts;
+  if (robot)
+    for (const std::string& line : robot::doubts(*robot)) doubts.push_back(line);
+  fmt::print("{}", doubts_text(doubts));
   const bool ready = robot && !robot->legs.empty();
   if (ready)
     fmt::print("next: read {0}, then\n  amble evolve {1} --out {2}\n", robot_path.string(),

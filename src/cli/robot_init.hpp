@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "amble/core/error.hpp"
 
@@ -10,5 +12,8 @@ namespace amble::cli {
 /// of the model's name here), loads the robot and says what was read, what is still to be given, and what to
 /// do next. Throws UserError for a model that cannot be read and for files that are there already.
 ExitCode init_robot(const std::filesystem::path& model, std::filesystem::path folder);
+
+/// "warnings:" and a line each; empty without any.
+std::string doubts_text(const std::vector<std::string>& doubts);
 
 }  // namespace amble::cli

@@ -252,9 +252,27 @@ class RobotGuesser {
            a.kp_nm_per_rad == b.kp_nm_per_rad && a.kd_nm_s_per_rad == b.kd_nm_s_per_rad;
   }
 
+  void doubt_motors(const std::vector<ServoGuess>& servos) {
+    std::vector<std::string> without_limit, without_gear;
+    for (std::size_t j = 0; j < servos.size(); ++j) {
+      if (servos[j].torque_is_guessed) without_limit.push_back(parts_.joints[j].name);
+      if (servos[j].lacks_gear) without_gear.push_back(parts_.joints[j].name);
+    }
+    if (!without_limit.empty())
+      guess_.doubts.push_back(fmt::format(
+          "the model has no limit of torque that a motor could have, and it was guessed: {}; give "
+          "max_torque_nm of the motors that you have",
+          fmt::join(without_limit, ", ")));
+    if (!without_gear.empty())
+      guess_.doubts.push_back(
+          fmt::format("motors with controls of ±1 and a gear of 1 give 1 N m: is `gear` missing? {}",
+                      fmt::join(without_gear, ", ")));
+  }
+
   void write_servos() {
     const double bearing_nm = bearing_torque_nm(parts_, legs_.legs.size(), leg_length_m());
     const std::vector<ServoGuess> servos = guess_servos(file_, parts_, bearing_nm);
+    doubt_motors(servos);
     const auto servo_of = [&](int j) -> const ServoGuess& { return servos[to_index(j)]; };
     ServoGuess common{{robot::ServoMode::velocity, 9.0, 1.0, 0.0, 0.0}, "there are no joints"};
     if (!legs_.legs.empty())

@@ -11,8 +11,9 @@ namespace amble::morphology {
 /// A robot file that was guessed from a model.
 struct RobotGuess {
   std::string name;
-  std::string toml;                ///< each guess with its reason as a comment
-  std::vector<std::string> asked;  ///< what the user must give, as the model does not have it
+  std::string toml;                 ///< each guess with its reason as a comment
+  std::vector<std::string> asked;   ///< what the user must give, as the model does not have it
+  std::vector<std::string> doubts;  ///< what of the model's motors is hardly meant
 };
 
 /// Guesses all that a robot file has to say of a model (robots/README.md). `model` is the model's path as the

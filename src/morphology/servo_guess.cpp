@@ -75,7 +75,8 @@ class ServoGuesser {
     return {velocity(enough()),
             fmt::format("no motor in the model: {} × the torque that bears a leg's share of the "
                         "weight; gain: that of the paper's motors",
-                        enough_times)};
+                        enough_times),
+            true};
   }
 
  private:
@@ -87,6 +88,10 @@ class ServoGuesser {
 
   static robot::Servo torque(double torque_nm, double kp, double kd) {
     return {robot::ServoMode::torque, 0.0, rounded(torque_nm), rounded(kp), rounded(kd)};
+  }
+
+  bool has_limit(const Actuator& actuator, const MotorHint& hint) const {
+    return actuator.max_torque_nm > 0.0 || hint.max_torque_nm > 0.0;
   }
 
   /// The largest torque, and where it comes from.
@@ -102,13 +107,15 @@ class ServoGuesser {
     const double kd = std::max(actuator.kv, hint.kv_nm_s_per_rad);
     return {torque(most, actuator.kp, kd),
             fmt::format("kp{} of the model's actuator{}; torque: {}", kd > 0.0 ? " and kd" : "",
-                        kd > 0.0 || damping == 0.0 ? "" : ", whose damping is that of the joint", source)};
+                        kd > 0.0 || damping == 0.0 ? "" : ", whose damping is that of the joint", source),
+            !has_limit(actuator, hint)};
   }
 
   ServoGuess of_effort(const MotorHint& hint) const {
     robot::Servo servo = velocity(hint.max_torque_nm);
     std::string torque_why = "the model's effort limit";
-    if (hint.max_torque_nm > absurd_times * bearing_nm_) {
+    const bool absurd = hint.max_torque_nm > absurd_times * bearing_nm_;
+    if (absurd) {
       servo.max_torque_nm = enough();
       torque_why = fmt::format(
           "the model's effort limit, {:.4g} N m, is no motor's: {} × what bears a leg's "
@@ -123,19 +130,21 @@ class ServoGuesser {
           fmt::format("{} rad from its target a joint turns at the model's velocity limit, {:.4g} rad/s",
                       widest_error_rad, hint.max_speed_rad_s);
     }
-    return {servo, fmt::format("torque: {}; gain: {}", torque_why, gain_why)};
+    return {servo, fmt::format("torque: {}; gain: {}", torque_why, gain_why), absurd};
   }
 
   ServoGuess of_velocity(const Actuator& actuator, const MotorHint& hint) const {
     auto [most, source] = limit(actuator, hint);
     return {velocity(most),
-            fmt::format("a velocity actuator; torque: {}; gain: that of the paper's motors", source)};
+            fmt::format("a velocity actuator; torque: {}; gain: that of the paper's motors", source),
+            !has_limit(actuator, hint)};
   }
 
   ServoGuess of_motor(const Actuator& actuator, const MotorHint& hint, double damping) const {
     auto [most, source] = limit(actuator, hint);
     const double by_control = actuator.control_limit * actuator.gain;
-    if (actuator.max_torque_nm == 0.0 && by_control > 0.0) {
+    const bool is_by_control = actuator.max_torque_nm == 0.0 && by_control > 0.0;
+    if (is_by_control) {
       most = by_control;
       source = "the actuator's control range × gear";
     }
@@ -145,7 +154,9 @@ class ServoGuesser {
         torque(most, kp, kd),
         fmt::format("torque: {}; kp guessed: it bears a leg's share of the weight at {} rad; kd, with the "
                     "joint's damping, {} s × kp",
-                    source, bearing_error_rad, damping_time_s)};
+                    source, bearing_error_rad, damping_time_s),
+        !is_by_control && !has_limit(actuator, hint),
+        is_by_control && actuator.control_limit == 1.0 && actuator.gain == 1.0};
   }
 
   const ModelFile& file_;

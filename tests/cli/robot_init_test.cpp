@@ -45,6 +45,7 @@ TEST_F(RobotInit, WroteTheRobotsOfTheGallery) {
     spill(folder + "/" + name + extension, slurp(committed + name + extension));
     const auto init = amble({"robot", "--init", folder + "/" + name + extension, "-o", folder});
     ASSERT_EQ(init.exit_code, 0) << init.err;
+    EXPECT_THAT(init.out, testing::Not(HasSubstr("warnings:")));
     EXPECT_EQ(slurp(folder + "/" + name + ".toml"), slurp(committed + name + ".toml"));
     EXPECT_EQ(without_include(slurp(folder + "/evolve.toml")),
               without_include(slurp(committed + "evolve.toml")));
@@ -97,6 +98,51 @@ TEST_F(RobotInit, GivesAHeavyTrunkMoreSweepsOfTheSolver) {
   const auto few = amble({"robot", scratch_ / "heavy/heavy.toml"});
   EXPECT_THAT(few.out, HasSubstr("solver of the batch engine: 14 sweeps, error of a step 0.0"));
   EXPECT_THAT(few.out, HasSubstr("Set contact.sweeps = "));
+}
+
+/// A model of the gallery with `from` replaced by `to` wherever it is.
+std::string changed(std::string model, const std::string& from, const std::string& to) {
+  EXPECT_NE(model.find(from), std::string::npos) << from;
+  for (std::size_t at = 0; (at = model.find(from, at)) != std::string::npos; at += to.size())
+    model.replace(at, from.size(), to);
+  return model;
+}
+
+TEST_F(RobotInit, WarnsOfInertiasTorquesAndMotorsThatAreHardlyMeant) {
+  const std::string servo = slurp(source + "/robots/servo/servo.urdf");
+  const std::string hexapod = slurp(source + "/robots/hexapod/hexapod.xml");
+  const struct {
+    std::string model, file, warning;
+  } cases[] = {
+      {changed(servo, "izz=\"0.00333\"", "izz=\"0.333\""), "inertia.urdf",
+       "  body 'base': its moments of inertia"},
+      {changed(servo, "effort=\"1.0\"", "effort=\"0.1\""), "weak.urdf",
+       "  torques that do not hold the weight of 1.52 kg on half of the legs in the start pose: front_left_"},
+      {changed(servo, "effort=\"1.0\"", "effort=\"1000\""), "effort.urdf",
+       "  the model has no limit of torque that a motor could have, and it was guessed: front_left_"},
+      {changed(hexapod, " forcelimited=\"true\" forcerange=\"-9 9\"", ""), "unlimited.xml",
+       "  the model has no limit of torque that a motor could have"},
+  };
+  for (const auto& [model, file, warning] : cases) {
+    spill(scratch_ / file, model);
+    const auto init = amble({"robot", "--init", scratch_ / file, "-o", scratch_ / (file + ".d")});
+    EXPECT_EQ(init.exit_code, 0) << file << init.err;
+    EXPECT_THAT(init.out, HasSubstr("\nwarnings:\n"));
+    EXPECT_THAT(init.out, HasSubstr(warning)) << file;
+  }
+  // What concerns the robot itself is said of its file, too.
+  EXPECT_THAT(amble({"robot", scratch_ / "weak.urdf.d/weak.toml"}).out,
+              HasSubstr("warnings:\n  torques that"));
+}
+
+TEST_F(RobotInit, WarnsOfMotorsWithoutAGear) {
+  spill(scratch_ / "motors.xml", model_text(four_legs(), "<freejoint/>", {}, R"(<actuator>
+    <motor joint="FL_hip" ctrlrange="-1 1" ctrllimited="true"/>
+    <motor joint="FL_knee" ctrlrange="-1 1" ctrllimited="true" gear="7"/>
+  </actuator>)"));
+  const auto init = amble({"robot", "--init", scratch_ / "motors.xml", "-o", scratch_ / "out"});
+  EXPECT_EQ(init.exit_code, 0) << init.err;
+  EXPECT_THAT(init.out, HasSubstr("is `gear` missing? FL_hip\n"));
 }
 
 TEST_F(RobotInit, ReplacesNothing) {

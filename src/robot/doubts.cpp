@@ -1,0 +1,146 @@
+#include "amble/robot/doubts.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "amble/core/index.hpp"
+#include "amble/robot/pose.hpp"
+
+namespace amble::robot {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A solid: volume, ∫ r dV and ∫ |r|² dV.
+struct Solid {
+  double volume_m3 = 0.0;
+  Vec3 first;
+  double second = 0.0;
+};
+
+/// About the origin of the geom's axes.
+Solid mesh_solid(const Geom& geom) {
+  Solid solid;
+  for (const auto& triangle : geom.triangles) {
+    const Vec3 a = geom.vertices_m[to_index(triangle[0])], b = geom.vertices_m[to_index(triangle[1])],
+               c = geom.vertices_m[to_index(triangle[2])];
+    // A tetrahedron with its fourth corner at the origin.
+    const double volume = dot(a, cross(b, c)) / 6.0;
+    solid.volume_m3 += volume;
+    solid.first = solid.first + 0.25 * volume * (a + b + c);
+    solid.second += 0.1 * volume * (dot(a, a) + dot(b, b) + dot(c, c) + dot(a, b) + dot(b, c) + dot(c, a));
+  }
+  return solid;
+}
+
+/// About the origin of the geom's axes.
+Solid solid_of(const Geom& geom) {
+  const Vec3 s = geom.size_m;
+  const double ball = 4.0 / 3.0 * pi * s.x * s.x * s.x, tube = 2.0 * pi * s.x * s.x * s.y;
+  const double of_tube = tube * (s.x * s.x / 2.0 + s.y * s.y / 3.0);
+  switch (geom.shape) {
+    case Shape::sphere:
+      return {ball, {}, ball * 0.6 * s.x * s.x};
+    case Shape::capsule:
+      return {tube + ball, {}, of_tube + ball * (0.6 * s.x * s.x + 0.75 * s.x * s.y + s.y * s.y)};
+    case Shape::cylinder:
+      return {tube, {}, of_tube};
+    case Shape::box: {
+      const double volume = 8.0 * s.x * s.y * s.z;
+      return {volume, {}, volume * dot(s, s) / 3.0};
+    }
+    case Shape::mesh:
+      return mesh_solid(geom);
+  }
+  return {};
+}
+
+/// Some shapes of a body together, about the origin of its frame.
+Solid solid_of(const RobotSpec& robot, std::size_t body, bool colliding_only) {
+  Solid sum;
+  for (const Geom& geom : robot.geoms) {
+    if (to_index(geom.body) != body || (colliding_only && !geom.collides)) continue;
+    const Solid own = solid_of(geom);
+    const Vec3 shift = geom.position_m, first = rotate(geom.rotation, own.first);
+    sum.volume_m3 += own.volume_m3;
+    sum.first = sum.first + first + own.volume_m3 * shift;
+    sum.second += own.second + 2.0 * dot(shift, first) + own.volume_m3 * dot(shift, shift);
+  }
+  return sum;
+}
+
+/// Sum of the principal moments of these shapes, filled evenly with the body's mass; 0: they say nothing.
+double moments_of_shapes(const Solid& solid, const Body& body) {
+  if (!(solid.volume_m3 > 0.0) || body.mass_kg > densest_kg_m3 * solid.volume_m3) return 0.0;
+  const Vec3 centre = (1.0 / solid.volume_m3) * solid.first, off = centre - body.com_m;
+  const double gyration_m2 = solid.second / solid.volume_m3 - dot(centre, centre);
+  return dot(off, off) > gyration_m2 ? 0.0 : 2.0 * body.mass_kg * gyration_m2;
+}
+
+void doubt_inertia(const RobotSpec& robot, std::vector<std::string>& lines) {
+  for (std::size_t b = 0; b < robot.bodies.size(); ++b) {
+    const Body& body = robot.bodies[b];
+    const double moments = body.inertia_kg_m2.x + body.inertia_kg_m2.y + body.inertia_kg_m2.z;
+    double nearest = 0.0;
+    // Shapes that collide may be simpler than those to look at: the more favourable counts.
+    for (const bool colliding_only : {true, false}) {
+      const double expected = moments_of_shapes(solid_of(robot, b, colliding_only), body);
+      if (expected > 0.0 &&
+          (nearest == 0.0 || std::abs(std::log(moments / expected)) < std::abs(std::log(moments / nearest))))
+        nearest = expected;
+    }
+    if (nearest == 0.0) continue;
+    const double ratio = moments / nearest;
+    if (ratio <= doubted_inertia_factor && ratio >= 1.0 / doubted_inertia_factor) continue;
+    lines.push_back(fmt::format(
+        "body '{}': its moments of inertia, {:.3g} kg m² in sum, are {:.2g} times those of its shapes with "
+        "its mass of {:.3g} kg: check inertia, mass and units",
+        body.name, moments, ratio, body.mass_kg));
+  }
+}
+
+void doubt_torques(const RobotSpec& robot, std::vector<std::string>& lines) {
+  const std::vector<double> torques = bearing_torques_nm(robot);
+  std::vector<std::string> weak;
+  for (std::size_t j = 0; j < torques.size(); ++j)
+    if (std::abs(torques[j]) > robot.joints[j].servo.max_torque_nm)
+      weak.push_back(fmt::format("{} ({:.3g} of {:.3g} N m)", robot.joints[j].name,
+                                 robot.joints[j].servo.max_torque_nm, std::abs(torques[j])));
+  if (weak.empty()) return;
+  lines.push_back(fmt::format(
+      "torques that do not hold the weight of {:.3g} kg on half of the legs in the start pose: {}; check "
+      "max_torque_nm, masses, and the start pose",
+      robot.total_mass_kg(), fmt::join(weak, ", ")));
+}
+
+}  // namespace
+
+std::vector<double> bearing_torques_nm(const RobotSpec& robot) {
+  std::vector<double> torques(robot.joints.size(), 0.0);
+  const std::vector<Pose> poses = start_poses(robot);
+  const auto standing = static_cast<double>((robot.legs.size() + 1) / 2);
+  for (const Leg& leg : robot.legs) {
+    const Geom& foot = robot.geoms[to_index(leg.foot_geom)];
+    const Vec3 force_n = (-robot.total_mass_kg() / standing) * robot.gravity_m_s2;
+    for (int body = foot.body; body > 0; body = robot.bodies[to_index(body)].parent)
+      for (const int j : robot.joints_of_body(body)) {
+        const Joint& joint = robot.joints[to_index(j)];
+        const Pose& pose = poses[to_index(body)];
+        const Vec3 lever_m = centre_m(foot, poses) - pose * joint.anchor_m;
+        torques[to_index(j)] = dot(rotate(pose.rotation, joint.axis), cross(lever_m, force_n));
+      }
+  }
+  return torques;
+}
+
+std::vector<std::string> doubts(const RobotSpec& robot) {
+  std::vector<std::string> lines;
+  doubt_inertia(robot, lines);
+  doubt_torques(robot, lines);
+  return lines;
+}
+
+}  // namespace amble::robot

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "amble/robot/spec.hpp"
+
+namespace amble::robot {
+
+/// The least and greatest ratio of a body's inertia to that of its shapes that is not doubted, and the
+/// greatest density of shapes that are taken for all of a body.
+constexpr double doubted_inertia_factor = 3.0, densest_kg_m3 = 8000.0;
+
+/// What of a robot is allowed but hardly meant, a line each with what to look at; none: nothing.
+/// - A body whose moments of inertia (their sum) are more than three times those of its shapes filled evenly
+///   with its mass, or less than a third. Shapes that would be denser than steel, or whose centre is
+///   farther from the body's centre of mass than their radius of gyration, are not all of it, and say
+///   nothing.
+/// - A joint whose largest torque does not hold the weight of the robot on half of its legs in the start pose
+///   (the force is vertical, at the centre of the foot; the weight of the leg itself is not subtracted).
+std::vector<std::string> doubts(const RobotSpec& robot);
+
+/// The torque about each joint's axis, N m and signed, under the weight on half of the legs; 0 of joints that
+/// are not between a foot and the root.
+std::vector<double> bearing_torques_nm(const RobotSpec& robot);
+
+}  // namespace amble::robot
