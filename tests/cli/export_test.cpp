@@ -75,7 +75,7 @@ TEST(ExportCommand, WroteTheControllerOfTheExampleFirmware) {
                               "--fixed", "-o", scratch / "walker.c"});
   ASSERT_EQ(written.exit_code, 0) << written.err;
   for (const char* extension : {".h", ".c"})
-    EXPECT_EQ(from_second_line(slurp(scratch / "walker" + extension)),
+    EXPECT_EQ(from_second_line(slurp(scratch / ("walker" + std::string(extension)))),
               from_second_line(slurp(example + extension)))
         << "amble export robots/servo/champion.json --format c --fixed -o examples/firmware/walker.c";
 }

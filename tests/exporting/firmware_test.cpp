@@ -184,6 +184,24 @@ TEST(Firmware, OfAnArduinoDoesTheSameWithAPca9685) {
   expect_in_page(table_of(ran.out));
 }
 
+TEST(Firmware, OfOtherControllersIsJudgedGoodAsWell) {
+  Sample untriggered{.name = "untriggered",
+                     .preset = "authors/supg",
+                     .assignments = {"controller.supg.trigger=none", "controller.supg.idle=wrap"}};
+  const experiment::Champion blind = evolve(untriggered), other = champion_of("quadruped_supg");
+  for (const auto& [champion, arithmetic] : {std::pair{&other, Arithmetic::float32},
+                                             {&other, Arithmetic::fixed},
+                                             {&blind, Arithmetic::float32},
+                                             {&blind, Arithmetic::fixed}}) {
+    const TemporaryFolder scratch;
+    std::filesystem::copy(example, scratch / "firmware", std::filesystem::copy_options::recursive);
+    write_walker(scratch / "firmware", *champion, arithmetic);
+    const Ran ran = run_shell("make -s --no-print-directory -C '" + (scratch / "firmware").string() +
+                              "' OUT='" + (scratch / "build").string() + "' run-60s-host");
+    EXPECT_EQ(ran.exit_code, 0) << ran.out;
+  }
+}
+
 TEST(Firmware, CheckOfARunSeesEachKindOfFault) {
   const TemporaryFolder scratch;
   const Ran ran = make_example(scratch, "run-60s-host");
@@ -255,7 +273,7 @@ TEST(Firmware, NamesNoLegAndNoJoint) {
                            "servos.c", "arduino/arduino.ino", "esp32/main.c", "emulator/board_qemu.c",
                            "emulator/esp_idf_fake.c", "emulator/check_run.c"}) {
     const std::string text = io::read_file(example + file);
-    for (const char* name : {"WALKER_JOINT_", "WALKER_LEG_", "front", "rear", "knee", "roll"})
+    for (const char* name : {"WALKER_JOINT_", "WALKER_LEG_", "front", "rear", "knee", "shoulder"})
       EXPECT_EQ(text.find(name), std::string::npos) << file << " " << name;
   }
 }
