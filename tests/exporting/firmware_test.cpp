@@ -184,6 +184,15 @@ TEST(Firmware, OfAnArduinoDoesTheSameWithAPca9685) {
   expect_in_page(table_of(ran.out));
 }
 
+TEST(Firmware, OfAnArduinoThatHangsIsResetAndWaitsToBeArmed) {
+  if (!installed_for_arduino()) GTEST_SKIP() << "compiler, core and emulator: ./setup --firmware";
+  const TemporaryFolder scratch;
+  const Ran ran = make_example(scratch, "run-hang");
+  EXPECT_EQ(ran.exit_code, 0) << ran.out;
+  EXPECT_EQ(ran.out.rfind("hung while walking", 0), 0u) << ran.out;
+  expect_in_page(ran.out);
+}
+
 TEST(Firmware, OfOtherControllersIsJudgedGoodAsWell) {
   Sample untriggered{.name = "untriggered",
                      .preset = "authors/supg",

@@ -1,7 +1,8 @@
 /* Runs the Arduino's program on an ATmega2560 in simavr, with switches at its pins as script.h says and a PCA9685 on its
  * I2C bus, whose registers are written down (esp_idf_fake.c says how, check_run.c the line C). A tick is what the
  * program's light (pin 13) says. Before the late tick its main program is held up where it sleeps, while
- * interrupts go on. */
+ * interrupts go on. With the word `hang` behind the program it is held up for good, walking, at 6 s; what the hardware
+ * watchdog makes of that is judged here. */
 #include <avr_extint.h>
 #include <avr_ioport.h>
 #include <avr_twi.h>
@@ -27,6 +28,11 @@ static avr_cycle_count_t held_until;
 
 static long now_us(void) { return (long)(avr->cycle / (clock_hz / 1000000)); }
 
+/* Of a run with `hang`. */
+enum { hang_tick = 600, ticks_after_reset = 100 };
+static int hangs, pulses_before, pulses_after;
+static long hung_us, reset_us;
+
 static void fail(const char *what) {
   fprintf(stderr, "run_arduino: %s\n", what);
   exit(1);
@@ -46,6 +52,12 @@ static void set_switches(uint32_t at) {
   set_pin('E', 5, !script_arms(at));
 }
 
+/* Pins that could interrupt, 2 and 3 among them, take simavr most of its time while they are low. A reset forgets it. */
+static void ignore_low_pins(void) {
+  uint8_t interrupt;
+  for (interrupt = 0; interrupt < 8; ++interrupt) avr_extint_set_strict_lvl_trig(avr, interrupt, 0);
+}
+
 static void light_changed(avr_irq_t *irq, uint32_t value, void *param) {
   static uint32_t before = 0;
   (void)irq, (void)param;
@@ -53,6 +65,8 @@ static void light_changed(avr_irq_t *irq, uint32_t value, void *param) {
   before = value;
   ++tick;
   set_switches((uint32_t)tick);
+  if (hangs && reset_us == 0 && hung_us > 0) reset_us = now_us();
+  if (hangs) return;
   if (tick < script_ticks) printf("T %ld %ld\n", tick, now_us());
 }
 
@@ -71,8 +85,10 @@ static void end_transfer(void) {
   if (chip.registers[pre_scale] != at_50_hz || chip.registers[mode1] != auto_increment) fail("the chip is not at 50 Hz");
   r = &chip.registers[led0 + 4 * channel];
   if (r[0] != 0 || r[1] != 0) fail("a pulse does not begin at 0");
-  printf("C %d %d\n", channel, r[3] & 0x10 ? 0 : r[2] + 256 * r[3]);
-  if (held == 0 && tick + 1 == late_tick && channel == channels - 1) held = 1;
+  if (!(r[3] & 0x10)) ++*(hung_us > 0 ? &pulses_after : &pulses_before);
+  if (!hangs) printf("C %d %d\n", channel, r[3] & 0x10 ? 0 : r[2] + 256 * r[3]);
+  if (held == 0 && hangs && tick == hang_tick && channel == channels - 1) held = 1;
+  if (held == 0 && !hangs && tick + 1 == late_tick && channel == channels - 1) held = 1;
 }
 
 static void bus_changed(avr_irq_t *irq, uint32_t value, void *param) {
@@ -108,14 +124,12 @@ static void printed(avr_irq_t *irq, uint32_t value, void *param) {
   }
   line[length] = 0;
   length = 0;
-  printf("S %s\n", line);
+  if (!hangs) printf("S %s\n", line);
 }
 
 static void connect(void) {
   uint32_t flags = 0;
-  uint8_t interrupt;
-  /* Pins that could interrupt, 2 and 3 among them, take simavr most of its time while they are low. */
-  for (interrupt = 0; interrupt < 8; ++interrupt) avr_extint_set_strict_lvl_trig(avr, interrupt, 0);
+  ignore_low_pins();
   bus = avr_io_getirq(avr, AVR_IOCTL_TWI_GETIRQ(0), 0);
   avr_irq_register_notify(bus + TWI_IRQ_OUTPUT, bus_changed, NULL);
   avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('B'), 7), light_changed, NULL);
@@ -132,23 +146,29 @@ static void sleep_fast(avr_t *of, avr_cycle_count_t cycles) {
 /* One step; the main program stands still while it is held up. */
 static void step(void) {
   static avr_flashaddr_t held_at;
+  static avr_run_t usual_run;
   if (held == 1 && avr->state == cpu_Sleeping) {
     held = 2;
     held_at = avr->pc;
-    held_until = avr->cycle + (avr_cycle_count_t)late_by_us * (clock_hz / 1000000);
+    usual_run = avr->run;
+    held_until = hangs ? (avr_cycle_count_t)-1 : avr->cycle + (avr_cycle_count_t)late_by_us * (clock_hz / 1000000);
+    hung_us = hangs ? now_us() : 0;
   }
-  if (held == 2 && avr->state == cpu_Running && avr->pc == held_at && avr->cycle < held_until) {
+  /* The watchdog resets by another function to run. */
+  if (held == 2 && avr->run == usual_run && avr->state == cpu_Running && avr->pc == held_at && avr->cycle < held_until) {
     avr->cycle += 4;
     avr_cycle_timer_process(avr);
     avr_service_interrupts(avr);
     return;
   }
   if (avr_run(avr) == cpu_Crashed) fail("the processor crashed");
+  if (held == 2 && hangs && avr->run == usual_run && avr->pc < 4) ignore_low_pins();
 }
 
 int main(int argc, char **argv) {
   static elf_firmware_t firmware;
-  if (argc != 2 || elf_read_firmware(argv[1], &firmware) != 0) fail("expected the program, an ELF file");
+  hangs = argc == 3 && strcmp(argv[2], "hang") == 0;
+  if (argc != 2 + hangs || elf_read_firmware(argv[1], &firmware) != 0) fail("expected the program, an ELF file");
   avr = avr_make_mcu_by_name("atmega2560");
   if (!avr) fail("simavr knows no ATmega2560");
   avr_init(avr);
@@ -157,6 +177,12 @@ int main(int argc, char **argv) {
   avr->sleep = sleep_fast;
   avr->log = LOG_ERROR;
   connect();
-  while (tick < script_ticks) step();
-  return 0;
+  if (!hangs) {
+    while (tick < script_ticks) step();
+    return 0;
+  }
+  while (reset_us == 0 && now_us() < 10000000) step();
+  for (tick = script_ticks; reset_us > 0 && tick < script_ticks + ticks_after_reset;) step();
+  printf("hung while walking, at %.2f s; runs again %.2f s later; pulses in the next second: %d\n", (double)hung_us / 1e6, (double)(reset_us - hung_us) / 1e6, pulses_after);
+  return reset_us == 0 || pulses_before == 0 || pulses_after > 0;
 }
