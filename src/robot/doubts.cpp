@@ -96,7 +96,7 @@ void doubt_inertia(const RobotSpec& robot, std::vector<std::string>& lines) {
     const double ratio = moments / nearest;
     if (ratio <= doubted_inertia_factor && ratio >= 1.0 / doubted_inertia_factor) continue;
     lines.push_back(fmt::format(
-        "body '{}': its moments of inertia, {:.3g} kg m² in sum, are {:.2g} times those of its shapes with "
+        "body '{}': its moments of inertia, {:.3g} kg m² in sum, are {:.3g} times those of its shapes with "
         "its mass of {:.3g} kg: check inertia, mass and units",
         body.name, moments, ratio, body.mass_kg));
   }

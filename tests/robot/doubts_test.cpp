@@ -77,7 +77,7 @@ TEST(Doubts, InertiaIsThatOfEachShapeWithinAFactorOfThree) {
     EXPECT_THAT(doubts(body_of(shape, 3.05 * moments_m2)),
                 ElementsAre(HasSubstr("times those of its shapes")));
     EXPECT_THAT(doubts(body_of(shape, moments_m2 / 3.05)),
-                ElementsAre(HasSubstr("are 0.33 times those of its shapes")));
+                ElementsAre(HasSubstr("times those of its shapes")));
   }
   const Geom mesh = box_mesh({0.1, 0.2, 0.3}, {1, 2, 3});
   RobotSpec robot = body_of(mesh, 2.95 * shapes[1].second);
