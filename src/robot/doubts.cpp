@@ -121,10 +121,10 @@ void doubt_torques(const RobotSpec& robot, std::vector<std::string>& lines) {
 std::vector<double> bearing_torques_nm(const RobotSpec& robot) {
   std::vector<double> torques(robot.joints.size(), 0.0);
   const std::vector<Pose> poses = start_poses(robot);
-  const auto standing = static_cast<double>((robot.legs.size() + 1) / 2);
+  const std::size_t standing = (robot.legs.size() + 1) / 2;
   for (const Leg& leg : robot.legs) {
     const Geom& foot = robot.geoms[to_index(leg.foot_geom)];
-    const Vec3 force_n = (-robot.total_mass_kg() / standing) * robot.gravity_m_s2;
+    const Vec3 force_n = (-robot.total_mass_kg() / static_cast<double>(standing)) * robot.gravity_m_s2;
     for (int body = foot.body; body > 0; body = robot.bodies[to_index(body)].parent)
       for (const int j : robot.joints_of_body(body)) {
         const Joint& joint = robot.joints[to_index(j)];
