@@ -1,4 +1,4 @@
-/* Controller exported by amble 0.1.0-dev-g117ba20 (117ba209352b+): single-unit pattern generators (SUPG).
+/* Controller exported by amble 0.1.0-dev-g834e83d (834e83d9610f): single-unit pattern generators (SUPG).
  *
  * experiment  servo, seed 1, generation 37, number 27
  * robot       servo
