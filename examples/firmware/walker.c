@@ -1,4 +1,4 @@
-/* Controller exported by amble 0.1.0-dev-g834e83d (834e83d9610f). See walker.h. */
+/* Controller exported by amble 0.1.0-dev-gb09ca6c (b09ca6c7e83e). See walker.h. */
 #include "walker.h"
 
 #ifdef __AVR__

@@ -1,4 +1,4 @@
-/* Controller exported by amble 0.1.0-dev-g834e83d (834e83d9610f): single-unit pattern generators (SUPG).
+/* Controller exported by amble 0.1.0-dev-gb09ca6c (b09ca6c7e83e): single-unit pattern generators (SUPG).
  *
  * experiment  servo, seed 1, generation 37, number 27
  * robot       servo
