@@ -18,7 +18,10 @@
 
 #include "amble/experiment/config.hpp"
 #include "amble/io/json_file.hpp"
+#include "amble/io/toml_settings.hpp"
 #include "amble/neat/genome.hpp"
+#include "amble/robot/spec.hpp"
+#include "python/call_lock.hpp"
 
 namespace amble::python {
 
@@ -26,20 +29,23 @@ namespace py = pybind11;
 
 // The parts of the module, in the order in which they must be added.
 void bind_config(py::module_& module);
+void bind_recording(py::module_& module);
 void bind_runs(py::module_& module);
 void bind_search(py::module_& module);
 void bind_controllers(py::module_& module);
 void bind_robots(py::module_& module);
 void bind_view(py::module_& module);
 
-/// A config with what it was read from, so that more can be laid over it.
+/// A config with all that it was read from: what happens to its files later, and in which folder the process
+/// is then, does not matter.
 struct LoadedConfig {
-  std::filesystem::path path;
+  std::filesystem::path path;  ///< for messages
+  io::TomlDocument document;   ///< without the assignments
   std::vector<std::string> assignments;
   experiment::Config value;
+  std::shared_ptr<const robot::RobotSpec> robot;
 };
-LoadedConfig load_config(const std::filesystem::path& path, const py::object& overrides,
-                         std::vector<std::string> assignments = {});
+LoadedConfig load_config(const std::filesystem::path& path, const py::object& overrides);
 /// A Config as it is, a path as load_config() reads it. TypeError for anything else.
 LoadedConfig config_of(const py::object& config_or_path);
 /// Sets the seed, if there is one, as --seed does. ValueError out of range.
@@ -48,8 +54,10 @@ void set_seed(experiment::Config& config, std::optional<std::int64_t> seed);
 py::object to_python(const io::Json& json);
 /// By way of Python's own json module. TypeError or ValueError for what it cannot write.
 io::Json to_json(const py::object& object, const std::string& what);
-/// A str, bytes-free path or os.PathLike. TypeError for anything else.
+/// A str or os.PathLike, made absolute, as the process may go to another folder. TypeError for anything else.
 std::filesystem::path path_of(const py::object& path);
+/// The same as it was written.
+std::filesystem::path written_path_of(const py::object& path);
 /// Workers: all processors if there is no number. ValueError unless it is from 1 to 1024.
 int jobs_of(std::optional<int> jobs);
 /// ValueError unless the length of a trial, if there is one, is from 1e-5 to 1e6 s.

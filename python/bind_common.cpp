@@ -42,6 +42,11 @@ io::Json to_json(const py::object& object, const std::string& what) {
 }
 
 std::filesystem::path path_of(const py::object& path) {
+  const auto written = written_path_of(path);
+  return written.empty() ? written : std::filesystem::absolute(written);
+}
+
+std::filesystem::path written_path_of(const py::object& path) {
   py::object text = py::reinterpret_steal<py::object>(PyOS_FSPath(path.ptr()));
   if (!text) throw py::error_already_set();
   if (!py::isinstance<py::str>(text)) throw py::type_error("a path must be str or os.PathLike, not bytes");

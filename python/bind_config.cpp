@@ -1,6 +1,9 @@
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
 #include "amble/experiment/config.hpp"
+#include "amble/experiment/problem.hpp"
 #include "python/bind.hpp"
 
 namespace amble::python {
@@ -57,16 +60,61 @@ py::object item_of(const LoadedConfig& config, const std::string& key) {
   }
 }
 
+std::vector<std::string> assignments_of(const py::object& overrides) {
+  std::vector<std::string> assignments;
+  if (overrides.is_none()) return assignments;
+  if (!py::isinstance<py::dict>(overrides)) throw py::type_error("overrides: expected a dict");
+  add_assignments(overrides.cast<py::dict>(), "", assignments);
+  return assignments;
+}
+
+/// The document with the assignments laid over it. `known`: the robot, if they have been read already, with
+/// its path.
+LoadedConfig configured(const std::filesystem::path& path, const io::TomlDocument& document,
+                        std::vector<std::string> assignments, const LoadedConfig* known = nullptr) {
+  auto value = experiment::config_from(document, {.assignments = assignments, .seed = {}, .generations = {}});
+  std::shared_ptr<const robot::RobotSpec> robot;
+  if (known != nullptr) {
+    value.robot = known->value.robot;
+    robot = known->robot;
+  } else {
+    const py::gil_scoped_release release;
+    robot = std::make_shared<const robot::RobotSpec>(experiment::load_robot(value));
+  }
+  return {path, document, std::move(assignments), std::move(value), std::move(robot)};
+}
+
+LoadedConfig replaced(const LoadedConfig& config, const py::object& overrides) {
+  const auto more = assignments_of(overrides);
+  const bool same_robot = std::ranges::none_of(
+      more, [](const std::string& assignment) { return assignment.starts_with("robot="); });
+  auto assignments = config.assignments;
+  assignments.insert(assignments.end(), more.begin(), more.end());
+  return configured(config.path, config.document, std::move(assignments), same_robot ? &config : nullptr);
+}
+
+/// Path, document, assignments, the robot's path and the robot: needs no other file.
+py::tuple pickled(const LoadedConfig& config) {
+  return py::make_tuple(config.path.string(), config.document.text(), config.assignments, config.value.robot,
+                        experiment::robot_file_text(*config.robot), config.value.seed);
+}
+
+LoadedConfig unpickled(const py::tuple& state) {
+  if (state.size() != 6) throw py::value_error("Config: not its pickled state");
+  const auto name = state[0].cast<std::string>();
+  LoadedConfig known{name, io::TomlDocument::parse(state[1].cast<std::string>(), name), {}, {}, nullptr};
+  known.value.robot = state[3].cast<std::string>();
+  known.robot = std::make_shared<const robot::RobotSpec>(
+      experiment::robot_from_text(state[4].cast<std::string>(), name + ": its robot"));
+  auto config = configured(name, known.document, state[2].cast<std::vector<std::string>>(), &known);
+  set_seed(config.value, state[5].cast<std::int64_t>());
+  return config;
+}
+
 }  // namespace
 
-LoadedConfig load_config(const std::filesystem::path& path, const py::object& overrides,
-                         std::vector<std::string> assignments) {
-  if (!overrides.is_none()) {
-    if (!py::isinstance<py::dict>(overrides)) throw py::type_error("overrides: expected a dict");
-    add_assignments(overrides.cast<py::dict>(), "", assignments);
-  }
-  auto value = experiment::load_config(path, {.assignments = assignments, .seed = {}, .generations = {}});
-  return {path, std::move(assignments), std::move(value)};
+LoadedConfig load_config(const std::filesystem::path& path, const py::object& overrides) {
+  return configured(path, io::TomlDocument::read(path), assignments_of(overrides));
 }
 
 LoadedConfig config_of(const py::object& config_or_path) {
@@ -85,7 +133,8 @@ void set_seed(experiment::Config& config, std::optional<std::int64_t> seed) {
 void bind_config(py::module_& module) {
   py::class_<LoadedConfig>(module, "Config", R"(All settings of a run, read and checked (docs/SETTINGS.md).
 
-Made by load_config(). Reads like a dict: config["population.size"], config["population"]["size"], dict(config).
+Made by load_config(), which reads the robot as well: what happens to the files later changes nothing. Can be pickled.
+Reads like a dict: config["population.size"], config["population"]["size"], dict(config).
 A change makes another Config: config.replace({"population.size": 50}).)")
       .def(
           "to_dict", [](const LoadedConfig& self) { return to_python(io::settings_to_json(self.value)); },
@@ -93,12 +142,8 @@ A change makes another Config: config.replace({"population.size": 50}).)")
       .def(
           "to_toml", [](const LoadedConfig& self) { return self.value.to_toml(); },
           "The whole config as TOML with comments; reads back to the same values.")
-      .def(
-          "replace",
-          [](const LoadedConfig& self, const py::object& overrides) {
-            return load_config(self.path, overrides, self.assignments);
-          },
-          py::arg("overrides"), "Another Config: the file read again, with more overrides (load_config).")
+      .def("replace", replaced, py::arg("overrides"),
+           "Another Config: what the file said when it was read, with more overrides (load_config).")
       .def(
           "keys",
           [](const LoadedConfig& self) { return to_python(io::settings_to_json(self.value)).attr("keys")(); },
@@ -119,6 +164,7 @@ A change makes another Config: config.replace({"population.size": 50}).)")
             }
           },
           py::arg("key"))
+      .def(py::pickle(&pickled, &unpickled))
       .def("__repr__", [](const LoadedConfig& self) {
         return fmt::format("<amble.Config '{}': {}>", self.value.name, self.path.string());
       });
@@ -129,7 +175,7 @@ A change makes another Config: config.replace({"population.size": 50}).)")
         return load_config(path_of(path), overrides);
       },
       py::arg("path"), py::arg("overrides") = py::none(),
-      R"(Reads a config file (TOML) and checks it.
+      R"(Reads a config file (TOML) and the robot that it names, and checks them.
 
 overrides: {"population.size": 100} or {"population": {"size": 100}}, laid over the file as by --set.
 Raises Error as the command line reports it: file, line, key, value and what was expected.)");

@@ -44,7 +44,7 @@ struct Controllers {
   robot::SensorFrame sensors;
   LaneArray targets_rad;
   std::shared_ptr<std::vector<float>> shown;  ///< count × joints; views keep it
-  std::mutex mutex;                           ///< nobody who holds it waits for the interpreter
+  CallLock lock;
 };
 
 std::unique_ptr<Controllers> make_controllers(const py::object& problem, const py::object& genomes) {
@@ -79,7 +79,7 @@ py::array step_controllers(Controllers& self, const py::object& angle_rad, const
   if (!attitude_rad.is_none()) attitudes = finite_rows(attitude_rad, "attitude_rad", self.count, 3);
   {
     const py::gil_scoped_release release;
-    const std::lock_guard lock(self.mutex);
+    const auto lock = self.lock.hold();
     to_lanes(angles, self.sensors.joint_angle_rad);
     to_lanes(touches, self.sensors.touch);
     if (attitudes)
@@ -95,14 +95,14 @@ py::array step_controllers(Controllers& self, const py::object& angle_rad, const
 void reset_controllers(Controllers& self, const py::object& mask) {
   const auto chosen = mask_of(mask, self.count);
   const py::gil_scoped_release release;
-  const std::lock_guard lock(self.mutex);
+  const auto lock = self.lock.hold();
   self.reset(chosen);
 }
 
 py::array states_of(Controllers& self) {
   const auto names = static_cast<py::ssize_t>(self.batch->state_names().size());
   py::array_t<float> states({static_cast<py::ssize_t>(self.count), names});
-  const std::lock_guard lock(self.mutex);
+  const auto lock = self.lock.hold();
   for (int lane = 0; lane < self.count; ++lane)
     self.batch->state(lane, {states.mutable_data() + lane * names, to_index(names)});
   return states;

@@ -9,8 +9,6 @@
 #include "python/bind.hpp"
 #include "python/robot_batch.hpp"
 
-#include <unistd.h>
-
 namespace amble::python {
 namespace {
 
@@ -24,13 +22,14 @@ struct Robots {
 
   RobotBatch batch;
   py::object shown;  ///< the view that step() and reset() return
-  std::mutex mutex;  ///< nobody who holds it waits for the interpreter
-  pid_t process = getpid();
+  CallLock lock;
 
-  /// After a fork the threads are elsewhere.
+  /// ODE's worlds belong to the threads that step them, which are not in a forked process.
   void check_process() const {
-    if (getpid() != process)
-      throw std::runtime_error("Robots do not survive a fork: make new ones in each process");
+    if (!batch.works_here())
+      throw std::runtime_error(
+          "Robots do not come along into a forked process: make new ones in each process, or start processes "
+          "by multiprocessing.get_context(\"spawn\")");
   }
 };
 
@@ -51,9 +50,10 @@ std::filesystem::path robot_file(const std::filesystem::path& name) {
 /// The robot of a Config, raised by its drop_m and with its ground's slope and friction, but without its
 /// height field; or that of a robot file.
 robot::RobotSpec robot_of(const py::object& robot) {
-  if (!py::isinstance<LoadedConfig>(robot)) return experiment::load_robot_file(robot_file(path_of(robot)));
-  const auto& config = robot.cast<const LoadedConfig&>().value;
-  return experiment::Problem::make(config, experiment::load_robot(config)).robot;
+  if (!py::isinstance<LoadedConfig>(robot))
+    return experiment::load_robot_file(robot_file(written_path_of(robot)));
+  const auto& config = robot.cast<const LoadedConfig&>();
+  return experiment::Problem::make(config.value, *config.robot).robot;
 }
 
 std::unique_ptr<Robots> make(const py::object& robot, int n, const std::string& engine,
@@ -104,7 +104,7 @@ py::object step(Robots& self, const py::object& targets) {
   bool stepped = false;
   {
     const py::gil_scoped_release release;
-    const std::lock_guard lock(self.mutex);
+    const auto lock = self.lock.hold();
     stepped = self.batch.step(span);
   }
   if (!stepped) throw py::value_error("targets: expected numbers, found NaN");
@@ -116,7 +116,7 @@ py::object reset(Robots& self, const py::object& mask) {
   const auto chosen = mask_of(mask, self.batch.count());
   {
     const py::gil_scoped_release release;
-    const std::lock_guard lock(self.mutex);
+    const auto lock = self.lock.hold();
     self.batch.reset(chosen);
   }
   return observations(self);
@@ -127,7 +127,7 @@ py::array state_hashes(Robots& self) {
   std::vector<std::uint64_t> hashes;
   {
     const py::gil_scoped_release release;
-    const std::lock_guard lock(self.mutex);
+    const auto lock = self.lock.hold();
     hashes = self.batch.state_hashes();
   }
   return py::array_t<std::uint64_t>(static_cast<py::ssize_t>(hashes.size()), hashes.data());

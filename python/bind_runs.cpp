@@ -4,15 +4,11 @@
 #include "amble/core/index.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run.hpp"
-#include "amble/gait/recorded_gait.hpp"
-#include "amble/gait/report_text.hpp"
 #include "amble/io/file.hpp"
-#include "amble/neat/genome_json.hpp"
 #include "amble/presentation/shown_trial.hpp"
 #include "amble/record/frame_codec.hpp"
 #include "amble/record/generations_csv.hpp"
 #include "amble/record/recording.hpp"
-#include "amble/robot/json.hpp"
 #include "python/bind.hpp"
 #include "python/readable.hpp"
 
@@ -63,13 +59,14 @@ ReadableRun evolve(const py::object& config, std::optional<std::int64_t> seed, c
   set_seed(loaded.value, seed);
   const auto folder = path_of(out);
   const int workers = jobs_of(jobs);
-  return execute([&] { return experiment::Run::start(folder, loaded.value, workers); }, on_generation);
+  return execute([&] { return experiment::Run::start(folder, loaded.value, *loaded.robot, workers); },
+                 on_generation);
 }
 
 ReadableRun resume(const py::object& run, std::optional<int> generations, const py::object& on_generation,
                    std::optional<int> jobs) {
   const auto folder =
-      py::isinstance<ReadableRun>(run) ? run.cast<const ReadableRun&>().paths.folder : path_of(run);
+      py::isinstance<ReadableRun>(run) ? run.cast<const ReadableRun&>().paths().folder : path_of(run);
   if (generations && (*generations < 1 || *generations > experiment::most_generations))
     throw py::value_error(fmt::format("generations: {}: expected a whole number from 1 to {}", *generations,
                                       experiment::most_generations));
@@ -78,8 +75,9 @@ ReadableRun resume(const py::object& run, std::optional<int> generations, const 
 }
 
 py::dict generations_of(const ReadableRun& run) {
-  const auto text = io::read_file(run.paths.generations);
-  record::parse_generations(text, run.paths.generations.string());  // its checks
+  const auto& file = run.paths().generations;
+  const auto text = io::read_file(file);
+  record::parse_generations(text, file.string());  // its checks
   return to_dict(parse_columns(text));
 }
 
@@ -115,7 +113,7 @@ py::dict trial(const ReadableChampion& self, std::optional<double> seconds, std:
                const py::object& record) {
   check_seconds(seconds);
   experiment::ReplayOptions how{
-      .seconds = seconds, .engine = engine, .origin = self.path.string(), .trace = false};
+      .seconds = seconds, .engine = engine, .origin = self.origin(), .trace = false};
   if (!record.is_none()) {
     how.record = path_of(record);
     io::refuse_to_replace(*how.record, record::recording_magic, "a recording");
@@ -129,6 +127,16 @@ py::dict trial(const ReadableChampion& self, std::optional<double> seconds, std:
   for (const auto& [name, count] : replay->events) events[py::str(std::string(name))] = count;
   result["events"] = events;
   return result;
+}
+
+std::string save_champion(ReadableChampion& self, const py::object& path) {
+  const auto file = path_of(path);
+  if (file.extension() != ".json")
+    throw py::value_error(fmt::format("path: {}: expected a name that ends in .json", file.string()));
+  io::refuse_to_replace(file, "{\n  \"format\": \"amble-champion\"", "a champion");
+  io::write_file(file, experiment::champion_text(self.value));
+  self.path = file;
+  return file.string();
 }
 
 py::dict typical(const ReadableChampion& self, std::optional<double> seconds,
@@ -164,53 +172,30 @@ py::dict typical(const ReadableChampion& self, std::optional<double> seconds,
   return dict;
 }
 
-constexpr py::ssize_t number_size = sizeof(float);
-
-/// A view that keeps its owner and cannot be written to.
-py::array read_only(py::array view) {
-  view.attr("setflags")(py::arg("write") = false);
-  return view;
-}
-
-py::array column_of(const py::object& self, const std::string& name) {
-  const auto& recording = self.cast<const ReadRecording&>();
-  const auto& names = recording.header.columns;
-  const auto at = std::find(names.begin(), names.end(), name);
-  if (at == names.end()) throw py::key_error(name);
-  return read_only(py::array_t<float>({recording.count()}, {recording.width() * number_size},
-                                      recording.frames.data() + (at - names.begin()), self));
-}
-
-/// All columns that begin so, as an array of frames × names.
-py::array columns_with(const ReadRecording& recording, const std::string& prefix) {
-  std::vector<std::size_t> places;
-  for (std::size_t i = 0; i < recording.header.columns.size(); ++i)
-    if (recording.header.columns[i].starts_with(prefix)) places.push_back(i);
-  py::array_t<float> values({recording.count(), static_cast<py::ssize_t>(places.size())});
-  float* to = values.mutable_data();
-  for (py::ssize_t f = 0; f < recording.count(); ++f)
-    for (const std::size_t place : places) *to++ = recording.frames[to_index(f * recording.width()) + place];
-  return values;
-}
-
-py::object gait(const py::object& recording, std::optional<double> seconds) {
-  const auto path = py::isinstance<ReadRecording>(recording) ? recording.cast<const ReadRecording&>().path
-                                                             : path_of(recording);
-  check_seconds(seconds);
-  std::string text;
-  {
-    const py::gil_scoped_release release;
-    text = gait::report_json(gait::recorded_gait(path, {}, seconds));
-  }
-  return to_python(io::parse_json(text, "gait"));
-}
-
 void bind_champion(py::module_& module) {
-  py::class_<ReadableChampion>(module, "Champion",
-                               R"(The best genome of a run, with all that it takes to run it again.)")
+  py::class_<ReadableChampion>(
+      module, "Champion",
+      R"(A genome with all that it takes to let it walk again: the best of a run, or one of Search.champion().
+
+Read once, it needs its file no more. Can be pickled.)")
       .def(py::init([](const py::object& path) { return champion_at(path_of(path)); }), py::arg("path"),
            "path: champion file, or run folder (its best). Raises Error for a file that is not sound.")
-      .def_property_readonly("path", [](const ReadableChampion& self) { return self.path.string(); })
+      .def_property_readonly(
+          "path", [](const ReadableChampion& self) { return self.path.string(); },
+          "The file that it was read from or saved to; empty for one that has not been saved.")
+      .def(
+          "save", save_champion, py::arg("path"),
+          R"(Writes it as a champion file (.json) for amble's command line; returns its path, a str. Raises Error.)")
+      .def(py::pickle(
+          [](const ReadableChampion& self) {
+            return py::make_tuple(self.path.string(), experiment::champion_text(self.value));
+          },
+          [](const py::tuple& state) {
+            if (state.size() != 2) throw py::value_error("Champion: not its pickled state");
+            const auto path = state[0].cast<std::string>();
+            return ReadableChampion{
+                path, experiment::parse_champion(state[1].cast<std::string>(), "Champion").champion};
+          }))
       .def_property_readonly("facts", facts_of,
                              R"(A dict: experiment, seed, generation, index, engine, controller, robot,
 objective (what made it the champion), result (of its trial without noise: outcome, distance_m, score, seconds,
@@ -234,35 +219,42 @@ Returns a dict: level, distance_m (the median), lower_quartile_m, upper_quartile
 fell_share, trials (a list of dicts as trial() returns them, without events).)")
       .def("__repr__", [](const ReadableChampion& self) {
         return fmt::format("<amble.Champion of generation {}, {:.3f}: {}>", self.value.generation,
-                           self.value.objective(), self.path.string());
+                           self.value.objective(), self.path.empty() ? "not saved" : self.path.string());
       });
 }
 
 void bind_run(py::module_& module) {
-  py::class_<ReadableRun>(module, "Run", "A run folder, finished or not.")
+  py::class_<ReadableRun>(module, "Run", R"(A run folder, finished or not.
+
+It goes on meaning this run: the folder's absolute path is kept, and another run that took its place is an Error. Can be
+pickled, with the path.)")
       .def(py::init([](const py::object& folder) { return ReadableRun(path_of(folder)); }), py::arg("folder"),
            "Raises Error if there is no run.")
-      .def_property_readonly("folder", [](const ReadableRun& self) { return self.paths.folder.string(); })
+      .def_property_readonly("folder", [](const ReadableRun& self) { return self.folder().string(); })
       .def_property_readonly(
-          "config", [](const ReadableRun& self) { return load_config(self.paths.config, py::none()); },
+          "config", [](const ReadableRun& self) { return load_config(self.paths().config, py::none()); },
           "Its Config.")
+      .def(py::pickle([](const ReadableRun& self) { return py::make_tuple(self.paths().folder.string()); },
+                      [](const py::tuple& state) {
+                        if (state.size() != 1) throw py::value_error("Run: not its pickled state");
+                        return ReadableRun(state[0].cast<std::string>());
+                      }))
       .def("generations", generations_of,
            R"(generations.csv (docs/FORMATS.md) as a dict: column → float64 array,
 one number per generation; NaN for empty cells.)")
       .def(
-          "champion", [](const ReadableRun& self) { return champion_at(self.paths.best_champion()); },
+          "champion", [](const ReadableRun& self) { return champion_at(self.paths().best_champion()); },
           "The best Champion so far. Raises Error if there is none.")
       .def(
           "champions",
           [](const ReadableRun& self) {
             std::vector<ReadableChampion> champions;
-            for (const auto& file : self.paths.champion_files()) champions.push_back(champion_at(file));
+            for (const auto& file : self.paths().champion_files()) champions.push_back(champion_at(file));
             return champions;
           },
           "All champions, in the order of their generations; the last is the best.")
-      .def("__repr__", [](const ReadableRun& self) {
-        return fmt::format("<amble.Run: {}>", self.paths.folder.string());
-      });
+      .def("__repr__",
+           [](const ReadableRun& self) { return fmt::format("<amble.Run: {}>", self.folder().string()); });
   module.def("evolve", evolve, py::arg("config"), py::arg("seed") = py::none(), py::kw_only(), py::arg("out"),
              py::arg("on_generation") = py::none(), py::arg("jobs") = py::none(),
              R"(Evolves as `amble evolve` does, to the bit, and returns the Run.
@@ -279,75 +271,11 @@ Ctrl-C raises KeyboardInterrupt at once; resume(out) goes on from the last gener
 run: Run or folder. generations: to evaluate in all (default: the run's). The rest as evolve(). Raises Error.)");
 }
 
-void bind_recording(py::module_& module) {
-  py::class_<ReadRecording>(module, "Recording",
-                            R"(A recording: float32 numbers, frame by frame (docs/FORMATS.md).
-
-recording["com.x"] is one column, a view of the frames; "angle.fl_knee", "target.fl_knee", "touch.FL" and so on.)")
-      .def(py::init([](const py::object& path) {
-             const auto file = path_of(path);
-             const py::gil_scoped_release release;
-             return ReadRecording(file);
-           }),
-           py::arg("path"), "Raises Error for a file that is not sound.")
-      .def_property_readonly("path", [](const ReadRecording& self) { return self.path.string(); })
-      .def_property_readonly(
-          "columns", [](const ReadRecording& self) { return self.header.columns; }, "Their names.")
-      .def_property_readonly(
-          "frame_s", [](const ReadRecording& self) { return self.header.frame_s; }, "Time between frames, s.")
-      .def_property_readonly(
-          "outcome",
-          [](const ReadRecording& self) {
-            return std::string(record::outcome_names[to_index(self.outcome)]);
-          },
-          "completed, fell or diverged.")
-      .def_property_readonly(
-          "origin", [](const ReadRecording& self) { return self.header.origin; },
-          "The champion that it shows.")
-      .def_property_readonly(
-          "robot",
-          [](const ReadRecording& self) {
-            return to_python(io::parse_json(self.header.robot_json, self.path.string() + ": robot"));
-          },
-          "The robot, a dict (docs/FORMATS.md).")
-      .def_property_readonly(
-          "frames",
-          [](const py::object& self) {
-            const auto& recording = self.cast<const ReadRecording&>();
-            return read_only(
-                py::array_t<float>({recording.count(), recording.width()}, recording.frames.data(), self));
-          },
-          "All numbers: a read-only view, frames × columns, float32.")
-      .def(
-          "matching", columns_with, py::arg("prefix"),
-          R"(The columns whose names begin so, a copy: frames × columns, float32. "angle.": all joint angles, rad.)")
-      .def("__getitem__", column_of, py::arg("column"))
-      .def(
-          "__contains__",
-          [](const ReadRecording& self, const std::string& name) {
-            return std::find(self.header.columns.begin(), self.header.columns.end(), name) !=
-                   self.header.columns.end();
-          },
-          py::arg("column"))
-      .def("__len__", [](const ReadRecording& self) { return self.count(); })
-      .def("__repr__", [](const ReadRecording& self) {
-        return fmt::format("<amble.Recording of {} frames, {}: {}>", self.count(),
-                           record::outcome_names[to_index(self.outcome)], self.path.string());
-      });
-  module.def(
-      "gait", gait, py::arg("recording"), py::arg("seconds") = py::none(),
-      R"(Names and measures the gait of a recording (docs/GAIT.md): the dict that `amble gait --json` writes.
-
-recording: Recording or path. seconds: the part of it to use, from the beginning. Raises Error.)");
-}
-
 }  // namespace
 
 void bind_runs(py::module_& module) {
-  bind_recording(module);
   bind_champion(module);
   bind_run(module);
-  refuse_unmade<ReadRecording>();
   refuse_unmade<ReadableChampion>();
   refuse_unmade<ReadableRun>();
 }

@@ -1,15 +1,19 @@
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
+#include "amble/experiment/champion_trials.hpp"
+#include "amble/experiment/checkpoint.hpp"
 #include "amble/experiment/generation.hpp"
 #include "amble/experiment/run_state.hpp"
 #include "amble/neat/genome_json.hpp"
 #include "amble/physics/engine.hpp"
 #include "python/bind.hpp"
+#include "python/readable.hpp"
 #include "python/task.hpp"
 
 namespace amble::python {
@@ -21,9 +25,18 @@ struct OpenSearch {
     check_search(task->config.value, task->problem());
     state.emplace(task->config.value, task->problem());
   }
+
+  /// The logs as their files would be (search::Strategy::logs). To be called with the lock.
+  const std::vector<std::string>& grown_logs() {
+    logs.resize(state->strategy->logs().size());
+    for (std::size_t i = 0; i < logs.size(); ++i) logs[i] += state->strategy->take_log_growth(i);
+    return logs;
+  }
+
   std::shared_ptr<Task> task;
   std::optional<experiment::RunState> state;
-  std::mutex mutex;  ///< of the state; nobody who holds it waits for the interpreter
+  std::vector<std::string> logs;  ///< as far as they have been taken
+  CallLock lock;                  ///< of state and logs
 };
 
 LoadedConfig seeded(const py::object& config, std::optional<std::int64_t> seed) {
@@ -33,13 +46,13 @@ LoadedConfig seeded(const py::object& config, std::optional<std::int64_t> seed) 
 }
 
 std::vector<neat::Genome> ask(OpenSearch& self) {
-  const std::lock_guard lock(self.mutex);
+  const auto lock = self.lock.hold();
   const auto candidates = self.state->strategy->ask();
   return {candidates.begin(), candidates.end()};
 }
 
 std::vector<search::Metric> metrics_of(OpenSearch& self) {
-  const std::lock_guard lock(self.mutex);
+  const auto lock = self.lock.hold();
   return self.state->strategy->metrics();
 }
 
@@ -82,10 +95,61 @@ void tell(OpenSearch& self, const py::object& fitness, const py::object& behavio
          .behaviour = rows ? std::span(rows->data(i, 0), to_index(length)) : std::span<const float>(),
          .viable = sound.empty() || sound[to_index(i)] != 0});
   const py::gil_scoped_release release;
-  const std::lock_guard lock(self.mutex);
+  const auto lock = self.lock.hold();
   if (self.state->strategy->ask().size() != evaluations.size())
     throw std::runtime_error("another thread has told the search meanwhile");
   self.state->strategy->tell(evaluations);
+}
+
+/// Config, checkpoint, logs: as a run folder has them.
+py::tuple pickled_search(OpenSearch& self) {
+  std::string checkpoint;
+  py::list logs;
+  {
+    const auto lock = self.lock.hold();
+    for (const std::string& log : self.grown_logs()) logs.append(py::bytes(log));
+    checkpoint = experiment::checkpoint_bytes(self.task->config.value, {}, *self.state->strategy);
+  }
+  return py::make_tuple(self.task->config, py::bytes(checkpoint), logs);
+}
+
+std::unique_ptr<OpenSearch> unpickled_search(const py::tuple& state) {
+  constexpr const char* what = "Search: its pickled state";
+  if (state.size() != 3) throw py::value_error(std::string(what) + " is of another version");
+  auto search = std::make_unique<OpenSearch>(state[0].cast<const LoadedConfig&>());
+  auto& strategy = *search->state->strategy;
+  experiment::parse_checkpoint(state[1].cast<std::string>(), what, search->task->config.value, strategy);
+  search->logs = state[2].cast<std::vector<std::string>>();
+  if (search->logs.size() != strategy.logs().size())
+    throw py::value_error(std::string(what) + " is of another search");
+  for (std::size_t i = 0; i < search->logs.size(); ++i) {
+    io::InputFile file(search->logs[i], what);
+    strategy.restore_log(i, file, what);
+  }
+  return search;
+}
+
+/// A genome as the champion that a run would make of it: with its trials in the config's own objective.
+ReadableChampion champion_of(OpenSearch& self, const neat::Genome& genome) {
+  const Task& task = *self.task;
+  checked_genomes(task, py::make_tuple(genome));
+  const auto candidates = ask(self);
+  const auto found = std::ranges::find(candidates, genome);
+  int round = 0;
+  {
+    const auto lock = self.lock.hold();
+    round = self.state->strategy->round();
+  }
+  const int index = found == candidates.end() ? 0 : static_cast<int>(found - candidates.begin());
+  std::optional<experiment::Champion> champion;
+  Interruptible interruptible;
+  interruptible.run([&] {
+    experiment::StageTimes times;
+    champion = experiment::try_champion(task.config.value, task.problem(),
+                                        {.generation = round, .index = index, .genome = genome}, jobs_of({}),
+                                        times, interruptible.stop());
+  });
+  return {{}, std::move(champion).value()};
 }
 
 struct Evaluated {
@@ -96,9 +160,9 @@ struct Evaluated {
 
 Evaluated evaluate(Task& task, Arena& arena, std::span<const neat::Genome> genomes, int generation,
                    std::int64_t seed, int jobs, const std::atomic<bool>& stop) {
-  const std::lock_guard lock(arena.mutex);
+  const auto lock = arena.lock.hold();
   auto& evaluator = arena.evaluators[jobs];
-  if (!evaluator)
+  if (!evaluator || !evaluator->works_here())
     evaluator = std::make_unique<experiment::Evaluator>(arena.problem, task.behaviour().path(), jobs,
                                                         task.behaviour().measures());
   auto all = experiment::evaluate_generation(*evaluator, arena.problem, task.config.value.evaluation,
@@ -121,7 +185,7 @@ py::object evaluate_genomes(const py::object& on, const py::object& genomes,
   int round = 0;
   if (py::isinstance<OpenSearch>(on)) {
     auto& search = on.cast<OpenSearch&>();
-    const std::lock_guard lock(search.mutex);
+    const auto lock = search.lock.hold();
     round = search.state->strategy->round();
   }
   if (generation && (*generation < 0 || *generation >= experiment::most_generations))
@@ -227,6 +291,11 @@ evaluate() takes it in place of a config, and then starts no workers and reads n
           py::arg("config"), py::arg("seed") = py::none(),
           "config: Config or path. seed: of noise and ground. Raises Error if its parts do not fit together.")
       .def_property_readonly("config", [](const Task& self) { return self.config; })
+      .def(py::pickle([](const Task& self) { return py::make_tuple(self.config); },
+                      [](const py::tuple& state) {
+                        if (state.size() != 1) throw py::value_error("Problem: not its pickled state");
+                        return std::make_shared<Task>(state[0].cast<const LoadedConfig&>());
+                      }))
       .def_property_readonly(
           "behaviour_length", [](const Task& self) { return self.behaviour().length(); },
           "Numbers in a behaviour, d; 0 unless the config's search compares behaviours.")
@@ -240,7 +309,7 @@ evaluate() takes it in place of a config, and then starts no workers and reads n
       module, "Search",
       R"(amble's search, round by round: ask() for genomes, evaluate them by any means, tell() their fitness.
 
-With evaluate(search, genomes) it evolves what evolve() does, to the bit.)")
+With evaluate(search, genomes) it evolves what evolve() does, to the bit. Can be pickled, and then goes on to the bit.)")
       .def(py::init([](const py::object& config, std::optional<std::int64_t> seed) {
              return std::make_unique<OpenSearch>(seeded(config, seed));
            }),
@@ -254,10 +323,16 @@ With evaluate(search, genomes) it evolves what evolve() does, to the bit.)")
 fitness: n numbers, finite, at least 0, higher is better; or all that evaluate() returned. behaviour:
 n × behaviour_length, finite; needed where the config's search compares behaviours, else unused. viable: n bools
 (default: all true); MAP-Elites keeps none that is not. Raises TypeError and ValueError.)")
+      .def(
+          "champion", champion_of, py::arg("genome"),
+          R"(A genome of this search as a Champion: trial(), typical(), save(), amble.view() and `amble export` take it.
+
+Its facts are of the config's objective, whatever fitness tell() was given. Raises Error for one that does not fit.)")
+      .def(py::pickle(&pickled_search, &unpickled_search))
       .def_property_readonly(
           "round",
           [](OpenSearch& self) {
-            const std::lock_guard lock(self.mutex);
+            const auto lock = self.lock.hold();
             return self.state->strategy->round();
           },
           "Rounds completed.")

@@ -1,6 +1,7 @@
 #include <pybind11/stl.h>
 
 #include "amble/experiment/champion.hpp"
+#include "amble/io/file.hpp"
 #include "amble/io/scratch_file.hpp"
 #include "amble/presentation/shown_trial.hpp"
 #include "amble/presentation/walker.hpp"
@@ -22,14 +23,23 @@ view::Walker walker_of(const py::object& object, const presentation::WalkOptions
                        is_recording_file(path_of(object)))) {
     if (options.seconds || options.engine || choice.undisturbed)
       throw py::value_error("a recording has been made already: no seconds, no engine, not undisturbed");
-    const auto path = is_recording ? object.cast<const ReadRecording&>().path : path_of(object);
+    if (!is_recording) {
+      const auto path = path_of(object);
+      const py::gil_scoped_release release;
+      return presentation::recorded(path);
+    }
+    // What was read, which its file may not have any more.
+    const auto& recording = object.cast<const ReadRecording&>();
     const py::gil_scoped_release release;
-    return presentation::recorded(path);
+    io::write_file(scratch.path(), recording.bytes);
+    auto walker = presentation::recorded(scratch.path());
+    walker.title = recording.path.stem().string();
+    return walker;
   }
   const auto champion = py::isinstance<ReadableChampion>(object)
                             ? object.cast<const ReadableChampion&>()
                             : champion_at(py::isinstance<ReadableRun>(object)
-                                              ? object.cast<const ReadableRun&>().paths.best_champion()
+                                              ? object.cast<const ReadableRun&>().paths().best_champion()
                                               : path_of(object));
   std::optional<view::Walker> walker;
   Interruptible interruptible;
@@ -41,7 +51,7 @@ view::Walker walker_of(const py::object& object, const presentation::WalkOptions
     if (!shown) return;
     shown_of.problem.noise = shown->noise;
     how.noise = shown->key;
-    walker = presentation::walk(shown_of, champion.path, how, scratch.path(), interruptible.stop());
+    walker = presentation::walk(shown_of, champion.origin(), how, scratch.path(), interruptible.stop());
   });
   return std::move(*walker);
 }

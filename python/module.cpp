@@ -1,5 +1,7 @@
 #include <pybind11/pybind11.h>
 
+#include <system_error>
+
 #include "amble/core/error.hpp"
 #include "amble/experiment/build_info.hpp"
 #include "python/bind.hpp"
@@ -10,14 +12,20 @@ namespace {
 /// amble.Error; it lives as long as the process.
 PyObject* error_type = nullptr;
 
-/// UserError becomes amble.Error with the same words.
+void raise(const char* what, ExitCode code) {
+  py::object value = py::reinterpret_borrow<py::object>(error_type)(what);
+  value.attr("exit_code") = static_cast<int>(code);
+  PyErr_SetObject(error_type, value.ptr());
+}
+
+/// What ends the program with a line becomes amble.Error with the same words.
 void translate(std::exception_ptr exception) {
   try {
     if (exception) std::rethrow_exception(exception);
   } catch (const UserError& error) {
-    py::object value = py::reinterpret_borrow<py::object>(error_type)(error.what());
-    value.attr("exit_code") = static_cast<int>(error.code());
-    PyErr_SetObject(error_type, value.ptr());
+    raise(error.what(), error.code());
+  } catch (const std::system_error& error) {  // of files: permissions, a full device
+    raise(error.what(), ExitCode::io);
   }
 }
 
@@ -36,6 +44,7 @@ PYBIND11_MODULE(_amble, module) {
   module.attr("__version__") = build.version;
   module.attr("__commit__") = build.commit;
   bind_config(module);
+  bind_recording(module);
   bind_runs(module);
   bind_search(module);
   bind_controllers(module);

@@ -87,7 +87,7 @@ RobotBatch::RobotBatch(robot::RobotSpec robot, const std::string& engine,
       observations_(std::make_shared<Observations>(count, static_cast<int>(robot_.joints.size()),
                                                    static_cast<int>(robot_.legs.size()))),
       // A caller that takes a share itself may be another thread at the next call.
-      team_(threads, !physics::engine_traits(engine).keeps_to_a_thread) {
+      team_(std::make_unique<Team>(threads, !physics::engine_traits(engine).keeps_to_a_thread)) {
   for (int first = 0; first < count;) {
     Group group{.engine = physics::make_engine(engine, robot_, settings_), .targets_rad = {}, .first = first};
     group.size = std::min(group.engine->lanes(), count - first);
@@ -98,9 +98,14 @@ RobotBatch::RobotBatch(robot::RobotSpec robot, const std::string& engine,
   reset({});
 }
 
+RobotBatch::~RobotBatch() {
+  // In a forked process its threads are not there to be joined.
+  if (!works_here()) static_cast<void>(team_.release());
+}
+
 void RobotBatch::each_group(const std::function<void(Group&)>& work) {
-  const std::size_t groups = groups_.size(), shares = to_index(team_.shares());
-  team_.run([&](int share) {
+  const std::size_t groups = groups_.size(), shares = to_index(team_->shares());
+  team_->run([&](int share) {
     const std::size_t begin = groups * to_index(share) / shares, end = groups * to_index(share + 1) / shares;
     for (std::size_t g = begin; g < end; ++g) work(groups_[g]);
   });

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "amble/core/lanes.hpp"
+#include "amble/core/process.hpp"
 #include "amble/physics/engine.hpp"
 #include "amble/robot/spec.hpp"
 
@@ -71,10 +72,13 @@ class RobotBatch {
   /// that it cannot simulate.
   RobotBatch(robot::RobotSpec robot, const std::string& engine, const physics::EngineSettings& settings,
              int count, int threads);
+  ~RobotBatch();
 
+  /// False in a process that was forked from the one that made it: there it can only be destroyed.
+  bool works_here() const { return made_in_.is_this(); }
   const robot::RobotSpec& robot() const { return robot_; }
   int count() const { return observations_->robots; }
-  int threads() const { return team_.shares(); }
+  int threads() const { return team_->shares(); }
   double timestep_s() const { return settings_.timestep_s; }
   const std::shared_ptr<Observations>& observations() const { return observations_; }
 
@@ -105,7 +109,8 @@ class RobotBatch {
   const physics::EngineSettings settings_;
   std::shared_ptr<Observations> observations_;
   std::vector<Group> groups_;
-  Team team_;
+  std::unique_ptr<Team> team_;
+  MakingProcess made_in_;
 };
 
 }  // namespace amble::python

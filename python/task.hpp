@@ -2,7 +2,6 @@
 
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +17,7 @@ struct Arena {
   experiment::Problem problem;
   std::map<int, std::unique_ptr<experiment::Evaluator>> evaluators;  ///< by number of workers
   experiment::GenerationGround ground;
-  std::mutex mutex;  ///< held while one evaluates
+  CallLock lock;  ///< held while one evaluates
 
   explicit Arena(experiment::Problem made) : problem(std::move(made)) {}
 };
@@ -27,8 +26,7 @@ struct Arena {
 class Task {
  public:
   explicit Task(LoadedConfig loaded) : config(std::move(loaded)), home_(config.value.engine) {
-    arenas_.emplace(home_, std::make_unique<Arena>(experiment::Problem::make(
-                               config.value, experiment::load_robot(config.value))));
+    arenas_.emplace(home_, std::make_unique<Arena>(experiment::Problem::make(config.value, *config.robot)));
     behaviour_ = config.value.make_behaviour(&problem().robot);
   }
 

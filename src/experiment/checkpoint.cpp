@@ -52,8 +52,11 @@ std::vector<std::filesystem::path> unnamed_checkpoints(const std::filesystem::pa
 
 Progress load_checkpoint(const std::filesystem::path& path, const Config& config,
                          search::Strategy& strategy) {
-  const std::string what = path.string();
-  const std::string bytes = io::read_file(path);
+  return parse_checkpoint(io::read_file(path), path.string(), config, strategy);
+}
+
+Progress parse_checkpoint(std::string_view bytes, const std::string& what, const Config& config,
+                          search::Strategy& strategy) {
   const std::string_view payload = io::unseal(magic, version, bytes, what);
   if (io::BinaryReader(payload, what).get<std::uint64_t>() != config_hash(config))
     fail(ExitCode::bad_file,

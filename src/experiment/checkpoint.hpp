@@ -41,6 +41,10 @@ std::vector<std::filesystem::path> unnamed_checkpoints(const std::filesystem::pa
 /// truncated, altered, or written under another config than this (the number of generations may differ).
 Progress load_checkpoint(const std::filesystem::path& path, const Config& config, search::Strategy& strategy);
 
+/// The same from the bytes of a file; `what` names it.
+Progress parse_checkpoint(std::string_view bytes, const std::string& what, const Config& config,
+                          search::Strategy& strategy);
+
 /// The part of load_checkpoint after the seal and the config's hash.
 Progress load_progress(std::string_view payload, const std::string& what, search::Strategy& strategy);
 

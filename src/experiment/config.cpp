@@ -11,6 +11,7 @@
 #include "amble/physics/engine.hpp"
 
 namespace amble::experiment {
+namespace fs = std::filesystem;
 namespace {
 
 /// "physics engine: ode, batch or mujoco".
@@ -178,7 +179,11 @@ int candidates_per_generation(const Config& config) {
 }
 
 Config load_config(const std::filesystem::path& path, const Overrides& overrides) {
-  const auto document = std::make_shared<io::TomlDocument>(io::TomlDocument::read(path));
+  return config_from(io::TomlDocument::read(path), overrides);
+}
+
+Config config_from(const io::TomlDocument& read, const Overrides& overrides) {
+  const auto document = std::make_shared<io::TomlDocument>(read);
   for (const auto& assignment : overrides.assignments) document->set(assignment);
   if (overrides.seed) document->set("seed=" + std::to_string(*overrides.seed));
   if (overrides.generations) document->set("generations=" + std::to_string(*overrides.generations));
@@ -195,8 +200,7 @@ Config load_config(const std::filesystem::path& path, const Overrides& overrides
   } catch (const SettingError& error) {
     throw config.placed(error);
   }
-  const std::filesystem::path robot = config.robot;
-  if (robot.is_relative()) config.robot = (document->folder_of("robot") / robot).lexically_normal().string();
+  config.robot = fs::absolute(document->folder_of("robot") / config.robot).lexically_normal().string();
   return config;
 }
 

@@ -19,6 +19,7 @@
 #include "amble/ground/settings.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/settings.hpp"
+#include "amble/io/toml_settings.hpp"
 #include "amble/neat/settings.hpp"
 #include "amble/record/trajectory.hpp"
 #include "amble/robot/spec.hpp"
@@ -102,7 +103,9 @@ struct Overrides {
 /// Genomes evaluated in a generation: of a population, or of a batch.
 int candidates_per_generation(const Config& config);
 
-/// Reads, overrides, checks. `robot` becomes a path relative to the current folder. Throws UserError.
+/// Reads, overrides, checks. `robot` becomes an absolute path. Throws UserError.
 Config load_config(const std::filesystem::path& path, const Overrides& overrides);
+/// The same from a document that has been read, which is copied.
+Config config_from(const io::TomlDocument& document, const Overrides& overrides);
 
 }  // namespace amble::experiment

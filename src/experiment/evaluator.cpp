@@ -198,7 +198,10 @@ Evaluator::Evaluator(const Problem& problem, const record::PathSampling& path, i
   }
 }
 
-Evaluator::~Evaluator() = default;
+Evaluator::~Evaluator() {
+  // In a forked process its threads are not there to be joined.
+  if (!works_here()) static_cast<void>(shared_.release());
+}
 
 /// Signals the workers to quit; the jthreads, declared last, are joined after this.
 Evaluator::Shared::~Shared() {
@@ -213,6 +216,8 @@ std::optional<GenerationResult> Evaluator::evaluate(std::span<const neat::Genome
                                                     const std::atomic<bool>& stop,
                                                     std::span<const trial::Scenario> scenarios,
                                                     std::shared_ptr<const ground::Ground> ground) {
+  if (!works_here())
+    fail(ExitCode::internal, "workers do not come along into a forked process: make an Evaluator there");
   Shared& shared = *shared_;
   Generation generation(shared.problem, genomes, scenarios, std::move(ground), shared.workers.size());
   std::unique_lock lock(shared.mutex);

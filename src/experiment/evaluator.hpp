@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "amble/core/process.hpp"
 #include "amble/experiment/problem.hpp"
 #include "amble/experiment/stage_times.hpp"
 #include "amble/record/trajectory.hpp"
@@ -26,7 +27,8 @@ struct GenerationResult {
 };
 
 /// Evaluates populations on several threads, each with an engine and a batch of controllers of its own. Which
-/// worker evaluates which genome depends on timing; the results do not.
+/// worker evaluates which genome depends on timing; the results do not. In a process that was forked from
+/// the one that made it, it can only be destroyed.
 class Evaluator {
  public:
   /// `jobs` ≥ 1 workers. `path`: the sampling of paths; `measures`: those that the problem's score does not
@@ -34,6 +36,9 @@ class Evaluator {
   Evaluator(const Problem& problem, const record::PathSampling& path, int jobs,
             const record::Measures& measures = {});
   ~Evaluator();
+
+  /// False in a process that was forked from the one that made it.
+  bool works_here() const { return made_in_.is_this(); }
 
   /// One trial per genome and scenario; without scenarios, one without noise per genome. `ground`: null for
   /// the plane. Nothing if `stop` was set before all trials had ended.
@@ -45,6 +50,7 @@ class Evaluator {
  private:
   struct Shared;
   std::unique_ptr<Shared> shared_;
+  MakingProcess made_in_;
 };
 
 }  // namespace amble::experiment

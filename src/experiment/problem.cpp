@@ -20,6 +20,13 @@ namespace {
 
 constexpr int robot_version = 1;
 
+/// Relative to the current folder if the file is in it: shorter in messages.
+std::filesystem::path as_seen_from_here(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto relative = file.lexically_relative(std::filesystem::current_path(error));
+  return error || relative.empty() || *relative.begin() == ".." ? file : relative;
+}
+
 }  // namespace
 
 Problem Problem::make(const Config& config, robot::RobotSpec robot) {
@@ -156,16 +163,21 @@ std::vector<trial::Scenario> Problem::scenarios(std::int64_t seed, int generatio
 
 robot::RobotSpec load_robot_file(const std::filesystem::path& path, morphology::ReadingNotes* notes) {
   if (path.extension() != ".json") return morphology::load_robot(path, notes);
-  const auto sealed = io::unseal_json("amble-robot", robot_version, io::read_file(path), path.string());
-  return robot::from_json(io::JsonView(sealed.document, path.string()).at("robot"));
+  return robot_from_text(io::read_file(path), path.string());
+}
+
+robot::RobotSpec robot_from_text(const std::string& text, const std::string& what) {
+  const auto sealed = io::unseal_json("amble-robot", robot_version, text, what);
+  return robot::from_json(io::JsonView(sealed.document, what).at("robot"));
 }
 
 robot::RobotSpec load_robot(const Config& config) {
   std::error_code error;
-  if (!std::filesystem::exists(config.robot, error) && config.where)
-    fail(ExitCode::io, "{}: 'robot': {}: {}", config.where({"robot"}), io::printable(config.robot),
+  const auto file = as_seen_from_here(config.robot);
+  if (!std::filesystem::exists(file, error) && config.where)
+    fail(ExitCode::io, "{}: 'robot': {}: {}", config.where({"robot"}), io::printable(file.string()),
          error ? error.message() : "No such file or directory");
-  return load_robot_file(config.robot);
+  return load_robot_file(file);
 }
 
 std::string robot_file_text(const robot::RobotSpec& robot) {

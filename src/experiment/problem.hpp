@@ -101,5 +101,7 @@ robot::RobotSpec load_robot_file(const std::filesystem::path& path,
                                  morphology::ReadingNotes* notes = nullptr);
 /// The text of a robot.json.
 std::string robot_file_text(const robot::RobotSpec& robot);
+/// What robot_file_text() wrote. `what` names the file. Throws UserError(ExitCode::bad_file).
+robot::RobotSpec robot_from_text(const std::string& text, const std::string& what);
 
 }  // namespace amble::experiment

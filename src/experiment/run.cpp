@@ -45,7 +45,11 @@ Run::Run(RunFolder folder, const Config& config, std::unique_ptr<const Problem> 
       jobs_(jobs) {}
 
 Run Run::start(const std::filesystem::path& folder, const Config& config, int jobs) {
-  const auto robot = load_robot(config);
+  return start(folder, config, load_robot(config), jobs);
+}
+
+Run Run::start(const std::filesystem::path& folder, const Config& config, const robot::RobotSpec& robot,
+               int jobs) {
   auto problem = checked_problem(config, robot);  // before anything is written
   RunState state(config, *problem);
   auto held = RunFolder::create(folder, robot);

@@ -36,6 +36,9 @@ class Run {
   /// A new run with `jobs` workers, at least 1; the results do not depend on their number. Throws UserError;
   /// then no existing file was changed.
   static Run start(const std::filesystem::path& folder, const Config& config, int jobs);
+  /// The same with a robot that has been read already.
+  static Run start(const std::filesystem::path& folder, const Config& config, const robot::RobotSpec& robot,
+                   int jobs);
   /// Continues an existing run, to `generations` if given. Throws UserError.
   static Run resume(const std::filesystem::path& folder, std::optional<int> generations, int jobs);
 

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "amble/core/error.hpp"
+#include "amble/core/hash.hpp"
 #include "amble/experiment/build_info.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
@@ -141,6 +142,16 @@ fs::path RunPaths::best_champion() const {
 std::filesystem::path champion_at(const std::filesystem::path& champion_or_run) {
   if (!std::filesystem::is_directory(champion_or_run)) return champion_or_run;
   return find_run(champion_or_run).best_champion();
+}
+
+std::uint64_t run_identity(const RunPaths& paths) {
+  const auto manifest =
+      io::unseal_json(manifest_format, run_version, io::read_file(paths.manifest), paths.manifest.string());
+  const auto processes = manifest.document.value("processes", io::Json::array());
+  const auto config = experiment::load_config(paths.config, {});
+  return hash_text(fmt::format("{} {} {} {} {}", config.seed, config.name, config.identity().dump(),
+                               hash_text(io::read_file(paths.robot)),
+                               processes.empty() ? "" : processes.front().dump()));
 }
 
 bool is_run_folder(const fs::path& folder) {

@@ -66,6 +66,10 @@ RunPaths find_run(const std::filesystem::path& folder);
 /// UserError as find_run(), or if the run has none.
 std::filesystem::path champion_at(const std::filesystem::path& champion_or_run);
 
+/// The same for a run wherever its folder is and however long it becomes, another for any other run, even
+/// one of the same name in the same place. Throws UserError.
+std::uint64_t run_identity(const RunPaths& paths);
+
 /// Whether a folder looks like a run's.
 bool is_run_folder(const std::filesystem::path& folder);
 

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "amble/gait/meter.hpp"
-#include "amble/record/recording.hpp"
 
 namespace amble::gait {
 namespace {
@@ -42,8 +41,13 @@ bool has_torques(const record::RecordingReader& reader, const Body& body) {
 Report recorded_gait(const std::filesystem::path& path, const Settings& settings,
                      std::optional<double> seconds) {
   record::RecordingReader reader(path);
+  return recorded_gait(reader, path.string(), settings, seconds);
+}
+
+Report recorded_gait(record::RecordingReader& reader, const std::string& what, const Settings& settings,
+                     std::optional<double> seconds) {
   const double frame_s = reader.header().frame_s;
-  const Body body = body_of(robot::parse_robot(reader.header().robot_json, path.string() + ": robot"));
+  const Body body = body_of(robot::parse_robot(reader.header().robot_json, what + ": robot"));
   Columns com(reader, "com.", {"x", "y", "z"}), touch(reader, "touch.", body.legs),
       angle(reader, "angle.", body.joints);
   std::optional<Columns> torque;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
@@ -63,11 +64,20 @@ InputFile::InputFile(const std::filesystem::path& path)
   if (fd_ < 0) fail(ExitCode::io, "{}: {}", path_.string(), reason(errno));
 }
 
+InputFile::InputFile(std::string bytes, const std::filesystem::path& path)
+    : path_(path), bytes_(std::move(bytes)) {}
+
 InputFile::~InputFile() {
-  ::close(fd_);
+  if (fd_ >= 0) ::close(fd_);
 }
 
 std::string InputFile::read(std::uint64_t count) {
+  if (fd_ < 0) {
+    std::string part = bytes_.substr(
+        position_, static_cast<std::size_t>(std::min<std::uint64_t>(count, bytes_.size() - position_)));
+    position_ += part.size();
+    return part;
+  }
   constexpr std::uint64_t piece = std::uint64_t{1} << 20;
   std::string bytes;
   while (bytes.size() < count) {

@@ -12,6 +12,8 @@ namespace amble::io {
 class InputFile {
  public:
   explicit InputFile(const std::filesystem::path& path);
+  /// What a file had, from memory. `path`: its name, for messages.
+  InputFile(std::string bytes, const std::filesystem::path& path);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
@@ -22,7 +24,9 @@ class InputFile {
 
  private:
   std::filesystem::path path_;
-  int fd_ = -1;
+  int fd_ = -1;        ///< −1: from memory
+  std::string bytes_;  ///< then all of them
+  std::size_t position_ = 0;
 };
 
 /// The whole file as bytes. Throws UserError(ExitCode::io) "PATH: reason", also if it is larger than

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/printable.hpp"
@@ -93,6 +95,37 @@ TomlNode parse_value(std::string_view value, const std::string& where) {
   }
 }
 
+std::string toml_key(const std::string& key) {
+  return is_bare_key(key) ? key : toml_quoted(key);
+}
+
+/// A value on one line, not shortened as toml_text() is.
+std::string whole_text(const TomlNode& node) {
+  std::string items;
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    if (i > 0) items += ", ";
+    if (node.kind == TomlNode::Kind::table) items += toml_key(node.keys[i]) + " = ";
+    items += whole_text(node.items[i]);
+  }
+  switch (node.kind) {
+    case TomlNode::Kind::table:
+      return fmt::format("{{{}}}", items);
+    case TomlNode::Kind::list:
+      return fmt::format("[{}]", items);
+    case TomlNode::Kind::text:
+      return toml_quoted(node.text);
+    case TomlNode::Kind::integer:
+      return fmt::format("{}", node.integer);
+    case TomlNode::Kind::number:
+      return std::isnan(node.number) ? "nan" : toml_number(node.number);
+    case TomlNode::Kind::flag:
+      return node.flag ? "true" : "false";
+    case TomlNode::Kind::date:
+      break;
+  }
+  return node.text;
+}
+
 void mark_as_from_command_line(TomlNode& node, const std::string& where) {
   node.where = where;
   node.from_command_line = true;
@@ -107,6 +140,7 @@ struct TomlDocument::Impl {
 
 TomlDocument::TomlDocument(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 TomlDocument::~TomlDocument() = default;
+TomlDocument::TomlDocument(const TomlDocument& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
 TomlDocument::TomlDocument(TomlDocument&&) noexcept = default;
 TomlDocument& TomlDocument::operator=(TomlDocument&&) noexcept = default;
 
@@ -141,6 +175,13 @@ void TomlDocument::set(std::string_view assignment) {
   }
   mark_as_from_command_line(node, where);
   impl_->root.merge(std::move(node));
+}
+
+std::string TomlDocument::text() const {
+  std::string text;
+  for (std::size_t i = 0; i < impl_->root.keys.size(); ++i)
+    text += fmt::format("{} = {}\n", toml_key(impl_->root.keys[i]), whole_text(impl_->root.items[i]));
+  return text;
 }
 
 std::unique_ptr<TomlDocument::Reader> TomlDocument::reader() const {

@@ -22,12 +22,17 @@ class TomlDocument {
   static TomlDocument parse(std::string_view text, const std::string& name);
 
   ~TomlDocument();
+  TomlDocument(const TomlDocument& other);
   TomlDocument(TomlDocument&&) noexcept;
   TomlDocument& operator=(TomlDocument&&) noexcept;
 
   /// Applies "key.path=value" from the command line; the value is TOML, or a bare word, which is a string.
   /// Later error messages about the key name "--set KEY=VALUE".
   void set(std::string_view assignment);
+
+  /// What the document and those that it includes say together, as TOML: a line for each key of the top
+  /// table. To be called before set().
+  std::string text() const;
 
   /// A visitor that reads from the top table. Missing keys keep their values. Types and ranges are checked:
   /// an error message names file, line, key, the value and what was expected. finish() names the nearest

@@ -52,6 +52,8 @@ class RecordingWriter {
 class RecordingReader {
  public:
   explicit RecordingReader(const std::filesystem::path& path);
+  /// From the bytes of a file, in memory. `path`: its name, for messages.
+  RecordingReader(std::string bytes, const std::filesystem::path& path);
   ~RecordingReader();
   const RecordingHeader& header() const;
   /// Index of a column; throws UserError if there is none of that name.

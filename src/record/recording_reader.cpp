@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
@@ -38,7 +39,9 @@ RecordingHeader parse_header(std::string_view text, const std::string& what) {
 }  // namespace
 
 struct RecordingReader::Impl {
-  explicit Impl(const std::filesystem::path& path) : file(path), what(path.string()) {
+  template <typename... Source>
+  explicit Impl(const std::filesystem::path& path, Source&&... bytes)
+      : file(std::forward<Source>(bytes)..., path), what(path.string()) {
     std::string start = file.read(io::seal_header_size);
     const std::uint64_t size = io::sealed_size(recording_magic, recording_version, start, what);
     start += file.read(size - start.size());
@@ -99,6 +102,8 @@ struct RecordingReader::Impl {
 };
 
 RecordingReader::RecordingReader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {}
+RecordingReader::RecordingReader(std::string bytes, const std::filesystem::path& path)
+    : impl_(std::make_unique<Impl>(path, std::move(bytes))) {}
 RecordingReader::~RecordingReader() = default;
 
 const RecordingHeader& RecordingReader::header() const {
