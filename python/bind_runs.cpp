@@ -4,6 +4,7 @@
 #include "amble/core/index.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run.hpp"
+#include "amble/experiment/start_look.hpp"
 #include "amble/io/file.hpp"
 #include "amble/presentation/shown_trial.hpp"
 #include "amble/record/frame_codec.hpp"
@@ -36,6 +37,17 @@ class CallbackListener : public experiment::RunListener {
   Interruptible& caller_;
 };
 
+/// A UserWarning for each thing that is odd about the robot.
+void warn_of_start(const experiment::Run& run, Interruptible& caller) {
+  const auto& config = run.config();
+  const auto odd = experiment::odd_at_start(run.robot(), config.engine, config.trial.timestep_s);
+  if (odd.empty()) return;
+  caller.call([&] {
+    for (const std::string& line : odd)
+      if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 1) != 0) throw py::error_already_set();
+  });
+}
+
 /// Runs until all generations are done; Ctrl-C or an exception of the callback leaves the last checkpoint.
 ReadableRun execute(const std::function<experiment::Run()>& make, const py::object& on_generation) {
   if (!on_generation.is_none() && PyCallable_Check(on_generation.ptr()) == 0)
@@ -45,11 +57,15 @@ ReadableRun execute(const std::function<experiment::Run()>& make, const py::obje
   Interruptible interruptible;
   CallbackListener listener(callback ? &callback : nullptr, interruptible);
   std::filesystem::path folder;
+  std::string verdict;
   interruptible.run([&] {
     auto run = make();
     folder = run.paths().folder;
+    if (run.generation() == 0) warn_of_start(run, interruptible);
     run.execute(listener, interruptible.stop());
+    verdict = run.tally().verdict();
   });
+  if (!verdict.empty()) fail(ExitCode::bad_input, "{}: {}", folder.string(), verdict);
   return ReadableRun(folder);
 }
 

@@ -18,6 +18,7 @@
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/scratch_file.hpp"
+#include "amble/io/shell.hpp"
 
 namespace amble::cli {
 namespace {
@@ -78,8 +79,8 @@ void print(const experiment::Adaptation& adaptation, const experiment::Repertoir
   if (const double lost = adaptation.intact - adaptation.damaged; lost > 0.0)
     fmt::print("  of what was lost, back     {:.0f} %\n",
                100.0 * (adaptation.adapted - adaptation.damaged) / lost);
-  fmt::print("\nthe gait found: amble repertoire {} --cell {} -o elite.json\n", options.run.string(),
-             adaptation.cell);
+  fmt::print("\nthe gait found: amble repertoire {} --cell {} -o elite.json\n",
+             io::shell_word(options.run.string()), adaptation.cell);
 }
 
 /// The map, the trials as a table, and the elites that were tried, on the damaged robot; the one found first.

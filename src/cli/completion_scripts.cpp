@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "amble/io/shell.hpp"
+
 namespace amble::cli {
 namespace {
 
@@ -23,13 +25,6 @@ std::string escaped(std::string_view text, std::string_view special) {
   return out;
 }
 
-/// In single quotes, within which a shell takes everything literally.
-std::string shell_quoted(std::string_view text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 std::vector<std::string> option_names(const std::vector<OptionSummary>& options) {
   std::vector<std::string> all;
   for (const OptionSummary& option : options) all.insert(all.end(), option.names.begin(), option.names.end());
@@ -44,9 +39,9 @@ bool takes_files(const OptionSummary& option) {
 std::string bash_value(const std::string& command, const OptionSummary& option) {
   std::vector<std::string> patterns;
   for (const std::string& name : option.names) patterns.push_back(fmt::format("{}:{}", command, name));
-  const std::string reply = takes_files(option)
-                                ? "_amble_files"
-                                : fmt::format("_amble_words {}", shell_quoted(joined(option.choices, " ")));
+  const std::string reply =
+      takes_files(option) ? "_amble_files"
+                          : fmt::format("_amble_words {}", io::shell_quoted(joined(option.choices, " ")));
   return fmt::format("    {}) {}; return ;;\n", joined(patterns, " | "), reply);
 }
 
@@ -62,20 +57,20 @@ std::string zsh_option(const OptionSummary& option) {
           : fmt::format(":value:({})", joined(option.choices, " "));
   std::string entries;
   for (const std::string& name : option.names)
-    entries += " \\\n        " + shell_quoted(fmt::format("*{}[{}]{}", name, what, value));
+    entries += " \\\n        " + io::shell_quoted(fmt::format("*{}[{}]{}", name, what, value));
   return entries;
 }
 
 std::string fish_option(const std::string& condition, const OptionSummary& option) {
-  std::string line = fmt::format("complete -c amble -n {}", shell_quoted(condition));
+  std::string line = fmt::format("complete -c amble -n {}", io::shell_quoted(condition));
   for (const std::string& name : option.names)
     line += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
   if (takes_files(option))
     line += " -r -F";
   else if (option.value != Value::none)
     line += " -x";
-  if (!option.choices.empty()) line += " -a " + shell_quoted(joined(option.choices, " "));
-  return line + " -d " + shell_quoted(option.what) + "\n";
+  if (!option.choices.empty()) line += " -a " + io::shell_quoted(joined(option.choices, " "));
+  return line + " -d " + io::shell_quoted(option.what) + "\n";
 }
 
 constexpr std::string_view bash_head = R"(# Completion of amble in bash: source <(amble completion bash)
@@ -116,9 +111,9 @@ std::string bash_completion(const ProgramSummary& program) {
         command.arguments, [](const OptionSummary& argument) { return !argument.choices.empty(); });
     const bool files = std::ranges::any_of(command.arguments, takes_files);
     words += fmt::format("    {}) [[ $word == -* ]] && _amble_words {} || {} ;;\n", command.name,
-                         shell_quoted(joined(option_names(command.options), " ")),
+                         io::shell_quoted(joined(option_names(command.options), " ")),
                          choices != command.arguments.end()
-                             ? fmt::format("_amble_words {}", shell_quoted(joined(choices->choices, " ")))
+                             ? fmt::format("_amble_words {}", io::shell_quoted(joined(choices->choices, " ")))
                              : std::string(files ? "_amble_files" : "true"));
   }
   std::vector<std::string> first = option_names(program.options);
@@ -126,20 +121,21 @@ std::string bash_completion(const ProgramSummary& program) {
   return fmt::format(
       "{}  case $command:$before in\n{}  esac\n  case $command in\n    '') _amble_words {} ;;\n{}  esac\n}}\n"
       "complete -F _amble {}\n",
-      bash_head, values, shell_quoted(joined(first, " ")), words, program.name);
+      bash_head, values, io::shell_quoted(joined(first, " ")), words, program.name);
 }
 
 std::string zsh_completion(const ProgramSummary& program) {
   std::string commands, cases;
   for (const CommandSummary& command : program.commands) {
-    commands += "    " + shell_quoted(escaped(command.name, ":") + ":" + command.what) + "\n";
+    commands += "    " + io::shell_quoted(escaped(command.name, ":") + ":" + command.what) + "\n";
     std::string entries;
     for (const OptionSummary& option : command.options) entries += zsh_option(option);
     for (const OptionSummary& argument : command.arguments)
-      entries += " \\\n        " + shell_quoted(argument.choices.empty()
-                                                    ? "*:" + escaped(argument.what, ":\\") + ":_files"
-                                                    : fmt::format(":{}:({})", escaped(argument.what, ":\\"),
-                                                                  joined(argument.choices, " ")));
+      entries +=
+          " \\\n        " + io::shell_quoted(argument.choices.empty()
+                                                 ? "*:" + escaped(argument.what, ":\\") + ":_files"
+                                                 : fmt::format(":{}:({})", escaped(argument.what, ":\\"),
+                                                               joined(argument.choices, " ")));
     cases += fmt::format("    {}) _arguments{} ;;\n", command.name, entries);
   }
   return fmt::format(
@@ -157,14 +153,14 @@ std::string fish_completion(const ProgramSummary& program) {
   for (const OptionSummary& option : program.options) text += fish_option("__fish_use_subcommand", option);
   for (const CommandSummary& command : program.commands)
     text += fmt::format("complete -c {} -n __fish_use_subcommand -f -a {} -d {}\n", program.name,
-                        command.name, shell_quoted(command.what));
+                        command.name, io::shell_quoted(command.what));
   for (const CommandSummary& command : program.commands) {
     const std::string condition = "__fish_seen_subcommand_from " + command.name;
     for (const OptionSummary& option : command.options) text += fish_option(condition, option);
     for (const OptionSummary& argument : command.arguments)
       if (!argument.choices.empty())
-        text += fmt::format("complete -c {} -n {} -f -a {}\n", program.name, shell_quoted(condition),
-                            shell_quoted(joined(argument.choices, " ")));
+        text += fmt::format("complete -c {} -n {} -f -a {}\n", program.name, io::shell_quoted(condition),
+                            io::shell_quoted(joined(argument.choices, " ")));
   }
   return text;
 }

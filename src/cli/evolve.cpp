@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "amble/cli/commands.hpp"
 #include "amble/cli/disturbance.hpp"
@@ -16,6 +17,8 @@
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/repertoire.hpp"
 #include "amble/experiment/run.hpp"
+#include "amble/experiment/start_look.hpp"
+#include "amble/io/shell.hpp"
 
 namespace amble::cli {
 namespace {
@@ -43,9 +46,17 @@ void print_best(const experiment::Run& run, int jobs) {
              text(champion.result.value()), progress.best_generation, progress.evaluations);
 }
 
-ExitCode execute(experiment::Run run, int jobs) {
+/// What may make a run meaningless is better known before it has taken hours.
+void print_oddities(const experiment::Run& run) {
+  const auto& config = run.config();
+  for (const auto& odd : experiment::odd_at_start(run.robot(), config.engine, config.trial.timestep_s))
+    print_message(fmt::format("note: {}\n", odd));
+}
+
+/// `named`: the folder as it was given.
+ExitCode execute(experiment::Run run, const std::filesystem::path& named, int jobs) {
   std::signal(SIGPIPE, SIG_IGN);  // the run goes on if the reader of its progress ends
-  const std::string folder = run.paths().folder.string();
+  const std::string folder = named.string(), word = io::shell_word(folder);
   if (run.generation() >= run.config().generations)
     fmt::print("{}: all {} generations are done; for more: --generations N\n", folder,
                run.config().generations);
@@ -56,13 +67,16 @@ ExitCode execute(experiment::Run run, int jobs) {
   }
   if (status == experiment::RunStatus::interrupted) {
     print_message(fmt::format("stopped at generation {} of {}; to continue, run: amble resume {}\n",
-                              run.generation(), run.config().generations, folder));
+                              run.generation(), run.config().generations, word));
     return ExitCode::interrupted;
   }
   print_best(run, jobs);
   const bool has_map = experiment::fills_map(run.config());
-  fmt::print("to see it, run: amble {} {} -o {}\n", has_map ? "repertoire" : "view", folder,
+  fmt::print("to see it, run: amble {} {} -o {}\n", has_map ? "repertoire" : "view", word,
              has_map ? "map.html" : "walker.html");
+  fmt::print("look at it by: amble page {} -o page.html\n", word);
+  const std::string verdict = run.tally().verdict();
+  if (!verdict.empty()) fail(ExitCode::bad_input, "{}: {}", folder, verdict);
   return ExitCode::ok;
 }
 
@@ -94,7 +108,9 @@ void add_evolve(CLI::App& app, Action& action) {
     action = [options] {
       stop_signal();
       const auto config = experiment::load_config(options->config, options->overrides);
-      return execute(experiment::Run::start(options->out, config, options->jobs), options->jobs);
+      auto run = experiment::Run::start(options->out, config, options->jobs);
+      print_oddities(run);
+      return execute(std::move(run), options->out, options->jobs);
     };
   });
 }
@@ -117,7 +133,7 @@ void add_resume(CLI::App& app, Action& action) {
     action = [options] {
       stop_signal();
       return execute(experiment::Run::resume(options->folder, options->generations, options->jobs),
-                     options->jobs);
+                     options->folder, options->jobs);
     };
   });
 }

@@ -21,6 +21,7 @@
 #include "amble/experiment/typical.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/printable.hpp"
+#include "amble/io/shell.hpp"
 #include "amble/record/frame_codec.hpp"
 #include "amble/record/generations_csv.hpp"
 #include "amble/record/recording.hpp"
@@ -102,8 +103,8 @@ ExitCode print_map(const experiment::RunPaths& paths) {
   constexpr int trials = 20;
   constexpr std::uint32_t most_elites = 1000;
   if (elites.size() > most_elites) {
-    fmt::print("corrected   `amble repertoire {} --retest {}` makes {} trials\n", paths.folder.string(),
-               trials, trials * elites.size());
+    fmt::print("corrected   `amble repertoire {} --retest {}` makes {} trials\n",
+               io::shell_word(paths.folder.string()), trials, trials * elites.size());
     return ExitCode::ok;
   }
   constexpr int one_worker = 1;
@@ -128,7 +129,8 @@ ExitCode run_info(const std::filesystem::path& folder) {
              config.seed, config.engine, rows.count(), config.generations);
   fmt::print("evaluations {:.0f} ({:.3g} steps)\n", evaluations, steps);
   fmt::print("search      {}", config.search.kind);
-  if (experiment::fills_map(config)) fmt::print(": `amble repertoire {}` shows the map", folder.string());
+  if (experiment::fills_map(config))
+    fmt::print(": `amble repertoire {}` shows the map", io::shell_word(folder.string()));
   if (!rows.archive.empty() && !rows.novelty_threshold.empty())
     fmt::print(": archive of {:.0f} behaviours, threshold {:.4g} in the last generation", rows.archive.back(),
                rows.novelty_threshold.back());
@@ -148,7 +150,7 @@ ExitCode run_info(const std::filesystem::path& folder) {
     print_champion(experiment::load_champion(champions.back()));
   }
   if (rows.count() < to_index(config.generations))
-    fmt::print("\nto continue, run: amble resume {}\n", folder.string());
+    fmt::print("\nto continue, run: amble resume {}\n", io::shell_word(folder.string()));
   return ExitCode::ok;
 }
 

@@ -20,6 +20,7 @@
 #include "amble/experiment/run_folder.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/scratch_file.hpp"
+#include "amble/io/shell.hpp"
 #include "amble/page/figure_files.hpp"
 
 namespace amble::cli {
@@ -104,7 +105,7 @@ page::RunPage page_of(const experiment::RunPaths& paths, const experiment::Confi
                        : figures::Objective{.name = "Score", .unit = score::with_unit("", config.score)},
       .cppn = page::CppnSize{champion.genome.count(neat::NodeKind::hidden), champion.genome.enabled_links()},
       .facts = facts(config, champion, engine.value_or(config.engine), shown),
-      .commands = {fmt::format("amble evolve {} --out AGAIN", paths.config.string()),
+      .commands = {fmt::format("amble evolve {} --out AGAIN", io::shell_word(paths.config.string())),
                    fmt::format("amble page AGAIN{} -o page.html", engine ? " --engine " + *engine : "")}};
 }
 

@@ -20,6 +20,7 @@
 #include "amble/experiment/corrected_map.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/printable.hpp"
+#include "amble/io/shell.hpp"
 
 namespace amble::cli {
 namespace {
@@ -76,7 +77,7 @@ void print_summary(const experiment::Repertoire& repertoire, const fs::path& run
   fmt::print(
       "\nthe map as a page:      amble repertoire {0} -o map.html\n"
       "an elite as a champion: amble repertoire {0} --cell {1} -o elite.json\n",
-      run.string(), elites[numbers.front()].cell);
+      io::shell_word(run.string()), elites[numbers.front()].cell);
 }
 
 void print_corrected(const experiment::CorrectedMap& corrected) {
@@ -107,7 +108,7 @@ ExitCode write_elite(const experiment::Repertoire& repertoire, std::uint32_t cel
   const auto champion = experiment::elite_champion(repertoire, cell, 1, stop_signal());
   if (!champion) return ExitCode::interrupted;
   io::write_file(*out, experiment::champion_text(*champion));
-  fmt::print("look at it by: amble view {}\n", out->string());
+  fmt::print("look at it by: amble view {} -o walker.html\n", io::shell_word(out->string()));
   return ExitCode::ok;
 }
 

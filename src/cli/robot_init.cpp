@@ -1,6 +1,7 @@
 #include "amble/cli/robot_init.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,10 @@
 #include <vector>
 
 #include "amble/cli/robot_solver.hpp"
+#include "amble/experiment/start_look.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/printable.hpp"
+#include "amble/io/shell.hpp"
 #include "amble/io/toml_text.hpp"
 #include "amble/morphology/robot_file.hpp"
 #include "amble/morphology/robot_guess.hpp"
@@ -125,6 +128,13 @@ std::string doubts_text(const std::vector<std::string>& doubts) {
   return text;
 }
 
+std::string start_text(const robot::RobotSpec& robot) {
+  const auto engine = engine_line(robot).starts_with("engine = \"batch\"") ? "batch" : "ode";
+  const auto odd = experiment::odd_at_start(robot, engine, physics::EngineSettings{}.timestep_s);
+  if (odd.empty()) return "start: held for a second in its start pose, it stands\n";
+  return fmt::format("look at its start before you evolve:\n  {}\n", fmt::join(odd, "\n  "));
+}
+
 ExitCode init_robot(const fs::path& model, fs::path folder) {
   if (model.extension() == ".toml" || model.extension() == ".json")
     fail(ExitCode::bad_input, "--init: {} is a robot file: expected a model, MJCF (.xml) or URDF (.urdf)",
@@ -158,6 +168,7 @@ ExitCode init_robot(const fs::path& model, fs::path folder) {
   io::write_file(config_path, config_text(guess.name, engine, robot, folder));
   if (robot) fmt::print("{}", robot::summary(*robot));
   if (!notes.lines().empty()) fmt::print("\nimport notes:\n{}", notes.text());
+  if (robot && !robot->legs.empty()) fmt::print("\n{}", start_text(*robot));
   fmt::print("\nwrote {} and {}\n", robot_path.string(), config_path.string());
   if (!asked.empty()) {
     fmt::print("still to be given in {}:\n", robot_path.string());
@@ -170,9 +181,10 @@ ExitCode init_robot(const fs::path& model, fs::path folder) {
   const bool ready = robot && !robot->legs.empty();
   if (ready)
     fmt::print("next: read {0}, then\n  amble evolve {1} --out {2}\n", robot_path.string(),
-               config_path.string(), (folder / "run").string());
+               io::shell_word(config_path.string()), io::shell_word((folder / "run").string()));
   else
-    fmt::print("next: complete it, and check it with\n  amble robot {}\n", robot_path.string());
+    fmt::print("next: complete it, and check it with\n  amble robot {}\n",
+               io::shell_word(robot_path.string()));
   return ready ? ExitCode::ok : ExitCode::bad_input;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "amble/core/error.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::cli {
 
@@ -15,5 +16,7 @@ ExitCode init_robot(const std::filesystem::path& model, std::filesystem::path fo
 
 /// "warnings:" and a line each; empty without any.
 std::string doubts_text(const std::vector<std::string>& doubts);
+/// What a robot does in a second in which its start pose is held, and what else is odd about it.
+std::string start_text(const robot::RobotSpec& robot);
 
 }  // namespace amble::cli

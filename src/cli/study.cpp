@@ -17,6 +17,7 @@
 #include "amble/cli/study_progress.hpp"
 #include "amble/core/index.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/shell.hpp"
 #include "amble/study/fit.hpp"
 #include "amble/study/slurm.hpp"
 #include "amble/study/worker.hpp"
@@ -84,7 +85,7 @@ ExitCode conclude(const study::Plan& plan, const StudyOptions& options, std::siz
       print_message("other processes work on the rest, or were killed: the same command continues\n");
     if (failure != ExitCode::ok) return failure;
   }
-  fmt::print("look at it by: amble report {} -o report.html\n", folder);
+  fmt::print("look at it by: amble report {} -o report.html\n", io::shell_word(folder));
   return ExitCode::ok;
 }
 

@@ -12,6 +12,7 @@
 #include "amble/io/printable.hpp"
 #include "amble/morphology/robot_file.hpp"
 #include "amble/physics/damaged_engine.hpp"
+#include "amble/robot/check.hpp"
 #include "amble/robot/json.hpp"
 #include "amble/robot/pose.hpp"
 
@@ -30,6 +31,8 @@ std::filesystem::path as_seen_from_here(const std::filesystem::path& file) {
 }  // namespace
 
 Problem Problem::make(const Config& config, robot::RobotSpec robot) {
+  if (const auto fault = robot::gravity_fault(robot.gravity_m_s2); !fault.empty())
+    fail(ExitCode::bad_input, "robot '{}': {}", io::printable(robot.name), fault);
   robot.bodies[0].position_m.z += config.drop_m;
   robot.gravity_m_s2 = config.ground.tilted(robot.gravity_m_s2);
   if (config.ground.friction >= 0.0) robot.contact.friction = config.ground.friction;

@@ -6,7 +6,9 @@
 
 #include "amble/core/error.hpp"
 #include "amble/experiment/champion.hpp"
+#include "amble/experiment/run_table.hpp"
 #include "amble/io/file.hpp"
+#include "amble/robot/json.hpp"
 
 namespace amble::experiment {
 namespace {
@@ -30,7 +32,8 @@ Recovery restore(const RunPaths& paths, const std::filesystem::path& checkpoint,
 
 /// Throws UserError if the file of the best champion is missing, damaged or another one, which nothing else
 /// would detect.
-void check_best(const RunPaths& paths, const Config& config, const Progress& progress) {
+void check_best(const RunPaths& paths, const Config& config, const Problem& problem,
+                const Progress& progress) {
   if (progress.best_generation < 0) return;
   const auto file = paths.champion(progress.best_generation);
   if (!std::filesystem::exists(file))
@@ -41,13 +44,19 @@ void check_best(const RunPaths& paths, const Config& config, const Progress& pro
     fail(ExitCode::bad_file, "{}: not the champion that the run had there: that reached {}, this one {}",
          file.string(), score::with_unit(fmt::format("{}", progress.best), config.score),
          score::with_unit(fmt::format("{}", best.objective()), config.score));
+  if (robot::to_json(best.problem.robot) != robot::to_json(problem.robot))
+    fail(ExitCode::bad_file,
+         "{}: not the robot that the run had: {} walked with another one. Put back a copy of the file; "
+         "nothing "
+         "has been done now",
+         paths.robot.string(), file.string());
 }
 
-/// After a power cut a checkpoint may be on the disk, but not the files that it refers to.
-bool has_its_table(const RunPaths& paths, const Recovery& recovery) {
-  std::error_code error;
-  const auto csv_bytes = std::filesystem::file_size(paths.generations, error);
-  return !error && csv_bytes >= recovery.state.progress.csv_bytes;
+/// Throws UserError if the files beside a checkpoint are not those that it was written with.
+void check_beside(const RunPaths& paths, const Config& config, const Problem& problem, Recovery& recovery) {
+  Progress& progress = recovery.state.progress;
+  check_best(paths, config, problem, progress);
+  progress.csv_digest = check_table(paths, progress, *recovery.state.strategy);
 }
 
 }  // namespace
@@ -57,16 +66,16 @@ Recovery recover(const RunPaths& paths, const Config& config, const Problem& pro
   for (const auto& unnamed : unnamed_checkpoints(paths.checkpoint)) {
     try {
       Recovery newer = restore(paths, unnamed, config, problem);
-      if (!has_its_table(paths, newer) || newer.state.strategy->round() <= named.state.strategy->round())
-        continue;
-      check_best(paths, config, newer.state.progress);
+      if (newer.state.strategy->round() <= named.state.strategy->round()) continue;
+      check_beside(paths, config, problem, newer);
       io::write_file(paths.checkpoint, io::read_file(unnamed));
       return newer;
     } catch (const UserError&) {
-      // Cut off while it was written, or one of its logs was: the checkpoint before it counts.
+      // Cut off while it was written, or one of the files that it refers to was: the checkpoint before
+      // counts.
     }
   }
-  check_best(paths, config, named.state.progress);
+  check_beside(paths, config, problem, named);
   return named;
 }
 

@@ -73,7 +73,7 @@ Run Run::resume(const std::filesystem::path& folder, std::optional<int> generati
   auto files = RunFiles::resume(held.paths(), state, log_bytes);
   held.remove_leftovers();
   if (done < config.generations) held.note_process(config, jobs, done);
-  if (generations) held.save_config(config);
+  if (generations) held.lengthen(config);
   return Run(std::move(held), config, std::move(problem), std::move(state), std::move(files), jobs);
 }
 
@@ -106,6 +106,7 @@ RunStatus Run::generations(RunListener& listener, const std::atomic<bool>& stop)
     row.evaluations = candidates.size();
     row.steps = result.steps;
     summarise_trials(objectives, result.trajectories, row);
+    tally_.add(result.trajectories, problem_->trial.steps());
     if (!keep_best(candidates, objectives, choice, typical, row, stop)) return RunStatus::interrupted;
     tell(result, objectives, row);
 

@@ -14,6 +14,7 @@
 #include "amble/experiment/run_files.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/experiment/run_state.hpp"
+#include "amble/experiment/trial_tally.hpp"
 
 namespace amble::experiment {
 
@@ -49,6 +50,10 @@ class Run {
   const Config& config() const { return config_; }
   const Progress& progress() const { return state_.progress; }
   const RunPaths& paths() const { return folder_.paths(); }
+  /// The robot of its trials.
+  const robot::RobotSpec& robot() const { return problem_->robot; }
+  /// How the trials ended that this object has made.
+  const TrialTally& tally() const { return tally_; }
   /// Generations done.
   int generation() const { return state_.strategy->round(); }
 
@@ -72,6 +77,7 @@ class Run {
   RunState state_;
   RunFiles files_;
   GenerationGround ground_;
+  TrialTally tally_;
   int jobs_;
 };
 

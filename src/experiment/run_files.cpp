@@ -3,23 +3,17 @@
 #include <algorithm>
 #include <utility>
 
-#include "amble/core/error.hpp"
-#include "amble/io/printable.hpp"
+#include "amble/experiment/run_table.hpp"
 
 namespace amble::experiment {
 
 namespace {
 
-/// The first line of a run's table. Throws UserError if it is not one that this build can go on with.
-std::string header_of(const RunPaths& paths, const search::Strategy& strategy) {
+/// The first line of a run's table, which recover() has checked.
+std::string header_of(const RunPaths& paths) {
   constexpr std::size_t most_bytes = 65536;
   std::string text = io::InputFile(paths.generations).read(most_bytes);
   text.resize(std::min(text.size(), text.find('\n')));
-  if (const auto unknown = unknown_column(text, strategy.metrics()); !unknown.empty())
-    fail(ExitCode::bad_file,
-         "{}:1: column '{}': expected the columns of the run, unchanged since it was stopped; restore the "
-         "file",
-         paths.generations.string(), io::printable(unknown));
   return text;
 }
 
@@ -40,6 +34,7 @@ RunFiles RunFiles::start(const RunPaths& paths, const Config& config, RunState& 
                  std::vector<std::uint64_t>(state.strategy->logs().size(), 0));
   files.table_->append(files.header_);
   state.progress.csv_bytes = files.table_->size();
+  state.progress.csv_digest = table_digest(0, files.header_, files.header_);
   for (std::size_t i = 0; i < files.logs_.size(); ++i)
     files.logs_[i]->append(state.strategy->take_log_growth(i));
   save_checkpoint(files.checkpoint_, config, state.progress, *state.strategy);
@@ -48,8 +43,7 @@ RunFiles RunFiles::start(const RunPaths& paths, const Config& config, RunState& 
 
 RunFiles RunFiles::resume(const RunPaths& paths, const RunState& state,
                           std::span<const std::uint64_t> log_bytes) {
-  return RunFiles(paths, *state.strategy, header_of(paths, *state.strategy), state.progress.csv_bytes,
-                  log_bytes);
+  return RunFiles(paths, *state.strategy, header_of(paths), state.progress.csv_bytes, log_bytes);
 }
 
 void RunFiles::write(const GenerationRow& row, const Config& config, RunState& state) {
@@ -57,8 +51,10 @@ void RunFiles::write(const GenerationRow& row, const Config& config, RunState& s
   state.progress.evaluations += row.evaluations;
   state.progress.steps += row.steps;
   state.progress.wall_s += row.wall_s;
-  table_->write(csv_line(row, header_));
+  const std::string line = csv_line(row, header_);
+  table_->write(line);
   state.progress.csv_bytes = table_->size();
+  state.progress.csv_digest = table_digest(state.progress.csv_digest, header_, line);
   for (std::size_t i = 0; i < logs_.size(); ++i)
     if (const auto growth = state.strategy->take_log_growth(i); !growth.empty()) logs_[i]->write(growth);
   auto checkpoint = std::make_unique<io::AtomicFile>(checkpoint_);

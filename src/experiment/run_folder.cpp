@@ -8,6 +8,7 @@
 #include <charconv>
 #include <chrono>
 #include <optional>
+#include <regex>
 #include <system_error>
 
 #include "amble/core/error.hpp"
@@ -15,6 +16,7 @@
 #include "amble/experiment/build_info.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
+#include "amble/io/shell.hpp"
 
 namespace amble::experiment {
 namespace fs = std::filesystem;
@@ -91,10 +93,19 @@ void refuse_used_folder(const fs::path& folder) {
     fail(ExitCode::bad_input, "--out {}: a file of that name exists", folder.string());
   if (is_run_folder(folder))
     fail(ExitCode::bad_input,
-         "--out {0}: holds a run already; go on with it by `amble resume {0}`, or name another folder",
-         folder.string());
+         "--out {}: holds a run already; go on with it by `amble resume {}`, or name another folder",
+         folder.string(), io::shell_word(folder.string()));
   if (!holds_nothing(folder))
     fail(ExitCode::bad_input, "--out {}: not empty and not a run; name another folder", folder.string());
+}
+
+/// A config's text with another number of generations, and whatever comments somebody wrote into it.
+std::string with_generations(const std::string& text, int generations) {
+  static const std::regex line(R"((^|\n)(generations[ \t]*=[ \t]*)[0-9_]+)");
+  std::smatch found;
+  if (!std::regex_search(text, found, line)) return text;
+  return fmt::format("{}{}{}{}{}", found.prefix().str(), found[1].str(), found[2].str(), generations,
+                     found.suffix().str());
 }
 
 io::Json process_json(const ProcessNote& note) {
@@ -160,7 +171,7 @@ bool is_run_folder(const fs::path& folder) {
 }
 
 RunFolder::RunFolder(const fs::path& folder)
-    : paths_(folder), lock_(std::make_unique<io::FolderLock>(folder)) {}
+    : paths_(fs::absolute(folder)), lock_(std::make_unique<io::FolderLock>(folder)) {}
 
 RunFolder RunFolder::create(const fs::path& folder, const robot::RobotSpec& robot) {
   refuse_used_folder(folder);
@@ -208,6 +219,16 @@ void RunFolder::save_config(const Config& config) const {
   Config saved = config;
   saved.robot = paths_.robot.filename().string();
   io::write_file(paths_.config, saved.to_toml());
+}
+
+void RunFolder::lengthen(const Config& config) const {
+  const std::string text = io::read_file(paths_.config);
+  const std::string same_but_longer = with_generations(text, config.generations);
+  const auto document = io::TomlDocument::parse(same_but_longer, paths_.config.string());
+  const auto read = config_from(document, {});
+  if (read.generations != config.generations || read.identity() != config.identity())
+    return save_config(config);
+  io::write_file(paths_.config, same_but_longer);
 }
 
 robot::RobotSpec RunFolder::load_robot() const {

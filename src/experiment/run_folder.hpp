@@ -45,6 +45,8 @@ class RunFolder {
   const RunPaths& paths() const { return paths_; }
   Config load_config() const;
   void save_config(const Config& config) const;
+  /// Writes the number of generations into config.toml, and leaves the rest as it is.
+  void lengthen(const Config& config) const;
   robot::RobotSpec load_robot() const;
   void save_champion(const Champion& champion) const;
   /// Removes the temporary files of a process that was killed here.

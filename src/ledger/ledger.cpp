@@ -9,6 +9,7 @@
 #include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/shell.hpp"
 
 namespace amble::ledger {
 namespace fs = std::filesystem;
@@ -83,7 +84,7 @@ StudySpec load_kept_study(const StudyPaths& paths) {
   if (!fs::exists(paths.spec))
     fail(ExitCode::bad_input,
          "{}: not a study (study.toml is missing); make one by: amble study FILE --out {}",
-         paths.folder.string(), paths.folder.string());
+         paths.folder.string(), io::shell_word(paths.folder.string()));
   return load_study(paths.spec);
 }
 

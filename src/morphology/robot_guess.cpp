@@ -13,11 +13,13 @@
 #include <optional>
 #include <utility>
 
+#include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/io/toml_text.hpp"
 #include "amble/morphology/leg_guess.hpp"
 #include "amble/morphology/servo_guess.hpp"
 #include "amble/morphology/start_pose.hpp"
+#include "amble/robot/check.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::morphology {
@@ -57,6 +59,8 @@ class RobotGuesser {
 
   RobotGuess guess() {
     choose_start();
+    if (const auto fault = robot::gravity_fault(parts_.gravity_m_s2); !fault.empty())
+      fail(ExitCode::bad_input, "{}: {}", file_.path.string(), fault);
     robot_.bodies = parts_.bodies;
     robot_.geoms = parts_.geoms;
     robot_.joints = parts_.joints;

@@ -165,4 +165,24 @@ void check_robot(const RobotSpec& robot, const std::function<void(const std::str
   Checker(robot, report).check();
 }
 
+std::string gravity_fault(Vec3 gravity_m_s2) {
+  const double size = norm(gravity_m_s2);
+  const std::string is = fmt::format("gravity is ({:.4g}, {:.4g}, {:.4g}) m/s2", gravity_m_s2.x + 0.0,
+                                     gravity_m_s2.y + 0.0, gravity_m_s2.z + 0.0);
+  constexpr const char* down = "(MJCF: <option gravity=\"0 0 -9.81\"/>)";
+  if (!(size > 0.0)) return fmt::format("{}: nothing walks without; expected it along -z {}", is, down);
+  constexpr double cosine_of_30_degrees = 0.8660254037844386;
+  if (gravity_m_s2.z <= -cosine_of_30_degrees * size) return {};
+  if (gravity_m_s2.z >= cosine_of_30_degrees * size)
+    return fmt::format("{}: it points up; expected it along -z {}", is, down);
+  const bool y_up = std::abs(gravity_m_s2.y) > std::abs(gravity_m_s2.x);
+  const double up = y_up ? -gravity_m_s2.y : -gravity_m_s2.x;
+  // By which +90 or −90 degrees the model's up becomes z: about x from y, about y from x.
+  return fmt::format(
+      "{}: the model has {}{} up, while the ground here is z = 0; expected gravity along -z {}, and the root "
+      "body "
+      "turned by {} degrees about {}, which is added to its euler if that has no other part",
+      is, up > 0.0 ? "+" : "-", y_up ? 'y' : 'x', down, (up > 0.0) == y_up ? "90" : "-90", y_up ? 'x' : 'y');
+}
+
 }  // namespace amble::robot

@@ -12,4 +12,8 @@ namespace amble::robot {
 /// and passes a one-line description to `report`, which must throw.
 void check_robot(const RobotSpec& robot, const std::function<void(const std::string& problem)>& report);
 
+/// What is wrong with a gravity for robots that are to walk on the plane z = 0, and what to do about it;
+/// empty if it points down, at most 30 degrees off, as on a slope.
+std::string gravity_fault(Vec3 gravity_m_s2);
+
 }  // namespace amble::robot

@@ -5,16 +5,10 @@
 #include <cctype>
 
 #include "amble/core/check.hpp"
+#include "amble/io/shell.hpp"
 
 namespace amble::study {
 namespace {
-
-/// In single quotes for a shell.
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
 
 std::string job_name(std::string text) {
   for (char& c : text)
@@ -60,8 +54,9 @@ exit $code
       fmt::arg("jobs", cpus),
       fmt::arg("more", (job.per_run == 1 ? "" : fmt::format(" --per-run {}", job.per_run)) +
                            (job.discard_runs ? " --discard-runs" : "")),
-      fmt::arg("minutes", job.minutes), fmt::arg("program", quoted(job.program.string())),
-      fmt::arg("file", quoted(job.file.string())), fmt::arg("out", quoted(job.out.string())));
+      fmt::arg("minutes", job.minutes), fmt::arg("program", io::shell_quoted(job.program.string())),
+      fmt::arg("file", io::shell_quoted(job.file.string())),
+      fmt::arg("out", io::shell_quoted(job.out.string())));
 }
 
 }  // namespace amble::study

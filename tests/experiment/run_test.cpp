@@ -420,6 +420,7 @@ TEST(Run, GoesOnWithTheColumnsOfATableThatAnEarlierBuildBegan) {
   RunState state(config, small_problem(config));
   state.progress = load_checkpoint(paths.checkpoint, config, *state.strategy);
   state.progress.csv_bytes = earlier.size();
+  state.progress.csv_digest = 0;  // they had none
   save_checkpoint(paths.checkpoint, config, state.progress, *state.strategy);
 
   ASSERT_EQ(Run::resume(scratch / "run", 4, 1).execute(listener, listener.stop), RunStatus::finished);

@@ -1,0 +1,244 @@
+#include "amble/experiment/start_look.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <set>
+
+#include "amble/core/index.hpp"
+#include "amble/physics/engine.hpp"
+#include "amble/robot/pose.hpp"
+
+namespace amble::experiment {
+namespace {
+
+using robot::RobotSpec;
+
+/// For this long the start pose is held, s.
+constexpr double hold_s = 1.0;
+/// A trunk that is lower than this share of the legs' length is hardly carried by them.
+constexpr double crouching_share = 0.15;
+/// Robots have between a hundredth and thirty times the density of water: the paper's quadruped has 22 kg/m3.
+constexpr double least_kg_per_m3 = 10.0, most_kg_per_m3 = 30000.0, usual_kg_per_m3 = 1000.0;
+
+/// Nothing for a mesh, whose volume would have to be computed.
+std::optional<double> volume_m3(const robot::Geom& geom) {
+  const Vec3 size = geom.size_m;
+  const double disc_m2 = std::numbers::pi * size.x * size.x;
+  switch (geom.shape) {
+    case robot::Shape::sphere:
+      return 4.0 / 3.0 * disc_m2 * size.x;
+    case robot::Shape::capsule:
+      return 4.0 / 3.0 * disc_m2 * size.x + 2.0 * disc_m2 * size.y;
+    case robot::Shape::cylinder:
+      return 2.0 * disc_m2 * size.y;
+    case robot::Shape::box:
+      return 8.0 * size.x * size.y * size.z;
+    case robot::Shape::mesh:
+      break;
+  }
+  return std::nullopt;
+}
+
+/// Of lengths that are too large by a factor of about 10, 100 or 1000.
+std::string unit_of(double kg_per_m3) {
+  constexpr std::array units{"decimetres", "centimetres", "millimetres"};
+  const double tens = std::log10(usual_kg_per_m3 / kg_per_m3) / 3.0;
+  return units[to_index(std::clamp<int>(static_cast<int>(std::lround(tens)), 1, 3) - 1)];
+}
+
+void look_at_mass(const RobotSpec& robot, std::vector<std::string>& odd) {
+  double all_m3 = 0.0;
+  for (const robot::Geom& geom : robot.geoms) {
+    if (!geom.collides) continue;
+    const auto one_m3 = volume_m3(geom);
+    if (!one_m3) return;
+    all_m3 += *one_m3;
+  }
+  const double mass_kg = robot.total_mass_kg();
+  if (all_m3 <= 0.0) return;
+  const double kg_per_m3 = mass_kg / all_m3;
+  if (kg_per_m3 < least_kg_per_m3)
+    odd.push_back(fmt::format(
+        "mass: {:.3g} kg in shapes of {:.3g} m3 is {:.2g} kg/m3, less than foam: are its lengths in "
+        "{}, or masses missing? amble takes metres and kilograms",
+        mass_kg, all_m3, kg_per_m3, unit_of(kg_per_m3)));
+  if (kg_per_m3 > most_kg_per_m3)
+    odd.push_back(fmt::format(
+        "mass: {:.3g} kg in shapes of {:.3g} m3 is {:.2g} kg/m3, more than any metal: are its masses "
+        "in grams, or shapes missing? amble takes metres and kilograms",
+        mass_kg, all_m3, kg_per_m3));
+}
+
+std::string axis_of(Vec3 v) {
+  const std::array sizes{std::abs(v.x), std::abs(v.y), std::abs(v.z)};
+  const auto largest = std::ranges::max_element(sizes) - sizes.begin();
+  const double value = largest == 0 ? v.x : largest == 1 ? v.y : v.z;
+  return fmt::format("{}{}", value < 0.0 ? '-' : '+', "xyz"[largest]);
+}
+
+/// From the first joint of each leg to its foot, all together: legs that spread to all sides point down.
+void look_at_legs(const RobotSpec& robot, std::vector<std::string>& odd) {
+  const auto poses = robot::start_poses(robot);
+  Vec3 sum{};
+  double lengths_m = 0.0;
+  for (const robot::Leg& leg : robot.legs) {
+    const auto first = std::ranges::find_if(leg.joints, [](int joint) { return joint >= 0; });
+    if (first == leg.joints.end()) continue;
+    const robot::Joint& joint = robot.joints[to_index(*first)];
+    const Vec3 along = robot::centre_m(robot.geoms[to_index(leg.foot_geom)], poses) -
+                       poses[to_index(joint.body)] * joint.anchor_m;
+    sum = sum + along;
+    lengths_m += norm(along);
+  }
+  constexpr double together = 0.3, steepness = 0.5;
+  if (norm(sum) > together * lengths_m && sum.z > -steepness * norm(sum))
+    odd.push_back(fmt::format(
+        "legs: they point along {}, not down: if the model has another axis up than z, turn its root "
+        "(MJCF: euler or quat of the body; URDF: the origin of the first joint)",
+        axis_of(sum)));
+}
+
+/// From the foot up the chain, joint by joint.
+double longest_leg_m(const RobotSpec& robot, const std::vector<robot::Pose>& poses) {
+  double longest_m = 0.0;
+  for (const robot::Leg& leg : robot.legs) {
+    const robot::Geom& foot = robot.geoms[to_index(leg.foot_geom)];
+    Vec3 end = robot::centre_m(foot, poses);
+    double length_m = 0.0;
+    for (int body = foot.body; body > 0; body = robot.bodies[to_index(body)].parent)
+      for (const int j : robot.joints_of_body(body)) {
+        if (std::ranges::find(leg.joints, j) == leg.joints.end()) continue;
+        const Vec3 anchor = poses[to_index(body)] * robot.joints[to_index(j)].anchor_m;
+        length_m += norm(end - anchor);
+        end = anchor;
+      }
+    longest_m = std::max(longest_m, length_m);
+  }
+  return longest_m;
+}
+
+/// What a held robot has done so far.
+class Hold {
+ public:
+  Hold(const RobotSpec& robot, const std::string& engine, double timestep_s)
+      : robot_(robot),
+        timestep_s_(timestep_s),
+        engine_(physics::make_engine(engine, robot, {.timestep_s = timestep_s})),
+        targets_rad_(static_cast<int>(robot.joints.size()), engine_->lanes()) {
+    engine_->place(0);
+    start_ = engine_->root_pose(0);
+    start_com_m_ = engine_->com_m(0).z;
+    highest_com_m_ = start_com_m_;
+  }
+
+  void look(std::vector<std::string>& odd) {
+    const auto steps = static_cast<int>(std::lround(hold_s / timestep_s_));
+    if (fallen())
+      odd.push_back(
+          fmt::format("start: it has fallen before its first step: its root's centre of mass is at {:.3g} m, "
+                      "fall_height_m is {:.3g}",
+                      engine_->root_com_m(0).z, robot_.fall_height_m));
+    else
+      for (int step = 1; step <= steps && odd_.empty(); ++step) advance(step);
+    if (odd_.empty() && !fallen()) at_end();
+    odd.insert(odd.end(), odd_.begin(), odd_.end());
+  }
+
+ private:
+  bool fallen() const { return engine_->root_com_m(0).z < robot_.fall_height_m; }
+
+  void advance(int step) {
+    engine_->step(targets_rad_);
+    const double at_s = step * timestep_s_;
+    if (!engine_->healthy(0)) {
+      odd_.push_back(
+          fmt::format("held in its start pose it diverges after {:.2f} s: look for links that are far "
+                      "lighter than their motors are strong, or a start in the ground",
+                      at_s));
+      return;
+    }
+    highest_com_m_ = std::max(highest_com_m_, engine_->com_m(0).z);
+    if (fallen()) odd_.push_back(fmt::format("held in its start pose it falls within {:.2f} s", at_s));
+  }
+
+  std::vector<robot::Pose> poses() const {
+    const auto root = engine_->root_pose(0);
+    std::vector<double> angles_rad;
+    for (int j = 0; j < targets_rad_.rows(); ++j)
+      angles_rad.push_back(double{engine_->sensors().joint_angle_rad.at(j, 0)});
+    return robot::poses_at(robot_, {root.position_m, root.rotation}, angles_rad);
+  }
+
+  void at_end() {
+    constexpr double tipped_cosine = 0.7, thrown_share = 0.5, sunk_share = 0.25;
+    const Vec3 up_now = rotate(engine_->root_pose(0).rotation, Vec3{0.0, 0.0, 1.0}),
+               up_then = rotate(start_.rotation, Vec3{0.0, 0.0, 1.0});
+    if (dot(up_now, up_then) < tipped_cosine) odd_.push_back("held in its start pose it tips over");
+    if (highest_com_m_ > (1.0 + thrown_share) * start_com_m_)
+      odd_.push_back(
+          fmt::format("held in its start pose it is thrown up by {:.3g} m: it starts in the ground, or in "
+                      "itself",
+                      highest_com_m_ - start_com_m_));
+    if (const double sunk_m = start_com_m_ - engine_->com_m(0).z; sunk_m > sunk_share * start_com_m_)
+      odd_.push_back(
+          fmt::format("held in its start pose it sinks by {:.3g} m of {:.3g}: its servos are weak for its "
+                      "weight, or its start is in the air",
+                      sunk_m, start_com_m_));
+    what_carries(poses());
+  }
+
+  void what_carries(const std::vector<robot::Pose>& poses) {
+    if (robot_.legs.empty()) return;
+    const double legs_m = longest_leg_m(robot_, poses);
+    // On more than four legs, which spread to all sides, a low trunk is no fall.
+    const double crouching_m = robot_.legs.size() > 4 ? 0.0 : crouching_share * legs_m;
+    double lowest_m = std::max(crouching_m, 0.01 * legs_m);
+    std::string lowest;
+    std::set<int> feet;
+    for (const robot::Leg& leg : robot_.legs) feet.insert(leg.foot_geom);
+    for (int g = 0; g < static_cast<int>(robot_.geoms.size()); ++g) {
+      const robot::Geom& geom = robot_.geoms[to_index(g)];
+      if (!geom.collides || feet.contains(g) || robot_.leg_of_body(geom.body) >= 0) continue;
+      const double bottom_m = robot::bottom_m(geom, poses);
+      if (bottom_m >= lowest_m) continue;
+      lowest_m = bottom_m;
+      lowest = robot_.bodies[to_index(geom.body)].name;
+    }
+    if (!lowest.empty())
+      odd_.push_back(fmt::format(
+          "held in its start pose it {}: '{}' is {:.2g} m over the ground, its legs are {:.2g} m long. Give "
+          "it a start in "
+          "which it stands (start, start_height_m and [start_angle] in the robot file)",
+          lowest_m < 0.01 * legs_m ? "lies" : "crouches", lowest, std::max(lowest_m, 0.0), legs_m));
+    const auto& touch = engine_->sensors().touch;
+    bool touches = false;
+    for (int leg = 0; leg < touch.rows(); ++leg) touches = touches || touch.at(leg, 0) != 0.0f;
+    if (!touches) odd_.push_back("held in its start pose it touches the ground with no foot");
+  }
+
+  const RobotSpec& robot_;
+  const double timestep_s_;
+  std::unique_ptr<physics::Engine> engine_;
+  LaneArray targets_rad_;
+  physics::RootPose start_;
+  double start_com_m_ = 0.0, highest_com_m_ = 0.0;
+  std::vector<std::string> odd_;
+};
+
+}  // namespace
+
+std::vector<std::string> odd_at_start(const RobotSpec& robot, const std::string& engine, double timestep_s) {
+  std::vector<std::string> odd;
+  look_at_mass(robot, odd);
+  look_at_legs(robot, odd);
+  Hold(robot, engine, timestep_s).look(odd);
+  return odd;
+}
+
+}  // namespace amble::experiment
