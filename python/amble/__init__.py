@@ -5,6 +5,7 @@ Search (ask and tell), evaluate() and Controllers take search, simulation and co
 step by step. docs/PYTHON.md has recipes.
 """
 
+from . import _built  # first: says so if the module was built for another Python
 from ._amble import (Champion, Config, Controllers, Error, Genome, Problem, Recording, Robots, Run, Search, __commit__,
                      __version__, evaluate, evolve, gait, load_config, resume)
 from ._data import data_folder, robots

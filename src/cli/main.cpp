@@ -2,7 +2,9 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
+#include <new>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -88,6 +90,8 @@ ExitCode run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   amble::cli::reserve_standard_streams();
+  // A file that reaches the limit of its size (ulimit -f) is an error like a full disk, with its name.
+  std::signal(SIGXFSZ, SIG_IGN);
   ExitCode code = ExitCode::internal;
   try {
     code = run(argc, argv);
@@ -96,6 +100,13 @@ int main(int argc, char** argv) {
     code = report(error.code(), error.what());
   } catch (const std::system_error& error) {  // of files: permissions, a full device
     code = report(ExitCode::io, error.what());
+  } catch (const std::bad_alloc&) {
+    code = report(
+        ExitCode::io,
+        fmt::format(
+            "not enough memory for `amble {}`: the system refused more; a higher limit (ulimit -v, the "
+            "job's memory), fewer --jobs or smaller inputs may help",
+            argc > 1 ? argv[1] : ""));
   } catch (const std::exception& error) {
     code = report(ExitCode::internal, fmt::format("defect: {}", error.what()));
   }

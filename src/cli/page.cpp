@@ -110,6 +110,7 @@ page::RunPage page_of(const experiment::RunPaths& paths, const experiment::Confi
 }
 
 ExitCode make_page(const PageOptions& options) {
+  stop_signal();  // from here on what is in the folder for temporary files is removed
   const experiment::RunPaths paths = experiment::find_run(options.run);
   refuse_to_replace_others(options);
   const auto config = experiment::load_config(paths.config, {});

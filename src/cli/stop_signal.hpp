@@ -4,7 +4,8 @@
 
 namespace amble::cli {
 
-/// Set once SIGINT, SIGTERM or SIGUSR1 has come. The first call installs the handlers.
+/// Set once SIGINT, SIGTERM, SIGUSR1 or SIGHUP has come (SIGHUP not under nohup). The first call installs the
+/// handlers.
 const std::atomic<bool>& stop_signal();
 
 }  // namespace amble::cli

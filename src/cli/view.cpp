@@ -145,6 +145,7 @@ void give_titles(Walkers& walkers, const ViewOptions& options) {
 }
 
 ExitCode make_view(const ViewOptions& options) {
+  stop_signal();  // from here on what is in the folder for temporary files is removed
   io::refuse_to_replace(options.out, "<!DOCTYPE html>", "a page");
   if (options.history && options.inputs.size() > 1)
     fail(ExitCode::bad_input, "--history: expected one run folder, not {} inputs", options.inputs.size());

@@ -1,6 +1,7 @@
 #include "amble/experiment/run.hpp"
 
 #include <algorithm>
+#include <new>
 #include <utility>
 
 #include "amble/core/clock.hpp"
@@ -10,6 +11,7 @@
 #include "amble/experiment/champion_trials.hpp"
 #include "amble/experiment/episodes.hpp"
 #include "amble/experiment/generation.hpp"
+#include "amble/experiment/memory_need.hpp"
 #include "amble/experiment/recovery.hpp"
 #include "amble/experiment/typical.hpp"
 
@@ -32,6 +34,14 @@ std::unique_ptr<const Problem> checked_problem(const Config& config, const robot
   return problem;
 }
 
+RunState first_state(const Config& config, const Problem& problem) {
+  try {
+    return {config, problem};
+  } catch (const std::bad_alloc&) {
+    throw out_of_memory(config, problem);
+  }
+}
+
 }  // namespace
 
 Run::Run(RunFolder folder, const Config& config, std::unique_ptr<const Problem> problem, RunState state,
@@ -51,7 +61,7 @@ Run Run::start(const std::filesystem::path& folder, const Config& config, int jo
 Run Run::start(const std::filesystem::path& folder, const Config& config, const robot::RobotSpec& robot,
                int jobs) {
   auto problem = checked_problem(config, robot);  // before anything is written
-  RunState state(config, *problem);
+  RunState state = first_state(config, *problem);
   auto held = RunFolder::create(folder, robot);
   auto files = RunFiles::start(held.paths(), config, state);
   held.note_process(config, jobs, 0);
@@ -78,9 +88,13 @@ Run Run::resume(const std::filesystem::path& folder, std::optional<int> generati
 }
 
 RunStatus Run::execute(RunListener& listener, const std::atomic<bool>& stop) {
-  const RunStatus status = generations(listener, stop);
-  files_.settle();
-  return status;
+  try {
+    const RunStatus status = generations(listener, stop);
+    files_.settle();
+    return status;
+  } catch (const std::bad_alloc&) {
+    throw out_of_memory(config_, *problem_);
+  }
 }
 
 // The generation loop: ask, evaluate, keep the best, tell, write.

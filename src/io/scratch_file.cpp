@@ -14,10 +14,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path new_folder() {
+/// TMPDIR, or /tmp where it is not set; set to nothing is not set.
+fs::path folder_for_temporary_files() {
+  const char* const set = std::getenv("TMPDIR");
+  if (set == nullptr || *set == '\0') return "/tmp";
   std::error_code error;
-  const fs::path parent = fs::temp_directory_path(error);
-  if (error) fail(ExitCode::io, "the folder for temporary files (TMPDIR): {}", error.message());
+  if (!fs::is_directory(set, error))
+    fail(ExitCode::io, "TMPDIR={}: {}: expected a folder for temporary files", set,
+         error ? error.message() : "not a folder");
+  return set;
+}
+
+fs::path new_folder() {
+  const fs::path parent = folder_for_temporary_files();
   std::string name = (parent / "amble-XXXXXX").string();
   if (::mkdtemp(name.data()) == nullptr)
     fail(ExitCode::io, "cannot make folder {}: {}", name, std::generic_category().message(errno));

@@ -74,13 +74,21 @@ void NoveltySettings::check_memory(std::size_t behaviour_length, int population,
                             static_cast<double>(population) * sizeof(float);
   const double bytes = per_member * archive_limit;
   constexpr double giga = 1e9;
-  if (bytes > memory_bytes)
-    fail_setting(
-        {"search.novelty.archive_limit"},
-        "search.novelty.archive_limit = {}: that many behaviours of {} numbers need {:.1f} GB; expected at "
-        "most {:.0f}, for the {:.1f} GB that this process may use",
-        archive_limit, behaviour_length, bytes / giga, std::floor(memory_bytes / per_member),
-        memory_bytes / giga);
+  if (bytes <= memory_bytes) return;
+  // The products with the candidates may be more than the behaviours themselves.
+  const double without_population = per_member - static_cast<double>(population) * sizeof(float);
+  if (without_population * archive_limit <= memory_bytes)
+    fail_setting({"population.size", "search.novelty.archive_limit"},
+                 "population.size = {} × search.novelty.archive_limit = {}: the distances between them need "
+                 "{:.1f} GB; "
+                 "expected less of either, for the {:.1f} GB that this process may use",
+                 population, archive_limit, bytes / giga, memory_bytes / giga);
+  fail_setting(
+      {"search.novelty.archive_limit"},
+      "search.novelty.archive_limit = {}: that many behaviours of {} numbers need {:.1f} GB; expected at "
+      "most {:.0f}, for the {:.1f} GB that this process may use",
+      archive_limit, behaviour_length, bytes / giga, std::floor(memory_bytes / per_member),
+      memory_bytes / giga);
 }
 
 }  // namespace amble::search
