@@ -14,6 +14,7 @@
 #include "amble/cli/messages.hpp"
 #include "amble/cli/usage_error.hpp"
 #include "amble/experiment/build_info.hpp"
+#include "amble/io/shell.hpp"
 #include "amble/physics/engine.hpp"
 #include "amble/physics/instruction_set.hpp"
 
@@ -28,6 +29,14 @@ ExitCode report(ExitCode code, std::string text) {
   while (text.ends_with(' ')) text.pop_back();
   amble::cli::print_message(fmt::format("amble: {}\n", text));
   return code;
+}
+
+/// The command that was given, as it could be given again.
+std::string command_line(int argc, char** argv) {
+  std::string line = "amble";
+  for (int i = 1; i < argc; ++i)
+    line += " " + (argv[i][0] == '-' ? std::string(argv[i]) : amble::io::shell_word(argv[i]));
+  return line;
 }
 
 /// Of each line the first word is its name.
@@ -99,7 +108,7 @@ int main(int argc, char** argv) {
   } catch (const amble::UserError& error) {
     code = report(error.code(), error.what());
   } catch (const std::system_error& error) {  // of files: permissions, a full device
-    code = report(ExitCode::io, error.what());
+    code = report(ExitCode::io, fmt::format("{}, in: {}", error.what(), command_line(argc, argv)));
   } catch (const std::bad_alloc&) {
     code = report(
         ExitCode::io,
@@ -108,7 +117,8 @@ int main(int argc, char** argv) {
             "job's memory), fewer --jobs or smaller inputs may help",
             argc > 1 ? argv[1] : ""));
   } catch (const std::exception& error) {
-    code = report(ExitCode::internal, fmt::format("defect: {}", error.what()));
+    code =
+        report(ExitCode::internal, fmt::format("defect: {}, in: {}", error.what(), command_line(argc, argv)));
   }
   return static_cast<int>(code);
 }

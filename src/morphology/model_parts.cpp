@@ -114,7 +114,15 @@ class PartsExtractor {
     if (joints == 1 && model_.jnt_type[first] == mjJNT_FREE) return;
     if (joints == 0 && file_.root_is_welded) return;
     std::vector<std::string> names;
-    for (int j = first; j < first + joints; ++j) names.emplace_back(joint_name(j));
+    for (int j = first; j < first + joints; ++j) {
+      const std::string name(joint_name(j));
+      const int type = model_.jnt_type[j];
+      names.push_back(!name.empty()         ? name
+                      : type == mjJNT_SLIDE ? "a slide joint"
+                      : type == mjJNT_HINGE ? "a hinge"
+                      : type == mjJNT_BALL  ? "a ball joint"
+                                            : "a free joint");
+    }
     if (joints == 0)
       note(Reading::replaced, "root '{}' was fixed to the world: it is free to move", body_name(root_));
     else

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <deque>
 #include <map>
 #include <set>
@@ -14,6 +16,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/shell.hpp"
 #include "amble/morphology/urdf_text.hpp"
 
 namespace amble::morphology {
@@ -251,8 +254,9 @@ class MjcfCleaner {
       if (!file) return;
       const fs::path name = strip_path_ ? fs::path(*file).filename() : fs::path(*file);
       if (!element.attribute("name")) element.set("name", name.stem().string());
-      if (is_readable_mesh(folder_ / mesh_folder_ / name)) return;
-      text_.missing_meshes[*element.attribute("name")] = *file;
+      const fs::path path = folder_ / mesh_folder_ / name;
+      if (is_readable_mesh(path)) return;
+      text_.missing_meshes[*element.attribute("name")] = *file + (is_text_stl(path) ? text_stl_remark : "");
       for (const char* key : {"file", "vertex", "face", "normal", "texcoord", "scale", "content_type"})
         element.remove_attribute(key);
       element.set("vertex", "0 0 0 .001 0 0 0 .001 0 0 0 .001");
@@ -266,6 +270,29 @@ class MjcfCleaner {
   ReadingNotes& notes_;
 };
 
+bool has_ending(const fs::path& path, std::string_view ending) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension == ending;
+}
+
+/// A URDF with macros, which a program of ROS expands. Expanded files still declare its names.
+void refuse_xacro(const XmlElement& root, const fs::path& path) {
+  bool macros = path.extension() == ".xacro";
+  root.visit([&](const XmlElement& element) {
+    macros = macros || element.name.starts_with("xacro:");
+    for (const auto& [key, value] : element.attributes)
+      macros = macros || value.find("${") != std::string::npos || value.find("$(") != std::string::npos;
+  });
+  if (root.name != "robot" || !macros) return;
+  const std::string file = path.string(), stem = path.stem().string();
+  const std::string expanded = path.extension() == ".urdf" ? stem + "_expanded.urdf"
+                               : stem.ends_with(".urdf")   ? stem
+                                                           : stem + ".urdf";
+  fail(ExitCode::bad_input, "{}: a xacro file, a URDF with macros; expand it first: xacro {} > {}", file,
+       io::shell_word(file), io::shell_word((path.parent_path() / expanded).string()));
+}
+
 }  // namespace
 
 double positive_or_zero(const std::optional<std::string>& text) {
@@ -273,12 +300,24 @@ double positive_or_zero(const std::optional<std::string>& text) {
   return number > 0.0 && number < 1e9 ? number : 0.0;
 }
 
-bool is_readable_mesh(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  const bool known = extension == ".stl" || extension == ".obj" || extension == ".msh";
+// It begins with "solid", as the header of a binary file may, and has not the size that a binary file has.
+bool is_text_stl(const fs::path& path) {
+  constexpr std::size_t header = 80, count = 4, facet = 50;
   std::error_code error;
-  return known && fs::is_regular_file(path, error) && fs::file_size(path, error) <= largest_file_bytes;
+  if (!has_ending(path, ".stl") || !fs::is_regular_file(path, error)) return false;
+  const std::string start = io::InputFile(path).read(header + count);
+  if (!start.starts_with("solid")) return false;
+  if (start.size() < header + count) return true;
+  std::uint32_t facets = 0;
+  std::memcpy(&facets, start.data() + header, sizeof facets);
+  return fs::file_size(path) != header + count + facet * std::uint64_t{facets};
+}
+
+bool is_readable_mesh(const fs::path& path) {
+  std::error_code error;
+  return (has_ending(path, ".stl") || has_ending(path, ".obj") || has_ending(path, ".msh")) &&
+         fs::is_regular_file(path, error) && fs::file_size(path, error) <= largest_file_bytes &&
+         !is_text_stl(path);
 }
 
 ModelText read_model_text(const fs::path& path, ReadingNotes& notes) {
@@ -286,9 +325,11 @@ ModelText read_model_text(const fs::path& path, ReadingNotes& notes) {
   text.urdf = path.extension() == ".urdf";
   if (text.urdf) {
     text.root = parse_xml(io::read_file(path, largest_file_bytes), path.string());
+    refuse_xacro(text.root, path);
     clean_urdf(text, path, notes);
   } else {
     text.root = Includer(path).read(path);
+    refuse_xacro(text.root, path);
     // An unknown root is left to the compiler, as unknown elements are.
     MjcfCleaner(text, path, notes).clean();
   }

@@ -36,6 +36,11 @@ double positive_or_zero(const std::optional<std::string>& text);
 /// Whether it is a file that MuJoCo reads as a mesh, by its name's end and size.
 bool is_readable_mesh(const std::filesystem::path& path);
 
+/// Whether it is an STL in the text form of that format, which MuJoCo refuses.
+bool is_text_stl(const std::filesystem::path& path);
+/// What follows its name in messages.
+inline constexpr const char* text_stl_remark = " (an STL in text form: save it as binary STL)";
+
 /// Reads MJCF with its includes, or URDF (.urdf). Everything that no robot needs is removed: textures,
 /// sensors, visual and statistic settings, height fields and so on. Throws UserError: files larger than 50
 /// MB, more than 1000 bodies, entities, includes outside the model's folder, of a file in itself, or more

@@ -53,6 +53,20 @@ double inward(double value, double start) {
   return (value < start ? std::ceil(scaled - 1e-6) : std::floor(scaled + 1e-6)) / 1e4;
 }
 
+/// Whole millimetres; of less than a centimetre three digits.
+double rounded_down(double length_m) {
+  double steps_per_m = 1e3;
+  while (length_m > 0.0 && length_m * steps_per_m < 10.0 && steps_per_m < 1e12) steps_per_m *= 10.0;
+  return std::floor(steps_per_m * length_m) / steps_per_m;
+}
+
+/// Whole tenths of millimetres; of less than a millimetre two digits.
+double rounded_up(double length_m) {
+  double steps_per_m = 1e4;
+  while (length_m > 0.0 && length_m * steps_per_m < 10.0 && steps_per_m < 1e12) steps_per_m *= 10.0;
+  return std::ceil(length_m * steps_per_m - 1e-6) / steps_per_m;
+}
+
 class RobotGuesser {
  public:
   RobotGuesser(const ModelFile& file, const std::filesystem::path& model) : file_(file), model_(model) {}
@@ -169,7 +183,7 @@ class RobotGuesser {
     }
     const auto poses = robot::start_poses(robot_);
     const double clearance_m = robot::clearance_m(robot_, poses), root_m = robot_.bodies[0].position_m.z;
-    const double raised_m = std::ceil((root_m - clearance_m) * 1e4 - 1e-6) / 1e4;
+    const double raised_m = rounded_up(root_m - clearance_m);
     double lift_m = 0.0;
     if (std::isfinite(clearance_m) && raised_m > 0.0) {
       line("# The lowest point touches the ground; the model has {:.4g}.", root_m);
@@ -199,11 +213,11 @@ class RobotGuesser {
           "With more than four legs a low trunk is no fall: this is the height of the root's centre of "
           "mass where {} of the trunk's clearance are left.",
           lying_share));
-      line("fall_height_m = {}", std::floor(1e3 * lying_m) / 1e3);
+      line("fall_height_m = {}", rounded_down(lying_m));
       return;
     }
     line("# Half the height at which the root's centre of mass starts.");
-    line("fall_height_m = {}", std::floor(1e3 * half_m) / 1e3);
+    line("fall_height_m = {}", rounded_down(half_m));
   }
 
   void write_names() {

@@ -45,7 +45,8 @@ void set_options(XmlElement& root, const fs::path& path) {
 /// The file that a URDF means by a mesh's name, which may be package://PACKAGE/PATH: beside the URDF, in one
 /// of the folders above it, with or without the package's name, or of that name in a folder `meshes`. Empty
 /// if there is none.
-fs::path mesh_of_urdf(const fs::path& folder, std::string name) {
+fs::path mesh_of_urdf(const fs::path& folder, std::string name,
+                      bool (*wanted)(const fs::path&) = is_readable_mesh) {
   for (const std::string_view scheme : {"package://", "file://"})
     if (name.starts_with(scheme)) name.erase(0, scheme.size());
   const fs::path whole(name);
@@ -53,7 +54,7 @@ fs::path mesh_of_urdf(const fs::path& folder, std::string name) {
   for (auto part = whole.begin(); part != whole.end(); ++part)
     if (part != whole.begin()) rest /= *part;
   std::vector<fs::path> candidates;
-  fs::path above = fs::absolute(folder).lexically_normal();
+  fs::path above = fs::absolute(folder.empty() ? "." : folder).lexically_normal();
   constexpr int most_folders = 8;
   for (int i = 0; i < most_folders && above.has_relative_path(); ++i, above = above.parent_path()) {
     candidates.push_back(above / whole);
@@ -62,8 +63,13 @@ fs::path mesh_of_urdf(const fs::path& folder, std::string name) {
   candidates.insert(candidates.end(), {folder / whole.filename(), folder / "meshes" / whole.filename(),
                                        folder / ".." / "meshes" / whole.filename()});
   for (const fs::path& candidate : candidates)
-    if (is_readable_mesh(candidate)) return fs::absolute(candidate).lexically_normal();
+    if (wanted(candidate)) return fs::absolute(candidate).lexically_normal();
   return {};
+}
+
+/// A mesh that is not there, as it is to be told.
+std::string missing_mesh(const fs::path& folder, const std::string& name) {
+  return mesh_of_urdf(folder, name, is_text_stl).empty() ? name : name + text_stl_remark;
 }
 
 std::optional<std::string> mesh_name(const XmlElement& shape) {
@@ -95,7 +101,7 @@ void choose_visuals(XmlElement& root, const fs::path& folder, ReadingNotes& note
       return true;
     const auto mesh = mesh_name(element);
     if (!mesh || !mesh_of_urdf(folder, *mesh).empty()) return false;
-    missing.insert(fs::path(*mesh).filename().string());
+    missing.insert(fs::path(missing_mesh(folder, *mesh)).filename().string());
     return true;
   });
   if (!missing.empty())
@@ -135,6 +141,33 @@ void balance_inertias(XmlElement& root, ReadingNotes& notes) {
                           fmt::join(balanced, ", ")));
 }
 
+/// Joints whose limits leave no range, which MuJoCo takes for joints without stops.
+void note_lost_limits(XmlElement& root, ReadingNotes& notes) {
+  std::vector<std::string> crossed, empty;
+  root.visit([&](XmlElement& joint, XmlElement*) {
+    const std::string type = joint.attribute_or("type", "");
+    const XmlElement* const limit = joint.child("limit");
+    if (joint.name != "joint" || (type != "revolute" && type != "prismatic") || limit == nullptr) return;
+    const auto read = [&](const char* key) {
+      return std::strtod(limit->attribute_or(key, "0").c_str(), nullptr);
+    };
+    const double lower = read("lower"), upper = read("upper");
+    if (lower > upper)
+      crossed.push_back(fmt::format("{} ({} to {})", joint.attribute_or("name", ""), lower, upper));
+    else if (lower == upper)
+      empty.push_back(joint.attribute_or("name", ""));
+  });
+  if (!crossed.empty())
+    notes.add(Reading::replaced,
+              fmt::format("limits whose lower is above their upper: these joints have no stops: {}",
+                          fmt::join(crossed, ", ")));
+  if (!empty.empty())
+    notes.add(Reading::replaced,
+              fmt::format("limits that leave no range, as exporters write them where none are "
+                          "known: these joints have no stops: {}",
+                          fmt::join(empty, ", ")));
+}
+
 }  // namespace
 
 void clean_urdf(ModelText& text, const fs::path& path, ReadingNotes& notes) {
@@ -152,6 +185,7 @@ void clean_urdf(ModelText& text, const fs::path& path, ReadingNotes& notes) {
     return element.name == "mimic" || element.name == "transmission" || element.name == "gazebo";
   });
   balance_inertias(root, notes);
+  note_lost_limits(root, notes);
   std::set<std::string> missing;
   root.visit([&](XmlElement& element, XmlElement*) {
     if (element.name == "joint") {
@@ -163,7 +197,7 @@ void clean_urdf(ModelText& text, const fs::path& path, ReadingNotes& notes) {
     }
     if (element.name != "mesh" || !element.attribute("filename")) return;
     const fs::path file = mesh_of_urdf(path.parent_path(), *element.attribute("filename"));
-    if (file.empty()) missing.insert(*element.attribute("filename"));
+    if (file.empty()) missing.insert(missing_mesh(path.parent_path(), *element.attribute("filename")));
     element.set("filename", file.string());
   });
   if (!missing.empty())
