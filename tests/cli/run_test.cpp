@@ -103,7 +103,7 @@ TEST_P(StopSignal, EndsARunWithItsOwnExitCodeAndACheckpointToGoOnFrom) {
   EXPECT_EQ(resumed.exit_code, ok) << resumed.err;
 }
 
-INSTANTIATE_TEST_SUITE_P(Run, StopSignal, testing::Values(SIGINT, SIGTERM, SIGUSR1));
+INSTANTIATE_TEST_SUITE_P(Run, StopSignal, testing::Values(SIGINT, SIGTERM, SIGUSR1, SIGHUP));
 
 TEST(Run, IsLeftAloneByASecondProcess) {
   const TemporaryFolder scratch;

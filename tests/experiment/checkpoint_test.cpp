@@ -76,6 +76,18 @@ TEST_F(Checkpoint, RestoresProgressAndPopulation) {
   EXPECT_TRUE(std::ranges::equal(other.strategy->ask(), state_.strategy->ask()));
 }
 
+TEST_F(Checkpoint, OfTheVersionBeforeIsReadAsOneWithoutADigestOfTheTable) {
+  constexpr std::size_t header = 28, digest_at = header + 8 + 8 + 4 + 8 + 8 + 8 + 8;
+  const std::string payload =
+      bytes_.substr(header, digest_at - header) + bytes_.substr(digest_at + sizeof(std::uint64_t));
+  EXPECT_EQ(error_of(io::seal("AMBLECKP", undigested_checkpoint_version, payload)), "");
+  const RunState other(config_, problem_);
+  const Progress progress = load_checkpoint(path_, config_, *other.strategy);
+  EXPECT_EQ(progress.csv_bytes, state_.progress.csv_bytes);
+  EXPECT_EQ(progress.csv_digest, 0u);
+  EXPECT_NE(error_of(io::seal("AMBLECKP", 2, payload)), "");
+}
+
 TEST_F(Checkpoint, IsRefusedWhenTruncatedAnywhere) {
   for (std::size_t length = 0; length < bytes_.size(); length += 1 + bytes_.size() / 50)
     EXPECT_THAT(error_of(bytes_.substr(0, length)), HasSubstr("checkpoint.bin")) << length;
@@ -109,7 +121,8 @@ TEST_F(Checkpoint, ReaderThrowsNothingButUserErrorsForDamageUnderAValidChecksum)
       payload[8 + stream.below(static_cast<std::uint32_t>(payload.size() - 8))] =
           static_cast<char>(stream.below(256));
     if (stream.chance(0.3)) payload.resize(stream.below(static_cast<std::uint32_t>(payload.size())));
-    error_of(io::seal("AMBLECKP", 3, payload));
+    error_of(
+        io::seal("AMBLECKP", round % 2 == 0 ? checkpoint_version : undigested_checkpoint_version, payload));
   }
 }
 

@@ -50,6 +50,14 @@ TEST(ReadFile, SaysWhyItCannot) {
   EXPECT_EQ(read_file(large, 5), "12345");
 }
 
+TEST(InputFile, ReadsWhatIsInMemoryAsItReadsAFile) {
+  InputFile held("abcdefg", "f");
+  EXPECT_EQ(held.read(3), "abc");
+  EXPECT_EQ(held.read(0), "");
+  EXPECT_EQ(held.read(100), "defg");
+  EXPECT_EQ(held.read(1), "");
+}
+
 TEST(InputFile, ReadsPieceByPieceUpToTheEnd) {
   const test::TemporaryFolder folder;
   InputFile file(folder.put("f", "abcdefg"));

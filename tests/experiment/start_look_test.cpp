@@ -1,0 +1,155 @@
+#include "amble/experiment/start_look.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "amble/experiment/problem.hpp"
+#include "amble/experiment/trial_tally.hpp"
+#include "amble/robot/check.hpp"
+#include "tests/experiment/fixture.hpp"
+
+namespace amble::experiment {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+robot::RobotSpec own_robot(const std::string& name) {
+  return load_robot_file(AMBLE_SOURCE_DIR "/robots/" + name + ".toml");
+}
+
+class EachEngine : public testing::TestWithParam<const char*> {
+ protected:
+  std::vector<std::string> odd(const robot::RobotSpec& robot) const {
+    return odd_at_start(robot, GetParam(), 0.01);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(StartLook, EachEngine, testing::Values("ode", "batch", "mujoco"));
+
+TEST_P(EachEngine, FindsNothingOddAboutRobotsThatStand) {
+  for (const char* name : {"quadruped/authors", "quadruped/paper", "hexapod/hexapod", "octopod/octopod"})
+    EXPECT_THAT(odd(own_robot(name)), IsEmpty()) << name;
+}
+
+TEST_P(EachEngine, SaysOfARobotThatLiesOnWhatAndOfOneThatCrouches) {
+  auto robot = own_robot("quadruped/authors");
+  // A belly that reaches below the feet, or nearly.
+  robot::Geom belly;
+  belly.name = "belly";
+  belly.size_m = {0.05, 0.0, 0.0};
+  const double torso_m = robot.bodies[0].position_m.z;
+  belly.position_m = {0.0, 0.0, 0.04 - torso_m};
+  robot.geoms.push_back(belly);
+  EXPECT_THAT(odd(robot), Contains(HasSubstr("it lies: '" + robot.bodies[0].name + "'")));
+  robot.geoms.back().position_m.z += 0.03;
+  EXPECT_THAT(odd(robot), Contains(HasSubstr("it crouches")));
+}
+
+TEST_P(EachEngine, SaysOfARobotThatFallsWhen) {
+  auto robot = own_robot("quadruped/authors");
+  robot.fall_height_m = 0.99 * robot.bodies[0].position_m.z;
+  robot.bodies[0].position_m.z += 0.3;  // it drops
+  EXPECT_THAT(odd(robot), Contains(testing::ContainsRegex("it falls within 0\\.[0-9]+ s")));
+  robot.fall_height_m = 10.0;
+  EXPECT_THAT(odd(robot), Contains(HasSubstr("it has fallen before its first step")));
+}
+
+TEST_P(EachEngine, SaysOfARobotWithWeakServosThatItSinks) {
+  auto robot = own_robot("hexapod/hexapod");  // its legs spread
+  for (auto& joint : robot.joints) joint.servo.max_torque_nm = 1e-6;
+  robot.fall_height_m = -10.0;
+  EXPECT_THAT(odd(robot), Contains(HasSubstr("it sinks by")));
+}
+
+TEST_P(EachEngine, SaysWhereLegsPointThatPointAside) {
+  auto robot = own_robot("quadruped/authors");
+  const double quarter = std::numbers::sqrt2 / 2.0;
+  robot.bodies[0].rotation =
+      Quat{quarter, quarter, 0.0, 0.0} * robot.bodies[0].rotation;  // about x: -z to +y
+  robot.fall_height_m = -10.0;
+  EXPECT_THAT(odd(robot), Contains(HasSubstr("legs: they point along +y, not down")));
+}
+
+TEST(StartLook, SaysWhichUnitLengthsSeemToHave) {
+  const auto scaled = [](double by) {
+    auto robot = own_robot("quadruped/authors");
+    std::erase_if(robot.geoms, [](const robot::Geom& geom) { return !geom.collides; });
+    for (auto& geom : robot.geoms) geom.size_m = by * geom.size_m;
+    for (auto& body : robot.bodies) body.mass_kg *= 40.0;  // nearly as heavy as water
+    std::vector<std::string> mass;
+    for (const auto& line : odd_at_start(robot, "batch", 0.01))
+      if (line.starts_with("mass:")) mass.push_back(line);
+    return mass;
+  };
+  EXPECT_THAT(scaled(1.0), IsEmpty());
+  EXPECT_THAT(scaled(10.0), ElementsAre(HasSubstr("decimetres")));
+  EXPECT_THAT(scaled(100.0), ElementsAre(HasSubstr("centimetres")));
+  EXPECT_THAT(scaled(1000.0), ElementsAre(HasSubstr("millimetres")));
+  EXPECT_THAT(scaled(0.1), ElementsAre(HasSubstr("more than any metal")));
+}
+
+TEST(StartLook, SaysThatAHeldRobotDiverges) {
+  auto robot = own_robot("quadruped/authors");
+  robot.gravity_m_s2.z = -1e6;
+  robot.fall_height_m = -1e9;
+  EXPECT_THAT(odd_at_start(robot, "batch", 0.01), Contains(HasSubstr("it diverges after")));
+}
+
+// A run on a model of another world would "walk" by falling.
+TEST(Gravity, ThatDoesNotPointDownIsRefusedByEveryRunWithWhatToDo) {
+  const auto refusal = [](Vec3 gravity_m_s2) {
+    auto robot = own_robot("quadruped/authors");
+    robot.gravity_m_s2 = gravity_m_s2;
+    try {
+      Problem::make(small_config(), robot);
+    } catch (const UserError& error) {
+      EXPECT_EQ(error.code(), ExitCode::bad_input);
+      EXPECT_EQ(error.what(), "robot '" + robot.name + "': " + robot::gravity_fault(gravity_m_s2));
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  for (const Vec3 fine : {Vec3{0, 0, -9.81}, Vec3{0, 0, -1.62}, Vec3{3, 0, -9}, Vec3{-2, 2, -9}})
+    EXPECT_EQ(refusal(fine), "");
+  EXPECT_THAT(refusal({0, -9.81, 0}), HasSubstr("has +y up"));
+  EXPECT_THAT(refusal({0, -9.81, 0}), HasSubstr("turned by 90 degrees about x"));
+  EXPECT_THAT(refusal({0, 9.81, 0}), HasSubstr("turned by -90 degrees about x"));
+  EXPECT_THAT(refusal({-9.81, 0, 0}), HasSubstr("has +x up"));
+  EXPECT_THAT(refusal({-9.81, 0, 0}), HasSubstr("turned by -90 degrees about y"));
+  EXPECT_THAT(refusal({9.81, 0, 0}), HasSubstr("turned by 90 degrees about y"));
+  EXPECT_THAT(refusal({0, 0, 0}), HasSubstr("nothing walks without"));
+  EXPECT_THAT(refusal({0, 0, 9.81}), HasSubstr("it points up"));
+  EXPECT_THAT(refusal({0, -7, -7}), HasSubstr("has +y up"));
+}
+
+TEST(TrialTally, HasAVerdictWhereHardlyAnyTrialIsOne) {
+  const auto verdict = [](int walked, int diverged, int fell_at_once, int fell_later) {
+    TrialTally tally;
+    const auto add = [&](int count, record::Outcome outcome, int steps) {
+      record::Trajectory trajectory;
+      trajectory.outcome = outcome;
+      trajectory.steps = steps;
+      tally.add(std::vector<record::Trajectory>(static_cast<std::size_t>(count), trajectory), 1000);
+    };
+    add(walked, record::Outcome::completed, 1000);
+    add(diverged, record::Outcome::diverged, 1000);
+    add(fell_at_once, record::Outcome::fell, 5);
+    add(fell_later, record::Outcome::fell, 50);
+    return tally.verdict();
+  };
+  EXPECT_EQ(verdict(0, 0, 0, 0), "");
+  EXPECT_EQ(verdict(100, 0, 0, 0), "");
+  EXPECT_EQ(verdict(0, 0, 0, 180), "") << "falling is what learners do";
+  EXPECT_EQ(verdict(20, 160, 0, 0), "");
+  EXPECT_THAT(verdict(0, 180, 0, 0), HasSubstr("180 of 180 trials diverged, so the results mean nothing"));
+  EXPECT_THAT(verdict(10, 90, 0, 0), HasSubstr("90 of 100 trials diverged"));
+  EXPECT_THAT(verdict(5, 0, 175, 0), HasSubstr("175 of 180 fell at once"));
+  EXPECT_THAT(verdict(1, 60, 60, 0), HasSubstr("60 of 121 trials diverged and 60 of 121 fell at once"));
+}
+
+}  // namespace
+}  // namespace amble::experiment
