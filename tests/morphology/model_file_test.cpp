@@ -147,9 +147,9 @@ TEST(CompileModel, ShowsTheVisualShapesOfAUrdfWithoutWeight) {
 
 TEST(CompileModel, RefusesNoUrdfForWhatIsOnlyToLookAt) {
   const Files files;
-  files.write("text.stl", "solid text\nendsolid text\n");  // MuJoCo reads binary STL only
+  files.write("torn.stl", std::string(84, '\1') + "torn off");  // its number of faces is another
   const auto with_mesh = [](const std::string& kind) {
-    return "<" + kind + R"(><geometry><mesh filename="text.stl"/></geometry></)" + kind + ">";
+    return "<" + kind + R"(><geometry><mesh filename="torn.stl"/></geometry></)" + kind + ">";
   };
   const ModelFile compiled = compile_model(files.write(
       "r.urdf", urdf_with(with_mesh("visual") +
