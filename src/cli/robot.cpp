@@ -45,7 +45,7 @@ void add_robot(CLI::App& app, Action& action) {
       if (const auto line = solver_line(robot)) fmt::print("{}", *line);
       if (!notes.lines().empty()) fmt::print("\nimport notes:\n{}", notes.text());
       fmt::print("{}", doubts_text(robot::doubts(robot)));
-      if (!robot.legs.empty()) fmt::print("\n{}", start_text(robot));
+      if (const std::string text = start_text(robot); !text.empty()) fmt::print("\n{}", text);
       return ExitCode::ok;
     };
   });

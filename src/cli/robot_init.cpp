@@ -131,6 +131,7 @@ std::string doubts_text(const std::vector<std::string>& doubts) {
 std::string start_text(const robot::RobotSpec& robot) {
   const auto engine = engine_line(robot).starts_with("engine = \"batch\"") ? "batch" : "ode";
   const auto odd = experiment::odd_at_start(robot, engine, physics::EngineSettings{}.timestep_s);
+  if (odd.empty() && robot.legs.empty()) return "";
   if (odd.empty()) return "start: held for a second in its start pose, it stands\n";
   return fmt::format("look at its start before you evolve:\n  {}\n", fmt::join(odd, "\n  "));
 }
@@ -168,7 +169,8 @@ ExitCode init_robot(const fs::path& model, fs::path folder) {
   io::write_file(config_path, config_text(guess.name, engine, robot, folder));
   if (robot) fmt::print("{}", robot::summary(*robot));
   if (!notes.lines().empty()) fmt::print("\nimport notes:\n{}", notes.text());
-  if (robot && !robot->legs.empty()) fmt::print("\n{}", start_text(*robot));
+  if (robot)
+    if (const std::string text = start_text(*robot); !text.empty()) fmt::print("\n{}", text);
   fmt::print("\nwrote {} and {}\n", robot_path.string(), config_path.string());
   if (!asked.empty()) {
     fmt::print("still to be given in {}:\n", robot_path.string());

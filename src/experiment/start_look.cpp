@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <optional>
 #include <set>
 
 #include "amble/core/index.hpp"
 #include "amble/physics/engine.hpp"
+#include "amble/robot/check.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::experiment {
@@ -23,11 +24,12 @@ using robot::RobotSpec;
 constexpr double hold_s = 1.0;
 /// A trunk that is lower than this share of the legs' length is hardly carried by them.
 constexpr double crouching_share = 0.15;
-/// Robots have between a hundredth and thirty times the density of water: the paper's quadruped has 22 kg/m3.
-constexpr double least_kg_per_m3 = 10.0, most_kg_per_m3 = 30000.0, usual_kg_per_m3 = 1000.0;
+/// Shapes that collide are at least so dense: the paper's quadruped has 22 kg/m3.
+constexpr double least_kg_per_m3 = 10.0, usual_kg_per_m3 = 1000.0;
+/// Of a cube as wide as the robot; iron has less.
+constexpr double most_kg_per_m3 = 8000.0;
 
-/// Nothing for a mesh, whose volume would have to be computed.
-std::optional<double> volume_m3(const robot::Geom& geom) {
+double volume_m3(const robot::Geom& geom) {
   const Vec3 size = geom.size_m;
   const double disc_m2 = std::numbers::pi * size.x * size.x;
   switch (geom.shape) {
@@ -42,7 +44,13 @@ std::optional<double> volume_m3(const robot::Geom& geom) {
     case robot::Shape::mesh:
       break;
   }
-  return std::nullopt;
+  double tetrahedra_m3 = 0.0;
+  for (const auto& corners : geom.triangles)
+    tetrahedra_m3 +=
+        dot(geom.vertices_m[to_index(corners[0])],
+            cross(geom.vertices_m[to_index(corners[1])], geom.vertices_m[to_index(corners[2])])) /
+        6.0;
+  return std::abs(tetrahedra_m3);
 }
 
 /// Of lengths that are too large by a factor of about 10, 100 or 1000.
@@ -52,27 +60,38 @@ std::string unit_of(double kg_per_m3) {
   return units[to_index(std::clamp<int>(static_cast<int>(std::lround(tens)), 1, 3) - 1)];
 }
 
+/// Of the box about all bodies' frames and shapes, the widest side.
+double width_m(const RobotSpec& robot) {
+  const auto poses = robot::start_poses(robot);
+  constexpr double none = std::numeric_limits<double>::infinity();
+  Vec3 least{none, none, none}, most{-none, -none, -none};
+  const auto include = [&](Vec3 centre, double radius_m) {
+    least = {std::min(least.x, centre.x - radius_m), std::min(least.y, centre.y - radius_m),
+             std::min(least.z, centre.z - radius_m)};
+    most = {std::max(most.x, centre.x + radius_m), std::max(most.y, centre.y + radius_m),
+            std::max(most.z, centre.z + radius_m)};
+  };
+  for (const robot::Pose& pose : poses) include(pose.position_m, 0.0);
+  for (const robot::Geom& geom : robot.geoms) include(robot::centre_m(geom, poses), geom.size_m.x);
+  const Vec3 sides = most - least;
+  return std::max({sides.x, sides.y, sides.z});
+}
+
 void look_at_mass(const RobotSpec& robot, std::vector<std::string>& odd) {
   double all_m3 = 0.0;
-  for (const robot::Geom& geom : robot.geoms) {
-    if (!geom.collides) continue;
-    const auto one_m3 = volume_m3(geom);
-    if (!one_m3) return;
-    all_m3 += *one_m3;
-  }
-  const double mass_kg = robot.total_mass_kg();
-  if (all_m3 <= 0.0) return;
-  const double kg_per_m3 = mass_kg / all_m3;
-  if (kg_per_m3 < least_kg_per_m3)
+  for (const robot::Geom& geom : robot.geoms)
+    if (geom.collides) all_m3 += volume_m3(geom);
+  const double mass_kg = robot.total_mass_kg(), wide_m = width_m(robot);
+  if (const double kg_per_m3 = mass_kg / all_m3; all_m3 > 0.0 && kg_per_m3 < least_kg_per_m3)
     odd.push_back(fmt::format(
-        "mass: {:.3g} kg in shapes of {:.3g} m3 is {:.2g} kg/m3, less than foam: are its lengths in "
-        "{}, or masses missing? amble takes metres and kilograms",
-        mass_kg, all_m3, kg_per_m3, unit_of(kg_per_m3)));
-  if (kg_per_m3 > most_kg_per_m3)
+        "mass: {:.3g} kg on {:.3g} m, {:.2g} kg/m3, is less than foam: are its lengths in {}, or masses "
+        "missing? amble takes metres and kilograms",
+        mass_kg, wide_m, kg_per_m3, unit_of(kg_per_m3)));
+  if (mass_kg > most_kg_per_m3 * wide_m * wide_m * wide_m)
     odd.push_back(fmt::format(
-        "mass: {:.3g} kg in shapes of {:.3g} m3 is {:.2g} kg/m3, more than any metal: are its masses "
-        "in grams, or shapes missing? amble takes metres and kilograms",
-        mass_kg, all_m3, kg_per_m3));
+        "mass: {:.3g} kg on {:.3g} m is more than a cube of iron: are its masses in grams? amble takes "
+        "metres and kilograms",
+        mass_kg, wide_m));
 }
 
 std::string axis_of(Vec3 v) {
@@ -235,9 +254,10 @@ class Hold {
 
 std::vector<std::string> odd_at_start(const RobotSpec& robot, const std::string& engine, double timestep_s) {
   std::vector<std::string> odd;
+  if (const auto fault = robot::gravity_fault(robot.gravity_m_s2); !fault.empty()) odd.push_back(fault);
   look_at_mass(robot, odd);
   look_at_legs(robot, odd);
-  Hold(robot, engine, timestep_s).look(odd);
+  if (!robot.legs.empty()) Hold(robot, engine, timestep_s).look(odd);
   return odd;
 }
 

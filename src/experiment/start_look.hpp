@@ -10,8 +10,8 @@ namespace amble::experiment {
 /// What is odd about a robot before it has a controller: one line each, none for one that simply stands.
 /// Mass for its size, where its legs point, and what it does in a second on the plane while its servos hold
 /// the start pose: whether it diverges, falls, tips over, lies on its trunk, sinks, is thrown up, touches the
-/// ground with no foot. None of these forbids a run: a biped may fall that will learn to walk. Throws
-/// UserError if the engine cannot simulate the robot.
+/// ground with no foot; without legs it is not held. None of these forbids a run: a biped may fall that will
+/// learn to walk. Throws UserError if the engine cannot simulate the robot.
 std::vector<std::string> odd_at_start(const robot::RobotSpec& robot, const std::string& engine,
                                       double timestep_s);
 

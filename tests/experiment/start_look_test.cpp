@@ -89,7 +89,39 @@ TEST(StartLook, SaysWhichUnitLengthsSeemToHave) {
   EXPECT_THAT(scaled(10.0), ElementsAre(HasSubstr("decimetres")));
   EXPECT_THAT(scaled(100.0), ElementsAre(HasSubstr("centimetres")));
   EXPECT_THAT(scaled(1000.0), ElementsAre(HasSubstr("millimetres")));
-  EXPECT_THAT(scaled(0.1), ElementsAre(HasSubstr("more than any metal")));
+  EXPECT_THAT(scaled(0.01), IsEmpty()) << "feet alone may collide";
+  auto grams = own_robot("quadruped/authors");
+  for (auto& body : grams.bodies) body.mass_kg *= 1e5;
+  EXPECT_THAT(odd_at_start(grams, "batch", 0.01), Contains(HasSubstr("are its masses in grams?")));
+}
+
+TEST(StartLook, MeasuresMeshesAsItMeasuresBoxes) {
+  const auto mass_of = [](robot::Shape shape, double half_m) {
+    auto robot = own_robot("quadruped/authors");
+    for (auto& geom : robot.geoms) geom.collides = false;
+    robot::Geom& trunk = robot.geoms[0];
+    trunk = {};
+    trunk.shape = shape;
+    trunk.size_m = {half_m, half_m, half_m};
+    trunk.position_m.z = 100.0;
+    if (shape == robot::Shape::mesh) {
+      for (const double x : {-half_m, half_m})
+        for (const double y : {-half_m, half_m})
+          for (const double z : {-half_m, half_m}) trunk.vertices_m.push_back({x, y, z});
+      trunk.size_m = {2.0 * half_m, 0.0, 0.0};
+      trunk.triangles = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5}, {0, 4, 5}, {0, 5, 1},
+                         {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
+    }
+    for (auto& leg : robot.legs) robot.geoms[static_cast<std::size_t>(leg.foot_geom)].collides = true;
+    for (const auto& line : odd_at_start(robot, "ode", 0.01))
+      if (line.starts_with("mass:")) return line;
+    return std::string();
+  };
+  for (const double half_m : {0.1, 3.0, 30.0, 300.0}) {
+    const std::string box = mass_of(robot::Shape::box, half_m), mesh = mass_of(robot::Shape::mesh, half_m);
+    EXPECT_EQ(box.substr(box.find("kg/m3") + 1), mesh.substr(mesh.find("kg/m3") + 1)) << half_m;
+    EXPECT_EQ(box.empty(), half_m < 1.0) << half_m;
+  }
 }
 
 TEST(StartLook, SaysThatAHeldRobotDiverges) {
