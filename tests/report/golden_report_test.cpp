@@ -29,7 +29,7 @@ TEST(GoldenReport, OfAStudyWithClaimsOfAllKindsMatchesTheGoldenHash) {
                                                                    {"distance-ode.svg", "1bb5722a8fa841a0"},
                                                                    {"distance.svg", "a1ae8b38baa8ff83"},
                                                                    {"gaits.csv", "959e7d3d2a7f6266"},
-                                                                   {"report.html", "e6c60df1abcc64dc"},
+                                                                   {"report.html", "b7c40c9fcb6b7821"},
                                                                    {"runs.csv", "1f4f4065d23006c9"},
                                                                    {"survival.csv", "a9e3ab0405e89883"},
                                                                    {"upright-long.svg", "684b338da7503a01"},
@@ -48,7 +48,7 @@ TEST(GoldenReport, OfMutantsMatchesTheGoldenHash) {
   });
   tests::expect_golden(made, {{"mutants-long.svg", "ebb4624d9e0add85"},
                               {"mutants.csv", "83f46b3dfd1e8088"},
-                              {"report.html", "d1bef73f071a04d2"}});
+                              {"report.html", "4a1663821334d05f"}});
 }
 
 TEST(GoldenReport, OfFiveConditionsMatchesTheGoldenHash) {
@@ -60,7 +60,7 @@ TEST(GoldenReport, OfFiveConditionsMatchesTheGoldenHash) {
                         {"distance-ode.svg", "4503123cb8ee6ffa"},
                         {"distance.svg", "49e1cb5cbb00ada0"},
                         {"gaits.csv", "624a2e0c41e13fe1"},
-                        {"report.html", "5d3b0d601e82013b"},
+                        {"report.html", "d1b6e1266da32983"},
                         {"runs.csv", "e9026294e9c5c3d6"},
                         {"survival.csv", "e924fdae1fbaf0c6"},
                         {"upright-long.svg", "4f9400e05eeb3e93"},
@@ -75,7 +75,7 @@ TEST(GoldenReport, OfAStudyHalfDoneMatchesTheGoldenHash) {
   data.study.claims[0].alpha = 0.01;
   data.unknown_files = {"notes.txt"};
   tests::expect_golden({{"half.html", make_page(make_report(std::move(data)))}},
-                       {{"half.html", "677530f1f5b38f94"}});
+                       {{"half.html", "ad4f8595654bc39e"}});
 }
 
 }  // namespace
