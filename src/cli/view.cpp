@@ -42,7 +42,7 @@ constexpr std::size_t most_ages = 8;
 
 /// Champions of a run from first to last: all if there are few, else evenly among them.
 std::vector<fs::path> ages_of(const fs::path& run) {
-  const auto files = experiment::find_run(run).champion_files();
+  auto files = experiment::find_run(run).champion_files();
   if (files.size() <= most_ages) return files;
   std::vector<fs::path> ages;
   for (std::size_t i = 0; i < most_ages; ++i)

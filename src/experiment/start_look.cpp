@@ -189,6 +189,7 @@ class Hold {
   std::vector<robot::Pose> poses() const {
     const auto root = engine_->root_pose(0);
     std::vector<double> angles_rad;
+    angles_rad.reserve(to_index(targets_rad_.rows()));
     for (int j = 0; j < targets_rad_.rows(); ++j)
       angles_rad.push_back(double{engine_->sensors().joint_angle_rad.at(j, 0)});
     return robot::poses_at(robot_, {root.position_m, root.rotation}, angles_rad);
