@@ -9,19 +9,10 @@
 
 #include "amble/core/error.hpp"
 #include "amble/io/printable.hpp"
+#include "amble/io/split.hpp"
 
 namespace amble::damage {
 namespace {
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  for (;;) {
-    const std::size_t end = text.find(separator);
-    parts.push_back(text.substr(0, end));
-    if (end == std::string_view::npos) return parts;
-    text.remove_prefix(end + 1);
-  }
-}
 
 /// One damage.
 class PartParser {
@@ -59,7 +50,7 @@ class PartParser {
       part.share = number(text, 0.0, 1.0, "a share from 0 to 1 after '='");
     } else if (part.kind == Kind::payload) {
       constexpr const char* what = "MASS_KG/X_M/Y_M/Z_M after '='";
-      const auto numbers = split(text, '/');
+      const auto numbers = io::split(text, '/');
       if (numbers.size() != 4) bad("{}", what);
       part.mass_kg = number(numbers[0], 1e-9, 1e6, what);
       part.x_m = number(numbers[1], -100.0, 100.0, what);
@@ -92,7 +83,7 @@ class PartParser {
 
 Settings parse(std::string_view text) {
   Settings settings;
-  for (const std::string_view part : split(text, ',')) settings.parts.push_back(PartParser(part).parse());
+  for (const std::string_view part : io::split(text, ',')) settings.parts.push_back(PartParser(part).parse());
   return settings;
 }
 

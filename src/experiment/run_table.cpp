@@ -12,18 +12,11 @@
 #include "amble/io/file.hpp"
 #include "amble/io/printable.hpp"
 #include "amble/io/shell.hpp"
+#include "amble/io/split.hpp"
 #include "amble/record/generation_columns.hpp"
 
 namespace amble::experiment {
 namespace {
-
-std::vector<std::string_view> cells_in(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (std::size_t comma; (comma = line.find(',')) != std::string_view::npos; line.remove_prefix(comma + 1))
-    cells.push_back(line.substr(0, comma));
-  cells.push_back(line);
-  return cells;
-}
 
 std::string_view without_end(std::string_view line) {
   if (line.ends_with('\n')) line.remove_suffix(1);
@@ -80,7 +73,7 @@ class TableCheck {
   }
 
   void check_header(std::string_view header) {
-    columns_ = cells_in(header).size();
+    columns_ = io::split(header, ',').size();
     if (const auto unknown = unknown_column(header, strategy_.metrics()); !unknown.empty())
       fail(ExitCode::bad_file, "{}:1: column '{}': expected the columns of the run; {}", file_,
            io::printable(unknown), way_out());
@@ -89,7 +82,7 @@ class TableCheck {
   /// `whole`: it must not be the beginning of a row.
   void check_row(int row, std::string_view line, bool whole) const {
     const int number = row + 2;
-    const auto cells = cells_in(without_end(line));
+    const auto cells = io::split(without_end(line), ',');
     for (const std::string_view cell : cells)
       if (!is_number(cell) && (whole || !cell.empty()))
         bad(number, fmt::format("'{}', where the run writes plain numbers", io::printable(cell)));
@@ -131,7 +124,7 @@ class TableCheck {
 }  // namespace
 
 std::uint64_t table_digest(std::uint64_t before, std::string_view header, std::string_view line) {
-  const auto names = cells_in(without_end(header));
+  const auto names = io::split(without_end(header), ',');
   const auto untimed = std::ranges::find(names, record::column::wall_s) - names.begin();
   std::size_t end = 0;
   for (auto column = untimed; column > 0 && end < line.size(); --column)

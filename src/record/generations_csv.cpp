@@ -9,6 +9,7 @@
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/split.hpp"
 #include "amble/record/generation_columns.hpp"
 
 namespace amble::record {
@@ -54,14 +55,6 @@ constexpr std::array<std::pair<std::string_view, Column>, 26> optional_columns{{
     {column::typical_upper, &Generations::typical_upper},
     {column::typical_fell, &Generations::typical_fell},
 }};
-
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (std::size_t comma; (comma = line.find(',')) != std::string_view::npos; line.remove_prefix(comma + 1))
-    cells.push_back(line.substr(0, comma));
-  cells.push_back(line);
-  return cells;
-}
 
 /// Takes the first line off `text`, without its end.
 std::string_view take_line(std::string_view& text) {
@@ -120,13 +113,13 @@ Generations read_generations(const std::filesystem::path& path) {
 Generations parse_generations(std::string_view text, const std::string& name) {
   if (text.empty())
     fail(ExitCode::bad_file, "{}:1: expected a row of column names, found an empty file", name);
-  const auto header = split(take_line(text));
+  const auto header = io::split(take_line(text), ',');
   for (const auto& [column, values] : columns)
     if (find_column(header, column) == header.size())
       fail(ExitCode::bad_file, "{}:1: column '{}' is missing", name, column);
   Generations table;
   for (int line = 2; !text.empty(); ++line) {
-    const auto cells = split(take_line(text));
+    const auto cells = io::split(take_line(text), ',');
     if (cells.size() != header.size())
       fail(ExitCode::bad_file, "{}:{}: expected {} columns, found {}", name, line, header.size(),
            cells.size());
