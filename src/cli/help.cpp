@@ -14,7 +14,7 @@
 namespace amble::cli {
 namespace {
 
-constexpr std::size_t columns = 100, first_column = 30;
+constexpr std::size_t help_columns = 100, first_column = 30;
 
 /// The text in lines of so many characters, each but the first behind `indent` spaces.
 std::string wrapped(std::string_view text, std::size_t indent) {
@@ -24,7 +24,7 @@ std::string wrapped(std::string_view text, std::size_t indent) {
     const std::size_t end = std::min(text.find(' '), text.size());
     const std::string_view word = text.substr(0, end);
     text.remove_prefix(std::min(text.size(), end + 1));
-    if (column > indent && column + 1 + word.size() > columns) {
+    if (column > indent && column + 1 + word.size() > help_columns) {
       out += "\n" + std::string(indent, ' ');
       column = indent;
     } else if (column > indent) {

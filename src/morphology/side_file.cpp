@@ -14,7 +14,7 @@
 namespace amble::morphology {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 constexpr double largest = std::numeric_limits<double>::max();
 /// Marks a number that the file does not give. No physical number has a default in the code.
 constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
@@ -32,7 +32,7 @@ void visit(io::SettingsVisitor& visitor, robot::Servo& servo) {
 }
 
 void visit(io::SettingsVisitor& visitor, robot::Contact& contact) {
-  visitor.number("friction", contact.friction, {0.0, infinity},
+  visitor.number("friction", contact.friction, {0.0, unbounded},
                  {"Coulomb coefficient; inf: no sliding at all"});
   visitor.number("erp", contact.erp, {0.0, 1.0}, {"share of the penetration undone per step"});
   visitor.number("cfm_s_per_kg", contact.cfm_s_per_kg, {0.0, largest},

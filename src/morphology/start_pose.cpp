@@ -8,13 +8,11 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
+#include "amble/morphology/mujoco_math.hpp"
 
 namespace amble::morphology {
 namespace {
 
-Vec3 vec3(const double* numbers) {
-  return {numbers[0], numbers[1], numbers[2]};
-}
 Quat unit(const double* numbers) {
   const Quat q{numbers[0], numbers[1], numbers[2], numbers[3]};
   const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);

@@ -22,7 +22,7 @@ using graphics::Svg;
 constexpr double bar_px = 11.0, points_px = 21.0, point_radius_px = 2.6, row_gap_px = 15.0;
 constexpr double strip_px = bar_px + points_px, label_line_px = 19.0, narrow_label_px = 215.0;
 
-struct Frame {
+struct StripFrame {
   Layout layout;
   double label_px = 0.0;           ///< room for the names of rows
   double left = 0.0, right = 0.0;  ///< of the plot
@@ -44,12 +44,12 @@ Interval data_range(const std::vector<StripRow>& rows) {
   return range;
 }
 
-Frame make_frame(const std::vector<StripRow>& rows, Layout layout, bool several) {
+StripFrame make_strip_frame(const std::vector<StripRow>& rows, Layout layout, bool several) {
   const bool wide = layout == Layout::wide;
   double longest = 0.0;
   for (const StripRow& row : rows) longest = std::max(longest, label_width_px(row.label));
   const double label = wide ? std::clamp(longest, 60.0, 230.0) : narrow_label_px;
-  Frame frame{.layout = layout, .label_px = label, .left = 0.0, .right = 0.0, .x = {}};
+  StripFrame frame{.layout = layout, .label_px = label, .left = 0.0, .right = 0.0, .x = {}};
   frame.left = wide ? label + 16.0 + (several ? 66.0 : 0.0) : 0.0;
   frame.right = width_px(layout) - (wide ? 150.0 : several ? 118.0 : 4.0);
   frame.x = {data_range(rows), frame.left, frame.right};
@@ -74,7 +74,7 @@ std::vector<double> row_tops(const std::vector<StripRow>& rows, Layout layout) {
   return tops;
 }
 
-void draw_strip(Svg& svg, const Frame& frame, const Strip& strip, double top) {
+void draw_strip(Svg& svg, const StripFrame& frame, const Strip& strip, double top) {
   const double zero = frame.x(0.0), middle = top + 0.5 * bar_px;
   svg.begin_group("strip " + strip.css_class, strip.name + ": " + strip.text);
   if (strip.mean) {
@@ -95,7 +95,7 @@ void draw_strip(Svg& svg, const Frame& frame, const Strip& strip, double top) {
 }
 
 /// The row's name, and what is written of each strip.
-void draw_texts(Svg& svg, const Frame& frame, const StripRow& row, double top) {
+void draw_texts(Svg& svg, const StripFrame& frame, const StripRow& row, double top) {
   const bool wide = frame.layout == Layout::wide, several = row.strips.size() > 1;
   const double width = width_px(frame.layout);
   if (wide) {
@@ -153,7 +153,7 @@ std::string rows_figure(const std::vector<StripRow>& rows, std::string_view unit
                         std::string_view description, Layout layout) {
   const bool wide = layout == Layout::wide;
   const bool several = std::ranges::any_of(rows, [](const StripRow& row) { return row.strips.size() > 1; });
-  const Frame frame = make_frame(rows, layout, several);
+  const StripFrame frame = make_strip_frame(rows, layout, several);
   const auto tops = row_tops(rows, layout);
   const double base = tops.back() - row_gap_px + 6.0;
   Svg svg(width_px(layout), base + 26, description);

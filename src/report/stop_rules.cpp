@@ -10,7 +10,7 @@ namespace amble::report {
 namespace {
 
 // Times are sums of steps; what ends this close to the end of a test lasted.
-constexpr double slack = 1e-9;
+constexpr double stop_time_slack = 1e-9;
 constexpr double fewest_intervals = 5.0;
 
 struct Place {
@@ -37,8 +37,8 @@ std::vector<const ledger::TestResult*> long_results(const StudyData& data, const
 }
 
 std::size_t count_from(const std::vector<double>& values, double at_least) {
-  return to_index(
-      std::ranges::count_if(values, [at_least](double value) { return value >= at_least * (1.0 - slack); }));
+  return to_index(std::ranges::count_if(
+      values, [at_least](double value) { return value >= at_least * (1.0 - stop_time_slack); }));
 }
 
 /// The counts of a condition; with the verdicts on a claim, if that is what they are for.
@@ -64,7 +64,7 @@ StopCounts count_stops(const StudyData& data, const std::vector<const ledger::Te
 
 std::optional<double> walking_by_path_s(const ledger::TestResult& test, const score::StandingRule& rule) {
   if (test.path_interval_s <= 0.0 || test.path_m.empty() ||
-      rule.window_s < fewest_intervals * test.path_interval_s * (1.0 - slack))
+      rule.window_s < fewest_intervals * test.path_interval_s * (1.0 - stop_time_slack))
     return std::nullopt;
   std::vector<Place> path{{}};  // the start, from which the record's path counts
   for (std::size_t i = 0; i + 1 < test.path_m.size(); i += 2)

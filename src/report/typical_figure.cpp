@@ -37,7 +37,7 @@ PanelGrid make_grid(const std::vector<std::string>& labels, Layout layout) {
   return grid;
 }
 
-struct Frame {
+struct TypicalFrame {
   const Report& report;
   const TypicalTable& table;
   Box plot;
@@ -49,7 +49,7 @@ struct Frame {
   }
 };
 
-void draw_axes(Svg& svg, const Frame& frame) {
+void draw_axes(Svg& svg, const TypicalFrame& frame) {
   graphics::draw_y_axis(svg, frame.y, graphics::nice_ticks(frame.y.data, 5), frame.plot.x, frame.plot.right(),
                         " m");
   const double base = frame.plot.bottom();
@@ -59,7 +59,7 @@ void draw_axes(Svg& svg, const Frame& frame) {
              disturbance_name(frame.table.columns[column]));
 }
 
-std::vector<Point> medians(const Frame& frame, const TypicalCurve& curve) {
+std::vector<Point> medians(const TypicalFrame& frame, const TypicalCurve& curve) {
   std::vector<Point> points;
   for (const TypicalPoint& point : curve.points)
     points.push_back({frame.x(point.column), frame.y(point.summary.median)});
@@ -67,7 +67,7 @@ std::vector<Point> medians(const Frame& frame, const TypicalCurve& curve) {
 }
 
 /// The champions of one point, a little left of its place, and the interval of their median.
-void draw_point(Svg& svg, const Frame& frame, const TypicalPoint& point) {
+void draw_point(Svg& svg, const TypicalFrame& frame, const TypicalPoint& point) {
   const double x = frame.x(point.column);
   std::vector<double> places;
   for (const double distance_m : point.distances_m) places.push_back(frame.y(distance_m));
@@ -87,7 +87,7 @@ std::string change_text(const TypicalCurve& curve) {
   return text(curve.points.front()) + " → " + text(curve.points.back()) + " m";
 }
 
-void draw_panel(Svg& svg, const Frame& frame, const PanelGrid& grid, const TypicalCurve& curve) {
+void draw_panel(Svg& svg, const TypicalFrame& frame, const PanelGrid& grid, const TypicalCurve& curve) {
   const Report& report = frame.report;
   draw_axes(svg, frame);
   for (const TypicalCurve& other : frame.table.curves)
