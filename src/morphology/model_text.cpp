@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <map>
 #include <set>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
@@ -293,6 +295,24 @@ void refuse_xacro(const XmlElement& root, const fs::path& path) {
        io::shell_word(file), io::shell_word((path.parent_path() / expanded).string()));
 }
 
+/// Numbers that are none: MuJoCo takes some of them for no limit, others spread through the whole model.
+void refuse_nan(const XmlElement& root) {
+  root.visit([](const XmlElement& element) {
+    for (const auto& [key, value] : element.attributes) {
+      std::istringstream words(value);
+      bool numbers = true, nan = false;
+      for (std::string word; words >> word;) {
+        char* end = nullptr;
+        nan = std::isnan(std::strtod(word.c_str(), &end)) || nan;
+        numbers = numbers && *end == '\0';
+      }
+      if (nan && numbers && key != "name")
+        fail(ExitCode::bad_input, "{}: <{}> has {} = '{}': expected numbers", place(element), element.name,
+             key, value);
+    }
+  });
+}
+
 }  // namespace
 
 double positive_or_zero(const std::optional<std::string>& text) {
@@ -333,6 +353,7 @@ ModelText read_model_text(const fs::path& path, ReadingNotes& notes) {
     // An unknown root is left to the compiler, as unknown elements are.
     MjcfCleaner(text, path, notes).clean();
   }
+  refuse_nan(text.root);
   return text;
 }
 

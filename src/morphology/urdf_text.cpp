@@ -168,11 +168,25 @@ void note_lost_limits(XmlElement& root, ReadingNotes& notes) {
                           fmt::join(empty, ", ")));
 }
 
+/// MuJoCo 2.2 reads on after a type that it does not know, and dies of it.
+void refuse_unknown_joints(const XmlElement& root, const fs::path& path) {
+  static constexpr std::array<std::string_view, 6> types{"revolute", "continuous", "prismatic",
+                                                         "fixed",    "floating",   "planar"};
+  for (const XmlElement& joint : root.children) {
+    if (joint.name != "joint") continue;
+    const std::string type = joint.attribute_or("type", "");
+    if (std::ranges::find(types, type) == types.end())
+      fail(ExitCode::bad_input, "{}:{}: joint '{}' has the type '{}': expected one of {}", path.string(),
+           joint.line, joint.attribute_or("name", ""), type, fmt::join(types, ", "));
+  }
+}
+
 }  // namespace
 
 void clean_urdf(ModelText& text, const fs::path& path, ReadingNotes& notes) {
   XmlElement& root = text.root;
   if (root.name != "robot") fail(ExitCode::bad_input, "{}: a URDF needs an element <robot>", path.string());
+  refuse_unknown_joints(root, path);
   set_options(root, path);
   choose_visuals(root, path.parent_path(), notes);
   root.prune([&](const XmlElement& element, const XmlElement& parent) {

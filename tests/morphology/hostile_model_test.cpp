@@ -92,5 +92,25 @@ TEST_F(HostileModel, MayHaveThirtyTwoIncludes) {
   EXPECT_EQ(refusal("<mujoco>\n<include/></mujoco>"), "m.xml:2: <include> names no file");
 }
 
+TEST_F(HostileModel, WithNumbersThatAreNone) {
+  EXPECT_EQ(refusal("<mujoco><worldbody>\n<body name=\"nan\"><joint range=\"nan 1\"/><geom "
+                    "size=\"1\"/></body></worldbody></mujoco>"),
+            "m.xml:2: <joint> has range = 'nan 1': expected numbers");
+  EXPECT_EQ(
+      refusal(
+          "<robot name=\"r\">\n<link name=\"nan\"><inertial><mass value=\"NaN\"/></inertial></link></robot>",
+          "m.urdf"),
+      "m.urdf:2: <mass> has value = 'NaN': expected numbers");
+}
+
+TEST_F(HostileModel, WithAJointOfATypeThatNobodyKnows) {
+  EXPECT_EQ(refusal("<robot name=\"r\"><link name=\"a\"/><link name=\"b\"/>\n<joint name=\"j\" "
+                    "type=\"hinge\"><parent link=\"a\"/>"
+                    "<child link=\"b\"/><dynamics damping=\"1\"/></joint></robot>",
+                    "m.urdf"),
+            "m.urdf:2: joint 'j' has the type 'hinge': expected one of revolute, continuous, prismatic, "
+            "fixed, floating, planar");
+}
+
 }  // namespace
 }  // namespace amble::morphology
