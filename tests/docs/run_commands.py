@@ -4,6 +4,8 @@
 
 What takes long is cut by one rule (`shortened`): a run evolves 3 generations of 40 genomes in trials of 2 s, what walks for 300 s
 walks for 30, and a study but that in miniature is asked how far it is. Commands that are not run stand in not_run.txt with the reason.
+
+What a command prints is what the page says: a printed table whose header the page or README has must stand there row by row.
 """
 
 import os
@@ -86,11 +88,37 @@ def run(command, workspace, program):
     return subprocess.run(["bash", "-c", command], cwd=workspace, env=environment, capture_output=True, text=True, timeout=600)
 
 
+def cells_of(line):
+    return [cell.strip() for cell in line.strip().strip("|").split("|")]
+
+
+def differences(printed, page):
+    """Of a printed Markdown table that the page has, each row that it has not; and how many tables were compared. The page may
+    have more rows, and more columns to the right."""
+    rows = [cells_of(line) for line in page.read_text().splitlines() if line.startswith("|")]
+
+    def in_page(line):
+        cells = cells_of(line)
+        return any(row[: len(cells)] == cells for row in rows)
+
+    lines = printed.splitlines()
+    compared, missing, of_page = 0, [], False
+    for line, following in zip(lines, lines[1:] + [""]):
+        if not line.startswith("|"):
+            of_page = False
+        elif re.fullmatch(r"[|:\- ]+", following):
+            of_page = in_page(line)
+            compared += of_page
+        elif of_page and not re.fullmatch(r"[|:\- ]+", line) and not in_page(line):
+            missing.append(line)
+    return compared, missing
+
+
 def main():
     program, source = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
     wanted = sys.argv[3:]
     not_run = reasons(Path(__file__).with_name("not_run.txt"))
-    used, failed, ran = set(), 0, 0
+    used, failed, ran, tables = set(), 0, 0, 0
     with tempfile.TemporaryDirectory() as folder:
         workspace = Path(folder)
         prepare(workspace, program, source)
@@ -112,10 +140,16 @@ def main():
                 if done.returncode != 0:
                     failed += 1
                     print(f"FAILED ({done.returncode}): {shortened(command)}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
+                for reader in {page, source / "README.md"} if shortened(command) == command else ():
+                    compared, missing = differences(done.stdout, reader)
+                    tables += compared
+                    failed += len(missing)
+                    for row in missing:
+                        print(f"FAILED: {reader.name} has another row than `{command}` prints: {row}")
     stale = [] if wanted else [pair for pair in not_run if pair not in used]
     for beginning, _ in stale:
         print(f"FAILED: not_run.txt: no page has a command that begins with '{beginning}'")
-    print(f"{ran} commands ran, {failed} failed; {len(not_run)} kinds are not run")
+    print(f"{ran} commands ran, {failed} failed, {tables} tables are as printed; {len(not_run)} kinds are not run")
     return 1 if failed or stale or ran == 0 else 0
 
 
