@@ -31,6 +31,7 @@ namespace py = pybind11;
 void bind_config(py::module_& module);
 void bind_recording(py::module_& module);
 void bind_runs(py::module_& module);
+void bind_maps(py::module_& module);
 void bind_search(py::module_& module);
 void bind_controllers(py::module_& module);
 void bind_robots(py::module_& module);

@@ -46,6 +46,7 @@ PYBIND11_MODULE(_amble, module) {
   bind_config(module);
   bind_recording(module);
   bind_runs(module);
+  bind_maps(module);
   bind_search(module);
   bind_controllers(module);
   bind_robots(module);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,13 +11,10 @@
 #include "amble/cli/commands.hpp"
 #include "amble/cli/help.hpp"
 #include "amble/cli/option_checks.hpp"
-#include "amble/cli/repertoire_page.hpp"
 #include "amble/cli/stop_signal.hpp"
-#include "amble/damage/text.hpp"
 #include "amble/io/file.hpp"
-#include "amble/io/json_file.hpp"
-#include "amble/io/scratch_file.hpp"
 #include "amble/io/shell.hpp"
+#include "amble/presentation/adaptation_page.hpp"
 
 namespace amble::cli {
 namespace {
@@ -32,31 +28,6 @@ struct AdaptOptions {
   experiment::AdaptSettings settings;
   int jobs = 1;
 };
-
-constexpr int adaptation_version = 1;
-
-std::string json_of(const experiment::Adaptation& adaptation, const experiment::Repertoire& repertoire,
-                    const AdaptOptions& options) {
-  io::Json steps = io::Json::array();
-  for (const auto& step : adaptation.steps)
-    steps.push_back({{"cell", step.cell},
-                     {"expected", step.expected},
-                     {"predicted", step.predicted},
-                     {"deviation", step.deviation},
-                     {"measured", step.measured}});
-  return io::sealed_json("amble-adaptation", adaptation_version,
-                         {{"experiment", repertoire.config.name},
-                          {"seed", repertoire.config.seed},
-                          {"engine", options.settings.engine},
-                          {"damage", options.damage},
-                          {"episodes", options.settings.episodes},
-                          {"intact", adaptation.intact},
-                          {"damaged", adaptation.damaged},
-                          {"adapted", adaptation.adapted},
-                          {"cell", adaptation.cell},
-                          {"done", adaptation.done},
-                          {"trials", std::move(steps)}});
-}
 
 void print(const experiment::Adaptation& adaptation, const experiment::Repertoire& repertoire,
            const AdaptOptions& options) {
@@ -83,58 +54,9 @@ void print(const experiment::Adaptation& adaptation, const experiment::Repertoir
              io::shell_word(options.run.string()), adaptation.cell);
 }
 
-/// The map, the trials as a table, and the elites that were tried, on the damaged robot; the one found first.
-/// Nothing if a signal came.
-std::optional<std::string> page_of(const experiment::Adaptation& adaptation,
-                                   const experiment::Repertoire& repertoire, const AdaptOptions& options) {
-  const auto text = [&](double value) {
-    return score::with_unit(fmt::format("{:.2f}", value), repertoire.config.score);
-  };
-  auto page = map_page(
-      repertoire,
-      fmt::format("{}, {}, in {}", repertoire.config.name, options.damage, options.settings.engine),
-      "The outlined cells were tried. Choose one and its elite walks on the damaged robot, in a trial "
-      "without noise; with the Shift key, beside the one that walks there already.");
-  page.map->table_title = "Trial and error";
-  page.map->table_note = fmt::format(
-      "Means of {} trials: the map’s best {} on the intact robot and {} on the damaged one; the gait found, "
-      "in cell {}, {}.",
-      options.settings.judges, text(adaptation.intact), text(adaptation.damaged), adaptation.cell,
-      text(adaptation.adapted));
-  page.map->table.push_back({"cell", "trial", "the map says", "predicted", "measured"});
-  std::map<std::uint32_t, std::string> titles;
-  for (std::size_t i = 0; i < adaptation.steps.size(); ++i) {
-    const auto& step = adaptation.steps[i];
-    page.map->table.push_back({fmt::format("{}", step.cell), fmt::format("{}", i + 1), text(step.expected),
-                               fmt::format("{:.2f} ± {:.2f}", step.predicted, step.deviation),
-                               text(step.measured)});
-    titles.try_emplace(step.cell,
-                       fmt::format("cell {}, trial {} ({} measured)", step.cell, i + 1, text(step.measured)));
-  }
-  const auto problem = experiment::damaged_problem(repertoire, options.settings);
-  std::vector<std::uint32_t> cells{adaptation.cell};
-  for (const auto& [cell, title] : titles)
-    if (cell != adaptation.cell) cells.push_back(cell);
-  std::vector<std::unique_ptr<io::ScratchFile>> recordings;
-  for (const std::uint32_t cell : cells) {
-    recordings.push_back(std::make_unique<io::ScratchFile>("walk.rec"));
-    auto walker = elite_walker(repertoire, problem, cell, titles.at(cell), options.run, *recordings.back());
-    if (!walker) return std::nullopt;
-    page.walkers.push_back(std::move(*walker));
-  }
-  return view::make_page(page);
-}
-
-/// `spec`: a config file, or damages in one line.
-damage::Settings damage_of(const std::string& spec) {
-  std::error_code error;
-  const bool in_line = spec.find(':') != std::string::npos && !fs::exists(spec, error);
-  return in_line ? damage::parse(spec) : experiment::load_config(spec, {}).damage;
-}
-
 ExitCode run_adapt(AdaptOptions options) {
   const auto repertoire = experiment::load_repertoire(experiment::find_run(options.run));
-  options.settings.damage = damage_of(options.damage);
+  options.settings.damage = experiment::damage_of(options.damage);
   const bool is_page = options.out && options.out->extension() == ".html";
   if (is_page)
     io::refuse_to_replace(*options.out, "<!DOCTYPE html>", "a page");
@@ -143,11 +65,13 @@ ExitCode run_adapt(AdaptOptions options) {
   const auto adaptation = experiment::adapt(repertoire, options.settings, options.jobs, stop_signal());
   if (!adaptation) return ExitCode::interrupted;
   if (is_page) {
-    const auto page = page_of(*adaptation, repertoire, options);
+    const auto page = presentation::adaptation_page(*adaptation, repertoire, options.settings, options.damage,
+                                                    options.run, stop_signal());
     if (!page) return ExitCode::interrupted;
     io::write_file(*options.out, *page);
   } else if (options.out) {
-    io::write_file(*options.out, json_of(*adaptation, repertoire, options));
+    io::write_file(*options.out,
+                   experiment::adaptation_json(*adaptation, repertoire, options.settings, options.damage));
   }
   print(*adaptation, repertoire, options);
   return ExitCode::ok;

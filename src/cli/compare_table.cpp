@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "amble/core/index.hpp"
-#include "amble/io/json_file.hpp"
 #include "amble/statistics/descriptive.hpp"
 
 namespace amble::cli {
@@ -19,10 +18,6 @@ using experiment::TrialResult;
 constexpr double enough = 0.7;
 
 using Cells = std::vector<std::string>;
-
-double home_m(const ComparedChampion& row) {
-  return std::ranges::find(row.in, row.home, &EngineResult::engine)->distance_m();
-}
 
 std::string_view outcome_name(const TrialResult& result) {
   return record::outcome_names[to_index(result.outcome)];
@@ -49,7 +44,7 @@ std::string kept_text(double distance_m, double of_m) {
   return kept ? fmt::format(", {:.0f} %", 100.0 * *kept) : "";
 }
 
-Cells row_cells(const ComparedChampion& row) {
+Cells row_cells(const presentation::ComparedChampion& row) {
   const std::size_t trials = row.in.front().trials.size();
   Cells cells{
       row.name, row.home,
@@ -57,7 +52,7 @@ Cells row_cells(const ComparedChampion& row) {
   for (const auto& result : row.in) {
     const double walked_m = result.distance_m();
     cells.push_back(distance_text(walked_m) +
-                    (result.engine == row.home ? "" : kept_text(walked_m, home_m(row))) + endings(result));
+                    (result.engine == row.home ? "" : kept_text(walked_m, row.home_m())) + endings(result));
   }
   return cells;
 }
@@ -80,7 +75,7 @@ std::string notes(const std::vector<Cells>& lines, std::size_t rows) {
 }
 
 /// All champions for one length of time.
-Cells summary_cells(const std::vector<ComparedChampion>& rows, double trial_s) {
+Cells summary_cells(const std::vector<presentation::ComparedChampion>& rows, double trial_s) {
   Cells cells{"median; kept 70 %", "", fmt::format("{:g} s", trial_s)};
   for (std::size_t e = 0; e < rows.front().in.size(); ++e) {
     std::vector<double> distances_m;
@@ -90,7 +85,7 @@ Cells summary_cells(const std::vector<ComparedChampion>& rows, double trial_s) {
       distances_m.push_back(row.in[e].distance_m());
       if (row.in[e].engine == row.home) continue;
       ++away;
-      kept += share_kept(distances_m.back(), home_m(row)).value_or(0.0) >= enough;
+      kept += share_kept(distances_m.back(), row.home_m()).value_or(0.0) >= enough;
     }
     cells.push_back(distance_text(statistics::median(distances_m)) +
                     (away > 0 ? fmt::format("; {} of {}", kept, away) : ""));
@@ -99,7 +94,7 @@ Cells summary_cells(const std::vector<ComparedChampion>& rows, double trial_s) {
 }
 
 /// Head, rows, and a summary per length of time if there are several champions.
-std::vector<Cells> table(const std::vector<ComparedChampion>& rows) {
+std::vector<Cells> table(const std::vector<presentation::ComparedChampion>& rows) {
   std::vector<Cells> lines{{"champion", "evolved in", "trials"}};
   if (rows.empty()) return lines;
   for (const auto& referee : rows.front().in) lines.front().push_back("in " + referee.engine);
@@ -140,39 +135,35 @@ std::string markdown_text(const std::vector<Cells>& lines) {
   return text;
 }
 
-std::string compare_text(const std::vector<ComparedChampion>& rows) {
+std::vector<std::vector<std::string>> maps_table(const std::vector<experiment::ComparedMap>& maps) {
+  std::vector<std::vector<std::string>> lines{{"map", "cells filled", "QD score", "best",
+                                               "in common with the first", "better", "worse", "only here",
+                                               "only there"}};
+  for (const experiment::ComparedMap& map : maps) {
+    lines.push_back({map.name,
+                     fmt::format("{} of {}, {:.1f} %", map.filled, map.cells, 100.0 * map.filled / map.cells),
+                     fmt::format("{:.2f}", map.qd_score), fmt::format("{:.3f}{}", map.best, map.unit)});
+    const auto& from = map.from_first;
+    if (!from) {
+      lines.back().emplace_back(&map == &maps.front() ? "" : "other cells");
+      lines.back().resize(lines.front().size());
+      continue;
+    }
+    for (const auto count : {from->common, from->better, from->worse, from->only_here, from->only_there})
+      lines.back().push_back(fmt::format("{}", count));
+  }
+  return lines;
+}
+
+std::string compare_text(const std::vector<presentation::ComparedChampion>& rows) {
   const auto lines = table(rows);
   return aligned_text(lines) + notes(lines, rows.size());
 }
 
-std::string compare_markdown(const std::vector<ComparedChampion>& rows) {
+std::string compare_markdown(const std::vector<presentation::ComparedChampion>& rows) {
   const auto lines = table(rows);
   const std::string text = notes(lines, rows.size());
   return markdown_text(lines) + (text.empty() ? "" : "\n" + text);
-}
-
-std::string compare_json(const std::vector<ComparedChampion>& rows, const std::vector<ComparedMap>& maps) {
-  io::Json list = io::Json::array();
-  for (const auto& row : rows) {
-    io::Json results = io::Json::array();
-    for (const auto& result : row.in) {
-      io::Json trials = io::Json::array();
-      for (const auto& trial : result.trials)
-        trials.push_back(
-            {{"distance_m", trial.distance_m}, {"seconds", trial.seconds}, {"outcome", outcome_name(trial)}});
-      results.push_back(
-          {{"engine", result.engine}, {"distance_m", result.distance_m()}, {"trials", std::move(trials)}});
-      if (const auto kept = share_kept(result.distance_m(), home_m(row))) results.back()["kept"] = *kept;
-    }
-    list.push_back({{"champion", row.name},
-                    {"evolved_in", row.home},
-                    {"trial_s", row.trial_s},
-                    {"under", row.under},
-                    {"results", std::move(results)}});
-    const auto map = std::ranges::find(maps, row.name, &ComparedMap::name);
-    if (map != maps.end()) list.back()["map"] = map_json(*map);
-  }
-  return list.dump(2) + "\n";
 }
 
 std::string result_text(const TrialResult& result, double home_m) {

@@ -3,24 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "amble/cli/commands.hpp"
 #include "amble/cli/help.hpp"
 #include "amble/cli/option_checks.hpp"
-#include "amble/cli/repertoire_page.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
 #include "amble/experiment/corrected_map.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/printable.hpp"
 #include "amble/io/shell.hpp"
+#include "amble/presentation/map_file.hpp"
 
 namespace amble::cli {
 namespace {
@@ -37,7 +35,6 @@ struct RepertoireOptions {
 };
 
 constexpr std::size_t listed = 10;
-constexpr int usual_trials = 20;
 
 /// Elites by falling objective, of equal ones by cell.
 std::vector<std::uint32_t> ranking(const search::Elites& elites) {
@@ -90,16 +87,6 @@ void print_corrected(const experiment::CorrectedMap& corrected) {
              corrected.qd_score(), corrected.elites.size(), promised);
 }
 
-/// A kind of file with a whole map.
-struct MapFile {
-  std::string_view extension, beginning, what;
-  bool has_new_trials;  ///< what each elite does in some, unless --retest 0
-};
-constexpr std::array map_files{
-    MapFile{".html", "<!DOCTYPE html>", "a page", true}, MapFile{".svg", "<svg", "a picture", true},
-    MapFile{".csv", "cell,", "a table", true},
-    MapFile{".json", "{\n  \"format\": \"amble-repertoire\"", "a repertoire", false}};
-
 ExitCode write_elite(const experiment::Repertoire& repertoire, std::uint32_t cell,
                      const std::optional<fs::path>& out) {
   if (!out || out->extension() != ".json")
@@ -113,24 +100,12 @@ ExitCode write_elite(const experiment::Repertoire& repertoire, std::uint32_t cel
 }
 
 ExitCode write_map(const experiment::Repertoire& repertoire, const RepertoireOptions& options) {
-  const fs::path& out = *options.out;
-  const auto file = std::ranges::find(map_files, out.extension().string(), &MapFile::extension);
-  if (file == map_files.end())
-    fail(ExitCode::bad_input, "--out {}: expected FILE.html, FILE.json, FILE.csv or FILE.svg", out.string());
-  io::refuse_to_replace(out, std::string(file->beginning), std::string(file->what));
-  if (!file->has_new_trials) {
-    io::write_file(out, experiment::repertoire_json(repertoire));
-    return ExitCode::ok;
-  }
-  if (file->extension != ".csv") map_picture(repertoire);  // refuses before the trials
-  const int trials = options.retest.value_or(repertoire.problem.disturbed() ? usual_trials : 0);
-  std::optional<experiment::CorrectedMap> corrected;
-  if (trials > 0 && !(corrected = experiment::correct_map(repertoire, trials, options.jobs, stop_signal())))
+  const presentation::MapFileOptions how{
+      .trials = options.retest, .walkers = to_index(options.walkers), .jobs = options.jobs};
+  if (!presentation::write_map_file(repertoire, options.run, *options.out, how, stop_signal()))
     return ExitCode::interrupted;
-  if (file->extension == ".html")
-    return write_map_page(repertoire, corrected, options.run, options.walkers, out);
-  io::write_file(out, file->extension == ".csv" ? experiment::repertoire_csv(repertoire, corrected)
-                                                : figures::map_svg(map_picture(repertoire, corrected)));
+  if (options.out->extension() == ".html")
+    fmt::print("{}\n", fs::absolute(*options.out).lexically_normal().string());
   return ExitCode::ok;
 }
 

@@ -1,16 +1,23 @@
 #include "amble/experiment/adapt.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 
 #include "amble/adaptation/trial_and_error.hpp"
 #include "amble/core/error.hpp"
+#include "amble/damage/text.hpp"
 #include "amble/experiment/episodes.hpp"
 #include "amble/experiment/evaluator.hpp"
+#include "amble/io/json_file.hpp"
 #include "amble/neat/genome_compact.hpp"
 
 namespace amble::experiment {
 namespace {
+
+constexpr int adaptation_version = 1;
 
 /// A map's problem in another engine, with damage.
 Problem problem_in(const Repertoire& repertoire, const std::string& engine, const damage::Settings& damage) {
@@ -107,6 +114,35 @@ std::optional<Adaptation> adapt(const Repertoire& repertoire, const AdaptSetting
   adaptation.damaged = *after;
   adaptation.adapted = *adapted;
   return adaptation;
+}
+
+std::string adaptation_json(const Adaptation& adaptation, const Repertoire& repertoire,
+                            const AdaptSettings& settings, const std::string& damage) {
+  io::Json steps = io::Json::array();
+  for (const auto& step : adaptation.steps)
+    steps.push_back({{"cell", step.cell},
+                     {"expected", step.expected},
+                     {"predicted", step.predicted},
+                     {"deviation", step.deviation},
+                     {"measured", step.measured}});
+  return io::sealed_json("amble-adaptation", adaptation_version,
+                         {{"experiment", repertoire.config.name},
+                          {"seed", repertoire.config.seed},
+                          {"engine", settings.engine},
+                          {"damage", damage},
+                          {"episodes", settings.episodes},
+                          {"intact", adaptation.intact},
+                          {"damaged", adaptation.damaged},
+                          {"adapted", adaptation.adapted},
+                          {"cell", adaptation.cell},
+                          {"done", adaptation.done},
+                          {"trials", std::move(steps)}});
+}
+
+damage::Settings damage_of(const std::string& spec) {
+  std::error_code error;
+  const bool in_line = spec.find(':') != std::string::npos && !std::filesystem::exists(spec, error);
+  return in_line ? damage::parse(spec) : load_config(spec, {}).damage;
 }
 
 }  // namespace amble::experiment

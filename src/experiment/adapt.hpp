@@ -49,4 +49,11 @@ Problem damaged_problem(const Repertoire& repertoire, const AdaptSettings& setti
 std::optional<Adaptation> adapt(const Repertoire& repertoire, const AdaptSettings& settings, int jobs,
                                 const std::atomic<bool>& stop);
 
+/// The search and what came of it as a document of docs/FORMATS.md. `damage`: as it was asked for.
+std::string adaptation_json(const Adaptation& adaptation, const Repertoire& repertoire,
+                            const AdaptSettings& settings, const std::string& damage);
+
+/// `spec`: damages in one line, such as "missing:FL", or a config file with [damage]. Throws UserError.
+damage::Settings damage_of(const std::string& spec);
+
 }  // namespace amble::experiment

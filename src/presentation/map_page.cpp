@@ -1,4 +1,4 @@
-#include "amble/cli/repertoire_page.hpp"
+#include "amble/presentation/map_page.hpp"
 
 #include <fmt/format.h>
 
@@ -8,17 +8,15 @@
 #include <optional>
 #include <vector>
 
-#include "amble/cli/stop_signal.hpp"
-#include "amble/core/index.hpp"
+#include "amble/core/error.hpp"
 #include "amble/figures/fitness_figure.hpp"
-#include "amble/io/file.hpp"
 #include "amble/io/scratch_file.hpp"
 #include "amble/neat/genome_compact.hpp"
 #include "amble/presentation/walker.hpp"
 #include "amble/record/generations_csv.hpp"
 #include "amble/view/page.hpp"
 
-namespace amble::cli {
+namespace amble::presentation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -110,11 +108,12 @@ figures::GridMap map_picture(const experiment::Repertoire& repertoire,
   return map;
 }
 
-view::ReplayPage map_page(const experiment::Repertoire& repertoire, const std::string& title,
-                          const std::string& note, const std::optional<experiment::CorrectedMap>& corrected) {
+view::ReplayPage blank_map_page(const experiment::Repertoire& repertoire, const std::string& title,
+                                const std::string& note,
+                                const std::optional<experiment::CorrectedMap>& corrected) {
   view::ReplayPage page;
   page.title = title;
-  page.made_by = presentation::made_by();
+  page.made_by = made_by();
   page.map = view::MapPanel{
       .map_svg = figures::map_figure(map_picture(repertoire, corrected)), .curves_svg = {}, .note = note};
   return page;
@@ -123,41 +122,39 @@ view::ReplayPage map_page(const experiment::Repertoire& repertoire, const std::s
 std::optional<view::Walker> elite_walker(const experiment::Repertoire& repertoire,
                                          const experiment::Problem& problem, std::uint32_t cell,
                                          const std::string& title, const fs::path& run,
-                                         const io::ScratchFile& recording) {
+                                         const io::ScratchFile& recording, const std::atomic<bool>& stop) {
   const search::Elite& elite = repertoire.elites[repertoire.elites.in(cell)];
-  auto walker = presentation::walk(problem, neat::expand(elite.genome, "archive.bin"), run.string(), {},
-                                   recording.path(), stop_signal());
+  auto walker =
+      walk(problem, neat::expand(elite.genome, "archive.bin"), run.string(), {}, recording.path(), stop);
   if (!walker) return std::nullopt;
   walker->title = title;
   walker->cell = cell;
   return walker;
 }
 
-ExitCode write_map_page(const experiment::Repertoire& repertoire,
-                        const std::optional<experiment::CorrectedMap>& corrected, const fs::path& run,
-                        int walkers, const fs::path& out) {
+std::optional<std::string> map_page(const experiment::Repertoire& repertoire,
+                                    const std::optional<experiment::CorrectedMap>& corrected,
+                                    const fs::path& run, std::size_t walkers, const std::atomic<bool>& stop) {
   const search::Elites& elites = repertoire.elites;
-  const auto chosen = chosen_elites(elites, corrected, to_index(walkers));
+  const auto chosen = chosen_elites(elites, corrected, walkers);
   const std::string who = chosen.size() == elites.size()
                               ? std::string("Choose a framed cell, and its elite walks")
                               : fmt::format("Choose one of the {} outlined cells of {}, and its elite walks",
                                             chosen.size(), elites.size());
-  auto page = map_page(repertoire, fmt::format("Map of {}", repertoire.config.name),
-                       who + "; with the Shift key, beside the one that walks there already." +
-                           (corrected ? kept_text(*corrected) : ""),
-                       corrected);
+  auto page = blank_map_page(repertoire, fmt::format("Map of {}", repertoire.config.name),
+                             who + "; with the Shift key, beside the one that walks there already." +
+                                 (corrected ? kept_text(*corrected) : ""),
+                             corrected);
   page.map->curves_svg = curves_of(repertoire, run);
   std::vector<std::unique_ptr<io::ScratchFile>> recordings;
   for (const std::uint32_t number : chosen) {
     recordings.push_back(std::make_unique<io::ScratchFile>("walk.rec"));
     auto walker = elite_walker(repertoire, repertoire.problem, elites[number].cell,
-                               title_of(repertoire, corrected, number), run, *recordings.back());
-    if (!walker) return ExitCode::interrupted;
+                               title_of(repertoire, corrected, number), run, *recordings.back(), stop);
+    if (!walker) return std::nullopt;
     page.walkers.push_back(std::move(*walker));
   }
-  io::write_file(out, view::make_page(page));
-  fmt::print("{}\n", fs::absolute(out).lexically_normal().string());
-  return ExitCode::ok;
+  return view::make_page(page);
 }
 
-}  // namespace amble::cli
+}  // namespace amble::presentation

@@ -1,4 +1,4 @@
-#include "amble/cli/compare_maps.hpp"
+#include "amble/experiment/compare_maps.hpp"
 
 #include <fmt/format.h>
 
@@ -7,13 +7,13 @@
 #include "amble/experiment/repertoire.hpp"
 #include "amble/io/settings.hpp"
 
-namespace amble::cli {
+namespace amble::experiment {
 namespace {
 
 using search::Elites;
 
 /// What the cells of a map are: equal for maps that can be compared cell by cell.
-io::Json meaning_of(const experiment::Repertoire& repertoire) {
+io::Json meaning_of(const Repertoire& repertoire) {
   const auto& settings = repertoire.config.search.map_elites;
   return {settings.archive, repertoire.elites.cells(), settings.centroid_seed, settings.centroid_samples,
           [&] {
@@ -40,18 +40,17 @@ ComparedMap::Difference difference(const Elites& map, const Elites& first) {
 }
 
 bool has_map(const std::filesystem::path& input) {
-  return std::filesystem::is_directory(input) &&
-         experiment::fills_map(experiment::load_config(experiment::find_run(input).config, {}));
+  return std::filesystem::is_directory(input) && fills_map(load_config(find_run(input).config, {}));
 }
 
 }  // namespace
 
 std::vector<ComparedMap> compare_maps(const std::vector<std::filesystem::path>& inputs) {
   std::vector<ComparedMap> maps;
-  std::optional<experiment::Repertoire> first;
+  std::optional<Repertoire> first;
   for (const auto& input : inputs) {
     if (!has_map(input)) continue;
-    auto repertoire = experiment::load_repertoire(experiment::find_run(input));
+    auto repertoire = load_repertoire(find_run(input));
     const Elites& elites = repertoire.elites;
     ComparedMap map{.name = input.string(),
                     .cells = elites.cells(),
@@ -66,26 +65,6 @@ std::vector<ComparedMap> compare_maps(const std::vector<std::filesystem::path>& 
     if (!first) first = std::move(repertoire);
   }
   return maps;
-}
-
-std::vector<std::vector<std::string>> maps_table(const std::vector<ComparedMap>& maps) {
-  std::vector<std::vector<std::string>> lines{{"map", "cells filled", "QD score", "best",
-                                               "in common with the first", "better", "worse", "only here",
-                                               "only there"}};
-  for (const ComparedMap& map : maps) {
-    lines.push_back({map.name,
-                     fmt::format("{} of {}, {:.1f} %", map.filled, map.cells, 100.0 * map.filled / map.cells),
-                     fmt::format("{:.2f}", map.qd_score), fmt::format("{:.3f}{}", map.best, map.unit)});
-    const auto& from = map.from_first;
-    if (!from) {
-      lines.back().emplace_back(&map == &maps.front() ? "" : "other cells");
-      lines.back().resize(lines.front().size());
-      continue;
-    }
-    for (const auto count : {from->common, from->better, from->worse, from->only_here, from->only_there})
-      lines.back().push_back(fmt::format("{}", count));
-  }
-  return lines;
 }
 
 io::Json map_json(const ComparedMap& map) {
@@ -103,4 +82,4 @@ io::Json map_json(const ComparedMap& map) {
   return json;
 }
 
-}  // namespace amble::cli
+}  // namespace amble::experiment

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -7,7 +8,7 @@
 
 #include "amble/io/json_file.hpp"
 
-namespace amble::cli {
+namespace amble::experiment {
 
 /// The map of a run, and how it differs from the first one's.
 struct ComparedMap {
@@ -26,8 +27,7 @@ struct ComparedMap {
 /// The maps of those inputs that are runs under MAP-Elites. Throws UserError for a run that cannot be read.
 std::vector<ComparedMap> compare_maps(const std::vector<std::filesystem::path>& inputs);
 
-/// Head and rows of a table.
-std::vector<std::vector<std::string>> maps_table(const std::vector<ComparedMap>& maps);
+/// As docs/FORMATS.md describes it.
 io::Json map_json(const ComparedMap& map);
 
-}  // namespace amble::cli
+}  // namespace amble::experiment

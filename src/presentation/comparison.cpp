@@ -1,0 +1,126 @@
+#include "amble/presentation/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
+#include "amble/experiment/episodes.hpp"
+#include "amble/physics/engine.hpp"
+#include "amble/record/recording.hpp"
+
+namespace amble::presentation {
+namespace {
+
+/// The requested engines and every champion's own, with which the others are compared.
+std::vector<std::string> engines_of(const std::vector<std::string>& requested,
+                                    const std::vector<NamedChampion>& champions) {
+  for (const auto& engine : requested) physics::check_engine_name(engine, "--engines: ");
+  const auto wanted = [&](const std::string& name) {
+    return requested.empty() || std::ranges::count(requested, name) > 0 ||
+           std::ranges::any_of(
+               champions, [&](const NamedChampion& named) { return named.champion.problem.engine == name; });
+  };
+  std::vector<std::string> engines;
+  for (const auto& name : physics::engine_names())
+    if (wanted(std::string(name))) engines.emplace_back(name);
+  return engines;
+}
+
+/// The trials that tell what a champion typically does, the same in all engines.
+std::vector<trial::ScenarioKey> typical_keys(const experiment::Champion& champion, int trials) {
+  trial::ScenarioKey key = experiment::typical_key(champion.seed);
+  std::vector<trial::ScenarioKey> keys;
+  for (int i = 0; i < trials; ++i, ++key.episode) keys.push_back(key);
+  return keys;
+}
+
+/// Noise that evolution has not used: its episodes have lower numbers.
+std::vector<trial::ScenarioKey> unseen_noise(const experiment::Champion& champion, std::uint32_t episodes) {
+  std::vector<trial::ScenarioKey> keys;
+  for (std::uint32_t e = 0; e < episodes; ++e) keys.push_back(champion.unseen_scenario_key(e));
+  return keys;
+}
+
+std::optional<ComparedChampion> row_of(const NamedChampion& named, double seconds,
+                                       const std::vector<std::string>& engines, const CompareOptions& options,
+                                       const std::atomic<bool>& stop) {
+  auto [name, champion] = named;
+  experiment::RefereeOptions referee_options{.seconds = seconds, .jobs = static_cast<int>(engines.size())};
+  std::string under = "without noise";
+  if (!options.disturbance.undisturbed) {
+    const auto level = level_of(champion.problem, options.disturbance);
+    champion.problem.noise = level.noise;
+    under = level.under();
+    const int asked = options.disturbance.trials;
+    referee_options.noise = options.episodes
+                                ? unseen_noise(champion, *options.episodes)
+                                : typical_keys(champion, asked > 0 ? asked : experiment::running_trials);
+  }
+  try {
+    auto results =
+        experiment::try_in_engines(champion.problem, champion.genome, engines, referee_options, stop);
+    if (!results) return std::nullopt;
+    return ComparedChampion{.name = name,
+                            .home = champion.problem.engine,
+                            .trial_s = seconds,
+                            .under = under,
+                            .in = std::move(*results)};
+  } catch (const UserError& error) {
+    fail(error.code(), "{}: {} (--engines chooses engines)", name, error.what());
+  }
+}
+
+}  // namespace
+
+double ComparedChampion::home_m() const {
+  return std::ranges::find(in, home, &experiment::EngineResult::engine)->distance_m();
+}
+
+std::optional<std::vector<ComparedChampion>> compare(const std::vector<NamedChampion>& champions,
+                                                     const CompareOptions& options,
+                                                     const std::atomic<bool>& stop) {
+  const auto engines = engines_of(options.engines, champions);
+  std::vector<ComparedChampion> rows;
+  for (const auto& named : champions) {
+    auto lengths_s = options.seconds;
+    if (lengths_s.empty()) lengths_s.push_back(named.champion.problem.trial.duration_s);
+    for (const double length_s : lengths_s) {
+      auto row = row_of(named, length_s, engines, options, stop);
+      if (!row) return std::nullopt;
+      rows.push_back(std::move(*row));
+    }
+  }
+  return rows;
+}
+
+io::Json comparison_json(const std::vector<ComparedChampion>& rows,
+                         const std::vector<experiment::ComparedMap>& maps) {
+  io::Json list = io::Json::array();
+  for (const auto& row : rows) {
+    io::Json results = io::Json::array();
+    for (const auto& result : row.in) {
+      io::Json trials = io::Json::array();
+      for (const auto& trial : result.trials)
+        trials.push_back({{"distance_m", trial.distance_m},
+                          {"seconds", trial.seconds},
+                          {"outcome", record::outcome_names[to_index(trial.outcome)]}});
+      results.push_back(
+          {{"engine", result.engine}, {"distance_m", result.distance_m()}, {"trials", std::move(trials)}});
+      if (const auto kept = experiment::share_kept(result.distance_m(), row.home_m()))
+        results.back()["kept"] = *kept;
+    }
+    list.push_back({{"champion", row.name},
+                    {"evolved_in", row.home},
+                    {"trial_s", row.trial_s},
+                    {"under", row.under},
+                    {"results", std::move(results)}});
+    const auto map = std::ranges::find(maps, row.name, &experiment::ComparedMap::name);
+    if (map != maps.end()) list.back()["map"] = map_json(*map);
+  }
+  return list;
+}
+
+}  // namespace amble::presentation

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "amble/experiment/corrected_map.hpp"
+#include "amble/experiment/repertoire.hpp"
+#include "amble/figures/map_figure.hpp"
+#include "amble/io/scratch_file.hpp"
+#include "amble/view/page.hpp"
+
+namespace amble::presentation {
+
+/// The map of a grid archive for figures, with what its elites do in new trials if there were any. Throws
+/// UserError for a map of centroids.
+figures::GridMap map_picture(const experiment::Repertoire& repertoire,
+                             const std::optional<experiment::CorrectedMap>& corrected = {});
+
+/// A page with the map of a run, in which up to `walkers` cells can be chosen and then walk: the best first,
+/// then cells spread evenly over the map. `run`: its folder, for the curves and the recordings' origin.
+/// Nothing if `stop` was set. Throws UserError: an empty map, one of centroids.
+std::optional<std::string> map_page(const experiment::Repertoire& repertoire,
+                                    const std::optional<experiment::CorrectedMap>& corrected,
+                                    const std::filesystem::path& run, std::size_t walkers,
+                                    const std::atomic<bool>& stop);
+
+/// A page that shows elites of a map by their cells; its `walkers` are still to come.
+view::ReplayPage blank_map_page(const experiment::Repertoire& repertoire, const std::string& title,
+                                const std::string& note,
+                                const std::optional<experiment::CorrectedMap>& corrected = {});
+
+/// The elite of a cell that has one, in a trial of `problem` without noise. Nothing if `stop` was set.
+std::optional<view::Walker> elite_walker(const experiment::Repertoire& repertoire,
+                                         const experiment::Problem& problem, std::uint32_t cell,
+                                         const std::string& title, const std::filesystem::path& run,
+                                         const io::ScratchFile& recording, const std::atomic<bool>& stop);
+
+}  // namespace amble::presentation
