@@ -81,6 +81,16 @@ TEST(Docs, HelpListsTheEnginesWhereOneIsChosen) {
     EXPECT_NE(amble({command, "--help"}).out.find("ode|batch|mujoco"), std::string::npos) << command;
 }
 
+TEST(Docs, TheVersionIsThatOfTheBuildInEveryFileThatHasIt) {
+  const std::string cmake = slurp(source + "/CMakeLists.txt"), before = "project(amble VERSION ";
+  const std::size_t at = cmake.find(before) + before.size();
+  const std::string version = cmake.substr(at, cmake.find(' ', at) - at);
+  EXPECT_NE(slurp(source + "/CITATION.cff").find("\nversion: " + version + "\n"), std::string::npos)
+      << version;
+  EXPECT_NE(slurp(source + "/codemeta.json").find("\"version\": \"" + version + "\""), std::string::npos)
+      << version;
+}
+
 TEST(Docs, TheReadmeStaysUnder150Lines) {
   const auto readme = slurp(source + "/README.md");
   EXPECT_LT(std::count(readme.begin(), readme.end(), '\n'), 150);
