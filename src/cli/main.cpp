@@ -4,8 +4,11 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <new>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -14,7 +17,9 @@
 #include "amble/cli/messages.hpp"
 #include "amble/cli/usage_error.hpp"
 #include "amble/experiment/build_info.hpp"
+#include "amble/io/plugin_file.hpp"
 #include "amble/io/shell.hpp"
+#include "amble/io/split.hpp"
 #include "amble/physics/engine.hpp"
 #include "amble/physics/instruction_set.hpp"
 
@@ -72,12 +77,43 @@ void add_commands(CLI::App& app, amble::cli::Action& action) {
     }
 }
 
-ExitCode run(int argc, char** argv) {
+/// Loads the plugins of `--plugin FILE`, which stands before or behind the command, and of AMBLE_PLUGINS
+/// (names with a colon between two), and takes them out of the arguments: what configs can choose must be
+/// known before they are read. The programs that this one starts find them in AMBLE_PLUGINS.
+std::vector<char*> load_plugins(int argc, char** argv) {
+  std::vector<std::string> files;
+  if (const char* before = std::getenv("AMBLE_PLUGINS"))
+    for (const auto& file : amble::io::split(before, ':'))
+      if (!file.empty()) files.emplace_back(file);
+  std::vector<char*> rest;
+  for (int i = 0; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    if (word != "--plugin" && !word.starts_with("--plugin=")) {
+      rest.push_back(argv[i]);
+      continue;
+    }
+    const std::string_view file = word == "--plugin" ? (i + 1 < argc ? argv[++i] : "") : word.substr(9);
+    if (file.empty())
+      amble::fail(ExitCode::bad_input, "--plugin: expected a shared library, such as libmine.so");
+    files.push_back(std::filesystem::absolute(file).string());
+  }
+  for (const std::string& file : files) amble::io::load_plugin(file);
+  if (!files.empty()) ::setenv("AMBLE_PLUGINS", fmt::format("{}", fmt::join(files, ":")).c_str(), 1);
+  return rest;
+}
+
+ExitCode run(int all, char** words) {
+  std::vector<char*> arguments = load_plugins(all, words);
+  const int argc = static_cast<int>(arguments.size());
+  char** const argv = arguments.data();
   CLI::App app("Evolves walking controllers for legged robots.", "amble");
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   app.formatter(amble::cli::help_formatter());
-  app.footer("amble help COMMAND explains a command, with examples.");
+  app.footer(
+      "amble help COMMAND explains a command, with examples. amble --plugin FILE.so COMMAND … adds "
+      "controllers,\n"
+      "searches and engines of your own (docs/LIBRARY.md).");
   amble::cli::Action action;
   add_commands(app, action);
   if (argc == 1) {

@@ -1,7 +1,7 @@
 #include "amble/controllers/factory.hpp"
 
-#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <string_view>
 #include <utility>
 
@@ -9,52 +9,45 @@
 #include "amble/controllers/supg.hpp"
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
+#include "amble/core/registry.hpp"
 
 namespace amble::controllers {
 namespace {
 
-struct ArchitectureKind {
-  std::string_view name;  ///< value of controller.kind
-  std::string_view what;  ///< in the description of controller.kind
-  std::unique_ptr<const Architecture> (*make)(const ControllerSettings& settings,
-                                              const robot::RobotSpec& robot, double timestep_s);
-  /// Makes its substrate from a robot (automatic.hpp); null: it has no rule for that.
-  substrate::Settings (*automatic)(const robot::RobotSpec& robot) = nullptr;
-};
-
-/// Makes a Kind from the substrate and its own settings.
-template <typename Kind, auto own_settings>
+/// Makes an architecture from the substrate and its own settings.
+template <typename Made, auto own_settings>
 std::unique_ptr<const Architecture> make(const ControllerSettings& settings, const robot::RobotSpec& robot,
                                          double timestep_s) {
-  return std::make_unique<Kind>(settings.*own_settings, settings.substrate, robot, timestep_s);
+  return std::make_unique<Made>(settings.*own_settings, settings.substrate, robot, timestep_s);
 }
 
-// The table of architectures. A new one is a row here, a class derived from Architecture, perhaps a function
+// amble's own architectures. A new one is a row here, a class derived from Architecture, perhaps a function
 // that makes its substrate from a robot, and, if it has settings, a member of ControllerSettings with its
 // line below.
-constexpr std::array kinds{
-    ArchitectureKind{"supg", "single-unit pattern generators (supg)",
-                     make<SupgArchitecture, &ControllerSettings::supg>, automatic_supg},
-    ArchitectureKind{"network",
-                     "static neurons (network; with a sine among the sensors the sine wave architecture)",
-                     make<NetworkArchitecture, &ControllerSettings::network>, automatic_network},
-    ArchitectureKind{"ctrnn", "continuous-time neurons (ctrnn)",
-                     make<CtrnnArchitecture, &ControllerSettings::ctrnn>, automatic_ctrnn},
-};
+Registry<ControllerKind>& kinds() {
+  static Registry<ControllerKind> all(
+      "controller",
+      {{"supg", "single-unit pattern generators (supg)", make<SupgArchitecture, &ControllerSettings::supg>,
+        automatic_supg},
+       {"network", "static neurons (network; with a sine among the sensors the sine wave architecture)",
+        make<NetworkArchitecture, &ControllerSettings::network>, automatic_network},
+       {"ctrnn", "continuous-time neurons (ctrnn)", make<CtrnnArchitecture, &ControllerSettings::ctrnn>,
+        automatic_ctrnn}});
+  return all;
+}
 
 std::string kind_description() {
   std::string text = "architecture of the controller: ";
-  for (const ArchitectureKind& kind : kinds) {
-    if (&kind != &kinds.front()) text += &kind == &kinds.back() ? " or " : ", ";
-    text += kind.what;
-  }
+  const auto& rows = kinds().rows();
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == rows.size() ? " or " : ", ") + rows[i].what;
   return text;
 }
 
-const ArchitectureKind& kind_of(const ControllerSettings& settings) {
-  const auto row = std::ranges::find(kinds, settings.kind, &ArchitectureKind::name);
-  AMBLE_CHECK(row != kinds.end(), "controller.kind is one of the table's");
-  return *row;
+const ControllerKind& kind_of(const ControllerSettings& settings) {
+  const ControllerKind* const kind = kinds().find(settings.kind);
+  AMBLE_CHECK(kind != nullptr, "controller.kind is one of the kinds");
+  return *kind;
 }
 
 /// Refuses what would be replaced.
@@ -77,8 +70,8 @@ void check_without_lists(const substrate::Settings& settings) {
 }  // namespace
 
 void ControllerSettings::describe(io::SettingsVisitor& visitor) {
-  static const std::string architectures = kind_description();
-  visitor.row_name("kind", kind, kinds, {architectures, "Morse et al. 2013, sec. 3 and 4"});
+  const std::string architectures = kind_description();
+  visitor.row_name("kind", kind, kinds().rows(), {architectures, "Morse et al. 2013, sec. 3 and 4"});
   visitor.table("substrate", substrate,
                 {.what = "the nodes of the controller, and what the CPPN says of them",
                  .source = "Morse et al. 2013, sec. 2.2",
@@ -86,6 +79,16 @@ void ControllerSettings::describe(io::SettingsVisitor& visitor) {
   visitor.table("supg", supg, {"single-unit pattern generators", "Morse et al. 2013, sec. 3"});
   visitor.table("network", network, {"static neurons", "Morse et al. 2013, sec. 4"});
   visitor.table("ctrnn", ctrnn, {"continuous-time recurrent neural networks", "Morse et al. 2013, sec. 4"});
+  if (const auto& numbers = kind_of(*this).numbers; !numbers.empty()) {
+    visitor.begin("own", {"settings of this kind, which is not one of amble's own"});
+    own.describe(visitor, numbers);
+    visitor.end();
+  }
+}
+
+void register_controller(ControllerKind kind) {
+  AMBLE_CHECK(kind.make, "a controller needs a function that makes it");
+  kinds().add(std::move(kind));
 }
 
 substrate::Settings substrate_of(const ControllerSettings& settings, const robot::RobotSpec& robot) {
@@ -110,6 +113,7 @@ std::unique_ptr<const Architecture> make_architecture(const ControllerSettings& 
                                                       const robot::RobotSpec& robot, double timestep_s) {
   ControllerSettings listed = settings;
   listed.substrate = substrate_of(settings, robot);
+  listed.own.complete(kind_of(settings).numbers);
   return kind_of(settings).make(listed, robot, timestep_s);
 }
 

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "amble/controllers/controller.hpp"
 #include "amble/controllers/ctrnn.hpp"
 #include "amble/controllers/network.hpp"
 #include "amble/controllers/supg_settings.hpp"
+#include "amble/io/own_settings.hpp"
 #include "amble/io/settings.hpp"
 #include "amble/substrate/settings.hpp"
 
@@ -14,20 +17,39 @@ namespace amble::controllers {
 
 /// Which architecture, its substrate, and the settings of each.
 struct ControllerSettings {
-  std::string kind = "supg";  ///< a row of the table in factory.cpp
+  std::string kind = "supg";  ///< the name of a ControllerKind
   substrate::Settings substrate;
   SupgSettings supg;
   NetworkSettings network;
   CtrnnSettings ctrnn;
+  io::OwnSettings own;  ///< of a kind that a program or a plugin has added
 
   void describe(io::SettingsVisitor& visitor);
 };
 
-/// The substrate with its lists: those of the settings, or with `layout = "auto"` those that the row of the
-/// settings' kind makes from the robot (automatic.hpp). Throws SettingError where both are given.
+/// A kind of controller that configs can choose.
+struct ControllerKind {
+  std::string name;  ///< value of controller.kind
+  std::string what;  ///< in the description of controller.kind, e.g. "continuous-time neurons (ctrnn)"
+  /// `settings.substrate` has its lists, `settings.own` all of `numbers`. Throws SettingError where settings
+  /// and robot do not fit.
+  std::function<std::unique_ptr<const Architecture>(const ControllerSettings& settings,
+                                                    const robot::RobotSpec& robot, double timestep_s)>
+      make;
+  /// Makes its substrate from a robot (automatic.hpp); empty: it has no rule for that.
+  std::function<substrate::Settings(const robot::RobotSpec& robot)> automatic = {};
+  std::vector<io::OwnNumber> numbers = {};  ///< its settings: [controller.own]
+};
+
+/// Adds a kind, from then on one of those that configs can choose. Before the first config is read; not
+/// thread safe. Throws UserError for a name that is taken or cannot be one.
+void register_controller(ControllerKind kind);
+
+/// The substrate with its lists: those of the settings, or with `layout = "auto"` those that the settings'
+/// kind makes from the robot (automatic.hpp). Throws SettingError where both are given.
 substrate::Settings substrate_of(const ControllerSettings& settings, const robot::RobotSpec& robot);
 
-/// By the row of the settings' kind. Throws UserError where settings and robot do not fit.
+/// By the settings' kind. Throws UserError where settings and robot do not fit.
 std::unique_ptr<const Architecture> make_architecture(const ControllerSettings& settings,
                                                       const robot::RobotSpec& robot, double timestep_s);
 

@@ -4,12 +4,27 @@
 
 namespace amble {
 
-/// Prints "file:line: check failed: condition (detail)" to stderr and aborts.
+/// A condition that did not hold: a programming error, in amble or in the program that uses it.
+struct CheckFailure {
+  const char* file;
+  int line;
+  const char* condition;
+  std::string_view detail;
+};
+
+/// What happens first when a check fails. By default "file:line: check failed: condition (detail)" goes to
+/// stderr. If a handler returns, the process aborts, as nothing can be relied on; a handler that throws
+/// leaves the objects that were being used good for nothing but destruction. Null restores the default.
+/// Returns the one before. Thread safe.
+using CheckHandler = void (*)(const CheckFailure& failure);
+CheckHandler set_check_handler(CheckHandler handler);
+
+/// Calls the handler and aborts.
 [[noreturn]] void check_failed(const char* file, int line, const char* condition, std::string_view detail);
 
 }  // namespace amble
 
-/// A condition that only a programming error can break. Always on; aborts with file and line.
+/// A condition that only a programming error can break. Always on; see set_check_handler().
 /// For mistakes of the user see core/error.hpp; diverged physics is an outcome, not an error.
 #define AMBLE_CHECK(condition, detail) \
   (static_cast<bool>(condition) ? void() : ::amble::check_failed(__FILE__, __LINE__, #condition, detail))

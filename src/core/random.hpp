@@ -6,7 +6,8 @@
 namespace amble {
 
 /// The purpose of a random stream. Part of its key, so that a new use of randomness never shifts an old one.
-/// Values are part of the reproducibility promise: add at the end, never renumber.
+/// Values are part of the reproducibility promise: add at the end, never renumber. Those from 1000 on are for
+/// extensions outside amble: static_cast<Purpose>(1000).
 enum class Purpose : std::uint32_t {
   test = 0,
   initial_genome = 1,

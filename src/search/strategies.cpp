@@ -1,9 +1,9 @@
 #include "amble/search/strategies.hpp"
 
-#include <algorithm>
-#include <array>
+#include <utility>
 
 #include "amble/core/check.hpp"
+#include "amble/core/registry.hpp"
 #include "amble/search/generational.hpp"
 #include "amble/search/map_elites.hpp"
 #include "amble/search/novelty.hpp"
@@ -46,33 +46,65 @@ int batch(const Settings& settings, const neat::Settings&) {
   return settings.map_elites.batch;
 }
 
-void any(const Settings&, std::size_t) {}
-void any_memory(const Settings&, const SearchSpace&, double) {}
+/// With functions in place of those that were left out.
+StrategyKind completed(StrategyKind kind) {
+  AMBLE_CHECK(kind.make, "a search needs a function that makes it");
+  if (!kind.candidates) kind.candidates = population;
+  if (!kind.validate) kind.validate = [](const Settings&, std::size_t) {};
+  if (!kind.check_memory) kind.check_memory = [](const Settings&, const SearchSpace&, double) {};
+  if (!kind.numbers.empty())
+    kind.make = [make = std::move(kind.make), numbers = kind.numbers](const Settings& settings,
+                                                                      const SearchSpace& space) {
+      Settings all = settings;
+      all.own.complete(numbers);
+      return make(all, space);
+    };
+  return kind;
+}
 
-// The table of strategies. A new one is a row here, a class derived from Strategy, and, if it has settings, a
+// amble's own strategies. A new one is a row here, a class derived from Strategy, and, if it has settings, a
 // member of Settings with its line in Settings::describe.
-constexpr std::array kinds{
-    StrategyKind{"objective", "", make_objective, population, any, any_memory},
-    StrategyKind{"novelty", "path", make_novelty, population, validate_novelty, check_novelty_memory},
-    StrategyKind{"map-elites", "descriptors", make_map_elites, batch, validate_map_elites,
-                 check_map_elites_memory},
-};
+Registry<StrategyKind>& kinds() {
+  static Registry<StrategyKind> all(
+      "search", {completed({.name = "objective", .behaviour = "", .make = make_objective}),
+                 completed({.name = "novelty",
+                            .behaviour = "path",
+                            .make = make_novelty,
+                            .validate = validate_novelty,
+                            .check_memory = check_novelty_memory}),
+                 completed({.name = "map-elites",
+                            .behaviour = "descriptors",
+                            .make = make_map_elites,
+                            .candidates = batch,
+                            .validate = validate_map_elites,
+                            .check_memory = check_map_elites_memory})});
+  return all;
+}
 
 }  // namespace
 
 void Settings::describe(io::SettingsVisitor& visitor) {
-  visitor.row_name("kind", kind, kinds,
+  visitor.row_name("kind", kind, kinds().rows(),
                    {"what selects parents: the objective itself (distance walked), novelty of behaviour, or "
                     "being the best of one's kind (a map of gaits)",
                     "Morse et al. 2013, sec. 4"});
   visitor.table("novelty", novelty, {"novelty search; without effect under other kinds"});
   visitor.table("map_elites", map_elites, {"MAP-Elites; without effect under other kinds"});
+  if (const auto& numbers = strategy_kind(*this).numbers; !numbers.empty()) {
+    visitor.begin("own", {"settings of this kind, which is not one of amble's own"});
+    own.describe(visitor, numbers);
+    visitor.end();
+  }
+}
+
+void register_search(StrategyKind kind) {
+  kinds().add(completed(std::move(kind)));
 }
 
 const StrategyKind& strategy_kind(const Settings& settings) {
-  const auto row = std::ranges::find(kinds, settings.kind, &StrategyKind::name);
-  AMBLE_CHECK(row != kinds.end(), "search.kind is one of the table's");
-  return *row;
+  const StrategyKind* const kind = kinds().find(settings.kind);
+  AMBLE_CHECK(kind != nullptr, "search.kind is one of the kinds");
+  return *kind;
 }
 
 }  // namespace amble::search

@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
-#include <string_view>
+#include <string>
+#include <vector>
 
 #include "amble/neat/settings.hpp"
 #include "amble/search/settings.hpp"
@@ -21,21 +23,29 @@ struct SearchSpace {
   std::size_t behaviour_length = 0;  ///< numbers in each Evaluation::behaviour
 };
 
-/// One strategy, as the rest of the program sees it.
+/// A search that configs can choose, as the rest of the program sees it.
 struct StrategyKind {
-  std::string_view name;       ///< value of search.kind
-  std::string_view behaviour;  ///< which behaviour its evaluations need (score/behaviour.hpp); "": none
-  std::unique_ptr<Strategy> (*make)(const Settings& settings, const SearchSpace& space);
-  /// Candidates of a round.
-  int (*candidates)(const Settings& settings, const neat::Settings& neat);
-  /// Throws SettingError where the settings do not fit behaviours of this length.
-  void (*validate)(const Settings& settings, std::size_t behaviour_length);
-  /// Throws SettingError if the search of `space` could need more than `memory_bytes`. For running it only: a
-  /// config may be read on a smaller machine.
-  void (*check_memory)(const Settings& settings, const SearchSpace& space, double memory_bytes);
+  std::string name;       ///< value of search.kind
+  std::string behaviour;  ///< which behaviour its evaluations need (score/behaviour.hpp); "": none
+  /// `settings.own` has all of `numbers`.
+  std::function<std::unique_ptr<Strategy>(const Settings& settings, const SearchSpace& space)> make;
+  /// Candidates of a round; empty: population.size.
+  std::function<int(const Settings& settings, const neat::Settings& neat)> candidates = {};
+  /// Throws SettingError where the settings do not fit behaviours of this length; empty: they always do.
+  std::function<void(const Settings& settings, std::size_t behaviour_length)> validate = {};
+  /// Throws SettingError if the search of `space` could need more than `memory_bytes`; empty: it needs
+  /// little. For running it only: a config may be read on a smaller machine.
+  std::function<void(const Settings& settings, const SearchSpace& space, double memory_bytes)> check_memory =
+      {};
+  std::vector<io::OwnNumber> numbers = {};  ///< its settings: [search.own]
 };
 
-/// The row of the settings' kind. AMBLE_CHECK: the kind is known, as describe() ensures.
+/// Adds a search, from then on one of those that configs can choose. Before the first config is read; not
+/// thread safe. Throws UserError for a name that is taken or cannot be one.
+void register_search(StrategyKind kind);
+
+/// The kind of the settings, its functions none of them empty. AMBLE_CHECK: it is known, as describe()
+/// ensures.
 const StrategyKind& strategy_kind(const Settings& settings);
 
 }  // namespace amble::search
