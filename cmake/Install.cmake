@@ -9,10 +9,13 @@ install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/amble
 install(DIRECTORY robots configs DESTINATION ${CMAKE_INSTALL_DATADIR}/amble)
 
 install(EXPORT ambleTargets NAMESPACE amble:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/amble)
+include(cmake/Components.cmake)
+amble_write_components(${CMAKE_CURRENT_BINARY_DIR}/ambleComponents.cmake)
 configure_package_config_file(cmake/ambleConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/ambleConfig.cmake
-                              INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/amble)
+                              INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/amble PATH_VARS CMAKE_INSTALL_INCLUDEDIR)
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/ambleConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/ambleConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/ambleConfigVersion.cmake
+              ${CMAKE_CURRENT_BINARY_DIR}/ambleComponents.cmake
               cmake/FindMuJoCo.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/amble)
 

@@ -20,5 +20,43 @@ flags=$(PKG_CONFIG_PATH=$pkg_config_path pkg-config --cflags --libs amble)
 c++ -std=c++20 "$here/consumer/main.cpp" $flags -o "$scratch/by-pkg-config"
 [ "$("$scratch/by-pkg-config" "$robot")" = "$expected" ] || { echo "pkg-config consumer: wrong output" >&2; exit 1; }
 
+# A component brings what it needs and no more: the targets of others' packages are not there.
+cat >"$scratch/CMakeLists.txt" <<'END'
+cmake_minimum_required(VERSION 3.25)
+project(alone LANGUAGES CXX)
+find_package(amble REQUIRED COMPONENTS neat)
+if(TARGET mujoco::mujoco OR TARGET PkgConfig::ODE OR TARGET PkgConfig::OPENBLAS)
+  message(FATAL_ERROR "neat alone looks for what it does not need")
+endif()
+file(WRITE ${CMAKE_BINARY_DIR}/alone.cpp "#include <amble/core/version.hpp>\n#include <amble/neat/population.hpp>\n"
+  "int main() { return amble::neat::Population({}, 2, 1, false, 1).genomes().empty() || AMBLE_VERSION < 100; }\n")
+add_executable(alone ${CMAKE_BINARY_DIR}/alone.cpp)
+target_link_libraries(alone PRIVATE amble::neat)
+find_package(amble QUIET COMPONENTS dancing)
+if(amble_FOUND)
+  message(FATAL_ERROR "there is no such component")
+endif()
+END
+cmake -S "$scratch" -B "$scratch/alone" -DCMAKE_PREFIX_PATH="$scratch/prefix" >/dev/null
+cmake --build "$scratch/alone" >/dev/null
+"$scratch/alone/alone"
+
+# A controller and a search from outside, loaded by the installed program; a worker's process loads them too.
+examples=$here/../../examples/extend
+cmake -S "$examples" -B "$scratch/extend" -DCMAKE_PREFIX_PATH="$scratch/prefix" >/dev/null
+cmake --build "$scratch/extend" >/dev/null
+amble=$scratch/prefix/bin/amble
+for name in swing climb; do
+  "$amble" --plugin "$scratch/extend/lib$name.so" evolve "$examples/$name.toml" --seed 1 --jobs 2 --set population.size=16 \
+    --set trial.duration_s=1 --set champion.episodes=0 --generations 2 --out "$scratch/$name" >/dev/null
+  "$amble" --plugin "$scratch/extend/lib$name.so" resume "$scratch/$name" --generations 3 --jobs 1 >/dev/null
+  "$amble" --plugin "$scratch/extend/lib$name.so" evolve "$examples/$name.toml" --seed 1 --jobs 1 --set population.size=16 \
+    --set trial.duration_s=1 --set champion.episodes=0 --generations 3 --out "$scratch/$name-again" >/dev/null
+  [ "$(ls "$scratch/$name/champions")" = "$(ls "$scratch/$name-again/champions")" ] || { echo "$name: other champions after resume" >&2; exit 1; }
+  cmp "$scratch/$name/champions/$(ls "$scratch/$name/champions" | tail -1)" \
+    "$scratch/$name-again/champions/$(ls "$scratch/$name/champions" | tail -1)"
+done
+if "$amble" trial "$scratch/swing" >/dev/null 2>&1; then echo "a champion of a plugin's kind was read without it" >&2; exit 1; fi
+
 "$scratch/prefix/bin/amble" robot "$robot" >/dev/null
 echo "both consumers say: $expected"
