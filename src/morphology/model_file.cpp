@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <set>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,6 +16,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
+#include "amble/morphology/missing_mass.hpp"
 #include "amble/morphology/mujoco_handlers.hpp"
 
 namespace amble::morphology {
@@ -25,24 +28,30 @@ std::string one_line(std::string text) {
   return text;
 }
 
-/// A one-file file system in memory, from which MuJoCo reads a text.
-class MemoryFile {
+/// Files in memory, from which MuJoCo reads a text and its meshes.
+class MemoryFiles {
  public:
-  MemoryFile(const std::filesystem::path& path, const std::string& text) : files_(std::make_unique<mjVFS>()) {
-    mj_defaultVFS(files_.get());
-    if (mj_makeEmptyFileVFS(files_.get(), path.filename().c_str(), static_cast<int>(text.size())) != 0) {
-      fail(ExitCode::bad_input, "{}: too long a file name", path.string());
-    }
-    std::memcpy(files_->filedata[0], text.data(), text.size());
+  MemoryFiles() : files_(std::make_unique<mjVFS>()) { mj_defaultVFS(files_.get()); }
+  ~MemoryFiles() { mj_deleteVFS(files_.get()); }
+  MemoryFiles(const MemoryFiles&) = delete;
+  MemoryFiles& operator=(const MemoryFiles&) = delete;
+
+  /// Adds a file, or replaces that of this name. `what`: for messages.
+  void set(const std::string& name, const std::string& bytes, const std::string& what) {
+    if (names_.contains(name)) mj_deleteFileVFS(files_.get(), name.c_str());
+    const int failed = mj_makeEmptyFileVFS(files_.get(), name.c_str(), static_cast<int>(bytes.size()));
+    if (failed == 1) fail(ExitCode::bad_input, "{}: more than {} meshes", what, mjMAXVFS - 1);
+    if (failed != 0) fail(ExitCode::bad_input, "{}: too long a file name", what);
+    std::memcpy(files_->filedata[files_->nfile - 1], bytes.data(), bytes.size());
+    names_.insert(name);
   }
-  ~MemoryFile() { mj_deleteVFS(files_.get()); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
+  bool has(const std::string& name) const { return names_.contains(name); }
 
   const mjVFS* get() const { return files_.get(); }
 
  private:
   std::unique_ptr<mjVFS> files_;
+  std::set<std::string> names_;
 };
 
 /// Compiles; without a model, its message.
@@ -76,9 +85,11 @@ class Compiler {
   ModelPointer compile() {
     for (int removals = 0;; ++removals) {
       written_ = write_xml(text_.root);
-      const MemoryFile file(path_, written_.text);
+      files_.set(path_.filename(), written_.text, path_.string());
+      for (const auto& [name, bytes] : text_.meshes.files())
+        if (!files_.has(name)) files_.set(name, *bytes, path_.string());
       std::string problem;
-      ModelPointer model = try_to_load(path_, file.get(), problem);
+      ModelPointer model = try_to_load(path_, files_.get(), problem);
       if (model != nullptr) return model;
       if (removals == most_removals || !remove_unknown(problem))
         fail(ExitCode::bad_input, "{}: MuJoCo refuses the model: {}", path_.string(),
@@ -87,7 +98,7 @@ class Compiler {
   }
 
  private:
-  static constexpr int most_removals = 200;
+  static constexpr int most_removals = 500;
 
   /// The element of the line that a message names, or null. `mark` stands before the number.
   XmlElement* element_of(const std::string& problem) const {
@@ -107,11 +118,54 @@ class Compiler {
     return fmt::format("{} ({}:{})", problem.substr(0, at), element->file, element->line);
   }
 
+  /// What is wrong with masses and meshes is mended where it is known how.
+  bool mend(const std::string& problem) {
+    const std::string name = between(problem, "Object name = ", ",");
+    if (problem.find("mass and inertia of moving bodies") != std::string::npos ||
+        problem.find("inertia must have positive eigenvalues") != std::string::npos)
+      return give_small_mass(text_.root, text_.urdf, name,
+                             std::atoi(between(problem, ", id = ", ",").c_str()), text_.missing_masses);
+    return text_.mesh_files.contains(name) && simplify_mesh(name, problem);
+  }
+
+  bool simplify_mesh(const std::string& mesh, const std::string& problem) {
+    const std::string key = text_.urdf ? "filename" : "file";
+    XmlElement* found = nullptr;
+    text_.root.visit([&](XmlElement& element, XmlElement*) {
+      const auto file = element.attribute(key);
+      if (element.name != "mesh" || !file) return;
+      const bool same =
+          text_.urdf ? std::filesystem::path(*file).stem() == mesh : element.attribute("name") == mesh;
+      if (same) found = &element;
+    });
+    if (found == nullptr) return false;
+    const std::string old = *found->attribute(key), file = text_.meshes.simpler(old);
+    if (file.empty()) return false;
+    const std::string named = text_.mesh_files[mesh],
+                      renamed = text_.urdf ? std::filesystem::path(file).stem().string() : mesh;
+    text_.mesh_files[renamed] = named;
+    text_.root.visit([&](XmlElement& element, XmlElement*) {
+      if (element.name == "mesh" && element.attribute(key) == old &&
+          (text_.urdf || element.attribute("name") == mesh))
+        element.set(key, file);
+    });
+    const std::string reason = between(problem, "Error: ", " Object name");
+    if (text_.meshes.is_placeholder(file))
+      text_.missing_meshes[renamed] = fmt::format("{} ({})", named, reason);
+    else
+      notes_.add(Reading::replaced,
+                 fmt::format("the mesh {}, which MuJoCo refuses ({}): its convex hull", named, reason));
+    return true;
+  }
+
   bool remove_unknown(const std::string& problem) {
+    if (mend(problem)) return true;
     if (text_.urdf) return remove_visuals(problem);
     const XmlElement* named = element_of(problem);
     if (named == nullptr) return false;
     const std::string name = named->name;
+    if (name == "geom" && problem.find("sizes must be positive") != std::string::npos)
+      return remove_geom(*named);
     if (problem.find("unrecognized attribute") != std::string::npos) {
       remove_attributes(name, between(problem, "attribute: '", "'"), "");
       return true;
@@ -126,6 +180,19 @@ class Compiler {
       return !keys.empty();
     }
     return problem.find("unrecognized element") != std::string::npos && remove_elements(name);
+  }
+
+  /// A shape without size.
+  bool remove_geom(const XmlElement& geom) {
+    const XmlElement* body = nullptr;
+    text_.root.visit([&](XmlElement& element, XmlElement* parent) {
+      if (&element == &geom) body = parent;
+    });
+    if (body == nullptr || body->name == "default") return false;
+    notes_.add(Reading::left_out, fmt::format("geom '{}' of '{}': a shape without size",
+                                              geom.attribute_or("name", ""), body->attribute_or("name", "")));
+    text_.root.prune([&](const XmlElement& element, const XmlElement&) { return &element == &geom; });
+    return true;
   }
 
   /// No robot is refused for what is only to look at, such as a mesh of too many faces.
@@ -184,6 +251,7 @@ class Compiler {
   const std::filesystem::path& path_;
   ReadingNotes& notes_;
   XmlText written_;
+  MemoryFiles files_;
 };
 
 }  // namespace
@@ -192,21 +260,29 @@ void DeleteModel::operator()(mjModel_* model) const {
   mj_deleteModel(model);
 }
 
-ModelFile compile_model(const std::filesystem::path& path) {
+ModelFile compile_model(const std::filesystem::path& path) try {
   ModelFile compiled;
   compiled.path = path;
   ModelText text = read_model_text(path, compiled.notes);
   compiled.root_is_welded = text.urdf;
   compiled.model = Compiler(text, path, compiled.notes).compile();
+  mend_masses(*compiled.model, text.missing_masses, text.missing_meshes, compiled.notes);
   compiled.motors = std::move(text.motors);
   compiled.missing_meshes = std::move(text.missing_meshes);
   return compiled;
+} catch (const std::filesystem::filesystem_error& error) {
+  fail(ExitCode::io, "{}: while the model was read: {}", path.string(), error.what());
+} catch (const std::length_error& error) {
+  fail(ExitCode::bad_input, "{}: while the model was read: {}", path.string(), error.what());
+} catch (const std::out_of_range& error) {
+  fail(ExitCode::bad_input, "{}: while the model was read: {}", path.string(), error.what());
 }
 
 ModelPointer compile_mjcf(const std::string& text, const std::string& what) {
-  const MemoryFile file("model.xml", text);
+  MemoryFiles files;
+  files.set("model.xml", text, what);
   std::string problem;
-  ModelPointer model = try_to_load("model.xml", file.get(), problem);
+  ModelPointer model = try_to_load("model.xml", files.get(), problem);
   if (model == nullptr) fail(ExitCode::bad_input, "{}: MuJoCo refuses the model: {}", what, problem);
   return model;
 }

@@ -12,6 +12,8 @@
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/morphology/body_mass.hpp"
+#include "amble/morphology/lost_shapes.hpp"
+#include "amble/morphology/massless_links.hpp"
 #include "amble/morphology/model_shapes.hpp"
 #include "amble/morphology/mujoco_math.hpp"
 #include "amble/morphology/start_pose.hpp"
@@ -44,6 +46,8 @@ class PartsExtractor {
     for (int g = 0; g < model_.ngeom; ++g) {
       if (group_[to_index(model_.geom_bodyid[g])] >= 0) add_geom(g);
     }
+    if (const std::string faulty = merge_massless_links(parts_); !faulty.empty())
+      refuse("links without mass that move: {}: give them mass and inertia (URDF: <inertial>)", faulty);
     finish();
     parts_.gravity_m_s2 = vec3(model_.opt.gravity);
     return std::move(parts_);
@@ -102,7 +106,10 @@ class PartsExtractor {
                                          : !moving.empty()    ? moving
                                                               : roots;
     if (candidates.size() != 1)
-      refuse("expected one body in the world, the robot's root, but found {}", candidates.size());
+      refuse("expected one body in the world, the robot's root, but found {}{}", candidates.size(),
+             candidates.size() < 2 ? ""
+                                   : "; if they are limbs of one robot, put <body name=\"root\"><freejoint/> "
+                                     "… </body> around them");
     root_ = candidates[0];
     for (const int other : roots)
       if (other != root_) note(Reading::left_out, "body '{}': it stands in the world", body_name(other));
@@ -140,9 +147,8 @@ class PartsExtractor {
         obstacles_.push_back(geom_name(g).empty() ? "one without a name" : fmt::format("'{}'", geom_name(g)));
     }
     if (!obstacles_.empty())
-      note(Reading::left_out,
-           "{} geoms of the world, the first of them {}: the ground is amble's own, the plane z = 0",
-           obstacles_.size(), obstacles_.front());
+      note(Reading::left_out, "{} geoms of the world: {}: the ground is amble's own, the plane z = 0",
+           obstacles_.size(), fmt::join(obstacles_, ", "));
     if (model_.ncam + model_.nlight + model_.nsite > 0)
       note(Reading::left_out, "{} cameras, {} lights, {} sites", model_.ncam, model_.nlight, model_.nsite);
     if (model_.nu > 0) note(Reading::left_out, "{} actuators: the robot file has the servos", model_.nu);
@@ -212,8 +218,7 @@ class PartsExtractor {
     for (int m = b; m < model_.nbody; ++m) {
       if (group_[to_index(m)] == group_[to_index(b)] && model_.body_mass[m] > 0.0) members.push_back(m);
     }
-    if (members.empty()) refuse("body '{}' has no mass", body.name);
-    set_mass(model_, members, pose_in_group_, body);
+    if (!members.empty()) set_mass(model_, members, pose_in_group_, body);
     parts_.bodies.push_back(std::move(body));
   }
 
@@ -251,26 +256,33 @@ class PartsExtractor {
         type == mjGEOM_MESH ? model_.names + model_.name_meshadr[model_.geom_dataid[g]] : "";
     const auto missing = file_.missing_meshes.find(mesh);
     if (missing != file_.missing_meshes.end() && type == mjGEOM_MESH) {
-      if (collides(g))
+      if (collides(g) && is_of_a_foot(model_, root_, g, file_.missing_meshes))
         lost_.insert(missing->second);
       else
-        note(Reading::left_out, "what is only to look at and whose mesh is missing: {}", missing->second);
+        note(Reading::left_out, "{} and whose mesh cannot be read: {} of '{}'",
+             collides(g) ? "what collides" : "what is only to look at", missing->second,
+             body_name(model_.geom_bodyid[g]));
       return;
     }
     auto shape = shape_of(model_, g, collides(g));
     if (!shape) {
-      if (collides(g))
+      if (collides(g) && (type != mjGEOM_MESH || is_of_a_foot(model_, root_, g, file_.missing_meshes)))
         refuse("geom '{}': planes, height fields and flat meshes cannot collide", name_or_place(g));
-      note(Reading::left_out, "geom '{}': a shape that cannot be shown", name_or_place(g));
+      note(Reading::left_out, "geom '{}': a flat mesh or another shape that cannot be shown",
+           name_or_place(g));
       return;
     }
     if (type == mjGEOM_ELLIPSOID)
       ++ellipsoids_;
+    else if (type == mjGEOM_MESH && shape->shape == robot::Shape::cylinder)
+      ++cylinders_;
     else if (shape->shape == robot::Shape::mesh)
       ++(collides(g) ? hulls_ : shown_hulls_);
     const int b = model_.geom_bodyid[g];
-    const robot::Pose pose = pose_in_group_[to_index(b)] *
-                             robot::Pose{vec3(model_.geom_pos + 3 * g), quat(model_.geom_quat + 4 * g)};
+    robot::Pose pose = pose_in_group_[to_index(b)] *
+                       robot::Pose{vec3(model_.geom_pos + 3 * g), quat(model_.geom_quat + 4 * g)};
+    if (type == mjGEOM_MESH && shape->shape == robot::Shape::cylinder)
+      pose = pose * robot::Pose{shape->position_m, shape->rotation};
     const float* colour =
         model_.geom_matid[g] < 0 ? model_.geom_rgba + 4 * g : model_.mat_rgba + 4 * model_.geom_matid[g];
     robot::Geom& geom = *shape;
@@ -286,7 +298,8 @@ class PartsExtractor {
 
   void finish() {
     if (!lost_.empty())
-      throw UserError(fmt::format("{}: collision meshes that are missing, or neither STL, OBJ nor MSH: {}",
+      throw UserError(fmt::format("{}: collision meshes of feet that cannot be read: {}; they are looked for "
+                                  "beside the model, in the folders above it, and in meshes/",
                                   file_.path.string(), fmt::join(lost_, ", ")),
                       ExitCode::io);
     const auto counted = [](std::size_t count, std::string_view one, std::string_view many) {
@@ -294,12 +307,16 @@ class PartsExtractor {
     };
     note(Reading::kept, "{}, {}, {}, {}", counted(parts_.bodies.size(), "body", "bodies"),
          counted(parts_.joints.size(), "joint", "joints"),
-         counted(parts_.geoms.size() - to_index(hulls_ + shown_hulls_ + ellipsoids_), "geom", "geoms"),
+         counted(parts_.geoms.size() - to_index(hulls_ + shown_hulls_ + ellipsoids_ + cylinders_), "geom",
+                 "geoms"),
          counted(to_index(model_.nkey), "keyframe", "keyframes"));
     if (!springs_.empty()) note(Reading::left_out, "the springs of joints {}", fmt::join(springs_, ", "));
     if (hulls_ > 0)
       note(Reading::replaced, "{} meshes that collide: the convex hull of each, with at most {} corners",
            hulls_, most_collision_vertices);
+    if (cylinders_ > 0)
+      note(Reading::replaced, "{} meshes that collide and are round about an axis: a cylinder each",
+           cylinders_);
     if (shown_hulls_ > 0)
       note(Reading::replaced, "{} meshes to look at: the convex hull of each, with at most {} corners",
            shown_hulls_, most_decoration_vertices);
@@ -331,7 +348,7 @@ class PartsExtractor {
   std::vector<bool> fixed_;
   std::vector<int> group_;
   std::vector<robot::Pose> pose_in_group_;
-  int hulls_ = 0, shown_hulls_ = 0, ellipsoids_ = 0;
+  int hulls_ = 0, shown_hulls_ = 0, ellipsoids_ = 0, cylinders_ = 0;
   std::set<std::string> lost_;
   std::vector<std::string> springs_, obstacles_;
   ModelParts parts_;

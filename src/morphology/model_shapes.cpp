@@ -3,6 +3,7 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -11,6 +12,8 @@
 #include "amble/core/index.hpp"
 #include "amble/morphology/convex_hull.hpp"
 #include "amble/morphology/model_parts.hpp"
+#include "amble/morphology/mujoco_math.hpp"
+#include "amble/morphology/round_shape.hpp"
 
 namespace amble::morphology {
 namespace {
@@ -35,6 +38,23 @@ std::vector<Vec3> points_of_ellipsoid(Vec3 radii_m) {
   return points;
 }
 
+/// Axes about which a wheel may be drawn, in the geom's frame: those of its body, and the principal ones of
+/// its mesh, which MuJoCo makes the geom's own.
+std::array<Vec3, 6> axes_of(const mjModel_& model, int g) {
+  const Quat back = conjugate(quat(model.geom_quat + 4 * g));
+  const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  return {rotate(back, x), rotate(back, y), rotate(back, z), x, y, z};
+}
+
+robot::Geom cylinder(const RoundShape& round) {
+  robot::Geom geom;
+  geom.shape = robot::Shape::cylinder;
+  geom.size_m = {round.radius_m, round.half_length_m, 0.0};
+  geom.position_m = round.pose.position_m;
+  geom.rotation = round.pose.rotation;
+  return geom;
+}
+
 std::optional<robot::Geom> hull_of(const std::vector<Vec3>& points, bool collides) {
   ConvexHull hull = convex_hull(points, collides ? most_collision_vertices : most_decoration_vertices);
   if (hull.triangles.size() < 4) return std::nullopt;
@@ -56,7 +76,12 @@ std::optional<robot::Geom> shape_of(const mjModel_& model, int g, bool collides)
   const int type = model.geom_type[g];
   const mjtNum* size = model.geom_size + 3 * g;
   if (type == mjGEOM_ELLIPSOID) return hull_of(points_of_ellipsoid({size[0], size[1], size[2]}), collides);
-  if (type == mjGEOM_MESH) return hull_of(vertices_of(model, model.geom_dataid[g]), collides);
+  if (type == mjGEOM_MESH) {
+    const std::vector<Vec3> vertices = vertices_of(model, model.geom_dataid[g]);
+    if (collides)
+      if (const auto round = cylinder_of(vertices, axes_of(model, g))) return cylinder(*round);
+    return hull_of(vertices, collides);
+  }
   const auto found = shapes.find(type);
   if (found == shapes.end()) return std::nullopt;
   robot::Geom geom;

@@ -8,8 +8,9 @@ struct mjModel_;
 
 namespace amble::morphology {
 
-/// Shape and size of a geom of the model; of meshes and ellipsoids the convex hull, with its vertices. Pose,
-/// names and colour are the caller's. Nothing for shapes that robots do not have (planes, height fields) and
+/// Shape and size of a geom of the model; of meshes and ellipsoids the convex hull, with its vertices, of
+/// colliding meshes that are round about an axis the cylinder. Its pose is within the geom's frame; names and
+/// colour are the caller's. Nothing for shapes that robots do not have (planes, height fields) and
 /// for meshes without volume.
 std::optional<robot::Geom> shape_of(const mjModel_& model, int geom, bool collides);
 

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <map>
-#include <optional>
-#include <set>
 #include <string>
 
+#include "amble/morphology/mass_text.hpp"
+#include "amble/morphology/mesh_store.hpp"
 #include "amble/morphology/reading_notes.hpp"
 #include "amble/morphology/xml_tree.hpp"
 
@@ -23,29 +22,25 @@ struct MotorHint {
 struct ModelText {
   XmlElement root;
   bool urdf = false;
-  std::map<std::string, MotorHint> motors;  ///< by joint
-  /// Meshes whose file is missing or in a format that MuJoCo does not read; replaced by a small placeholder.
-  std::map<std::string, std::string> missing_meshes;  ///< name → file
+  std::map<std::string, MotorHint> motors = {};  ///< by joint
+  MeshStore meshes = {};                         ///< the files that the tree names
+  std::map<std::string, std::string> mesh_files =
+      {};  ///< by MuJoCo's name of a mesh: the file as the model names it
+  /// Meshes that could not be read, in whose place a small tetrahedron is.
+  std::map<std::string, std::string> missing_meshes = {};  ///< name → file and reason
+  MissingMasses missing_masses = {};
 };
 
-constexpr std::uint64_t largest_file_bytes = 50'000'000;
+/// Puts a mesh into the store, and its name there under `key` of the element; `path` is empty if there is no
+/// such file, `named` what the model calls it.
+void take_mesh(ModelText& text, XmlElement& element, const std::string& key, const std::string& named,
+               const std::filesystem::path& path, ReadingNotes& notes);
 
-/// The number that a text begins with if it is positive and below 1e9, else 0.
-double positive_or_zero(const std::optional<std::string>& text);
-
-/// Whether it is a file that MuJoCo reads as a mesh, by its name's end and size.
-bool is_readable_mesh(const std::filesystem::path& path);
-
-/// Whether it is an STL in the text form of that format, which MuJoCo refuses.
-bool is_text_stl(const std::filesystem::path& path);
-/// What follows its name in messages.
-inline constexpr const char* text_stl_remark = " (an STL in text form: save it as binary STL)";
-
-/// Reads MJCF with its includes, or URDF (.urdf). Everything that no robot needs is removed: textures,
-/// sensors, visual and statistic settings, height fields and so on. Throws UserError: files larger than 50
-/// MB, more than 1000 bodies, entities, includes outside the model's folder, of a file in itself, or more
-/// than 32; elements that would make bodies without naming them (<composite>, <replicate>), URDF collision
-/// meshes that are missing.
+/// Reads MJCF with its includes, or URDF, told by its first element. Everything that no robot needs is
+/// removed: textures, sensors, visual and statistic settings, height fields and so on. Throws UserError:
+/// files larger than 50 MB, more than 1000 bodies, entities, includes from outside the model's repository or
+/// the folder above it, of a file in itself, or more than 32; macros of xacro, SDF and other formats, with
+/// what to do; and see clean_mjcf().
 ModelText read_model_text(const std::filesystem::path& path, ReadingNotes& notes);
 
 }  // namespace amble::morphology

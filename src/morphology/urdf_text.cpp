@@ -1,18 +1,20 @@
 #include "amble/morphology/urdf_text.hpp"
 
 #include <fmt/ranges.h>
-#include <mujoco/mujoco.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "amble/core/error.hpp"
+#include "amble/morphology/limit_text.hpp"
+#include "amble/morphology/mass_text.hpp"
+#include "amble/morphology/mesh_file.hpp"
+#include "amble/morphology/mesh_path.hpp"
+#include "amble/morphology/number_text.hpp"
 
 namespace amble::morphology {
 namespace {
@@ -21,61 +23,22 @@ namespace fs = std::filesystem;
 
 /// MuJoCo fuses a URDF's root link into the world, and its mass is lost, unless the compiler option
 /// fusestatic is off; and leaves out what is only to look at, unless discardvisual is. These options go into
-/// an element <mujoco>, which most URDF files do not have.
-void set_options(XmlElement& root, const fs::path& path) {
-  XmlElement* extension = root.child("mujoco");
-  if (extension == nullptr) {
-    XmlElement mujoco{.name = "mujoco", .file = root.file, .line = root.line};
-    mujoco.children.push_back(
-        {.name = "compiler",
-         .attributes = {{"fusestatic", "false"}, {"strippath", "false"}, {"discardvisual", "false"}},
-         .file = root.file,
-         .line = root.line});
-    root.children.insert(root.children.begin(), std::move(mujoco));
-    return;
-  }
-  XmlElement* compiler = extension->child("compiler");
-  if (compiler == nullptr || compiler->attribute_or("fusestatic", "true") != "false")
-    fail(ExitCode::bad_input,
-         "{}: the element <mujoco> must hold <compiler fusestatic=\"false\"/>, or the root link is lost",
-         path.string());
-  if (!compiler->attribute("discardvisual")) compiler->set("discardvisual", "false");
-}
-
-/// The file that a URDF means by a mesh's name, which may be package://PACKAGE/PATH: beside the URDF, in one
-/// of the folders above it, with or without the package's name, or of that name in a folder `meshes`. Empty
-/// if there is none.
-fs::path mesh_of_urdf(const fs::path& folder, std::string name,
-                      bool (*wanted)(const fs::path&) = is_readable_mesh) {
-  for (const std::string_view scheme : {"package://", "file://"})
-    if (name.starts_with(scheme)) name.erase(0, scheme.size());
-  const fs::path whole(name);
-  fs::path rest;  // without the package's name
-  for (auto part = whole.begin(); part != whole.end(); ++part)
-    if (part != whole.begin()) rest /= *part;
-  std::vector<fs::path> candidates;
-  fs::path above = fs::absolute(folder.empty() ? "." : folder).lexically_normal();
-  constexpr int most_folders = 8;
-  for (int i = 0; i < most_folders && above.has_relative_path(); ++i, above = above.parent_path()) {
-    candidates.push_back(above / whole);
-    candidates.push_back(above / rest);
-  }
-  candidates.insert(candidates.end(), {folder / whole.filename(), folder / "meshes" / whole.filename(),
-                                       folder / ".." / "meshes" / whole.filename()});
-  for (const fs::path& candidate : candidates)
-    if (wanted(candidate)) return fs::absolute(candidate).lexically_normal();
-  return {};
-}
-
-/// A mesh that is not there, as it is to be told.
-std::string missing_mesh(const fs::path& folder, const std::string& name) {
-  return mesh_of_urdf(folder, name, is_text_stl).empty() ? name : name + text_stl_remark;
-}
-
-std::optional<std::string> mesh_name(const XmlElement& shape) {
-  const XmlElement* geometry = shape.child("geometry");
-  const XmlElement* mesh = geometry != nullptr ? geometry->child("mesh") : nullptr;
-  return mesh != nullptr ? mesh->attribute("filename") : std::nullopt;
+/// an element <mujoco>, which most URDF files do not have. Returns the folder that it names for meshes.
+fs::path set_options(XmlElement& root) {
+  if (root.child("mujoco") == nullptr)
+    root.children.insert(root.children.begin(),
+                         XmlElement{.name = "mujoco", .file = root.file, .line = root.line});
+  XmlElement& extension = *root.child("mujoco");
+  if (extension.child("compiler") == nullptr)
+    extension.children.insert(extension.children.begin(),
+                              XmlElement{.name = "compiler", .file = root.file, .line = root.line});
+  XmlElement& compiler = *extension.child("compiler");
+  compiler.set("fusestatic", "false");
+  compiler.set("strippath", "false");
+  if (!compiler.attribute("discardvisual")) compiler.set("discardvisual", "false");
+  const fs::path folder = plain_path(compiler.attribute_or("meshdir", ""));
+  compiler.remove_attribute("meshdir");
+  return folder;
 }
 
 /// Whether a visual shape is one of those that collide.
@@ -92,80 +55,107 @@ bool collides_too(const XmlElement& visual, const XmlElement& link) {
   });
 }
 
-/// Leaves of the visual shapes those that can be shown and do not repeat what collides.
-void choose_visuals(XmlElement& root, const fs::path& folder, ReadingNotes& notes) {
-  std::set<std::string> missing;
-  root.prune([&](const XmlElement& element, const XmlElement& parent) {
-    if (element.name != "visual") return false;
-    if (parent.name != "link" || element.child("geometry") == nullptr || collides_too(element, parent))
+/// What MuJoCo refuses of a shape's size; empty: nothing.
+std::string size_problem(const XmlElement& shape) {
+  const XmlElement* geometry = shape.child("geometry");
+  if (geometry == nullptr || geometry->children.empty()) return "without a geometry";
+  const XmlElement& form = geometry->children.front();
+  for (const char* key : {"size", "radius", "length"})
+    for (const double size : numbers_of(form.attribute_or(key, "")))
+      if (!(size > 0.0))
+        return fmt::format("a {} with {}=\"{}\"", form.name, key, form.attribute_or(key, ""));
+  const std::string scale = form.attribute_or("scale", "");
+  for (const double factor : numbers_of(scale))
+    if (factor == 0.0) return fmt::format("a {} with scale=\"{}\"", form.name, scale);
+  return {};
+}
+
+std::optional<std::string> mesh_name(const XmlElement& shape) {
+  const XmlElement* geometry = shape.child("geometry");
+  const XmlElement* mesh = geometry != nullptr ? geometry->child("mesh") : nullptr;
+  return mesh != nullptr ? mesh->attribute("filename") : std::nullopt;
+}
+
+/// Meshes of a URDF, by the names that it gives them.
+class UrdfMeshes {
+ public:
+  UrdfMeshes(ModelText& text, const fs::path& path, fs::path mesh_folder, ReadingNotes& notes)
+      : text_(text), folder_(path.parent_path()), mesh_folder_(std::move(mesh_folder)), notes_(notes) {}
+
+  void take_all() {
+    XmlElement& root = text_.root;
+    root.prune([&](const XmlElement& element, const XmlElement& parent) { return drops(element, parent); });
+    if (!unseen_.empty())
+      notes_.add(Reading::left_out, fmt::format("what is only to look at and whose mesh cannot be read: {}",
+                                                fmt::join(unseen_, ", ")));
+    if (!sizeless_.empty())
+      notes_.add(Reading::left_out, fmt::format("shapes without size: {}", fmt::join(sizeless_, ", ")));
+    root.visit([&](XmlElement& element, XmlElement* parent) {
+      const auto name = element.attribute("filename");
+      if (element.name != "mesh" || !name || parent == nullptr || parent->name != "geometry") return;
+      if (const auto scale = numbers_of(element.attribute_or("scale", "")); scale.size() == 1)
+        element.set("scale", fmt::format("{0} {0} {0}", scale[0]));
+      take_mesh(text_, element, "filename", *name, file_of(*name), notes_);
+    });
+    if (!elsewhere_.empty())
+      notes_.add(Reading::replaced,
+                 fmt::format("paths of meshes, by what is there: {}", fmt::join(elsewhere_, ", ")));
+  }
+
+ private:
+  /// Of the visual shapes those stay that can be shown and do not repeat what collides.
+  bool drops(const XmlElement& shape, const XmlElement& link) {
+    const bool visual = shape.name == "visual";
+    if (!visual && (shape.name != "collision" || link.name != "link")) return false;
+    const std::string of = link.attribute_or("name", "");
+    if (visual && (link.name != "link" || collides_too(shape, link))) return true;
+    if (const std::string problem = size_problem(shape); !problem.empty()) {
+      sizeless_.push_back(
+          fmt::format("{} of '{}' {}", visual ? "one to look at" : "one that collides", of, problem));
       return true;
-    const auto mesh = mesh_name(element);
-    if (!mesh || !mesh_of_urdf(folder, *mesh).empty()) return false;
-    missing.insert(fs::path(missing_mesh(folder, *mesh)).filename().string());
-    return true;
-  });
-  if (!missing.empty())
-    notes.add(Reading::left_out, fmt::format("what is only to look at and whose mesh is missing, or neither "
-                                             "STL, OBJ nor MSH: {}",
-                                             fmt::join(missing, ", ")));
-}
+    }
+    const auto mesh = mesh_name(shape);
+    if (!visual || !mesh) return false;
+    const fs::path path = file_of(*mesh);
+    const std::string problem = path.empty() ? "not found" : text_.meshes.problem(path, notes_);
+    if (!problem.empty()) unseen_.push_back(fmt::format("{} of '{}' ({})", *mesh, of, problem));
+    return !problem.empty();
+  }
 
-/// Principal moments that no body can have, one larger than the sum of the others, make MuJoCo refuse a
-/// model. Files that were drawn or written by hand have them. Their mean takes their place, as by MuJoCo's
-/// balanceinertia.
-void balance_inertias(XmlElement& root, ReadingNotes& notes) {
-  std::vector<std::string> balanced;
-  root.visit([&](XmlElement& link, XmlElement*) {
-    XmlElement* inertial = link.name == "link" ? link.child("inertial") : nullptr;
-    XmlElement* inertia = inertial != nullptr ? inertial->child("inertia") : nullptr;
-    if (inertia == nullptr) return;
-    const auto read = [&](const char* key) {
-      return std::strtod(inertia->attribute_or(key, "0").c_str(), nullptr);
-    };
-    const double xx = read("ixx"), yy = read("iyy"), zz = read("izz"), xy = read("ixy"), xz = read("ixz"),
-                 yz = read("iyz");
-    const std::array<mjtNum, 9> matrix{xx, xy, xz, xy, yy, yz, xz, yz, zz};
-    std::array<mjtNum, 3> moments{};  // falling
-    std::array<mjtNum, 9> axes{};
-    std::array<mjtNum, 4> turn{};
-    mju_eig3(moments.data(), axes.data(), turn.data(), matrix.data());
-    if (!(xx + yy + zz > 0.0) || moments[1] + moments[2] >= moments[0]) return;
-    balanced.push_back(link.attribute_or("name", ""));
-    const std::string mean = fmt::format("{:.6g}", (xx + yy + zz) / 3.0);
-    for (const char* key : {"ixx", "iyy", "izz"}) inertia->set(key, mean);
-    for (const char* key : {"ixy", "ixz", "iyz"}) inertia->set(key, "0");
-  });
-  if (!balanced.empty())
-    notes.add(Reading::replaced,
-              fmt::format("principal moments of inertia that no body can have, by their mean: {}",
-                          fmt::join(balanced, ", ")));
-}
+  fs::path file_of(const std::string& name) {
+    const auto [at, is_new] = found_.try_emplace(name);
+    if (!is_new) return at->second;
+    const std::string plain = plain_path(name);
+    at->second = first_file(places_of_urdf_mesh(folder_, mesh_folder_, plain));
+    if (!at->second.empty()) {
+      at->second = fs::absolute(at->second).lexically_normal();
+      if (fs::path(plain).filename() != at->second.filename() || name.find('\\') != std::string::npos)
+        elsewhere_.push_back(fmt::format("{} ({})", name, at->second.filename().string()));
+    }
+    return at->second;
+  }
 
-/// Joints whose limits leave no range, which MuJoCo takes for joints without stops.
-void note_lost_limits(XmlElement& root, ReadingNotes& notes) {
-  std::vector<std::string> crossed, empty;
-  root.visit([&](XmlElement& joint, XmlElement*) {
-    const std::string type = joint.attribute_or("type", "");
-    const XmlElement* const limit = joint.child("limit");
-    if (joint.name != "joint" || (type != "revolute" && type != "prismatic") || limit == nullptr) return;
-    const auto read = [&](const char* key) {
-      return std::strtod(limit->attribute_or(key, "0").c_str(), nullptr);
-    };
-    const double lower = read("lower"), upper = read("upper");
-    if (lower > upper)
-      crossed.push_back(fmt::format("{} ({} to {})", joint.attribute_or("name", ""), lower, upper));
-    else if (lower == upper)
-      empty.push_back(joint.attribute_or("name", ""));
-  });
-  if (!crossed.empty())
-    notes.add(Reading::replaced,
-              fmt::format("limits whose lower is above their upper: these joints have no stops: {}",
-                          fmt::join(crossed, ", ")));
-  if (!empty.empty())
-    notes.add(Reading::replaced,
-              fmt::format("limits that leave no range, as exporters write them where none are "
-                          "known: these joints have no stops: {}",
-                          fmt::join(empty, ", ")));
+  ModelText& text_;
+  fs::path folder_, mesh_folder_;
+  ReadingNotes& notes_;
+  std::map<std::string, fs::path> found_;
+  std::vector<std::string> unseen_, sizeless_, elsewhere_;
+};
+
+/// Links without <inertial>, which MuJoCo fills with water.
+void note_filled_links(const XmlElement& root, ReadingNotes& notes) {
+  std::vector<std::string> filled;
+  for (const XmlElement& link : root.children) {
+    const bool shapes = link.child("collision") != nullptr || link.child("visual") != nullptr;
+    if (link.name == "link" && shapes && link.child("inertial") == nullptr)
+      filled.push_back(link.attribute_or("name", ""));
+  }
+  if (!filled.empty())
+    notes.add(
+        Reading::replaced,
+        fmt::format("links without <inertial>: their mass is that of their shapes filled with water, 1000 "
+                    "kg/m3; give them mass and inertia: {}",
+                    fmt::join(filled, ", ")));
 }
 
 /// MuJoCo 2.2 reads on after a type that it does not know, and dies of it.
@@ -185,10 +175,8 @@ void refuse_unknown_joints(const XmlElement& root, const fs::path& path) {
 
 void clean_urdf(ModelText& text, const fs::path& path, ReadingNotes& notes) {
   XmlElement& root = text.root;
-  if (root.name != "robot") fail(ExitCode::bad_input, "{}: a URDF needs an element <robot>", path.string());
   refuse_unknown_joints(root, path);
-  set_options(root, path);
-  choose_visuals(root, path.parent_path(), notes);
+  const fs::path mesh_folder = set_options(root);
   root.prune([&](const XmlElement& element, const XmlElement& parent) {
     if (element.name == "mimic")
       notes.add(Reading::left_out,
@@ -198,27 +186,18 @@ void clean_urdf(ModelText& text, const fs::path& path, ReadingNotes& notes) {
     if (element.name == "gazebo") notes.add(Reading::left_out, "settings of Gazebo");
     return element.name == "mimic" || element.name == "transmission" || element.name == "gazebo";
   });
-  balance_inertias(root, notes);
-  note_lost_limits(root, notes);
-  std::set<std::string> missing;
-  root.visit([&](XmlElement& element, XmlElement*) {
-    if (element.name == "joint") {
-      MotorHint& motor = text.motors[element.attribute_or("name", "")];
-      if (const XmlElement* limit = element.child("limit")) {
-        motor.max_torque_nm = positive_or_zero(limit->attribute("effort"));
-        motor.max_speed_rad_s = positive_or_zero(limit->attribute("velocity"));
-      }
+  UrdfMeshes(text, path, mesh_folder, notes).take_all();
+  balance_inertias(root, true, notes);
+  mend_limits(root, true, notes);
+  note_filled_links(root, notes);
+  for (const XmlElement& joint : root.children) {
+    if (joint.name != "joint") continue;
+    MotorHint& motor = text.motors[joint.attribute_or("name", "")];
+    if (const XmlElement* limit = joint.child("limit")) {
+      motor.max_torque_nm = positive_or_zero(limit->attribute("effort"));
+      motor.max_speed_rad_s = positive_or_zero(limit->attribute("velocity"));
     }
-    if (element.name != "mesh" || !element.attribute("filename")) return;
-    const fs::path file = mesh_of_urdf(path.parent_path(), *element.attribute("filename"));
-    if (file.empty()) missing.insert(missing_mesh(path.parent_path(), *element.attribute("filename")));
-    element.set("filename", file.string());
-  });
-  if (!missing.empty())
-    fail(ExitCode::io,
-         "{}: collision meshes that are missing, or neither STL, OBJ nor MSH: {}; they are looked for beside "
-         "the URDF, in the folders above it, and in meshes/",
-         path.string(), fmt::join(missing, ", "));
+  }
 }
 
 }  // namespace amble::morphology

@@ -1,8 +1,11 @@
 #include "amble/morphology/xml_tree.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 
 #include "amble/core/error.hpp"
+#include "amble/morphology/model_bytes.hpp"
 
 namespace amble::morphology {
 namespace {
@@ -117,6 +120,8 @@ class Parser {
     }
     ++at_;  // >
     ++open_;
+    if (limits_.keep_text)
+      element.text = text_.substr(at_, std::min(text_.find('<', at_), text_.size()) - at_);
     for (skip_between(); !at("</"); skip_between()) {
       if (at_ >= text_.size()) bad("</" + element.name + "> is missing");
       element.children.push_back(this->element(depth + 1));
@@ -208,6 +213,30 @@ void XmlElement::visit(const std::function<void(const XmlElement&)>& action) con
 void XmlElement::prune(const std::function<bool(const XmlElement&, const XmlElement&)>& unwanted) {
   std::erase_if(children, [&](const XmlElement& child) { return unwanted(child, *this); });
   for (XmlElement& child : children) child.prune(unwanted);
+}
+
+std::string without_entities(std::string_view value) {
+  static constexpr std::array<std::pair<std::string_view, char>, 5> named{
+      {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}}};
+  std::string text;
+  while (!value.empty()) {
+    const auto found =
+        std::ranges::find_if(named, [&](const auto& entity) { return value.starts_with(entity.first); });
+    const std::size_t end = value.find(';');
+    if (found != named.end()) {
+      text += found->second;
+      value.remove_prefix(found->first.size());
+    } else if (value.starts_with("&#") && end != std::string_view::npos && end < 10) {
+      const bool hexadecimal = value[2] == 'x';
+      const std::string number(value.substr(hexadecimal ? 3 : 2, end - (hexadecimal ? 3 : 2)));
+      append_utf8(text, static_cast<char32_t>(std::strtoul(number.c_str(), nullptr, hexadecimal ? 16 : 10)));
+      value.remove_prefix(end + 1);
+    } else {
+      text += value.front();
+      value.remove_prefix(1);
+    }
+  }
+  return text;
 }
 
 XmlElement parse_xml(std::string_view text, const std::string& file, const XmlLimits& limits) {

@@ -10,8 +10,7 @@
 
 namespace amble::morphology {
 
-/// An element of an XML document with its place in the file. Text between elements is dropped: neither MJCF
-/// nor URDF use it.
+/// An element of an XML document with its place in the file.
 struct XmlElement {
   std::string name;
   std::vector<std::pair<std::string, std::string>> attributes =
@@ -19,6 +18,7 @@ struct XmlElement {
   std::vector<XmlElement> children = {};
   std::string file = {};
   int line = 0;
+  std::string text = {};  ///< before its first child; only if XmlLimits says so: neither MJCF nor URDF use it
 
   std::optional<std::string> attribute(std::string_view key) const;
   std::string attribute_or(std::string_view key, std::string_view other) const;
@@ -40,7 +40,11 @@ struct XmlLimits {
   std::size_t elements = 200'000;
   std::size_t depth = 256;
   std::size_t bodies = 1000;  ///< elements <body> or <link>
+  bool keep_text = false;
 };
+
+/// An attribute's value with the five entities of XML and numbers of characters resolved.
+std::string without_entities(std::string_view value);
 
 /// Reads a document with one root element. Document types and entities of its own are refused. Throws
 /// UserError "FILE:LINE: …".

@@ -1,0 +1,115 @@
+#include "amble/morphology/missing_mass.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <vector>
+
+#include "amble/core/index.hpp"
+#include "amble/morphology/model_shapes.hpp"
+#include "amble/morphology/mujoco_math.hpp"
+#include "amble/morphology/solid.hpp"
+
+namespace amble::morphology {
+namespace {
+
+constexpr double water_kg_m3 = 1000.0;
+/// A body that weighs no more has its mass from placeholders of meshes.
+constexpr double nothing_kg = 2e-6;
+
+class MassMender {
+ public:
+  MassMender(mjModel_& model, const std::map<std::string, std::string>& missing_meshes)
+      : model_(model), missing_meshes_(missing_meshes) {}
+
+  void mend(const MissingMasses& missing, ReadingNotes& notes) {
+    for (const auto& [name, given] : missing) {
+      const int b =
+          name.starts_with('#') ? std::atoi(name.c_str() + 1) : mj_name2id(&model_, mjOBJ_BODY, name.c_str());
+      if (b > 0 && b < model_.nbody) mend(b, name, given.mass_kg);
+    }
+    for (int b = 1; b < model_.nbody; ++b)
+      if (model_.body_mass[b] > 0.0 && model_.body_mass[b] < nothing_kg && shows_placeholder(b))
+        mend(b, model_.names + model_.name_bodyadr[b], 0.0);
+    const auto note = [&](const char* what, const std::vector<std::string>& names) {
+      if (!names.empty()) notes.add(Reading::replaced, fmt::format("{}: {}", what, fmt::join(names, ", ")));
+    };
+    note("moments of inertia that are missing or 0, by those of the shapes with the body's mass", by_shapes_);
+    note("masses that are missing or 0, by those of the shapes filled with water, 1000 kg/m3", filled_);
+    note("moments of inertia that are missing or 0, without shapes, by those of a ball of water", balls_);
+  }
+
+ private:
+  bool is_placeholder(int g) const {
+    return model_.geom_type[g] == mjGEOM_MESH &&
+           missing_meshes_.contains(model_.names + model_.name_meshadr[model_.geom_dataid[g]]);
+  }
+
+  bool shows_placeholder(int b) const {
+    for (int g = model_.body_geomadr[b], end = g + model_.body_geomnum[b]; g < end; ++g)
+      if (is_placeholder(g)) return true;
+    return false;
+  }
+
+  Solid solid_of(int b, bool colliding) const {
+    Solid solid;
+    for (int g = model_.body_geomadr[b], end = g + model_.body_geomnum[b]; g < end; ++g) {
+      const bool collides = model_.geom_contype[g] != 0 || model_.geom_conaffinity[g] != 0;
+      if (collides != colliding || is_placeholder(g)) continue;
+      if (const auto shape = shape_of(model_, g, collides))
+        add(solid, *shape,
+            robot::Pose{vec3(model_.geom_pos + 3 * g), quat(model_.geom_quat + 4 * g)} *
+                robot::Pose{shape->position_m, shape->rotation});
+    }
+    return solid;
+  }
+
+  void mend(int b, const std::string& name, double mass_kg) {
+    Solid solid = solid_of(b, true);
+    if (!(solid.volume_m3 > 0.0)) solid = solid_of(b, false);
+    const bool shaped = solid.volume_m3 > 0.0, weighs = mass_kg > 0.0;
+    if (!shaped && !weighs) {
+      set(b, 0.0, {});
+      return;
+    }
+    (!shaped ? balls_ : weighs ? by_shapes_ : filled_).push_back(name);
+    if (!weighs) {
+      mass_kg = water_kg_m3 * solid.volume_m3;
+      const Vec3 centre = solid.centre_m();
+      for (const auto& [at, value] : {std::pair{0, centre.x}, {1, centre.y}, {2, centre.z}})
+        model_.body_ipos[3 * b + at] = value;
+    }
+    if (shaped) {
+      set(b, mass_kg, solid.inertia_kg_m2(mass_kg));
+      return;
+    }
+    const double radius_m = std::cbrt(mass_kg / (4.0 / 3.0 * std::numbers::pi * water_kg_m3));
+    const double moment = 0.4 * mass_kg * radius_m * radius_m;
+    set(b, mass_kg, {moment, 0, 0, 0, moment, 0, 0, 0, moment});
+  }
+
+  void set(int b, double mass_kg, const std::array<mjtNum, 9>& tensor) {
+    std::array<mjtNum, 9> axes{};
+    model_.body_mass[b] = mass_kg;
+    mju_eig3(model_.body_inertia + 3 * b, axes.data(), model_.body_iquat + 4 * b, tensor.data());
+  }
+
+  mjModel_& model_;
+  const std::map<std::string, std::string>& missing_meshes_;
+  std::vector<std::string> by_shapes_, filled_, balls_;
+};
+
+}  // namespace
+
+void mend_masses(mjModel_& model, const MissingMasses& missing,
+                 const std::map<std::string, std::string>& missing_meshes, ReadingNotes& notes) {
+  MassMender(model, missing_meshes).mend(missing, notes);
+}
+
+}  // namespace amble::morphology
