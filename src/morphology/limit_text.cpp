@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "amble/morphology/number_text.hpp"
@@ -41,6 +42,11 @@ void look_at_urdf_joint(XmlElement& joint, OddLimits& odd) {
   }
 }
 
+/// What says whether the range holds: "ctrllimited" of "ctrlrange".
+std::string with_limited(std::string_view key) {
+  return std::string(key.substr(0, key.size() - std::string_view("range").size())) + "limited";
+}
+
 void look_at_mjcf_range(XmlElement& element, const char* key, OddLimits& odd) {
   const auto text = element.attribute(key);
   const std::vector<double> ends = text ? numbers_of(*text) : std::vector<double>();
@@ -50,7 +56,7 @@ void look_at_mjcf_range(XmlElement& element, const char* key, OddLimits& odd) {
     element.set(key, fmt::format("{} {}", ends[1], ends[0]));
     return;
   }
-  const std::string limited = key == std::string_view("range") ? "limited" : std::string(key, 4) + "limited";
+  const std::string limited = with_limited(key);
   if (element.name == "joint" && key == std::string_view("range")) {
     if (element.attribute_or(limited, "") == "false") return;
     odd.empty.push_back(who(element));

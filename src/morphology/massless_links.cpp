@@ -29,7 +29,7 @@ class LinkMerger {
       if (b == 0 || shows || children.size() > 1) {
         faulty.push_back(name);
       } else if (children.empty()) {
-        ends.push_back(name);
+        ends.push_back(fmt::format("{} (joint {})", name, fmt::join(joints_of(b), ", ")));
         remove_joints_of(b);
         remove_body(b);
       } else {
@@ -44,7 +44,7 @@ class LinkMerger {
     };
     note(Reading::replaced,
          "links without mass and shape, whose joints are now those of the link behind them", merged);
-    note(Reading::left_out, "links without mass and shape at the end of a limb, with their joints", ends);
+    note(Reading::left_out, "links without mass and shape at the end of a limb", ends);
     std::ranges::reverse(faulty);
     return fmt::format("{}", fmt::join(faulty, ", "));
   }
@@ -55,6 +55,13 @@ class LinkMerger {
     for (int c = 0; c < static_cast<int>(parts_.bodies.size()); ++c)
       if (parts_.bodies[to_index(c)].parent == b) children.push_back(c);
     return children;
+  }
+
+  std::vector<std::string> joints_of(int b) const {
+    std::vector<std::string> names;
+    for (const robot::Joint& joint : parts_.joints)
+      if (joint.body == b) names.push_back(fmt::format("'{}'", joint.name));
+    return names;
   }
 
   /// In the start pose both are fixed to each other, and a joint's place and axis are given there.

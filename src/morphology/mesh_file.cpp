@@ -208,7 +208,8 @@ class ObjReader {
 };
 
 bool looks_like_text(std::string_view bytes) {
-  return std::ranges::all_of(bytes.substr(0, 512), [](unsigned char c) { return c != 0 && c != 0xFF; });
+  const std::string_view start = bytes.substr(0, bytes.find_last_not_of('\0') + 1).substr(0, 512);
+  return std::ranges::all_of(start, [](unsigned char c) { return c != 0 && c != 0xFF; });
 }
 
 }  // namespace

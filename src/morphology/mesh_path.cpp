@@ -108,6 +108,14 @@ std::vector<fs::path> places_of_urdf_mesh(const fs::path& folder, const fs::path
     if (!rest.empty()) places.push_back(above / rest);
   }
   const fs::path end = whole.filename();
+  // A path of another machine: its ends, the longest first.
+  for (fs::path tail = rest; !tail.empty();) {
+    places.insert(places.end(), {folder / tail, folder / ".." / tail});
+    fs::path shorter;
+    for (auto part = tail.begin(); part != tail.end(); ++part)
+      if (part != tail.begin()) shorter /= *part;
+    tail = shorter;
+  }
   places.insert(places.end(), {folder / end, folder / "meshes" / end, folder / ".." / "meshes" / end});
   return places;
 }

@@ -16,7 +16,8 @@ std::string plain_path(std::string name);
 std::filesystem::path first_file(const std::vector<std::filesystem::path>& candidates);
 
 /// Where a URDF's mesh may be: beside the URDF, in one of the folders above it, with or without the package's
-/// name, in `mesh_folder` (which its compiler options may name), or of that name in a folder `meshes`.
+/// name, in `mesh_folder` (which its compiler options may name), by the end of its path, as one of another
+/// machine, or of that name in a folder `meshes`.
 std::vector<std::filesystem::path> places_of_urdf_mesh(const std::filesystem::path& folder,
                                                        const std::filesystem::path& mesh_folder,
                                                        const std::string& name);

@@ -34,6 +34,7 @@ class MassMender {
           name.starts_with('#') ? std::atoi(name.c_str() + 1) : mj_name2id(&model_, mjOBJ_BODY, name.c_str());
       if (b > 0 && b < model_.nbody) mend(b, name, given.mass_kg);
     }
+    mend_roots();
     for (int b = 1; b < model_.nbody; ++b)
       if (model_.body_mass[b] > 0.0 && model_.body_mass[b] < nothing_kg && shows_placeholder(b))
         mend(b, model_.names + model_.name_bodyadr[b], 0.0);
@@ -55,6 +56,20 @@ class MassMender {
     for (int g = model_.body_geomadr[b], end = g + model_.body_geomnum[b]; g < end; ++g)
       if (is_placeholder(g)) return true;
     return false;
+  }
+
+  /// MuJoCo asks bodies for no moments that are fixed to the world, as a URDF's root is for it.
+  void mend_roots() {
+    for (int root = 1; root < model_.nbody; ++root) {
+      if (model_.body_parentid[root] != 0 || model_.body_weldid[root] != 0) continue;
+      double sum = 0.0;
+      const auto is_part = [&](int b) { return model_.body_rootid[b] == root && model_.body_weldid[b] == 0; };
+      for (int b = root; b < model_.nbody; ++b)
+        for (int i = 0; i < 3; ++i) sum += is_part(b) ? model_.body_inertia[3 * b + i] : 0.0;
+      for (int b = root; b < model_.nbody && sum < mjMINVAL; ++b)
+        if (is_part(b) && model_.body_mass[b] > 0.0)
+          mend(b, model_.names + model_.name_bodyadr[b], model_.body_mass[b]);
+    }
   }
 
   Solid solid_of(int b, bool colliding) const {

@@ -118,6 +118,8 @@ std::string read_xml_file(const std::filesystem::path& path, ReadingNotes& notes
   if (end == std::string::npos) return text;
   const bool more = std::ranges::any_of(std::string_view(text).substr(end + 1),
                                         [](unsigned char c) { return c > ' ' && c != 0x7F; });
+  const bool zeros = text.find_first_of(std::string_view("\0\x1A", 2), end) != std::string::npos;
+  if (!more && !zeros) return text;
   if (more)
     notes.add(Reading::left_out, fmt::format("text behind the last element of {}", path.filename().string()));
   text.erase(end + 1);

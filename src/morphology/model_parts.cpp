@@ -256,12 +256,11 @@ class PartsExtractor {
         type == mjGEOM_MESH ? model_.names + model_.name_meshadr[model_.geom_dataid[g]] : "";
     const auto missing = file_.missing_meshes.find(mesh);
     if (missing != file_.missing_meshes.end() && type == mjGEOM_MESH) {
+      const std::string what = fmt::format("{} of '{}'", missing->second, body_name(model_.geom_bodyid[g]));
       if (collides(g) && is_of_a_foot(model_, root_, g, file_.missing_meshes))
         lost_.insert(missing->second);
       else
-        note(Reading::left_out, "{} and whose mesh cannot be read: {} of '{}'",
-             collides(g) ? "what collides" : "what is only to look at", missing->second,
-             body_name(model_.geom_bodyid[g]));
+        (collides(g) ? unread_ : unseen_).push_back(what);
       return;
     }
     auto shape = shape_of(model_, g, collides(g));
@@ -310,6 +309,11 @@ class PartsExtractor {
          counted(parts_.geoms.size() - to_index(hulls_ + shown_hulls_ + ellipsoids_ + cylinders_), "geom",
                  "geoms"),
          counted(to_index(model_.nkey), "keyframe", "keyframes"));
+    if (!unread_.empty())
+      note(Reading::left_out, "collision shapes whose mesh cannot be read: {}", fmt::join(unread_, ", "));
+    if (!unseen_.empty())
+      note(Reading::left_out, "what is only to look at and whose mesh cannot be read: {}",
+           fmt::join(unseen_, ", "));
     if (!springs_.empty()) note(Reading::left_out, "the springs of joints {}", fmt::join(springs_, ", "));
     if (hulls_ > 0)
       note(Reading::replaced, "{} meshes that collide: the convex hull of each, with at most {} corners",
@@ -350,7 +354,7 @@ class PartsExtractor {
   std::vector<robot::Pose> pose_in_group_;
   int hulls_ = 0, shown_hulls_ = 0, ellipsoids_ = 0, cylinders_ = 0;
   std::set<std::string> lost_;
-  std::vector<std::string> springs_, obstacles_;
+  std::vector<std::string> springs_, obstacles_, unread_, unseen_;
   ModelParts parts_;
 };
 

@@ -17,6 +17,7 @@
 #include "amble/core/index.hpp"
 #include "amble/io/toml_text.hpp"
 #include "amble/morphology/leg_guess.hpp"
+#include "amble/morphology/odd_joints.hpp"
 #include "amble/morphology/servo_guess.hpp"
 #include "amble/morphology/start_pose.hpp"
 #include "amble/robot/check.hpp"
@@ -79,6 +80,7 @@ class RobotGuesser {
     robot_.geoms = parts_.geoms;
     robot_.joints = parts_.joints;
     legs_ = guess_legs(parts_);
+    weld_tiny_links();
     guess_.name = model_.stem().string();
     line("# Guessed from {} by `amble robot --init`: check each line. robots/README.md describes them.",
          model_.filename().string());
@@ -146,6 +148,19 @@ class RobotGuesser {
     if (!options_.start_angles_rad.empty()) parts_ = extract_parts(file_, options_);
   }
 
+  /// Links of next to nothing, which no motor can hold.
+  void weld_tiny_links() {
+    const std::vector<std::string> tiny = joints_of_tiny_links(parts_, legs_.held);
+    welds_tiny_ = !tiny.empty();
+    if (!welds_tiny_) return;
+    options_.fixed_joints.insert(options_.fixed_joints.end(), tiny.begin(), tiny.end());
+    parts_ = extract_parts(file_, options_);
+    robot_.bodies = parts_.bodies;
+    robot_.geoms = parts_.geoms;
+    robot_.joints = parts_.joints;
+    legs_ = guess_legs(parts_);
+  }
+
   void write_legs() {
     std::vector<std::string> names, held;
     for (const LegGuess& leg : legs_.legs) names.push_back(leg.name);
@@ -167,7 +182,8 @@ class RobotGuesser {
       line("held = {}", list(held));
     }
     if (!options_.fixed_joints.empty()) {
-      line("# Neither hinges nor the root's: welded, amble has no such joints.");
+      line("{}", welds_tiny_ ? "# Neither hinges nor the root's, or links that weigh next to nothing: welded."
+                             : "# Neither hinges nor the root's: welded, amble has no such joints.");
       line("fixed = {}", list(options_.fixed_joints));
     }
   }
@@ -291,6 +307,10 @@ class RobotGuesser {
     const double bearing_nm = bearing_torque_nm(parts_, legs_.legs.size(), leg_length_m());
     const std::vector<ServoGuess> servos = guess_servos(file_, parts_, bearing_nm);
     doubt_motors(servos);
+    std::vector<int> driven;
+    for (const LegGuess& leg : legs_.legs) driven.insert(driven.end(), leg.joints.begin(), leg.joints.end());
+    if (std::string slow = slow_joints(file_, parts_, driven, leg_length_m()); !slow.empty())
+      guess_.doubts.push_back(std::move(slow));
     const auto servo_of = [&](int j) -> const ServoGuess& { return servos[to_index(j)]; };
     ServoGuess common{{robot::ServoMode::velocity, 9.0, 1.0, 0.0, 0.0}, "there are no joints"};
     if (!legs_.legs.empty())
@@ -385,6 +405,7 @@ class RobotGuesser {
   ModelParts parts_;
   robot::RobotSpec robot_;
   LegsGuess legs_;
+  bool welds_tiny_ = false;
   RobotGuess guess_;
 };
 

@@ -111,7 +111,7 @@ class UrdfMeshes {
     if (visual && (link.name != "link" || collides_too(shape, link))) return true;
     if (const std::string problem = size_problem(shape); !problem.empty()) {
       sizeless_.push_back(
-          fmt::format("{} of '{}' {}", visual ? "one to look at" : "one that collides", of, problem));
+          fmt::format("the {} shape of '{}', {}", visual ? "visual" : "collision", of, problem));
       return true;
     }
     const auto mesh = mesh_name(shape);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -102,6 +103,33 @@ void doubt_inertia(const RobotSpec& robot, std::vector<std::string>& lines) {
   }
 }
 
+/// How far the robot reaches from its root's frame.
+double reach_m(const RobotSpec& robot) {
+  const std::vector<Pose> poses = start_poses(robot);
+  double reach = 0.0;
+  for (const Geom& geom : robot.geoms)
+    reach = std::max(reach, norm(centre_m(geom, poses) - poses[0].position_m) +
+                                (geom.shape == Shape::mesh ? geom.size_m.x : norm(geom.size_m)));
+  return reach;
+}
+
+/// Moments that a body of that mass would have if it were larger than the whole robot.
+void doubt_placeholders(const RobotSpec& robot, std::vector<std::string>& lines) {
+  const double reach = reach_m(robot);
+  std::vector<std::string> names;
+  for (const Body& body : robot.bodies) {
+    const double moments = body.inertia_kg_m2.x + body.inertia_kg_m2.y + body.inertia_kg_m2.z;
+    if (reach > 0.0 && moments > 2.0 * body.mass_kg * reach * reach)
+      names.push_back(
+          fmt::format("{} ({:.3g} kg m² in sum for {:.3g} kg)", body.name, moments, body.mass_kg));
+  }
+  if (!names.empty())
+    lines.push_back(
+        fmt::format("moments of inertia that would need a body larger than the robot, {:.2g} m, as "
+                    "templates have them: {}: check inertia, mass and units",
+                    reach, fmt::join(names, ", ")));
+}
+
 void doubt_torques(const RobotSpec& robot, std::vector<std::string>& lines) {
   const std::vector<double> torques = bearing_torques_nm(robot);
   std::vector<std::string> weak;
@@ -139,6 +167,7 @@ std::vector<double> bearing_torques_nm(const RobotSpec& robot) {
 std::vector<std::string> doubts(const RobotSpec& robot) {
   std::vector<std::string> lines;
   doubt_inertia(robot, lines);
+  doubt_placeholders(robot, lines);
   doubt_torques(robot, lines);
   return lines;
 }

@@ -163,7 +163,7 @@ TEST_F(RobotInit, RefusesHostileModelsInOneLineAndLittleMemory) {
   const std::string path = scratch_ / "m.xml";
   for (const auto& [text, words] : std::map<std::string, std::string>{
            {"<mujoco><include file=\"m.xml\"/></mujoco>", "the file includes itself"},
-           {"<mujoco><include file=\"../m.xml\"/></mujoco>", "only files in the model's folder"},
+           {"<mujoco><include file=\"/etc/hostname\"/></mujoco>", "only files in the model's folder"},
            {"<!DOCTYPE m [<!ENTITY a \"a\">]><mujoco/>", "document types and entities"}}) {
     spill(path, text);
     expect_refusal({"robot", "--init", path, "-o", scratch_ / "out"}, ExitCode::bad_input, words);

@@ -50,7 +50,7 @@ class Accounting {
     const auto collide =
         static_cast<std::size_t>(std::ranges::count(parts_.geoms, true, &robot::Geom::collides));
     const std::size_t kept = model.name == "robot" ? collide : parts_.geoms.size();
-    if (bodies <= 1 && kept < geoms && !noted("geom ") && !noted("geoms ") && !noted("mesh is missing") &&
+    if (bodies <= 1 && kept < geoms && !noted("geom ") && !noted("geoms ") && !noted("mesh cannot be read") &&
         !noted("height fields") && !noted("collision"))
       problem(fmt::format("of {} geoms {} are kept, and nothing is said", geoms, kept));
     if (kept > geoms) problem(fmt::format("of {} geoms {} came", geoms, kept));
@@ -64,7 +64,8 @@ class Accounting {
         !noted("it stands in the world"))
       problem(fmt::format("joint '{}' is neither kept nor named", name));
     if (element.name == "geom" && in_body && !name.empty() && !has(parts_.geoms, name) && !noted(name) &&
-        !noted("left out  height fields") && !noted("missing") && !noted("it stands in the world"))
+        !noted("left out  height fields") && !noted("mesh cannot be read") &&
+        !noted("it stands in the world"))
       problem(fmt::format("geom '{}' is neither kept nor named", name));
     for (const char* section : {"actuator", "equality", "tendon"})
       if (parent.name == section && !noted(section == std::string("equality") ? "equalit" : section) &&

@@ -30,7 +30,7 @@ TEST(GoldenGuess, OfEachSmallModelMatches) {
     texts[model.name + ".txt"] = text + "\n" + reading_of(files.write(model.name + ".toml", guess.toml));
   }
   tests::expect_golden(texts, {{"arm.txt", "03382363205cdb00"},
-                               {"effort.txt", "c2e6598a1755acfb"},
+                               {"effort.txt", "b6324f899c01f519"},
                                {"fixed_base.txt", "3631917054e22f97"},
                                {"head.txt", "43ef2381f7c067f4"},
                                {"keyframe.txt", "6f5347ad425ad637"},

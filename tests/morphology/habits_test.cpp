@@ -32,7 +32,9 @@ TEST(Xacro, IsToldByWhatIsInTheFileWhateverItsName) {
       with(names, "<link ", R"(<xacro:include filename="tail.xacro"/><link )"),
       with(names, "<link ", R"(<xacro:property name="m" value="1"/><link )"),
       with(plain, R"(value="3")", R"(value="${base_mass}")"),
-      with(plain, "package://r/gone.dae", "$(find r)/gone.dae"),
+      with(plain, R"(lower="-1")", R"x(lower="$(arg lower)")x"),
+      with(with(plain, "<robot ", R"(<robot xmlns:x="http://ros.org/wiki/xacro" )"), "<link ",
+           R"(<x:include filename="tail.xacro"/><link )"),
   };
   for (const std::string& text : contents)
     for (const char* name : {"r.urdf", "r.urdf.xacro", "r.xacro", "r.xml"}) {
@@ -42,7 +44,11 @@ TEST(Xacro, IsToldByWhatIsInTheFileWhateverItsName) {
           HasSubstr("a xacro file, a URDF with macros; expand it first: xacro " + std::string(name) + " > r"))
           << text;
     }
-  EXPECT_THAT(files.error_of([&] { compile_model(files.write("my robot.xacro", plain)); }), HasSubstr("> '"));
+  EXPECT_THAT(files.error_of([&] { compile_model(files.write("my robot.xacro", contents[0])); }),
+              HasSubstr("> '"));
+  EXPECT_EQ(files.error_of([&] { compile_model(files.write("plain.xacro", plain)); }), "accepted");
+  const std::string found = with(plain, "package://r/gone.dae", "$(find r)/gone.dae");
+  EXPECT_EQ(files.error_of([&] { compile_model(files.write("r.urdf", found)); }), "accepted");
   EXPECT_EQ(files.error_of([&] { compile_model(files.write("r.urdf", names)); }), "accepted")
       << "what xacro writes still declares its name";
 }
@@ -56,49 +62,13 @@ TEST(Urdf, WithLimitsThatLeaveNoRangeSaysThatStopsAreGone) {
   EXPECT_THAT(notes(R"(lower="-1" upper="1")"), testing::Not(HasSubstr("no stops")));
   EXPECT_THAT(
       notes(R"(lower="0.8" upper="-0.8")"),
-      HasSubstr("lower is above their upper: these joints have no stops: left_hip_joint (0.8 to -0.8)"));
+      HasSubstr(
+          "lower is above their upper, which were put the right way round: left_hip_joint (0.8 to -0.8)"));
   for (const char* none : {R"(lower="0" upper="0")", "", R"(lower="0.5" upper="0.5")"})
     EXPECT_THAT(notes(none),
                 HasSubstr("leave no range, as exporters write them where none are known: these joints "
                           "have no stops: left_hip_joint"));
   EXPECT_THAT(notes(R"(lower="0.8" upper="-0.8")"), testing::Not(HasSubstr("right_hip_joint")));
-}
-
-TEST(TextStl, IsToldAsSuchWhereItCollidesAndLeftOutWhereItIsOnlyLookedAt) {
-  const Files files;
-  const std::string text =
-      "solid foot\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n   vertex 0 1 "
-      "0\n  endloop\n endfacet\nendsolid foot\n";
-  files.write("foot.stl", text);
-  files.write("LOUD.STL", text + std::string(200, ' '));
-  const std::string sphere = R"(<sphere radius="0.03"/>)";
-  for (const char* name : {"foot.stl", "LOUD.STL"}) {
-    const std::string mesh = "<mesh filename=\"" + std::string(name) + "\"/>";
-    EXPECT_THAT(
-        files.error_of([&] { compile_model(files.write("r.urdf", with(urdf_with_effort(), sphere, mesh))); }),
-        HasSubstr(std::string(name) + " (an STL in text form: save it as binary STL)"));
-  }
-  const auto seen =
-      compile_model(files.write("r.urdf", with(urdf_with_effort(), "package://r/gone.dae", "foot.stl")));
-  EXPECT_THAT(seen.notes.text(), HasSubstr("foot.stl (an STL in text form"));
-  const std::string asset = R"(<asset><mesh name="shell" file="foot.stl"/></asset><worldbody>)";
-  const std::string geom = R"(<geom name="thigh" type="capsule")";
-  EXPECT_THAT(files.error_of([&] {
-    extract_parts(compile_model(files.write("m.xml", with(with(one_leg_xml, "<worldbody>", asset), geom,
-                                                          R"(<geom type="mesh" mesh="shell"/>)" + geom))));
-  }),
-              HasSubstr("foot.stl (an STL in text form"));
-}
-
-TEST(TextStl, IsNoBinaryOneWhoseHeaderBeginsAlike) {
-  const Files files;
-  std::string binary = "solid by a program that should know better";
-  binary.resize(80, ' ');
-  binary += std::string("\1\0\0\0", 4) + std::string(50, '\0');
-  EXPECT_FALSE(is_text_stl(files.write("a.stl", binary)));
-  EXPECT_TRUE(is_text_stl(files.write("b.stl", "solid x\nendsolid x\n")));
-  EXPECT_FALSE(is_text_stl(files.write("c.obj", "solid x\n")));
-  EXPECT_FALSE(is_text_stl(files.path("none.stl")));
 }
 
 TEST(RobotGuess, OfARootThatMovesOnNamelessJointsSaysWhichKindsTheyAre) {

@@ -42,7 +42,7 @@ TEST_F(HostileModel, WithAMillionBodies) {
 TEST_F(HostileModel, WithBodiesThatTheCompilerWouldMake) {
   EXPECT_EQ(
       refusal(R"(<mujoco><worldbody><composite type="grid" count="9999 9999 1"/></worldbody></mujoco>)"),
-      "m.xml:1: <composite>: elements that make or move bodies when the model is compiled are not read; let "
+      "m.xml:1: <composite>: elements that make bodies when the model is compiled are not read; let "
       "MuJoCo write the model out (compile model.xml out.xml)");
 }
 
@@ -61,13 +61,16 @@ TEST_F(HostileModel, ThatIncludesTooMuch) {
 }
 
 TEST_F(HostileModel, ThatLooksOutsideItsFolder) {
-  for (const char* name : {"../m.xml", "/etc/passwd", "parts/../../m.xml"})
-    EXPECT_EQ(
-        refusal(std::string("<mujoco><include file=\"") + name + "\"/></mujoco>"),
-        std::string("m.xml:1: <include file=\"") + name + "\">: only files in the model's folder are read");
+  const std::string only =
+      "only files in the model's folder, in its neighbours and in its repository are read";
+  for (const char* name : {"../../etc/hostname", "/etc/passwd", "parts/../../../etc/hostname"})
+    EXPECT_EQ(refusal(std::string("<mujoco><include file=\"") + name + "\"/></mujoco>"),
+              std::string("m.xml:1: <include file=\"") + name + "\">: " + only);
   std::filesystem::create_symlink("/etc/hostname", files_.path("link.xml"));
   EXPECT_EQ(refusal("<mujoco><include file=\"link.xml\"/></mujoco>"),
-            "m.xml:1: <include file=\"link.xml\">: only files in the model's folder are read");
+            "m.xml:1: <include file=\"link.xml\">: " + only);
+  EXPECT_EQ(refusal("<mujoco><include file=\"gone.xml\"/></mujoco>"),
+            "m.xml:1: <include file=\"gone.xml\">: there is no such file");
 }
 
 TEST_F(HostileModel, WithEntities) {

@@ -9,7 +9,9 @@
 #include <string>
 
 #include "amble/core/random.hpp"
+#include "amble/morphology/mesh_file.hpp"
 #include "amble/morphology/model_parts.hpp"
+#include "amble/morphology/number_text.hpp"
 #include "tests/morphology/files.hpp"
 
 namespace amble::morphology {
@@ -120,10 +122,10 @@ TEST_F(Meshes, AreInTheFolderForMeshesOrElseInThatForAllAssets) {
 TEST_F(Meshes, ThatAreTooLargeAreNotRead) {
   write("shell.obj", 0.1);
   EXPECT_EQ(parts("").geoms.size(), 5u);
-  std::filesystem::resize_file(files_.path("shell.obj"), 50'000'001);
+  std::filesystem::resize_file(files_.path("shell.obj"), largest_mesh_bytes + 1);
   const ModelParts found = parts("");
   EXPECT_EQ(found.geoms.size(), 4u);
-  EXPECT_THAT(found.notes.text(), HasSubstr("whose mesh is missing: shell.obj"));
+  EXPECT_THAT(found.notes.text(), HasSubstr("whose mesh cannot be read: shell.obj ("));
 }
 
 TEST(ModelText, TakesOnlyPositiveNumbersBelowABillion) {
