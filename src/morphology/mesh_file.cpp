@@ -287,6 +287,10 @@ std::string stl_bytes(const MeshShape& shape) {
   return bytes;
 }
 
+bool is_flat(const MeshShape& shape) {
+  return hull_of(shape, 4).triangles.empty();
+}
+
 MeshShape hull_of(const MeshShape& shape, std::size_t most_corners) {
   std::vector<Vec3> points;
   auto corners = shape.corners;  // each once: an STL has all corners of all faces

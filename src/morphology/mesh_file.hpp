@@ -43,6 +43,9 @@ MeshReading read_msh(std::string_view bytes);
 /// As binary STL.
 std::string stl_bytes(const MeshShape& shape);
 
+/// Whether all of its corners lie in a plane. MuJoCo 2.2 never comes back from the hull of such a mesh.
+bool is_flat(const MeshShape& shape);
+
 /// Its convex hull, with at most so many corners; without triangles if it is flat.
 MeshShape hull_of(const MeshShape& shape, std::size_t most_corners);
 

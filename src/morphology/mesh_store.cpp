@@ -29,7 +29,7 @@ const MeshStore::Kept& MeshStore::read(const std::filesystem::path& path, Readin
   Kept& kept = at->second;
   if (!is_new) return kept;
   MeshReading reading = read_mesh(path);
-  kept.problem = reading.problem;
+  kept.problem = reading.problem.empty() && is_flat(reading.shape) ? "it is flat" : reading.problem;
   if (!kept.problem.empty()) return kept;
   const std::string name = path.filename().string();
   for (const std::string& remark : reading.remarks)
@@ -49,7 +49,6 @@ const MeshStore::Kept& MeshStore::read(const std::filesystem::path& path, Readin
     bytes = io::read_file(path, largest_mesh_bytes);
   } else if (many) {
     const MeshShape hull = hull_of(reading.shape, hull_corners);
-    if (hull.triangles.empty()) kept.problem = "it is flat";
     notes.add(Reading::replaced,
               fmt::format("the mesh {} of {} faces, more than MuJoCo takes: its convex hull", name,
                           reading.shape.triangles.size()));

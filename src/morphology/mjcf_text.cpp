@@ -12,6 +12,7 @@
 #include "amble/core/error.hpp"
 #include "amble/morphology/limit_text.hpp"
 #include "amble/morphology/mass_text.hpp"
+#include "amble/morphology/mesh_file.hpp"
 #include "amble/morphology/mesh_path.hpp"
 #include "amble/morphology/mjcf_defaults.hpp"
 #include "amble/morphology/mjcf_structure.hpp"
@@ -185,7 +186,8 @@ class MjcfCleaner {
   void take_meshes() {
     root_.visit([this](XmlElement& element, XmlElement* parent) {
       const auto file = element.attribute("file");
-      if (element.name != "mesh" || parent == nullptr || parent->name != "asset" || !file) return;
+      if (element.name != "mesh" || parent == nullptr || parent->name != "asset") return;
+      if (!file) return take_listed_mesh(element);
       const fs::path plain = plain_path(*file), name = strip_path_ ? plain.filename() : plain;
       if (!element.attribute("name")) element.set("name", name.stem().string());
       const fs::path of_part = fs::path(element.file).parent_path();
@@ -194,6 +196,20 @@ class MjcfCleaner {
                       folder_ / name, folder_ / mesh_folder_ / name.filename()});
       take_mesh(text_, element, "file", *file, path, notes_);
     });
+  }
+
+  /// A mesh whose corners the model lists.
+  void take_listed_mesh(XmlElement& element) {
+    const std::vector<double> numbers = numbers_of(element.attribute_or("vertex", ""));
+    MeshShape shape;
+    for (std::size_t at = 0; at + 3 <= numbers.size(); at += 3)
+      shape.corners.push_back({static_cast<float>(numbers[at]), static_cast<float>(numbers[at + 1]),
+                               static_cast<float>(numbers[at + 2])});
+    if (shape.corners.size() < 4 || !is_flat(shape)) return;
+    const std::string name = element.attribute_or("name", "");
+    text_.missing_meshes[name] = name + " (it is flat)";
+    for (const char* key : {"vertex", "face", "normal", "texcoord", "scale"}) element.remove_attribute(key);
+    element.set("file", text_.meshes.placeholder());
   }
 
   ModelText& text_;

@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -36,22 +35,19 @@ class MemoryFiles {
   MemoryFiles(const MemoryFiles&) = delete;
   MemoryFiles& operator=(const MemoryFiles&) = delete;
 
-  /// Adds a file, or replaces that of this name. `what`: for messages.
-  void set(const std::string& name, const std::string& bytes, const std::string& what) {
-    if (names_.contains(name)) mj_deleteFileVFS(files_.get(), name.c_str());
+  /// Adds a file. None is ever replaced: MuJoCo 2.2 does not come back from removing one of several. `what`:
+  /// for messages.
+  void add(const std::string& name, const std::string& bytes, const std::string& what) {
     const int failed = mj_makeEmptyFileVFS(files_.get(), name.c_str(), static_cast<int>(bytes.size()));
     if (failed == 1) fail(ExitCode::bad_input, "{}: more than {} meshes", what, mjMAXVFS - 1);
     if (failed != 0) fail(ExitCode::bad_input, "{}: too long a file name", what);
     std::memcpy(files_->filedata[files_->nfile - 1], bytes.data(), bytes.size());
-    names_.insert(name);
   }
-  bool has(const std::string& name) const { return names_.contains(name); }
 
   const mjVFS* get() const { return files_.get(); }
 
  private:
   std::unique_ptr<mjVFS> files_;
-  std::set<std::string> names_;
 };
 
 /// Compiles; without a model, its message.
@@ -85,11 +81,11 @@ class Compiler {
   ModelPointer compile() {
     for (int removals = 0;; ++removals) {
       written_ = write_xml(text_.root);
-      files_.set(path_.filename(), written_.text, path_.string());
-      for (const auto& [name, bytes] : text_.meshes.files())
-        if (!files_.has(name)) files_.set(name, *bytes, path_.string());
+      MemoryFiles files;
+      files.add(path_.filename(), written_.text, path_.string());
+      for (const auto& [name, bytes] : text_.meshes.files()) files.add(name, *bytes, path_.string());
       std::string problem;
-      ModelPointer model = try_to_load(path_, files_.get(), problem);
+      ModelPointer model = try_to_load(path_, files.get(), problem);
       if (model != nullptr) return model;
       if (removals == most_removals || !remove_unknown(problem))
         fail(ExitCode::bad_input, "{}: MuJoCo refuses the model: {}", path_.string(),
@@ -251,7 +247,6 @@ class Compiler {
   const std::filesystem::path& path_;
   ReadingNotes& notes_;
   XmlText written_;
-  MemoryFiles files_;
 };
 
 }  // namespace
@@ -280,7 +275,7 @@ ModelFile compile_model(const std::filesystem::path& path) try {
 
 ModelPointer compile_mjcf(const std::string& text, const std::string& what) {
   MemoryFiles files;
-  files.set("model.xml", text, what);
+  files.add("model.xml", text, what);
   std::string problem;
   ModelPointer model = try_to_load("model.xml", files.get(), problem);
   if (model == nullptr) fail(ExitCode::bad_input, "{}: MuJoCo refuses the model: {}", what, problem);

@@ -126,7 +126,7 @@ TEST_F(Structure, ARootThatWasFusedIntoTheWorldGetsItsBodyBack) {
   // Without shapes nothing is known of it, and two robots are no limbs.
   EXPECT_THAT(files_.error_of([&] { parts("<mujoco><worldbody>" + floor + legs + "</worldbody></mujoco>"); }),
               HasSubstr("but found 4; if they are limbs of one robot, put <body name=\"root\">"));
-  const std::string pair = world + "<body name=\"a\">" + legs + "</body>";
+  const std::string pair = world + "<body name=\"a\"><geom size=\"0.1\"/>" + legs + "</body>";
   EXPECT_EQ(parts("<mujoco><worldbody>" + pair + "</worldbody></mujoco>").bodies[0].name, "a");
 }
 
