@@ -86,7 +86,7 @@ fs::path first_file(const std::vector<fs::path>& candidates) {
   for (const fs::path& candidate : candidates)
     if (is_file(candidate)) return candidate;
   for (const fs::path& candidate : candidates)
-    if (const fs::path found = like(candidate); !found.empty()) return found;
+    if (fs::path found = like(candidate); !found.empty()) return found;
   for (const fs::path& candidate : candidates)
     if (const std::string name = without_percents(candidate.string()); name != candidate)
       if (is_file(name)) return name;

@@ -77,7 +77,7 @@ MeshStore::Entry MeshStore::add(const std::filesystem::path& path, const std::st
 }
 
 std::string MeshStore::placeholder() {
-  const std::string name = keep(shared(stl_bytes(tetrahedron())), ".stl");
+  std::string name = keep(shared(stl_bytes(tetrahedron())), ".stl");
   placeholders_.insert(name);
   return name;
 }

@@ -38,7 +38,7 @@ std::set<std::string> names_of(const XmlElement& root, std::string_view kind) {
 std::string free_name(std::set<std::string>& taken, const std::string& name) {
   if (taken.insert(name).second) return name;
   for (int k = 1;; ++k)
-    if (const std::string next = fmt::format("{}.{}", name, k); taken.insert(next).second) return next;
+    if (std::string next = fmt::format("{}.{}", name, k); taken.insert(next).second) return next;
 }
 
 std::string text_of(Vec3 v) {
@@ -206,7 +206,7 @@ class FrameResolver {
       if (!is_one_of(part.name, {"inertial", "joint", "freejoint"})) continue;
       if (part.name == "joint" && !childclass.empty() && !part.attribute("class"))
         part.set("class", childclass);
-      parts.push_back(std::move(part));
+      parts.push_back(part);
       part.name.clear();
     }
     std::erase_if(frame.children, [](const XmlElement& part) { return part.name.empty(); });

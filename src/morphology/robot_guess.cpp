@@ -18,6 +18,7 @@
 #include "amble/io/toml_text.hpp"
 #include "amble/morphology/leg_guess.hpp"
 #include "amble/morphology/odd_joints.hpp"
+#include "amble/morphology/rounding.hpp"
 #include "amble/morphology/servo_guess.hpp"
 #include "amble/morphology/start_pose.hpp"
 #include "amble/robot/check.hpp"
@@ -46,26 +47,6 @@ std::string list(const std::vector<std::string>& names) {
   all.reserve(names.size());
   for (const std::string& name : names) all.push_back(io::toml_quoted(name));
   return fmt::format("[{}]", fmt::join(all, ", "));
-}
-
-/// Four digits after the point, rounded towards zero from `start`.
-double inward(double value, double start) {
-  const double scaled = value * 1e4;
-  return (value < start ? std::ceil(scaled - 1e-6) : std::floor(scaled + 1e-6)) / 1e4;
-}
-
-/// Whole millimetres; of less than a centimetre three digits.
-double rounded_down(double length_m) {
-  double steps_per_m = 1e3;
-  while (length_m > 0.0 && length_m * steps_per_m < 10.0 && steps_per_m < 1e12) steps_per_m *= 10.0;
-  return std::floor(steps_per_m * length_m) / steps_per_m;
-}
-
-/// Whole tenths of millimetres; of less than a millimetre two digits.
-double rounded_up(double length_m) {
-  double steps_per_m = 1e4;
-  while (length_m > 0.0 && length_m * steps_per_m < 10.0 && steps_per_m < 1e12) steps_per_m *= 10.0;
-  return std::ceil(length_m * steps_per_m - 1e-6) / steps_per_m;
 }
 
 class RobotGuesser {

@@ -113,21 +113,21 @@ double reach_m(const RobotSpec& robot) {
   return reach;
 }
 
-/// Moments that a body of that mass would have if it were larger than the whole robot.
+/// Moments that a body of that mass would only have if it were more than twice as large as the whole robot.
 void doubt_placeholders(const RobotSpec& robot, std::vector<std::string>& lines) {
   const double reach = reach_m(robot);
   std::vector<std::string> names;
   for (const Body& body : robot.bodies) {
     const double moments = body.inertia_kg_m2.x + body.inertia_kg_m2.y + body.inertia_kg_m2.z;
-    if (reach > 0.0 && moments > 2.0 * body.mass_kg * reach * reach)
+    if (reach > 0.0 && moments > 8.0 * body.mass_kg * reach * reach)
       names.push_back(
           fmt::format("{} ({:.3g} kg m² in sum for {:.3g} kg)", body.name, moments, body.mass_kg));
   }
   if (!names.empty())
-    lines.push_back(
-        fmt::format("moments of inertia that would need a body larger than the robot, {:.2g} m, as "
-                    "templates have them: {}: check inertia, mass and units",
-                    reach, fmt::join(names, ", ")));
+    lines.push_back(fmt::format(
+        "moments of inertia that would need a body larger than the robot, which reaches {:.2g} m, as "
+        "templates have them: {}: check inertia, mass and units",
+        reach, fmt::join(names, ", ")));
 }
 
 void doubt_torques(const RobotSpec& robot, std::vector<std::string>& lines) {

@@ -103,6 +103,19 @@ TEST(Doubts, ShapesThatAreNotAllOfABodySayNothing) {
   EXPECT_THAT(doubts(bare), IsEmpty());
 }
 
+TEST(Doubts, MomentsOfABodyLargerThanTheRobotAreNamedInOneLineWhereverItsMassIs) {
+  RobotSpec robot = tests::legged_robot(2);
+  EXPECT_THAT(doubts(robot), testing::Not(testing::Contains(HasSubstr("larger than the robot"))));
+  for (Body& body : robot.bodies) body.inertia_kg_m2 = {1e3, 1e3, 1e3};
+  robot.bodies[1].com_m = {0.0, 0.0, 5.0};
+  std::size_t named = 0;
+  for (const std::string& line : doubts(robot))
+    if (line.find("larger than the robot") != std::string::npos)
+      for (const Body& body : robot.bodies)
+        named += line.find(body.name + " (3e+03 kg m²") != std::string::npos ? 1 : 0;
+  EXPECT_EQ(named, robot.bodies.size());
+}
+
 TEST(Doubts, BearingTorqueIsWeightOnHalfOfTheLegsTimesLever) {
   RobotSpec robot = tests::legged_robot(2);
   for (const Leg& leg : robot.legs) robot.geoms[static_cast<std::size_t>(leg.foot_geom)].position_m.x = 0.1;
