@@ -36,7 +36,7 @@ fs::path set_options(XmlElement& root) {
   compiler.set("fusestatic", "false");
   compiler.set("strippath", "false");
   if (!compiler.attribute("discardvisual")) compiler.set("discardvisual", "false");
-  const fs::path folder = plain_path(compiler.attribute_or("meshdir", ""));
+  fs::path folder = plain_path(compiler.attribute_or("meshdir", ""));
   compiler.remove_attribute("meshdir");
   return folder;
 }
