@@ -26,6 +26,7 @@ class PartCheck {
     check_name("joint", part_.joint, !of_leg && !of_body, robot_.joints);
     if (!of_body || !part_.body.empty()) check_name("body", part_.body, of_body, robot_.bodies);
     if (part_.kind == Kind::locked) check_angle();
+    if (part_.kind == Kind::slack || part_.kind == Kind::weak) check_motor();
     if (part_.kind == Kind::missing) check_removable();
   }
 
@@ -55,10 +56,17 @@ class PartCheck {
           joint.lower_rad, joint.upper_rad);
   }
 
+  void check_motor() const {
+    const auto& joint = *std::ranges::find(robot_.joints, part_.joint, &robot::Joint::name);
+    if (!joint.has_motor())
+      bad("joint", " = \"{}\": it has no motor that could be {}", part_.joint,
+          kind_names[static_cast<std::size_t>(part_.kind)]);
+  }
+
   void check_removable() const {
     const auto leg =
         static_cast<int>(std::ranges::find(robot_.legs, part_.leg, &robot::Leg::name) - robot_.legs.begin());
-    const int foot = robot_.geoms[to_index(robot_.legs[to_index(leg)].foot_geom)].body;
+    const int foot = robot_.foot_body(robot_.legs[to_index(leg)]);
     bool own = robot_.leg_of_body(foot) == leg;
     for (const int joint : robot_.legs[to_index(leg)].joints)
       own = own && (joint < 0 || robot_.leg_of_body(robot_.joints[to_index(joint)].body) == leg);

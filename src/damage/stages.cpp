@@ -47,6 +47,7 @@ void apply(const Part& part, const RobotSpec& intact, Stage& stage) {
     case Kind::locked:
       its.servo = {
           .mode = robot::ServoMode::velocity, .gain_per_s = lock_gain_per_s, .max_torque_nm = lock_torque_nm};
+      its.stiffness_nm_per_rad = its.rest_rad = 0.0;  // of a joint without a motor
       its.lower_rad -= lock_margin_rad;
       its.upper_rad += lock_margin_rad;
       stage.locks.push_back({joint, part.angle_rad});
@@ -105,7 +106,7 @@ void remove_legs(Stage& stage, const std::set<int>& missing) {
   for (robot::Joint& joint : robot.joints) renumber(joint.body, new_body);
   for (robot::Geom& geom : robot.geoms) renumber(geom.body, new_body);
   for (robot::Leg& leg : robot.legs) {
-    renumber(leg.foot_geom, new_geom);
+    for (int& geom : leg.foot_geoms) renumber(geom, new_geom);
     for (int& joint : leg.joints) renumber(joint, new_joint);
   }
   stage.joint_of = inverse(new_joint);

@@ -13,6 +13,7 @@
 #include "amble/core/index.hpp"
 #include "amble/physics/engine.hpp"
 #include "amble/robot/check.hpp"
+#include "amble/robot/legs.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::experiment {
@@ -110,8 +111,7 @@ void look_at_legs(const RobotSpec& robot, std::vector<std::string>& odd) {
     const auto first = std::ranges::find_if(leg.joints, [](int joint) { return joint >= 0; });
     if (first == leg.joints.end()) continue;
     const robot::Joint& joint = robot.joints[to_index(*first)];
-    const Vec3 along = robot::centre_m(robot.geoms[to_index(leg.foot_geom)], poses) -
-                       poses[to_index(joint.body)] * joint.anchor_m;
+    const Vec3 along = robot::foot_m(robot, leg, poses) - poses[to_index(joint.body)] * joint.anchor_m;
     sum = sum + along;
     lengths_m += norm(along);
   }
@@ -127,10 +127,9 @@ void look_at_legs(const RobotSpec& robot, std::vector<std::string>& odd) {
 double longest_leg_m(const RobotSpec& robot, const std::vector<robot::Pose>& poses) {
   double longest_m = 0.0;
   for (const robot::Leg& leg : robot.legs) {
-    const robot::Geom& foot = robot.geoms[to_index(leg.foot_geom)];
-    Vec3 end = robot::centre_m(foot, poses);
+    Vec3 end = robot::foot_m(robot, leg, poses);
     double length_m = 0.0;
-    for (int body = foot.body; body > 0; body = robot.bodies[to_index(body)].parent)
+    for (int body = robot.foot_body(leg); body > 0; body = robot.bodies[to_index(body)].parent)
       for (const int j : robot.joints_of_body(body)) {
         if (std::ranges::find(leg.joints, j) == leg.joints.end()) continue;
         const Vec3 anchor = poses[to_index(body)] * robot.joints[to_index(j)].anchor_m;
@@ -221,7 +220,7 @@ class Hold {
     double lowest_m = std::max(crouching_m, 0.01 * legs_m);
     std::string lowest;
     std::set<int> feet;
-    for (const robot::Leg& leg : robot_.legs) feet.insert(leg.foot_geom);
+    for (const robot::Leg& leg : robot_.legs) feet.insert(leg.foot_geoms.begin(), leg.foot_geoms.end());
     for (int g = 0; g < static_cast<int>(robot_.geoms.size()); ++g) {
       const robot::Geom& geom = robot_.geoms[to_index(g)];
       if (!geom.collides || feet.contains(g) || robot_.leg_of_body(geom.body) >= 0) continue;

@@ -25,11 +25,27 @@ std::vector<std::string> provenance_lines(const Provenance& from, const std::str
           fmt::format("genome      XXH3 {}", from.genome_hash)};
 }
 
-std::vector<std::string> sensor_lines(const ControllerTables& tables, bool fixed) {
+/// Of feet of several shapes: which of them count as a touch.
+std::vector<std::string> foot_lines(const robot::RobotSpec& robot) {
+  std::vector<std::string> lines;
+  for (const robot::Leg& leg : robot.legs) {
+    if (leg.foot_geoms.size() == 1) continue;
+    std::vector<std::string> shapes;
+    for (const int geom : leg.foot_geoms)
+      shapes.push_back(fmt::format("'{}'", robot.geoms[to_index(geom)].name));
+    lines.push_back(fmt::format("    the foot of '{}': any of {}", leg.name, fmt::join(shapes, ", ")));
+  }
+  return lines;
+}
+
+std::vector<std::string> sensor_lines(const ControllerTables& tables, const robot::RobotSpec& robot,
+                                      bool fixed) {
   std::vector<std::string> lines{"Sensors, read before each step:"};
-  if (tables.reads_touch())
+  if (tables.reads_touch()) {
     lines.push_back(
         fmt::format("  touch[leg]        {} while the foot is on the ground, else 0", fixed ? "not 0" : "1"));
+    for (const std::string& line : foot_lines(robot)) lines.push_back(line);
+  }
   if (tables.reads_angles()) lines.push_back("  angle_rad[joint]  rad, 0 in the start pose, signed as below");
   if (tables.reads_attitude())
     lines.push_back(
@@ -57,7 +73,8 @@ std::vector<std::string> joint_lines(const ControllerTables& tables, const robot
     const robot::Joint& part = robot.joints[j];
     const std::string range = joint.driven
                                   ? fmt::format("targets from {} to {} rad", joint.lower_rad, joint.upper_rad)
-                                  : fmt::format("held at {} rad", joint.lower_rad);
+                              : joint.motor ? fmt::format("held at {} rad", joint.lower_rad)
+                                            : std::string("no motor, its target means nothing");
     lines.push_back(fmt::format("  {}  '{}', body '{}', axis {} {} {}: {}", names[j], joint.name,
                                 robot.bodies[to_index(part.body)].name, part.axis.x, part.axis.y, part.axis.z,
                                 range));
@@ -182,7 +199,7 @@ std::string c_header(const ControllerTables& tables, const robot::RobotSpec& rob
                       fmt::format("Rate: {} steps per second, one every {} s. {}", tables.rate_hz(),
                                   tables.timestep_s, options.start),
                       ""});
-  text.comment_lines(sensor_lines(tables, fixed));
+  text.comment_lines(sensor_lines(tables, robot, fixed));
   text.comment_lines({""});
   text.comment_lines(joint_lines(tables, robot, joints));
   text.comment_lines({""});

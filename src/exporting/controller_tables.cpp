@@ -23,7 +23,7 @@ std::vector<CommandedJoint> commanded_joints(const robot::RobotSpec& robot) {
   std::vector<CommandedJoint> joints;
   for (const robot::Joint& joint : robot.joints) {
     const robot::AngleRange range = joint.command_range();
-    joints.push_back({joint.name, -1, range.lower_rad, range.upper_rad, joint.driven()});
+    joints.push_back({joint.name, -1, range.lower_rad, range.upper_rad, joint.driven(), joint.has_motor()});
   }
   for (std::size_t leg = 0; leg < robot.legs.size(); ++leg)
     for (const int joint : robot.legs[leg].joints)

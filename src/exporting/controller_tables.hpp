@@ -19,6 +19,7 @@ struct CommandedJoint {
   int leg = -1;                             ///< −1: belongs to none
   double lower_rad = 0.0, upper_rad = 0.0;  ///< range of the targets; equal if the joint is held
   bool driven = true;
+  bool motor = true;  ///< false: it moves freely, and its target is 0 and means nothing
 };
 
 /// SUPGs as tables (controllers::SupgArchitecture says what each number means).

@@ -33,6 +33,7 @@ Json joints_json(const ControllerTables& tables) {
   for (const CommandedJoint& joint : tables.joints) {
     Json entry{{"name", joint.name}, {"driven", joint.driven}};
     entry["leg"] = joint.leg >= 0 ? Json(tables.legs[to_index(joint.leg)]) : Json(nullptr);
+    if (!joint.motor) entry["motor"] = false;
     entry["command_rad"] = {joint.lower_rad, joint.upper_rad};
     list.push_back(std::move(entry));
   }

@@ -12,6 +12,7 @@
 #include "amble/graphics/axis.hpp"
 #include "amble/graphics/svg.hpp"
 #include "amble/motion/footfalls.hpp"
+#include "amble/robot/legs.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::figures {
@@ -45,11 +46,10 @@ Scene make_scene(const robot::RobotSpec& robot, const motion::Motion& motion, co
   scene.path_m.push_back(project(motion.com_start_m));
   for (const Vec3 com_m : motion.com_m) scene.path_m.push_back(project(com_m));
   for (std::size_t leg = 0; leg < robot.legs.size(); ++leg)
-    for (const int frame : motion::touchdown_frames(motion.touch[leg])) {
-      const robot::Geom& foot = robot.geoms[to_index(robot.legs[leg].foot_geom)];
+    for (const int frame : motion::touchdown_frames(motion.touch[leg]))
       scene.footprints.push_back(
-          {static_cast<int>(leg), project(robot::centre_m(foot, motion::body_poses(robot, motion, frame)))});
-    }
+          {static_cast<int>(leg),
+           project(robot::foot_m(robot, robot.legs[leg], motion::body_poses(robot, motion, frame)))});
   for (const int frame : {0, motion.frames() - 1}) add_trunk(robot, motion, frame, camera, scene);
   return scene;
 }

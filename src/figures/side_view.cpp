@@ -105,7 +105,7 @@ void draw_robot(Svg& svg, const robot::RobotSpec& robot, const motion::Motion& m
       continue;
     }
     const auto l = to_index(leg);
-    const bool foot = robot.legs[l].foot_geom == outline.geom;
+    const bool foot = robot.legs[l].has_foot_geom(outline.geom);
     const bool touching = foot && motion.touch[l][to_index(view.frame)];
     svg.begin_group(leg_class(leg) + (depth_m[l] > middle_m ? " far" : ""));
     draw_outline(svg, outline, view, cell, touching ? "foot-down" : foot ? "foot" : "limb");

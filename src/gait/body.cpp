@@ -15,7 +15,7 @@ namespace {
 double leg_length_m(const robot::RobotSpec& robot, const std::vector<robot::Pose>& poses) {
   double clearance_m = std::numeric_limits<double>::infinity();
   for (const robot::Leg& leg : robot.legs)
-    clearance_m = std::min(clearance_m, robot::bottom_m(robot.geoms[to_index(leg.foot_geom)], poses));
+    clearance_m = std::min(clearance_m, robot::foot_bottom_m(robot, leg, poses));
   double sum_m = 0.0;
   int count = 0;
   const std::vector<Vec3> hips_m = robot::hips_m(robot, poses);

@@ -188,6 +188,11 @@ std::unique_ptr<TomlDocument::Reader> TomlDocument::reader() const {
   return make_toml_reader(impl_->root);
 }
 
+bool TomlDocument::is_list(std::string_view key_path) const {
+  const TomlNode* node = impl_->root.find_path(key_path);
+  return node != nullptr && node->kind == TomlNode::Kind::list;
+}
+
 std::vector<std::string> TomlDocument::keys_of(std::string_view key_path) const {
   const TomlNode* node = impl_->root.find_path(key_path);
   return node != nullptr && node->kind == TomlNode::Kind::table ? node->keys : std::vector<std::string>();

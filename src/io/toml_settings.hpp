@@ -45,6 +45,9 @@ class TomlDocument {
   /// there.
   std::vector<std::string> keys_of(std::string_view key_path) const;
 
+  /// Whether the document has that key with a list, for values that may be one or several.
+  bool is_list(std::string_view key_path) const;
+
   /// For text settings that name files: the folder of the file that has the key. Empty for the current
   /// folder, and for keys from the command line.
   std::filesystem::path folder_of(std::string_view key_path) const;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "amble/core/index.hpp"
+#include "amble/morphology/foot_shapes.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::morphology {
@@ -42,7 +43,8 @@ class LegFinder {
     std::set<int> of_legs;
     for (const LegGuess& leg : guess_.legs) of_legs.insert(leg.joints.begin(), leg.joints.end());
     for (int j = 0; j < static_cast<int>(parts_.joints.size()); ++j)
-      if (!of_legs.contains(j)) guess_.held.push_back(j);
+      if (!of_legs.contains(j))
+        (parts_.drives[to_index(j)] == Drive::none ? guess_.passive : guess_.held).push_back(j);
     return std::move(guess_);
   }
 
@@ -85,7 +87,10 @@ class LegFinder {
       for (int b = last; b > 0 && ends[to_index(b)] == 1; b = parts_.bodies[to_index(b)].parent)
         chain.insert(chain.begin(), b);
       for (const int b : chain)
-        for (const int j : robot_.joints_of_body(b)) leg.joints.push_back(j);
+        for (const int j : robot_.joints_of_body(b))
+          if (parts_.drives[to_index(j)] == Drive::motor) leg.joints.push_back(j);
+      if (leg.joints.empty()) continue;
+      leg.foot_geoms = foot_shapes(parts_, poses_, leg.joints, foot);
       guess_.legs.push_back(std::move(leg));
     }
     guess_.why_legs = fmt::format("chains of bodies whose end is at most {:.3g} m above the lowest point",
@@ -338,6 +343,18 @@ std::vector<std::string> words_of(const std::string& name, bool digits_apart) {
 
 LegsGuess guess_legs(const ModelParts& parts) {
   return LegFinder(parts).find();
+}
+
+LegsGuess guess_driven_legs(ModelParts& parts) {
+  LegsGuess own = guess_legs(parts);
+  if (std::ranges::count(parts.drives, Drive::motor) == std::ssize(parts.drives)) return own;
+  ModelParts with_motors = parts;
+  std::ranges::fill(with_motors.drives, Drive::motor);
+  LegsGuess all = guess_legs(with_motors);
+  if (2 * own.legs.size() >= all.legs.size()) return own;
+  parts = std::move(with_motors);
+  all.motors_added = true;
+  return all;
 }
 
 }  // namespace amble::morphology

@@ -104,6 +104,11 @@ class Writer {
     return value > 0.0 ? fmt::format(R"( {}="{}")", name, value) : "";
   }
 
+  static std::string spring(const robot::Joint& joint) {
+    if (joint.stiffness_nm_per_rad == 0.0) return "";
+    return fmt::format(R"( stiffness="{}" springref="{}")", joint.stiffness_nm_per_rad, joint.rest_rad);
+  }
+
   void write_body(int b, int indent) {
     const robot::Body& body = robot_.bodies[to_index(b)];
     const std::string margin(to_index(indent), ' ');
@@ -131,14 +136,15 @@ class Writer {
     // MuJoCo has no range that is open at one end.
     const auto stop = [](double angle_rad) { return std::clamp(angle_rad, -no_stop_rad, no_stop_rad); };
     const bool limited = std::isfinite(joint.lower_rad) || std::isfinite(joint.upper_rad);
-    line(R"({}  <joint name="{}" type="hinge" pos="{}" axis="{}"{}{}{}{}{}/>)", margin, io::escape_xml(name),
-         numbers(joint.anchor_m), numbers(joint.axis),
+    line(R"({}  <joint name="{}" type="hinge" pos="{}" axis="{}"{}{}{}{}{}{}/>)", margin,
+         io::escape_xml(name), numbers(joint.anchor_m), numbers(joint.axis),
          limited
              ? fmt::format(R"( limited="true" range="{} {}")", stop(joint.lower_rad), stop(joint.upper_rad))
              : R"( limited="false")",
          positive_attribute("armature", joint.armature_kg_m2),
          positive_attribute("damping", joint.damping_nm_s_per_rad),
-         positive_attribute("frictionloss", joint.friction_loss_nm), added(additions_.joints, j));
+         positive_attribute("frictionloss", joint.friction_loss_nm), spring(joint),
+         added(additions_.joints, j));
   }
 
   void write_geom(int g, const std::string& margin) {

@@ -263,6 +263,8 @@ ModelFile compile_model(const std::filesystem::path& path) try {
   compiled.model = Compiler(text, path, compiled.notes).compile();
   mend_masses(*compiled.model, text.missing_masses, text.missing_meshes, compiled.notes);
   compiled.motors = std::move(text.motors);
+  compiled.motors_named = std::move(text.motors_named);
+  compiled.mimics = std::move(text.mimics);
   compiled.missing_meshes = std::move(text.missing_meshes);
   return compiled;
 } catch (const std::filesystem::filesystem_error& error) {

@@ -3,7 +3,10 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "amble/morphology/model_text.hpp"
 #include "amble/morphology/reading_notes.hpp"
@@ -23,8 +26,10 @@ struct ModelFile {
   ModelPointer model;
   std::filesystem::path path;
   bool root_is_welded = false;  ///< URDF cannot express a free root link: it is welded to the world
-  std::map<std::string, MotorHint> motors = {};            ///< by joint
-  std::map<std::string, std::string> missing_meshes = {};  ///< name → file
+  std::map<std::string, MotorHint> motors = {};                  ///< by joint
+  std::set<std::string> motors_named = {};                       ///< ModelText::motors_named
+  std::vector<std::pair<std::string, std::string>> mimics = {};  ///< ModelText::mimics
+  std::map<std::string, std::string> missing_meshes = {};        ///< name → file
   ReadingNotes notes = {};
 };
 

@@ -32,11 +32,11 @@ class PartsExtractor {
 
   ModelParts extract() {
     parts_.notes = file_.notes;
-    refuse_loops();
     find_root();
     note_what_is_left_out();
     find_fixed_joints();
     group_bodies();
+    find_drives();
     for (int b = root_; b < model_.nbody; ++b) {
       if (group_[to_index(b)] >= 0 && starts_group(b)) add_body(b);
     }
@@ -67,25 +67,6 @@ class PartsExtractor {
   std::string_view joint_name(int j) const { return model_.names + model_.name_jntadr[j]; }
   std::string_view geom_name(int g) const { return model_.names + model_.name_geomadr[g]; }
   bool collides(int g) const { return model_.geom_contype[g] != 0 || model_.geom_conaffinity[g] != 0; }
-
-  void refuse_loops() const {
-    std::vector<std::string> loops, tendons;
-    for (int e = 0; e < model_.neq; ++e)
-      if (model_.eq_active[e] != 0) loops.push_back(fmt::format("'{}'", model_.names + model_.name_eqadr[e]));
-    if (!loops.empty())
-      refuse("equality constraint {}: robots with closed loops are not supported", fmt::join(loops, ", "));
-    for (int t = 0; t < model_.ntendon; ++t)
-      if (acts(t)) tendons.push_back(fmt::format("'{}'", model_.names + model_.name_tendonadr[t]));
-    if (!tendons.empty()) refuse("tendon {}: tendons are not supported", fmt::join(tendons, ", "));
-  }
-
-  /// Whether a tendon pulls at something; others only measure.
-  bool acts(int t) const {
-    for (int a = 0; a < model_.nu; ++a)
-      if (model_.actuator_trntype[a] == mjTRN_TENDON && model_.actuator_trnid[2 * a] == t) return true;
-    return model_.tendon_limited[t] != 0 || model_.tendon_stiffness[t] != 0.0 ||
-           model_.tendon_damping[t] != 0.0 || model_.tendon_frictionloss[t] != 0.0;
-  }
 
   /// The root is the body of the world with joints behind it; if none has any, the one that moves; if none
   /// does, the only one.
@@ -151,9 +132,6 @@ class PartsExtractor {
            obstacles_.size(), fmt::join(obstacles_, ", "));
     if (model_.ncam + model_.nlight + model_.nsite > 0)
       note(Reading::left_out, "{} cameras, {} lights, {} sites", model_.ncam, model_.nlight, model_.nsite);
-    if (model_.nu > 0) note(Reading::left_out, "{} actuators: the robot file has the servos", model_.nu);
-    if (model_.ntendon > 0) note(Reading::left_out, "{} tendons, which only measure", model_.ntendon);
-    if (model_.neq > 0) note(Reading::left_out, "{} equality constraints, which are not active", model_.neq);
     if (model_.nexclude + model_.npair > 0)
       note(Reading::left_out, "pairs of contacts and their exclusion: see self_collision in the robot file");
     if (model_.opt.density != 0.0 || model_.opt.viscosity != 0.0)
@@ -201,6 +179,12 @@ class PartsExtractor {
     }
   }
 
+  void find_drives() {
+    const RobotOfModel robot{[this](int j) { return moves(j); },
+                             [this](int b) { return group_[to_index(b)]; }};
+    drives_ = drives_of(file_, robot, parts_.notes);
+  }
+
   robot::Pose pose_in_parent_group(int b) const {
     const robot::Pose own = start_.pose_in_parent(b);
     return b == root_ ? own : pose_in_group_[to_index(model_.body_parentid[b])] * own;
@@ -244,10 +228,12 @@ class PartsExtractor {
     joint.armature_kg_m2 = model_.dof_armature[dof];
     joint.damping_nm_s_per_rad = model_.dof_damping[dof];
     joint.friction_loss_nm = model_.dof_frictionloss[dof];
-    if (model_.jnt_stiffness[j] != 0.0) springs_.push_back(fmt::format("'{}'", name));
+    joint.stiffness_nm_per_rad = model_.jnt_stiffness[j];
+    if (joint.stiffness_nm_per_rad != 0.0) joint.rest_rad = model_.qpos_spring[model_.jnt_qposadr[j]] - start;
     parts_.joints.push_back(std::move(joint));
     parts_.start_rad.push_back(start);
     parts_.model_joints.push_back(j);
+    parts_.drives.push_back(drives_[to_index(j)]);
   }
 
   void add_geom(int g) {
@@ -293,6 +279,7 @@ class PartsExtractor {
     geom.rgba = {colour[0], colour[1], colour[2], colour[3]};
     parts_.geoms.push_back(std::move(geom));
     parts_.model_geoms.push_back(g);
+    parts_.welded_links.push_back(starts_group(b) ? -1 : b);
   }
 
   void finish() {
@@ -314,7 +301,6 @@ class PartsExtractor {
     if (!unseen_.empty())
       note(Reading::left_out, "what is only to look at and whose mesh cannot be read: {}",
            fmt::join(unseen_, ", "));
-    if (!springs_.empty()) note(Reading::left_out, "the springs of joints {}", fmt::join(springs_, ", "));
     if (hulls_ > 0)
       note(Reading::replaced, "{} meshes that collide: the convex hull of each, with at most {} corners",
            hulls_, most_collision_vertices);
@@ -354,7 +340,8 @@ class PartsExtractor {
   std::vector<robot::Pose> pose_in_group_;
   int hulls_ = 0, shown_hulls_ = 0, ellipsoids_ = 0, cylinders_ = 0;
   std::set<std::string> lost_;
-  std::vector<std::string> springs_, obstacles_, unread_, unseen_;
+  std::vector<std::string> obstacles_, unread_, unseen_;
+  std::vector<Drive> drives_;
   ModelParts parts_;
 };
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "amble/core/math.hpp"
+#include "amble/morphology/model_drives.hpp"
 #include "amble/morphology/model_file.hpp"
 #include "amble/morphology/reading_notes.hpp"
 #include "amble/robot/spec.hpp"
@@ -23,10 +24,12 @@ struct ReadingOptions {
 /// with it, under the parent's name. Frames, anchors and axes are those of the start pose.
 struct ModelParts {
   std::vector<robot::Body> bodies;
-  std::vector<robot::Joint> joints;  ///< in the order of the model, without servo
+  std::vector<robot::Joint> joints;  ///< in the order of the model, without servo, but with its spring
+  std::vector<Drive> drives;         ///< per joint: what moves it in the model
   std::vector<double> start_rad;     ///< per joint: the start pose's angle as the model counts it
   std::vector<robot::Geom> geoms;
   std::vector<int> model_joints, model_geoms;  ///< MuJoCo's numbers of `joints` and `geoms`
+  std::vector<int> welded_links;  ///< per geom: MuJoCo's number of its body if no joint moves that, else −1
   Vec3 gravity_m_s2;
   ReadingNotes notes;  ///< with those of the file
 };
@@ -37,9 +40,9 @@ inline constexpr std::size_t most_collision_vertices = 32, most_decoration_verti
 /// Extracts the parts from a compiled model. A geom without a name gets that of its body in the model, with
 /// ".0", ".1", … appended where there are several. Meshes and ellipsoids become convex hulls; a root that is
 /// not free becomes free. Left out and noted: world-fixed geoms and bodies (the ground is amble's own),
-/// springs, actuators. Throws UserError for what amble cannot simulate: more than one robot, joints that are
-/// neither hinges nor fixed, closed loops, tendons that act, colliding planes and height fields; names of
-/// keyframes and joints that are not there.
+/// tendons, constraints that couple joints. Throws UserError for what amble cannot simulate: more than one
+/// robot, joints that are neither hinges nor fixed, closed loops, colliding planes and height fields; names
+/// of keyframes and joints that are not there.
 ModelParts extract_parts(const ModelFile& file, const ReadingOptions& options = {});
 
 }  // namespace amble::morphology

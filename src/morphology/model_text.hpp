@@ -2,7 +2,10 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "amble/morphology/mass_text.hpp"
 #include "amble/morphology/mesh_store.hpp"
@@ -23,6 +26,9 @@ struct ModelText {
   XmlElement root;
   bool urdf = false;
   std::map<std::string, MotorHint> motors = {};  ///< by joint
+  /// Joints of a URDF that a <transmission> or <ros2_control> names as driven.
+  std::set<std::string> motors_named = {};
+  std::vector<std::pair<std::string, std::string>> mimics = {};  ///< of a URDF: a joint and the one it follows
   MeshStore meshes = {};                         ///< the files that the tree names
   std::map<std::string, std::string> mesh_files =
       {};  ///< by MuJoCo's name of a mesh: the file as the model names it

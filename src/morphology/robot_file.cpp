@@ -21,6 +21,8 @@ namespace {
 
 /// A foot this deep in the ground at the start is a mistake in the model, not softness.
 constexpr double deepest_foot_m = 0.01;
+/// Armature of a joint that repeats another, as a share of its body's inertia.
+constexpr double repeated_share = 1e-3;
 
 template <typename T>
 std::string list_of_names(const std::vector<T>& items) {
@@ -50,21 +52,83 @@ class JointOrder {
       if (j < 0)
         fail(ExitCode::bad_input, "{}: 'held' names a joint '{}', but {} has: {}", what_, side_.held[h],
              side_.model.string(), list_of_names(parts_.joints));
-      robot::Joint& joint = add_joint(j, side_.held_servos[h]);
+      robot::Joint& joint = add_joint(j, side_.held_servos[h], true);
       joint.command = robot::AngleRange{0.0, 0.0};
     }
+    add_passive();
     refuse_unnamed();
     refuse_endless();
   }
 
+  /// What was decided about motors and springs.
+  void add_notes(ReadingNotes& notes) const {
+    const auto note = [&](Reading reading, std::string_view text, const std::vector<std::string>& joints) {
+      if (!joints.empty()) notes.add(reading, fmt::format("{}: {}", text, fmt::join(joints, ", ")));
+    };
+    note(Reading::kept, "joints without a motor, which move freely", passive_);
+    note(Reading::kept, "the springs of joints", springs_);
+    note(Reading::left_out, "the springs of joints with a motor", lost_springs_);
+    note(Reading::replaced, "joints without an actuator, which get a motor", given_motors_);
+    note(Reading::replaced, "joints without an actuator of their own, which a servo holds", held_);
+    note(Reading::replaced,
+         "no armature of joints about the axis of another of their body: a thousandth of the body's inertia",
+         repeated_);
+  }
+
  private:
-  robot::Joint& add_joint(int j, const robot::Servo& servo) {
+  void add_passive() {
+    for (const std::string& name : side_.passive) {
+      const int j = index_of(parts_.joints, name);
+      if (j < 0)
+        fail(ExitCode::bad_input, "{}: 'passive' names a joint '{}', but {} has: {}", what_, name,
+             side_.model.string(), list_of_names(parts_.joints));
+      robot::Joint& joint =
+          add_joint(j, {.mode = robot::ServoMode::none, .gain_per_s = 0.0, .max_torque_nm = 0.0});
+      joint.command = robot::AngleRange{0.0, 0.0};
+      if (joint.armature_kg_m2 == 0.0 && repeats_another(joint)) {
+        joint.armature_kg_m2 = repeated_share * inertia_about(joint);
+        repeated_.push_back(fmt::format("'{}'", name));
+      }
+    }
+  }
+
+  /// Whether its body turns about the same axis by another joint, as with play in a gear: without an inertia
+  /// of its own nothing says which of both moves.
+  bool repeats_another(const robot::Joint& joint) const {
+    constexpr double same = 1e-6;
+    return std::ranges::any_of(parts_.joints, [&](const robot::Joint& other) {
+      return other.body == joint.body && other.chain_index != joint.chain_index &&
+             norm(cross(other.axis, joint.axis)) < same &&
+             norm(cross(other.anchor_m - joint.anchor_m, joint.axis)) < same;
+    });
+  }
+
+  /// Of its body about the joint's axis, kg m².
+  double inertia_about(const robot::Joint& joint) const {
+    const robot::Body& body = parts_.bodies[to_index(joint.body)];
+    const Vec3 along = rotate(conjugate(body.inertia_rotation), joint.axis), moments = body.inertia_kg_m2;
+    const Vec3 arm = cross(body.com_m - joint.anchor_m, joint.axis);
+    return moments.x * along.x * along.x + moments.y * along.y * along.y + moments.z * along.z * along.z +
+           body.mass_kg * dot(arm, arm);
+  }
+
+  robot::Joint& add_joint(int j, const robot::Servo& servo, bool holds = false) {
     const robot::Joint& joint = parts_.joints[to_index(j)];
     if (named_[to_index(j)]) fail(ExitCode::bad_input, "{}: joint '{}' is named twice", what_, joint.name);
     named_[to_index(j)] = true;
     robot_.joints.push_back(joint);
-    robot_.joints.back().servo = servo;
-    return robot_.joints.back();
+    robot::Joint& added = robot_.joints.back();
+    added.servo = servo;
+    const std::string quoted = fmt::format("'{}'", joint.name);
+    if (joint.stiffness_nm_per_rad != 0.0) (added.has_motor() ? lost_springs_ : springs_).push_back(quoted);
+    if (!added.has_motor()) {
+      passive_.push_back(quoted);
+      return added;
+    }
+    const Drive drive = parts_.drives[to_index(j)];
+    if (drive != Drive::motor) (drive == Drive::held && holds ? held_ : given_motors_).push_back(quoted);
+    added.stiffness_nm_per_rad = added.rest_rad = 0.0;
+    return added;
   }
 
   void add_leg(std::size_t l) {
@@ -91,10 +155,12 @@ class JointOrder {
         endless_.push_back(fmt::format("command.{}.{} ({})", leg.name, side_.joint_types[t], name));
       }
     }
-    leg.foot_geom = index_of(parts_.geoms, side_.names[l].foot);
-    if (leg.foot_geom < 0) {
-      fail(ExitCode::bad_input, "{}: leg '{}' needs a foot geom '{}', but {} has: {}", what_, leg.name,
-           side_.names[l].foot, side_.model.string(), list_of_names(parts_.geoms));
+    for (const std::string& name : side_.names[l].foot) {
+      const int geom = index_of(parts_.geoms, name);
+      if (geom < 0)
+        fail(ExitCode::bad_input, "{}: leg '{}' needs a foot geom '{}', but {} has: {}", what_, leg.name,
+             name, side_.model.string(), list_of_names(parts_.geoms));
+      leg.foot_geoms.push_back(geom);
     }
     robot_.legs.push_back(std::move(leg));
   }
@@ -121,7 +187,7 @@ class JointOrder {
     if (!unnamed.empty())
       fail(ExitCode::bad_input,
            "{}: {} {} of {} belong{} to no leg: name every joint by legs and joint_types, or in held = [...] "
-           "(its servo holds it) or fixed = [...] (welded)",
+           "(its servo holds it), passive = [...] (it has no motor) or fixed = [...] (welded)",
            what_, unnamed.size() == 1 ? "joint" : "joints", fmt::join(unnamed, ", "), side_.model.string(),
            unnamed.size() == 1 ? "s" : "");
   }
@@ -139,16 +205,17 @@ class JointOrder {
   robot::RobotSpec& robot_;
   std::vector<bool> named_;
   std::vector<std::string> endless_;
+  std::vector<std::string> passive_, springs_, lost_springs_, given_motors_, held_,
+      repeated_;  ///< quoted names, for the notes
 };
 
 void check_feet(const std::string& what, const robot::RobotSpec& robot) {
   for (const robot::Leg& leg : robot.legs) {
-    const double clearance_m = robot::start_clearance_m(robot, leg.foot_geom);
-    if (clearance_m < -deepest_foot_m) {
-      fail(ExitCode::bad_input,
-           "{}: foot '{}' starts {:.3f} m below the ground: raise the root, or set start_height_m", what,
-           robot.geoms[to_index(leg.foot_geom)].name, -clearance_m);
-    }
+    for (const int geom : leg.foot_geoms)
+      if (const double clearance_m = robot::start_clearance_m(robot, geom); clearance_m < -deepest_foot_m)
+        fail(ExitCode::bad_input,
+             "{}: foot '{}' starts {:.3f} m below the ground: raise the root, or set start_height_m", what,
+             robot.geoms[to_index(geom)].name, -clearance_m);
   }
 }
 
@@ -172,7 +239,8 @@ robot::RobotSpec load_robot(const std::filesystem::path& path, ReadingNotes* not
   robot::RobotSpec robot;
   robot.name = side.name;
   robot.joint_types = side.joint_types;
-  JointOrder(what, side, parts, robot).add();
+  JointOrder order(what, side, parts, robot);
+  order.add();
   robot.bodies = std::move(parts.bodies);
   robot.geoms = std::move(parts.geoms);
   if (side.root_height_m > 0.0) robot.bodies[0].position_m.z = side.root_height_m;
@@ -185,7 +253,10 @@ robot::RobotSpec load_robot(const std::filesystem::path& path, ReadingNotes* not
                      [&](const std::string& problem) { fail(ExitCode::bad_input, "{}: {}", what, problem); });
   check_feet(what, robot);
   check_height(what, robot);
-  if (notes != nullptr) notes->add(parts.notes);
+  if (notes != nullptr) {
+    notes->add(parts.notes);
+    order.add_notes(*notes);
+  }
   return robot;
 }
 

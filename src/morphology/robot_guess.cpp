@@ -16,6 +16,7 @@
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/io/toml_text.hpp"
+#include "amble/morphology/foot_shapes.hpp"
 #include "amble/morphology/leg_guess.hpp"
 #include "amble/morphology/odd_joints.hpp"
 #include "amble/morphology/rounding.hpp"
@@ -60,7 +61,7 @@ class RobotGuesser {
     robot_.bodies = parts_.bodies;
     robot_.geoms = parts_.geoms;
     robot_.joints = parts_.joints;
-    legs_ = guess_legs(parts_);
+    legs_ = guess_driven_legs(parts_);
     weld_tiny_links();
     guess_.name = model_.stem().string();
     line("# Guessed from {} by `amble robot --init`: check each line. robots/README.md describes them.",
@@ -139,11 +140,14 @@ class RobotGuesser {
     robot_.bodies = parts_.bodies;
     robot_.geoms = parts_.geoms;
     robot_.joints = parts_.joints;
-    legs_ = guess_legs(parts_);
+    legs_ = guess_driven_legs(parts_);
   }
 
   void write_legs() {
-    std::vector<std::string> names, held;
+    std::vector<std::string> names, held, passive;
+    for (const int j : legs_.passive) passive.push_back(parts_.joints[to_index(j)].name);
+    if (legs_.motors_added)
+      comment("The model has motors for so few joints that most legs would have none: every joint gets one.");
     for (const LegGuess& leg : legs_.legs) names.push_back(leg.name);
     for (const int j : legs_.held) held.push_back(parts_.joints[to_index(j)].name);
     if (names.empty()) {
@@ -161,6 +165,12 @@ class RobotGuesser {
           "which is "
           "simulated faster.");
       line("held = {}", list(held));
+    }
+    if (!passive.empty()) {
+      comment(
+          "Joints without an actuator in a model whose other joints have some: they have no motor, and move "
+          "freely, with the model's spring, damping and friction.");
+      line("passive = {}", list(passive));
     }
     if (!options_.fixed_joints.empty()) {
       line("{}", welds_tiny_ ? "# Neither hinges nor the root's, or links that weigh next to nothing: welded."
@@ -217,11 +227,22 @@ class RobotGuesser {
     line("fall_height_m = {}", rounded_down(half_m));
   }
 
+  void write_foot(const LegGuess& leg) {
+    if (leg.foot_geoms.size() == 1) {
+      line("foot = {}  # the lowest shape that collides of its last body",
+           io::toml_quoted(parts_.geoms[to_index(leg.foot_geom)].name));
+      return;
+    }
+    std::vector<std::string> names;
+    for (const int g : leg.foot_geoms) names.push_back(parts_.geoms[to_index(g)].name);
+    line("# The shapes of its last body that can touch the ground: any of them is the foot's touch.");
+    line("foot = {}", list(names));
+  }
+
   void write_names() {
     for (const LegGuess& leg : legs_.legs) {
       line("\n[names.{}]", key(leg.name));
-      line("foot = {}  # the lowest shape that collides of its last body",
-           io::toml_quoted(parts_.geoms[to_index(leg.foot_geom)].name));
+      write_foot(leg);
       for (std::size_t t = 0; t < legs_.joint_types.size(); ++t) {
         const int j = leg.joint_of_type[t];
         line("{} = {}", key(legs_.joint_types[t]),
@@ -235,9 +256,8 @@ class RobotGuesser {
     const auto poses = robot::start_poses(robot_);
     double longest = 0.0;
     for (const LegGuess& leg : legs_.legs) {
-      const robot::Geom& foot = parts_.geoms[to_index(leg.foot_geom)];
       double length = 0.0;
-      Vec3 end = robot::centre_m(foot, poses);
+      Vec3 end = foot_centre_m(parts_, leg.foot_geoms, poses);
       for (auto j = leg.joints.rbegin(); j != leg.joints.rend(); ++j) {
         const robot::Joint& joint = parts_.joints[to_index(*j)];
         const Vec3 anchor = poses[to_index(joint.body)] * joint.anchor_m;
@@ -270,6 +290,7 @@ class RobotGuesser {
   void doubt_motors(const std::vector<ServoGuess>& servos) {
     std::vector<std::string> without_limit, without_gear;
     for (std::size_t j = 0; j < servos.size(); ++j) {
+      if (parts_.drives[j] == Drive::none) continue;
       if (servos[j].torque_is_guessed) without_limit.push_back(parts_.joints[j].name);
       if (servos[j].lacks_gear) without_gear.push_back(parts_.joints[j].name);
     }

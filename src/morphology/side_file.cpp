@@ -91,6 +91,9 @@ class SideFileReader {
     reader_->texts("legs", side_.legs, {"names of the legs, in control order"});
     reader_->texts("joint_types", side_.joint_types, {"names of the joint types, in control order"});
     reader_->texts("held", side_.held, {"joints of no leg, held at their start angle by their servo"});
+    reader_->texts(
+        "passive", side_.passive,
+        {"joints without a motor, which move freely, with the model's spring, damping and friction"});
     reader_->texts("fixed", side_.fixed, {"joints that are welded at their start angle"});
     reader_->text("start", side_.start, {"keyframe of the MJCF that is the start pose"});
     reader_->number("start_height_m", side_.root_height_m, {0.0, largest},
@@ -109,6 +112,10 @@ class SideFileReader {
         if (std::ranges::find(*names, name) != names->end())
           fail(ExitCode::bad_input, "{}: 'held' and '{}' both name '{}'", document_.where("held"), key, name);
     }
+    for (const std::string& name : side_.passive)
+      if (std::ranges::find(side_.held, name) != side_.held.end())
+        fail(ExitCode::bad_input, "{}: 'passive' and 'held' both name '{}'", document_.where("passive"),
+             name);
     for (const std::string& leg : side_.legs) {
       if (std::find(side_.joint_types.begin(), side_.joint_types.end(), leg) != side_.joint_types.end()) {
         fail(ExitCode::bad_input, "{}: 'legs' and 'joint_types' both name '{}'", document_.where("legs"),
@@ -131,15 +138,15 @@ class SideFileReader {
 
   void read_names() {
     std::string joint_pattern = "{leg}_{type}";
-    std::string foot_pattern = "{leg}_foot";
+    std::vector<std::string> foot_patterns{"{leg}_foot"};
     reader_->begin("names", {"what the model calls the parts of a leg"});
     reader_->text("joint", joint_pattern, {"pattern for joints; {leg} and {type} are replaced"});
-    reader_->text("foot", foot_pattern, {"pattern for foot geoms; {leg} is replaced"});
+    read_foot("names.foot", foot_patterns, "pattern for foot geoms, or a list; {leg} is replaced");
     for (const std::string& leg : side_.legs) {
       LegNames names;
-      names.foot = filled_in(foot_pattern, leg, "");
+      for (const std::string& pattern : foot_patterns) names.foot.push_back(filled_in(pattern, leg, ""));
       reader_->begin(leg, {"names of this leg's parts where they do not follow the pattern"});
-      reader_->text("foot", names.foot, {"its foot geom"});
+      read_foot("names." + leg + ".foot", names.foot, "its foot geom, or a list of them");
       for (const std::string& type : side_.joint_types) {
         std::string joint = filled_in(joint_pattern, leg, type);
         reader_->text(type, joint, {"its joint of this type"});
@@ -149,6 +156,21 @@ class SideFileReader {
       side_.names.push_back(std::move(names));
     }
     reader_->end();
+  }
+
+  /// One name or several, at the key "foot" of the table that is open.
+  void read_foot(const std::string& path, std::vector<std::string>& names, std::string_view meaning) {
+    if (document_.is_list(path)) {
+      reader_->texts("foot", names, {meaning});
+      if (names.empty())
+        fail(ExitCode::bad_input, "{}: '{}' = []: expected a geom, or a list of geoms", document_.where(path),
+             path);
+      return;
+    }
+    const std::string absent(1, '\0');
+    std::string one = absent;
+    reader_->text("foot", one, {meaning});
+    if (one != absent) names = {one};
   }
 
   void read_servos() {

@@ -12,7 +12,7 @@ namespace amble::morphology {
 
 /// Names of a leg's parts in the model.
 struct LegNames {
-  std::string foot;
+  std::vector<std::string> foot;    ///< its shapes, at least one
   std::vector<std::string> joints;  ///< one per joint type; empty: the leg has none of that type
 };
 
@@ -25,6 +25,7 @@ struct SideFile {
   std::vector<std::string> joint_types;
   std::vector<LegNames> names;       ///< one per leg
   std::vector<std::string> held;     ///< joints of no leg, held at their start angle by their servo
+  std::vector<std::string> passive;  ///< joints without a motor, in a leg or not
   std::vector<std::string> fixed;    ///< joints that are welded at their start angle
   std::vector<robot::Servo> servos;  ///< leg by leg and type by type, whether or not the leg has the joint
   std::vector<robot::Servo> held_servos;  ///< one per held joint

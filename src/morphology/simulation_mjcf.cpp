@@ -45,7 +45,7 @@ std::string keyframe(const robot::RobotSpec& robot) {
   for (const robot::Joint& joint : robot.joints) {
     const robot::AngleRange range = joint.command_range();
     angles += " 0";
-    targets += fmt::format("{} ", std::clamp(0.0, range.lower_rad, range.upper_rad));
+    if (joint.has_motor()) targets += fmt::format("{} ", std::clamp(0.0, range.lower_rad, range.upper_rad));
   }
   if (!targets.empty()) targets.pop_back();
   return fmt::format(
@@ -72,7 +72,8 @@ std::string simulation_mjcf(const robot::RobotSpec& robot, double timestep_s) {
     const double inverse_inertia = model->dof_invweight0[model->jnt_dofadr[place + 1]];
     more.joints[j] = softness(robot.contact, timestep_s, inverse_inertia, "limit") +
                      softness(robot.contact, timestep_s, inverse_inertia, "friction");
-    actuators[j] = actuator(robot.joints[j], plain.joint_names[place], timestep_s);
+    if (robot.joints[j].has_motor())
+      actuators[j] = actuator(robot.joints[j], plain.joint_names[place], timestep_s);
   }
   for (std::size_t place = 0; place < plain.geoms.size(); ++place) {
     const double inverse_mass = model->body_invweight0[2 * model->geom_bodyid[place + 1]];

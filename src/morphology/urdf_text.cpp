@@ -171,18 +171,37 @@ void refuse_unknown_joints(const XmlElement& root, const fs::path& path) {
   }
 }
 
+/// Which joints have motors, as ROS is told: those of <transmission> (in it or beside, in older files), and
+/// those of <ros2_control> that take commands.
+void read_motors(ModelText& text, ReadingNotes& notes) {
+  bool transmissions = false, control = false;
+  const auto is_command = [](const XmlElement& part) { return part.name == "command_interface"; };
+  text.root.visit([&](const XmlElement& element) {
+    transmissions = transmissions || element.name == "transmission";
+    control = control || element.name == "ros2_control";
+    if (element.name != "transmission" && element.name != "ros2_control") return;
+    for (const XmlElement& joint : element.children)
+      if (joint.name == "joint" &&
+          (element.name == "transmission" || std::ranges::any_of(joint.children, is_command)))
+        text.motors_named.insert(joint.attribute_or("name", ""));
+  });
+  if (transmissions) notes.add(Reading::left_out, "transmissions: the robot file has the servos");
+  if (control) notes.add(Reading::left_out, "ros2_control: the robot file has the servos");
+}
+
 }  // namespace
 
 void clean_urdf(ModelText& text, const fs::path& path, ReadingNotes& notes) {
   XmlElement& root = text.root;
   refuse_unknown_joints(root, path);
   const fs::path mesh_folder = set_options(root);
+  read_motors(text, notes);
   root.prune([&](const XmlElement& element, const XmlElement& parent) {
-    if (element.name == "mimic")
-      notes.add(Reading::left_out,
-                fmt::format("mimic of joint '{}': it moves on its own", parent.attribute_or("name", "")));
-    if (element.name == "transmission")
-      notes.add(Reading::left_out, "transmissions: the robot file has the servos");
+    if (element.name == "mimic") {
+      const std::string joint = parent.attribute_or("name", "");
+      text.mimics.emplace_back(joint, element.attribute_or("joint", ""));
+      notes.add(Reading::left_out, fmt::format("mimic of joint '{}': it moves on its own", joint));
+    }
     if (element.name == "gazebo") notes.add(Reading::left_out, "settings of Gazebo");
     return element.name == "mimic" || element.name == "transmission" || element.name == "gazebo";
   });

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <string_view>
@@ -111,7 +112,13 @@ class Checker {
          {servo.gain_per_s, servo.max_torque_nm, servo.kp_nm_per_rad, servo.kd_nm_s_per_rad}) {
       must(std::isfinite(number) && number >= 0.0,
            "must have servo numbers that are finite and not negative");
+      must(joint.has_motor() || number == 0.0, "has no motor, so the numbers of its servo must be 0");
     }
+    must(std::isfinite(joint.stiffness_nm_per_rad) && joint.stiffness_nm_per_rad >= 0.0 &&
+             std::isfinite(joint.rest_rad),
+         "must have a spring with a finite stiffness, not negative, and a finite angle at rest");
+    must(!joint.has_motor() || (joint.stiffness_nm_per_rad == 0.0 && joint.rest_rad == 0.0),
+         "has a motor, so it cannot have a spring");
     for (const double number : {joint.armature_kg_m2, joint.damping_nm_s_per_rad, joint.friction_loss_nm})
       must(std::isfinite(number) && number >= 0.0,
            "must have armature, damping and friction loss that are finite and not negative");
@@ -128,20 +135,39 @@ class Checker {
 
   void check_leg(const Leg& leg, int& next) const {
     const auto must = [&](bool good, std::string_view problem) { need(good, "leg", leg.name, problem); };
-    must(leg.foot_geom >= 0 && leg.foot_geom < count(robot_.geoms), "names a foot that is not there");
-    const Geom& foot = robot_.geoms[to_index(leg.foot_geom)];
-    must(foot.collides, "has a foot that cannot collide");
+    must(!leg.foot_geoms.empty(), "has a foot without shapes");
+    for (const int geom : leg.foot_geoms) {
+      must(geom >= 0 && geom < count(robot_.geoms), "names a foot that is not there");
+      must(robot_.geoms[to_index(geom)].collides, "has a foot that cannot collide");
+      must(std::ranges::count(leg.foot_geoms, geom) == 1, "names a shape of its foot twice");
+    }
     must(leg.joints.size() == robot_.joint_types.size(), "must have a joint, or none, for each joint type");
-    bool carries_foot = leg.joints.empty();
     for (const int joint : leg.joints) {
       if (joint == -1) continue;
       must(joint == next && next < count(robot_.joints), "has joints out of control order");
-      carries_foot = carries_foot || robot_.joints[to_index(next)].body == foot.body;
+      must(robot_.joints[to_index(next)].has_motor(), "has a joint without a motor among those it commands");
       ++next;
     }
-    if (!carries_foot)
-      bad("leg '{}': its foot '{}' is on body '{}', which none of its joints moves", leg.name, foot.name,
-          robot_.bodies[to_index(foot.body)].name);
+    for (const int geom : leg.foot_geoms) {
+      const Geom& foot = robot_.geoms[to_index(geom)];
+      if (!leg.joints.empty() && !moves(leg, foot.body))
+        bad("leg '{}': its foot '{}' is on body '{}', which none of its joints moves", leg.name, foot.name,
+            robot_.bodies[to_index(foot.body)].name);
+    }
+  }
+
+  /// Whether a joint of the leg is the last before this body that is driven; held and passive joints of no
+  /// leg may follow it.
+  bool moves(const Leg& leg, int body) const {
+    for (; body > 0; body = robot_.bodies[to_index(body)].parent) {
+      bool driven = false;
+      for (const int joint : robot_.joints_of_body(body)) {
+        if (std::ranges::find(leg.joints, joint) != leg.joints.end()) return true;
+        driven = driven || robot_.joints[to_index(joint)].driven();
+      }
+      if (driven) return false;
+    }
+    return false;
   }
 
   void check_contact() const {

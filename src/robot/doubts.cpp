@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "amble/core/index.hpp"
+#include "amble/robot/legs.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::robot {
@@ -134,7 +135,7 @@ void doubt_torques(const RobotSpec& robot, std::vector<std::string>& lines) {
   const std::vector<double> torques = bearing_torques_nm(robot);
   std::vector<std::string> weak;
   for (std::size_t j = 0; j < torques.size(); ++j)
-    if (std::abs(torques[j]) > robot.joints[j].servo.max_torque_nm)
+    if (robot.joints[j].has_motor() && std::abs(torques[j]) > robot.joints[j].servo.max_torque_nm)
       weak.push_back(fmt::format("{} ({:.3g} of {:.3g} N m)", robot.joints[j].name,
                                  robot.joints[j].servo.max_torque_nm, std::abs(torques[j])));
   if (weak.empty()) return;
@@ -151,13 +152,13 @@ std::vector<double> bearing_torques_nm(const RobotSpec& robot) {
   const std::vector<Pose> poses = start_poses(robot);
   const std::size_t standing = (robot.legs.size() + 1) / 2;
   for (const Leg& leg : robot.legs) {
-    const Geom& foot = robot.geoms[to_index(leg.foot_geom)];
+    const Vec3 foot = foot_m(robot, leg, poses);
     const Vec3 force_n = (-robot.total_mass_kg() / static_cast<double>(standing)) * robot.gravity_m_s2;
-    for (int body = foot.body; body > 0; body = robot.bodies[to_index(body)].parent)
+    for (int body = robot.foot_body(leg); body > 0; body = robot.bodies[to_index(body)].parent)
       for (const int j : robot.joints_of_body(body)) {
         const Joint& joint = robot.joints[to_index(j)];
         const Pose& pose = poses[to_index(body)];
-        const Vec3 lever_m = centre_m(foot, poses) - pose * joint.anchor_m;
+        const Vec3 lever_m = foot - pose * joint.anchor_m;
         torques[to_index(j)] = dot(rotate(pose.rotation, joint.axis), cross(lever_m, force_n));
       }
   }

@@ -17,7 +17,7 @@ using io::Json;
 using io::JsonView;
 
 constexpr std::array<std::string_view, 5> shape_names{"sphere", "capsule", "cylinder", "box", "mesh"};
-constexpr std::array<std::string_view, 2> servo_mode_names{"velocity", "torque"};
+constexpr std::array<std::string_view, 3> servo_mode_names{"velocity", "torque", "none"};
 
 Json json_of(Vec3 v) {
   return Json::array({v.x, v.y, v.z});
@@ -102,10 +102,12 @@ Servo read_servo(const JsonView& json) {
 }
 
 /// Members of a joint that are left out where they are 0.
-constexpr std::array<std::pair<const char*, double Joint::*>, 3> passive_members{
+constexpr std::array<std::pair<const char*, double Joint::*>, 5> passive_members{
     {{"armature_kg_m2", &Joint::armature_kg_m2},
      {"damping_nm_s_per_rad", &Joint::damping_nm_s_per_rad},
-     {"friction_loss_nm", &Joint::friction_loss_nm}}};
+     {"friction_loss_nm", &Joint::friction_loss_nm},
+     {"stiffness_nm_per_rad", &Joint::stiffness_nm_per_rad},
+     {"rest_rad", &Joint::rest_rad}}};
 
 Json json_of_joint(const Joint& joint) {
   Json json{{"name", joint.name},
@@ -196,10 +198,22 @@ Contact read_contact(const JsonView& json) {
           .sweeps = json.has("sweeps") ? index(json.at("sweeps")) : 0};
 }
 
+/// A foot of one shape is "foot_geom", as it was before there were several.
 Leg read_leg(const JsonView& json) {
   return {.name = json.at("name").text(),
-          .foot_geom = index(json.at("foot_geom")),
+          .foot_geoms = json.has("foot_geoms") ? list<int>(json.at("foot_geoms"), index)
+                                               : std::vector<int>{index(json.at("foot_geom"))},
           .joints = list<int>(json.at("joints"), index)};
+}
+
+Json json_of_leg(const Leg& leg) {
+  Json json{{"name", leg.name}};
+  if (leg.foot_geoms.size() == 1)
+    json["foot_geom"] = leg.foot_geoms.front();
+  else
+    json["foot_geoms"] = leg.foot_geoms;
+  json["joints"] = leg.joints;
+  return json;
 }
 
 }  // namespace
@@ -210,11 +224,7 @@ Json to_json(const RobotSpec& robot) {
           {"joints", array_of(robot.joints, json_of_joint)},
           {"geoms", array_of(robot.geoms, json_of_geom)},
           {"joint_types", robot.joint_types},
-          {"legs",
-           array_of(robot.legs,
-                    [](const Leg& leg) {
-                      return Json{{"name", leg.name}, {"foot_geom", leg.foot_geom}, {"joints", leg.joints}};
-                    })},
+          {"legs", array_of(robot.legs, json_of_leg)},
           {"contact", json_of_contact(robot.contact)},
           {"gravity_m_s2", json_of(robot.gravity_m_s2)},
           {"fall_height_m", robot.fall_height_m},

@@ -1,6 +1,7 @@
 #include "amble/robot/legs.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -37,9 +38,24 @@ std::vector<Vec3> hips_m(const RobotSpec& robot, std::span<const Pose> poses) {
   return places_m;
 }
 
+Vec3 foot_m(const RobotSpec& robot, const Leg& leg, std::span<const Pose> poses) {
+  Vec3 sum = centre_m(robot.geoms[to_index(leg.foot_geoms.front())], poses);
+  if (leg.foot_geoms.size() == 1) return sum;
+  for (const int geom : std::span(leg.foot_geoms).subspan(1))
+    sum = sum + centre_m(robot.geoms[to_index(geom)], poses);
+  return (1.0 / static_cast<double>(leg.foot_geoms.size())) * sum;
+}
+
+double foot_bottom_m(const RobotSpec& robot, const Leg& leg, std::span<const Pose> poses) {
+  double lowest_m = std::numeric_limits<double>::infinity();
+  for (const int geom : leg.foot_geoms)
+    lowest_m = std::min(lowest_m, bottom_m(robot.geoms[to_index(geom)], poses));
+  return lowest_m;
+}
+
 std::vector<Vec3> feet_m(const RobotSpec& robot, std::span<const Pose> poses) {
   std::vector<Vec3> places_m;
-  for (const Leg& leg : robot.legs) places_m.push_back(centre_m(robot.geoms[to_index(leg.foot_geom)], poses));
+  for (const Leg& leg : robot.legs) places_m.push_back(foot_m(robot, leg, poses));
   return places_m;
 }
 
@@ -49,7 +65,7 @@ double leg_height_m(const RobotSpec& robot) {
   const std::vector<Vec3> hips = hips_m(robot, poses);
   double sum_m = 0.0;
   for (std::size_t l = 0; l < robot.legs.size(); ++l)
-    sum_m += hips[l].z - bottom_m(robot.geoms[to_index(robot.legs[l].foot_geom)], poses);
+    sum_m += hips[l].z - foot_bottom_m(robot, robot.legs[l], poses);
   return sum_m / static_cast<double>(robot.legs.size());
 }
 

@@ -15,6 +15,10 @@ int hip_joint(const RobotSpec& robot, const Leg& leg);
 /// Where each leg is attached, in the world: the anchor of its hip joint with the bodies at `poses`; the
 /// centre of its foot if it has no joint.
 std::vector<Vec3> hips_m(const RobotSpec& robot, std::span<const Pose> poses);
+/// Centre of a leg's foot: the mean of those of its shapes.
+Vec3 foot_m(const RobotSpec& robot, const Leg& leg, std::span<const Pose> poses);
+/// Height over the ground (negative: depth) of the lowest point of a leg's foot.
+double foot_bottom_m(const RobotSpec& robot, const Leg& leg, std::span<const Pose> poses);
 /// Centres of the feet, leg by leg.
 std::vector<Vec3> feet_m(const RobotSpec& robot, std::span<const Pose> poses);
 

@@ -1,10 +1,28 @@
 #include "amble/robot/spec.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "amble/core/index.hpp"
 
 namespace amble::robot {
+
+Servo Joint::acting_servo() const {
+  if (has_motor()) return servo;
+  return {.mode = ServoMode::torque,
+          .gain_per_s = 0.0,
+          .max_torque_nm = std::numeric_limits<double>::infinity(),
+          .kp_nm_per_rad = stiffness_nm_per_rad,
+          .kd_nm_s_per_rad = 0.0};
+}
+
+bool Leg::has_foot_geom(int geom) const {
+  return std::ranges::find(foot_geoms, geom) != foot_geoms.end();
+}
+
+int RobotSpec::foot_body(const Leg& leg) const {
+  return geoms[to_index(leg.foot_geoms.front())].body;
+}
 
 double RobotSpec::total_mass_kg() const {
   double mass = 0.0;
@@ -33,7 +51,7 @@ int RobotSpec::leg_of_body(int body) const {
   // The legs whose feet it carries.
   int carried = -1;
   for (std::size_t leg = 0; leg < legs.size(); ++leg) {
-    int b = geoms[to_index(legs[leg].foot_geom)].body;
+    int b = foot_body(legs[leg]);
     while (b > body) b = bodies[to_index(b)].parent;
     if (b != body) continue;
     if (carried >= 0) return -1;

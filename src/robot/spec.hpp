@@ -52,6 +52,8 @@ enum class ServoMode {
   /// of the step (backward Euler): stable however stiff it is. At a stop, in the engines ode and batch,
   /// kp × (target − angle) with the angle at its beginning.
   torque,
+  /// No motor: the joint moves freely, but for its spring, damping, friction and stops.
+  none,
 };
 
 /// How a joint follows its target angle.
@@ -67,13 +69,15 @@ struct AngleRange {
   double lower_rad = 0.0, upper_rad = 0.0;
 };
 
-/// A motorised hinge between `body` and its parent. Its angle is 0 in the start pose and grows by the
-/// right-hand rule about `axis` as `body` turns against its parent. A body with two joints has them in the
-/// order of the chain: the first is next to the parent, the second to the body.
+/// A hinge between `body` and its parent, with a motor unless its servo's mode is none. Its angle is 0 in the
+/// start pose and grows by the right-hand rule about `axis` as `body` turns against its parent. A body with
+/// two joints has them in the order of the chain: the first is next to the parent, the second to the body.
 ///
 /// With angle q and torque τ of its servo, the joint's equation of motion has, beside what the bodies give,
 /// armature q̈ = τ − damping q̇ − friction, |friction| ≤ friction_loss, which opposes q̇ (MuJoCo's <joint>
-/// attributes of these names).
+/// attributes of these names). A joint without a motor has a spring in place of the servo,
+/// τ = stiffness (rest − q) with q at the end of a step (backward Euler, as the torque servo), so that it is
+/// stable however stiff it is; it takes from an oscillation of ω rad/s a damping ratio of about ω h / 2.
 struct Joint {
   std::string name;
   int body = 0;
@@ -88,7 +92,13 @@ struct Joint {
   double armature_kg_m2 = 0.0;  ///< inertia of the motor's rotor, times the gear ratio squared
   double damping_nm_s_per_rad = 0.0;
   double friction_loss_nm = 0.0;
+  double stiffness_nm_per_rad = 0.0;  ///< of the spring of a joint without a motor; 0: none
+  double rest_rad = 0.0;              ///< the spring's angle at rest; may lie beyond the stops
 
+  bool has_motor() const { return servo.mode != ServoMode::none; }
+  /// What acts in it: its servo; of a joint without a motor one that is its spring, without a limit, whose
+  /// target is always `rest_rad`.
+  Servo acting_servo() const;
   AngleRange command_range() const { return command.value_or(AngleRange{lower_rad, upper_rad}); }
   /// Whether controllers give it targets.
   bool driven() const { return !command || command->lower_rad < command->upper_rad; }
@@ -96,8 +106,11 @@ struct Joint {
 
 struct Leg {
   std::string name;
-  int foot_geom = 0;        ///< its contact with the ground is the leg's touch sensor
+  /// The shapes of its foot, at least one. The leg's touch sensor is whether any of them touches the ground.
+  std::vector<int> foot_geoms;
   std::vector<int> joints;  ///< by joint type (RobotSpec::joint_types); −1: the leg has none of that type
+
+  bool has_foot_geom(int geom) const;
 };
 
 /// Largest Contact::sweeps.
@@ -118,8 +131,8 @@ struct Contact {
 
 /// All that is known of a robot: const, shared by all workers, independent of any engine. Joints are in
 /// control order: leg by leg and type by type, without gaps, then those that belong to no leg (head, spine,
-/// tail), which are not driven. That is the order of motors, targets, angles, and rows of every table in
-/// amble.
+/// tail), which are not driven: their motors hold them, or they have none. That is the order of motors,
+/// targets, angles, and rows of every table in amble.
 struct RobotSpec {
   std::string name;
   std::vector<Body> bodies;  ///< bodies[0] is the root ("torso"), free to move
@@ -136,6 +149,8 @@ struct RobotSpec {
   double total_mass_kg() const;
   /// Number of joints that belong to legs: the first of `joints`.
   std::size_t leg_joint_count() const;
+  /// The body of a leg's foot: that of the first of its shapes.
+  int foot_body(const Leg& leg) const;
   /// Indices into `joints` of the joints of one body, in the order of the chain (Joint::chain_index).
   std::vector<int> joints_of_body(int body) const;
   /// The leg that a body is part of, or −1 for the trunk: a leg is its joints' bodies and their descendants,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "amble/core/index.hpp"
+#include "amble/robot/legs.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::robot {
@@ -40,7 +41,13 @@ std::string numbers(Vec3 v) {
   return number(v.x) + " " + number(v.y) + " " + number(v.z);
 }
 
-std::string servo_text(const Servo& servo) {
+std::string servo_text(const Joint& joint) {
+  const Servo& servo = joint.servo;
+  if (!joint.has_motor()) {
+    if (joint.stiffness_nm_per_rad == 0.0) return "no motor";
+    return fmt::format("no motor, a spring of {} N m/rad towards {} rad", number(joint.stiffness_nm_per_rad),
+                       number(joint.rest_rad));
+  }
   if (servo.mode == ServoMode::velocity) {
     return fmt::format("velocity, {} /s, at most {} N m", number(servo.gain_per_s),
                        number(servo.max_torque_nm));
@@ -97,20 +104,24 @@ std::string joints_text(const RobotSpec& robot) {
     const AngleRange command = joint.command_range();
     rows.push_back({joint.name, robot.bodies[body].name, numbers(rotate(poses[body].rotation, joint.axis)),
                     number(joint.lower_rad) + " to " + number(joint.upper_rad),
-                    joint.driven() ? number(command.lower_rad) + " to " + number(command.upper_rad) : "held",
-                    servo_text(joint.servo), passive_text(joint)});
+                    joint.driven()      ? number(command.lower_rad) + " to " + number(command.upper_rad)
+                    : joint.has_motor() ? "held"
+                                        : "passive",
+                    servo_text(joint), passive_text(joint)});
   }
   return table(rows);
 }
 
 std::string legs_text(const RobotSpec& robot) {
+  const std::vector<Pose> poses = start_poses(robot);
   std::vector<Row> rows{{"leg", "foot", "over the ground, m", "joints"}};
   for (const Leg& leg : robot.legs) {
     std::string joints;
     for (const int j : leg.joints)
       if (j >= 0) joints += (joints.empty() ? "" : ", ") + robot.joints[to_index(j)].name;
-    rows.push_back({leg.name, robot.geoms[to_index(leg.foot_geom)].name,
-                    number(start_clearance_m(robot, leg.foot_geom)), joints});
+    std::string foot;
+    for (const int g : leg.foot_geoms) foot += (foot.empty() ? "" : ", ") + robot.geoms[to_index(g)].name;
+    rows.push_back({leg.name, foot, number(foot_bottom_m(robot, leg, poses)), joints});
   }
   return table(rows);
 }

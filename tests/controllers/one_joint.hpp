@@ -14,7 +14,7 @@ namespace amble::controllers {
 inline robot::RobotSpec one_joint() {
   robot::RobotSpec robot;
   robot.joint_types = {"knee"};
-  robot.legs.push_back({"L", 0, {0}});
+  robot.legs.push_back({"L", {0}, {0}});
   robot::Joint& joint = robot.joints.emplace_back();
   joint.name = "L_knee";
   joint.lower_rad = -1.0;

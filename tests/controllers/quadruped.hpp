@@ -16,6 +16,7 @@ inline robot::RobotSpec quadruped() {
     const std::pair<double, double> knee = leg[0] == 'F' ? std::pair{-0.8, 0.0} : std::pair{0.0, 0.8};
     const std::array<std::pair<double, double>, 3> ranges{knee, {-0.8, 0.8}, {0.0, 0.4}};
     robot::Leg& spec = robot.legs.emplace_back();
+    spec.foot_geoms = {0};
     spec.name = leg;
     for (std::size_t type = 0; type < ranges.size(); ++type) {
       spec.joints.push_back(static_cast<int>(robot.joints.size()));

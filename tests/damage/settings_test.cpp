@@ -11,6 +11,7 @@
 #include "amble/core/error.hpp"
 #include "amble/io/json_file.hpp"
 #include "tests/damage/scene.hpp"
+#include "tests/robot/legged.hpp"
 
 namespace amble::damage {
 namespace {
@@ -49,6 +50,24 @@ TEST(DamageSettings, AreRefusedWithNamesThatTheirKindDoesNotHave) {
             "damage.parts[0].joint = \"k\": the kind missing has no joint");
   EXPECT_EQ(refusal({{.kind = Kind::payload, .leg = "FL"}}),
             "damage.parts[0].leg = \"FL\": the kind payload has no leg");
+}
+
+TEST(DamageSettings, OfAMotorAreRefusedWhereAJointHasNone) {
+  const auto robot = tests::with_passive_joint(tests::legged_robot(1));
+  const std::string name = robot.joints.back().name;
+  const auto refusal_of = [&](const Part& part) -> std::string {
+    try {
+      Settings{{part}}.validate(robot);
+    } catch (const SettingError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refusal_of(slack(name)),
+            "damage.parts[0].joint = \"" + name + "\": it has no motor that could be slack");
+  EXPECT_EQ(refusal_of(weak(name, 0.5)),
+            "damage.parts[0].joint = \"" + name + "\": it has no motor that could be weak");
+  EXPECT_EQ(refusal_of(locked(name, 0.0)), "accepted");
 }
 
 TEST(DamageSettings, AreRefusedBeyondAJointsStopsAndWithoutAnyLeg) {

@@ -6,6 +6,7 @@
 #include "amble/robot/check.hpp"
 #include "amble/robot/pose.hpp"
 #include "tests/damage/scene.hpp"
+#include "tests/robot/legged.hpp"
 
 namespace amble::damage {
 namespace {
@@ -28,8 +29,8 @@ TEST(DamageStages, WithoutAMissingLegLeaveARobotThatIsSoundAndOtherwiseTheSame) 
       const robot::Leg& leg = rest.legs[l];
       const robot::Leg& was = robot.legs[to_index(stages[0].leg_of[l])];
       EXPECT_EQ(leg.name, was.name);
-      EXPECT_EQ(robot::centre_m(rest.geoms[to_index(leg.foot_geom)], after),
-                robot::centre_m(robot.geoms[to_index(was.foot_geom)], before));
+      EXPECT_EQ(robot::centre_m(rest.geoms[to_index(leg.foot_geoms[0])], after),
+                robot::centre_m(robot.geoms[to_index(was.foot_geoms[0])], before));
     }
     for (std::size_t j = 0; j < rest.joints.size(); ++j)
       EXPECT_EQ(rest.joints[j].name, robot.joints[to_index(stages[0].joint_of[j])].name);
@@ -39,6 +40,25 @@ TEST(DamageStages, WithoutAMissingLegLeaveARobotThatIsSoundAndOtherwiseTheSame) 
     EXPECT_GT(lost_kg, 0.0);
     EXPECT_NEAR(rest.total_mass_kg(), robot.total_mass_kg() - lost_kg, 1e-12);
   }
+}
+
+TEST(DamageStages, LockAJointWithoutAMotorAndLeaveFeetOfSeveralShapesWhole) {
+  robot::RobotSpec robot = tests::with_passive_joint(tests::legged_robot(2));
+  robot::Leg& last = robot.legs.back();
+  robot::Geom heel = robot.geoms[to_index(last.foot_geoms[0])];
+  heel.position_m.x -= 0.05;
+  robot.geoms.push_back(heel);
+  last.foot_geoms.push_back(static_cast<int>(robot.geoms.size()) - 1);
+  const auto stages =
+      stages_of(robot, {{locked(robot.joints.back().name, 0.05), missing(robot.legs[0].name)}});
+  ASSERT_EQ(stages.size(), 1u);
+  const robot::RobotSpec& rest = stages[0].robot;
+  expect_sound(rest);
+  EXPECT_TRUE(rest.joints.back().has_motor());
+  ASSERT_EQ(rest.legs.back().foot_geoms.size(), 2u);
+  for (std::size_t g = 0; g < 2; ++g)
+    EXPECT_EQ(rest.geoms[to_index(rest.legs.back().foot_geoms[g])].position_m,
+              robot.geoms[to_index(last.foot_geoms[g])].position_m);
 }
 
 TEST(DamageStages, BeginWhenTheirPartsDoAndKeepTheEarlierOnes) {

@@ -112,7 +112,7 @@ TEST(StartLook, MeasuresMeshesAsItMeasuresBoxes) {
       trunk.triangles = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5}, {0, 4, 5}, {0, 5, 1},
                          {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
     }
-    for (auto& leg : robot.legs) robot.geoms[static_cast<std::size_t>(leg.foot_geom)].collides = true;
+    for (auto& leg : robot.legs) robot.geoms[static_cast<std::size_t>(leg.foot_geoms[0])].collides = true;
     for (const auto& line : odd_at_start(robot, "ode", 0.01))
       if (line.starts_with("mass:")) return line;
     return std::string();

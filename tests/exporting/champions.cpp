@@ -17,6 +17,7 @@ robot::RobotSpec robot_called(const std::string& name) {
   if (name == "hexapod") return legged_robot(3);
   if (name == "biped") return legged_robot(1);
   const robot::RobotSpec quadruped = legged_robot(2);
+  if (name == "sprung") return with_passive_joint(quadruped);
   return name == "lacking" ? without_hip_io(quadruped, 2) : with_held_joint(quadruped, 1, 0);
 }
 

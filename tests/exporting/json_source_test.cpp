@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "amble/exporting/c_source.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/neat/genome_json.hpp"
 #include "amble/robot/json.hpp"
@@ -43,6 +44,28 @@ TEST(JsonSource, HasTheTablesOfSupgs) {
   EXPECT_EQ(json["test"]["ticks"].size(), 20u);
   EXPECT_EQ(robot::from_json(io::JsonView(json["robot"], "text")).joints.size(), 12u);
   EXPECT_EQ(neat::genome_from_json(io::JsonView(json["genome"], "text")), champion.genome);
+}
+
+TEST(JsonSource, AndTheHeaderTellJointsWithoutAMotorAndFeetOfSeveralShapes) {
+  experiment::Champion champion = tests::evolve({.name = "", .preset = "authors/supg", .robot = "sprung"});
+  robot::RobotSpec& robot = champion.problem.robot;
+  robot.geoms.push_back(robot.geoms[static_cast<std::size_t>(robot.legs[0].foot_geoms[0])]);
+  robot.geoms.back().name = "L1_heel";
+  robot.legs[0].foot_geoms.push_back(static_cast<int>(robot.geoms.size()) - 1);
+  const io::Json json = document_of(champion);
+  const io::Json& joints = json["controller"]["joints"];
+  EXPECT_FALSE(joints[0].contains("motor"));
+  EXPECT_EQ(joints[joints.size() - 1]["motor"], false);
+  EXPECT_EQ(joints[joints.size() - 1]["driven"], false);
+  EXPECT_EQ(json["robot"]["legs"][0]["foot_geoms"].size(), 2u);
+
+  const std::atomic<bool> stop{false};
+  const CSource c =
+      c_source(controller_tables(champion.problem, champion.genome), robot, provenance_of(champion),
+               record_trace(champion.problem, champion.genome, 5, stop), {.prefix = "w", .start = ""});
+  EXPECT_NE(c.header.find("no motor, its target"), std::string::npos) << c.header;
+  EXPECT_NE(c.header.find("the foot of 'L1': any of 'L1_foot', 'L1_heel'"), std::string::npos) << c.header;
+  EXPECT_EQ(c.header.find("the foot of 'R1'"), std::string::npos);
 }
 
 /// What a reader of the document would compute from its tables, for one tick of a network without cycles.

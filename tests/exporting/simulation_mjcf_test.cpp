@@ -86,6 +86,18 @@ TEST(SimulationMjcf, HasTheServosAsActuatorsInControlOrder) {
   EXPECT_DOUBLE_EQ(m.key_qpos[2], 0.55);
 }
 
+TEST(SimulationMjcf, HasNoActuatorButTheSpringOfAJointWithoutAMotor) {
+  const robot::RobotSpec robot = tests::with_passive_joint(tests::legged_robot(1));
+  const auto model = compile_mjcf(simulation_mjcf(robot, 0.01), "simulation");
+  const mjModel& m = *model;
+  ASSERT_EQ(m.nu, 5);
+  for (int a = 0; a < m.nu; ++a)
+    EXPECT_NE(std::string(m.names + m.name_jntadr[m.actuator_trnid[2 * a]]), robot.joints.back().name);
+  const int id = mj_name2id(model.get(), mjOBJ_JOINT, robot.joints.back().name.c_str());
+  EXPECT_EQ(m.jnt_stiffness[id], 20.0);
+  EXPECT_EQ(m.qpos_spring[m.jnt_qposadr[id]], 0.1);
+}
+
 /// Root-mean-square distance (rad) of the joints from those that the engine mujoco had under the same
 /// targets.
 double error_rad(const exporting::Trace& trace, const mjModel& model) {

@@ -21,7 +21,7 @@ TEST(GaitBody, IsReadOffTheRobot) {
 
 TEST(GaitBody, MeasuresTheLegsOfARobotThatHangsInTheAirAsIfItStood) {
   robot::RobotSpec robot = tests::robot();
-  const double bottom_m = robot::bottom_m(robot.geoms[static_cast<std::size_t>(robot.legs[0].foot_geom)],
+  const double bottom_m = robot::bottom_m(robot.geoms[static_cast<std::size_t>(robot.legs[0].foot_geoms[0])],
                                           robot::start_poses(robot));
   robot.bodies[0].position_m.z -= bottom_m;
   const double standing_m = body_of(robot).leg_length_m;

@@ -25,7 +25,7 @@ HeightField hills() {
 
 TEST(Ground, TouchesABallAtItsDepthAlongTheNormal) {
   const robot::RobotSpec robot = quadruped();
-  const double radius_m = robot.geoms[static_cast<std::size_t>(robot.legs[0].foot_geom)].size_m.x;
+  const double radius_m = robot.geoms[static_cast<std::size_t>(robot.legs[0].foot_geoms[0])].size_m.x;
   HeightField ramp(0.04);  // h = x / 2
   for (int j = 0; j < 256; ++j)
     for (int i = -128; i < 128; ++i) ramp.node(i, j) = 0.02f * static_cast<float>(i);

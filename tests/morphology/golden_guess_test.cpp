@@ -33,9 +33,9 @@ TEST(GoldenGuess, OfEachSmallModelMatches) {
                                {"effort.txt", "b6324f899c01f519"},
                                {"fixed_base.txt", "3631917054e22f97"},
                                {"head.txt", "43ef2381f7c067f4"},
-                               {"keyframe.txt", "6f5347ad425ad637"},
+                               {"keyframe.txt", "a8e89605d3821550"},
                                {"mesh_feet.txt", "6fc5ee05d7feab7e"},
-                               {"newer_mujoco.txt", "ed72854906ce0278"},
+                               {"newer_mujoco.txt", "747e3f1b98772c8a"},
                                {"no_limits.txt", "2bbac639a0b88a5c"},
                                {"planar_base.txt", "9d67a9e9804d8084"},
                                {"three_hinges.txt", "0e4d50655db0cee1"},
@@ -52,9 +52,9 @@ TEST(GoldenRobot, OfEachFileInTheRepositoryMatches) {
         reading_of(std::string(AMBLE_SOURCE_DIR "/robots/") + name + ".toml");
   }
   tests::expect_golden(texts, {{"authors.txt", "126ff54c6133d786"},
-                               {"biped.txt", "6b396309d875bec4"},
-                               {"hexapod.txt", "03b6978a8cdcbad3"},
-                               {"octopod.txt", "067ecad84d697b09"},
+                               {"biped.txt", "374ee11237795532"},
+                               {"hexapod.txt", "bd9a53da1c0af0d6"},
+                               {"octopod.txt", "b1ab3cd0d6432c72"},
                                {"paper.txt", "6566ca3408254930"},
                                {"servo.txt", "0f9e5bea01653a96"}});
 }

@@ -192,11 +192,6 @@ TEST(ExtractParts, RefusesWhatItCannotSimulateInOneLine) {
           "</worldbody>",
           R"(</worldbody><equality><connect name="loop" body1="shin" body2="torso" anchor="0 0 0"/></equality>)"),
       "m.xml: equality constraint 'loop': robots with closed loops are not supported");
-  EXPECT_EQ(
-      error_of(
-          "</worldbody>",
-          R"(</worldbody><tendon><fixed name="sinew" stiffness="3"><joint joint="A_hip" coef="1"/></fixed></tendon>)"),
-      "m.xml: tendon 'sinew': tendons are not supported");
 }
 
 TEST(ExtractParts, LeavesAFreeJointInMidChainToMujoco) {
@@ -226,25 +221,6 @@ TEST(ExtractParts, TakesABodyWithoutMassForAPlaceOnlyAndChangesNoBit) {
     EXPECT_EQ(mounted.bodies[b].inertia_kg_m2, plain.bodies[b].inertia_kg_m2) << b;
     EXPECT_EQ(mounted.bodies[b].inertia_rotation, plain.bodies[b].inertia_rotation) << b;
   }
-}
-
-TEST(ExtractParts, RefusesTendonsThatActInAnyWay) {
-  const Files files;
-  const auto line_of = [&](const std::string& attributes, const std::string& actuator = "") {
-    const std::string tendon = fmt::format(
-        R"(</worldbody><tendon><fixed name="cable" {}><joint joint="A_hip" coef="1"/></fixed></tendon>{})",
-        attributes, actuator);
-    return files.error_of([&] { parts_of(files, with(one_leg_xml, "</worldbody>", tendon)); });
-  };
-  for (const char* attribute :
-       {R"(limited="true" range="0 1")", R"(stiffness="2")", R"(damping="2")", R"(frictionloss="2")"})
-    EXPECT_EQ(line_of(attribute), "m.xml: tendon 'cable': tendons are not supported") << attribute;
-  EXPECT_EQ(line_of("", R"(<actuator><motor tendon="cable"/></actuator>)"),
-            "m.xml: tendon 'cable': tendons are not supported");
-  EXPECT_EQ(line_of("", R"(<actuator><motor joint="A_hip"/><motor tendon="cable"/></actuator>)"),
-            "m.xml: tendon 'cable': tendons are not supported");
-  EXPECT_EQ(line_of("", R"(<actuator><motor joint="A_hip"/></actuator>)"), "accepted");
-  EXPECT_EQ(line_of(""), "accepted");
 }
 
 TEST(ExtractParts, KeepsMoreCornersOfWhatIsToLookAtThanOfWhatCollides) {

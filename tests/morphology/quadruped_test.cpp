@@ -28,7 +28,7 @@ TEST_P(Quadruped, HasItsJointsInControlOrder) {
   ASSERT_EQ(robot_.joints.size(), 12u);
   for (std::size_t l = 0; l < 4; ++l) {
     EXPECT_EQ(robot_.legs[l].name, legs[l]);
-    EXPECT_EQ(robot_.geoms[static_cast<std::size_t>(robot_.legs[l].foot_geom)].name, legs[l] + "_foot");
+    EXPECT_EQ(robot_.geoms[static_cast<std::size_t>(robot_.legs[l].foot_geoms[0])].name, legs[l] + "_foot");
     for (std::size_t t = 0; t < 3; ++t) EXPECT_EQ(robot_.joints[3 * l + t].name, legs[l] + "_" + types[t]);
   }
 }
@@ -59,7 +59,7 @@ TEST_P(Quadruped, StartsUprightWithItsFeetOnTheGround) {
   const auto poses = robot::start_poses(robot_);
   EXPECT_EQ(poses[0].position_m, (Vec3{0.0, 0.0, 0.88404}));
   for (std::size_t l = 0; l < 4; ++l) {
-    const int foot = robot_.legs[l].foot_geom;
+    const int foot = robot_.legs[l].foot_geoms[0];
     const robot::Geom& geom = robot_.geoms[static_cast<std::size_t>(foot)];
     const Vec3 at = poses[static_cast<std::size_t>(geom.body)] * geom.position_m;
     EXPECT_NEAR(at.x, l < 2 ? 0.43333 : -0.43333, 1e-12);

@@ -114,7 +114,8 @@ TEST(HeldJoint, ComesAfterThoseOfLegsAndIsHeldByItsServo) {
   EXPECT_EQ(robot.joints[2].servo.max_torque_nm, 2.0);
   EXPECT_EQ(files.error_of([&] { load_one_leg(files, xml, one_leg_toml); }),
             "one_leg.toml: joint 'neck' of one_leg.xml belongs to no leg: name every joint by legs and "
-            "joint_types, or in held = [...] (its servo holds it) or fixed = [...] (welded)");
+            "joint_types, or in held = [...] (its servo holds it), passive = [...] (it has no motor) or "
+            "fixed = [...] (welded)");
 }
 
 TEST(Leg, MayLackAJointOfAType) {
@@ -161,7 +162,7 @@ TEST(Reading, TakesArmatureDampingAndFrictionOfJoints) {
   EXPECT_EQ(parts.joints[1].armature_kg_m2, 0.01);
   EXPECT_EQ(parts.joints[1].damping_nm_s_per_rad, 0.2);
   EXPECT_EQ(parts.joints[1].friction_loss_nm, 0.3);
-  EXPECT_THAT(parts.notes.text(), HasSubstr("the springs of joints 'A_knee'"));
+  EXPECT_EQ(parts.joints[1].stiffness_nm_per_rad, 4.0);
 }
 
 TEST(Reading, FreesAFixedOrPlanarRoot) {
@@ -208,8 +209,10 @@ TEST(Reading, ReportsWhatStandsInTheWorldAndWhatOnlyMeasures) {
   const ModelParts parts = read_parts(files, xml);
   EXPECT_EQ(parts.bodies.size(), 3u);
   EXPECT_EQ(parts.geoms.size(), 4u);
-  for (const char* line : {"1 geoms of the world: 'step'", "body 'table': it stands in the world",
-                           "1 tendons, which only measure", "1 actuators", "sensors"})
+  for (const char* line :
+       {"1 geoms of the world: 'step'", "body 'table': it stands in the world",
+        "tendon number 1 over 'A_hip', which only measures",
+        "1 actuators by the robot file's servos: 'A_hip'", "sensors"})
     EXPECT_THAT(parts.notes.text(), HasSubstr(line));
 }
 

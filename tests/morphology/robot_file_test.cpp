@@ -20,7 +20,7 @@ TEST(LoadRobot, PutsJointsIntoControlOrderWhateverTheModelsOrder) {
   EXPECT_EQ(robot.joints[1].name, "A_hip");
   ASSERT_EQ(robot.legs.size(), 1u);
   EXPECT_EQ(robot.legs[0].joints, (std::vector<int>{0, 1}));
-  EXPECT_EQ(robot.geoms[static_cast<std::size_t>(robot.legs[0].foot_geom)].name, "A_foot");
+  EXPECT_EQ(robot.geoms[static_cast<std::size_t>(robot.legs[0].foot_geoms[0])].name, "A_foot");
   EXPECT_EQ(robot.name, "one leg");
 }
 
@@ -49,7 +49,7 @@ TEST(LoadRobot, RaisesTheRootToTheStartHeight) {
   const Files files;
   const robot::RobotSpec robot = load_one_leg(files, one_leg_xml, "start_height_m = 0.96\n" + one_leg_toml);
   EXPECT_EQ(robot.bodies[0].position_m.z, 0.96);
-  EXPECT_NEAR(robot::start_clearance_m(robot, robot.legs[0].foot_geom), 0.0, 1e-15);
+  EXPECT_NEAR(robot::start_clearance_m(robot, robot.legs[0].foot_geoms[0]), 0.0, 1e-15);
 }
 
 TEST(LoadRobot, RefusesWhereModelAndSideFileDisagree) {
@@ -61,7 +61,8 @@ TEST(LoadRobot, RefusesWhereModelAndSideFileDisagree) {
             "one_leg.toml: leg 'A' needs a joint 'A_ankle' (ankle), but one_leg.xml has: A_hip, A_knee");
   EXPECT_EQ(error_of(R"(["hip", "knee"])", R"(["hip"])"),
             "one_leg.toml: joint 'A_knee' of one_leg.xml belongs to no leg: name every joint by legs and "
-            "joint_types, or in held = [...] (its servo holds it) or fixed = [...] (welded)");
+            "joint_types, or in held = [...] (its servo holds it), passive = [...] (it has no motor) or "
+            "fixed = [...] (welded)");
   EXPECT_EQ(error_of(R"(["A"])", R"(["A", "B"])"),
             "one_leg.toml: leg 'B' needs a joint 'B_hip' (hip), but one_leg.xml has: A_hip, A_knee");
   EXPECT_EQ(error_of("[servo]", "[names]\njoint = \"A_hip\"\n[servo]"),
@@ -121,6 +122,58 @@ TEST(LoadRobot, KeepsCommandsWithinTheStopsWhateverIsRounded) {
   }
 }
 
+TEST(LoadRobot, LeavesPassiveJointsWithoutAMotorAndWithTheirSpring) {
+  const Files files;
+  const std::string xml =
+      with(one_leg_xml, R"(range="-0.7 0")", R"(range="-0.7 0" stiffness="3" springref="-0.2")");
+  const std::string toml = with(one_leg_toml, R"(joint_types = ["hip", "knee"])",
+                                "joint_types = [\"hip\"]\npassive = [\"A_knee\"]");
+  const robot::RobotSpec robot = load_one_leg(files, xml, toml);
+  ASSERT_EQ(robot.joints.size(), 2u);
+  EXPECT_TRUE(robot.joints[0].driven());
+  EXPECT_FALSE(robot.joints[1].has_motor());
+  EXPECT_FALSE(robot.joints[1].driven());
+  EXPECT_EQ(robot.joints[1].stiffness_nm_per_rad, 3.0);
+  EXPECT_EQ(robot.joints[1].rest_rad, -0.2);
+  const auto error_of = [&](const std::string& text) {
+    return files.error_of([&] { load_one_leg(files, xml, text); });
+  };
+  EXPECT_EQ(error_of(with(toml, "[\"A_knee\"]", "[\"A_knie\"]"))
+                .find("one_leg.toml: 'passive' names a joint 'A_knie'"),
+            0u);
+  EXPECT_EQ(error_of(with(one_leg_toml, "fall_height", "passive = [\"A_knee\"]\nfall_height")),
+            "one_leg.toml: joint 'A_knee' is named twice");
+}
+
+TEST(LoadRobot, GivesAJointOfPlayAboutAnothersAxisAnInertia) {
+  const Files files;
+  const auto armature = [&](const std::string& attributes) {
+    const std::string knee =
+        R"(<joint name="A_knee" type="hinge" axis="0 1 0" limited="true" range="-0.7 0"/>)";
+    const std::string xml = with(one_leg_xml, knee, knee + R"(<joint name="A_play" )" + attributes + "/>");
+    return load_one_leg(files, xml, "passive = [\"A_play\"]\n" + one_leg_toml).joints[2].armature_kg_m2;
+  };
+  // The shin: a cylinder of 0.5 kg, 0.4 m long, and a ball of 0.25 kg at its end.
+  const double inertia = 0.5 * (0.04 * 0.04 / 4 + 0.4 * 0.4 / 3) + 0.25 * (0.4 * 0.06 * 0.06 + 0.16);
+  EXPECT_NEAR(armature(R"(axis="0 1 0" range="-1 1")"), 1e-3 * inertia, 1e-9);
+  EXPECT_EQ(armature(R"(axis="0 1 0" range="-1 1" armature="0.002")"), 0.002);
+  EXPECT_EQ(armature(R"(axis="1 0 0" range="-1 1")"), 0.0);
+  EXPECT_EQ(armature(R"(axis="0 1 0" pos="0 0 -.1" range="-1 1")"), 0.0);
+}
+
+TEST(LoadRobot, TakesSeveralShapesOfAFoot) {
+  const Files files;
+  const robot::RobotSpec robot =
+      load_one_leg(files, one_leg_xml, one_leg_toml + "[names]\nfoot = [\"{leg}_foot\", \"shin\"]\n");
+  ASSERT_EQ(robot.legs[0].foot_geoms.size(), 2u);
+  EXPECT_EQ(robot.geoms[static_cast<std::size_t>(robot.legs[0].foot_geoms[1])].name, "shin");
+  EXPECT_EQ(
+      files.error_of([&] {
+        load_one_leg(files, one_leg_xml, one_leg_toml + "[names]\nfoot = [\"A_foot\", \"A_toe\"]\n");
+      }),
+      "one_leg.toml: leg 'A' needs a foot geom 'A_toe', but one_leg.xml has: torso, thigh, shin, A_foot");
+}
+
 TEST(LoadRobot, PassesOnTheNotesOfTheModelsParts) {
   const Files files;
   files.write("one_leg.xml", with(with(one_leg_xml, "<freejoint name=\"root\"/>", ""), R"(range="-0.7 0")",
@@ -129,9 +182,10 @@ TEST(LoadRobot, PassesOnTheNotesOfTheModelsParts) {
   notes.add(Reading::kept, "from before");
   load_robot(files.write("one_leg.toml", one_leg_toml), &notes);
   const ReadingNotes of_parts = extract_parts(compile_model(files.path("one_leg.xml"))).notes;
-  ASSERT_EQ(of_parts.lines().size(), 3u);
+  ASSERT_EQ(of_parts.lines().size(), 2u);
   ASSERT_EQ(notes.lines().size(), 4u);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(notes.lines()[i + 1].text, of_parts.lines()[i].text);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(notes.lines()[i + 1].text, of_parts.lines()[i].text);
+  EXPECT_EQ(notes.lines()[3].text, "the springs of joints with a motor: 'A_knee'");
 }
 
 }  // namespace

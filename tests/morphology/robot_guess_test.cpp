@@ -57,7 +57,7 @@ TEST_P(EachModel, BecomesARobotThatStands) {
   EXPECT_EQ(robot.joints.size(), GetParam().driven + GetParam().held);
   double lowest = 1.0;
   for (const robot::Leg& leg : robot.legs)
-    lowest = std::min(lowest, robot::start_clearance_m(robot, leg.foot_geom));
+    lowest = std::min(lowest, robot::start_clearance_m(robot, leg.foot_geoms[0]));
   EXPECT_NEAR(lowest, 0.0, 1e-3);
   EXPECT_GE(lowest, -1e-9) << "not in the ground";
   for (const robot::Joint& joint : robot.joints) {
@@ -311,7 +311,7 @@ TEST(LegGuess, TakesAFootThatCollidesOnTheLastBody) {
   const SmallModel model = model_of("mesh_feet");
   const ModelParts parts = extract_parts(compile_model(files.write("m.xml", model.text)));
   for (const LegGuess& leg : guess_legs(parts).legs)
-    EXPECT_EQ(parts.geoms[static_cast<std::size_t>(leg.foot_geom)].name, leg.name + "_foot");
+    EXPECT_EQ(parts.geoms[static_cast<std::size_t>(leg.foot_geoms[0])].name, leg.name + "_foot");
 }
 
 TEST(RobotGuess, GivesEveryJointTheServoOfItsOwnActuator) {

@@ -41,6 +41,35 @@ TEST(SideFile, MaySayHowOftenTheSolverSweeps) {
   EXPECT_NE(text.find("'contact.sweeps'"), std::string::npos) << text;
 }
 
+TEST(SideFile, TakesAFootOfOneShapeOrOfSeveral) {
+  using Names = std::vector<std::string>;
+  const Files files;
+  const std::string two = with(one_leg_toml, R"(["A"])", R"(["A", "B"])");
+  const auto feet = [&](const std::string& text) {
+    std::vector<Names> all;
+    for (const LegNames& leg : read(files, text).names) all.push_back(leg.foot);
+    return all;
+  };
+  EXPECT_EQ(feet(two), (std::vector<Names>{{"A_foot"}, {"B_foot"}}));
+  EXPECT_EQ(feet(two + "[names]\nfoot = [\"{leg}_heel\", \"{leg}_toe\"]\n[names.B]\nfoot = \"ball\"\n"),
+            (std::vector<Names>{{"A_heel", "A_toe"}, {"ball"}}));
+  EXPECT_EQ(feet(two + "[names.A]\nfoot = [\"x\", \"y\", \"z\"]\n"),
+            (std::vector<Names>{{"x", "y", "z"}, {"B_foot"}}));
+  const auto error_of = [&](const std::string& value) {
+    return files.error_of([&] { read(files, two + "[names.A]\nfoot = " + value + "\n"); });
+  };
+  EXPECT_EQ(error_of("[]"), "s.toml:18: 'names.A.foot' = []: expected a geom, or a list of geoms");
+  EXPECT_NE(error_of("3").find("'names.A.foot'"), std::string::npos) << error_of("3");
+  EXPECT_NE(error_of("[1, 2]").find("'names.A.foot'"), std::string::npos) << error_of("[1, 2]");
+}
+
+TEST(SideFile, RefusesAJointThatIsBothHeldAndPassive) {
+  const Files files;
+  EXPECT_EQ(read(files, "passive = [\"tail\"]\n" + one_leg_toml).passive, std::vector<std::string>{"tail"});
+  EXPECT_EQ(files.error_of([&] { read(files, "held = [\"t\"]\npassive = [\"t\"]\n" + one_leg_toml); }),
+            "s.toml:2: 'passive' and 'held' both name 't'");
+}
+
 TEST(SideFile, LetsTypesAndSingleJointsHaveTheirOwnServo) {
   const Files files;
   const SideFile side = read(files, with(one_leg_toml, R"(["A"])", R"(["A", "B"])") + R"(
@@ -117,8 +146,8 @@ TEST(SideFile, FillsInPatternsWhereverAndHoweverOftenTheirMarksStand) {
   const SideFile side = read(files, toml);
   EXPECT_EQ(side.names[0].joints, (std::vector<std::string>{"Ahip_A_hipA", "Aknee_A_kneeA"}));
   EXPECT_EQ(side.names[1].joints, (std::vector<std::string>{"BBhip_BB_hipBB", "BBknee_BB_kneeBB"}));
-  EXPECT_EQ(side.names[0].foot, "AA.A");
-  EXPECT_EQ(side.names[1].foot, "BBBB.BB");
+  EXPECT_EQ(side.names[0].foot, std::vector<std::string>{"AA.A"});
+  EXPECT_EQ(side.names[1].foot, std::vector<std::string>{"BBBB.BB"});
 }
 
 TEST(SideFile, TakesNumbersToTheEndsOfTheirRanges) {

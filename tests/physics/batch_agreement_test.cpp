@@ -263,7 +263,7 @@ TEST(BatchAgreement, ATailOfNoWeightChangesNothingForTheLegs) {
 RobotSpec with_toes(RobotSpec robot) {
   std::vector<robot::Geom> toes;
   for (const robot::Leg& leg : robot.legs) {
-    toes.push_back(robot.geoms[to_index(leg.foot_geom)]);
+    toes.push_back(robot.geoms[to_index(leg.foot_geoms[0])]);
     toes.back().name += " toe";
     toes.back().position_m.x += 0.12;
   }

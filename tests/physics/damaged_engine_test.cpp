@@ -331,7 +331,7 @@ TEST_P(Damaged, OnUnevenGroundTheLegsThatAreLeftTouchIt) {
 TEST_P(Damaged, OnUnevenGroundItIsTheRobotThatIsLeftOverToTheBit) {
   // The foot that is missing is the only one of its radius, for which the ground has heights of their own.
   auto robot = quadruped();
-  robot.geoms[to_index(robot.legs[1].foot_geom)].size_m.x *= 0.5;
+  robot.geoms[to_index(robot.legs[1].foot_geoms[0])].size_m.x *= 0.5;
   ground::Settings settings;
   settings.kind = ground::Kind::hills;
   settings.height_m = 0.02;

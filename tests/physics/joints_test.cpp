@@ -25,7 +25,8 @@ std::vector<double> angles(const Bench& bench) {
 
 Vec3 foot_position(const Bench& bench, int leg) {
   const robot::Geom& foot =
-      bench.robot.geoms[static_cast<std::size_t>(bench.robot.legs[static_cast<std::size_t>(leg)].foot_geom)];
+      bench.robot
+          .geoms[static_cast<std::size_t>(bench.robot.legs[static_cast<std::size_t>(leg)].foot_geoms[0])];
   // Seen from the root: with the root's frame as the world.
   return kinematics(bench.robot, {}, angles(bench))[static_cast<std::size_t>(foot.body)] * foot.position_m;
 }
@@ -140,7 +141,7 @@ TEST(MujocoSelfCollision, OfAllLegsAtOnceLosesNoContact) {
   // move like the right ones.
   robot::RobotSpec robot = weightless(tests::legged_robot(3));
   robot.self_collision = true;
-  for (const robot::Leg& leg : robot.legs) robot.geoms[to_index(leg.foot_geom)].size_m = {0.45, 0.0, 0.0};
+  for (const robot::Leg& leg : robot.legs) robot.geoms[to_index(leg.foot_geoms[0])].size_m = {0.45, 0.0, 0.0};
   Bench bench("mujoco", robot);
   bench.steps(5);
   ASSERT_TRUE(bench.engine->healthy(0));

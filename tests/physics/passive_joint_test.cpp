@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tests/physics/scene.hpp"
 
@@ -10,6 +11,8 @@ namespace {
 
 class PassiveJoint : public OnEachEngine {};
 ON_EACH_ENGINE(PassiveJoint);
+class JointWithoutMotor : public OnEachEngine {};
+ON_EACH_ENGINE(JointWithoutMotor);
 class StiffServo : public OnEachEngine {};
 ON_EACH_ENGINE(StiffServo);
 
@@ -105,6 +108,101 @@ TEST_P(PassiveJoint, AllAtOnceObeyTheirSum) {
     angle += h * speed;
     ASSERT_NEAR(bench.angle(0), angle, 2e-3 * angle + 1e-5) << n;
   }
+}
+
+/// A pendulum that no motor moves.
+robot::RobotSpec free_arm(robot::RobotSpec robot) {
+  robot.joints[0].servo = {.mode = robot::ServoMode::none, .gain_per_s = 0.0, .max_torque_nm = 0.0};
+  robot.joints[0].command = robot::AngleRange{};
+  robot.legs.clear();
+  robot.joint_types.clear();
+  robot.contact.cfm_s_per_kg = 1e-9;
+  return robot;
+}
+
+TEST_P(JointWithoutMotor, SwingsAndDiesAwayAsADampedPendulum) {
+  // I q̈ = −m g d sin(q + a) − c q̇ from 0 at rest, a = 0.05 rad off the vertical, where it is linear to 4e-4:
+  // q + a = a e^(−λ t) (cos ω t + λ/ω sin ω t), λ = c / 2 I, ω² = m g d / I − λ².
+  const double h = 0.0005, off = 0.05, weight = 9.8 * 0.5, damping = 0.3;
+  robot::RobotSpec robot = free_arm(scene("pendulum"));
+  robot.joints[0].damping_nm_s_per_rad = damping;
+  Bench bench(GetParam(), robot, h);
+  // It hangs 0.2 rad off: nearer to the vertical at first.
+  bench.engine->place_at(0, {{robot.bodies[0].position_m, robot.bodies[0].rotation}, {-0.2 + off}});
+  const double rate = damping / (2.0 * inertia), omega = std::sqrt(weight / inertia - rate * rate);
+  double largest = 0.0;
+  for (int n = 1; n <= 6000; ++n) {
+    bench.steps(1);
+    const double t = n * h;
+    const double expected =
+        off * std::exp(-rate * t) * (std::cos(omega * t) + rate / omega * std::sin(omega * t));
+    largest = std::max(largest, std::abs(bench.angle(0) + 0.2 - expected));
+  }
+  EXPECT_LT(largest, 0.01 * off);
+}
+
+TEST_P(JointWithoutMotor, ItsSpringFollowsBackwardEulerAtAnyStiffness) {
+  const double tolerance = std::string(GetParam()) == "ode" ? 1e-2 : 3e-4;
+  for (const double h : {0.01, 0.001})
+    for (const double stiffness : {1.0, 100.0, 1e4})
+      for (const double damping : {0.0, 0.5}) {
+        robot::RobotSpec robot = free_arm(weightless(scene("pendulum")));
+        robot.joints[0].stiffness_nm_per_rad = stiffness;
+        robot.joints[0].damping_nm_s_per_rad = damping;
+        robot.joints[0].rest_rad = 0.5;
+        Bench bench(GetParam(), robot, h);
+        double speed = 0.0, angle = 0.0;
+        for (int n = 0; n < 200; ++n) {
+          bench.steps(1);
+          speed = (speed + h * stiffness * (0.5 - angle) / inertia) /
+                  (1.0 + h * (stiffness * h + damping) / inertia);
+          angle += h * speed;
+          ASSERT_NEAR(bench.angle(0), angle, tolerance)
+              << h << " " << stiffness << " " << damping << " " << n;
+        }
+      }
+}
+
+TEST_P(JointWithoutMotor, ItsSpringPressesAgainstAStopBeforeItsRest) {
+  robot::RobotSpec robot = free_arm(weightless(scene("pendulum")));
+  robot.joints[0].upper_rad = 0.1;
+  robot.joints[0].damping_nm_s_per_rad = 1.0;
+  robot.joints[0].stiffness_nm_per_rad = 5.0;
+  robot.joints[0].rest_rad = 0.6;
+  Bench bench(GetParam(), robot);
+  bench.steps(300);
+  EXPECT_NEAR(bench.angle(0), 0.1, 2e-3);
+}
+
+TEST_P(JointWithoutMotor, HearsNoTargetAndReportsNoTorque) {
+  robot::RobotSpec robot = free_arm(scene("pendulum"));
+  robot.joints[0].stiffness_nm_per_rad = 2.0;
+  robot.joints[0].rest_rad = -0.5;  // it is drawn to the stop
+  robot.joints[0].lower_rad = -0.1;
+  Bench still(GetParam(), robot, 0.01, true), called(GetParam(), robot, 0.01, true);
+  called.targets.at(0, 0) = 2.5f;
+  for (int n = 0; n < 100; ++n) {
+    still.steps(1);
+    called.steps(1);
+    ASSERT_EQ(still.engine->state_hash(0), called.engine->state_hash(0)) << n;
+    ASSERT_EQ(called.engine->motor_torque_nm()->at(0, 0), 0.0f) << n;
+  }
+  EXPECT_LT(still.angle(0), -0.05);
+}
+
+TEST_P(JointWithoutMotor, TurnsOnAndOn) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  robot::RobotSpec robot = free_arm(weightless(scene("pendulum")));
+  robot.joints[0].lower_rad = -infinity;
+  robot.joints[0].upper_rad = infinity;
+  Bench bench(GetParam(), robot, 0.001);
+  Motion motion = bench.engine->motion(0);
+  motion.joint_speed_rad_s = {9.0};
+  bench.engine->place_moving(0, motion);
+  const double before = bench.engine->motion(0).joint_speed_rad_s[0];
+  bench.steps(2000);
+  EXPECT_NEAR(bench.angle(0), 18.0, 0.2);
+  EXPECT_NEAR(bench.engine->motion(0).joint_speed_rad_s[0], before, 0.1);
 }
 
 TEST_P(StiffServo, FollowsBackwardEulerAtAnyStiffness) {

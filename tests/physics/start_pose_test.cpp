@@ -87,7 +87,7 @@ TEST_P(PlaceAt, FindsAFootOfAnyShapeAndTiltOnTheGroundWhereItsLowestPointIsNotAb
                                    robot::Shape::cylinder, robot::Shape::mesh}) {
     robot::RobotSpec robot = quadruped();
     for (const robot::Leg& leg : robot.legs) {
-      robot::Geom& foot = robot.geoms[static_cast<std::size_t>(leg.foot_geom)];
+      robot::Geom& foot = robot.geoms[static_cast<std::size_t>(leg.foot_geoms[0])];
       foot.shape = shape;
       foot.size_m = {0.05, 0.06, 0.02};
       foot.rotation = axis_angle({0.0, 0.6, 0.8}, 0.7);
@@ -102,7 +102,7 @@ TEST_P(PlaceAt, FindsAFootOfAnyShapeAndTiltOnTheGroundWhereItsLowestPointIsNotAb
         pose.joint_angle_rad.push_back(stream.uniform(joint.lower_rad, joint.upper_rad));
       const auto poses =
           robot::poses_at(robot, {pose.root.position_m, pose.root.rotation}, pose.joint_angle_rad);
-      const auto foot = static_cast<std::size_t>(robot.legs[static_cast<std::size_t>(n % 4)].foot_geom);
+      const auto foot = static_cast<std::size_t>(robot.legs[static_cast<std::size_t>(n % 4)].foot_geoms[0]);
       for (const double above_m : {-1e-4, 1e-4, 0.3}) {
         pose.root.position_m.z = above_m - robot::bottom_m(robot.geoms[foot], poses);
         bench.engine->place_at(0, pose);

@@ -127,7 +127,7 @@ TEST_P(UnevenGround, AQuadrupedStandsOnAStepAsGeometrySays) {
   const auto poses = robot::start_poses(robot);
   double front_m = -10.0, hind_m = 10.0;
   for (const auto& leg : robot.legs) {
-    const double x = robot::centre_m(robot.geoms[static_cast<std::size_t>(leg.foot_geom)], poses).x;
+    const double x = robot::centre_m(robot.geoms[static_cast<std::size_t>(leg.foot_geoms[0])], poses).x;
     front_m = std::max(front_m, x);
     hind_m = std::min(hind_m, x);
   }
@@ -177,7 +177,7 @@ TEST_P(UnevenGround, FeetTouchWhereTheGroundSays) {
     const auto bodies =
         robot::poses_at(robot, {pose.root.position_m, pose.root.rotation}, pose.joint_angle_rad);
     for (std::size_t leg = 0; leg < robot.legs.size(); ++leg) {
-      const robot::Geom& foot = robot.geoms[static_cast<std::size_t>(robot.legs[leg].foot_geom)];
+      const robot::Geom& foot = robot.geoms[static_cast<std::size_t>(robot.legs[leg].foot_geoms[0])];
       const double gap_m = ground->touch(robot::centre_m(foot, bodies), foot.size_m.x).gap_m;
       if (std::abs(gap_m) < 1e-5) continue;  // rounding may decide
       EXPECT_EQ(bench.touches(static_cast<int>(leg)), gap_m <= 0.0) << n << ' ' << leg;

@@ -80,18 +80,67 @@ TEST(CheckRobot, FindsLegsThatDoNotFit) {
             "leg 'A' must have a joint, or none, for each joint type");
   EXPECT_EQ(problem_after([](RobotSpec& r) { std::swap(r.legs[0].joints[0], r.legs[0].joints[1]); }),
             "leg 'A' has joints out of control order");
-  EXPECT_EQ(problem_after([](RobotSpec& r) { r.legs[0].foot_geom = -1; }),
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.legs[0].foot_geoms[0] = -1; }),
             "leg 'A' names a foot that is not there");
   EXPECT_EQ(problem_after([](RobotSpec& r) {
-              r.geoms[to_index(r.legs[0].foot_geom)].body = 1;
+              r.geoms[to_index(r.legs[0].foot_geoms[0])].body = 1;
               r.legs[0].joints[1] = -1;
             }),
             "joint 'A_knee' belongs to no leg, so it cannot be driven");
 }
 
+TEST(CheckRobot, FindsFeetOfSeveralShapesThatDoNotFit) {
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.legs[0].foot_geoms.clear(); }),
+            "leg 'A' has a foot without shapes");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.legs[0].foot_geoms.push_back(r.legs[0].foot_geoms[0]); }),
+            "leg 'A' names a shape of its foot twice");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.legs[0].foot_geoms.push_back(99); }),
+            "leg 'A' names a foot that is not there");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.legs[0].foot_geoms.push_back(0); }),
+            "leg 'A': its foot 'torso' is on body 'torso', which none of its joints moves");
+}
+
+TEST(CheckRobot, TakesAFootThatAJointWithoutAMotorMoves) {
+  const auto passive_knee = [](RobotSpec& r) {
+    r.legs[0].joints[1] = -1;
+    r.joints[1].servo = {.mode = ServoMode::none, .gain_per_s = 0.0, .max_torque_nm = 0.0};
+    r.joints[1].command = AngleRange{};
+    r.joints[1].stiffness_nm_per_rad = 3.0;
+  };
+  EXPECT_EQ(problem_after(passive_knee), "");
+  EXPECT_EQ(problem_after([&](RobotSpec& r) {
+              passive_knee(r);
+              r.joints[1].servo = {};
+            }),
+            "joint 'A_knee' has a motor, so it cannot have a spring");
+  EXPECT_EQ(
+      problem_after([&](RobotSpec& r) {
+        passive_knee(r);
+        r.joints[1].stiffness_nm_per_rad = -1.0;
+      }),
+      "joint 'A_knee' must have a spring with a finite stiffness, not negative, and a finite angle at rest");
+  EXPECT_EQ(problem_after([&](RobotSpec& r) {
+              passive_knee(r);
+              r.joints[1].servo.max_torque_nm = 1.0;
+            }),
+            "joint 'A_knee' has no motor, so the numbers of its servo must be 0");
+  EXPECT_EQ(problem_after([&](RobotSpec& r) {
+              passive_knee(r);
+              r.legs[0].joints[1] = 1;
+            }),
+            "leg 'A' has a joint without a motor among those it commands");
+  EXPECT_EQ(problem_after([&](RobotSpec& r) {
+              passive_knee(r);
+              r.joints[1].servo = {};
+              r.joints[1].stiffness_nm_per_rad = 0.0;
+            }),
+            "")
+      << "held";
+}
+
 TEST(CheckRobot, TakesLegsThatLackAJointAndJointsThatAreHeld) {
   EXPECT_EQ(problem_after([](RobotSpec& r) {
-              r.geoms[to_index(r.legs[0].foot_geom)].body = 1;
+              r.geoms[to_index(r.legs[0].foot_geoms[0])].body = 1;
               r.legs[0].joints[1] = -1;
               r.joints[1].command = AngleRange{};
             }),
@@ -157,7 +206,7 @@ TEST(CheckRobot, DrawsItsLimitsWhereTheMessagesSay) {
     EXPECT_EQ(problem_after([&](RobotSpec& r) { r.joints[0].command = range; }),
               "joint 'A_hip' must have a range of command within its stops")
         << range.lower_rad << " to " << range.upper_rad;
-  EXPECT_EQ(problem_after([](RobotSpec& r) { r.geoms[to_index(r.legs[0].foot_geom)].collides = false; }),
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.geoms[to_index(r.legs[0].foot_geoms[0])].collides = false; }),
             "leg 'A' has a foot that cannot collide");
 }
 
@@ -303,8 +352,9 @@ TEST(CheckRobot, FindsMeshesThatReachBeyondTheirRadiusOrNameCornersThatAreNotThe
 }
 
 TEST(CheckRobot, FindsFeetAndGravityThatCannotBe) {
-  expect_refused({[](RobotSpec& r) { r.legs[0].foot_geom = 4; }}, "leg 'A' names a foot that is not there");
-  expect_refused({[](RobotSpec& r) { r.legs[0].foot_geom = 0; }},
+  expect_refused({[](RobotSpec& r) { r.legs[0].foot_geoms[0] = 4; }},
+                 "leg 'A' names a foot that is not there");
+  expect_refused({[](RobotSpec& r) { r.legs[0].foot_geoms[0] = 0; }},
                  "leg 'A': its foot 'torso' is on body 'torso', which none of its joints moves");
   expect_refused(
       {[](RobotSpec& r) { r.gravity_m_s2.y = nan; }, [](RobotSpec& r) { r.gravity_m_s2.z = HUGE_VAL; }},

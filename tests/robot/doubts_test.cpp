@@ -118,7 +118,8 @@ TEST(Doubts, MomentsOfABodyLargerThanTheRobotAreNamedInOneLineWhereverItsMassIs)
 
 TEST(Doubts, BearingTorqueIsWeightOnHalfOfTheLegsTimesLever) {
   RobotSpec robot = tests::legged_robot(2);
-  for (const Leg& leg : robot.legs) robot.geoms[static_cast<std::size_t>(leg.foot_geom)].position_m.x = 0.1;
+  for (const Leg& leg : robot.legs)
+    robot.geoms[static_cast<std::size_t>(leg.foot_geoms[0])].position_m.x = 0.1;
   const double torque_nm = robot.total_mass_kg() * 9.8 / 2 * 0.1;
   const std::vector<double> torques = bearing_torques_nm(robot);
   for (const Leg& leg : robot.legs) {

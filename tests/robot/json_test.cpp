@@ -8,8 +8,10 @@
 #include <string>
 
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 #include "amble/core/random.hpp"
 #include "amble/morphology/robot_file.hpp"
+#include "tests/robot/legged.hpp"
 
 namespace amble::robot {
 namespace {
@@ -60,7 +62,8 @@ TEST(RobotJson, ReadsBackTheSameRobotToTheBit) {
 TEST(RobotJson, KeepsWhatOnlySomeRobotsHave) {
   RobotSpec robot = quadruped();
   const std::string before = to_json(robot).dump();
-  for (const char* key : {"command_rad", "armature", "damping", "friction_loss", "vertices_m", "sweeps"})
+  for (const char* key : {"command_rad", "armature", "damping", "friction_loss", "stiffness", "rest_rad",
+                          "foot_geoms", "vertices_m", "sweeps"})
     EXPECT_EQ(before.find(key), std::string::npos) << key;  // so that its hash is what it was
 
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -88,6 +91,38 @@ TEST(RobotJson, KeepsWhatOnlySomeRobotsHave) {
   EXPECT_EQ(again.contact.sweeps, 80);
   EXPECT_EQ(again.geoms[0].vertices_m, geom.vertices_m);
   EXPECT_EQ(again.geoms[0].triangles, geom.triangles);
+}
+
+TEST(RobotJson, KeepsJointsWithoutAMotorAndTheirSprings) {
+  RobotSpec robot = tests::legged_robot(1);
+  const int held = robot.legs[1].joints[2];
+  robot.legs[1].joints[2] = -1;
+  Joint& joint = robot.joints[to_index(held)];
+  joint.servo = {.mode = ServoMode::none, .gain_per_s = 0.0, .max_torque_nm = 0.0};
+  joint.command = AngleRange{};
+  joint.stiffness_nm_per_rad = 7.0 / 3.0;
+  joint.rest_rad = -0.1 / 3.0;
+  const RobotSpec again = through_text(robot);
+  EXPECT_EQ(to_json(again).dump(), to_json(robot).dump());
+  const Joint& read = again.joints[to_index(held)];
+  EXPECT_FALSE(read.has_motor());
+  EXPECT_FALSE(read.driven());
+  EXPECT_EQ(read.stiffness_nm_per_rad, 7.0 / 3.0);
+  EXPECT_EQ(read.rest_rad, -0.1 / 3.0);
+}
+
+TEST(RobotJson, WritesAFootOfOneShapeAsBeforeAndSeveralAsAList) {
+  RobotSpec robot = tests::legged_robot(1);
+  const int foot = robot.legs[0].foot_geoms[0];
+  EXPECT_EQ(to_json(robot)["legs"][0]["foot_geom"], foot);
+  robot.geoms.push_back(robot.geoms[to_index(foot)]);
+  const int heel = static_cast<int>(robot.geoms.size()) - 1;
+  robot.legs[0].foot_geoms = {heel, foot};
+  const io::Json json = to_json(robot);
+  EXPECT_EQ(json["legs"][0]["foot_geoms"], (std::vector<int>{heel, foot}));
+  EXPECT_FALSE(json["legs"][0].contains("foot_geom"));
+  EXPECT_TRUE(json["legs"][1].contains("foot_geom"));
+  EXPECT_EQ(through_text(robot).legs[0].foot_geoms, (std::vector<int>{heel, foot}));
 }
 
 TEST(RobotJson, WritesInfiniteFrictionAsInf) {

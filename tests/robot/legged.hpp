@@ -48,7 +48,7 @@ inline robot::RobotSpec legged_robot(int rows) {
     add("knee", lower, 0, {0, 1, 0}, 0.0, 0.8);
     add("hip_fb", upper, 1, {0, 1, 0}, -0.8, 0.8);
     add("hip_io", upper, 0, {side, 0, 0}, 0.0, 0.4);
-    robot.legs.push_back({name, foot, {knee, knee + 1, knee + 2}});
+    robot.legs.push_back({name, {foot}, {knee, knee + 1, knee + 2}});
   }
   return robot;
 }
@@ -56,6 +56,17 @@ inline robot::RobotSpec legged_robot(int rows) {
 /// The robot without one leg's joint of one type: the joint is there, but held.
 inline robot::RobotSpec with_held_joint(robot::RobotSpec robot, int leg, int type) {
   robot.joints[to_index(robot.legs[to_index(leg)].joints[to_index(type)])].command = robot::AngleRange{};
+  return robot;
+}
+
+/// The robot whose last leg has no motor at its hip_io, but a spring.
+inline robot::RobotSpec with_passive_joint(robot::RobotSpec robot) {
+  robot.legs.back().joints[2] = -1;
+  robot::Joint& joint = robot.joints.back();
+  joint.servo = {.mode = robot::ServoMode::none, .gain_per_s = 0.0, .max_torque_nm = 0.0};
+  joint.command = robot::AngleRange{};
+  joint.stiffness_nm_per_rad = 20.0;
+  joint.rest_rad = 0.1;
   return robot;
 }
 

@@ -105,12 +105,26 @@ TEST(LegHeight, IsThatOfTheHipsOverTheFeetInTheStartPose) {
   const double height_m = leg_height_m(robot);
   const auto poses = start_poses(robot);
   EXPECT_NEAR(height_m,
-              hips_m(robot, poses)[0].z - bottom_m(robot.geoms[to_index(robot.legs[0].foot_geom)], poses),
+              hips_m(robot, poses)[0].z - bottom_m(robot.geoms[to_index(robot.legs[0].foot_geoms[0])], poses),
               1e-12);
   robot.bodies[0].position_m.z += 0.3;
   EXPECT_NEAR(leg_height_m(robot), height_m, 1e-12) << "wherever the ground is";
   robot.legs.clear();
   EXPECT_EQ(leg_height_m(robot), 0.0);
+}
+
+TEST(Foot, OfSeveralShapesIsAtTheirMeanAndReachesAsLowAsTheLowest) {
+  RobotSpec robot = tests::legged_robot(1);
+  const auto poses = start_poses(robot);
+  const Vec3 ball_m = foot_m(robot, robot.legs[0], poses);
+  const double bottom_m = foot_bottom_m(robot, robot.legs[0], poses), height_m = leg_height_m(robot);
+  Geom heel = robot.geoms[to_index(robot.legs[0].foot_geoms[0])];
+  heel.position_m = heel.position_m + Vec3{-0.08, 0.0, -0.02};
+  robot.geoms.push_back(heel);
+  robot.legs[0].foot_geoms.push_back(static_cast<int>(robot.geoms.size()) - 1);
+  EXPECT_NEAR(norm(foot_m(robot, robot.legs[0], poses) - ball_m - Vec3{-0.04, 0.0, -0.01}), 0.0, 1e-12);
+  EXPECT_NEAR(foot_bottom_m(robot, robot.legs[0], poses), bottom_m - 0.02, 1e-12);
+  EXPECT_NEAR(leg_height_m(robot), height_m + 0.5 * 0.02, 1e-12);
 }
 
 TEST(LegPairs, CallPlacesTheSameUpToAMicrometre) {

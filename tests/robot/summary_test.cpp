@@ -29,6 +29,21 @@ TEST(Summary, ShowsWhatWasRead) {
   EXPECT_THAT(text, HasSubstr("gravity: 0 0 -9.8 m/s2; the robot has fallen below 0.5 m"));
 }
 
+TEST(Summary, ShowsJointsWithoutAMotorAndFeetOfSeveralShapes) {
+  const Files files;
+  RobotSpec robot = load_one_leg(files);
+  robot.legs[0].joints[1] = -1;
+  robot.legs[0].foot_geoms.push_back(2);
+  Joint& knee = robot.joints[1];
+  knee.servo = {.mode = ServoMode::none, .gain_per_s = 0.0, .max_torque_nm = 0.0};
+  knee.command = AngleRange{};
+  EXPECT_THAT(summary(robot), HasSubstr("-0.7 to 0    passive      no motor"));
+  EXPECT_THAT(summary(robot), HasSubstr("A    A_foot, shin  0.04 "));
+  knee.stiffness_nm_per_rad = 2.5;
+  knee.rest_rad = -0.3;
+  EXPECT_THAT(summary(robot), HasSubstr("no motor, a spring of 2.5 N m/rad towards -0.3 rad"));
+}
+
 TEST(Summary, ShowsTheAxesOfTurnedBodiesInTheWorld) {
   const Files files;
   const std::string text = summary(load_one_leg(

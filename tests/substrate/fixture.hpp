@@ -35,7 +35,7 @@ inline Settings substrate_of(const std::string& toml) {
 inline robot::RobotSpec hopper() {
   robot::RobotSpec robot;
   robot.joint_types = {"knee"};
-  robot.legs.push_back({"L", 0, {0}});
+  robot.legs.push_back({"L", {0}, {0}});
   robot.joints.emplace_back().name = "L_knee";
   return robot;
 }

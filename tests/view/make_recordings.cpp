@@ -32,7 +32,7 @@ io::Json expectation(const tests::SyntheticWalk& walk, const std::filesystem::pa
   const auto recorded = motion::read_recorded_trial(path);
   const auto poses = motion::body_poses(recorded.robot, recorded.motion, frame);
   for (const auto& leg : recorded.robot.legs) {
-    const auto& geom = recorded.robot.geoms[static_cast<std::size_t>(leg.foot_geom)];
+    const auto& geom = recorded.robot.geoms[static_cast<std::size_t>(leg.foot_geoms[0])];
     json["feet_m"].push_back(list(robot::centre_m(geom, poses)));
   }
   return json;

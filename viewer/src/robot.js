@@ -54,9 +54,12 @@ const carries = (robot, body, other) => {
   return other === body;
 };
 
+/** The shapes of a leg's foot; recordings have a number where it is one. */
+const footGeoms = ({ foot_geom, foot_geoms }) => foot_geoms ?? [foot_geom];
+
 /** The leg that a body belongs to, or −1 for the trunk, to which bodies with feet of several legs belong, too. */
 function legOfBody(robot, body) {
-  if (robot.legs.filter(({ foot_geom }) => carries(robot, body, robot.geoms[foot_geom].body)).length > 1) return -1;
+  if (robot.legs.filter((leg) => carries(robot, body, robot.geoms[footGeoms(leg)[0]].body)).length > 1) return -1;
   for (let b = body; b >= 0; b = robot.bodies[b].parent) {
     const leg = robot.legs.findIndex(({ joints }) => joints.some((joint) => robot.joints[joint]?.body === b));
     if (leg >= 0) return leg;
@@ -103,18 +106,18 @@ export class RobotModel {
   }
 
   addGeoms(frames) {
-    this.feet = [];
+    this.feet = []; // by leg: {shapes: [{mesh, material, outline}, …], touching}
     this.robot.geoms.forEach((geom, g) => {
       const material = new MeshLambertMaterial();
       const mesh = place(new Mesh(geometryOf(geom), material), geom.position_m, geom.rotation);
       mesh.castShadow = true;
       frames[geom.body].add(mesh);
       const leg = legOfBody(this.robot, geom.body);
-      const foot = this.robot.legs.findIndex(({ foot_geom }) => foot_geom === g);
+      const foot = this.robot.legs.findIndex((each) => footGeoms(each).includes(g));
       if (foot >= 0) {
         const outline = outlineOf(mesh.geometry);
         mesh.add(outline);
-        this.feet[foot] = { mesh, material, outline, touching: null };
+        (this.feet[foot] ??= { shapes: [], touching: null }).shapes.push({ mesh, material, outline });
       }
       this.parts.push({ mesh, material, leg, foot, mark: leg < 0 && !geom.collides });
     });
@@ -138,15 +141,17 @@ export class RobotModel {
     const foot = this.feet[leg];
     if (!foot || foot.touching === touching) return;
     foot.touching = touching;
-    foot.material.color.set(touching ? colour("--touch") : legColour(leg));
-    foot.material.emissive.set(touching ? colour("--touch-glow") : "#000");
-    foot.outline.material.color.set(colour("--touch-line"));
-    foot.outline.visible = touching && !this.ghost;
+    for (const { material, outline } of foot.shapes) {
+      material.color.set(touching ? colour("--touch") : legColour(leg));
+      material.emissive.set(touching ? colour("--touch-glow") : "#000");
+      outline.material.color.set(colour("--touch-line"));
+      outline.visible = touching && !this.ghost;
+    }
   }
 
   /** What a foot looks like now: its colour, and whether it has an outline. */
   footLook(leg) {
-    const { material, outline } = this.feet[leg];
+    const { material, outline } = this.feet[leg].shapes[0];
     return { colour: `#${material.color.getHexString()}`, outlined: outline.visible };
   }
 
@@ -166,7 +171,12 @@ export class RobotModel {
   placed() {
     this.root.updateMatrixWorld(true);
     const lane = this.root.parent.position;
-    const centres = this.feet.map(({ mesh }) => mesh.getWorldPosition(new Vector3()).sub(lane).toArray());
+    const middle = ({ shapes }) => {
+      const sum = new Vector3();
+      for (const { mesh } of shapes) sum.add(mesh.getWorldPosition(new Vector3()));
+      return sum.divideScalar(shapes.length);
+    };
+    const centres = this.feet.map((foot) => middle(foot).sub(lane).toArray());
     return [this.root.position.toArray(), ...centres];
   }
 

@@ -148,8 +148,10 @@ HWY_INLINE V apply_servo(const Pass& pass, const LaneArray& targets_rad, const L
                          float* row) {
   const V angle = pass.state(pass.rows().angle + index);
   const V lower = set(link.lower_rad), upper = set(link.upper_rad);
-  const V command = hn::LoadU(Floats(), targets_rad.row(link.joint) + pass.lane);
-  const V target = hn::IfThenElse(command == command, hn::Min(hn::Max(command, lower), upper), command);
+  const V command =
+      link.has_motor ? hn::LoadU(Floats(), targets_rad.row(link.joint) + pass.lane) : set(link.rest_rad);
+  const V within = hn::IfThenElse(command == command, hn::Min(hn::Max(command, lower), upper), command);
+  const V target = link.has_motor ? within : command;
   const StopRow stop = stop_row(pass, link, angle);
   const ServoRow servo = servo_row(pass, link, target - angle, stop.at_upper);
   const V impulse = set(servo.max_impulse), stiff = set(pass.model().cfm_s_per_kg / pass.timestep_s());

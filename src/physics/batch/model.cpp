@@ -126,17 +126,20 @@ class Builder {
     const Pose& pose = poses_[to_index(joint.body)];
     const Vec3 origin = pose * joint.anchor_m;
     const Vec3 axis = rotate(pose.rotation, joint.axis);
+    const robot::Servo servo = joint.acting_servo();
     Link link{.joint = index,
               .from_parent_m = narrow(origin - before),
               .direction = narrow(axis),
               .body = {},
               .lower_rad = static_cast<float>(joint.lower_rad),
               .upper_rad = static_cast<float>(joint.upper_rad),
-              .velocity_servo = joint.servo.mode == robot::ServoMode::velocity,
-              .gain_per_s = static_cast<float>(joint.servo.gain_per_s),
-              .max_torque_nm = static_cast<float>(joint.servo.max_torque_nm),
-              .kp_nm_per_rad = static_cast<float>(joint.servo.kp_nm_per_rad),
-              .kd_nm_s_per_rad = static_cast<float>(joint.servo.kd_nm_s_per_rad),
+              .has_motor = joint.has_motor(),
+              .rest_rad = static_cast<float>(joint.rest_rad),
+              .velocity_servo = servo.mode == robot::ServoMode::velocity,
+              .gain_per_s = static_cast<float>(servo.gain_per_s),
+              .max_torque_nm = static_cast<float>(servo.max_torque_nm),
+              .kp_nm_per_rad = static_cast<float>(servo.kp_nm_per_rad),
+              .kd_nm_s_per_rad = static_cast<float>(servo.kd_nm_s_per_rad),
               .armature_kg_m2 = static_cast<float>(joint.armature_kg_m2),
               .damping_nm_s_per_rad = static_cast<float>(joint.damping_nm_s_per_rad),
               .friction_loss_nm = static_cast<float>(joint.friction_loss_nm)};
@@ -183,7 +186,9 @@ class Builder {
     group.bounding_radius_m *= 1.0001f;  // margin for rounding
     group.count = static_cast<int>(model_.points.size()) - group.first;
     for (std::size_t l = 0; l < robot_.legs.size(); ++l)
-      if (robot_.legs[l].foot_geom == index) group.leg = static_cast<int>(l);
+      if (robot_.legs[l].has_foot_geom(index)) group.leg = static_cast<int>(l);
+    const auto same_leg = [&](const PointGroup& other) { return other.leg == group.leg; };
+    group.first_of_foot = std::ranges::none_of(model_.geoms, same_leg);
     model_.geoms.push_back(group);
   }
 

@@ -32,6 +32,9 @@ struct Link {
   MassPart body;
   float outer_mass_kg = 0.0f;  ///< composite: of this link and all that it carries
   float lower_rad = 0.0f, upper_rad = 0.0f;
+  /// Without a motor the servo is a spring, whose target is always `rest_rad`, whatever the stops.
+  bool has_motor = true;
+  float rest_rad = 0.0f;
   bool velocity_servo = true;
   float gain_per_s = 0.0f, max_torque_nm = 0.0f, kp_nm_per_rad = 0.0f, kd_nm_s_per_rad = 0.0f;
   float armature_kg_m2 = 0.0f, damping_nm_s_per_rad = 0.0f, friction_loss_nm = 0.0f;
@@ -69,7 +72,8 @@ struct PointGroup {
   int first = 0, count = 0;
   Float3 centre_m;  ///< of the sphere, in the link's frame
   float bounding_radius_m = 0.0f;
-  int leg = -1;  ///< the leg whose foot it is, −1: none
+  int leg = -1;               ///< the leg whose foot it is part of, −1: none
+  bool first_of_foot = true;  ///< before all others of its foot
 };
 
 /// A robot in the coordinates of the batch engine: a floating torso with chains of hinges, float32.

@@ -251,7 +251,10 @@ HWY_NOINLINE void detect_contacts_on(const Pass& pass) {
       touches = hn::Or(touches, h <= zero());
       contacts = contacts + hn::IfThenElseZero(h <= zero(), set(1.0f));
     }
-    if (geom.leg >= 0) pass.set_state(pass.rows().touch + geom.leg, hn::IfThenElseZero(touches, set(1.0f)));
+    if (geom.leg < 0) continue;
+    const int row = pass.rows().touch + geom.leg;
+    const V touch = hn::IfThenElseZero(touches, set(1.0f));
+    pass.set_state(row, geom.first_of_foot ? touch : hn::Max(touch, pass.state(row)));
   }
   pass.set_state(StateRows::contacts, contacts);
 }

@@ -199,6 +199,10 @@ HWY_NOINLINE void measure_torques(const Pass& pass) {
   for (const Chain& chain : pass.model().chains)
     for (int j = 0; j < chain.count; ++j) {
       const float* const row = pass.joint_row(chain, j);
+      if (!pass.link(chain, j).has_motor) {
+        hn::StoreU(zero(), Floats(), pass.arguments.torques_nm->row(pass.link(chain, j).joint) + pass.lane);
+        continue;
+      }
       const Mask motor =
           load(row + 2 * width) - load(row + width) < set(std::numeric_limits<float>::infinity());
       const V impulse =

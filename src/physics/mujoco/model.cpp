@@ -95,6 +95,13 @@ void set_options(mjOption& option, double timestep_s) {
   option.disableflags |= mjDSBL_PASSIVE | mjDSBL_ACTUATION | mjDSBL_SENSOR;
 }
 
+/// Of its servo, or of its spring, which has no limit: a number that MuJoCo can compute with.
+double largest_torque_nm(const robot::Joint& joint) {
+  constexpr double without_limit_nm = 1e9;
+  if (joint.has_motor()) return joint.servo.max_torque_nm;
+  return joint.stiffness_nm_per_rad > 0.0 ? without_limit_nm : 0.0;
+}
+
 void set_joints(const RobotSpec& robot, const Softness& softness, double timestep_s, Model& model) {
   const mjModel& m = *model.mujoco;
   for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j) {
@@ -105,7 +112,7 @@ void set_joints(const RobotSpec& robot, const Softness& softness, double timeste
     softness.give(m.dof_solref + mjNREF * dof, m.dof_solimp + mjNIMP * dof, diagonal);
     // A servo is dry friction |τ| ≤ frictionloss, which by itself aims at speed 0; MujocoEngine::drive()
     // moves that to the servo's speed.
-    m.dof_frictionloss[dof] = joint.servo.max_torque_nm;
+    m.dof_frictionloss[dof] = largest_torque_nm(joint);
     // Damping at the speed after the step, in all constraints: (M + h D) q̈ = … − D q̇.
     m.dof_armature[dof] += timestep_s * joint.damping_nm_s_per_rad;
     m.dof_damping[dof] = 0.0;
@@ -145,7 +152,7 @@ Model make_model(const RobotSpec& robot, double timestep_s) {
   for (std::size_t place = 0; place < mjcf.geoms.size(); ++place) {
     model.geom_of[place + 1] = mjcf.geoms[place];
     for (int l = 0; l < static_cast<int>(robot.legs.size()); ++l)
-      if (robot.legs[to_index(l)].foot_geom == mjcf.geoms[place]) model.leg_of[place + 1] = l;
+      if (robot.legs[to_index(l)].has_foot_geom(mjcf.geoms[place])) model.leg_of[place + 1] = l;
   }
   set_options(m.opt, timestep_s);
   const Softness softness(robot.contact, timestep_s);

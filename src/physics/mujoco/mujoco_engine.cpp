@@ -204,7 +204,7 @@ class MujocoEngine final : public SingleRobotEngine {
       data_->qfrc_applied[dof] = -robot_.joints[to_index(j)].damping_nm_s_per_rad * data_->qvel[dof];
     }
     for_servo_rows([&](int row, int j) {
-      const Servo& servo = robot_.joints[to_index(j)].servo;
+      const Servo servo = robot_.joints[to_index(j)].acting_servo();
       if (servo.mode == ServoMode::velocity) {
         // MuJoCo's dry friction in a joint has a_ref = −b q̇ (efc_KBIP: stiffness, damping b, impedance and
         // its derivative, by row). A motor has a_ref = −b (q̇ − speed) with speed = gain (target − q).
@@ -220,7 +220,7 @@ class MujocoEngine final : public SingleRobotEngine {
   /// k = kp h + kd and speed = kp (target − q) / k. As q̇⁺ = q̇ + h a, that is
   ///   a = a_ref − R τ,   R = 1 / (k h),   a_ref = (speed − q̇) / h.
   void drive_stiffly(int row, int j, double error_rad) {
-    const Servo& servo = robot_.joints[to_index(j)].servo;
+    const Servo servo = robot_.joints[to_index(j)].acting_servo();
     const double h = model_->opt.timestep, k = servo.kp_nm_per_rad * h + servo.kd_nm_s_per_rad;
     // Without any strength, R as good as infinite.
     const double stiffness = std::max(k * h, mjMINVAL);
@@ -241,14 +241,19 @@ class MujocoEngine final : public SingleRobotEngine {
   /// The servos' torques, once the constraints are solved.
   void measure_torques() {
     for (int j = 0; j < torques_nm_.rows(); ++j) torques_nm_.at(j, 0) = 0.0f;
-    for_servo_rows([&](int row, int j) { torques_nm_.at(j, 0) = static_cast<float>(data_->efc_force[row]); });
+    for_servo_rows([&](int row, int j) {
+      if (robot_.joints[to_index(j)].has_motor())
+        torques_nm_.at(j, 0) = static_cast<float>(data_->efc_force[row]);
+    });
   }
 
   double error_rad(int j, const LaneArray& targets_rad) const {
     const robot::Joint& joint = robot_.joints[to_index(j)];
+    const double angle_rad = data_->qpos[model_.position_of[to_index(j)]];
+    if (!joint.has_motor()) return joint.rest_rad - angle_rad;
     const double target_rad =
         std::clamp(static_cast<double>(targets_rad.at(j, 0)), joint.lower_rad, joint.upper_rad);
-    return target_rad - data_->qpos[model_.position_of[to_index(j)]];
+    return target_rad - angle_rad;
   }
 
   /// Finite, and not absurdly fast (Engine::healthy).

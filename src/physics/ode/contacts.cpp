@@ -53,7 +53,7 @@ Contacts::Contacts(const RobotSpec& robot, const World& world, const ground::Gro
                       .body = world.bodies()[to_index(geom.body)],
                       .radius_m = bounding_radius(geom) + slack_m};
     for (std::size_t l = 0; l < robot.legs.size(); ++l) {
-      if (robot.legs[l].foot_geom == static_cast<int>(g)) collider.leg = static_cast<int>(l);
+      if (robot.legs[l].has_foot_geom(static_cast<int>(g))) collider.leg = static_cast<int>(l);
     }
     if (ground_ != nullptr) {
       collider.place = {geom.position_m - robot.bodies[to_index(geom.body)].com_m, geom.rotation};
@@ -76,17 +76,18 @@ Contacts::~Contacts() {
 }
 
 void Contacts::find_touch(LaneArray& touch) {
-  for (const Collider& collider : colliders_) {
-    if (collider.leg >= 0) touch.at(collider.leg, 0) = collide_with_ground(collider) > 0 ? 1.0f : 0.0f;
-  }
+  touch.set_lane(0, 0.0f);
+  for (const Collider& collider : colliders_)
+    if (collider.leg >= 0 && collide_with_ground(collider) > 0) touch.at(collider.leg, 0) = 1.0f;
 }
 
 void Contacts::collide(LaneArray& touch) {
   dJointGroupEmpty(group_);
+  touch.set_lane(0, 0.0f);
   for (const Collider& collider : colliders_) {
     const int count = collide_with_ground(collider);
     add_contacts(count, collider.body, nullptr);
-    if (collider.leg >= 0) touch.at(collider.leg, 0) = count > 0 ? 1.0f : 0.0f;
+    if (collider.leg >= 0 && count > 0) touch.at(collider.leg, 0) = 1.0f;
   }
   for (const Pair& pair : pairs_) collide_pair(pair);
 }

@@ -30,6 +30,7 @@ Motors::Motors(const RobotSpec& robot, const World& world, double timestep_s)
       timestep_s_(timestep_s),
       axes_(robot.joints.size()),
       angles_rad_(robot.joints.size(), 0.0) {
+  for (const Joint& joint : joints_) servos_.push_back(joint.acting_servo());
   for (const Bearing& bearing : bearings_) {
     add_axis(world, bearing, bearing.second < 0 ? 0 : 1);
     if (bearing.second >= 0) add_axis(world, bearing, 2);
@@ -42,9 +43,10 @@ void Motors::add_axis(const World& world, const Bearing& bearing, int number) {
   Axis& axis = axes_[to_index(j)];
   axis = {.bearing = bearing.id, .number = number};
   axis.many_turns = joint.lower_rad <= -std::numbers::pi || joint.upper_rad >= std::numbers::pi;
-  const bool velocity = joint.servo.mode == ServoMode::velocity;
+  const robot::Servo& servo = servos_[to_index(j)];
+  const bool velocity = servo.mode == ServoMode::velocity;
   const bool idle = !velocity && stiffness(j) == 0.0;
-  set(axis.bearing, number, dParamFMax, idle ? 0.0 : joint.servo.max_torque_nm);
+  set(axis.bearing, number, dParamFMax, idle ? 0.0 : servo.max_torque_nm);
   if (!velocity && !idle) set(axis.bearing, number, dParamCFM, 1.0 / stiffness(j));
   const double inertia = joint.armature_kg_m2 / timestep_s_ + joint.damping_nm_s_per_rad;
   if (inertia > 0.0) axis.inertia = new_motor(world, axis, dInfinity, 1.0 / inertia);
@@ -121,9 +123,10 @@ void Motors::watch_stops(int joint) const {
 }
 
 std::optional<double> Motors::torque_beforehand(int joint, const LaneArray& targets_rad) const {
+  if (!joints_[to_index(joint)].has_motor()) return 0.0;
   if (!at_stop(joint)) return std::nullopt;
   const double target_rad = target(joint, targets_rad), angle_rad = angles_rad_[to_index(joint)];
-  const auto& servo = joints_[to_index(joint)].servo;
+  const auto& servo = servos_[to_index(joint)];
   if (servo.mode == ServoMode::torque) return torque_at_stop(joint, target_rad);
   const double speed = servo.gain_per_s * (target_rad - angle_rad);
   const bool forward = speed > 0.0 || (speed == 0.0 && !(angle_rad <= joints_[to_index(joint)].lower_rad));
@@ -131,8 +134,9 @@ std::optional<double> Motors::torque_beforehand(int joint, const LaneArray& targ
 }
 
 double Motors::target(int joint, const LaneArray& targets_rad) const {
-  return std::clamp(static_cast<double>(targets_rad.at(joint, 0)), joints_[to_index(joint)].lower_rad,
-                    joints_[to_index(joint)].upper_rad);
+  const Joint& own = joints_[to_index(joint)];
+  if (!own.has_motor()) return own.rest_rad;
+  return std::clamp(static_cast<double>(targets_rad.at(joint, 0)), own.lower_rad, own.upper_rad);
 }
 
 bool Motors::at_stop(int joint) const {
@@ -141,7 +145,7 @@ bool Motors::at_stop(int joint) const {
 }
 
 double Motors::torque_at_stop(int joint, double target_rad) const {
-  const auto& servo = joints_[to_index(joint)].servo;
+  const auto& servo = servos_[to_index(joint)];
   return std::clamp(servo.kp_nm_per_rad * (target_rad - angles_rad_[to_index(joint)]), -servo.max_torque_nm,
                     servo.max_torque_nm);
 }
@@ -153,13 +157,13 @@ double Motors::rate_rad_s(const Axis& axis) const {
 }
 
 double Motors::stiffness(int joint) const {
-  const auto& servo = joints_[to_index(joint)].servo;
+  const auto& servo = servos_[to_index(joint)];
   return servo.kp_nm_per_rad * timestep_s_ + servo.kd_nm_s_per_rad;
 }
 
 void Motors::drive_joint(int joint, double target_rad) const {
   const auto& [bearing, number, inertia, many_turns] = axes_[to_index(joint)];
-  const auto& servo = joints_[to_index(joint)].servo;
+  const auto& servo = servos_[to_index(joint)];
   const double error_rad = target_rad - angles_rad_[to_index(joint)];
   if (servo.mode == ServoMode::velocity) {
     set(bearing, number, dParamVel, servo.gain_per_s * error_rad);

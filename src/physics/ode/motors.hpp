@@ -20,7 +20,8 @@ namespace amble::physics::ode {
 /// speed at the end of a step h (backward Euler), so that it is stable however stiff it is:
 ///   τ = kp (target − q − h q̇⁺) − kd q̇⁺ = (speed − q̇⁺) / softness,   1/softness = kp h + kd,
 ///   speed = softness kp (target − q).
-/// At a stop it is the explicit torque kp (target − q) within ± max_torque.
+/// At a stop it is the explicit torque kp (target − q) within ± max_torque. The spring of a joint without a
+/// motor is a torque servo without a limit.
 ///
 /// Armature and damping are such constraints without bounds, −(armature/h) (q̇⁺ − q̇) − damping q̇⁺, and dry
 /// friction is one with |τ| ≤ friction_loss and speed 0, by motors of their own (dJointTypeAMotor).
@@ -41,7 +42,7 @@ class Motors {
   const std::vector<Bearing>& bearings() const { return bearings_; }
   /// A servo's torque in the next step, N m, where it does not depend on the step's solution, at a stop: the
   /// explicit torque of a torque servo, and for a velocity servo max_torque in the direction of the wanted
-  /// speed, which is what ODE applies (dxJointLimitMotor::addLimot).
+  /// speed, which is what ODE applies (dxJointLimitMotor::addLimot). 0 of a joint without a motor.
   std::optional<double> torque_beforehand(int joint, const LaneArray& targets_rad) const;
 
  private:
@@ -65,6 +66,7 @@ class Motors {
   void drive_joint(int joint, double target_rad) const;
 
   const std::vector<robot::Joint>& joints_;
+  std::vector<robot::Servo> servos_;  ///< by joint; of those without a motor their springs
   const std::vector<Bearing>& bearings_;
   double timestep_s_;
   std::vector<Axis> axes_;  ///< by joint
