@@ -3,23 +3,20 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "amble/cli/robot_solver.hpp"
+#include "amble/experiment/new_robot.hpp"
 #include "amble/experiment/start_look.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/printable.hpp"
 #include "amble/io/shell.hpp"
 #include "amble/io/toml_text.hpp"
 #include "amble/morphology/robot_file.hpp"
-#include "amble/morphology/robot_guess.hpp"
 #include "amble/physics/engine.hpp"
 #include "amble/robot/doubts.hpp"
-#include "amble/robot/legs.hpp"
 #include "amble/robot/summary.hpp"
 
 namespace amble::cli {
@@ -53,14 +50,11 @@ std::string path_from(const fs::path& folder, const fs::path& path) {
   return (relative.empty() ? fs::absolute(path) : relative).generic_string();
 }
 
-/// The fastest engine that can simulate the robot, as a line of a config.
 std::string engine_line(const robot::RobotSpec& robot) {
-  try {
-    physics::make_engine("batch", robot, {.timestep_s = 0.01});
-    return "engine = \"batch\"\n";
-  } catch (const UserError& error) {
-    return fmt::format("engine = \"ode\"  # not batch, which is faster: {}\n", error.what());
-  }
+  const experiment::EngineChoice choice = experiment::fastest_engine(robot);
+  if (choice.engine == "batch") return "engine = \"batch\"\n";
+  return fmt::format("engine = \"{}\"  # not batch, which is faster: {}\n", choice.engine,
+                     choice.why_not_batch);
 }
 
 /// What a config of a robot on one or two legs has besides: by distance alone the first generations learn to
@@ -70,22 +64,9 @@ constexpr const char* score_of_two_legs =
     "[score]  # in m; on two legs a fall forwards is the first to win by distance alone\n"
     "terms = [{ quantity = \"distance\", weight = 1.0 }, { quantity = \"upright_time\", weight = 1.0 }]\n";
 
-/// The quadruped for which the presets' times and speeds are: the height of its hips over its feet.
-constexpr double preset_leg_height_m = 0.88;
-constexpr double preset_gravity_m_s2 = 9.8, preset_period_s = 1.0, preset_push_m_s = 0.2,
-                 preset_drop_m = 0.01;
-
-/// Times and speeds of walkers of another size, by Froude's rule: times go with the square root of the legs'
-/// height over gravity, speeds with that of the legs' height times gravity. Nothing for robots of about the
-/// presets' size.
-std::string settings_of_size(const robot::RobotSpec& robot) {
-  const double height_m = robot::leg_height_m(robot), gravity_m_s2 = norm(robot.gravity_m_s2);
-  if (!(height_m > 0.0) || !(gravity_m_s2 > 0.0)) return {};
-  const double size = height_m / preset_leg_height_m, pull = gravity_m_s2 / preset_gravity_m_s2;
-  const double time = std::sqrt(size / pull);
-  constexpr double alike = 0.15;
-  if (std::abs(time - 1.0) < alike) return {};
-  const double period_s = std::clamp(std::round(100.0 * preset_period_s * time) / 100.0, 0.05, 5.0);
+std::string settings_text(const robot::RobotSpec& robot) {
+  const auto settings = experiment::settings_of_size(robot);
+  if (!settings) return {};
   return fmt::format(
       "\n"
       "[controller.supg]\n"
@@ -95,8 +76,8 @@ std::string settings_of_size(const robot::RobotSpec& robot) {
       "[noise]  # what the preset's pushes and drops are for a robot of that size\n"
       "push_m_s = {:.2g}\n"
       "start_height_m = {:.2g}\n",
-      period_s, height_m, preset_leg_height_m, preset_push_m_s * std::sqrt(size * pull),
-      preset_drop_m * size);
+      settings->period_s, settings->leg_height_m, settings->preset_leg_height_m, settings->push_m_s,
+      settings->start_height_m);
 }
 
 std::string config_text(const std::string& name, const std::string& engine,
@@ -116,7 +97,7 @@ std::string config_text(const std::string& name, const std::string& engine,
       "{6}{7}",
       io::printable(name), base ? "" : "# The presets of amble were not found: correct this path.\n",
       io::toml_quoted(base ? path_from(folder, *base) : preset_name), io::toml_quoted(name),
-      io::toml_quoted(name + ".toml"), engine, robot ? settings_of_size(*robot) : "",
+      io::toml_quoted(name + ".toml"), engine, robot ? settings_text(*robot) : "",
       legs == 1 || legs == 2 ? score_of_two_legs : "");
 }
 
@@ -129,8 +110,8 @@ std::string doubts_text(const std::vector<std::string>& doubts) {
 }
 
 std::string start_text(const robot::RobotSpec& robot) {
-  const auto engine = engine_line(robot).starts_with("engine = \"batch\"") ? "batch" : "ode";
-  const auto odd = experiment::odd_at_start(robot, engine, physics::EngineSettings{}.timestep_s);
+  const auto odd = experiment::odd_at_start(robot, experiment::fastest_engine(robot).engine,
+                                            physics::EngineSettings{}.timestep_s);
   if (odd.empty() && robot.legs.empty()) return "";
   if (odd.empty()) return "start: held for a second in its start pose, it stands\n";
   return fmt::format("look at its start before you evolve:\n  {}\n", fmt::join(odd, "\n  "));
@@ -142,39 +123,32 @@ ExitCode init_robot(const fs::path& model, fs::path folder) {
          model.string());
   if (folder.empty()) folder = model.stem();
   const morphology::ModelFile file = morphology::compile_model(model);
-  const morphology::RobotGuess guess = morphology::guess_robot(file, path_from(folder, model));
-  const fs::path robot_path = folder / (guess.name + ".toml"), config_path = folder / "evolve.toml";
+  const fs::path robot_path = folder / (model.stem().string() + ".toml"),
+                 config_path = folder / "evolve.toml";
   if (robot_path.filename() == config_path.filename())
     fail(ExitCode::bad_input, "--init: the model must not be called evolve, as the config is");
   for (const fs::path& path : {robot_path, config_path})
     if (fs::exists(path))
       fail(ExitCode::bad_input, "{} is there already, and is not replaced", path.string());
+  experiment::NewRobot made = experiment::make_new_robot(file, path_from(folder, model), robot_path);
+  const morphology::RobotGuess& guess = made.guess;
+  std::optional<robot::RobotSpec>& robot = made.robot;
   fs::create_directories(folder);
-  io::write_file(robot_path, guess.toml);
-
-  std::vector<std::string> asked = guess.asked;
-  morphology::ReadingNotes notes;
-  std::optional<robot::RobotSpec> robot;
-  try {
-    robot = morphology::load_robot(robot_path, &notes);
-    // The file ends with [contact].
-    if (const std::string sweeps = sweeps_line(*robot); !sweeps.empty()) {
-      io::write_file(robot_path, guess.toml + sweeps);
-      robot = morphology::load_robot(robot_path);
-    }
-  } catch (const UserError& error) {
-    asked.emplace_back(error.what());
-  }
+  // The file ends with [contact].
+  const std::string sweeps = robot ? sweeps_line(*robot) : "";
+  io::write_file(robot_path, guess.toml + sweeps);
+  if (!sweeps.empty()) robot = morphology::load_robot(robot_path);
   const std::string engine = robot ? engine_line(*robot) : "engine = \"batch\"\n";
   io::write_file(config_path, config_text(guess.name, engine, robot, folder));
   if (robot) fmt::print("{}", robot::summary(*robot));
-  if (!notes.lines().empty()) fmt::print("\nimport notes:\n{}", notes.text());
+  if (!made.notes.lines().empty()) fmt::print("\nimport notes:\n{}", made.notes.text());
+  if (!guess.settled.empty()) fmt::print("\nsettled:\n  {}\n", fmt::join(guess.settled, "\n  "));
   if (robot)
     if (const std::string text = start_text(*robot); !text.empty()) fmt::print("\n{}", text);
   fmt::print("\nwrote {} and {}\n", robot_path.string(), config_path.string());
-  if (!asked.empty()) {
+  if (!guess.asked.empty()) {
     fmt::print("still to be given in {}:\n", robot_path.string());
-    for (const std::string& line : asked) fmt::print("  {}\n", line);
+    for (const std::string& line : guess.asked) fmt::print("  {}\n", line);
   }
   std::vector<std::string> doubts = guess.doubts;
   if (robot)

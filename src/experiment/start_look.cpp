@@ -102,15 +102,27 @@ std::string axis_of(Vec3 v) {
   return fmt::format("{}{}", value < 0.0 ? '-' : '+', "xyz"[largest]);
 }
 
-/// From the first joint of each leg to its foot, all together: legs that spread to all sides point down.
+/// The line of a robot file with which what points along `down` at the start points down.
+std::string upright_line(const RobotSpec& robot, Vec3 down) {
+  const Vec3 from = (1.0 / norm(down)) * down, axis = cross(from, {0.0, 0.0, -1.0});
+  const double sine = norm(axis);
+  const Quat turn = sine > 1e-9 ? axis_angle((1.0 / sine) * axis, std::atan2(sine, -from.z))
+                                : axis_angle({1.0, 0.0, 0.0}, std::numbers::pi);
+  const RollPitchYaw rpy = roll_pitch_yaw(turn * robot.bodies[0].rotation);
+  const auto degrees = [](double rad) { return std::round(rad * 180.0 / std::numbers::pi) + 0.0; };
+  return fmt::format("start_rpy_deg = [{}, {}, {}]", degrees(rpy.roll_rad), degrees(rpy.pitch_rad),
+                     degrees(rpy.yaw_rad));
+}
+
+/// From the hip of each leg to its foot, all together: legs that spread to all sides point down.
 void look_at_legs(const RobotSpec& robot, std::vector<std::string>& odd) {
   const auto poses = robot::start_poses(robot);
   Vec3 sum{};
   double lengths_m = 0.0;
   for (const robot::Leg& leg : robot.legs) {
-    const auto first = std::ranges::find_if(leg.joints, [](int joint) { return joint >= 0; });
-    if (first == leg.joints.end()) continue;
-    const robot::Joint& joint = robot.joints[to_index(*first)];
+    const int hip = robot::hip_joint(robot, leg);
+    if (hip < 0) continue;
+    const robot::Joint& joint = robot.joints[to_index(hip)];
     const Vec3 along = robot::foot_m(robot, leg, poses) - poses[to_index(joint.body)] * joint.anchor_m;
     sum = sum + along;
     lengths_m += norm(along);
@@ -118,9 +130,9 @@ void look_at_legs(const RobotSpec& robot, std::vector<std::string>& odd) {
   constexpr double together = 0.3, steepness = 0.5;
   if (norm(sum) > together * lengths_m && sum.z > -steepness * norm(sum))
     odd.push_back(fmt::format(
-        "legs: they point along {}, not down: if the model has another axis up than z, turn its root "
-        "(MJCF: euler or quat of the body; URDF: the origin of the first joint)",
-        axis_of(sum)));
+        "legs: they point along {}, not down: if the model has another axis up than z, turn its root, in the "
+        "robot file by {}",
+        axis_of(sum), upright_line(robot, sum)));
 }
 
 /// From the foot up the chain, joint by joint.
@@ -256,6 +268,13 @@ std::vector<std::string> odd_at_start(const RobotSpec& robot, const std::string&
   std::vector<std::string> odd;
   if (const auto fault = robot::gravity_fault(robot.gravity_m_s2); !fault.empty()) odd.push_back(fault);
   look_at_mass(robot, odd);
+  const std::vector<std::string> pose = odd_pose(robot, engine, timestep_s);
+  odd.insert(odd.end(), pose.begin(), pose.end());
+  return odd;
+}
+
+std::vector<std::string> odd_pose(const RobotSpec& robot, const std::string& engine, double timestep_s) {
+  std::vector<std::string> odd;
   look_at_legs(robot, odd);
   if (!robot.legs.empty()) Hold(robot, engine, timestep_s).look(odd);
   return odd;

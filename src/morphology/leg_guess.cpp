@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -17,24 +18,36 @@
 namespace amble::morphology {
 namespace {
 
-/// A chain ends near the ground if no higher than this share of the height of the centre of mass.
-constexpr double near_ground = 0.25;
-
 bool contains(const std::vector<std::string>& words, const std::string& word) {
   return std::ranges::find(words, word) != words.end();
 }
 
-class LegFinder {
+class LegNamer {
  public:
-  explicit LegFinder(const ModelParts& parts) : parts_(parts) {
+  explicit LegNamer(const ModelParts& parts) : parts_(parts) {
     robot_.bodies = parts.bodies;
     robot_.geoms = parts.geoms;
     robot_.joints = parts.joints;
     poses_ = robot::start_poses(robot_);
   }
 
-  LegsGuess find() {
-    find_chains();
+  LegsGuess name(const LegChoice& choice) {
+    const std::vector<Limb> limbs = find_limbs(parts_);
+    for (const int l : choice.limbs) {
+      const Limb& limb = limbs[to_index(l)];
+      LegGuess leg{.name = {},
+                   .limb = l,
+                   .joints = {},
+                   .foot_geom = foot_geom(parts_, limb, poses_),
+                   .foot_geoms = {},
+                   .joint_of_type = {}};
+      std::ranges::copy_if(limb.joints, std::back_inserter(leg.joints),
+                           [&](int j) { return parts_.drives[to_index(j)] == Drive::motor; });
+      if (leg.joints.empty()) continue;
+      leg.foot_geoms = foot_shapes(parts_, poses_, leg.joints, leg.foot_geom);
+      guess_.legs.push_back(std::move(leg));
+    }
+    guess_.why_legs = choice.why;
     if (!guess_.legs.empty()) {
       name_legs();
       name_types();
@@ -49,54 +62,6 @@ class LegFinder {
   }
 
  private:
-  int count() const { return static_cast<int>(parts_.bodies.size()); }
-
-  /// The lowest colliding geom of a body, or −1.
-  int lowest_geom(int body) const {
-    int lowest = -1;
-    for (int g = 0; g < static_cast<int>(parts_.geoms.size()); ++g) {
-      const robot::Geom& geom = parts_.geoms[to_index(g)];
-      if (geom.body == body && geom.collides && (lowest < 0 || bottom_m(g) < bottom_m(lowest) - 1e-9))
-        lowest = g;
-    }
-    return lowest;
-  }
-  double bottom_m(int geom) const { return robot::bottom_m(parts_.geoms[to_index(geom)], poses_); }
-
-  void find_chains() {
-    std::vector<int> children(to_index(count()), 0), ends(to_index(count()), 0);
-    for (int b = 1; b < count(); ++b) ++children[to_index(parts_.bodies[to_index(b)].parent)];
-    const double floor_m = robot::clearance_m(robot_, poses_);
-    const double limit_m = floor_m + near_ground * (robot::start_com_m(robot_).z - floor_m);
-    std::map<int, int> feet;  // by last body
-    for (int b = 1; b < count(); ++b) {
-      if (children[to_index(b)] > 0) continue;
-      int at = b, foot = lowest_geom(b);
-      while (foot < 0 && at > 0 && children[to_index(parts_.bodies[to_index(at)].parent)] == 1) {
-        at = parts_.bodies[to_index(at)].parent;
-        if (at > 0) foot = lowest_geom(at);
-      }
-      if (foot < 0 || at == 0 || bottom_m(foot) > limit_m) continue;
-      feet[b] = foot;
-      for (int up = b; up >= 0; up = parts_.bodies[to_index(up)].parent) ++ends[to_index(up)];
-    }
-    for (const auto& [last, foot] : feet) {
-      LegGuess leg;
-      leg.foot_geom = foot;
-      std::vector<int> chain;
-      for (int b = last; b > 0 && ends[to_index(b)] == 1; b = parts_.bodies[to_index(b)].parent)
-        chain.insert(chain.begin(), b);
-      for (const int b : chain)
-        for (const int j : robot_.joints_of_body(b))
-          if (parts_.drives[to_index(j)] == Drive::motor) leg.joints.push_back(j);
-      if (leg.joints.empty()) continue;
-      leg.foot_geoms = foot_shapes(parts_, poses_, leg.joints, foot);
-      guess_.legs.push_back(std::move(leg));
-    }
-    guess_.why_legs = fmt::format("chains of bodies whose end is at most {:.3g} m above the lowest point",
-                                  limit_m - floor_m);
-  }
-
   const std::string& joint_name(int j) const { return parts_.joints[to_index(j)].name; }
 
   /// Words that all joints of a leg share, and not all joints of all legs.
@@ -341,20 +306,21 @@ std::vector<std::string> words_of(const std::string& name, bool digits_apart) {
   return words;
 }
 
-LegsGuess guess_legs(const ModelParts& parts) {
-  return LegFinder(parts).find();
+LegsGuess guess_legs(const ModelParts& parts, const LegChoice& choice) {
+  return LegNamer(parts).name(choice);
 }
 
-LegsGuess guess_driven_legs(ModelParts& parts) {
-  LegsGuess own = guess_legs(parts);
-  if (std::ranges::count(parts.drives, Drive::motor) == std::ssize(parts.drives)) return own;
-  ModelParts with_motors = parts;
-  std::ranges::fill(with_motors.drives, Drive::motor);
-  LegsGuess all = guess_legs(with_motors);
-  if (2 * own.legs.size() >= all.legs.size()) return own;
-  parts = std::move(with_motors);
-  all.motors_added = true;
-  return all;
+LegsGuess guess_legs(const ModelParts& parts) {
+  return guess_legs(parts, choose_legs(parts, find_limbs(parts), LegSearch::by_ground));
+}
+
+bool lacks_motors(const ModelParts& parts, const LegChoice& choice) {
+  const std::vector<Limb> limbs = find_limbs(parts);
+  const auto driven = std::ranges::count_if(choice.limbs, [&](int l) {
+    return std::ranges::any_of(limbs[to_index(l)].joints,
+                               [&](int j) { return parts.drives[to_index(j)] == Drive::motor; });
+  });
+  return 2 * driven < std::ssize(choice.limbs);
 }
 
 }  // namespace amble::morphology

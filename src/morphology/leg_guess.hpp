@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "amble/morphology/leg_choice.hpp"
 #include "amble/morphology/model_parts.hpp"
 
 namespace amble::morphology {
@@ -10,9 +11,10 @@ namespace amble::morphology {
 /// What may be a leg of a robot.
 struct LegGuess {
   std::string name;
+  int limb = 0;                    ///< among find_limbs()
   std::vector<int> joints;         ///< with motors (Drive::motor), from the trunk outwards
   int foot_geom = 0;               ///< the lowest shape of its foot
-  std::vector<int> foot_geoms;     ///< all of them, from the lowest
+  std::vector<int> foot_geoms;     ///< all of them, from the lowest (foot_shapes())
   std::vector<int> joint_of_type;  ///< by joint type; −1: none
 };
 
@@ -22,20 +24,20 @@ struct LegsGuess {
   std::vector<int> held;                 ///< joints that belong to no leg
   std::vector<int> passive;              ///< joints that move freely (Drive::none), in a leg or not
   std::string why_legs, why_names, why_types;
-  bool motors_added = false;  ///< by guess_driven_legs()
+  bool motors_added = false;  ///< every joint was given one (lacks_motors())
 };
 
-/// Finds the legs of a robot in its start pose. A leg is a chain of bodies that ends without branches, and
-/// whose end is near the lowest point of the robot: no higher than a quarter of the height of its centre of
-/// mass. It begins where the chain parts from those of other legs, and has a joint with a motor. Its foot is
-/// the lowest geom that collides of its last body that has one, and what belongs to it (foot_shapes()). Legs
-/// and joint types are named by the words that the names of the model's joints share or differ in; where they
-/// say nothing, by place and by axis.
+/// Names the legs that were chosen among the limbs of a robot, those without a joint with a motor left out. A
+/// leg begins where its chain parts from the trunk; its foot is foot_geom() and what belongs to it
+/// (foot_shapes()). Legs and joint types are named by the words that the names of the model's joints share or
+/// differ in; where they say nothing, by place and by axis.
+LegsGuess guess_legs(const ModelParts& parts, const LegChoice& choice);
+/// The same of the legs that end near the ground in the start pose.
 LegsGuess guess_legs(const ModelParts& parts);
 
-/// The same; but of a model that names motors of so few joints that most of its legs would have none, the
-/// list is taken for incomplete: every joint gets a motor, in `parts`, too.
-LegsGuess guess_driven_legs(ModelParts& parts);
+/// Whether a model names motors of so few joints that most of these legs would have none: then the list is
+/// incomplete, and every joint has one.
+bool lacks_motors(const ModelParts& parts, const LegChoice& choice);
 
 /// The words of a name: "FR_hip_joint" and "FRHipJoint" and "fr-hip.joint" have three each, "leg1" has one
 /// and, with `digits_apart`, two.

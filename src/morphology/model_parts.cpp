@@ -27,8 +27,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Extracts the parts of one compiled model, step by step.
 class PartsExtractor {
  public:
-  PartsExtractor(const ModelFile& file, const ReadingOptions& options)
-      : file_(file), options_(options), model_(*file.model), start_(file, options) {}
+  PartsExtractor(const ModelFile& file, const ReadingOptions& options, const ModelParts* before)
+      : file_(file), options_(options), before_(before), model_(*file.model), start_(file, options) {}
 
   ModelParts extract() {
     parts_.notes = file_.notes;
@@ -186,7 +186,8 @@ class PartsExtractor {
   }
 
   robot::Pose pose_in_parent_group(int b) const {
-    const robot::Pose own = start_.pose_in_parent(b);
+    robot::Pose own = start_.pose_in_parent(b);
+    if (b == root_ && options_.start_rotation) own.rotation = *options_.start_rotation;
     return b == root_ ? own : pose_in_group_[to_index(model_.body_parentid[b])] * own;
   }
 
@@ -249,7 +250,8 @@ class PartsExtractor {
         (collides(g) ? unread_ : unseen_).push_back(what);
       return;
     }
-    auto shape = shape_of(model_, g, collides(g));
+    std::optional<robot::Geom> shape = shape_before(g);
+    if (!shape) shape = shape_of(model_, g, collides(g));
     if (!shape) {
       if (collides(g) && (type != mjGEOM_MESH || is_of_a_foot(model_, root_, g, file_.missing_meshes)))
         refuse("geom '{}': planes, height fields and flat meshes cannot collide", name_or_place(g));
@@ -280,6 +282,17 @@ class PartsExtractor {
     parts_.geoms.push_back(std::move(geom));
     parts_.model_geoms.push_back(g);
     parts_.welded_links.push_back(starts_group(b) ? -1 : b);
+  }
+
+  /// Of a mesh: the hull that was made before.
+  std::optional<robot::Geom> shape_before(int g) const {
+    if (before_ == nullptr || model_.geom_type[g] != mjGEOM_MESH) return std::nullopt;
+    const auto found = std::ranges::find(before_->model_geoms, g);
+    if (found == before_->model_geoms.end()) return std::nullopt;
+    const robot::Geom& geom =
+        before_->geoms[to_index(static_cast<int>(found - before_->model_geoms.begin()))];
+    if (geom.shape != robot::Shape::mesh) return std::nullopt;
+    return geom;
   }
 
   void finish() {
@@ -332,6 +345,7 @@ class PartsExtractor {
 
   const ModelFile& file_;
   const ReadingOptions& options_;
+  const ModelParts* before_;
   const mjModel& model_;
   StartPose start_;
   int root_ = 1;
@@ -347,8 +361,8 @@ class PartsExtractor {
 
 }  // namespace
 
-ModelParts extract_parts(const ModelFile& file, const ReadingOptions& options) {
-  return PartsExtractor(file, options).extract();
+ModelParts extract_parts(const ModelFile& file, const ReadingOptions& options, const ModelParts* before) {
+  return PartsExtractor(file, options, before).extract();
 }
 
 }  // namespace amble::morphology

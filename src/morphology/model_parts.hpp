@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct ReadingOptions {
   std::map<std::string, double> start_angles_rad =
       {};                                      ///< by joint, as the model counts; beside the keyframe
   std::vector<std::string> fixed_joints = {};  ///< welded at their start angle
+  std::optional<Quat> start_rotation = {};  ///< of the root in the world; none: as keyframe or model have it
 };
 
 /// The parts of a robot that a model file defines. Bodies that are fixed to their parent are one rigid body
@@ -43,6 +45,8 @@ inline constexpr std::size_t most_collision_vertices = 32, most_decoration_verti
 /// tendons, constraints that couple joints. Throws UserError for what amble cannot simulate: more than one
 /// robot, joints that are neither hinges nor fixed, closed loops, colliding planes and height fields; names
 /// of keyframes and joints that are not there.
-ModelParts extract_parts(const ModelFile& file, const ReadingOptions& options = {});
+/// `before`: parts of the same file in another pose, whose hulls of meshes are taken; none: they are made.
+ModelParts extract_parts(const ModelFile& file, const ReadingOptions& options = {},
+                         const ModelParts* before = nullptr);
 
 }  // namespace amble::morphology

@@ -233,9 +233,13 @@ void check_height(const std::string& what, const robot::RobotSpec& robot) {
 
 robot::RobotSpec load_robot(const std::filesystem::path& path, ReadingNotes* notes) {
   const SideFile side = read_side_file(path);
-  ModelParts parts = extract_parts(compile_model(side.model), {side.start, side.start_rad, side.fixed});
-  const std::string what = path.string();
+  return make_robot(side, compile_model(side.model), path.string(), notes);
+}
 
+robot::RobotSpec make_robot(const SideFile& side, const ModelFile& model, const std::string& what,
+                            ReadingNotes* notes, const ModelParts* before) {
+  ModelParts parts =
+      extract_parts(model, {side.start, side.start_rad, side.fixed, side.start_rotation}, before);
   robot::RobotSpec robot;
   robot.name = side.name;
   robot.joint_types = side.joint_types;

@@ -2,7 +2,10 @@
 
 #include <filesystem>
 
+#include "amble/morphology/model_file.hpp"
+#include "amble/morphology/model_parts.hpp"
 #include "amble/morphology/reading_notes.hpp"
+#include "amble/morphology/side_file.hpp"
 #include "amble/robot/spec.hpp"
 
 namespace amble::morphology {
@@ -14,5 +17,9 @@ namespace amble::morphology {
 /// stops and range of command, and a foot that starts below the ground. `notes`, if given, gets how the
 /// model's parts were handled.
 robot::RobotSpec load_robot(const std::filesystem::path& path, ReadingNotes* notes = nullptr);
+/// The same of what was read and compiled before; `what` is what messages call the robot file, `before` as of
+/// extract_parts().
+robot::RobotSpec make_robot(const SideFile& side, const ModelFile& model, const std::string& what,
+                            ReadingNotes* notes = nullptr, const ModelParts* before = nullptr);
 
 }  // namespace amble::morphology

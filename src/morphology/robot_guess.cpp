@@ -10,6 +10,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -30,8 +31,6 @@ namespace {
 
 /// A controller moves a joint no further than this from the start pose unless the file says so.
 constexpr double widest_command_rad = 0.8;
-/// How far inside its stops a joint starts whose angle in the model lies outside.
-constexpr double inside_stops_share = 0.2, most_inside_stops_rad = 0.4;
 /// Share of the trunk's clearance at the start that is left when a robot on more than four legs has fallen.
 constexpr double lying_share = 0.1;
 constexpr double paper_mass_kg = 5.4, paper_cfm_s_per_kg = 1e-4;
@@ -52,17 +51,22 @@ std::string list(const std::vector<std::string>& names) {
 
 class RobotGuesser {
  public:
-  RobotGuesser(const ModelFile& file, const std::filesystem::path& model) : file_(file), model_(model) {}
+  RobotGuesser(const ModelFile& file, const std::filesystem::path& model, const StartGuess& start,
+               const std::string& why_not)
+      : file_(file),
+        model_(model),
+        start_(start),
+        options_(start.options),
+        parts_(start.parts),
+        legs_(start.legs),
+        why_not_(why_not) {}
 
   RobotGuess guess() {
-    choose_start();
     if (const auto fault = robot::gravity_fault(parts_.gravity_m_s2); !fault.empty())
       fail(ExitCode::bad_input, "{}: {}", file_.path.string(), fault);
     robot_.bodies = parts_.bodies;
     robot_.geoms = parts_.geoms;
     robot_.joints = parts_.joints;
-    legs_ = guess_driven_legs(parts_);
-    weld_tiny_links();
     guess_.name = model_.stem().string();
     line("# Guessed from {} by `amble robot --init`: check each line. robots/README.md describes them.",
          model_.filename().string());
@@ -75,6 +79,7 @@ class RobotGuesser {
     write_commands();
     write_start_angles();
     write_contact();
+    guess_.settled = settled(start_, why_not_);
     return std::move(guess_);
   }
 
@@ -99,48 +104,6 @@ class RobotGuesser {
       at = end + 1;
     }
     line("{}", row);
-  }
-
-  /// The start pose: keyframe, joints that must be fixed, and angles where it is outside the stops.
-  void choose_start() {
-    const std::vector<std::string> names = keyframes(*file_.model);
-    for (const char* good : {"home", "stand", "standing", "init", "default"})
-      for (const std::string& name : names)
-        if (options_.start_keyframe.empty() && name == good) options_.start_keyframe = name;
-    if (options_.start_keyframe.empty())
-      for (const std::string& name : names)
-        if (options_.start_keyframe.empty()) options_.start_keyframe = name;
-    const mjModel& model = *file_.model;
-    for (int j = 0; j < model.njnt; ++j) {
-      const bool of_root = model.body_parentid[model.jnt_bodyid[j]] == 0;
-      const std::string name = model.names + model.name_jntadr[j];
-      if (!of_root && model.jnt_type[j] != mjJNT_HINGE && !name.empty())
-        options_.fixed_joints.push_back(name);
-    }
-    parts_ = extract_parts(file_, options_);
-    for (std::size_t j = 0; j < parts_.joints.size(); ++j) {
-      const robot::Joint& joint = parts_.joints[j];
-      const double lower = joint.lower_rad + parts_.start_rad[j],
-                   upper = joint.upper_rad + parts_.start_rad[j];
-      const double inside = std::min(inside_stops_share * (upper - lower), most_inside_stops_rad);
-      if (joint.lower_rad > 0.0 || joint.upper_rad < 0.0)
-        options_.start_angles_rad[joint.name] =
-            std::round(1e4 * (joint.lower_rad > 0.0 ? lower + inside : upper - inside)) / 1e4;
-    }
-    if (!options_.start_angles_rad.empty()) parts_ = extract_parts(file_, options_);
-  }
-
-  /// Links of next to nothing, which no motor can hold.
-  void weld_tiny_links() {
-    const std::vector<std::string> tiny = joints_of_tiny_links(parts_, legs_.held);
-    welds_tiny_ = !tiny.empty();
-    if (!welds_tiny_) return;
-    options_.fixed_joints.insert(options_.fixed_joints.end(), tiny.begin(), tiny.end());
-    parts_ = extract_parts(file_, options_);
-    robot_.bodies = parts_.bodies;
-    robot_.geoms = parts_.geoms;
-    robot_.joints = parts_.joints;
-    legs_ = guess_driven_legs(parts_);
   }
 
   void write_legs() {
@@ -173,8 +136,14 @@ class RobotGuesser {
       line("passive = {}", list(passive));
     }
     if (!options_.fixed_joints.empty()) {
-      line("{}", welds_tiny_ ? "# Neither hinges nor the root's, or links that weigh next to nothing: welded."
-                             : "# Neither hinges nor the root's: welded, amble has no such joints.");
+      if (options_.fixed_joints.size() > start_.joined.size() + start_.tiny.size())
+        line("# Neither hinges nor the root's: welded, amble has no such joints.");
+      if (!start_.tiny.empty())
+        comment(fmt::format("Links that weigh next to nothing, welded, as no motor could hold them: {}.",
+                            fmt::join(start_.tiny, ", ")));
+      if (!start_.joined.empty())
+        comment(fmt::format("Toes and levers within legs, welded, so that a foot is one part: {}.",
+                            fmt::join(start_.joined, ", ")));
       line("fixed = {}", list(options_.fixed_joints));
     }
   }
@@ -188,6 +157,7 @@ class RobotGuesser {
                : ", the first or the one whose name sounds like a start");
       line("start = {}", io::toml_quoted(options_.start_keyframe));
     }
+    write_rotation();
     const auto poses = robot::start_poses(robot_);
     const double clearance_m = robot::clearance_m(robot_, poses), root_m = robot_.bodies[0].position_m.z;
     const double raised_m = rounded_up(root_m - clearance_m);
@@ -377,13 +347,23 @@ class RobotGuesser {
       if (of_legs.contains(leg.name)) line("[command.{}]\n{}", key(leg.name), of_legs[leg.name]);
   }
 
+  void write_rotation() {
+    if (!options_.start_rotation) return;
+    comment(fmt::format(
+        "Of the root's frame: roll, pitch, yaw, degrees. The model's is turned, as {}; forward is +x.",
+        start_.turned));
+    const RollPitchYaw turn = roll_pitch_yaw(*options_.start_rotation);
+    const auto degrees = [](double rad) {
+      return std::round(1e4 * rad * 180.0 / std::numbers::pi) / 1e4 + 0.0;
+    };
+    line("start_rpy_deg = [{}, {}, {}]", degrees(turn.roll_rad), degrees(turn.pitch_rad),
+         degrees(turn.yaw_rad));
+  }
+
   void write_start_angles() {
     if (options_.start_angles_rad.empty()) return;
     line("");
-    comment(fmt::format(
-        "Rad as the model counts. Where the model itself starts outside the stops of a joint: {} of "
-        "the way from the nearer stop to the other, at most {} rad.",
-        inside_stops_share, most_inside_stops_rad));
+    comment(why_start_angles(start_, why_not_));
     line("[start_angle]");
     for (const auto& [name, angle] : options_.start_angles_rad) line("{} = {}", key(name), angle);
   }
@@ -403,18 +383,24 @@ class RobotGuesser {
 
   const ModelFile& file_;
   std::filesystem::path model_;
-  ReadingOptions options_;
-  ModelParts parts_;
+  const StartGuess& start_;
+  const ReadingOptions& options_;
+  const ModelParts& parts_;
+  const LegsGuess& legs_;
+  const std::string& why_not_;
   robot::RobotSpec robot_;
-  LegsGuess legs_;
-  bool welds_tiny_ = false;
   RobotGuess guess_;
 };
 
 }  // namespace
 
+RobotGuess guess_robot(const ModelFile& file, const std::filesystem::path& model, const StartGuess& start,
+                       const std::string& why_not) {
+  return RobotGuesser(file, model, start, why_not).guess();
+}
+
 RobotGuess guess_robot(const ModelFile& file, const std::filesystem::path& model) {
-  return RobotGuesser(file, model).guess();
+  return guess_robot(file, model, guess_start(file, start_plans(file).front()));
 }
 
 }  // namespace amble::morphology

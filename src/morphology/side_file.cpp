@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -56,8 +57,8 @@ std::string filled_in(std::string pattern, std::string_view leg, std::string_vie
 /// Reads one side file, table by table.
 class SideFileReader {
  public:
-  explicit SideFileReader(const std::filesystem::path& path)
-      : path_(path.string()), document_(io::TomlDocument::read(path)), reader_(document_.reader()) {}
+  SideFileReader(const std::filesystem::path& path, io::TomlDocument document)
+      : path_(path.string()), document_(std::move(document)), reader_(document_.reader()) {}
 
   SideFile read() {
     read_top();
@@ -96,6 +97,7 @@ class SideFileReader {
         {"joints without a motor, which move freely, with the model's spring, damping and friction"});
     reader_->texts("fixed", side_.fixed, {"joints that are welded at their start angle"});
     reader_->text("start", side_.start, {"keyframe of the MJCF that is the start pose"});
+    read_start_rotation();
     reader_->number("start_height_m", side_.root_height_m, {0.0, largest},
                     {"height of the root's frame in the start pose; 0: as the model has it"});
     reader_->number("fall_height_m", side_.fall_height_m, {-largest, largest},
@@ -122,6 +124,41 @@ class SideFileReader {
              leg);
       }
     }
+  }
+
+  void read_start_rotation() {
+    std::vector<double> rpy_deg, quaternion;
+    reader_->numbers(
+        "start_rpy_deg", rpy_deg, {-360.0, 360.0},
+        {"orientation of the root's frame in the start pose: roll, pitch and yaw about the world's x, "
+         "y and z, in this order, degrees; left out: as the model has it"});
+    reader_->numbers("start_quaternion", quaternion, {-largest, largest},
+                     {"the same as a quaternion (w, x, y, z)"});
+    const auto refuse = [this](const char* key, const char* expected) {
+      fail(ExitCode::bad_input, "{}: '{}': expected {}", document_.where(key), key, expected);
+    };
+    if (!rpy_deg.empty() && !quaternion.empty())
+      refuse("start_quaternion", "only one of it and 'start_rpy_deg'");
+    if (!rpy_deg.empty()) {
+      if (rpy_deg.size() != 3) refuse("start_rpy_deg", "[roll, pitch, yaw] in degrees");
+      side_.start_rotation = rotation_of(rpy_deg);
+    }
+    if (!quaternion.empty()) {
+      double squares = 0.0;
+      for (const double part : quaternion) squares += part * part;
+      if (quaternion.size() != 4 || !(squares > 0.0) || !std::isfinite(squares))
+        refuse("start_quaternion", "[w, x, y, z], not all 0");
+      const double to_unit = 1.0 / std::sqrt(squares);
+      side_.start_rotation = Quat{to_unit * quaternion[0], to_unit * quaternion[1], to_unit * quaternion[2],
+                                  to_unit * quaternion[3]};
+    }
+  }
+
+  static Quat rotation_of(const std::vector<double>& rpy_deg) {
+    constexpr double rad_per_deg = std::numbers::pi / 180.0;
+    const auto turn = [&](Vec3 axis, double deg) { return axis_angle(axis, rad_per_deg * deg); };
+    return turn({0.0, 0.0, 1.0}, rpy_deg[2]) * turn({0.0, 1.0, 0.0}, rpy_deg[1]) *
+           turn({1.0, 0.0, 0.0}, rpy_deg[0]);
   }
 
   void check_names(std::string_view key, const std::vector<std::string>& names) const {
@@ -274,7 +311,11 @@ SideFile read_side_file(const std::filesystem::path& path) {
     fail(ExitCode::bad_input,
          "{}: a robot is named by its TOML file, which names the model (robots/README.md)", path.string());
   }
-  return SideFileReader(path).read();
+  return SideFileReader(path, io::TomlDocument::read(path)).read();
+}
+
+SideFile parse_side_file(std::string_view text, const std::filesystem::path& name) {
+  return SideFileReader(name, io::TomlDocument::parse(text, name.string())).read();
 }
 
 }  // namespace amble::morphology

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "amble/robot/spec.hpp"
@@ -34,12 +35,15 @@ struct SideFile {
   std::string start;                        ///< keyframe; empty: the model's default pose
   std::map<std::string, double> start_rad;  ///< start angles by joint, as the model counts, beside `start`
   robot::Contact contact;
-  double root_height_m = 0.0;  ///< of the root's frame; 0: as the model has it
+  std::optional<Quat> start_rotation;  ///< of the root in the world; none: as the model has it
+  double root_height_m = 0.0;          ///< of the root's frame; 0: as the model has it
   double fall_height_m = 0.0;
   bool self_collision = false;
 };
 
 /// Throws UserError naming file, key, value and what was expected.
 SideFile read_side_file(const std::filesystem::path& path);
+/// The same of a text; `name` is what messages call it, and folders are relative to it.
+SideFile parse_side_file(std::string_view text, const std::filesystem::path& name);
 
 }  // namespace amble::morphology

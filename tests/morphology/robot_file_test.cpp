@@ -52,6 +52,43 @@ TEST(LoadRobot, RaisesTheRootToTheStartHeight) {
   EXPECT_NEAR(robot::start_clearance_m(robot, robot.legs[0].foot_geoms[0]), 0.0, 1e-15);
 }
 
+TEST(LoadRobot, TurnsTheRootByAnglesOrAQuaternion) {
+  const Files files;
+  const std::string name = "name = \"one leg\"\n";
+  const auto forward = [&](const std::string& line) {
+    const auto robot = load_one_leg(files, one_leg_xml, with(one_leg_toml, name, name + line + "\n"));
+    return rotate(robot.bodies[0].rotation, Vec3{1.0, 0.0, 0.0});
+  };
+  const auto expect = [](Vec3 is, Vec3 expected) { EXPECT_LT(norm(is - expected), 1e-12); };
+  expect(forward("start_rpy_deg = [0, 0, -90]"), {0.0, -1.0, 0.0});
+  expect(forward("start_rpy_deg = [0, 0, 180]"), {-1.0, 0.0, 0.0});
+  // About the world's axes in this order: x, which leaves it, y, then z.
+  expect(forward("start_rpy_deg = [30, 0, 90]"), {0.0, 1.0, 0.0});
+  const auto tilted =
+      load_one_leg(files, one_leg_xml, with(one_leg_toml, name, name + "start_rpy_deg = [30, 0, 0]\n"));
+  const Vec3 up = rotate(tilted.bodies[0].rotation, Vec3{0.0, 0.0, 1.0});
+  expect(up, {0.0, -0.5, std::sqrt(0.75)});
+  // Of any length.
+  expect(forward("start_quaternion = [2, 0, 0, 2]"), {0.0, 1.0, 0.0});
+  EXPECT_EQ(load_one_leg(files).bodies[0].rotation, Quat{});
+}
+
+TEST(LoadRobot, RefusesARotationThatIsNone) {
+  const Files files;
+  const std::string name = "name = \"one leg\"\n";
+  const auto error = [&](const std::string& lines) {
+    return files.error_of(
+        [&] { load_one_leg(files, one_leg_xml, with(one_leg_toml, name, name + lines + "\n")); });
+  };
+  EXPECT_EQ(error("start_rpy_deg = [0, 90]"),
+            "one_leg.toml:2: 'start_rpy_deg': expected [roll, pitch, yaw] in degrees");
+  for (const char* numbers : {"[0, 0, 0, 0]", "[1, 0, 0]"})
+    EXPECT_EQ(error(fmt::format("start_quaternion = {}", numbers)),
+              "one_leg.toml:2: 'start_quaternion': expected [w, x, y, z], not all 0");
+  EXPECT_EQ(error("start_rpy_deg = [0, 0, 0]\nstart_quaternion = [1, 0, 0, 0]"),
+            "one_leg.toml:3: 'start_quaternion': expected only one of it and 'start_rpy_deg'");
+}
+
 TEST(LoadRobot, RefusesWhereModelAndSideFileDisagree) {
   const Files files;
   const auto error_of = [&](std::string_view from, std::string_view to) {
