@@ -222,7 +222,7 @@ steps), referees (the same by engine).)")
            py::arg("record") = py::none(),
            R"(Walks again, without noise; as in its evolution unless an argument says otherwise.
 
-seconds: length, s. engine: "ode", "batch" or "mujoco". record: path of a recording to write.
+seconds: length, s. engine: "ode", "batch", "mujoco" or "mujoco-model". record: path of a recording to write.
 Returns a dict: outcome, distance_m, score, seconds, steps, events (of the controller, by name).)")
       .def("typical", typical, py::arg("seconds") = py::none(), py::arg("engine") = py::none(),
            py::arg("level") = "", py::arg("trials") = 0, py::kw_only(), py::arg("jobs") = py::none(),

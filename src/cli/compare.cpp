@@ -24,8 +24,7 @@ constexpr std::array formats{"text", "markdown", "json"};
 struct Options {
   std::vector<std::filesystem::path> inputs;
   std::string format = formats[0];
-  presentation::CompareOptions how{
-      .engines = {physics::engine_names().begin(), physics::engine_names().end()}};
+  presentation::CompareOptions how;
 };
 
 std::vector<presentation::NamedChampion> load(const std::vector<std::filesystem::path>& inputs) {
@@ -65,10 +64,12 @@ void add_compare(CLI::App& app, Action& action) {
       ->delimiter(',')
       ->check(seconds_check());
   command
-      ->add_option("--engines", options->how.engines, "Engines besides the champions' own, e.g. ode,mujoco")
+      ->add_option(
+          "--engines", options->how.engines,
+          "Engines besides the champions' own, e.g. ode,mujoco (default: all; mujoco-model where the "
+          "robots carry their models)")
       ->delimiter(',')
-      ->type_name(engine_values())
-      ->capture_default_str();
+      ->type_name(engine_values());
   command->add_option("--format", options->format, "What to print: text, markdown or json")
       ->capture_default_str()
       ->check(CLI::IsMember(std::vector<std::string>(formats.begin(), formats.end())));

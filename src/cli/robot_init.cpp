@@ -109,12 +109,39 @@ std::string doubts_text(const std::vector<std::string>& doubts) {
   return text;
 }
 
+namespace {
+
+/// How the robot starts in its own model, and what of it the engine mujoco-model does otherwise.
+std::string original_model_text(const robot::RobotSpec& robot, const std::vector<std::string>& odd_anyway) {
+  constexpr const char* engine = "mujoco-model";
+  const double timestep_s = physics::EngineSettings{}.timestep_s;
+  try {
+    std::vector<std::string> lines = physics::original_model_notes(robot, timestep_s);
+    bool odd = false;
+    for (std::string& line : experiment::odd_at_start(robot, engine, timestep_s)) {
+      if (std::ranges::count(odd_anyway, line) > 0) continue;
+      lines.push_back(std::move(line));
+      odd = true;
+    }
+    if (!odd && !robot.legs.empty()) lines.emplace_back("held for a second in its start pose, it stands");
+    return fmt::format("in its own model, engine {}:\n  {}\n", engine, fmt::join(lines, "\n  "));
+  } catch (const UserError& error) {
+    return fmt::format("{}\n", error.what());
+  }
+}
+
+}  // namespace
+
 std::string start_text(const robot::RobotSpec& robot) {
   const auto odd = experiment::odd_at_start(robot, experiment::fastest_engine(robot).engine,
                                             physics::EngineSettings{}.timestep_s);
-  if (odd.empty() && robot.legs.empty()) return "";
-  if (odd.empty()) return "start: held for a second in its start pose, it stands\n";
-  return fmt::format("look at its start before you evolve:\n  {}\n", fmt::join(odd, "\n  "));
+  std::string text;
+  if (!odd.empty())
+    text = fmt::format("look at its start before you evolve:\n  {}\n", fmt::join(odd, "\n  "));
+  else if (!robot.legs.empty())
+    text = "start: held for a second in its start pose, it stands\n";
+  if (robot.original) text += original_model_text(robot, odd);
+  return text;
 }
 
 ExitCode init_robot(const fs::path& model, fs::path folder) {

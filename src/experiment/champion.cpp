@@ -13,6 +13,7 @@
 #include "amble/io/file.hpp"
 #include "amble/neat/genome_json.hpp"
 #include "amble/robot/json.hpp"
+#include "amble/robot/original_model.hpp"
 #include "amble/score/score.hpp"
 
 namespace amble::experiment {
@@ -126,6 +127,8 @@ Problem parse_problem(const io::JsonView& root) {
       .ground = {},
       .damage = {},
       .architecture = nullptr};
+  if (root.has("original_model"))
+    problem.robot.original = robot::original_model_from_json(root.at("original_model"), problem.robot);
   if (root.has("noise"))
     problem.noise = io::settings_from_json<trial::NoiseSettings>(root.at("noise").at("settings"));
   if (root.has("score")) problem.score = io::settings_from_json<score::Settings>(root.at("score"));
@@ -194,6 +197,8 @@ std::string champion_text(const Champion& champion) {
                     {"generation", champion.generation},      {"index", champion.index},
                     {"result", result_json(champion.result)}, {"genome", neat::to_json(champion.genome)}};
   document.update(problem_json(champion.problem));
+  if (champion.problem.robot.original)
+    document["original_model"] = robot::to_json(*champion.problem.robot.original);
   document["trace"] = trace_text(champion.trace);
   if (!champion.episodes.empty()) document["noise"] = noise_json(champion);
   if (champion.draw == Draw::once) document["draw"] = draw_names[to_index(champion.draw)];

@@ -60,7 +60,7 @@ class RobotMaker {
     const std::vector<morphology::StartPlan> plans = morphology::start_plans(model_file_);
     Try own = attempt(plans.front());
     before_ = &own.start.parts;
-    if (is_good(own)) return std::move(own.made);
+    if (is_good(own)) return with_model(own, {});
     const std::string& keyframe = plans.front().keyframe;
     const std::string why_not =
         (keyframe.empty() ? "" : fmt::format("in its keyframe '{}' ", keyframe)) + reasons(own.faults.lines);
@@ -69,12 +69,23 @@ class RobotMaker {
       Try next = attempt(plans[p]);
       if (worth_a_look(next) && (!best || next.faults.sum < best->faults.sum)) best = std::move(next);
     }
-    if (!best || best->faults.sum >= own.faults.sum) return std::move(own.made);
-    best->made.guess = morphology::guess_robot(model_file_, model_, best->start, why_not);
-    return std::move(best->made);
+    if (!best || best->faults.sum >= own.faults.sum) return with_model(own, {});
+    return with_model(*best, why_not);
   }
 
  private:
+  /// What was chosen, carrying its model if it can.
+  NewRobot with_model(Try& chosen, const std::string& why_not) const {
+    NewRobot& made = chosen.made;
+    std::vector<std::string> asked = std::move(made.guess.asked);
+    made.guess = morphology::guess_robot(model_file_, model_, chosen.start, why_not, true);
+    made.guess.asked = std::move(asked);
+    if (made.robot)
+      made.robot = morphology::make_robot(morphology::parse_side_file(made.guess.toml, file_), model_file_,
+                                          file_.string(), &made.notes, &chosen.start.parts);
+    return std::move(made);
+  }
+
   /// On one or two legs a robot whose joints are only held falls sooner or later, wherever it starts.
   static bool is_good(const Try& own) {
     const bool falls_anyway = own.made.robot && own.made.robot->legs.size() <= 2 && own.faults.lies == 0 &&

@@ -14,6 +14,7 @@
 #include "amble/physics/damaged_engine.hpp"
 #include "amble/robot/check.hpp"
 #include "amble/robot/json.hpp"
+#include "amble/robot/original_model.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::experiment {
@@ -69,8 +70,9 @@ void Problem::complete() {
 
 std::unique_ptr<physics::Engine> Problem::make_engine(bool torques) const {
   const bool needed = torques || scorer().measures().energy;
-  return physics::make_damaged_engine(engine, robot, damage,
-                                      {.timestep_s = trial.timestep_s, .torques = needed});
+  return physics::make_damaged_engine(
+      engine, robot, damage,
+      {.timestep_s = trial.timestep_s, .torques = needed, .ground_friction = ground.friction});
 }
 
 std::unique_ptr<controllers::Parameters> Problem::decode(const neat::Genome& genome) const {
@@ -171,7 +173,11 @@ robot::RobotSpec load_robot_file(const std::filesystem::path& path, morphology::
 
 robot::RobotSpec robot_from_text(const std::string& text, const std::string& what) {
   const auto sealed = io::unseal_json("amble-robot", robot_version, text, what);
-  return robot::from_json(io::JsonView(sealed.document, what).at("robot"));
+  const io::JsonView root(sealed.document, what);
+  robot::RobotSpec robot = robot::from_json(root.at("robot"));
+  if (root.has("original_model"))
+    robot.original = robot::original_model_from_json(root.at("original_model"), robot);
+  return robot;
 }
 
 robot::RobotSpec load_robot(const Config& config) {
@@ -184,7 +190,9 @@ robot::RobotSpec load_robot(const Config& config) {
 }
 
 std::string robot_file_text(const robot::RobotSpec& robot) {
-  return io::sealed_json("amble-robot", robot_version, {{"robot", robot::to_json(robot)}});
+  io::Json document{{"robot", robot::to_json(robot)}};
+  if (robot.original) document["original_model"] = robot::to_json(*robot.original);
+  return io::sealed_json("amble-robot", robot_version, document);
 }
 
 }  // namespace amble::experiment

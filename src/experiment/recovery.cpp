@@ -9,6 +9,7 @@
 #include "amble/experiment/run_table.hpp"
 #include "amble/io/file.hpp"
 #include "amble/robot/json.hpp"
+#include "amble/robot/original_model.hpp"
 
 namespace amble::experiment {
 namespace {
@@ -44,7 +45,8 @@ void check_best(const RunPaths& paths, const Config& config, const Problem& prob
     fail(ExitCode::bad_file, "{}: not the champion that the run had there: that reached {}, this one {}",
          file.string(), score::with_unit(fmt::format("{}", progress.best), config.score),
          score::with_unit(fmt::format("{}", best.objective()), config.score));
-  if (robot::to_json(best.problem.robot) != robot::to_json(problem.robot))
+  if (robot::to_json(best.problem.robot) != robot::to_json(problem.robot) ||
+      !robot::same_original_model(best.problem.robot, problem.robot))
     fail(ExitCode::bad_file,
          "{}: not the robot that the run had: {} walked with another one. Put back a copy of the file; "
          "nothing "

@@ -80,9 +80,14 @@ class MjcfCleaner {
       if (section.name == "worldbody") in_bodies(in_bodies, section, "");
       if (section.name != "actuator") continue;
       for (const XmlElement& actuator : section.children)
-        if (actuator.name == "position")
+        if (actuator.name == "position") {
+          const std::string joint = actuator.attribute_or("joint", "");
           if (const double kv = positive_or_zero(defaults.attribute(actuator, "kv", "")); kv > 0.0)
-            text_.motors[actuator.attribute_or("joint", "")].kv_nm_s_per_rad = kv;
+            text_.motors[joint].kv_nm_s_per_rad = kv;
+          if (const double ratio = positive_or_zero(defaults.attribute(actuator, "dampratio", ""));
+              ratio > 0.0)
+            text_.motors[joint].damping_ratio = ratio;
+        }
     }
   }
 
@@ -114,6 +119,8 @@ class MjcfCleaner {
         notes_.add(Reading::left_out,
                    fmt::format("geom '{}' of {}", element.attribute_or("name", ""), height_fields));
       if (!why.empty()) notes_.add(Reading::left_out, std::string(why));
+      if (&parent == &root_ && (element.name == "size" || element.name == "statistic"))
+        text_.aside.push_back(element);
       return hilly || !why.empty();
     };
     root_.prune(unwanted);

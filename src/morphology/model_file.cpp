@@ -78,6 +78,8 @@ class Compiler {
   Compiler(ModelText& text, const std::filesystem::path& path, ReadingNotes& notes)
       : text_(text), path_(path), notes_(notes) {}
 
+  const std::vector<RemovedAttribute>& removed() const { return removed_; }
+
   ModelPointer compile() {
     for (int removals = 0;; ++removals) {
       written_ = write_xml(text_.root);
@@ -217,8 +219,10 @@ class Compiler {
                fmt::format("attribute '{}' of <{}>: {}", key, element_name,
                            meaning != meanings.end() ? meaning->second : "this MuJoCo does not know it"));
     text_.root.visit([&](XmlElement& element, XmlElement*) {
-      if (element.name == element_name && (value.empty() || element.attribute_or(key, "") == value))
-        element.remove_attribute(key);
+      const auto own = element.attribute(key);
+      if (element.name != element_name || !own || (!value.empty() && *own != value)) return;
+      removed_.push_back({element_name, key, *own});
+      element.remove_attribute(key);
     });
   }
 
@@ -247,6 +251,7 @@ class Compiler {
   const std::filesystem::path& path_;
   ReadingNotes& notes_;
   XmlText written_;
+  std::vector<RemovedAttribute> removed_;
 };
 
 }  // namespace
@@ -260,12 +265,17 @@ ModelFile compile_model(const std::filesystem::path& path) try {
   compiled.path = path;
   ModelText text = read_model_text(path, compiled.notes);
   compiled.root_is_welded = text.urdf;
-  compiled.model = Compiler(text, path, compiled.notes).compile();
+  Compiler compiler(text, path, compiled.notes);
+  compiled.model = compiler.compile();
   mend_masses(*compiled.model, text.missing_masses, text.missing_meshes, compiled.notes);
   compiled.motors = std::move(text.motors);
   compiled.motors_named = std::move(text.motors_named);
   compiled.mimics = std::move(text.mimics);
   compiled.missing_meshes = std::move(text.missing_meshes);
+  compiled.text = std::move(text.root);
+  compiled.aside = std::move(text.aside);
+  compiled.removed = compiler.removed();
+  compiled.meshes = text.meshes.files();
   return compiled;
 } catch (const std::filesystem::filesystem_error& error) {
   fail(ExitCode::io, "{}: while the model was read: {}", path.string(), error.what());
@@ -275,9 +285,11 @@ ModelFile compile_model(const std::filesystem::path& path) try {
   fail(ExitCode::bad_input, "{}: while the model was read: {}", path.string(), error.what());
 }
 
-ModelPointer compile_mjcf(const std::string& text, const std::string& what) {
+ModelPointer compile_mjcf(const std::string& text, const std::string& what,
+                          const std::map<std::string, std::string>& meshes) {
   MemoryFiles files;
   files.add("model.xml", text, what);
+  for (const auto& [name, bytes] : meshes) files.add(name, bytes, what);
   std::string problem;
   ModelPointer model = try_to_load("model.xml", files.get(), problem);
   if (model == nullptr) fail(ExitCode::bad_input, "{}: MuJoCo refuses the model: {}", what, problem);

@@ -21,6 +21,11 @@ struct DeleteModel {
 
 using ModelPointer = std::unique_ptr<mjModel_, DeleteModel>;
 
+/// An attribute that this MuJoCo does not know, and the element's name.
+struct RemovedAttribute {
+  std::string element, key, value;
+};
+
 /// A robot's model, compiled by MuJoCo.
 struct ModelFile {
   ModelPointer model;
@@ -31,6 +36,11 @@ struct ModelFile {
   std::vector<std::pair<std::string, std::string>> mimics = {};  ///< ModelText::mimics
   std::map<std::string, std::string> missing_meshes = {};        ///< name → file
   ReadingNotes notes = {};
+  /// What was compiled, what of it was set aside (ModelText::aside), and what had to be removed.
+  XmlElement text = {};
+  std::vector<XmlElement> aside = {};
+  std::vector<RemovedAttribute> removed = {};
+  std::map<std::string, MeshStore::Bytes> meshes = {};  ///< that the text names
 };
 
 /// Compiles MJCF (.xml, .mjcf) or URDF (.urdf). Attributes and elements that this MuJoCo does not know, since
@@ -38,8 +48,9 @@ struct ModelFile {
 /// UserError: missing file (ExitCode::io), see read_model_text(), or the compiler's own message in one line.
 ModelFile compile_model(const std::filesystem::path& path);
 
-/// Compiles the text of an MJCF model that refers to no other files. Throws UserError with the compiler's
-/// message in one line, after `what`.
-ModelPointer compile_mjcf(const std::string& text, const std::string& what);
+/// Compiles the text of an MJCF model that refers to no other files than `meshes` (name → bytes). Throws
+/// UserError with the compiler's message in one line, after `what`.
+ModelPointer compile_mjcf(const std::string& text, const std::string& what,
+                          const std::map<std::string, std::string>& meshes = {});
 
 }  // namespace amble::morphology

@@ -19,6 +19,7 @@ struct MotorHint {
   double max_torque_nm = 0.0;    ///< URDF <limit effort>, MJCF actuatorfrcrange; 0: not given
   double max_speed_rad_s = 0.0;  ///< URDF <limit velocity>; 0: not given
   double kv_nm_s_per_rad = 0.0;  ///< MJCF <position kv>; 0: not given
+  double damping_ratio = 0.0;    ///< MJCF <position dampratio>, in place of kv; 0: not given
 };
 
 /// A model file as a tree, made such that MuJoCo 2.2 reads what matters to a robot.
@@ -28,13 +29,16 @@ struct ModelText {
   std::map<std::string, MotorHint> motors = {};  ///< by joint
   /// Joints of a URDF that a <transmission> or <ros2_control> names as driven.
   std::set<std::string> motors_named = {};
-  std::vector<std::pair<std::string, std::string>> mimics = {};  ///< of a URDF: a joint and the one it follows
-  MeshStore meshes = {};                         ///< the files that the tree names
+  std::vector<std::pair<std::string, std::string>> mimics =
+      {};                 ///< of a URDF: a joint and the one it follows
+  MeshStore meshes = {};  ///< the files that the tree names
   std::map<std::string, std::string> mesh_files =
       {};  ///< by MuJoCo's name of a mesh: the file as the model names it
   /// Meshes that could not be read, in whose place a small tetrahedron is.
   std::map<std::string, std::string> missing_meshes = {};  ///< name → file and reason
   MissingMasses missing_masses = {};
+  /// Sections <size> and <statistic>, which are removed, as MuJoCo's own simulation depends on them.
+  std::vector<XmlElement> aside = {};
 };
 
 /// Puts a mesh into the store, and its name there under `key` of the element; `path` is empty if there is no

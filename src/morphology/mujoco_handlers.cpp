@@ -29,4 +29,10 @@ ScopedMujocoHandlers::~ScopedMujocoHandlers() {
   mju_user_warning = warning_;
 }
 
+void keep_mujoco_quiet() {
+  const std::lock_guard lock(handler_mutex());
+  if (mju_user_error == nullptr) mju_user_error = throw_error;
+  if (mju_user_warning == nullptr) mju_user_warning = ignore_warning;
+}
+
 }  // namespace amble::morphology

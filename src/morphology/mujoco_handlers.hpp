@@ -27,4 +27,8 @@ class ScopedMujocoHandlers {
   void (*warning_)(const char*);
 };
 
+/// From now on in this process, unless somebody has handlers of his own: errors throw MujocoError, warnings
+/// are dropped. For code that steps models of strangers in many threads.
+void keep_mujoco_quiet();
+
 }  // namespace amble::morphology

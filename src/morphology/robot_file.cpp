@@ -12,6 +12,7 @@
 #include "amble/core/index.hpp"
 #include "amble/morphology/model_file.hpp"
 #include "amble/morphology/model_parts.hpp"
+#include "amble/morphology/original_model.hpp"
 #include "amble/morphology/side_file.hpp"
 #include "amble/robot/check.hpp"
 #include "amble/robot/pose.hpp"
@@ -238,13 +239,14 @@ robot::RobotSpec load_robot(const std::filesystem::path& path, ReadingNotes* not
 
 robot::RobotSpec make_robot(const SideFile& side, const ModelFile& model, const std::string& what,
                             ReadingNotes* notes, const ModelParts* before) {
-  ModelParts parts =
-      extract_parts(model, {side.start, side.start_rad, side.fixed, side.start_rotation}, before);
+  const ReadingOptions options{side.start, side.start_rad, side.fixed, side.start_rotation};
+  ModelParts parts = extract_parts(model, options, before);
   robot::RobotSpec robot;
   robot.name = side.name;
   robot.joint_types = side.joint_types;
   JointOrder order(what, side, parts, robot);
   order.add();
+  if (side.keep_model) robot.original = keep_model(model, options, parts, robot, parts.notes);
   robot.bodies = std::move(parts.bodies);
   robot.geoms = std::move(parts.geoms);
   if (side.root_height_m > 0.0) robot.bodies[0].position_m.z = side.root_height_m;

@@ -20,6 +20,7 @@
 #include "amble/morphology/foot_shapes.hpp"
 #include "amble/morphology/leg_guess.hpp"
 #include "amble/morphology/odd_joints.hpp"
+#include "amble/morphology/original_model.hpp"
 #include "amble/morphology/rounding.hpp"
 #include "amble/morphology/servo_guess.hpp"
 #include "amble/morphology/start_pose.hpp"
@@ -61,7 +62,7 @@ class RobotGuesser {
         legs_(start.legs),
         why_not_(why_not) {}
 
-  RobotGuess guess() {
+  RobotGuess guess(bool keep) {
     if (const auto fault = robot::gravity_fault(parts_.gravity_m_s2); !fault.empty())
       fail(ExitCode::bad_input, "{}: {}", file_.path.string(), fault);
     robot_.bodies = parts_.bodies;
@@ -74,6 +75,7 @@ class RobotGuesser {
     line("model = {}\n", io::toml_quoted(model_.generic_string()));
     write_legs();
     write_poses();
+    if (keep) guess_.toml += keeping_lines(file_, options_, parts_, robot_);
     write_names();
     write_servos();
     write_commands();
@@ -395,12 +397,12 @@ class RobotGuesser {
 }  // namespace
 
 RobotGuess guess_robot(const ModelFile& file, const std::filesystem::path& model, const StartGuess& start,
-                       const std::string& why_not) {
-  return RobotGuesser(file, model, start, why_not).guess();
+                       const std::string& why_not, bool keep) {
+  return RobotGuesser(file, model, start, why_not).guess(keep);
 }
 
-RobotGuess guess_robot(const ModelFile& file, const std::filesystem::path& model) {
-  return guess_robot(file, model, guess_start(file, start_plans(file).front()));
+RobotGuess guess_robot(const ModelFile& file, const std::filesystem::path& model, bool keep) {
+  return guess_robot(file, model, guess_start(file, start_plans(file).front()), {}, keep);
 }
 
 }  // namespace amble::morphology

@@ -19,11 +19,11 @@ struct RobotGuess {
 };
 
 /// Guesses all that a robot file has to say of a model (robots/README.md). `model` is the model's path as the
-/// file will name it; `why_not`: what speaks against the model's own start where the plan is another. Throws
-/// UserError as extract_parts().
+/// file will name it; `why_not`: what speaks against the model's own start where the plan is another. With
+/// `keep` the robot is to carry its model, if it can (keep_model()). Throws UserError as extract_parts().
 RobotGuess guess_robot(const ModelFile& file, const std::filesystem::path& model, const StartGuess& start,
-                       const std::string& why_not = {});
+                       const std::string& why_not = {}, bool keep = false);
 /// The same with the first of start_plans().
-RobotGuess guess_robot(const ModelFile& file, const std::filesystem::path& model);
+RobotGuess guess_robot(const ModelFile& file, const std::filesystem::path& model, bool keep = false);
 
 }  // namespace amble::morphology

@@ -104,6 +104,8 @@ class SideFileReader {
                     {"the robot has fallen when the root's centre of mass is lower"});
     reader_->flag("self_collision", side_.self_collision,
                   {"whether bodies that no joint links collide with each other"});
+    reader_->flag("keep_model", side_.keep_model,
+                  {"whether robot.json and champions carry the MJCF itself, for the engine mujoco-model"});
     if (model.empty()) missing("model", "the path of an MJCF or URDF file");
     side_.model = document_.folder_of("model") / model;
     if (side_.name.empty()) side_.name = side_.model.stem().string();

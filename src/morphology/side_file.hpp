@@ -39,6 +39,7 @@ struct SideFile {
   double root_height_m = 0.0;          ///< of the root's frame; 0: as the model has it
   double fall_height_m = 0.0;
   bool self_collision = false;
+  bool keep_model = false;  ///< whether the robot carries the model itself, for the engine mujoco-model
 };
 
 /// Throws UserError naming file, key, value and what was expected.

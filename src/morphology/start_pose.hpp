@@ -17,6 +17,8 @@ class StartPose {
   /// Throws UserError: no such keyframe or joint.
   StartPose(const ModelFile& file, const ReadingOptions& options);
 
+  /// MuJoCo's qpos.
+  const std::vector<double>& positions() const { return positions_; }
   /// Of a joint with one degree of freedom, as the model counts.
   double angle_rad(int joint) const;
   /// Of a body's frame in its parent's; of a free body in the world.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "amble/core/check.hpp"
+#include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/damage/stages.hpp"
 #include "amble/robot/collision_points.hpp"
@@ -234,6 +235,10 @@ class DamagedEngine final : public Engine {
 std::unique_ptr<Engine> make_damaged_engine(std::string_view name, const robot::RobotSpec& robot,
                                             const damage::Settings& damage, const EngineSettings& settings) {
   if (!damage.changes_body()) return make_engine(name, robot, settings);
+  if (engine_traits(name).of_original_model)
+    fail(ExitCode::bad_input,
+         "the engine {} simulates the robot's own model, which is whole: of damages it knows numb feet alone",
+         name);
   return std::make_unique<DamagedEngine>(name, robot, damage, settings);
 }
 

@@ -11,6 +11,7 @@
 #include "amble/physics/batch/batch_engine.hpp"
 #include "amble/physics/batch/state_rows.hpp"
 #include "amble/physics/mujoco/mujoco_engine.hpp"
+#include "amble/physics/mujoco_model/mujoco_model_engine.hpp"
 #include "amble/physics/ode/ode_engine.hpp"
 
 namespace amble::physics {
@@ -31,6 +32,7 @@ constexpr std::array engines{
           return make_batch_engine(robot, settings);
         }},
     Row{"mujoco", {.lanes = 1}, make_mujoco_engine},
+    Row{"mujoco-model", {.lanes = 1, .of_original_model = true}, make_mujoco_model_engine},
 };
 
 constexpr std::array names = [] {

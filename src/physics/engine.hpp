@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -38,6 +39,10 @@ struct Motion {
 struct EngineSettings {
   double timestep_s = 0.01;
   bool torques = false;  ///< measure motor_torque_nm(); changes nothing else
+  /// Of the ground, which has then that of all contacts (RobotSpec::contact has it already); negative: none.
+  /// For engines that have friction of their own.
+  double ground_friction = -1.0;
+  bool uneven_ground = false;  ///< whether set_ground() is to be called; an engine may refuse it here
 };
 
 /// A robot that is faster has diverged: m/s or rad/s (Engine::healthy).
@@ -115,9 +120,15 @@ void check_engine_name(std::string_view name, std::string_view what = "");
 struct EngineTraits {
   int lanes = 1;                   ///< Engine::lanes()
   bool keeps_to_a_thread = false;  ///< only the thread that placed a robot may step it
+  /// It simulates RobotSpec::original, not the robot: only robots that carry one, and without damage.
+  bool of_original_model = false;
 };
 /// Throws UserError for an unknown name.
 EngineTraits engine_traits(std::string_view name);
+
+/// What a reader should know of how a robot's RobotSpec::original is simulated, in lines. Throws UserError as
+/// make_engine("mujoco-model").
+std::vector<std::string> original_model_notes(const robot::RobotSpec& robot, double timestep_s);
 
 /// Makes the engine of that name. Throws UserError for an unknown name or a robot that the engine cannot
 /// simulate.

@@ -14,14 +14,26 @@
 namespace amble::presentation {
 namespace {
 
+/// Engines of robots' own models are for those that carry one, intact.
+bool can_simulate(std::string_view engine, const experiment::Problem& problem) {
+  return !physics::engine_traits(engine).of_original_model ||
+         (problem.robot.original && !problem.damage.changes_body());
+}
+
 /// The requested engines and every champion's own, with which the others are compared.
 std::vector<std::string> engines_of(const std::vector<std::string>& requested,
                                     const std::vector<NamedChampion>& champions) {
   for (const auto& engine : requested) physics::check_engine_name(engine, "--engines: ");
   const auto wanted = [&](const std::string& name) {
-    return requested.empty() || std::ranges::count(requested, name) > 0 ||
-           std::ranges::any_of(
-               champions, [&](const NamedChampion& named) { return named.champion.problem.engine == name; });
+    const bool asked = requested.empty()
+                           ? std::ranges::all_of(champions,
+                                                 [&](const NamedChampion& named) {
+                                                   return can_simulate(name, named.champion.problem);
+                                                 })
+                           : std::ranges::count(requested, name) > 0;
+    return asked || std::ranges::any_of(champions, [&](const NamedChampion& named) {
+             return named.champion.problem.engine == name;
+           });
   };
   std::vector<std::string> engines;
   for (const auto& name : physics::engine_names())

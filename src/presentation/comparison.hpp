@@ -32,8 +32,9 @@ struct ComparedChampion {
 
 /// How champions are compared.
 struct CompareOptions {
-  std::vector<double> seconds = {};       ///< lengths of trials; none: as in each champion's evolution
-  std::vector<std::string> engines = {};  ///< besides the champions' own; none: all
+  std::vector<double> seconds = {};  ///< lengths of trials; none: as in each champion's evolution
+  std::vector<std::string> engines =
+      {};                        ///< besides the champions' own; none: all that can simulate the robots
   TrialChoice disturbance = {};  ///< `trials` 0: experiment::running_trials, the same in every engine
   /// In place of `disturbance.trials` so many episodes of an evaluation that evolution has not met.
   std::optional<std::uint32_t> episodes = {};

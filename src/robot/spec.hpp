@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,8 @@
 #include "amble/core/math.hpp"
 
 namespace amble::robot {
+
+struct OriginalModel;
 
 /// Shapes that engines can put into contact. `size_m` of a Geom means: sphere {radius, –, –}; capsule and
 /// cylinder {radius, half length of the straight part along the geom's z, –}; box {half extents}; mesh
@@ -145,6 +148,8 @@ struct RobotSpec {
   /// A trial ends as `fell` when the root's centre of mass is lower than this over the ground below it.
   double fall_height_m = 0.0;
   bool self_collision = false;
+  /// The MJCF itself, for the engine mujoco-model; null unless the robot file says keep_model = true.
+  std::shared_ptr<const OriginalModel> original = nullptr;
 
   double total_mass_kg() const;
   /// Number of joints that belong to legs: the first of `joints`.

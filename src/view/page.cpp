@@ -9,9 +9,9 @@
 #include "amble/core/index.hpp"
 #include "amble/graphics/style_sheet.hpp"
 #include "amble/ground/recorded.hpp"
+#include "amble/io/base64.hpp"
 #include "amble/io/xml.hpp"
 #include "amble/record/frame_codec.hpp"
-#include "amble/view/base64.hpp"
 #include "amble/view/packed_recording.hpp"
 #include "amble/view/page_template.hpp"
 
@@ -23,7 +23,7 @@ io::Json frames_json(const PackedFrames& frames) {
           {"first_s", frames.first_s},
           {"step_s", frames.step_s},
           {"count", frames.count},
-          {"data", base64(frames.bytes)}};
+          {"data", io::base64(frames.bytes)}};
 }
 
 /// The heights of uneven ground in units of 0.1 mm, which compress well: a column for each x, a row for each

@@ -89,7 +89,7 @@ TEST_F(NewRobotOf, QuadrupedsWhoseLegsAreElsewhereAtAngle0StandWithFeetBelowThei
     EXPECT_THAT(names_of(robot), ElementsAre("LF", "RF", "LH", "RH")) << what;
     EXPECT_LT(farthest_foot(robot), 0.05) << what;
     for (const robot::Leg& leg_of : robot.legs)
-      EXPECT_LT(robot::start_clearance_m(robot, leg_of.foot_geom), 0.002) << what;
+      EXPECT_LT(robot::start_clearance_m(robot, leg_of.foot_geoms.front()), 0.002) << what;
   }
 }
 
@@ -139,7 +139,7 @@ TEST_F(NewRobotOf, BipedsStandOnFlatFeetHoweverTheirKneesBend) {
     const robot::RobotSpec robot = standing(flat_footed_biped(leg), 2, what);
     const auto poses = robot::start_poses(robot);
     for (const robot::Leg& leg_of : robot.legs) {
-      const Quat foot = poses[to_index(robot.geoms[to_index(leg_of.foot_geom)].body)].rotation;
+      const Quat foot = poses[to_index(robot.geoms[to_index(leg_of.foot_geoms.front())].body)].rotation;
       EXPECT_GT(rotate(foot, Vec3{0.0, 0.0, 1.0}).z, 0.999) << what;
     }
   }
@@ -214,7 +214,7 @@ TEST_F(NewRobotOf, LegsThatDoNotMatchTheOthersStayLegs) {
     const robot::RobotSpec robot = standing(model, 4, what);
     EXPECT_EQ(robot.leg_joint_count(), 8u) << what;
     for (const robot::Leg& leg : robot.legs)
-      EXPECT_LT(robot::start_clearance_m(robot, leg.foot_geom), 0.02) << what << " " << leg.name;
+      EXPECT_LT(robot::start_clearance_m(robot, leg.foot_geoms.front()), 0.02) << what << " " << leg.name;
   }
 }
 

@@ -88,7 +88,7 @@ class EditedModel : public testing::TestWithParam<tests::SmallModel> {
     std::string problems;
     try {
       const ModelFile file = compile_model(path);
-      const RobotGuess guess = guess_robot(file, path.filename());
+      const RobotGuess guess = guess_robot(file, path.filename(), true);
       problems = Accounting(model, extract_parts(file)).problems();
       const auto toml = files_.write("m.toml", guess.toml);
       ++guessed_;

@@ -1,10 +1,10 @@
-#include "amble/view/base64.hpp"
+#include "amble/io/base64.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-namespace amble::view {
+namespace amble::io {
 namespace {
 
 TEST(Base64, EncodesTheExamplesOfRfc4648) {
@@ -44,8 +44,14 @@ TEST(Base64, GivesBackAnyBytes) {
     const std::string text = base64(bytes);
     EXPECT_EQ(text.size() % 4, 0u);
     EXPECT_EQ(slow_decoded(text), bytes);
+    EXPECT_EQ(from_base64(text), bytes);
   }
 }
 
+TEST(Base64, RefusesWhatItDoesNotWrite) {
+  for (const char* text : {"Zg", "Zg=", "Z===", "====", "Zg==Zg==", "Zh==", "Zm9=", "Zm 9", "Zm9-", "=Zg="})
+    EXPECT_EQ(from_base64(text), std::nullopt) << text;
+}
+
 }  // namespace
-}  // namespace amble::view
+}  // namespace amble::io
