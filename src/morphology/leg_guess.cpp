@@ -323,4 +323,23 @@ bool lacks_motors(const ModelParts& parts, const LegChoice& choice) {
   return 2 * driven < std::ssize(choice.limbs);
 }
 
+double longest_leg_m(const ModelParts& parts, const LegsGuess& legs) {
+  robot::RobotSpec robot;
+  robot.bodies = parts.bodies;
+  const auto poses = robot::start_poses(robot);
+  double longest = 0.0;
+  for (const LegGuess& leg : legs.legs) {
+    double length = 0.0;
+    Vec3 end = foot_centre_m(parts, leg.foot_geoms, poses);
+    for (auto j = leg.joints.rbegin(); j != leg.joints.rend(); ++j) {
+      const robot::Joint& joint = parts.joints[to_index(*j)];
+      const Vec3 anchor = poses[to_index(joint.body)] * joint.anchor_m;
+      length += norm(end - anchor);
+      end = anchor;
+    }
+    longest = std::max(longest, length);
+  }
+  return longest > 0.0 ? longest : 0.1;
+}
+
 }  // namespace amble::morphology

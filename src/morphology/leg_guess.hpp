@@ -39,6 +39,9 @@ LegsGuess guess_legs(const ModelParts& parts);
 /// incomplete, and every joint has one.
 bool lacks_motors(const ModelParts& parts, const LegChoice& choice);
 
+/// The longest way from a foot's centre along its joints to the trunk; 0.1 m without legs.
+double longest_leg_m(const ModelParts& parts, const LegsGuess& legs);
+
 /// The words of a name: "FR_hip_joint" and "FRHipJoint" and "fr-hip.joint" have three each, "leg1" has one
 /// and, with `digits_apart`, two.
 std::vector<std::string> words_of(const std::string& name, bool digits_apart = false);

@@ -223,24 +223,6 @@ class RobotGuesser {
     }
   }
 
-  /// Height of the highest joint of a leg over its foot's lowest point.
-  double leg_length_m() const {
-    const auto poses = robot::start_poses(robot_);
-    double longest = 0.0;
-    for (const LegGuess& leg : legs_.legs) {
-      double length = 0.0;
-      Vec3 end = foot_centre_m(parts_, leg.foot_geoms, poses);
-      for (auto j = leg.joints.rbegin(); j != leg.joints.rend(); ++j) {
-        const robot::Joint& joint = parts_.joints[to_index(*j)];
-        const Vec3 anchor = poses[to_index(joint.body)] * joint.anchor_m;
-        length += norm(end - anchor);
-        end = anchor;
-      }
-      longest = std::max(longest, length);
-    }
-    return longest > 0.0 ? longest : 0.1;
-  }
-
   void write_servo(const std::string& table, const ServoGuess& guess) {
     const robot::Servo& servo = guess.servo;
     line("");
@@ -278,12 +260,12 @@ class RobotGuesser {
   }
 
   void write_servos() {
-    const double bearing_nm = bearing_torque_nm(parts_, legs_.legs.size(), leg_length_m());
+    const double bearing_nm = bearing_torque_nm(parts_, legs_.legs.size(), longest_leg_m(parts_, legs_));
     const std::vector<ServoGuess> servos = guess_servos(file_, parts_, bearing_nm);
     doubt_motors(servos);
     std::vector<int> driven;
     for (const LegGuess& leg : legs_.legs) driven.insert(driven.end(), leg.joints.begin(), leg.joints.end());
-    if (std::string slow = slow_joints(file_, parts_, driven, leg_length_m()); !slow.empty())
+    if (std::string slow = slow_joints(file_, parts_, driven, longest_leg_m(parts_, legs_)); !slow.empty())
       guess_.doubts.push_back(std::move(slow));
     const auto servo_of = [&](int j) -> const ServoGuess& { return servos[to_index(j)]; };
     ServoGuess common{{robot::ServoMode::velocity, 9.0, 1.0, 0.0, 0.0}, "there are no joints"};

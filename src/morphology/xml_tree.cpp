@@ -12,6 +12,12 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
 
+/// Without those at its ends.
+std::string_view without_blanks(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(blanks);
+  return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
 class Parser {
  public:
   Parser(std::string_view text, const std::string& file, const XmlLimits& limits)
@@ -91,7 +97,8 @@ class Parser {
     const char quote = text_[at_++];
     const std::size_t end = text_.find(quote, at_);
     if (end == std::string_view::npos) bad("the value of '" + key + "' has no end");
-    const std::string_view value = text_.substr(at_, end - at_);
+    // MuJoCo counts the numbers of a keyframe wrongly if a line break or a blank comes first.
+    const std::string_view value = without_blanks(text_.substr(at_, end - at_));
     if (value.find('<') != std::string_view::npos) bad("'<' in the value of '" + key + "'");
     if (element.attribute(key)) bad("attribute '" + key + "' is given twice");
     element.attributes.emplace_back(key, value);

@@ -192,6 +192,8 @@ TEST_F(Surroundings, ARunOfWhichHardlyAnyTrialCountsEndsWithAnErrorThatSaysSo) {
     spill(scratch_ / (name + ".xml"), dog_with_fingers(mass_kg, inertia_kg_m2));
     const Said init = shell("amble robot --init " + name + ".xml -o " + name);
     EXPECT_EQ(init.code, ok) << init.text;
+    // As in a file of one's own: --init welds links of next to nothing.
+    if (name == "light") shell("sed -i 's/^fixed = /held = /' light/light.toml");
     return shell(
         "amble evolve " + name +
         "/evolve.toml --set population.size=4 --set trial.duration_s=1 --generations 1 --jobs 1 --out run_" +

@@ -56,6 +56,13 @@ double farthest_m(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   return most;
 }
 
+TEST(StartPose, IsThatOfAKeyframeWhoseNumbersStandOnALineOfTheirOwn) {
+  const Files files;
+  const std::string key = "<key name=\"a\" qpos=\"\n  0 0 1.2  1 0 0 0\n  0 0 0 0\n\"/>";
+  const ModelFile file = compile_model(files.write("m.xml", with_keyframes(key)));
+  EXPECT_EQ(extract_parts(file, {.start_keyframe = "a"}).bodies[0].position_m.z, 1.2);
+}
+
 TEST(StartPose, IsThatOfItsKeyframeWhicheverNumbersDifferFromTheModelsOwn) {
   const Files files;
   const ModelParts reference = extract_parts(compile_model(files.write("m.xml", three_hinges_xml)));
