@@ -1,5 +1,5 @@
-// A search of one's own: the best genome so far and its mutants, round by round, a (1 + lambda) evolution strategy.
-// Use: amble --plugin build/libclimb.so evolve climb.toml --out runs/climb
+// A search of one's own: the best genome so far and its mutants, round by round, a (1 + lambda) evolution
+// strategy. Use: amble --plugin build/libclimb.so evolve climb.toml --out runs/climb
 #include <memory>
 #include <vector>
 
@@ -20,11 +20,15 @@ constexpr auto climbing = static_cast<Purpose>(1000);
 class Climb final : public search::Strategy {
  public:
   Climb(const search::SearchSpace& space, int mutations)
-      : neat_(space.neat), recurrent_(space.recurrent), seed_(space.seed), mutations_(mutations),
+      : neat_(space.neat),
+        recurrent_(space.recurrent),
+        seed_(space.seed),
+        mutations_(mutations),
         innovations_(space.inputs, space.outputs, space.neat.innovations) {
     for (int i = 0; i < neat_.population.size; ++i) {
       Stream stream(seed_, climbing, 0, static_cast<std::uint32_t>(i));
-      candidates_.push_back(neat::initial_genome(neat_.genome, space.inputs, space.outputs, innovations_, stream));
+      candidates_.push_back(
+          neat::initial_genome(neat_.genome, space.inputs, space.outputs, innovations_, stream));
     }
   }
 
@@ -89,5 +93,6 @@ AMBLE_PLUGIN {
                   const amble::search::SearchSpace& space) -> std::unique_ptr<amble::search::Strategy> {
          return std::make_unique<Climb>(space, static_cast<int>(settings.own.numbers.at("mutations")));
        },
-       .numbers = {{.name = "mutations", .value = 2, .range = {1, 100}, .what = "mutations of each candidate"}}});
+       .numbers = {
+           {.name = "mutations", .value = 2, .range = {1, 100}, .what = "mutations of each candidate"}}});
 }

@@ -1,5 +1,5 @@
-// A controller of one's own: every joint swings by a sine, whose amplitude and phase a CPPN paints over the robot's
-// joints. Use: amble --plugin build/libswing.so evolve swing.toml --out runs/swing
+// A controller of one's own: every joint swings by a sine, whose amplitude and phase a CPPN paints over the
+// robot's joints. Use: amble --plugin build/libswing.so evolve swing.toml --out runs/swing
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -20,7 +20,10 @@ struct Swing : controllers::Parameters {
 class SwingBatch final : public controllers::Batch {
  public:
   SwingBatch(const std::vector<robot::AngleRange>& ranges, double rate_rad_s, double timestep_s, int lanes)
-      : ranges_(ranges), step_rad_(static_cast<float>(rate_rad_s * timestep_s)), loaded_(lanes, nullptr), angle_(lanes) {}
+      : ranges_(ranges),
+        step_rad_(static_cast<float>(rate_rad_s * timestep_s)),
+        loaded_(lanes, nullptr),
+        angle_(lanes) {}
 
   int lanes() const override { return static_cast<int>(loaded_.size()); }
   void load(int lane, const controllers::Parameters& parameters) override {
@@ -32,9 +35,10 @@ class SwingBatch final : public controllers::Batch {
       if (loaded_[lane] == nullptr) continue;
       angle_[lane] += step_rad_;
       for (std::size_t j = 0; j < ranges_.size(); ++j) {
-        const float target = loaded_[lane]->amplitude_rad[j] * std::sin(angle_[lane] + loaded_[lane]->phase_rad[j]);
-        targets_rad.at(static_cast<int>(j), lane) = std::clamp(target, static_cast<float>(ranges_[j].lower_rad),
-                                                              static_cast<float>(ranges_[j].upper_rad));
+        const float target =
+            loaded_[lane]->amplitude_rad[j] * std::sin(angle_[lane] + loaded_[lane]->phase_rad[j]);
+        targets_rad.at(static_cast<int>(j), lane) = std::clamp(
+            target, static_cast<float>(ranges_[j].lower_rad), static_cast<float>(ranges_[j].upper_rad));
       }
     }
   }
@@ -74,7 +78,8 @@ class SwingArchitecture final : public controllers::Architecture {
     auto swing = std::make_unique<Swing>();
     for (int j = 0; j < joints; ++j) {
       const double reach = std::min(-ranges_[j].lower_rad, ranges_[j].upper_rad);
-      swing->amplitude_rad.push_back(static_cast<float>(std::max(reach, 0.0)) * std::clamp(painted[j], -1.0f, 1.0f));
+      swing->amplitude_rad.push_back(static_cast<float>(std::max(reach, 0.0)) *
+                                     std::clamp(painted[j], -1.0f, 1.0f));
       swing->phase_rad.push_back(3.14159265f * std::clamp(painted[points.capacity() + j], -1.0f, 1.0f));
     }
     return swing;
@@ -82,7 +87,9 @@ class SwingArchitecture final : public controllers::Architecture {
   std::unique_ptr<controllers::Batch> make_batch(int lanes) const override {
     return std::make_unique<SwingBatch>(ranges_, rate_rad_s_, timestep_s_, lanes);
   }
-  std::string parameters_json(const controllers::Parameters&) const override { return R"({"kind": "swing"})"; }
+  std::string parameters_json(const controllers::Parameters&) const override {
+    return R"({"kind": "swing"})";
+  }
 
  private:
   static float scaled(std::size_t i, std::size_t count) {
@@ -101,9 +108,12 @@ AMBLE_PLUGIN {
   amble::controllers::register_controller(
       {.name = "swing",
        .what = "sines that a CPPN paints (swing)",
-       .make = [](const amble::controllers::ControllerSettings& settings, const amble::robot::RobotSpec& robot,
+       .make = [](const amble::controllers::ControllerSettings& settings,
+                  const amble::robot::RobotSpec& robot,
                   double timestep_s) -> std::unique_ptr<const amble::controllers::Architecture> {
-         return std::make_unique<SwingArchitecture>(robot, settings.own.numbers.at("frequency_hz"), timestep_s);
+         return std::make_unique<SwingArchitecture>(robot, settings.own.numbers.at("frequency_hz"),
+                                                    timestep_s);
        },
-       .numbers = {{.name = "frequency_hz", .value = 1.0, .range = {0.01, 20.0}, .what = "swings per second, Hz"}}});
+       .numbers = {
+           {.name = "frequency_hz", .value = 1.0, .range = {0.01, 20.0}, .what = "swings per second, Hz"}}});
 }
