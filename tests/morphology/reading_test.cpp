@@ -209,10 +209,9 @@ TEST(Reading, ReportsWhatStandsInTheWorldAndWhatOnlyMeasures) {
   const ModelParts parts = read_parts(files, xml);
   EXPECT_EQ(parts.bodies.size(), 3u);
   EXPECT_EQ(parts.geoms.size(), 4u);
-  for (const char* line :
-       {"1 geoms of the world: 'step'", "body 'table': it stands in the world",
-        "tendon number 1 over 'A_hip', which only measures",
-        "1 actuators by the robot file's servos: 'A_hip'", "sensors"})
+  for (const char* line : {"1 geoms of the world: 'step'", "body 'table': it stands in the world",
+                           "tendon number 1 over 'A_hip', which only measures",
+                           "1 actuators by the robot file's servos: 'A_hip'", "sensors"})
     EXPECT_THAT(parts.notes.text(), HasSubstr(line));
 }
 
