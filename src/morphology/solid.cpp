@@ -9,7 +9,7 @@ namespace {
 
 using Tensor = std::array<double, 9>;
 
-std::array<double, 3> numbers_of(Vec3 v) {
+std::array<double, 3> components_of(Vec3 v) {
   return {v.x, v.y, v.z};
 }
 
@@ -18,7 +18,7 @@ Tensor diagonal(double x, double y, double z) {
 }
 
 Tensor outer(Vec3 left, Vec3 right) {
-  const auto a = numbers_of(left), b = numbers_of(right);
+  const auto a = components_of(left), b = components_of(right);
   Tensor product{};
   for (std::size_t r = 0; r < 3; ++r)
     for (std::size_t c = 0; c < 3; ++c) product[3 * r + c] = a[r] * b[c];

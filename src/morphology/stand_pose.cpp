@@ -263,7 +263,7 @@ class LegSolver {
 };
 
 /// Four digits after the point, which is less than a motor can tell; next to nothing is 0.
-double rounded(double value) {
+double rounded_rad(double value) {
   constexpr double nothing_rad = 2e-3;
   return std::abs(value) < nothing_rad ? 0.0 : std::round(value * 1e4) / 1e4;
 }
@@ -356,7 +356,8 @@ StandPose find_stand_pose(const ModelParts& parts, const std::vector<LegGuess>& 
     for (std::size_t i = 0; i < guesses[l].joints.size(); ++i) {
       const auto j = to_index(guesses[l].joints[i]);
       const robot::Joint& joint = parts.joints[j];
-      const double angle = rounded(parts.start_rad[j] + legs[l].angles()[i]), by = angle - parts.start_rad[j];
+      const double angle = rounded_rad(parts.start_rad[j] + legs[l].angles()[i]),
+                   by = angle - parts.start_rad[j];
       pose.angles_rad[joint.name] =
           by >= joint.lower_rad && by <= joint.upper_rad ? angle : parts.start_rad[j] + legs[l].angles()[i];
     }

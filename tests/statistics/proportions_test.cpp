@@ -64,7 +64,7 @@ double coverage(Method method, std::uint64_t trials, double probability) {
 }
 
 TEST(ClopperPearson, CoversAtLeastAsOftenAsItSays) {
-  for (const std::uint64_t trials : {1, 2, 5, 20, 60})
+  for (const std::uint64_t trials : {1ull, 2ull, 5ull, 20ull, 60ull})
     for (double p = 0.01; p < 1.0; p += 0.01)
       EXPECT_GE(coverage(clopper_pearson, trials, p), 0.95 - 1e-12) << trials << " " << p;
 }
