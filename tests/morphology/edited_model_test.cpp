@@ -115,7 +115,12 @@ class EditedModel : public testing::TestWithParam<tests::SmallModel> {
 
 TEST_P(EditedModel, IsReadOrRefusedInALineAndNothingIsDroppedInSilence) {
   const char* asked = std::getenv("AMBLE_MODEL_EDITS");
-  const int edits = asked != nullptr ? std::atoi(asked) : 150;
+#ifdef AMBLE_SANITIZED
+  constexpr int usual = 50;
+#else
+  constexpr int usual = 150;
+#endif
+  const int edits = asked != nullptr ? std::atoi(asked) : usual;
   const tests::SmallModel& small = GetParam();
   for (int seed = 0; seed < edits; ++seed) {
     XmlElement model = parse_xml(small.text, small.name);
