@@ -2,7 +2,7 @@
 
 #include "amble/core/version.hpp"
 
-/// A plugin is a shared library that adds controllers, searches and engines to the program: `amble --plugin
+/// A plugin is a shared library that adds controllers and searches to the program: `amble --plugin
 /// libmine.so evolve …` (docs/LIBRARY.md). It is one source with
 ///
 ///     AMBLE_PLUGIN { amble::controllers::register_controller({.name = "mine", …}); }

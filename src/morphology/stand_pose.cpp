@@ -356,10 +356,9 @@ StandPose find_stand_pose(const ModelParts& parts, const std::vector<LegGuess>& 
     for (std::size_t i = 0; i < guesses[l].joints.size(); ++i) {
       const auto j = to_index(guesses[l].joints[i]);
       const robot::Joint& joint = parts.joints[j];
-      const double angle = rounded_rad(parts.start_rad[j] + legs[l].angles()[i]),
-                   by = angle - parts.start_rad[j];
-      pose.angles_rad[joint.name] =
-          by >= joint.lower_rad && by <= joint.upper_rad ? angle : parts.start_rad[j] + legs[l].angles()[i];
+      const double exact = parts.start_rad[j] + legs[l].angles()[i], angle = rounded_rad(exact);
+      const double by = angle - parts.start_rad[j];
+      pose.angles_rad[joint.name] = by >= joint.lower_rad && by <= joint.upper_rad ? angle : exact;
     }
     const Vec3 off = legs[l].foot_m() - legs[l].target_m();
     pose.uneven_share =

@@ -41,7 +41,7 @@ struct CompareOptions {
 };
 
 /// Lets champions walk in several engines: a row per champion and length. The engines of one row run in
-/// parallel. Nothing if `stop` was set meanwhile. Throws UserError: no champion; unknown engines, or one that
+/// parallel. Nothing if `stop` was set meanwhile. Throws UserError: unknown engines, or one that
 /// cannot simulate the robot.
 std::optional<std::vector<ComparedChampion>> compare(const std::vector<NamedChampion>& champions,
                                                      const CompareOptions& options,

@@ -146,6 +146,9 @@ def main():
                     failed += len(missing)
                     for row in missing:
                         print(f"FAILED: {reader.name} has another row than `{command}` prints: {row}")
+    if not wanted and tables == 0:
+        failed += 1
+        print("FAILED: no printed table was found in a page, so none was compared")
     stale = [] if wanted else [pair for pair in not_run if pair not in used]
     for beginning, _ in stale:
         print(f"FAILED: not_run.txt: no page has a command that begins with '{beginning}'")
