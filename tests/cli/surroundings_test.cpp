@@ -119,6 +119,9 @@ TEST_F(Surroundings, AFileThatReachesTheLimitOfItsSizeIsToldAndTheRunGoesOnLater
 }
 
 TEST_F(Surroundings, TooLittleMemoryIsToldWithTheSettingThatAsksForIt) {
+#ifdef AMBLE_SANITIZED
+  GTEST_SKIP() << "AddressSanitizer reserves terabytes of addresses, which the limit forbids";
+#endif
   const Said many = shell("ulimit -v 400000; " + evolve("run",
                                                         "--set search.kind=novelty --set "
                                                         "population.size=50000 --set trial.duration_s=15"));
