@@ -17,6 +17,7 @@
 #include "amble/cli/messages.hpp"
 #include "amble/cli/usage_error.hpp"
 #include "amble/experiment/build_info.hpp"
+#include "amble/io/file.hpp"
 #include "amble/io/plugin_file.hpp"
 #include "amble/io/shell.hpp"
 #include "amble/io/split.hpp"
@@ -102,6 +103,16 @@ std::vector<char*> load_plugins(int argc, char** argv) {
   return rest;
 }
 
+/// What an exception of a library does not say.
+std::string after_reading() {
+  const std::string file = amble::io::last_read_file();
+  return file.empty() ? "" : fmt::format("; the last file read: {}", file);
+}
+
+std::string circumstances(int argc, char** argv) {
+  return fmt::format("{}, in: {}", after_reading(), command_line(argc, argv));
+}
+
 ExitCode run(int all, char** words) {
   std::vector<char*> arguments = load_plugins(all, words);
   const int argc = static_cast<int>(arguments.size());
@@ -144,17 +155,16 @@ int main(int argc, char** argv) {
   } catch (const amble::UserError& error) {
     code = report(error.code(), error.what());
   } catch (const std::system_error& error) {  // of files: permissions, a full device
-    code = report(ExitCode::io, fmt::format("{}, in: {}", error.what(), command_line(argc, argv)));
+    code = report(ExitCode::io, fmt::format("{}{}", error.what(), circumstances(argc, argv)));
   } catch (const std::bad_alloc&) {
     code = report(
         ExitCode::io,
         fmt::format(
             "not enough memory for `amble {}`: the system refused more; a higher limit (ulimit -v, the "
-            "job's memory), fewer --jobs or smaller inputs may help",
-            argc > 1 ? argv[1] : ""));
+            "job's memory), fewer --jobs or smaller inputs may help{}",
+            argc > 1 ? argv[1] : "", after_reading()));
   } catch (const std::exception& error) {
-    code =
-        report(ExitCode::internal, fmt::format("defect: {}, in: {}", error.what(), command_line(argc, argv)));
+    code = report(ExitCode::internal, fmt::format("defect: {}{}", error.what(), circumstances(argc, argv)));
   }
   return static_cast<int>(code);
 }

@@ -52,6 +52,11 @@ bool sync_folder_of(const std::filesystem::path& path) {
   return synced;
 }
 
+std::string& last_read() {
+  thread_local std::string path;
+  return path;
+}
+
 bool is_special_file(const std::filesystem::path& path) {
   struct stat status {};
   return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
@@ -62,10 +67,17 @@ bool is_special_file(const std::filesystem::path& path) {
 InputFile::InputFile(const std::filesystem::path& path)
     : path_(path), fd_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
   if (fd_ < 0) fail(ExitCode::io, "{}: {}", path_.string(), reason(errno));
+  last_read() = path_.string();
 }
 
 InputFile::InputFile(std::string bytes, const std::filesystem::path& path)
-    : path_(path), bytes_(std::move(bytes)) {}
+    : path_(path), bytes_(std::move(bytes)) {
+  last_read() = path_.string();
+}
+
+std::string last_read_file() {
+  return last_read();
+}
 
 InputFile::~InputFile() {
   if (fd_ >= 0) ::close(fd_);

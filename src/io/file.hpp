@@ -33,6 +33,10 @@ class InputFile {
 /// `limit_bytes`.
 std::string read_file(const std::filesystem::path& path, std::uint64_t limit_bytes = std::uint64_t{1} << 32);
 
+/// The file that this thread opened last to read it; empty: none. For messages about exceptions that do not
+/// say what was being read.
+std::string last_read_file();
+
 /// Between a file's name and the process id in the name of its temporary file.
 inline constexpr std::string_view temporary_mark = ".tmp.";
 

@@ -7,6 +7,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <thread>
+
 #include "tests/io/child_process.hpp"
 #include "tests/io/expect_error.hpp"
 #include "tests/io/temporary_folder.hpp"
@@ -65,6 +67,16 @@ TEST(InputFile, ReadsPieceByPieceUpToTheEnd) {
   EXPECT_EQ(file.read(0), "");
   EXPECT_EQ(file.read(UINT64_MAX), "defg");
   EXPECT_EQ(file.read(1), "");
+}
+
+TEST(LastReadFile, IsTheOneThatThisThreadOpenedLast) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.put("a", "1");
+  read_file(path);
+  EXPECT_EQ(last_read_file(), path);
+  EXPECT_THROW(read_file(folder / "none"), UserError);
+  EXPECT_EQ(last_read_file(), path);
+  std::thread([] { EXPECT_EQ(last_read_file(), ""); }).join();
 }
 
 TEST(WriteFile, ReplacesTheOldFileAndLeavesNothingElse) {
