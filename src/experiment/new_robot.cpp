@@ -60,16 +60,21 @@ class RobotMaker {
     const std::vector<morphology::StartPlan> plans = morphology::start_plans(model_file_);
     Try own = attempt(plans.front());
     before_ = &own.start.parts;
-    if (is_good(own)) return with_model(own, {});
+    const std::vector<std::string> at_stops =
+        own.faults.sum > 0 ? joints_at_stops(own) : std::vector<std::string>();
+    const bool good = is_good(own);
+    if (good && at_stops.empty()) return with_model(own, {});
     const std::string& keyframe = plans.front().keyframe;
     const std::string why_not =
-        (keyframe.empty() ? "" : fmt::format("in its keyframe '{}' ", keyframe)) + reasons(own.faults.lines);
+        (keyframe.empty() ? "" : fmt::format("in its keyframe '{}' ", keyframe)) + reasons(own.faults.lines) +
+        (at_stops.empty() ? "" : fmt::format(", with joints at their stops: {}", fmt::join(at_stops, ", ")));
     std::optional<Try> best;
     for (std::size_t p = 1; p < plans.size() && !(best && best->faults.sum == 0); ++p) {
       Try next = attempt(plans[p]);
       if (worth_a_look(next) && (!best || next.faults.sum < best->faults.sum)) best = std::move(next);
     }
-    if (!best || best->faults.sum >= own.faults.sum) return with_model(own, {});
+    if (!best || best->faults.sum >= own.faults.sum || (good && best->faults.sum > 0))
+      return with_model(own, {});
     return with_model(*best, why_not);
   }
 
@@ -91,6 +96,23 @@ class RobotMaker {
     const bool falls_anyway = own.made.robot && own.made.robot->legs.size() <= 2 && own.faults.lies == 0 &&
                               own.start.outside.empty() && !own.start.legs.legs.empty();
     return own.faults.sum == 0 || falls_anyway;
+  }
+
+  /// Joints of legs that start at a stop. As in the Open Dynamics Engine, a motor that pushes against a stop
+  /// gives all its torque, whatever speed it aims at: it throws a robot that would stand otherwise.
+  /// Joints that went to the stop nearest to the model's own start stay there.
+  static std::vector<std::string> joints_at_stops(const Try& own) {
+    if (!own.start.slightly_outside.empty()) return {};
+    constexpr double at_stop_rad = 2e-3;
+    std::vector<std::string> names;
+    for (const robot::Leg& leg : own.made.robot ? own.made.robot->legs : std::vector<robot::Leg>())
+      for (const int j : leg.joints) {
+        if (j < 0) continue;
+        const robot::Joint& joint = own.made.robot->joints[to_index(j)];
+        if (std::min(std::abs(joint.lower_rad), std::abs(joint.upper_rad)) < at_stop_rad)
+          names.push_back(joint.name);
+      }
+    return names;
   }
 
   /// Faults without what to do about them.

@@ -59,6 +59,34 @@ std::set<int> first_to_touch(const ModelParts& parts, const std::vector<robot::P
   return first;
 }
 
+/// Behind the toes of the lowest shape: those of the links that the leg's other joints move which are on the
+/// ground too, as long as these joints are near it.
+std::vector<int> soles_above(const ModelParts& parts, const std::vector<robot::Pose>& poses,
+                             const std::vector<int>& joints, int lowest, double length_m) {
+  const double ground_m = robot::bottom_m(parts.geoms[to_index(lowest)], poses);
+  const int toe = moved_with(parts, parts.geoms[to_index(lowest)].body);
+  std::vector<int> soles;
+  for (auto j = joints.rbegin(); j != joints.rend(); ++j) {
+    const robot::Joint& joint = parts.joints[to_index(*j)];
+    if ((poses[to_index(joint.body)] * joint.anchor_m).z - ground_m > foot_share * length_m) break;
+    if (joint.body == toe) continue;
+    for (int g = 0; g < static_cast<int>(parts.geoms.size()); ++g) {
+      const robot::Geom& geom = parts.geoms[to_index(g)];
+      if (geom.collides && moved_with(parts, geom.body) == joint.body &&
+          robot::bottom_m(geom, poses) <= ground_m + level_share * length_m &&
+          std::ranges::find(soles, g) == soles.end())
+        soles.push_back(g);
+    }
+  }
+  return soles;
+}
+
+std::vector<int> with(int lowest, const std::vector<int>& others) {
+  std::vector<int> all{lowest};
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
+}
+
 }  // namespace
 
 std::vector<int> foot_shapes(const ModelParts& parts, const std::vector<robot::Pose>& poses,
@@ -70,12 +98,14 @@ std::vector<int> foot_shapes(const ModelParts& parts, const std::vector<robot::P
     const robot::Geom& geom = parts.geoms[to_index(g)];
     if (geom.collides && moved_with(parts, geom.body) == moved) shapes.push_back(g);
   }
-  if (shapes.size() <= 1 || joints.empty() || moved == 0) return {lowest};
-
+  if (joints.empty() || moved == 0) return {lowest};
   const Vec3 end = robot::centre_m(foot, poses);
+  const double length_m = leg_length_m(parts, poses, joints, end);
+  const std::vector<int> soles = soles_above(parts, poses, joints, lowest, length_m);
+  if (shapes.size() <= 1) return with(lowest, soles);
+
   const robot::Joint& last = parts.joints[to_index(joints.back())];
-  const double length_m = leg_length_m(parts, poses, joints, end),
-               last_m = norm(end - poses[to_index(last.body)] * last.anchor_m);
+  const double last_m = norm(end - poses[to_index(last.body)] * last.anchor_m);
   std::set<int> chosen;
   if (last_m < foot_share * length_m)
     chosen.insert(shapes.begin(), shapes.end());
@@ -87,10 +117,9 @@ std::vector<int> foot_shapes(const ModelParts& parts, const std::vector<robot::P
   for (const int g : shapes)
     if (links.contains(parts.welded_links[to_index(g)])) chosen.insert(g);
 
+  chosen.insert(soles.begin(), soles.end());
   chosen.erase(lowest);
-  std::vector<int> all{lowest};
-  all.insert(all.end(), chosen.begin(), chosen.end());
-  return all;
+  return with(lowest, {chosen.begin(), chosen.end()});
 }
 
 Vec3 foot_centre_m(const ModelParts& parts, const std::vector<int>& shapes,

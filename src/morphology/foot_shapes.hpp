@@ -16,6 +16,8 @@ inline constexpr double foot_share = 0.3;
 ///  - those that are the first to touch if the foot is tilted by up to foot_tilt_rad in any direction;
 ///  - all of a link that is welded on and has one of these;
 ///  - all, if their last joint with a motor is near the ground (foot_share): an ankle.
+/// Beside these, where a foot has toes that a motor moves: what stands on the ground as they do of the links
+/// above, as far as their joints are that near to the ground.
 /// So a shank that ends in a ball or two has these as its foot, and not its own shape.
 /// `lowest`: the lowest geom of the leg that collides; `joints`: those of the leg with motors, from the trunk
 /// outwards; `poses`: of the bodies at the start.

@@ -6,22 +6,20 @@
 #include <vector>
 
 #include "amble/core/index.hpp"
+#include "amble/morphology/model_shapes.hpp"
 #include "amble/morphology/mujoco_math.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::morphology {
 namespace {
 
-/// Heights of all bodies in the model's own pose.
-std::vector<double> heights_m(const mjModel_& model) {
+/// Of all bodies in the model's own pose.
+std::vector<robot::Pose> poses_of(const mjModel_& model) {
   std::vector<robot::Pose> poses(to_index(model.nbody));
-  std::vector<double> heights(to_index(model.nbody), 0.0);
-  for (int b = 1; b < model.nbody; ++b) {
+  for (int b = 1; b < model.nbody; ++b)
     poses[to_index(b)] = poses[to_index(model.body_parentid[b])] *
                          robot::Pose{vec3(model.body_pos + 3 * b), quat(model.body_quat + 4 * b)};
-    heights[to_index(b)] = (poses[to_index(b)] * vec3(model.body_ipos + 3 * b)).z;
-  }
-  return heights;
+  return poses;
 }
 
 bool has_children(const mjModel_& model, int body) {
@@ -38,21 +36,31 @@ bool is_on_a_limb(const mjModel_& model, int root, int body) {
 
 }  // namespace
 
+bool ends_a_leg(const mjModel_& model, int root, int body) {
+  if (has_children(model, body) || !is_on_a_limb(model, root, body)) return false;
+  const std::vector<robot::Pose> poses = poses_of(model);
+  const auto height_m = [&](int b) { return (poses[to_index(b)] * vec3(model.body_ipos + 3 * b)).z; };
+  double lowest = height_m(body);
+  for (int b = root; b < model.nbody; ++b)
+    if (model.body_rootid[b] == root) lowest = std::min(lowest, height_m(b));
+  constexpr double level_m = 1e-6;
+  return height_m(body) <= 0.5 * (height_m(root) + lowest) + level_m;
+}
+
 bool is_of_a_foot(const mjModel_& model, int root, int geom,
                   const std::map<std::string, std::string>& missing_meshes) {
   const int body = model.geom_bodyid[geom];
+  if (!ends_a_leg(model, root, body)) return false;
+  const robot::Pose pose = poses_of(model)[to_index(body)];
+  const auto height_m = [&](int g) { return (pose * vec3(model.geom_pos + 3 * g)).z; };
+  // The placeholder's centre, of which its height is known, is that far beside the mesh's origin.
+  constexpr double placeholder_m = 1e-3;
   for (int g = model.body_geomadr[body], end = g + model.body_geomnum[body]; g < end; ++g) {
     const bool lost = model.geom_type[g] == mjGEOM_MESH &&
                       missing_meshes.contains(model.names + model.name_meshadr[model.geom_dataid[g]]);
-    if (g != geom && !lost && (model.geom_contype[g] != 0 || model.geom_conaffinity[g] != 0)) return false;
+    if (!lost && collides(model, g) && height_m(g) < height_m(geom) - placeholder_m) return false;
   }
-  if (has_children(model, body) || !is_on_a_limb(model, root, body)) return false;
-  const std::vector<double> heights = heights_m(model);
-  double lowest = heights[to_index(body)];
-  for (int b = root; b < model.nbody; ++b)
-    if (model.body_rootid[b] == root) lowest = std::min(lowest, heights[to_index(b)]);
-  constexpr double level_m = 1e-6;
-  return heights[to_index(body)] <= 0.5 * (heights[to_index(root)] + lowest) + level_m;
+  return true;
 }
 
 }  // namespace amble::morphology

@@ -12,6 +12,7 @@
 #include <set>
 #include <vector>
 
+#include "amble/core/index.hpp"
 #include "amble/morphology/number_text.hpp"
 
 namespace amble::morphology {
@@ -188,6 +189,41 @@ void balance_inertias(XmlElement& root, bool urdf, ReadingNotes& notes) {
     notes.add(Reading::replaced,
               fmt::format("negative masses or moments of inertia, which are taken as not given: {}",
                           fmt::join(negative, ", ")));
+}
+
+std::vector<bool> bodies_with_inertial(const XmlElement& root, int count) {
+  bool from_geoms = false;
+  std::vector<bool> has{true};  // the world weighs nothing
+  const auto add = [&](const auto& self, const XmlElement& parent) -> void {
+    for (const XmlElement& child : parent.children) {
+      if (child.name != "body") continue;
+      has.push_back(child.child("inertial") != nullptr);
+      self(self, child);
+    }
+  };
+  for (const XmlElement& section : root.children) {
+    if (section.name == "worldbody") add(add, section);
+    if (section.name == "compiler" && section.attribute_or("inertiafromgeom", "auto") == "true")
+      from_geoms = true;
+  }
+  if (from_geoms || has.size() != to_index(count)) has.assign(to_index(count), false);
+  has[0] = true;
+  return has;
+}
+
+void complete_inertials(XmlElement& root, MissingMasses& missing) {
+  for (XmlElement& link : root.children) {
+    XmlElement* const inertial = link.name == "link" ? link.child("inertial") : nullptr;
+    if (inertial == nullptr || (inertial->child("mass") != nullptr && inertial->child("inertia") != nullptr))
+      continue;
+    fill(link, true, missing[link.attribute_or("name", "")]);
+  }
+}
+
+bool fill_empty_inertials(XmlElement& root, MissingMasses& missing) {
+  const std::size_t before = missing.size();
+  give_small_mass_mjcf(root, "", -1, missing);
+  return missing.size() > before;
 }
 
 bool give_small_mass(XmlElement& root, bool urdf, const std::string& name, int id, MissingMasses& missing) {

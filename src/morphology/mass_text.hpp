@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "amble/morphology/reading_notes.hpp"
 #include "amble/morphology/xml_tree.hpp"
@@ -20,6 +21,16 @@ using MissingMasses = std::map<std::string, MissingMass>;
 /// model, URDF or MJCF. Files that were drawn or written by hand have them. Their mean takes their place, as
 /// by MuJoCo's balanceinertia. Negative masses and moments become 0.
 void balance_inertias(XmlElement& root, bool urdf, ReadingNotes& notes);
+
+/// Of an MJCF tree: whether each body has an <inertial> that counts, by MuJoCo's number; the world has. Else
+/// its mass is that of its geoms. All false if the tree has another number of bodies than `count`.
+std::vector<bool> bodies_with_inertial(const XmlElement& root, int count);
+
+/// URDF: an <inertial> without <mass> or without <inertia> gets small ones, and is one of `missing`.
+void complete_inertials(XmlElement& root, MissingMasses& missing);
+
+/// MJCF: bodies whose <inertial> has no moments get small ones. False if none had to.
+bool fill_empty_inertials(XmlElement& root, MissingMasses& missing);
 
 /// Gives the body that MuJoCo named, and all that are like it, small masses and moments. False if it has got
 /// them before, or is not there.

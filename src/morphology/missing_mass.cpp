@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "amble/core/index.hpp"
@@ -28,22 +30,33 @@ class MassMender {
   MassMender(mjModel_& model, const std::map<std::string, std::string>& missing_meshes)
       : model_(model), missing_meshes_(missing_meshes) {}
 
-  void mend(const MissingMasses& missing, ReadingNotes& notes) {
-    for (const auto& [name, given] : missing) {
+  std::set<int> mend(const ModelText& text, ReadingNotes& notes) {
+    for (const auto& [name, given] : text.missing_masses) {
       const int b =
           name.starts_with('#') ? std::atoi(name.c_str() + 1) : mj_name2id(&model_, mjOBJ_BODY, name.c_str());
       if (b > 0 && b < model_.nbody) mend(b, name, given.mass_kg);
     }
     mend_roots();
-    for (int b = 1; b < model_.nbody; ++b)
-      if (model_.body_mass[b] > 0.0 && model_.body_mass[b] < nothing_kg && shows_placeholder(b))
+    const std::vector<bool> has_inertial = text.urdf ? std::vector<bool>(to_index(model_.nbody), true)
+                                                     : bodies_with_inertial(text.root, model_.nbody);
+    for (int b = 1; b < model_.nbody; ++b) {
+      if (!(model_.body_mass[b] > 0.0) || !shows_placeholder(b)) continue;
+      if (model_.body_mass[b] < nothing_kg)
         mend(b, model_.names + model_.name_bodyadr[b], 0.0);
+      else if (!has_inertial[to_index(b)])
+        mend_lost(b);
+    }
     const auto note = [&](const char* what, const std::vector<std::string>& names) {
       if (!names.empty()) notes.add(Reading::replaced, fmt::format("{}: {}", what, fmt::join(names, ", ")));
     };
     note("moments of inertia that are missing or 0, by those of the shapes with the body's mass", by_shapes_);
     note("masses that are missing or 0, by those of the shapes filled with water, 1000 kg/m3", filled_);
     note("moments of inertia that are missing or 0, without shapes, by those of a ball of water", balls_);
+    note(
+        "moments of inertia of bodies with a mesh that cannot be read, by those of their other shapes, or of "
+        "a ball of water, with the mass that their geoms have",
+        lost_);
+    return mended_;
   }
 
  private:
@@ -75,14 +88,27 @@ class MassMender {
   Solid solid_of(int b, bool colliding) const {
     Solid solid;
     for (int g = model_.body_geomadr[b], end = g + model_.body_geomnum[b]; g < end; ++g) {
-      const bool collides = model_.geom_contype[g] != 0 || model_.geom_conaffinity[g] != 0;
-      if (collides != colliding || is_placeholder(g)) continue;
-      if (const auto shape = shape_of(model_, g, collides))
+      if (collides(model_, g) != colliding || is_placeholder(g)) continue;
+      if (const auto shape = shape_of(model_, g, colliding))
         add(solid, *shape,
             robot::Pose{vec3(model_.geom_pos + 3 * g), quat(model_.geom_quat + 4 * g)} *
                 robot::Pose{shape->position_m, shape->rotation});
     }
     return solid;
+  }
+
+  /// The mass is right, but a placeholder's moments are nearly 0.
+  void mend_lost(int b) {
+    const double mass_kg = model_.body_mass[b];
+    lost_.emplace_back(model_.names + model_.name_bodyadr[b]);
+    Solid solid = solid_of(b, true);
+    if (!(solid.volume_m3 > 0.0)) solid = solid_of(b, false);
+    if (!(solid.volume_m3 > 0.0)) {
+      set_ball(b, mass_kg);
+      return;
+    }
+    set_centre(b, solid.centre_m());
+    set(b, mass_kg, solid.inertia_kg_m2(mass_kg));
   }
 
   void mend(int b, const std::string& name, double mass_kg) {
@@ -96,14 +122,20 @@ class MassMender {
     (!shaped ? balls_ : weighs ? by_shapes_ : filled_).push_back(name);
     if (!weighs) {
       mass_kg = water_kg_m3 * solid.volume_m3;
-      const Vec3 centre = solid.centre_m();
-      for (const auto& [at, value] : {std::pair{0, centre.x}, {1, centre.y}, {2, centre.z}})
-        model_.body_ipos[3 * b + at] = value;
+      set_centre(b, solid.centre_m());
     }
-    if (shaped) {
+    if (shaped)
       set(b, mass_kg, solid.inertia_kg_m2(mass_kg));
-      return;
-    }
+    else
+      set_ball(b, mass_kg);
+  }
+
+  void set_centre(int b, Vec3 centre) {
+    for (const auto& [at, value] : {std::pair{0, centre.x}, {1, centre.y}, {2, centre.z}})
+      model_.body_ipos[3 * b + at] = value;
+  }
+
+  void set_ball(int b, double mass_kg) {
     const double radius_m = std::cbrt(mass_kg / (4.0 / 3.0 * std::numbers::pi * water_kg_m3));
     const double moment = 0.4 * mass_kg * radius_m * radius_m;
     set(b, mass_kg, {moment, 0, 0, 0, moment, 0, 0, 0, moment});
@@ -111,20 +143,21 @@ class MassMender {
 
   void set(int b, double mass_kg, const std::array<mjtNum, 9>& tensor) {
     std::array<mjtNum, 9> axes{};
+    mended_.insert(b);
     model_.body_mass[b] = mass_kg;
     mju_eig3(model_.body_inertia + 3 * b, axes.data(), model_.body_iquat + 4 * b, tensor.data());
   }
 
   mjModel_& model_;
   const std::map<std::string, std::string>& missing_meshes_;
-  std::vector<std::string> by_shapes_, filled_, balls_;
+  std::vector<std::string> by_shapes_, filled_, balls_, lost_;
+  std::set<int> mended_;
 };
 
 }  // namespace
 
-void mend_masses(mjModel_& model, const MissingMasses& missing,
-                 const std::map<std::string, std::string>& missing_meshes, ReadingNotes& notes) {
-  MassMender(model, missing_meshes).mend(missing, notes);
+std::set<int> mend_masses(mjModel_& model, const ModelText& text, ReadingNotes& notes) {
+  return MassMender(model, text.missing_meshes).mend(text, notes);
 }
 
 }  // namespace amble::morphology

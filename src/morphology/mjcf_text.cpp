@@ -36,6 +36,7 @@ class MjcfCleaner {
     name_joints(root_, notes_);
     mend_limits(root_, false, notes_);
     balance_inertias(root_, false, notes_);
+    drive_joints_of_tendons();
     read_motors();
     remove_unneeded();
     remove_lost_pairs();
@@ -59,6 +60,36 @@ class MjcfCleaner {
                "MuJoCo write the model out (compile model.xml out.xml)",
                element.file, element.line, name);
     });
+  }
+
+  /// A tendon that measures one joint moves it as the joint's own actuator would.
+  void drive_joints_of_tendons() {
+    std::map<std::string, std::pair<std::string, double>> joints;  // by tendon: the joint and its coefficient
+    for (const XmlElement& section : root_.children) {
+      if (section.name != "tendon") continue;
+      for (const XmlElement& tendon : section.children)
+        if (tendon.name == "fixed" && tendon.children.size() == 1 && tendon.children[0].name == "joint")
+          joints[tendon.attribute_or("name", "")] = {tendon.children[0].attribute_or("joint", ""),
+                                                     number_or_zero(tendon.children[0].attribute("coef"))};
+    }
+    const MjcfDefaults defaults(root_);
+    std::vector<std::string> moved;
+    for (XmlElement& section : root_.children) {
+      if (section.name != "actuator") continue;
+      for (XmlElement& actuator : section.children) {
+        const auto found = joints.find(actuator.attribute_or("tendon", ""));
+        if (found == joints.end() || found->second.second == 0.0) continue;
+        const std::vector<double> gear = numbers_of(defaults.attribute(actuator, "gear", "").value_or("1"));
+        actuator.remove_attribute("tendon");
+        actuator.set("joint", found->second.first);
+        actuator.set("gear", fmt::format("{}", (gear.empty() ? 1.0 : gear[0]) * found->second.second));
+        moved.push_back(fmt::format("'{}'", found->second.first));
+      }
+    }
+    if (!moved.empty())
+      notes_.add(Reading::replaced,
+                 fmt::format("actuators of tendons that measure one joint, by the joint's: {}",
+                             fmt::join(moved, ", ")));
   }
 
   void read_motors() {
@@ -144,9 +175,25 @@ class MjcfCleaner {
       if (const auto folder = section.attribute("meshdir")) mesh_folder_ = plain_path(*folder);
       section.remove_attribute("meshdir");
       if (section.attribute_or("strippath", "false") == "true") strip_path_ = true;
+      weigh_geoms(section);
     }
     // The default of MuJoCo 3; where a model is written for 2.2 without it, a range needs `limited` anyway.
     if (!compiler->attribute("autolimits")) compiler->set("autolimits", "true");
+  }
+
+  /// With inertiafromgeom="false" bodies without <inertial> would weigh nothing; the masses of their geoms
+  /// are what is there.
+  void weigh_geoms(XmlElement& compiler) {
+    if (compiler.attribute_or("inertiafromgeom", "auto") != "false") return;
+    bool any = false;
+    root_.visit([&](const XmlElement& body) {
+      any =
+          any || (body.name == "body" && body.child("inertial") == nullptr && body.child("geom") != nullptr);
+    });
+    if (!any) return;
+    compiler.set("inertiafromgeom", "auto");
+    notes_.add(Reading::replaced,
+               "inertiafromgeom=\"false\": bodies without <inertial> have the masses of their geoms");
   }
 
   /// Pairs of contacts and exclusions that name what is not there, such as the floor of another file.
@@ -164,12 +211,34 @@ class MjcfCleaner {
                           second = pair.attribute_or(of_geoms ? "geom2" : "body2", "");
         const auto& there = of_geoms ? geoms : bodies;
         const bool lost = !there.contains(first) || !there.contains(second);
+        if (lost && of_geoms) touch_ground(there.contains(first) ? first : second);
         if (lost)
           notes_.add(Reading::left_out, fmt::format("contact {} of '{}' and '{}': one of them is not there",
                                                     of_geoms ? "pair" : "exclusion", first, second));
         return lost;
       });
     }
+  }
+
+  /// A geom that collided by its pair with a missing floor alone does so with amble's ground, and nothing
+  /// else.
+  void touch_ground(const std::string& name) {
+    const MjcfDefaults defaults(root_);
+    const auto look = [&](const auto& self, XmlElement& place, const std::string& above) -> void {
+      const std::string childclass = place.attribute_or("childclass", above);
+      for (XmlElement& child : place.children) {
+        if (child.name == "body") self(self, child, childclass);
+        if (child.name != "geom" || child.attribute_or("name", "") != name) continue;
+        const auto bits = [&](const char* key) {
+          return defaults.attribute(child, key, childclass).value_or("1");
+        };
+        if (bits("contype") != "0" || bits("conaffinity") != "0") continue;
+        constexpr const char* of_the_ground_alone = "1073741824";  // one of the bits that the ground has
+        child.set("conaffinity", of_the_ground_alone);
+      }
+    };
+    for (XmlElement& section : root_.children)
+      if (section.name == "worldbody") look(look, section, "");
   }
 
   /// The installed MuJoCo wants an adhesion actuator's range from the element itself.

@@ -121,9 +121,22 @@ class Compiler {
     const std::string name = between(problem, "Object name = ", ",");
     if (problem.find("mass and inertia of moving bodies") != std::string::npos ||
         problem.find("inertia must have positive eigenvalues") != std::string::npos)
-      return give_small_mass(text_.root, text_.urdf, name,
-                             std::atoi(between(problem, ", id = ", ",").c_str()), text_.missing_masses);
+      return mend_mass(name, std::atoi(between(problem, ", id = ", ",").c_str()));
     return text_.mesh_files.contains(name) && simplify_mesh(name, problem);
+  }
+
+  /// Small robots have moments below what MuJoCo takes for none: before masses count as missing, moments are
+  /// raised to that.
+  bool mend_mass(const std::string& body, int id) {
+    if (!text_.urdf) {
+      if (fill_empty_inertials(text_.root, text_.missing_masses)) return true;
+      XmlElement* const compiler = text_.root.child("compiler");
+      if (compiler != nullptr && !compiler->attribute("boundinertia")) {
+        compiler->set("boundinertia", "2e-15");
+        return true;
+      }
+    }
+    return give_small_mass(text_.root, text_.urdf, body, id, text_.missing_masses);
   }
 
   bool simplify_mesh(const std::string& mesh, const std::string& problem) {
@@ -267,7 +280,7 @@ ModelFile compile_model(const std::filesystem::path& path) try {
   compiled.root_is_welded = text.urdf;
   Compiler compiler(text, path, compiled.notes);
   compiled.model = compiler.compile();
-  mend_masses(*compiled.model, text.missing_masses, text.missing_meshes, compiled.notes);
+  compiled.mended_bodies = mend_masses(*compiled.model, text, compiled.notes);
   compiled.motors = std::move(text.motors);
   compiled.motors_named = std::move(text.motors_named);
   compiled.mimics = std::move(text.mimics);

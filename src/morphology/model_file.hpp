@@ -35,6 +35,7 @@ struct ModelFile {
   std::set<std::string> motors_named = {};                       ///< ModelText::motors_named
   std::vector<std::pair<std::string, std::string>> mimics = {};  ///< ModelText::mimics
   std::map<std::string, std::string> missing_meshes = {};        ///< name → file
+  std::set<int> mended_bodies = {};  ///< whose masses the text does not have, by MuJoCo's number
   ReadingNotes notes = {};
   /// What was compiled, what of it was set aside (ModelText::aside), and what had to be removed.
   XmlElement text = {};

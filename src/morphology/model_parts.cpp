@@ -47,7 +47,9 @@ class PartsExtractor {
       if (group_[to_index(model_.geom_bodyid[g])] >= 0) add_geom(g);
     }
     if (const std::string faulty = merge_massless_links(parts_); !faulty.empty())
-      refuse("links without mass that move: {}: give them mass and inertia (URDF: <inertial>)", faulty);
+      refuse("links without mass that move: {}: give them mass and inertia (URDF: <inertial>){}", faulty,
+             unread_meshes());
+    note_feet_that_only_show();
     finish();
     parts_.gravity_m_s2 = vec3(model_.opt.gravity);
     return std::move(parts_);
@@ -66,7 +68,7 @@ class PartsExtractor {
   std::string_view body_name(int b) const { return model_.names + model_.name_bodyadr[b]; }
   std::string_view joint_name(int j) const { return model_.names + model_.name_jntadr[j]; }
   std::string_view geom_name(int g) const { return model_.names + model_.name_geomadr[g]; }
-  bool collides(int g) const { return model_.geom_contype[g] != 0 || model_.geom_conaffinity[g] != 0; }
+  bool collides(int g) const { return morphology::collides(model_, g); }
 
   /// The root is the body of the world with joints behind it; if none has any, the one that moves; if none
   /// does, the only one.
@@ -235,6 +237,30 @@ class PartsExtractor {
     parts_.start_rad.push_back(start);
     parts_.model_joints.push_back(j);
     parts_.drives.push_back(drives_[to_index(j)]);
+  }
+
+  /// Why a mass may be missing.
+  std::string unread_meshes() const {
+    std::vector<std::string> files;
+    for (const auto& [name, file] : file_.missing_meshes) files.push_back(file);
+    return files.empty() ? ""
+                         : fmt::format(", or the meshes that cannot be read: {}", fmt::join(files, ", "));
+  }
+
+  /// Links that a leg may stand on, and that nothing touches.
+  void note_feet_that_only_show() {
+    std::vector<std::string> names;
+    for (int b = root_ + 1; b < model_.nbody; ++b) {
+      const int first = model_.body_geomadr[b], count = model_.body_geomnum[b];
+      bool shows = false, touches = false;
+      for (int g = first; g < first + count; ++g) (collides(g) ? touches : shows) = true;
+      if (model_.body_rootid[b] == root_ && shows && !touches && ends_a_leg(model_, root_, b))
+        names.push_back(fmt::format("'{}'", body_name(b)));
+    }
+    if (!names.empty())
+      note(Reading::left_out,
+           "contacts of links at the end of a limb, which have shapes to look at and none that collides: {}",
+           fmt::join(names, ", "));
   }
 
   void add_geom(int g) {

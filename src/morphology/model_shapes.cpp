@@ -68,6 +68,16 @@ std::optional<robot::Geom> hull_of(const std::vector<Vec3>& points, bool collide
 
 }  // namespace
 
+bool collides(const mjModel_& model, int geom) {
+  if (model.geom_contype[geom] != 0 || model.geom_conaffinity[geom] != 0) return true;
+  const auto tree = [&](int g) { return model.body_rootid[model.geom_bodyid[g]]; };
+  for (int p = 0; p < model.npair; ++p) {
+    const int first = model.pair_geom1[p], second = model.pair_geom2[p];
+    if ((first == geom || second == geom) && tree(first) != tree(second)) return true;
+  }
+  return false;
+}
+
 std::optional<robot::Geom> shape_of(const mjModel_& model, int g, bool collides) {
   static const std::map<int, robot::Shape> shapes{{mjGEOM_SPHERE, robot::Shape::sphere},
                                                   {mjGEOM_CAPSULE, robot::Shape::capsule},

@@ -1,6 +1,7 @@
 #include "amble/morphology/original_model.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
@@ -13,6 +14,8 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
+#include "amble/morphology/mass_text.hpp"
+#include "amble/morphology/model_shapes.hpp"
 #include "amble/morphology/mujoco_math.hpp"
 #include "amble/morphology/start_pose.hpp"
 
@@ -36,6 +39,7 @@ class ModelKeeper {
     keep_memory();
     keep_integrator();
     keep_actuators();
+    keep_masses();
     keep_meshes();
     if (!has_ground()) add_ground();
     kept_.mjcf = write_xml(text_).text;
@@ -61,7 +65,13 @@ class ModelKeeper {
     notes_.add(Reading::replaced, "in the engine mujoco-model " + std::move(text));
   }
 
-  bool collides(int g) const { return model_.geom_contype[g] != 0 || model_.geom_conaffinity[g] != 0; }
+  bool collides(int g) const { return morphology::collides(model_, g) && !is_lost(g); }
+
+  /// Whether a placeholder is in its place.
+  bool is_lost(int g) const {
+    return model_.geom_type[g] == mjGEOM_MESH &&
+           file_.missing_meshes.contains(model_.names + model_.name_meshadr[model_.geom_dataid[g]]);
+  }
 
   bool removed(std::string_view element, std::string_view key, std::string_view value = {}) const {
     return std::ranges::any_of(file_.removed, [&](const RemovedAttribute& attribute) {
@@ -164,6 +174,48 @@ class ModelKeeper {
     note("a joint's actuatorfrcrange is its actuator's force range");
   }
 
+  // ---- masses
+
+  /// What was mended of masses, because a mesh or a number is missing, is not in the text. Placeholders of
+  /// meshes touch nothing.
+  void keep_masses() {
+    if (!file_.mended_bodies.empty()) {
+      const auto from_geoms = [](const XmlElement& section) {
+        return section.name == "compiler" && section.attribute_or("inertiafromgeom", "auto") == "true";
+      };
+      if (std::ranges::any_of(text_.children, from_geoms))
+        refuse("inertiafromgeom=\"true\", and masses had to be mended");
+      int number = 0;
+      for (XmlElement& section : text_.children)
+        if (section.name == "worldbody") keep_masses(section, number);
+    }
+    text_.visit([&](XmlElement& geom, XmlElement*) {
+      if (geom.name != "geom" || !file_.missing_meshes.contains(geom.attribute_or("mesh", ""))) return;
+      geom.set("contype", "0");
+      geom.set("conaffinity", "0");
+    });
+  }
+
+  void keep_masses(XmlElement& parent, int& number) {
+    for (XmlElement& body : parent.children) {
+      if (body.name != "body") continue;
+      const int b = ++number;
+      if (file_.mended_bodies.contains(b) && b < model_.nbody && model_.body_mass[b] > 0.0) {
+        std::erase_if(body.children, [](const XmlElement& child) { return child.name == "inertial"; });
+        XmlElement inertial{.name = "inertial", .file = body.file, .line = body.line};
+        const auto numbers = [](const double* values, int count) {
+          return fmt::format("{}", fmt::join(values, values + count, " "));
+        };
+        inertial.set("pos", numbers(model_.body_ipos + 3 * b, 3));
+        inertial.set("quat", numbers(model_.body_iquat + 4 * b, 4));
+        inertial.set("mass", numbers(model_.body_mass + b, 1));
+        inertial.set("diaginertia", numbers(model_.body_inertia + 3 * b, 3));
+        body.children.insert(body.children.begin(), std::move(inertial));
+      }
+      keep_masses(body, number);
+    }
+  }
+
   // ---- meshes
 
   void keep_meshes() {
@@ -203,7 +255,7 @@ class ModelKeeper {
   /// Whether something collides or weighs with the shape of each mesh.
   std::vector<bool> needed_meshes(const std::vector<XmlElement*>& meshes) const {
     if (meshes.size() != to_index(model_.nmesh)) return std::vector<bool>(meshes.size(), true);
-    const std::vector<bool> has_inertia = bodies_with_inertia();
+    const std::vector<bool> has_inertia = bodies_with_inertial(text_, model_.nbody);
     std::vector<bool> needed(meshes.size()), shown(meshes.size());
     for (int g = 0; g < model_.ngeom; ++g) {
       const int mesh = model_.geom_dataid[g];
@@ -218,27 +270,6 @@ class ModelKeeper {
           needed[m] = true;
     });
     return needed;
-  }
-
-  /// Bodies whose mass does not come from their geoms, by MuJoCo's number.
-  std::vector<bool> bodies_with_inertia() const {
-    bool from_geoms = false;
-    std::vector<bool> has{true};  // the world weighs nothing
-    const auto add = [&](const auto& self, const XmlElement& parent) -> void {
-      for (const XmlElement& child : parent.children) {
-        if (child.name != "body") continue;
-        has.push_back(child.child("inertial") != nullptr);
-        self(self, child);
-      }
-    };
-    for (const XmlElement& section : text_.children) {
-      if (section.name == "worldbody") add(add, section);
-      if (section.name == "compiler" && section.attribute_or("inertiafromgeom", "auto") == "true")
-        from_geoms = true;
-    }
-    if (from_geoms || has.size() != to_index(model_.nbody)) has.assign(to_index(model_.nbody), false);
-    has[0] = true;
-    return has;
   }
 
   // ---- the ground

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -171,6 +172,41 @@ void refuse_unknown_joints(const XmlElement& root, const fs::path& path) {
   }
 }
 
+/// A root without anything, from which the robot hangs by a floating or planar joint, is the world by another
+/// name: MuJoCo knows no such joint below a link, and amble's root is free by itself.
+void remove_floating_roots(XmlElement& root, ReadingNotes& notes) {
+  for (bool removed = true; removed;) {
+    removed = false;
+    std::set<std::string> children;
+    for (const XmlElement& joint : root.children)
+      if (const XmlElement* child = joint.name == "joint" ? joint.child("child") : nullptr)
+        children.insert(child->attribute_or("link", ""));
+    const auto is_empty_root = [&](const XmlElement& link) {
+      const std::string name = link.attribute_or("name", "");
+      return link.name == "link" && name != "world" && !children.contains(name) &&
+             link.child("inertial") == nullptr && link.child("collision") == nullptr &&
+             link.child("visual") == nullptr;
+    };
+    const auto link = std::ranges::find_if(root.children, is_empty_root);
+    if (link == root.children.end()) return;
+    const std::string name = link->attribute_or("name", "");
+    const auto hangs = [&](const XmlElement& joint) {
+      const XmlElement* parent = joint.name == "joint" ? joint.child("parent") : nullptr;
+      return parent != nullptr && parent->attribute_or("link", "") == name;
+    };
+    const auto joint = std::ranges::find_if(root.children, hangs);
+    if (joint == root.children.end() || std::ranges::count_if(root.children, hangs) > 1) return;
+    const std::string type = joint->attribute_or("type", "");
+    if (type != "floating" && type != "planar") return;
+    notes.add(Reading::replaced,
+              fmt::format("the {} joint '{}' below the empty link '{}': the root is free to move", type,
+                          joint->attribute_or("name", ""), name));
+    std::erase_if(root.children,
+                  [&](const XmlElement& element) { return hangs(element) || is_empty_root(element); });
+    removed = true;
+  }
+}
+
 /// Which joints have motors, as ROS is told: those of <transmission> (in it or beside, in older files), and
 /// those of <ros2_control> that take commands.
 void read_motors(ModelText& text, ReadingNotes& notes) {
@@ -194,6 +230,7 @@ void read_motors(ModelText& text, ReadingNotes& notes) {
 void clean_urdf(ModelText& text, const fs::path& path, ReadingNotes& notes) {
   XmlElement& root = text.root;
   refuse_unknown_joints(root, path);
+  remove_floating_roots(root, notes);
   const fs::path mesh_folder = set_options(root);
   read_motors(text, notes);
   root.prune([&](const XmlElement& element, const XmlElement& parent) {
@@ -206,6 +243,7 @@ void clean_urdf(ModelText& text, const fs::path& path, ReadingNotes& notes) {
     return element.name == "mimic" || element.name == "transmission" || element.name == "gazebo";
   });
   UrdfMeshes(text, path, mesh_folder, notes).take_all();
+  complete_inertials(root, text.missing_masses);
   balance_inertias(root, true, notes);
   mend_limits(root, true, notes);
   note_filled_links(root, notes);

@@ -299,5 +299,45 @@ TEST_F(NewRobotOf, LimbsOfTheTrunkAreHeldAndNamed) {
   EXPECT_EQ(standing(flat_footed_biped({.knee = "30 130"}, arms), 2, "arms").leg_joint_count(), 6u);
 }
 
+/// A biped with flat feet, whose knees are at their stop when they are straight.
+std::string straight_biped(const char* lower_stop) {
+  std::string text = R"(<robot name="b"><link name="base"><inertial><mass value="4"/>
+<inertia ixx=".03" iyy=".03" izz=".03" ixy="0" ixz="0" iyz="0"/></inertial>
+<collision><origin xyz="0 0 .1"/><geometry><box size=".12 .2 .2"/></geometry></collision></link>)";
+  for (const auto& [side, y] : {std::pair{"left", 0.09}, {"right", -0.09}}) {
+    const auto link = [&](const char* name, double kg, double moment, const char* shape) {
+      text += fmt::format(R"(<link name="{0}_{1}"><inertial><mass value="{2}"/>
+<inertia ixx="{3}" iyy="{3}" izz="{3}" ixy="0" ixz="0" iyz="0"/></inertial><collision>{4}</collision></link>)",
+                          side, name, kg, moment, shape);
+    };
+    const auto joint = [&](const char* name, const std::string& parent, const char* child, double y_m,
+                           double z_m, const char* lower) {
+      text += fmt::format(R"(<joint name="{0}_{1}" type="revolute"><parent link="{2}"/><child link="{0}_{3}"/>
+<origin xyz="0 {4} {5}"/><axis xyz="0 1 0"/><limit lower="{6}" upper="1.5" effort="30" velocity="8"/></joint>)",
+                          side, name, parent, child, y_m, z_m, lower);
+    };
+    constexpr const char* bone =
+        R"(<origin xyz="0 0 -.12"/><geometry><cylinder radius=".03" length=".2"/></geometry>)";
+    link("thigh", 0.8, 0.004, bone);
+    link("shin", 0.5, 0.003, bone);
+    link("foot", 0.2, 0.0005, R"(<origin xyz=".02 0 -.02"/><geometry><box size=".16 .08 .02"/></geometry>)");
+    joint("hip", "base", "thigh", y, 0.0, "-1");
+    joint("knee", std::string(side) + "_thigh", "shin", 0.0, -0.25, lower_stop);
+    joint("ankle", std::string(side) + "_shin", "foot", 0.0, -0.25, "-.8");
+  }
+  return text + "</robot>";
+}
+
+// In ODE, and so in the batch engine, a motor that pushes against a stop gives all its torque.
+TEST_F(NewRobotOf, ABipedWhoseMotorsWouldPushAgainstStopsStandsWithBentKnees) {
+  const NewRobot at_stop = make(straight_biped("0"), ".urdf"), free = make(straight_biped("-.1"), ".urdf");
+  ASSERT_TRUE(at_stop.robot && free.robot);
+  for (const NewRobot* made : {&at_stop, &free})
+    for (const char* engine : {"batch", "ode"})
+      EXPECT_THAT(odd_at_start(*made->robot, engine, 0.01), IsEmpty()) << engine;
+  EXPECT_THAT(at_stop.guess.toml, HasSubstr("with joints at their stops: left_knee, right_knee"));
+  EXPECT_THAT(free.guess.toml, Not(HasSubstr("[start_angle]")));
+}
+
 }  // namespace
 }  // namespace amble::experiment

@@ -116,5 +116,14 @@ TEST(FootShapes, AreWrittenAsAListThatReadsBack) {
   for (const robot::Leg& leg : robot.legs) EXPECT_EQ(leg.foot_geoms.size(), 4u);
 }
 
+TEST(FootShapes, OfAFootWithADrivenToeAreSoleAndToe) {
+  const std::string foot =
+      R"(<body name="NAME_foot" pos="0 0 -.2"><joint name="NAME_ankle" axis="0 1 0" range="-40 40"/>
+      <geom name="NAME_sole" type="box" size=".06 .03 .01" mass=".2"/>
+      <body name="NAME_toe" pos=".06 0 0"><joint name="NAME_toe_joint" axis="0 1 0" range="-40 40"/>
+      <geom name="NAME_toe" type="box" size=".02 .03 .01" pos=".02 0 0" mass=".05"/></body></body>)";
+  EXPECT_THAT(foot_of(biped(foot)), UnorderedElementsAre("sole", "toe"));
+}
+
 }  // namespace
 }  // namespace amble::morphology
