@@ -304,7 +304,8 @@ std::string straight_biped(const char* lower_stop) {
   std::string text = R"(<robot name="b"><link name="base"><inertial><mass value="4"/>
 <inertia ixx=".03" iyy=".03" izz=".03" ixy="0" ixz="0" iyz="0"/></inertial>
 <collision><origin xyz="0 0 .1"/><geometry><box size=".12 .2 .2"/></geometry></collision></link>)";
-  for (const auto& [side, y] : {std::pair{"left", 0.09}, {"right", -0.09}}) {
+  for (const std::string side : {"left", "right"}) {
+    const double y = side == "left" ? 0.09 : -0.09;
     const auto link = [&](const char* name, double kg, double moment, const char* shape) {
       text += fmt::format(R"(<link name="{0}_{1}"><inertial><mass value="{2}"/>
 <inertia ixx="{3}" iyy="{3}" izz="{3}" ixy="0" ixz="0" iyz="0"/></inertial><collision>{4}</collision></link>)",
@@ -322,8 +323,8 @@ std::string straight_biped(const char* lower_stop) {
     link("shin", 0.5, 0.003, bone);
     link("foot", 0.2, 0.0005, R"(<origin xyz=".02 0 -.02"/><geometry><box size=".16 .08 .02"/></geometry>)");
     joint("hip", "base", "thigh", y, 0.0, "-1");
-    joint("knee", std::string(side) + "_thigh", "shin", 0.0, -0.25, lower_stop);
-    joint("ankle", std::string(side) + "_shin", "foot", 0.0, -0.25, "-.8");
+    joint("knee", side + "_thigh", "shin", 0.0, -0.25, lower_stop);
+    joint("ankle", side + "_shin", "foot", 0.0, -0.25, "-.8");
   }
   return text + "</robot>";
 }
