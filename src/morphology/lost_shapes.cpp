@@ -36,6 +36,12 @@ bool is_on_a_limb(const mjModel_& model, int root, int body) {
 
 }  // namespace
 
+bool is_placeholder(const mjModel_& model, int geom,
+                    const std::map<std::string, std::string>& missing_meshes) {
+  return model.geom_type[geom] == mjGEOM_MESH &&
+         missing_meshes.contains(model.names + model.name_meshadr[model.geom_dataid[geom]]);
+}
+
 bool ends_a_leg(const mjModel_& model, int root, int body) {
   if (has_children(model, body) || !is_on_a_limb(model, root, body)) return false;
   const std::vector<robot::Pose> poses = poses_of(model);
@@ -56,9 +62,9 @@ bool is_of_a_foot(const mjModel_& model, int root, int geom,
   // The placeholder's centre, of which its height is known, is that far beside the mesh's origin.
   constexpr double placeholder_m = 1e-3;
   for (int g = model.body_geomadr[body], end = g + model.body_geomnum[body]; g < end; ++g) {
-    const bool lost = model.geom_type[g] == mjGEOM_MESH &&
-                      missing_meshes.contains(model.names + model.name_meshadr[model.geom_dataid[g]]);
-    if (!lost && collides(model, g) && height_m(g) < height_m(geom) - placeholder_m) return false;
+    if (!is_placeholder(model, g, missing_meshes) && collides(model, g) &&
+        height_m(g) < height_m(geom) - placeholder_m)
+      return false;
   }
   return true;
 }

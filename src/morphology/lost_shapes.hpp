@@ -7,6 +7,11 @@ struct mjModel_;
 
 namespace amble::morphology {
 
+/// Whether a small tetrahedron stands for a geom's mesh, which could not be read. `missing_meshes`: by
+/// MuJoCo's name.
+bool is_placeholder(const mjModel_& model, int geom,
+                    const std::map<std::string, std::string>& missing_meshes);
+
 /// Whether a body is the last one of a limb that reaches down.
 bool ends_a_leg(const mjModel_& model, int root, int body);
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "amble/core/index.hpp"
+#include "amble/morphology/lost_shapes.hpp"
 #include "amble/morphology/model_shapes.hpp"
 #include "amble/morphology/mujoco_math.hpp"
 #include "amble/morphology/solid.hpp"
@@ -60,10 +61,7 @@ class MassMender {
   }
 
  private:
-  bool is_placeholder(int g) const {
-    return model_.geom_type[g] == mjGEOM_MESH &&
-           missing_meshes_.contains(model_.names + model_.name_meshadr[model_.geom_dataid[g]]);
-  }
+  bool is_placeholder(int g) const { return morphology::is_placeholder(model_, g, missing_meshes_); }
 
   bool shows_placeholder(int b) const {
     for (int g = model_.body_geomadr[b], end = g + model_.body_geomnum[b]; g < end; ++g)

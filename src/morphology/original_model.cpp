@@ -14,6 +14,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
+#include "amble/morphology/lost_shapes.hpp"
 #include "amble/morphology/mass_text.hpp"
 #include "amble/morphology/model_shapes.hpp"
 #include "amble/morphology/mujoco_math.hpp"
@@ -65,12 +66,8 @@ class ModelKeeper {
     notes_.add(Reading::replaced, "in the engine mujoco-model " + std::move(text));
   }
 
-  bool collides(int g) const { return morphology::collides(model_, g) && !is_lost(g); }
-
-  /// Whether a placeholder is in its place.
-  bool is_lost(int g) const {
-    return model_.geom_type[g] == mjGEOM_MESH &&
-           file_.missing_meshes.contains(model_.names + model_.name_meshadr[model_.geom_dataid[g]]);
+  bool collides(int g) const {
+    return morphology::collides(model_, g) && !is_placeholder(model_, g, file_.missing_meshes);
   }
 
   bool removed(std::string_view element, std::string_view key, std::string_view value = {}) const {

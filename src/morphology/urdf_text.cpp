@@ -175,8 +175,7 @@ void refuse_unknown_joints(const XmlElement& root, const fs::path& path) {
 /// A root without anything, from which the robot hangs by a floating or planar joint, is the world by another
 /// name: MuJoCo knows no such joint below a link, and amble's root is free by itself.
 void remove_floating_roots(XmlElement& root, ReadingNotes& notes) {
-  for (bool removed = true; removed;) {
-    removed = false;
+  for (;;) {
     std::set<std::string> children;
     for (const XmlElement& joint : root.children)
       if (const XmlElement* child = joint.name == "joint" ? joint.child("child") : nullptr)
@@ -203,7 +202,6 @@ void remove_floating_roots(XmlElement& root, ReadingNotes& notes) {
                           joint->attribute_or("name", ""), name));
     std::erase_if(root.children,
                   [&](const XmlElement& element) { return hangs(element) || is_empty_root(element); });
-    removed = true;
   }
 }
 
