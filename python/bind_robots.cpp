@@ -5,6 +5,7 @@
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/experiment/problem.hpp"
+#include "amble/experiment/robot_folder.hpp"
 #include "amble/robot/json.hpp"
 #include "python/bind.hpp"
 #include "python/robot_batch.hpp"
@@ -181,6 +182,29 @@ void bind_views(py::class_<Robots>& type) {
 Such a robot keeps its last observations until reset().)");
 }
 
+/// As `amble robot --init`; the config extends the preset that came with the module.
+py::dict new_robot(const py::object& model, const py::object& out) {
+  const auto model_file = written_path_of(model);
+  const auto folder = out.is_none() ? std::filesystem::path() : written_path_of(out);
+  const auto preset =
+      path_of(py::module_::import("amble._data").attr("data_folder")()) / experiment::robot_preset;
+  experiment::RobotFolder written;
+  {
+    const py::gil_scoped_release release;
+    written = experiment::write_robot_folder(
+        model_file, folder, std::filesystem::exists(preset) ? std::optional(preset) : std::nullopt);
+  }
+  py::dict dict;
+  dict["robot"] = written.robot_file.string();
+  dict["config"] = written.config_file.string();
+  dict["ready"] = written.ready;
+  dict["missing"] = written.asked;
+  dict["settled"] = written.settled;
+  dict["warnings"] = written.warnings;
+  dict["text"] = written.text;
+  return dict;
+}
+
 }  // namespace
 
 void bind_robots(py::module_& module) {
@@ -224,6 +248,14 @@ mask: [n], bool: which ones (default: all).)")
           "Greatest targets that controllers give, rad: [joints].");
   bind_views(type);
   refuse_unmade<Robots>();
+
+  module.def(
+      "new_robot", new_robot, py::arg("model"), py::arg("out") = py::none(),
+      R"(Guesses a robot file from a model, MJCF (.xml) or URDF (.urdf), and writes it and a config into a folder.
+
+out: the folder (default: one of the model's name). Returns a dict: robot and config, paths of the two files; ready,
+whether the config can be evolved at once; missing, what is still to be given in the robot file, settled, what was
+guessed and why, warnings, a str each; text, all of it as `amble robot --init` prints it. Nothing is replaced. Raises Error.)");
 }
 
 }  // namespace amble::python

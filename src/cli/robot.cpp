@@ -2,24 +2,54 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <system_error>
+#include <vector>
 
 #include "amble/cli/commands.hpp"
 #include "amble/cli/help.hpp"
-#include "amble/cli/robot_init.hpp"
-#include "amble/cli/robot_solver.hpp"
 #include "amble/experiment/problem.hpp"
+#include "amble/experiment/robot_folder.hpp"
+#include "amble/experiment/robot_notes.hpp"
 #include "amble/io/file.hpp"
 #include "amble/morphology/mjcf_writer.hpp"
 #include "amble/robot/doubts.hpp"
 #include "amble/robot/summary.hpp"
 
 namespace amble::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The config that a new one extends: in the source tree or the installation that this program is part of,
+/// or below the current folder.
+std::optional<fs::path> preset() {
+  std::error_code error;
+  std::vector<fs::path> folders;
+  for (fs::path at = fs::read_symlink("/proc/self/exe", error).parent_path(); at.has_relative_path();
+       at = at.parent_path()) {
+    folders.push_back(at);
+    folders.push_back(at / "share/amble");
+  }
+  folders.push_back(fs::current_path());
+  for (const fs::path& folder : folders)
+    if (fs::exists(folder / experiment::robot_preset, error)) return folder / experiment::robot_preset;
+  return std::nullopt;
+}
+
+ExitCode init_robot(const fs::path& model, const fs::path& folder) {
+  const auto written = experiment::write_robot_folder(model, folder, preset());
+  fmt::print("{}", written.text);
+  return written.ready ? ExitCode::ok : ExitCode::bad_input;
+}
+
+}  // namespace
 
 void add_robot(CLI::App& app, Action& action) {
   auto* command =
       app.add_subcommand("robot", "Show what was read from a robot file, or make one from a model");
   struct Options {
-    std::filesystem::path file, mjcf, model, folder;
+    fs::path file, mjcf, model, folder;
   };
   auto options = std::make_shared<Options>();
   auto* file = command->add_option("FILE", options->file,
@@ -42,10 +72,10 @@ void add_robot(CLI::App& app, Action& action) {
       const auto robot = experiment::load_robot_file(options->file, &notes);
       if (!options->mjcf.empty()) io::write_file(options->mjcf, morphology::write_mjcf(robot).text);
       fmt::print("{}", robot::summary(robot));
-      if (const auto line = solver_line(robot)) fmt::print("{}", *line);
+      if (const auto line = experiment::solver_line(robot)) fmt::print("{}", *line);
       if (!notes.lines().empty()) fmt::print("\nimport notes:\n{}", notes.text());
-      fmt::print("{}", doubts_text(robot::doubts(robot)));
-      if (const std::string text = start_text(robot); !text.empty()) fmt::print("\n{}", text);
+      fmt::print("{}", experiment::doubts_text(robot::doubts(robot)));
+      if (const std::string text = experiment::start_text(robot); !text.empty()) fmt::print("\n{}", text);
       return ExitCode::ok;
     };
   });

@@ -1,0 +1,142 @@
+#include "amble/experiment/robot_folder.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "amble/core/error.hpp"
+#include "amble/experiment/new_robot.hpp"
+#include "amble/experiment/robot_notes.hpp"
+#include "amble/io/file.hpp"
+#include "amble/io/printable.hpp"
+#include "amble/io/shell.hpp"
+#include "amble/io/toml_text.hpp"
+#include "amble/morphology/robot_file.hpp"
+#include "amble/robot/doubts.hpp"
+#include "amble/robot/summary.hpp"
+
+namespace amble::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A path as a file in `folder` names it.
+std::string path_from(const fs::path& folder, const fs::path& path) {
+  const fs::path relative = fs::relative(fs::absolute(path), fs::absolute(folder));
+  return (relative.empty() ? fs::absolute(path) : relative).generic_string();
+}
+
+std::string engine_line(const robot::RobotSpec& robot) {
+  const EngineChoice choice = fastest_engine(robot);
+  if (choice.engine == "batch") return "engine = \"batch\"\n";
+  return fmt::format("engine = \"{}\"  # not batch, which is faster: {}\n", choice.engine,
+                     choice.why_not_batch);
+}
+
+/// What a config of a robot on one or two legs has besides: by distance alone the first generations learn to
+/// fall far.
+constexpr const char* score_of_two_legs =
+    "\n"
+    "[score]  # in m; on two legs a fall forwards is the first to win by distance alone\n"
+    "terms = [{ quantity = \"distance\", weight = 1.0 }, { quantity = \"upright_time\", weight = 1.0 }]\n";
+
+std::string settings_text(const robot::RobotSpec& robot) {
+  const auto settings = settings_of_size(robot);
+  if (!settings) return {};
+  return fmt::format(
+      "\n"
+      "[controller.supg]\n"
+      "period_s = {:g}  # hips {:.2g} m over the feet; 1 s where they are {:g} m, by the square root "
+      "(Froude)\n"
+      "\n"
+      "[noise]  # what the preset's pushes and drops are for a robot of that size\n"
+      "push_m_s = {:.2g}\n"
+      "start_height_m = {:.2g}\n",
+      settings->period_s, settings->leg_height_m, settings->preset_leg_height_m, settings->push_m_s,
+      settings->start_height_m);
+}
+
+std::string config_text(const std::string& name, const std::string& engine,
+                        const std::optional<robot::RobotSpec>& robot, const fs::path& folder,
+                        const std::optional<fs::path>& preset) {
+  const std::size_t legs = robot ? robot->legs.size() : 0;
+  return fmt::format(
+      "# {0}: SUPGs under noise. Beside the preset are sine.toml and ctrnn.toml; `amble settings` lists all "
+      "that may be set.\n"
+      "{1}include = [{2}]\n"
+      "name = {3}\n"
+      "robot = {4}\n"
+      "{5}"
+      "\n"
+      "[controller]\n"
+      "substrate = \"auto\"  # a node for each joint, made from the robot's legs and joint types\n"
+      "{6}{7}",
+      io::printable(name), preset ? "" : "# The presets of amble were not found: correct this path.\n",
+      io::toml_quoted(preset ? path_from(folder, *preset) : robot_preset), io::toml_quoted(name),
+      io::toml_quoted(name + ".toml"), engine, robot ? settings_text(*robot) : "",
+      legs == 1 || legs == 2 ? score_of_two_legs : "");
+}
+
+/// What was read and guessed, and what to do next.
+std::string text_of(const RobotFolder& written, const NewRobot& made, const fs::path& folder) {
+  const std::string file = written.robot_file.string();
+  std::string text;
+  const auto out = std::back_inserter(text);
+  if (made.robot) text += robot::summary(*made.robot);
+  if (!made.notes.lines().empty()) fmt::format_to(out, "\nimport notes:\n{}", made.notes.text());
+  if (!written.settled.empty()) fmt::format_to(out, "\nsettled:\n  {}\n", fmt::join(written.settled, "\n  "));
+  if (made.robot)
+    if (const std::string start = start_text(*made.robot); !start.empty()) text += "\n" + start;
+  fmt::format_to(out, "\nwrote {} and {}\n", file, written.config_file.string());
+  if (!written.asked.empty())
+    fmt::format_to(out, "still to be given in {}:\n  {}\n", file, fmt::join(written.asked, "\n  "));
+  text += doubts_text(written.warnings);
+  if (written.ready)
+    fmt::format_to(out, "next: read {}, then\n  amble evolve {} --out {}\n", file,
+                   io::shell_word(written.config_file.string()), io::shell_word((folder / "run").string()));
+  else
+    fmt::format_to(out, "next: complete it, and check it with\n  amble robot {}\n", io::shell_word(file));
+  return text;
+}
+
+}  // namespace
+
+RobotFolder write_robot_folder(const fs::path& model, fs::path folder,
+                               const std::optional<fs::path>& preset) {
+  if (model.extension() == ".toml" || model.extension() == ".json")
+    fail(ExitCode::bad_input, "{} is a robot file: expected a model, MJCF (.xml) or URDF (.urdf)",
+         model.string());
+  if (folder.empty()) folder = model.stem();
+  const morphology::ModelFile file = morphology::compile_model(model);
+  RobotFolder written;
+  written.robot_file = folder / (model.stem().string() + ".toml");
+  written.config_file = folder / "evolve.toml";
+  if (written.robot_file.filename() == written.config_file.filename())
+    fail(ExitCode::bad_input, "{}: the model must not be called evolve, as the config is", model.string());
+  for (const fs::path& path : {written.robot_file, written.config_file})
+    if (fs::exists(path))
+      fail(ExitCode::bad_input, "{} is there already, and is not replaced", path.string());
+  NewRobot made = make_new_robot(file, path_from(folder, model), written.robot_file);
+  std::optional<robot::RobotSpec>& robot = made.robot;
+  fs::create_directories(folder);
+  // The file ends with [contact].
+  const std::string sweeps = robot ? sweeps_line(*robot) : "";
+  io::write_file(written.robot_file, made.guess.toml + sweeps);
+  if (!sweeps.empty()) robot = morphology::load_robot(written.robot_file);
+  const std::string engine = robot ? engine_line(*robot) : "engine = \"batch\"\n";
+  io::write_file(written.config_file, config_text(made.guess.name, engine, robot, folder, preset));
+  written.settled = made.guess.settled;
+  written.asked = made.guess.asked;
+  written.warnings = made.guess.doubts;
+  if (robot) std::ranges::copy(robot::doubts(*robot), std::back_inserter(written.warnings));
+  written.ready = robot && !robot->legs.empty();
+  written.text = text_of(written, made, folder);
+  return written;
+}
+
+}  // namespace amble::experiment

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace amble::experiment {
+
+/// Of all presets the one that makes walkers of most robots in a minute (docs/ROBOTS.md), below the folder
+/// that has amble's configs.
+inline constexpr const char* robot_preset = "configs/quick/supg.toml";
+
+/// What write_robot_folder() wrote.
+struct RobotFolder {
+  std::filesystem::path robot_file, config_file;
+  bool ready = false;                                 ///< to evolve: the robot was read, and has legs
+  std::vector<std::string> settled, asked, warnings;  ///< a line each; asked: what is still to be given
+  std::string text;  ///< all of it, what was read and what to do next, as `amble robot --init` prints it
+};
+
+/// Guesses a robot file from a model, MJCF (.xml) or URDF (.urdf), and writes it and a config that extends
+/// `preset` (none: a path to be corrected) into `folder` (empty: one of the model's name, below the current
+/// folder). Throws UserError for a model that cannot be read and for files that are there already.
+RobotFolder write_robot_folder(const std::filesystem::path& model, std::filesystem::path folder,
+                               const std::optional<std::filesystem::path>& preset);
+
+}  // namespace amble::experiment
