@@ -1,5 +1,6 @@
 #include "amble/core/check.hpp"
 #include "amble/experiment/champion.hpp"
+#include "amble/io/json_file.hpp"
 #include "fuzz/target.hpp"
 
 // The checksum is not verified: it would keep the fuzzer from the code behind it.

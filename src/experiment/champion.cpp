@@ -10,9 +10,10 @@
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/experiment/episodes.hpp"
+#include "amble/experiment/problem_json.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/json_file.hpp"
 #include "amble/neat/genome_json.hpp"
-#include "amble/robot/json.hpp"
 #include "amble/robot/original_model.hpp"
 #include "amble/score/score.hpp"
 
@@ -115,42 +116,7 @@ Draw parse_draw(const io::JsonView& root) {
   return Draw::once;
 }
 
-Problem parse_problem(const io::JsonView& root) {
-  Problem problem{
-      .robot = robot::from_json(root.at("robot")),
-      .engine = root.at("engine").text(),
-      .cppn = io::settings_from_json<cppn::Settings>(root.at("cppn")),
-      .controller = io::settings_from_json<controllers::ControllerSettings>(root.at("controller")),
-      .trial = io::settings_from_json<trial::Settings>(root.at("trial")),
-      .noise = {},
-      .score = {},
-      .ground = {},
-      .damage = {},
-      .architecture = nullptr};
-  if (root.has("original_model"))
-    problem.robot.original = robot::original_model_from_json(root.at("original_model"), problem.robot);
-  if (root.has("noise"))
-    problem.noise = io::settings_from_json<trial::NoiseSettings>(root.at("noise").at("settings"));
-  if (root.has("score")) problem.score = io::settings_from_json<score::Settings>(root.at("score"));
-  if (root.has("ground")) problem.ground = io::settings_from_json<ground::Settings>(root.at("ground"));
-  if (root.has("damage")) problem.damage = io::settings_from_json<damage::Settings>(root.at("damage"));
-  problem.complete();
-  return problem;
-}
-
 }  // namespace
-
-io::Json problem_json(const Problem& problem) {
-  io::Json json{{"cppn", io::settings_to_json(problem.cppn)},
-                {"controller", io::settings_to_json(problem.controller)},
-                {"engine", problem.engine},
-                {"trial", io::settings_to_json(problem.trial)},
-                {"robot", robot::to_json(problem.robot)}};
-  if (!problem.score.is_distance()) json["score"] = io::settings_to_json(problem.score);
-  if (!problem.ground.is_default()) json["ground"] = io::settings_to_json(problem.ground);
-  if (!problem.damage.is_default()) json["damage"] = io::settings_to_json(problem.damage);
-  return json;
-}
 
 TrialResult summarise(const Problem& problem, const record::Trajectory& trajectory) {
   TrialResult result{.distance_m = score::distance_m(trajectory),
@@ -214,7 +180,7 @@ LoadedChampion parse_champion(const std::string& text, const std::string& what, 
                       .seed = root.at("seed").integer(),
                       .generation = count_of(root.at("generation")),
                       .index = count_of(root.at("index")),
-                      .problem = parse_problem(root),
+                      .problem = problem_from_json(root),
                       .genome = neat::genome_from_json(root.at("genome")),
                       .result = parse_result(root.at("result")),
                       .trace = parse_trace(root.at("trace")),

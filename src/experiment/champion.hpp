@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "amble/experiment/problem.hpp"
-#include "amble/io/json_file.hpp"
+#include "amble/io/altered.hpp"
 #include "amble/neat/genome.hpp"
 #include "amble/record/trajectory.hpp"
 
@@ -65,9 +65,6 @@ struct Champion {
 /// distance_m / of_m, the share of a distance kept in another engine or test; nothing if of_m is not
 /// positive.
 std::optional<double> share_kept(double distance_m, double of_m);
-
-/// The settings under which a champion is run again, as in its file, without the noise.
-io::Json problem_json(const Problem& problem);
 
 /// The text of a champion file (docs/FORMATS.md).
 std::string champion_text(const Champion& champion);

@@ -27,7 +27,7 @@ std::uint32_t version_of(std::string_view bytes) {
 
 /// Hash of a run's config without what may change on resume.
 std::uint64_t config_hash(const Config& config) {
-  return hash_text(fmt::format("{} {} {}", config.seed, config.name, config.identity().dump()));
+  return hash_text(fmt::format("{} {} {}", config.seed, config.name, config.identity()));
 }
 
 }  // namespace

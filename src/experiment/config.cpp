@@ -7,6 +7,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/experiment/problem.hpp"
+#include "amble/io/json_file.hpp"
 #include "amble/io/toml_settings.hpp"
 #include "amble/physics/engine.hpp"
 
@@ -143,7 +144,7 @@ std::unique_ptr<const score::Behaviour> Config::make_behaviour(const robot::Robo
   return score::make_behaviour(search::strategy_kind(search).behaviour, settings);
 }
 
-io::Json Config::identity() const {
+std::string Config::identity() const {
   Config copy = *this;
   copy.name.clear();
   copy.robot.clear();
@@ -166,7 +167,7 @@ io::Json Config::identity() const {
     values.erase("champion");
   else if (copy.champion.score == ChampionScore::as_in_evolution)
     values.at("champion").erase("score");
-  return values;
+  return values.dump();
 }
 
 std::string Config::to_toml() const {

@@ -17,7 +17,6 @@
 #include "amble/damage/settings.hpp"
 #include "amble/experiment/evaluation_settings.hpp"
 #include "amble/ground/settings.hpp"
-#include "amble/io/json_file.hpp"
 #include "amble/io/settings.hpp"
 #include "amble/io/toml_settings.hpp"
 #include "amble/neat/settings.hpp"
@@ -83,8 +82,8 @@ struct Config {
   /// alone. Throws SettingError if it does not fit.
   std::unique_ptr<const score::Behaviour> make_behaviour(const robot::RobotSpec* robot_spec = nullptr) const;
   /// All settings but the seed, and but `name`, `robot` and `generations`, which change no evaluation, as
-  /// values without comments: equal for configs that give the same run for the same seed and robot.
-  io::Json identity() const;
+  /// compact JSON without comments: equal for configs that give the same run for the same seed and robot.
+  std::string identity() const;
   /// The whole config as TOML with comments; reads back to the same values.
   std::string to_toml() const;
 

@@ -2,6 +2,7 @@
 
 #include "amble/damage/stages.hpp"
 #include "amble/ground/recorded.hpp"
+#include "amble/io/json_file.hpp"
 #include "amble/robot/json.hpp"
 
 namespace amble::experiment {

@@ -160,7 +160,7 @@ std::uint64_t run_identity(const RunPaths& paths) {
       io::unseal_json(manifest_format, run_version, io::read_file(paths.manifest), paths.manifest.string());
   const auto processes = manifest.document.value("processes", io::Json::array());
   const auto config = experiment::load_config(paths.config, {});
-  return hash_text(fmt::format("{} {} {} {} {}", config.seed, config.name, config.identity().dump(),
+  return hash_text(fmt::format("{} {} {} {} {}", config.seed, config.name, config.identity(),
                                hash_text(io::read_file(paths.robot)),
                                processes.empty() ? "" : processes.front().dump()));
 }

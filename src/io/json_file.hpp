@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "amble/io/altered.hpp"
 #include "amble/io/settings.hpp"
 
 namespace amble::io {
@@ -33,9 +34,6 @@ std::string json_text(const Json& json);
 /// "…"}, laid out by json_text. The checksum is the XXH3 of the compact text of everything before it, so that
 /// it does not depend on the layout.
 std::string sealed_json(std::string_view format, int version, const Json& document);
-
-/// What to do if only the checksum is wrong.
-enum class Altered { refuse, accept };
 
 struct SealedJson {
   Json document;         ///< without "format", "version" and "checksum"

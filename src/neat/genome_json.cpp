@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "amble/core/index.hpp"
+#include "amble/neat/genome_text.hpp"
 
 namespace amble::neat {
 namespace {
@@ -41,6 +42,15 @@ io::Json to_json(const Genome& genome) {
                      {"weight", link.weight},
                      {"enabled", link.enabled}});
   return {{"nodes", std::move(nodes)}, {"links", std::move(links)}};
+}
+
+std::string genome_text(const Genome& genome) {
+  return io::json_text(to_json(genome));
+}
+
+Genome parse_genome(const std::string& text, const std::string& what) {
+  const io::Json json = io::parse_json(text, what);
+  return genome_from_json(io::JsonView(json, what));
 }
 
 Genome genome_from_json(const io::JsonView& json) {

@@ -7,6 +7,7 @@
 #include "amble/figures/cppn_figure.hpp"
 #include "amble/gait/recorded_gait.hpp"
 #include "amble/gait/report_text.hpp"
+#include "amble/io/json_file.hpp"
 #include "amble/presentation/cppn_graph.hpp"
 #include "amble/study/gait_observer.hpp"
 

@@ -6,6 +6,7 @@
 
 #include "amble/experiment/champion.hpp"
 #include "amble/experiment/run_folder.hpp"
+#include "amble/io/json_file.hpp"
 #include "amble/ledger/record.hpp"
 #include "amble/neat/settings.hpp"
 #include "amble/study/plan.hpp"

@@ -183,7 +183,7 @@ Plan make_plan(const ledger::StudySpec& study, const std::filesystem::path& fold
 }
 
 std::string config_hash(const experiment::Config& config, const robot::RobotSpec& robot) {
-  return hex(hash_text(config.identity().dump() + experiment::robot_file_text(robot)));
+  return hex(hash_text(config.identity() + experiment::robot_file_text(robot)));
 }
 
 }  // namespace amble::study

@@ -71,9 +71,9 @@ TEST(AutomaticRun, EvolvesEveryKindOfControllerOnRobotsOfOtherLegs) {
 
 TEST(AutomaticRun, LeavesTheIdentityOfConfigsWithListsAsItWas) {
   for (const std::string& kind : kinds) {
-    const auto listed = config_of(kind).identity();
+    const auto listed = identity_json(config_of(kind));
     EXPECT_FALSE(listed["controller"]["substrate"].contains("layout"));
-    EXPECT_EQ(automatic_config(kind).identity()["controller"]["substrate"]["layout"], "auto");
+    EXPECT_EQ(identity_json(automatic_config(kind))["controller"]["substrate"]["layout"], "auto");
   }
 }
 

@@ -155,9 +155,9 @@ TEST(ChampionChoice, NeedsNoise) {
 }
 
 TEST(ChampionChoice, IsNoPartOfAConfigsIdentityUnlessItIsMade) {
-  EXPECT_FALSE(small_config().identity().contains("champion"));
-  EXPECT_TRUE(judged_config(4).identity().contains("champion"));
-  EXPECT_FALSE(judged_config(4).identity().at("champion").contains("score"))
+  EXPECT_FALSE(identity_json(small_config()).contains("champion"));
+  EXPECT_TRUE(identity_json(judged_config(4)).contains("champion"));
+  EXPECT_FALSE(identity_json(judged_config(4)).at("champion").contains("score"))
       << "as before it could be chosen";
 }
 

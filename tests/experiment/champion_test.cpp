@@ -5,6 +5,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/random.hpp"
+#include "amble/io/json_file.hpp"
 #include "amble/neat/genome_json.hpp"
 #include "amble/robot/json.hpp"
 #include "tests/experiment/fixture.hpp"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "amble/experiment/problem_json.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/verify.hpp"
 #include "amble/record/recording.hpp"
@@ -43,8 +44,8 @@ TEST(DamageRun, IsTheSameForAnyNumberOfWorkersAndAfterAnInterruptionAndIsVerifie
 }
 
 TEST(DamageRun, LeavesIdentityAndChampionsOfIntactRobotsAsTheyWere) {
-  EXPECT_FALSE(small_config().identity().contains("damage"));
-  EXPECT_TRUE(small_config({damage(no_leg)}).identity().contains("damage"));
+  EXPECT_FALSE(identity_json(small_config()).contains("damage"));
+  EXPECT_TRUE(identity_json(small_config({damage(no_leg)})).contains("damage"));
   EXPECT_FALSE(problem_json(small_problem()).contains("damage"));
   const Problem damaged = small_problem(small_config({damage(no_leg)}));
   EXPECT_TRUE(problem_json(damaged).contains("damage"));

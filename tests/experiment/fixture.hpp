@@ -12,6 +12,7 @@
 #include "amble/experiment/repertoire.hpp"
 #include "amble/experiment/run.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/json_file.hpp"
 #include "amble/neat/population.hpp"
 #include "tests/io/temporary_folder.hpp"
 
@@ -25,6 +26,11 @@ inline Config small_config(std::vector<std::string> more = {}) {
       .assignments = {"population.size=40", "trial.duration_s=1"}, .seed = 1, .generations = 3};
   overrides.assignments.insert(overrides.assignments.end(), more.begin(), more.end());
   return load_config(AMBLE_SOURCE_DIR "/configs/authors/supg-objective.toml", overrides);
+}
+
+/// Config::identity(), read.
+inline io::Json identity_json(const Config& config) {
+  return io::parse_json(config.identity(), "identity");
 }
 
 /// The same under novelty search, with a threshold that makes the archive grow in each of these generations.

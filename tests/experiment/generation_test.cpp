@@ -134,8 +134,8 @@ TEST(EvaluationSettings, ThatMakeNoSenseAreRefused) {
 }
 
 TEST(EvaluationSettings, AreNoPartOfAConfigsIdentityUnlessTheyChangeIt) {
-  EXPECT_FALSE(small_config({"evaluation.finalist_episodes=3"}).identity().contains("evaluation"));
-  EXPECT_TRUE(noisy_config({"evaluation.draw=once"}).identity().contains("evaluation"));
+  EXPECT_FALSE(identity_json(small_config({"evaluation.finalist_episodes=3"})).contains("evaluation"));
+  EXPECT_TRUE(identity_json(noisy_config({"evaluation.draw=once"})).contains("evaluation"));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/json_file.hpp"
 #include "tests/experiment/fixture.hpp"
 
 namespace amble::experiment {

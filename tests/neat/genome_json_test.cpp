@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "amble/core/error.hpp"
+#include "amble/neat/genome_text.hpp"
 #include "tests/neat/samples.hpp"
 
 namespace amble::neat {
@@ -91,6 +93,23 @@ TEST(GenomeJson, ReadsNumbersUpToTheLargest) {
       EXPECT_NE(error_about(json).find("must be a whole number from 0 to 4294967295"), std::string::npos)
           << key;
     }
+}
+
+TEST(GenomeText, ReadsBackToTheSameBits) {
+  const Genome genome = parse_genome(genome_text(small()), "it");
+  EXPECT_EQ(to_json(genome), to_json(small()));
+  for (std::size_t i = 0; i < genome.links.size(); ++i)
+    EXPECT_EQ(genome.links[i].weight, small().links[i].weight);
+}
+
+TEST(GenomeText, NamesWhatIsWrong) {
+  EXPECT_THROW(parse_genome("{", "mine"), UserError);
+  try {
+    parse_genome(R"({"nodes": []})", "mine");
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_STREQ(error.what(), "mine: key 'links' is missing");
+  }
 }
 
 }  // namespace
