@@ -76,9 +76,8 @@ void add_compare(CLI::App& app, Action& action) {
   add_disturbance(*command, options->how.disturbance, fmt::format("{}", experiment::running_trials));
   command
       ->add_option("--episodes", options->how.episodes,
-                   "With --noise: in place of --trials so many episodes of an evaluation that it has not "
-                   "met, those that "
-                   "amble trial numbers from 1000")
+                   "With --noise: in place of --trials so many trials that evolution has not met, those of "
+                   "amble trial --unseen")
       ->needs(command->get_option("--noise"))
       ->excludes(command->get_option("--trials"))
       ->check(between(1u, 1000u));

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "amble/cli/commands.hpp"
@@ -15,6 +16,7 @@
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
 #include "amble/damage/text.hpp"
+#include "amble/experiment/episode_set.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/gait/report_text.hpp"
@@ -30,24 +32,36 @@ struct TrialOptions {
   std::optional<double> seconds;
   std::optional<std::string> engine;
   std::optional<std::filesystem::path> record;
-  std::optional<std::uint32_t> episode;
+  std::optional<std::uint32_t> episode, unseen;
   std::optional<std::filesystem::path> ground;
   std::optional<std::string> damage;
   presentation::TrialChoice disturbance;
 };
 
-constexpr std::uint32_t most_episodes = 1000000;
+/// Of an earlier version: episodes, and from most_evolution_episodes on unseen ones.
+constexpr std::uint32_t most_old_number = 1'000'000;
 
-/// `--noise 3`, which once meant an episode.
-void take_old_episode(TrialOptions& options) {
+void take_old_number(TrialOptions& options, std::string_view option, std::uint32_t number) {
+  constexpr std::uint32_t first_unseen = experiment::episode_number(experiment::EpisodeSet::unseen, 0);
+  const bool unseen = number >= first_unseen;
+  const std::uint32_t of_set = unseen ? number - first_unseen : number;
+  print_message(fmt::format("{} {}: {} is asked for by --{} {} now\n", option, number,
+                            unseen ? "a trial that evolution has not met" : "an episode",
+                            unseen ? "unseen" : "episode", of_set));
+  options.episode.reset();
+  (unseen ? options.unseen : options.episode) = of_set;
+}
+
+/// `--noise 3`, which once meant an episode, and `--episode 1003`, which meant `--unseen 3`.
+void take_old_numbers(TrialOptions& options) {
   auto& noise = options.disturbance.noise;
   std::error_code error;
-  if (!noise || std::filesystem::exists(*noise, error)) return;
-  const std::string text = noise->string();
   std::uint32_t number = 0;
-  if (!CLI::detail::lexical_cast(text, number) || number > most_episodes) return;
-  print_message(fmt::format("--noise {0}: an episode is asked for by --episode {0} now\n", text));
-  options.episode = number;
+  if (options.episode && *options.episode >= experiment::most_evolution_episodes)
+    take_old_number(options, "--episode", *options.episode);
+  if (!noise || std::filesystem::exists(*noise, error)) return;
+  if (!CLI::detail::lexical_cast(noise->string(), number) || number > most_old_number) return;
+  take_old_number(options, "--noise", number);
   noise.reset();
 }
 
@@ -101,12 +115,15 @@ ExitCode run_trial(const TrialOptions& options) {
                                 .observer = &gait,
                                 .trace = false,
                                 .noise = {}};
-  if (options.episode) {
+  const bool one_episode = options.episode || options.unseen;
+  if (one_episode) {
     if (!champion.problem.disturbed())
-      fail(ExitCode::bad_input, "--episode: {} was evolved without noise, and from one place", path.string());
-    how.noise = champion.scenario_key(*options.episode);
+      fail(ExitCode::bad_input, "--{}: {} was evolved without noise, and from one place",
+           options.episode ? "episode" : "unseen", path.string());
+    how.noise = options.episode ? champion.scenario_key(*options.episode)
+                                : champion.unseen_scenario_key(*options.unseen);
   }
-  if (!options.episode && !options.disturbance.undisturbed) print_typical(champion, options);
+  if (!one_episode && !options.disturbance.undisturbed) print_typical(champion, options);
   const auto replay = experiment::replay(champion.problem, champion.genome, how, stop_signal());
   if (!replay) fail(ExitCode::interrupted, "stopped before the end of the trial");
   const auto& result = replay->result;
@@ -139,12 +156,16 @@ void add_trial(CLI::App& app, Action& action) {
   add_engine(*command, options->engine, "Physics engine (default: as in its evolution)");
   command->add_option("--record", options->record, "Write every step to this recording");
   add_disturbance(*command, options->disturbance);
+  auto* const episode =
+      command
+          ->add_option("--episode", options->episode,
+                       "Only one trial, disturbed as in this episode of its evaluation, from 0")
+          ->check(between(0u, most_old_number));
   command
-      ->add_option(
-          "--episode", options->episode,
-          "Only one trial, disturbed as in this episode of its evaluation, from 0; higher numbers are noise "
-          "that it has not met")
-      ->check(between(0u, most_episodes));
+      ->add_option("--unseen", options->unseen,
+                   "Only one trial, disturbed as evolution has not met it: which one, from 0")
+      ->check(between(0u, experiment::most_unseen_episodes))
+      ->excludes(episode);
   command->add_option("--ground", options->ground,
                       "Walk on the [ground] of this config (default: as in its evolution)");
   command->add_option("--damage", options->damage,
@@ -156,7 +177,7 @@ void add_trial(CLI::App& app, Action& action) {
                           {"amble trial runs/1 --damage missing:FL", "with its front left leg missing"}});
   command->callback([options, &action] {
     action = [options] {
-      take_old_episode(*options);
+      take_old_numbers(*options);
       return run_trial(*options);
     };
   });

@@ -34,7 +34,7 @@ class Reality {
  public:
   Reality(const Repertoire& repertoire, const std::string& engine, const damage::Settings& damage, int jobs)
       : repertoire_(repertoire), problem_(problem_in(repertoire, engine, damage)) {
-    ground_ = problem_.make_ground(ground_of(unseen_key(repertoire.config.seed)));
+    ground_ = problem_.make_ground(ground_of(episode_key(EpisodeSet::unseen, repertoire.config.seed)));
     evaluator_ = std::make_unique<Evaluator>(problem_, record::PathSampling(), jobs);
   }
 

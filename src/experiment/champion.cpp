@@ -9,6 +9,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
+#include "amble/experiment/episode_set.hpp"
 #include "amble/experiment/episodes.hpp"
 #include "amble/experiment/problem_json.hpp"
 #include "amble/io/file.hpp"
@@ -139,8 +140,7 @@ trial::ScenarioKey Champion::scenario_key(std::size_t episode) const {
 }
 
 trial::ScenarioKey Champion::unseen_scenario_key(std::size_t episode) const {
-  // Evaluations have at most so many episodes (NoiseSettings), from 0.
-  return scenario_key(first_unseen_episode + episode);
+  return scenario_key(episode_number(EpisodeSet::unseen, static_cast<std::uint32_t>(episode)));
 }
 
 double Champion::objective() const {

@@ -12,7 +12,7 @@ ChampionChoice::ChampionChoice(const Config& config, const Problem& problem, con
   problem_.noise.score = config.champion.episode_score(problem.noise.score);
   const int episodes = config.champion.episodes;
   if (episodes == 0) return;
-  trial::ScenarioKey key = judging_key(config.seed);
+  trial::ScenarioKey key = episode_key(EpisodeSet::deciding, config.seed);
   ground_ = problem_.make_ground(ground_of(key));
   for (int i = 0; i < episodes; ++i, ++key.episode)
     scenarios_.push_back(problem_.scenario(key, ground_.get()));

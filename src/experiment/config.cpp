@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "amble/core/error.hpp"
-#include "amble/experiment/problem.hpp"
+#include "amble/experiment/episode_set.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/toml_settings.hpp"
 #include "amble/physics/engine.hpp"
@@ -52,7 +52,7 @@ void Config::describe(io::SettingsVisitor& visitor) {
 }
 
 void ChampionSettings::describe(io::SettingsVisitor& visitor) {
-  visitor.integer("episodes", episodes, {0, first_unseen_episode},
+  visitor.integer("episodes", episodes, {0, most_evolution_episodes},
                   {"further trials under noise, the same throughout the run, that decide whether the best of "
                    "a generation becomes the champion; 0: its evaluation decides, luck included"});
   visitor.choice("score", score, champion_score_names,
@@ -102,10 +102,10 @@ void Config::check_evaluation() const {
         "evaluation.finalists = {}: without any noise their trials would all be the same; expected 0",
         evaluation.finalists);
   const int most = evaluation.episodes_of_best(noise.episodes);
-  if (most > static_cast<int>(first_unseen_episode))
+  if (most > static_cast<int>(most_evolution_episodes))
     fail_setting({"evaluation.finalist_episodes", "noise.episodes"},
                  "noise.episodes + evaluation.finalist_episodes = {}: expected at most {}", most,
-                 first_unseen_episode);
+                 most_evolution_episodes);
   if (evaluation.finalists > 0.0 && search.kind == "map-elites")
     fail_setting({"evaluation.finalists", "search.kind"},
                  "evaluation.finalists = {}: a map compares each candidate with its own cell; expected 0",

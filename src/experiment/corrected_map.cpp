@@ -68,7 +68,7 @@ std::optional<CorrectedMap> correct_map(const Repertoire& repertoire, int trials
   for (std::uint32_t i = 0; i < elites.size(); ++i)
     genomes.push_back(neat::expand(elites[i].genome, "archive.bin"));
 
-  const auto ground = problem.make_ground(ground_of(unseen_key(config.seed)));
+  const auto ground = problem.make_ground(ground_of(episode_key(EpisodeSet::unseen, config.seed)));
   const auto scenarios = unseen_scenarios(problem, config.seed, 0, trials, ground.get());
   const auto behaviour = config.make_behaviour(&problem.robot);
   Evaluator evaluator(problem, behaviour->path(), jobs, behaviour->measures());

@@ -25,35 +25,16 @@ double objective(trial::EpisodeScore combined, std::span<const double> scores) {
   return sum / static_cast<double>(scores.size());
 }
 
-namespace {
-
-/// The first trial of the set of this number (ground_of): 1 unseen, 1000 deciding, 2000 typical ones.
-trial::ScenarioKey first_of(std::int64_t seed, std::uint32_t set) {
-  return {.seed = static_cast<std::uint64_t>(seed), .generation = 0, .episode = set * first_unseen_episode};
-}
-
-}  // namespace
-
-trial::ScenarioKey unseen_key(std::int64_t seed) {
-  return first_of(seed, 1);
-}
-
-trial::ScenarioKey judging_key(std::int64_t seed) {
-  return first_of(seed, 1000);
-}
-
-trial::ScenarioKey typical_key(std::int64_t seed) {
-  return first_of(seed, 2000);
+trial::ScenarioKey episode_key(EpisodeSet set, std::int64_t seed, std::uint32_t n) {
+  return {.seed = static_cast<std::uint64_t>(seed), .generation = 0, .episode = episode_number(set, n)};
 }
 
 std::vector<trial::Scenario> unseen_scenarios(const Problem& problem, std::int64_t seed, int first, int count,
                                               const ground::Ground* ground) {
   std::vector<trial::Scenario> scenarios;
-  for (int i = 0; i < count && problem.disturbed(); ++i) {
-    trial::ScenarioKey key = unseen_key(seed);
-    key.episode += static_cast<std::uint32_t>(first + i);
-    scenarios.push_back(problem.scenario(key, ground));
-  }
+  for (int i = 0; i < count && problem.disturbed(); ++i)
+    scenarios.push_back(problem.scenario(
+        episode_key(EpisodeSet::unseen, seed, static_cast<std::uint32_t>(first + i)), ground));
   return scenarios;
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "amble/experiment/episode_set.hpp"
 #include "amble/experiment/evaluator.hpp"
 #include "amble/trial/noise_settings.hpp"
 #include "amble/trial/scenario.hpp"
@@ -13,18 +14,12 @@ namespace amble::experiment {
 /// The objective of a genome from the scores (at least one) of its episodes.
 double objective(trial::EpisodeScore combined, std::span<const double> scores);
 
-/// The trials numbered `first`, `first` + 1, … of those unseen during evolution, for `count` trials of any
-/// genome; none for a problem without noise. `ground` is that of unseen_key(seed).
+/// The trials numbered `first`, `first` + 1, … of EpisodeSet::unseen, for `count` trials of any genome; none
+/// for a problem without noise. `ground` is that of their keys.
 std::vector<trial::Scenario> unseen_scenarios(const Problem& problem, std::int64_t seed, int first, int count,
                                               const ground::Ground* ground);
-/// The key of their ground, and of the first of them.
-trial::ScenarioKey unseen_key(std::int64_t seed);
-/// The same of the trials that decide on champions, of which neither evolution nor unseen_scenarios() has
-/// any.
-trial::ScenarioKey judging_key(std::int64_t seed);
-/// The same of the trials that tell what a champion typically does (TypicalTrials): none of them decides on
-/// anything.
-trial::ScenarioKey typical_key(std::int64_t seed);
+/// The key of trial n of a set, and of its ground: of any genome, for sets that no generation has of its own.
+trial::ScenarioKey episode_key(EpisodeSet set, std::int64_t seed, std::uint32_t n = 0);
 
 /// What each trial of a genome counts in evolution: the problem's score, with its factor for falls.
 std::vector<double> credited_scores(const Problem& problem, std::span<const record::Trajectory> trials);

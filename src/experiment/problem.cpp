@@ -7,6 +7,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/damage/stages.hpp"
+#include "amble/experiment/episode_set.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/printable.hpp"
@@ -137,7 +138,7 @@ std::shared_ptr<const ground::Ground> Problem::make_ground(const ground::Key& ke
 }
 
 ground::Key ground_of(const trial::ScenarioKey& key) {
-  return {.seed = key.seed, .generation = key.generation, .set = key.episode / first_unseen_episode};
+  return {.seed = key.seed, .generation = key.generation, .set = ground_number(key.episode)};
 }
 
 std::shared_ptr<const ground::Ground> GenerationGround::of(const Problem& problem, std::int64_t seed,

@@ -76,11 +76,7 @@ struct Problem {
                                          const ground::Ground* on = nullptr) const;
 };
 
-/// The first episode of a champion's trials under noise unseen during evolution; on uneven ground its
-/// ground is new as well.
-inline constexpr std::uint32_t first_unseen_episode = 1000;
-
-/// The ground of a trial under noise: that of its generation.
+/// The ground of a trial under noise: that of its generation, or of its EpisodeSet.
 ground::Key ground_of(const trial::ScenarioKey& key);
 
 /// The ground of each generation of a run, made anew only when it changes.

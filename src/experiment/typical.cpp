@@ -68,7 +68,7 @@ TypicalTrials::TypicalTrials(const Problem& problem, std::int64_t seed, int tria
   auto disturbed = std::make_unique<Problem>(problem);
   disturbed->noise = level_.noise;
   problem_ = std::move(disturbed);
-  trial::ScenarioKey key = typical_key(seed);
+  trial::ScenarioKey key = episode_key(EpisodeSet::typical, seed);
   ground_ = problem_->make_ground(ground_of(key));
   for (int i = 0; i < trials; ++i, ++key.episode)
     scenarios_.push_back(problem_->scenario(key, ground_.get()));
@@ -101,7 +101,7 @@ std::optional<MedianTrial> median_trial(TypicalTrials& trials, const neat::Genom
   std::vector<std::uint32_t> order(results->size());
   std::iota(order.begin(), order.end(), 0u);
   std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return (*results)[i].distance_m; });
-  trial::ScenarioKey key = typical_key(seed);
+  trial::ScenarioKey key = episode_key(EpisodeSet::typical, seed);
   key.episode += order[(order.size() - 1) / 2];
   return MedianTrial{.problem = trials.problem(),
                      .key = key,

@@ -52,8 +52,8 @@ class TypicalTrials {
       : TypicalTrials(problem, seed, trials, typical_level(problem, level), jobs) {}
 
   const TypicalLevel& level() const { return level_; }
-  /// The problem with the noise of these trials: their scenarios are those of typical_key(seed) and the
-  /// episodes after it.
+  /// The problem with the noise of these trials: their scenarios are those of
+  /// episode_key(EpisodeSet::typical, seed) and the episodes after it.
   const Problem& problem() const { return *problem_; }
   /// All trials of one genome. Nothing if `stop` was set meanwhile.
   std::optional<std::vector<TrialResult>> run(const neat::Genome& genome, const std::atomic<bool>& stop);

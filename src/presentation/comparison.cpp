@@ -43,7 +43,7 @@ std::vector<std::string> engines_of(const std::vector<std::string>& requested,
 
 /// The trials that tell what a champion typically does, the same in all engines.
 std::vector<trial::ScenarioKey> typical_keys(const experiment::Champion& champion, int trials) {
-  trial::ScenarioKey key = experiment::typical_key(champion.seed);
+  trial::ScenarioKey key = experiment::episode_key(experiment::EpisodeSet::typical, champion.seed);
   std::vector<trial::ScenarioKey> keys;
   for (int i = 0; i < trials; ++i, ++key.episode) keys.push_back(key);
   return keys;

@@ -92,7 +92,7 @@ TEST_F(Compare, TakesTheMedianOfTrialsUnderNoiseThatEvolutionHasNotMet) {
     for (std::size_t e = 0; e < 3; ++e) {
       distances_m.push_back(judged["trials"].at(e)["distance_m"]);
       const auto alone = distance({"trial", champion_, "--engine", judged["engine"].get<std::string>(),
-                                   "--episode", std::to_string(1000 + e)});
+                                   "--unseen", std::to_string(e)});
       EXPECT_NEAR(std::stod(alone), distances_m.back(), 0.0005) << judged["engine"];
     }
     std::ranges::sort(distances_m);
@@ -129,10 +129,18 @@ TEST_F(Compare, TheNoiseOfAConfigIsTheSameTrialsInEveryCommand) {
 }
 
 TEST_F(Compare, AnEpisodeAskedForByAnOldNameIsToldTheNewOne) {
-  const auto old = amble({"trial", champion_, "--noise", "1000"});
-  EXPECT_EQ(old.exit_code, 0);
-  EXPECT_EQ(old.err, "--noise 1000: an episode is asked for by --episode 1000 now\n");
-  EXPECT_EQ(old.out, amble({"trial", champion_, "--episode", "1000"}).out);
+  const std::string unmet = amble({"trial", champion_, "--unseen", "2"}).out;
+  for (const char* name : {"--noise", "--episode"}) {
+    const auto old = amble({"trial", champion_, name, "1002"});
+    EXPECT_EQ(old.exit_code, 0);
+    EXPECT_EQ(old.err, std::string(name) +
+                           " 1002: a trial that evolution has not met is asked for by --unseen 2 now\n");
+    EXPECT_EQ(old.out, unmet);
+  }
+  const auto met = amble({"trial", champion_, "--noise", "0"});
+  EXPECT_EQ(met.err, "--noise 0: an episode is asked for by --episode 0 now\n");
+  EXPECT_EQ(met.out, amble({"trial", champion_, "--episode", "0"}).out);
+  EXPECT_NE(met.out, unmet);
 }
 
 TEST_F(Compare, TheMedianTrialIsWhatGaitViewAndPageShowOfAWalkerEvolvedUnderNoise) {

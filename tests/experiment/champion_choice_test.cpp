@@ -39,7 +39,7 @@ double judged(const Config& config, const Champion& champion, int count) {
   Evaluator evaluator(champion.problem, {}, 1);
   double sum = 0.0;
   for (int i = 0; i < count; ++i) {
-    trial::ScenarioKey key = judging_key(config.seed);
+    trial::ScenarioKey key = episode_key(EpisodeSet::deciding, config.seed);
     key.episode += static_cast<std::uint32_t>(i);
     const std::vector<trial::Scenario> scenario{champion.problem.scenario(key, nullptr)};
     sum += objectives(champion.problem, *evaluator.evaluate(std::span(&champion.genome, 1), never, scenario))
@@ -129,7 +129,7 @@ TEST(ChampionChoice, ByTheMedianKeepsWhatTypicallyDoesBest) {
   for (const Champion& champion : kept) {
     std::vector<double> scores;
     for (std::uint32_t i = 0; i < 7; ++i) {
-      trial::ScenarioKey key = judging_key(config.seed);
+      trial::ScenarioKey key = episode_key(EpisodeSet::deciding, config.seed);
       key.episode += i;
       const std::vector<trial::Scenario> scenario{champion.problem.scenario(key, nullptr)};
       Evaluator evaluator(champion.problem, {}, 1);

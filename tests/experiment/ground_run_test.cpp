@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "amble/experiment/episode_set.hpp"
 #include "amble/experiment/problem_json.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/verify.hpp"
@@ -61,7 +62,8 @@ TEST(GroundRun, HasChampionsThatAreVerifiedOnTheGroundOfTheirGeneration) {
 
 TEST(GroundRun, TestsChampionsOnGroundThatEvolutionHasNotMet) {
   const Problem problem = small_problem(rough_config());
-  const trial::ScenarioKey own{.seed = 1, .generation = 2, .episode = 1}, unseen{1, 2, first_unseen_episode};
+  const trial::ScenarioKey own{.seed = 1, .generation = 2, .episode = 1},
+      unseen{1, 2, episode_number(EpisodeSet::unseen, 0)};
   EXPECT_EQ(ground_of(own), ground_of({.seed = 1, .generation = 2, .episode = 0}));
   EXPECT_NE(problem.make_ground(ground_of(own))->surface().heights_m(),
             problem.make_ground(ground_of(unseen))->surface().heights_m());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "amble/core/random.hpp"
+#include "amble/experiment/episode_set.hpp"
 #include "amble/experiment/evaluator.hpp"
 #include "amble/neat/initial_genome.hpp"
 #include "amble/neat/innovations.hpp"
@@ -46,8 +47,9 @@ Sample noisy_sample() {
 std::vector<trial::ScenarioKey> keys(int count) {
   std::vector<trial::ScenarioKey> keys;
   for (int i = 0; i < count; ++i)
-    keys.push_back(
-        {.seed = 8, .generation = 2, .episode = first_unseen_episode + static_cast<std::uint32_t>(i)});
+    keys.push_back({.seed = 8,
+                    .generation = 2,
+                    .episode = episode_number(EpisodeSet::unseen, static_cast<std::uint32_t>(i))});
   return keys;
 }
 

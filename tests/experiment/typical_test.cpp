@@ -36,7 +36,7 @@ TEST(TypicalTrials, AreTheTrialsThatAReplayOfTheirKeysGives) {
   const neat::Genome genome = a_genome(problem);
   TypicalTrials trials(problem, 3, 20);
   const auto all = trials.run(genome, unstopped).value();
-  trial::ScenarioKey key = typical_key(3);
+  trial::ScenarioKey key = episode_key(EpisodeSet::typical, 3);
   for (const TrialResult& trial : all) {
     const auto alone = replay(trials.problem(), genome, {.noise = key}, unstopped).value();
     EXPECT_EQ(trial.distance_m, alone.result.distance_m) << key.episode;
@@ -78,9 +78,9 @@ TEST(TypicalTrials, AtTheLevelControlGiveTheUndisturbedBits) {
 TEST(TypicalTrials, AreNoneOfThoseThatEvolutionOrTheChoiceOfChampionsHas) {
   const auto set_of = [](const trial::ScenarioKey& key) { return ground_of(key).set; };
   EXPECT_EQ(set_of({.seed = 1, .generation = 7, .episode = 999}), 0u);
-  EXPECT_EQ(set_of(unseen_key(1)), 1u);
-  EXPECT_EQ(set_of(judging_key(1)), 1000u);
-  EXPECT_EQ(set_of(typical_key(1)), 2000u);
+  EXPECT_EQ(set_of(episode_key(EpisodeSet::unseen, 1)), 1u);
+  EXPECT_EQ(set_of(episode_key(EpisodeSet::deciding, 1)), 1000u);
+  EXPECT_EQ(set_of(episode_key(EpisodeSet::typical, 1)), 2000u);
 }
 
 TEST(MedianTrial, HasTheMedianDistanceOrTheLowerOfTheTwoInTheMiddle) {

@@ -134,7 +134,8 @@ TEST(GoldenFigures, OfSearchesMatchTheGoldenHashes) {
   for (const Layout layout : {Layout::wide, Layout::narrow}) {
     const char* width = layout == Layout::wide ? "wide" : "narrow";
     drawn[fmt::format("neat-{}.svg", width)] = fitness_figure(table(false), layout);
-    drawn[fmt::format("map-elites-{}.svg", width)] = fitness_figure(table(true), layout, {"Speed", " m/s"});
+    drawn[fmt::format("map-elites-{}.svg", width)] =
+        fitness_figure(table(true), layout, {.unit = " m/s", .title = "Speed"});
   }
   for (const std::vector<int>& bins : {std::vector{7}, {5, 4}, {3, 4, 2}, {2, 3, 4, 2}, {2, 2, 2, 2, 2, 2}})
     drawn[fmt::format("map-{}.svg", bins.size())] = map_svg(map_of(bins));
