@@ -42,7 +42,7 @@ void print_best(const experiment::Run& run, int jobs) {
   fmt::print("best: {}\n", experiment::typical_text(typical, score, champion.problem.trial.duration_s,
                                                     trials.level().under()));
   fmt::print("      {}{} without noise; generation {}, {} evaluations\n",
-             champion.problem.disturbed() ? fmt::format("{} in its evaluation, ", text(progress.best)) : "",
+             champion.problem.trials_vary() ? fmt::format("{} in its evaluation, ", text(progress.best)) : "",
              text(champion.result.value()), progress.best_generation, progress.evaluations);
 }
 

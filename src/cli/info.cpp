@@ -99,7 +99,7 @@ ExitCode print_map(const experiment::RunPaths& paths) {
     return fmt::format("{} of {} cells, {:.1f} %", filled, elites.cells(), 100.0 * filled / elites.cells());
   };
   fmt::print("map         {}; QD score {:.2f}\n", cells_text(elites.size()), elites.objective_sum());
-  if (!repertoire.problem.disturbed() || elites.size() == 0) return ExitCode::ok;
+  if (!repertoire.problem.trials_vary() || elites.size() == 0) return ExitCode::ok;
   constexpr int trials = 20;
   constexpr std::uint32_t most_elites = 1000;
   if (elites.size() > most_elites) {

@@ -72,7 +72,7 @@ void change_as_in(const std::filesystem::path& path, Change change) {
   try {
     change(config);
   } catch (const SettingError& error) {
-    throw config.placed(error);
+    throw config.with_location(error);
   }
 }
 
@@ -80,9 +80,9 @@ void change_as_in(const std::filesystem::path& path, Change change) {
 void damage_as_in(const std::string& spec, experiment::Champion& champion) {
   std::error_code error;
   if (spec.find(':') != std::string::npos && !std::filesystem::exists(spec, error))
-    champion.problem.become(damage::parse(spec));
+    champion.problem.set_damage(damage::parse(spec));
   else
-    change_as_in(spec, [&](const experiment::Config& config) { champion.problem.become(config.damage); });
+    change_as_in(spec, [&](const experiment::Config& config) { champion.problem.set_damage(config.damage); });
 }
 
 /// What the champion typically does in trials like this one.
@@ -104,7 +104,7 @@ ExitCode run_trial(const TrialOptions& options) {
   auto champion = experiment::load_champion(path);
   if (options.ground)
     change_as_in(*options.ground,
-                 [&](const experiment::Config& config) { champion.problem.walk_on(config.ground); });
+                 [&](const experiment::Config& config) { champion.problem.set_ground(config.ground); });
   if (options.damage) damage_as_in(*options.damage, champion);
   if (options.record) io::refuse_to_replace(*options.record, record::recording_magic, "a recording");
   study::GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
@@ -117,7 +117,7 @@ ExitCode run_trial(const TrialOptions& options) {
                                 .noise = {}};
   const bool one_episode = options.episode || options.unseen;
   if (one_episode) {
-    if (!champion.problem.disturbed())
+    if (!champion.problem.trials_vary())
       fail(ExitCode::bad_input, "--{}: {} was evolved without noise, and from one place",
            options.episode ? "episode" : "unseen", path.string());
     how.noise = options.episode ? champion.scenario_key(*options.episode)

@@ -25,7 +25,7 @@ Problem problem_in(const Repertoire& repertoire, const std::string& engine, cons
   problem.noise.score = trial::EpisodeScore::mean;
   problem.engine = engine;
   problem.complete();
-  problem.become(damage);
+  problem.set_damage(damage);
   return problem;
 }
 
@@ -80,7 +80,7 @@ std::optional<Adaptation> adapt(const Repertoire& repertoire, const AdaptSetting
   const search::Elites& elites = repertoire.elites;
   if (!(elites.best_objective() > 0.0))
     fail(ExitCode::bad_input, "the map has no elite that gets anywhere: there is nothing to adapt with");
-  if (settings.episodes > 1 && !repertoire.problem.disturbed())
+  if (settings.episodes > 1 && !repertoire.problem.trials_vary())
     fail(ExitCode::bad_input, "--episodes {}: the map was made without noise: all attempts are the same",
          settings.episodes);
   Reality intact(repertoire, settings.engine, repertoire.problem.damage, jobs);

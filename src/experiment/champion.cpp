@@ -124,7 +124,7 @@ TrialResult summarise(const Problem& problem, const record::Trajectory& trajecto
                      .steps = trajectory.steps,
                      .seconds = trajectory.seconds(),
                      .outcome = trajectory.outcome};
-  if (!problem.score.is_distance()) result.score = problem.scorer().of(trajectory);
+  if (!problem.score.is_distance()) result.score = problem.make_score().of(trajectory);
   return result;
 }
 

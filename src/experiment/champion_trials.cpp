@@ -21,7 +21,7 @@ bool try_at_home(Champion& champion, StageTimes& times, const std::atomic<bool>&
   champion.result = undisturbed->result;
   champion.trace = undisturbed->trace;
   times.physics_s += undisturbed->physics_s;
-  if (!problem.disturbed()) return true;
+  if (!problem.trials_vary()) return true;
   for (std::size_t i = 0; i < to_index(problem.noise.episodes); ++i) {
     const auto again = replay(problem, champion.genome, {.noise = champion.scenario_key(i)}, stop);
     if (!again) return false;

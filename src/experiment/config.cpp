@@ -124,8 +124,8 @@ void Config::check_referees() const {
   }
 }
 
-UserError Config::placed(const SettingError& error) const {
-  const std::string place = where ? where(error.keys()) + ": " : "";
+UserError Config::with_location(const SettingError& error) const {
+  const std::string place = locate_setting ? locate_setting(error.keys()) + ": " : "";
   return UserError(place + error.what(), error.code());
 }
 
@@ -190,7 +190,7 @@ Config config_from(const io::TomlDocument& read, const Overrides& overrides) {
   if (overrides.generations) document->set("generations=" + std::to_string(*overrides.generations));
 
   Config config;
-  config.where = [document](const std::vector<std::string>& keys) { return document->where(keys); };
+  config.locate_setting = [document](const std::vector<std::string>& keys) { return document->where(keys); };
   config.describe(*document->reader());
   config.neat.speciation.scale_targets(config.neat.population.size);  // what the document has comes after
   const auto reader = document->reader();
@@ -199,7 +199,7 @@ Config config_from(const io::TomlDocument& read, const Overrides& overrides) {
   try {
     config.validate();
   } catch (const SettingError& error) {
-    throw config.placed(error);
+    throw config.with_location(error);
   }
   config.robot = fs::absolute(document->folder_of("robot") / config.robot).lexically_normal().string();
   return config;

@@ -71,13 +71,13 @@ struct Config {
   search::Settings search;
   ChampionSettings champion;
   /// Where one of these keys was set ("FILE:LINE"), for errors found later; empty unless read from a file.
-  std::function<std::string(const std::vector<std::string>& keys)> where;
+  std::function<std::string(const std::vector<std::string>& keys)> locate_setting;
 
   void describe(io::SettingsVisitor& visitor);
   /// Rules that involve several settings. Throws SettingError.
   void validate() const;
   /// The error with its location prepended, if that is known.
-  UserError placed(const SettingError& error) const;
+  UserError with_location(const SettingError& error) const;
   /// The behaviour that the search compares. `robot_spec`: the problem's; null for its length and sampling
   /// alone. Throws SettingError if it does not fit.
   std::unique_ptr<const score::Behaviour> make_behaviour(const robot::RobotSpec* robot_spec = nullptr) const;

@@ -32,14 +32,14 @@ trial::ScenarioKey episode_key(EpisodeSet set, std::int64_t seed, std::uint32_t 
 std::vector<trial::Scenario> unseen_scenarios(const Problem& problem, std::int64_t seed, int first, int count,
                                               const ground::Ground* ground) {
   std::vector<trial::Scenario> scenarios;
-  for (int i = 0; i < count && problem.disturbed(); ++i)
+  for (int i = 0; i < count && problem.trials_vary(); ++i)
     scenarios.push_back(problem.scenario(
         episode_key(EpisodeSet::unseen, seed, static_cast<std::uint32_t>(first + i)), ground));
   return scenarios;
 }
 
 std::vector<double> credited_scores(const Problem& problem, std::span<const record::Trajectory> trials) {
-  const score::Score score = problem.scorer();
+  const score::Score score = problem.make_score();
   std::vector<double> scores;
   for (const auto& trajectory : trials)
     scores.push_back(score::credited(score.of(trajectory), trajectory.outcome, problem.trial.fall_factor));

@@ -80,7 +80,7 @@ std::optional<EvaluatedGeneration> evaluate_generation(Evaluator& evaluator, con
   if (!result) return std::nullopt;
   EvaluatedGeneration evaluated{.result = std::move(*result), .objectives = {}};
   evaluated.objectives = objectives(problem, evaluated.result);
-  if (settings.finalists > 0.0 && problem.disturbed() && !genomes.empty()) {
+  if (settings.finalists > 0.0 && problem.trials_vary() && !genomes.empty()) {
     const auto further = further_scenarios(problem, settings.finalist_episodes, seed, drawn, on.get());
     if (!final_round(evaluator, problem, genomes, settings.finalists, further, on, evaluated, stop))
       return std::nullopt;

@@ -14,7 +14,7 @@ constexpr double giga = 1e9;
 
 MemoryNeed memory_of_generation(const Config& config, const Problem& problem) {
   const double genomes = candidates_per_generation(config),
-               episodes = problem.disturbed() ? config.noise.episodes : 1.0,
+               episodes = problem.trials_vary() ? config.noise.episodes : 1.0,
                numbers = static_cast<double>(config.make_behaviour()->length());
   // Parents and children, with four times the links they start with.
   const double links = 4.0 * (problem.cppn_inputs() + 1.0) * problem.cppn_outputs();

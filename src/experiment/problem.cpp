@@ -51,7 +51,7 @@ Problem Problem::make(const Config& config, robot::RobotSpec robot) {
   try {
     problem.complete();
   } catch (const SettingError& error) {
-    throw config.placed(error);
+    throw config.with_location(error);
   }
   return problem;
 }
@@ -70,7 +70,7 @@ void Problem::complete() {
 }
 
 std::unique_ptr<physics::Engine> Problem::make_engine(bool torques) const {
-  const bool needed = torques || scorer().measures().energy;
+  const bool needed = torques || make_score().measures().energy;
   return physics::make_damaged_engine(
       engine, robot, damage,
       {.timestep_s = trial.timestep_s, .torques = needed, .ground_friction = ground.friction});
@@ -80,14 +80,14 @@ std::unique_ptr<controllers::Parameters> Problem::decode(const neat::Genome& gen
   return architecture->decode(cppn::Network(genome, cppn));
 }
 
-score::Score Problem::scorer() const {
+score::Score Problem::make_score() const {
   const double mass_kg =
       damage.changes_body() ? damage::robot_at_start(robot, damage).total_mass_kg() : robot.total_mass_kg();
   return score::Score(score, trial.steps() * trial.timestep_s, mass_kg * norm(robot.gravity_m_s2));
 }
 
 trial::Protocol Problem::protocol(const record::PathSampling& path, const record::Measures& measures) const {
-  record::Measures all = scorer().measures();
+  record::Measures all = make_score().measures();
   all |= measures;
   std::vector<trial::NumbTouch> numb;
   for (const damage::NumbFoot& foot : damage::numb_feet(robot, damage))
@@ -102,7 +102,7 @@ trial::Protocol Problem::protocol(const record::PathSampling& path, const record
           .start_rotation = robot.bodies[0].rotation};
 }
 
-void Problem::walk_on(const ground::Settings& other) {
+void Problem::set_ground(const ground::Settings& other) {
   other.validate();
   if (other.friction < 0.0 && ground.friction >= 0.0)
     fail_setting({"ground.friction"},
@@ -115,7 +115,7 @@ void Problem::walk_on(const ground::Settings& other) {
   check_start();
 }
 
-void Problem::become(const damage::Settings& other) {
+void Problem::set_damage(const damage::Settings& other) {
   other.validate(robot);
   damage = other;
   make_engine();
@@ -158,7 +158,7 @@ trial::Scenario Problem::scenario(const trial::ScenarioKey& key, const ground::G
 std::vector<trial::Scenario> Problem::scenarios(std::int64_t seed, int generation,
                                                 const ground::Ground* on) const {
   std::vector<trial::Scenario> all;
-  if (!disturbed()) return all;
+  if (!trials_vary()) return all;
   for (int episode = 0; episode < noise.episodes; ++episode)
     all.push_back(scenario({.seed = static_cast<std::uint64_t>(seed),
                             .generation = static_cast<std::uint32_t>(generation),
@@ -184,8 +184,8 @@ robot::RobotSpec robot_from_text(const std::string& text, const std::string& wha
 robot::RobotSpec load_robot(const Config& config) {
   std::error_code error;
   const auto file = as_seen_from_here(config.robot);
-  if (!std::filesystem::exists(file, error) && config.where)
-    fail(ExitCode::io, "{}: 'robot': {}: {}", config.where({"robot"}), io::printable(file.string()),
+  if (!std::filesystem::exists(file, error) && config.locate_setting)
+    fail(ExitCode::io, "{}: 'robot': {}: {}", config.locate_setting({"robot"}), io::printable(file.string()),
          error ? error.message() : "No such file or directory");
   return load_robot_file(file);
 }

@@ -50,10 +50,10 @@ struct Problem {
 
   /// Changes the ground, and with it the robot's gravity and friction. Throws UserError if `other` leaves
   /// friction to the robot's file and the ground so far did not.
-  void walk_on(const ground::Settings& other);
+  void set_ground(const ground::Settings& other);
   /// Changes the damage. Throws SettingError if the robot has no such parts, UserError if the engine cannot
   /// simulate what is left.
-  void become(const damage::Settings& other);
+  void set_damage(const damage::Settings& other);
   /// Throws SettingError if the start pose is in uneven ground.
   void check_start() const;
 
@@ -62,16 +62,16 @@ struct Problem {
   /// `torques`: see physics::EngineSettings; always with them if the score measures energy.
   std::unique_ptr<physics::Engine> make_engine(bool torques = false) const;
   std::unique_ptr<controllers::Parameters> decode(const neat::Genome& genome) const;
-  score::Score scorer() const;
+  score::Score make_score() const;
   /// `measures`: those that the score does not need itself.
   trial::Protocol protocol(const record::PathSampling& path, const record::Measures& measures = {}) const;
   /// Whether trials differ: by noise, or by the place where they start.
-  bool disturbed() const { return noise.any() || ground.start_place_m > 0.0; }
+  bool trials_vary() const { return noise.any() || ground.start_place_m > 0.0; }
   /// Null for the plane.
   std::shared_ptr<const ground::Ground> make_ground(const ground::Key& key) const;
   /// `on`: the ground of the trial, null for the plane.
   trial::Scenario scenario(const trial::ScenarioKey& key, const ground::Ground* on = nullptr) const;
-  /// The scenarios of a generation, the same for all genomes, one per episode; empty unless disturbed().
+  /// The scenarios of a generation, the same for all genomes, one per episode; empty unless trials_vary().
   std::vector<trial::Scenario> scenarios(std::int64_t seed, int generation,
                                          const ground::Ground* on = nullptr) const;
 };

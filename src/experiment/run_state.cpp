@@ -36,7 +36,7 @@ void check_search(const Config& config, const Problem& problem) {
               need.bytes / 1e9, need.what, usable_bytes / 1e9));
     search::strategy_kind(config.search).check_memory(config.search, space_of(config, problem), usable_bytes);
   } catch (const SettingError& error) {
-    throw config.placed(error);
+    throw config.with_location(error);
   }
 }
 

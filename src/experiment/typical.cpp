@@ -34,8 +34,8 @@ int reported_trials(std::string_view engine) {
 }
 
 TypicalLevel typical_level(const Problem& problem, const std::string& asked) {
-  const bool own = asked == own_noise || (asked.empty() && problem.disturbed());
-  if (own && !problem.disturbed())
+  const bool own = asked == own_noise || (asked.empty() && problem.trials_vary());
+  if (own && !problem.trials_vary())
     fail(ExitCode::bad_input, "level '{}': it was evolved without noise, and from one place; expected {}",
          asked, record::level_names());
   TypicalLevel found{.name = std::string(own_noise), .noise = problem.noise};

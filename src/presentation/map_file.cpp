@@ -31,7 +31,7 @@ std::optional<std::string> text_of(const experiment::Repertoire& repertoire, con
                                    const std::atomic<bool>& stop) {
   if (!file.has_new_trials) return experiment::repertoire_json(repertoire);
   if (file.extension != ".csv") map_picture(repertoire);  // refuses before the trials
-  const int trials = options.trials.value_or(repertoire.problem.disturbed() ? usual_trials : 0);
+  const int trials = options.trials.value_or(repertoire.problem.trials_vary() ? usual_trials : 0);
   std::optional<experiment::CorrectedMap> corrected;
   if (trials > 0 && !(corrected = experiment::correct_map(repertoire, trials, options.jobs, stop)))
     return std::nullopt;

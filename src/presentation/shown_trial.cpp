@@ -18,7 +18,7 @@ std::optional<ShownTrial> shown_trial(const experiment::Champion& champion, std:
                                       int jobs, const std::atomic<bool>& stop) {
   experiment::Problem problem = champion.problem;
   if (choice.undisturbed) return ShownTrial{.noise = problem.noise, .key = {}, .typical = {}};
-  const bool evolved_without = !choice.asked() && !problem.disturbed();
+  const bool evolved_without = !choice.asked() && !problem.trials_vary();
   if (seconds) problem.trial.duration_s = *seconds;
   if (engine) problem.engine = *engine;
   problem.trial.validate();

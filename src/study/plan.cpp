@@ -87,8 +87,8 @@ experiment::Problem PlannedTest::problem(experiment::Problem home) const {
   home.noise = noise;
   home.trial.duration_s = spec.seconds;
   home.trial.validate();
-  if (ground) home.walk_on(*ground);
-  if (damage) home.become(*damage);
+  if (ground) home.set_ground(*ground);
+  if (damage) home.set_damage(*damage);
   return home;
 }
 

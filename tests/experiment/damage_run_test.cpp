@@ -57,7 +57,7 @@ TEST(DamageRun, ANumbFootTriggersNoSupg) {
   const auto genome = small_population(intact).genomes()[0];
   const auto triggers = [&](const damage::Settings& damage) {
     Problem problem = intact;
-    problem.become(damage);
+    problem.set_damage(damage);
     const auto events = replay(problem, genome, {}, unstopped)->events;
     std::vector<std::int64_t> counts;
     for (const auto& [name, count] : events)

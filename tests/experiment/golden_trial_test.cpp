@@ -38,7 +38,7 @@ std::string on_all_grounds(const Champion& champion) {
     settings.slope_y = kind % 3 == 0 ? -0.03 : 0.0;
     settings.friction = 0.5 + 0.1 * static_cast<double>(kind);
     settings.start_radius_m = 0.9;
-    problem.walk_on(settings);
+    problem.set_ground(settings);
     text += line(std::string(ground::kind_names[kind]), problem, champion.genome);
   }
   return text;
@@ -61,7 +61,7 @@ std::string with_all_damages(const Champion& champion) {
       Problem problem = champion.problem;
       const auto name = damage::kind_names[static_cast<std::size_t>(part.kind)];
       try {
-        problem.become({{part}});
+        problem.set_damage({{part}});
         text += line(fmt::format("{} from {} s", name, from_s), problem, champion.genome);
       } catch (const UserError& error) {
         text += fmt::format("{} from {} s: {}\n", name, from_s, error.what());

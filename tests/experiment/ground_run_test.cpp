@@ -192,7 +192,7 @@ TEST(GroundRun, OfAProblemThatWalksOnOtherGroundIsThatOfAProblemMadeForIt) {
     for (const int to : {0, 2, 5, 11}) {
       config.ground = ground_of_case(from);
       Problem walked = small_problem(config);
-      walked.walk_on(ground_of_case(to));
+      walked.set_ground(ground_of_case(to));
       config.ground = ground_of_case(to);
       const Problem made = small_problem(config);
       EXPECT_NEAR(norm(walked.robot.gravity_m_s2 - made.robot.gravity_m_s2), 0.0, 1e-12) << from << " " << to;

@@ -71,7 +71,7 @@ Walk walk_of(const Sample& of, const neat::Genome& genome, const std::vector<tri
   Walk walk{.score = 0.0, .duty_factors = std::vector<double>(of.problem.robot.legs.size())};
   const double share = 1.0 / static_cast<double>(result->episodes);
   for (const auto& trajectory : result->of_genome(0)) {
-    walk.score += share * score::credited(of.problem.scorer().of(trajectory), trajectory.outcome,
+    walk.score += share * score::credited(of.problem.make_score().of(trajectory), trajectory.outcome,
                                           of.problem.trial.fall_factor);
     for (std::size_t leg = 0; leg < walk.duty_factors.size(); ++leg)
       walk.duty_factors[leg] += share * trajectory.contact_steps[leg] / trajectory.steps;

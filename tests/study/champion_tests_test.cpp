@@ -121,7 +121,7 @@ TEST(ChampionTest, WithoutGroundOfItsOwnStartsAnywhereOnThatOfTheChampion) {
   ground.kind = ground::Kind::stones;
   ground.height_m = 0.1;
   ground.start_place_m = 2.0;
-  rough.problem.walk_on(ground);
+  rough.problem.set_ground(ground);
   const PlannedTest test{.spec = trial_test("t", 2.0, "", 3), .noise = {}};
   const auto result = run_test(test, rough, never);
   ASSERT_EQ(result->episodes.size(), 3u);
@@ -144,7 +144,7 @@ TEST(ChampionTest, OfADamagedRobotIsTheTrialOfThatRobot) {
   test.damage.emplace().parts = {
       {.kind = damage::Kind::missing, .leg = champion().problem.robot.legs[0].name}};
   auto problem = champion().problem;
-  problem.become(*test.damage);
+  problem.set_damage(*test.damage);
   const auto expected = experiment::replay(problem, champion().genome, {.seconds = 3.0}, never)->result;
   EXPECT_EQ(run_test(test, champion(), never)->episodes[0].distance_m, expected.distance_m);
   EXPECT_NE(expected.distance_m, replayed(3.0).distance_m);
