@@ -3,15 +3,17 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
+#include "amble/core/registry.hpp"
+#include "amble/io/expectation.hpp"
 
 namespace amble::score {
 namespace {
@@ -187,35 +189,36 @@ double energy(const record::Trajectory& trajectory, const Context&) {
   return trajectory.energy_j;
 }
 
-// The table of quantities. A new one is a row here; if trials must measure something for it, also a member of
-// record::Measures and record::Trajectory.
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr io::Range signed_range{-infinite, infinite}, positive_range{0.0, infinite}, share_range{0.0, 1.0};
-constexpr std::array table{
-    Quantity{"distance", "m", positive_range, {}, distance},
-    Quantity{"forward", "m", signed_range, {}, forward},
-    Quantity{"heading", "m", signed_range, {}, heading},
-    Quantity{"sideways", "m", signed_range, {}, sideways},
-    Quantity{"turn", "deg", {-180.0, 180.0}, {}, turn},
-    Quantity{"speed_kept", "", share_range, {.seconds = true}, speed_kept},
-    Quantity{"energy", "J", positive_range, {.energy = true}, energy},
-    Quantity{"economy", "", positive_range, {.energy = true}, economy},
-    Quantity{"uprightness", "", {-1.0, 1.0}, {.uprightness = true}, uprightness},
-    Quantity{"upright_time", "", share_range, {}, upright_time},
-    Quantity{"duty_factor", "", share_range, {.contacts = true}, duty_factor, true},
-    Quantity{"phase", "", share_range, {.footfalls = true}, phase, true},
-    Quantity{"height", "m", signed_range, {.height = true}, height},
-};
+
+// amble's own quantities. A new one is a row here; if trials must measure something for it, also a member of
+// record::Measures and record::Trajectory.
+Registry<Quantity>& all_quantities() {
+  static Registry<Quantity> all("quantity",
+                                {{"distance", "m", positive_range, {}, distance},
+                                 {"forward", "m", signed_range, {}, forward},
+                                 {"heading", "m", signed_range, {}, heading},
+                                 {"sideways", "m", signed_range, {}, sideways},
+                                 {"turn", "deg", {-180.0, 180.0}, {}, turn},
+                                 {"speed_kept", "", share_range, {.seconds = true}, speed_kept},
+                                 {"energy", "J", positive_range, {.energy = true}, energy},
+                                 {"economy", "", positive_range, {.energy = true}, economy},
+                                 {"uprightness", "", {-1.0, 1.0}, {.uprightness = true}, uprightness},
+                                 {"upright_time", "", share_range, {}, upright_time},
+                                 {"duty_factor", "", share_range, {.contacts = true}, duty_factor, true},
+                                 {"phase", "", share_range, {.footfalls = true}, phase, true},
+                                 {"height", "m", signed_range, {.height = true}, height}});
+  return all;
+}
 
 const Quantity* find(std::string_view name) {
-  const auto row = std::ranges::find(table, name, &Quantity::name);
-  return row == table.end() ? nullptr : &*row;
+  return all_quantities().find(name);
 }
 
 std::string names() {
   std::vector<std::string_view> all;
-  all.reserve(table.size());
-  for (const Quantity& quantity : table) all.push_back(quantity.name);
+  for (const Quantity& quantity : quantities()) all.push_back(quantity.name);
   return fmt::format("{}", fmt::join(all, ", "));
 }
 
@@ -263,8 +266,19 @@ bool Settings::is_distance() const {
   return limits.empty() && terms.size() == 1 && terms[0].quantity == "distance" && terms[0].weight == 1.0;
 }
 
-std::span<const Quantity> quantities() {
-  return table;
+void register_quantity(Quantity quantity) {
+  AMBLE_CHECK(quantity.of, "a quantity needs a function of trials");
+  quantity.of = [of = std::move(quantity.of), range = quantity.range](const record::Trajectory& trajectory,
+                                                                      const Context& context) {
+    const double value = of(trajectory, context);
+    AMBLE_CHECK(std::isfinite(value) && io::in_range(range, value), "a quantity is in its range");
+    return value;
+  };
+  all_quantities().add(std::move(quantity));
+}
+
+const std::deque<Quantity>& quantities() {
+  return all_quantities().rows();
 }
 
 const Quantity& quantity(const std::string& name, const std::string& key) {

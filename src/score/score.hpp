@@ -1,6 +1,7 @@
 #pragma once
 
-#include <span>
+#include <deque>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,15 +56,22 @@ struct Context {
   int leg = -1;             ///< of quantities that legs have; −1: the mean over legs
 };
 
-/// A quantity of a trial that scores and limits can name: a row of the table in score.cpp.
+/// A quantity of a trial that scores, limits and maps can name.
 struct Quantity {
-  std::string_view name, unit;
+  std::string name, unit;     ///< unit: "m", "" for a pure number
   io::Range range;            ///< of its values
   record::Measures measures;  ///< measurements of trials that it needs
-  double (*of)(const record::Trajectory& trajectory, const Context& context);
+  /// In the range, whatever the trial: also for one of no steps. Const, called by several threads at once.
+  std::function<double(const record::Trajectory& trajectory, const Context& context)> of;
   bool of_legs = false;  ///< whether it is a quantity of one leg, or the mean over legs
 };
-std::span<const Quantity> quantities();
+
+/// Adds a quantity, from then on one of those that configs can name. Before the first config is read; not
+/// thread safe. Throws UserError for a name that is taken or cannot be one.
+void register_quantity(Quantity quantity);
+
+/// amble's own, and then those that were added.
+const std::deque<Quantity>& quantities();
 /// By its name; throws SettingError naming `key` and the names there are.
 const Quantity& quantity(const std::string& name, const std::string& key);
 
