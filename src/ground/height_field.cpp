@@ -3,50 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <memory>
 
-#include "amble/core/check.hpp"
 #include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"
 #include "amble/core/random.hpp"
+#include "amble/ground/kinds.hpp"
 
 namespace amble::ground {
 namespace {
 
-constexpr double hurdle_m = 0.08;  ///< thickness
-constexpr double blend_m = 0.3;    ///< from the flat start to the full heights
-
-/// 6 t⁵ − 15 t⁴ + 10 t³ (Perlin 2002).
-double smooth(double t) {
-  return t * t * t * (t * (6.0 * t - 15.0) + 10.0);
-}
-
-/// Random numbers in [0, 1) at the nodes of a square lattice that repeats after `count` nodes.
-class Lattice {
- public:
-  Lattice(int count, Stream& stream) : count_(count), values_(to_index(count) * to_index(count)) {
-    for (double& value : values_) value = stream.uniform();
-  }
-
-  int count() const { return count_; }
-  double at(int i, int j) const {
-    return values_[to_index(j % count_) * to_index(count_) + to_index(i % count_)];
-  }
-
-  /// At (u, v) ≥ 0 in units of the lattice; `ease` maps the place in a square, from 0 to 1.
-  double between(double u, double v, double (*ease)(double)) const {
-    const int i = static_cast<int>(u), j = static_cast<int>(v);
-    const double s = ease(u - i), t = ease(v - j);
-    const double near = at(i, j) + s * (at(i + 1, j) - at(i, j));
-    const double far = at(i, j + 1) + s * (at(i + 1, j + 1) - at(i, j + 1));
-    return near + t * (far - near);
-  }
-
- private:
-  int count_;
-  std::vector<double> values_;
-};
+constexpr double blend_m = 0.3;  ///< from the flat start to the full heights
 
 Stream stream_of(const Settings& settings, const Key& key) {
   const auto own = static_cast<std::uint64_t>(settings.seed);
@@ -54,70 +20,6 @@ Stream stream_of(const Settings& settings, const Key& key) {
   const std::array<std::uint64_t, 2> both{own, key.seed};
   const bool varies = settings.vary == Vary::generations;
   return {hash_bytes(both.data(), sizeof both), Purpose::ground, varies ? 1 + key.generation : 0, key.set};
-}
-
-/// Height over the plane, in units of height_m, by place: x and y from −half a period to half a period.
-using Shape = std::function<double(double x_m, double y_m)>;
-
-/// Squares or waves: as many as fit into a period, each about length_m long.
-int squares(const Settings& settings, double period_m) {
-  return std::max(1, static_cast<int>(std::lround(period_m / settings.length_m)));
-}
-
-Shape random_shape(const Settings& settings, double period_m, Stream stream) {
-  const int count = squares(settings, period_m);
-  const auto scaled = [=](double x_m, int n) { return (x_m / period_m + 0.5) * n; };
-  const auto lattice = std::make_shared<const Lattice>(count, stream);
-  switch (settings.kind) {
-    case Kind::hills: {
-      const auto second = std::make_shared<const Lattice>(2 * count, stream);
-      const auto third = std::make_shared<const Lattice>(4 * count, stream);
-      return [=](double x_m, double y_m) {
-        double sum = 0.0, amplitude = 4.0 / 7.0;  // the amplitudes add up to 1
-        for (const Lattice* octave : {lattice.get(), second.get(), third.get()}) {
-          const int n = octave->count();
-          sum += amplitude * octave->between(scaled(x_m, n), scaled(y_m, n), smooth);
-          amplitude *= 0.5;
-        }
-        return sum - 0.5;
-      };
-    }
-    case Kind::rough:
-      return [=](double x_m, double y_m) {
-        return lattice->between(scaled(x_m, count), scaled(y_m, count), [](double t) { return t; }) - 0.5;
-      };
-    case Kind::stones:
-      return [=](double x_m, double y_m) {
-        return lattice->at(static_cast<int>(scaled(x_m, count)), static_cast<int>(scaled(y_m, count))) - 0.5;
-      };
-    case Kind::blocks:
-      return [=](double x_m, double y_m) {
-        const double u = scaled(x_m, count), v = scaled(y_m, count);
-        const int i = static_cast<int>(u), j = static_cast<int>(v);
-        const bool inside = std::abs(u - i - 0.5) < 0.25 && std::abs(v - j - 0.5) < 0.25;
-        return inside && lattice->at(i, j) < 0.5 ? 1.0 : 0.0;
-      };
-    case Kind::plane:
-    case Kind::stairs:
-    case Kind::hurdles:
-      break;
-  }
-  AMBLE_CHECK(false, "a random kind of ground");
-  return {};
-}
-
-/// Heights by the distance from the flat start, along x or y, whichever is farther.
-Shape concentric_shape(const Settings& settings, double period_m) {
-  const double start_m = settings.start_radius_m, length_m = settings.length_m;
-  const int last = static_cast<int>((0.5 * period_m - start_m) / length_m);
-  const bool stairs = settings.kind == Kind::stairs;
-  return [=](double x_m, double y_m) {
-    const double away_m = std::max(std::abs(x_m), std::abs(y_m)) - start_m;
-    if (away_m < 0.0) return 0.0;
-    const int k = static_cast<int>(away_m / length_m);
-    if (stairs) return static_cast<double>(std::max(0, std::min(1 + k, last - k)));
-    return k < last && away_m - k * length_m >= length_m - hurdle_m ? 1.0 : 0.0;
-  };
 }
 
 double scale_of(const Settings& settings, const Key& key) {
@@ -206,14 +108,16 @@ HeightField make_field(const Settings& settings, const Key& key) {
   HeightField field(settings.cell_m);
   if (!settings.has_field()) return field;
   const double period_m = field.period_m(), scale_m = scale_of(settings, key);
-  const Shape shape = settings.concentric() ? concentric_shape(settings, period_m)
-                                            : random_shape(settings, period_m, stream_of(settings, key));
+  const Kind& kind = kind_of(settings);
+  Settings all = settings;
+  all.own.complete(kind.numbers);
+  const Shape shape = kind.shape(all, period_m, stream_of(settings, key));
   constexpr int half = HeightField::cells / 2;
   for (int j = -half; j < half; ++j)
     for (int i = -half; i < half; ++i) {
       const double x_m = i * settings.cell_m, y_m = j * settings.cell_m;
       double height_m = scale_m * shape(x_m, y_m);
-      if (!settings.concentric()) {
+      if (!kind.concentric) {
         const double away_m = std::sqrt(x_m * x_m + y_m * y_m) - settings.start_radius_m;
         height_m *= smooth(std::clamp(away_m / blend_m, 0.0, 1.0));
       }

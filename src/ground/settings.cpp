@@ -5,12 +5,13 @@
 
 #include "amble/core/error.hpp"
 #include "amble/ground/height_field.hpp"
+#include "amble/ground/kinds.hpp"
 #include "amble/io/json_file.hpp"
 
 namespace amble::ground {
 
 void Settings::describe(io::SettingsVisitor& visitor) {
-  visitor.choice("kind", kind, kind_names, {"what is on the ground"});
+  visitor.row_name("kind", kind, kinds(), {"what is on the ground"});
   visitor.number(
       "height_m", height_m, {0.0, 10.0},
       {"hills, rough, stones: from the lowest to the highest point; else of one step or obstacle, m"});
@@ -31,6 +32,15 @@ void Settings::describe(io::SettingsVisitor& visitor) {
   visitor.integer(
       "grow_generations", grow_generations, {0, 1e9},
       {"curriculum: heights grow from 0 in the first generation to all of height_m after so many"});
+  if (const auto& numbers = kind_of(*this).numbers; !numbers.empty()) {
+    visitor.begin("own", {"settings of this kind, which is not one of amble's own"});
+    own.describe(visitor, numbers);
+    visitor.end();
+  }
+}
+
+bool Settings::concentric() const {
+  return kind_of(*this).concentric;
 }
 
 void Settings::validate() const {

@@ -1,25 +1,14 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 
 #include "amble/core/math.hpp"
+#include "amble/io/own_settings.hpp"
 #include "amble/io/settings.hpp"
 
 namespace amble::ground {
-
-/// What is on the ground. Squares are aligned with x and y and concentric about the origin.
-enum class Kind {
-  plane,    ///< nothing
-  hills,    ///< smooth: three octaves of value noise, the longest `length_m`
-  rough,    ///< a random height every `length_m`, straight between them
-  stones,   ///< square plateaus of random heights, `length_m` wide
-  blocks,   ///< half of the squares of `length_m`, at random, have a box half as wide, `height_m` high
-  stairs,   ///< steps up and down again, `height_m` high and `length_m` deep
-  hurdles,  ///< walls 0.08 m thick, `height_m` high, one every `length_m`
-};
-inline constexpr std::array<std::string_view, 7> kind_names{"plane",  "hills",  "rough",  "stones",
-                                                            "blocks", "stairs", "hurdles"};
 
 /// When the ground changes.
 enum class Vary { never, generations };
@@ -28,7 +17,7 @@ inline constexpr std::array<std::string_view, 2> vary_names{"never", "generation
 /// The ground that robots walk on, as part of an experiment. By default the plane z = 0 with the friction of
 /// the robot's file.
 struct Settings {
-  Kind kind = Kind::plane;
+  std::string kind = "plane";  ///< the name of a Kind (kinds.hpp)
   double height_m = 0.05;
   double length_m = 0.5;
   double cell_m = 0.04;
@@ -39,15 +28,16 @@ struct Settings {
   int seed = 1;
   Vary vary = Vary::never;
   int grow_generations = 0;
+  io::OwnSettings own = {};  ///< of a kind that a program or a plugin has added
 
   void describe(io::SettingsVisitor& visitor);
   /// Rules that involve several settings. Throws SettingError.
   void validate() const;
 
   bool is_default() const;
-  bool has_field() const { return kind != Kind::plane; }
-  /// Whether heights follow from the distance to the flat start alone, not from random numbers.
-  bool concentric() const { return kind == Kind::stairs || kind == Kind::hurdles; }
+  bool has_field() const { return kind != "plane"; }
+  /// Kind::concentric
+  bool concentric() const;
   /// The direction of `gravity_m_s2` (straight down, any magnitude) as seen from the plane of the ground,
   /// which stays z = 0: on a slope the world's z axis is the plane's normal.
   Vec3 tilted(Vec3 gravity_m_s2) const;

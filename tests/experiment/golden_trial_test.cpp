@@ -3,6 +3,7 @@
 
 #include "amble/core/hash.hpp"
 #include "amble/experiment/replay.hpp"
+#include "amble/ground/kinds.hpp"
 #include "tests/graphics/golden.hpp"
 
 // What GoldenRun's quadruped on the plane does not meet: other bodies, grounds, damages, pushes, scores. Only
@@ -28,10 +29,10 @@ std::string line(const std::string& what, const Problem& problem, const neat::Ge
 
 std::string on_all_grounds(const Champion& champion) {
   std::string text;
-  for (std::size_t kind = 0; kind < ground::kind_names.size(); ++kind) {
+  for (std::size_t kind = 0; kind < ground::kinds().size(); ++kind) {
     Problem problem = champion.problem;
     ground::Settings settings;
-    settings.kind = static_cast<ground::Kind>(kind);
+    settings.kind = ground::kinds()[kind].name;
     settings.height_m = 0.03;
     settings.length_m = 0.3;
     settings.slope_x = kind % 2 == 0 ? 0.05 : 0.0;
@@ -39,7 +40,7 @@ std::string on_all_grounds(const Champion& champion) {
     settings.friction = 0.5 + 0.1 * static_cast<double>(kind);
     settings.start_radius_m = 0.9;
     problem.set_ground(settings);
-    text += line(std::string(ground::kind_names[kind]), problem, champion.genome);
+    text += line(settings.kind, problem, champion.genome);
   }
   return text;
 }

@@ -54,7 +54,7 @@ TEST(GroundRun, HasChampionsThatAreVerifiedOnTheGroundOfTheirGeneration) {
     const auto verified = verify_champion(file, unstopped, &origin);
     EXPECT_TRUE(verified->agrees) << verified->text;
     const Champion champion = load_champion(file);
-    EXPECT_EQ(champion.problem.ground.kind, ground::Kind::rough);
+    EXPECT_EQ(champion.problem.ground.kind, "rough");
     EXPECT_EQ(champion.problem.ground_key.generation, static_cast<std::uint32_t>(champion.generation));
     EXPECT_EQ(champion.episodes.size(), 2u);
   }
@@ -184,7 +184,7 @@ TEST(GroundRun, OfAProblemThatWalksOnOtherGroundIsThatOfAProblemMadeForIt) {
     settings.slope_x = number % 2 == 0 ? 0.0 : 0.2;
     settings.slope_y = number / 2 % 2 == 0 ? 0.0 : -0.3;
     settings.friction = number / 4 % 2 == 0 ? 0.5 : 0.9;
-    settings.kind = number / 8 % 2 == 0 ? ground::Kind::plane : ground::Kind::hills;
+    settings.kind = number / 8 % 2 == 0 ? "plane" : "hills";
     return settings;
   };
   Config config = small_config();

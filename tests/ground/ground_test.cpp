@@ -18,7 +18,7 @@ robot::RobotSpec quadruped() {
 
 HeightField hills() {
   Settings settings;
-  settings.kind = Kind::hills;
+  settings.kind = "hills";
   settings.height_m = 0.3;
   return make_field(settings, {});
 }

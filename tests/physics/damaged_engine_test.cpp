@@ -312,7 +312,7 @@ TEST_P(Damaged, APushInTheStepOfTheDamageActsOnWhatIsLeft) {
 TEST_P(Damaged, OnUnevenGroundTheLegsThatAreLeftTouchIt) {
   const auto robot = quadruped();
   ground::Settings settings;
-  settings.kind = ground::Kind::hills;
+  settings.kind = "hills";
   settings.height_m = 0.02;
   const auto engine = make(robot, {missing("FR"), locked(robot.joints[0].name, -0.1)});
   engine->set_ground(std::make_shared<const ground::Ground>(ground::make_field(settings, {}), robot));
@@ -333,7 +333,7 @@ TEST_P(Damaged, OnUnevenGroundItIsTheRobotThatIsLeftOverToTheBit) {
   auto robot = quadruped();
   robot.geoms[to_index(robot.legs[1].foot_geoms[0])].size_m.x *= 0.5;
   ground::Settings settings;
-  settings.kind = ground::Kind::hills;
+  settings.kind = "hills";
   settings.height_m = 0.02;
   const auto field = ground::make_field(settings, {});
   const auto left_over = damage::stages_of(robot, {{missing("FR")}})[0].robot;

@@ -35,7 +35,7 @@ HeightField profile(double (*height_m)(double x_m)) {
 
 HeightField hills(double height_m = 0.15) {
   ground::Settings settings;
-  settings.kind = ground::Kind::hills;
+  settings.kind = "hills";
   settings.height_m = height_m;
   return make_field(settings, {});
 }

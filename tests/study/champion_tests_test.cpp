@@ -97,7 +97,7 @@ TEST(ChampionTest, OnGroundOfItsOwnMeetsPlacesThatEvolutionHasNotMetAndNoNoise) 
     PlannedTest test{.spec = trial_test("t", 3.0), .noise = {}};
     test.spec.episodes = episodes;
     test.ground.emplace();
-    test.ground->kind = ground::Kind::stones;
+    test.ground->kind = "stones";
     test.ground->height_m = height_m;
     test.ground->start_place_m = 2.0;
     return run_test(test, champion(), never).value();
@@ -109,7 +109,7 @@ TEST(ChampionTest, OnGroundOfItsOwnMeetsPlacesThatEvolutionHasNotMetAndNoNoise) 
   const double expected_m = replayed(0.3).distance_m;
   PlannedTest brief{.spec = trial_test("t", 0.3), .noise = {}};
   brief.ground.emplace();
-  brief.ground->kind = ground::Kind::stones;
+  brief.ground->kind = "stones";
   brief.ground->height_m = 0.0;
   EXPECT_NEAR(run_test(brief, champion(), never)->episodes[0].distance_m, expected_m, 0.002);
 }
@@ -118,7 +118,7 @@ TEST(ChampionTest, WithoutGroundOfItsOwnStartsAnywhereOnThatOfTheChampion) {
   experiment::Champion rough = champion();
   rough.problem.noise = {};
   ground::Settings ground;
-  ground.kind = ground::Kind::stones;
+  ground.kind = "stones";
   ground.height_m = 0.1;
   ground.start_place_m = 2.0;
   rough.problem.set_ground(ground);

@@ -291,7 +291,7 @@ TEST(Scenario, DrawsEveryLatencyUpToTheLargest) {
 const ground::Ground& hills() {
   static const ground::Ground hills = [] {
     ground::Settings settings;
-    settings.kind = ground::Kind::hills;
+    settings.kind = "hills";
     settings.height_m = 0.3;
     return ground::Ground(ground::make_field(settings, {}), quadruped());
   }();

@@ -33,7 +33,7 @@ record::RecordingHeader SyntheticWalk::header() const {
 
 ground::Settings SyntheticWalk::hills() {
   ground::Settings settings;
-  settings.kind = ground::Kind::hills;
+  settings.kind = "hills";
   settings.height_m = 0.3;
   return settings;
 }
