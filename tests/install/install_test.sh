@@ -41,12 +41,12 @@ cmake -S "$scratch" -B "$scratch/alone" -DCMAKE_PREFIX_PATH="$scratch/prefix" >/
 cmake --build "$scratch/alone" >/dev/null
 "$scratch/alone/alone"
 
-# A controller and a search from outside, loaded by the installed program; a worker's process loads them too.
+# A controller, a search, a ground and a quantity from outside, loaded by the installed program; a worker's process loads them too.
 examples=$here/../../examples/extend
 cmake -S "$examples" -B "$scratch/extend" -DCMAKE_PREFIX_PATH="$scratch/prefix" >/dev/null
 cmake --build "$scratch/extend" >/dev/null
 amble=$scratch/prefix/bin/amble
-for name in swing climb; do
+for name in swing climb ripples; do
   "$amble" --plugin "$scratch/extend/lib$name.so" evolve "$examples/$name.toml" --seed 1 --jobs 2 --set population.size=16 \
     --set trial.duration_s=1 --set champion.episodes=0 --generations 2 --out "$scratch/$name" >/dev/null
   "$amble" --plugin "$scratch/extend/lib$name.so" resume "$scratch/$name" --generations 3 --jobs 1 >/dev/null
