@@ -100,9 +100,7 @@ page::RunPage page_of(const experiment::RunPaths& paths, const experiment::Confi
       .subtitle = fmt::format("the champion of {} generations of {}, evolved by amble",
                               champion.generation + 1, experiment::candidates_per_generation(config)),
       .generations = record::read_generations(paths.generations),
-      .objective = config.score.is_distance()
-                       ? figures::Objective()
-                       : figures::Objective{.name = "Score", .unit = score::with_unit("", config.score)},
+      .objective = score::objective_of(config.score),
       .cppn = page::CppnSize{champion.genome.count(neat::NodeKind::hidden), champion.genome.enabled_links()},
       .facts = facts(config, champion, engine.value_or(config.engine), shown),
       .commands = {fmt::format("amble evolve {} --out AGAIN", io::shell_word(paths.config.string())),

@@ -57,7 +57,7 @@ std::vector<ComparedMap> compare_maps(const std::vector<std::filesystem::path>& 
                     .filled = elites.size(),
                     .qd_score = elites.objective_sum(),
                     .best = elites.size() > 0 ? elites.best_objective() : 0.0,
-                    .unit = score::with_unit("", repertoire.config.score),
+                    .unit = score::objective_of(repertoire.config.score).unit,
                     .from_first = {}};
     if (first && meaning_of(*first) == meaning_of(repertoire))
       map.from_first = difference(elites, first->elites);

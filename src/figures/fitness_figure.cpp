@@ -152,7 +152,7 @@ void draw_small(Svg& svg, const Abscissa& abscissa, const Box& plot, std::string
 }  // namespace
 
 std::string fitness_figure(const record::Generations& generations, Layout layout,
-                           const Objective& objective) {
+                           const record::Objective& objective) {
   AMBLE_CHECK(generations.count() > 0, "a run has a generation");
   const bool wide = layout == Layout::wide;
   const double width = width_px(layout);
@@ -160,7 +160,7 @@ std::string fitness_figure(const record::Generations& generations, Layout layout
   const double small_top = main_height + 90;
   Svg svg(width, small_top + small_height + 30,
           fmt::format("{0} over {2} generations: best {3}{1}, mean {4}{1}, median {5}{1} in the last",
-                      objective.name, objective.unit, generations.count(), label(generations.best.back(), 2),
+                      objective.title, objective.unit, generations.count(), label(generations.best.back(), 2),
                       label(generations.mean.back(), 2), label(generations.median.back(), 2)));
   const Abscissa abscissa = abscissa_of(generations);
   draw_objectives(svg, generations, abscissa, {42, 12, width - 42 - 114, main_height}, objective.unit);

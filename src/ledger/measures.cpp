@@ -139,12 +139,12 @@ Parts split(std::string_view name) {
 
 }  // namespace
 
-Objective objective_of(const Record& record) {
+record::Objective objective_of(const Record& record) {
   const auto score = record.champion.find("score");
   if (score == record.champion.end()) return {};
   const std::string what = fmt::format("the record of {}, seed {}", record.condition, record.seed);
-  const auto settings = io::settings_from_json<score::Settings>(io::JsonView(*score, what, "champion.score"));
-  return {.is_distance = settings.is_distance(), .unit = score::with_unit("", settings)};
+  return score::objective_of(
+      io::settings_from_json<score::Settings>(io::JsonView(*score, what, "champion.score")));
 }
 
 bool is_measure(const StudySpec& study, std::string_view name) {
@@ -215,6 +215,11 @@ std::string measure_label(std::string_view name) {
   }
   const auto found = std::ranges::find(test_measures, what, &TestMeasure::name);
   return fmt::format("{}: {}", test, found == test_measures.end() ? what : found->label);
+}
+
+std::string measure_unit(std::string_view name, const record::Objective& objective) {
+  if (name == "train_m") return objective.unit;
+  return name.ends_with("_m") ? " m" : name.ends_with("_s") ? " s" : "";
 }
 
 }  // namespace amble::ledger

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "amble/ledger/record.hpp"
+#include "amble/record/objective.hpp"
 
 namespace amble::ledger {
 
@@ -13,15 +14,8 @@ struct StudySpec;
 struct TestSpec;
 
 /// What the champion of a run was chosen by: what train_m, its curve and `map_best` are.
-struct Objective {
-  bool is_distance = true;  ///< score::Settings::is_distance
-  std::string unit = " m";  ///< " m" if all terms of the score are lengths, else nothing
-
-  std::string_view name() const { return is_distance ? "distance" : "score"; }
-  friend bool operator==(const Objective&, const Objective&) = default;
-};
 /// By the champion in the record. Throws UserError if its score cannot be read.
-Objective objective_of(const Record& record);
+record::Objective objective_of(const Record& record);
 
 /// Numbers that figures, tests and claims take from a record, by name:
 ///
@@ -68,5 +62,7 @@ std::optional<double> measure(const Record& record, std::string_view name);
 
 /// "distance in evolution, m"; for axes and tables.
 std::string measure_label(std::string_view name);
+/// " m", " s" or "", where champions were chosen by this objective.
+std::string measure_unit(std::string_view name, const record::Objective& objective);
 
 }  // namespace amble::ledger

@@ -106,12 +106,12 @@ std::string grouped(double count) {
   return digits;
 }
 
-std::string fitness_section(const record::Generations& generations, const figures::Objective& objective) {
+std::string fitness_section(const record::Generations& generations, const record::Objective& objective) {
   const std::size_t count = generations.count();
   if (count == 0) return section("How it learned", "", note("No generation has been finished yet."));
   return section(
       "How it learned",
-      fmt::format("{} over {} generation{}: {} evaluations, {} simulated steps.", objective.name, count,
+      fmt::format("{} over {} generation{}: {} evaluations, {} simulated steps.", objective.title, count,
                   count == 1 ? "" : "s", grouped(sum(generations.evaluations)),
                   grouped(sum(generations.steps))),
       both([&](Layout layout) { return figures::fitness_figure(generations, layout, objective); }));

@@ -7,6 +7,7 @@
 #include "amble/figures/fitness_figure.hpp"
 #include "amble/motion/recorded_trial.hpp"
 #include "amble/record/generations_csv.hpp"
+#include "amble/record/objective.hpp"
 
 /// The page of a run and its champion: page.hpp writes the HTML, figure_files.hpp its figures as files.
 namespace amble::page {
@@ -25,7 +26,7 @@ struct RunPage {
   std::string title;
   std::string subtitle;
   std::optional<record::Generations> generations;  ///< none: the page does not mention the evolution
-  figures::Objective objective;                    ///< of the evolution
+  record::Objective objective;                     ///< of the evolution
   std::optional<CppnSize> cppn;                    ///< of the champion
   std::vector<Fact> facts;                         ///< settings and provenance
   std::vector<std::string> commands;               ///< shell commands that make the page again

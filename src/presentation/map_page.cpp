@@ -79,9 +79,9 @@ std::string kept_text(const experiment::CorrectedMap& corrected) {
 std::string curves_of(const experiment::Repertoire& repertoire, const fs::path& run) {
   const auto generations = record::read_generations(experiment::RunPaths(run).generations);
   if (generations.count() == 0) return {};
-  return figures::fitness_figure(
-      generations, graphics::Layout::wide,
-      {.name = "Objective", .unit = score::with_unit("", repertoire.config.score)});
+  record::Objective objective = score::objective_of(repertoire.config.score);
+  objective.title = "Objective";
+  return figures::fitness_figure(generations, graphics::Layout::wide, objective);
 }
 
 }  // namespace
@@ -100,7 +100,7 @@ figures::GridMap map_picture(const experiment::Repertoire& repertoire,
     map.objective.push_back(number == search::Elites::none ? std::numeric_limits<double>::quiet_NaN()
                                                            : elites[number].objective);
   }
-  map.unit = score::with_unit("", repertoire.config.score);
+  map.unit = score::objective_of(repertoire.config.score).unit;
   if (!corrected) return map;
   map.trials = corrected->trials;
   map.typical.resize(map.objective.size());

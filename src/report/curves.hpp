@@ -7,7 +7,7 @@
 
 namespace amble::report {
 
-/// Best distance (or score, ledger::Objective) so far over the generations, over all runs of a condition.
+/// Best distance (or score, record::Objective) so far over the generations, over all runs of a condition.
 struct BestCurve {
   std::string condition;
   std::size_t n = 0;            ///< runs, at least one

@@ -65,12 +65,6 @@ std::string share_text(double share, const std::optional<statistics::Interval>& 
                      interval_text({100.0 * interval->lower, 100.0 * interval->upper}, 0));
 }
 
-std::string unit_of(std::string_view measure) {
-  if (measure.ends_with("_m")) return " m";
-  if (measure.ends_with("_s")) return " s";
-  return {};
-}
-
 std::string counted(std::size_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }

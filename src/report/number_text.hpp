@@ -34,9 +34,6 @@ std::string percent_text(double share);
 /// "45 % [23, 68]"; without an interval "45 %".
 std::string share_text(double share, const std::optional<statistics::Interval>& interval);
 
-/// " m", " s" or "" by the name of a measure (ledger/measures.hpp); of train_m see StudyData::unit_of.
-std::string unit_of(std::string_view measure);
-
 /// "3 runs", "1 run".
 std::string counted(std::size_t count, std::string_view noun);
 

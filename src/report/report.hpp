@@ -21,7 +21,7 @@ struct Report {
   StudyData data;
   std::string digest;                ///< of the ledger (ledger::ledger_digest)
   std::vector<std::string> remarks;  ///< remarks() of the data
-  ledger::Objective objective;       ///< StudyData::objective()
+  record::Objective objective;       ///< StudyData::objective()
   std::vector<Judgement> judgements;
   std::vector<SampleSummary> summaries;
   std::vector<BestCurve> curves;

@@ -131,19 +131,19 @@ std::vector<double> StudyData::values(std::string_view condition, std::string_vi
   return values;
 }
 
-ledger::Objective StudyData::objective(std::string_view condition) const {
-  ledger::Objective all;
+record::Objective StudyData::objective(std::string_view condition) const {
+  record::Objective all;
   for (const ledger::Record& record : records) {
     if (!condition.empty() && record.condition != condition) continue;
-    const ledger::Objective one = ledger::objective_of(record);
-    all.is_distance = all.is_distance && one.is_distance;
+    const record::Objective one = ledger::objective_of(record);
+    if (!one.is_distance) all = {.is_distance = false, .unit = all.unit, .title = one.title};
     if (one.unit.empty()) all.unit.clear();
   }
   return all;
 }
 
 std::string StudyData::unit_of(std::string_view measure, std::string_view condition) const {
-  return measure == "train_m" ? objective(condition).unit : report::unit_of(measure);
+  return ledger::measure_unit(measure, objective(condition));
 }
 
 StudyData load_study_data(const std::filesystem::path& folder) {

@@ -30,7 +30,7 @@ struct StudyData {
   /// Of all finished runs that have the measure (ledger/measures.hpp), in the order of seeds.
   std::vector<double> values(std::string_view condition, std::string_view measure) const;
   /// Of the finished runs of a condition, or of all: a distance, or in m, if that of every one is.
-  ledger::Objective objective(std::string_view condition = {}) const;
+  record::Objective objective(std::string_view condition = {}) const;
   /// " m", " s" or "" of a measure in a condition, or in all.
   std::string unit_of(std::string_view measure, std::string_view condition = {}) const;
 };

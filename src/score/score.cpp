@@ -287,11 +287,18 @@ const Quantity& quantity(const std::string& name, const std::string& key) {
   return *found;
 }
 
-std::string with_unit(std::string_view number, const Settings& settings) {
+record::Objective objective_of(const Settings& settings) {
+  if (settings.is_distance()) return {};
   const auto is_length = [](const Term& term) {
     return find(term.quantity) && find(term.quantity)->unit == "m";
   };
-  return fmt::format("{}{}", number, std::ranges::all_of(settings.terms, is_length) ? " m" : "");
+  return {.is_distance = false,
+          .unit = std::ranges::all_of(settings.terms, is_length) ? " m" : "",
+          .title = "Score"};
+}
+
+std::string with_unit(std::string_view number, const Settings& settings) {
+  return fmt::format("{}{}", number, objective_of(settings).unit);
 }
 
 double distance_m(const record::Trajectory& trajectory) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "amble/io/settings.hpp"
+#include "amble/record/objective.hpp"
 #include "amble/record/trajectory.hpp"
 
 namespace amble::score {
@@ -92,7 +93,10 @@ class Score {
   double duration_s_, weight_n_;
 };
 
-/// A score, already formatted, with its unit: " m" where all terms are lengths, nothing where they are not.
+/// What a score by these settings is called and measured in.
+record::Objective objective_of(const Settings& settings);
+
+/// A score, already formatted, with its unit (record::Objective::unit).
 std::string with_unit(std::string_view number, const Settings& settings);
 
 }  // namespace amble::score

@@ -34,7 +34,7 @@ TEST_P(FitnessFigure, LabelsEveryCurveWithItsLastValue) {
 }
 
 TEST_P(FitnessFigure, NamesAnObjectiveThatIsNoDistanceAndGivesItNoUnit) {
-  const std::string figure = fitness_figure(table(), GetParam(), {.name = "Score", .unit = ""});
+  const std::string figure = fitness_figure(table(), GetParam(), {.unit = "", .title = "Score"});
   EXPECT_THAT(tests::texts(tests::parse_xml(figure)), Contains("best 3.04"));
   EXPECT_THAT(figure, testing::HasSubstr("Score over 3 generations: best 3.04, mean 1.00, median 0.90 in"));
   EXPECT_THAT(figure, testing::Not(testing::HasSubstr(" m<")));

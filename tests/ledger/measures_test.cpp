@@ -92,16 +92,26 @@ TEST(Measures, ShareKeptOfNoDistanceIsZero) {
 
 TEST(Measures, ShareKeptIsNothingWhereTheObjectiveIsNoDistance) {
   Record record = sample_record();
-  EXPECT_EQ(objective_of(record), Objective());
+  EXPECT_EQ(objective_of(record), record::Objective());
   score::Settings score;
   score.terms[0].weight = 2.0;
   record.champion["score"] = io::settings_to_json(score);
-  EXPECT_EQ(objective_of(record), (Objective{.is_distance = false, .unit = " m"}));
+  EXPECT_EQ(objective_of(record), (record::Objective{.is_distance = false, .unit = " m", .title = "Score"}));
   EXPECT_EQ(measure(record, "five.kept"), std::nullopt);
   EXPECT_EQ(measure(record, "five.distance_m"), 12.5);
   score.terms.push_back({.quantity = "economy"});
   record.champion["score"] = io::settings_to_json(score);
-  EXPECT_EQ(objective_of(record), (Objective{.is_distance = false, .unit = ""}));
+  EXPECT_EQ(objective_of(record), (record::Objective{.is_distance = false, .unit = "", .title = "Score"}));
+}
+
+TEST(Measures, HaveAUnitByTheEndOfTheirNameAndTheObjectivesInEvolution) {
+  const record::Objective distance, score{.is_distance = false, .unit = "", .title = "Score"};
+  EXPECT_EQ(measure_unit("train_m", distance), " m");
+  EXPECT_EQ(measure_unit("train_m", score), "");
+  EXPECT_EQ(measure_unit("five.distance_m", score), " m");
+  EXPECT_EQ(measure_unit("five.walking_s", score), " s");
+  EXPECT_EQ(measure_unit("links", distance), "");
+  EXPECT_EQ(measure_unit("five.kept", distance), "");
 }
 
 TEST(Measures, OfAnUnreadableScoreNameTheRecord) {

@@ -97,12 +97,5 @@ TEST(NumberText, WritesPValuesAtTheEndsOfTheirRanges) {
   EXPECT_EQ(p_text(0.0100000001), "p = 0.01000000") << "no more than eight decimals";
 }
 
-TEST(NumberText, NamesUnitsOfMeasuresByTheirEnd) {
-  EXPECT_EQ(unit_of("train_m"), " m");
-  EXPECT_EQ(unit_of("five.walking_s"), " s");
-  EXPECT_EQ(unit_of("links"), "");
-  EXPECT_EQ(unit_of("five.kept"), "");
-}
-
 }  // namespace
 }  // namespace amble::report

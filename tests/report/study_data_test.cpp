@@ -93,8 +93,8 @@ TEST(Remarks, TellWhatIsMissing) {
 }
 
 TEST(StudyData, IsOfADistanceOrInMetresIfAllRunsAre) {
-  const ledger::Objective distance, metres{.is_distance = false, .unit = " m"},
-      score{.is_distance = false, .unit = ""};
+  const record::Objective distance, metres{.is_distance = false, .unit = " m", .title = "Score"},
+      score{.is_distance = false, .unit = "", .title = "Score"};
   EXPECT_EQ(small_study().objective(), distance);
   EXPECT_EQ(scored_study("heading").objective(), metres);
   EXPECT_EQ(scored_study("economy").objective(), score);
