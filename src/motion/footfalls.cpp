@@ -1,5 +1,7 @@
 #include "amble/motion/footfalls.hpp"
 
+#include "amble/record/footfall.hpp"
+
 #include <algorithm>
 
 namespace amble::motion {
@@ -24,8 +26,12 @@ double contact_share(const std::vector<bool>& touch) {
 
 std::vector<int> touchdown_frames(const std::vector<bool>& touch) {
   std::vector<int> frames;
-  for (std::size_t k = 1; k < touch.size(); ++k)
-    if (touch[k] && !touch[k - 1]) frames.push_back(static_cast<int>(k));
+  int last_touch = -1;
+  for (int k = 0; k < static_cast<int>(touch.size()); ++k) {
+    if (!touch[static_cast<std::size_t>(k)]) continue;
+    if (record::has_come_down(k, last_touch, 1.0)) frames.push_back(k);
+    last_touch = k;
+  }
   return frames;
 }
 

@@ -19,7 +19,8 @@ std::vector<Stance> stances(const std::vector<bool>& touch, double frame_s);
 /// Share of the frames in which the foot touched, in [0, 1].
 double contact_share(const std::vector<bool>& touch);
 
-/// The frames in which a foot touches and did not in the frame before; never the first frame.
+/// The frames in which a foot touches and did not in the frame before (record/footfall.hpp); never the first
+/// frame.
 std::vector<int> touchdown_frames(const std::vector<bool>& touch);
 
 /// Times of triggers, s: at the beginning of the step that they influenced. Of triggers in consecutive steps,

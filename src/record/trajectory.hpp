@@ -47,10 +47,6 @@ struct Measures {
   }
 };
 
-/// A foot that touches something is a footfall if it has been off everything for so long: shorter gaps are
-/// chatter.
-inline constexpr double footfall_off_s = 0.05;
-
 /// Whole seconds in a time, s; a time a rounding error short of one more has that, too.
 inline int second_count(double time_s) {
   return static_cast<int>(std::floor(time_s + 1e-9));
@@ -77,7 +73,8 @@ struct Trajectory {
   double upright_steps = 0.0;
   /// Measures::contacts: of each leg, the steps after which its foot touched something.
   std::vector<int> contact_steps;
-  /// Measures::footfalls: of each leg, the steps after which its foot came down, ascending from 1.
+  /// Measures::footfalls: of each leg, the steps after which its foot came down (footfall.hpp), ascending
+  /// from 1.
   std::vector<std::vector<int>> footfall_steps;
   /// Measures::height: sum over steps of the height of the root's centre of mass over the ground below it, m.
   double height_steps_m = 0.0;

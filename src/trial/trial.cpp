@@ -7,6 +7,7 @@
 #include "amble/core/check.hpp"
 #include "amble/core/clock.hpp"
 #include "amble/core/index.hpp"
+#include "amble/record/footfall.hpp"
 
 namespace amble::trial {
 
@@ -185,7 +186,7 @@ void Runner::note_footfalls(int lane) {
   const double least_off = record::footfall_off_s / protocol_.timestep_s - 1e-6;
   for (std::size_t leg = 0; leg < slot.last_touch_step.size(); ++leg) {
     if (!(engine_.sensors().touch.at(static_cast<int>(leg), lane) > 0.0f)) continue;
-    if (step - slot.last_touch_step[leg] - 1 >= least_off && step - slot.last_touch_step[leg] > 1)
+    if (record::has_come_down(step, slot.last_touch_step[leg], least_off))
       slot.trajectory.footfall_steps[leg].push_back(step);
     slot.last_touch_step[leg] = step;
   }
