@@ -152,30 +152,17 @@ ReadableChampion champion_of(OpenSearch& self, const neat::Genome& genome) {
   return {{}, std::move(champion).value()};
 }
 
-struct Evaluated {
-  std::vector<double> objectives;
-  std::vector<std::vector<float>> behaviours;
-  std::vector<bool> viable;
-};
-
-Evaluated evaluate(Task& task, Arena& arena, std::span<const neat::Genome> genomes, int generation,
-                   std::int64_t seed, int jobs, const std::atomic<bool>& stop) {
+experiment::ToldGeneration evaluate(Task& task, Arena& arena, std::span<const neat::Genome> genomes,
+                                    int generation, std::int64_t seed, int jobs,
+                                    const std::atomic<bool>& stop) {
   const auto lock = arena.lock.hold();
   auto& evaluator = arena.evaluators[jobs];
   if (!evaluator || !evaluator->works_here())
     evaluator = std::make_unique<experiment::Evaluator>(arena.problem, task.behaviour().path(), jobs,
                                                         task.behaviour().measures());
-  auto all = experiment::evaluate_generation(*evaluator, arena.problem, task.config.value.evaluation,
-                                             arena.ground, seed, generation, genomes, stop);
-  if (!all) return {};
-  Evaluated evaluated{.objectives = std::move(all->objectives), .behaviours = {}, .viable = {}};
-  for (std::size_t i = 0; i < genomes.size(); ++i) {
-    const auto episodes = all->result.of_genome(i);
-    evaluated.behaviours.push_back(task.behaviour().of(episodes));
-    evaluated.viable.push_back(
-        std::ranges::count(episodes, record::Outcome::diverged, &record::Trajectory::outcome) == 0);
-  }
-  return evaluated;
+  const auto all = experiment::evaluate_generation(*evaluator, arena.problem, task.config.value.evaluation,
+                                                   arena.ground, seed, generation, genomes, stop);
+  return all ? experiment::told(*all, task.behaviour()) : experiment::ToldGeneration{};
 }
 
 py::object evaluate_genomes(const py::object& on, const py::object& genomes,
@@ -196,7 +183,7 @@ py::object evaluate_genomes(const py::object& on, const py::object& genomes,
   Arena& arena = task->in(engine);
   const auto n = static_cast<py::ssize_t>(all.size()),
              d = static_cast<py::ssize_t>(task->behaviour().length());
-  Evaluated evaluated;
+  experiment::ToldGeneration evaluated;
   if (n > 0) {
     Interruptible interruptible;
     interruptible.run([&] {
@@ -206,12 +193,13 @@ py::object evaluate_genomes(const py::object& on, const py::object& genomes,
   }
   py::array_t<double> objectives(n);
   py::array_t<float> behaviours({n, d});
-  std::copy(evaluated.objectives.begin(), evaluated.objectives.end(), objectives.mutable_data());
-  for (py::ssize_t i = 0; i < n; ++i)
-    std::copy(evaluated.behaviours[to_index(i)].begin(), evaluated.behaviours[to_index(i)].end(),
-              behaviours.mutable_data() + i * d);
   py::array_t<bool> viable(n);
-  std::copy(evaluated.viable.begin(), evaluated.viable.end(), viable.mutable_data());
+  for (py::ssize_t i = 0; i < n; ++i) {
+    const search::Evaluation& one = evaluated.evaluations[to_index(i)];
+    objectives.mutable_at(i) = one.objective;
+    viable.mutable_at(i) = one.viable;
+    std::copy(one.behaviour.begin(), one.behaviour.end(), behaviours.mutable_data() + i * d);
+  }
   return py::module_::import("amble._evaluation")
       .attr("Evaluation")(std::move(objectives), std::move(behaviours), std::move(viable));
 }

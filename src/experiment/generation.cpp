@@ -69,6 +69,22 @@ std::vector<std::size_t> finalists_of(std::span<const double> objectives, double
   return order;
 }
 
+ToldGeneration told(const EvaluatedGeneration& evaluated, const score::Behaviour& behaviour) {
+  const std::size_t genomes = evaluated.objectives.size();
+  ToldGeneration all;
+  all.behaviours.reserve(genomes);  // the evaluations refer to what is in it
+  all.evaluations.reserve(genomes);
+  for (std::size_t i = 0; i < genomes; ++i) {
+    const auto episodes = evaluated.result.of_genome(i);
+    all.behaviours.push_back(behaviour.of(episodes));
+    const bool viable =
+        std::ranges::count(episodes, record::Outcome::diverged, &record::Trajectory::outcome) == 0;
+    all.evaluations.push_back(
+        {.objective = evaluated.objectives[i], .behaviour = all.behaviours.back(), .viable = viable});
+  }
+  return all;
+}
+
 std::optional<EvaluatedGeneration> evaluate_generation(Evaluator& evaluator, const Problem& problem,
                                                        const EvaluationSettings& settings,
                                                        GenerationGround& ground, std::int64_t seed,

@@ -9,6 +9,8 @@
 #include "amble/experiment/evaluation_settings.hpp"
 #include "amble/experiment/evaluator.hpp"
 #include "amble/experiment/problem.hpp"
+#include "amble/score/behaviour.hpp"
+#include "amble/search/evaluation.hpp"
 
 namespace amble::experiment {
 
@@ -27,6 +29,13 @@ std::optional<EvaluatedGeneration> evaluate_generation(Evaluator& evaluator, con
                                                        GenerationGround& ground, std::int64_t seed,
                                                        int generation, std::span<const neat::Genome> genomes,
                                                        const std::atomic<bool>& stop);
+
+/// What a search is told of a generation. May be moved, not copied: the evaluations refer to the behaviours.
+struct ToldGeneration {
+  std::vector<std::vector<float>> behaviours;
+  std::vector<search::Evaluation> evaluations;  ///< by genome; not viable: a trial of it diverged
+};
+ToldGeneration told(const EvaluatedGeneration& evaluated, const score::Behaviour& behaviour);
 
 /// Indices of the best share of the genomes, at least one, ascending; of equal objectives the first.
 std::vector<std::size_t> finalists_of(std::span<const double> objectives, double share);

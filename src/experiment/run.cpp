@@ -122,7 +122,7 @@ RunStatus Run::generations(RunListener& listener, const std::atomic<bool>& stop)
     summarise_trials(objectives, result.trajectories, row);
     tally_.add(result.trajectories, problem_->trial.steps());
     if (!keep_best(candidates, objectives, choice, typical, row, stop)) return RunStatus::interrupted;
-    tell(result, objectives, row);
+    tell(*evaluated, row);
 
     const double row_s = now_s();
     row.wall_s = row_s - std::exchange(last_row_s, row_s);
@@ -170,19 +170,10 @@ bool Run::measure_typical(TypicalTrials& trials, const neat::Genome& champion,
   return results.has_value();
 }
 
-void Run::tell(const GenerationResult& result, std::span<const double> objectives, GenerationRow& row) {
+void Run::tell(const EvaluatedGeneration& evaluated, GenerationRow& row) {
   const Stopwatch watch(row.times.search_s);
-  std::vector<std::vector<float>> behaviours;
-  std::vector<search::Evaluation> evaluations;
-  behaviours.reserve(objectives.size());
-  for (std::size_t i = 0; i < objectives.size(); ++i) {
-    const auto episodes = result.of_genome(i);
-    behaviours.push_back(behaviour_->of(episodes));
-    const bool viable =
-        std::ranges::count(episodes, record::Outcome::diverged, &record::Trajectory::outcome) == 0;
-    evaluations.push_back({.objective = objectives[i], .behaviour = behaviours.back(), .viable = viable});
-  }
-  state_.strategy->tell(evaluations);
+  const ToldGeneration generation = told(evaluated, *behaviour_);
+  state_.strategy->tell(generation.evaluations);
   row.search = state_.strategy->metrics();
 }
 

@@ -26,6 +26,7 @@ class RunListener {
 };
 
 class ChampionChoice;
+struct EvaluatedGeneration;
 class TypicalTrials;
 
 enum class RunStatus { finished, interrupted };
@@ -68,7 +69,7 @@ class Run {
                  const std::atomic<bool>& stop);
   /// Measures what the champion typically does; false if `stop` was set meanwhile.
   bool measure_typical(TypicalTrials& trials, const neat::Genome& champion, const std::atomic<bool>& stop);
-  void tell(const GenerationResult& result, std::span<const double> objectives, GenerationRow& row);
+  void tell(const EvaluatedGeneration& evaluated, GenerationRow& row);
 
   RunFolder folder_;
   Config config_;
