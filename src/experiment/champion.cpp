@@ -145,7 +145,7 @@ trial::ScenarioKey Champion::unseen_scenario_key(std::size_t episode) const {
 
 double Champion::objective() const {
   const auto credited = [this](const TrialResult& trial) {
-    return score::credited(trial.value(), trial.outcome, problem.trial.fall_factor);
+    return problem.credited(trial.value(), trial.outcome);
   };
   if (episodes.empty()) return credited(result);
   std::vector<double> scores;

@@ -42,7 +42,7 @@ std::vector<double> credited_scores(const Problem& problem, std::span<const reco
   const score::Score score = problem.make_score();
   std::vector<double> scores;
   for (const auto& trajectory : trials)
-    scores.push_back(score::credited(score.of(trajectory), trajectory.outcome, problem.trial.fall_factor));
+    scores.push_back(problem.credited(score.of(trajectory), trajectory.outcome));
   return scores;
 }
 

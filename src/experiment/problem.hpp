@@ -63,6 +63,10 @@ struct Problem {
   std::unique_ptr<physics::Engine> make_engine(bool torques = false) const;
   std::unique_ptr<controllers::Parameters> decode(const neat::Genome& genome) const;
   score::Score make_score() const;
+  /// What a trial of this score counts in evolution: with trial.fall_factor for a fall.
+  double credited(double score_of_trial, record::Outcome outcome) const {
+    return score::credited(score_of_trial, outcome, trial.fall_factor);
+  }
   /// `measures`: those that the score does not need itself.
   trial::Protocol protocol(const record::PathSampling& path, const record::Measures& measures = {}) const;
   /// Whether trials differ: by noise, or by the place where they start.

@@ -90,7 +90,7 @@ score::Typical typical_distance(std::span<const TrialResult> trials) {
 
 score::Typical typical_objective(const Problem& problem, std::span<const TrialResult> trials) {
   return typical_of(trials, [&problem](const TrialResult& trial) {
-    return score::credited(trial.value(), trial.outcome, problem.trial.fall_factor);
+    return problem.credited(trial.value(), trial.outcome);
   });
 }
 
