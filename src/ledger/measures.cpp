@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "amble/core/index.hpp"
+#include "amble/ledger/evolved_as.hpp"
 #include "amble/ledger/study_spec.hpp"
 #include "amble/score/score.hpp"
 #include "amble/statistics/descriptive.hpp"
@@ -17,9 +18,10 @@ namespace {
 struct RunMeasure {
   std::string_view name, label;
   double (*value)(const Record&);
+  bool is_compared = false;  ///< in all pairs of conditions
 };
 constexpr std::array run_measures{
-    RunMeasure{"train_m", "distance in evolution, m", [](const Record& r) { return r.best_m; }},
+    RunMeasure{"train_m", "distance in evolution, m", [](const Record& r) { return r.best_m; }, true},
     RunMeasure{"hidden", "hidden nodes of the CPPN", [](const Record& r) { return 1.0 * r.hidden; }},
     RunMeasure{"links", "links of the CPPN", [](const Record& r) { return 1.0 * r.links; }}};
 
@@ -139,14 +141,6 @@ Parts split(std::string_view name) {
 
 }  // namespace
 
-record::Objective objective_of(const Record& record) {
-  const auto score = record.champion.find("score");
-  if (score == record.champion.end()) return {};
-  const std::string what = fmt::format("the record of {}, seed {}", record.condition, record.seed);
-  return score::objective_of(
-      io::settings_from_json<score::Settings>(io::JsonView(*score, what, "champion.score")));
-}
-
 bool is_measure(const StudySpec& study, std::string_view name) {
   const auto [test, what] = split(name);
   if (test.empty()) {
@@ -172,6 +166,19 @@ std::string measure_names() {
   }
   return fmt::format("{}with map_trials {}TEST{}, with episodes {}, with reach_m {}, with mutants {}", text,
                      corrected, of_tests[0], of_tests[1], of_tests[2], of_tests[3]);
+}
+
+std::vector<std::string> measures_of_runs() {
+  std::vector<std::string> names;
+  for (const RunMeasure& row : run_measures) names.emplace_back(row.name);
+  return names;
+}
+
+std::vector<std::string> compared_measures_of_runs() {
+  std::vector<std::string> names;
+  for (const RunMeasure& row : run_measures)
+    if (row.is_compared) names.emplace_back(row.name);
+  return names;
 }
 
 std::vector<std::string> measures_of(const TestSpec& test) {

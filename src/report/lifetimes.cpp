@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "amble/ledger/evolved_as.hpp"
 #include "amble/report/levels.hpp"
 
 namespace amble::report {
@@ -34,7 +35,7 @@ SurvivalTable survival_table(const StudyData& data, const ledger::TestSpec& test
       if (const auto* result = data.result(*run, test.name)) {
         lasted.lifetimes.push_back(lifetime(*result, activity));
         table.trial_s = std::max(table.trial_s, result->trial_s);
-        table.is_long = table.is_long || result->trial_s > training_s(*run).value_or(0.0);
+        table.is_long = table.is_long || result->trial_s > ledger::evolution_trial_s(*run).value_or(0.0);
       }
     if (const auto curve = statistics::kaplan_meier(lasted.lifetimes, confidence)) {
       lasted.curve = *curve;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "amble/core/index.hpp"
+#include "amble/ledger/evolved_as.hpp"
 #include "amble/report/verdict.hpp"
 
 namespace amble::report {
@@ -29,9 +30,9 @@ std::vector<const ledger::TestResult*> long_results(const StudyData& data, const
                                                     const std::string& test) {
   std::vector<const ledger::TestResult*> results;
   for (const ledger::Record* run : data.runs(condition))
-    if (const auto* result = data.result(*run, test); result != nullptr &&
-                                                      result->trial_s > training_s(*run).value_or(0.0) &&
-                                                      walking_by_path_s(*result, stop_rules.front()))
+    if (const auto* result = data.result(*run, test);
+        result != nullptr && result->trial_s > ledger::evolution_trial_s(*run).value_or(0.0) &&
+        walking_by_path_s(*result, stop_rules.front()))
       results.push_back(result);
   return results;
 }

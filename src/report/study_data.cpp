@@ -10,6 +10,7 @@
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
 #include "amble/io/printable.hpp"
+#include "amble/ledger/evolved_as.hpp"
 #include "amble/ledger/ledger.hpp"
 #include "amble/report/number_text.hpp"
 
@@ -38,12 +39,6 @@ std::size_t without_test(const StudyData& data, const ledger::TestSpec& test) {
 template <typename Function>
 bool differs(const std::vector<const ledger::Record*>& runs, Function&& value) {
   return std::ranges::any_of(runs, [&](const auto* run) { return value(*run) != value(*runs.front()); });
-}
-
-/// The settings of a champion's score; empty if that is the distance.
-std::string score_text(const ledger::Record& run) {
-  const auto score = run.champion.find("score");
-  return score == run.champion.end() ? std::string() : score->dump();
 }
 
 void remark_on_condition(const StudyData& data, const ledger::ConditionSpec& condition,
@@ -169,7 +164,7 @@ std::set<std::string> map_figures_of(const StudyData& data) {
 }  // namespace
 
 std::vector<std::string> measures_of(const StudyData& data) {
-  std::vector<std::string> measures{"train_m", "hidden", "links"};
+  std::vector<std::string> measures = ledger::measures_of_runs();
   const auto of_maps = map_figures_of(data);
   measures.insert(measures.end(), of_maps.begin(), of_maps.end());
   for (const ledger::TestSpec& test : data.study.tests)
@@ -178,20 +173,12 @@ std::vector<std::string> measures_of(const StudyData& data) {
 }
 
 std::vector<std::string> compared_measures_of(const StudyData& data) {
-  std::vector<std::string> measures{"train_m"};
+  std::vector<std::string> measures = ledger::compared_measures_of_runs();
   const auto of_maps = map_figures_of(data);
   measures.insert(measures.end(), of_maps.begin(), of_maps.end());
   for (const ledger::TestSpec& test : data.study.tests)
     std::ranges::move(ledger::compared_measures_of(test), std::back_inserter(measures));
   return measures;
-}
-
-std::optional<double> training_s(const ledger::Record& record) {
-  const auto trial = record.champion.find("trial");
-  if (trial == record.champion.end() || !trial->is_object()) return std::nullopt;
-  const auto duration = trial->find("duration_s");
-  if (duration == trial->end() || !duration->is_number()) return std::nullopt;
-  return duration->get<double>();
 }
 
 ClaimsWritten claims_written(const StudyData& data) {
@@ -244,7 +231,7 @@ std::vector<std::string> remarks(const StudyData& data) {
   for (const ledger::ConditionSpec& condition : data.study.conditions)
     remark_on_condition(data, condition, remarks);
   if (std::ranges::any_of(data.records, [&](const ledger::Record& run) {
-        return score_text(run) != score_text(data.records.front());
+        return ledger::score_of(run) != ledger::score_of(data.records.front());
       }))
     remarks.push_back(
         "Conditions were evolved by different scores; what they got in evolution cannot be compared.");

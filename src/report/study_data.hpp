@@ -38,15 +38,10 @@ struct StudyData {
 /// Reads DIR/study.toml and DIR/ledger. Throws UserError: no study, a damaged record.
 StudyData load_study_data(const std::filesystem::path& folder);
 
-/// Names of all measures that the study's records have: train_m, hidden, links, those of maps, then those of
-/// its tests.
+/// Names of all measures that the study's records have: those of runs, of maps, of its tests.
 std::vector<std::string> measures_of(const StudyData& data);
-/// Those of them in which all pairs of conditions are compared: train_m, those of maps, and those of
-/// ledger::compared_measures_of().
+/// Those of them in which all pairs of conditions are compared: of runs and tests some, of maps all.
 std::vector<std::string> compared_measures_of(const StudyData& data);
-
-/// Length of the trials in evolution, s, as the champion's file has it; none if it does not say.
-std::optional<double> training_s(const ledger::Record& record);
 
 /// Under which rules the claims were written that the records' runs were made for.
 struct ClaimsWritten {

@@ -1,5 +1,6 @@
 #include "amble/report/transfer.hpp"
 
+#include "amble/ledger/evolved_as.hpp"
 #include "amble/ledger/measures.hpp"
 #include "amble/report/levels.hpp"
 #include "amble/statistics/descriptive.hpp"
@@ -19,7 +20,8 @@ std::string reference_measure(const StudyData& data, const ledger::TestSpec& tes
       return other.name + ".distance_m";
   }
   const bool as_in_evolution = !test.is_disturbed() && test.ground.empty() && test.damage.empty();
-  return as_in_evolution && training_s(run) == result->trial_s && ledger::objective_of(run).is_distance
+  return as_in_evolution && ledger::evolution_trial_s(run) == result->trial_s &&
+                 ledger::objective_of(run).is_distance
              ? "train_m"
              : "";
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "amble/core/index.hpp"
+#include "amble/ledger/evolved_as.hpp"
 #include "amble/ledger/measures.hpp"
 #include "amble/record/levels.hpp"
 #include "amble/report/levels.hpp"
@@ -18,8 +19,8 @@ bool is_alike(const ledger::TestSpec& a, const ledger::TestSpec& b) {
 }
 
 /// Whether the run's distance in evolution is that of an undisturbed trial of that length.
-bool evolved_undisturbed(const ledger::Record& run, double seconds) {
-  return !run.champion.contains("noise") && !run.champion.contains("ground") && training_s(run) == seconds &&
+bool walked_undisturbed(const ledger::Record& run, double seconds) {
+  return ledger::evolved_undisturbed(run) && ledger::evolution_trial_s(run) == seconds &&
          ledger::objective_of(run).is_distance;
 }
 
@@ -29,7 +30,7 @@ std::string undisturbed_measure(const StudyData& data, const ledger::TestSpec& l
     if (!test.is_disturbed() && is_alike(test, levelled)) return test.name + ".distance_m";
   const bool at_home = levelled.engine.empty() && levelled.ground.empty() && levelled.damage.empty();
   const bool undisturbed = std::ranges::all_of(data.records, [&](const ledger::Record& run) {
-    return !levelled.applies_to(run.condition) || evolved_undisturbed(run, levelled.seconds);
+    return !levelled.applies_to(run.condition) || walked_undisturbed(run, levelled.seconds);
   });
   return at_home && undisturbed ? "train_m" : "";
 }

@@ -10,6 +10,7 @@
 #include "amble/experiment/replay.hpp"
 #include "amble/gait/recorded_gait.hpp"
 #include "amble/io/file.hpp"
+#include "amble/ledger/evolved_as.hpp"
 #include "amble/record/levels.hpp"
 #include "amble/score/walking.hpp"
 #include "amble/study/gait_observer.hpp"
@@ -60,6 +61,26 @@ TEST(ChampionTest, WithoutNoiseIsTheChampionsOwnTrialOfAnotherLength) {
     EXPECT_EQ(result.engine, "batch");
     EXPECT_EQ(result.trial_s, seconds);
   }
+}
+
+TEST(ChampionToJson, IsReadByLedgersAsTheChampionSays) {
+  experiment::Champion walker = champion();
+  const auto recorded = [&walker] {
+    ledger::Record record;
+    record.champion = champion_to_json(walker);
+    return record;
+  };
+  EXPECT_EQ(ledger::evolution_trial_s(recorded()), walker.problem.trial.duration_s);
+  EXPECT_FALSE(ledger::evolved_undisturbed(recorded())) << "evolved under noise";
+  EXPECT_EQ(ledger::objective_of(recorded()), score::objective_of(walker.problem.score));
+  EXPECT_EQ(ledger::score_of(recorded()), "");
+  walker.episodes.clear();
+  EXPECT_TRUE(ledger::evolved_undisturbed(recorded()));
+  walker.problem.ground.kind = "hills";
+  EXPECT_FALSE(ledger::evolved_undisturbed(recorded()));
+  walker.problem.score.terms = {{.quantity = "economy"}};
+  EXPECT_EQ(ledger::objective_of(recorded()), score::objective_of(walker.problem.score));
+  EXPECT_NE(ledger::score_of(recorded()), "");
 }
 
 TEST(GaitObserver, MeasuresWhatIsMeasuredOfTheRecording) {
