@@ -153,7 +153,7 @@ py::object adapt(const ReadableMap& self, const std::string& damage, const std::
                                      .damage = experiment::damage_of(damage),
                                      .most_trials = trials,
                                      .episodes = episodes,
-                                     .judges = judges};
+                                     .test_trials = judges};
   std::optional<std::filesystem::path> file;
   if (!page.is_none()) {
     file = path_of(page);

@@ -43,12 +43,12 @@ void print(const experiment::Adaptation& adaptation, const experiment::Repertoir
   fmt::print("{} after {} trials{}\n\n", adaptation.done ? "nothing better is predicted" : "stopped",
              adaptation.steps.size(),
              options.settings.episodes > 1 ? fmt::format(" of {} attempts", options.settings.episodes) : "");
-  fmt::print("in {}, means of {} trials:\n", options.settings.engine, options.settings.judges);
+  fmt::print("in {}, means of {} trials:\n", options.settings.engine, options.settings.test_trials);
   fmt::print("  the map's best, intact     {}\n", text(adaptation.intact));
   fmt::print("  the same, damaged          {}\n", text(adaptation.damaged));
   fmt::print("  adapted (cell {:>6})      {}\n", adaptation.cell, text(adaptation.adapted));
   if (const double lost = adaptation.intact - adaptation.damaged; lost > 0.0)
-    fmt::print("  of what was lost, back     {:.0f} %\n",
+    fmt::print("  loss recovered             {:.0f} %\n",
                100.0 * (adaptation.adapted - adaptation.damaged) / lost);
   fmt::print("\nthe gait found: amble repertoire {} --cell {} -o elite.json\n",
              io::shell_word(options.run.string()), adaptation.cell);
@@ -107,15 +107,17 @@ void add_adapt(CLI::App& app, Action& action) {
       ->check(between(1e-9, 1e3))
       ->capture_default_str();
   command
-      ->add_option(
-          "--exploration", options->settings.search.exploration,
-          "Standard deviations by which a gait that is uncertain counts as better when the next is chosen")
+      ->add_option("--exploration", options->settings.search.exploration,
+                   "Weight κ of the upper confidence bound (UCB) that chooses the next gait: standard "
+                   "deviations by which "
+                   "an uncertain one counts as better")
       ->check(between(0.0, 1e3))
       ->capture_default_str();
   command
       ->add_option(
           "--length-scale", options->settings.search.length_scale,
-          "How far apart gaits are that tell little of each other, as a share of the map's dimensions")
+          "Length scale ρ of the Matérn kernel, as a share of the map's dimensions: gaits farther apart tell "
+          "little of each other")
       ->check(between(1e-3, 1e3))
       ->capture_default_str();
   command
@@ -125,7 +127,7 @@ void add_adapt(CLI::App& app, Action& action) {
       ->check(between(0.0, 10.0))
       ->capture_default_str();
   command
-      ->add_option("--judge", options->settings.judges,
+      ->add_option("--judge", options->settings.test_trials,
                    "Trials that judge a gait before and after, under noise of their own")
       ->check(between(1, 100000))
       ->capture_default_str();

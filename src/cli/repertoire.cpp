@@ -95,7 +95,7 @@ ExitCode write_elite(const experiment::Repertoire& repertoire, std::uint32_t cel
   const auto champion = experiment::elite_champion(repertoire, cell, 1, stop_signal());
   if (!champion) return ExitCode::interrupted;
   io::write_file(*out, experiment::champion_text(*champion));
-  fmt::print("look at it by: amble view {} -o walker.html\n", io::shell_word(out->string()));
+  fmt::print("to see it, run: amble view {} -o walker.html\n", io::shell_word(out->string()));
   return ExitCode::ok;
 }
 

@@ -85,7 +85,7 @@ ExitCode conclude(const study::Plan& plan, const StudyOptions& options, std::siz
       print_message("other processes work on the rest, or were killed: the same command continues\n");
     if (failure != ExitCode::ok) return failure;
   }
-  fmt::print("look at it by: amble report {} -o report.html\n", io::shell_word(folder));
+  fmt::print("for its report, run: amble report {} -o report.html\n", io::shell_word(folder));
   return ExitCode::ok;
 }
 
@@ -157,7 +157,7 @@ ExitCode write_slurm_script(const study::Plan& plan, const StudyOptions& options
                                                       .per_run = options.per_run,
                                                       .discard_runs = options.discard_runs,
                                                       .minutes = options.slurm_minutes}));
-  fmt::print("{} runs in {} tasks; submit them by: sbatch {}\n", plan.runs.size(), options.slurm_tasks,
+  fmt::print("{} runs in {} tasks; to submit them, run: sbatch {}\n", plan.runs.size(), options.slurm_tasks,
              options.slurm->string());
   return ExitCode::ok;
 }

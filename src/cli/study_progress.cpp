@@ -50,7 +50,7 @@ std::vector<int> generations_left(const study::Plan& plan, const std::vector<stu
 }  // namespace
 
 std::string StudyEvent::line() const {
-  return fmt::format("{}{} {} {} {} {}\n", mark, kinds[to_index(kind)], run, generations, best_m,
+  return fmt::format("{}{} {} {} {} {}\n", mark, kinds[to_index(kind)], run, generations, best_objective,
                      io::printable(reason));
 }
 
@@ -61,7 +61,7 @@ bool StudyEvent::parse(std::string_view line, StudyEvent& event) {
   if (found == kinds.end()) return false;
   event.kind = static_cast<Kind>(found - kinds.begin());
   if (!take_number(line, event.run) || !take_number(line, event.generations) ||
-      !take_number(line, event.best_m))
+      !take_number(line, event.best_objective))
     return false;
   event.reason = line;
   return true;
@@ -107,10 +107,10 @@ void StudyProgress::on(const StudyEvent& event) {
       failed_.erase(event.run);
       if (!finished_.insert(event.run).second) return;
       ++done_;
-      print(fmt::format(
-                "{}: {}; {} of {} runs done", plan_.name(run),
-                score::with_unit(fmt::format("{:.2f}", event.best_m), plan_.condition(run).config.score),
-                done_, total_),
+      print(fmt::format("{}: {}; {} of {} runs done", plan_.name(run),
+                        score::with_unit(fmt::format("{:.2f}", event.best_objective),
+                                         plan_.condition(run).config.score),
+                        done_, total_),
             true);
       break;
     case StudyEvent::Kind::failure:
@@ -164,7 +164,7 @@ void StudyReporter::on_finish(const study::PlannedRun& run, const ledger::Record
   send({.kind = StudyEvent::Kind::finish,
         .run = index_of(run),
         .generations = record.generations,
-        .best_m = record.best_m,
+        .best_objective = record.best_objective,
         .reason = {}});
 }
 

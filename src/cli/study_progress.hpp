@@ -16,10 +16,10 @@ namespace amble::cli {
 struct StudyEvent {
   enum class Kind { start, generation, finish, failure };
   Kind kind = Kind::start;
-  std::size_t run = 0;  ///< index in Plan::runs
-  int generations = 0;  ///< done of this run
-  double best_m = 0.0;  ///< of a run that is finished
-  std::string reason;   ///< of a failure
+  std::size_t run = 0;          ///< index in Plan::runs
+  int generations = 0;          ///< done of this run
+  double best_objective = 0.0;  ///< of a run that is finished
+  std::string reason;           ///< of a failure
 
   std::string line() const;
   /// False for a line that is not an event.

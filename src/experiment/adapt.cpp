@@ -96,7 +96,7 @@ std::optional<Adaptation> adapt(const Repertoire& repertoire, const AdaptSetting
                    .predicted = search.mean(candidate),
                    .deviation = search.deviation(candidate)};
     // Judging trials come first in the numbering, so that they are unseen by the search.
-    const int first = settings.judges + static_cast<int>(adaptation.steps.size()) * settings.episodes;
+    const int first = settings.test_trials + static_cast<int>(adaptation.steps.size()) * settings.episodes;
     const auto measured = damaged.trials(number, first, settings.episodes, stop);
     if (!measured) return std::nullopt;
     step.measured = *measured;
@@ -106,9 +106,9 @@ std::optional<Adaptation> adapt(const Repertoire& repertoire, const AdaptSetting
   adaptation.done = search.done();
   const auto found = static_cast<std::uint32_t>(search.best());
   adaptation.cell = elites[found].cell;
-  const auto before = intact.trials(best, 0, settings.judges, stop);
-  const auto after = damaged.trials(best, 0, settings.judges, stop);
-  const auto adapted = damaged.trials(found, 0, settings.judges, stop);
+  const auto before = intact.trials(best, 0, settings.test_trials, stop);
+  const auto after = damaged.trials(best, 0, settings.test_trials, stop);
+  const auto adapted = damaged.trials(found, 0, settings.test_trials, stop);
   if (!before || !after || !adapted) return std::nullopt;
   adaptation.intact = *before;
   adaptation.damaged = *after;

@@ -19,7 +19,7 @@ struct AdaptSettings {
   int most_trials = 20;
   int episodes = 1;  ///< attempts under different noise whose mean is the result of one trial
   adaptation::TrialAndErrorSettings search = {};
-  int judges = 20;  ///< trials that judge a gait before and after, under noise unseen by the search
+  int test_trials = 20;  ///< trials that judge a gait before and after, under noise unseen by the search
 };
 
 /// One trial of the search.

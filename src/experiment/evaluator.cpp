@@ -23,11 +23,11 @@ struct Share {
 /// The generation being evaluated, shared by all workers: dispenses the episodes of genomes by rising index,
 /// collects results. A genome's episodes go to one worker, which decodes it once, unless there are fewer
 /// genomes than workers; then each worker's share fills its lanes.
-class Generation {
+class EvaluationRound {
  public:
-  Generation(const Problem& problem_in, std::span<const neat::Genome> genomes_in,
-             std::span<const trial::Scenario> scenarios_in, std::shared_ptr<const ground::Ground> ground_in,
-             std::size_t workers)
+  EvaluationRound(const Problem& problem_in, std::span<const neat::Genome> genomes_in,
+                  std::span<const trial::Scenario> scenarios_in,
+                  std::shared_ptr<const ground::Ground> ground_in, std::size_t workers)
       : problem(problem_in),
         genomes(genomes_in),
         scenarios(scenarios_in),
@@ -71,32 +71,31 @@ class Generation {
 /// task's index is that of its trajectory.
 class WorkerQueue : public trial::TaskQueue {
  public:
-  explicit WorkerQueue(Generation& generation) : generation_(generation) {}
+  explicit WorkerQueue(EvaluationRound& round) : round_(round) {}
 
   std::optional<trial::Task> next() override {
     if (share_.first == share_.end && !take_share()) return std::nullopt;
     const std::size_t episode = share_.first++;
-    const trial::Scenario* const scenario =
-        generation_.scenarios.empty() ? nullptr : &generation_.scenarios[episode];
-    const std::size_t index = share_.genome * generation_.episodes() + episode;
+    const trial::Scenario* const scenario = round_.scenarios.empty() ? nullptr : &round_.scenarios[episode];
+    const std::size_t index = share_.genome * round_.episodes() + episode;
     return trial::Task{index, parameters_, nullptr, scenario};
   }
   void done(std::size_t index, record::Trajectory trajectory) override {
-    generation_.done(index, std::move(trajectory));
+    round_.done(index, std::move(trajectory));
   }
   double decode_s() const { return decode_s_; }
 
  private:
   bool take_share() {
-    const auto share = generation_.next_share();
+    const auto share = round_.next_share();
     if (!share) return false;
     const Stopwatch watch(decode_s_);
-    parameters_ = generation_.problem.decode(generation_.genomes[share->genome]);
+    parameters_ = round_.problem.decode(round_.genomes[share->genome]);
     share_ = *share;
     return true;
   }
 
-  Generation& generation_;
+  EvaluationRound& round_;
   Share share_;  ///< what is left of it
   std::shared_ptr<const controllers::Parameters> parameters_;
   double decode_s_ = 0.0;
@@ -138,7 +137,7 @@ struct Evaluator::Shared {
   int round = 0;
   int working = 0;
   bool quit = false;
-  Generation* generation = nullptr;
+  EvaluationRound* current = nullptr;
   const std::atomic<bool>* stop = nullptr;
   std::uint64_t steps = 0;
   StageTimes times;     ///< sums over the workers, without waiting
@@ -166,10 +165,10 @@ void Evaluator::Shared::one_round(WorkerContext& context) {
   StageTimes own;
   const double start_s = now_s();
   try {
-    trial::Runner& runner = context.open(problem, path, measures, generation->ground);
+    trial::Runner& runner = context.open(problem, path, measures, current->ground);
     const std::uint64_t steps_before = runner.steps_simulated();
     const double physics_before_s = runner.physics_s(), control_before_s = runner.control_s();
-    WorkerQueue queue(*generation);
+    WorkerQueue queue(*current);
     runner.run(queue, *stop);
     own_steps = runner.steps_simulated() - steps_before;
     own = {.physics_s = runner.physics_s() - physics_before_s,
@@ -219,9 +218,9 @@ std::optional<GenerationResult> Evaluator::evaluate(std::span<const neat::Genome
   if (!works_here())
     fail(ExitCode::internal, "workers do not come along into a forked process: make an Evaluator there");
   Shared& shared = *shared_;
-  Generation generation(shared.problem, genomes, scenarios, std::move(ground), shared.workers.size());
+  EvaluationRound evaluation(shared.problem, genomes, scenarios, std::move(ground), shared.workers.size());
   std::unique_lock lock(shared.mutex);
-  shared.generation = &generation;
+  shared.current = &evaluation;
   shared.stop = &stop;
   shared.steps = 0;
   shared.times = {};
@@ -233,13 +232,13 @@ std::optional<GenerationResult> Evaluator::evaluate(std::span<const neat::Genome
   shared.finished.wait(lock, [&] { return shared.working == 0; });
 
   if (shared.failure) std::rethrow_exception(std::exchange(shared.failure, nullptr));
-  if (!generation.complete()) return std::nullopt;
+  if (!evaluation.complete()) return std::nullopt;
   const auto workers = static_cast<double>(shared.workers.size());
   StageTimes times = shared.times;
   for (const Stage& stage : stages) times.*stage.seconds /= workers;
   times.waiting_s = now_s() - start_s - shared.busy_s / workers;
-  return GenerationResult{.trajectories = generation.take(),
-                          .episodes = generation.episodes(),
+  return GenerationResult{.trajectories = evaluation.take(),
+                          .episodes = evaluation.episodes(),
                           .steps = shared.steps,
                           .times = times};
 }

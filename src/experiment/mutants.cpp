@@ -47,7 +47,7 @@ struct Walk {
   std::vector<float> gait;
 };
 
-/// The trials that all genomes of a family meet.
+/// The trials that all genomes meet.
 class Trials {
  public:
   Trials(const Problem& problem, std::span<const trial::ScenarioKey> keys, int jobs)
@@ -83,15 +83,15 @@ class Trials {
 
 }  // namespace
 
-std::optional<Family> try_mutants(const Problem& problem, const neat::Settings& neat,
-                                  const neat::Genome& genome, int count, std::int64_t seed,
-                                  std::span<const trial::ScenarioKey> keys, int jobs,
-                                  const std::atomic<bool>& stop) {
+std::optional<MutationOutcome> try_mutants(const Problem& problem, const neat::Settings& neat,
+                                           const neat::Genome& genome, int count, std::int64_t seed,
+                                           std::span<const trial::ScenarioKey> keys, int jobs,
+                                           const std::atomic<bool>& stop) {
   Trials trials(problem, keys, jobs);
   const auto own = trials.of(std::span(&genome, 1), stop);
   if (!own) return std::nullopt;
   const Walk& parent = own->front();
-  Family family{.score = parent.score, .mutants = {}};
+  MutationOutcome outcome{.score = parent.score, .mutants = {}};
   for (int first = 0; first < count; first += block) {
     std::vector<neat::Genome> mutants;
     for (int i = first; i < std::min(first + block, count); ++i)
@@ -99,10 +99,10 @@ std::optional<Family> try_mutants(const Problem& problem, const neat::Settings& 
     const auto walks = trials.of(mutants, stop);
     if (!walks) return std::nullopt;
     for (const Walk& walk : *walks)
-      family.mutants.push_back({.kept = parent.score > 0.0 ? walk.score / parent.score : 0.0,
-                                .change = mean_difference(walk.gait, parent.gait)});
+      outcome.mutants.push_back({.kept = parent.score > 0.0 ? walk.score / parent.score : 0.0,
+                                 .change = mean_difference(walk.gait, parent.gait)});
   }
-  return family;
+  return outcome;
 }
 
 }  // namespace amble::experiment

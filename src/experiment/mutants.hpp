@@ -14,7 +14,7 @@
 namespace amble::experiment {
 
 /// A genome and what mutations make of it.
-struct Family {
+struct MutationOutcome {
   double score = 0.0;  ///< of the genome itself: mean over the trials
   std::vector<record::Mutant> mutants;
 };
@@ -25,9 +25,9 @@ struct Family {
 /// on the same ground; without keys one trial without noise. Scores and duty factors are means over the
 /// trials. Mutant i depends on the genome, the settings, `seed` and i alone, not on `count` or the number of
 /// `jobs`. Nothing if `stop` was set.
-std::optional<Family> try_mutants(const Problem& problem, const neat::Settings& neat,
-                                  const neat::Genome& genome, int count, std::int64_t seed,
-                                  std::span<const trial::ScenarioKey> trials, int jobs,
-                                  const std::atomic<bool>& stop);
+std::optional<MutationOutcome> try_mutants(const Problem& problem, const neat::Settings& neat,
+                                           const neat::Genome& genome, int count, std::int64_t seed,
+                                           std::span<const trial::ScenarioKey> trials, int jobs,
+                                           const std::atomic<bool>& stop);
 
 }  // namespace amble::experiment

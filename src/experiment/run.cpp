@@ -9,10 +9,10 @@
 #include "amble/core/index.hpp"
 #include "amble/experiment/champion_choice.hpp"
 #include "amble/experiment/champion_trials.hpp"
+#include "amble/experiment/checkpoint_recovery.hpp"
 #include "amble/experiment/episodes.hpp"
 #include "amble/experiment/generation.hpp"
 #include "amble/experiment/memory_need.hpp"
-#include "amble/experiment/recovery.hpp"
 #include "amble/experiment/typical.hpp"
 
 namespace amble::experiment {

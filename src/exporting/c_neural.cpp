@@ -147,7 +147,7 @@ void add_update(const NeuralTables& neural, CText& text) {
   text.line("enum {{ steps = {} }};", neural.steps);
   if (neural.update == Update::passes) return text.block(c_passes);
   text.block(neural.potential ? c_pulls_potential : c_pulls_rate);
-  // With the rate equation the state are the values.
+  // With the rate equation the state is the values.
   const bool runge_kutta = neural.update == Update::runge_kutta;
   const std::string_view find = runge_kutta ? "    find_values(s, at);\n" : "  find_values(s, y);\n";
   text.block(replaced(runge_kutta ? c_runge_kutta_step : c_euler_step, "  $find_values",

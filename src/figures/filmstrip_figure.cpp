@@ -36,9 +36,9 @@ std::vector<int> filmstrip_frames(const motion::Motion& motion) {
   return frames;
 }
 
-std::string filmstrip_figure(const robot::RobotSpec& robot, const motion::Motion& motion, Layout layout) {
+std::string filmstrip_figure(const robot::RobotSpec& robot, const motion::Motion& motion, FigureSize layout) {
   AMBLE_CHECK(motion.frames() > 0, "a recording of a walk has a frame");
-  const bool wide = layout == Layout::wide;
+  const bool wide = layout == FigureSize::wide;
   const std::vector<SideView> views = side_views(robot, motion, filmstrip_frames(motion));
   const Extent extent = extent_of(views);
   const int columns = wide ? 5 : 2;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "amble/graphics/layout.hpp"
+#include "amble/graphics/figure_size.hpp"
 #include "amble/motion/motion.hpp"
 #include "amble/robot/spec.hpp"
 
@@ -20,6 +20,6 @@ std::vector<int> filmstrip_frames(const motion::Motion& motion);
 /// on the far side are lighter; a foot on the ground is filled. An <svg> element. The motion must have a
 /// frame.
 std::string filmstrip_figure(const robot::RobotSpec& robot, const motion::Motion& motion,
-                             graphics::Layout layout);
+                             graphics::FigureSize layout);
 
 }  // namespace amble::figures

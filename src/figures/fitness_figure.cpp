@@ -151,10 +151,10 @@ void draw_small(Svg& svg, const Abscissa& abscissa, const Box& plot, std::string
 
 }  // namespace
 
-std::string fitness_figure(const record::Generations& generations, Layout layout,
+std::string fitness_figure(const record::Generations& generations, FigureSize layout,
                            const record::Objective& objective) {
   AMBLE_CHECK(generations.count() > 0, "a run has a generation");
-  const bool wide = layout == Layout::wide;
+  const bool wide = layout == FigureSize::wide;
   const double width = width_px(layout);
   const double main_height = wide ? 300 : 220, small_height = wide ? 96 : 72;
   const double small_top = main_height + 90;

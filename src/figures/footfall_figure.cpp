@@ -80,9 +80,9 @@ void draw_zoom_guides(Svg& svg, const Scale& whole, const Scale& part, double up
 
 }  // namespace
 
-std::string footfall_figure(const robot::RobotSpec& robot, const motion::Motion& motion, Layout layout) {
+std::string footfall_figure(const robot::RobotSpec& robot, const motion::Motion& motion, FigureSize layout) {
   AMBLE_CHECK(motion.frames() > 0, "a recording of a walk has a frame");
-  const bool wide = layout == Layout::wide;
+  const bool wide = layout == FigureSize::wide;
   const double width = width_px(layout), right = width - 56;
   const std::size_t legs = robot.legs.size();
   const bool zoom = motion.seconds() > 1.5 * zoom_s;

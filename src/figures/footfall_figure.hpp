@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "amble/graphics/layout.hpp"
+#include "amble/graphics/figure_size.hpp"
 #include "amble/motion/motion.hpp"
 #include "amble/robot/spec.hpp"
 
@@ -12,6 +12,6 @@ namespace amble::figures {
 /// trigger; for the whole recording and, if it is long enough, enlarged for its last seconds. An <svg>
 /// element. The motion must have a frame.
 std::string footfall_figure(const robot::RobotSpec& robot, const motion::Motion& motion,
-                            graphics::Layout layout);
+                            graphics::FigureSize layout);
 
 }  // namespace amble::figures

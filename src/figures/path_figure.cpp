@@ -65,8 +65,8 @@ struct Map {
   double bottom_px() const { return top_px + y_m.length() * px_per_m; }
 };
 
-Map make_map(const Scene& scene, Layout layout) {
-  const bool wide = layout == Layout::wide;
+Map make_map(const Scene& scene, FigureSize layout) {
+  const bool wide = layout == FigureSize::wide;
   Interval x{scene.path_m[0].x, scene.path_m[0].x}, y{scene.path_m[0].y, scene.path_m[0].y};
   const auto include = [&](Point at) {
     x = including(x, at.x);
@@ -133,13 +133,13 @@ void draw_ends(Svg& svg, const Map& map, const Scene& scene, const motion::Summa
 
 }  // namespace
 
-std::string path_figure(const robot::RobotSpec& robot, const motion::Motion& motion, Layout layout) {
+std::string path_figure(const robot::RobotSpec& robot, const motion::Motion& motion, FigureSize layout) {
   AMBLE_CHECK(motion.frames() > 0, "a recording of a walk has a frame");
-  const Scene scene = make_scene(robot, motion, top_camera(layout == Layout::narrow));
+  const Scene scene = make_scene(robot, motion, top_camera(layout == FigureSize::narrow));
   const motion::Summary summary = motion::summarise(motion);
   const Map map = make_map(scene, layout);
   const double width = width_px(layout), height = map.bottom_px() + 62;
-  const double step_m = nice_ticks({0.0, width / map.px_per_m}, layout == Layout::wide ? 12 : 6).step;
+  const double step_m = nice_ticks({0.0, width / map.px_per_m}, layout == FigureSize::wide ? 12 : 6).step;
 
   Svg svg(width, height, fmt::format("Path seen from above: {:.2f} m from start to end", summary.distance_m));
   draw_grid(svg, map, width, height, step_m);

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "amble/graphics/layout.hpp"
+#include "amble/graphics/figure_size.hpp"
 #include "amble/motion/motion.hpp"
 #include "amble/robot/spec.hpp"
 
@@ -11,6 +11,7 @@ namespace amble::figures {
 /// The path of the centre of mass over the ground, seen from above with equal scales, with the footprints,
 /// the trunk at start and end, and a scale bar. World x points right in the wide layout, up in the narrow
 /// one. An <svg> element. The motion must have a frame.
-std::string path_figure(const robot::RobotSpec& robot, const motion::Motion& motion, graphics::Layout layout);
+std::string path_figure(const robot::RobotSpec& robot, const motion::Motion& motion,
+                        graphics::FigureSize layout);
 
 }  // namespace amble::figures

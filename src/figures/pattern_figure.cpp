@@ -34,7 +34,8 @@ struct Grid {
 
   double cell_width() const {
     const auto n = static_cast<double>(legs);
-    return (width_px(wide ? Layout::wide : Layout::narrow) - left_px - (n - 1) * column_gap_px - 2) / n;
+    return (width_px(wide ? FigureSize::wide : FigureSize::narrow) - left_px - (n - 1) * column_gap_px - 2) /
+           n;
   }
   double left(std::size_t leg) const {
     return left_px + static_cast<double>(leg) * (cell_width() + column_gap_px);
@@ -51,8 +52,8 @@ struct Grid {
   }
 };
 
-Grid make_grid(const robot::RobotSpec& robot, Layout layout) {
-  const bool wide = layout == Layout::wide;
+Grid make_grid(const robot::RobotSpec& robot, FigureSize layout) {
+  const bool wide = layout == FigureSize::wide;
   return {wide,
           robot.legs.size(),
           robot.joint_types.size(),
@@ -188,7 +189,7 @@ void draw_triggers(Svg& svg, const robot::RobotSpec& robot, const motion::SupgPa
 }  // namespace
 
 std::string pattern_figure(const robot::RobotSpec& robot, const motion::SupgPatterns& supg,
-                           const motion::Motion& motion, Layout layout) {
+                           const motion::Motion& motion, FigureSize layout) {
   const Grid grid = make_grid(robot, layout);
   const bool triggers = !motion.trigger.empty() && !motion.timer_ticks.empty();
   Svg svg(width_px(layout), grid.height(triggers),
@@ -211,7 +212,7 @@ std::string pattern_figure(const robot::RobotSpec& robot, const motion::SupgPatt
 }
 
 std::string pattern_svg(const robot::RobotSpec& robot, const motion::SupgPatterns& supg) {
-  return standalone_svg(pattern_figure(robot, supg, {}, Layout::wide));
+  return standalone_svg(pattern_figure(robot, supg, {}, FigureSize::wide));
 }
 
 }  // namespace amble::figures

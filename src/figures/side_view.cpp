@@ -7,7 +7,7 @@
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
 #include "amble/graphics/axis.hpp"
-#include "amble/graphics/layout.hpp"
+#include "amble/graphics/figure_size.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::figures {

@@ -92,8 +92,8 @@ void draw_legend(Svg& svg, const Substrate& substrate) {
 
 }  // namespace
 
-std::string substrate_figure(const Substrate& substrate, Layout layout) {
-  const bool wide = layout == Layout::wide;
+std::string substrate_figure(const Substrate& substrate, FigureSize layout) {
+  const bool wide = layout == FigureSize::wide;
   const SubstratePlaces places = substrate_places(substrate, width_px(layout), wide ? 36.0 : 8.0);
   Svg svg(places.width_px, places.height_px,
           fmt::format("Substrate of {} nodes and {} links", substrate.nodes.size(), substrate.links.size()));
@@ -113,7 +113,7 @@ std::string substrate_figure(const Substrate& substrate, Layout layout) {
 }
 
 std::string substrate_svg(const Substrate& substrate) {
-  return standalone_svg(substrate_figure(substrate, Layout::wide));
+  return standalone_svg(substrate_figure(substrate, FigureSize::wide));
 }
 
 }  // namespace amble::figures

@@ -79,11 +79,11 @@ std::string ledger_digest(const StudySpec& study, const std::vector<Record>& rec
   return hex(hash_text(digests));
 }
 
-StudySpec load_kept_study(const StudyPaths& paths) {
+StudySpec load_study_copy(const StudyPaths& paths) {
   if (!fs::is_directory(paths.folder)) fail(ExitCode::io, "{}: no such folder", paths.folder.string());
   if (!fs::exists(paths.spec))
     fail(ExitCode::bad_input,
-         "{}: not a study (study.toml is missing); make one by: amble study FILE --out {}",
+         "{}: not a study (study.toml is missing); to make one, run: amble study FILE --out {}",
          paths.folder.string(), io::shell_word(paths.folder.string()));
   return load_study(paths.spec);
 }

@@ -44,7 +44,7 @@ class Ledger {
 std::string ledger_digest(const StudySpec& study, const std::vector<Record>& records);
 
 /// The study of a folder, from the copy that `amble study` keeps there. Throws UserError if there is none.
-StudySpec load_kept_study(const StudyPaths& paths);
+StudySpec load_study_copy(const StudyPaths& paths);
 /// Writes that copy, with paths relative to the folder, unless it is the same already or `file`, from which
 /// the study was read. Throws UserError, and changes nothing, if the folder has a study.toml that amble has
 /// not written, or another study's records.

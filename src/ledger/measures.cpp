@@ -21,7 +21,7 @@ struct RunMeasure {
   bool is_compared = false;  ///< in all pairs of conditions
 };
 constexpr std::array run_measures{
-    RunMeasure{"train_m", "distance in evolution, m", [](const Record& r) { return r.best_m; }, true},
+    RunMeasure{"train_m", "distance in evolution, m", [](const Record& r) { return r.best_objective; }, true},
     RunMeasure{"hidden", "hidden nodes of the CPPN", [](const Record& r) { return 1.0 * r.hidden; }},
     RunMeasure{"links", "links of the CPPN", [](const Record& r) { return 1.0 * r.links; }}};
 
@@ -52,7 +52,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 std::optional<double> kept(const Record& record, const TestResult& test) {
   if (!objective_of(record).is_distance) return std::nullopt;
-  return record.best_m > 0.0 ? test.distance_m() / record.best_m : 0.0;
+  return record.best_objective > 0.0 ? test.distance_m() / record.best_objective : 0.0;
 }
 
 std::optional<double> reached_s(const Record& record, const TestResult& test) {

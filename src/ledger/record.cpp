@@ -127,7 +127,7 @@ TestResult test_from(const io::JsonView& view) {
 /// All that depends on study, condition, seed and program alone.
 io::Json results_json(const Record& record) {
   io::Json curve = io::Json::array(), tests = io::Json::array();
-  for (const CurvePoint& point : record.curve) curve.push_back({point.generation, point.best_m});
+  for (const CurvePoint& point : record.curve) curve.push_back({point.generation, point.best_objective});
   for (const TestResult& test : record.tests) tests.push_back(to_json(test));
   io::Json json{{"study", record.study},
                 {"condition", record.condition},
@@ -137,7 +137,7 @@ io::Json results_json(const Record& record) {
                 {"engine", record.engine},
                 {"evaluations", record.evaluations},
                 {"steps", record.steps},
-                {"best_m", record.best_m},
+                {"best_m", record.best_objective},
                 {"best_generation", record.best_generation},
                 {"hidden", record.hidden},
                 {"links", record.links},
@@ -233,7 +233,7 @@ const TestResult* Record::find_test(std::string_view name) const {
 double Record::best_after(int generation) const {
   double best = 0.0;
   for (const CurvePoint& point : curve)
-    if (point.generation <= generation) best = point.best_m;
+    if (point.generation <= generation) best = point.best_objective;
   return best;
 }
 
@@ -259,7 +259,7 @@ Record parse_record(const std::string& text, const std::string& what) {
                 .engine = root.at("engine").text(),
                 .evaluations = total_from(root.at("evaluations")),
                 .steps = total_from(root.at("steps")),
-                .best_m = root.at("best_m").finite_number(),
+                .best_objective = root.at("best_m").finite_number(),
                 .best_generation = count_from(root.at("best_generation")),
                 .hidden = count_from(root.at("hidden")),
                 .links = count_from(root.at("links")),

@@ -63,7 +63,7 @@ struct TestResult {
 /// A new best of a run.
 struct CurvePoint {
   int generation = 0;
-  double best_m = 0.0;
+  double best_objective = 0.0;
 
   friend bool operator==(const CurvePoint&, const CurvePoint&) = default;
 };
@@ -90,7 +90,7 @@ struct Record {
   int generations = 0;
   std::string engine;
   std::uint64_t evaluations = 0, steps = 0;
-  double best_m = 0.0;  ///< objective of the best genome
+  double best_objective = 0.0;  ///< objective of the best genome
   int best_generation = 0;
   int hidden = 0, links = 0;  ///< of the champion's CPPN
   /// Of a run that fills a map, at its end: coverage, qd_score, map_best, entering_share, and in studies

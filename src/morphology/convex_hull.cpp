@@ -103,7 +103,7 @@ class HullBuilder {
       }
       for (std::size_t i = 0; i < 3; ++i) {
         const std::pair edge{face.corners[i], face.corners[(i + 1) % 3]};
-        // An edge between two faces that both go is met in both directions.
+        // An edge shared by two removed faces is met in both directions.
         if (edges.erase({edge.second, edge.first}) == 0) edges.insert(edge);
       }
     }

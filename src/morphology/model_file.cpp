@@ -181,7 +181,7 @@ class Compiler {
       remove_attributes(name, between(problem, "attribute: '", "'"), "");
       return true;
     }
-    // Settings of the solver, which amble has its own of.
+    // Settings of the solver: amble sets its own.
     const std::string keyword = between(problem, "invalid keyword: '", "'");
     if (!keyword.empty() && (name == "option" || name == "compiler" || name == "flag")) {
       std::vector<std::string> keys;

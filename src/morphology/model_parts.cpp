@@ -357,7 +357,7 @@ class PartsExtractor {
   std::string name_or_place(int g) const {
     if (!geom_name(g).empty()) return std::string(geom_name(g));
     const int b = model_.geom_bodyid[g], first = model_.body_geomadr[b];
-    // What a URDF's link has to look at has names of its own.
+    // Visual geoms of a URDF's link are numbered separately.
     const bool apart = file_.root_is_welded;
     int before = 0, count = 0;
     for (int other = first; other < first + model_.body_geomnum[b]; ++other) {

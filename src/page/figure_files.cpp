@@ -5,7 +5,7 @@
 
 namespace amble::page {
 
-using graphics::Layout;
+using graphics::FigureSize;
 
 std::vector<FigureFile> figure_files(const RunPage& page, const motion::RecordedTrial& recorded) {
   const motion::Motion& motion = recorded.motion;
@@ -16,21 +16,21 @@ std::vector<FigureFile> figure_files(const RunPage& page, const motion::Recorded
   };
   const bool moved = motion.frames() > 0;
   if (moved) {
-    add("filmstrip.svg", figures::filmstrip_figure(robot, motion, Layout::wide));
+    add("filmstrip.svg", figures::filmstrip_figure(robot, motion, FigureSize::wide));
     files.push_back(
         {"walk.svg", graphics::with_rules(graphics::standalone_svg(figures::walk_animation(robot, motion)),
                                           figures::animation_style(motion))});
   }
   if (page.generations && page.generations->count() > 0)
-    add("fitness.svg", figures::fitness_figure(*page.generations, Layout::wide, page.objective));
+    add("fitness.svg", figures::fitness_figure(*page.generations, FigureSize::wide, page.objective));
   if (moved) {
-    add("footfalls.svg", figures::footfall_figure(robot, motion, Layout::wide));
+    add("footfalls.svg", figures::footfall_figure(robot, motion, FigureSize::wide));
     if (recorded.supg)
-      add("patterns.svg", figures::pattern_figure(robot, *recorded.supg, motion, Layout::wide));
+      add("patterns.svg", figures::pattern_figure(robot, *recorded.supg, motion, FigureSize::wide));
     if (recorded.network)
       if (const auto substrate = figures::substrate_of(*recorded.network); figures::can_be_drawn(substrate))
-        add("network.svg", figures::substrate_figure(substrate, Layout::wide));
-    add("path.svg", figures::path_figure(robot, motion, Layout::wide));
+        add("network.svg", figures::substrate_figure(substrate, FigureSize::wide));
+    add("path.svg", figures::path_figure(robot, motion, FigureSize::wide));
   }
   return files;
 }

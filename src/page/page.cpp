@@ -15,12 +15,12 @@
 namespace amble::page {
 namespace {
 
-using graphics::Layout, graphics::leg_class, io::escape_xml;
+using graphics::FigureSize, graphics::leg_class, io::escape_xml;
 
 /// Both layouts of a figure; the style sheet shows the one that fits.
-std::string both(const std::function<std::string(Layout)>& figure) {
+std::string both(const std::function<std::string(FigureSize)>& figure) {
   return fmt::format("<figure><div class=\"wide\">{}</div><div class=\"narrow\">{}</div></figure>\n",
-                     figure(Layout::wide), figure(Layout::narrow));
+                     figure(FigureSize::wide), figure(FigureSize::narrow));
 }
 
 std::string section(std::string_view title, std::string_view text, std::string_view content) {
@@ -87,7 +87,7 @@ std::string filmstrip_section(const motion::RecordedTrial& recorded) {
                              "is on the ground; legs on the far side are "
                              "lighter. The ground is marked with the distance from the start.",
                              from_s, to_s),
-                 leg_keys(recorded.robot) + both([&](Layout layout) {
+                 leg_keys(recorded.robot) + both([&](FigureSize layout) {
                    return figures::filmstrip_figure(recorded.robot, motion, layout);
                  }));
 }
@@ -114,7 +114,7 @@ std::string fitness_section(const record::Generations& generations, const record
       fmt::format("{} over {} generation{}: {} evaluations, {} simulated steps.", objective.title, count,
                   count == 1 ? "" : "s", grouped(sum(generations.evaluations)),
                   grouped(sum(generations.steps))),
-      both([&](Layout layout) { return figures::fitness_figure(generations, layout, objective); }));
+      both([&](FigureSize layout) { return figures::fitness_figure(generations, layout, objective); }));
 }
 
 std::string footfall_section(const motion::RecordedTrial& recorded) {
@@ -127,7 +127,7 @@ std::string footfall_section(const motion::RecordedTrial& recorded) {
     if (motion::contact_share(motion.touch[leg]) == 0.0)
       silent += (silent.empty() ? "" : ", ") + recorded.robot.legs[leg].name;
   if (!silent.empty()) text += " Never on the ground: " + silent + ".";
-  return section("Footfalls", text, both([&](Layout layout) {
+  return section("Footfalls", text, both([&](FigureSize layout) {
                    return figures::footfall_figure(recorded.robot, motion, layout);
                  }));
 }
@@ -140,7 +140,7 @@ std::string network_section(const motion::NeuralNetwork& network) {
   if (!figures::can_be_drawn(substrate))
     return section("The network", text, note("A substrate with more than four coordinates is not drawn."));
   return section("The network", text,
-                 both([&](Layout layout) { return figures::substrate_figure(substrate, layout); }));
+                 both([&](FigureSize layout) { return figures::substrate_figure(substrate, layout); }));
 }
 
 std::string controller_section(const motion::RecordedTrial& recorded) {
@@ -160,7 +160,7 @@ std::string controller_section(const motion::RecordedTrial& recorded) {
                   "and reset it; "
                   "beyond the end of the axis it had stopped.",
                   graphics::number(supg.period_s()), offset),
-      both([&](Layout layout) {
+      both([&](FigureSize layout) {
         return figures::pattern_figure(recorded.robot, supg, recorded.motion, layout);
       }));
 }
@@ -170,7 +170,7 @@ std::string path_section(const motion::RecordedTrial& recorded, const motion::Su
                  "The way of the centre of mass, with the places where feet came down in the colours of "
                  "their legs and the trunk at start and "
                  "end.",
-                 leg_keys(recorded.robot) + both([&](Layout layout) {
+                 leg_keys(recorded.robot) + both([&](FigureSize layout) {
                    return figures::path_figure(recorded.robot, recorded.motion, layout);
                  }));
 }

@@ -29,7 +29,7 @@ std::optional<std::string> adaptation_page(const experiment::Adaptation& adaptat
   page.map->table_note = fmt::format(
       "Means of {} trials: the map’s best {} on the intact robot and {} on the damaged one; the gait found, "
       "in cell {}, {}.",
-      settings.judges, text(adaptation.intact), text(adaptation.damaged), adaptation.cell,
+      settings.test_trials, text(adaptation.intact), text(adaptation.damaged), adaptation.cell,
       text(adaptation.adapted));
   page.map->table.push_back({"cell", "trial", "the map says", "predicted", "measured"});
   std::map<std::uint32_t, std::string> titles;

@@ -81,7 +81,7 @@ std::string curves_of(const experiment::Repertoire& repertoire, const fs::path& 
   if (generations.count() == 0) return {};
   record::Objective objective = score::objective_of(repertoire.config.score);
   objective.title = "Objective";
-  return figures::fitness_figure(generations, graphics::Layout::wide, objective);
+  return figures::fitness_figure(generations, graphics::FigureSize::wide, objective);
 }
 
 }  // namespace

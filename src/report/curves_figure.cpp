@@ -14,7 +14,7 @@ namespace amble::report {
 namespace {
 
 using graphics::Box;
-using graphics::Layout;
+using graphics::FigureSize;
 using graphics::Point;
 using graphics::Scale;
 using graphics::Svg;
@@ -57,7 +57,7 @@ void draw_panel(Svg& svg, const Report& report, const BestCurve& curve, const Pa
 
 }  // namespace
 
-std::string curves_figure(const Report& report, Layout layout) {
+std::string curves_figure(const Report& report, FigureSize layout) {
   const auto& curves = report.curves;
   AMBLE_CHECK(!curves.empty(), "a curve");
   PanelGrid grid = PanelGrid::of(curves.size(), layout);

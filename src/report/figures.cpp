@@ -53,26 +53,27 @@ std::vector<StripRow> test_rows(const Report& report, const std::string& test) {
 }
 
 std::vector<FigureFile> figure_files(const Report& report) {
-  using graphics::Layout;
+  using graphics::FigureSize;
   std::vector<FigureFile> files;
   const auto add = [&files](const std::string& name, std::string element) {
     files.push_back({name + ".svg", standalone_figure(std::move(element))});
   };
   if (report.data.records.empty()) return files;
   add("distance", rows_figure(training_rows(report), report.objective.unit,
-                              fmt::format("{} in evolution", report.objective_title()), Layout::wide));
+                              fmt::format("{} in evolution", report.objective_title()), FigureSize::wide));
   for (const ledger::TestSpec& test : report.data.study.tests)
     if (const auto rows = test_rows(report, test.name); !rows.empty())
-      add("distance-" + test.name, rows_figure(rows, " m", "Distance in test " + test.name, Layout::wide));
+      add("distance-" + test.name,
+          rows_figure(rows, " m", "Distance in test " + test.name, FigureSize::wide));
   for (const TypicalTable& typical : report.typical)
-    if (typical.columns.size() > 1) add(typical.name(), typical_figure(report, typical, Layout::wide));
-  add("curves", curves_figure(report, Layout::wide));
+    if (typical.columns.size() > 1) add(typical.name(), typical_figure(report, typical, FigureSize::wide));
+  add("curves", curves_figure(report, FigureSize::wide));
   for (const ledger::TestSpec& test : report.data.study.tests)
     if (has_mutants(report, test.name))
-      add("mutants-" + test.name, mutants_figure(report, test.name, Layout::wide));
+      add("mutants-" + test.name, mutants_figure(report, test.name, FigureSize::wide));
   for (const SurvivalTable& table : report.survival)
     add(fmt::format("{}-{}", activity_names[to_index(table.activity)], table.test),
-        survival_figure(report, table, Layout::wide));
+        survival_figure(report, table, FigureSize::wide));
   return files;
 }
 

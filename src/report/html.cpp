@@ -10,7 +10,7 @@
 
 namespace amble::report {
 
-using graphics::Layout;
+using graphics::FigureSize;
 using io::escape_xml;
 
 namespace {
@@ -58,11 +58,11 @@ std::string subtitle(std::string_view text) {
   return fmt::format("<h3>{}</h3>\n", escape_xml(text));
 }
 
-std::string figure(const std::function<std::string(Layout)>& draw, std::string_view caption) {
+std::string figure(const std::function<std::string(FigureSize)>& draw, std::string_view caption) {
   const std::string below =
       caption.empty() ? "" : fmt::format("<figcaption>{}</figcaption>", escape_xml(caption));
   return fmt::format("<figure><div class=\"wide\">{}</div><div class=\"narrow\">{}</div>{}</figure>\n",
-                     draw(Layout::wide), draw(Layout::narrow), below);
+                     draw(FigureSize::wide), draw(FigureSize::narrow), below);
 }
 
 std::string folded(std::string_view title, std::string_view content, bool open) {

@@ -18,7 +18,7 @@ namespace amble::report {
 namespace {
 
 using graphics::Box;
-using graphics::Layout;
+using graphics::FigureSize;
 using graphics::Scale;
 using graphics::Svg;
 
@@ -30,8 +30,8 @@ struct ViableText {
   std::string_view unit;
   double width_px;
 
-  static ViableText of(Layout layout) {
-    return layout == Layout::wide ? ViableText{" viable", 92.0} : ViableText{"", 44.0};
+  static ViableText of(FigureSize layout) {
+    return layout == FigureSize::wide ? ViableText{" viable", 92.0} : ViableText{"", 44.0};
   }
 };
 
@@ -102,7 +102,7 @@ bool has_mutants(const Report& report, std::string_view test) {
   });
 }
 
-std::string mutants_figure(const Report& report, const std::string& test, Layout layout) {
+std::string mutants_figure(const Report& report, const std::string& test, FigureSize layout) {
   struct Panel {
     std::string label, viable;
     std::vector<record::Mutant> mutants;

@@ -114,7 +114,7 @@ std::string make_page(const Report& report) {
     parts.push_back({"transfer", "Other engines", transfer_section(report)});
     parts.push_back({"pairs", "Pairs", pairs_section(report)});
   }
-  parts.push_back({"made", "How this was made", made_section(report)});
+  parts.push_back({"made", "How this was made", provenance_section(report)});
   std::string body = header(report) + headline(report) + remarks_box(report) + contents(parts);
   for (const Part& part : parts) body += part.content;
   return fmt::format(

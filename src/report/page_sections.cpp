@@ -16,7 +16,7 @@
 namespace amble::report {
 namespace {
 
-using graphics::Layout;
+using graphics::FigureSize;
 
 std::string_view name_of(Activity activity) {
   return activity_names[to_index(activity)];
@@ -63,7 +63,7 @@ std::string survival_part(const Report& report, const SurvivalTable& table) {
               median_text(condition.curve, table.trial_s)});
   std::string out = fmt::format("<h4>Still {}</h4>\n", name_of(table.activity));
   out += paragraph(log_rank_text(table));
-  out += figure([&](Layout layout) { return survival_figure(report, table, layout); });
+  out += figure([&](FigureSize layout) { return survival_figure(report, table, layout); });
   return out + rows.finish();
 }
 
@@ -129,7 +129,7 @@ std::string test_text(const Report& report, const ledger::TestSpec& test) {
 
 std::string distance_section(const Report& report) {
   const auto training = training_rows(report);
-  std::string content = figure([&](Layout layout) {
+  std::string content = figure([&](FigureSize layout) {
     return rows_figure(training, report.objective.unit,
                        fmt::format("{} in evolution, all conditions", report.objective_title()), layout);
   });
@@ -140,7 +140,7 @@ std::string distance_section(const Report& report) {
         std::ranges::any_of(rows, [](const StripRow& row) { return row.strips.size() > 1; });
     const std::string grey = compared ? " Grey: the same champions’ distance in evolution." : "";
     content += test_part(report, test.name, "Distance",
-                         paragraph(test_text(report, test) + "." + grey) + figure([&](Layout layout) {
+                         paragraph(test_text(report, test) + "." + grey) + figure([&](FigureSize layout) {
                            return rows_figure(rows, " m", "Distance in test " + test.name, layout);
                          }));
   }
@@ -157,7 +157,7 @@ std::string curves_section(const Report& report) {
       fmt::format("Best {} so far over the generations: median and quartiles over the runs of a condition, "
                   "in grey the medians of the others.",
                   report.objective.name()),
-      figure([&](Layout layout) { return curves_figure(report, layout); }));
+      figure([&](FigureSize layout) { return curves_figure(report, layout); }));
 }
 
 std::string survival_section(const Report& report) {

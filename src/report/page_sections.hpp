@@ -18,7 +18,7 @@ std::string gaits_section(const Report& report);
 std::string mutants_section(const Report& report);
 std::string transfer_section(const Report& report);
 std::string pairs_section(const Report& report);
-std::string made_section(const Report& report);
+std::string provenance_section(const Report& report);
 
 /// "configs/authors/supg.toml" of a path to it from elsewhere; of other files the name alone.
 std::string config_text(const std::string& path);

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "amble/graphics/layout.hpp"
+#include "amble/graphics/figure_size.hpp"
 #include "amble/graphics/svg.hpp"
 
 namespace amble::report {
@@ -25,8 +25,8 @@ struct PanelGrid {
   double panel_width_px = 0.0, panel_height_px = 0.0;
   double left_px = 42.0, top_px = 24.0, below_px = 30.0, gap_px = 14.0;
 
-  static PanelGrid of(std::size_t count, graphics::Layout layout) {
-    const bool wide = layout == graphics::Layout::wide;
+  static PanelGrid of(std::size_t count, graphics::FigureSize layout) {
+    const bool wide = layout == graphics::FigureSize::wide;
     PanelGrid grid;
     const std::size_t most = wide ? (count > 9 ? 4 : 3) : 2;
     grid.columns = count == 4 && wide ? 2 : std::clamp<std::size_t>(count, 1, most);

@@ -14,8 +14,8 @@ namespace amble::report {
 namespace {
 
 using graphics::Anchor;
+using graphics::FigureSize;
 using graphics::Interval;
-using graphics::Layout;
 using graphics::Scale;
 using graphics::Svg;
 
@@ -23,7 +23,7 @@ constexpr double bar_px = 11.0, points_px = 21.0, point_radius_px = 2.6, row_gap
 constexpr double strip_px = bar_px + points_px, label_line_px = 19.0, narrow_label_px = 215.0;
 
 struct StripFrame {
-  Layout layout;
+  FigureSize layout;
   double label_px = 0.0;           ///< room for the names of rows
   double left = 0.0, right = 0.0;  ///< of the plot
   Scale x;
@@ -44,8 +44,8 @@ Interval data_range(const std::vector<StripRow>& rows) {
   return range;
 }
 
-StripFrame make_strip_frame(const std::vector<StripRow>& rows, Layout layout, bool several) {
-  const bool wide = layout == Layout::wide;
+StripFrame make_strip_frame(const std::vector<StripRow>& rows, FigureSize layout, bool several) {
+  const bool wide = layout == FigureSize::wide;
   double longest = 0.0;
   for (const StripRow& row : rows) longest = std::max(longest, label_width_px(row.label));
   const double label = wide ? std::clamp(longest, 60.0, 230.0) : narrow_label_px;
@@ -57,18 +57,18 @@ StripFrame make_strip_frame(const std::vector<StripRow>& rows, Layout layout, bo
 }
 
 /// Room for the name above a row on phones.
-double label_height(const StripRow& row, Layout layout) {
-  if (layout == Layout::wide) return 0.0;
+double label_height(const StripRow& row, FigureSize layout) {
+  if (layout == FigureSize::wide) return 0.0;
   const double room = row.strips.size() > 1 ? width_px(layout) : narrow_label_px;
   return label_line_px + (label_width_px(row.label) > room ? 15.0 : 0.0);
 }
 
-double row_height(const StripRow& row, Layout layout) {
+double row_height(const StripRow& row, FigureSize layout) {
   return static_cast<double>(row.strips.size()) * strip_px + label_height(row, layout);
 }
 
 /// Where each row begins, and at last where the axis is.
-std::vector<double> row_tops(const std::vector<StripRow>& rows, Layout layout) {
+std::vector<double> row_tops(const std::vector<StripRow>& rows, FigureSize layout) {
   std::vector<double> tops{8.0};
   for (const StripRow& row : rows) tops.push_back(tops.back() + row_height(row, layout) + row_gap_px);
   return tops;
@@ -96,7 +96,7 @@ void draw_strip(Svg& svg, const StripFrame& frame, const Strip& strip, double to
 
 /// The row's name, and what is written of each strip.
 void draw_texts(Svg& svg, const StripFrame& frame, const StripRow& row, double top) {
-  const bool wide = frame.layout == Layout::wide, several = row.strips.size() > 1;
+  const bool wide = frame.layout == FigureSize::wide, several = row.strips.size() > 1;
   const double width = width_px(frame.layout);
   if (wide) {
     const auto lines = two_lines(row.label, frame.label_px);
@@ -150,8 +150,8 @@ std::vector<double> beeswarm(const std::vector<double>& places_px, double radius
 }
 
 std::string rows_figure(const std::vector<StripRow>& rows, std::string_view unit,
-                        std::string_view description, Layout layout) {
-  const bool wide = layout == Layout::wide;
+                        std::string_view description, FigureSize layout) {
+  const bool wide = layout == FigureSize::wide;
   const bool several = std::ranges::any_of(rows, [](const StripRow& row) { return row.strips.size() > 1; });
   const StripFrame frame = make_strip_frame(rows, layout, several);
   const auto tops = row_tops(rows, layout);

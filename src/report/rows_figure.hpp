@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "amble/graphics/layout.hpp"
+#include "amble/graphics/figure_size.hpp"
 #include "amble/statistics/interval.hpp"
 
 namespace amble::report {
@@ -28,7 +28,7 @@ struct StripRow {
 /// Rows of horizontal bars over one axis that begins at zero, or lower if a value does; `unit` follows the
 /// last tick label. An <svg> element.
 std::string rows_figure(const std::vector<StripRow>& rows, std::string_view unit,
-                        std::string_view description, graphics::Layout layout);
+                        std::string_view description, graphics::FigureSize layout);
 
 /// How far points of radius `radius_px` at these positions along an axis move aside so that they do not
 /// overlap: 0 at best, alternately to both sides, at most ±`most_px`, where they overlap if there is no more

@@ -143,7 +143,7 @@ std::string StudyData::unit_of(std::string_view measure, std::string_view condit
 
 StudyData load_study_data(const std::filesystem::path& folder) {
   const ledger::StudyPaths paths(folder);
-  StudyData data{.study = ledger::load_kept_study(paths), .records = {}, .unknown_files = {}};
+  StudyData data{.study = ledger::load_study_copy(paths), .records = {}, .unknown_files = {}};
   const ledger::Ledger kept(paths);
   data.records = kept.load_all(data.study);
   for (const auto& unknown : kept.unknown_files(data.study))

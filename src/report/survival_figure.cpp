@@ -16,7 +16,7 @@ namespace {
 
 using graphics::Anchor;
 using graphics::Box;
-using graphics::Layout;
+using graphics::FigureSize;
 using graphics::Point;
 using graphics::Scale;
 using graphics::Svg;
@@ -140,8 +140,8 @@ std::string description(const SurvivalTable& table) {
                      time_text(table.trial_s), table.test);
 }
 
-std::string overlaid(const Report& report, const SurvivalTable& table, Layout layout) {
-  const bool wide = layout == Layout::wide;
+std::string overlaid(const Report& report, const SurvivalTable& table, FigureSize layout) {
+  const bool wide = layout == FigureSize::wide;
   const double width = width_px(layout), height = wide ? 230 : 170;
   const double key = wide ? 0.0 : 26.0 + 19.0 * static_cast<double>(table.conditions.size());
   Svg svg(width, 12 + height + 30 + key, description(table));
@@ -152,7 +152,7 @@ std::string overlaid(const Report& report, const SurvivalTable& table, Layout la
   return svg.finish();
 }
 
-std::string in_panels(const Report& report, const SurvivalTable& table, Layout layout) {
+std::string in_panels(const Report& report, const SurvivalTable& table, FigureSize layout) {
   PanelGrid grid = PanelGrid::of(table.conditions.size(), layout);
   grid.left_px = 46.0;
   grid.panel_width_px -= 12.0;
@@ -180,7 +180,7 @@ std::string time_text(double time_s) {
   return graphics::number(time_s / unit.seconds, 1) + std::string(unit.name);
 }
 
-std::string survival_figure(const Report& report, const SurvivalTable& table, Layout layout) {
+std::string survival_figure(const Report& report, const SurvivalTable& table, FigureSize layout) {
   return table.conditions.size() <= most_overlaid ? overlaid(report, table, layout)
                                                   : in_panels(report, table, layout);
 }

@@ -65,7 +65,7 @@ Table bests_table(const Report& report) {
   Table table{"bests", "a new best of a run", {"condition", "seed", "generation", "best_m"}, {}};
   for (const ledger::Record& run : report.data.records)
     for (const ledger::CurvePoint& point : run.curve)
-      table.rows.push_back({run.condition, run.seed, std::int64_t{point.generation}, point.best_m});
+      table.rows.push_back({run.condition, run.seed, std::int64_t{point.generation}, point.best_objective});
   return table;
 }
 

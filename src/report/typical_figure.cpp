@@ -16,7 +16,7 @@ namespace amble::report {
 namespace {
 
 using graphics::Box;
-using graphics::Layout;
+using graphics::FigureSize;
 using graphics::Point;
 using graphics::Scale;
 using graphics::Svg;
@@ -24,10 +24,10 @@ using graphics::Svg;
 constexpr double run_radius_px = 2.3, median_radius_px = 3.6, swarm_px = 13.0, value_width_px = 92.0;
 
 /// One column of panels on phones: names of disturbances need the width.
-PanelGrid make_grid(const std::vector<std::string>& labels, Layout layout) {
+PanelGrid make_grid(const std::vector<std::string>& labels, FigureSize layout) {
   PanelGrid grid;
   grid.below_px = 42.0;
-  const std::size_t most = layout == Layout::wide ? 3 : 1;
+  const std::size_t most = layout == FigureSize::wide ? 3 : 1;
   grid.columns = labels.size() == 4 && most > 1 ? 2 : std::clamp<std::size_t>(labels.size(), 1, most);
   grid.rows = (labels.size() + grid.columns - 1) / grid.columns;
   grid.panel_width_px = std::min(graphics::width_px(layout) / static_cast<double>(grid.columns), 480.0) -
@@ -105,7 +105,7 @@ void draw_panel(Svg& svg, const TypicalFrame& frame, const PanelGrid& grid, cons
 
 }  // namespace
 
-std::string typical_figure(const Report& report, const TypicalTable& table, Layout layout) {
+std::string typical_figure(const Report& report, const TypicalTable& table, FigureSize layout) {
   AMBLE_CHECK(!table.curves.empty(), "a curve");
   std::vector<std::string> labels;
   double most_m = 0.0;

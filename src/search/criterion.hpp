@@ -20,7 +20,7 @@ class Criterion {
   virtual ~Criterion() = default;
 
   /// Fitness of each genome of a generation, in order.
-  virtual std::vector<neat::Fitness> judge(std::span<const Evaluation> generation) = 0;
+  virtual std::vector<neat::Fitness> fitness_of(std::span<const Evaluation> generation) = 0;
   virtual void save(io::BinaryWriter& writer) const = 0;
   virtual void load(io::BinaryReader& reader) = 0;
 

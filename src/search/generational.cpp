@@ -12,7 +12,7 @@ GenerationalSearch::GenerationalSearch(neat::Population population, std::unique_
 void GenerationalSearch::tell(std::span<const Evaluation> evaluations) {
   AMBLE_CHECK(evaluations.size() == population_.genomes().size(), "one evaluation per candidate");
   statistics_ = population_.statistics();
-  population_.advance(criterion_->judge(evaluations));
+  population_.advance(criterion_->fitness_of(evaluations));
 }
 
 std::vector<Metric> GenerationalSearch::metrics() const {

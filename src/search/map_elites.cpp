@@ -166,7 +166,7 @@ void MapElites::tell(std::span<const Evaluation> evaluations) {
   auto challenger = challengers.begin();
   for (std::size_t i = 0; i < evaluations.size(); ++i) {
     if (origins_[i].kind == Origin::Kind::again)
-      take_again(origins_[i].elite, evaluations[i]);
+      reevaluate(origins_[i].elite, evaluations[i]);
     else if (origins_[i].kind == Origin::Kind::challenger)
       take_challenger(std::move(*challenger++), evaluations[i]);
     else
@@ -229,7 +229,7 @@ std::uint32_t MapElites::most_evaluations(std::uint32_t cell) const {
 }
 
 /// One more evaluation of an elite, unless another took its cell in this round.
-void MapElites::take_again(const EliteName& name, const Evaluation& evaluation) {
+void MapElites::reevaluate(const EliteName& name, const Evaluation& evaluation) {
   if (!is_there(name)) return;
   ++counts_.reevaluated;
   const std::uint32_t number = elites().in(name.cell);
@@ -328,7 +328,7 @@ void check_map_elites_memory(const Settings& settings, const SearchSpace& space,
         {"innovations.scope", "search.kind"},
         "innovations.scope = \"run\": expected \"generation\": the list of a run's innovations grows "
         "without bound under search.kind = \"map-elites\"");
-  // Genomes are taken for grown to four times the links they start with.
+  // This assumes that genomes grow to four times the links they start with.
   const double links = 4.0 * (space.inputs + 1.0) * space.outputs;
   const double elite_bytes = 160.0 + 13.0 * links + 4.0 * static_cast<double>(space.behaviour_length);
   const double cells = settings.map_elites.cell_count();

@@ -75,7 +75,7 @@ class MapElites : public Strategy {
   bool prevails(const Elite& elite, std::span<const float> descriptor) const;
 
   void take_child(std::uint32_t candidate, const Evaluation& evaluation);
-  void take_again(const EliteName& elite, const Evaluation& evaluation);
+  void reevaluate(const EliteName& elite, const Evaluation& evaluation);
   void take_challenger(Challenger challenger, const Evaluation& evaluation);
   void decide(Challenger challenger);
   void credit_parent(const EliteName& parent, bool entered);

@@ -53,7 +53,7 @@ NoveltySearch::NoveltySearch(const NoveltySettings& settings, std::size_t behavi
       log_(behaviour_length),
       threshold_(settings.threshold) {}
 
-std::vector<neat::Fitness> NoveltySearch::judge(std::span<const Evaluation> generation) {
+std::vector<neat::Fitness> NoveltySearch::fitness_of(std::span<const Evaluation> generation) {
   AMBLE_CHECK(!generation.empty(), "a generation has members");
   AMBLE_CHECK(archive_.rows() >= log_.members(), "load() is followed by restore_archive()");
   Behaviours candidates(archive_.length(), generation.size());

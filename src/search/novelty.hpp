@@ -26,7 +26,7 @@ class NoveltySearch : public Criterion {
  public:
   NoveltySearch(const NoveltySettings& settings, std::size_t behaviour_length);
 
-  std::vector<neat::Fitness> judge(std::span<const Evaluation> generation) override;
+  std::vector<neat::Fitness> fitness_of(std::span<const Evaluation> generation) override;
   void save(io::BinaryWriter& writer) const override;
   void load(io::BinaryReader& reader) override;
   bool has_archive() const override { return true; }

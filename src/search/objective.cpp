@@ -6,7 +6,7 @@
 
 namespace amble::search {
 
-std::vector<neat::Fitness> ObjectiveSearch::judge(std::span<const Evaluation> generation) {
+std::vector<neat::Fitness> ObjectiveSearch::fitness_of(std::span<const Evaluation> generation) {
   std::vector<neat::Fitness> fitness;
   fitness.reserve(generation.size());
   for (const Evaluation& evaluation : generation) {

@@ -161,12 +161,12 @@ bool add_mutants(const PlannedTest& test, const experiment::Champion& champion, 
   for (int episode = 0; episode < test.spec.episodes; ++episode)
     if (const auto key = scenario(test, problem, champion, episode)) trials.push_back(*key);
   constexpr int one_worker = 1;
-  const auto family = experiment::try_mutants(problem, neat, champion.genome, test.spec.mutants,
-                                              champion.seed, trials, one_worker, stop);
-  if (!family) return false;
-  result.champion_score = family->score;
-  // Rounded down, what is not viable does not become so.
-  for (const record::Mutant& mutant : family->mutants)
+  const auto outcome = experiment::try_mutants(problem, neat, champion.genome, test.spec.mutants,
+                                               champion.seed, trials, one_worker, stop);
+  if (!outcome) return false;
+  result.champion_score = outcome->score;
+  // Rounded down, so that none becomes viable.
+  for (const record::Mutant& mutant : outcome->mutants)
     result.mutants.push_back(
         {.kept = std::floor(mutant.kept * 1000.0) / 1000.0, .change = thousandths(mutant.change)});
   return true;

@@ -164,7 +164,7 @@ class Worker {
             .engine = evolution.config().engine,
             .evaluations = evolution.progress().evaluations,
             .steps = evolution.progress().steps,
-            .best_m = evolution.progress().best,
+            .best_objective = evolution.progress().best,
             .best_generation = evolution.progress().best_generation,
             .hidden = champion.genome.count(neat::NodeKind::hidden),
             .links = champion.genome.enabled_links(),

@@ -24,7 +24,7 @@ AdaptSettings settings() {
   settings.most_trials = 8;
   settings.damage.parts = {{.kind = damage::Kind::missing, .leg = "FL"}};
   settings.search.stop_share = 2.0;  // all trials
-  settings.judges = 3;
+  settings.test_trials = 3;
   return settings;
 }
 
@@ -63,7 +63,7 @@ TEST_F(Adapting, MeasuresTheDamagedRobotInTrialsThatItsJudgesDoNotUse) {
   const Problem damaged = damaged_problem(map, settings());
   for (std::size_t s = 0; s < adaptation.steps.size(); ++s)
     EXPECT_DOUBLE_EQ(adaptation.steps[s].measured, mean_of(damaged, map, numbers.at(adaptation.steps[s].cell),
-                                                           settings().judges + static_cast<int>(s), 1))
+                                                           settings().test_trials + static_cast<int>(s), 1))
         << s;
   AdaptSettings whole = settings();
   whole.damage = {};
@@ -83,7 +83,7 @@ TEST_F(Adapting, TakesForATrialTheMeanOfAttemptsThatNoOtherTrialUses) {
   ASSERT_EQ(adaptation.steps.size(), 8u);
   for (std::size_t s = 0; s < adaptation.steps.size(); ++s)
     EXPECT_DOUBLE_EQ(adaptation.steps[s].measured, mean_of(damaged, map, numbers.at(adaptation.steps[s].cell),
-                                                           thrice.judges + 3 * static_cast<int>(s), 3))
+                                                           thrice.test_trials + 3 * static_cast<int>(s), 3))
         << s;
 }
 

@@ -53,7 +53,8 @@ std::vector<trial::ScenarioKey> keys(int count) {
   return keys;
 }
 
-Family tried(const Sample& of, int count, const std::vector<trial::ScenarioKey>& trials = {}, int jobs = 1) {
+MutationOutcome tried(const Sample& of, int count, const std::vector<trial::ScenarioKey>& trials = {},
+                      int jobs = 1) {
   return try_mutants(of.problem, of.config.neat, of.genome, count, seed, trials, jobs, unstopped).value();
 }
 
@@ -82,9 +83,9 @@ Walk walk_of(const Sample& of, const neat::Genome& genome, const std::vector<tri
 void expect_one_mutation_each(const Sample& of, const std::vector<trial::ScenarioKey>& trials) {
   const Walk own = walk_of(of, of.genome, trials);
   ASSERT_GT(own.score, 0.0);
-  const Family family = tried(of, 12, trials);
-  EXPECT_NEAR(family.score, own.score, 1e-9);
-  ASSERT_EQ(family.mutants.size(), 12u);
+  const MutationOutcome outcome = tried(of, 12, trials);
+  EXPECT_NEAR(outcome.score, own.score, 1e-9);
+  ASSERT_EQ(outcome.mutants.size(), 12u);
   for (std::uint32_t i = 0; i < 12; ++i) {
     neat::Genome genome = of.genome;
     auto innovations = neat::Innovations::beyond(of.genome, of.config.neat.innovations.key);
@@ -95,8 +96,8 @@ void expect_one_mutation_each(const Sample& of, const std::vector<trial::Scenari
     double change = 0.0;
     for (std::size_t leg = 0; leg < own.duty_factors.size(); ++leg)
       change += std::abs(walk.duty_factors[leg] - own.duty_factors[leg]) / 4.0;
-    EXPECT_NEAR(family.mutants[i].kept, walk.score / own.score, 1e-6);
-    EXPECT_NEAR(family.mutants[i].change, change, 1e-6);
+    EXPECT_NEAR(outcome.mutants[i].kept, walk.score / own.score, 1e-6);
+    EXPECT_NEAR(outcome.mutants[i].change, change, 1e-6);
   }
 }
 
@@ -135,9 +136,9 @@ TEST(Mutants, OfOtherSeedsAreOthers) {
 
 TEST(Mutants, OfAGenomeThatGetsNowhereKeepNothing) {
   const Sample of = sample({"score.terms=[{quantity=\"distance\", weight=0}]"});
-  const Family family = tried(of, 3);
-  EXPECT_EQ(family.score, 0.0);
-  for (const auto& mutant : family.mutants) {
+  const MutationOutcome outcome = tried(of, 3);
+  EXPECT_EQ(outcome.score, 0.0);
+  for (const auto& mutant : outcome.mutants) {
     EXPECT_EQ(mutant.kept, 0.0);
     EXPECT_FALSE(mutant.viable());
   }

@@ -11,7 +11,7 @@
 namespace amble::figures {
 namespace {
 
-using graphics::Layout;
+using graphics::FigureSize;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::Not;
@@ -43,7 +43,7 @@ TEST(FilmstripFigure, FillsTheFeetThatTouch) {
   std::size_t touching = 0;
   for (const int frame : filmstrip_frames(recorded.motion))
     for (const auto& touch : recorded.motion.touch) touching += touch[static_cast<std::size_t>(frame)];
-  const auto elements = tests::parse_xml(filmstrip_figure(recorded.robot, recorded.motion, Layout::wide));
+  const auto elements = tests::parse_xml(filmstrip_figure(recorded.robot, recorded.motion, FigureSize::wide));
   EXPECT_EQ(tests::with_class(elements, "cell").size(), 10u);
   EXPECT_EQ(tests::with_class(elements, "foot-down").size(), touching);
   EXPECT_EQ(tests::with_class(elements, "foot").size(), 40 - touching);
@@ -54,7 +54,7 @@ TEST(FilmstripFigure, FillsTheFeetThatTouch) {
 TEST(FilmstripFigure, PutsTheFeetOnTheGroundLine) {
   // The lowest point of a foot's sphere is at z = 1 − 0.9 − 0.1 = 0.
   const motion::RecordedTrial recorded = tests::walk(60);
-  const auto elements = tests::parse_xml(filmstrip_figure(recorded.robot, recorded.motion, Layout::wide));
+  const auto elements = tests::parse_xml(filmstrip_figure(recorded.robot, recorded.motion, FigureSize::wide));
   const double ground = tests::with_class(elements, "ground").at(0).number("y");
   const auto foot = tests::with_class(elements, "foot-down").at(0);
   EXPECT_NEAR(foot.number("cy") + foot.number("r"), ground, 0.02);
@@ -63,7 +63,7 @@ TEST(FilmstripFigure, PutsTheFeetOnTheGroundLine) {
 TEST(FilmstripFigure, LightensTheLegsOfTheFarSide) {
   // It walks along x, so the camera looks to the left, and the left legs (0 and 2) are far.
   const motion::RecordedTrial recorded = tests::walk(60);
-  const auto elements = tests::parse_xml(filmstrip_figure(recorded.robot, recorded.motion, Layout::wide));
+  const auto elements = tests::parse_xml(filmstrip_figure(recorded.robot, recorded.motion, FigureSize::wide));
   for (const auto& limb : tests::with_class(elements, "limb")) {
     const std::string group = limb.path.at(1);
     EXPECT_EQ(group == "leg0 far" || group == "leg2 far", group.ends_with("far")) << group;
@@ -76,7 +76,7 @@ TEST(FilmstripFigure, MarksTheGroundWithTheDistanceFromTheStart) {
   motion::RecordedTrial recorded = tests::walk(60);
   recorded.motion.com_start_m.x -= 10;
   const auto texts =
-      tests::texts(tests::parse_xml(filmstrip_figure(recorded.robot, recorded.motion, Layout::wide)));
+      tests::texts(tests::parse_xml(filmstrip_figure(recorded.robot, recorded.motion, FigureSize::wide)));
   EXPECT_THAT(texts, Contains("12.0 m"));
   EXPECT_THAT(texts, Contains("13.0 m"));
   EXPECT_THAT(texts, Contains("6.00 s"));
@@ -86,7 +86,7 @@ TEST(FilmstripFigure, MarksTheGroundWithTheDistanceFromTheStart) {
 TEST(FilmstripFigure, KeepsEveryShapeInItsCell) {
   motion::RecordedTrial recorded = tests::walk(60, 6);
   for (auto& angle : recorded.motion.angle_rad) std::fill(angle.begin(), angle.end(), 1.3f);
-  for (const Layout layout : {Layout::wide, Layout::narrow}) {
+  for (const FigureSize layout : {FigureSize::wide, FigureSize::narrow}) {
     const auto elements = tests::parse_xml(filmstrip_figure(recorded.robot, recorded.motion, layout));
     tests::XmlElement cell;
     for (const auto& element : elements) {
@@ -104,7 +104,8 @@ TEST(FilmstripFigure, KeepsEveryShapeInItsCell) {
 TEST(FilmstripFigure, TakesOneFrameAndOtherLegCounts) {
   for (const int legs : {1, 2, 6, 9}) {
     const motion::RecordedTrial recorded = tests::walk(1, legs);
-    const auto elements = tests::parse_xml(filmstrip_figure(recorded.robot, recorded.motion, Layout::narrow));
+    const auto elements =
+        tests::parse_xml(filmstrip_figure(recorded.robot, recorded.motion, FigureSize::narrow));
     EXPECT_EQ(tests::with_class(elements, "cell").size(), 1u);
   }
 }

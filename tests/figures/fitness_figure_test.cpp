@@ -10,7 +10,7 @@
 namespace amble::figures {
 namespace {
 
-using graphics::Layout;
+using graphics::FigureSize;
 using testing::Contains;
 
 record::Generations table() {
@@ -25,7 +25,7 @@ record::Generations table() {
   return generations;
 }
 
-class FitnessFigure : public testing::TestWithParam<Layout> {};
+class FitnessFigure : public testing::TestWithParam<FigureSize> {};
 
 TEST_P(FitnessFigure, LabelsEveryCurveWithItsLastValue) {
   const auto texts = tests::texts(tests::parse_xml(fitness_figure(table(), GetParam())));
@@ -176,7 +176,7 @@ TEST_P(FitnessFigure, ShowsNegativeValues) {
   for (const auto& [x, y] : tests::points(tests::with_class(elements, "median").at(0))) EXPECT_LE(y, base);
 }
 
-INSTANTIATE_TEST_SUITE_P(Layouts, FitnessFigure, testing::Values(Layout::wide, Layout::narrow));
+INSTANTIATE_TEST_SUITE_P(Layouts, FitnessFigure, testing::Values(FigureSize::wide, FigureSize::narrow));
 
 }  // namespace
 }  // namespace amble::figures

@@ -9,7 +9,7 @@
 namespace amble::figures {
 namespace {
 
-using graphics::Layout;
+using graphics::FigureSize;
 using testing::Contains;
 
 std::vector<tests::XmlElement> in_leg(const std::vector<tests::XmlElement>& elements,
@@ -25,7 +25,7 @@ TEST(FootfallFigure, DrawsBarsFromTouchDownToLiftOff) {
   auto recorded = tests::walk(40);
   recorded.motion.touch[1].assign(40, false);
   for (std::size_t k = 9; k < 19; ++k) recorded.motion.touch[1][k] = true;  // from 1.0 s to 2.0 s
-  const auto elements = tests::parse_xml(footfall_figure(recorded.robot, recorded.motion, Layout::wide));
+  const auto elements = tests::parse_xml(footfall_figure(recorded.robot, recorded.motion, FigureSize::wide));
   const auto bars = in_leg(tests::with_class(elements, "stance"), "leg1");
   ASSERT_EQ(bars.size(), 2u);  // the first is the mark beside the name
   EXPECT_NEAR(bars[1].number("x"), 40 + 216, 0.01);
@@ -38,7 +38,7 @@ TEST(FootfallFigure, EnlargesTheLastSecondsOfALongerWalk) {
   for (auto& touch : recorded.motion.touch) touch.assign(100, false);
   recorded.motion.touch[2][79] = true;  // at 8.0 s, in both diagrams
   recorded.motion.touch[2][19] = true;  // at 2.0 s, before the last four seconds
-  const auto elements = tests::parse_xml(footfall_figure(recorded.robot, recorded.motion, Layout::wide));
+  const auto elements = tests::parse_xml(footfall_figure(recorded.robot, recorded.motion, FigureSize::wide));
   const auto bars = in_leg(tests::with_class(elements, "stance"), "leg2");
   ASSERT_EQ(bars.size(), 2u + 3u);
   EXPECT_NEAR(bars[4].number("x"), 40 + 864 * (8.0 - 6.0) / 4.0, 0.01);
@@ -47,7 +47,7 @@ TEST(FootfallFigure, EnlargesTheLastSecondsOfALongerWalk) {
 
 TEST(FootfallFigure, MarksEachTriggerWhereItsBarBegins) {
   const auto recorded = tests::walk(40);
-  const auto elements = tests::parse_xml(footfall_figure(recorded.robot, recorded.motion, Layout::wide));
+  const auto elements = tests::parse_xml(footfall_figure(recorded.robot, recorded.motion, FigureSize::wide));
   const auto bars = in_leg(tests::with_class(elements, "stance"), "leg0");
   const auto marks = in_leg(tests::with_class(elements, "trigger"), "leg0");
   ASSERT_EQ(marks.size(), 9u);
@@ -57,7 +57,7 @@ TEST(FootfallFigure, MarksEachTriggerWhereItsBarBegins) {
 
 TEST(FootfallFigure, TakesOneFrameOtherLegCountsAndNoTriggers) {
   for (const int legs : {1, 2, 6, 9})
-    for (const Layout layout : {Layout::wide, Layout::narrow})
+    for (const FigureSize layout : {FigureSize::wide, FigureSize::narrow})
       for (const int frames : {1, 70}) {
         auto recorded = tests::walk(frames, legs);
         recorded.motion.trigger.clear();

@@ -14,7 +14,7 @@
 namespace amble::figures {
 namespace {
 
-using graphics::Layout;
+using graphics::FigureSize;
 
 /// A wave of period `period` between −1 and 1.
 double zigzag(int at, int period) {
@@ -101,9 +101,9 @@ TEST(GoldenFigures, OfMotionMatchTheGoldenHashes) {
   for (const int legs : {2, 4, 6}) {
     const auto walk = lively_walk(120, legs);
     const auto& [robot, motion] = std::tie(walk.robot, walk.motion);
-    for (const Layout layout : {Layout::wide, Layout::narrow}) {
+    for (const FigureSize layout : {FigureSize::wide, FigureSize::narrow}) {
       const auto name = [&](const char* kind) {
-        return fmt::format("{}-{}-{}.svg", kind, legs, layout == Layout::wide ? "wide" : "narrow");
+        return fmt::format("{}-{}-{}.svg", kind, legs, layout == FigureSize::wide ? "wide" : "narrow");
       };
       drawn[name("footfall")] = footfall_figure(robot, motion, layout);
       drawn[name("path")] = path_figure(robot, motion, layout);
@@ -131,8 +131,8 @@ TEST(GoldenFigures, OfMotionMatchTheGoldenHashes) {
 
 TEST(GoldenFigures, OfSearchesMatchTheGoldenHashes) {
   std::map<std::string, std::string> drawn;
-  for (const Layout layout : {Layout::wide, Layout::narrow}) {
-    const char* width = layout == Layout::wide ? "wide" : "narrow";
+  for (const FigureSize layout : {FigureSize::wide, FigureSize::narrow}) {
+    const char* width = layout == FigureSize::wide ? "wide" : "narrow";
     drawn[fmt::format("neat-{}.svg", width)] = fitness_figure(table(false), layout);
     drawn[fmt::format("map-elites-{}.svg", width)] =
         fitness_figure(table(true), layout, {.unit = " m/s", .title = "Speed"});
@@ -158,7 +158,7 @@ TEST(GoldenFigures, OfNetworksMatchTheGoldenHashes) {
   for (const int coordinates : {1, 2, 3, 4}) {
     drawn[fmt::format("substrate-{}.svg", coordinates)] = substrate_svg(places_in(coordinates));
     drawn[fmt::format("substrate-{}-narrow.svg", coordinates)] =
-        substrate_figure(places_in(coordinates), Layout::narrow);
+        substrate_figure(places_in(coordinates), FigureSize::narrow);
   }
   tests::expect_golden(drawn, {{"cppn.svg", "c1d13f36db4e818a"},
                                {"substrate-1-narrow.svg", "31deb92fa81b4118"},

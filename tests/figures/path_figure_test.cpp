@@ -11,7 +11,7 @@
 namespace amble::figures {
 namespace {
 
-using graphics::Layout;
+using graphics::FigureSize;
 using testing::Contains;
 
 /// A bar's length in px and the metres it stands for.
@@ -29,14 +29,14 @@ TEST(PathFigure, HasEqualScalesThatTheBarStates) {
   for (std::size_t k = 0; k < 60; ++k)
     recorded.motion.com_m[k] =
         recorded.motion.com_start_m + (static_cast<double>(k + 1) / 60) * Vec3{3, 4, 0};
-  for (const Layout layout : {Layout::wide, Layout::narrow}) {
+  for (const FigureSize layout : {FigureSize::wide, FigureSize::narrow}) {
     const auto elements = tests::parse_xml(path_figure(recorded.robot, recorded.motion, layout));
     const auto start = tests::with_class(elements, "start").at(0),
                end = tests::with_class(elements, "end").at(0);
     const double right = end.number("cx") - start.number("cx"), down = end.number("cy") - start.number("cy");
     const double scale = px_per_m(elements);
-    EXPECT_NEAR(right, scale * (layout == Layout::wide ? 3 : -4), 0.5);
-    EXPECT_NEAR(down, -scale * (layout == Layout::wide ? 4 : 3), 0.5);
+    EXPECT_NEAR(right, scale * (layout == FigureSize::wide ? 3 : -4), 0.5);
+    EXPECT_NEAR(down, -scale * (layout == FigureSize::wide ? 4 : 3), 0.5);
     EXPECT_THAT(tests::texts(elements), Contains("5.00 m after 6.0 s"));
   }
 }
@@ -47,7 +47,7 @@ TEST(PathFigure, HasRoomForFeetFarFromThePath) {
   for (robot::Body& body : recorded.robot.bodies)
     if (body.parent == 0) body.position_m = 10.0 * body.position_m;
   for (Vec3& com_m : recorded.motion.com_m) com_m = recorded.motion.com_start_m;
-  for (const Layout layout : {Layout::wide, Layout::narrow}) {
+  for (const FigureSize layout : {FigureSize::wide, FigureSize::narrow}) {
     const auto elements = tests::parse_xml(path_figure(recorded.robot, recorded.motion, layout));
     const auto prints = tests::with_class(elements, "footprint");
     ASSERT_FALSE(prints.empty());
@@ -62,7 +62,7 @@ TEST(PathFigure, HasRoomForFeetFarFromThePath) {
 
 TEST(PathFigure, MarksWhereFeetCameDown) {
   const motion::RecordedTrial recorded = tests::walk(20);
-  const auto elements = tests::parse_xml(path_figure(recorded.robot, recorded.motion, Layout::wide));
+  const auto elements = tests::parse_xml(path_figure(recorded.robot, recorded.motion, FigureSize::wide));
   const auto prints = tests::with_class(elements, "footprint");
   ASSERT_EQ(prints.size(), 4u + 5u + 5u + 5u);
   // Leg 0 comes down in frames 4, 8, 12 and 16: at first 0.25 m on, then each 0.2 m, at x + 0.5 m and 0.2 m
@@ -78,7 +78,7 @@ TEST(PathFigure, MarksWhereFeetCameDown) {
 }
 
 TEST(PathFigure, StaysInItsFrame) {
-  for (const Layout layout : {Layout::wide, Layout::narrow})
+  for (const FigureSize layout : {FigureSize::wide, FigureSize::narrow})
     for (const double speed : {0.0, 0.001, 1.0, 100.0}) {
       motion::RecordedTrial recorded = tests::walk(30);
       for (std::size_t k = 0; k < 30; ++k)
@@ -100,7 +100,7 @@ TEST(PathFigure, StaysInItsFrame) {
 TEST(PathFigure, TakesOneFrameAndAFootThatNeverTouches) {
   motion::RecordedTrial recorded = tests::walk(1);
   recorded.motion.touch[0].assign(1, false);
-  const auto elements = tests::parse_xml(path_figure(recorded.robot, recorded.motion, Layout::narrow));
+  const auto elements = tests::parse_xml(path_figure(recorded.robot, recorded.motion, FigureSize::narrow));
   EXPECT_TRUE(tests::with_class(elements, "footprint").empty());
   EXPECT_THAT(tests::texts(elements), Contains("0.05 m after 0.1 s"));
 }

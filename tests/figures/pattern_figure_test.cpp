@@ -9,11 +9,11 @@
 namespace amble::figures {
 namespace {
 
-using graphics::Layout;
+using graphics::FigureSize;
 using testing::Contains;
 using testing::Not;
 
-class PatternFigure : public testing::TestWithParam<Layout> {
+class PatternFigure : public testing::TestWithParam<FigureSize> {
  protected:
   static auto draw(const motion::RecordedTrial& recorded) {
     return tests::parse_xml(pattern_figure(recorded.robot, *recorded.supg, recorded.motion, GetParam()));
@@ -133,7 +133,7 @@ TEST(PatternSvg, ShowsThePatternsWithoutATrial) {
   EXPECT_THAT(tests::texts(elements), Not(Contains(testing::StartsWith("Timer when"))));
 }
 
-INSTANTIATE_TEST_SUITE_P(Layouts, PatternFigure, testing::Values(Layout::wide, Layout::narrow));
+INSTANTIATE_TEST_SUITE_P(Layouts, PatternFigure, testing::Values(FigureSize::wide, FigureSize::narrow));
 
 }  // namespace
 }  // namespace amble::figures

@@ -13,7 +13,7 @@
 namespace amble::figures {
 namespace {
 
-using graphics::Layout, graphics::width_px;
+using graphics::FigureSize, graphics::width_px;
 using testing::HasSubstr;
 using testing::IsSupersetOf;
 using testing::Not;
@@ -49,12 +49,12 @@ std::set<std::pair<double, double>> node_places(const std::vector<tests::XmlElem
 
 TEST(SubstrateFigure, GivesEveryNodeAPlaceOfItsOwnInsideThePicture) {
   for (std::size_t coordinates = 1; coordinates <= 4; ++coordinates)
-    for (const Layout layout : {Layout::wide, Layout::narrow}) {
+    for (const FigureSize layout : {FigureSize::wide, FigureSize::narrow}) {
       const Substrate substrate = grid(coordinates);
       const auto elements = tests::parse_xml(substrate_figure(substrate, layout));
       const auto places = node_places(elements);
       // The legend of the wide picture has one of each of the three roles.
-      EXPECT_EQ(places.size(), substrate.nodes.size() + (layout == Layout::wide ? 3 : 0)) << coordinates;
+      EXPECT_EQ(places.size(), substrate.nodes.size() + (layout == FigureSize::wide ? 3 : 0)) << coordinates;
       for (const auto& [x, y] : places) {
         EXPECT_GT(x, 0.0);
         EXPECT_LT(x, width_px(layout));
@@ -65,7 +65,7 @@ TEST(SubstrateFigure, GivesEveryNodeAPlaceOfItsOwnInsideThePicture) {
 }
 
 TEST(SubstrateFigure, DrawsLinksInTheColoursOfTheirKindsWithHeads) {
-  const auto elements = tests::parse_xml(substrate_figure(grid(2), Layout::narrow));
+  const auto elements = tests::parse_xml(substrate_figure(grid(2), FigureSize::narrow));
   const auto links = tests::with_class(elements, "link");
   ASSERT_EQ(links.size(), 2u);
   EXPECT_EQ(links[0].path.at(1), "leg0");
@@ -77,9 +77,12 @@ TEST(SubstrateFigure, DrawsLinksInTheColoursOfTheirKindsWithHeads) {
 }
 
 TEST(SubstrateFigure, PutsAFrameAroundEachPlaneAndModule) {
-  EXPECT_EQ(tests::with_class(tests::parse_xml(substrate_figure(grid(2), Layout::wide)), "plane").size(), 1u);
-  EXPECT_EQ(tests::with_class(tests::parse_xml(substrate_figure(grid(3), Layout::wide)), "plane").size(), 3u);
-  EXPECT_EQ(tests::with_class(tests::parse_xml(substrate_figure(grid(4), Layout::wide)), "plane").size(), 9u);
+  EXPECT_EQ(tests::with_class(tests::parse_xml(substrate_figure(grid(2), FigureSize::wide)), "plane").size(),
+            1u);
+  EXPECT_EQ(tests::with_class(tests::parse_xml(substrate_figure(grid(3), FigureSize::wide)), "plane").size(),
+            3u);
+  EXPECT_EQ(tests::with_class(tests::parse_xml(substrate_figure(grid(4), FigureSize::wide)), "plane").size(),
+            9u);
 }
 
 TEST(SubstrateFigure, PutsNodesInTheDirectionsOfTheirCoordinates) {
@@ -107,7 +110,7 @@ TEST(SubstrateFigure, PutsNodesInTheDirectionsOfTheirCoordinates) {
 }
 
 TEST(SubstrateFigure, NamesNodesPlanesRolesAndKinds) {
-  const auto words = tests::texts(tests::parse_xml(substrate_figure(grid(3), Layout::wide)));
+  const auto words = tests::texts(tests::parse_xml(substrate_figure(grid(3), FigureSize::wide)));
   EXPECT_THAT(words, IsSupersetOf({"node 0", "node 26", "layer = −1", "layer = 1", "sensor", "hidden",
                                    "drives a joint", "inner", "outer"}));
 }
@@ -115,18 +118,18 @@ TEST(SubstrateFigure, NamesNodesPlanesRolesAndKinds) {
 TEST(SubstrateFigure, TakesNodesThatAgreeInACoordinate) {
   Substrate substrate = grid(4);
   for (motion::NetworkNode& node : substrate.nodes) node.at[0] = node.at[3] = 0.5;
-  tests::parse_xml(substrate_figure(substrate, Layout::wide));
+  tests::parse_xml(substrate_figure(substrate, FigureSize::wide));
 }
 
 TEST(SubstrateFigure, RefusesMoreCoordinatesThanItCanShow) {
-  EXPECT_EQ(tests::error_of([] { substrate_figure(grid(5), Layout::wide); }),
+  EXPECT_EQ(tests::error_of([] { substrate_figure(grid(5), FigureSize::wide); }),
             "a substrate with 5 coordinates cannot be drawn: expected at most 4");
 }
 
 TEST(SubstrateFigure, IsAFileOfItsOwnWithItsStyle) {
   const std::string svg = substrate_svg(grid(2));
   EXPECT_THAT(svg, HasSubstr("<style>"));
-  EXPECT_THAT(substrate_figure(grid(2), Layout::wide), Not(HasSubstr("<style>")));
+  EXPECT_THAT(substrate_figure(grid(2), FigureSize::wide), Not(HasSubstr("<style>")));
   tests::parse_xml(svg);
 }
 

@@ -42,7 +42,7 @@ TEST(Ledger, DigestDependsOnResultsAlone) {
   const auto digest = ledger_digest(sample_study(), records);
   records[0].provenance.cpu = "another";
   EXPECT_EQ(ledger_digest(sample_study(), records), digest);
-  records[0].best_m += 1.0;
+  records[0].best_objective += 1.0;
   EXPECT_NE(ledger_digest(sample_study(), records), digest);
 }
 

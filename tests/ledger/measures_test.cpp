@@ -87,7 +87,7 @@ TEST(Measures, OfATestThatWasNotMadeIsNothing) {
 
 TEST(Measures, ShareKeptOfNoDistanceIsZero) {
   Record record = sample_record();
-  record.best_m = 0.0;
+  record.best_objective = 0.0;
   EXPECT_EQ(measure(record, "five.kept"), 0.0);
 }
 

@@ -24,7 +24,7 @@ TEST(Record, ReadsBackAsItWasWritten) {
   EXPECT_EQ(again.engine, record.engine);
   EXPECT_EQ(again.evaluations, record.evaluations);
   EXPECT_EQ(again.steps, record.steps);
-  EXPECT_EQ(again.best_m, record.best_m);
+  EXPECT_EQ(again.best_objective, record.best_objective);
   EXPECT_EQ(again.best_generation, record.best_generation);
   EXPECT_EQ(again.hidden, record.hidden);
   EXPECT_EQ(again.links, record.links);

@@ -101,7 +101,7 @@ TEST(StudySpec, HashOfClaimsCoversTheVersionsOfTheirRules) {
 
 TEST(StudySpec, RecordsFromBeforeTheRulesHadVersionsHoldTheHashOfTheirClaimsAlone) {
   const StudyPaths paths(AMBLE_SOURCE_DIR "/results/legs");
-  const StudySpec study = load_kept_study(paths);
+  const StudySpec study = load_study_copy(paths);
   const auto records = Ledger(paths).load_all(study);
   EXPECT_EQ(records.size(), 4u);
   for (const Record& record : records) EXPECT_EQ(study.rules_of(record.provenance.claims), first_rules);

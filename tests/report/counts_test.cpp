@@ -67,7 +67,8 @@ TEST(CountClaims, AreComparedWithAPublishedCount) {
   one.claim().runs = 20;
   one.claim().successes = 0;
   const auto with_successes = [&one](int count) {
-    for (int i = 0; i < 20; ++i) one.data.records[static_cast<std::size_t>(i)].best_m = i < count ? 5.0 : 1.0;
+    for (int i = 0; i < 20; ++i)
+      one.data.records[static_cast<std::size_t>(i)].best_objective = i < count ? 5.0 : 1.0;
     return one.judged().verdict;
   };
   EXPECT_EQ(with_successes(0), Verdict::compatible) << "one in six would go unseen in 20";

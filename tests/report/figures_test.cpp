@@ -16,7 +16,7 @@
 namespace amble::report {
 namespace {
 
-using graphics::Layout;
+using graphics::FigureSize;
 using tests::parse_xml;
 using tests::with_class;
 
@@ -53,7 +53,7 @@ TEST(RowsFigure, DrawsMeansIntervalsAndRunsToScale) {
   const Report report = make_report(small_study());
   const auto rows = training_rows(report);
   ASSERT_EQ(rows.size(), 2u);
-  for (const auto layout : {Layout::wide, Layout::narrow}) {
+  for (const auto layout : {FigureSize::wide, FigureSize::narrow}) {
     const auto elements = parse_xml(rows_figure(rows, " m", "distances", layout));
     const double scale = px_per_unit(elements);
     const auto bars = with_class(elements, "bar"), runs = with_class(elements, "run"),
@@ -73,7 +73,7 @@ TEST(RowsFigure, HasRoomForIntervalsThatReachBeyondAllRuns) {
   auto rows = training_rows(make_report(small_study()));
   for (const auto& interval : {statistics::Interval{-40.0, 9.0}, {3.0, 90.0}, {-40.0, 90.0}}) {
     rows[0].strips[0].interval = interval;
-    for (const auto layout : {Layout::wide, Layout::narrow}) {
+    for (const auto layout : {FigureSize::wide, FigureSize::narrow}) {
       const auto elements = parse_xml(rows_figure(rows, " m", "distances", layout));
       const auto bar = with_class(elements, "bar")[0];
       const double scale = bar.number("width") / rows[0].strips[0].mean.value(), zero = bar.number("x");
@@ -111,7 +111,7 @@ void expect_inside(const std::string& svg) {
 TEST(Figures, HoldTheirTextsWithTwoConditionsOrTwenty) {
   for (const int count : {2, 4, 8, 9, 20}) {
     const Report report = make_report(large_study(count, 3));
-    for (const auto layout : {Layout::wide, Layout::narrow}) {
+    for (const auto layout : {FigureSize::wide, FigureSize::narrow}) {
       expect_inside(rows_figure(training_rows(report), " m", "", layout));
       expect_inside(rows_figure(test_rows(report, "long"), " m", "", layout));
       expect_inside(curves_figure(report, layout));
@@ -126,7 +126,7 @@ TEST(SurvivalFigure, ShowsEachConditionsCurveOnceWhetherOverlaidOrInPanelsBefore
     const Report report = make_report(large_study(count, 3));
     ASSERT_FALSE(report.survival.empty());
     for (const SurvivalTable& table : report.survival)
-      for (const auto layout : {Layout::wide, Layout::narrow}) {
+      for (const auto layout : {FigureSize::wide, FigureSize::narrow}) {
         const auto elements = parse_xml(survival_figure(report, table, layout));
         const auto others = with_class(elements, "other").size();
         const auto conditions = static_cast<std::size_t>(count);
@@ -144,7 +144,7 @@ TEST(SurvivalFigure, ShowsEachConditionsCurveOnceWhetherOverlaidOrInPanelsBefore
 
 TEST(CurvesFigure, GoesAroundTheBandBetweenTheQuartilesOnce) {
   const Report report = make_report(small_study());
-  const auto bands = with_class(parse_xml(curves_figure(report, Layout::wide)), "band");
+  const auto bands = with_class(parse_xml(curves_figure(report, FigureSize::wide)), "band");
   ASSERT_EQ(bands.size(), report.curves.size());
   for (std::size_t b = 0; b < bands.size(); ++b) {
     const auto corners = tests::points(bands[b]);
@@ -171,7 +171,7 @@ TEST(CurvesFigure, DrawsTheOthersToTheirLastGenerationHoweverManyThereAre) {
       for (auto* values : {&curve.median_m, &curve.lower_quartile_m, &curve.upper_quartile_m})
         values->resize(curve.generation.size(), 1.0);
     }
-    const auto elements = parse_xml(curves_figure(report, Layout::wide));
+    const auto elements = parse_xml(curves_figure(report, FigureSize::wide));
     const auto others = with_class(elements, "other"), curves = with_class(elements, "curve");
     ASSERT_FALSE(others.empty());
     std::set<double> ends, other_ends;
@@ -184,7 +184,7 @@ TEST(CurvesFigure, DrawsTheOthersToTheirLastGenerationHoweverManyThereAre) {
 TEST(SurvivalFigure, StepsDownWhereLifetimesEnd) {
   const Report report = make_report(small_study());
   const auto curves =
-      with_class(parse_xml(survival_figure(report, report.survival[0], Layout::wide)), "curve");
+      with_class(parse_xml(survival_figure(report, report.survival[0], FigureSize::wide)), "curve");
   const auto steps = tests::points(curves.at(1));  // "b": 40, 80 and 120 s of 300 s
   ASSERT_EQ(steps.size(), 8u);
   const double left = steps[0].first, width = steps.back().first - left, top = steps[0].second;
@@ -226,7 +226,7 @@ TEST(MutantsFigure, HasACellForEachScoreKeptAndChangeOfTheGait) {
   mutate(1, {{.kept = 1e300, .change = 1.0}, {.kept = 1.19, .change = 0.27}});
   mutate(2, {{.kept = 0.0, .change = 0.03}});
   const std::set<std::pair<int, int>> of_a{{10, 0}, {9, 1}, {23, 15}, {23, 4}, {0, 0}}, of_b{{0, 7}};
-  for (const auto layout : {Layout::wide, Layout::narrow}) {
+  for (const auto layout : {FigureSize::wide, FigureSize::narrow}) {
     const auto panels = cells_of(mutants_figure(make_report(data), "long", layout));
     ASSERT_EQ(panels.size(), 2u) << "a panel per condition";
     EXPECT_EQ(panels[0], of_a);
@@ -240,13 +240,13 @@ TEST(MutantsFigure, IsDarkerWhereThereAreMore) {
     record.tests[0].mutants.assign(9, {.kept = 0.9, .change = 0.02});
     record.tests[0].mutants.push_back({.kept = 0.1, .change = 0.4});
   }
-  const auto elements = parse_xml(mutants_figure(make_report(data), "long", Layout::wide));
+  const auto elements = parse_xml(mutants_figure(make_report(data), "long", FigureSize::wide));
   EXPECT_EQ(with_class(elements, "shade8").size(), 2u) << "nine of ten";
   EXPECT_EQ(with_class(elements, "shade3").size(), 2u) << "one of ten: a ninth, a third by the root";
 }
 
 TEST(MutantsFigure, TellsTheShareOfViableMutantsOfEachCondition) {
-  const std::string svg = mutants_figure(make_report(mutated_study()), "long", Layout::wide);
+  const std::string svg = mutants_figure(make_report(mutated_study()), "long", FigureSize::wide);
   EXPECT_NE(svg.find("67 % viable"), std::string::npos) << "a: from 0.65 on, four of six";
   EXPECT_NE(svg.find("50 % viable"), std::string::npos) << "b: from 0.6 on, three of six";
 }

@@ -78,7 +78,7 @@ ledger::Record sample_run(const std::string& condition, std::int64_t seed, doubl
   run.config = "00ff";
   run.generations = 10;
   run.engine = "batch";
-  run.best_m = best_m;
+  run.best_objective = best_m;
   run.best_generation = 6;
   run.hidden = static_cast<int>(seed);
   run.links = 20 + static_cast<int>(seed);
@@ -116,8 +116,10 @@ StudyData small_study() {
   for (ledger::Record& run : data.records) {
     const double seed = static_cast<double>(run.seed);
     const bool lasts = run.condition == "a" && run.seed > 1;
-    add_test(run, "long", 3.0 * run.best_m, 300.0, lasts ? 300.0 : 40.0 * seed, lasts ? 200.0 : 40.0 * seed);
-    add_test(run, "ode", 0.5 * run.best_m, 15.0, 15.0, 15.0, run.seed == 3 ? "irregular" : "pace", "ode");
+    add_test(run, "long", 3.0 * run.best_objective, 300.0, lasts ? 300.0 : 40.0 * seed,
+             lasts ? 200.0 : 40.0 * seed);
+    add_test(run, "ode", 0.5 * run.best_objective, 15.0, 15.0, 15.0, run.seed == 3 ? "irregular" : "pace",
+             "ode");
     run.provenance.claims = data.study.claims_hash();
   }
   return data;
@@ -157,7 +159,7 @@ StudyData large_study(int count, int runs) {
       const double lasted = std::min(300.0, uniform(1.0, 500.0));
       const double walked = uniform(0.5, 1.0) * lasted, distance_m = uniform(1.0, 60.0);
       add_test(run, "long", distance_m, 300.0, lasted, walked);
-      add_test(run, "ode", uniform(0.1, 1.0) * run.best_m, 15.0, 15.0, 15.0, "pace", "ode");
+      add_test(run, "ode", uniform(0.1, 1.0) * run.best_objective, 15.0, 15.0, 15.0, "pace", "ode");
       run.provenance.claims = data.study.claims_hash();
       data.records.push_back(std::move(run));
     }

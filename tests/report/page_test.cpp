@@ -249,7 +249,7 @@ TEST(Page, TellsOfEachConditionWhatItsRunsWereMadeWith) {
   std::erase_if(data.records, [](const ledger::Record& run) { return run.condition == "c2"; });
   std::vector<std::string> cells;
   bool in_cell = false;
-  for (const auto& element : parse_xml(made_section(make_report(data)))) {
+  for (const auto& element : parse_xml(provenance_section(make_report(data)))) {
     const bool head = element.name == "th" && element.attributes.at("scope") == "row";
     if (head || in_cell) cells.push_back(element.text);
     in_cell = element.name == "td";

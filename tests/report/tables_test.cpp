@@ -22,7 +22,7 @@ const Table& find(const std::vector<Table>& all, const std::string& name) {
 /// In which no two runs differ: no test of their distances has anything to tell.
 StudyData uniform_study() {
   StudyData data = small_study();
-  for (ledger::Record& record : data.records) record.best_m = 5.0;
+  for (ledger::Record& record : data.records) record.best_objective = 5.0;
   return data;
 }
 

@@ -23,7 +23,7 @@ TEST(Transfers, CompareWithTheSameLengthAtHome) {
   data.study.tests.push_back(data.study.tests[0]);
   data.study.tests.back().name = "long-ode";
   for (ledger::Record& run : data.records)
-    add_test(run, "long-ode", 1.5 * run.best_m, 300.0, 300.0, 300.0, "trot", "ode");
+    add_test(run, "long-ode", 1.5 * run.best_objective, 300.0, 300.0, 300.0, "trot", "ode");
   found = transfers(data);
   ASSERT_EQ(found.size(), 4u);
   EXPECT_EQ(found[2].test, "long-ode");
@@ -113,14 +113,14 @@ TEST(Transfers, AreOnlyTestsInOtherEngines) {
 TEST(Transfers, HaveNoShareOfARunThatGotNowhereAtHome) {
   StudyData data = small_study();
   for (ledger::Record& run : data.records)
-    if (run.condition == "a") run.best_m = run.seed == 1 ? 0.0 : run.seed == 2 ? -1.0 : 5.0;
+    if (run.condition == "a") run.best_objective = run.seed == 1 ? 0.0 : run.seed == 2 ? -1.0 : 5.0;
   const auto found = transfers(data);
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0].n, 3u);
   EXPECT_EQ(found[0].n_share, 1u);
   EXPECT_DOUBLE_EQ(found[0].share.value(), 3.0 / 5.0) << "3 m abroad";
   for (ledger::Record& run : data.records)
-    if (run.condition == "a") run.best_m = 0.0;
+    if (run.condition == "a") run.best_objective = 0.0;
   EXPECT_EQ(transfers(data)[0].n_share, 0u);
   EXPECT_FALSE(transfers(data)[0].share);
 }

@@ -30,7 +30,7 @@ void add_levelled(StudyData& data, const std::string& level, double share, doubl
   test.episodes = 3;
   data.study.tests.push_back(test);
   for (ledger::Record& run : data.records) {
-    const double middle_m = share * run.best_m;
+    const double middle_m = share * run.best_objective;
     ledger::TestResult result;
     result.name = test.name;
     result.engine = engine.empty() ? "batch" : engine;
@@ -91,7 +91,8 @@ TEST(Typical, TakesEvolutionForTheUndisturbedTrialOnlyWhereItWasOne) {
   plain.name = "plain";
   plain.seconds = 15.0;
   tested.study.tests.push_back(plain);
-  for (ledger::Record& run : tested.records) add_test(run, "plain", 2.0 * run.best_m, 15.0, 15.0, 15.0);
+  for (ledger::Record& run : tested.records)
+    add_test(run, "plain", 2.0 * run.best_objective, 15.0, 15.0, 15.0);
   const auto table = typical_tables(tested)[0];
   EXPECT_THAT(names(table), ElementsAre("none", "micro", "milli"));
   EXPECT_DOUBLE_EQ(table.curves[0].points[0].summary.median, 10.0);

@@ -163,7 +163,7 @@ TEST_F(Claims, OfARatioWithinRunsFollowItsInterval) {
   data_.study.tests.resize(1);
   data_.study.tests[0].name = "long";
   for (ledger::Record& run : data_.records)
-    add_test(run, "long", (2.9 + 0.1 * static_cast<double>(run.seed % 3)) * run.best_m);
+    add_test(run, "long", (2.9 + 0.1 * static_cast<double>(run.seed % 3)) * run.best_objective);
   auto& ratio = claim(ClaimKind::ratio);
   ratio.measure = "long.distance_m";
   ratio.base_measure = "train_m";

@@ -35,7 +35,8 @@ class ArchiveFile : public testing::Test {
     for (std::uint32_t generation = from; generation < to; ++generation) {
       Stream stream(1, Purpose::test, generation);
       const auto rows = random_rows(Shape::normal, 12, length, stream);
-      for (const auto& fitness : search.judge(evaluations(rows))) novelties_.push_back(fitness.selection);
+      for (const auto& fitness : search.fitness_of(evaluations(rows)))
+        novelties_.push_back(fitness.selection);
       file_ += search.take_archive_growth();
     }
   }

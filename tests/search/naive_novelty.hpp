@@ -15,7 +15,7 @@ class NaiveNovelty {
   explicit NaiveNovelty(const NoveltySettings& settings)
       : settings_(settings), threshold(settings.threshold) {}
 
-  std::vector<double> judge(const std::vector<std::vector<float>>& generation) {
+  std::vector<double> fitness_of(const std::vector<std::vector<float>>& generation) {
     std::vector<double> novelties;
     std::vector<bool> joined(generation.size());
     int added = 0;

@@ -28,7 +28,7 @@ std::vector<double> judge(NoveltySearch& search, const std::vector<float>& posit
   Rows rows;
   for (const float position : positions) rows.push_back({position});
   std::vector<double> novelties;
-  for (const auto& fitness : search.judge(evaluations(rows))) novelties.push_back(fitness.selection);
+  for (const auto& fitness : search.fitness_of(evaluations(rows))) novelties.push_back(fitness.selection);
   return novelties;
 }
 
@@ -199,7 +199,7 @@ TEST(NoveltySearch, SelectsByNoveltyAndLeavesTheObjectiveToElitism) {
   settings.first_members = 1;
   NoveltySearch search(settings, 1);
   const Rows rows{{0.0f}, {2.0f}};
-  const auto fitness = search.judge(std::vector<Evaluation>{{7.5, rows[0]}, {0.25, rows[1]}});
+  const auto fitness = search.fitness_of(std::vector<Evaluation>{{7.5, rows[0]}, {0.25, rows[1]}});
   EXPECT_EQ(fitness[0].objective, 7.5);
   EXPECT_EQ(fitness[1].objective, 0.25);
   EXPECT_EQ(fitness[0].selection, 0.0);
@@ -295,8 +295,8 @@ TEST(NoveltySearch, EqualsItsNaiveTwinForBehavioursOfAllShapes) {
     NaiveNovelty twin(settings);
     for (int generation = 0; generation < 6; ++generation) {
       const auto rows = random_rows(shape, 1 + stream.below(25), length, stream);
-      const auto fitness = search.judge(evaluations(rows));
-      const auto expected = twin.judge(rows);
+      const auto fitness = search.fitness_of(evaluations(rows));
+      const auto expected = twin.fitness_of(rows);
       for (std::size_t i = 0; i < rows.size(); ++i) {
         const bool exact = shape == Shape::small_whole_numbers;
         ASSERT_NEAR(fitness[i].selection, expected[i], exact ? 0.0 : 1e-13 * expected[i]) << round;
@@ -317,8 +317,8 @@ TEST(NoveltySearch, EqualsItsNaiveTwinOnPathsOfFullLength) {
   Stream stream(2, Purpose::test);
   for (int generation = 0; generation < 4; ++generation) {
     const auto rows = random_rows(Shape::mixed, 40, 1500, stream);
-    const auto fitness = search.judge(evaluations(rows));
-    const auto expected = twin.judge(rows);
+    const auto fitness = search.fitness_of(evaluations(rows));
+    const auto expected = twin.fitness_of(rows);
     for (std::size_t i = 0; i < rows.size(); ++i)
       ASSERT_NEAR(fitness[i].selection, expected[i], 1e-13 * expected[i]);
   }

@@ -10,7 +10,7 @@ namespace {
 
 TEST(ObjectiveSearch, SelectsByTheObjectiveItself) {
   const std::array<Evaluation, 3> generation{{{0.0, {}}, {2.5, {}}, {1.25, {}}}};
-  const auto fitness = ObjectiveSearch().judge(generation);
+  const auto fitness = ObjectiveSearch().fitness_of(generation);
   ASSERT_EQ(fitness.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(fitness[i].selection, generation[i].objective);
@@ -20,7 +20,7 @@ TEST(ObjectiveSearch, SelectsByTheObjectiveItself) {
 
 TEST(ObjectiveSearchDeathTest, DoesNotPassOnAnObjectiveThatIsNotANumber) {
   const std::array<Evaluation, 1> generation{{{std::numeric_limits<double>::quiet_NaN(), {}}}};
-  EXPECT_DEATH(ObjectiveSearch().judge(generation), "objectives are finite");
+  EXPECT_DEATH(ObjectiveSearch().fitness_of(generation), "objectives are finite");
 }
 
 }  // namespace

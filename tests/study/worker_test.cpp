@@ -49,10 +49,10 @@ TEST(Worker, RecordsWhatTheRunSays) {
   }
   EXPECT_EQ(record.curve, expected);
   EXPECT_LT(expected.size(), rows.count()) << "some generation only equals the best";
-  EXPECT_EQ(record.best_m, expected.back().best_m);
+  EXPECT_EQ(record.best_objective, expected.back().best_objective);
   EXPECT_EQ(record.best_generation, expected.back().generation);
   const auto champion = champion_from_json(record.champion, "record");
-  EXPECT_EQ(champion.result.distance_m, record.best_m);
+  EXPECT_EQ(champion.result.distance_m, record.best_objective);
   EXPECT_EQ(champion.genome.count(neat::NodeKind::hidden), record.hidden);
   EXPECT_EQ(champion.genome.enabled_links(), record.links);
 }
@@ -66,8 +66,8 @@ TEST(Worker, FindsTheFirstBestThatGetsAsFarAsATestAsks) {
   ASSERT_GE(curve.size(), 3u);
   // In the run's own trial a champion gets as far as in its evolution: the curve says which one is the first.
   study.tests = {trial_test("middle", 1.0), trial_test("beyond", 1.0), trial_test("plain", 1.0)};
-  study.tests[0].reach_m = 0.5 * (curve[0].best_m + curve[1].best_m);
-  study.tests[1].reach_m = curve.back().best_m + 0.001;
+  study.tests[0].reach_m = 0.5 * (curve[0].best_objective + curve[1].best_objective);
+  study.tests[1].reach_m = curve.back().best_objective + 0.001;
   EXPECT_EQ(work_on(study, folder.path(), looking).finished, 1);
   const ledger::Record& record = looking.records.at(0);
   const auto rows =

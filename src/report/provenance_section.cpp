@@ -108,7 +108,7 @@ std::string files_table(const Report& report) {
 
 }  // namespace
 
-std::string made_section(const Report& report) {
+std::string provenance_section(const Report& report) {
   const auto& study = report.data.study;
   std::string content = "<pre>";
   content += escape_xml(

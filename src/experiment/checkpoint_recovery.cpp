@@ -1,4 +1,4 @@
-#include "amble/experiment/recovery.hpp"
+#include "amble/experiment/checkpoint_recovery.hpp"
 
 #include <fmt/format.h>
 

@@ -5,11 +5,11 @@
 namespace amble::graphics {
 
 /// Every figure is drawn twice, for wide windows and paper and for phones; the page shows the one that fits.
-enum class Layout { wide, narrow };
+enum class FigureSize { wide, narrow };
 
 /// Width of a figure. One px is one CSS px when nothing is scaled, so text has the same size in both layouts.
-constexpr double width_px(Layout layout) {
-  return layout == Layout::wide ? 960.0 : 352.0;
+constexpr double width_px(FigureSize layout) {
+  return layout == FigureSize::wide ? 960.0 : 352.0;
 }
 
 /// Number of distinct colours of legs.
