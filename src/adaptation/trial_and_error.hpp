@@ -17,8 +17,8 @@ struct Candidate {
 /// performances that are shares of the best expected one.
 struct TrialAndErrorSettings {
   double length_scale = 0.4;  ///< ρ of the kernel
-  /// Of a trial. The published value is for trials that nearly repeat; noise that moves a trial by a tenth of
-  /// the best expected performance has 0.01.
+  /// The noise of a trial. The published value is for trials that nearly repeat; noise that moves a trial by
+  /// a tenth of the best expected performance has 0.01.
   double noise_variance = 0.001;
   double exploration = 0.05;  ///< κ of the upper confidence bound
   double stop_share = 0.9;    ///< α: stop when what was tried is predicted to reach this share of the best
@@ -42,7 +42,7 @@ class TrialAndError {
   /// Expectation and standard deviation of a candidate by now, in the unit of `expected`.
   double mean(std::size_t candidate) const;
   double deviation(std::size_t candidate) const;
-  /// Of the candidates tried the one with the largest expectation, which weighs what its trials gave by the
+  /// The candidate with the largest expectation among those tried, which weighs what its trials gave by the
   /// noise of a trial; of equal ones the first. There must have been a trial.
   std::size_t best() const;
 

@@ -37,7 +37,7 @@ std::string wrapped(std::string_view text, std::size_t indent) {
   return out;
 }
 
-/// Of CLI11's name of a type the one that a reader expects.
+/// The name of a type that a reader expects, from CLI11's.
 std::string value_name(const std::string& type) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 4> names{
       {{"TEXT", "PATH"}, {"UINT", "N"}, {"INT", "N"}, {"FLOAT", "NUMBER"}}};

@@ -45,7 +45,7 @@ std::string command_line(int argc, char** argv) {
   return line;
 }
 
-/// Of each line the first word is its name.
+/// Lines whose first word is their name.
 std::string version_text() {
   const auto build = amble::experiment::build_info();
   return fmt::format(

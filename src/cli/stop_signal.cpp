@@ -19,7 +19,7 @@ const std::atomic<bool>& stop_signal() {
     struct sigaction action = {};
     action.sa_handler = on_signal;
     for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) sigaction(signal, &action, nullptr);
-    // Of a terminal that is closed, unless nohup asked to go on then.
+    // The signal of a terminal that is closed, unless nohup asked to go on then.
     struct sigaction before = {};
     if (sigaction(SIGHUP, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
       sigaction(SIGHUP, &action, nullptr);

@@ -37,7 +37,7 @@ bool take_number(std::string_view& line, Number& value) {
   return error == std::errc() && end == word.data() + word.size();
 }
 
-/// Of each run as far as is known before it begins.
+/// The generations that each run has left, as far as is known before it begins.
 std::vector<int> generations_left(const study::Plan& plan, const std::vector<study::RunStatus>& states,
                                   const study::Shard& shard) {
   std::vector<int> left(plan.runs.size());

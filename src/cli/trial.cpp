@@ -38,7 +38,7 @@ struct TrialOptions {
   presentation::TrialChoice disturbance;
 };
 
-/// Of an earlier version: episodes, and from most_evolution_episodes on unseen ones.
+/// The largest number of an earlier version: episodes, and from most_evolution_episodes on unseen ones.
 constexpr std::uint32_t most_old_number = 1'000'000;
 
 void take_old_number(TrialOptions& options, std::string_view option, std::uint32_t number) {

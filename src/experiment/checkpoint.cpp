@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view magic = "AMBLECKP";
 
-/// Of a file, as far as it can be read.
+/// The version of a file, as far as it can be read.
 std::uint32_t version_of(std::string_view bytes) {
   io::BinaryReader reader(bytes.substr(std::min(bytes.size(), magic.size())), "");
   const bool has_it = bytes.size() >= magic.size() + sizeof(std::uint32_t);

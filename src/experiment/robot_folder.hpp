@@ -7,7 +7,7 @@
 
 namespace amble::experiment {
 
-/// Of all presets the one that makes walkers of most robots in a minute (docs/ROBOTS.md), below the folder
+/// The preset that makes walkers of most robots in a minute (docs/ROBOTS.md), below the folder
 /// that has amble's configs.
 inline constexpr const char* robot_preset = "configs/quick/supg.toml";
 

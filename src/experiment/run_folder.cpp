@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view manifest_format = "amble-manifest";
-/// Of the run folder as a whole: raised whenever an older program's run could not go on here.
+/// The version of the run folder as a whole: raised whenever an older program's run could not go on here.
 constexpr int run_version = 6;
 constexpr std::string_view lock_name = ".lock";
 

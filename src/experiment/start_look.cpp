@@ -27,7 +27,7 @@ constexpr double hold_s = 1.0;
 constexpr double crouching_share = 0.15;
 /// Shapes that collide are at least so dense: the paper's quadruped has 22 kg/m3.
 constexpr double least_kg_per_m3 = 10.0, usual_kg_per_m3 = 1000.0;
-/// Of a cube as wide as the robot; iron has less.
+/// The density of a cube as wide as the robot; iron has less.
 constexpr double most_kg_per_m3 = 8000.0;
 
 double volume_m3(const robot::Geom& geom) {
@@ -54,14 +54,14 @@ double volume_m3(const robot::Geom& geom) {
   return std::abs(tetrahedra_m3);
 }
 
-/// Of lengths that are too large by a factor of about 10, 100 or 1000.
+/// The unit of lengths that are too large by a factor of about 10, 100 or 1000.
 std::string unit_of(double kg_per_m3) {
   constexpr std::array units{"decimetres", "centimetres", "millimetres"};
   const double tens = std::log10(usual_kg_per_m3 / kg_per_m3) / 3.0;
   return units[to_index(std::clamp<int>(static_cast<int>(std::lround(tens)), 1, 3) - 1)];
 }
 
-/// Of the box about all bodies' frames and shapes, the widest side.
+/// The widest side of the box about all bodies' frames and shapes.
 double width_m(const RobotSpec& robot) {
   const auto poses = robot::start_poses(robot);
   constexpr double none = std::numeric_limits<double>::infinity();

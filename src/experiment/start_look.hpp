@@ -15,7 +15,8 @@ namespace amble::experiment {
 std::vector<std::string> odd_at_start(const robot::RobotSpec& robot, const std::string& engine,
                                       double timestep_s);
 
-/// Of these, what its start pose is to blame for: where its legs point, and what it does while it is held.
+/// Those of these that its start pose is to blame for: where its legs point, and what it does while it is
+/// held.
 std::vector<std::string> odd_pose(const robot::RobotSpec& robot, const std::string& engine,
                                   double timestep_s);
 

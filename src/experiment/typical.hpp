@@ -66,9 +66,9 @@ class TypicalTrials {
   std::unique_ptr<Evaluator> evaluator_;
 };
 
-/// Of their distances, m.
+/// The typical distance of the trials, m.
 score::Typical typical_distance(std::span<const TrialResult> trials);
-/// Of what they count in evolution: the problem's score, with its factor for falls.
+/// The same of what they count in evolution: the problem's score, with its factor for falls.
 score::Typical typical_objective(const Problem& problem, std::span<const TrialResult> trials);
 
 /// The trial that shows what is typical: that of the median distance; of an even number the lower one of the

@@ -25,7 +25,7 @@ std::vector<std::string> provenance_lines(const Provenance& from, const std::str
           fmt::format("genome      XXH3 {}", from.genome_hash)};
 }
 
-/// Of feet of several shapes: which of them count as a touch.
+/// For feet of several shapes, which of them count as a touch.
 std::vector<std::string> foot_lines(const robot::RobotSpec& robot) {
   std::vector<std::string> lines;
   for (const robot::Leg& leg : robot.legs) {

@@ -10,12 +10,12 @@ namespace amble::exporting {
 
 enum class Arithmetic {
   float32,
-  /// Of SUPGs: targets as int16, touches as bytes, no floating point at all.
+  /// For SUPGs: targets as int16, touches as bytes, no floating point at all.
   fixed
 };
 
 struct CSourceOptions {
-  /// Of all names, e.g. "walker": a C identifier. The header is called PREFIX.h.
+  /// With which all names begin, e.g. "walker": a C identifier. The header is called PREFIX.h.
   std::string prefix;
   Arithmetic arithmetic = Arithmetic::float32;
   std::string start;  ///< a sentence on when the first tick is
@@ -30,7 +30,7 @@ struct CSource {
 CSource c_source(const ControllerTables& tables, const robot::RobotSpec& robot, const Provenance& provenance,
                  const Trace& trace, const CSourceOptions& options);
 
-/// Of fixed point targets: the most fraction bits with which all joints' ranges fit into 16 bits, at most 15.
+/// The most fraction bits of fixed point targets with which all joints' ranges fit into 16 bits, at most 15.
 int fraction_bits(const ControllerTables& tables);
 /// The number nearest to target × 2^fraction_bits that is within the joint's range.
 int fixed_target(const CommandedJoint& joint, float target_rad, int fraction_bits);

@@ -39,7 +39,7 @@ struct SupgTables {
   int end_of_cycle = -1;  ///< timer value after period_ticks − 1; −1: stopped
   std::vector<Leg> legs;
   /// Joint by joint: target at timer −1 (stopped), 0, …, up to the largest value that the timer can have.
-  /// Of a joint that belongs to no leg, the angle at which it is held.
+  /// For a joint that belongs to no leg, the angle at which it is held.
   std::vector<std::vector<float>> targets_rad;
 };
 

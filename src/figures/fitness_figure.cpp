@@ -70,7 +70,7 @@ Interval value_range(std::initializer_list<const std::vector<double>*> columns) 
   return range;
 }
 
-/// Of the points in one column of pixels the first, the lowest, the highest and the last: what is drawn is
+/// From each column of pixels the first, the lowest, the highest and the last point: what is drawn is
 /// the same, and a curve over ten thousand generations is as long as the picture is wide.
 std::vector<Point> thinned(const std::vector<Point>& points) {
   std::vector<Point> kept;

@@ -131,7 +131,8 @@ void draw_scale(Svg& svg, const GridMap& map, double best) {
            fmt::format("{:.3g}{}", best, map.unit));
 }
 
-/// Of an elite that leaves its cell a small one in an empty square, which takes the pointer as well.
+/// A cell's square; of an elite that leaves its cell a small one in an empty square, which takes the pointer
+/// as well.
 void draw_square(Svg& svg, const graphics::Box& box, bool is_whole) {
   if (is_whole) return svg.rect(box);
   constexpr double share = 0.4;

@@ -29,7 +29,7 @@ struct Body {
   /// From the positions of the feet in the start pose; none unless there are four, two fore and two hind,
   /// each pair with a left and a right one.
   std::optional<QuadrupedLegs> quadruped;
-  /// Of bodies with two or six legs: left and right ones beside each other, from front to back, by the feet
+  /// For bodies with two or six legs: left and right ones beside each other, from front to back, by the feet
   /// in the start pose; empty where that cannot be told.
   std::vector<robot::LegPair> pairs;
 };

@@ -55,7 +55,7 @@ struct Report {
   std::vector<LegGait> legs;
   std::vector<Window> windows;
 
-  // Of the whole trial, the transient included.
+  // What follows is of the whole trial, the transient included.
   double distance_m = 0.0;             ///< of the centre of mass over the ground from start to end
   double path_m = 0.0;                 ///< along its path, measured from second to second
   double speed_m_s = 0.0;              ///< distance / time

@@ -16,7 +16,7 @@ class ClassificationTally {
  public:
   void add(Classification classification, std::int64_t frames);
   void merge(const ClassificationTally& other);
-  /// Of equals the one that comes first in Gait and Irregular; none if the tally is empty.
+  /// The longest; of equals the one that comes first in Gait and Irregular; none if the tally is empty.
   std::optional<Classification> longest() const;
   std::int64_t frames(Gait gait) const;
 

@@ -16,9 +16,9 @@ namespace amble::io {
 struct Doc {
   std::string_view what;         ///< one sentence, with the unit
   std::string_view source = {};  ///< where the number comes from, e.g. "Morse et al. 2013, sec. 4"
-  /// Of a choice that files of earlier versions lack: JSON leaves it out while it is the first name.
+  /// For a choice that files of earlier versions lack: JSON leaves it out while it is the first name.
   bool first_is_implied = false;
-  /// Of a table: TOML may have a text in its place, which is that of this key; all others are at their
+  /// For a table: TOML may have a text in its place, which is that of this key; all others are at their
   /// defaults. A text from the command line leaves those values of the table in the file that are no lists.
   std::string_view short_for = {};
 };

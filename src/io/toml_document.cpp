@@ -215,7 +215,7 @@ std::string TomlDocument::where(const std::vector<std::string>& key_paths) const
   const TomlNode* found = nullptr;
   for (std::string path : key_paths) {
     const TomlNode* node = root.find_path(path);
-    // Of a key that an item of a list lacks, the item; of an item that a list lacks, the list.
+    // Where an item of a list lacks the key, the item; where a list lacks the item, the list.
     for (std::size_t end = path.size();
          node == nullptr && (end = path.find_last_of("[]", end - 1)) != std::string::npos;) {
       node = root.find_path(path.substr(0, path[end] == ']' ? end + 1 : end));

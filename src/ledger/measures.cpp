@@ -25,7 +25,7 @@ constexpr std::array run_measures{
     RunMeasure{"hidden", "hidden nodes of the CPPN", [](const Record& r) { return 1.0 * r.hidden; }},
     RunMeasure{"links", "links of the CPPN", [](const Record& r) { return 1.0 * r.links; }}};
 
-/// Of runs that fill a map.
+/// A measure of runs that fill a map.
 struct MapMeasure {
   std::string_view name, label;
   bool is_corrected = false;  ///< only of studies with `map_trials`

@@ -52,9 +52,9 @@ struct TestResult {
   score::Typical typical() const;
   double upright_s() const;  ///< median
   double walking_s() const;  ///< median
-  /// Of the first episode, s: windows of 10 s (or of one sample of the path, if that is more) over which it
-  /// gets farther than 25 cm, also after pauses; where one ends in each sample, the first counts whole.
-  /// Nothing of trials that are shorter than 10 s, which have no window.
+  /// Time in motion in the first episode, s: windows of 10 s (or of one sample of the path, if that is more)
+  /// over which it gets farther than 25 cm, also after pauses; where one ends in each sample, the first
+  /// counts whole. Nothing of trials that are shorter than 10 s, which have no window.
   std::optional<double> moving_s() const;
   /// Whether the median episode neither fell nor diverged.
   bool upright() const { return upright_s() >= trial_s * (1.0 - 1e-9); }
@@ -93,7 +93,7 @@ struct Record {
   double best_objective = 0.0;  ///< objective of the best genome
   int best_generation = 0;
   int hidden = 0, links = 0;  ///< of the champion's CPPN
-  /// Of a run that fills a map, at its end: coverage, qd_score, map_best, entering_share, and in studies
+  /// What a run that fills a map has at its end: coverage, qd_score, map_best, entering_share, and in studies
   /// with `map_trials` corrected_coverage, corrected_qd_score, staying_share (docs/STUDIES.md).
   std::map<std::string, double> map_figures = {};
   std::vector<CurvePoint> curve;  ///< ascending; the best so far stays until the next point

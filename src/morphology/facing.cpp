@@ -210,7 +210,7 @@ class Facing {
     return rows ? std::optional<Vec3>({0.0, 1.0, 0.0}) : std::nullopt;
   }
 
-  /// Of all that is of no leg.
+  /// The centre of mass of all that is of no leg.
   Vec3 trunk_com_m() const {
     std::vector<bool> of_leg(parts_.bodies.size(), false);
     for (const LegGuess& leg : legs_.legs)
@@ -225,7 +225,7 @@ class Facing {
     return (1.0 / mass_kg) * moment;
   }
 
-  /// Of the plane of the hips; up if they lie on a line.
+  /// The normal of the plane of the hips; up if they lie on a line.
   Vec3 plane_normal() const {
     Vec3 best{0.0, 0.0, 1.0};
     double largest = 0.0;

@@ -161,7 +161,7 @@ class LegChooser {
     std::vector<int> legs;
     for (const int l : wide) {
       const bool same = std::ranges::find(best, l) != best.end();
-      // Of five and more that are the same one alone on the centre line is a tail or a neck.
+      // Where five or more are the same, one alone on the centre line is a tail or a neck.
       if (has_counterpart(l, wide, middle) || (same && best.size() < 5)) legs.push_back(l);
     }
     return legs.size() < best.size() && best.size() < 5 ? best : legs;

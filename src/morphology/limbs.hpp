@@ -30,7 +30,7 @@ std::vector<Limb> find_limbs(const ModelParts& parts);
 /// one; −1: none has.
 int foot_geom(const ModelParts& parts, const Limb& limb, std::span<const robot::Pose> poses);
 
-/// Of a limb with a foot_geom(), the shape of the same body that reaches farthest from the last joint: its
+/// For a limb with a foot_geom(), the shape of the same body that reaches farthest from the last joint: its
 /// end, whatever the pose.
 int end_geom(const ModelParts& parts, const Limb& limb, std::span<const robot::Pose> poses);
 

@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char *small_mass = "1e-6", *small_moment = "1e-9";
 
-/// Of a symmetric tensor, row by row: falling.
+/// The principal values of a symmetric tensor given row by row, falling.
 std::array<mjtNum, 3> principal(const std::array<mjtNum, 9>& matrix) {
   std::array<mjtNum, 3> moments{};
   std::array<mjtNum, 9> axes{};

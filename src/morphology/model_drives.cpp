@@ -45,7 +45,7 @@ class DriveFinder {
     return fmt::format("{}", fmt::join(names, ", "));
   }
 
-  /// Of an actuator: its own name, or what it acts on.
+  /// An actuator's own name, or what it acts on.
   std::string actuator_name(int a, const std::string& target) const {
     const std::string name = model_.names + model_.name_actuatoradr[a];
     return name.empty() || fmt::format("'{}'", name) == target ? target
@@ -161,7 +161,7 @@ class DriveFinder {
     return name.empty() ? fmt::format("number {}", t + 1) : fmt::format("'{}'", name);
   }
 
-  /// Of a fixed tendon; a spatial one passes sites.
+  /// The joints of a fixed tendon; a spatial one passes sites.
   std::vector<int> joints_of_tendon(int t) const {
     std::vector<int> joints;
     for (int w = model_.tendon_adr[t], end = w + model_.tendon_num[t]; w < end; ++w)

@@ -310,7 +310,7 @@ class PartsExtractor {
     parts_.welded_links.push_back(starts_group(b) ? -1 : b);
   }
 
-  /// Of a mesh: the hull that was made before.
+  /// The hull that was made of a mesh before.
   std::optional<robot::Geom> shape_before(int g) const {
     if (before_ == nullptr || model_.geom_type[g] != mjGEOM_MESH) return std::nullopt;
     const auto found = std::ranges::find(before_->model_geoms, g);

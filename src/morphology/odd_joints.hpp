@@ -7,8 +7,8 @@
 
 namespace amble::morphology {
 
-/// Of these joints those behind which hangs next to nothing, less than a ten-thousandth of the robot's mass,
-/// as at a finger of milligrams: a motor that holds them makes a simulation diverge. Their names.
+/// The names of those of these joints behind which hangs next to nothing, less than a ten-thousandth of the
+/// robot's mass, as at a finger of milligrams: a motor that holds them makes a simulation diverge.
 std::vector<std::string> joints_of_tiny_links(const ModelParts& parts, const std::vector<int>& joints);
 
 /// A line about those of these joints whose limit of speed, in a URDF, is so low that legs of that length

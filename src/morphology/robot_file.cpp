@@ -104,7 +104,7 @@ class JointOrder {
     });
   }
 
-  /// Of its body about the joint's axis, kg m².
+  /// The inertia of a joint's body about its axis, kg m².
   double inertia_about(const robot::Joint& joint) const {
     const robot::Body& body = parts_.bodies[to_index(joint.body)];
     const Vec3 along = rotate(conjugate(body.inertia_rotation), joint.axis), moments = body.inertia_kg_m2;

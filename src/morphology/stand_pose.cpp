@@ -50,7 +50,7 @@ class LegSolver {
       const double most = std::isfinite(joint.upper_rad) ? joint.upper_rad : pi,
                    least = std::isfinite(joint.lower_rad) ? joint.lower_rad : -pi;
       const double inside = std::min(stop_share * (most - least), most_from_stop_rad);
-      // Of a joint that turns round and round, one turn.
+      // A joint that turns round and round has one turn.
       lower_.push_back(std::max(least + inside, std::min(-pi, most - inside - 2.0 * pi)));
       upper_.push_back(std::min(most - inside, lower_.back() + 2.0 * pi));
     }
@@ -212,7 +212,7 @@ class LegSolver {
       const double into = clear - (robot::bottom_m(robot_.geoms[to_index(g)], poses_) - bottom) / length_m_;
       if (into > 0.0) sum += strict * 20.0 * into * into;
     }
-    // Of poses that are as good: small turns, and knees on the usual side.
+    // Among poses that are as good: small turns, and knees on the usual side.
     for (const double angle : q) sum += 2e-4 * angle * angle;
     if (q.size() > hip_ + 1) {
       const Vec3 knee = anchor_m(hip_ + 1) - 0.5 * (hip_point_m() + foot_m());

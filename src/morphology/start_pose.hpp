@@ -19,9 +19,9 @@ class StartPose {
 
   /// MuJoCo's qpos.
   const std::vector<double>& positions() const { return positions_; }
-  /// Of a joint with one degree of freedom, as the model counts.
+  /// The start angle of a joint with one degree of freedom, as the model counts.
   double angle_rad(int joint) const;
-  /// Of a body's frame in its parent's; of a free body in the world.
+  /// The start pose of a body's frame in its parent's; of a free body in the world.
   robot::Pose pose_in_parent(int body) const;
   /// What the joints of its body after this one do at the start, in the body's frame: the inverse takes
   /// the joint's anchor and axis from the reference pose to the start pose.

@@ -104,7 +104,7 @@ class UrdfMeshes {
   }
 
  private:
-  /// Of the visual shapes those stay that can be shown and do not repeat what collides.
+  /// Whether a visual shape goes: those stay that can be shown and do not repeat what collides.
   bool drops(const XmlElement& shape, const XmlElement& link) {
     const bool visual = shape.name == "visual";
     if (!visual && (shape.name != "collision" || link.name != "link")) return false;

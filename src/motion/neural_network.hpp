@@ -26,8 +26,8 @@ struct NeuralNetwork {
   int possible_links = 0;
 };
 
-/// Of a recording's controller_json. Throws UserError(ExitCode::bad_file) naming `what`: a key is missing or
-/// has the wrong type, or an index is out of range.
+/// The network of a recording's controller_json. Throws UserError(ExitCode::bad_file) naming `what`: a key is
+/// missing or has the wrong type, or an index is out of range.
 NeuralNetwork parse_network(const std::string& controller_json, const std::string& what);
 
 }  // namespace amble::motion

@@ -33,7 +33,7 @@ std::vector<int> places_per_species(const Generation& generation, const Reproduc
 /// The others are bred from its survivors: survival × members, rounded to the nearest, the best by objective,
 /// at least one. Parents are drawn by roulette on selection. The second parent is another survivor of the
 /// same species, or with interspecies_probability a survivor of another species, each species equally likely.
-/// Of two parents the one with the larger selection is the fitter; if they are equal, it is drawn at random.
+/// The parent with the larger selection is the fitter of two; if they are equal, it is drawn at random.
 /// Where they differ in a node's function the child has that of the parent drawn first (the authors' code). A
 /// species of one survivor has no second parent: the child then has one and is mutated.
 ///

@@ -26,7 +26,7 @@ struct ComparedChampion {
   std::string under;  ///< what disturbs the trials: "at the level milli", "without noise"
   std::vector<experiment::EngineResult> in;  ///< including its home; the same engines in every row
 
-  /// Of the engine in which it evolved.
+  /// The distance in the engine in which it evolved.
   double home_m() const;
 };
 

@@ -14,11 +14,11 @@ inline constexpr std::string_view best = "best", best_so_far = "best_so_far", me
 /// own, and the share of them in which it fell.
 inline constexpr std::string_view typical = "typical", typical_lower = "typical_lower",
                                   typical_upper = "typical_upper", typical_fell = "typical_fell";
-/// Of the generation's best genome: hidden nodes, and links that are enabled.
+/// The generation's best genome: hidden nodes, and links that are enabled.
 inline constexpr std::string_view best_hidden = "best_hidden", best_links = "best_links";
 /// Trials that ended so.
 inline constexpr std::string_view fell = "fell", diverged = "diverged";
-/// Of this generation: genomes, and simulation steps.
+/// This generation's genomes, and simulation steps.
 inline constexpr std::string_view evaluations = "evaluations", steps = "steps";
 /// Wall time since the line before, and what of it was neither physics nor referees, s.
 inline constexpr std::string_view wall_s = "wall_s", outside_s = "outside_s";

@@ -17,11 +17,11 @@ struct Generations {
   std::vector<double> best_so_far;         ///< objective of the run's champion; may be empty
   /// What that champion typically does: median and quartiles of the objective, share of falls; may be empty.
   std::vector<double> typical, typical_lower, typical_upper, typical_fell;
-  /// Of NEAT; empty for searches without. threshold: compatibility threshold of the speciation.
+  /// Columns of NEAT; empty for searches without. threshold: compatibility threshold of the speciation.
   std::vector<double> species, threshold, mean_hidden, mean_links;
-  /// Of novelty search; empty for runs without.
+  /// Columns of novelty search; empty for runs without.
   std::vector<double> archive, novelty_threshold, best_novelty;
-  /// Of MAP-Elites; empty for other searches. coverage: share of the cells that are filled.
+  /// Columns of MAP-Elites; empty for other searches. coverage: share of the cells that are filled.
   std::vector<double> coverage, qd_score, map_best, entered, improved, reevaluated;
   /// Where the time went, s; all but wall_s may be empty.
   std::vector<double> wall_s, physics_s, decode_s, control_s, waiting_s, search_s, referees_s, files_s;

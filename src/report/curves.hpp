@@ -15,7 +15,7 @@ struct BestCurve {
   std::vector<double> lower_quartile_m, median_m, upper_quartile_m;  ///< one per generation
 };
 
-/// Of every condition that has a run. Runs of unlike length count as far as the shortest goes.
+/// The curves of every condition that has a run. Runs of unlike length count as far as the shortest goes.
 std::vector<BestCurve> best_curves(const StudyData& data);
 
 }  // namespace amble::report

@@ -11,8 +11,8 @@ namespace {
 // Times are sums of steps; what ends this close to the end of a test lasted.
 constexpr double slack = 1e-9;
 
-/// Of the middle episode: of an even number the shorter of the two in the middle, because a mean of one that
-/// ended and one that lasted is the time of neither.
+/// The lifetime in the middle episode: of an even number the shorter of the two in the middle, because a mean
+/// of one that ended and one that lasted is the time of neither.
 statistics::Lifetime lifetime(const ledger::TestResult& result, Activity activity) {
   std::vector<double> times_s;
   for (const ledger::EpisodeResult& episode : result.episodes)

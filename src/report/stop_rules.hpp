@@ -48,8 +48,8 @@ struct StopCounts {
   std::size_t most() const;
 };
 
-/// Of all conditions in tests longer than the trials of evolution, each followed by the claims that count
-/// walkers in them.
+/// The counts of all conditions in tests longer than the trials of evolution, each followed by the claims
+/// that count walkers in them.
 std::vector<StopCounts> stop_counts(const StudyData& data);
 
 }  // namespace amble::report

@@ -27,9 +27,9 @@ struct StudyData {
   const ledger::TestResult* result(const ledger::Record& run, std::string_view test) const;
   /// A measure (ledger/measures.hpp) of the run, or of such a result.
   std::optional<double> value(const ledger::Record& run, std::string_view measure) const;
-  /// Of all finished runs that have the measure (ledger/measures.hpp), in the order of seeds.
+  /// The values of all finished runs that have the measure (ledger/measures.hpp), in the order of seeds.
   std::vector<double> values(std::string_view condition, std::string_view measure) const;
-  /// Of the finished runs of a condition, or of all: a distance, or in m, if that of every one is.
+  /// The objective of a condition's finished runs, or of all: a distance, or in m, if that of every one is.
   record::Objective objective(std::string_view condition = {}) const;
   /// " m", " s" or "" of a measure in a condition, or in all.
   std::string unit_of(std::string_view measure, std::string_view condition = {}) const;

@@ -180,7 +180,7 @@ std::string no_loss_text(const ClaimSpec& claim, const Judgement& judgement, boo
   return text;
 }
 
-/// Of a value: how spreads and means compare with the published ones.
+/// How the spread and mean of a value compare with the published ones.
 std::string agreement_text(const ClaimSpec& claim, const Judgement& judgement, const Agreement& agreement) {
   std::string text = fmt::format(
       " The spreads {} (F test, {}). That the means differ by less than {} of the published one is {} (two "

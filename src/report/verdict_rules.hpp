@@ -36,8 +36,8 @@ inline std::string_view name_of(Verdict verdict) {
 Verdict difference_verdict(ledger::Relation relation, statistics::Direction direction, double p, double alpha,
                            bool not_inferior = false);
 
-/// Of an interval and the claimed range, bounds included: wholly inside, wholly on one side, or across a
-/// bound.
+/// The verdict on an interval and the claimed range, bounds included: wholly inside, wholly on one side, or
+/// across a bound.
 Verdict bounds_verdict(const statistics::Interval& interval, double at_least, double at_most);
 
 /// How our runs compare with a published figure.
@@ -52,8 +52,8 @@ struct Agreement {
 /// lies outside our interval, or the spreads differ. Else compatible, and confirmed if equivalence is shown.
 Verdict agreement_verdict(const Agreement& agreement);
 
-/// Of a count of successes, when `missing` more runs are planned: they may all turn out either way. Not
-/// testable while they could decide.
+/// The verdict on a count of successes, when `missing` more runs are planned: they may all turn out either
+/// way. Not testable while they could decide.
 Verdict count_verdict(std::size_t successes, std::size_t missing, double at_least, double at_most);
 
 /// Whether a gait's name is the one claimed: "walk" is "walk lateral" and "walk diagonal" too.

@@ -28,7 +28,7 @@ struct Geom {
   Vec3 position_m;  ///< centre, in the body's frame
   Quat rotation;    ///< geom axes → body axes
   std::array<float, 4> rgba{0.7f, 0.7f, 0.7f, 1.0f};
-  /// Of a mesh: vertices in the geom's axes, and its surface, each triangle counter-clockwise as seen from
+  /// A mesh's vertices in the geom's axes, and its surface, each triangle counter-clockwise as seen from
   /// outside. If it collides, exactly those of the convex hull.
   std::vector<Vec3> vertices_m = {};
   std::vector<std::array<int, 3>> triangles = {};

@@ -23,7 +23,7 @@ class Behaviour {
   virtual record::PathSampling path() const { return {}; }
   /// Measurements of trials that it needs.
   virtual record::Measures measures() const { return {}; }
-  /// Of the episodes (at least one) of one evaluation; of the same length also for trials that ended early.
+  /// The behaviour of one evaluation's episodes (at least one); as long also for trials that ended early.
   virtual std::vector<float> of(std::span<const record::Trajectory> episodes) const = 0;
 };
 

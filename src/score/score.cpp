@@ -124,7 +124,7 @@ double angle_deg(Direction direction) {
   const double x = std::abs(direction.x), y = std::abs(direction.y);
   const double low = std::min(x, y), high = std::max(x, y);
   if (high == 0.0) return 0.0;
-  // Of the half angle, whose tangent is at most tan 22.5° = 0.41: tan(φ/2) = sin φ / (1 + cos φ).
+  // The series of the half angle, whose tangent is at most tan 22.5° = 0.41: tan(φ/2) = sin φ / (1 + cos φ).
   const double tangent = low / (high + std::sqrt(low * low + high * high));
   double sum = 0.0, power = tangent;
   for (int n = 1; n <= 41; n += 2) {
@@ -154,7 +154,7 @@ double duty_factor(const record::Trajectory& trajectory, const Context& context)
   return sum / static_cast<double>(steps.size()) / trajectory.steps;
 }
 
-/// Of the first leg's stride that has passed when a leg's foot comes down, its circular mean over the
+/// The share of the first leg's stride that has passed when a leg's foot comes down, its circular mean over
 /// footfalls in whole strides, 0 … 1; 0 without any.
 double phase_of(const std::vector<int>& first, const std::vector<int>& leg) {
   Direction sum{0.0, 0.0};

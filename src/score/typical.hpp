@@ -20,7 +20,7 @@ struct Typical {
   friend bool operator==(const Typical&, const Typical&) = default;
 };
 
-/// Of at least one trial: its value, finite, and how it ended.
+/// What at least one trial tells: its value, finite, and how it ended.
 Typical typical(std::span<const double> values, std::span<const record::Outcome> outcomes);
 
 }  // namespace amble::score

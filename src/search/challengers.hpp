@@ -27,10 +27,10 @@ double staying_probability(const Cells& cells, const Elite& elite, std::span<con
 /// probability.
 double worth(const Cells& cells, const Elite& elite, std::span<const float> descriptor);
 
-/// Of those, one in each cell and at most `most`, in the order in which they were: first those that have been
-/// tried again, then those with the largest gains, by how much their objective exceeds that of their cell's
-/// elite times the probability that they stay. One in each cell, since challengers are parents as well: by
-/// their gains alone they would be children of a few.
+/// Those that are tried: one in each cell and at most `most`, in the order in which they were: first those
+/// that have been tried again, then those with the largest gains, by how much their objective exceeds that of
+/// their cell's elite times the probability that they stay. One in each cell, since challengers are parents
+/// as well: by their gains alone they would be children of a few.
 std::vector<Challenger> most_promising(std::vector<Challenger> challengers, std::size_t most,
                                        const Cells& cells, const Elites& elites);
 

@@ -73,7 +73,7 @@ class Elites {
   std::vector<std::uint32_t> number_in_;  ///< by cell
   std::vector<Elite> elites_;             ///< by number
   std::vector<float> descriptors_;
-  /// Of each elite: evaluations, when it was last evaluated, cell.
+  /// Each elite's evaluations, when it was last evaluated, its cell.
   std::set<std::tuple<std::uint32_t, std::uint64_t, std::uint32_t>> queue_;
   std::vector<std::uint64_t> evaluated_;  ///< when, by number
   std::uint64_t clock_ = 0;               ///< counts evaluations noted

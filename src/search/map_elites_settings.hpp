@@ -49,7 +49,7 @@ struct MapElitesSettings {
   void validate() const;
   /// Cells of the map; 0 if there are more than most_cells.
   std::uint32_t cell_count() const;
-  /// Of a batch, the candidates that are elites evaluated again; at most the number of elites.
+  /// How many candidates of a batch are elites evaluated again; at most the number of elites.
   std::size_t reevaluations(std::size_t elites) const;
   /// Whether a candidate can need more than one evaluation to enter the map.
   bool tries_candidates_again() const { return trials > 1; }

@@ -45,19 +45,20 @@ using Statistic = std::function<double(std::span<const double>)>;
 std::optional<BootstrapInterval> bootstrap(std::span<const double> sample, const Statistic& statistic,
                                            const BootstrapOptions& options = {});
 
-/// Of statistic(first) − statistic(second); the samples are independent and resampled one by one.
+/// Interval of statistic(first) − statistic(second); the samples are independent, resampled one by one.
 std::optional<BootstrapInterval> bootstrap_difference(std::span<const double> first,
                                                       std::span<const double> second,
                                                       const Statistic& statistic,
                                                       const BootstrapOptions& options = {});
 
-/// Of statistic(first) / statistic(second), of independent samples.
+/// Interval of statistic(first) / statistic(second), of independent samples.
 std::optional<BootstrapInterval> bootstrap_ratio(std::span<const double> first,
                                                  std::span<const double> second, const Statistic& statistic,
                                                  const BootstrapOptions& options = {});
 
-/// Of sum(numerators) / sum(denominators), where the values come in pairs, one per run, that are drawn
-/// together: by what factor farther champions walk in the long test than in training. Both have one length.
+/// Interval of sum(numerators) / sum(denominators), where the values come in pairs, one per run, that are
+/// drawn together: by what factor farther champions walk in the long test than in training. Both have one
+/// length.
 std::optional<BootstrapInterval> bootstrap_paired_ratio(std::span<const double> numerators,
                                                         std::span<const double> denominators,
                                                         const BootstrapOptions& options = {});

@@ -15,7 +15,7 @@ void check_finite(std::span<const double> sample);
 /// Arithmetic mean of at least one value. Exactly x if all values are x, so that equal values have no spread.
 double mean(std::span<const double> sample);
 
-/// Of at least one value; the mean of the two in the middle if their number is even.
+/// The median of at least one value; the mean of the two in the middle if their number is even.
 double median(std::span<const double> sample);
 
 /// Quantile of at least one value by linear interpolation between order statistics (type 7 of Hyndman & Fan

@@ -96,7 +96,7 @@ class Layout {
   };
   const Source& source(std::string_view property, int node) const;
   int property_index(std::string_view property) const;
-  /// Of the results of cppn::Network::evaluate().
+  /// One number of the results of cppn::Network::evaluate().
   float output_at(std::span<const float> results, int output, int point) const;
   void decode_weights(std::span<const float> results, Decoded& decoded) const;
   void decode_properties(std::span<const float> results, Decoded& decoded) const;
