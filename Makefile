@@ -4,7 +4,7 @@ PREFIX ?= /usr/local
 JOBS ?= $(shell nproc)
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 
-.PHONY: demo picture build test python package bench install clean
+.PHONY: demo picture build test python package bench install doxygen clean
 
 demo: build
 	rm -rf demo
@@ -60,6 +60,12 @@ bench:
 
 install: build
 	$(SUDO) cmake --install build/release --prefix $(PREFIX)
+
+# The reference of the public headers: build/doxygen/html. A warning is an error.
+doxygen:
+	./setup --docs
+	mkdir -p build/doxygen
+	{ cat docs/Doxyfile; printf 'INPUT ='; sed 's|^| include/amble/|' cmake/public_headers.txt | tr -d '\n'; echo; } | doxygen -
 
 clean:
 	rm -rf build demo

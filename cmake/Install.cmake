@@ -4,8 +4,8 @@ get_property(amble_libraries GLOBAL PROPERTY AMBLE_LIBRARIES)
 
 install(TARGETS amble RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS ${amble_libraries} EXPORT ambleTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/amble
-        FILES_MATCHING PATTERN "*.hpp" PATTERN "cli" EXCLUDE PATTERN "ode" EXCLUDE PATTERN "mujoco" EXCLUDE PATTERN "batch" EXCLUDE)
+include(cmake/PublicHeaders.cmake)
+amble_install_headers()
 install(DIRECTORY robots configs DESTINATION ${CMAKE_INSTALL_DATADIR}/amble)
 
 install(EXPORT ambleTargets NAMESPACE amble:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/amble)

@@ -77,7 +77,7 @@ struct AngleRange {
 /// two joints has them in the order of the chain: the first is next to the parent, the second to the body.
 ///
 /// With angle q and torque τ of its servo, the joint's equation of motion has, beside what the bodies give,
-/// armature q̈ = τ − damping q̇ − friction, |friction| ≤ friction_loss, which opposes q̇ (MuJoCo's <joint>
+/// armature q̈ = τ − damping q̇ − friction, |friction| ≤ friction_loss, which opposes q̇ (MuJoCo's `<joint>`
 /// attributes of these names). A joint without a motor has a spring in place of the servo,
 /// τ = stiffness (rest − q) with q at the end of a step (backward Euler, as the torque servo), so that it is
 /// stable however stiff it is; it takes from an oscillation of ω rad/s a damping ratio of about ω h / 2.

@@ -8,6 +8,18 @@ trap 'rm -rf "$scratch"' EXIT
 
 cmake --install "$build" --prefix "$scratch/prefix" >/dev/null
 expected="quadruped (authors): 12 joints, 5.4 kg"
+
+# Each public header compiles by itself, and brings no library of JSON or TOML and no engine of others. What is installed besides is what
+# these include.
+include=$scratch/prefix/include
+headers=$here/../../cmake/public_headers.txt
+# shellcheck disable=SC2016  # for the inner shell
+xargs -P 2 -I '{}' sh -c 'c++ -std=c++20 -fsyntax-only -I "$0" -MD -MF "$1/$(echo "{}" | tr / .).d" -x c++ - <<END || exit 255
+#include <amble/{}>
+END' "$include" "$scratch" <"$headers" || { echo "a public header does not compile alone" >&2; exit 1; }
+if grep -lE "nlohmann|toml\+\+|mujoco|/ode/|Eigen|boost" "$scratch"/*.hpp.d; then echo "a public header brings another library" >&2; exit 1; fi
+cat "$scratch"/*.hpp.d | grep -o "$include/amble/[a-z_/-]*\.hpp" | sort -u >"$scratch/reached"
+find "$include/amble" -name '*.hpp' | sort | cmp - "$scratch/reached" || { echo "more or fewer headers are installed" >&2; exit 1; }
 robot=$scratch/prefix/share/amble/robots/quadruped/authors.toml
 
 cmake -S "$here/consumer" -B "$scratch/by-cmake" -DCMAKE_PREFIX_PATH="$scratch/prefix" >/dev/null
