@@ -4,7 +4,7 @@ PREFIX ?= /usr/local
 JOBS ?= $(shell nproc)
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 
-.PHONY: demo picture build test python package bench install doxygen clean
+.PHONY: demo picture build test python package bench install doxygen coverage clean
 
 demo: build
 	rm -rf demo
@@ -66,6 +66,17 @@ doxygen:
 	./setup --docs
 	mkdir -p build/doxygen
 	{ cat docs/Doxyfile; printf 'INPUT ='; sed 's|^| include/amble/|' cmake/public_headers.txt | tr -d '\n'; echo; } | doxygen -
+
+# Which lines of src the tests run, without those of page, oracles and intervals: build/coverage/index.html. Half an hour on two cores.
+coverage:
+	./setup --test
+	./setup --coverage
+	cmake --preset coverage
+	cmake --build --preset coverage
+	find build/coverage -name '*.gcda' -delete
+	ctest --preset coverage -j $(JOBS); tests=$$?; \
+	gcovr --root . --filter 'src/' --exclude-unreachable-branches --exclude-throw-branches --print-summary \
+	  --html-details build/coverage/index.html --json-summary build/coverage/summary.json build/coverage && exit $$tests
 
 clean:
 	rm -rf build demo

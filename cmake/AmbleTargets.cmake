@@ -51,12 +51,12 @@ function(amble_compile_apart)
   set_property(SOURCE ${ARGN} PROPERTY SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# Kernels that include themselves once per instruction set. Sanitizers make them minutes of compiling: there AVX2 and the baseline
+# Kernels that include themselves once per instruction set. Sanitizers (and counts for gcov) make them minutes of compiling: there AVX2 and the baseline
 # represent the rest, and where a function has more than 600 of AddressSanitizer's checks Clang calls them instead of writing each out: a
 # third of the time to compile. Calls everywhere would make the solver's loop, and with it tests that simulate, six times slower.
 function(amble_kernels)
   amble_compile_apart(${ARGN})
-  if(AMBLE_SANITIZE)
+  if(AMBLE_SANITIZE OR AMBLE_COVERAGE)
     set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_DEFINITIONS AMBLE_FEW_INSTRUCTION_SETS)
     if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
       set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS -mllvm -asan-instrumentation-with-call-threshold=600)
