@@ -7,6 +7,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/experiment/episode_set.hpp"
+#include "amble/experiment/implied_settings.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/toml_settings.hpp"
 #include "amble/physics/engine.hpp"
@@ -153,15 +154,13 @@ std::string Config::identity() const {
   io::Json values = io::Json::object();
   copy.describe(*io::json_writer(values));
   // Later tables and keys are omitted at their defaults, so that earlier results still match.
-  if (copy.score.is_distance()) values.erase("score");
-  if (copy.ground.is_default()) values.erase("ground");
+  leave_out_implied(values, copy.score, copy.ground, copy.damage);
   if (copy.search.kind != "map-elites") {
     values.at("search").erase("map_elites");
   } else if (!copy.search.map_elites.tries_candidates_again()) {
     values.at("search").at("map_elites").erase("trials");
     values.at("search").at("map_elites").erase("challenger_share");
   }
-  if (copy.damage.is_default()) values.erase("damage");
   if (copy.evaluation.is_default()) values.erase("evaluation");
   if (copy.champion.is_default())
     values.erase("champion");

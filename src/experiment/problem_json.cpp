@@ -1,5 +1,6 @@
 #include "amble/experiment/problem_json.hpp"
 
+#include "amble/experiment/implied_settings.hpp"
 #include "amble/robot/json.hpp"
 #include "amble/robot/original_model.hpp"
 
@@ -10,10 +11,11 @@ io::Json problem_json(const Problem& problem) {
                 {"controller", io::settings_to_json(problem.controller)},
                 {"engine", problem.engine},
                 {"trial", io::settings_to_json(problem.trial)},
-                {"robot", robot::to_json(problem.robot)}};
-  if (!problem.score.is_distance()) json["score"] = io::settings_to_json(problem.score);
-  if (!problem.ground.is_default()) json["ground"] = io::settings_to_json(problem.ground);
-  if (!problem.damage.is_default()) json["damage"] = io::settings_to_json(problem.damage);
+                {"robot", robot::to_json(problem.robot)},
+                {"score", io::settings_to_json(problem.score)},
+                {"ground", io::settings_to_json(problem.ground)},
+                {"damage", io::settings_to_json(problem.damage)}};
+  leave_out_implied(json, problem.score, problem.ground, problem.damage);
   return json;
 }
 
