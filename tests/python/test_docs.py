@@ -22,11 +22,11 @@ def folder(tmp_path_factory):
     return folder
 
 
-def test_there_are_six_recipes():
-    assert len(RECIPES) == 6
+def test_there_are_seven_recipes():
+    assert len(RECIPES) == 7
 
 
-@pytest.mark.parametrize("number", range(1, 7))
+@pytest.mark.parametrize("number", range(1, 8))
 def test_recipe_runs(number, folder):
     done = subprocess.run([sys.executable, "-W", "error", "-c", RECIPES[number - 1]], cwd=folder, capture_output=True,
                           text=True, env={**os.environ, "PYTHONPATH": PACKAGES})
