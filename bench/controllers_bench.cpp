@@ -60,6 +60,11 @@ void measure_each(const std::string& suffix, const std::string& note, std::vecto
                        "a tick of one of sixteen different controllers, " + what + note});
   };
   add("supg", "authors'", controller_us("supg"));
+  add("supg_residual", "authors' with targets that do not jump",
+      controller_us("supg", {"controller.supg.seam.residual_s=0.05"}));
+  add("supg_modulated", "authors' whose rate and shape three sensors change",
+      controller_us("supg", {R"(controller.supg.modulation.sensors=["pitch","angle.knee","touch"])",
+                             "controller.supg.modulation.rate=1", "controller.supg.modulation.shape=1"}));
   add("sine", "authors'", controller_us("sine"));
   add("ctrnn", "authors', 17 steps from a cleared state", controller_us("ctrnn"));
   add("ctrnn_kept", "the paper's rule: one step, state kept",

@@ -58,6 +58,8 @@ class Architecture {
   virtual const substrate::Layout* substrate() const { return nullptr; }
   virtual std::unique_ptr<Parameters> decode(const cppn::Network& network) const = 0;
   virtual std::unique_ptr<Batch> make_batch(int lanes) const = 0;
+  /// What its sensors have to hold beside what engines give.
+  virtual robot::ExtraSenses extra_senses() const { return {}; }
   /// The parameters as JSON text, for recordings and exports (docs/FORMATS.md).
   virtual std::string parameters_json(const Parameters& parameters) const = 0;
 };

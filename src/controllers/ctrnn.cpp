@@ -77,9 +77,10 @@ void CtrnnSettings::describe(io::SettingsVisitor& visitor) {
 }
 
 CtrnnArchitecture::CtrnnArchitecture(const CtrnnSettings& settings, const substrate::Settings& substrate,
-                                     const robot::RobotSpec& robot, double timestep_s)
+                                     const robot::RobotSpec& robot, double timestep_s,
+                                     const SensingSettings& sensing)
     : NeuralArchitecture("ctrnn", {std::string(bias_property), std::string(time_constant_property)},
-                         substrate, robot, timestep_s),
+                         substrate, robot, timestep_s, sensing),
       settings_(settings) {
   const double shortest = layout().lowest(time_constant_property);
   if (!(shortest > 0.0))

@@ -50,7 +50,7 @@ class CtrnnArchitecture : public NeuralArchitecture {
   /// Throws UserError, too, if a time constant can be 0 or less, or shorter than the step of an explicit
   /// integrator.
   CtrnnArchitecture(const CtrnnSettings& settings, const substrate::Settings& substrate,
-                    const robot::RobotSpec& robot, double timestep_s);
+                    const robot::RobotSpec& robot, double timestep_s, const SensingSettings& sensing = {});
   std::unique_ptr<Parameters> decode(const cppn::Network& network) const override;
   std::unique_ptr<Batch> make_batch(int lanes) const override;
 

@@ -18,7 +18,8 @@ namespace {
 template <typename Made, auto own_settings>
 std::unique_ptr<const Architecture> make(const ControllerSettings& settings, const robot::RobotSpec& robot,
                                          double timestep_s) {
-  return std::make_unique<Made>(settings.*own_settings, settings.substrate, robot, timestep_s);
+  return std::make_unique<Made>(settings.*own_settings, settings.substrate, robot, timestep_s,
+                                settings.sensing);
 }
 
 // amble's own architectures. A new one is a row here, a class derived from Architecture, perhaps a function
@@ -79,6 +80,9 @@ void ControllerSettings::describe(io::SettingsVisitor& visitor) {
   visitor.table("supg", supg, {"single-unit pattern generators", "Morse et al. 2013, sec. 3"});
   visitor.table("network", network, {"static neurons", "Morse et al. 2013, sec. 4"});
   visitor.table("ctrnn", ctrnn, {"continuous-time recurrent neural networks", "Morse et al. 2013, sec. 4"});
+  visitor.table(
+      "sensing", sensing,
+      {.what = "how sensors are read: at once and exactly by default", .defaults_are_implied = true});
   if (const auto& numbers = kind_of(*this).numbers; !numbers.empty()) {
     visitor.begin("own", {"settings of this kind, which is not one of amble's own"});
     own.describe(visitor, numbers);

@@ -38,8 +38,8 @@ void NetworkSettings::describe(io::SettingsVisitor& visitor) {
 
 NetworkArchitecture::NetworkArchitecture(const NetworkSettings& settings,
                                          const substrate::Settings& substrate, const robot::RobotSpec& robot,
-                                         double timestep_s)
-    : NeuralArchitecture("network", {}, substrate, robot, timestep_s), settings_(settings) {}
+                                         double timestep_s, const SensingSettings& sensing)
+    : NeuralArchitecture("network", {}, substrate, robot, timestep_s, sensing), settings_(settings) {}
 
 std::unique_ptr<Batch> NetworkArchitecture::make_batch(int lanes) const {
   return std::make_unique<NetworkBatch>(model_, settings_, lanes);

@@ -20,7 +20,7 @@ struct NetworkSettings {
 class NetworkArchitecture : public NeuralArchitecture {
  public:
   NetworkArchitecture(const NetworkSettings& settings, const substrate::Settings& substrate,
-                      const robot::RobotSpec& robot, double timestep_s);
+                      const robot::RobotSpec& robot, double timestep_s, const SensingSettings& sensing = {});
   std::unique_ptr<Batch> make_batch(int lanes) const override;
 
  private:

@@ -27,13 +27,22 @@ void logistic(std::span<float> values, float slope) {
 
 NeuralArchitecture::NeuralArchitecture(std::string_view kind, std::vector<std::string> properties,
                                        const substrate::Settings& substrate, const robot::RobotSpec& robot,
-                                       double timestep_s) {
+                                       double timestep_s, const SensingSettings& sensing) {
   substrate::Layout layout(
       substrate, {.kind = kind, .network = true, .properties = properties, .pattern_ticks = 0}, robot);
   Wiring wiring = make_wiring(layout);
-  model_ = std::make_shared<const NeuralModel>(
-      NeuralModel{std::string(kind), std::move(properties), std::move(layout), std::move(wiring),
-                  joint_ranges(robot), timestep_s, substrate.sine_period_s, substrate.attitude});
+  const std::vector<SensorModel> models = sensor_models(sensing, robot, timestep_s);
+  std::vector<float> scales;
+  for (const substrate::Sensor& sensor : wiring.sensors) scales.push_back(scale_of(models, sensor));
+  model_ = std::make_shared<const NeuralModel>(NeuralModel{
+      std::string(kind), std::move(properties), std::move(layout), std::move(wiring), joint_ranges(robot),
+      timestep_s, substrate.sine_period_s, substrate.attitude, std::move(scales)});
+}
+
+robot::ExtraSenses NeuralArchitecture::extra_senses() const {
+  robot::ExtraSenses extra;
+  for (const substrate::Sensor& sensor : model_->wiring.sensors) extra |= substrate::extra_senses(sensor);
+  return extra;
 }
 
 std::unique_ptr<Parameters> NeuralArchitecture::decode(const cppn::Network& network) const {
@@ -125,17 +134,18 @@ void NeuralBatch::sense(const robot::SensorFrame& sensors) {
   for (int slot = 0; slot < wiring().sensor_count(); ++slot) {
     const substrate::Sensor& sensor = wiring().sensors[static_cast<std::size_t>(slot)];
     float* const row = values_.row(slot);
-    const auto copy = [&](const LaneArray& from, int from_row) {
-      AMBLE_CHECK(from_row < from.rows() && from.lanes() == lanes_, "the sensors are of another robot");
-      std::copy_n(from.row(from_row), lanes_, row);
-    };
     switch (sensor.kind) {
       case Kind::angle:
-        copy(sensors.joint_angle_rad, sensor.index);
-        break;
       case Kind::touch:
-        copy(sensors.touch, sensor.index);
+      case Kind::speed:
+      case Kind::torque:
+      case Kind::load:
+      case Kind::yaw_rate: {
+        const float* const from = substrate::row_of(sensor, sensors);
+        AMBLE_CHECK(from != nullptr && sensors.touch.lanes() == lanes_, "the sensors are of another robot");
+        std::copy_n(from, lanes_, row);
         break;
+      }
       case Kind::roll:
       case Kind::pitch:
       case Kind::yaw:
@@ -145,6 +155,8 @@ void NeuralBatch::sense(const robot::SensorFrame& sensors) {
       case Kind::sine:
         sense_sine(row);
     }
+    if (const float scale = model_->scales[static_cast<std::size_t>(slot)]; scale != 1.0f)
+      for (int lane = 0; lane < lanes_; ++lane) row[lane] *= scale;
   }
 }
 

@@ -10,6 +10,7 @@
 #include "amble/controllers/joint_range.hpp"
 #include "amble/controllers/lane_rows.hpp"
 #include "amble/controllers/neural_kernel.hpp"
+#include "amble/controllers/sensing.hpp"
 #include "amble/controllers/wiring.hpp"
 
 namespace amble::controllers {
@@ -33,6 +34,7 @@ struct NeuralModel {
   double timestep_s;
   double sine_period_s;
   substrate::Attitude attitude;
+  std::vector<float> scales;  ///< of the sensors, slot by slot of the wiring
 };
 
 /// Controllers made of neurons in a substrate: the parts that static networks and CTRNNs share.
@@ -43,13 +45,15 @@ class NeuralArchitecture : public Architecture {
   const std::vector<std::string>& cppn_outputs() const override { return layout().output_names(); }
   const substrate::Layout* substrate() const override { return &layout(); }
   const substrate::Layout& layout() const { return model_->layout; }
+  robot::ExtraSenses extra_senses() const override;
   std::unique_ptr<Parameters> decode(const cppn::Network& network) const override;
   std::string parameters_json(const Parameters& parameters) const override;
 
  protected:
   /// Throws UserError where substrate and robot do not fit; `properties` are those that neurons must have.
   NeuralArchitecture(std::string_view kind, std::vector<std::string> properties,
-                     const substrate::Settings& substrate, const robot::RobotSpec& robot, double timestep_s);
+                     const substrate::Settings& substrate, const robot::RobotSpec& robot, double timestep_s,
+                     const SensingSettings& sensing);
 
   std::shared_ptr<const NeuralModel> model_;
 };

@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <utility>
 
+#include "amble/controllers/modulated_supg_batch.hpp"
 #include "amble/controllers/supg_batch.hpp"
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
+#include "amble/io/json_file.hpp"
+#include "amble/substrate/query_points.hpp"
 
 namespace amble::controllers {
 
@@ -26,24 +31,66 @@ SupgJoints joints_of(const robot::RobotSpec& robot) {
     joints.of_legs.insert(joints.of_legs.end(), leg.joints.begin(), leg.joints.end());
   for (std::size_t joint = robot.leg_joint_count(); joint < robot.joints.size(); ++joint)
     joints.others.push_back({static_cast<int>(joint), held_target_rad(robot.joints[joint])});
+  joints.ranges = joint_ranges(robot);
   return joints;
+}
+
+std::vector<std::string> more_inputs(const ModulationSettings& settings) {
+  if (settings.sensors.empty()) return {};
+  return {std::string(sensor_input)};
+}
+
+std::vector<std::string> more_outputs(const ModulationSettings& settings) {
+  if (settings.sensors.empty()) return {};
+  return {std::string(gain_output), std::string(rate_output)};
+}
+
+/// What differs from the paper's SUPGs, as in settings.
+void add_settings(const SupgSettings& settings, nlohmann::ordered_json& json) {
+  nlohmann::ordered_json all = io::settings_to_json(settings);
+  for (const char* const key : {"seam", "contact", "modulation"})
+    if (all.contains(key)) json[key] = all[key];
+}
+
+/// The coordinates that are 0 in queries of offsets, by index.
+std::vector<std::size_t> offset_zeros(const substrate::Settings& substrate) {
+  std::vector<std::size_t> zeros;
+  const auto offset =
+      std::ranges::find(substrate.properties, offset_property, &substrate::PropertySettings::property);
+  if (offset == substrate.properties.end()) return zeros;
+  for (std::size_t i = 0; i < substrate.coordinates.size(); ++i)
+    if (std::ranges::count(offset->zero, substrate.coordinates[i]) > 0) zeros.push_back(i);
+  return zeros;
 }
 
 }  // namespace
 
+ModulatedParameters::ModulatedParameters(SupgParameters targets, int sensors)
+    : SupgParameters(std::move(targets)), modulation_(legs(), types(), period_ticks(), sensors) {
+  for (int leg = 0; leg < legs(); ++leg)
+    for (int timer = stopped; timer <= period_ticks() + 1; ++timer)
+      std::copy_n(targets_rad(leg, std::min(timer, period_ticks())), types(), modulation_.entry(leg, timer));
+}
+
 SupgArchitecture::SupgArchitecture(const SupgSettings& settings, const substrate::Settings& substrate,
-                                   const robot::RobotSpec& robot, double timestep_s)
+                                   const robot::RobotSpec& robot, double timestep_s,
+                                   const SensingSettings& sensing)
     : settings_(settings),
       timestep_s_(timestep_s),
       period_ticks_(controllers::period_ticks(settings, timestep_s)),
       joint_types_(robot.joint_types),
       joints_(joints_of(robot)),
-      ranges_(joint_ranges(robot)),
+      contact_joints_(contact_joints(settings.contact, robot)),
+      leg_sensors_(leg_sensors(settings.modulation, sensing, robot, timestep_s)),
+      offset_zeros_(offset_zeros(substrate)),
       layout_(substrate,
               {.kind = "supg",
                .network = false,
                .properties = {std::string(substrate::pattern_property), std::string(offset_property)},
-               .pattern_ticks = period_ticks_},
+               .pattern_ticks = period_ticks_,
+               .time = settings.seam.time,
+               .more_inputs = more_inputs(settings.modulation),
+               .more_outputs = more_outputs(settings.modulation)},
               robot) {
   for (const robot::Leg& leg : robot.legs) leg_names_.push_back(leg.name);
   for (int leg = 0; leg < legs(); ++leg) {
@@ -73,7 +120,7 @@ SupgParameters SupgArchitecture::blank() const {
     for (int timer = SupgParameters::stopped; timer <= period_ticks_; ++timer)
       for (int type = 0; type < types(); ++type)
         if (const int j = joint(leg, type); j >= 0)
-          parameters.targets_rad(leg, timer)[type] = ranges_[to_index(j)].at(0.5);
+          parameters.targets_rad(leg, timer)[type] = joints_.ranges[to_index(j)].at(0.5);
   return parameters;
 }
 
@@ -88,20 +135,104 @@ std::unique_ptr<Parameters> SupgArchitecture::decode(const cppn::Network& networ
     parameters->set_offset_ticks(leg, static_cast<int>(std::clamp(ticks, 1.0, period_ticks_ - 1.0)));
     for (int type = 0; type < types(); ++type) {
       if (driver(leg, type) < 0) continue;
-      const JointRange& range = ranges_[to_index(joint(leg, type))];
+      const JointRange& range = joints_.ranges[to_index(joint(leg, type))];
       const float* const pattern =
           decoded.patterns.data() + static_cast<std::ptrdiff_t>(driver(leg, type)) * (period_ticks_ + 1);
+      const double trend = settings_.seam.detrend
+                               ? static_cast<double>(pattern[period_ticks_]) - static_cast<double>(pattern[0])
+                               : 0.0;
       for (int tick = 0; tick <= period_ticks_; ++tick) {
-        const auto p = static_cast<double>(pattern[tick]);
+        const double from_middle = static_cast<double>(tick) / period_ticks_ - 0.5;
+        const double p = static_cast<double>(pattern[tick]) - from_middle * trend;
         parameters->targets_rad(leg, tick)[type] = range.at(std::clamp((p + 1.0) * 0.5, 0.0, 1.0));
       }
     }
   }
-  return parameters;
+  if (!modulated()) return parameters;
+  auto all = std::make_unique<ModulatedParameters>(std::move(*parameters), sensors());
+  add_modulation(network, *all);
+  return all;
+}
+
+/// Of a query about a node that is for a sensor, at time 0.
+std::vector<float> SupgArchitecture::query_inputs(int node, int sensor) const {
+  const auto& at = layout_.nodes()[to_index(node)].at;
+  std::vector<float> inputs(at.begin(), at.end());
+  inputs.resize(layout_.input_names().size());
+  inputs.back() = static_cast<float>((sensor + 1.0) / sensors());
+  return inputs;
+}
+
+void SupgArchitecture::add_modulation(const cppn::Network& network, ModulatedParameters& parameters) const {
+  if (sensors() == 0) return;
+  const std::size_t coordinates = layout_.coordinates().size(), all = layout_.input_names().size();
+  substrate::QueryPoints queries;
+  struct Gain {
+    int leg, type, sensor, tick, point;
+  };
+  struct Rate {
+    int leg, sensor, point;
+  };
+  std::vector<Gain> gains;
+  std::vector<Rate> rates;
+  for (int sensor = 0; sensor < sensors(); ++sensor)
+    for (int leg = 0; leg < legs(); ++leg) {
+      for (int type = 0; type < types(); ++type) {
+        if (driver(leg, type) < 0) continue;
+        std::vector<float> inputs = query_inputs(driver(leg, type), sensor);
+        for (int tick = 0; tick <= period_ticks_; ++tick) {
+          substrate::set_time_inputs(settings_.seam.time, tick, period_ticks_,
+                                     std::span(inputs).subspan(coordinates, all - 1 - coordinates));
+          gains.push_back({leg, type, sensor, tick, queries.add(inputs)});
+        }
+      }
+      if (first_driver(leg) < 0) continue;
+      std::vector<float> inputs = query_inputs(first_driver(leg), sensor);
+      for (const std::size_t zero : offset_zeros_) inputs[zero] = 0.0f;
+      rates.push_back({leg, sensor, queries.add(inputs)});
+    }
+  const cppn::Points points = queries.points(static_cast<int>(all));
+  std::vector<float> results(layout_.output_names().size() * to_index(points.capacity()));
+  network.evaluate(points, results);
+  const int outputs = static_cast<int>(layout_.output_names().size());
+  const auto output = [&](int index, int point) {
+    return std::clamp(static_cast<double>(results[to_index(index * points.capacity() + point)]), -1.0, 1.0);
+  };
+  Modulation& modulation = parameters.modulation();
+  for (const Gain& gain : gains) {
+    const JointRange& range = joints_.ranges[to_index(joint(gain.leg, gain.type))];
+    const double most_rad = settings_.modulation.shape * 0.5 * (range.upper_rad - range.lower_rad);
+    const int group = (1 + gain.sensor) * modulation.width() + gain.type;
+    modulation.entry(gain.leg, gain.tick)[group] =
+        static_cast<float>(most_rad * output(outputs - 2, gain.point));
+    if (gain.tick == period_ticks_)
+      modulation.entry(gain.leg, gain.tick + 1)[group] = modulation.entry(gain.leg, gain.tick)[group];
+  }
+  for (const Rate& rate : rates)
+    modulation.rate(rate.leg, rate.sensor) =
+        static_cast<float>(settings_.modulation.rate * output(outputs - 1, rate.point));
 }
 
 std::unique_ptr<Batch> SupgArchitecture::make_batch(int lanes) const {
-  return std::make_unique<SupgBatch>(settings_, leg_names_, joints_, blank(), lanes);
+  if (modulated())
+    return std::make_unique<ModulatedSupgBatch>(
+        ModulatedSupgs{settings_, timestep_s_, leg_names_, joints_, leg_sensors_, contact(lanes)},
+        ModulatedParameters(blank(), sensors()), lanes);
+  return std::make_unique<SupgBatch>(settings_, timestep_s_, leg_names_, joints_, blank(), lanes,
+                                     contact(lanes));
+}
+
+std::optional<ContactEstimate> SupgArchitecture::contact(int lanes) const {
+  if (settings_.contact.source == ContactSource::touch) return std::nullopt;
+  return ContactEstimate(settings_.contact, contact_joints_, timestep_s_, lanes);
+}
+
+robot::ExtraSenses SupgArchitecture::extra_senses() const {
+  robot::ExtraSenses extra{.torque = settings_.contact.source == ContactSource::torque};
+  for (const auto& leg : leg_sensors_)
+    for (const LegSensor& sensor : leg)
+      if (sensor.is_there) extra |= substrate::extra_senses(sensor.sensor);
+  return extra;
 }
 
 std::string SupgArchitecture::parameters_json(const Parameters& parameters) const {
@@ -120,6 +251,7 @@ std::string SupgArchitecture::parameters_json(const Parameters& parameters) cons
                               {"joint_types", joint_types_},
                               {"offset_ticks", nlohmann::ordered_json::array()},
                               {"patterns_rad", nlohmann::ordered_json::array()}};
+  add_settings(settings_, json);
   for (int leg = 0; leg < legs(); ++leg) {
     json["offset_ticks"].push_back(supg->offset_ticks(leg));
     for (int type = 0; type < types(); ++type) {

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "amble/controllers/controller.hpp"
 #include "amble/controllers/joint_range.hpp"
+#include "amble/controllers/modulation.hpp"
+#include "amble/controllers/sensing.hpp"
+#include "amble/controllers/supg_contact.hpp"
 #include "amble/controllers/supg_settings.hpp"
 #include "amble/substrate/layout.hpp"
 
@@ -45,6 +49,17 @@ class SupgParameters : public Parameters {
                                     ///< tick lies together
 };
 
+/// The same with what sensors change, which begins with the same targets.
+class ModulatedParameters : public SupgParameters {
+ public:
+  ModulatedParameters(SupgParameters targets, int sensors);
+  const Modulation& modulation() const { return modulation_; }
+  Modulation& modulation() { return modulation_; }
+
+ private:
+  Modulation modulation_;
+};
+
 /// Which joint of RobotSpec::joints each entry of a SupgParameters is for.
 struct SupgJoints {
   /// One that belongs to no leg, so that no SUPG drives it.
@@ -53,7 +68,8 @@ struct SupgJoints {
     float target_rad = 0.0f;
   };
 
-  std::vector<int> of_legs;  ///< leg by leg, type by type; −1: the leg has none of that type
+  std::vector<int> of_legs;        ///< leg by leg, type by type; −1: the leg has none of that type
+  std::vector<JointRange> ranges;  ///< joint by joint in control order
   std::vector<Held> others;
 };
 
@@ -61,26 +77,45 @@ struct SupgJoints {
 /// trigger starts anew (Morse et al. 2013, sec. 3).
 ///
 /// Each node of the substrate is a SUPG with two properties. Its `pattern` becomes the command
-/// (pattern + 1)/2, clamped to 0 … 1, and is scaled to the joint's range. Its `offset` a becomes
+/// (pattern + 1)/2, clamped to 0 … 1, and is scaled to the joint's range; SeamSettings::detrend takes the
+/// pattern's trend away before. Its `offset` a becomes
 /// ceil((a + 1)/2 × period) ticks, clamped to 1 … period − 1, and is the same for the SUPGs of a leg.
 ///
 /// The SUPGs of a leg share one timer, in ticks; −1 means stopped. In each tick, in this order:
-/// 1. Touch is read. It is a trigger with Trigger::level; with Trigger::edge only if the foot was off the
-///    ground in at least the trigger_debounce_ticks ticks before. All feet count as touching before tick 1.
-///    With Trigger::none there are no triggers; with Trigger::random they come when RandomTriggers says.
+/// 1. Touch is read, or what SupgSettings::contact has in its place. It is a trigger with Trigger::level;
+/// with
+///    Trigger::edge only if the foot was off the ground in at least the trigger_debounce_ticks ticks before.
+///    All feet count as touching before tick 1. With Trigger::none there are no triggers; with
+///    Trigger::random they come when RandomTriggers says.
 /// 2. The timer is set. Offset::phase: before tick 1 its value is the offset, from which it grows; a trigger
 ///    in tick 1 is ignored. Offset::delay: it is stopped for `offset` ticks and starts at start_tick in the
 ///    next. From the tick after this first start on, a trigger sets it to start_tick; triggers before are
 ///    ignored. Otherwise it grows by 1; when that reaches the period, Idle::mid stops it, Idle::hold keeps it
 ///    at the period, and Idle::wrap sets it to 0.
 /// 3. The targets are the patterns at time timer / period; while the timer is stopped, the middle of each
-///    joint's range.
+///    joint's range. SupgSettings::seam may smooth them. A timer jumps where it is set, stops or begins
+///    again; without the jump a timer that runs would be one more, at most the period, and a stopped one
+///    stopped. The start with Offset::phase is no jump.
+///
+/// SupgSettings::modulation adds sensors s (LegSensor) of each leg:
+/// - rate: in a tick a timer that runs grows by 2^ρ, ρ = Σ a s limited to ± 1. It counts in parts of 2^−14
+///   ticks (advance_parts), and Idle::wrap takes the period off it. Waits are not modulated.
+/// - shape: a target is P(timer) + Σ G(timer) s, limited to the joint's range; between ticks P and G are
+///   linear.
+/// - reset: a trigger moves a timer, after its growth, by this share of the shorter way round to start_tick
+///   (reset_timer); one that stands starts, unless the share is 0.
+/// - refractory_ticks: in so many ticks after a trigger there is no other.
+/// The CPPN has one more input, `sensor`, which is 0 for patterns and offsets and (i + 1)/n for sensor i of
+/// n, and two more outputs, both limited to ± 1: `gain`, at the node's coordinates and each time, times
+/// ModulationSettings::shape times half the joint's range is G; `rate`, at the coordinates of the leg's first
+/// node with those at 0 that its offset has at 0, and time 0, times ModulationSettings::rate is a. They are
+/// there whatever rate and shape are, so that these can be 0 for comparison.
 class SupgArchitecture : public Architecture {
  public:
   /// Throws UserError: a period that is not a whole number of ticks; a substrate that does not fit the robot,
   /// or in which the SUPGs of a leg could get different offsets.
   SupgArchitecture(const SupgSettings& settings, const substrate::Settings& substrate,
-                   const robot::RobotSpec& robot, double timestep_s);
+                   const robot::RobotSpec& robot, double timestep_s, const SensingSettings& sensing = {});
 
   std::string name() const override { return "supg"; }
   const std::vector<std::string>& cppn_inputs() const override { return layout_.input_names(); }
@@ -91,9 +126,16 @@ class SupgArchitecture : public Architecture {
   std::unique_ptr<Batch> make_batch(int lanes) const override;
   std::string parameters_json(const Parameters& parameters) const override;
 
+  robot::ExtraSenses extra_senses() const override;
+
   int period_ticks() const { return period_ticks_; }
 
  private:
+  std::optional<ContactEstimate> contact(int lanes) const;
+  bool modulated() const { return settings_.modulation.any(); }
+  int sensors() const { return static_cast<int>(settings_.modulation.sensors.size()); }
+  void add_modulation(const cppn::Network& network, ModulatedParameters& parameters) const;
+  std::vector<float> query_inputs(int node, int sensor) const;
   int joint(int leg, int type) const { return joints_.of_legs[to_index(leg * types() + type)]; }
   /// The node of the substrate that drives it; −1: none does.
   int driver(int leg, int type) const { return joint(leg, type) < 0 ? -1 : layout_.driver(joint(leg, type)); }
@@ -109,7 +151,9 @@ class SupgArchitecture : public Architecture {
   int period_ticks_;
   std::vector<std::string> leg_names_, joint_types_;
   SupgJoints joints_;
-  std::vector<JointRange> ranges_;  ///< in control order
+  std::vector<std::vector<int>> contact_joints_;
+  std::vector<std::vector<LegSensor>> leg_sensors_;
+  std::vector<std::size_t> offset_zeros_;  ///< coordinates that are 0 in queries of offsets and rates
   substrate::Layout layout_;
 };
 

@@ -34,8 +34,9 @@ constexpr std::int32_t select(std::int32_t mask, std::int32_t yes, std::int32_t 
 
 }  // namespace
 
-SupgBatch::SupgBatch(const SupgSettings& settings, std::vector<std::string> leg_names, SupgJoints joints,
-                     SupgParameters parked, int lanes)
+SupgBatch::SupgBatch(const SupgSettings& settings, double timestep_s, std::vector<std::string> leg_names,
+                     SupgJoints joints, SupgParameters parked, int lanes,
+                     std::optional<ContactEstimate> contact)
     : offset_(settings.offset),
       start_tick_(settings.start_tick),
       period_ticks_(parked.period_ticks()),
@@ -45,7 +46,8 @@ SupgBatch::SupgBatch(const SupgSettings& settings, std::vector<std::string> leg_
       leg_names_(std::move(leg_names)),
       joints_(std::move(joints)),
       parked_(std::move(parked)),
-      lanes_(lanes) {
+      lanes_(lanes),
+      contact_(std::move(contact)) {
   AMBLE_CHECK(lanes > 0, "a batch has at least one lane");
   const auto size = static_cast<std::size_t>(parked_.legs() * lanes);
   tables_.resize(static_cast<std::size_t>(lanes));
@@ -53,6 +55,11 @@ SupgBatch::SupgBatch(const SupgSettings& settings, std::vector<std::string> leg_
     values->resize(size);
   no_chance_.resize(static_cast<std::size_t>(lanes));
   if (settings.trigger == Trigger::random) random_.emplace(period_ticks_, parked_.legs(), lanes);
+  if (settings.seam.smooths()) {
+    smoother_.emplace(settings.seam, timestep_s, static_cast<int>(joints_.of_legs.size()), lanes);
+    for (auto* const values : {&continued_, &jumped_}) values->resize(to_index(lanes));
+    for (auto* const values : {&continued_rad_, &present_rad_}) values->resize(to_index(lanes));
+  }
   for (int lane = 0; lane < lanes; ++lane) load(lane, parked_);
 }
 
@@ -64,6 +71,7 @@ void SupgBatch::load(int lane, const Parameters& parameters) {
               "the parameters belong to another architecture");
   tables_[static_cast<std::size_t>(lane)] = supg->targets_rad(0, 0);
   if (random_) random_->load(lane);
+  if (contact_) contact_->load(lane);
   for (int leg = 0; leg < supg->legs(); ++leg) {
     const std::size_t i = index(leg, lane);
     const bool phase = offset_ == Offset::phase;
@@ -72,6 +80,10 @@ void SupgBatch::load(int lane, const Parameters& parameters) {
     wait_ticks_[i] = phase ? 0 : supg->offset_ticks(leg);
     first_timer_[i] = phase ? after(supg->offset_ticks(leg)) : start_tick_;
     triggered_[i] = 0;
+    if (!smoother_) continue;
+    const float* const first_rad = supg->targets_rad(leg, phase ? first_timer_[i] : stopped);
+    for (int type = 0; type < supg->types(); ++type)
+      smoother_->load(leg * supg->types() + type, lane, first_rad[type]);
   }
 }
 
@@ -79,12 +91,19 @@ void SupgBatch::step(const robot::SensorFrame& sensors, LaneArray& targets_rad) 
   AMBLE_CHECK(sensors.touch.rows() == parked_.legs() && sensors.touch.lanes() == lanes_,
               "touch must be legs × lanes");
   AMBLE_CHECK(targets_rad.lanes() == lanes_, "targets must be joints × lanes");
+  if (contact_) contact_->update(sensors);
   for (int leg = 0; leg < parked_.legs(); ++leg) {
-    update_timers(leg, sensors.touch.row(leg), random_ ? random_->advance(leg) : no_chance_.data());
-    write_targets(leg, targets_rad);
+    const std::int32_t* const by_chance = random_ ? random_->advance(leg) : no_chance_.data();
+    if (smoother_) continue_timers(leg);
+    update_timers(leg, contact_ ? contact_->row(leg) : sensors.touch.row(leg), by_chance);
+    if (smoother_)
+      write_smoothed(leg, targets_rad);
+    else
+      write_targets(leg, targets_rad);
   }
   for (const auto& [joint, target_rad] : joints_.others)
     std::fill_n(targets_rad.row(joint), lanes_, target_rad);
+  if (contact_) contact_->targets(targets_rad);
 }
 
 void SupgBatch::update_timers(int leg, const float* touch, const std::int32_t* by_chance) {
@@ -129,6 +148,49 @@ void SupgBatch::write_targets(int leg, LaneArray& targets_rad) const {
     float* const row = targets_rad.row(joint);
     for (std::ptrdiff_t lane = 0; lane < lanes; ++lane)
       row[lane] = tables[lane][from + timer[lane] * types + type];
+  }
+}
+
+void SupgBatch::continue_timers(int leg) {
+  const std::size_t first = index(leg, 0);
+  const std::int32_t* const timer = timer_.data() + first;
+  const std::int32_t* const wait = wait_ticks_.data() + first;
+  const std::int32_t* const first_timer = first_timer_.data() + first;
+  std::int32_t* const continued = continued_.data();
+  const std::int32_t period = period_ticks_, phase = mask(offset_ == Offset::phase);
+  for (int lane = 0; lane < lanes_; ++lane) {
+    const std::int32_t next =
+        select(mask(timer[lane] == stopped), stopped, std::min(timer[lane] + 1, period));
+    continued[lane] = select(mask(wait[lane] == 0) & phase, first_timer[lane], next);
+  }
+}
+
+void SupgBatch::write_smoothed(int leg, LaneArray& targets_rad) {
+  const std::ptrdiff_t types = parked_.types(), lanes = lanes_;
+  const std::ptrdiff_t from = parked_.targets_rad(leg, 0) - parked_.targets_rad(0, 0);
+  const std::int32_t* const timer = timer_.data() + index(leg, 0);
+  const std::int32_t* const continued = continued_.data();
+  std::int32_t* const jumped = jumped_.data();
+  std::int32_t any = 0;
+  for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) {
+    jumped[lane] = mask(timer[lane] != continued[lane]);
+    any |= jumped[lane];
+  }
+  const float* const* const tables = tables_.data();
+  for (std::ptrdiff_t type = 0; type < types; ++type) {
+    const std::ptrdiff_t row = leg * types + type;
+    const int joint = joints_.of_legs[to_index(row)];
+    if (joint < 0) continue;
+    float* const continued_rad = continued_rad_.data();
+    float* const present_rad = present_rad_.data();
+    for (std::ptrdiff_t lane = 0; lane < lanes; ++lane)
+      continued_rad[lane] = tables[lane][from + continued[lane] * types + type];
+    if (any != 0)
+      for (std::ptrdiff_t lane = 0; lane < lanes; ++lane)
+        present_rad[lane] = tables[lane][from + timer[lane] * types + type];
+    const JointRange& range = joints_.ranges[to_index(joint)];
+    smoother_->smooth(static_cast<int>(row), continued_rad, any != 0 ? present_rad : continued_rad, jumped,
+                      range.at(0.0), range.at(1.0), targets_rad.row(joint));
   }
 }
 

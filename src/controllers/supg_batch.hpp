@@ -7,6 +7,7 @@
 
 #include "amble/controllers/random_triggers.hpp"
 #include "amble/controllers/supg.hpp"
+#include "amble/controllers/supg_contact.hpp"
 
 namespace amble::controllers {
 
@@ -15,8 +16,8 @@ namespace amble::controllers {
 class SupgBatch : public Batch {
  public:
   /// `parked` is what runs in lanes that have not been loaded.
-  SupgBatch(const SupgSettings& settings, std::vector<std::string> leg_names, SupgJoints joints,
-            SupgParameters parked, int lanes);
+  SupgBatch(const SupgSettings& settings, double timestep_s, std::vector<std::string> leg_names,
+            SupgJoints joints, SupgParameters parked, int lanes, std::optional<ContactEstimate> contact = {});
 
   int lanes() const override { return lanes_; }
   void load(int lane, const Parameters& parameters) override;
@@ -34,6 +35,10 @@ class SupgBatch : public Batch {
   /// `by_chance`: by lane, all bits or 0.
   void update_timers(int leg, const float* touch, const std::int32_t* by_chance);
   void write_targets(int leg, LaneArray& targets_rad) const;
+  /// What timers will be without a jump; before update_timers().
+  void continue_timers(int leg);
+  /// The same as write_targets(), smoothed.
+  void write_smoothed(int leg, LaneArray& targets_rad);
 
   Offset offset_;
   std::int32_t start_tick_, period_ticks_;
@@ -54,6 +59,11 @@ class SupgBatch : public Batch {
   std::vector<std::int32_t> triggered_;    ///< 1 if a trigger fired in this tick
   std::vector<std::int32_t> no_chance_;    ///< by lane: 0
   std::optional<RandomTriggers> random_;
+
+  std::optional<ContactEstimate> contact_;  ///< none: contacts are touches
+  std::optional<SeamSmoother> smoother_;
+  std::vector<std::int32_t> continued_, jumped_;    ///< by lane, of the leg in hand: a timer, and a mask
+  std::vector<float> continued_rad_, present_rad_;  ///< by lane, of the joint in hand: its pattern there
 };
 
 }  // namespace amble::controllers

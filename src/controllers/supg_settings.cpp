@@ -31,6 +31,17 @@ void SupgSettings::describe(io::SettingsVisitor& visitor) {
                  {"at the end of the period a SUPG puts its joint to mid-range (mid), keeps its last value "
                   "(hold) or begins again (wrap)",
                   "the authors' code: mid; Morse et al. 2013 do not say"});
+  visitor.table(
+      "seam", seam,
+      {.what = "how targets pass from one cycle to the next, at a trigger or at the end of a period",
+       .source = "Morse et al. 2013, sec. 6, name it as future work",
+       .defaults_are_implied = true});
+  visitor.table("contact", contact,
+                {.what = "what stands for the touch of a foot that triggers", .defaults_are_implied = true});
+  visitor.table("modulation", modulation,
+                {.what = "how sensors change period and shape of the cycles; off by default",
+                 .source = "Morse et al. 2013, sec. 6, name it as future work",
+                 .defaults_are_implied = true});
 }
 
 int period_ticks(const SupgSettings& settings, double timestep_s) {

@@ -3,6 +3,8 @@
 #include <array>
 #include <string_view>
 
+#include "amble/controllers/supg_modulation.hpp"
+#include "amble/controllers/supg_seam.hpp"
 #include "amble/io/settings.hpp"
 
 namespace amble::controllers {
@@ -32,6 +34,9 @@ struct SupgSettings {
   Offset offset = Offset::phase;
   int start_tick = 1;
   Idle idle = Idle::mid;
+  SeamSettings seam = {};
+  ContactSettings contact = {};
+  ModulationSettings modulation = {};
 
   void describe(io::SettingsVisitor& visitor);
 };

@@ -85,19 +85,22 @@ void Config::validate() const {
   neat.validate();
   trial.validate();
   ground.validate();
-  noise.validate(trial, ground.start_place_m > 0.0);
+  noise.validate(trial, ground.start_place_m > 0.0 || controller.sensing.is_noisy());
   score.validate();
   check_evaluation();
-  if (champion.episodes > 0 && !noise.any() && ground.start_place_m <= 0.0)
+  if (champion.episodes > 0 && !disturbed())
     fail_setting({"champion.episodes"},
                  "champion.episodes = {}: without any noise they would all be the same; expected 0",
                  champion.episodes);
   search::strategy_kind(search).validate(search, make_behaviour()->length());
 }
 
+bool Config::disturbed() const {
+  return noise.any() || ground.start_place_m > 0.0 || controller.sensing.is_noisy();
+}
+
 void Config::check_evaluation() const {
-  const bool disturbed = noise.any() || ground.start_place_m > 0.0;
-  if (evaluation.finalists > 0.0 && !disturbed)
+  if (evaluation.finalists > 0.0 && !disturbed())
     fail_setting(
         {"evaluation.finalists"},
         "evaluation.finalists = {}: without any noise their trials would all be the same; expected 0",

@@ -90,6 +90,8 @@ struct Config {
  private:
   void check_referees() const;
   void check_evaluation() const;
+  /// Whether trials differ.
+  bool disturbed() const;
 };
 
 /// Overrides of a config file on the command line.

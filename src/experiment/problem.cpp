@@ -59,7 +59,7 @@ Problem Problem::make(const Config& config, robot::RobotSpec robot) {
 void Problem::complete() {
   trial.validate();
   ground.validate();
-  noise.validate(trial, ground.start_place_m > 0.0);
+  noise.validate(trial, ground.start_place_m > 0.0 || controller.sensing.is_noisy());
   score.validate();
   damage.validate(robot);
   check_start();
@@ -70,10 +70,14 @@ void Problem::complete() {
 }
 
 std::unique_ptr<physics::Engine> Problem::make_engine(bool torques) const {
-  const bool needed = torques || make_score().measures().energy;
-  return physics::make_damaged_engine(
-      engine, robot, damage,
-      {.timestep_s = trial.timestep_s, .torques = needed, .ground_friction = ground.friction});
+  const robot::ExtraSenses sensed =
+      architecture != nullptr ? architecture->extra_senses() : robot::ExtraSenses();
+  const bool needed = torques || sensed.torque || make_score().measures().energy;
+  return physics::make_damaged_engine(engine, robot, damage,
+                                      {.timestep_s = trial.timestep_s,
+                                       .torques = needed,
+                                       .loads = sensed.load,
+                                       .ground_friction = ground.friction});
 }
 
 std::unique_ptr<controllers::Parameters> Problem::decode(const neat::Genome& genome) const {
@@ -98,6 +102,8 @@ trial::Protocol Problem::protocol(const record::PathSampling& path, const record
           .path = path,
           .measures = all,
           .numb = std::move(numb),
+          .sensing = {architecture->extra_senses(),
+                      controllers::sensor_models(controller.sensing, robot, trial.timestep_s)},
           .fall_height_m = robot.fall_height_m,
           .start_rotation = robot.bodies[0].rotation};
 }

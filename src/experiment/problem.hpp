@@ -69,8 +69,10 @@ struct Problem {
   }
   /// `measures`: those that the score does not need itself.
   trial::Protocol protocol(const record::PathSampling& path, const record::Measures& measures = {}) const;
-  /// Whether trials differ: by noise, or by the place where they start.
-  bool trials_vary() const { return noise.any() || ground.start_place_m > 0.0; }
+  /// Whether trials differ: by noise, that of sensors included, or by the place where they start.
+  bool trials_vary() const {
+    return noise.any() || ground.start_place_m > 0.0 || controller.sensing.is_noisy();
+  }
   /// Null for the plane.
   std::shared_ptr<const ground::Ground> make_ground(const ground::Key& key) const;
   /// `on`: the ground of the trial, null for the plane.

@@ -51,6 +51,15 @@ std::vector<std::string> sensor_lines(const ControllerTables& tables, const robo
     lines.push_back(
         "  roll_rad, pitch_rad, yaw_rad  of the trunk against the world (x forward, y left, z up): "
         "R_z(yaw) R_y(pitch) R_x(roll)");
+  if (tables.reads_speeds())
+    lines.push_back("  speed_rad_s[joint]  rad/s: (angle now - angle one tick ago) / tick; 0 at first");
+  if (tables.reads_torques())
+    lines.push_back("  torque_nm[joint]  N m of the motor about the joint's axis; 0 at first");
+  if (tables.reads_yaw_rate())
+    lines.push_back(
+        "  yaw_rate_rad_s    rad/s: (yaw now - yaw one tick ago, the short way) / tick; 0 at first");
+  if (tables.reads_loads())
+    lines.push_back("  load_n[leg]       N of the ground against the foot, along its normal; 0 at first");
   if (lines.size() == 1) lines = {"Sensors: it reads none."};
   if (const auto* const neural = std::get_if<NeuralTables>(&tables.parts)) {
     std::vector<std::string> names;
@@ -129,8 +138,11 @@ void add_structs(const ControllerTables& tables, bool fixed, CText& text) {
   if (tables.reads_touch()) text.line("  {} touch[{}_LEGS];", fixed ? "uint8_t" : "float", upper);
   if (tables.reads_angles()) text.line("  float angle_rad[{}_JOINTS];", upper);
   if (tables.reads_attitude()) text.line("  float roll_rad, pitch_rad, yaw_rad;");
-  if (!tables.reads_touch() && !tables.reads_angles() && !tables.reads_attitude())
-    text.line("  char none; /* it reads none */");
+  if (tables.reads_speeds()) text.line("  float speed_rad_s[{}_JOINTS];", upper);
+  if (tables.reads_torques()) text.line("  float torque_nm[{}_JOINTS];", upper);
+  if (tables.reads_yaw_rate()) text.line("  float yaw_rate_rad_s;");
+  if (tables.reads_loads()) text.line("  float load_n[{}_LEGS];", upper);
+  if (tables.reads_nothing()) text.line("  char none; /* it reads none */");
   text.line("}} {}_sensors;", text.prefix());
   text.line("");
   text.line("typedef struct {{");
@@ -177,10 +189,17 @@ void add_constants(const ControllerTables& tables, bool fixed, CText& text) {
             std::lround(1e6 * tables.timestep_s));
   if (const auto* const neural = std::get_if<NeuralTables>(&tables.parts))
     text.line("#define {}_NEURONS {}", upper, neural->neurons.size());
+  if (const auto* const supg = std::get_if<SupgTables>(&tables.parts); supg != nullptr && supg->modulation)
+    text.line("#define {}_TICK_PARTS {} /* timers in the state count in these */", upper,
+              controllers::parts_per_tick);
   if (fixed) text.line("#define {}_FRACTION_BITS {}", upper, fraction_bits(tables));
   text.line("#define {}_READS_TOUCH {}", upper, tables.reads_touch() ? 1 : 0);
   text.line("#define {}_READS_ANGLES {}", upper, tables.reads_angles() ? 1 : 0);
   text.line("#define {}_READS_ATTITUDE {}", upper, tables.reads_attitude() ? 1 : 0);
+  if (tables.reads_speeds()) text.line("#define {}_READS_SPEEDS 1", upper);
+  if (tables.reads_torques()) text.line("#define {}_READS_TORQUES 1", upper);
+  if (tables.reads_yaw_rate()) text.line("#define {}_READS_YAW_RATE 1", upper);
+  if (tables.reads_loads()) text.line("#define {}_READS_LOADS 1", upper);
   text.line("");
 }
 

@@ -111,10 +111,23 @@ std::string reading(const substrate::Sensor& sensor, substrate::Attitude formula
       return "in->pitch_rad";
     case Kind::yaw:
       return swapped ? "negative_arc_tangent(in->roll_rad)" : "in->yaw_rad";
+    case Kind::load:
+      return fmt::format("in->load_n[{}]", sensor.index);
+    case Kind::speed:
+      return fmt::format("in->speed_rad_s[{}]", sensor.index);
+    case Kind::torque:
+      return fmt::format("in->torque_nm[{}]", sensor.index);
+    case Kind::yaw_rate:
+      return "in->yaw_rate_rad_s";
     case Kind::sine:
       break;
   }
   return {};
+}
+
+/// The same, multiplied by the sensor's scale.
+std::string scaled(const std::string& expression, float scale) {
+  return scale == 1.0f ? expression : fmt::format("{} * {}", expression, c_float(scale));
 }
 
 void add_sensing(const ControllerTables& tables, const NeuralTables& neural, CText& text) {
@@ -133,10 +146,10 @@ void add_sensing(const ControllerTables& tables, const NeuralTables& neural, CTe
   for (std::size_t i = 0; i < neural.sensors.size(); ++i) {
     const NeuralTables::Sensor& sensor = neural.sensors[i];
     if (sensor.reads.kind == substrate::Sensor::Kind::sine)
-      text.line("  s->sensor[{}] = clock_sine(s->tick);", i);
+      text.line("  s->sensor[{}] = {};", i, scaled("clock_sine(s->tick)", sensor.scale));
     else
       text.line("  s->sensor[{0}] = sense({1}, s->sensor[{0}]); /* {2} */", i,
-                reading(sensor.reads, neural.attitude), in_comment(sensor.name));
+                scaled(reading(sensor.reads, neural.attitude), sensor.scale), in_comment(sensor.name));
   }
   text.line("}}");
   text.line("");
@@ -177,7 +190,8 @@ void add_neural_state(const NeuralTables& tables, CText& text) {
 
 void add_neural(const ControllerTables& tables, CText& text) {
   const auto& neural = std::get<NeuralTables>(tables.parts);
-  text.block(c_arithmetic_notes);
+  text.block(c_rounding);
+  text.block(c_float_bits);
   add_tables(tables, neural, text);
   text.block(c_fused);
   const float per_x = neural.slope * controllers_log2_e();

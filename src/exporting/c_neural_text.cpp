@@ -12,7 +12,7 @@ float largest_exponent() {
   return controllers::constants::largest_exponent;
 }
 
-const std::string_view c_arithmetic_notes =
+const std::string_view c_rounding =
     R"(/* Every operation is rounded by itself, or results differ from amble's in the last bit. */
 #ifdef __FAST_MATH__
 #error "compile without -ffast-math"
@@ -21,7 +21,9 @@ const std::string_view c_arithmetic_notes =
 #pragma STDC FP_CONTRACT OFF
 #endif
 
-typedef union {
+)";
+
+const std::string_view c_float_bits = R"(typedef union {
   float number;
   uint32_t bits;
 } float_bits;

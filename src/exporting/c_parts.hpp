@@ -21,6 +21,28 @@ void add_neural_state(const NeuralTables& tables, CText& text);
 void add_supg(const ControllerTables& tables, const CSourceOptions& options, CText& text);
 void add_neural(const ControllerTables& tables, CText& text);
 
+/// Of SUPGs whose targets are smoothed: members of the state, tables and functions, and what else the
+/// function PREFIX_init does. `timer`: the type of timers.
+void add_seam_state(const SupgTables::Seam& seam, CText& text);
+void add_seam(const SupgTables& supg, const std::string& timer, CText& text);
+std::string c_seam_init(const SupgTables::Seam& seam);
+/// Parts of it: the joints' ranges and what limits to them, the smoothing itself, what begins without
+/// residuals.
+void add_limits(const std::vector<std::array<float, 2>>& limits_rad, CText& text);
+void add_smoothing(const SupgTables::Seam& seam, CText& text);
+std::string c_residual_init();
+
+/// Of SUPGs whose contacts are guessed: members of the state, the function that guesses, what else the
+/// function PREFIX_init does (with `leg` and `joint`), and the end of a step.
+void add_contact_state(const SupgTables::Contact& contact, CText& text);
+void add_contacts(const SupgTables::Contact& contact, CText& text);
+std::string c_contact_init(const SupgTables::Contact& contact);
+std::string c_contact_end(const SupgTables::Contact& contact);
+
+/// Of modulated SUPGs: members of the state, and all behind the targets' table.
+void add_modulated_state(const SupgTables& tables, CText& text);
+void add_modulated(const ControllerTables& tables, CText& text);
+
 void add_self_test(const ControllerTables& tables, const Trace& trace, const CSourceOptions& options,
                    CText& text);
 

@@ -49,6 +49,18 @@ void add_vectors(const ControllerTables& tables, const Trace& trace, bool fixed,
   if (tables.reads_attitude())
     text.array("static const float test_attitude_rad[test_ticks][3]",
                literals(trace, &Trace::Tick::attitude_rad));
+  if (tables.reads_speeds())
+    text.array(fmt::format("static const float test_speed_rad_s[test_ticks][{}_JOINTS]", upper),
+               literals(trace, &Trace::Tick::speed_rad_s));
+  if (tables.reads_torques())
+    text.array(fmt::format("static const float test_torque_nm[test_ticks][{}_JOINTS]", upper),
+               literals(trace, &Trace::Tick::torque_nm));
+  if (tables.reads_yaw_rate())
+    text.array("static const float test_yaw_rate_rad_s[test_ticks][1]",
+               literals(trace, &Trace::Tick::yaw_rate_rad_s));
+  if (tables.reads_loads())
+    text.array(fmt::format("static const float test_load_n[test_ticks][{}_LEGS]", upper),
+               literals(trace, &Trace::Tick::load_n));
   if (fixed)
     text.array(fmt::format("static const int16_t test_target[test_ticks][{}_JOINTS]", upper),
                fixed_targets(tables, trace));
@@ -86,6 +98,14 @@ void add_fillers(const ControllerTables& tables, bool fixed, CText& text) {
     text.line("  sensors->pitch_rad = test_attitude_rad[tick][1];");
     text.line("  sensors->yaw_rad = test_attitude_rad[tick][2];");
   }
+  if (tables.reads_speeds())
+    text.line("  for (i = 0; i < {}_JOINTS; ++i) sensors->speed_rad_s[i] = test_speed_rad_s[tick][i];",
+              upper);
+  if (tables.reads_torques())
+    text.line("  for (i = 0; i < {}_JOINTS; ++i) sensors->torque_nm[i] = test_torque_nm[tick][i];", upper);
+  if (tables.reads_yaw_rate()) text.line("  sensors->yaw_rate_rad_s = test_yaw_rate_rad_s[tick][0];");
+  if (tables.reads_loads())
+    text.line("  for (i = 0; i < {}_LEGS; ++i) sensors->load_n[i] = test_load_n[tick][i];", upper);
   text.line("  (void)i, (void)tick, (void)sensors;");
   text.line("}}");
   text.line("");
@@ -97,6 +117,12 @@ void add_fillers(const ControllerTables& tables, bool fixed, CText& text) {
     text.line("  for (i = 0; i < {}_JOINTS; ++i) sensors->angle_rad[i] = reading;", upper);
   if (tables.reads_attitude())
     text.line("  sensors->roll_rad = sensors->pitch_rad = sensors->yaw_rad = reading;");
+  if (tables.reads_speeds())
+    text.line("  for (i = 0; i < {}_JOINTS; ++i) sensors->speed_rad_s[i] = reading;", upper);
+  if (tables.reads_torques())
+    text.line("  for (i = 0; i < {}_JOINTS; ++i) sensors->torque_nm[i] = reading;", upper);
+  if (tables.reads_yaw_rate()) text.line("  sensors->yaw_rate_rad_s = reading;");
+  if (tables.reads_loads()) text.line("  for (i = 0; i < {}_LEGS; ++i) sensors->load_n[i] = reading;", upper);
   text.line("  (void)i, (void)reading, (void)sensors;");
   text.line("}}");
   text.line("");

@@ -59,6 +59,57 @@ int airborne_ticks_needed(const controllers::SupgSettings& settings) {
        "\"edge\", \"level\" or \"none\"");
 }
 
+SupgTables::Seam seam_of(const Problem& problem) {
+  const controllers::SupgSettings& settings = problem.controller.supg;
+  const controllers::SeamFactors factors(settings.seam, problem.trial.timestep_s);
+  SupgTables::Seam seam{.starts_at_once = settings.offset == controllers::Offset::phase,
+                        .residual_decay = factors.residual_decay,
+                        .filter_share = factors.filter_share,
+                        .filter_order = factors.filter_order};
+  return seam;
+}
+
+SupgTables::Modulation modulation_of(const Problem& problem,
+                                     const controllers::ModulatedParameters& parameters) {
+  const controllers::ModulationSettings& settings = problem.controller.supg.modulation;
+  const controllers::Modulation& from = parameters.modulation();
+  SupgTables::Modulation modulation{
+      .starts_at_once = problem.controller.supg.offset == controllers::Offset::phase,
+      .rates_on = settings.rate > 0.0 && from.sensors() > 0,
+      .reset_share = controllers::reset_share(settings),
+      .refractory_ticks = settings.refractory_ticks,
+      .sensors = controllers::leg_sensors(settings, problem.controller.sensing, problem.robot,
+                                          problem.trial.timestep_s),
+      .rates = {},
+      .gains_rad = {}};
+  for (int leg = 0; leg < parameters.legs(); ++leg) {
+    std::vector<float>& rates = modulation.rates.emplace_back();
+    for (int s = 0; s < from.sensors(); ++s) rates.push_back(from.rate(leg, s));
+  }
+  if (settings.shape <= 0.0) return modulation;
+  const std::vector<std::vector<float>> none(problem.robot.joints.size());
+  modulation.gains_rad.assign(to_index(from.sensors()), none);
+  for (int leg = 0; leg < parameters.legs(); ++leg) {
+    const auto& joints = problem.robot.legs[to_index(leg)].joints;
+    for (std::size_t type = 0; type < joints.size(); ++type)
+      for (int s = 0; s < from.sensors() && joints[type] >= 0; ++s)
+        for (int timer = -1; timer <= parameters.period_ticks() + 1; ++timer)
+          modulation.gains_rad[to_index(s)][to_index(joints[type])].push_back(
+              from.entry(leg, timer)[to_index((1 + s) * from.width()) + type]);
+  }
+  return modulation;
+}
+
+SupgTables::Contact contact_of(const Problem& problem) {
+  const controllers::ContactSettings& settings = problem.controller.supg.contact;
+  return {
+      .source = settings.source,
+      .joints = controllers::contact_joints(settings, problem.robot),
+      .begins = static_cast<float>(settings.threshold),
+      .ends = static_cast<float>(settings.release * settings.threshold),
+      .per_tick_squared = static_cast<float>(1.0 / (problem.trial.timestep_s * problem.trial.timestep_s))};
+}
+
 /// The values of the timers are those of controllers::SupgBatch::load.
 SupgTables supg_tables(const Problem& problem, const SupgParameters& parameters) {
   const controllers::SupgSettings& settings = problem.controller.supg;
@@ -69,6 +120,14 @@ SupgTables supg_tables(const Problem& problem, const SupgParameters& parameters)
                     .end_of_cycle = end_of_cycle(settings.idle, period),
                     .legs = {},
                     .targets_rad = std::vector<std::vector<float>>(problem.robot.joints.size())};
+  if (settings.contact.source != controllers::ContactSource::touch && tables.is_triggered())
+    tables.contact = contact_of(problem);
+  if (settings.seam.smooths()) tables.seam = seam_of(problem);
+  if (const auto* const modulated = dynamic_cast<const controllers::ModulatedParameters*>(&parameters))
+    tables.modulation = modulation_of(problem, *modulated);
+  if (tables.seam || tables.modulation)
+    for (const controllers::JointRange& range : controllers::joint_ranges(problem.robot))
+      tables.limits_rad.push_back({range.at(0.0), range.at(1.0)});
   for (int leg = 0; leg < parameters.legs(); ++leg) {
     const int offset = parameters.offset_ticks(leg);
     const bool phase = settings.offset == controllers::Offset::phase;
@@ -79,9 +138,12 @@ SupgTables supg_tables(const Problem& problem, const SupgParameters& parameters)
     const auto& joints = problem.robot.legs[to_index(leg)].joints;
     for (std::size_t type = 0; type < joints.size(); ++type) {
       if (joints[type] < 0) continue;
-      const int last = std::max(period - 1, tables.end_of_cycle);
+      const int last = tables.modulation ? period + 1
+                       : tables.seam     ? period
+                                         : std::max(period - 1, tables.end_of_cycle);
       for (int timer = SupgParameters::stopped; timer <= last; ++timer)
-        tables.targets_rad[to_index(joints[type])].push_back(parameters.targets_rad(leg, timer)[type]);
+        tables.targets_rad[to_index(joints[type])].push_back(
+            parameters.targets_rad(leg, std::min(timer, period))[type]);
     }
   }
   for (std::size_t j = problem.robot.leg_joint_count(); j < problem.robot.joints.size(); ++j)
@@ -111,8 +173,11 @@ NeuralTables neural_tables(const Problem& problem, const controllers::NeuralArch
   NeuralTables tables;
   tables.sine_period_s = problem.controller.substrate.sine_period_s;
   tables.attitude = problem.controller.substrate.attitude;
+  const auto models =
+      controllers::sensor_models(problem.controller.sensing, problem.robot, problem.trial.timestep_s);
   for (const substrate::Node& node : layout.nodes())
-    if (node.sensor) tables.sensors.push_back({node.name, *node.sensor});
+    if (node.sensor)
+      tables.sensors.push_back({node.name, *node.sensor, controllers::scale_of(models, *node.sensor)});
   const bool is_ctrnn = !parameters.rates.empty();
   for (std::size_t n = 0; n < wiring.neurons.size(); ++n) {
     const int node = wiring.neurons[n].node;
@@ -156,7 +221,24 @@ NeuralTables ctrnn_tables(const Problem& problem, const controllers::CtrnnArchit
   return tables;
 }
 
+/// The sensor that a guess of contacts reads.
+substrate::Sensor::Kind read_by(const SupgTables::Contact& contact) {
+  using controllers::ContactSource;
+  using Kind = substrate::Sensor::Kind;
+  if (contact.source == ContactSource::tracking) return Kind::angle;
+  return contact.source == ContactSource::shock ? Kind::roll : Kind::torque;
+}
+
 bool reads(const ControllerTables& tables, auto wanted) {
+  if (const auto* const supg = std::get_if<SupgTables>(&tables.parts)) {
+    if (supg->contact && wanted(read_by(*supg->contact))) return true;
+    if (!supg->modulation) return false;
+    return std::ranges::any_of(supg->modulation->sensors, [&](const auto& leg) {
+      return std::ranges::any_of(leg, [&](const controllers::LegSensor& sensor) {
+        return sensor.is_there && wanted(sensor.sensor.kind);
+      });
+    });
+  }
   const auto* const neural = std::get_if<NeuralTables>(&tables.parts);
   return neural != nullptr && std::ranges::any_of(neural->sensors, [&](const NeuralTables::Sensor& sensor) {
            return wanted(sensor.reads.kind);
@@ -170,7 +252,8 @@ bool ControllerTables::reads_angles() const {
 }
 
 bool ControllerTables::reads_touch() const {
-  if (const auto* const supg = std::get_if<SupgTables>(&parts)) return supg->is_triggered();
+  const auto* const supg = std::get_if<SupgTables>(&parts);
+  if (supg != nullptr && supg->is_triggered() && !supg->contact) return true;
   return reads(*this, [](auto sensed) { return sensed == substrate::Sensor::Kind::touch; });
 }
 
@@ -179,6 +262,27 @@ bool ControllerTables::reads_attitude() const {
   return reads(*this, [](auto sensed) {
     return sensed == Kind::roll || sensed == Kind::pitch || sensed == Kind::yaw;
   });
+}
+
+bool ControllerTables::reads_speeds() const {
+  return reads(*this, [](auto sensed) { return sensed == substrate::Sensor::Kind::speed; });
+}
+
+bool ControllerTables::reads_torques() const {
+  return reads(*this, [](auto sensed) { return sensed == substrate::Sensor::Kind::torque; });
+}
+
+bool ControllerTables::reads_yaw_rate() const {
+  return reads(*this, [](auto sensed) { return sensed == substrate::Sensor::Kind::yaw_rate; });
+}
+
+bool ControllerTables::reads_loads() const {
+  return reads(*this, [](auto sensed) { return sensed == substrate::Sensor::Kind::load; });
+}
+
+bool ControllerTables::reads_nothing() const {
+  return !reads_touch() && !reads_angles() && !reads_attitude() && !reads_speeds() && !reads_torques() &&
+         !reads_yaw_rate() && !reads_loads();
 }
 
 ControllerTables controller_tables(const Problem& problem, const neat::Genome& genome) {

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "amble/controllers/modulation.hpp"
 #include "amble/experiment/problem.hpp"
 #include "amble/neat/genome.hpp"
 #include "amble/robot/spec.hpp"
@@ -38,9 +41,41 @@ struct SupgTables {
   int start_tick = 0;     ///< timer value in the tick of a trigger
   int end_of_cycle = -1;  ///< timer value after period_ticks − 1; −1: stopped
   std::vector<Leg> legs;
-  /// Joint by joint: target at timer −1 (stopped), 0, …, up to the largest value that the timer can have.
-  /// For a joint that belongs to no leg, the angle at which it is held.
+  /// Joint by joint: target at timer −1 (stopped), 0, …, up to the largest value that the timer can have, or
+  /// the period where jumps are smoothed. For a joint that belongs to no leg, the angle at which it is held.
   std::vector<std::vector<float>> targets_rad;
+
+  /// controllers::SeamSmoother.
+  struct Seam {
+    bool starts_at_once = true;  ///< before tick 1 there is nothing from which to jump
+    float residual_decay = 0.0f, filter_share = 1.0f;
+    int filter_order = 0;
+  };
+  std::optional<Seam> seam = {};  ///< none: targets are those of the tables
+
+  /// controllers::ModulatedSupgBatch. Targets have one entry more then, behind the period.
+  struct Modulation {
+    bool starts_at_once = true;
+    bool rates_on = false;
+    std::int32_t reset_share = 0, refractory_ticks = 0;
+    std::vector<std::vector<controllers::LegSensor>> sensors;  ///< leg by leg
+    std::vector<std::vector<float>> rates;                     ///< leg by leg, sensor by sensor
+    /// Sensor by sensor, joint by joint, entries as in targets_rad; empty without shape.
+    std::vector<std::vector<std::vector<float>>> gains_rad;
+
+    std::size_t sensor_count() const { return sensors.empty() ? 0 : sensors.front().size(); }
+    bool shapes() const { return !gains_rad.empty(); }
+  };
+  std::optional<Modulation> modulation = {};
+
+  /// controllers::ContactEstimate, which stands for touches.
+  struct Contact {
+    controllers::ContactSource source = controllers::ContactSource::torque;
+    std::vector<std::vector<int>> joints;  ///< leg by leg
+    float begins = 0.0f, ends = 0.0f, per_tick_squared = 0.0f;
+  };
+  std::optional<Contact> contact = {};                ///< none: touches are read
+  std::vector<std::array<float, 2>> limits_rad = {};  ///< joint by joint; of a seam or modulation
 };
 
 /// A network of neurons as tables. What a tick does is documented at controllers::NetworkArchitecture and
@@ -60,6 +95,7 @@ struct NeuralTables {
   struct Sensor {
     std::string name;
     substrate::Sensor reads;
+    float scale = 1.0f;  ///< by which a reading is multiplied
   };
   /// What happens in a tick after the sensors were read.
   enum class Update {
@@ -93,6 +129,11 @@ struct ControllerTables {
   bool reads_angles() const;
   bool reads_touch() const;
   bool reads_attitude() const;
+  bool reads_speeds() const;
+  bool reads_torques() const;
+  bool reads_yaw_rate() const;
+  bool reads_loads() const;
+  bool reads_nothing() const;
   /// How often it must be called: 1 / timestep_s.
   double rate_hz() const { return 1.0 / timestep_s; }
 };

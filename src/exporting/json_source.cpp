@@ -65,21 +65,31 @@ Json sensors_json(const ControllerTables& tables) {
                     {"meaning",
                      "of the root against the world (x forward, y left, z up): "
                      "R_z(yaw) R_y(pitch) R_x(roll)"}});
+  if (tables.reads_speeds())
+    list.push_back({{"name", "speed_rad_s"},
+                    {"count", tables.joints.size()},
+                    {"order", "joints"},
+                    {"unit", "rad/s"},
+                    {"meaning", "angle now less angle one tick ago, by the tick; 0 at first"}});
+  if (tables.reads_torques())
+    list.push_back({{"name", "torque_nm"},
+                    {"count", tables.joints.size()},
+                    {"order", "joints"},
+                    {"unit", "N m"},
+                    {"meaning", "of the motor about the joint's axis in the last step; 0 at first"}});
+  if (tables.reads_loads())
+    list.push_back({{"name", "load_n"},
+                    {"count", tables.legs.size()},
+                    {"order", "legs"},
+                    {"unit", "N"},
+                    {"meaning", "of the ground against the leg's foot, along its normal; 0 at first"}});
+  if (tables.reads_yaw_rate())
+    list.push_back({{"name", "yaw_rate_rad_s"},
+                    {"count", 1},
+                    {"order", ""},
+                    {"unit", "rad/s"},
+                    {"meaning", "yaw now less yaw one tick ago, the short way, by the tick; 0 at first"}});
   return list;
-}
-
-Json supg_json(const SupgTables& supg) {
-  Json json{{"period_ticks", supg.period_ticks},
-            {"airborne_ticks_needed", supg.airborne_ticks_needed},
-            {"start_tick", supg.start_tick},
-            {"end_of_cycle", supg.end_of_cycle},
-            {"legs", Json::array()},
-            {"targets_rad", supg.targets_rad}};
-  for (const SupgTables::Leg& leg : supg.legs)
-    json["legs"].push_back({{"offset_ticks", leg.offset_ticks},
-                            {"wait_ticks", leg.wait_ticks},
-                            {"first_timer", leg.first_timer}});
-  return json;
 }
 
 std::string sensor_name(const substrate::Sensor& sensor, const ControllerTables& tables) {
@@ -97,8 +107,68 @@ std::string sensor_name(const substrate::Sensor& sensor, const ControllerTables&
       return "yaw";
     case Kind::sine:
       return "sine";
+    case Kind::speed:
+      return "speed." + tables.joints[to_index(sensor.index)].name;
+    case Kind::torque:
+      return "torque." + tables.joints[to_index(sensor.index)].name;
+    case Kind::yaw_rate:
+      return "yaw_rate";
+    case Kind::load:
+      return "load." + tables.legs[to_index(sensor.index)];
   }
   return {};
+}
+
+Json modulation_json(const SupgTables::Modulation& modulation, const ControllerTables& tables) {
+  Json json{{"parts_per_tick", controllers::parts_per_tick},
+            {"starts_at_once", modulation.starts_at_once},
+            {"reset_share_32768", modulation.reset_share},
+            {"refractory_ticks", modulation.refractory_ticks},
+            {"sensors", Json::array()},
+            {"rates", modulation.rates_on ? Json(modulation.rates) : Json(nullptr)},
+            {"gains_rad", modulation.shapes() ? Json(modulation.gains_rad) : Json(nullptr)}};
+  for (const auto& leg : modulation.sensors) {
+    Json list = Json::array();
+    for (const controllers::LegSensor& sensor : leg)
+      list.push_back(!sensor.is_there ? Json(nullptr)
+                                      : Json{{"reads", sensor_name(sensor.sensor, tables)},
+                                             {"gain", sensor.gain},
+                                             {"shift", sensor.shift}});
+    json["sensors"].push_back(std::move(list));
+  }
+  return json;
+}
+
+Json supg_json(const SupgTables& supg, const ControllerTables& tables) {
+  Json json{{"period_ticks", supg.period_ticks},
+            {"airborne_ticks_needed", supg.airborne_ticks_needed},
+            {"start_tick", supg.start_tick},
+            {"end_of_cycle", supg.end_of_cycle},
+            {"legs", Json::array()},
+            {"targets_rad", supg.targets_rad}};
+  for (const SupgTables::Leg& leg : supg.legs)
+    json["legs"].push_back({{"offset_ticks", leg.offset_ticks},
+                            {"wait_ticks", leg.wait_ticks},
+                            {"first_timer", leg.first_timer}});
+  if (supg.seam)
+    json["seam"] = {{"starts_at_once", supg.seam->starts_at_once},
+                    {"residual_decay", supg.seam->residual_decay},
+                    {"filter_share", supg.seam->filter_share},
+                    {"filter_order", supg.seam->filter_order}};
+  if (supg.modulation) json["modulation"] = modulation_json(*supg.modulation, tables);
+  if (supg.contact)
+    json["contact"] = {{"source", controllers::contact_source_names[to_index(supg.contact->source)]},
+                       {"joints", supg.contact->joints},
+                       {"begins", supg.contact->begins},
+                       {"ends", supg.contact->ends}};
+  if (!supg.limits_rad.empty()) json["limits_rad"] = supg.limits_rad;
+  return json;
+}
+
+Json sensor_json(const NeuralTables::Sensor& sensor, const ControllerTables& tables) {
+  Json json{{"name", sensor.name}, {"reads", sensor_name(sensor.reads, tables)}};
+  if (sensor.scale != 1.0f) json["scale"] = sensor.scale;
+  return json;
 }
 
 Json links_json(const std::vector<NeuralTables::Link>& links) {
@@ -121,7 +191,7 @@ Json neural_json(const NeuralTables& neural, const ControllerTables& tables) {
   }
   json["sensors"] = Json::array();
   for (const NeuralTables::Sensor& sensor : neural.sensors)
-    json["sensors"].push_back({{"name", sensor.name}, {"reads", sensor_name(sensor.reads, tables)}});
+    json["sensors"].push_back(sensor_json(sensor, tables));
   json["neurons"] = Json::array();
   for (const NeuralTables::Neuron& neuron : neural.neurons) {
     Json entry{{"name", neuron.name}, {"node", neuron.node}};
@@ -141,7 +211,7 @@ Json controller_json(const ControllerTables& tables) {
   Json json{{"kind", tables.kind}, {"timestep_s", tables.timestep_s}, {"rate_hz", tables.rate_hz()},
             {"legs", tables.legs}, {"joints", joints_json(tables)},   {"sensors", sensors_json(tables)}};
   if (const auto* const supg = std::get_if<SupgTables>(&tables.parts))
-    json["supg"] = supg_json(*supg);
+    json["supg"] = supg_json(*supg, tables);
   else
     json["neural"] = neural_json(std::get<NeuralTables>(tables.parts), tables);
   return json;
@@ -154,6 +224,10 @@ Json trace_json(const ControllerTables& tables, const Trace& trace) {
     if (tables.reads_touch()) entry["touch"] = tick.touch;
     if (tables.reads_angles()) entry["angle_rad"] = tick.angle_rad;
     if (tables.reads_attitude()) entry["attitude_rad"] = tick.attitude_rad;
+    if (tables.reads_speeds()) entry["speed_rad_s"] = tick.speed_rad_s;
+    if (tables.reads_torques()) entry["torque_nm"] = tick.torque_nm;
+    if (tables.reads_yaw_rate()) entry["yaw_rate_rad_s"] = tick.yaw_rate_rad_s;
+    if (tables.reads_loads()) entry["load_n"] = tick.load_n;
     entry["target_rad"] = tick.target_rad;
     entry["state"] = tick.state;
     json["ticks"].push_back(std::move(entry));

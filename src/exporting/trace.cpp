@@ -14,11 +14,14 @@ std::vector<float> of_lane(const LaneArray& rows, int lane) {
   return values;
 }
 
-Trace::Tick sensed(const physics::Engine& engine, int lane) {
-  const robot::SensorFrame& sensors = engine.sensors();
+Trace::Tick of_lane(const robot::SensorFrame& sensors, int lane) {
   return {.angle_rad = of_lane(sensors.joint_angle_rad, lane),
           .touch = of_lane(sensors.touch, lane),
           .attitude_rad = of_lane(sensors.attitude_rad, lane),
+          .speed_rad_s = of_lane(sensors.joint_speed_rad_s, lane),
+          .torque_nm = of_lane(sensors.joint_torque_nm, lane),
+          .load_n = of_lane(sensors.foot_load_n, lane),
+          .yaw_rate_rad_s = of_lane(sensors.yaw_rate_rad_s, lane),
           .target_rad = {},
           .state = {}};
 }
@@ -26,8 +29,12 @@ Trace::Tick sensed(const physics::Engine& engine, int lane) {
 /// Pairs what an engine senses after a step with what the controller answers in the next one.
 class Recorder final : public trial::Observer {
  public:
-  Recorder(Trace& trace, Trace::Tick first, bool skip_first)
-      : trace_(trace), sensed_(std::move(first)), skip_(skip_first) {}
+  /// `engine`: with the robot in its start pose.
+  Recorder(Trace& trace, const trial::Protocol& protocol, const physics::Engine& engine, bool skip_first)
+      : trace_(trace), senses_(protocol.sensing, engine.sensors(), protocol.timestep_s), skip_(skip_first) {
+    senses_.load(0, engine, nullptr);
+    sensed_ = of_lane(senses_.read(engine), 0);
+  }
 
   void on_step(int, const physics::Engine& engine, const controllers::Batch& controllers,
                const LaneArray& targets_rad, int lane) override {
@@ -38,11 +45,12 @@ class Recorder final : public trial::Observer {
       controllers.state(lane, sensed_.state);
       trace_.ticks.push_back(std::move(sensed_));
     }
-    sensed_ = sensed(engine, lane);
+    sensed_ = of_lane(senses_.read(engine), lane);
   }
 
  private:
   Trace& trace_;
+  trial::Senses senses_;
   Trace::Tick sensed_;
   bool skip_;
 };
@@ -52,7 +60,11 @@ class Recorder final : public trial::Observer {
 Trace record_trace(const experiment::Problem& original, const neat::Genome& genome, int ticks,
                    const std::atomic<bool>& stop) {
   experiment::Problem problem = original;
-  problem.damage = {};  // test vectors are of what controllers read, and numb feet would not show in them
+  // Test vectors are of what controllers read. Numb feet would not show in them, nor would what is between a
+  // quantity and its reading, which is not exported.
+  problem.damage = {};
+  for (controllers::SensorSettings& sensor : problem.controller.sensing.sensors)
+    sensor = {.of = sensor.of, .scale = sensor.scale};
   const bool skip_first = problem.trial.first_command == trial::FirstCommand::after_first_step;
   problem.trial.duration_s = (ticks + (skip_first ? 1 : 0)) * problem.trial.timestep_s;
   problem.trial.validate();
@@ -60,9 +72,10 @@ Trace record_trace(const experiment::Problem& original, const neat::Genome& geno
   const auto controllers = problem.architecture->make_batch(engine->lanes());
   Trace trace{.state_names = controllers->state_names(), .ticks = {}};
   engine->place(0);
-  Recorder recorder(trace, sensed(*engine, 0), skip_first);
+  const trial::Protocol protocol = problem.protocol({});
+  Recorder recorder(trace, protocol, *engine, skip_first);
   trial::OneTask task(problem.decode(genome), &recorder);
-  trial::Runner runner(*engine, *controllers, problem.protocol({}));
+  trial::Runner runner(*engine, *controllers, protocol);
   runner.run(task, stop);
   if (!task.result()) fail(ExitCode::interrupted, "stopped before the end of the trial");
   return trace;

@@ -13,11 +13,14 @@ namespace amble::exporting {
 /// controller itself reads and writes them.
 struct Trace {
   struct Tick {
-    std::vector<float> angle_rad;     ///< by joint, in control order
-    std::vector<float> touch;         ///< by leg, 0 or 1
-    std::vector<float> attitude_rad;  ///< roll, pitch, yaw of the root
-    std::vector<float> target_rad;    ///< by joint
-    std::vector<float> state;         ///< by state name, after the tick
+    std::vector<float> angle_rad;                         ///< by joint, in control order
+    std::vector<float> touch;                             ///< by leg, 0 or 1
+    std::vector<float> attitude_rad;                      ///< roll, pitch, yaw of the root
+    std::vector<float> speed_rad_s = {}, torque_nm = {};  ///< by joint; empty where they are not asked for
+    std::vector<float> load_n = {};                       ///< by leg, likewise
+    std::vector<float> yaw_rate_rad_s = {};               ///< one, or none likewise
+    std::vector<float> target_rad;                        ///< by joint
+    std::vector<float> state;                             ///< by state name, after the tick
   };
 
   std::vector<std::string> state_names;  ///< controllers::Batch::state_names

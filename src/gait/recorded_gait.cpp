@@ -29,12 +29,25 @@ class Columns {
   std::vector<float> values_;
 };
 
-bool has_torques(const record::RecordingReader& reader, const Body& body) {
+bool has_columns(const record::RecordingReader& reader, const std::string& prefix,
+                 const std::vector<std::string>& names) {
   const auto& columns = reader.header().columns;
-  return std::ranges::all_of(body.joints, [&](const std::string& joint) {
-    return std::ranges::find(columns, "torque." + joint) != columns.end();
+  return std::ranges::all_of(names, [&](const std::string& name) {
+    return std::ranges::find(columns, prefix + name) != columns.end();
   });
 }
+
+/// Of a recording of a controller whose legs have timers.
+struct Seams {
+  Seams(const record::RecordingReader& reader, const robot::RobotSpec& robot, const Body& body)
+      : target(reader, "target.", body.joints),
+        timer(reader, "timer.", body.legs),
+        trigger(reader, "trigger.", body.legs),
+        meter(robot, reader.header().frame_s) {}
+
+  Columns target, timer, trigger;
+  SeamMeter meter;
+};
 
 }  // namespace
 
@@ -47,11 +60,16 @@ Report recorded_gait(const std::filesystem::path& path, const Settings& settings
 Report recorded_gait(record::RecordingReader& reader, const std::string& what, const Settings& settings,
                      std::optional<double> seconds) {
   const double frame_s = reader.header().frame_s;
-  const Body body = body_of(robot::parse_robot(reader.header().robot_json, what + ": robot"));
+  const robot::RobotSpec robot = robot::parse_robot(reader.header().robot_json, what + ": robot");
+  const Body body = body_of(robot);
   Columns com(reader, "com.", {"x", "y", "z"}), touch(reader, "touch.", body.legs),
       angle(reader, "angle.", body.joints);
   std::optional<Columns> torque;
-  if (has_torques(reader, body)) torque.emplace(reader, "torque.", body.joints);
+  if (has_columns(reader, "torque.", body.joints)) torque.emplace(reader, "torque.", body.joints);
+  std::optional<Seams> seams;
+  if (has_columns(reader, "timer.", body.legs) && has_columns(reader, "trigger.", body.legs) &&
+      has_columns(reader, "target.", body.joints))
+    seams.emplace(reader, robot, body);
 
   Meter meter(body, frame_s, settings);
   const double limit = seconds ? std::round(*seconds / frame_s) : std::numeric_limits<double>::infinity();
@@ -60,14 +78,23 @@ Report recorded_gait(record::RecordingReader& reader, const std::string& what, c
   while (reader.next(frame)) {
     healthy = healthy && std::ranges::all_of(frame, [](float value) { return std::isfinite(value); });
     if (!healthy || static_cast<double>(reader.frames_read()) > limit) continue;
-    const auto at = com.of(frame);
+    const auto at = com.of(frame), angle_rad = angle.of(frame),
+               torque_nm = torque ? torque->of(frame) : std::span<const float>();
     meter.add({.com_m = {at[0], at[1], at[2]},
                .touch = touch.of(frame),
-               .angle_rad = angle.of(frame),
-               .torque_nm = torque ? torque->of(frame) : std::span<const float>()});
+               .angle_rad = angle_rad,
+               .torque_nm = torque_nm});
+    if (seams)
+      seams->meter.add({.target_rad = seams->target.of(frame),
+                        .angle_rad = angle_rad,
+                        .torque_nm = torque_nm,
+                        .timer = seams->timer.of(frame),
+                        .trigger = seams->trigger.of(frame)});
   }
   const bool whole = static_cast<double>(reader.frames_read()) <= limit;
-  return meter.finish(whole ? reader.outcome() : record::Outcome::completed);
+  Report report = meter.finish(whole ? reader.outcome() : record::Outcome::completed);
+  if (seams) report.seam = seams->meter.report();
+  return report;
 }
 
 }  // namespace amble::gait

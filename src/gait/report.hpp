@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "amble/gait/gait.hpp"
+#include "amble/gait/seam.hpp"
 #include "amble/gait/settings.hpp"
 #include "amble/gait/travel.hpp"
 #include "amble/record/trajectory.hpp"
@@ -67,6 +68,7 @@ struct Report {
   std::optional<MotorWork> work;                     ///< none if torques are not known
   std::optional<double> cost_of_transport_positive;  ///< work / (mass × g × path)
   std::optional<double> cost_of_transport_absolute;
+  std::optional<SeamReport> seam;  ///< of recordings of controllers with timers
 };
 
 /// A time during which all windows have the same classification.

@@ -110,6 +110,13 @@ Json json_of(const Settings& settings) {
           {"longest_stride_s", settings.longest_stride_s}};
 }
 
+Json json_of(const SeamReport& seam) {
+  return {{"jumps", seam.jumps},
+          {"mean_rad", seam.mean_rad},
+          {"largest_rad", seam.largest_rad},
+          {"power_after_w", json_of(seam.power_after_w)}};
+}
+
 }  // namespace
 
 std::string report_json(const Report& report) {
@@ -143,6 +150,7 @@ std::string report_json(const Report& report) {
   json["work_absolute_j"] = report.work ? Json(report.work->absolute_j) : Json(nullptr);
   json["cost_of_transport_positive"] = json_of(report.cost_of_transport_positive);
   json["cost_of_transport_absolute"] = json_of(report.cost_of_transport_absolute);
+  if (report.seam) json["seam"] = json_of(*report.seam);
   return io::json_text(json);
 }
 

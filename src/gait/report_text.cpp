@@ -156,6 +156,12 @@ std::string report_table(const Report& report) {
                  number(report.straightness, 2));
   fmt::format_to(text, "Froude     {} (path speed, leg length {:.3f} m)\ncost of transport {}\n",
                  froude(report), report.leg_length_m, cost(report));
+  if (report.seam && report.seam->jumps > 0) {
+    const SeamReport& seam = *report.seam;
+    fmt::format_to(text, "seam       {} jumps of targets, {:.3f} rad on average, {:.3f} rad at most{}\n",
+                   seam.jumps, seam.mean_rad, seam.largest_rad,
+                   seam.power_after_w ? fmt::format("; {:.3g} W in 0.1 s after", *seam.power_after_w) : "");
+  }
   return table;
 }
 

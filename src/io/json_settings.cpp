@@ -42,6 +42,7 @@ class Writer final : public SettingsVisitor {
   }
 
  private:
+  bool leaves_out(std::string_view, bool at_defaults) override { return at_defaults; }
   Json& put(std::string_view key, Json value) {
     Json& table = *tables_.back();
     AMBLE_CHECK(!table.contains(key), "two settings with one key");
@@ -108,6 +109,7 @@ class Reader final : public SettingsReader {
   }
 
  private:
+  bool leaves_out(std::string_view key, bool) override { return !tables_.back().view.has(key); }
   struct Table {
     JsonView view;
     std::vector<std::string> known;  ///< keys visited so far

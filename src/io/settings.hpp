@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -18,6 +19,8 @@ struct Doc {
   std::string_view source = {};  ///< where the number comes from, e.g. "Morse et al. 2013, sec. 4"
   /// For a choice that files of earlier versions lack: JSON leaves it out while it is the first name.
   bool first_is_implied = false;
+  /// For a table that files of earlier versions lack: JSON leaves it out while all of it is at its defaults.
+  bool defaults_are_implied = false;
   /// For a table: TOML may have a text in its place, which is that of this key; all others are at their
   /// defaults. A text from the command line leaves those values of the table in the file that are no lists.
   std::string_view short_for = {};
@@ -99,6 +102,12 @@ class SettingsVisitor {
   /// A nested settings struct as a table of its own.
   template <typename Settings>
   void table(std::string_view key, Settings& settings, Doc doc) {
+    if constexpr (std::equality_comparable<Settings>) {
+      if (doc.defaults_are_implied && leaves_out(key, settings == Settings())) {
+        settings = Settings();
+        return;
+      }
+    }
     begin(key, doc);
     settings.describe(*this);
     end();
@@ -107,6 +116,10 @@ class SettingsVisitor {
   /// A list of settings structs, each written as a table.
   template <typename Settings>
   void tables(std::string_view key, std::vector<Settings>& items, Doc doc);
+
+ private:
+  /// Whether a table with Doc::defaults_are_implied is not there: not to be written, or not in what is read.
+  virtual bool leaves_out(std::string_view /*key*/, bool /*at_defaults*/) { return false; }
 };
 
 template <typename Settings>

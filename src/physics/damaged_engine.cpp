@@ -25,7 +25,7 @@ class DamagedEngine final : public Engine {
  public:
   DamagedEngine(std::string_view name, const robot::RobotSpec& robot, const damage::Settings& damage,
                 const EngineSettings& settings)
-      : robot_(robot), torques_(settings.torques) {
+      : robot_(robot), torques_(settings.torques), loads_(settings.loads) {
     for (damage::Stage& stage : damage::stages_of(robot, damage)) {
       auto engine = make_engine(name, stage.robot, settings);
       const int first_step = damage::first_step(stage.from_s, settings.timestep_s);
@@ -38,6 +38,7 @@ class DamagedEngine final : public Engine {
     sensors_.touch = LaneArray(static_cast<int>(robot.legs.size()), lanes);
     sensors_.attitude_rad = LaneArray(3, lanes);
     if (torques_) torques_nm_ = LaneArray(joints, lanes);
+    if (loads_) loads_n_ = LaneArray(static_cast<int>(robot.legs.size()), lanes);
   }
 
   int lanes() const override { return static_cast<int>(lanes_.size()); }
@@ -98,6 +99,7 @@ class DamagedEngine final : public Engine {
   bool healthy(int lane) const override { return stage_of(lane).engine->healthy(lane); }
   const robot::SensorFrame& sensors() const override { return sensors_; }
   const LaneArray* motor_torque_nm() const override { return torques_ ? &torques_nm_ : nullptr; }
+  const LaneArray* foot_load_n() const override { return loads_ ? &loads_n_ : nullptr; }
   RootPose root_pose(int lane) const override { return stage_of(lane).engine->root_pose(lane); }
   Vec3 root_com_m(int lane) const override { return stage_of(lane).engine->root_com_m(lane); }
   Vec3 com_m(int lane) const override { return stage_of(lane).engine->com_m(lane); }
@@ -202,16 +204,20 @@ class DamagedEngine final : public Engine {
     }
   }
 
-  /// Copies a lane's sensors and torques from its stage. A lock's torque is no motor's.
+  /// Copies a lane's sensors, torques and loads from its stage. A lock's torque is no motor's.
   void sense(int lane) {
     const Stage& stage = stage_of(lane);
     const robot::SensorFrame& own = stage.engine->sensors();
     sensors_.joint_angle_rad.set_lane(lane, 0.0f);
     sensors_.touch.set_lane(lane, 0.0f);
     torques_nm_.set_lane(lane, 0.0f);
+    loads_n_.set_lane(lane, 0.0f);
     for (int a = 0; a < 3; ++a) sensors_.attitude_rad.at(a, lane) = own.attitude_rad.at(a, lane);
-    for (std::size_t l = 0; l < stage.damage.leg_of.size(); ++l)
-      sensors_.touch.at(stage.damage.leg_of[l], lane) = own.touch.at(static_cast<int>(l), lane);
+    for (std::size_t l = 0; l < stage.damage.leg_of.size(); ++l) {
+      const int leg = stage.damage.leg_of[l], inner = static_cast<int>(l);
+      sensors_.touch.at(leg, lane) = own.touch.at(inner, lane);
+      if (loads_) loads_n_.at(leg, lane) = stage.engine->foot_load_n()->at(inner, lane);
+    }
     for (std::size_t j = 0; j < stage.damage.joint_of.size(); ++j) {
       const int joint = stage.damage.joint_of[j], inner = static_cast<int>(j);
       sensors_.joint_angle_rad.at(joint, lane) = own.joint_angle_rad.at(inner, lane);
@@ -223,11 +229,11 @@ class DamagedEngine final : public Engine {
   }
 
   const robot::RobotSpec robot_;
-  const bool torques_;
+  const bool torques_, loads_;
   std::vector<Stage> stages_;
   std::vector<Lane> lanes_;
   robot::SensorFrame sensors_;
-  LaneArray torques_nm_;
+  LaneArray torques_nm_, loads_n_;
 };
 
 }  // namespace

@@ -39,6 +39,7 @@ struct Motion {
 struct EngineSettings {
   double timestep_s = 0.01;
   bool torques = false;  ///< measure motor_torque_nm(); changes nothing else
+  bool loads = false;    ///< measure foot_load_n(); changes nothing else
   /// Of the ground, which has then that of all contacts (RobotSpec::contact has it already); negative: none.
   /// For engines that have friction of their own.
   double ground_friction = -1.0;
@@ -94,6 +95,9 @@ class Engine {
   /// Torque of each joint's motor in the last step, N m about the joint's axis, child against parent (joints
   /// × lanes), without the reaction of a stop. Null unless EngineSettings::torques is set.
   virtual const LaneArray* motor_torque_nm() const = 0;
+  /// With how much force the ground pressed against each foot in the last step, along its normal, N (legs ×
+  /// lanes); the mean where an engine takes several steps to one. Null unless EngineSettings::loads is set.
+  virtual const LaneArray* foot_load_n() const { return nullptr; }
   /// Centre of mass of the root body; RobotSpec::fall_height_m refers to its height over the ground below it.
   virtual Vec3 root_com_m(int lane) const = 0;
   /// Centre of mass of the whole robot.

@@ -18,6 +18,7 @@ bool has_nan(const LaneArray& targets_rad) {
 SingleRobotEngine::SingleRobotEngine(const robot::RobotSpec& robot, const EngineSettings& settings)
     : robot_(robot),
       with_torques_(settings.torques),
+      with_loads_(settings.loads),
       level_(robot::level_frame(robot.gravity_m_s2)),
       tilted_(level_ != Quat()) {
   const int joints = static_cast<int>(robot.joints.size());
@@ -25,6 +26,7 @@ SingleRobotEngine::SingleRobotEngine(const robot::RobotSpec& robot, const Engine
   sensors_.touch = LaneArray(static_cast<int>(robot.legs.size()), 1);
   sensors_.attitude_rad = LaneArray(3, 1);
   if (with_torques_) torques_nm_ = LaneArray(joints, 1);
+  if (with_loads_) loads_n_ = LaneArray(static_cast<int>(robot.legs.size()), 1);
 }
 
 void SingleRobotEngine::check_lane(int lane) {
@@ -43,6 +45,7 @@ bool SingleRobotEngine::healthy(int lane) const {
 
 void SingleRobotEngine::place_here() {
   torques_nm_.set_lane(0, 0.0f);
+  loads_n_.set_lane(0, 0.0f);
   stepping_ = true;
   healthy_ = true;
 }

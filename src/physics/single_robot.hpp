@@ -13,6 +13,7 @@ class SingleRobotEngine : public Engine {
   bool healthy(int lane) const final;
   const robot::SensorFrame& sensors() const final { return sensors_; }
   const LaneArray* motor_torque_nm() const final { return with_torques_ ? &torques_nm_ : nullptr; }
+  const LaneArray* foot_load_n() const final { return with_loads_ ? &loads_n_ : nullptr; }
 
  protected:
   SingleRobotEngine(const robot::RobotSpec& robot, const EngineSettings& settings);
@@ -27,9 +28,9 @@ class SingleRobotEngine : public Engine {
   void sense_attitude(const Quat& rotation);
 
   const robot::RobotSpec robot_;
-  const bool with_torques_;
+  const bool with_torques_, with_loads_;
   robot::SensorFrame sensors_;
-  LaneArray torques_nm_;
+  LaneArray torques_nm_, loads_n_;
   const Quat level_;   ///< robot::level_frame
   const bool tilted_;  ///< whether it is not the world's
   bool stepping_ = false;

@@ -10,6 +10,27 @@ struct SensorFrame {
   LaneArray joint_angle_rad;  ///< joints × lanes
   LaneArray touch;            ///< legs × lanes: 1 while the foot touches the ground, else 0
   LaneArray attitude_rad;     ///< 3 × lanes: roll, pitch, yaw of the root (core/math.hpp) in the level frame
+
+  // What engines leave empty, and trials fill in where it is asked for (trial/senses.hpp).
+  LaneArray joint_speed_rad_s = {};  ///< joints × lanes: how far they turned in the last tick, by its length
+  LaneArray joint_torque_nm = {};    ///< joints × lanes: of the motors in the last step
+  LaneArray yaw_rate_rad_s = {};     ///< 1 × lanes: how far the yaw turned in the last tick, by its length
+  LaneArray foot_load_n = {};        ///< legs × lanes: the ground's normal force in the last step
+};
+
+/// Which of a frame's rows that not every controller needs are asked for.
+struct ExtraSenses {
+  bool speed = false, torque = false, yaw_rate = false, load = false;
+
+  bool any() const { return speed || torque || yaw_rate || load; }
+  ExtraSenses& operator|=(const ExtraSenses& other) {
+    speed |= other.speed;
+    torque |= other.torque;
+    yaw_rate |= other.yaw_rate;
+    load |= other.load;
+    return *this;
+  }
+  friend bool operator==(const ExtraSenses&, const ExtraSenses&) = default;
 };
 
 /// The level frame in the world, in which attitude is measured: its z axis points against gravity. Where that

@@ -15,11 +15,16 @@ class GaitObserver : public trial::Observer {
   GaitObserver(const robot::RobotSpec& robot, double timestep_s, const gait::Settings& settings);
   void on_step(int step, const physics::Engine& engine, const controllers::Batch& controllers,
                const LaneArray& targets_rad, int lane) override;
-  gait::Report finish(record::Outcome outcome) { return meter_.finish(outcome); }
+  gait::Report finish(record::Outcome outcome);
 
  private:
+  void add_seam(const controllers::Batch& controllers, const LaneArray& targets_rad, int lane);
+
   gait::Meter meter_;
-  std::vector<float> touch_, angle_rad_, torque_nm_;
+  gait::SeamMeter seam_;
+  std::size_t legs_;
+  bool timers_ = false;  ///< whether the controller has a timer and triggers per leg
+  std::vector<float> touch_, angle_rad_, torque_nm_, target_rad_, state_;
 };
 
 }  // namespace amble::study

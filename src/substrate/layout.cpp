@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
+#include "amble/cppn/activation.hpp"
 #include "amble/substrate/layout_builder.hpp"
 
 namespace amble::substrate {
@@ -16,6 +18,18 @@ double interpolated(double low, double high, float o) {
 }
 
 }  // namespace
+
+void set_time_inputs(TimeInputs time, int tick, int pattern_ticks, std::span<float> inputs) {
+  if (time == TimeInputs::line) {
+    inputs[0] = static_cast<float>(static_cast<double>(tick) / pattern_ticks);
+    return;
+  }
+  // The CPPN's own sine, sin 2x, is the same on every CPU.
+  const double turns = static_cast<double>(tick % pattern_ticks) / pattern_ticks;
+  inputs[0] = static_cast<float>(std::numbers::pi * turns);
+  inputs[1] = static_cast<float>(std::numbers::pi * (turns + 0.25));
+  cppn::activate(neat::Activation::sine, cppn::Linear::identity, inputs);
+}
 
 Layout::Layout(const Settings& settings, const Needs& needs, const robot::RobotSpec& robot) {
   LayoutBuilder(*this, settings, needs, robot).build();

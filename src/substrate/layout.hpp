@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,12 +15,24 @@
 
 namespace amble::substrate {
 
+/// How a CPPN is told the time t of a pattern, in periods: t, or sin 2πt and cos 2πt, which are the same at
+/// the end of the period as at its beginning.
+enum class TimeInputs { line, circle };
+inline constexpr std::array<std::string_view, 2> time_inputs_names{"line", "circle"};
+
+/// The inputs of a tick of a pattern of so many: one, or two on a circle. The same on every CPU.
+void set_time_inputs(TimeInputs time, int tick, int pattern_ticks, std::span<float> inputs);
+
 /// What a kind of controller needs of a substrate.
 struct Needs {
   std::string_view kind;                ///< for messages
   bool network = true;                  ///< whether there are links, sensors and nodes that drive no joint
   std::vector<std::string> properties;  ///< that each node but the sensors must have
   int pattern_ticks = 0;                ///< patterns are queried at times 0, 1/ticks, …, 1
+  TimeInputs time = TimeInputs::line;
+  /// Behind those of the substrate, for queries of the controller's own; 0 in all of the layout's.
+  std::vector<std::string> more_inputs = {};
+  std::vector<std::string> more_outputs = {};
 };
 
 struct Node {
@@ -55,7 +68,8 @@ struct Decoded {
 ///
 /// CPPN inputs: the coordinates of a link's source, then those of its target. For a property of a node these
 /// are the node's own and zeros (Morse et al. 2013, figure 1). Without links there is one set of coordinates.
-/// If a node has a pattern, time in periods is one more input, 0 for everything but patterns.
+/// If a node has a pattern, time in periods is one more input, `time`, or two, `time.sin` and `time.cos`
+/// (TimeInputs), 0 for everything but patterns.
 ///
 /// Outputs o are clamped to −1 … 1. A link's weight is 0 where |o| is at most the expression threshold t, and
 /// else sign(o) (|o| − t)/(1 − t) × weight_range (HyperSharpNEAT). A property is linear in o:

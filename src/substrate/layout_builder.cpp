@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
@@ -11,6 +12,8 @@ namespace amble::substrate {
 namespace {
 
 constexpr std::size_t most_links = 1'000'000;
+/// Of a query for something that is no pattern.
+constexpr int no_tick = -1;
 
 template <typename... Args>
 [[noreturn]] void refuse(const std::string& key, fmt::format_string<Args...> text, Args&&... args) {
@@ -67,7 +70,17 @@ void LayoutBuilder::set_names() {
   }
   has_time_ = std::any_of(settings_.properties.begin(), settings_.properties.end(),
                           [](const PropertySettings& p) { return p.property == pattern_property; });
-  if (has_time_) layout_.input_names_.push_back("time");
+  if (has_time_ && needs_.time == TimeInputs::line) layout_.input_names_.push_back("time");
+  if (has_time_ && needs_.time == TimeInputs::circle)
+    layout_.input_names_.insert(layout_.input_names_.end(), {"time.sin", "time.cos"});
+  time_inputs_ = !has_time_ ? 0 : needs_.time == TimeInputs::line ? 1 : 2;
+  first_time_input_ = layout_.input_names_.size() - time_inputs_;
+  for (const std::string& name : needs_.more_inputs) layout_.input_names_.push_back(name);
+  for (const std::string& name : needs_.more_outputs) {
+    if (std::ranges::find(layout_.output_names_, name) != layout_.output_names_.end())
+      refuse("outputs", " has \"{}\", which the settings of kind {} add: leave it out", name, needs_.kind);
+    layout_.output_names_.push_back(name);
+  }
 }
 
 void LayoutBuilder::add_nodes() {
@@ -207,7 +220,7 @@ void LayoutBuilder::add_property(std::size_t index, int node) {
   source.output = output_of(property.output, item("properties", index, "output"));
   const int last_tick = source.pattern ? needs_.pattern_ticks : 0;
   for (int tick = 0; tick <= last_tick; ++tick)
-    source.points.push_back(points_.add(node_inputs(node, zero, tick)));
+    source.points.push_back(points_.add(node_inputs(node, zero, source.pattern ? tick : no_tick)));
 }
 
 void LayoutBuilder::check_properties() const {
@@ -283,8 +296,9 @@ std::vector<float> LayoutBuilder::node_inputs(int node, const std::vector<std::s
   std::vector<float> inputs = coordinates(node);
   for (const std::size_t coordinate : zero) inputs[coordinate] = 0.0f;
   inputs.resize(layout_.input_names_.size());
-  if (has_time_ && tick > 0)
-    inputs.back() = static_cast<float>(static_cast<double>(tick) / needs_.pattern_ticks);
+  if (has_time_ && tick != no_tick)
+    set_time_inputs(needs_.time, tick, needs_.pattern_ticks,
+                    std::span(inputs).subspan(first_time_input_, time_inputs_));
   return inputs;
 }
 

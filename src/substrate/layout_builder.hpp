@@ -46,6 +46,7 @@ class LayoutBuilder {
   const Needs& needs_;
   const robot::RobotSpec& robot_;
   bool has_time_ = false;
+  std::size_t time_inputs_ = 0, first_time_input_ = 0;
   std::vector<bool> read_;                             ///< output by output
   std::map<std::pair<int, int>, std::size_t> linked_;  ///< by which item
   QueryPoints points_;

@@ -15,8 +15,8 @@ void NodeSettings::describe(io::SettingsVisitor& visitor) {
   visitor.numbers("at", at, coordinate_range, {"the node's position: one number per coordinate"});
   visitor.text(
       "sensor", sensor,
-      {"what the node senses: angle.JOINT (rad), touch.LEG (0 or 1), roll, pitch, yaw (rad) or sine; "
-       "empty: nothing"});
+      {"what the node senses: angle.JOINT (rad), touch.LEG (0 or 1), load.LEG (N), speed.JOINT (rad/s), "
+       "torque.JOINT (N m), roll, pitch, yaw (rad), yaw_rate (rad/s) or sine; empty: nothing"});
   visitor.text("joint", joint, {"joint that the node drives; each joint needs one; empty: none"});
 }
 

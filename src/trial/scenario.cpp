@@ -12,7 +12,15 @@ namespace {
 using robot::RobotSpec;
 
 /// Purposes of a scenario's streams. Part of their keys: add at the end, never renumber.
-enum class Kind : std::uint32_t { start = 0, push = 1, touch = 2, sensors = 3, latency = 4, place = 5 };
+enum class Kind : std::uint32_t {
+  start = 0,
+  push = 1,
+  touch = 2,
+  sensors = 3,
+  latency = 4,
+  place = 5,
+  readings = 6
+};
 constexpr std::uint32_t most_kinds = 16;
 
 Stream stream_of(const ScenarioKey& key, Kind kind) {
@@ -121,6 +129,7 @@ Scenario draw_scenario(const NoiseSettings& noise, const RobotSpec& robot, int s
   scenario.joint_sensor_rad = draw_offsets(robot.joints.size(), noise.joint_sensor_rad, sensors);
   scenario.latency_ticks = static_cast<int>(
       stream_of(key, Kind::latency).below(static_cast<std::uint32_t>(noise.latency_ticks) + 1));
+  scenario.readings = stream_of(key, Kind::readings);
   return scenario;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "amble/core/math.hpp"
+#include "amble/core/random.hpp"
 #include "amble/ground/ground.hpp"
 #include "amble/physics/engine.hpp"
 #include "amble/robot/spec.hpp"
@@ -29,6 +30,7 @@ struct Scenario {
   std::vector<float> joint_sensor_rad;      ///< added to what is read; per joint
   std::vector<float> attitude_sensor_rad;   ///< the same for roll, pitch and yaw
   int latency_ticks = 0;                    ///< until the first targets arrive, targets are 0
+  std::optional<Stream> readings = {};      ///< noise of single readings (trial/senses.hpp); nothing: none
 };
 
 /// Names a scenario: the same key and settings give the same scenario, to the bit.

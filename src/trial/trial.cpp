@@ -16,6 +16,7 @@ Runner::Runner(physics::Engine& engine, controllers::Batch& controllers, const P
       controllers_(controllers),
       protocol_(protocol),
       targets_rad_(engine.sensors().joint_angle_rad.rows(), engine.lanes()),
+      senses_(protocol.sensing, engine.sensors(), protocol.timestep_s),
       disturbances_(engine.sensors(), protocol.numb),
       lanes_(to_index(engine.lanes())) {
   AMBLE_CHECK(controllers.lanes() == engine.lanes(), "one controller per robot");
@@ -28,7 +29,7 @@ void Runner::run(TaskQueue& queue, const std::atomic<bool>& stop) {
   for (int lane = 0; lane < engine_.lanes(); ++lane) refill(lane, queue);
   while (busy_ > 0 && !stop.load(std::memory_order_relaxed)) {
     const double before_s = now_s();
-    controllers_.step(disturbances_.read(engine_.sensors()), targets_rad_);
+    controllers_.step(disturbances_.read(senses_.read(engine_)), targets_rad_);
     if (protocol_.first_command == FirstCommand::after_first_step) hold_first_steps();
     disturbances_.act(targets_rad_, engine_);
     const double between_s = now_s();
@@ -59,6 +60,7 @@ void Runner::refill(int lane, TaskQueue& queue) {
     else
       engine_.place(lane);
   }
+  senses_.load(lane, engine_, task->scenario);
   slot.task = std::move(*task);
   controllers_.load(lane, *slot.task.parameters);
   note_start(slot, lane);

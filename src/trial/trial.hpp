@@ -13,6 +13,7 @@
 #include "amble/record/trajectory.hpp"
 #include "amble/trial/disturbances.hpp"
 #include "amble/trial/scenario.hpp"
+#include "amble/trial/senses.hpp"
 #include "amble/trial/settings.hpp"
 
 namespace amble::trial {
@@ -53,6 +54,7 @@ struct Protocol {
   record::PathSampling path;
   record::Measures measures;         ///< energy: only with an engine that has motor torques
   std::vector<NumbTouch> numb = {};  ///< in every trial
+  Sensing sensing = {};              ///< torques: only with an engine that has them
   double fall_height_m = 0.0;        ///< of the root's centre of mass over the ground below it
   Quat start_rotation;               ///< of the root in the robot's own start pose
 };
@@ -96,6 +98,7 @@ class Runner {
   controllers::Batch& controllers_;
   Protocol protocol_;
   LaneArray targets_rad_;
+  Senses senses_;
   Disturbances disturbances_;
   std::vector<Lane> lanes_;
   int busy_ = 0;

@@ -36,6 +36,8 @@ std::vector<Sample> samples() {
                   "authors/supg",
                   "quadruped",
                   {"controller.supg.trigger=none", "controller.supg.idle=wrap"}});
+  for (const Sample& sample : seam_samples()) some.push_back(sample);
+  for (const Sample& sample : modulated_samples()) some.push_back(sample);
   return some;
 }
 
@@ -114,7 +116,8 @@ TEST_P(EachChampion, InFixedPointIsWithinHalfABit) {
   const TemporaryFolder scratch;
   const experiment::Champion champion = evolve(GetParam());
   const auto tables = exporting::controller_tables(champion.problem, champion.genome);
-  if (tables.kind != "supg") {
+  const auto* const supg = std::get_if<exporting::SupgTables>(&tables.parts);
+  if (!supg || supg->seam || supg->modulation || supg->contact) {
     EXPECT_THROW(write_walker(scratch.path(), champion, Arithmetic::fixed), UserError);
     return;
   }

@@ -112,8 +112,9 @@ int main(void) {
 
 TEST(CNeuralText, FusedMultiplyAddIsThatOfTheProcessor) {
   const test::TemporaryFolder scratch;
-  io::write_file(scratch / "fused.c", "#include <stdint.h>\n" + std::string(c_arithmetic_notes) +
-                                          std::string(c_fused) + std::string(fused_main));
+  io::write_file(scratch / "fused.c", "#include <stdint.h>\n" + std::string(c_rounding) +
+                                          std::string(c_float_bits) + std::string(c_fused) +
+                                          std::string(fused_main));
   const std::string program = (scratch / "fused").string();
   const auto built = tests::run_shell("gcc -std=c99 -O2 -o '" + program + "' '" + program + ".c' -lm");
   ASSERT_EQ(built.out, "");

@@ -63,6 +63,57 @@ std::vector<Sample> twenty_samples() {
   };
 }
 
+std::vector<Sample> seam_samples() {
+  const std::string seam = supg + "seam.";
+  return {
+      {"residual", "authors/supg", "quadruped", {seam + "residual_s=0.05"}},
+      {"delayed_residual",
+       "paper/supg",
+       "quadruped",
+       {seam + "residual_s=0.1", supg + "idle=wrap", seam + "time=circle"}},
+      {"filtered", "authors/supg", "hexapod", {seam + "filter_s=0.04", seam + "detrend=true"}},
+      {"filtered_residual",
+       "authors/supg",
+       "holding",
+       {seam + "filter_s=0.02", seam + "filter_order=1", seam + "residual_s=0.02", supg + "idle=hold",
+        supg + "offset=delay"}},
+  };
+}
+
+std::vector<Sample> modulated_samples() {
+  const std::string modulation = supg + "modulation.", seam = supg + "seam.";
+  return {
+      {"modulated",
+       "authors/supg",
+       "quadruped",
+       {modulation + R"(sensors=["pitch","angle.knee"])", modulation + "rate=1", modulation + "shape=1"}},
+      {"modulated_rate",
+       "paper/supg",
+       "hexapod",
+       {modulation + R"(sensors=["roll","yaw_rate","load"])", modulation + "rate=0.5",
+        modulation + "reset=0.5", modulation + "refractory_ticks=20", supg + "idle=wrap"}},
+      {"modulated_shape",
+       "authors/supg",
+       "lacking",
+       {modulation + R"(sensors=["speed.hip_io","torque.knee"])", modulation + "shape=0.5",
+        supg + "offset=delay", seam + "residual_s=0.05", seam + "filter_s=0.02",
+        "controller.sensing.sensors=[{of=\"speed\",scale=2.0}]"}},
+      {"torque_contact",
+       "authors/supg",
+       "quadruped",
+       {supg + "contact.source=torque", supg + "contact.joint_type=knee", supg + "contact.threshold=1"}},
+      {"tracking_contact",
+       "authors/supg",
+       "hexapod",
+       {supg + "contact.source=tracking", supg + "contact.threshold=0.05", seam + "filter_s=0.02"}},
+      {"shock_contact",
+       "authors/supg",
+       "quadruped",
+       {supg + "contact.source=shock", supg + "contact.threshold=5", modulation + "reset=0.5"}},
+      {"soft_reset", "authors/supg", "quadruped", {modulation + "reset=0.25", seam + "filter_s=0.02"}},
+  };
+}
+
 Champion evolve(const Sample& sample) {
   const TemporaryFolder scratch;
   Overrides overrides{.assignments = {"engine=batch", "population.size=40", "trial.duration_s=1"},

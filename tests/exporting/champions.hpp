@@ -24,6 +24,12 @@ inline void PrintTo(const Sample& sample, std::ostream* out) {
 /// Twenty: all architectures with most of their settings, on robots of two, four and six legs.
 std::vector<Sample> twenty_samples();
 
+/// SUPGs whose targets are smoothed, and whose patterns end where they began.
+std::vector<Sample> seam_samples();
+
+/// SUPGs that sensors modulate.
+std::vector<Sample> modulated_samples();
+
 /// Its champion after a few generations. One that fell before: in the trials of tests the robot may fall and
 /// go on, so that they are as long as they are meant to be.
 experiment::Champion evolve(const Sample& sample);

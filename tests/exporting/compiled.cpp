@@ -70,7 +70,8 @@ Difference replay(const fs::path& program, const exporting::ControllerTables& ta
                   const exporting::Trace& trace) {
   std::string sensed;
   for (const auto& tick : trace.ticks)
-    for (const auto* const values : {&tick.angle_rad, &tick.touch, &tick.attitude_rad})
+    for (const auto* const values : {&tick.angle_rad, &tick.touch, &tick.attitude_rad, &tick.speed_rad_s,
+                                     &tick.torque_nm, &tick.yaw_rate_rad_s, &tick.load_n})
       append(sensed, *values);
   const fs::path in = program.string() + ".in", out = program.string() + ".out";
   io::write_file(in, sensed);

@@ -1,11 +1,32 @@
 /* Feeds the exported controller "walker" what is on the standard input and writes what it answers, tick by
- * tick, as float32. Input: angles of all joints, touches of all legs, roll, pitch, yaw. Output: targets of
+ * tick, as float32. Input: angles of all joints, touches of all legs, roll, pitch, yaw, and where they are read
+ * speeds and torques of all joints, the yaw rate, and loads of all legs. Output: targets of
  * all joints (rad), then the state: of SUPGs timers and triggers by leg, else the neurons' values. */
 #include "walker.h"
 
 #include <stdio.h>
 
-enum { inputs = WALKER_JOINTS + WALKER_LEGS + 3 };
+#ifdef WALKER_READS_SPEEDS
+enum { speeds = WALKER_JOINTS };
+#else
+enum { speeds = 0 };
+#endif
+#ifdef WALKER_READS_TORQUES
+enum { torques = WALKER_JOINTS };
+#else
+enum { torques = 0 };
+#endif
+#ifdef WALKER_READS_YAW_RATE
+enum { yaw_rates = 1 };
+#else
+enum { yaw_rates = 0 };
+#endif
+#ifdef WALKER_READS_LOADS
+enum { loads = WALKER_LEGS };
+#else
+enum { loads = 0 };
+#endif
+enum { usual = WALKER_JOINTS + WALKER_LEGS + 3, inputs = usual + speeds + torques + yaw_rates + loads };
 
 static void put(float value) { fwrite(&value, sizeof value, 1, stdout); }
 
@@ -34,6 +55,18 @@ int main(void) {
     sensors.pitch_rad = in[WALKER_JOINTS + WALKER_LEGS + 1];
     sensors.yaw_rad = in[WALKER_JOINTS + WALKER_LEGS + 2];
 #endif
+#ifdef WALKER_READS_SPEEDS
+    for (i = 0; i < WALKER_JOINTS; ++i) sensors.speed_rad_s[i] = in[usual + i];
+#endif
+#ifdef WALKER_READS_TORQUES
+    for (i = 0; i < WALKER_JOINTS; ++i) sensors.torque_nm[i] = in[usual + speeds + i];
+#endif
+#ifdef WALKER_READS_LOADS
+    for (i = 0; i < WALKER_LEGS; ++i) sensors.load_n[i] = in[usual + speeds + torques + yaw_rates + i];
+#endif
+#ifdef WALKER_READS_YAW_RATE
+    sensors.yaw_rate_rad_s = in[usual + speeds + torques];
+#endif
     walker_step(&state, &sensors, &targets);
     for (i = 0; i < WALKER_JOINTS; ++i) {
 #ifdef WALKER_FRACTION_BITS
@@ -45,7 +78,12 @@ int main(void) {
 #ifdef WALKER_NEURONS
     for (i = 0; i < WALKER_NEURONS; ++i) put(state.neuron[i]);
 #else
+#ifdef WALKER_TICK_PARTS
+    for (i = 0; i < WALKER_LEGS; ++i)
+      put(state.timer[i] < 0 ? -1.0f : (float)state.timer[i] * (1.0f / WALKER_TICK_PARTS));
+#else
     for (i = 0; i < WALKER_LEGS; ++i) put((float)state.timer[i]);
+#endif
     for (i = 0; i < WALKER_LEGS; ++i) put((float)state.trigger[i]);
 #endif
   }

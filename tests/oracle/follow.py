@@ -16,6 +16,8 @@ import tempfile
 import numpy as np
 
 from recording import Recording
+from modulated import ModulatedLeg, Modulation
+from seam import Seam
 from supg import STOPPED, Leg, Patterns
 
 CONFIGS = pathlib.Path(__file__).resolve().parents[2] / "configs"
@@ -29,12 +31,21 @@ RUNS = {
         ["controller.supg.idle=wrap", "controller.supg.period_s=0.4"],
         ["controller.supg.idle=wrap", "controller.supg.trigger=none"],
         ["controller.supg.offset=delay", "controller.supg.trigger_debounce_ticks=4"],
+        ["controller.supg.seam.residual_s=0.05"],
+        ['controller.supg.modulation.sensors=["pitch","angle.knee"]', "controller.supg.modulation.rate=1",
+         "controller.supg.modulation.shape=1"],
+        ['controller.supg.modulation.sensors=["roll","touch"]', "controller.supg.modulation.rate=0.5",
+         "controller.supg.modulation.reset=0.5", "controller.supg.modulation.refractory_ticks=20",
+         "controller.supg.idle=wrap", "controller.supg.seam.residual_s=0.05"],
+        ["controller.supg.seam.residual_s=0.02", "controller.supg.seam.filter_s=0.03", "controller.supg.idle=wrap"],
     ],
     "paper": [
         [],
         ["controller.supg.trigger=level", "controller.supg.idle=mid"],
         ["controller.supg.offset=phase", "controller.supg.idle=wrap", "cppn.recurrent=true"],
         ["controller.supg.start_tick=1", "trial.first_command=after_first_step"],
+        ["controller.supg.seam.time=circle", "controller.supg.seam.residual_s=0.1"],
+        ["controller.supg.seam.detrend=true", "controller.supg.seam.filter_s=0.02", "controller.supg.seam.filter_order=1"],
     ],
     "robust": [
         [],
@@ -45,13 +56,17 @@ RUNS = {
 # What the recordings of a preset must have shown, so that following them means something.
 SHOWN = {
     "authors": ["cycle in a CPPN", "hidden node", "start by phase", "delayed start", "trigger", "trigger in mid-cycle",
-                "mid", "hold", "wrap", "bounce"],
+                "mid", "hold", "wrap", "bounce", "jump", "other rate", "shift", "pull", "refractory"],
     "paper": ["hidden node", "delayed start", "start by phase", "trigger in mid-cycle", "trigger ignored", "mid", "hold", "wrap"],
     "robust": ["hidden node", "delayed start", "start by phase", "trigger in mid-cycle", "hold", "wrap"],
 }
 # Small, and with more structural mutations than a long evolution needs, so that CPPNs soon have hidden nodes and cycles.
 SMALL = ["population.size=40", "engine=batch", "mutation.add_node_share=0.3", "mutation.add_link_share=0.4",
          "trial.duration_s=6", "seed=3"]
+
+
+# Of a timer that rounding of a rate and of a sensor's digits leave open, ticks.
+TIMER_TOLERANCE = 2e-3
 
 
 class Difference(Exception):
@@ -65,30 +80,51 @@ def follow(champion, recording, events):
     events["hidden node"] += patterns.cppn.hidden_count
     events["champion"] += 1
     recorded_offsets = recording.header["controller"]["offset_ticks"]
+    modulation = Modulation(patterns, champion)
+    is_modulated = "modulation" in patterns.settings
     legs = []
     for name, offsets, recorded in zip(patterns.legs, patterns.offset_ticks, recorded_offsets):
         if recorded not in offsets:
             raise Difference(f"offset of {name}: {recorded} recorded, {offsets} by the model")
-        legs.append(Leg(patterns.settings, patterns.period_ticks, recorded, events))
+        legs.append((ModulatedLeg if is_modulated else Leg)(patterns.settings, patterns.period_ticks, recorded, events))
+    limits = [(joint["lower_rad"], joint["upper_rad"]) for joint in champion["robot"]["joints"]]
+    seams = [Seam(patterns.seam, champion["trial"]["timestep_s"], *limit, tolerance)
+             for limit, tolerance in zip(limits, patterns.tolerance_rad)]
     waits = champion["trial"]["first_command"] == "after_first_step"
 
     for frame in range(recording.frames):
         # Touches are felt in the pose at the beginning of a frame's step, and read before the next one.
         felt = max(frame - 1, 0)
-        for leg, name, joints in zip(legs, patterns.legs, patterns.joints_of_leg):
+        for number, (leg, name, joints) in enumerate(zip(legs, patterns.legs, patterns.joints_of_leg)):
             begun = frame > 0 or not waits
-            if begun:
-                leg.tick(recording["touch." + name][felt] == 1.0)
-            where = f"{name}, step {frame + 1}"
-            expect_equal(recording["timer." + name][frame], leg.timer, "timer of " + where)
+            where, recorded_timer, sensed = f"{name}, step {frame + 1}", recording["timer." + name][frame], []
+            touching = recording["touch." + name][felt] == 1.0
+            if begun and is_modulated:
+                sensed = modulation.sensed(number, recording, frame)
+                rho = sum(rate[number] * s for rate, s in zip(modulation.rates, sensed))
+                leg.tick_sensing(touching, rho, recorded_timer)
+                if abs(recorded_timer - leg.timer) < TIMER_TOLERANCE:
+                    leg.timer = float(recorded_timer)
+            elif begun:
+                leg.tick(touching)
+            expect_equal(recorded_timer, leg.timer, "timer of " + where)
             expect_equal(recording["trigger." + name][frame], float(leg.triggered), "trigger of " + where)
             for joint in joints:
                 if not begun:
                     expected, tolerance = 0.0, 1e-6  # the start pose
-                elif leg.timer == STOPPED:
-                    expected, tolerance = patterns.middle_rad[joint], 1e-6
                 else:
-                    expected, tolerance = patterns.targets_rad[joint][leg.timer], patterns.tolerance_rad[joint]
+                    jumped = leg.timer != leg.continued_timer
+                    gains = [gain[joint] for gain in modulation.gains_rad]
+                    continued_rad, present_rad = (
+                        min(max(patterns.shifted_rad(joint, timer, gains, sensed), limits[joint][0]), limits[joint][1])
+                        for timer in (leg.continued_timer, leg.timer))
+                    expected, tolerance = seams[joint].next(continued_rad, present_rad, jumped)
+                    events["shift"] += any(abs(gain[0] * s) > 0.01 for gain, s in zip(gains, sensed))
+                    if is_modulated:
+                        tolerance += 1e-4  # a sensor read in other digits
+                    events["jump"] += jumped
+                    if leg.timer == STOPPED and not seams[joint].smooths:
+                        tolerance = 1e-6
                 target = recording["target." + patterns.joints[joint]][frame]
                 if not abs(target - expected) <= tolerance:
                     raise Difference(f"target of {patterns.joints[joint]}, step {frame + 1}: {target} recorded, "

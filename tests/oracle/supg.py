@@ -19,6 +19,8 @@ class Patterns:
     def __init__(self, champion):
         controller, robot = champion["controller"], champion["robot"]
         self.settings = controller["supg"]
+        # A file without the table has targets that jump.
+        self.seam = {"time": "line", "detrend": False, "residual_s": 0.0, "filter_s": 0.0, "filter_order": 2} | self.settings.get("seam", {})
         self.period_ticks = round(self.settings["period_s"] / champion["trial"]["timestep_s"])
         self.legs = [leg["name"] for leg in robot["legs"]]
         self.joints_of_leg = [leg["joints"] for leg in robot["legs"]]
@@ -36,22 +38,41 @@ class Patterns:
             self.tolerance_rad.append(1e-5 + 10.0 * np.abs(both[0] - both[1]).max())
         self.offset_ticks = [self._offset_ticks(self.joints[joints[0]]) for joints in self.joints_of_leg]
 
-    def _points(self, joint_name, property_name, times):
+    def shifted_rad(self, joint, timer, gains_rad, sensed):
+        """The pattern at a timer that need not be whole, and what sensors shift it by."""
+        if timer == STOPPED:
+            return self.middle_rad[joint]
+        tables = [self.targets_rad[joint], *gains_rad]
+        values = [np.interp(timer, np.arange(self.period_ticks + 1), table) for table in tables]
+        return float(values[0] + sum(gain * s for gain, s in zip(values[1:], sensed)))
+
+    def points(self, joint_name, property_name, times, sensor=0.0):
+        """Queries of a node, and the output that says this property of it."""
         place = dict(zip(self._substrate["coordinates"], self._nodes[joint_name]["at"]))
         settings = next(p for p in self._substrate["properties"] if p["property"] == property_name)
         for coordinate in settings["zero"]:
             place[coordinate] = 0.0
-        points = np.array([[*place.values(), time] for time in times])
+        sensing = [sensor] if self.settings.get("modulation", {}).get("sensors") else []
+        points = np.array([[*place.values(), *self._time(time, property_name), *sensing] for time in times])
         return points, self._substrate["outputs"].index(settings["output"])
 
+    def _time(self, time, property_name):
+        """The CPPN's inputs for a time in periods; on a circle nothing but a pattern is anywhere."""
+        if self.seam["time"] == "line":
+            return [time]
+        angle = 2.0 * math.pi * (time % 1.0)
+        return [math.sin(angle), math.cos(angle)] if property_name == "pattern" else [0.0, 0.0]
+
     def _targets_rad(self, joint, times, dtype):
-        points, output = self._points(joint["name"], "pattern", times)
-        pattern = self.cppn.evaluate(points, dtype)[:, output]
+        points, output = self.points(joint["name"], "pattern", times)
+        pattern = np.clip(self.cppn.evaluate(points, dtype)[:, output], -1.0, 1.0)
+        if self.seam["detrend"]:
+            pattern = pattern - (times - 0.5) * (pattern[-1] - pattern[0])
         command = np.clip((pattern + 1.0) / 2.0, 0.0, 1.0)
         return joint["lower_rad"] + (joint["upper_rad"] - joint["lower_rad"]) * command
 
     def _offset_ticks(self, joint_name):
-        points, output = self._points(joint_name, "offset", [0.0])
+        points, output = self.points(joint_name, "offset", [0.0])
         single, double = (self.cppn.evaluate(points, dtype)[0, output] for dtype in (np.float32, np.float64))
         doubt = 1e-6 + 10.0 * abs(single - double)
         return {self._ticks(a) for a in (single, single - doubt, single + doubt)} if self._is_close_call(single, doubt) else {
@@ -75,6 +96,7 @@ class Leg:
         self.settings, self.period_ticks, self.offset_ticks, self.events = settings, period_ticks, offset_ticks, events
         self.tick_number = 0
         self.timer = STOPPED
+        self.continued_timer = STOPPED  # what the timer would be in this tick without a jump
         self.triggered = False
         self.ticks_in_the_air = 0  # all feet count as touching before tick 1
 
@@ -91,6 +113,7 @@ class Leg:
 
         delayed = self.settings["offset"] == "delay"
         first_start = self.offset_ticks + 1 if delayed else 1
+        self.continued_timer = STOPPED if self.timer == STOPPED else min(self.timer + 1, self.period_ticks)
         self.triggered = lands and self.tick_number > first_start
         if lands and not self.triggered:
             self._note("trigger ignored")
@@ -101,6 +124,7 @@ class Leg:
             else:
                 self.timer = self.offset_ticks
                 self._advance()
+                self.continued_timer = self.timer  # before tick 1 there is nothing from which to jump
         elif self.triggered:
             self._note("trigger" if self.timer == STOPPED else "trigger in mid-cycle")
             self.timer = self.settings["start_tick"]

@@ -38,6 +38,11 @@ std::string role_of(const Node& node, const robot::RobotSpec& robot) {
       return "<yaw";
     case Sensor::Kind::sine:
       return "<sine";
+    case Sensor::Kind::speed:
+    case Sensor::Kind::torque:
+    case Sensor::Kind::yaw_rate:
+    case Sensor::Kind::load:
+      break;
   }
   return "?";
 }

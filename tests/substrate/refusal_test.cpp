@@ -98,7 +98,9 @@ TEST(BadSubstrate, SensorOrJointThatTheRobotLacks) {
   EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[0].sensor = "angle.FL_elbow"; }),
             "nodes[0].sensor = \"angle.FL_elbow\": the robot has no joint FL_elbow");
   EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[0].sensor = "smell"; }),
-            "nodes[0].sensor = \"smell\": expected angle.JOINT, touch.LEG, roll, pitch, yaw or sine");
+            "nodes[0].sensor = \"smell\": expected angle.JOINT, touch.LEG, load.LEG, speed.JOINT, "
+            "torque.JOINT, roll, "
+            "pitch, yaw, yaw_rate or sine");
   EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[3].joint = "FL_elbow"; }),
             "nodes[3].joint = \"FL_elbow\": the robot has no such joint");
 }
@@ -164,7 +166,9 @@ TEST(BadSubstrate, EmptyNamesAndEmptyLists) {
 }
 
 TEST(BadSubstrate, SensorWithoutAnOwnerOrOfAKindThatRobotsLack) {
-  const std::string expected = "\": expected angle.JOINT, touch.LEG, roll, pitch, yaw or sine";
+  const std::string expected =
+      "\": expected angle.JOINT, touch.LEG, load.LEG, speed.JOINT, torque.JOINT, roll, pitch, yaw, yaw_rate "
+      "or sine";
   for (const std::string name : {"angle", "touch", "smell.FL", "roll.FL", "Angle.FL_knee"})
     EXPECT_EQ(ctrnn([&](Settings& s) { s.nodes[0].sensor = name; }),
               "nodes[0].sensor = \"" + name + expected);

@@ -55,6 +55,7 @@ class FakeEngine : public physics::Engine {
   }
   bool healthy(int lane) const override { return std::isfinite(state(lane).position.x); }
   const robot::SensorFrame& sensors() const override { return frame_; }
+  robot::SensorFrame& frame() { return frame_; }
   const LaneArray* motor_torque_nm() const override { return nullptr; }
   physics::RootPose root_pose(int lane) const override {
     return {state(lane).position, state(lane).rotation};

@@ -26,6 +26,8 @@ class LockstepEngine final : public BatchEngine {
         timestep_s_(static_cast<float>(settings.timestep_s)),
         with_torques_(settings.torques),
         torques_nm_(rows_.links, batch::lanes),
+        with_loads_(settings.loads),
+        loads_n_(model_.legs, batch::lanes),
         robots_(model_, rows_),
         start_(model_, rows_),
         posed_(model_, rows_) {
@@ -65,6 +67,7 @@ class LockstepEngine final : public BatchEngine {
   void step(const LaneArray& targets_rad) override {
     AMBLE_CHECK(targets_rad.rows() == rows_.links && targets_rad.lanes() == batch::lanes, "targets");
     batch::step(arguments_for(robots_), targets_rad);
+    if (with_loads_) measure_loads();
   }
 
   void push(int lane, Vec3 impulse_n_s) override {
@@ -80,6 +83,7 @@ class LockstepEngine final : public BatchEngine {
 
   const robot::SensorFrame& sensors() const override { return robots_.sensors(); }
   const LaneArray* motor_torque_nm() const override { return with_torques_ ? &torques_nm_ : nullptr; }
+  const LaneArray* foot_load_n() const override { return with_loads_ ? &loads_n_ : nullptr; }
 
   RootPose root_pose(int lane) const override {
     return {com_m(lane) + robots_.to_world(lane, robots_.vec3(StateRows::torso_origin, lane)),
@@ -172,10 +176,23 @@ class LockstepEngine final : public BatchEngine {
     batch::derive(arguments_for(robots));
   }
 
+  /// The impulses along the normals of a foot's points in the last step, by its length.
+  void measure_loads() {
+    for (int lane = 0; lane < batch::lanes; ++lane) loads_n_.set_lane(lane, 0.0f);
+    const float per_step = 1.0f / timestep_s_;
+    for (const batch::PointGroup& geom : model_.geoms) {
+      if (geom.leg < 0) continue;
+      for (int p = geom.first; p < geom.first + geom.count; ++p)
+        for (int lane = 0; lane < batch::lanes; ++lane)
+          loads_n_.at(geom.leg, lane) += robots_.at(rows_.point_impulse + 3 * p, lane) * per_step;
+    }
+  }
+
   void copy_into(int lane, const LockstepState& resting) {
     check_lane(lane);
     robots_.copy(lane, resting, 0);
     torques_nm_.set_lane(lane, 0.0f);
+    loads_n_.set_lane(lane, 0.0f);
   }
 
   const robot::RobotSpec robot_;
@@ -189,6 +206,8 @@ class LockstepEngine final : public BatchEngine {
   const bool with_torques_;
   batch::UnevenGround uneven_;  ///< of ground(), if that is not null
   LaneArray torques_nm_;
+  const bool with_loads_;
+  LaneArray loads_n_;
   LockstepState robots_;
   LockstepState start_;  ///< lane 0: in the start pose
   LockstepState posed_;  ///< lane 0: in the pose of the last place_at()

@@ -100,6 +100,7 @@ class MujocoEngine final : public SingleRobotEngine {
     mj_fwdAcceleration(model_.get(), data_.get());
     slip_.solve(model_.get(), data_.get());
     if (with_torques_) measure_torques();
+    if (with_loads_) measure_loads();
     mj_Euler(model_.get(), data_.get());
     mju_zero3(data_->xfrc_applied + 6 * root_body);
     read_state();
@@ -245,6 +246,19 @@ class MujocoEngine final : public SingleRobotEngine {
       if (robot_.joints[to_index(j)].has_motor())
         torques_nm_.at(j, 0) = static_cast<float>(data_->efc_force[row]);
     });
+  }
+
+  /// The contacts' normal forces, once the constraints are solved.
+  void measure_loads() {
+    loads_n_.set_lane(0, 0.0f);
+    for (int c = 0; c < data_->ncon; ++c) {
+      const mjContact& contact = data_->contact[c];
+      const int leg = contact.geom1 == ground_geom ? model_.leg_of[to_index(contact.geom2)] : -1;
+      if (leg < 0) continue;
+      mjtNum force[6];
+      mj_contactForce(model_.get(), data_.get(), c, force);
+      loads_n_.at(leg, 0) += static_cast<float>(force[0]);
+    }
   }
 
   double error_rad(int j, const LaneArray& targets_rad) const {

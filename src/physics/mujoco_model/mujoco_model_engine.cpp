@@ -94,6 +94,7 @@ class MujocoModelEngine final : public SingleRobotEngine {
   void step(const LaneArray& targets_rad) override {
     if (!can_step(targets_rad)) return;
     torques_nm_.set_lane(0, 0.0f);
+    loads_n_.set_lane(0, 0.0f);
     try {
       for (int i = 0; i < model_.steps && !data_was_reset(); ++i) step_once(targets_rad);
     } catch (const morphology::MujocoError&) {  // too little memory for its contacts
@@ -192,6 +193,7 @@ class MujocoModelEngine final : public SingleRobotEngine {
     else
       step_on_uneven_ground();
     if (with_torques_) add_torques();
+    if (with_loads_) add_loads();
   }
 
   bool data_was_reset() const {
@@ -276,6 +278,21 @@ class MujocoModelEngine final : public SingleRobotEngine {
   void add_torques() {
     for (int j = 0; j < torques_nm_.rows(); ++j)
       torques_nm_.at(j, 0) += static_cast<float>(actuation_.torque_nm(to_index(j), *data_) / model_.steps);
+  }
+
+  /// The mean over a tick of the contacts' normal forces.
+  void add_loads() {
+    for (int c = 0; c < data_->ncon; ++c) {
+      const mjContact& contact = data_->contact[c];
+      mjtNum force[6];
+      mj_contactForce(model_.get(), data_.get(), c, force);
+      for (const auto& [foot, other] :
+           {std::pair{contact.geom1, contact.geom2}, {contact.geom2, contact.geom1}}) {
+        const int leg = model_.leg_of[to_index(foot)];
+        if (leg >= 0 && model_.stands(other))
+          loads_n_.at(leg, 0) += static_cast<float>(force[0] / model_.steps);
+      }
+    }
   }
 
   double start_rad(std::size_t joint) const { return model_.start[to_index(model_.position_of[joint])]; }

@@ -38,8 +38,8 @@ constexpr double slack_m = 1e-6;
 
 }  // namespace
 
-Contacts::Contacts(const RobotSpec& robot, const World& world, const ground::Ground* ground)
-    : world_(world), ground_(ground), group_(dJointGroupCreate(0)) {
+Contacts::Contacts(const RobotSpec& robot, const World& world, const ground::Ground* ground, bool loads)
+    : world_(world), ground_(ground), group_(dJointGroupCreate(0)), with_loads_(loads) {
   // Coulomb friction |f_t| ≤ μ f_n along each of two directions, a pyramid; without dContactApprox1 mu would
   // be a bound of the force itself, so infinity means sticking (ODE manual, "Contact").
   surface_.mode = std::isinf(robot.contact.friction) ? 0 : dContactApprox1;
@@ -83,10 +83,11 @@ void Contacts::find_touch(LaneArray& touch) {
 
 void Contacts::collide(LaneArray& touch) {
   dJointGroupEmpty(group_);
+  feedbacks_.clear();
   touch.set_lane(0, 0.0f);
   for (const Collider& collider : colliders_) {
     const int count = collide_with_ground(collider);
-    add_contacts(count, collider.body, nullptr);
+    add_contacts(count, collider.body, nullptr, collider.leg);
     if (collider.leg >= 0 && count > 0) touch.at(collider.leg, 0) = 1.0f;
   }
   for (const Pair& pair : pairs_) collide_pair(pair);
@@ -131,16 +132,29 @@ void Contacts::collide_pair(const Pair& pair) {
   const Vec3 between{at[0] - bt[0], at[1] - bt[1], at[2] - bt[2]};
   const double reach = a.radius_m + b.radius_m;
   if (dot(between, between) > reach * reach) return;
-  add_contacts(dCollide(a.geom, b.geom, most_contacts, found_, sizeof(dContactGeom)), a.body, b.body);
+  add_contacts(dCollide(a.geom, b.geom, most_contacts, found_, sizeof(dContactGeom)), a.body, b.body, -1);
 }
 
-void Contacts::add_contacts(int count, dBodyID a, dBodyID b) {
+void Contacts::loads(LaneArray& loads_n) const {
+  loads_n.set_lane(0, 0.0f);
+  for (const Feedback& feedback : feedbacks_) {
+    const dReal* const f = feedback.forces.f1;
+    loads_n.at(feedback.leg, 0) += static_cast<float>(dot({f[0], f[1], f[2]}, feedback.normal));
+  }
+}
+
+void Contacts::add_contacts(int count, dBodyID a, dBodyID b, int leg) {
   for (int c = 0; c < count; ++c) {
     // Normal row: v_n⁺ + cfm f_n = (erp/h) depth, f_n ≥ 0, with the world's erp and cfm.
     dContact contact{};
     contact.surface = surface_;
     contact.geom = found_[c];
-    dJointAttach(dJointCreateContact(world_.id(), group_, &contact), a, b);
+    const dJointID joint = dJointCreateContact(world_.id(), group_, &contact);
+    dJointAttach(joint, a, b);
+    if (!with_loads_ || leg < 0) continue;
+    const dReal* const n = contact.geom.normal;
+    Feedback& feedback = feedbacks_.emplace_back(Feedback{.leg = leg, .normal = {n[0], n[1], n[2]}});
+    dJointSetFeedback(joint, &feedback.forces);
   }
 }
 

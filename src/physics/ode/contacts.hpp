@@ -2,6 +2,7 @@
 
 #include <ode/ode.h>
 
+#include <deque>
 #include <vector>
 
 #include "amble/core/lanes.hpp"
@@ -18,7 +19,9 @@ namespace amble::physics::ode {
 class Contacts {
  public:
   /// `ground`: null for the plane z = 0; not owned.
-  Contacts(const robot::RobotSpec& robot, const World& world, const ground::Ground* ground);
+  /// `loads`: whether loads() will be asked for.
+  Contacts(const robot::RobotSpec& robot, const World& world, const ground::Ground* ground,
+           bool loads = false);
   ~Contacts();
   Contacts(const Contacts&) = delete;
   Contacts& operator=(const Contacts&) = delete;
@@ -27,6 +30,8 @@ class Contacts {
   void find_touch(LaneArray& touch);
   /// Replaces the contacts of the last step by those of the present pose. Fills `touch` as find_touch() does.
   void collide(LaneArray& touch);
+  /// With how much force the ground pressed against each foot in the step after collide(), N: legs × 1.
+  void loads(LaneArray& loads_n) const;
 
  private:
   struct Collider {
@@ -45,11 +50,20 @@ class Contacts {
   int collide_with_ground(const Collider& collider);
   int collide_with_uneven_ground(const Collider& collider);
   void collide_pair(const Pair& pair);
-  void add_contacts(int count, dBodyID a, dBodyID b);
+  /// `leg`: whose foot `a` belongs to, −1: none.
+  void add_contacts(int count, dBodyID a, dBodyID b, int leg);
+
+  struct Feedback {
+    int leg = 0;
+    Vec3 normal;  ///< from the ground
+    dJointFeedback forces{};
+  };
 
   const World& world_;
   const ground::Ground* ground_;
   dJointGroupID group_;
+  const bool with_loads_;
+  std::deque<Feedback> feedbacks_;  ///< of the feet's contacts; ODE has pointers to them
   dSurfaceParameters surface_{};
   std::vector<Collider> colliders_;
   std::vector<Pair> pairs_;  ///< that may collide with each other

@@ -59,7 +59,9 @@ struct Trial {
 
   Trial(const RobotSpec& robot, const ode::Threading& threading, const EngineSettings& settings,
         const ground::Ground* ground)
-      : world(robot, threading), motors(robot, world, settings.timestep_s), contacts(robot, world, ground) {
+      : world(robot, threading),
+        motors(robot, world, settings.timestep_s),
+        contacts(robot, world, ground, settings.loads) {
     if (settings.torques) torques.emplace(robot, motors);
   }
 };
@@ -121,6 +123,7 @@ class OdeEngine final : public SingleRobotEngine {
       return;
     }
     if (with_torques_) trial_->torques->after_step(torques_nm_);
+    if (with_loads_) trial_->contacts.loads(loads_n_);
     read_state();
   }
 
@@ -168,7 +171,8 @@ class OdeEngine final : public SingleRobotEngine {
     check_lane(lane);
     ode::prepare_thread();
     trial_.reset();
-    trial_.emplace(robot_, *threading_, EngineSettings{.timestep_s = timestep_s_, .torques = with_torques_},
+    trial_.emplace(robot_, *threading_,
+                   EngineSettings{.timestep_s = timestep_s_, .torques = with_torques_, .loads = with_loads_},
                    ground());
   }
 

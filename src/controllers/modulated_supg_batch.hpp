@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "amble/controllers/lane_rows.hpp"
+#include "amble/controllers/modulation.hpp"
+#include "amble/controllers/random_triggers.hpp"
+#include "amble/controllers/supg.hpp"
+
+namespace amble::controllers {
+
+/// What a batch of modulated SUPGs needs to know beside its settings.
+struct ModulatedSupgs {
+  SupgSettings settings;
+  double timestep_s = 0.01;
+  std::vector<std::string> leg_names;
+  SupgJoints joints;
+  std::vector<std::vector<LegSensor>> sensors;  ///< leg by leg
+  std::optional<ContactEstimate> contact;
+};
+
+/// Modulated SUPG controllers stepping together; what they do is documented at SupgArchitecture. Timers are
+/// updated over the lanes; targets are interpolated lane by lane, four joints at a time, as an entry's
+/// numbers lie together. Without sensors, with reset 1 and no refractory time it does to the bit what
+/// SupgBatch does.
+class ModulatedSupgBatch : public Batch {
+ public:
+  /// `parked` is what runs in lanes that have not been loaded.
+  ModulatedSupgBatch(ModulatedSupgs supgs, ModulatedParameters parked, int lanes);
+
+  int lanes() const override { return lanes_; }
+  void load(int lane, const Parameters& parameters) override;
+  void step(const robot::SensorFrame& sensors, LaneArray& targets_rad) override;
+  std::vector<std::string> state_names() const override;
+  void state(int lane, std::span<float> values) const override;
+  std::vector<std::size_t> events() const override;
+
+ private:
+  std::size_t index(int leg, int lane) const { return static_cast<std::size_t>(leg * lanes_ + lane); }
+  void sense(int leg, const robot::SensorFrame& sensors);
+  void set_rates(int leg);
+  void update_timers(int leg, const float* contact, const std::int32_t* by_chance);
+  void pull(int leg);
+  void write_targets(int leg, LaneArray& targets_rad);
+  void start_filters(int row, const float* present_rad);
+  void find_entries(int leg, const std::int32_t* timers);
+  void interpolate(int first, int end, float* targets_rad) const;
+  void write_joint(int row, float* continued_rad, float* present_rad, LaneArray& targets_rad);
+
+  ModulatedSupgs supgs_;
+  ModulatedParameters parked_;
+  int lanes_;
+  std::int32_t period_, start_, end_of_cycle_;  ///< in parts; the last −1: stopped
+  bool wraps_, shapes_;
+  std::int32_t airborne_ticks_needed_, by_touch_, phase_, reset_share_, refractory_ticks_;
+
+  std::vector<const float*> tables_;     ///< by lane: its controller's entries
+  std::vector<std::int32_t> entry_;      ///< by lane, of the leg in hand: from there to the one at its timer
+  std::vector<float> share_;             ///< the same: of the way to the next entry
+  std::vector<std::int32_t> timer_;      ///< leg by leg over the lanes: parts, −1 stopped
+  std::vector<std::int32_t> continued_;  ///< what it would be in this tick without a jump
+  std::vector<std::int32_t> airborne_ticks_, wait_ticks_, first_timer_, triggered_, refractory_left_;
+  LaneRows sensed_;                                       ///< of the leg in hand, sensor by sensor
+  LaneRows rates_;                                        ///< leg by leg, sensor by sensor
+  std::vector<std::int32_t> advance_;                     ///< of the leg in hand, by lane
+  std::vector<std::int32_t> no_chance_, jumped_, fresh_;  ///< by lane; the last: 1 before its first tick
+  std::vector<float> continued_rad_, present_rad_;        ///< of the leg in hand, type by type
+  std::optional<RandomTriggers> random_;
+  std::optional<SeamSmoother> smoother_;
+};
+
+}  // namespace amble::controllers

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "amble/controllers/joint_range.hpp"
+#include "amble/controllers/sensing.hpp"
+#include "amble/controllers/supg_modulation.hpp"
+#include "amble/cppn/network.hpp"
+#include "amble/robot/spec.hpp"
+#include "amble/substrate/layout.hpp"
+
+namespace amble::controllers {
+
+/// CPPN input and outputs that modulated SUPGs have beside the others.
+inline constexpr std::string_view sensor_input = "sensor", gain_output = "gain", rate_output = "rate";
+
+/// How a leg senses: s = reading × gain − shift, limited to ± 1, so that about ± 1 is the whole range.
+struct LegSensor {
+  bool is_there = false;  ///< a leg without a joint of that type senses 0
+  substrate::Sensor sensor = {};
+  float gain = 1.0f, shift = 0.0f;
+
+  /// Of any reading; −1 of one that is not a number.
+  float sensed(float reading) const {
+    const float s = reading * gain - shift, above = s > -1.0f ? s : -1.0f;
+    return above < 1.0f ? above : 1.0f;
+  }
+};
+
+/// Leg by leg, sensor by sensor of the settings. Throws SettingError for one that there is not.
+std::vector<std::vector<LegSensor>> leg_sensors(const ModulationSettings& settings,
+                                                const SensingSettings& sensing, const robot::RobotSpec& robot,
+                                                double timestep_s);
+
+/// What a CPPN says of how sensors modulate each leg.
+class Modulation {
+ public:
+  Modulation(int legs, int types, int period_ticks, int sensors);
+
+  /// In front of the pattern's first entry, timer −1, and behind the last, timer `period`, is one more, so
+  /// that there is always a next.
+  int entries() const { return period_ticks_ + 3; }
+  int sensors() const { return sensors_; }
+  /// Types, in multiples of four.
+  int width() const { return width_; }
+  /// Floats from one entry to the next, a power of two: groups of width() numbers, type by type; first the
+  /// targets (rad), then sensor by sensor what it shifts them by where it says 1 (rad).
+  std::size_t stride() const { return std::size_t{1} << stride_bits_; }
+  int stride_bits() const { return stride_bits_; }
+  float* entry(int leg, int timer) { return values_.data() + index(leg, timer); }
+  const float* entry(int leg, int timer) const { return values_.data() + index(leg, timer); }
+  /// ρ where the sensor says 1.
+  float& rate(int leg, int sensor) { return rates_[static_cast<std::size_t>(leg * sensors_ + sensor)]; }
+  float rate(int leg, int sensor) const { return rates_[static_cast<std::size_t>(leg * sensors_ + sensor)]; }
+
+ private:
+  std::size_t index(int leg, int timer) const {
+    return static_cast<std::size_t>(leg * entries() + timer + 1) * stride();
+  }
+
+  int period_ticks_, sensors_, width_, stride_bits_;
+  std::vector<float> values_, rates_;
+};
+
+/// Timers of modulated SUPGs count in parts of a tick, so that they add up exactly.
+inline constexpr int parts_bits = 14;
+inline constexpr std::int32_t parts_per_tick = 1 << parts_bits;
+
+/// By how many parts a timer advances in a tick: parts_per_tick × 2^rho, rounded; `rho` within ± 1. Exact for
+/// −1, 0 and 1. Single precision, each operation rounded.
+inline std::int32_t advance_parts(float rho) {
+  // The series of 2^x to the seventh power: an error of 1e−6 at the ends, a twentieth of a part.
+  float power = 1.52527338e-05f;
+  power = power * rho + 0.000154035304f;
+  power = power * rho + 0.00133335581f;
+  power = power * rho + 0.00961812911f;
+  power = power * rho + 0.0555041087f;
+  power = power * rho + 0.240226507f;
+  power = power * rho + 0.693147181f;
+  power = power * rho + 1.0f;
+  return static_cast<std::int32_t>(power * static_cast<float>(parts_per_tick) + 0.5f);
+}
+
+/// Where a trigger takes a timer, in parts: by `share` / 2^15 of the shorter way round to `start`. A timer
+/// that stands (−1) starts unless `share` is 0.
+std::int32_t reset_timer(std::int32_t timer, std::int32_t start, std::int32_t period, std::int32_t share);
+std::int32_t reset_share(const ModulationSettings& settings);
+
+}  // namespace amble::controllers

@@ -1,0 +1,93 @@
+#include "amble/controllers/sensing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "amble/core/error.hpp"
+
+namespace amble::controllers {
+namespace {
+
+using substrate::Sensor;
+
+/// A time in ticks. Throws SettingError unless that is a whole number.
+int ticks(double time_s, double timestep_s, const std::string& key) {
+  const double count = time_s / timestep_s, whole = std::round(count);
+  if (std::fabs(count - whole) > 1e-9 * std::max(whole, 1.0))
+    fail_setting({key, "trial.timestep_s"}, "{} = {} is {} ticks of {} s: expected a whole number", key,
+                 time_s, count, timestep_s);
+  return static_cast<int>(whole);
+}
+
+/// The sensors that a name means: one, or with a kind alone all of that kind.
+std::vector<Sensor> named_sensors(const std::string& name, const robot::RobotSpec& robot,
+                                  const std::string& key) {
+  const auto kinds = substrate::sensor_kinds();
+  const auto kind = std::ranges::find(kinds, name, &substrate::SensorKind::name);
+  std::vector<Sensor> all;
+  if (kind != kinds.end() && kind->owner == substrate::SensorOwner::joint)
+    for (int joint = 0; joint < static_cast<int>(robot.joints.size()); ++joint)
+      all.push_back({kind->kind, joint});
+  else if (kind != kinds.end() && kind->owner == substrate::SensorOwner::leg)
+    for (int leg = 0; leg < static_cast<int>(robot.legs.size()); ++leg) all.push_back({kind->kind, leg});
+  else
+    all.push_back(substrate::parse_sensor(name, robot, key));
+  return all;
+}
+
+}  // namespace
+
+void SensorSettings::describe(io::SettingsVisitor& visitor) {
+  visitor.text("of", of,
+               {"which sensor: one as in a substrate (angle.JOINT, pitch …), or all of a kind (angle, touch, "
+                "load, speed, torque)"});
+  visitor.number("scale", scale, {-1e6, 1e6}, {"what the controller multiplies each reading by"});
+  visitor.number(
+      "noise", noise, {0.0, 1e6},
+      {"each reading is wrong by up to ± this, in the sensor's unit, anew each time, in trials under "
+       "noise"});
+  visitor.number("delay_s", delay_s, {0.0, 10.0},
+                 {"a reading is that of so much earlier, s, or of the start; a whole number of ticks"});
+  visitor.number("dead_time_s", dead_time_s, {0.0, 10.0},
+                 {"time after each reading in which it stays as it is, s; a whole number of ticks"});
+}
+
+void SensingSettings::describe(io::SettingsVisitor& visitor) {
+  visitor.tables("sensors", sensors, {"sensors that are not read at once and exactly"});
+}
+
+bool SensingSettings::is_noisy() const {
+  return std::ranges::any_of(sensors, [](const SensorSettings& sensor) { return sensor.noise > 0.0; });
+}
+
+std::vector<SensorModel> sensor_models(const SensingSettings& settings, const robot::RobotSpec& robot,
+                                       double timestep_s) {
+  std::vector<SensorModel> models;
+  for (std::size_t i = 0; i < settings.sensors.size(); ++i) {
+    const SensorSettings& item = settings.sensors[i];
+    const std::string key = fmt::format("controller.sensing.sensors[{}]", i);
+    SensorModel model{.scale = static_cast<float>(item.scale),
+                      .noise = static_cast<float>(item.noise),
+                      .delay_ticks = ticks(item.delay_s, timestep_s, key + ".delay_s"),
+                      .hold_ticks = std::max(ticks(item.dead_time_s, timestep_s, key + ".dead_time_s"), 1)};
+    for (const Sensor& sensor : named_sensors(item.of, robot, key + ".of")) {
+      if (sensor.kind == Sensor::Kind::sine && model.is_imperfect())
+        fail_setting({key + ".of"}, "{}.of = \"sine\" is a clock, not a sensor: expected a scale alone", key);
+      if (std::ranges::find(models, sensor, &SensorModel::sensor) != models.end())
+        fail_setting({key + ".of"}, "{}.of = \"{}\": {} is there already", key, item.of,
+                     substrate::sensor_name(sensor, robot));
+      model.sensor = sensor;
+      models.push_back(model);
+    }
+  }
+  return models;
+}
+
+float scale_of(const std::vector<SensorModel>& models, const substrate::Sensor& sensor) {
+  const auto found = std::ranges::find(models, sensor, &SensorModel::sensor);
+  return found == models.end() ? 1.0f : found->scale;
+}
+
+}  // namespace amble::controllers

@@ -1,0 +1,307 @@
+#include <algorithm>
+
+#include "amble/core/index.hpp"
+#include "amble/exporting/c_neural_text.hpp"
+#include "amble/exporting/c_parts.hpp"
+
+/// controllers::ModulatedSupgBatch in C, operation by operation.
+namespace amble::exporting {
+namespace {
+
+constexpr std::string_view helpers =
+    R"(/* About +- 1 over a reading's range; -1 of one that is not a number. */
+static float within_one(float s) {
+  const float above = s > -1.0f ? s : -1.0f;
+  return above < 1.0f ? above : 1.0f;
+}
+
+)";
+
+constexpr std::string_view rate_text = R"(/* By how much a leg's timer grows: a tick times 2^rho. */
+static int32_t growth(const float *sensed, int leg) {
+  float rho = 0.0f, power, part;
+  int s;
+  for (s = 0; s < sensor_count; ++s) {
+    part = rate[leg][s] * sensed[s];
+    rho = rho + part;
+  }
+  rho = within_one(rho);
+  power = 1.52527338e-05f;
+  power = power * rho + 0.000154035304f;
+  power = power * rho + 0.00133335581f;
+  power = power * rho + 0.00961812911f;
+  power = power * rho + 0.0555041087f;
+  power = power * rho + 0.240226507f;
+  power = power * rho + 0.693147181f;
+  power = power * rho + 1.0f;
+  power = power * (float)tick_parts;
+  return (int32_t)(power + 0.5f);
+}
+
+)";
+
+constexpr std::string_view timer_text = R"(/* The shorter way round to start, or a share of it. */
+static int32_t pulled(int32_t timer) {
+  int32_t way = start - timer;
+  if (reset_share == 0) return timer;
+  if (timer < 0) return start;
+  if (2 * (int64_t)way <= -(int64_t)period) way += period;
+  timer += (int32_t)((int64_t)way * reset_share / 32768);
+  return timer >= period ? timer - period : timer;
+}
+
+/* Advances the timer of a leg by one tick; returns what it would be without a jump. */
+static int32_t update_timer($p_state *state, int leg, int touching, int32_t grown) {
+  const int started = state->wait[leg] < 0, begins = state->wait[leg] == 0;
+  const int triggered = $triggered;
+  int32_t before = state->timer[leg], continued = stopped, next = stopped;
+  if (begins && starts_at_once) before = first_timer[leg];
+  if (before != stopped) {
+    const int32_t sum = before + grown;
+    continued = sum < period ? sum : period;
+    next = sum < period ? sum : wraps ? sum - period : end_of_cycle;
+  }
+  if (begins && starts_at_once) continued = next;
+  if (begins && !starts_at_once) next = first_timer[leg];
+  if (triggered) next = pulled(next);
+  state->timer[leg] = next;
+  state->trigger[leg] = triggered ? 1 : 0;
+  if (!started) --state->wait[leg];
+  if (triggered)
+    state->rests[leg] = refractory;
+  else if (state->rests[leg] > 0)
+    --state->rests[leg];
+  if (touching)
+    state->airborne[leg] = 0;
+  else if (state->airborne[leg] < airborne_needed)
+    ++state->airborne[leg];
+  return continued;
+}
+
+static float between(const float *entry, float share) {
+  const float a = READ_TARGET(entry), b = READ_TARGET(entry + 1);
+  const float part = share * (b - a);
+  return a + part;
+}
+
+static float target(int joint, int32_t timer, const float *sensed) {
+  const int32_t entry = timer < 0 ? 0 : (timer >> tick_bits) + 1;
+  const float share = timer < 0 ? 0.0f : (float)(timer & (tick_parts - 1)) * (1.0f / (float)tick_parts);
+  float y = between(&pattern[joint][entry], share);
+$gains  return limited(y, joint);
+}
+
+)";
+
+constexpr std::string_view gains_text = R"(  int s;
+  for (s = 0; s < sensor_count; ++s) {
+    const float shift = between(&gain[s][joint][entry], share) * sensed[s];
+    y = y + shift;
+  }
+)";
+
+constexpr std::string_view step_text =
+    R"(void $p_step($p_state *state, const $p_sensors *in, $p_targets *targets) {
+  float sensed[$P_LEGS][sensor_count + 1];
+  int32_t continued[$P_LEGS];
+  int leg, joint;
+  (void)in;
+$contacts  for (leg = 0; leg < $P_LEGS; ++leg) {
+    sense(in, leg, sensed[leg]);
+    continued[leg] = update_timer(state, leg, $touching, $grown);
+  }
+  for (joint = 0; joint < $P_JOINTS; ++joint) {
+    leg = leg_of_joint[joint]; /* -1: a joint of no leg, which is held */
+    if (leg < 0) {
+      targets->angle_rad[joint] = READ_TARGET(&pattern[joint][0]);
+      continue;
+    }
+$target  }
+$end}
+)";
+
+constexpr std::string_view plain_target =
+    "    targets->angle_rad[joint] = target(joint, state->timer[leg], sensed[leg]);\n";
+
+constexpr std::string_view smoothed_target = R"(    {
+      const int jumped = continued[leg] != state->timer[leg];
+      const float on_rad = target(joint, continued[leg], sensed[leg]);
+      const float at_rad = jumped ? target(joint, state->timer[leg], sensed[leg]) : on_rad;
+$first      targets->angle_rad[joint] = smoothed(state, joint, on_rad, at_rad, jumped);
+    }
+)";
+
+constexpr std::string_view first_stages = R"(      int stage;
+      if (!state->begun)
+        for (stage = 0; stage < filter_order; ++stage) state->stage_rad[stage][joint] = at_rad;
+)";
+
+constexpr std::string_view init_text = R"(void $p_init($p_state *state) {
+  int leg$variables;
+  for (leg = 0; leg < $P_LEGS; ++leg) {
+    state->timer[leg] = stopped;
+    state->airborne[leg] = 0;
+    state->wait[leg] = wait_ticks[leg];
+    state->trigger[leg] = 0;
+    state->rests[leg] = 0;
+  }
+$rest}
+
+)";
+
+/// The member of the struct PREFIX_sensors that a leg's sensor reads.
+std::string member(const substrate::Sensor& sensor) {
+  using Kind = substrate::Sensor::Kind;
+  switch (sensor.kind) {
+    case Kind::angle:
+      return fmt::format("in->angle_rad[{}]", sensor.index);
+    case Kind::touch:
+      return fmt::format("in->touch[{}]", sensor.index);
+    case Kind::load:
+      return fmt::format("in->load_n[{}]", sensor.index);
+    case Kind::speed:
+      return fmt::format("in->speed_rad_s[{}]", sensor.index);
+    case Kind::torque:
+      return fmt::format("in->torque_nm[{}]", sensor.index);
+    case Kind::roll:
+      return "in->roll_rad";
+    case Kind::pitch:
+      return "in->pitch_rad";
+    case Kind::yaw:
+      return "in->yaw_rad";
+    case Kind::yaw_rate:
+      return "in->yaw_rate_rad_s";
+    case Kind::sine:
+      break;
+  }
+  return "0.0f";
+}
+
+void add_sense(const SupgTables::Modulation& modulation, CText& text) {
+  text.line("/* What a leg senses. */");
+  text.line("static void sense(const {}_sensors *in, int leg, float *sensed) {{", text.prefix());
+  if (modulation.sensor_count() > 0) text.line("  float product;");
+  text.line("  switch (leg) {{");
+  for (std::size_t leg = 0; leg < modulation.sensors.size(); ++leg) {
+    text.line("    case {}:", leg);
+    for (std::size_t s = 0; s < modulation.sensors[leg].size(); ++s) {
+      const controllers::LegSensor& sensor = modulation.sensors[leg][s];
+      if (!sensor.is_there) {
+        text.line("      sensed[{}] = 0.0f;", s);
+        continue;
+      }
+      text.line("      product = {} * {};", member(sensor.sensor), c_float(sensor.gain));
+      text.line("      sensed[{}] = within_one(product - {});", s, c_float(sensor.shift));
+    }
+    text.line("      break;");
+  }
+  text.line("    default:");
+  text.line("      break;");
+  text.line("  }}");
+  text.line("  (void)in, (void)sensed;");
+  text.line("}}");
+  text.line("");
+}
+
+void add_gains(const SupgTables::Modulation& modulation, std::size_t joints, std::size_t entries,
+               CText& text) {
+  text.line("/* What each sensor shifts each joint's targets by where it says 1, entry by entry. */");
+  text.line("static const float gain[{}][{}][{}] IN_FLASH = {{", modulation.gains_rad.size(), joints,
+            entries);
+  for (const auto& sensor : modulation.gains_rad) {
+    text.line("  {{");
+    for (const auto& joint : sensor) {
+      std::string row;
+      for (const float value : joint) row += (row.empty() ? "" : ", ") + c_float(value);
+      text.line("    {{{}}},", joint.empty() ? "0" : row);
+    }
+    text.line("  }},");
+  }
+  text.line("}};");
+}
+
+void add_constants(const SupgTables& supg, CText& text) {
+  const SupgTables::Modulation& modulation = *supg.modulation;
+  const std::string upper = upper_case(text.prefix());
+  text.line("/* Timers count in 2^-{} ticks. */", controllers::parts_bits);
+  text.line("enum {{ tick_bits = {}, stopped = -1, starts_at_once = {}, wraps = {}, sensor_count = {} }};",
+            controllers::parts_bits, modulation.starts_at_once ? 1 : 0, supg.end_of_cycle == 0 ? 1 : 0,
+            modulation.sensor_count());
+  const auto parts = [](int ticks) { return static_cast<std::int64_t>(ticks) * controllers::parts_per_tick; };
+  text.line("static const int32_t tick_parts = {}, period = {}, start = {}, end_of_cycle = {};",
+            controllers::parts_per_tick, parts(supg.period_ticks), parts(supg.start_tick),
+            supg.end_of_cycle < 0 ? -1 : parts(supg.end_of_cycle));
+  text.line("static const int32_t airborne_needed = {}, reset_share = {}, refractory = {};",
+            supg.airborne_ticks_needed, modulation.reset_share, modulation.refractory_ticks);
+  std::vector<std::string> waits, firsts;
+  for (const SupgTables::Leg& leg : supg.legs) {
+    waits.push_back(std::to_string(leg.wait_ticks));
+    firsts.push_back(
+        std::to_string(modulation.starts_at_once ? parts(leg.offset_ticks) : parts(supg.start_tick)));
+  }
+  text.array(fmt::format("static const int32_t wait_ticks[{}_LEGS]", upper), waits);
+  text.array(fmt::format("static const int32_t first_timer[{}_LEGS]", upper), firsts);
+}
+
+}  // namespace
+
+void add_modulated_state(const SupgTables& tables, CText& text) {
+  const std::string upper = upper_case(text.prefix());
+  text.line("  int32_t timer[{}_LEGS];    /* in 2^-{} ticks; -1: stopped */", upper, controllers::parts_bits);
+  text.line("  int32_t airborne[{}_LEGS]; /* ticks off the ground, as far as they matter */", upper);
+  text.line("  int32_t wait[{}_LEGS];     /* ticks before the first start; -1 once it was */", upper);
+  text.line("  int32_t rests[{}_LEGS];    /* ticks in which there is no other trigger */", upper);
+  text.line("  uint8_t trigger[{}_LEGS];  /* 1 in the tick of a trigger */", upper);
+  if (tables.contact) add_contact_state(*tables.contact, text);
+  if (!tables.seam) return;
+  add_seam_state(*tables.seam, text);
+  if (tables.seam->filter_order > 0) text.line("  uint8_t begun;");
+}
+
+void add_modulated(const ControllerTables& tables, CText& text) {
+  const auto& supg = std::get<SupgTables>(tables.parts);
+  const SupgTables::Modulation& modulation = *supg.modulation;
+  add_constants(supg, text);
+  const std::string upper = upper_case(text.prefix());
+  const std::size_t entries = to_index(supg.period_ticks + 3);
+  if (modulation.shapes()) add_gains(modulation, tables.joints.size(), entries, text);
+  if (modulation.rates_on) {
+    std::vector<std::vector<std::string>> rates;
+    for (const auto& leg : modulation.rates) {
+      auto& row = rates.emplace_back();
+      for (const float rate : leg) row.push_back(c_float(rate));
+    }
+    text.array(fmt::format("static const float rate[{}_LEGS][sensor_count]", upper), rates);
+  }
+  add_limits(supg.limits_rad, text);
+  text.line("");
+  if (modulation.sensor_count() > 0) text.block(helpers);
+  add_sense(modulation, text);
+  if (modulation.rates_on) text.block(rate_text);
+  const bool triggered = supg.is_triggered();
+  std::string timers = replaced(timer_text, "$triggered",
+                                triggered ? "started && touching && state->rests[leg] == 0 && "
+                                            "state->airborne[leg] >= airborne_needed"
+                                          : "0");
+  text.block(replaced(timers, "$gains", modulation.shapes() ? gains_text : "  (void)sensed;\n"));
+  if (supg.seam) add_smoothing(*supg.seam, text);
+  const bool filters = supg.seam && supg.seam->filter_order > 0;
+  std::string rest = supg.seam && supg.seam->residual_decay > 0.0f ? c_residual_init() : "";
+  if (filters) rest += "  state->begun = 0;\n";
+  if (supg.contact) rest += c_contact_init(*supg.contact);
+  text.block(replaced(replaced(init_text, "$rest", rest), "$variables",
+                      rest.find("joint") != std::string::npos ? ", joint" : ""));
+  std::string step = replaced(step_text, "$target",
+                              supg.seam ? replaced(smoothed_target, "$first", filters ? first_stages : "")
+                                        : std::string(plain_target));
+  step = replaced(step, "$contacts", supg.contact ? "  update_contacts(state, in);\n" : "");
+  step = replaced(step, "$touching",
+                  !triggered     ? "0"
+                  : supg.contact ? "state->contact[leg]"
+                                 : "in->touch[leg] > 0.5f");
+  step = replaced(step, "$grown", modulation.rates_on ? "growth(sensed[leg], leg)" : "tick_parts");
+  const std::string end = filters ? "  state->begun = 1;\n" : supg.seam ? "" : "  (void)continued;\n";
+  text.block(replaced(step, "$end", end + (supg.contact ? c_contact_end(*supg.contact) : "")));
+}
+
+}  // namespace amble::exporting

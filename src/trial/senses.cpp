@@ -1,0 +1,115 @@
+#include "amble/trial/senses.hpp"
+
+#include "amble/core/check.hpp"
+#include "amble/core/index.hpp"
+
+namespace amble::trial {
+namespace {
+
+constexpr int yaw_row = 2;
+
+/// The row of a frame that is to be changed.
+float* row_of(const substrate::Sensor& sensor, robot::SensorFrame& frame) {
+  return const_cast<float*>(substrate::row_of(sensor, frame));
+}
+
+}  // namespace
+
+float rate_of(float before_rad, float now_rad, float rate_hz) {
+  return (now_rad - before_rad) * rate_hz;
+}
+
+float turning_rate_of(float before_rad, float now_rad, float rate_hz) {
+  constexpr float half_turn = 3.14159265f, turn = 6.28318531f;
+  const float moved = now_rad - before_rad;
+  return (moved > half_turn ? moved - turn : moved < -half_turn ? moved + turn : moved) * rate_hz;
+}
+
+Senses::Senses(const Sensing& sensing, const robot::SensorFrame& sensors, double timestep_s)
+    : sensing_(sensing),
+      rate_hz_(static_cast<float>(1.0 / timestep_s)),
+      lanes_(to_index(sensors.touch.lanes())),
+      angle_before_rad_(sensors.joint_angle_rad),
+      yaw_before_rad_(1, sensors.touch.lanes()) {
+  const int lanes = sensors.touch.lanes();
+  for (const controllers::SensorModel& model : sensing.models)
+    if (model.is_imperfect())
+      imperfect_.push_back({model, LaneArray(model.delay_ticks, lanes), LaneArray(1, lanes)});
+  if (sensing.extra.speed) read_.joint_speed_rad_s = LaneArray(sensors.joint_angle_rad.rows(), lanes);
+  if (sensing.extra.torque) read_.joint_torque_nm = LaneArray(sensors.joint_angle_rad.rows(), lanes);
+  if (sensing.extra.load) read_.foot_load_n = LaneArray(sensors.touch.rows(), lanes);
+  if (sensing.extra.yaw_rate) read_.yaw_rate_rad_s = LaneArray(1, lanes);
+}
+
+void Senses::load(int lane, const physics::Engine& engine, const Scenario* scenario) {
+  Lane& slot = lanes_[to_index(lane)];
+  slot.tick = 0;
+  slot.noise.reset();
+  if (scenario != nullptr) slot.noise = scenario->readings;
+  const robot::SensorFrame& sensors = engine.sensors();
+  for (int joint = 0; joint < angle_before_rad_.rows(); ++joint)
+    angle_before_rad_.at(joint, lane) = sensors.joint_angle_rad.at(joint, lane);
+  yaw_before_rad_.at(0, lane) = sensors.attitude_rad.at(yaw_row, lane);
+}
+
+const robot::SensorFrame& Senses::read(const physics::Engine& engine) {
+  if (!sensing_.extra.any() && imperfect_.empty()) return engine.sensors();
+  const robot::SensorFrame& sensors = engine.sensors();
+  read_.joint_angle_rad = sensors.joint_angle_rad;
+  read_.touch = sensors.touch;
+  read_.attitude_rad = sensors.attitude_rad;
+  take_rates(engine);
+  for (std::size_t i = 0; i < lanes_.size(); ++i) {
+    for (Imperfect& sensor : imperfect_) read_imperfect(sensor, static_cast<int>(i));
+    ++lanes_[i].tick;
+  }
+  return read_;
+}
+
+void Senses::take_rates(const physics::Engine& engine) {
+  const robot::SensorFrame& sensors = engine.sensors();
+  const int lanes = sensors.touch.lanes();
+  if (sensing_.extra.speed) {
+    for (int joint = 0; joint < angle_before_rad_.rows(); ++joint)
+      for (int lane = 0; lane < lanes; ++lane)
+        read_.joint_speed_rad_s.at(joint, lane) =
+            rate_of(angle_before_rad_.at(joint, lane), sensors.joint_angle_rad.at(joint, lane), rate_hz_);
+    angle_before_rad_ = sensors.joint_angle_rad;
+  }
+  if (sensing_.extra.yaw_rate)
+    for (int lane = 0; lane < lanes; ++lane) {
+      const float yaw_rad = sensors.attitude_rad.at(yaw_row, lane);
+      read_.yaw_rate_rad_s.at(0, lane) = turning_rate_of(yaw_before_rad_.at(0, lane), yaw_rad, rate_hz_);
+      yaw_before_rad_.at(0, lane) = yaw_rad;
+    }
+  if (sensing_.extra.load) {
+    AMBLE_CHECK(engine.foot_load_n() != nullptr, "the engine measures loads");
+    read_.foot_load_n = *engine.foot_load_n();
+  }
+  if (!sensing_.extra.torque) return;
+  AMBLE_CHECK(engine.motor_torque_nm() != nullptr, "the engine measures torques");
+  read_.joint_torque_nm = *engine.motor_torque_nm();
+}
+
+void Senses::read_imperfect(Imperfect& sensor, int lane) {
+  Lane& slot = lanes_[to_index(lane)];
+  const controllers::SensorModel& model = sensor.model;
+  float& reading = row_of(model.sensor, read_)[lane];
+  float value = reading;
+  if (model.delay_ticks > 0) {
+    if (slot.tick == 0)
+      for (int row = 0; row < model.delay_ticks; ++row) sensor.past.at(row, lane) = value;
+    std::swap(value, sensor.past.at(slot.tick % model.delay_ticks, lane));
+  }
+  float& held = sensor.held.at(0, lane);
+  if (slot.tick % model.hold_ticks == 0) {
+    held = value;
+    if (model.noise > 0.0f && slot.noise) {
+      const auto noise = static_cast<double>(model.noise);
+      held += static_cast<float>(slot.noise->uniform(-noise, noise));
+    }
+  }
+  reading = held;
+}
+
+}  // namespace amble::trial

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "amble/controllers/sensing.hpp"
+#include "amble/core/lanes.hpp"
+#include "amble/core/random.hpp"
+#include "amble/physics/engine.hpp"
+#include "amble/trial/scenario.hpp"
+
+namespace amble::trial {
+
+/// What is between a robot and its controller's sensors.
+struct Sensing {
+  robot::ExtraSenses extra;                      ///< rows that the controller reads beside those of engines
+  std::vector<controllers::SensorModel> models;  ///< noise, delay, dead time
+
+  bool any() const { return extra.any() || !models.empty(); }
+};
+
+/// Rates as controllers sense them: how far an angle moved in a tick of 1/rate_hz, in single precision.
+float rate_of(float before_rad, float now_rad, float rate_hz);
+/// The same of an angle that goes from π to −π.
+float turning_rate_of(float before_rad, float now_rad, float rate_hz);
+
+/// The sensors of a runner's robots as they are read: rates and torques that engines do not put into their
+/// frames, and then for each reading, in this order: its delay (before so much time has gone by, the value at
+/// the start), its dead time (it is renewed in the first tick and then every hold_ticks ticks), and its
+/// noise, uniform, anew for each reading, by a stream of the trial's scenario; without a scenario there is
+/// none. Scales are the controllers'. Rates are those of true angles.
+class Senses {
+ public:
+  /// `sensors` gives the number of lanes and rows. Torques only of an engine that measures them.
+  Senses(const Sensing& sensing, const robot::SensorFrame& sensors, double timestep_s);
+
+  /// The robot of this lane was placed; `scenario` is that of its trial, or null.
+  void load(int lane, const physics::Engine& engine, const Scenario* scenario);
+  /// As controllers read them in this tick; once per tick. Valid until the next call. Without anything to do
+  /// it is the engine's own.
+  const robot::SensorFrame& read(const physics::Engine& engine);
+
+ private:
+  struct Lane {
+    int tick = 0;
+    std::optional<Stream> noise;
+  };
+  /// A sensor's ring buffer over the ticks of its delay, for all lanes, and its last readings.
+  struct Imperfect {
+    controllers::SensorModel model;
+    LaneArray past, held;
+  };
+
+  void take_rates(const physics::Engine& engine);
+  void read_imperfect(Imperfect& sensor, int lane);
+
+  Sensing sensing_;
+  float rate_hz_;
+  std::vector<Lane> lanes_;
+  std::vector<Imperfect> imperfect_;
+  LaneArray angle_before_rad_, yaw_before_rad_;
+  robot::SensorFrame read_;
+};
+
+}  // namespace amble::trial

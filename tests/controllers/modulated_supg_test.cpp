@@ -1,0 +1,459 @@
+#include "amble/controllers/modulated_supg_batch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "amble/controllers/supg_batch.hpp"
+#include "amble/core/error.hpp"
+#include "amble/core/random.hpp"
+#include "tests/controllers/supg_substrate.hpp"
+
+namespace amble::controllers {
+namespace {
+
+constexpr double timestep_s = 0.01;
+constexpr int legs = 4, types = 3, joints = legs * types;
+const std::vector<std::string> leg_names{"FL", "FR", "BL", "BR"};
+
+SupgJoints all_joints(const robot::RobotSpec& robot) {
+  SupgJoints all;
+  for (int joint = 0; joint < joints; ++joint) all.of_legs.push_back(joint);
+  all.ranges = joint_ranges(robot);
+  return all;
+}
+
+SupgParameters random_targets(int period, Stream& stream) {
+  static const auto ranges = joint_ranges(quadruped());
+  SupgParameters parameters(legs, types, period);
+  for (int leg = 0; leg < legs; ++leg) {
+    parameters.set_offset_ticks(leg,
+                                1 + static_cast<int>(stream.below(static_cast<std::uint32_t>(period - 1))));
+    for (int timer = SupgParameters::stopped; timer <= period; ++timer)
+      for (int type = 0; type < types; ++type)
+        parameters.targets_rad(leg, timer)[type] =
+            ranges[static_cast<std::size_t>(leg * types + type)].at(stream.uniform());
+  }
+  return parameters;
+}
+
+/// With random gains and rates.
+ModulatedParameters random_modulated(int period, int sensors, Stream& stream) {
+  ModulatedParameters parameters(random_targets(period, stream), sensors);
+  Modulation& modulation = parameters.modulation();
+  for (int leg = 0; leg < legs; ++leg)
+    for (int s = 0; s < sensors; ++s) {
+      modulation.rate(leg, s) = static_cast<float>(stream.uniform(-1.0, 1.0));
+      for (int timer = 0; timer <= period + 1; ++timer)
+        for (int type = 0; type < types; ++type)
+          modulation.entry(leg, timer)[(1 + s) * modulation.width() + type] =
+              static_cast<float>(stream.uniform(-0.3, 0.3));
+    }
+  return parameters;
+}
+
+ModulatedSupgs supgs(const SupgSettings& settings) {
+  return {settings,
+          timestep_s,
+          leg_names,
+          all_joints(quadruped()),
+          leg_sensors(settings.modulation, {}, quadruped(), timestep_s),
+          std::nullopt};
+}
+
+robot::SensorFrame frame(int lanes) {
+  return {.joint_angle_rad = LaneArray(joints, lanes),
+          .touch = LaneArray(legs, lanes),
+          .attitude_rad = LaneArray(3, lanes)};
+}
+
+void move_randomly(robot::SensorFrame& sensors, Stream& stream) {
+  for (int lane = 0; lane < sensors.touch.lanes(); ++lane) {
+    for (int leg = 0; leg < legs; ++leg)
+      if (stream.chance(0.2)) sensors.touch.at(leg, lane) = 1.0f - sensors.touch.at(leg, lane);
+    for (int joint = 0; joint < joints; ++joint)
+      sensors.joint_angle_rad.at(joint, lane) = static_cast<float>(stream.uniform(-0.9, 0.9));
+    for (int axis = 0; axis < 3; ++axis)
+      sensors.attitude_rad.at(axis, lane) = static_cast<float>(stream.uniform(-0.7, 0.7));
+  }
+}
+
+void expect_same_bits(const LaneArray& a, const LaneArray& b) {
+  for (int row = 0; row < a.rows(); ++row)
+    for (int lane = 0; lane < a.lanes(); ++lane)
+      ASSERT_EQ(std::bit_cast<std::uint32_t>(a.at(row, lane)), std::bit_cast<std::uint32_t>(b.at(row, lane)))
+          << row << " " << lane;
+}
+
+void expect_same_states(const Batch& a, const Batch& b) {
+  std::vector<float> one(2 * legs), other(2 * legs);
+  for (int lane = 0; lane < a.lanes(); ++lane) {
+    a.state(lane, one);
+    b.state(lane, other);
+    ASSERT_EQ(one, other);
+  }
+}
+
+std::vector<SupgSettings> switches(int period) {
+  std::vector<SupgSettings> all;
+  for (const Trigger trigger : {Trigger::edge, Trigger::level, Trigger::none, Trigger::random})
+    for (const Offset offset : {Offset::phase, Offset::delay})
+      for (const int start : {0, 1})
+        for (const Idle idle : {Idle::mid, Idle::hold, Idle::wrap})
+          for (const SeamSettings& seam :
+               {SeamSettings{}, SeamSettings{.residual_s = 0.03, .filter_s = 0.02}}) {
+            SupgSettings& settings = all.emplace_back();
+            settings.period_s = period * timestep_s;
+            settings.trigger = trigger;
+            settings.trigger_debounce_ticks = 2;
+            settings.offset = offset;
+            settings.start_tick = start;
+            settings.idle = idle;
+            settings.seam = seam;
+          }
+  return all;
+}
+
+TEST(ModulatedSupg, WithoutGainsIsThePapersToTheBit) {
+  constexpr int period = 11, lanes = 17;
+  Stream stream(41, Purpose::test);
+  for (SupgSettings settings : switches(period)) {
+    SupgBatch plain(settings, timestep_s, leg_names, all_joints(quadruped()), random_targets(period, stream),
+                    lanes);
+    settings.modulation = {.sensors = {"pitch", "angle.knee"}, .rate = 1.0};
+    ModulatedSupgBatch modulated(supgs(settings), ModulatedParameters(random_targets(period, stream), 2),
+                                 lanes);
+    std::vector<std::unique_ptr<ModulatedParameters>> parameters;
+    const auto load = [&](int lane) {
+      parameters.push_back(std::make_unique<ModulatedParameters>(random_targets(period, stream), 2));
+      plain.load(lane, *parameters.back());
+      modulated.load(lane, *parameters.back());
+    };
+    for (int lane = 0; lane < lanes; ++lane) load(lane);
+    auto sensors = frame(lanes);
+    LaneArray targets(joints, lanes), expected(joints, lanes);
+    for (int tick = 0; tick < 60; ++tick) {
+      move_randomly(sensors, stream);
+      if (stream.chance(0.1)) load(static_cast<int>(stream.below(lanes)));
+      plain.step(sensors, expected);
+      modulated.step(sensors, targets);
+      ASSERT_NO_FATAL_FAILURE(expect_same_bits(targets, expected)) << tick;
+      ASSERT_NO_FATAL_FAILURE(expect_same_states(modulated, plain)) << tick;
+    }
+  }
+}
+
+TEST(ModulatedSupg, WithResetZeroKnowsNoTrigger) {
+  constexpr int period = 11, lanes = 5;
+  Stream stream(42, Purpose::test);
+  for (SupgSettings settings : switches(period)) {
+    settings.modulation = {.sensors = {"pitch"}, .rate = 1.0, .shape = 1.0, .reset = 0.0};
+    ModulatedSupgBatch triggered(supgs(settings), random_modulated(period, 1, stream), lanes);
+    settings.trigger = Trigger::none;
+    ModulatedSupgBatch open(supgs(settings), random_modulated(period, 1, stream), lanes);
+    const ModulatedParameters parameters = random_modulated(period, 1, stream);
+    for (int lane = 0; lane < lanes; ++lane) {
+      triggered.load(lane, parameters);
+      open.load(lane, parameters);
+    }
+    auto sensors = frame(lanes);
+    LaneArray targets(joints, lanes), expected(joints, lanes);
+    for (int tick = 0; tick < 60; ++tick) {
+      move_randomly(sensors, stream);
+      triggered.step(sensors, targets);
+      open.step(sensors, expected);
+      ASSERT_NO_FATAL_FAILURE(expect_same_bits(targets, expected)) << tick;
+    }
+  }
+}
+
+/// One leg, number by number.
+class PlainLeg {
+ public:
+  PlainLeg(const SupgSettings& settings, const ModulatedParameters& parameters, int leg)
+      : settings_(settings), parameters_(parameters), leg_(leg), period_(parameters.period_ticks()) {}
+
+  void tick(bool touching, const std::vector<float>& sensed) {
+    ++tick_;
+    float rho = 0.0f;
+    for (std::size_t s = 0; s < sensed.size(); ++s)
+      rho = rho + parameters_.modulation().rate(leg_, static_cast<int>(s)) * sensed[s];
+    // Another test compares this with 2^ρ.
+    const double growth =
+        settings_.modulation.rate > 0.0 ? advance_parts(std::clamp(rho, -1.0f, 1.0f)) / 16384.0 : 1.0;
+    const bool phase = settings_.offset == Offset::phase;
+    const int first_tick = phase ? 1 : parameters_.offset_ticks(leg_) + 1;
+    const bool lands = touching && settings_.trigger != Trigger::none &&
+                       (settings_.trigger == Trigger::level || off_for_ >= settings_.trigger_debounce_ticks);
+    triggered = lands && tick_ > first_tick && rests_ == 0;
+    if (tick_ == first_tick) timer = phase ? parameters_.offset_ticks(leg_) : settings_.start_tick;
+    if ((tick_ > first_tick || (tick_ == first_tick && phase)) && timer >= 0.0) grow(growth);
+    if (triggered) reset();
+    rests_ = triggered ? settings_.modulation.refractory_ticks : std::max(rests_ - 1, 0);
+    off_for_ = touching ? 0 : off_for_ + 1;
+  }
+
+  float target_rad(int type, const std::vector<float>& sensed, const JointRange& range) const {
+    const Modulation& modulation = parameters_.modulation();
+    const double whole = timer < 0.0 ? -1.0 : std::floor(timer);
+    const auto share = static_cast<float>(timer < 0.0 ? 0.0 : timer - whole);
+    const auto read = [&](int group) {
+      const int at = group * modulation.width() + type;
+      const float a = modulation.entry(leg_, static_cast<int>(whole))[at];
+      const float b = modulation.entry(leg_, static_cast<int>(whole) + 1)[at];
+      return a + share * (b - a);
+    };
+    float y = read(0);
+    for (std::size_t s = 0; s < sensed.size(); ++s) y = y + read(1 + static_cast<int>(s)) * sensed[s];
+    return std::clamp(y, range.at(0.0), range.at(1.0));
+  }
+
+  double timer = -1.0;
+  bool triggered = false;
+
+ private:
+  void grow(double growth) {
+    timer = std::min(timer, static_cast<double>(period_)) + growth;
+    if (timer < period_) return;
+    if (settings_.idle == Idle::mid) timer = -1.0;
+    if (settings_.idle == Idle::hold) timer = period_;
+    if (settings_.idle == Idle::wrap) timer -= period_;
+  }
+  void reset() {
+    const double share = std::round(settings_.modulation.reset * 32768.0) / 32768.0,
+                 start = settings_.start_tick;
+    if (share == 0.0) return;
+    if (timer < 0.0) {
+      timer = start;
+      return;
+    }
+    double way = start - timer;
+    if (way <= -0.5 * period_) way += period_;
+    const double parts = std::trunc(way * 16384.0 * share);
+    timer += parts / 16384.0;
+    if (timer >= period_) timer -= period_;
+  }
+
+  SupgSettings settings_;
+  const ModulatedParameters& parameters_;
+  int leg_, period_;
+  int tick_ = 0, off_for_ = 0, rests_ = 0;
+};
+
+TEST(ModulatedSupg, EqualsPlainLegsForAllSwitchesAndLaneCounts) {
+  constexpr int period = 13;
+  Stream stream(43, Purpose::test);
+  const auto ranges = joint_ranges(quadruped());
+  for (SupgSettings settings : switches(period)) {
+    if (settings.seam.smooths() || settings.trigger == Trigger::random) continue;
+    settings.modulation = {.sensors = {"pitch", "angle.hip_fb", "touch"},
+                           .rate = 1.0,
+                           .shape = 1.0,
+                           .reset = std::vector{1.0, 0.5, 0.25, 0.0}[stream.below(4)],
+                           .refractory_ticks = static_cast<int>(stream.below(4))};
+    const auto senses = leg_sensors(settings.modulation, {}, quadruped(), timestep_s);
+    for (const int lanes : {1, 16, 17}) {
+      ModulatedSupgBatch batch(supgs(settings), random_modulated(period, 3, stream), lanes);
+      std::vector<std::unique_ptr<ModulatedParameters>> parameters;
+      std::vector<std::vector<PlainLeg>> plain(static_cast<std::size_t>(lanes));
+      for (int lane = 0; lane < lanes; ++lane) {
+        parameters.push_back(std::make_unique<ModulatedParameters>(random_modulated(period, 3, stream)));
+        batch.load(lane, *parameters.back());
+        for (int leg = 0; leg < legs; ++leg)
+          plain[static_cast<std::size_t>(lane)].emplace_back(settings, *parameters.back(), leg);
+      }
+      auto sensors = frame(lanes);
+      LaneArray targets(joints, lanes);
+      std::vector<float> state(2 * legs);
+      for (int tick = 0; tick < 80; ++tick) {
+        move_randomly(sensors, stream);
+        batch.step(sensors, targets);
+        for (int lane = 0; lane < lanes; ++lane) {
+          batch.state(lane, state);
+          for (int leg = 0; leg < legs; ++leg) {
+            const auto l = static_cast<std::size_t>(leg);
+            PlainLeg& expected = plain[static_cast<std::size_t>(lane)][l];
+            std::vector<float> sensed;
+            for (const LegSensor& sensor : senses[l])
+              sensed.push_back(sensor.sensed(substrate::row_of(sensor.sensor, sensors)[lane]));
+            expected.tick(sensors.touch.at(leg, lane) > 0.5f, sensed);
+            ASSERT_EQ(state[l], static_cast<float>(expected.timer)) << tick;
+            ASSERT_EQ(state[legs + l], expected.triggered ? 1.0f : 0.0f);
+            for (int type = 0; type < types; ++type)
+              ASSERT_EQ(
+                  targets.at(leg * types + type, lane),
+                  expected.target_rad(type, sensed, ranges[static_cast<std::size_t>(leg * types + type)]));
+          }
+        }
+      }
+    }
+  }
+}
+
+/// Ticks of each of the periods that the first leg makes while it senses a constant.
+std::vector<int> periods_with(double rho, int period, int count) {
+  SupgSettings settings;
+  settings.period_s = period * timestep_s;
+  settings.trigger = Trigger::none;
+  settings.idle = Idle::wrap;
+  settings.modulation = {.sensors = {"touch"}, .rate = 1.0};
+  Stream stream(1, Purpose::test);
+  ModulatedParameters parameters(random_targets(period, stream), 1);
+  for (int leg = 0; leg < legs; ++leg) parameters.modulation().rate(leg, 0) = static_cast<float>(rho);
+  ModulatedSupgBatch batch(supgs(settings), parameters, 1);
+  batch.load(0, parameters);
+  auto sensors = frame(1);
+  sensors.touch.set_lane(0, 1.0f);
+  LaneArray targets(joints, 1);
+  std::vector<float> state(2 * legs);
+  std::vector<int> periods;
+  float before = -1.0f;
+  for (int ticks = 1; static_cast<int>(periods.size()) <= count; ++ticks) {
+    batch.step(sensors, targets);
+    batch.state(0, state);
+    EXPECT_GE(state[0], 0.0f);
+    if (state[0] < before) {
+      periods.push_back(ticks);
+      ticks = 0;
+    } else {
+      EXPECT_NEAR(state[0] - before, before < 0.0f ? state[0] - before : std::exp2(rho), 1e-4);
+    }
+    before = state[0];
+  }
+  periods.erase(periods.begin());  // it began within a period
+  return periods;
+}
+
+TEST(ModulatedSupg, AConstantSensorGivesThePeriodTimesTwoToTheMinusRho) {
+  for (const double rho : {-1.0, -0.7, -0.3, 0.0, 0.2, 0.5, 1.0}) {
+    const double expected = 100.0 * std::exp2(-rho);
+    const std::vector<int> periods = periods_with(rho, 100, 200);
+    double sum = 0.0;
+    for (const int period : periods) {
+      EXPECT_LE(std::abs(period - expected), 1.0) << rho;  // to the tick
+      sum += period;
+    }
+    EXPECT_NEAR(sum / 200.0, expected, 0.02) << rho;  // and on average within what is left of a tick
+    for (const int period : periods)
+      EXPECT_TRUE(rho != std::round(rho) || period == static_cast<int>(expected));
+  }
+}
+
+TEST(ModulatedSupg, ATriggerMovesATimerTheShorterWayRound) {
+  const std::int32_t one = parts_per_tick, period = 100 * one, start = one;
+  EXPECT_EQ(reset_timer(30 * one, start, period, 32768), start);
+  EXPECT_EQ(reset_timer(80 * one + 7, start, period, 32768), start);
+  EXPECT_EQ(reset_timer(-1, start, period, 1), start);
+  EXPECT_EQ(reset_timer(-1, start, period, 0), -1);
+  EXPECT_EQ(reset_timer(41 * one, start, period, 16384), 21 * one);  // half of 40 back
+  EXPECT_EQ(reset_timer(81 * one, start, period, 16384), 91 * one);  // half of 20 on
+  EXPECT_EQ(reset_timer(99 * one, start, period, 24576),
+            0 + one / 2);                                       // three quarters of 2 on, over the end
+  EXPECT_EQ(reset_timer(period, start, period, 32768), start);  // one that is held at the end
+  for (std::int32_t timer = 0; timer <= period; timer += one / 2) {
+    EXPECT_EQ(reset_timer(timer, start, period, 32768), start) << timer;
+    EXPECT_EQ(reset_timer(timer, start, period, 0), timer);
+    const std::int32_t next = reset_timer(timer, start, period, 12345);
+    EXPECT_TRUE(next >= 0 && next < period);
+  }
+}
+
+TEST(ModulatedSupg, GrowsByPowersOfTwoWithinHalfAPart) {
+  for (int i = -1000; i <= 1000; ++i) {
+    const float rho = static_cast<float>(i) / 1000.0f;
+    EXPECT_LE(std::fabs(advance_parts(rho) - 16384.0 * std::exp2(static_cast<double>(rho))), 0.55) << rho;
+  }
+  EXPECT_EQ(advance_parts(-1.0f), 8192);
+  EXPECT_EQ(advance_parts(0.0f), 16384);
+  EXPECT_EQ(advance_parts(1.0f), 32768);
+}
+
+using neat::Activation;
+using neat::NodeKind;
+
+/// Outputs pattern, offset, gain and rate of bias, leg, joint type, time and sensor.
+cppn::Network linear_cppn(const std::array<std::array<double, 5>, 4>& weights) {
+  neat::Genome genome;
+  for (std::uint32_t id = 0; id < 9; ++id)
+    genome.nodes.push_back({id,
+                            id == 0  ? NodeKind::bias
+                            : id < 5 ? NodeKind::input
+                                     : NodeKind::output,
+                            Activation::linear});
+  for (std::uint32_t out = 0; out < 4; ++out)
+    for (std::uint32_t in = 0; in < 5; ++in)
+      genome.links.push_back({out * 5 + in, in, 5 + out, weights[out][in]});
+  return {genome, {cppn::Linear::identity, true}};
+}
+
+TEST(ModulatedSupg, DecodesGainsAndRatesAsComputedByHand) {
+  SupgSettings settings;
+  settings.period_s = 0.1;
+  settings.modulation = {.sensors = {"pitch", "touch"}, .rate = 0.5, .shape = 0.8};
+  const SupgArchitecture architecture(settings, supg_substrate(), quadruped(), timestep_s);
+  EXPECT_EQ(architecture.cppn_inputs(), (std::vector<std::string>{"leg", "joint_type", "time", "sensor"}));
+  EXPECT_EQ(architecture.cppn_outputs(), (std::vector<std::string>{"pattern", "offset", "gain", "rate"}));
+  // gain = 0.1 + 0.2 type + 0.3 time + 0.4 sensor, rate = 10 leg + 0.5 type + 0.7 time + 0.6 sensor; sensors
+  // ½, 1.
+  const auto decoded = architecture.decode(linear_cppn(
+      {{{0.1, 0, 0, 0.2, 9.0}, {0.2, 0, 0, 0, 0}, {0.1, 0, 0.2, 0.3, 0.4}, {0.0, 10.0, 0.5, 0.7, 0.6}}}));
+  const auto& parameters = dynamic_cast<const ModulatedParameters&>(*decoded);
+  const Modulation& modulation = parameters.modulation();
+  for (int tick = 0; tick <= 10; ++tick)
+    for (int s = 0; s < 2; ++s) {
+      const double sensor = (s + 1) / 2.0, time = tick / 10.0;
+      // FL knee has type −1 and a range of 0.8 rad, BR hip_io type 1 and 0.4 rad.
+      EXPECT_NEAR(modulation.entry(0, tick)[(1 + s) * 4], 0.8 * 0.4 * (0.1 - 0.2 + 0.3 * time + 0.4 * sensor),
+                  1e-6);
+      EXPECT_NEAR(modulation.entry(3, tick)[(1 + s) * 4 + 2],
+                  0.8 * 0.2 * (0.1 + 0.2 + 0.3 * time + 0.4 * sensor), 1e-6);
+    }
+  // Leg FL is at −0.02.
+  EXPECT_NEAR(modulation.rate(0, 0), 0.5 * (-0.2 + 0.3), 1e-6);
+  EXPECT_NEAR(modulation.rate(0, 1), 0.5 * (-0.2 + 0.6), 1e-6);
+  // The pattern knows nothing of sensors: 0.1 + 0.2 time.
+  EXPECT_NEAR(parameters.targets_rad(0, 5)[0], -0.8 + 0.4 * (1.2), 1e-6);
+}
+
+TEST(ModulatedSupg, ScalesSensorsToAboutOne) {
+  ModulationSettings settings{.sensors = {"angle.knee", "pitch", "touch"}};
+  const auto sensors =
+      leg_sensors(settings, {.sensors = {{.of = "pitch", .scale = 2.0}}}, quadruped(), timestep_s);
+  EXPECT_NEAR(sensors[0][0].sensed(-0.8f), -1.0, 1e-6);  // front knee: −0.8 … 0
+  EXPECT_NEAR(sensors[0][0].sensed(-0.4f), 0.0, 1e-6);
+  EXPECT_NEAR(sensors[2][0].sensed(0.6f), 0.5, 1e-6);  // hind knee: 0 … 0.8
+  EXPECT_NEAR(sensors[1][1].sensed(0.1f), 0.4, 1e-6);  // half a radian is 1, twice
+  EXPECT_EQ(sensors[1][1].sensed(3.0f), 1.0f);
+  EXPECT_EQ(sensors[1][1].sensed(std::nanf("")), -1.0f);
+  EXPECT_EQ(sensors[3][2].sensed(1.0f), 1.0f);
+}
+
+std::string refusal(const std::vector<std::string>& sensors) {
+  try {
+    leg_sensors({.sensors = sensors}, {}, quadruped(), timestep_s);
+  } catch (const SettingError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(ModulatedSupg, RefusesSensorsThatThereAreNot) {
+  EXPECT_EQ(
+      refusal({"pitch", "smell"}),
+      "controller.supg.modulation.sensors[1] = \"smell\": expected angle.TYPE, touch, load, speed.TYPE, "
+      "torque.TYPE, "
+      "roll, pitch, yaw, yaw_rate");
+  EXPECT_EQ(refusal({"angle.elbow"}),
+            "controller.supg.modulation.sensors[0] = \"angle.elbow\": the robot has no joint type elbow");
+  EXPECT_EQ(refusal({"pitch", "pitch"}), "controller.supg.modulation.sensors[1] = \"pitch\" is there twice");
+  EXPECT_NE(refusal({"angle"}), "none");
+  EXPECT_NE(refusal({"sine"}), "none");
+  EXPECT_NE(refusal({"touch.FL"}), "none");
+}
+
+}  // namespace
+}  // namespace amble::controllers

@@ -1,0 +1,131 @@
+"""SUPGs that sensors modulate, as src/controllers/supg.hpp's header and docs/CONTROLLERS.md describe them."""
+
+import math
+
+import numpy as np
+
+from supg import STOPPED, Leg
+
+PARTS = 1 << 14
+FULL = {"touch": 1.0, "speed": 10.0, "roll": 0.5, "pitch": 0.5, "yaw": math.pi, "yaw_rate": 2.0}
+
+
+class Modulation:
+    """What a champion's CPPN says of its sensors: gains_rad[sensor][joint][tick], rates[sensor][leg]."""
+
+    def __init__(self, patterns, champion):
+        self.patterns, self.robot = patterns, champion["robot"]
+        self.settings = patterns.settings.get("modulation", {})
+        self.names = self.settings.get("sensors", [])
+        self.timestep_s = champion["trial"]["timestep_s"]
+        scales = {item["of"]: item["scale"] for item in champion["controller"].get("sensing", {}).get("sensors", [])}
+        self.scales = [scales.get(name.split(".")[0], 1.0) for name in self.names]
+        outputs = len(champion["controller"]["substrate"]["outputs"])
+        times = np.arange(patterns.period_ticks + 1) / patterns.period_ticks
+        self.gains_rad, self.rates = [], []
+        for i in range(len(self.names)):
+            coordinate = (i + 1) / len(self.names)
+            self.gains_rad.append([])
+            for joint in self.robot["joints"]:
+                half = 0.5 * (joint["upper_rad"] - joint["lower_rad"])
+                gain = self._output(joint["name"], "pattern", times, coordinate, outputs)
+                self.gains_rad[i].append(self.settings["shape"] * half * gain)
+            self.rates.append([])
+            for joints in patterns.joints_of_leg:
+                rate = self._output(patterns.joints[joints[0]], "offset", [0.0], coordinate, outputs + 1)[0]
+                self.rates[i].append(self.settings["rate"] * rate)
+
+    def _output(self, joint_name, like, times, coordinate, output):
+        points, _ = self.patterns.points(joint_name, like, times, coordinate)
+        return np.clip(self.patterns.cppn.evaluate(points, np.float32)[:, output], -1.0, 1.0)
+
+    def sensed(self, leg, recording, frame):
+        """What the sensors of a leg say in a frame; `frame` − 1 is the one whose end they feel."""
+        return [self._scaled(name, scale, leg, recording, frame - 1) for name, scale in zip(self.names, self.scales)]
+
+    def _scaled(self, name, scale, leg, recording, felt):
+        kind, _, joint_type = name.partition(".")
+        full, middle = FULL.get(kind), 0.0
+        joint = None
+        if joint_type:
+            joint = self.robot["joints"][self.patterns.joints_of_leg[leg][self.robot["joint_types"].index(joint_type)]]
+            if kind == "angle":
+                full, middle = 0.5 * (joint["upper_rad"] - joint["lower_rad"]), 0.5 * (joint["upper_rad"] + joint["lower_rad"])
+        reading = self._reading(kind, joint, leg, recording, felt)
+        return min(max((reading - middle) * scale / full, -1.0), 1.0)
+
+    def _reading(self, kind, joint, leg, recording, felt):
+        if kind == "touch":
+            return recording["touch." + self.patterns.legs[leg]][felt]
+        if kind == "angle":
+            return recording["angle." + joint["name"]][felt]
+        if kind == "speed":
+            now = recording["angle." + joint["name"]]
+            return (float(now[felt]) - float(now[felt - 1] if felt > 0 else 0.0)) / self.timestep_s
+        w, x, y, z = (float(recording["root.q" + axis][felt]) for axis in "wxyz")
+        if kind == "roll":
+            return math.atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
+        if kind == "pitch":
+            return math.asin(min(max(2.0 * (w * y - x * z), -1.0), 1.0))
+        raise ValueError(f"the model knows no sensor {kind}")
+
+
+class ModulatedLeg(Leg):
+    """Its timer is a number of ticks that need not be whole. What rounding leaves open is taken from the recording."""
+
+    def __init__(self, *arguments):
+        super().__init__(*arguments)
+        self.modulation = self.settings["modulation"]
+        self.rests = 0
+
+    def tick_sensing(self, touching, rho, recorded_timer):
+        """Raises nothing: the timer is the nearest to the recorded one that the model allows."""
+        self.tick_number += 1
+        delayed = self.settings["offset"] == "delay"
+        first_start = self.offset_ticks + 1 if delayed else 1
+        lands = touching and self.settings["trigger"] != "none" and (
+            self.settings["trigger"] == "level" or self.ticks_in_the_air >= self.settings["trigger_debounce_ticks"])
+        self.ticks_in_the_air = 0 if touching else self.ticks_in_the_air + 1
+        self.triggered = lands and self.tick_number > first_start and self.rests == 0
+        if lands and self.rests > 0:
+            self._note("refractory")
+        self.rests = self.modulation["refractory_ticks"] if self.triggered else max(self.rests - 1, 0)
+        starts = self.tick_number == first_start
+        before = float(self.offset_ticks) if starts and not delayed else self.timer
+        growth = 2.0 ** min(max(rho, -1.0), 1.0)
+        if abs(growth - 1.0) > 0.01:
+            self._note("other rate")
+        choices = []
+        for error in (0.0, -2.0 / PARTS, 2.0 / PARTS):
+            on, timer = self._grown(before, growth + error)
+            if starts and not delayed:
+                on = timer
+            if starts and delayed:
+                timer = float(self.settings["start_tick"])
+            if self.triggered:
+                timer = self._pulled(timer)
+            choices.append((abs(timer - recorded_timer), on, timer))
+        _, self.continued_timer, self.timer = min(choices)
+
+    def _grown(self, before, growth):
+        """What the timer would be without a jump, and what it becomes."""
+        if before == STOPPED:
+            return STOPPED, STOPPED
+        total = before + growth
+        if total < self.period_ticks:
+            return total, total
+        idle = self.settings["idle"]
+        return self.period_ticks, {"mid": STOPPED, "hold": self.period_ticks, "wrap": total - self.period_ticks}[idle]
+
+    def _pulled(self, timer):
+        share, start = self.modulation["reset"], self.settings["start_tick"]
+        if share == 0.0:
+            return timer
+        self._note("pull" if share < 1.0 and timer != STOPPED else "reset")
+        if timer == STOPPED:
+            return float(start)
+        way = start - timer
+        if way <= -0.5 * self.period_ticks:
+            way += self.period_ticks
+        timer += way * share
+        return timer - self.period_ticks if timer >= self.period_ticks else timer

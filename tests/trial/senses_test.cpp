@@ -1,0 +1,113 @@
+#include "amble/trial/senses.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tests/trial/fakes.hpp"
+
+namespace amble::trial {
+namespace {
+
+using substrate::Sensor;
+using Kind = Sensor::Kind;
+
+constexpr double timestep_s = 0.01;
+
+/// An engine of one lane whose joint is at 0.03 t − 0.001 t² rad in tick t, and whose yaw turns by 0.2 rad a
+/// tick, beyond π.
+struct Turning {
+  explicit Turning(const Sensing& sensing, const Scenario* scenario = nullptr)
+      : senses(sensing, engine.sensors(), timestep_s) {
+    set();
+    senses.load(0, engine, scenario);
+  }
+  double angle_rad(int t) const { return 0.03 * t - 0.001 * t * t; }
+  void set() {
+    engine.frame().joint_angle_rad.at(0, 0) = static_cast<float>(angle_rad(tick));
+    engine.frame().attitude_rad.at(2, 0) = static_cast<float>(std::remainder(3.0 + 0.2 * tick, 2.0 * M_PI));
+    engine.frame().touch.at(0, 0) = tick % 2 == 0 ? 1.0f : 0.0f;
+  }
+  const robot::SensorFrame& read() {
+    set();
+    ++tick;
+    return senses.read(engine);
+  }
+
+  FakeEngine engine{1};
+  int tick = 0;
+  Senses senses;
+};
+
+controllers::SensorModel model(Kind kind, float noise, int delay_ticks, int hold_ticks = 1) {
+  return {.sensor = {kind, 0}, .noise = noise, .delay_ticks = delay_ticks, .hold_ticks = hold_ticks};
+}
+
+TEST(Senses, WithoutAnythingToDoAreTheEnginesOwn) {
+  Turning robot({});
+  EXPECT_EQ(&robot.read(), &robot.engine.sensors());
+}
+
+TEST(Senses, TakeRatesFromTickToTickAndAcrossTheHalfTurn) {
+  Turning robot({.extra = {.speed = true, .yaw_rate = true}, .models = {}});
+  EXPECT_EQ(robot.read().joint_speed_rad_s.at(0, 0), 0.0f);
+  for (int t = 1; t < 30; ++t) {
+    const robot::SensorFrame& sensors = robot.read();
+    EXPECT_NEAR(sensors.joint_speed_rad_s.at(0, 0),
+                (robot.angle_rad(t) - robot.angle_rad(t - 1)) / timestep_s, 1e-4);
+    EXPECT_NEAR(sensors.yaw_rate_rad_s.at(0, 0), 20.0, 1e-3);
+    EXPECT_EQ(sensors.joint_angle_rad.at(0, 0), robot.engine.sensors().joint_angle_rad.at(0, 0));
+  }
+}
+
+TEST(Senses, ReadADelayedSensorAsItWasAndBeforeThatAsAtTheStart) {
+  Turning robot({.extra = {}, .models = {model(Kind::angle, 0.0f, 4)}});
+  for (int t = 0; t < 30; ++t) {
+    const robot::SensorFrame& sensors = robot.read();
+    EXPECT_EQ(sensors.joint_angle_rad.at(0, 0), static_cast<float>(robot.angle_rad(std::max(t - 4, 0)))) << t;
+    EXPECT_EQ(sensors.touch.at(0, 0), robot.engine.sensors().touch.at(0, 0));
+  }
+}
+
+TEST(Senses, HoldAReadingForTheDeadTime) {
+  Turning robot({.extra = {}, .models = {model(Kind::angle, 0.0f, 2, 5)}});
+  for (int t = 0; t < 30; ++t)
+    EXPECT_EQ(robot.read().joint_angle_rad.at(0, 0),
+              static_cast<float>(robot.angle_rad(std::max(t / 5 * 5 - 2, 0))))
+        << t;
+}
+
+std::vector<float> noisy_readings(std::uint32_t generation) {
+  Scenario scenario;
+  scenario.readings = Stream(7, Purpose::trial_noise, generation);
+  Turning robot({.extra = {}, .models = {model(Kind::touch, 0.0f, 0), model(Kind::angle, 0.02f, 0)}},
+                &scenario);
+  std::vector<float> readings;
+  for (int t = 0; t < 200; ++t) {
+    readings.push_back(robot.read().joint_angle_rad.at(0, 0));
+    EXPECT_LE(std::fabs(static_cast<double>(readings.back()) - robot.angle_rad(t)), 0.02 + 1e-5);
+  }
+  return readings;
+}
+
+TEST(Senses, AddNoiseThatIsTheTrialsAlone) {
+  EXPECT_EQ(noisy_readings(1), noisy_readings(1));
+  EXPECT_NE(noisy_readings(1), noisy_readings(2));
+  Turning without({.extra = {}, .models = {model(Kind::angle, 0.02f, 0)}});
+  for (int t = 0; t < 5; ++t)
+    EXPECT_EQ(without.read().joint_angle_rad.at(0, 0), static_cast<float>(without.angle_rad(t)));
+}
+
+TEST(Senses, BeginAnewWithEachTrial) {
+  Turning robot({.extra = {.speed = true}, .models = {model(Kind::angle, 0.0f, 3)}});
+  for (int t = 0; t < 10; ++t) robot.read();
+  robot.set();
+  robot.senses.load(0, robot.engine, nullptr);
+  const robot::SensorFrame& sensors = robot.read();
+  EXPECT_EQ(sensors.joint_speed_rad_s.at(0, 0), 0.0f);
+  EXPECT_EQ(sensors.joint_angle_rad.at(0, 0), static_cast<float>(robot.angle_rad(10)));
+}
+
+}  // namespace
+}  // namespace amble::trial
