@@ -22,6 +22,11 @@ std::unique_ptr<const Architecture> make(const ControllerSettings& settings, con
                                 settings.sensing);
 }
 
+std::unique_ptr<const Architecture> make_oscillators(const ControllerSettings& settings,
+                                                     const robot::RobotSpec& robot, double timestep_s) {
+  return std::make_unique<OscillatorArchitecture>(settings.oscillators, robot, timestep_s);
+}
+
 // amble's own architectures. A new one is a row here, a class derived from Architecture, perhaps a function
 // that makes its substrate from a robot, and, if it has settings, a member of ControllerSettings with its
 // line below.
@@ -33,7 +38,8 @@ Registry<ControllerKind>& kinds() {
        {"network", "static neurons (network; with a sine among the sensors the sine wave architecture)",
         make<NetworkArchitecture, &ControllerSettings::network>, automatic_network},
        {"ctrnn", "continuous-time neurons (ctrnn)", make<CtrnnArchitecture, &ControllerSettings::ctrnn>,
-        automatic_ctrnn}});
+        automatic_ctrnn},
+       {"oscillators", "a sine for each joint, without a substrate (oscillators)", make_oscillators}});
   return all;
 }
 
@@ -83,6 +89,10 @@ void ControllerSettings::describe(io::SettingsVisitor& visitor) {
   visitor.table(
       "sensing", sensing,
       {.what = "how sensors are read: at once and exactly by default", .defaults_are_implied = true});
+  visitor.table("oscillators", oscillators,
+                {.what = "a sine for each joint",
+                 .source = "Raffin et al., arXiv 2310.05808",
+                 .defaults_are_implied = true});
   if (const auto& numbers = kind_of(*this).numbers; !numbers.empty()) {
     visitor.begin("own", {"settings of this kind, which is not one of amble's own"});
     own.describe(visitor, numbers);

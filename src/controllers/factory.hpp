@@ -8,6 +8,7 @@
 #include "amble/controllers/controller.hpp"
 #include "amble/controllers/ctrnn.hpp"
 #include "amble/controllers/network.hpp"
+#include "amble/controllers/oscillators.hpp"
 #include "amble/controllers/sensing.hpp"
 #include "amble/controllers/supg_settings.hpp"
 #include "amble/io/own_settings.hpp"
@@ -24,6 +25,7 @@ struct ControllerSettings {
   NetworkSettings network;
   CtrnnSettings ctrnn;
   SensingSettings sensing = {};
+  OscillatorSettings oscillators;
   io::OwnSettings own;  ///< of a kind that a program or a plugin has added
 
   void describe(io::SettingsVisitor& visitor);

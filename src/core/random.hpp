@@ -20,6 +20,7 @@ enum class Purpose : std::uint32_t {
   map_elites = 8,
   mutants = 9,
   random_triggers = 10,
+  cma_es = 11,
 };
 
 /// A stream of random numbers that depends on its key alone, (seed, purpose, generation, individual), and so

@@ -20,6 +20,11 @@ struct MotorHint {
   double max_speed_rad_s = 0.0;  ///< URDF <limit velocity>; 0: not given
   double kv_nm_s_per_rad = 0.0;  ///< MJCF <position kv>; 0: not given
   double damping_ratio = 0.0;    ///< MJCF <position dampratio>, in place of kv; 0: not given
+
+  /// Templates of URDFs have an effort of 1000 N m beside a velocity of 0.5 rad/s or so: neither is a motor's.
+  bool is_of_a_template() const {
+    return max_torque_nm >= 1000.0 && max_speed_rad_s > 0.0 && max_speed_rad_s <= 1.0;
+  }
 };
 
 /// A model file as a tree, made such that MuJoCo 2.2 reads what matters to a robot.

@@ -38,7 +38,8 @@ std::string slow_joints(const ModelFile& file, const ModelParts& parts, const st
   for (const int j : joints) {
     const std::string& name = parts.joints[to_index(j)].name;
     const auto hint = file.motors.find(name);
-    const double limit = hint == file.motors.end() ? 0.0 : hint->second.max_speed_rad_s;
+    const bool given = hint != file.motors.end() && !hint->second.is_of_a_template();
+    const double limit = given ? hint->second.max_speed_rad_s : 0.0;
     if (limit > 0.0 && limit < slow_share * usual_rad_s)
       slow.push_back(fmt::format("{} ({:.3g})", name, limit));
   }

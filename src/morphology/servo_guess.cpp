@@ -124,7 +124,10 @@ class ServoGuesser {
     }
     std::string gain_why = fmt::format("that of the paper's motors, {} /s", velocity_gain_per_s);
     const double in_limit = hint.max_speed_rad_s / widest_error_rad;
-    if (in_limit > 0.0 && in_limit < velocity_gain_per_s) {
+    if (absurd && hint.is_of_a_template()) {
+      gain_why += fmt::format(": the velocity limit beside that, {:.4g} rad/s, is a template's too",
+                              hint.max_speed_rad_s);
+    } else if (in_limit > 0.0 && in_limit < velocity_gain_per_s) {
       servo.gain_per_s = rounded(in_limit);
       gain_why =
           fmt::format("{} rad from its target a joint turns at the model's velocity limit, {:.4g} rad/s",

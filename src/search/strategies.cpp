@@ -4,6 +4,7 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/registry.hpp"
+#include "amble/search/cma_es.hpp"
 #include "amble/search/generational.hpp"
 #include "amble/search/map_elites.hpp"
 #include "amble/search/novelty.hpp"
@@ -28,6 +29,10 @@ std::unique_ptr<Strategy> make_novelty(const Settings& settings, const SearchSpa
 
 std::unique_ptr<Strategy> make_map_elites(const Settings& settings, const SearchSpace& space) {
   return std::make_unique<MapElites>(settings.map_elites, space);
+}
+
+std::unique_ptr<Strategy> make_cma_es(const Settings& settings, const SearchSpace& space) {
+  return std::make_unique<CmaEs>(settings.cma_es, space);
 }
 
 void validate_novelty(const Settings& settings, std::size_t behaviour_length) {
@@ -77,19 +82,24 @@ Registry<StrategyKind>& kinds() {
                             .make = make_map_elites,
                             .candidates = batch,
                             .validate = validate_map_elites,
-                            .check_memory = check_map_elites_memory})});
+                            .check_memory = check_map_elites_memory}),
+                 completed({.name = "cma-es", .behaviour = "", .make = make_cma_es})});
   return all;
 }
 
 }  // namespace
 
 void Settings::describe(io::SettingsVisitor& visitor) {
-  visitor.row_name("kind", kind, kinds().rows(),
-                   {"what selects parents: the objective itself (distance walked), novelty of behaviour, or "
-                    "being the best of one's kind (a map of gaits)",
-                    "Morse et al. 2013, sec. 4"});
+  visitor.row_name(
+      "kind", kind, kinds().rows(),
+      {"what selects parents: the objective itself (distance walked), novelty of behaviour, or "
+       "being the best of one's kind (a map of gaits); or the objective, by CMA-ES on the weights of a "
+       "CPPN that does not grow",
+       "Morse et al. 2013, sec. 4; arXiv 1604.00772"});
   visitor.table("novelty", novelty, {"novelty search; without effect under other kinds"});
   visitor.table("map_elites", map_elites, {"MAP-Elites; without effect under other kinds"});
+  visitor.table("cma_es", cma_es,
+                {.what = "CMA-ES; without effect under other kinds", .defaults_are_implied = true});
   if (const auto& numbers = strategy_kind(*this).numbers; !numbers.empty()) {
     visitor.begin("own", {"settings of this kind, which is not one of amble's own"});
     own.describe(visitor, numbers);

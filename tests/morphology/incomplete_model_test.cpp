@@ -1,3 +1,4 @@
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -205,6 +206,18 @@ TEST(IncompleteModel, WhoseInertialLacksMassOrMomentsHasThemFromItsShapes) {
   EXPECT_THAT(without("inertia ").notes.text(),
               HasSubstr("by those of the shapes with the body's mass: left_shin"));
   EXPECT_THAT(without("mass ").notes.text(), HasSubstr("filled with water, 1000 kg/m3: left_shin"));
+}
+
+TEST(IncompleteModel, WithTheLimitsOfATemplateHasNeitherItsTorqueNorItsSpeed) {
+  const Files files;
+  std::string text = tests::urdf_with_effort();
+  for (const char* limit : {R"(effort="12" velocity="5")", R"(effort="9" velocity="5")"})
+    for (std::size_t at = text.find(limit); at != std::string::npos; at = text.find(limit))
+      text.replace(at, std::string_view(limit).size(), R"(effort="1000" velocity="0.5")");
+  const RobotGuess guess = guess_robot(compile_model(files.write("r.urdf", text)), "r.urdf");
+  EXPECT_THAT(guess.toml, HasSubstr("the velocity limit beside that, 0.5 rad/s, is a template's too"));
+  EXPECT_THAT(guess.toml, HasSubstr("gain_per_s = 9\n"));
+  EXPECT_THAT(fmt::format("{}", fmt::join(guess.doubts, ";")), Not(HasSubstr("at a crawl")));
 }
 
 }  // namespace

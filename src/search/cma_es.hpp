@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "amble/neat/settings.hpp"
+#include "amble/search/cma_es_settings.hpp"
+#include "amble/search/covariance_adaptation.hpp"
+#include "amble/search/strategies.hpp"
+#include "amble/search/strategy.hpp"
+
+namespace amble::search {
+
+/// CMA-ES (covariance_adaptation.hpp) on the weights of one CPPN that never grows: the initial genome, in
+/// which bias and inputs are linked with all outputs. A round is population.size samples; the better half by
+/// objective moves the distribution, and ties go to the candidate that comes first. One that is not viable
+/// ranks last.
+///
+/// Begins around an initial genome, drawn as NEAT's are. Begins again around another when the distribution
+/// has contracted to nothing (settings.least_step) or lost its shape to rounding.
+class CmaEs : public Strategy {
+ public:
+  /// The settings must be valid, and `space.neat` with at least 4 genomes.
+  CmaEs(const CmaEsSettings& settings, const SearchSpace& space);
+
+  int round() const override { return round_; }
+  std::span<const neat::Genome> ask() const override { return candidates_; }
+  void tell(std::span<const Evaluation> evaluations) override;
+  /// "cma_step", the step length; "cma_widest", the largest standard deviation of a weight; "cma_restarts".
+  std::vector<Metric> metrics() const override;
+
+  void save(io::BinaryWriter& writer) const override;
+  void load(io::BinaryReader& reader) override;
+
+  const CovarianceAdaptation& distribution() const { return distribution_; }
+
+ private:
+  neat::Genome initial_genome(int start) const;
+  CovarianceAdaptation new_distribution(int start) const;
+  void sample();
+
+  CmaEsSettings settings_;
+  neat::Settings neat_;
+  int inputs_, outputs_;
+  std::uint64_t seed_;
+  int round_ = 0, restarts_ = 0;
+  CovarianceAdaptation distribution_;
+  std::vector<neat::Genome> candidates_;
+};
+
+}  // namespace amble::search

@@ -1,0 +1,114 @@
+#include "amble/search/cma_es.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "amble/core/error.hpp"
+
+namespace amble::search {
+namespace {
+
+/// Of a CPPN with one input and two outputs, so of four weights.
+class CmaEsTest : public testing::Test {
+ protected:
+  CmaEsTest() { neat_.population.size = 12; }
+  CmaEs search(std::uint64_t seed = 1) const {
+    return CmaEs(settings_, {.neat = neat_, .inputs = 1, .outputs = 2, .seed = seed});
+  }
+  /// A round by the distance of all weights from 1.
+  static double step(CmaEs& search) {
+    std::vector<Evaluation> evaluations;
+    double best = 0.0;
+    for (const neat::Genome& genome : search.ask()) {
+      double distance = 0.0;
+      for (const neat::LinkGene& link : genome.links) distance += std::pow(link.weight - 1.0, 2);
+      evaluations.push_back({1.0 / (1.0 + distance), {}, true});
+      best = std::max(best, evaluations.back().objective);
+    }
+    search.tell(evaluations);
+    return best;
+  }
+
+  CmaEsSettings settings_;
+  neat::Settings neat_;
+};
+
+TEST_F(CmaEsTest, FindsTheWeightsThatTheObjectiveWants) {
+  CmaEs evolving = search();
+  double best = 0.0;
+  for (int round = 0; round < 60; ++round) best = step(evolving);
+  EXPECT_GT(best, 1.0 - 1e-6);
+  EXPECT_EQ(evolving.round(), 60);
+}
+
+TEST_F(CmaEsTest, AsksForFullyLinkedGenomesThatNeverGrow) {
+  CmaEs evolving = search();
+  for (int round = 0; round < 5; ++round) {
+    ASSERT_EQ(evolving.ask().size(), 12u);
+    for (const neat::Genome& genome : evolving.ask()) {
+      EXPECT_NO_THROW(neat::validate(genome, 1, 2, false));
+      EXPECT_EQ(genome.links.size(), 4u);
+    }
+    step(evolving);
+  }
+}
+
+TEST_F(CmaEsTest, RanksWhatIsNotViableLast) {
+  CmaEs evolving = search();
+  const auto mean = [&] { return evolving.distribution().mean(); };
+  const std::vector<double> before = mean();
+  // Only the first half is viable, with the lower objectives: the mean goes to these.
+  std::vector<double> expected(before.size(), 0.0);
+  std::vector<Evaluation> evaluations;
+  for (int i = 0; i < 12; ++i) evaluations.push_back({i < 6 ? 1.0 : 2.0, {}, i < 6});
+  std::vector<neat::Genome> asked(evolving.ask().begin(), evolving.ask().end());
+  evolving.tell(evaluations);
+  for (std::size_t d = 0; d < before.size(); ++d) {
+    double least = 1e9, most = -1e9;
+    for (int i = 0; i < 6; ++i) {
+      least = std::min(least, asked[static_cast<std::size_t>(i)].links[d].weight);
+      most = std::max(most, asked[static_cast<std::size_t>(i)].links[d].weight);
+    }
+    EXPECT_GE(mean()[d], least);
+    EXPECT_LE(mean()[d], most);
+  }
+}
+
+TEST_F(CmaEsTest, GoesOnToTheBitFromACheckpoint) {
+  CmaEs evolving = search(7), resumed = search(7);
+  for (int round = 0; round < 7; ++round) step(evolving);
+  io::BinaryWriter writer;
+  evolving.save(writer);
+  io::BinaryReader reader(writer.bytes(), "checkpoint");
+  resumed.load(reader);
+  EXPECT_EQ(resumed.round(), 7);
+  for (int round = 0; round < 3; ++round) {
+    ASSERT_EQ(std::vector(evolving.ask().begin(), evolving.ask().end()),
+              std::vector(resumed.ask().begin(), resumed.ask().end()));
+    step(evolving);
+    step(resumed);
+  }
+}
+
+TEST_F(CmaEsTest, BeginsElsewhereWhenNothingIsLeftToSearch) {
+  settings_.least_step = 0.01;
+  CmaEs evolving = search();
+  for (int round = 0; round < 200; ++round) step(evolving);
+  EXPECT_STREQ(evolving.metrics()[2].name.data(), "cma_restarts");
+  EXPECT_GT(evolving.metrics()[2].value, 0.0);
+  EXPECT_GT(evolving.distribution().widest(), 0.005);
+}
+
+TEST_F(CmaEsTest, OfDifferentSeedsSearchesDifferently) {
+  EXPECT_NE(search(1).ask()[0], search(2).ask()[0]);
+}
+
+TEST_F(CmaEsTest, RefusesAPopulationOfFewerThanFour) {
+  neat_.population.size = 3;
+  EXPECT_THROW(search(), SettingError);
+}
+
+}  // namespace
+}  // namespace amble::search
