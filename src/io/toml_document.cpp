@@ -95,10 +95,6 @@ TomlNode parse_value(std::string_view value, const std::string& where) {
   }
 }
 
-std::string toml_key(const std::string& key) {
-  return is_bare_key(key) ? key : toml_quoted(key);
-}
-
 /// A value on one line, not shortened as toml_text() is.
 std::string whole_text(const TomlNode& node) {
   std::string items;

@@ -13,17 +13,34 @@ const TomlNode* TomlNode::find(std::string_view key) const {
   return found == keys.end() ? nullptr : &items[to_index(found - keys.begin())];
 }
 
-const TomlNode* TomlNode::find_path(std::string_view path) const {
-  const std::size_t dot = path.find('.');
-  const std::string_view part = path.substr(0, dot);
-  const std::size_t bracket = part.find('[');
-  const TomlNode* child = find(part.substr(0, bracket));
-  if (child != nullptr && bracket != std::string_view::npos) {
-    std::size_t index = child->items.size();
-    std::from_chars(part.data() + bracket + 1, part.data() + part.size(), index);
-    child = child->kind == Kind::list && index < child->items.size() ? &child->items[index] : nullptr;
+std::size_t TomlNode::quoted_key_at(std::string_view path) const {
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const std::string quoted = toml_quoted(keys[i]);
+    const std::string_view rest = path.substr(std::min(quoted.size(), path.size()));
+    if (path.starts_with(quoted) && (rest.empty() || rest[0] == '.' || rest[0] == '[')) return i;
   }
-  return child == nullptr || dot == std::string_view::npos ? child : child->find_path(path.substr(dot + 1));
+  return keys.size();
+}
+
+const TomlNode* TomlNode::find_path(std::string_view path) const {
+  const TomlNode* child = nullptr;
+  if (path.starts_with('"')) {
+    const std::size_t quoted = quoted_key_at(path);
+    if (quoted == keys.size()) return nullptr;
+    child = &items[quoted];
+    path.remove_prefix(toml_quoted(keys[quoted]).size());
+  } else {
+    const std::size_t end = std::min(path.find_first_of(".["), path.size());
+    child = find(path.substr(0, end));
+    path.remove_prefix(end);
+  }
+  if (child != nullptr && path.starts_with('[')) {
+    std::size_t index = child->items.size();
+    std::from_chars(path.data() + 1, path.data() + path.size(), index);
+    child = child->kind == Kind::list && index < child->items.size() ? &child->items[index] : nullptr;
+    path.remove_prefix(std::min(path.find(']'), path.size() - 1) + 1);
+  }
+  return child == nullptr || !path.starts_with('.') ? child : child->find_path(path.substr(1));
 }
 
 void TomlNode::put(std::string_view key, TomlNode value) {

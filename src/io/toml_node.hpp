@@ -28,7 +28,8 @@ struct TomlNode {
   std::filesystem::path folder;  ///< of the file; empty: the current one
 
   const TomlNode* find(std::string_view key) const;
-  /// The value at a path of keys ("neat.population", "nodes[2].sensor"), or null.
+  /// The value at a path of keys ("neat.population", "nodes[2].sensor", "names.\"a.b\".hip"), or null. Keys
+  /// that are not bare are in it as toml_key() writes them.
   const TomlNode* find_path(std::string_view path) const;
   /// Adds or replaces a value of a table.
   void put(std::string_view key, TomlNode value);
@@ -39,6 +40,10 @@ struct TomlNode {
   void merge(TomlNode table);
   /// Takes over those values of a table that are no lists.
   void take_single_values(const TomlNode& table);
+
+ private:
+  /// Which key stands in quotes where the path begins; keys.size(): none.
+  std::size_t quoted_key_at(std::string_view path) const;
 };
 
 /// The value as TOML on one line, shortened where it is long; tables as {...}.

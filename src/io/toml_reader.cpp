@@ -117,9 +117,9 @@ class TomlReader final : public SettingsReader {
     if (node->kind != Kind::list) refuse(key, *node, expected_tables);
     items.renew(node->items.size());
     for (std::size_t i = 0; i < node->items.size(); ++i) {
-      const std::string item = numbered(key, i);
-      if (node->items[i].kind != Kind::table) refuse(item, node->items[i], expected_table);
-      tables_.push_back({path_of(item), &node->items[i], {}});
+      const std::string item = numbered(path_of(key), i);
+      if (node->items[i].kind != Kind::table) refuse_at(item, node->items[i], expected_table);
+      tables_.push_back({item, &node->items[i], {}});
       items.describe(i, *this);
       tables_.pop_back();
     }
@@ -135,10 +135,10 @@ class TomlReader final : public SettingsReader {
   };
 
   static std::string join(const std::string& table, std::string_view key) {
-    return table.empty() ? std::string(key) : fmt::format("{}.{}", table, key);
+    return table.empty() ? toml_key(key) : fmt::format("{}.{}", table, toml_key(key));
   }
-  static std::string numbered(std::string_view key, std::size_t index) {
-    return fmt::format("{}[{}]", key, index);
+  static std::string numbered(const std::string& path, std::size_t index) {
+    return fmt::format("{}[{}]", path, index);
   }
   std::string path_of(std::string_view key) const { return join(tables_.back().path, key); }
 
@@ -150,16 +150,19 @@ class TomlReader final : public SettingsReader {
   }
 
   [[noreturn]] void refuse(std::string_view key, const TomlNode& node, std::string_view expected) const {
+    refuse_at(path_of(key), node, expected);
+  }
+
+  [[noreturn]] static void refuse_at(const std::string& path, const TomlNode& node,
+                                     std::string_view expected) {
     // The text from the command line already names key and value.
     if (node.from_command_line) fail(ExitCode::bad_input, "{}: expected {}", node.where, expected);
-    fail(ExitCode::bad_input, "{}: '{}' = {}: expected {}", node.where, path_of(key), toml_text(node),
-         expected);
+    fail(ExitCode::bad_input, "{}: '{}' = {}: expected {}", node.where, path, toml_text(node), expected);
   }
 
   void refuse_unknown_keys(const TomlNode& table, const std::string& table_path) const {
     for (std::size_t i = 0; i < table.keys.size(); ++i) {
-      const std::string path =
-          join(table_path, is_bare_key(table.keys[i]) ? table.keys[i] : toml_quoted(table.keys[i]));
+      const std::string path = join(table_path, table.keys[i]);
       const TomlNode& node = table.items[i];
       if (std::find(known_.begin(), known_.end(), path) != known_.end()) {
         if (node.kind != Kind::list) refuse_unknown_keys(node, path);

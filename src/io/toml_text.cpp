@@ -34,6 +34,10 @@ bool is_bare_key(std::string_view key) {
   });
 }
 
+std::string toml_key(std::string_view key) {
+  return is_bare_key(key) ? std::string(key) : toml_quoted(key);
+}
+
 std::string toml_number(double value) {
   AMBLE_CHECK(!std::isnan(value), "NaN is not a setting");
   std::string text = fmt::format("{}", value);

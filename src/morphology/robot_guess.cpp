@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -16,6 +15,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
+#include "amble/io/printable.hpp"
 #include "amble/io/toml_text.hpp"
 #include "amble/morphology/foot_shapes.hpp"
 #include "amble/morphology/leg_guess.hpp"
@@ -35,13 +35,6 @@ constexpr double widest_command_rad = 0.8;
 /// Share of the trunk's clearance at the start that is left when a robot on more than four legs has fallen.
 constexpr double lying_share = 0.1;
 constexpr double paper_mass_kg = 5.4, paper_cfm_s_per_kg = 1e-4;
-
-std::string key(const std::string& name) {
-  const bool bare = !name.empty() && std::ranges::all_of(name, [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-';
-  });
-  return bare ? name : io::toml_quoted(name);
-}
 
 std::string list(const std::vector<std::string>& names) {
   std::vector<std::string> all;
@@ -70,7 +63,7 @@ class RobotGuesser {
     robot_.joints = parts_.joints;
     guess_.name = model_.stem().string();
     line("# Guessed from {} by `amble robot --init`: check each line. robots/README.md describes them.",
-         model_.filename().string());
+         io::printable(model_.filename().string()));
     line("name = {}", io::toml_quoted(guess_.name));
     line("model = {}\n", io::toml_quoted(model_.generic_string()));
     write_legs();
@@ -92,8 +85,9 @@ class RobotGuesser {
     guess_.toml += '\n';
   }
 
-  /// A comment, wrapped.
-  void comment(const std::string& text) {
+  /// A comment, wrapped; names in it may have characters that TOML does not allow there.
+  void comment(const std::string& raw) {
+    const std::string text = io::printable(raw);
     constexpr std::size_t width = 100;
     std::string row = "#";
     for (std::size_t at = 0; at < text.size();) {
@@ -213,11 +207,11 @@ class RobotGuesser {
 
   void write_names() {
     for (const LegGuess& leg : legs_.legs) {
-      line("\n[names.{}]", key(leg.name));
+      line("\n[names.{}]", io::toml_key(leg.name));
       write_foot(leg);
       for (std::size_t t = 0; t < legs_.joint_types.size(); ++t) {
         const int j = leg.joint_of_type[t];
-        line("{} = {}", key(legs_.joint_types[t]),
+        line("{} = {}", io::toml_key(legs_.joint_types[t]),
              j < 0 ? "\"\"  # none" : io::toml_quoted(parts_.joints[to_index(j)].name));
       }
     }
@@ -281,16 +275,16 @@ class RobotGuesser {
       const ServoGuess& first = servo_of(joints.front().second);
       const bool alike = std::ranges::all_of(
           joints, [&](const auto& of_leg) { return same(servo_of(of_leg.second).servo, first.servo); });
-      const std::string type = key(legs_.joint_types[t]);
+      const std::string type = io::toml_key(legs_.joint_types[t]);
       if (alike && !same(first.servo, common.servo)) write_servo("servo_of." + type, first);
       if (alike) continue;
       for (const auto& [leg, j] : joints)
         if (!same(servo_of(j).servo, common.servo))
-          write_servo(fmt::format("servo_of.{}.{}", key(leg->name), type), servo_of(j));
+          write_servo(fmt::format("servo_of.{}.{}", io::toml_key(leg->name), type), servo_of(j));
     }
     for (const int j : legs_.held)
       if (!same(servo_of(j).servo, common.servo))
-        write_servo("servo_of." + key(parts_.joints[to_index(j)].name), servo_of(j));
+        write_servo("servo_of." + io::toml_key(parts_.joints[to_index(j)].name), servo_of(j));
   }
 
   /// The range of command of a joint where it is not from stop to stop.
@@ -310,7 +304,7 @@ class RobotGuesser {
       for (const LegGuess& leg : legs_.legs)
         if (leg.joint_of_type[t] >= 0) ranges.push_back(command(leg.joint_of_type[t]));
       const auto text = [&](const std::array<double, 2>& range) {
-        return fmt::format("{} = [{}, {}]\n", key(legs_.joint_types[t]), range[0], range[1]);
+        return fmt::format("{} = [{}, {}]\n", io::toml_key(legs_.joint_types[t]), range[0], range[1]);
       };
       if (std::ranges::all_of(ranges, [&](const auto& range) { return range == ranges.front(); })) {
         if (ranges.front()) of_types += text(*ranges.front());
@@ -328,7 +322,7 @@ class RobotGuesser {
     line("[command]");
     guess_.toml += of_types;
     for (const LegGuess& leg : legs_.legs)
-      if (of_legs.contains(leg.name)) line("[command.{}]\n{}", key(leg.name), of_legs[leg.name]);
+      if (of_legs.contains(leg.name)) line("[command.{}]\n{}", io::toml_key(leg.name), of_legs[leg.name]);
   }
 
   void write_rotation() {
@@ -349,7 +343,7 @@ class RobotGuesser {
     line("");
     comment(why_start_angles(start_, why_not_));
     line("[start_angle]");
-    for (const auto& [name, angle] : options_.start_angles_rad) line("{} = {}", key(name), angle);
+    for (const auto& [name, angle] : options_.start_angles_rad) line("{} = {}", io::toml_key(name), angle);
   }
 
   void write_contact() {

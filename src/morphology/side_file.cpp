@@ -11,6 +11,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/io/toml_settings.hpp"
+#include "amble/io/toml_text.hpp"
 
 namespace amble::morphology {
 namespace {
@@ -42,16 +43,18 @@ void visit(io::SettingsVisitor& visitor, robot::Contact& contact) {
                   {"sweeps of the batch engine's solver; 0: as many as the paper's quadruped needs"});
 }
 
-std::string filled_in(std::string pattern, std::string_view leg, std::string_view type) {
-  const auto replace = [&pattern](std::string_view mark, std::string_view text) {
-    for (std::size_t at = pattern.find(mark); at != std::string::npos;
-         at = pattern.find(mark, at + text.size())) {
-      pattern.replace(at, mark.size(), text);
-    }
-  };
-  replace("{leg}", leg);
-  replace("{type}", type);
-  return pattern;
+/// `pattern` with {leg} and {type} replaced; names that contain such marks stay as they are.
+std::string filled_in(std::string_view pattern, std::string_view leg, std::string_view type) {
+  std::string text;
+  while (!pattern.empty()) {
+    std::string_view mark = pattern.substr(0, 1), name = mark;
+    for (const auto& [key, value] :
+         {std::pair<std::string_view, std::string_view>{"{leg}", leg}, {"{type}", type}})
+      if (pattern.starts_with(key)) mark = key, name = value;
+    text += name;
+    pattern.remove_prefix(mark.size());
+  }
+  return text;
 }
 
 /// Reads one side file, table by table.
@@ -185,7 +188,7 @@ class SideFileReader {
       LegNames names;
       for (const std::string& pattern : foot_patterns) names.foot.push_back(filled_in(pattern, leg, ""));
       reader_->begin(leg, {"names of this leg's parts where they do not follow the pattern"});
-      read_foot("names." + leg + ".foot", names.foot, "its foot geom, or a list of them");
+      read_foot("names." + io::toml_key(leg) + ".foot", names.foot, "its foot geom, or a list of them");
       for (const std::string& type : side_.joint_types) {
         std::string joint = filled_in(joint_pattern, leg, type);
         reader_->text(type, joint, {"its joint of this type"});
@@ -248,7 +251,7 @@ class SideFileReader {
       reader_->begin(leg, {"ranges of this leg"});
       for (std::size_t t = 0; t < by_type.size(); ++t) {
         side_.commands.push_back(by_type[t]);
-        read_range("command." + leg, side_.joint_types[t], side_.commands.back());
+        read_range("command." + io::toml_key(leg), side_.joint_types[t], side_.commands.back());
       }
       reader_->end();
     }
@@ -260,7 +263,7 @@ class SideFileReader {
     reader_->numbers(key, ends, {-largest, largest},
                      {"lower and upper end, rad, as the model counts the angle"});
     if (ends.empty()) return;
-    const std::string path = table + "." + key;
+    const std::string path = table + "." + io::toml_key(key);
     if (ends.size() != 2 || !(ends[0] < ends[1]))
       fail(ExitCode::bad_input, "{}: '{}': expected [lower, upper] with lower below upper",
            document_.where(path), path);

@@ -1,8 +1,10 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "amble/io/toml_settings.hpp"
+#include "amble/io/toml_text.hpp"
 #include "tests/io/expect_error.hpp"
 #include "tests/io/sample_settings.hpp"
 
@@ -228,6 +230,51 @@ TEST(TomlReader, AWholeNumberForAnIntReachesBothEndsOfAnInt) {
   EXPECT_EQ(read("-2147483648"), std::numeric_limits<int>::min());
   EXPECT_EQ(error_of(ExitCode::bad_input, [&] { read("-2147483649"); }),
             "x.toml:1: 'value' = -2147483649: expected a whole number from -2147483648 to 2147483647");
+}
+
+/// Settings whose keys are names that somebody chose.
+struct Chosen {
+  std::vector<std::string> names;
+  std::vector<double> values;
+
+  void describe(io::SettingsVisitor& visitor) {
+    values.assign(names.size(), 0.0);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      visitor.begin(names[i], {""});
+      visitor.number(names[i], values[i], {0.0, 9.0}, {""});
+      visitor.end();
+    }
+  }
+};
+
+TEST(TomlReader, ReadsEveryKeyThatTomlCanWrite) {
+  const std::vector<std::string> names{"左前",        "{leg}_",    "a.b", "it's",      "say \"x\"",
+                                       "back\\slash", "two words", "",    "new\nline", "\x01",
+                                       "\x7f",        "a[0]",      "#",   "x=1"};
+  std::string text;
+  for (const std::string& name : names) text += fmt::format("[{0}]\n{0} = 2\n", toml_key(name));
+  const TomlDocument document = TomlDocument::parse(text, "x.toml");
+  Chosen chosen{names, {}};
+  const auto reader = document.reader();
+  chosen.describe(*reader);
+  reader->finish();
+  EXPECT_EQ(chosen.values, std::vector<double>(names.size(), 2.0));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string key = toml_key(names[i]);
+    EXPECT_EQ(document.where(key + "." + key), fmt::format("x.toml:{}", 2 * i + 2)) << key;
+    EXPECT_EQ(document.keys_of(key), std::vector<std::string>{names[i]});
+  }
+  Chosen others{{"左前", "a"}, {}};
+  const auto strict = document.reader();
+  others.describe(*strict);
+  EXPECT_EQ(error_of(ExitCode::bad_input, [&] { strict->finish(); }), "x.toml:3: unknown key '\"{leg}_\"'");
+  EXPECT_EQ(error_of(ExitCode::bad_input,
+                     [&] {
+                       const TomlDocument bad = TomlDocument::parse("['a.b']\n'a.b' = 10", "x.toml");
+                       Chosen one{{"a.b"}, {}};
+                       one.describe(*bad.reader());
+                     }),
+            "x.toml:2: '\"a.b\".\"a.b\"' = 10: expected a number from 0 to 9");
 }
 
 }  // namespace

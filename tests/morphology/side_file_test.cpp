@@ -196,5 +196,18 @@ TEST(SideFile, HasRangesOfCommandOfTwoRisingNumbers) {
         << range;
 }
 
+TEST(SideFile, TakesLegsOfAnyNameAndFillsInPatternsOnce) {
+  const std::string toml =
+      with(with(one_leg_toml, R"(legs = ["A"])", R"(legs = ["{type}", "a.b"])"), "[contact]",
+           "[names.\"a.b\"]\nfoot = ['x', 'y']\n[command.\"a.b\"]\nhip = [-1.0, 1.0]\n[contact]");
+  const SideFile side = parse_side_file(toml, "x.toml");
+  EXPECT_EQ(side.names[0].joints, (std::vector<std::string>{"{type}_hip", "{type}_knee"}));
+  EXPECT_EQ(side.names[1].joints, (std::vector<std::string>{"a.b_hip", "a.b_knee"}));
+  EXPECT_EQ(side.names[1].foot, (std::vector<std::string>{"x", "y"}));
+  EXPECT_TRUE(side.commands[2].has_value());
+  EXPECT_THAT(Files().error_of([&] { parse_side_file(with(toml, "[-1.0, 1.0]", "[1.0, -1.0]"), "x.toml"); }),
+              testing::HasSubstr("'command.\"a.b\".hip': expected [lower, upper]"));
+}
+
 }  // namespace
 }  // namespace amble::morphology
