@@ -40,8 +40,16 @@ ExitCode report(ExitCode code, std::string text) {
 /// The command that was given, as it could be given again.
 std::string command_line(int argc, char** argv) {
   std::string line = "amble";
-  for (int i = 1; i < argc; ++i)
-    line += " " + (argv[i][0] == '-' ? std::string(argv[i]) : amble::io::shell_word(argv[i]));
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const std::size_t equals = word.starts_with('-') ? word.find('=') : 0;
+    if (!word.starts_with('-'))
+      line += " " + amble::io::shell_word(word);
+    else if (equals == std::string::npos || word.substr(equals + 1).starts_with('-'))
+      line += " " + word;
+    else
+      line += " " + word.substr(0, equals + 1) + amble::io::shell_word(word.substr(equals + 1));
+  }
   return line;
 }
 

@@ -25,7 +25,7 @@ TEST(ShellWord, IsReadAsItWasWrittenByEveryShellHere) {
   const std::array words{"runs/1",      "my run",    "run$1 & co", "it's", "a'b'c\"d", "$(rm -rf x)",
                          "`id`",        "a;b|c>d<e", "*?[a-z]",    "~/x",  "~",        "#1",
                          "a\\b",        "{a,b}",     "(x)",        "!!",   "x=1",      "  two  ",
-                         "läufe/größe", "tab\there", "new\nline",  "100%", "a^b",      "=cat"};
+                         "läufe/größe", "100%",      "a^b",        "=cat"};
   for (const std::string shell : {"/bin/sh", "/bin/bash", "/usr/bin/zsh"}) {
     if (!std::filesystem::exists(shell)) continue;
     for (const std::string word : words) EXPECT_EQ(read_by(shell, shell_word(word)), word) << shell;
@@ -43,6 +43,25 @@ TEST(ShellWord, IsPlainWherePlainWillDo) {
 TEST(ShellWord, IsNoOption) {
   EXPECT_EQ(shell_word("-o"), "./-o");
   EXPECT_EQ(shell_word("--my run"), "'./--my run'");
+}
+
+TEST(ShellWord, WithControlCharactersIsOneLineThatBashReadsBack) {
+  std::string all;
+  for (char c = 1; c < 0x20; ++c) all += c;
+  for (const std::string& word :
+       {std::string("tab\there"), std::string("new\nline"), std::string("runs/a\nb's \\ 1\x7f$x"),
+        all + "\x7f", std::string("-\n"), std::string("läufe\n7\r1"),
+        std::string("\x01"
+                    "23")}) {
+    const std::string quoted = shell_word(word);
+    EXPECT_EQ(quoted.find_first_of(all + "\x7f"), std::string::npos) << quoted;
+    const std::string expected = (word[0] == '-' ? "./" : "") + word;
+    for (const std::string shell : {"/bin/bash", "/usr/bin/zsh"}) {
+      if (!std::filesystem::exists(shell)) continue;
+      EXPECT_EQ(read_by(shell, quoted), expected) << shell << quoted;
+    }
+  }
+  EXPECT_EQ(shell_word("a\nb"), "$'a\\nb'");
 }
 
 }  // namespace
