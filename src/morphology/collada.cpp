@@ -117,7 +117,7 @@ class ColladaReader {
 
   /// What an attribute refers to: "#id".
   const XmlElement* find(const XmlElement& element, std::string_view key) const {
-    const std::string name = without_entities(element.attribute_or(key, ""));
+    const std::string name = element.attribute_or(key, "");
     const auto found = by_id_.find(name.starts_with('#') ? name.substr(1) : name);
     return found == by_id_.end() ? nullptr : found->second;
   }

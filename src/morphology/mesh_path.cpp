@@ -5,8 +5,6 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "amble/morphology/xml_tree.hpp"
-
 namespace amble::morphology {
 namespace {
 
@@ -63,7 +61,6 @@ std::string without_percents(const std::string& text) {
 }  // namespace
 
 std::string plain_path(std::string name) {
-  name = without_entities(name);
   std::ranges::replace(name, '\\', '/');
   const std::size_t first = name.find_first_not_of(" \t\r\n"), last = name.find_last_not_of(" \t\r\n");
   name = first == std::string::npos ? std::string() : name.substr(first, last + 1 - first);

@@ -6,7 +6,7 @@
 
 namespace amble::morphology {
 
-/// A path as a file names it, as this system writes it: entities resolved, blanks around it and a drive's
+/// A path as a file names it, as this system writes it: blanks around it and a drive's
 /// letter dropped, "/" for "\", without package://, file:// or the like and without $(find …) around a
 /// package's name.
 std::string plain_path(std::string name);

@@ -7,10 +7,12 @@
 #include <utility>
 
 #include "amble/core/index.hpp"
+#include "amble/io/printable.hpp"
 
 namespace amble::morphology {
 
 void ReadingNotes::add(Reading reading, std::string text) {
+  text = io::printable(text);  // names may have characters that break a line
   const auto same = [&](const Line& line) { return line.reading == reading && line.text == text; };
   if (std::ranges::none_of(lines_, same)) lines_.push_back({reading, std::move(text)});
 }

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
+#include <charconv>
+#include <cstdint>
 
 #include "amble/core/error.hpp"
 #include "amble/morphology/model_bytes.hpp"
@@ -16,6 +17,14 @@ constexpr std::string_view blanks = " \t\r\n";
 std::string_view without_blanks(std::string_view text) {
   const std::size_t first = text.find_first_not_of(blanks);
   return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// An attribute's value as XML means it: a line break is a blank there, unless it is written as a number.
+std::string resolved(std::string_view value) {
+  std::string text(value);
+  for (char& c : text)
+    if (c == '\n' || c == '\r') c = ' ';
+  return without_entities(text);
 }
 
 class Parser {
@@ -69,12 +78,36 @@ class Parser {
         skip_past("]]>");
       } else if (at("<?")) {
         skip_past("?>");
+      } else if (at("<!DOCTYPE") && elements_ == 0) {
+        skip_document_type();
       } else if (at("<!")) {
-        fail(ExitCode::bad_input, "{}:{}: document types and entities (<!…>) are refused", file_, line());
+        bad("declarations (<!…>) stand before the first element");
       } else {
         return;
       }
     }
+  }
+
+  /// A document type that only names the format, or where its definition is, says nothing of the model.
+  void skip_document_type() {
+    char quote = '\0';
+    for (std::size_t end = at_ + 1; end < text_.size(); ++end) {
+      const char c = text_[end];
+      if (quote != '\0') {
+        if (c == quote) quote = '\0';
+      } else if (c == '"' || c == '\'') {
+        quote = c;
+      } else if (c == '[') {
+        fail(ExitCode::bad_input,
+             "{}:{}: document types with entities (<!DOCTYPE … [<!ENTITY …>]>) are refused: write what they "
+             "stand for in their place",
+             file_, line());
+      } else if (c == '>') {
+        at_ = end + 1;
+        return;
+      }
+    }
+    bad("'>' is missing");
   }
 
   std::string_view name() {
@@ -101,7 +134,7 @@ class Parser {
     const std::string_view value = without_blanks(text_.substr(at_, end - at_));
     if (value.find('<') != std::string_view::npos) bad("'<' in the value of '" + key + "'");
     if (element.attribute(key)) bad("attribute '" + key + "' is given twice");
-    element.attributes.emplace_back(key, value);
+    element.attributes.emplace_back(key, resolved(value));
     at_ = end + 1;
   }
 
@@ -149,14 +182,22 @@ class Parser {
   int line_ = 1;
 };
 
+/// A character of an attribute's value. Line breaks as numbers: one line for one element.
+std::string escaped(char c, char quote) {
+  if (c == '&') return "&amp;";
+  if (c == '<') return "&lt;";
+  if (c == quote) return c == '"' ? "&quot;" : "&apos;";
+  const auto byte = static_cast<unsigned char>(c);
+  return byte < 0x20 && c != '\t' ? fmt::format("&#{};", byte) : std::string(1, c);
+}
+
 void write(XmlElement& element, XmlText& out) {
   out.lines.push_back(&element);
   out.text += "<" + element.name;
   for (const auto& [key, value] : element.attributes) {
     const char quote = value.find('"') == std::string::npos ? '"' : '\'';
     out.text += " " + key + "=" + quote;
-    // One line for one element.
-    for (const char c : value) out.text += c == '\n' || c == '\r' ? ' ' : c;
+    for (const char c : value) out.text += escaped(c, quote);
     out.text += quote;
   }
   out.text += element.children.empty() ? "/>" : ">";
@@ -166,6 +207,18 @@ void write(XmlElement& element, XmlText& out) {
     write(child, out);
   }
   out.text += "</" + element.name + ">";
+}
+
+/// Of "&#65" or "&#x41"; 0 and what is beyond Unicode are no characters.
+std::optional<char32_t> character_number(std::string_view entity) {
+  if (!entity.starts_with("&#") || entity.size() > 10) return std::nullopt;
+  const bool hexadecimal = entity.substr(2).starts_with('x');
+  entity.remove_prefix(hexadecimal ? 3 : 2);
+  std::uint32_t number = 0;
+  const auto [end, error] =
+      std::from_chars(entity.data(), entity.data() + entity.size(), number, hexadecimal ? 16 : 10);
+  if (entity.empty() || error != std::errc() || end != entity.data() + entity.size()) return std::nullopt;
+  return number == 0 ? U'\xFFFD' : static_cast<char32_t>(number);
 }
 
 }  // namespace
@@ -233,10 +286,8 @@ std::string without_entities(std::string_view value) {
     if (found != named.end()) {
       text += found->second;
       value.remove_prefix(found->first.size());
-    } else if (value.starts_with("&#") && end != std::string_view::npos && end < 10) {
-      const bool hexadecimal = value[2] == 'x';
-      const std::string number(value.substr(hexadecimal ? 3 : 2, end - (hexadecimal ? 3 : 2)));
-      append_utf8(text, static_cast<char32_t>(std::strtoul(number.c_str(), nullptr, hexadecimal ? 16 : 10)));
+    } else if (const auto number = character_number(value.substr(0, end))) {
+      append_utf8(text, *number);
       value.remove_prefix(end + 1);
     } else {
       text += value.front();

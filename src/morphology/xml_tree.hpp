@@ -13,8 +13,7 @@ namespace amble::morphology {
 /// An element of an XML document with its place in the file.
 struct XmlElement {
   std::string name;
-  std::vector<std::pair<std::string, std::string>> attributes =
-      {};  ///< values as in the file, entities unresolved
+  std::vector<std::pair<std::string, std::string>> attributes = {};  ///< values with entities resolved
   std::vector<XmlElement> children = {};
   std::string file = {};
   int line = 0;
@@ -46,7 +45,8 @@ struct XmlLimits {
 /// An attribute's value with the five entities of XML and numbers of characters resolved.
 std::string without_entities(std::string_view value);
 
-/// Reads a document with one root element. Document types and entities of its own are refused. Throws
+/// Reads a document with one root element. A document type is passed over; one with
+/// entities of its own is refused. Throws
 /// UserError "FILE:LINE: …".
 XmlElement parse_xml(std::string_view text, const std::string& file, const XmlLimits& limits = {});
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "amble/core/index.hpp"
+#include "amble/io/printable.hpp"
 #include "amble/robot/legs.hpp"
 #include "amble/robot/pose.hpp"
 
@@ -18,7 +19,9 @@ namespace {
 using Row = std::vector<std::string>;
 
 /// Columns as wide as their widest cell, two blanks between them.
-std::string table(const std::vector<Row>& rows) {
+std::string table(std::vector<Row> rows) {
+  for (Row& row : rows)
+    for (std::string& cell : row) cell = io::printable(cell);
   std::vector<std::size_t> widths(rows[0].size(), 0);
   for (const Row& row : rows) {
     for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());

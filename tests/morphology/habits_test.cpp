@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "amble/morphology/model_file.hpp"
@@ -110,6 +111,45 @@ TEST(RobotGuess, GivesRobotsOfAnySizeHeightsThatAreTheirs) {
     EXPECT_NEAR(fall_m / by, 0.215, 0.01) << by;
     EXPECT_LT(fall_m, start_m);
   }
+}
+
+TEST(Urdf, MayHaveAnyCharacterInItsNames) {
+  const Files files;
+  // As XML writes them, and as they are.
+  const std::pair<const char*, const char*> names[] = {{"left&amp;hip", "left&hip"},
+                                                       {"left&#10;hip", "left\nhip"},
+                                                       {"left&quot;hip'", "left\"hip'"},
+                                                       {"&lt;hip&gt;", "<hip>"},
+                                                       {"左腿 {leg}.", "左腿 {leg}."}};
+  for (const auto& [written, meant] : names) {
+    std::string text = all_replaced(urdf_with_effort(), "left_hip_joint", written);
+    text = with(
+        text, "</robot>",
+        "<transmission name=\"t\"><joint name=\"" + std::string(written) + "\"/></transmission></robot>");
+    const ModelFile file = compile_model(files.write("r.urdf", text));
+    ASSERT_TRUE(file.motors.contains(meant)) << meant;
+    EXPECT_GT(file.motors.at(meant).max_torque_nm, 0.0);
+    EXPECT_GT(file.motors.at(meant).max_speed_rad_s, 0.0);
+    EXPECT_TRUE(file.motors_named.contains(meant));
+    const ModelParts parts = extract_parts(file);
+    EXPECT_TRUE(std::ranges::any_of(parts.joints, [&](const auto& joint) { return joint.name == meant; }));
+    text = all_replaced(urdf_with_effort(), "left_hip_joint", written);
+    files.write("q.urdf", text);
+    const RobotGuess guess = guess_robot(compile_model(files.path("q.urdf")), "q.urdf");
+    EXPECT_EQ(files.error_of([&] { load_robot(files.write("q.toml", guess.toml)); }), "accepted")
+        << guess.toml;
+  }
+}
+
+TEST(Mjcf, MayHaveAnyCharacterInItsNames) {
+  const Files files;
+  std::string text = all_replaced(model_text(four_legs(), "<freejoint/>", {}, R"(<actuator>
+    <position joint="FL_hip" kp="20" kv="3"/></actuator>)"),
+                                  "FL_", "a&amp;\n&#10;&lt;b");
+  const ModelFile file = compile_model(files.write("m.xml", text));
+  ASSERT_TRUE(file.motors.contains("a& \n<bhip"));
+  EXPECT_EQ(file.motors.at("a& \n<bhip").kv_nm_s_per_rad, 3.0);
+  EXPECT_EQ(file.notes.text().find("\n<b"), std::string::npos) << "a note is a line";
 }
 
 }  // namespace

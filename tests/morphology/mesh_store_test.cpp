@@ -288,7 +288,7 @@ TEST(PlainPath, IsAPathOfThisSystem) {
                                                                   {"package://a/b.stl", "a/b.stl"},
                                                                   {R"(package:\\a\b.stl)", "a/b.stl"},
                                                                   {"$(find a)/b.stl", "a/b.stl"},
-                                                                  {"a &amp; b.stl", "a & b.stl"},
+                                                                  {"a & b.stl", "a & b.stl"},
                                                                   {"", ""}})
     EXPECT_EQ(plain_path(name), plain);
 }

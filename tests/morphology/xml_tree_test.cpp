@@ -114,5 +114,34 @@ TEST(XmlTree, HoldsAsMuchAsItsLimitsAndNoMore) {
   EXPECT_EQ(standard.bodies, 1000u);
 }
 
+TEST(XmlTree, HasValuesAsTheyAreMeantAndWritesThemSoThatTheyAreReadBack) {
+  const std::string text =
+      R"(<a b="fl&amp;hip" c='"x"' d="&lt;&#10;&#x41;&quot;&apos;" e="two
+lines" f="&unknown; &" g="&#0;&#xD800;&#99999999999;"/>)";
+  XmlElement tree = parse_xml(text, "f");
+  EXPECT_EQ(tree.attribute("b"), "fl&hip");
+  EXPECT_EQ(tree.attribute("c"), "\"x\"");
+  EXPECT_EQ(tree.attribute("d"), "<\nA\"'");
+  EXPECT_EQ(tree.attribute("e"), "two lines");
+  EXPECT_EQ(tree.attribute("f"), "&unknown; &");
+  EXPECT_EQ(tree.attribute("g"), "\uFFFD\uFFFD&#99999999999;");
+  const XmlText written = write_xml(tree);
+  EXPECT_EQ(written.text.find('\n'), written.text.size() - 1) << "an element is a line";
+  EXPECT_TRUE(same(parse_xml(written.text, "f"), tree)) << written.text;
+}
+
+TEST(XmlTree, PassesOverADocumentTypeUnlessItDefinesSomething) {
+  for (const char* type : {"<!DOCTYPE robot>", "<?xml version='1.0'?>\n<!DOCTYPE robot SYSTEM \"a>b.dtd\">\n",
+                           "<!-- --><!DOCTYPE robot PUBLIC '-//x' 'y'>"})
+    EXPECT_EQ(refusal(type + std::string("<robot/>")), "accepted") << type;
+  EXPECT_EQ(
+      refusal("\n<!DOCTYPE robot [<!ENTITY m \"2\">]><robot a='&m;'/>"),
+      "f:2: document types with entities (<!DOCTYPE … [<!ENTITY …>]>) are refused: write what they stand "
+      "for in their place");
+  for (const char* text : {"<!DOCTYPE robot", "<robot/><!DOCTYPE robot>", "<robot><!DOCTYPE robot></robot>",
+                           "<!ENTITY a \"a\"><robot/>"})
+    EXPECT_NE(refusal(text), "accepted") << text;
+}
+
 }  // namespace
 }  // namespace amble::morphology
