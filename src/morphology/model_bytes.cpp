@@ -1,12 +1,14 @@
 #include "amble/morphology/model_bytes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdint>
 #include <utility>
 
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/shell.hpp"
 
 namespace amble::morphology {
 namespace {
@@ -29,6 +31,17 @@ std::string from_utf16(std::string_view bytes, bool low_first) {
         at += 2;
       }
     }
+    append_utf8(text, character);
+  }
+  return text;
+}
+
+std::string from_utf32(std::string_view bytes, bool low_first) {
+  std::string text;
+  for (std::size_t at = 0; at + 3 < bytes.size(); at += 4) {
+    std::uint32_t character = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      character = character << 8 | static_cast<unsigned char>(bytes[low_first ? at + 3 - i : at + i]);
     append_utf8(text, character);
   }
   return text;
@@ -71,6 +84,34 @@ void refuse_what_is_no_model(std::string_view text, const std::filesystem::path&
   if (is_lfs_pointer(text)) fail(ExitCode::bad_input, "{}: {}", path.string(), lfs_remark);
 }
 
+/// Packed files are told by their first bytes, with what unpacks them.
+void refuse_what_is_packed(std::string_view bytes, const std::filesystem::path& path) {
+  using namespace std::string_view_literals;
+  struct Packing {
+    std::string_view first, ending, name, command;
+  };
+  static constexpr std::array packings{Packing{"\x1F\x8B"sv, ".gz", "gzip", "gunzip"},
+                                       Packing{"BZh"sv, ".bz2", "bzip2", "bunzip2"},
+                                       Packing{"\xFD"
+                                               "7zXZ\0"sv,
+                                               ".xz", "xz", "unxz"},
+                                       Packing{"\x28\xB5\x2F\xFD"sv, ".zst", "zstd", "unzstd"},
+                                       Packing{"PK\x03\x04"sv, ".zip", "zip", "unzip"}};
+  const auto packing =
+      std::ranges::find_if(packings, [&](const Packing& known) { return bytes.starts_with(known.first); });
+  if (packing == packings.end()) return;
+  const std::string file = io::shell_word(path.string());
+  std::string command = fmt::format("{} {}", packing->command, file);
+  // Without their ending these programs leave a file alone.
+  if (path.extension() != packing->ending && packing->ending != ".zip") {
+    const std::string name = path.stem().string() + "_unpacked" + path.extension().string();
+    command = fmt::format("{} < {} > {}", packing->command, file,
+                          io::shell_word(free_path(path.parent_path() / name).string()));
+  }
+  fail(ExitCode::bad_input, "{}: it is compressed ({}): unpack it first: {}", path.string(), packing->name,
+       command);
+}
+
 }  // namespace
 
 void append_utf8(std::string& text, char32_t character) {
@@ -96,6 +137,11 @@ void append_utf8(std::string& text, char32_t character) {
 std::string as_utf8(std::string bytes) {
   using namespace std::string_view_literals;
   const std::string_view all = bytes;
+  // Before UTF-16, whose mark of low bytes first its own begins with.
+  if (all.starts_with("\xFF\xFE\0\0"sv)) return from_utf32(all.substr(4), true);
+  if (all.starts_with("\0\0\xFE\xFF"sv)) return from_utf32(all.substr(4), false);
+  if (all.starts_with("<\0\0\0"sv)) return from_utf32(all, true);
+  if (all.starts_with("\0\0\0<"sv)) return from_utf32(all, false);
   if (all.starts_with("\xFF\xFE"sv)) return from_utf16(all.substr(2), true);
   if (all.starts_with("\xFE\xFF"sv)) return from_utf16(all.substr(2), false);
   if (all.starts_with("<\0"sv)) return from_utf16(all, true);
@@ -111,8 +157,18 @@ bool is_lfs_pointer(std::string_view bytes) {
   return bytes.starts_with("version https://git-lfs.github.com/spec/");
 }
 
+std::filesystem::path free_path(const std::filesystem::path& wished) {
+  std::filesystem::path path = wished;
+  std::error_code error;
+  for (int k = 2; std::filesystem::exists(path, error); ++k)
+    path.replace_filename(fmt::format("{}_{}{}", wished.stem().string(), k, wished.extension().string()));
+  return path;
+}
+
 std::string read_xml_file(const std::filesystem::path& path, ReadingNotes& notes) {
-  std::string text = as_utf8(io::read_file(path, largest_file_bytes));
+  std::string bytes = io::read_file(path, largest_file_bytes);
+  refuse_what_is_packed(bytes, path);
+  std::string text = as_utf8(std::move(bytes));
   refuse_what_is_no_model(text, path);
   const std::size_t end = text.rfind('>');
   if (end == std::string::npos) return text;

@@ -1,6 +1,7 @@
 #include "amble/morphology/model_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -14,6 +15,7 @@
 #include "amble/morphology/mesh_path.hpp"
 #include "amble/morphology/mjcf_text.hpp"
 #include "amble/morphology/model_bytes.hpp"
+#include "amble/morphology/tree_faults.hpp"
 #include "amble/morphology/urdf_text.hpp"
 
 namespace amble::morphology {
@@ -79,7 +81,8 @@ class Includer {
     const fs::path tree = tree_of(folder_);
     const auto is_inside = [&](const fs::path& path) {
       std::error_code error;
-      const fs::path real = fs::weakly_canonical(path, error);
+      // A relative path of which nothing exists would stay relative.
+      const fs::path real = fs::weakly_canonical(fs::absolute(path), error);
       return !error && std::mismatch(tree.begin(), tree.end(), real.begin(), real.end()).first == tree.end();
     };
     if (!is_inside(first) || !is_inside(beside))
@@ -88,6 +91,9 @@ class Includer {
     if (path.empty()) refuse("there is no such file");
     if (!is_inside(path)) refuse("only files in the model's repository are read");
     if (std::ranges::find(open_, path.lexically_normal()) != open_.end()) refuse("the file includes itself");
+    if (path != first && path != beside)
+      notes_.add(Reading::replaced, fmt::format("the path of an include, by what is there: {} ({})",
+                                                name.string(), path.string()));
     XmlElement root = parse_xml(read_xml_file(path, notes_), path.string());
     include_all(root, path);
     return root;
@@ -133,7 +139,7 @@ void refuse_xacro(const XmlElement& root, const fs::path& path) {
                                : stem.ends_with(".urdf")   ? stem
                                                            : stem + ".urdf";
   fail(ExitCode::bad_input, "{}: a xacro file, a URDF with macros; expand it first: xacro {} > {}", file,
-       io::shell_word(file), io::shell_word((path.parent_path() / expanded).string()));
+       io::shell_word(file), io::shell_word(free_path(path.parent_path() / expanded).string()));
 }
 
 /// A URDF has no includes of its own: what another program would have put there is never left out silently.
@@ -149,31 +155,46 @@ void refuse_includes(const XmlElement& root) {
   });
 }
 
+/// What of bodies and shapes must be finite; limits need not.
+bool must_be_finite(const XmlElement& element, std::string_view key) {
+  static constexpr std::array<std::string_view, 23> keys{
+      "mass",   "density", "diaginertia", "fullinertia", "ixx",  "iyy",    "izz",   "ixy",
+      "ixz",    "iyz",     "pos",         "xyz",         "rpy",  "quat",   "euler", "axisangle",
+      "xyaxes", "zaxis",   "axis",        "fromto",      "size", "radius", "length"};
+  if (key == "size" && element.attribute_or("type", "") == "plane") return false;
+  return (element.name == "mass" && key == "value") || std::ranges::find(keys, key) != keys.end();
+}
+
 /// Numbers that are none: MuJoCo takes some of them for no limit, others spread through the whole model.
 void refuse_nan(const XmlElement& root) {
   root.visit([](const XmlElement& element) {
     for (const auto& [key, value] : element.attributes) {
       std::istringstream words(value);
-      bool numbers = true, nan = false;
+      bool numbers = true, nan = false, infinite = false;
       for (std::string word; words >> word;) {
         char* end = nullptr;
-        nan = std::isnan(std::strtod(word.c_str(), &end)) || nan;
+        const double number = std::strtod(word.c_str(), &end);
+        nan = std::isnan(number) || nan;
+        infinite = std::isinf(number) || infinite;
         numbers = numbers && *end == '\0';
       }
-      if (nan && numbers && key != "name")
-        fail(ExitCode::bad_input, "{}: <{}> has {} = '{}': expected numbers", place(element), element.name,
-             key, value);
+      infinite = infinite && must_be_finite(element, key);
+      if ((nan || infinite) && numbers && key != "name")
+        fail(ExitCode::bad_input, "{}: <{}> has {} = '{}': expected {}numbers", place(element), element.name,
+             key, value, nan ? "" : "finite ");
     }
   });
 }
 
 void refuse_other_formats(const XmlElement& root, const fs::path& path) {
   const std::string file = path.string();
-  if (root.name == "sdf" || root.name == "gazebo")
+  if (root.name == "sdf" || root.name == "gazebo") {
+    const std::string made = path.stem().string() + (path.extension() == ".xml" ? "_mjcf.xml" : ".xml");
     fail(ExitCode::bad_input,
          "{}: an SDF file, Gazebo's; amble reads MJCF and URDF; convert it first: sdf2mjcf {} {} (of the "
          "Python package sdformat-mjcf), or take the URDF that it was made from",
-         file, io::shell_word(file), io::shell_word(fs::path(path).replace_extension(".xml").string()));
+         file, io::shell_word(file), io::shell_word(free_path(path.parent_path() / made).string()));
+  }
   if (root.name != "robot" && root.name != "mujoco" && root.name != "mujocoinclude")
     fail(ExitCode::bad_input, "{}: its first element is <{}>: expected MJCF, <mujoco>, or URDF, <robot>",
          file, root.name);
@@ -208,10 +229,13 @@ ModelText read_model_text(const fs::path& path, ReadingNotes& notes) {
     refuse_xacro(text.root, path);
     refuse_includes(text.root);
     refuse_nan(text.root);
+    refuse_repeated_names(text.root, true);
+    refuse_odd_tree(text.root);
     clean_urdf(text, path, notes);
   } else {
     Includer(path, notes).include_all(text.root, path);
     refuse_nan(text.root);
+    refuse_repeated_names(text.root, false);
     clean_mjcf(text, path, notes);
   }
   return text;

@@ -74,8 +74,10 @@ TEST_F(HostileModel, ThatLooksOutsideItsFolder) {
 }
 
 TEST_F(HostileModel, WithEntities) {
-  EXPECT_EQ(refusal("<?xml version=\"1.0\"?>\n<!DOCTYPE m [<!ENTITY a \"aaaa\">]>\n<mujoco>&a;</mujoco>"),
-            "m.xml:2: document types and entities (<!…>) are refused");
+  EXPECT_EQ(
+      refusal("<?xml version=\"1.0\"?>\n<!DOCTYPE m [<!ENTITY a \"aaaa\">]>\n<mujoco>&a;</mujoco>"),
+      "m.xml:2: document types with entities (<!DOCTYPE … [<!ENTITY …>]>) are refused: write what they stand "
+      "for in their place");
 }
 
 TEST_F(HostileModel, ThatIsTooLarge) {
@@ -113,6 +115,26 @@ TEST_F(HostileModel, WithAJointOfATypeThatNobodyKnows) {
                     "m.urdf"),
             "m.urdf:2: joint 'j' has the type 'hinge': expected one of revolute, continuous, prismatic, "
             "fixed, floating, planar");
+}
+
+TEST_F(HostileModel, WithBodiesThatWeighWithoutEnd) {
+  const auto urdf = [&](const std::string& mass) {
+    return refusal("<robot name=\"r\"><link name=\"a\">\n<inertial><mass value=\"" + mass +
+                       "\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" "
+                       "iyz=\"0\"/></inertial></link></robot>",
+                   "r.urdf");
+  };
+  for (const char* mass : {"inf", "-Infinity", "1e999"})
+    EXPECT_EQ(urdf(mass),
+              "r.urdf:2: <mass> has value = '" + std::string(mass) + "': expected finite numbers");
+  EXPECT_EQ(
+      refusal("<mujoco><worldbody>\n<body><geom size=\"1\" pos=\"0 inf 0\"/></body></worldbody></mujoco>"),
+      "m.xml:2: <geom> has pos = '0 inf 0': expected finite numbers");
+  EXPECT_EQ(refusal("<mujoco><worldbody><body><joint range=\"-inf inf\"/><geom "
+                    "size=\"1\"/></body></worldbody></mujoco>")
+                .find("finite numbers"),
+            std::string::npos)
+      << "a limit may be none";
 }
 
 }  // namespace

@@ -28,6 +28,15 @@ TEST(AsUtf8, KnowsUtf16OfBothOrdersWithAndWithoutAMark) {
   EXPECT_EQ(as_utf8("\xFF\xFE<\0\x00\xDE>\0"s), "<\xEF\xBF\xBD>") << "half a pair";
 }
 
+TEST(AsUtf8, KnowsUtf32OfBothOrdersWithAndWithoutAMark) {
+  const std::string low = "<\0\0\0\xE4\0\0\0\x00\xF6\x01\0>\0\0\0"s,
+                    high = "\0\0\0<\0\0\0\xE4\0\x01\xF6\x00\0\0\0>"s;
+  EXPECT_EQ(as_utf8(low), "<ä😀>");
+  EXPECT_EQ(as_utf8(high), "<ä😀>");
+  EXPECT_EQ(as_utf8("\xFF\xFE\0\0"s + low), "<ä😀>");
+  EXPECT_EQ(as_utf8("\0\0\xFE\xFF"s + high), "<ä😀>");
+}
+
 TEST(AsUtf8, DropsItsMarkAndTakesWhatIsNoUtf8ForLatin1) {
   EXPECT_EQ(as_utf8("\xEF\xBB\xBF<a/>"), "<a/>");
   EXPECT_EQ(as_utf8("<ä/>"), "<ä/>");
@@ -75,6 +84,40 @@ TEST(ModelText, ThatIsNoModelIsToldWithWhatToDo) {
     EXPECT_THAT(line, testing::HasSubstr(
                           "an SDF file, Gazebo's; amble reads MJCF and URDF; convert it first: sdf2mjcf "));
   }
+}
+
+TEST(ModelText, ThatIsCompressedIsToldWithWhatUnpacksIt) {
+  const Files files;
+  const auto error_of = [&](const std::string& name, const std::string& bytes) {
+    return files.error_of([&] { compile_model(files.write(name, bytes)); });
+  };
+  EXPECT_EQ(error_of("m.xml.gz", "\x1F\x8B\x08\0"s),
+            "m.xml.gz: it is compressed (gzip): unpack it first: gunzip m.xml.gz");
+  EXPECT_EQ(error_of("r.urdf", "\x1F\x8B\x08\0"s),
+            "r.urdf: it is compressed (gzip): unpack it first: gunzip < r.urdf > r_unpacked.urdf");
+  EXPECT_EQ(error_of("r.urdf.bz2", "BZh91AY"),
+            "r.urdf.bz2: it is compressed (bzip2): unpack it first: bunzip2 r.urdf.bz2");
+  EXPECT_EQ(error_of("r.xz", "\xFD"s + "7zXZ\0"s), "r.xz: it is compressed (xz): unpack it first: unxz r.xz");
+  EXPECT_EQ(error_of("my robot.zst", "\x28\xB5\x2F\xFD"),
+            "my robot.zst: it is compressed (zstd): unpack it first: unzstd 'my robot.zst'");
+  EXPECT_EQ(error_of("r.urdf", "PK\x03\x04"),
+            "r.urdf: it is compressed (zip): unpack it first: unzip r.urdf");
+}
+
+TEST(ModelText, IsNeverTheFileThatAPrintedCommandWrites) {
+  const Files files;
+  const std::string sdf = R"(<sdf version="1.7"/>)";
+  const auto hint = [&](const std::string& name, const std::string& text) {
+    const std::string line = files.error_of([&] { compile_model(files.write(name, text)); });
+    return line.substr(line.find("first: ") + 7);
+  };
+  EXPECT_THAT(hint("m.sdf", sdf), testing::StartsWith("sdf2mjcf m.sdf m.xml (of"));
+  EXPECT_THAT(hint("m.xml", sdf), testing::StartsWith("sdf2mjcf m.xml m_mjcf.xml (of"));
+  EXPECT_THAT(hint("m.sdf", sdf), testing::StartsWith("sdf2mjcf m.sdf m_2.xml (of")) << "m.xml is there now";
+  const std::string macros = R"(<robot name="r"><link name="${a}"/></robot>)";
+  EXPECT_EQ(hint("r.urdf.xacro", macros), "xacro r.urdf.xacro > r.urdf");
+  EXPECT_EQ(hint("r.urdf", macros), "xacro r.urdf > r_expanded.urdf");
+  EXPECT_EQ(hint("r.xacro", macros), "xacro r.xacro > r_2.urdf");
 }
 
 TEST(ModelText, IsOfTheFormatThatItsFirstElementSays) {
