@@ -215,7 +215,8 @@ class FrameResolver {
 
   XmlElement as_body(XmlElement frame, const XmlElement& body, bool has_inertial) {
     frame.name = "body";
-    const std::string name = frame.attribute_or("name", body.attribute_or("name", "") + ".frame");
+    const std::string of = body.attribute_or("name", "");
+    const std::string name = frame.attribute_or("name", of.empty() ? "frame" : of + ".frame");
     frame.set("name", free_name(body_names_, name));
     // The body's own inertia is that of its frames as well.
     if (has_inertial) {
@@ -253,6 +254,41 @@ bool is_limb(const XmlElement& body) {
            return child.name == "joint" && !is_one_of(child.attribute_or("type", "hinge"), {"free", "ball"});
          });
 }
+
+/// Names bodies; `given`: joints that the author named.
+class BodyNamer {
+ public:
+  BodyNamer(std::set<std::string> given, std::set<std::string> taken)
+      : given_(std::move(given)), taken_(std::move(taken)) {}
+
+  void name_in(XmlElement& parent) {
+    int number = 0;
+    for (XmlElement& child : parent.children) {
+      if (child.name != "body") continue;
+      ++number;
+      if (child.attribute_or("name", "").empty()) {
+        child.set("name", free_name(taken_, name_of(child, parent, number)));
+        named_.push_back(child.attribute_or("name", ""));
+      }
+      name_in(child);
+    }
+  }
+
+  const std::vector<std::string>& named() const { return named_; }
+
+ private:
+  std::string name_of(const XmlElement& body, const XmlElement& parent, int number) const {
+    if (parent.name == "worldbody") return holds(body, "joint") || holds(body, "freejoint") ? "root" : "body";
+    for (const XmlElement& child : body.children)
+      if (const std::string joint = child.attribute_or("name", "");
+          child.name == "joint" && given_.contains(joint))
+        return joint;
+    return fmt::format("{}_{}", parent.attribute_or("name", ""), number);
+  }
+
+  std::set<std::string> given_, taken_;
+  std::vector<std::string> named_;
+};
 
 void name_joints_of(XmlElement& body, bool is_root, std::set<std::string>& names,
                     std::vector<std::string>& named) {
@@ -317,13 +353,23 @@ void wrap_fused_root(XmlElement& root, ReadingNotes& notes) {
                   shapes, limbs, name));
 }
 
-void name_joints(XmlElement& root, ReadingNotes& notes) {
+void name_parts(XmlElement& root, ReadingNotes& notes) {
   std::set<std::string> names = names_of(root, "joint");
-  std::vector<std::string> named;
-  for (XmlElement* world : worlds(root)) name_joints_of(*world, false, names, named);
-  if (!named.empty())
+  names.erase("");
+  BodyNamer bodies(names, names_of(root, "body"));
+  std::vector<std::string> joints;
+  for (XmlElement* world : worlds(root)) {
+    name_joints_of(*world, false, names, joints);
+    bodies.name_in(*world);
+  }
+  if (!joints.empty())
     notes.add(Reading::replaced,
-              fmt::format("joints without a name, by that of their body: {}", fmt::join(named, ", ")));
+              fmt::format("joints without a name, by that of their body: {}", fmt::join(joints, ", ")));
+  if (!bodies.named().empty())
+    notes.add(Reading::replaced,
+              fmt::format("bodies without a name, by that of their joint, or that of their parent and a "
+                          "number: {}",
+                          fmt::join(bodies.named(), ", ")));
 }
 
 }  // namespace amble::morphology

@@ -16,7 +16,9 @@ void resolve_frames(XmlElement& root, ReadingNotes& notes);
 /// is a world of shapes and several legs. Puts a body around them.
 void wrap_fused_root(XmlElement& root, ReadingNotes& notes);
 
-/// Names joints that have no name after their body, but those of the root.
-void name_joints(XmlElement& root, ReadingNotes& notes);
+/// Names joints and bodies that have no name. Joints, but those of the root, after their body, else "joint".
+/// Bodies after the first of their joints that the author named, else after their parent, with their number
+/// among its bodies; in the world "root", or "body" if nothing of it moves.
+void name_parts(XmlElement& root, ReadingNotes& notes);
 
 }  // namespace amble::morphology

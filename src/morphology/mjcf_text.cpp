@@ -33,7 +33,7 @@ class MjcfCleaner {
     refuse_generators();
     resolve_frames(root_, notes_);
     wrap_fused_root(root_, notes_);
-    name_joints(root_, notes_);
+    name_parts(root_, notes_);
     mend_limits(root_, false, notes_);
     balance_inertias(root_, false, notes_);
     drive_joints_of_tendons();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <string>
 
 #include "amble/morphology/model_parts.hpp"
@@ -111,6 +112,42 @@ TEST_F(Structure, JointsWithoutNamesAreCalledAfterTheirBodies) {
   EXPECT_THAT(parts(one_leg_xml).notes.text(), Not(HasSubstr("without a name")));
 }
 
+/// Without the names of such elements.
+std::string nameless(std::string text, const std::string& element) {
+  const std::string start = "<" + element + " name=\"";
+  for (std::size_t at = 0; (at = text.find(start, at)) != std::string::npos;)
+    text.erase(at + 1 + element.size(), text.find('"', at + start.size()) - at - element.size());
+  return text;
+}
+
+TEST_F(Structure, BodiesWithoutNamesAreCalledAfterTheirJointsOrTheirParents) {
+  const auto names = [](const ModelParts& found) {
+    std::vector<std::string> all;
+    for (const robot::Body& body : found.bodies) all.push_back(body.name);
+    return all;
+  };
+  const std::string model = tests::model_text(tests::four_legs());
+  const ModelParts by_joints = parts(nameless(model, "body"));
+  EXPECT_THAT(names(by_joints), testing::ElementsAre("root", "FL_hip", "FL_knee", "FR_hip", "FR_knee",
+                                                     "RL_hip", "RL_knee", "RR_hip", "RR_knee"));
+  EXPECT_THAT(
+      by_joints.notes.text(),
+      HasSubstr("bodies without a name, by that of their joint, or that of their parent and a number: "
+                "root, FL_hip, FL_knee"));
+  const ModelParts by_place = parts(nameless(nameless(model, "body"), "joint"));
+  EXPECT_THAT(names(by_place), testing::ElementsAre("root", "root_1", "root_1_1", "root_2", "root_2_1",
+                                                    "root_3", "root_3_1", "root_4", "root_4_1"));
+  for (const ModelParts* found : {&by_joints, &by_place}) {
+    std::set<std::string> geoms;
+    for (const robot::Geom& geom : found->geoms) geoms.insert(geom.name);
+    EXPECT_EQ(geoms.size(), found->geoms.size()) << "each has a name of its own";
+  }
+  std::string taken = with(one_leg_xml, R"(<body name="shin")", "<body");
+  taken = with(taken, R"(<body name="thigh")", R"(<body name="A_knee")");
+  EXPECT_THAT(names(parts(taken)), testing::ElementsAre("torso", "A_knee", "A_knee.1"));
+  EXPECT_THAT(parts(one_leg_xml).notes.text(), Not(HasSubstr("bodies without a name")));
+}
+
 TEST_F(Structure, ARootThatWasFusedIntoTheWorldGetsItsBodyBack) {
   // What is left of a model when its trunk's body is dissolved.
   std::string legs, world = R"(<geom name="hull" type="box" size="0.25 0.1 0.05" mass="3"/>)";
@@ -179,6 +216,25 @@ TEST_F(Structure, IncludesMayComeFromNeighbouringFoldersAndTheRepository) {
   EXPECT_EQ(model("../../shared/size.xml"), "accepted");
   EXPECT_THAT(model("../../../m.xml"), HasSubstr("in its neighbours and in its repository are read"));
   EXPECT_THAT(model("../common/none.xml"), HasSubstr("there is no such file"));
+}
+
+TEST_F(Structure, IncludesAreFoundWithoutRegardToCapitalsWithANote) {
+  std::filesystem::create_directories(files_.path("parts"));
+  files_.write("parts/legs.xml", R"(<mujoco><option timestep="0.001"/></mujoco>)");
+  const auto read = [&](const std::string& name) {
+    return parts(with(one_leg_xml, "<worldbody>", "<include file=\"" + name + "\"/><worldbody>"))
+        .notes.text();
+  };
+  EXPECT_THAT(read("Parts/Legs.xml"),
+              HasSubstr("the path of an include, by what is there: Parts/Legs.xml ("));
+  EXPECT_THAT(read("parts/legs.xml"), Not(HasSubstr("path of an include")));
+  EXPECT_THAT(files_.error_of([&] { read("Gone/legs.xml"); }), HasSubstr("there is no such file"));
+  // By a path without a folder, as in a shell that stands there.
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(files_.path(""));
+  EXPECT_EQ(files_.error_of([] { compile_model("m.xml"); }),
+            R"(m.xml:4: <include file="Gone/legs.xml">: there is no such file)");
+  std::filesystem::current_path(before);
 }
 
 }  // namespace
