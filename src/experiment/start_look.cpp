@@ -102,6 +102,20 @@ std::string axis_of(Vec3 v) {
   return fmt::format("{}{}", value < 0.0 ? '-' : '+', "xyz"[largest]);
 }
 
+/// Gravity that is a little off is allowed, and a slope without end.
+void look_at_gravity(const RobotSpec& robot, std::vector<std::string>& odd) {
+  const Vec3 gravity = robot.gravity_m_s2;
+  const double aside = std::hypot(gravity.x, gravity.y);
+  const double tilt_deg = std::atan2(aside, -gravity.z) * 180.0 / std::numbers::pi;
+  constexpr double least_deg = 0.5;
+  if (tilt_deg > least_deg)
+    odd.push_back(
+        fmt::format("gravity: ({:.4g}, {:.4g}, {:.4g}) m/s2 is tilted by {:.2g} degrees: it pulls along {}, "
+                    "as on a slope; "
+                    "a config has slopes (ground.slope_x, slope_y)",
+                    gravity.x, gravity.y, gravity.z, tilt_deg, axis_of({gravity.x, gravity.y, 0.0})));
+}
+
 /// The line of a robot file with which what points along `down` at the start points down.
 std::string upright_line(const RobotSpec& robot, Vec3 down) {
   const Vec3 from = (1.0 / norm(down)) * down, axis = cross(from, {0.0, 0.0, -1.0});
@@ -266,7 +280,10 @@ class Hold {
 
 std::vector<std::string> odd_at_start(const RobotSpec& robot, const std::string& engine, double timestep_s) {
   std::vector<std::string> odd;
-  if (const auto fault = robot::gravity_fault(robot.gravity_m_s2); !fault.empty()) odd.push_back(fault);
+  if (const auto fault = robot::gravity_fault(robot.gravity_m_s2); !fault.empty())
+    odd.push_back(fault);
+  else
+    look_at_gravity(robot, odd);
   look_at_mass(robot, odd);
   const std::vector<std::string> pose = odd_pose(robot, engine, timestep_s);
   odd.insert(odd.end(), pose.begin(), pose.end());

@@ -75,11 +75,29 @@ class LegNamer {
       }
       own.push_back(std::move(shared));
     }
+    drop_words_of_types(own, digits_apart);
     const auto everywhere = own.front();
     for (const std::string& word : everywhere)
       if (std::ranges::all_of(own, [&](const auto& words) { return contains(words, word); }))
         for (auto& words : own) std::erase(words, word);
     return own;
+  }
+
+  /// A leg of one joint shares all words with itself: those that only some joints of another leg have are
+  /// words of a type, and go where another word is left.
+  void drop_words_of_types(std::vector<std::vector<std::string>>& own, bool digits_apart) const {
+    const auto shared = own;
+    for (std::size_t l = 0; l < own.size(); ++l) {
+      std::vector<std::string> left = own[l];
+      std::erase_if(left, [&](const std::string& word) {
+        for (std::size_t k = 0; k < own.size(); ++k)
+          for (const int j : guess_.legs[k].joints)
+            if (!contains(shared[k], word) && contains(words_of(joint_name(j), digits_apart), word))
+              return true;
+        return false;
+      });
+      if (!left.empty()) own[l] = std::move(left);
+    }
   }
 
   /// Gives the legs these names if they are good ones.
@@ -102,6 +120,12 @@ class LegNamer {
       while (same < std::min(common.size(), name.size()) && common[same] == name[same]) ++same;
       common.resize(same);
     }
+    // Not amid a character of UTF-8.
+    const auto goes_on = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
+    while (!common.empty() && std::ranges::any_of(names, [&](const std::string& name) {
+      return common.size() < name.size() && goes_on(name[common.size()]);
+    }))
+      common.pop_back();
     return common;
   }
 
@@ -289,7 +313,7 @@ std::vector<std::string> words_of(const std::string& name, bool digits_apart) {
   bool open = false;
   for (std::size_t i = 0; i < name.size(); ++i) {
     const auto c = static_cast<unsigned char>(name[i]);
-    if (std::isalnum(c) == 0) {
+    if (std::isalnum(c) == 0 && c < 0x80) {  // bytes of UTF-8 beyond ASCII are letters
       open = false;
       continue;
     }

@@ -115,6 +115,8 @@ class DriveFinder {
     return {model_.geom_bodyid[a], model_.geom_bodyid[b]};
   }
 
+  bool is_named(int e) const { return model_.names[model_.name_eqadr[e]] != '\0'; }
+
   std::string tie_text(int e) const {
     const auto [a, b] = tied_bodies(e);
     const std::string name = model_.names + model_.name_eqadr[e];
@@ -137,9 +139,8 @@ class DriveFinder {
       note(Reading::left_out, "equality constraint {}: both ends are on one rigid body", tie_text(e));
     else
       note(Reading::left_out,
-           "equality constraint {}, of {} and {}: one end is not on the robot, which is "
-           "free to move",
-           tie_text(e), body_name(a), body_name(b));
+           "equality constraint {}of {} and {}: one end is not on the robot, which is free to move",
+           is_named(e) ? tie_text(e) + ", " : "", body_name(a), body_name(b));
   }
 
   void read_joint_equality(int e) {

@@ -132,8 +132,11 @@ class PartsExtractor {
     if (!obstacles_.empty())
       note(Reading::left_out, "{} geoms of the world: {}: the ground is amble's own, the plane z = 0",
            obstacles_.size(), fmt::join(obstacles_, ", "));
-    if (model_.ncam + model_.nlight + model_.nsite > 0)
-      note(Reading::left_out, "{} cameras, {} lights, {} sites", model_.ncam, model_.nlight, model_.nsite);
+    std::vector<std::string> seen;
+    for (const auto& [count, what] :
+         {std::pair{model_.ncam, "camera"}, {model_.nlight, "light"}, {model_.nsite, "site"}})
+      if (count > 0) seen.push_back(fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"));
+    if (!seen.empty()) note(Reading::left_out, "{}", fmt::join(seen, ", "));
     if (model_.nexclude + model_.npair > 0)
       note(Reading::left_out, "pairs of contacts and their exclusion: see self_collision in the robot file");
     if (model_.opt.density != 0.0 || model_.opt.viscosity != 0.0)

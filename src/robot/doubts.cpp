@@ -145,6 +145,34 @@ void doubt_torques(const RobotSpec& robot, std::vector<std::string>& lines) {
       robot.total_mass_kg(), fmt::join(weak, ", ")));
 }
 
+/// With less friction than ice has no foot finds a hold.
+void doubt_friction(const RobotSpec& robot, std::vector<std::string>& lines) {
+  constexpr double of_ice = 0.03;
+  if (!robot.legs.empty() && robot.contact.friction < of_ice)
+    lines.push_back(
+        fmt::format("friction = {:.3g} under [contact] is less than that of ice, {}: feet find no hold; 1 is "
+                    "rubber on a floor",
+                    robot.contact.friction, of_ice));
+}
+
+/// Stops that are whole turns away, but not so far as the numbers that exporters write for none.
+void doubt_stops(const RobotSpec& robot, std::vector<std::string>& lines) {
+  constexpr double two_turns_rad = 4.0 * pi, most_degrees = 720.0;
+  std::vector<std::string> odd;
+  for (const Joint& joint : robot.joints) {
+    const auto is_odd = [&](double stop_rad) {
+      return std::abs(stop_rad) > two_turns_rad && std::abs(stop_rad) <= most_degrees;
+    };
+    if (is_odd(joint.lower_rad) || is_odd(joint.upper_rad))
+      odd.push_back(fmt::format("{} ({:.4g} to {:.4g} rad)", joint.name, joint.lower_rad, joint.upper_rad));
+  }
+  if (!odd.empty())
+    lines.push_back(fmt::format(
+        "stops more than two turns away, which look like degrees: {}; a URDF has radians, an MJCF what its "
+        "<compiler angle> says",
+        fmt::join(odd, ", ")));
+}
+
 }  // namespace
 
 std::vector<double> bearing_torques_nm(const RobotSpec& robot) {
@@ -170,6 +198,8 @@ std::vector<std::string> doubts(const RobotSpec& robot) {
   doubt_inertia(robot, lines);
   doubt_placeholders(robot, lines);
   doubt_torques(robot, lines);
+  doubt_friction(robot, lines);
+  doubt_stops(robot, lines);
   return lines;
 }
 

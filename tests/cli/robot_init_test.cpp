@@ -158,6 +158,23 @@ TEST_F(RobotInit, WarnsOfMotorsWithoutAGear) {
   EXPECT_THAT(init.out, HasSubstr("is `gear` missing? FL_hip\n"));
 }
 
+TEST_F(RobotInit, NamesActuatorsWithoutANameByWhatTheyActOn) {
+  spill(scratch_ / "m.xml", model_text(four_legs(), "<freejoint/>", {},
+                                       R"(<tendon><fixed name="string"><joint joint="RR_knee" coef="1"/>
+    </fixed></tendon><actuator><position joint="FL_hip" kp="20"/><motor tendon="string"/><motor name="pull" tendon="string"/></actuator>)"));
+  const auto init = amble({"robot", "--init", scratch_ / "m.xml", "-o", scratch_ / "out"});
+  EXPECT_THAT(
+      init.out,
+      HasSubstr("actuators of no joint of the robot have control 0: 1 (of tendon string), 2 (pull)\n"));
+}
+
+TEST_F(RobotInit, PrintsCommandsOnALineOfTheirOwnWhateverTheFolderIsCalled) {
+  const std::string folder = scratch_ / "two\nlines";
+  const auto init = amble({"robot", "--init", write(small_models()[0]), "-o", folder});
+  EXPECT_EQ(init.exit_code, 0) << init.err;
+  EXPECT_THAT(init.out, HasSubstr("two\\nlines/evolve.toml' --out $'"));
+}
+
 TEST_F(RobotInit, ReplacesNothing) {
   const std::string model = write(small_models()[0]);
   ASSERT_EQ(amble({"robot", "--init", model, "-o", scratch_ / "out"}).exit_code, 0);
@@ -177,7 +194,7 @@ TEST_F(RobotInit, RefusesHostileModelsInOneLineAndLittleMemory) {
   for (const auto& [text, words] : std::map<std::string, std::string>{
            {"<mujoco><include file=\"m.xml\"/></mujoco>", "the file includes itself"},
            {"<mujoco><include file=\"/etc/hostname\"/></mujoco>", "only files in the model's folder"},
-           {"<!DOCTYPE m [<!ENTITY a \"a\">]><mujoco/>", "document types and entities"}}) {
+           {"<!DOCTYPE m [<!ENTITY a \"a\">]><mujoco/>", "document types with entities"}}) {
     spill(path, text);
     expect_refusal({"robot", "--init", path, "-o", scratch_ / "out"}, ExitCode::bad_input, words);
   }

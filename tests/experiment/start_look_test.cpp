@@ -131,6 +131,19 @@ TEST(StartLook, SaysThatAHeldRobotDiverges) {
   EXPECT_THAT(odd_at_start(robot, "batch", 0.01), Contains(HasSubstr("it diverges after")));
 }
 
+TEST(StartLook, SaysThatGravityIsTiltedAndWhereTo) {
+  auto robot = own_robot("quadruped/authors");
+  const auto says = [&](Vec3 gravity_m_s2, const std::string& words) {
+    robot.gravity_m_s2 = gravity_m_s2;
+    return testing::Matches(Contains(HasSubstr(words)))(odd_at_start(robot, "batch", 0.01));
+  };
+  EXPECT_TRUE(says({1, 0, -9.7}, "is tilted by 5.9 degrees: it pulls along +x"));
+  EXPECT_TRUE(says({0, -0.5, -9.8}, "is tilted by 2.9 degrees: it pulls along -y"));
+  EXPECT_FALSE(says({0.01, 0, -9.81}, "tilted"));
+  EXPECT_FALSE(says({0, 0, -9.81}, "tilted"));
+  EXPECT_FALSE(says({0, 0, 9.81}, "tilted")) << "that is told otherwise";
+}
+
 // A run on a model of another world would "walk" by falling.
 TEST(Gravity, ThatDoesNotPointDownIsRefusedByEveryRunWithWhatToDo) {
   const auto refusal = [](Vec3 gravity_m_s2) {

@@ -212,6 +212,11 @@ TEST(ModelDrives, TakeARobotThatIsTiedToSomethingElseForFree) {
   EXPECT_THAT(tied.notes,
               HasSubstr("left out  equality constraint 'stand', of 'trunk' and the world: one end is not on "
                         "the robot, which is free to move"));
+  const Guessed unnamed =
+      guessed(files, with_tail(leg_motors + R"(<equality><weld body1="trunk"/></equality>)"));
+  EXPECT_THAT(
+      unnamed.notes,
+      HasSubstr("left out  equality constraint of 'trunk' and the world: one end is not on the robot"));
 }
 
 /// A biped with a wheel for a head.

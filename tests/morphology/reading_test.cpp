@@ -231,7 +231,7 @@ TEST(Reading, ReportsEachKindOfPartThatIsLeftOut) {
       left_out(read_parts(files, xml).notes),
       testing::ElementsAre("settings of MuJoCo's viewer", "sizes of MuJoCo's memory",
                            "custom numbers and texts", "plugins", "deformable parts",
-                           "textures: geoms have one colour each", "skins", "2 cameras, 1 lights, 3 sites"));
+                           "textures: geoms have one colour each", "skins", "2 cameras, 1 light, 3 sites"));
   EXPECT_THAT(left_out(read_parts(files, one_leg_xml).notes), testing::IsEmpty());
   const std::string inertial =
       R"(<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>)";

@@ -349,5 +349,49 @@ TEST(RobotGuess, GivesEveryJointTheServoOfItsOwnActuator) {
   }
 }
 
+TEST(LegGuess, NamesALegOfOneJointAsItNamesTheOthers) {
+  const Files files;
+  std::string text = model_text(four_legs());
+  const std::size_t knee = text.find("<joint name=\"FL_knee\"");
+  text.erase(knee, text.find("/>", knee) + 2 - knee);
+  const LegsGuess legs = legs_of(files, text);
+  std::vector<std::string> names;
+  for (const LegGuess& leg : legs.legs) names.push_back(leg.name);
+  EXPECT_THAT(names, ElementsAre("FL", "FR", "RL", "RR"));
+  EXPECT_THAT(legs.joint_types, ElementsAre("knee", "hip"));
+}
+
+TEST(LegGuess, TakesLettersOfAnyAlphabetForPartsOfWords) {
+  EXPECT_THAT(words_of("左前_hip"), ElementsAre("左前", "hip"));
+  EXPECT_THAT(words_of("Löwe-знак2"), ElementsAre("Löwe", "знак2"));
+  const Files files;
+  // Their first bytes are the same, but no letter.
+  std::string text = model_text(four_legs());
+  for (const auto& [from, to] : std::initializer_list<std::pair<std::string, std::string>>{
+           {"FL_", "é"}, {"FR_", "è"}, {"RL_", "ê"}, {"RR_", "ë"}})
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+      text.replace(at, from.size(), to);
+  for (const LegGuess& leg : legs_of(files, text).legs) EXPECT_EQ(leg.name.size() == 1, false) << leg.name;
+}
+
+TEST(RobotGuess, WritesAFileThatIsReadBackWhateverItsPartsAreCalled) {
+  const Files files;
+  const std::vector<std::string> odd{"左前", "{leg}_", "{type}.", "a\\\"b'"};
+  std::string text = model_text(four_legs());
+  const std::vector<std::string> plain{"FL_", "FR_", "RL_", "RR_"};
+  for (std::size_t l = 0; l < 4; ++l) {
+    std::string written = odd[l];
+    if (const std::size_t quote = written.find('"'); quote != std::string::npos)
+      written.replace(quote, 1, "&quot;");
+    for (std::size_t at = 0; (at = text.find(plain[l], at)) != std::string::npos; at += written.size())
+      text.replace(at, plain[l].size(), written);
+  }
+  const RobotGuess guess = guess_robot(compile_model(files.write("m.xml", text)), "m.xml");
+  const robot::RobotSpec robot = load_robot(files.write("m.toml", guess.toml));
+  ASSERT_EQ(robot.legs.size(), 4u);
+  for (std::size_t l = 0; l < 4; ++l)
+    EXPECT_EQ(robot.joints[static_cast<std::size_t>(robot.legs[l].joints[1])].name, odd[l] + "hip");
+}
+
 }  // namespace
 }  // namespace amble::morphology

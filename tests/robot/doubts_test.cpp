@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "tests/robot/legged.hpp"
 
@@ -133,6 +134,35 @@ TEST(Doubts, BearingTorqueIsWeightOnHalfOfTheLegsTimesLever) {
   EXPECT_THAT(
       doubts(robot),
       ElementsAre(HasSubstr("half of the legs in the start pose: L1_hip_fb (2.15 of 2.16 N m); check")));
+}
+
+TEST(Doubts, FrictionIsMoreThanThatOfIce) {
+  RobotSpec robot = tests::legged_robot(2);
+  const auto says = [&](double friction) {
+    robot.contact.friction = friction;
+    return testing::Matches(testing::Contains(HasSubstr("is less than that of ice")))(doubts(robot));
+  };
+  EXPECT_TRUE(says(0.0));
+  EXPECT_TRUE(says(0.02));
+  EXPECT_FALSE(says(0.05));
+  EXPECT_FALSE(says(std::numeric_limits<double>::infinity()));
+}
+
+TEST(Doubts, StopsAreInRadians) {
+  RobotSpec robot = tests::legged_robot(2);
+  const auto says = [&](double lower, double upper) {
+    robot.joints[0].lower_rad = lower;
+    robot.joints[0].upper_rad = upper;
+    return testing::Matches(testing::Contains(HasSubstr("which look like degrees: " + robot.joints[0].name)))(
+        doubts(robot));
+  };
+  constexpr double none = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(says(-60.0, 60.0));
+  EXPECT_TRUE(says(-0.5, 90.0));
+  EXPECT_FALSE(says(-1.0, 1.0));
+  EXPECT_FALSE(says(-12.0, 12.0)) << "nearly two turns";
+  EXPECT_FALSE(says(-none, none));
+  EXPECT_FALSE(says(-1e9, 1e9)) << "as exporters write no stops";
 }
 
 }  // namespace

@@ -18,6 +18,29 @@ bool is_of_joint(const mjModel& m, int actuator, int joint) {
   return (kind == mjTRN_JOINT || kind == mjTRN_JOINTINPARENT) && m.actuator_trnid[2 * actuator] == joint;
 }
 
+/// An actuator's name, or what it acts on: of the joint, tendon, site or body.
+std::string name_or_target(const mjModel& m, int actuator) {
+  const char* name = m.names + m.name_actuatoradr[actuator];
+  if (*name != '\0') return name;
+  const auto [type, what] = [&]() -> std::pair<int, const char*> {
+    switch (m.actuator_trntype[actuator]) {
+      case mjTRN_JOINT:
+      case mjTRN_JOINTINPARENT:
+        return {mjOBJ_JOINT, "joint"};
+      case mjTRN_TENDON:
+        return {mjOBJ_TENDON, "tendon"};
+      case mjTRN_BODY:
+        return {mjOBJ_BODY, "body"};
+      default:
+        return {mjOBJ_SITE, "site"};
+    }
+  }();
+  const int target = m.actuator_trnid[2 * actuator];
+  const char* of = mj_id2name(&m, type, target);
+  return of != nullptr && *of != '\0' ? fmt::format("of {} {}", what, of)
+                                      : fmt::format("of {} number {}", what, target + 1);
+}
+
 }  // namespace
 
 Actuation::Actuation(const robot::RobotSpec& robot, const Model& model) : robot_(robot), model_(model) {
@@ -155,7 +178,7 @@ std::vector<std::string> Actuation::notes() const {
       if (is_of_joint(m, a, robot_.original->joints[j])) used[to_index(a)] = true;
   }
   for (int a = 0; a < m.nu; ++a)
-    if (!used[to_index(a)]) idle.push_back(fmt::format("{} ({})", a, m.names + m.name_actuatoradr[a]));
+    if (!used[to_index(a)]) idle.push_back(fmt::format("{} ({})", a, name_or_target(m, a)));
   std::vector<std::string> notes;
   constexpr std::array<std::string_view, 5> words{
       "targets go to position actuators, with the model's gains: ",
