@@ -6,6 +6,7 @@ It needs nothing from Python's package index: what setup.d/packages-python.txt l
 
 import base64
 import hashlib
+import os
 import pathlib
 import re
 import subprocess
@@ -19,6 +20,8 @@ import zipfile
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 TAG = f"cp{sys.version_info[0]}{sys.version_info[1]}-cp{sys.version_info[0]}{sys.version_info[1]}-" + re.sub(
     "[-.]", "_", sysconfig.get_platform())
+
+_WHEEL = f"Wheel-Version: 1.0\nGenerator: amble\nRoot-Is-Purelib: false\nTag: {TAG}\n"
 
 
 def _project():
@@ -40,13 +43,15 @@ def _metadata():
 
 
 def _run(*command):
-    subprocess.run([str(part) for part in command], check=True)
+    # pip hides Debian's packages from what it builds; CMake looks for their numpy.
+    environment = {key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "PYTHONNOUSERSITE")}
+    subprocess.run([str(part) for part in command], check=True, env=environment)
 
 
 def _build():
     folder = ROOT / "build/wheel"
     _run("cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DAMBLE_PYTHON=ON",
-         f"-DPython_EXECUTABLE={sys.executable}")
+         f"-DPython_EXECUTABLE={getattr(sys, '_base_executable', sys.executable)}")
     _run("cmake", "--build", folder, "--target", "_amble", "amble_python_files")
     return folder
 
@@ -58,6 +63,15 @@ def _files(build, stage):
     package, = stage.glob("**/amble/__init__.py")
     root = package.parents[1]
     return {str(file.relative_to(root)): file for file in sorted(root.rglob("*")) if file.is_file()}
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    info = f"amble-{_version()}.dist-info"
+    folder = pathlib.Path(metadata_directory) / info
+    folder.mkdir()
+    (folder / "METADATA").write_text(_metadata())
+    (folder / "WHEEL").write_text(_WHEEL)
+    return info
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
@@ -80,7 +94,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
         for path, file in _files(build, pathlib.Path(scratch)).items():
             add(path, file.read_bytes())
         add(f"{info}/METADATA", _metadata().encode())
-        add(f"{info}/WHEEL", f"Wheel-Version: 1.0\nGenerator: amble\nRoot-Is-Purelib: false\nTag: {TAG}\n".encode())
+        add(f"{info}/WHEEL", _WHEEL.encode())
         add(f"{info}/LICENSE", (ROOT / "LICENSE").read_bytes())
         record.append(f"{info}/RECORD,,\n")
         wheel.writestr(f"{info}/RECORD", "".join(record))
