@@ -4,6 +4,7 @@
 
 #include "amble/core/index.hpp"
 #include "amble/robot/sensors.hpp"
+#include "amble/trial/senses.hpp"
 #include "python/bind.hpp"
 #include "python/task.hpp"
 
@@ -20,7 +21,14 @@ struct Controllers {
         batch(task->problem().architecture->make_batch(count)),
         sensors{LaneArray(joints, count), LaneArray(legs, count), LaneArray(3, count)},
         targets_rad(joints, count),
-        shown(std::make_shared<std::vector<float>>(to_index(count) * to_index(joints))) {
+        shown(std::make_shared<std::vector<float>>(to_index(count) * to_index(joints))),
+        extra(task->problem().architecture->extra_senses()),
+        rate_hz(static_cast<float>(1.0 / task->problem().trial.timestep_s)),
+        begun(to_index(count)) {
+    sensors.joint_speed_rad_s = LaneArray(joints, count);
+    sensors.yaw_rate_rad_s = LaneArray(1, count);
+    sensors.joint_torque_nm = LaneArray(joints, count);
+    sensors.foot_load_n = LaneArray(legs, count);
     for (const neat::Genome& genome : genomes) parameters.push_back(task->problem().decode(genome));
     reset({});
   }
@@ -28,7 +36,26 @@ struct Controllers {
   /// Those whose mask is not 0, or all if it is empty.
   void reset(std::span<const std::uint8_t> mask) {
     for (int lane = 0; lane < count; ++lane)
-      if (mask.empty() || mask[to_index(lane)] != 0) batch->load(lane, *parameters[to_index(lane)]);
+      if (mask.empty() || mask[to_index(lane)] != 0) {
+        batch->load(lane, *parameters[to_index(lane)]);
+        begun[to_index(lane)] = false;
+      }
+  }
+  /// Rates from this tick's angles, which are in `sensors`, and those of the last; 0 in a lane's first tick.
+  void take_rates(const LaneArray& angles_before_rad, const LaneArray& attitudes_before_rad) {
+    for (int lane = 0; lane < count; ++lane) {
+      const bool known = begun[to_index(lane)];
+      begun[to_index(lane)] = true;
+      for (int joint = 0; joint < joints; ++joint)
+        sensors.joint_speed_rad_s.at(joint, lane) =
+            known ? trial::rate_of(angles_before_rad.at(joint, lane), sensors.joint_angle_rad.at(joint, lane),
+                                   rate_hz)
+                  : 0.0f;
+      sensors.yaw_rate_rad_s.at(0, lane) =
+          known ? trial::turning_rate_of(attitudes_before_rad.at(2, lane), sensors.attitude_rad.at(2, lane),
+                                         rate_hz)
+                : 0.0f;
+    }
   }
   void tick() {
     batch->step(sensors, targets_rad);
@@ -44,6 +71,9 @@ struct Controllers {
   robot::SensorFrame sensors;
   LaneArray targets_rad;
   std::shared_ptr<std::vector<float>> shown;  ///< count × joints; views keep it
+  robot::ExtraSenses extra;
+  float rate_hz;
+  std::vector<bool> begun;  ///< by lane: whether there was a tick
   CallLock lock;
 };
 
@@ -71,21 +101,37 @@ void to_lanes(const Rows& from, LaneArray& to) {
     for (int row = 0; row < to.rows(); ++row) to.at(row, lane) = *value++;
 }
 
+/// Readings that are needed only by controllers that sense them.
+std::optional<Rows> rows_if_sensed(const py::object& object, const std::string& what, bool sensed, int count,
+                                   int width) {
+  if (!object.is_none()) return finite_rows(object, what, count, width);
+  if (sensed) throw py::value_error(what + " is missing: these controllers sense it");
+  return std::nullopt;
+}
+
 py::array step_controllers(Controllers& self, const py::object& angle_rad, const py::object& touch,
-                           const py::object& attitude_rad) {
+                           const py::object& attitude_rad, const py::object& torque_nm,
+                           const py::object& load_n) {
   const auto angles = finite_rows(angle_rad, "angle_rad", self.count, self.joints),
              touches = finite_rows(touch, "touch", self.count, self.legs);
   std::optional<Rows> attitudes;
   if (!attitude_rad.is_none()) attitudes = finite_rows(attitude_rad, "attitude_rad", self.count, 3);
+  const auto torques = rows_if_sensed(torque_nm, "torque_nm", self.extra.torque, self.count, self.joints),
+             loads = rows_if_sensed(load_n, "load_n", self.extra.load, self.count, self.legs);
   {
     const py::gil_scoped_release release;
     const auto lock = self.lock.hold();
+    const LaneArray angles_before_rad = self.sensors.joint_angle_rad,
+                    attitudes_before_rad = self.sensors.attitude_rad;
     to_lanes(angles, self.sensors.joint_angle_rad);
     to_lanes(touches, self.sensors.touch);
     if (attitudes)
       to_lanes(*attitudes, self.sensors.attitude_rad);
     else
       self.sensors.attitude_rad = LaneArray(3, self.count);
+    if (torques) to_lanes(*torques, self.sensors.joint_torque_nm);
+    if (loads) to_lanes(*loads, self.sensors.foot_load_n);
+    self.take_rates(angles_before_rad, attitudes_before_rad);
     self.tick();
   }
   return live_view(self.shown, self.shown->data(), {self.count, self.joints},
@@ -119,11 +165,13 @@ Joints and legs are in control order (docs/CONVENTIONS.md), as in Robots.)")
            "problem: Problem, Search, Config or path. genomes: at least one; they must fit it. Raises Error.")
       .def(
           "step", step_controllers, py::arg("angle_rad"), py::arg("touch"),
-          py::arg("attitude_rad") = py::none(),
+          py::arg("attitude_rad") = py::none(), py::arg("torque_nm") = py::none(),
+          py::arg("load_n") = py::none(),
           R"(One tick (Config: trial.timestep_s): sensors in, target angles out: [n, joints], rad, a live read-only view.
 
 angle_rad: [n, joints], from the start pose. touch: [n, legs], 1 on the ground, else 0. attitude_rad: [n, 3], roll, pitch
-and yaw of the root (default: 0). All finite. The interpreter's lock is released. Raises TypeError and ValueError.)")
+and yaw of the root (default: 0). torque_nm: [n, joints], load_n: [n, legs], of controllers that sense them (docs/CONTROLLERS.md);
+speeds and the yaw rate are taken from tick to tick. All finite. The interpreter's lock is released. Raises TypeError and ValueError.)")
       .def("reset", reset_controllers, py::arg("mask") = py::none(),
            "Puts controllers into their initial state. mask: [n], bool: which ones (default: all).")
       .def_property_readonly(

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "tests/physics/own_models.hpp"
 #include "tests/physics/scene.hpp"
 
 namespace amble::physics {
@@ -52,6 +53,21 @@ TEST_P(FootLoad, IsNoneInTheAirAndChangesNoBit) {
     }
   }
   EXPECT_TRUE(loaded);
+}
+
+TEST(FootLoadOfAnOwnModel, IsTheWeightOfARobotThatStands) {
+  const morphology::Files files;
+  const robot::RobotSpec robot = own_robot(files, own_model(position_actuators));
+  const auto engine = make_engine("mujoco-model", robot, {.timestep_s = 0.01, .loads = true});
+  LaneArray targets(static_cast<int>(robot.joints.size()), 1);
+  engine->place(0);
+  double sum_n = 0.0;
+  for (int step = 0; step < 600; ++step) {
+    engine->step(targets);
+    if (step >= 200) sum_n += sum_of(*engine->foot_load_n());
+  }
+  const double weight_n = robot.total_mass_kg() * norm(robot.gravity_m_s2);
+  EXPECT_NEAR(sum_n / 400.0, weight_n, 0.01 * weight_n);
 }
 
 }  // namespace

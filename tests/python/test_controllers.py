@@ -29,6 +29,30 @@ def test_controllers_and_robots_walk_as_champions_do_to_the_bit(path, tmp_path):
         assert (robots.com_m[:, 0] == com_x[frame]).all()
 
 
+def test_controllers_that_sense_walk_as_champions_do_to_the_bit(tmp_path):
+    supg = {"controller.supg.modulation.sensors": ["pitch", "speed.knee", "yaw_rate"], "controller.supg.modulation.rate": 1.0,
+            "controller.supg.modulation.shape": 1.0, "controller.supg.seam.residual_s": 0.05}
+    config = amble.load_config(CONFIG, {**SMALL, **supg, "generations": 1, "trial.first_command": "before_first_step"})
+    champion = amble.evolve(config, 3, out=tmp_path / "run").champion()
+    champion.trial(record=tmp_path / "walk.rec")
+    targets = amble.Recording(tmp_path / "walk.rec").matching("target.")
+    robots, controllers = amble.Robots(config, 1), amble.Controllers(config, [champion.genome])
+    for frame in range(len(targets)):
+        wanted = controllers.step(robots.angle_rad, robots.touch, robots.attitude_rad)
+        assert np.array_equal(wanted[0], targets[frame]), frame
+        robots.step(wanted)
+
+
+def test_controllers_ask_for_readings_that_they_sense(config):
+    sensing = amble.load_config(CONFIG, {**SMALL, "controller.supg.modulation.sensors": ["torque.knee", "load"],
+                                         "controller.supg.modulation.rate": 1.0})
+    controllers = amble.Controllers(sensing, amble.Search(sensing, 3).ask()[:2])
+    angles, touch = np.zeros((2, 12)), np.zeros((2, 4))
+    with pytest.raises(ValueError, match="torque_nm is missing: these controllers sense it"):
+        controllers.step(angles, touch)
+    assert controllers.step(angles, touch, torque_nm=angles, load_n=touch).shape == (2, 12)
+
+
 def test_each_genome_has_its_own_controller_and_its_own_state(config):
     genomes = amble.Search(config, 3).ask()[:5]
     together, random = amble.Controllers(config, genomes), np.random.default_rng(1)
