@@ -43,12 +43,12 @@ TEST(SensingRun, IsTheSameForAnyNumberOfWorkersAndAfterAnInterruptionAndIsVerifi
 }
 
 TEST(SensingRun, LeavesIdentityAndChampionsWithoutItAsTheyWere) {
-  const io::Json before = small_config().identity().at("controller");
+  const io::Json before = identity_json(small_config()).at("controller");
   EXPECT_FALSE(before.contains("sensing"));
   for (const char* const table : {"seam", "contact", "modulation"})
     EXPECT_FALSE(before.at("supg").contains(table));
   EXPECT_FALSE(problem_json(small_problem()).at("controller").contains("sensing"));
-  const io::Json after = small_config(sensing).identity().at("controller");
+  const io::Json after = identity_json(small_config(sensing)).at("controller");
   EXPECT_TRUE(after.contains("sensing"));
   EXPECT_TRUE(after.at("supg").contains("modulation"));
   EXPECT_FALSE(after.at("supg").contains("contact"));
