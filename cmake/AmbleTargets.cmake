@@ -1,5 +1,6 @@
 # amble_library(<folder> SOURCES … [PUBLIC …] [PRIVATE …]): one static library per folder of src/, target amble_<folder>.
 # amble_release_options(SOURCES … OPTIONS …): what some sources of a folder are compiled with in release builds, beside the rest.
+# amble_registers(<folder>): the folder's library adds something to a registry of another.
 # amble_compile_apart(SOURCE …): sources not to be compiled together with others of their folder.
 # amble_kernels(SOURCE …): sources that include themselves once per instruction set.
 # amble_test(<folder> SOURCES … [LINK …]): one GoogleTest program per folder of tests/.
@@ -56,6 +57,12 @@ endfunction()
 # third of the time to compile. Calls everywhere would make the solver's loop, and with it tests that simulate, six times slower.
 function(amble_kernels)
   amble_compile_apart(${ARGN})
+  # Highway marks NEON's functions as having instructions for cryptography, and GCC 12 forgets that in constructors that nobody wrote:
+  # they cannot call those functions unless all may have them. None uses them, so any aarch64 runs this.
+  if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS -march=armv8-a+crypto)
+    set_property(SOURCE ${ARGN} PROPERTY SKIP_PRECOMPILE_HEADERS ON)
+  endif()
   if(AMBLE_SANITIZE OR AMBLE_COVERAGE)
     set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_DEFINITIONS AMBLE_FEW_INSTRUCTION_SETS)
     if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
@@ -79,6 +86,13 @@ function(amble_library folder)
     target_precompile_headers(${target} REUSE_FROM amble_common_headers)
   endif()
   amble_unity(${target})
+endfunction()
+
+# The library of a folder adds something to a registry by itself: whatever links it takes the object that defines
+# amble_registers_<folder>, which does that.
+function(amble_registers folder)
+  target_link_options(amble_${folder} INTERFACE LINKER:-u,amble_registers_${folder})
+  set_property(GLOBAL APPEND PROPERTY AMBLE_REGISTERS -Wl,-u,amble_registers_${folder})
 endfunction()
 
 # GCC 12 takes the options of optimisation from a precompiled header and forgets those of the command line, so these sources have none.

@@ -2,7 +2,9 @@
 include(CMakePackageConfigHelpers)
 get_property(amble_libraries GLOBAL PROPERTY AMBLE_LIBRARIES)
 
-install(TARGETS amble RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(AMBLE_PROGRAM)
+  install(TARGETS amble RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
 install(TARGETS ${amble_libraries} EXPORT ambleTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 include(cmake/PublicHeaders.cmake)
 amble_install_headers()
@@ -22,7 +24,9 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/ambleConfig.cmake ${CMAKE_CURRENT_BINA
 # Static libraries: users before what they use.
 list(REVERSE amble_libraries)
 list(TRANSFORM amble_libraries PREPEND "-l" OUTPUT_VARIABLE amble_link_flags)
+get_property(amble_registers GLOBAL PROPERTY AMBLE_REGISTERS)
 list(JOIN amble_link_flags " " amble_link_flags)
+list(JOIN amble_registers " " amble_registers)
 file(RELATIVE_PATH amble_prefix_from_libdir /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 configure_file(cmake/amble.pc.in ${CMAKE_CURRENT_BINARY_DIR}/amble.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/amble.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

@@ -21,8 +21,8 @@
 #include "amble/io/plugin_file.hpp"
 #include "amble/io/shell.hpp"
 #include "amble/io/split.hpp"
+#include "amble/physics/batch/instruction_set.hpp"
 #include "amble/physics/engine.hpp"
-#include "amble/physics/instruction_set.hpp"
 
 namespace {
 

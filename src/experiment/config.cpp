@@ -10,7 +10,7 @@
 #include "amble/experiment/implied_settings.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/toml_settings.hpp"
-#include "amble/physics/engine.hpp"
+#include "amble/physics/engine_kinds.hpp"
 
 namespace amble::experiment {
 namespace fs = std::filesystem;
@@ -19,14 +19,14 @@ namespace {
 /// "physics engine: ode, batch or mujoco".
 std::string engine_description() {
   const auto names = physics::engine_names();
-  return fmt::format("physics engine: {} or {}", fmt::join(names.first(names.size() - 1), ", "),
+  return fmt::format("physics engine: {} or {}", fmt::join(names.begin(), names.end() - 1, ", "),
                      names.back());
 }
 
 }  // namespace
 
 void Config::describe(io::SettingsVisitor& visitor) {
-  static const std::string engines = engine_description();
+  const std::string engines = engine_description();
   visitor.text("name", name, {"what this experiment is called in files and figures"});
   visitor.text("robot", robot, {"robot file, relative to the config file"});
   visitor.number("drop_m", drop_m, {0.0, 1.0},
@@ -38,6 +38,11 @@ void Config::describe(io::SettingsVisitor& visitor) {
   visitor.integer("seed", seed, {0, static_cast<double>(largest_seed)}, {"seed of all randomness"});
   visitor.integer("generations", generations, {1, most_generations},
                   {"generations to evaluate, the initial one included", "Morse et al. 2013, sec. 4"});
+  if (const auto* kind = physics::find_engine(engine); kind != nullptr && !kind->numbers.empty()) {
+    visitor.begin("engine_own", {"settings of this engine, which is not one of amble's own"});
+    engine_own.describe(visitor, kind->numbers);
+    visitor.end();
+  }
   neat.describe(visitor);
   visitor.table("cppn", cppn, {"the compositional pattern producing network"});
   visitor.table("controller", controller, {"how a CPPN becomes a controller"});

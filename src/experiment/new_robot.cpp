@@ -13,8 +13,8 @@
 #include "amble/morphology/robot_file.hpp"
 #include "amble/morphology/side_file.hpp"
 #include "amble/morphology/start_guess.hpp"
+#include "amble/physics/batch/solver_error.hpp"
 #include "amble/physics/engine.hpp"
-#include "amble/physics/solver_error.hpp"
 #include "amble/robot/legs.hpp"
 #include "amble/robot/pose.hpp"
 

@@ -47,6 +47,7 @@ Problem Problem::make(const Config& config, robot::RobotSpec robot) {
                   .score = config.score,
                   .ground = config.ground,
                   .damage = config.damage,
+                  .engine_own = config.engine_own,
                   .architecture = nullptr};
   try {
     problem.complete();
@@ -77,7 +78,8 @@ std::unique_ptr<physics::Engine> Problem::make_engine(bool torques) const {
                                       {.timestep_s = trial.timestep_s,
                                        .torques = needed,
                                        .loads = sensed.load,
-                                       .ground_friction = ground.friction});
+                                       .ground_friction = ground.friction,
+                                       .own = engine_own});
 }
 
 std::unique_ptr<controllers::Parameters> Problem::decode(const neat::Genome& genome) const {

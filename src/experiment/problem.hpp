@@ -14,6 +14,7 @@
 #include "amble/experiment/config.hpp"
 #include "amble/ground/ground.hpp"
 #include "amble/ground/settings.hpp"
+#include "amble/io/own_settings.hpp"
 #include "amble/morphology/reading_notes.hpp"
 #include "amble/neat/genome.hpp"
 #include "amble/robot/spec.hpp"
@@ -37,7 +38,8 @@ struct Problem {
   score::Settings score;
   ground::Settings ground;
   damage::Settings damage = {};
-  ground::Key ground_key = {};  ///< of uneven ground in trials without noise
+  io::OwnSettings engine_own = {};  ///< of an engine that is not one of amble's own
+  ground::Key ground_key = {};      ///< of uneven ground in trials without noise
   std::shared_ptr<const controllers::Architecture> architecture;
 
   /// `robot` as in its file, intact whatever `damage` says: that is done to the engine's; the problem's robot

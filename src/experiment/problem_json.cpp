@@ -1,6 +1,7 @@
 #include "amble/experiment/problem_json.hpp"
 
 #include "amble/experiment/implied_settings.hpp"
+#include "amble/physics/engine_kinds.hpp"
 #include "amble/robot/json.hpp"
 #include "amble/robot/original_model.hpp"
 
@@ -15,6 +16,7 @@ io::Json problem_json(const Problem& problem) {
                 {"score", io::settings_to_json(problem.score)},
                 {"ground", io::settings_to_json(problem.ground)},
                 {"damage", io::settings_to_json(problem.damage)}};
+  if (!problem.engine_own.numbers.empty()) json["engine_own"] = problem.engine_own.numbers;
   leave_out_implied(json, problem.score, problem.ground, problem.damage);
   return json;
 }
@@ -38,6 +40,9 @@ Problem problem_from_json(const io::JsonView& root) {
   if (root.has("score")) problem.score = io::settings_from_json<score::Settings>(root.at("score"));
   if (root.has("ground")) problem.ground = io::settings_from_json<ground::Settings>(root.at("ground"));
   if (root.has("damage")) problem.damage = io::settings_from_json<damage::Settings>(root.at("damage"));
+  if (const auto* kind = physics::find_engine(problem.engine); kind != nullptr)
+    for (const io::OwnNumber& number : kind->numbers)
+      problem.engine_own.numbers[number.name] = root.at("engine_own").at(number.name).finite_number();
   problem.complete();
   return problem;
 }

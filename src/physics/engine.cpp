@@ -8,38 +8,30 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
-#include "amble/physics/batch/batch_engine.hpp"
-#include "amble/physics/batch/state_rows.hpp"
-#include "amble/physics/mujoco/mujoco_engine.hpp"
-#include "amble/physics/mujoco_model/mujoco_model_engine.hpp"
-#include "amble/physics/ode/ode_engine.hpp"
+#include "amble/core/registry.hpp"
+#include "amble/physics/engine_kinds.hpp"
 
 namespace amble::physics {
 namespace {
 
-// The table of engines. A new one is a row here and a folder beside `ode`.
-struct Row {
-  std::string_view name;
-  EngineTraits traits;
-  std::unique_ptr<Engine> (*make)(const robot::RobotSpec& robot, const EngineSettings& settings);
+// amble's own, in the order in which they are listed to users: each is in its folder, and registered where it
+// is linked (`registration.cpp` there).
+struct Own {
+  std::string_view name, target;
 };
-constexpr std::array engines{
-    // ODE has data of its own for each thread.
-    Row{"ode", {.lanes = 1, .keeps_to_a_thread = true}, make_ode_engine},
-    Row{"batch",
-        {.lanes = batch::lanes},
-        [](const robot::RobotSpec& robot, const EngineSettings& settings) -> std::unique_ptr<Engine> {
-          return make_batch_engine(robot, settings);
-        }},
-    Row{"mujoco", {.lanes = 1}, make_mujoco_engine},
-    Row{"mujoco-model", {.lanes = 1, .of_original_model = true}, make_mujoco_model_engine},
-};
+constexpr std::array own_engines{Own{"ode", "physics_ode"}, Own{"batch", "physics_batch"},
+                                 Own{"mujoco", "physics_mujoco"},
+                                 Own{"mujoco-model", "physics_mujoco_model"}};
 
-constexpr std::array names = [] {
-  std::array<std::string_view, engines.size()> all;
-  std::ranges::transform(engines, all.begin(), &Row::name);
+Registry<EngineKind>& kinds() {
+  static Registry<EngineKind> all("engine", {});
   return all;
-}();
+}
+
+const EngineKind& kind_of(std::string_view name) {
+  check_engine_name(name);
+  return *find_engine(name);
+}
 
 }  // namespace
 
@@ -49,29 +41,53 @@ void Engine::set_ground(std::shared_ptr<const ground::Ground> ground) {
   on_ground();
 }
 
-std::span<const std::string_view> engine_names() {
+void register_engine(EngineKind kind) {
+  AMBLE_CHECK(kind.make, "an engine needs a function that makes it");
+  AMBLE_CHECK(kind.traits.lanes >= 1, "an engine has lanes");
+  kinds().add(std::move(kind));
+}
+
+const EngineKind* find_engine(std::string_view name) {
+  return kinds().find(name);
+}
+
+std::vector<std::string_view> engine_names() {
+  std::vector<std::string_view> names;
+  for (const Own& own : own_engines)
+    if (is_engine(own.name)) names.push_back(own.name);
+  for (const EngineKind& kind : kinds().rows())
+    if (std::ranges::find(own_engines, kind.name, &Own::name) == own_engines.end())
+      names.push_back(kind.name);
   return names;
 }
 
 bool is_engine(std::string_view name) {
-  return std::ranges::find(names, name) != names.end();
+  return find_engine(name) != nullptr;
 }
 
 void check_engine_name(std::string_view name, std::string_view what) {
-  if (!is_engine(name))
-    fail(ExitCode::bad_input, "{}unknown engine '{}': expected {}", what, name, fmt::join(names, ", "));
+  if (is_engine(name)) return;
+  const auto own = std::ranges::find(own_engines, name, &Own::name);
+  if (own != own_engines.end())
+    fail(ExitCode::bad_input, "{}the engine '{}' is not in this program: link amble::{}", what, name,
+         own->target);
+  fail(ExitCode::bad_input, "{}unknown engine '{}': expected {}", what, name,
+       fmt::join(engine_names(), ", "));
 }
 
 EngineTraits engine_traits(std::string_view name) {
-  check_engine_name(name);
-  return std::ranges::find(engines, name, &Row::name)->traits;
+  return kind_of(name).traits;
 }
 
 std::unique_ptr<Engine> make_engine(std::string_view name, const robot::RobotSpec& robot,
                                     const EngineSettings& settings) {
   AMBLE_CHECK(settings.timestep_s > 0.0, "timestep_s");
-  check_engine_name(name);
-  return std::ranges::find(engines, name, &Row::name)->make(robot, settings);
+  const EngineKind& kind = kind_of(name);
+  EngineSettings all = settings;
+  all.own.complete(kind.numbers);
+  auto engine = kind.make(robot, all);
+  AMBLE_CHECK(engine != nullptr && engine->lanes() == kind.traits.lanes, "an engine has its kind's lanes");
+  return engine;
 }
 
 }  // namespace amble::physics

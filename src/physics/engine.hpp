@@ -2,14 +2,13 @@
 
 #include <cstdint>
 #include <memory>
-#include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "amble/core/lanes.hpp"
 #include "amble/core/math.hpp"
 #include "amble/ground/ground.hpp"
+#include "amble/io/own_settings.hpp"
 #include "amble/robot/sensors.hpp"
 #include "amble/robot/spec.hpp"
 
@@ -44,6 +43,7 @@ struct EngineSettings {
   /// For engines that have friction of their own.
   double ground_friction = -1.0;
   bool uneven_ground = false;  ///< whether set_ground() is to be called; an engine may refuse it here
+  io::OwnSettings own = {};    ///< of an engine that a program or a plugin has added
 };
 
 /// A robot that is faster has diverged: m/s or rad/s (Engine::healthy).
@@ -114,8 +114,8 @@ class Engine {
   std::shared_ptr<const ground::Ground> ground_;
 };
 
-/// In the order in which they are listed to users.
-std::span<const std::string_view> engine_names();
+/// Those that are registered (engine_kinds.hpp), in the order in which they are listed to users.
+std::vector<std::string_view> engine_names();
 bool is_engine(std::string_view name);
 /// Throws UserError unless it is one of engine_names. `what` precedes the message, e.g. "--engines: ".
 void check_engine_name(std::string_view name, std::string_view what = "");
@@ -129,10 +129,6 @@ struct EngineTraits {
 };
 /// Throws UserError for an unknown name.
 EngineTraits engine_traits(std::string_view name);
-
-/// What a reader should know of how a robot's RobotSpec::original is simulated, in lines. Throws UserError as
-/// make_engine("mujoco-model").
-std::vector<std::string> original_model_notes(const robot::RobotSpec& robot, double timestep_s);
 
 /// Makes the engine of that name. Throws UserError for an unknown name or a robot that the engine cannot
 /// simulate.

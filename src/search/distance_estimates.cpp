@@ -1,7 +1,10 @@
 #include "amble/search/distance_estimates.hpp"
 
+#ifdef AMBLE_OPENBLAS
 #include <cblas.h>
+#endif
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -10,6 +13,7 @@
 namespace amble::search {
 namespace {
 
+#ifdef AMBLE_OPENBLAS
 class OneBlasThread {
  public:
   OneBlasThread() : before_(openblas_get_num_threads()) { openblas_set_num_threads(1); }
@@ -32,6 +36,28 @@ std::vector<float> multiply(const Behaviours& a, const Behaviours& b) {
               b.data(), length, 0.0f, products.data(), rows_b);
   return products;
 }
+
+#else
+/// The same, by loops, in eight sums at a time.
+float dot(std::span<const float> a, std::span<const float> b) {
+  std::array<float, 8> sums{};
+  std::size_t i = 0;
+  for (; i + sums.size() <= a.size(); i += sums.size())
+    for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += a[i + k] * b[i + k];
+  for (std::size_t k = 0; i < a.size(); ++i, ++k) sums[k] += a[i] * b[i];
+  float sum = 0.0f;
+  for (const float part : sums) sum += part;
+  return sum;
+}
+
+std::vector<float> multiply(const Behaviours& a, const Behaviours& b) {
+  std::vector<float> products;
+  products.reserve(a.rows() * b.rows());
+  for (std::size_t i = 0; i < a.rows(); ++i)
+    for (std::size_t j = 0; j < b.rows(); ++j) products.push_back(dot(a.row(i), b.row(j)));
+  return products;
+}
+#endif
 
 template <typename T>
 constexpr double unit_roundoff = static_cast<double>(std::numeric_limits<T>::epsilon()) / 2.0;

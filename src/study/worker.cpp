@@ -20,7 +20,7 @@
 #include "amble/experiment/run.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/lock.hpp"
-#include "amble/physics/instruction_set.hpp"
+#include "amble/physics/batch/instruction_set.hpp"
 #include "amble/record/generations_csv.hpp"
 #include "amble/study/champion_tests.hpp"
 

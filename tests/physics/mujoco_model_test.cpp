@@ -8,6 +8,7 @@
 
 #include "amble/damage/settings.hpp"
 #include "amble/physics/damaged_engine.hpp"
+#include "amble/physics/mujoco_model/mujoco_model_engine.hpp"
 #include "tests/models/model_edits.hpp"
 #include "tests/physics/own_models.hpp"
 #include "tests/physics/scene.hpp"

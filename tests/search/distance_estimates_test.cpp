@@ -1,6 +1,8 @@
 #include "amble/search/distance_estimates.hpp"
 
+#ifdef AMBLE_OPENBLAS
 #include <cblas.h>
+#endif
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -50,6 +52,7 @@ TEST(DistanceEstimates, KnowNothingOnceFloatsOverflow) {
   EXPECT_TRUE(std::isinf(upper));
 }
 
+#ifdef AMBLE_OPENBLAS
 TEST(DistanceEstimates, RestoreTheNumberOfThreads) {
   Stream stream(3, Purpose::test);
   const auto a = to_behaviours(random_rows(Shape::normal, 4, 10, stream));
@@ -60,6 +63,7 @@ TEST(DistanceEstimates, RestoreTheNumberOfThreads) {
   EXPECT_EQ(openblas_get_num_threads(), set);
   openblas_set_num_threads(before);
 }
+#endif
 
 }  // namespace
 }  // namespace amble::search

@@ -1,4 +1,4 @@
-#include "amble/physics/instruction_set.hpp"
+#include "amble/physics/batch/instruction_set.hpp"
 
 // First: which instruction sets there are.
 #include "amble/core/simd_targets.hpp"

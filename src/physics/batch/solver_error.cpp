@@ -1,4 +1,4 @@
-#include "amble/physics/solver_error.hpp"
+#include "amble/physics/batch/solver_error.hpp"
 
 #include <algorithm>
 #include <array>

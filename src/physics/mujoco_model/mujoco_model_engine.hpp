@@ -19,4 +19,8 @@ namespace amble::physics {
 std::unique_ptr<Engine> make_mujoco_model_engine(const robot::RobotSpec& robot,
                                                  const EngineSettings& settings);
 
+/// What a reader should know of how a robot's RobotSpec::original is simulated, in lines. Throws UserError as
+/// the engine does.
+std::vector<std::string> original_model_notes(const robot::RobotSpec& robot, double timestep_s);
+
 }  // namespace amble::physics
