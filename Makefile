@@ -4,7 +4,7 @@ PREFIX ?= /usr/local
 JOBS ?= $(shell nproc)
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 
-.PHONY: demo picture build test python package bench install doxygen coverage clean
+.PHONY: demo picture build test test-aarch64 python package bench install doxygen coverage clean
 
 demo: build
 	rm -rf demo
@@ -34,6 +34,11 @@ test:
 	set -ex; cmake --preset $(PRESET); cmake --build --preset $(PRESET); \
 	wait $$tools || echo "some tests will be skipped: see above"; \
 	ctest --preset $(PRESET) -j $$(($(JOBS) + 1))
+
+# The libraries that need neither ODE nor MuJoCo, compiled for aarch64, and their tests under an emulator: the same bits as on x86-64.
+test-aarch64:
+	@if ./setup --aarch64; then set -ex; cmake --preset aarch64; cmake --build --preset aarch64; ctest --preset aarch64 -j $(JOBS); \
+	else echo "skipped: compiler and libraries for aarch64, and the emulator, could not be installed (see above)"; fi
 
 # The Python package, in build/python/python, and its tests.
 python:

@@ -22,6 +22,8 @@ using simd::HWY_NAMESPACE::fma;
 using simd::HWY_NAMESPACE::fms;
 using simd::HWY_NAMESPACE::Ints;
 using simd::HWY_NAMESPACE::load;
+using simd::HWY_NAMESPACE::max;
+using simd::HWY_NAMESPACE::min;
 using simd::HWY_NAMESPACE::set;
 using simd::HWY_NAMESPACE::store;
 using simd::HWY_NAMESPACE::V;
@@ -46,7 +48,7 @@ class Logistic {
     const Ints i;
     const V rounder = set(c::rounder), low = hn::Neg(largest_);
     V sum[count], r[count], p[count];
-    for (int n = 0; n < count; ++n) x[n] = hn::Max(hn::Min(x[n], largest_), low);
+    for (int n = 0; n < count; ++n) x[n] = max(min(x[n], largest_), low);
     for (int n = 0; n < count; ++n) sum[n] = fma(x[n], scale_, rounder);
     for (int n = 0; n < count; ++n) r[n] = fms(x[n], scale_, hn::Sub(sum[n], rounder));
     for (int n = 0; n < count; ++n) p[n] = fma(set(c::e5), r[n], set(c::e4));

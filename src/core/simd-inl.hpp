@@ -70,6 +70,25 @@ HWY_INLINE V fnma(V a, V b, V c) {
 #endif
 }
 
+/// a < b ? a : b, as x86 has it, whatever the signs of zeros, and NaN among them. NEON's own minimum takes −0
+/// for less than +0, and the number where one is NaN.
+HWY_INLINE V min(V a, V b) {
+#if HWY_ARCH_X86
+  return hn::Min(a, b);
+#else
+  return hn::IfThenElse(hn::Lt(a, b), a, b);
+#endif
+}
+
+/// a > b ? a : b, the same.
+HWY_INLINE V max(V a, V b) {
+#if HWY_ARCH_X86
+  return hn::Max(a, b);
+#else
+  return hn::IfThenElse(hn::Gt(a, b), a, b);
+#endif
+}
+
 }  // namespace amble::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -7,11 +7,10 @@
 #define AMBLE_CPPN_ACTIVATION_INL_HPP
 #endif
 
-#include <hwy/highway.h>
-
 #include <cstddef>
 #include <cstdint>
 
+#include "amble/core/simd-inl.hpp"
 #include "amble/cppn/activation.hpp"
 #include "amble/cppn/activation_constants.hpp"
 
@@ -21,10 +20,11 @@ namespace amble::cppn::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace c = constants;
 
-/// As many lanes as the machine has, up to 16.
-using Floats = hn::CappedTag<float, 16>;
-using Ints = hn::RebindToSigned<Floats>;
-using Vector = hn::Vec<Floats>;
+using simd::HWY_NAMESPACE::Floats;
+using simd::HWY_NAMESPACE::Ints;
+using simd::HWY_NAMESPACE::max;
+using simd::HWY_NAMESPACE::min;
+using Vector = simd::HWY_NAMESPACE::V;
 
 /// a x + b, rounded twice.
 HWY_INLINE Vector times_plus(Vector a, Vector x, float b) {
@@ -35,7 +35,7 @@ HWY_INLINE Vector times_plus(Vector a, Vector x, float b) {
 HWY_INLINE Vector exp_of_negative(Vector z) {
   const Floats d;
   const Ints i;
-  z = hn::Max(z, hn::Set(d, c::lowest_exponent));
+  z = max(z, hn::Set(d, c::lowest_exponent));
   const Vector sum = hn::Add(hn::Mul(z, hn::Set(d, c::log2_e)), hn::Set(d, c::rounder));
   const Vector k = hn::Sub(sum, hn::Set(d, c::rounder));
   Vector r = hn::Sub(z, hn::Mul(k, hn::Set(d, c::ln2_high)));
@@ -104,13 +104,13 @@ HWY_INLINE Vector sine(Vector x) {
 
 /// |x|, clamped.
 HWY_INLINE Vector absolute(Vector x) {
-  return hn::Min(hn::Abs(x), hn::Set(Floats(), largest_linear));
+  return min(hn::Abs(x), hn::Set(Floats(), largest_linear));
 }
 
 /// x, clamped.
 HWY_INLINE Vector identity(Vector x) {
   const Floats d;
-  return hn::Max(hn::Min(x, hn::Set(d, largest_linear)), hn::Set(d, -largest_linear));
+  return max(min(x, hn::Set(d, largest_linear)), hn::Set(d, -largest_linear));
 }
 
 }  // namespace amble::cppn::HWY_NAMESPACE

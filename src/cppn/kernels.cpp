@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "amble/core/simd_targets.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "amble/cppn/kernels.cpp"
 #include <hwy/foreach_target.h>

@@ -121,7 +121,7 @@ HWY_INLINE bool joint_block(const Pass& pass, const Chain& chain, const ChainFac
     block.set(BlockLayout::low, r, low);
     block.set(BlockLayout::high, r, high);
     const V before = pass.state(pass.rows().joint_impulse + chain.first_row + first + r) * scale;
-    block.set(BlockLayout::impulse, r, hn::Max(hn::Min(before, high), low));
+    block.set(BlockLayout::impulse, r, max(min(before, high), low));
   }
   row_set.warm_start(block, u_joints, u_base);
   return true;

@@ -42,7 +42,7 @@ HWY_INLINE UnitWrenches unit_wrenches(const Pass& pass, const BaseFactor& factor
 HWY_INLINE void bound_contact(const Pass& pass, Mask touches, const Block& block) {
   const float friction = pass.model().friction;
   const V normal = hn::IfThenElseZero(
-      touches, hn::Max(block.get(BlockLayout::impulse) * block.get(BlockLayout::scale), zero()));
+      touches, max(block.get(BlockLayout::impulse) * block.get(BlockLayout::scale), zero()));
   block.set(BlockLayout::impulse, 0, normal);
   for (int r = 1; r < 3; ++r) {
     V impulse =
@@ -51,7 +51,7 @@ HWY_INLINE void bound_contact(const Pass& pass, Mask touches, const Block& block
       const V high = set(friction) * block.get(BlockLayout::scale, r) * block.get(BlockLayout::inverse_scale);
       const V limit = high * normal;
       block.set(BlockLayout::high, r, high);
-      impulse = hn::Max(hn::Min(impulse, limit), hn::Neg(limit));
+      impulse = max(min(impulse, limit), hn::Neg(limit));
     }
     block.set(BlockLayout::impulse, r, impulse);
   }

@@ -138,7 +138,7 @@ HWY_INLINE ServoRow servo_row(const Pass& pass, const Link& link, V error, Mask 
   if (k == 0.0f) return {none, 0.0f, 0.0f, none};
   const V torque = set(link.kp_nm_per_rad) * error;
   return {set(link.kp_nm_per_rad / k) * error, link.max_torque_nm * h, 1.0f / (k * h),
-          hn::Min(hn::Max(torque, hn::Neg(max_torque)), max_torque)};
+          min(max(torque, hn::Neg(max_torque)), max_torque)};
 }
 
 /// Writes the constraint row that a joint's motor and stops share, and returns the explicit torque of its
@@ -150,7 +150,7 @@ HWY_INLINE V apply_servo(const Pass& pass, const LaneArray& targets_rad, const L
   const V lower = set(link.lower_rad), upper = set(link.upper_rad);
   const V command =
       link.has_motor ? hn::LoadU(Floats(), targets_rad.row(link.joint) + pass.lane) : set(link.rest_rad);
-  const V within = hn::IfThenElse(command == command, hn::Min(hn::Max(command, lower), upper), command);
+  const V within = hn::IfThenElse(command == command, min(max(command, lower), upper), command);
   const V target = link.has_motor ? within : command;
   const StopRow stop = stop_row(pass, link, angle);
   const ServoRow servo = servo_row(pass, link, target - angle, stop.at_upper);

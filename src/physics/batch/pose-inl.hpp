@@ -254,7 +254,7 @@ HWY_NOINLINE void detect_contacts_on(const Pass& pass) {
     if (geom.leg < 0) continue;
     const int row = pass.rows().touch + geom.leg;
     const V touch = hn::IfThenElseZero(touches, set(1.0f));
-    pass.set_state(row, geom.first_of_foot ? touch : hn::Max(touch, pass.state(row)));
+    pass.set_state(row, geom.first_of_foot ? touch : max(touch, pass.state(row)));
   }
   pass.set_state(StateRows::contacts, contacts);
 }
@@ -277,7 +277,7 @@ HWY_NOINLINE void read_sensors(const Pass& pass) {
   Columns world = pass.world();
   if (const Model& model = pass.model(); model.tilted)
     world = {world * set(model.level[0]), world * set(model.level[1]), world * set(model.level[2])};
-  const V one = set(1.0f), sine = hn::Min(hn::Max(hn::Neg(world.z.x), hn::Neg(one)), one);
+  const V one = set(1.0f), sine = min(max(hn::Neg(world.z.x), hn::Neg(one)), one);
   put(arc_tangent(world.z.y, world.z.z), sensors.attitude_rad, 0);
   put(arc_tangent(sine, hn::Sqrt((one - sine) * (one + sine))), sensors.attitude_rad, 1);
   put(arc_tangent(world.y.x, world.x.x), sensors.attitude_rad, 2);

@@ -26,12 +26,12 @@ enum class Bound { joint, pyramid, sticking };
 template <Bound bound>
 HWY_INLINE V projected(const Block& block, int r, V change, V before, V normal) {
   if constexpr (bound == Bound::joint)
-    return hn::Max(hn::Min(change, block.get(BlockLayout::high, r) - before),
-                   block.get(BlockLayout::low, r) - before);
-  if (r == 0) return hn::Max(change, hn::Neg(before));
+    return max(min(change, block.get(BlockLayout::high, r) - before),
+               block.get(BlockLayout::low, r) - before);
+  if (r == 0) return max(change, hn::Neg(before));
   if constexpr (bound == Bound::sticking) return change;
   const V limit = block.get(BlockLayout::high, r) * normal;
-  return hn::Max(hn::Min(change, limit - before), hn::Neg(limit) - before);
+  return max(min(change, limit - before), hn::Neg(limit) - before);
 }
 
 /// Residual of row r at u = 0: target − (cfm/h) p. Friction rows have target 0.

@@ -155,7 +155,7 @@ HWY_INLINE void integrate_joints(const NextState& next, std::size_t c, const V* 
     speed[j] = x * load(factor.inverse(j));
     const V square = speed[j] * speed[j];
     speeds.sum = speeds.sum + square;
-    speeds.largest = hn::Max(speeds.largest, square);
+    speeds.largest = max(speeds.largest, square);
     const int angle = pass.rows().angle + chain.first + j;
     next.put(angle, fma(set(pass.timestep_s()), speed[j], pass.state(angle)));
     next.put(pass.rows().speed + chain.first + j, speed[j]);

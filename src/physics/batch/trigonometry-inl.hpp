@@ -46,8 +46,8 @@ HWY_INLINE SineCosine sine_cosine(V angle) {
 /// atan2(y, x), absolute error below 4e-7; 0 where both are 0.
 HWY_INLINE V arc_tangent(V y, V x) {
   constexpr float pi = 3.14159265f;
-  const V long_side = hn::Max(hn::Abs(x), hn::Abs(y)), short_side = hn::Min(hn::Abs(x), hn::Abs(y));
-  V t = short_side / hn::Max(long_side, set(1e-30f));  // 0 … 1
+  const V long_side = max(hn::Abs(x), hn::Abs(y)), short_side = min(hn::Abs(x), hn::Abs(y));
+  V t = short_side / max(long_side, set(1e-30f));  // 0 … 1
   // Above tan(π/8): atan t = π/4 + atan((t − 1) / (t + 1)).
   const Mask steep = t > set(0.414213562f);
   t = hn::IfThenElse(steep, (t - set(1.0f)) / (t + set(1.0f)), t);

@@ -22,6 +22,8 @@ using simd::HWY_NAMESPACE::fnma;
 using simd::HWY_NAMESPACE::Ints;
 using simd::HWY_NAMESPACE::load;
 using simd::HWY_NAMESPACE::Mask;
+using simd::HWY_NAMESPACE::max;
+using simd::HWY_NAMESPACE::min;
 using simd::HWY_NAMESPACE::set;
 using simd::HWY_NAMESPACE::store;
 using simd::HWY_NAMESPACE::V;
