@@ -26,10 +26,10 @@ class Registry {
       return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
     };
     if (name.empty() || !std::ranges::all_of(name, usual))
-      fail(ExitCode::bad_input, "a {} cannot be called '{}': expected a to z, 0 to 9, '-' and '_'", what_,
+      fail(ExitCode::bad_input, "{} '{}': a name has a to z, 0 to 9, '-' and '_', and nothing else", what_,
            name);
     if (find(name) != nullptr)
-      fail(ExitCode::bad_input, "there is a {} '{}' already: give yours another name", what_, name);
+      fail(ExitCode::bad_input, "{} '{}' exists already: give yours another name", what_, name);
     rows_.push_back(std::move(row));
   }
 

@@ -36,14 +36,18 @@ c++ -std=c++20 "$here/consumer/main.cpp" $flags -o "$scratch/by-pkg-config"
 cat >"$scratch/CMakeLists.txt" <<'END'
 cmake_minimum_required(VERSION 3.25)
 project(alone LANGUAGES CXX)
-find_package(amble REQUIRED COMPONENTS neat)
+find_package(amble REQUIRED COMPONENTS neat physics_batch trial score)
 if(TARGET mujoco::mujoco OR TARGET PkgConfig::ODE OR TARGET PkgConfig::OPENBLAS)
-  message(FATAL_ERROR "neat alone looks for what it does not need")
+  message(FATAL_ERROR "neat, and trials in the batch engine, look for what they do not need")
 endif()
 file(WRITE ${CMAKE_BINARY_DIR}/alone.cpp "#include <amble/core/version.hpp>\n#include <amble/neat/population.hpp>\n"
   "int main() { return amble::neat::Population({}, 2, 1, false, 1).genomes().empty() || AMBLE_VERSION < 100; }\n")
 add_executable(alone ${CMAKE_BINARY_DIR}/alone.cpp)
 target_link_libraries(alone PRIVATE amble::neat)
+file(WRITE ${CMAKE_BINARY_DIR}/engines.cpp "#include <amble/trial/trial.hpp>\n#include <cstdio>\n"
+  "int main() { for (const auto name : amble::physics::engine_names()) std::printf(\"%s\\n\", std::string(name).c_str()); }\n")
+add_executable(engines ${CMAKE_BINARY_DIR}/engines.cpp)
+target_link_libraries(engines PRIVATE amble::physics_batch amble::score amble::trial)
 find_package(amble QUIET COMPONENTS dancing)
 if(amble_FOUND)
   message(FATAL_ERROR "there is no such component")
@@ -52,13 +56,15 @@ END
 cmake -S "$scratch" -B "$scratch/alone" -DCMAKE_PREFIX_PATH="$scratch/prefix" >/dev/null
 cmake --build "$scratch/alone" >/dev/null
 "$scratch/alone/alone"
+[ "$("$scratch/alone/engines")" = batch ] || { echo "a program has other engines than the one it links" >&2; exit 1; }
+if ldd "$scratch/alone/engines" | grep -E 'libode|libmujoco|openblas'; then echo "the batch engine alone needs others' libraries" >&2; exit 1; fi
 
-# A controller, a search, a ground and a quantity from outside, loaded by the installed program; a worker's process loads them too.
+# A controller, a search, a ground, a quantity and an engine from outside, loaded by the installed program; a worker's process loads them too.
 examples=$here/../../examples/extend
 cmake -S "$examples" -B "$scratch/extend" -DCMAKE_PREFIX_PATH="$scratch/prefix" >/dev/null
 cmake --build "$scratch/extend" >/dev/null
 amble=$scratch/prefix/bin/amble
-for name in swing climb ripples; do
+for name in swing climb ripples puppet; do
   "$amble" --plugin "$scratch/extend/lib$name.so" evolve "$examples/$name.toml" --seed 1 --jobs 2 --set population.size=16 \
     --set trial.duration_s=1 --set champion.episodes=0 --generations 2 --out "$scratch/$name" >/dev/null
   "$amble" --plugin "$scratch/extend/lib$name.so" resume "$scratch/$name" --generations 3 --jobs 1 >/dev/null
@@ -68,7 +74,9 @@ for name in swing climb ripples; do
   cmp "$scratch/$name/champions/$(ls "$scratch/$name/champions" | tail -1)" \
     "$scratch/$name-again/champions/$(ls "$scratch/$name/champions" | tail -1)"
 done
-if "$amble" trial "$scratch/swing" >/dev/null 2>&1; then echo "a champion of a plugin's kind was read without it" >&2; exit 1; fi
+for name in swing puppet; do
+  if "$amble" trial "$scratch/$name" >/dev/null 2>&1; then echo "$name: a champion of a plugin's kind was read without it" >&2; exit 1; fi
+done
 
 "$scratch/prefix/bin/amble" robot "$robot" >/dev/null
 echo "both consumers say: $expected"
