@@ -118,15 +118,16 @@ bool generalises(const neat::Genome& genome) {
 /// The paper's, where amble has them; the rest is amble's default.
 neat::Settings settings_of(const Benchmark& benchmark) {
   const bool large = benchmark.population >= 1000;
+  constexpr double steepness = 4.9;  // of the paper's nodes, amble's being 1: weights are so much larger
   neat::Settings s;
   s.population.size = benchmark.population;
-  s.genome.weight_limit = 12.0;  // the paper's nodes are 4.9 times as steep
+  s.genome.weight_limit = 10.0 * steepness;
   s.genome.activation_shares = {1, 0, 0, 0};
   s.mutation = {.weights_share = 0.8,
                 .add_link_share = large ? 0.3 : 0.05,
                 .add_node_share = 0.03,
                 .split_link = neat::SplitLink::disable,
-                .weights = {.jiggle_limit = 2.5,
+                .weights = {.jiggle_limit = 2.5 * steepness,
                             .jiggle_many_share = 0.9,
                             .jiggle_many_probability = 1.0,
                             .jiggle_few_share = 0.0,
@@ -135,8 +136,10 @@ neat::Settings settings_of(const Benchmark& benchmark) {
                             .reset_few_probability = 0.1,
                             .reset_one_share = 0.0}};
   s.crossover = {.weaker_genes_probability = 0.0, .enable_probability = 0.25, .mutate_child = true};
-  s.speciation.distance = {
-      .excess = 1.0, .disjoint = 1.0, .weight = large ? 3.0 / 4.9 : 0.4 / 4.9, .normalised = true};
+  s.speciation.distance = {.excess = 1.0,
+                           .disjoint = 1.0,
+                           .weight = large ? 3.0 / steepness : 0.4 / steepness,
+                           .normalised = true};
   s.speciation.initial_threshold = large ? 4.0 : 3.0;
   s.speciation.scale_targets(benchmark.population);
   s.reproduction = {.survival = 0.2,

@@ -131,8 +131,8 @@ ExitCode run(int all, char** words) {
   app.formatter(amble::cli::help_formatter());
   app.footer(
       "amble help COMMAND explains a command, with examples. amble --plugin FILE.so COMMAND … adds "
-      "controllers\n"
-      "and searches of your own (docs/LIBRARY.md).");
+      "controllers,\n"
+      "searches and engines of your own (docs/LIBRARY.md).");
   amble::cli::Action action;
   add_commands(app, action);
   if (argc == 1) {

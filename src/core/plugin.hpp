@@ -2,8 +2,8 @@
 
 #include "amble/core/version.hpp"
 
-/// A plugin is a shared library that adds controllers, searches, grounds and quantities to the program:
-/// `amble --plugin libmine.so evolve …` (docs/LIBRARY.md). It is one source with
+/// A plugin is a shared library that adds controllers, searches, grounds, quantities and engines to the
+/// program: `amble --plugin libmine.so evolve …` (docs/LIBRARY.md). It is one source with
 ///
 ///     AMBLE_PLUGIN { amble::controllers::register_controller({.name = "mine", …}); }
 ///

@@ -59,6 +59,14 @@ cmake --build "$scratch/alone" >/dev/null
 [ "$("$scratch/alone/engines")" = batch ] || { echo "a program has other engines than the one it links" >&2; exit 1; }
 if ldd "$scratch/alone/engines" | grep -E 'libode|libmujoco|openblas'; then echo "the batch engine alone needs others' libraries" >&2; exit 1; fi
 
+# NEAT by itself, from the installed tree.
+cmake -S "$here/../../examples/neat" -B "$scratch/neat" -DCMAKE_PREFIX_PATH="$scratch/prefix" >/dev/null
+cmake --build "$scratch/neat" >/dev/null
+for problem in "xor 5" "dpv 2"; do
+  # shellcheck disable=SC2086  # a problem and a number of seeds
+  "$scratch/neat/neat_alone" $problem
+done
+
 # A controller, a search, a ground, a quantity and an engine from outside, loaded by the installed program; a worker's process loads them too.
 examples=$here/../../examples/extend
 cmake -S "$examples" -B "$scratch/extend" -DCMAKE_PREFIX_PATH="$scratch/prefix" >/dev/null

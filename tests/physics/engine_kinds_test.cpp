@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <span>
+
 #include "amble/physics/batch/batch_engine.hpp"
 #include "tests/core/error_of.hpp"
 #include "tests/physics/scene.hpp"
@@ -12,6 +14,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 /// The batch engine under another name, with a setting; `seen` gets its value.
 EngineKind named(const std::string& name, double& seen) {
@@ -26,10 +29,13 @@ EngineKind named(const std::string& name, double& seen) {
 }
 
 TEST(EngineKinds, AProgramHasThoseThatItLinksThenThoseThatItRegisters) {
-  EXPECT_THAT(engine_names(), ElementsAre("ode", "batch", "mujoco", "mujoco-model"));
+  const auto linked = engine_names();
+  ASSERT_GE(linked.size(), 4u);
+  EXPECT_THAT(std::span(linked).first(4), ElementsAre("ode", "batch", "mujoco", "mujoco-model"));
   double seen = 0.0;
   register_engine(named("later", seen));
-  EXPECT_THAT(engine_names(), ElementsAre("ode", "batch", "mujoco", "mujoco-model", "later"));
+  EXPECT_EQ(engine_names().size(), linked.size() + 1);
+  EXPECT_EQ(engine_names().back(), "later");
 }
 
 TEST(EngineKinds, OneThatIsRegisteredGetsItsSettingsOrTheirDefaults) {
@@ -51,8 +57,8 @@ TEST(EngineKinds, ATakenNameIsRefused) {
 }
 
 TEST(EngineKinds, AnUnknownNameIsToldWithThoseThatThereAre) {
-  EXPECT_EQ(tests::error_of([] { check_engine_name("odd", "--engine: "); }),
-            "--engine: unknown engine 'odd': expected ode, batch, mujoco, mujoco-model");
+  EXPECT_THAT(tests::error_of([] { check_engine_name("odd", "--engine: "); }),
+              StartsWith("--engine: unknown engine 'odd': expected ode, batch, mujoco, mujoco-model"));
 }
 
 }  // namespace
