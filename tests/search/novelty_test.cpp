@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "amble/core/error.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/search/naive_novelty.hpp"
 #include "tests/search/samples.hpp"
