@@ -82,7 +82,8 @@ inline std::int32_t advance_parts(float rho) {
   power = power * rho + 0.240226507f;
   power = power * rho + 0.693147181f;
   power = power * rho + 1.0f;
-  return static_cast<std::int32_t>(power * static_cast<float>(parts_per_tick) + 0.5f);
+  const float and_a_half = power * static_cast<float>(parts_per_tick) + 0.5f;
+  return static_cast<std::int32_t>(and_a_half);
 }
 
 /// Where a trigger takes a timer, in parts: by `share` / 2^15 of the shorter way round to `start`. A timer

@@ -57,7 +57,7 @@ struct Config {
   std::string robot;    ///< robot file (TOML side file, or robot.json of a run folder)
   double drop_m = 0.0;  ///< height above the start pose at which every trial starts
   std::string engine = "ode";
-  io::OwnSettings engine_own;  ///< of an engine that a program or a plugin has added
+  io::OwnSettings engine_own;         ///< of an engine that a program or a plugin has added
   std::vector<std::string> referees;  ///< engines in which each new champion is tried again
   std::int64_t seed = 1;
   int generations = 800;

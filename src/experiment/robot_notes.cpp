@@ -8,8 +8,8 @@
 #include "amble/core/error.hpp"
 #include "amble/experiment/new_robot.hpp"
 #include "amble/experiment/start_look.hpp"
-#include "amble/physics/engine.hpp"
 #include "amble/physics/batch/solver_error.hpp"
+#include "amble/physics/engine.hpp"
 #include "amble/physics/mujoco_model/mujoco_model_engine.hpp"
 
 namespace amble::experiment {

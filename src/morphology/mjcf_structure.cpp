@@ -280,8 +280,7 @@ class BodyNamer {
   std::string name_of(const XmlElement& body, const XmlElement& parent, int number) const {
     if (parent.name == "worldbody") return holds(body, "joint") || holds(body, "freejoint") ? "root" : "body";
     for (const XmlElement& child : body.children)
-      if (const std::string joint = child.attribute_or("name", "");
-          child.name == "joint" && given_.contains(joint))
+      if (std::string joint = child.attribute_or("name", ""); child.name == "joint" && given_.contains(joint))
         return joint;
     return fmt::format("{}_{}", parent.attribute_or("name", ""), number);
   }

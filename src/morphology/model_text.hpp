@@ -21,7 +21,8 @@ struct MotorHint {
   double kv_nm_s_per_rad = 0.0;  ///< MJCF <position kv>; 0: not given
   double damping_ratio = 0.0;    ///< MJCF <position dampratio>, in place of kv; 0: not given
 
-  /// Templates of URDFs have an effort of 1000 N m beside a velocity of 0.5 rad/s or so: neither is a motor's.
+  /// Templates of URDFs have an effort of 1000 N m beside a velocity of 0.5 rad/s or so: neither is a
+  /// motor's.
   bool is_of_a_template() const {
     return max_torque_nm >= 1000.0 && max_speed_rad_s > 0.0 && max_speed_rad_s <= 1.0;
   }

@@ -50,7 +50,7 @@ struct UrdfJoint {
 
 std::string link_of(const XmlElement& joint, const char* end) {
   const XmlElement* named = joint.child(end);
-  const std::string link = named == nullptr ? "" : named->attribute_or("link", "");
+  std::string link = named == nullptr ? "" : named->attribute_or("link", "");
   if (link.empty())
     fail(ExitCode::bad_input, "{}: joint {} has no <{} link=\"…\"/>", file_and_line(joint),
          in_quotes(joint.attribute_or("name", "")), end);

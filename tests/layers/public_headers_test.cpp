@@ -63,7 +63,8 @@ TEST(PublicHeaders, BringNoLibraryOfJsonOrTomlAndNoEngineOfOthers) {
     std::set<std::string> reached;
     reach(header, all, reached);
     for (const std::string& include : reached)
-      for (const char* library : {"<nlohmann", "<toml", "<mujoco", "<ode/", "<CLI", "<Eigen", "<boost", "<hwy"})
+      for (const char* library :
+           {"<nlohmann", "<toml", "<mujoco", "<ode/", "<CLI", "<Eigen", "<boost", "<hwy"})
         EXPECT_FALSE(include.starts_with(library)) << header << " reaches " << include;
   }
 }
