@@ -94,7 +94,7 @@ Modulation::Modulation(int legs, int types, int period_ticks, int sensors)
     : period_ticks_(period_ticks),
       sensors_(sensors),
       width_((types + 3) / 4 * 4),
-      stride_bits_(std::bit_width(static_cast<unsigned>((1 + sensors) * width_ - 1))),
+      stride_bits_(static_cast<int>(std::bit_width(static_cast<unsigned>((1 + sensors) * width_ - 1)))),
       values_(to_index(legs * (period_ticks + 3)) * stride()),
       rates_(to_index(legs * sensors)) {}
 

@@ -73,6 +73,7 @@ void add_seam_state(const SupgTables::Seam& seam, CText& text) {
 
 void add_limits(const std::vector<std::array<float, 2>>& limits_rad, CText& text) {
   std::vector<std::vector<std::string>> limits;
+  limits.reserve(limits_rad.size());
   for (const auto& [lower_rad, upper_rad] : limits_rad)
     limits.push_back({c_float(lower_rad), c_float(upper_rad)});
   text.array(fmt::format("static const float limit_rad[{}_JOINTS][2]", upper_case(text.prefix())), limits);
