@@ -170,6 +170,7 @@ std::string measure_names() {
 
 std::vector<std::string> measures_of_runs() {
   std::vector<std::string> names;
+  names.reserve(run_measures.size());
   for (const RunMeasure& row : run_measures) names.emplace_back(row.name);
   return names;
 }

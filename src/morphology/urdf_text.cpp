@@ -200,8 +200,11 @@ void remove_floating_roots(XmlElement& root, ReadingNotes& notes) {
     notes.add(Reading::replaced,
               fmt::format("the {} joint '{}' below the empty link '{}': the root is free to move", type,
                           joint->attribute_or("name", ""), name));
+    const auto is_root = [&](const XmlElement& element) {
+      return element.name == "link" && element.attribute_or("name", "") == name;
+    };
     std::erase_if(root.children,
-                  [&](const XmlElement& element) { return hangs(element) || is_empty_root(element); });
+                  [&](const XmlElement& element) { return hangs(element) || is_root(element); });
   }
 }
 

@@ -161,7 +161,7 @@ TEST_F(RobotInit, WarnsOfMotorsWithoutAGear) {
 TEST_F(RobotInit, NamesActuatorsWithoutANameByWhatTheyActOn) {
   spill(scratch_ / "m.xml", model_text(four_legs(), "<freejoint/>", {},
                                        R"(<tendon><fixed name="string"><joint joint="RR_knee" coef="1"/>
-    </fixed></tendon><actuator><position joint="FL_hip" kp="20"/><motor tendon="string"/><motor name="pull" tendon="string"/></actuator>)"));
+    <joint joint="RL_knee" coef="1"/></fixed></tendon><actuator><position joint="FL_hip" kp="20"/><motor tendon="string"/><motor name="pull" tendon="string"/></actuator>)"));
   const auto init = amble({"robot", "--init", scratch_ / "m.xml", "-o", scratch_ / "out"});
   EXPECT_THAT(
       init.out,

@@ -23,6 +23,11 @@ const std::filesystem::path replay_main = AMBLE_SOURCE_DIR "/tests/exporting/rep
 /// tools/export-study tries all champions over 300 s in all builds, and prints a row for each.
 const bool is_study = std::getenv("AMBLE_EXPORT_STUDY") != nullptr;
 
+const Sample untriggered_sample{"untriggered",
+                                "authors/supg",
+                                "quadruped",
+                                {"controller.supg.trigger=none", "controller.supg.idle=wrap"}};
+
 std::vector<Sample> samples() {
   std::vector<Sample> some;
   for (const Sample& sample : twenty_samples())
@@ -32,10 +37,7 @@ std::vector<Sample> samples() {
         some.push_back(sample);
         break;
       }
-  some.push_back({"untriggered",
-                  "authors/supg",
-                  "quadruped",
-                  {"controller.supg.trigger=none", "controller.supg.idle=wrap"}});
+  some.push_back(untriggered_sample);
   for (const Sample& sample : seam_samples()) some.push_back(sample);
   for (const Sample& sample : modulated_samples()) some.push_back(sample);
   return some;
@@ -218,7 +220,7 @@ TEST(CSource, HasARowForEachJointAndLegWhateverTheirNames) {
 TEST(CSource, WithoutTriggersReadsNoSensor) {
   for (const Arithmetic arithmetic : {Arithmetic::float32, Arithmetic::fixed}) {
     const TemporaryFolder scratch;
-    const auto untriggered = write_walker(scratch.path(), evolve(samples().back()), arithmetic);
+    const auto untriggered = write_walker(scratch.path(), evolve(untriggered_sample), arithmetic);
     EXPECT_EQ(untriggered.header.find("touch["), std::string::npos);
     EXPECT_EQ(untriggered.source.find("touch["), std::string::npos);
     EXPECT_NE(untriggered.header.find("#define WALKER_READS_TOUCH 0"), std::string::npos);
