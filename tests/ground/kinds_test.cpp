@@ -63,8 +63,8 @@ TEST(RegisterGround, StartsFlatAndTakesDefaultsForWhatIsNotGiven) {
 }
 
 TEST(RegisterGround, RefusesNamesThatAreTakenOrCannotBeOne) {
-  for (const auto& [name, words] : {std::pair{"hills", "ground 'hills' exists already"},
-                                    {"Big Waves", "ground 'Big Waves': a name has"}})
+  for (const auto& [name, words] :
+       {std::pair{"hills", "ground 'hills' exists already"}, {"Big Waves", "ground 'Big Waves': a name has"}})
     try {
       register_ground({.name = name, .shape = [](const Settings&, double, Stream) -> Shape { return {}; }});
       FAIL() << name;
