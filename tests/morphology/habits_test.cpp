@@ -121,7 +121,8 @@ TEST(Urdf, MayHaveAnyCharacterInItsNames) {
                                                        {"left&quot;hip'", "left\"hip'"},
                                                        {"&lt;hip&gt;", "<hip>"},
                                                        {"左腿 {leg}.", "左腿 {leg}."}};
-  for (const auto& [written, meant] : names) {
+  for (const auto& [written, stands_for] : names) {
+    const std::string meant = stands_for;
     std::string text = all_replaced(urdf_with_effort(), "left_hip_joint", written);
     text = with(
         text, "</robot>",
