@@ -235,7 +235,7 @@ void ModulatedSupgBatch::interpolate(int first, int end, float* targets_rad) con
     float* const to = targets_rad + block * lanes;
     for (int lane = first; lane < end; ++lane) {
       const float* entry = tables[lane] + at[lane] + block;
-      const float* sensed = sensed_.data() + lane;
+      const float* sensed = sensors > 0 ? sensed_.data() + lane : nullptr;
       const float share = shares[lane];
       Four y = between(entry, entry + stride, share);
       for (int s = 0; s < sensors; ++s, sensed += row) {

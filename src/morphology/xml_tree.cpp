@@ -33,6 +33,11 @@ class Parser {
       : text_(text), file_(file), limits_(limits) {}
 
   XmlElement document() {
+    // Neither XML nor MuJoCo, for which it ends a text, has such a character.
+    if (const std::size_t zero = text_.find('\0'); zero != std::string_view::npos) {
+      at_ = zero;
+      bad("there is a zero byte, which no text has");
+    }
     if (text_.starts_with("\xef\xbb\xbf")) at_ = 3;
     skip_between();
     if (at_ >= text_.size()) bad("expected an element, but the file ends");

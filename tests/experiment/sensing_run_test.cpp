@@ -64,7 +64,8 @@ TEST(SensingRun, WalksInEveryEngineByContactsThatAreGuessed) {
                         supg + "contact.source=" + source, supg + "contact.threshold=" + threshold}));
       const auto genome = small_population(problem).genomes()[0];
       std::int64_t triggers = 0;
-      for (const auto& [name, count] : replay(problem, genome, {}, unstopped)->events) triggers += count;
+      const auto walked = replay(problem, genome, {}, unstopped);
+      for (const auto& [name, count] : walked->events) triggers += count;
       EXPECT_GT(triggers, 0) << engine << " " << source;
     }
 }

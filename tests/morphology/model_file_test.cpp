@@ -39,6 +39,8 @@ TEST(CompileModel, PassesOnWhatMujocoSaysInOneLine) {
   EXPECT_NE(error_of(with(one_leg_xml, "type=\"box\"", "type=\"bux\"")).find("bux"), std::string::npos);
   EXPECT_EQ(error_of(""), "bad.xml:1: no XML that can be read: expected an element, but the file ends");
   EXPECT_EQ(error_of("no xml at all"), "bad.xml:1: no XML that can be read: expected '<'");
+  EXPECT_EQ(error_of("<mujoco>\n" + std::string(1, '\0') + "</mujoco>"),
+            "bad.xml:2: no XML that can be read: there is a zero byte, which no text has");
   EXPECT_EQ(error_of(with(one_leg_xml, "</mujoco>", "")),
             "bad.xml:20: no XML that can be read: </mujoco> is missing");
 }
