@@ -283,15 +283,21 @@ void XmlElement::prune(const std::function<bool(const XmlElement&, const XmlElem
 std::string without_entities(std::string_view value) {
   static constexpr std::array<std::pair<std::string_view, char>, 5> named{
       {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}}};
+  constexpr std::size_t longest = 12;  // &#x0010FFFF;
   std::string text;
-  while (!value.empty()) {
+  for (;;) {
+    const std::size_t plain = std::min(value.find('&'), value.size());
+    text += value.substr(0, plain);
+    value.remove_prefix(plain);
+    if (value.empty()) return text;
     const auto found =
         std::ranges::find_if(named, [&](const auto& entity) { return value.starts_with(entity.first); });
-    const std::size_t end = value.find(';');
+    const std::size_t end = value.substr(0, longest).find(';');
     if (found != named.end()) {
       text += found->second;
       value.remove_prefix(found->first.size());
-    } else if (const auto number = character_number(value.substr(0, end))) {
+    } else if (const auto number =
+                   end == std::string_view::npos ? std::nullopt : character_number(value.substr(0, end))) {
       append_utf8(text, *number);
       value.remove_prefix(end + 1);
     } else {
@@ -299,7 +305,6 @@ std::string without_entities(std::string_view value) {
       value.remove_prefix(1);
     }
   }
-  return text;
 }
 
 XmlElement parse_xml(std::string_view text, const std::string& file, const XmlLimits& limits) {

@@ -117,7 +117,7 @@ TEST(XmlTree, HoldsAsMuchAsItsLimitsAndNoMore) {
 TEST(XmlTree, HasValuesAsTheyAreMeantAndWritesThemSoThatTheyAreReadBack) {
   const std::string text =
       R"(<a b="fl&amp;hip" c='"x"' d="&lt;&#10;&#x41;&quot;&apos;" e="two
-lines" f="&unknown; &" g="&#0;&#xD800;&#99999999999;"/>)";
+lines" f="&unknown; &" g="&#0;&#xD800;&#99999999999;" h="&#65" i="&#65&#66;"/>)";
   XmlElement tree = parse_xml(text, "f");
   EXPECT_EQ(tree.attribute("b"), "fl&hip");
   EXPECT_EQ(tree.attribute("c"), "\"x\"");
@@ -125,6 +125,8 @@ lines" f="&unknown; &" g="&#0;&#xD800;&#99999999999;"/>)";
   EXPECT_EQ(tree.attribute("e"), "two lines");
   EXPECT_EQ(tree.attribute("f"), "&unknown; &");
   EXPECT_EQ(tree.attribute("g"), "\uFFFD\uFFFD&#99999999999;");
+  EXPECT_EQ(tree.attribute("h"), "&#65") << "without an end it is no entity";
+  EXPECT_EQ(tree.attribute("i"), "&#65B");
   const XmlText written = write_xml(tree);
   EXPECT_EQ(written.text.find('\n'), written.text.size() - 1) << "an element is a line";
   EXPECT_TRUE(same(parse_xml(written.text, "f"), tree)) << written.text;
