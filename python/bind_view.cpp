@@ -16,7 +16,7 @@ bool is_recording_file(const std::filesystem::path& path) {
   return !std::filesystem::is_directory(path) && path.extension() != ".json";
 }
 
-view::Walker walker_of(const py::object& object, const presentation::WalkOptions& options,
+page::Walker walker_of(const py::object& object, const presentation::WalkOptions& options,
                        const presentation::TrialChoice& choice, const io::ScratchFile& scratch) {
   const bool is_recording = py::isinstance<ReadRecording>(object);
   if (is_recording || (!py::isinstance<ReadableChampion>(object) && !py::isinstance<ReadableRun>(object) &&
@@ -41,7 +41,7 @@ view::Walker walker_of(const py::object& object, const presentation::WalkOptions
                             : champion_at(py::isinstance<ReadableRun>(object)
                                               ? object.cast<const ReadableRun&>().paths().best_champion()
                                               : path_of(object));
-  std::optional<view::Walker> walker;
+  std::optional<page::Walker> walker;
   Interruptible interruptible;
   interruptible.run([&] {
     experiment::Champion shown_of = champion.value;
@@ -60,12 +60,12 @@ std::string page_of(const py::object& champion, std::optional<double> seconds,
                     std::optional<std::string> engine, bool undisturbed) {
   check_seconds(seconds);
   const io::ScratchFile scratch("walk.rec");
-  view::ReplayPage page{.title = {}, .walkers = {}, .made_by = presentation::made_by()};
+  page::ReplayPage page{.title = {}, .walkers = {}, .made_by = presentation::made_by()};
   page.walkers.push_back(walker_of(champion, {.seconds = seconds, .engine = std::move(engine)},
                                    {.level = {}, .undisturbed = undisturbed}, scratch));
   page.title = page.walkers.front().title;
   const py::gil_scoped_release release;
-  return view::make_page(page);
+  return page::make_page(page);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@
 namespace {
 
 using namespace amble;
-using physics::Motion;
+using physics::MovingPose;
 using physics::RootPose;
 using physics::StartPose;
 
@@ -43,8 +43,8 @@ class Puppet final : public physics::SingleRobotEngine {
     sense(poses_);
   }
   // It keeps no speed: whatever moved it has no effect in the next step.
-  void place_moving(int lane, const Motion& motion) override { place_at(lane, motion.pose); }
-  Motion motion(int) const override {
+  void place_moving(int lane, const MovingPose& motion) override { place_at(lane, motion.pose); }
+  MovingPose motion(int) const override {
     return {{root_, angles_rad_}, velocity_m_s_, {}, std::vector<double>(angles_rad_.size(), 0.0)};
   }
   void push(int lane, Vec3 impulse_n_s) override {

@@ -1,5 +1,5 @@
-#include "amble/page/page.hpp"
 #include "amble/core/index.hpp"
+#include "amble/page/run_page.hpp"
 
 #include <fmt/format.h>
 

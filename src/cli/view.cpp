@@ -18,10 +18,10 @@
 #include "amble/experiment/run_folder.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/scratch_file.hpp"
+#include "amble/page/replay_page.hpp"
 #include "amble/presentation/walker.hpp"
 #include "amble/record/recording.hpp"
 #include "amble/robot/json.hpp"
-#include "amble/view/page.hpp"
 
 namespace amble::cli {
 namespace {
@@ -94,7 +94,7 @@ std::vector<std::string> names_of(const std::vector<Origin>& origins) {
 struct Walkers {
   std::deque<io::ScratchFile> scratch;
   std::vector<Origin> origins;
-  view::ReplayPage page;
+  page::ReplayPage page;
 };
 
 void add_recording(Walkers& walkers, const fs::path& input, const ViewOptions& options) {
@@ -132,7 +132,7 @@ void add_champion(Walkers& walkers, const fs::path& input, const ViewOptions& op
 }
 
 void give_titles(Walkers& walkers, const ViewOptions& options) {
-  view::ReplayPage& page = walkers.page;
+  page::ReplayPage& page = walkers.page;
   if (page.walkers.size() > 1 && !options.history) {
     const std::vector<std::string> names = names_of(walkers.origins);
     for (std::size_t i = 0; i < names.size(); ++i) page.walkers[i].title = names[i];
@@ -157,7 +157,7 @@ ExitCode make_view(const ViewOptions& options) {
       add_recording(walkers, input, options);
   give_titles(walkers, options);
   walkers.page.made_by = presentation::made_by();
-  const std::string html = view::make_page(walkers.page);
+  const std::string html = page::make_page(walkers.page);
   if (options.out.has_parent_path()) fs::create_directories(options.out.parent_path());
   io::write_file(options.out, html);
   fmt::print("{}\n", fs::absolute(options.out).lexically_normal().string());

@@ -33,7 +33,7 @@ class CtrnnBatch final : public NeuralBatch {
       const auto neuron = static_cast<std::size_t>(i);
       bias_.at(i, lane) = bias[static_cast<std::size_t>(wiring().neurons[neuron].node)];
       rate_.at(i, lane) = parameters.rates[neuron];
-      // The rate equation's state are the neurons' values, which are 0 already.
+      // The rate equation's state is the neurons' values, which are 0 already.
       if (!rate_equation()) y_.at(i, lane) = 0.0f;
     }
   }

@@ -9,8 +9,6 @@
 namespace amble::figures {
 namespace {
 
-using graphics::Point;
-
 constexpr double arrow_px = 9.0, corner_px = 8.0, lane_px = 7.0;
 constexpr double clear_px = 20.0;  ///< between the nodes and the first lane above or below them
 constexpr double endless = std::numeric_limits<double>::infinity();

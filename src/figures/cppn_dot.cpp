@@ -5,12 +5,10 @@
 #include <cmath>
 #include <string_view>
 
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/svg.hpp"
 
 namespace amble::figures {
 namespace {
-
-using graphics::number;
 
 /// A string of the DOT language.
 std::string in_quotes(std::string_view text) {

@@ -9,15 +9,13 @@
 #include <span>
 #include <string_view>
 
+#include "amble/figures/axis.hpp"
 #include "amble/figures/cppn_detours.hpp"
-#include "amble/graphics/axis.hpp"
-#include "amble/graphics/style_sheet.hpp"
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/style_sheet.hpp"
+#include "amble/figures/svg.hpp"
 
 namespace amble::figures {
 namespace {
-
-using namespace graphics;
 
 constexpr double neuron_px = 15.0, terminal_px = 6.0;
 constexpr double layer_px = 84.0, row_px = 46.0, margin_px = 26.0, detour_margin_px = 8.0;

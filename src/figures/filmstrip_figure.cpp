@@ -8,11 +8,9 @@
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
 #include "amble/figures/side_view.hpp"
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/svg.hpp"
 
 namespace amble::figures {
-
-using namespace graphics;
 
 namespace {
 

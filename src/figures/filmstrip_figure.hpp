@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "amble/graphics/figure_size.hpp"
+#include "amble/figures/figure_size.hpp"
 #include "amble/motion/motion.hpp"
 #include "amble/robot/spec.hpp"
 
@@ -19,7 +19,6 @@ std::vector<int> filmstrip_frames(const motion::Motion& motion);
 /// Side views of the robot in those frames, over a ground with marks of the distance along its heading. Legs
 /// on the far side are lighter; a foot on the ground is filled. An <svg> element. The motion must have a
 /// frame.
-std::string filmstrip_figure(const robot::RobotSpec& robot, const motion::Motion& motion,
-                             graphics::FigureSize layout);
+std::string filmstrip_figure(const robot::RobotSpec& robot, const motion::Motion& motion, FigureSize layout);
 
 }  // namespace amble::figures

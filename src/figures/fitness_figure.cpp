@@ -13,13 +13,11 @@
 #include <vector>
 
 #include "amble/core/check.hpp"
-#include "amble/graphics/axis.hpp"
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/axis.hpp"
+#include "amble/figures/svg.hpp"
 
 namespace amble::figures {
 namespace {
-
-using namespace graphics;
 
 struct Curve {
   std::string_view name;

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "amble/graphics/figure_size.hpp"
+#include "amble/figures/figure_size.hpp"
 #include "amble/record/generations_csv.hpp"
 #include "amble/record/objective.hpp"
 
@@ -12,7 +12,7 @@ namespace amble::figures {
 /// so far typically does with the band between its quartiles, if the table has it, and below all this the
 /// number of species and the size of the genomes, or coverage, QD score and best of a map: what the search
 /// has columns of. An <svg> element. `generations` must not be empty.
-std::string fitness_figure(const record::Generations& generations, graphics::FigureSize layout,
+std::string fitness_figure(const record::Generations& generations, FigureSize layout,
                            const record::Objective& objective = {});
 
 }  // namespace amble::figures

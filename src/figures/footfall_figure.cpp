@@ -7,14 +7,12 @@
 #include <cmath>
 
 #include "amble/core/check.hpp"
-#include "amble/graphics/axis.hpp"
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/axis.hpp"
+#include "amble/figures/svg.hpp"
 #include "amble/motion/footfalls.hpp"
 
 namespace amble::figures {
 namespace {
-
-using namespace graphics;
 
 constexpr double zoom_s = 4.0;
 constexpr double label_width_px = 40.0;

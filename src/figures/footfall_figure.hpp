@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "amble/graphics/figure_size.hpp"
+#include "amble/figures/figure_size.hpp"
 #include "amble/motion/motion.hpp"
 #include "amble/robot/spec.hpp"
 
@@ -11,7 +11,6 @@ namespace amble::figures {
 /// Footfall diagram (Hildebrand 1965): a row per leg, a bar while its foot is on the ground, a mark at each
 /// trigger; for the whole recording and, if it is long enough, enlarged for its last seconds. An <svg>
 /// element. The motion must have a frame.
-std::string footfall_figure(const robot::RobotSpec& robot, const motion::Motion& motion,
-                            graphics::FigureSize layout);
+std::string footfall_figure(const robot::RobotSpec& robot, const motion::Motion& motion, FigureSize layout);
 
 }  // namespace amble::figures

@@ -9,14 +9,11 @@
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
-#include "amble/graphics/style_sheet.hpp"
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/style_sheet.hpp"
+#include "amble/figures/svg.hpp"
 
 namespace amble::figures {
 namespace {
-
-using graphics::Anchor;
-using graphics::Svg;
 
 constexpr int shades = 9;
 constexpr std::size_t most_drawn = 200'000;
@@ -50,7 +47,7 @@ class CellGrid {
     height_px_ = left_px(rows_ - 1, 1) + cell_px_;
   }
 
-  graphics::Box box(const MapPlace& place) const {
+  Box box(const MapPlace& place) const {
     const double inset = cell_px_ > 6.0 ? 0.5 : 0.0;
     return {border_px + left_px(place.column, 0) + inset,
             scale_px + height_px_ - left_px(place.row, 1) - cell_px_ + inset, cell_px_ - 2.0 * inset,
@@ -133,10 +130,10 @@ void draw_scale(Svg& svg, const GridMap& map, double best) {
 
 /// A cell's square; of an elite that leaves its cell a small one in an empty square, which takes the pointer
 /// as well.
-void draw_square(Svg& svg, const graphics::Box& box, bool is_whole) {
+void draw_square(Svg& svg, const Box& box, bool is_whole) {
   if (is_whole) return svg.rect(box);
   constexpr double share = 0.4;
-  svg.rect(box, "nobody");
+  svg.rect(box, "empty-cell");
   svg.rect({box.x + 0.5 * (1.0 - share) * box.width, box.y + 0.5 * (1.0 - share) * box.height,
             share * box.width, share * box.height});
 }
@@ -173,7 +170,7 @@ std::string map_figure(const GridMap& map) {
   for (std::size_t cell = 0; cell < map.objective.size(); ++cell) {
     const double objective = map.objective[cell];
     if (std::isnan(objective)) {
-      svg.rect(grid.box(place_of(map, cell)), "nobody");
+      svg.rect(grid.box(place_of(map, cell)), "empty-cell");
       continue;
     }
     const int shade = best > 0.0 ? std::min(shades - 1, static_cast<int>(shades * objective / best)) : 0;
@@ -192,7 +189,7 @@ std::string map_figure(const GridMap& map) {
 }
 
 std::string map_svg(const GridMap& map) {
-  return graphics::standalone_svg(map_figure(map));
+  return figures::standalone_svg(map_figure(map));
 }
 
 }  // namespace amble::figures

@@ -8,17 +8,15 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
+#include "amble/figures/axis.hpp"
 #include "amble/figures/silhouette.hpp"
-#include "amble/graphics/axis.hpp"
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/svg.hpp"
 #include "amble/motion/footfalls.hpp"
 #include "amble/robot/legs.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::figures {
 namespace {
-
-using namespace graphics;
 
 struct Footprint {
   int leg;

@@ -7,15 +7,13 @@
 #include <optional>
 
 #include "amble/core/index.hpp"
-#include "amble/graphics/axis.hpp"
-#include "amble/graphics/style_sheet.hpp"
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/axis.hpp"
+#include "amble/figures/style_sheet.hpp"
+#include "amble/figures/svg.hpp"
 #include "amble/motion/footfalls.hpp"
 
 namespace amble::figures {
 namespace {
-
-using namespace graphics;
 
 constexpr double left_px = 44.0;
 constexpr double top_px = 34.0;

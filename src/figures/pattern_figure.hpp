@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "amble/graphics/figure_size.hpp"
+#include "amble/figures/figure_size.hpp"
 #include "amble/motion/motion.hpp"
 #include "amble/motion/supg_patterns.hpp"
 #include "amble/robot/spec.hpp"
@@ -13,7 +13,7 @@ namespace amble::figures {
 /// the joint's range and the leg's offset; in the last row a histogram of the timer just before triggers
 /// reset it. An <svg> element.
 std::string pattern_figure(const robot::RobotSpec& robot, const motion::SupgPatterns& supg,
-                           const motion::Motion& motion, graphics::FigureSize layout);
+                           const motion::Motion& motion, FigureSize layout);
 
 /// The patterns alone, without a trial, as a file of its own with its style sheet.
 std::string pattern_svg(const robot::RobotSpec& robot, const motion::SupgPatterns& supg);

@@ -6,13 +6,11 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
-#include "amble/graphics/axis.hpp"
-#include "amble/graphics/figure_size.hpp"
+#include "amble/figures/axis.hpp"
+#include "amble/figures/figure_size.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::figures {
-
-using namespace graphics;
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "amble/figures/silhouette.hpp"
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/svg.hpp"
 #include "amble/motion/motion.hpp"
 #include "amble/robot/spec.hpp"
 
@@ -31,19 +31,19 @@ Extent extent_of(std::span<const SideView> views);
 
 /// Where a view is drawn, and its mapping from metres to px.
 struct ViewCell {
-  graphics::Box box;
+  Box box;
   double ground_px, px_per_m;
 
-  graphics::Point operator()(graphics::Point at_m, const SideView& view) const {
+  Point operator()(Point at_m, const SideView& view) const {
     return {box.x + 0.5 * box.width + (at_m.x - view.camera_m) * px_per_m, ground_px - at_m.y * px_per_m};
   }
 };
 
 /// Coarse marks labelled with the distance, and four fine ones between them.
-void draw_ground(graphics::Svg& svg, const SideView& view, const ViewCell& cell);
+void draw_ground(figures::Svg& svg, const SideView& view, const ViewCell& cell);
 
 /// Legs on the far side are lighter; a foot on the ground is filled.
-void draw_robot(graphics::Svg& svg, const robot::RobotSpec& robot, const motion::Motion& motion,
+void draw_robot(figures::Svg& svg, const robot::RobotSpec& robot, const motion::Motion& motion,
                 const SideView& view, const ViewCell& cell);
 
 }  // namespace amble::figures

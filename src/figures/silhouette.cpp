@@ -9,8 +9,6 @@
 namespace amble::figures {
 namespace {
 
-using graphics::Point;
-
 /// Corners of the polygon that approximates a circle.
 constexpr int circle_corners = 20;
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/svg.hpp"
 #include "amble/motion/motion.hpp"
 #include "amble/robot/pose.hpp"
 #include "amble/robot/spec.hpp"
@@ -30,8 +30,8 @@ Vec3 mean_heading(const motion::Motion& motion, int first, int last);
 /// counter-clockwise. A sphere is a circle and has no corners.
 struct Silhouette {
   int geom = 0;
-  std::vector<graphics::Point> corners_m;
-  graphics::Point centre_m;
+  std::vector<Point> corners_m;
+  Point centre_m;
   double radius_m = 0.0;  ///< of a sphere
   double depth_m = 0.0;   ///< of the centre, away from the camera
 };
@@ -41,6 +41,6 @@ std::vector<Silhouette> silhouettes(const robot::RobotSpec& robot, const std::ve
                                     const Camera& camera);
 
 /// Convex hull, counter-clockwise (y up), without collinear corners.
-std::vector<graphics::Point> convex_hull(std::vector<graphics::Point> points);
+std::vector<Point> convex_hull(std::vector<Point> points);
 
 }  // namespace amble::figures

@@ -8,14 +8,12 @@
 #include <string_view>
 
 #include "amble/core/index.hpp"
+#include "amble/figures/style_sheet.hpp"
 #include "amble/figures/substrate_places.hpp"
-#include "amble/graphics/style_sheet.hpp"
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/svg.hpp"
 
 namespace amble::figures {
 namespace {
-
-using namespace graphics;
 
 constexpr double node_px = 6.0;
 /// With more links than this there are no arrowheads: they would hide the nodes.

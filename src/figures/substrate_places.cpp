@@ -7,12 +7,10 @@
 #include <set>
 
 #include "amble/core/error.hpp"
-#include "amble/graphics/axis.hpp"
+#include "amble/figures/axis.hpp"
 
 namespace amble::figures {
 namespace {
-
-using namespace graphics;
 
 constexpr double places_margin_px = 56.0;
 

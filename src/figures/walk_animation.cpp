@@ -9,15 +9,13 @@
 #include "amble/core/check.hpp"
 #include "amble/figures/filmstrip_figure.hpp"
 #include "amble/figures/side_view.hpp"
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/svg.hpp"
 
 namespace amble::figures {
 
-using namespace graphics;
-
 namespace {
 
-constexpr double width_px = 640, height_px = 250, foot_px = 26, head_px = 10;
+constexpr double scene_width_px = 640, scene_height_px = 250, foot_px = 26, head_px = 10;
 
 /// Time from one picture to the next, s: a frame at least.
 double interval_s(const motion::Motion& motion) {
@@ -40,10 +38,11 @@ std::string walk_animation(const robot::RobotSpec& robot, const motion::Motion& 
   AMBLE_CHECK(motion.frames() > 0, "a recording of a walk has a frame");
   const std::vector<SideView> views = side_views(robot, motion, animation_frames(motion));
   const Extent extent = extent_of(views);
-  const double room_px = height_px - foot_px - head_px;
-  const double px_per_m = std::min((width_px - 12) / (2.0 * extent.half_width_m), room_px / extent.height_m);
-  const ViewCell cell{{0, 0, width_px, height_px}, height_px - foot_px, px_per_m};
-  Svg svg(width_px, height_px,
+  const double room_px = scene_height_px - foot_px - head_px;
+  const double px_per_m =
+      std::min((scene_width_px - 12) / (2.0 * extent.half_width_m), room_px / extent.height_m);
+  const ViewCell cell{{0, 0, scene_width_px, scene_height_px}, scene_height_px - foot_px, px_per_m};
+  Svg svg(scene_width_px, scene_height_px,
           fmt::format("The {} walking, seen from the side, {:.2f} s to {:.2f} s", robot.name,
                       motion.time_s(views.front().frame), motion.time_s(views.back().frame)));
   svg.rect(cell.box, "cell");

@@ -1,25 +1,25 @@
 #include "amble/page/figure_files.hpp"
 
 #include "amble/figures/figures.hpp"
-#include "amble/graphics/style_sheet.hpp"
+#include "amble/figures/style_sheet.hpp"
 
 namespace amble::page {
 
-using graphics::FigureSize;
+using figures::FigureSize;
 
 std::vector<FigureFile> figure_files(const RunPage& page, const motion::RecordedTrial& recorded) {
   const motion::Motion& motion = recorded.motion;
   const robot::RobotSpec& robot = recorded.robot;
   std::vector<FigureFile> files;
   const auto add = [&](std::string name, std::string svg) {
-    files.push_back({std::move(name), graphics::standalone_svg(std::move(svg))});
+    files.push_back({std::move(name), figures::standalone_svg(std::move(svg))});
   };
   const bool moved = motion.frames() > 0;
   if (moved) {
     add("filmstrip.svg", figures::filmstrip_figure(robot, motion, FigureSize::wide));
     files.push_back(
-        {"walk.svg", graphics::with_rules(graphics::standalone_svg(figures::walk_animation(robot, motion)),
-                                          figures::animation_style(motion))});
+        {"walk.svg", figures::with_rules(figures::standalone_svg(figures::walk_animation(robot, motion)),
+                                         figures::animation_style(motion))});
   }
   if (page.generations && page.generations->count() > 0)
     add("fitness.svg", figures::fitness_figure(*page.generations, FigureSize::wide, page.objective));

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "amble/page/page.hpp"
+#include "amble/page/run_page.hpp"
 
 namespace amble::page {
 

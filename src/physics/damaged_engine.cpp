@@ -60,16 +60,16 @@ class DamagedEngine final : public Engine {
     sense(lane);
   }
 
-  void place_moving(int lane, const Motion& motion) override {
+  void place_moving(int lane, const MovingPose& motion) override {
     begin(lane);
     stages_[0].engine->place_moving(lane, of_stage(stages_[0], motion));
     sense(lane);
   }
 
-  Motion motion(int lane) const override {
+  MovingPose motion(int lane) const override {
     const Stage& stage = stage_of(lane);
-    Motion inner = stage.engine->motion(lane);
-    Motion motion = inner;
+    MovingPose inner = stage.engine->motion(lane);
+    MovingPose motion = inner;
     motion.pose.joint_angle_rad = spread(stage, inner.pose.joint_angle_rad);
     motion.joint_speed_rad_s = spread(stage, inner.joint_speed_rad_s);
     return motion;
@@ -172,8 +172,8 @@ class DamagedEngine final : public Engine {
     AMBLE_CHECK(pose.joint_angle_rad.size() == robot_.joints.size(), "one angle per joint");
     return {pose.root, gathered(stage, pose.joint_angle_rad)};
   }
-  Motion of_stage(const Stage& stage, const Motion& motion) const {
-    Motion own = motion;
+  MovingPose of_stage(const Stage& stage, const MovingPose& motion) const {
+    MovingPose own = motion;
     own.pose = of_stage(stage, motion.pose);
     own.joint_speed_rad_s = gathered(stage, motion.joint_speed_rad_s);
     return own;
@@ -187,7 +187,7 @@ class DamagedEngine final : public Engine {
     std::size_t next = own.stage;
     while (next + 1 < stages_.size() && stages_[next + 1].first_step <= own.step) ++next;
     if (next != own.stage && healthy(lane)) {
-      const Motion now = motion(lane);
+      const MovingPose now = motion(lane);
       stages_[own.stage].engine->retire(lane);
       own.stage = next;
       stages_[next].engine->place_moving(lane, of_stage(stages_[next], now));

@@ -28,7 +28,7 @@ struct StartPose {
 };
 
 /// A pose and how the robot moves in it, independent of masses and of the engine.
-struct Motion {
+struct MovingPose {
   StartPose pose;
   Vec3 velocity_m_s;                      ///< of the origin of the root's frame, world
   Vec3 angular_velocity_rad_s;            ///< of the root, world
@@ -72,9 +72,9 @@ class Engine {
   /// The same, but into the given pose. Joint angles are still counted from the robot's own start pose.
   virtual void place_at(int lane, const StartPose& pose) = 0;
   /// The same, but moving. Impulses of the last step, from which a solver would start, are not known.
-  virtual void place_moving(int lane, const Motion& motion) = 0;
+  virtual void place_moving(int lane, const MovingPose& motion) = 0;
   /// How the robot of a placed lane is and moves, as the engine has it.
-  virtual Motion motion(int lane) const = 0;
+  virtual MovingPose motion(int lane) const = 0;
   /// Takes the robot of this lane out of step() until it is placed again.
   virtual void retire(int lane) = 0;
 

@@ -19,7 +19,7 @@ SingleRobotEngine::SingleRobotEngine(const robot::RobotSpec& robot, const Engine
     : robot_(robot),
       with_torques_(settings.torques),
       with_loads_(settings.loads),
-      level_(robot::level_frame(robot.gravity_m_s2)),
+      level_(robot::horizontal_frame(robot.gravity_m_s2)),
       tilted_(level_ != Quat()) {
   const int joints = static_cast<int>(robot.joints.size());
   sensors_.joint_angle_rad = LaneArray(joints, 1);

@@ -31,7 +31,7 @@ class SingleRobotEngine : public Engine {
   const bool with_torques_, with_loads_;
   robot::SensorFrame sensors_;
   LaneArray torques_nm_, loads_n_;
-  const Quat level_;   ///< robot::level_frame
+  const Quat level_;   ///< robot::horizontal_frame
   const bool tilted_;  ///< whether it is not the world's
   bool stepping_ = false;
   bool healthy_ = true;

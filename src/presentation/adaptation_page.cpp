@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "amble/io/scratch_file.hpp"
+#include "amble/page/replay_page.hpp"
 #include "amble/presentation/map_page.hpp"
-#include "amble/view/page.hpp"
 
 namespace amble::presentation {
 
@@ -52,7 +52,7 @@ std::optional<std::string> adaptation_page(const experiment::Adaptation& adaptat
     if (!walker) return std::nullopt;
     page.walkers.push_back(std::move(*walker));
   }
-  return view::make_page(page);
+  return page::make_page(page);
 }
 
 }  // namespace amble::presentation

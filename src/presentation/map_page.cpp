@@ -12,9 +12,9 @@
 #include "amble/figures/fitness_figure.hpp"
 #include "amble/io/scratch_file.hpp"
 #include "amble/neat/genome_compact.hpp"
+#include "amble/page/replay_page.hpp"
 #include "amble/presentation/walker.hpp"
 #include "amble/record/generations_csv.hpp"
-#include "amble/view/page.hpp"
 
 namespace amble::presentation {
 namespace {
@@ -81,7 +81,7 @@ std::string curves_of(const experiment::Repertoire& repertoire, const fs::path& 
   if (generations.count() == 0) return {};
   record::Objective objective = score::objective_of(repertoire.config.score);
   objective.title = "Objective";
-  return figures::fitness_figure(generations, graphics::FigureSize::wide, objective);
+  return figures::fitness_figure(generations, figures::FigureSize::wide, objective);
 }
 
 }  // namespace
@@ -108,18 +108,18 @@ figures::GridMap map_picture(const experiment::Repertoire& repertoire,
   return map;
 }
 
-view::ReplayPage blank_map_page(const experiment::Repertoire& repertoire, const std::string& title,
+page::ReplayPage blank_map_page(const experiment::Repertoire& repertoire, const std::string& title,
                                 const std::string& note,
                                 const std::optional<experiment::CorrectedMap>& corrected) {
-  view::ReplayPage page;
+  page::ReplayPage page;
   page.title = title;
   page.made_by = made_by();
-  page.map = view::MapPanel{
+  page.map = page::MapPanel{
       .map_svg = figures::map_figure(map_picture(repertoire, corrected)), .curves_svg = {}, .note = note};
   return page;
 }
 
-std::optional<view::Walker> elite_walker(const experiment::Repertoire& repertoire,
+std::optional<page::Walker> elite_walker(const experiment::Repertoire& repertoire,
                                          const experiment::Problem& problem, std::uint32_t cell,
                                          const std::string& title, const fs::path& run,
                                          const io::ScratchFile& recording, const std::atomic<bool>& stop) {
@@ -154,7 +154,7 @@ std::optional<std::string> map_page(const experiment::Repertoire& repertoire,
     if (!walker) return std::nullopt;
     page.walkers.push_back(std::move(*walker));
   }
-  return view::make_page(page);
+  return page::make_page(page);
 }
 
 }  // namespace amble::presentation

@@ -10,7 +10,7 @@
 #include "amble/experiment/repertoire.hpp"
 #include "amble/figures/map_figure.hpp"
 #include "amble/io/scratch_file.hpp"
-#include "amble/view/page.hpp"
+#include "amble/page/replay_page.hpp"
 
 namespace amble::presentation {
 
@@ -28,12 +28,12 @@ std::optional<std::string> map_page(const experiment::Repertoire& repertoire,
                                     const std::atomic<bool>& stop);
 
 /// A page that shows elites of a map by their cells; its `walkers` are still to come.
-view::ReplayPage blank_map_page(const experiment::Repertoire& repertoire, const std::string& title,
+page::ReplayPage blank_map_page(const experiment::Repertoire& repertoire, const std::string& title,
                                 const std::string& note,
                                 const std::optional<experiment::CorrectedMap>& corrected = {});
 
 /// The elite of a cell that has one, in a trial of `problem` without noise. Nothing if `stop` was set.
-std::optional<view::Walker> elite_walker(const experiment::Repertoire& repertoire,
+std::optional<page::Walker> elite_walker(const experiment::Repertoire& repertoire,
                                          const experiment::Problem& problem, std::uint32_t cell,
                                          const std::string& title, const std::filesystem::path& run,
                                          const io::ScratchFile& recording, const std::atomic<bool>& stop);

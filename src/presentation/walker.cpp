@@ -27,7 +27,7 @@ std::string engine_note(const experiment::Champion& champion, const WalkOptions&
          (options.noise ? ", median trial" : "");
 }
 
-std::optional<view::Walker> walk(const experiment::Champion& champion, const std::filesystem::path& path,
+std::optional<page::Walker> walk(const experiment::Champion& champion, const std::filesystem::path& path,
                                  const WalkOptions& options, const std::filesystem::path& recording,
                                  const std::atomic<bool>& stop) {
   auto walker = walk(champion.problem, champion.genome, path.string(), options, recording, stop);
@@ -38,7 +38,7 @@ std::optional<view::Walker> walk(const experiment::Champion& champion, const std
   return walker;
 }
 
-std::optional<view::Walker> walk(const experiment::Problem& problem, const neat::Genome& genome,
+std::optional<page::Walker> walk(const experiment::Problem& problem, const neat::Genome& genome,
                                  const std::string& origin, const WalkOptions& options,
                                  const std::filesystem::path& recording, const std::atomic<bool>& stop) {
   study::GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
@@ -52,13 +52,13 @@ std::optional<view::Walker> walk(const experiment::Problem& problem, const neat:
                                           .noise = options.noise},
                                          stop);
   if (!replay) return std::nullopt;
-  return view::Walker{.title = {},
+  return page::Walker{.title = {},
                       .recording = recording,
                       .cppn_svg = {},
                       .gait = gait_of(gait.finish(replay->result.outcome))};
 }
 
-view::Walker recorded(const std::filesystem::path& recording) {
+page::Walker recorded(const std::filesystem::path& recording) {
   return {.title = recording.stem().string(),
           .recording = recording,
           .cppn_svg = {},

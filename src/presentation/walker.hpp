@@ -6,7 +6,7 @@
 #include <string>
 
 #include "amble/experiment/champion.hpp"
-#include "amble/view/page.hpp"
+#include "amble/page/replay_page.hpp"
 
 namespace amble::presentation {
 
@@ -23,17 +23,17 @@ std::string engine_note(const experiment::Champion& champion, const WalkOptions&
 
 /// Lets a champion walk again and writes its recording to `recording`, which the page reads.
 /// `path`: the champion's file, named in the recording. Nothing if `stop` was set. Throws UserError.
-std::optional<view::Walker> walk(const experiment::Champion& champion, const std::filesystem::path& path,
+std::optional<page::Walker> walk(const experiment::Champion& champion, const std::filesystem::path& path,
                                  const WalkOptions& options, const std::filesystem::path& recording,
                                  const std::atomic<bool>& stop);
 
 /// The same of a genome: `origin` is named in the recording, and the walker has neither title nor CPPN.
-std::optional<view::Walker> walk(const experiment::Problem& problem, const neat::Genome& genome,
+std::optional<page::Walker> walk(const experiment::Problem& problem, const neat::Genome& genome,
                                  const std::string& origin, const WalkOptions& options,
                                  const std::filesystem::path& recording, const std::atomic<bool>& stop);
 
 /// What a recording shows, called by its file's name. Throws UserError.
-view::Walker recorded(const std::filesystem::path& recording);
+page::Walker recorded(const std::filesystem::path& recording);
 
 /// Program and version, for the foot of pages.
 std::string made_by();

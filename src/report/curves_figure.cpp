@@ -5,19 +5,19 @@
 #include <algorithm>
 
 #include "amble/core/check.hpp"
-#include "amble/graphics/axis.hpp"
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/axis.hpp"
+#include "amble/figures/svg.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/panels.hpp"
 
 namespace amble::report {
 namespace {
 
-using graphics::Box;
-using graphics::FigureSize;
-using graphics::Point;
-using graphics::Scale;
-using graphics::Svg;
+using figures::Box;
+using figures::FigureSize;
+using figures::Point;
+using figures::Scale;
+using figures::Svg;
 
 /// Room for the median at the end of a panel's title.
 constexpr double median_width_px = 54.0;
@@ -34,15 +34,15 @@ std::vector<Point> line(const BestCurve& curve, const std::vector<double>& value
 void draw_panel(Svg& svg, const Report& report, const BestCurve& curve, const PanelGrid& grid,
                 const Box& plot, const Scale& x, const Scale& y) {
   const bool is_small = plot.width < 200;
-  graphics::draw_y_axis(svg, y, graphics::nice_ticks(y.data, is_small ? 4 : 5), plot.x, plot.right(),
-                        report.objective.unit);
-  graphics::draw_x_axis(svg, x, graphics::nice_ticks(x.data, is_small ? 3 : 5, 1.0), plot.bottom(), "");
+  figures::draw_y_axis(svg, y, figures::nice_ticks(y.data, is_small ? 4 : 5), plot.x, plot.right(),
+                       report.objective.unit);
+  figures::draw_x_axis(svg, x, figures::nice_ticks(x.data, is_small ? 3 : 5, 1.0), plot.bottom(), "");
   for (const BestCurve& other : report.curves)
     if (&other != &curve)
       svg.polyline(line(other, other.median_m, x, y, other.median_m.size() > 60 ? 3 : 1), "other");
 
   const std::string median = number_text(curve.median_m.back()) + report.data.objective(curve.condition).unit;
-  svg.begin_group("strip " + graphics::leg_class(report.index(curve.condition)),
+  svg.begin_group("strip " + figures::leg_class(report.index(curve.condition)),
                   fmt::format("{}: median {} after generation {}", report.label(curve.condition), median,
                               curve.generation.back()));
   auto band = line(curve, curve.upper_quartile_m, x, y);
@@ -70,7 +70,7 @@ std::string curves_figure(const Report& report, FigureSize layout) {
     last = std::max(last, static_cast<double>(curve.generation.back()));
     best = std::max(best, *std::ranges::max_element(curve.upper_quartile_m));
   }
-  const graphics::Interval generations{0.0, last}, distances{0.0, best > 0.0 ? 1.04 * best : 1.0};
+  const figures::Interval generations{0.0, last}, distances{0.0, best > 0.0 ? 1.04 * best : 1.0};
   Svg svg(width_px(layout), grid.height_px(),
           fmt::format("Best {} so far over {} generations, median and quartiles of {} conditions",
                       report.objective.name(), static_cast<int>(last) + 1, curves.size()));

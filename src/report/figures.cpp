@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "amble/core/index.hpp"
-#include "amble/graphics/style_sheet.hpp"
+#include "amble/figures/style_sheet.hpp"
 #include "amble/report/curves_figure.hpp"
 #include "amble/report/mutants_figure.hpp"
 #include "amble/report/number_text.hpp"
@@ -32,7 +32,7 @@ std::vector<StripRow> training_rows(const Report& report) {
     if (const auto* sample = find_summary(report.summaries, "train_m", condition.name))
       rows.push_back(
           {condition.label(),
-           {make_strip(report, *sample, "evolution", graphics::leg_class(report.index(condition.name)))}});
+           {make_strip(report, *sample, "evolution", figures::leg_class(report.index(condition.name)))}});
   return rows;
 }
 
@@ -46,14 +46,14 @@ std::vector<StripRow> test_rows(const Report& report, const std::string& test) {
     if (report.data.objective(condition.name).is_distance)
       row.strips.push_back(make_strip(report, *trained, "evolution", "base"));
     row.strips.push_back(
-        make_strip(report, *tested, "test", graphics::leg_class(report.index(condition.name))));
+        make_strip(report, *tested, "test", figures::leg_class(report.index(condition.name))));
     rows.push_back(std::move(row));
   }
   return rows;
 }
 
 std::vector<FigureFile> figure_files(const Report& report) {
-  using graphics::FigureSize;
+  using figures::FigureSize;
   std::vector<FigureFile> files;
   const auto add = [&files](const std::string& name, std::string element) {
     files.push_back({name + ".svg", standalone_figure(std::move(element))});

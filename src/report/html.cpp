@@ -10,7 +10,7 @@
 
 namespace amble::report {
 
-using graphics::FigureSize;
+using figures::FigureSize;
 using io::escape_xml;
 
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "amble/graphics/figure_size.hpp"
+#include "amble/figures/figure_size.hpp"
 
 namespace amble::report {
 
@@ -23,7 +23,7 @@ std::string section(std::string_view id, std::string_view title, std::string_vie
 std::string paragraph(std::string_view text, std::string_view css_class = {});
 std::string subtitle(std::string_view text);
 /// Both layouts of a figure; the style sheet shows the one that fits.
-std::string figure(const std::function<std::string(graphics::FigureSize)>& draw,
+std::string figure(const std::function<std::string(figures::FigureSize)>& draw,
                    std::string_view caption = {});
 /// A part that the reader opens.
 std::string folded(std::string_view title, std::string_view content, bool open = false);

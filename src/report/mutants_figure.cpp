@@ -9,18 +9,18 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
-#include "amble/graphics/axis.hpp"
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/axis.hpp"
+#include "amble/figures/svg.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/panels.hpp"
 
 namespace amble::report {
 namespace {
 
-using graphics::Box;
-using graphics::FigureSize;
-using graphics::Scale;
-using graphics::Svg;
+using figures::Box;
+using figures::FigureSize;
+using figures::Scale;
+using figures::Svg;
 
 constexpr int columns = 24, rows = 16, shades = 9;
 constexpr double most_kept = 1.2;
@@ -76,8 +76,8 @@ void draw_cells(Svg& svg, const Shares& shares, double largest, const Box& plot)
 void draw_panel(Svg& svg, const Shares& shares, double largest, const Box& plot, double most_change) {
   const bool is_small = plot.width < 200;
   const Scale x{{0.0, 100.0 * most_kept}, plot.x, plot.right()}, y{{0.0, most_change}, plot.bottom(), plot.y};
-  graphics::draw_y_axis(svg, y, graphics::nice_ticks(y.data, is_small ? 3 : 5), plot.x, plot.right(), "");
-  graphics::draw_x_axis(svg, x, {{0.0, 50.0, 100.0}, 50.0, 0}, plot.bottom(), " %");
+  figures::draw_y_axis(svg, y, figures::nice_ticks(y.data, is_small ? 3 : 5), plot.x, plot.right(), "");
+  figures::draw_x_axis(svg, x, {{0.0, 50.0, 100.0}, 50.0, 0}, plot.bottom(), " %");
   draw_cells(svg, shares, largest, plot);
   const double border = x(100.0 * record::Mutant::viable_from);
   svg.line({border, plot.y}, {border, plot.bottom()}, "whisker");

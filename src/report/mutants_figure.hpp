@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "amble/graphics/figure_size.hpp"
+#include "amble/figures/figure_size.hpp"
 #include "amble/report/report.hpp"
 
 namespace amble::report {
@@ -15,6 +15,6 @@ bool has_mutants(const Report& report, std::string_view test);
 /// much of the score (to the right) with how different a gait (up), darker where there are more; a line where
 /// mutants begin to be viable. All have the same axes; what lies beyond them is in the outermost cells. An
 /// <svg> element. There must be a mutant.
-std::string mutants_figure(const Report& report, const std::string& test, graphics::FigureSize layout);
+std::string mutants_figure(const Report& report, const std::string& test, figures::FigureSize layout);
 
 }  // namespace amble::report

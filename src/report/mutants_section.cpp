@@ -43,7 +43,7 @@ std::string mutants_section(const Report& report) {
         counted(static_cast<std::size_t>(test.mutants), "mutant"), time_text(test.seconds),
         counted(static_cast<std::size_t>(test.episodes), "episode")));
     content +=
-        figure([&](graphics::FigureSize layout) { return mutants_figure(report, test.name, layout); },
+        figure([&](figures::FigureSize layout) { return mutants_figure(report, test.name, layout); },
                "To the right: how much of the champion’s score a mutant keeps. Up: how far its gait "
                "differs, as the mean over the legs of the differences in duty factor. Darker: more "
                "mutants; at the edges are those beyond. Right of the line they are viable; their share is "

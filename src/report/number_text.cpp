@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "amble/graphics/axis.hpp"
+#include "amble/figures/axis.hpp"
 
 namespace amble::report {
 
@@ -20,7 +20,7 @@ int decimals_for(std::initializer_list<double> values) {
 }
 
 std::string number_text(double value, int decimals) {
-  return graphics::label(value, decimals);
+  return figures::label(value, decimals);
 }
 
 std::string number_text(double value) {

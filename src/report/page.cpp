@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "amble/io/xml.hpp"
+#include "amble/page/html_page.hpp"
 #include "amble/report/html.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/page_sections.hpp"
@@ -117,13 +118,7 @@ std::string make_page(const Report& report) {
   parts.push_back({"made", "How this was made", provenance_section(report)});
   std::string body = header(report) + headline(report) + remarks_box(report) + contents(parts);
   for (const Part& part : parts) body += part.content;
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n<meta "
-      "charset=\"utf-8\"/>\n"
-      "<meta name=\"viewport\" content=\"width=device-width, "
-      "initial-scale=1\"/>\n<title>{}</title>\n<style>{}</style>\n</head>\n"
-      "<body>\n<main>\n{}</main>\n</body>\n</html>\n",
-      escape_xml(report.title()), style_sheet(), body);
+  return page::html_page(report.title(), style_sheet(), body);
 }
 
 }  // namespace amble::report

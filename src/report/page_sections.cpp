@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "amble/core/index.hpp"
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/svg.hpp"
 #include "amble/io/xml.hpp"
 #include "amble/report/curves_figure.hpp"
 #include "amble/report/figures.hpp"
@@ -16,7 +16,7 @@
 namespace amble::report {
 namespace {
 
-using graphics::FigureSize;
+using figures::FigureSize;
 
 std::string_view name_of(Activity activity) {
   return activity_names[to_index(activity)];
@@ -89,8 +89,8 @@ std::string gait_table(const Report& report, const GaitTable& gaits) {
       cells.push_back(
           runs == 0 ? "<span class=\"count\"><small>0</small></span>"
                     : fmt::format("<span class=\"count {}\">{}<i style=\"width: {}%\"></i></span>",
-                                  graphics::leg_class(report.index(counts.condition)), runs,
-                                  graphics::number(
+                                  figures::leg_class(report.index(counts.condition)), runs,
+                                  figures::number(
                                       100.0 * static_cast<double>(runs) / static_cast<double>(counts.n), 0)));
     }
     table.row_of_markup(cells);

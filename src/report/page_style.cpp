@@ -2,20 +2,21 @@
 
 #include <string_view>
 
-#include "amble/graphics/style_sheet.hpp"
+#include "amble/figures/style_sheet.hpp"
 
 namespace amble::report {
 namespace {
 
 constexpr std::string_view figures = R"css(
-.strip .bar { fill: var(--leg); opacity: .38; }
-.strip .run { fill: var(--leg); opacity: .85; stroke: var(--paper); stroke-width: .6; }
-.strip.base .bar { fill: var(--mid); opacity: .4; } .strip.base .run { fill: var(--mid); }
+.strip .bar { fill: currentColor; opacity: .38; }
+.strip .run { fill: currentColor; opacity: .85; stroke: var(--paper); stroke-width: .6; }
+.strip.base .bar { fill: var(--mid); opacity: .4; }
+.strip.base .run { fill: var(--mid); }
 .whisker { stroke: var(--ink); stroke-width: 1.5; }
-.strip .band { fill: var(--leg); opacity: .2; }
-.strip .curve { stroke: var(--leg); stroke-width: 2; stroke-linejoin: miter; }
+.strip .band { fill: currentColor; opacity: .2; }
+.strip .curve { stroke: currentColor; stroke-width: 2; stroke-linejoin: miter; }
 .other { fill: none; stroke: var(--line); stroke-width: 1; opacity: .8; }
-.lead { stroke: var(--leg); stroke-width: 1; opacity: .7; }
+.lead { stroke: currentColor; stroke-width: 1; opacity: .7; }
 )css";
 
 constexpr std::string_view text = R"css(
@@ -103,13 +104,13 @@ constexpr std::string_view phone_and_paper = R"css(
 }  // namespace
 
 std::string style_sheet() {
-  std::string sheet = graphics::style_sheet();
+  std::string sheet = figures::style_sheet();
   for (const std::string_view part : {figures, text, phone_and_paper}) sheet += part;
   return sheet;
 }
 
 std::string standalone_figure(std::string element) {
-  return graphics::standalone_svg(std::move(element), figures);
+  return figures::standalone_svg(std::move(element), figures);
 }
 
 }  // namespace amble::report

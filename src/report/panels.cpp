@@ -43,14 +43,14 @@ std::string fitted(std::string_view label, double width_px) {
   return std::string(front) + "…" + std::string(back);
 }
 
-void draw_panel_title(graphics::Svg& svg, const PanelGrid& grid, const graphics::Box& plot,
+void draw_panel_title(figures::Svg& svg, const PanelGrid& grid, const figures::Box& plot,
                       std::string_view label, std::string_view value, double value_px) {
   const double left = plot.x - grid.left_px + 8.0;
   const auto lines = two_lines(label, plot.right() - left - value_px);
   for (std::size_t i = 0; i < lines.size(); ++i)
-    svg.text({left, plot.y - 10 - 15.0 * static_cast<double>(lines.size() - 1 - i)}, graphics::Anchor::start,
+    svg.text({left, plot.y - 10 - 15.0 * static_cast<double>(lines.size() - 1 - i)}, figures::Anchor::start,
              "label", lines[i]);
-  svg.text({plot.right(), plot.y - 10}, graphics::Anchor::end, "value", value);
+  svg.text({plot.right(), plot.y - 10}, figures::Anchor::end, "value", value);
 }
 
 std::vector<std::string> two_lines(std::string_view label, double width_px) {

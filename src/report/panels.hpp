@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "amble/graphics/figure_size.hpp"
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/figure_size.hpp"
+#include "amble/figures/svg.hpp"
 
 namespace amble::report {
 
@@ -25,13 +25,13 @@ struct PanelGrid {
   double panel_width_px = 0.0, panel_height_px = 0.0;
   double left_px = 42.0, top_px = 24.0, below_px = 30.0, gap_px = 14.0;
 
-  static PanelGrid of(std::size_t count, graphics::FigureSize layout) {
-    const bool wide = layout == graphics::FigureSize::wide;
+  static PanelGrid of(std::size_t count, figures::FigureSize layout) {
+    const bool wide = layout == figures::FigureSize::wide;
     PanelGrid grid;
     const std::size_t most = wide ? (count > 9 ? 4 : 3) : 2;
     grid.columns = count == 4 && wide ? 2 : std::clamp<std::size_t>(count, 1, most);
     grid.rows = (count + grid.columns - 1) / grid.columns;
-    const double each = graphics::width_px(layout) / static_cast<double>(grid.columns);
+    const double each = figures::width_px(layout) / static_cast<double>(grid.columns);
     grid.panel_width_px = each - grid.left_px - grid.gap_px;
     grid.panel_height_px = std::clamp(0.6 * grid.panel_width_px, 90.0, 190.0);
     return grid;
@@ -44,7 +44,7 @@ struct PanelGrid {
   }
   double height_px() const { return static_cast<double>(rows) * (top_px + panel_height_px + below_px); }
   /// The plot of a panel, without its title above and its axis below.
-  graphics::Box plot(std::size_t index) const {
+  figures::Box plot(std::size_t index) const {
     const std::size_t line = index / columns;
     const double column = static_cast<double>(index % columns), row = static_cast<double>(line);
     return {left_px + column * (left_px + panel_width_px + gap_px),
@@ -53,7 +53,7 @@ struct PanelGrid {
 };
 
 /// Name and value of a panel, above its plot; the name in as many as two lines.
-void draw_panel_title(graphics::Svg& svg, const PanelGrid& grid, const graphics::Box& plot,
+void draw_panel_title(figures::Svg& svg, const PanelGrid& grid, const figures::Box& plot,
                       std::string_view label, std::string_view value, double value_px);
 
 }  // namespace amble::report

@@ -6,18 +6,18 @@
 #include <cmath>
 #include <numeric>
 
-#include "amble/graphics/axis.hpp"
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/axis.hpp"
+#include "amble/figures/svg.hpp"
 #include "amble/report/panels.hpp"
 
 namespace amble::report {
 namespace {
 
-using graphics::Anchor;
-using graphics::FigureSize;
-using graphics::Interval;
-using graphics::Scale;
-using graphics::Svg;
+using figures::Anchor;
+using figures::FigureSize;
+using figures::Interval;
+using figures::Scale;
+using figures::Svg;
 
 constexpr double bar_px = 11.0, points_px = 21.0, point_radius_px = 2.6, row_gap_px = 15.0;
 constexpr double strip_px = bar_px + points_px, label_line_px = 19.0, narrow_label_px = 215.0;
@@ -33,10 +33,10 @@ Interval data_range(const std::vector<StripRow>& rows) {
   Interval range{0.0, 0.0};
   for (const StripRow& row : rows)
     for (const Strip& strip : row.strips) {
-      for (const double value : strip.values) range = graphics::including(range, value);
+      for (const double value : strip.values) range = figures::including(range, value);
       if (strip.interval) {
-        range = graphics::including(range, strip.interval->lower);
-        range = graphics::including(range, strip.interval->upper);
+        range = figures::including(range, strip.interval->lower);
+        range = figures::including(range, strip.interval->upper);
       }
     }
   if (range.length() <= 0.0) range.upper = 1.0;
@@ -158,9 +158,9 @@ std::string rows_figure(const std::vector<StripRow>& rows, std::string_view unit
   const double base = tops.back() - row_gap_px + 6.0;
   Svg svg(width_px(layout), base + 26, description);
 
-  const auto ticks = graphics::nice_ticks(frame.x.data, wide ? 9 : 5);
+  const auto ticks = figures::nice_ticks(frame.x.data, wide ? 9 : 5);
   for (const double tick : ticks.values) svg.line({frame.x(tick), 0}, {frame.x(tick), base}, "grid");
-  graphics::draw_x_axis(svg, frame.x, ticks, base, unit);
+  figures::draw_x_axis(svg, frame.x, ticks, base, unit);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double top = tops[i] + label_height(rows[i], layout);
     for (std::size_t k = 0; k < rows[i].strips.size(); ++k)

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "amble/graphics/figure_size.hpp"
+#include "amble/figures/figure_size.hpp"
 #include "amble/statistics/interval.hpp"
 
 namespace amble::report {
@@ -12,7 +12,7 @@ namespace amble::report {
 /// One sample: a bar up to its mean with the mean's interval, and below the bar each value as a point.
 struct Strip {
   std::string name;       ///< for tooltips; with two strips in a row, written beside the bar
-  std::string css_class;  ///< carries the colour (graphics::leg_class), or "base" for a grey bar
+  std::string css_class;  ///< carries the colour (figures::leg_class), or "base" for a grey bar
   std::vector<double> values;
   std::optional<double> mean;
   std::optional<statistics::Interval> interval;
@@ -28,7 +28,7 @@ struct StripRow {
 /// Rows of horizontal bars over one axis that begins at zero, or lower if a value does; `unit` follows the
 /// last tick label. An <svg> element.
 std::string rows_figure(const std::vector<StripRow>& rows, std::string_view unit,
-                        std::string_view description, graphics::FigureSize layout);
+                        std::string_view description, figures::FigureSize layout);
 
 /// How far points of radius `radius_px` at these positions along an axis move aside so that they do not
 /// overlap: 0 at best, alternately to both sides, at most ±`most_px`, where they overlap if there is no more

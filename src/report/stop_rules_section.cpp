@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "amble/core/index.hpp"
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/svg.hpp"
 #include "amble/report/html.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/page_sections.hpp"
@@ -11,8 +11,7 @@ namespace {
 
 /// "10 s, 0.25 m", to be broken at the comma alone.
 std::string rule_text(const score::StandingRule& rule) {
-  return fmt::format("{}\u00A0s, {}\u00A0m", graphics::number(rule.window_s),
-                     graphics::number(rule.radius_m));
+  return fmt::format("{}\u00A0s, {}\u00A0m", figures::number(rule.window_s), figures::number(rule.radius_m));
 }
 
 /// "compatible by 9 of 9 rules", "confirmed by 3 of 9, not confirmed by 6".
@@ -29,7 +28,7 @@ std::string row_text(const Report& report, const StopCounts& counts) {
   const std::string& label = report.label(counts.condition);
   if (!counts.claim) return label;
   return fmt::format("Claim {}: {}, {} s or more", *counts.claim + 1, label,
-                     graphics::number(counts.at_least_s));
+                     figures::number(counts.at_least_s));
 }
 
 std::string test_table(const Report& report, const std::string& test) {

@@ -6,22 +6,22 @@
 #include <numeric>
 
 #include "amble/core/index.hpp"
-#include "amble/graphics/axis.hpp"
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/axis.hpp"
+#include "amble/figures/svg.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/panels.hpp"
 
 namespace amble::report {
 namespace {
 
-using graphics::Anchor;
-using graphics::Box;
-using graphics::FigureSize;
-using graphics::Point;
-using graphics::Scale;
-using graphics::Svg;
+using figures::Anchor;
+using figures::Box;
+using figures::FigureSize;
+using figures::Point;
+using figures::Scale;
+using figures::Svg;
 
-constexpr std::size_t most_overlaid = graphics::leg_colours;
+constexpr std::size_t most_overlaid = figures::leg_colours;
 
 /// Room for the share at the end of a panel's title.
 constexpr double share_width_px = 48.0;
@@ -65,15 +65,15 @@ std::vector<Point> staircase(const SurvivalFrame& frame, const statistics::Survi
 
 void draw_axes(Svg& svg, const SurvivalFrame& frame) {
   const bool is_small = frame.plot.width < 200;
-  graphics::draw_y_axis(svg, frame.y, {{0.0, 50.0, 100.0}, 50.0, 0}, frame.plot.x, frame.plot.right(), " %");
-  graphics::draw_x_axis(svg, frame.x, graphics::nice_ticks(frame.x.data, is_small ? 3 : 7),
-                        frame.plot.bottom(), frame.unit.name);
+  figures::draw_y_axis(svg, frame.y, {{0.0, 50.0, 100.0}, 50.0, 0}, frame.plot.x, frame.plot.right(), " %");
+  figures::draw_x_axis(svg, frame.x, figures::nice_ticks(frame.x.data, is_small ? 3 : 7), frame.plot.bottom(),
+                       frame.unit.name);
 }
 
 void draw_curve(Svg& svg, const Report& report, const SurvivalFrame& frame,
                 const ConditionLifetimes& condition) {
   const double share = condition.curve.at(frame.trial_s);
-  svg.begin_group("strip " + graphics::leg_class(report.index(condition.condition)),
+  svg.begin_group("strip " + figures::leg_class(report.index(condition.condition)),
                   fmt::format("{}: {} at the end, {}", report.label(condition.condition), percent_text(share),
                               counted(condition.curve.n, "run")));
   svg.polyline(staircase(frame, condition.curve), "curve");
@@ -85,10 +85,10 @@ std::string end_text(const Report& report, const SurvivalFrame& frame, const Con
                      fitted(report.label(condition.condition), 170.0));
 }
 
-/// Places for labels, apart from each other and within the bounds: graphics::spread, then pushed back inside.
+/// Places for labels, apart from each other and within the bounds: figures::spread, then pushed back inside.
 std::vector<double> spread_within(std::vector<double> places, double top, double bottom) {
   constexpr double gap = 17.0;
-  graphics::spread(places, gap);
+  figures::spread(places, gap);
   std::vector<std::size_t> order(places.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return places[i]; });
@@ -113,7 +113,7 @@ void draw_end_labels(Svg& svg, const Report& report, const SurvivalTable& table,
   const auto labels = spread_within(places, frame.plot.y, frame.plot.bottom() + 4.0);
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const double x = frame.plot.right(), y = labels[i];
-    svg.begin_group("strip " + graphics::leg_class(report.index(table.conditions[i].condition)));
+    svg.begin_group("strip " + figures::leg_class(report.index(table.conditions[i].condition)));
     svg.line({x + 2, places[i]}, {x + 16, y}, "lead");
     svg.line({x + 16, y}, {x + 26, y}, "curve");
     svg.end_group();
@@ -125,7 +125,7 @@ void draw_end_labels(Svg& svg, const Report& report, const SurvivalTable& table,
 void draw_key(Svg& svg, const Report& report, const SurvivalTable& table, const SurvivalFrame& frame) {
   double y = frame.plot.bottom() + 46;
   for (const auto& condition : table.conditions) {
-    svg.begin_group("strip " + graphics::leg_class(report.index(condition.condition)));
+    svg.begin_group("strip " + figures::leg_class(report.index(condition.condition)));
     svg.line({frame.plot.x, y - 4}, {frame.plot.x + 18, y - 4}, "curve");
     svg.end_group();
     svg.text({frame.plot.x + 26, y}, Anchor::start, "label",
@@ -177,7 +177,7 @@ std::string in_panels(const Report& report, const SurvivalTable& table, FigureSi
 
 std::string time_text(double time_s) {
   const TimeUnit unit = unit_for(time_s);
-  return graphics::number(time_s / unit.seconds, 1) + std::string(unit.name);
+  return figures::number(time_s / unit.seconds, 1) + std::string(unit.name);
 }
 
 std::string survival_figure(const Report& report, const SurvivalTable& table, FigureSize layout) {

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "amble/core/check.hpp"
-#include "amble/graphics/axis.hpp"
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/axis.hpp"
+#include "amble/figures/svg.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/panels.hpp"
 #include "amble/report/rows_figure.hpp"
@@ -15,11 +15,11 @@
 namespace amble::report {
 namespace {
 
-using graphics::Box;
-using graphics::FigureSize;
-using graphics::Point;
-using graphics::Scale;
-using graphics::Svg;
+using figures::Box;
+using figures::FigureSize;
+using figures::Point;
+using figures::Scale;
+using figures::Svg;
 
 constexpr double run_radius_px = 2.3, median_radius_px = 3.6, swarm_px = 13.0, value_width_px = 92.0;
 
@@ -30,7 +30,7 @@ PanelGrid make_grid(const std::vector<std::string>& labels, FigureSize layout) {
   const std::size_t most = layout == FigureSize::wide ? 3 : 1;
   grid.columns = labels.size() == 4 && most > 1 ? 2 : std::clamp<std::size_t>(labels.size(), 1, most);
   grid.rows = (labels.size() + grid.columns - 1) / grid.columns;
-  grid.panel_width_px = std::min(graphics::width_px(layout) / static_cast<double>(grid.columns), 480.0) -
+  grid.panel_width_px = std::min(figures::width_px(layout) / static_cast<double>(grid.columns), 480.0) -
                         grid.left_px - grid.gap_px;
   grid.panel_height_px = std::clamp(0.6 * grid.panel_width_px, 120.0, 190.0);
   grid.make_room(labels, value_width_px);
@@ -50,12 +50,12 @@ struct TypicalFrame {
 };
 
 void draw_axes(Svg& svg, const TypicalFrame& frame) {
-  graphics::draw_y_axis(svg, frame.y, graphics::nice_ticks(frame.y.data, 5), frame.plot.x, frame.plot.right(),
-                        " m");
+  figures::draw_y_axis(svg, frame.y, figures::nice_ticks(frame.y.data, 5), frame.plot.x, frame.plot.right(),
+                       " m");
   const double base = frame.plot.bottom();
   svg.line({frame.plot.x, base}, {frame.plot.right(), base}, "axis");
   for (std::size_t column = 0; column < frame.table.columns.size(); ++column)
-    svg.text({frame.x(column), base + 19}, graphics::Anchor::middle, "tick",
+    svg.text({frame.x(column), base + 19}, figures::Anchor::middle, "tick",
              disturbance_name(frame.table.columns[column]));
 }
 
@@ -93,7 +93,7 @@ void draw_panel(Svg& svg, const TypicalFrame& frame, const PanelGrid& grid, cons
   for (const TypicalCurve& other : frame.table.curves)
     if (&other != &curve) svg.polyline(medians(frame, other), "other");
   const std::string& label = report.label(curve.condition);
-  svg.begin_group("strip " + graphics::leg_class(report.index(curve.condition)),
+  svg.begin_group("strip " + figures::leg_class(report.index(curve.condition)),
                   fmt::format("{}: median {}", label, change_text(curve)));
   const auto line = medians(frame, curve);
   for (const TypicalPoint& point : curve.points) draw_point(svg, frame, point);
@@ -114,7 +114,7 @@ std::string typical_figure(const Report& report, const TypicalTable& table, Figu
     for (const TypicalPoint& point : curve.points) most_m = std::max(most_m, point.summary.maximum);
   }
   const PanelGrid grid = make_grid(labels, layout);
-  const graphics::Interval distances{0.0, most_m > 0.0 ? 1.04 * most_m : 1.0};
+  const figures::Interval distances{0.0, most_m > 0.0 ? 1.04 * most_m : 1.0};
   Svg svg(width_px(layout), grid.height_px(),
           fmt::format("Typical distance in {} against the size of the disturbance, {} conditions",
                       time_text(table.trial_s), table.curves.size()));

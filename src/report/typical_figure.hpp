@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "amble/graphics/figure_size.hpp"
+#include "amble/figures/figure_size.hpp"
 #include "amble/report/report.hpp"
 #include "amble/report/typical.hpp"
 
@@ -10,6 +10,6 @@ namespace amble::report {
 
 /// A panel for each condition: every champion's typical distance against the amount of disturbance, and the
 /// condition's median with its interval; grey the medians of the others. An <svg> element.
-std::string typical_figure(const Report& report, const TypicalTable& table, graphics::FigureSize layout);
+std::string typical_figure(const Report& report, const TypicalTable& table, figures::FigureSize layout);
 
 }  // namespace amble::report

@@ -59,7 +59,7 @@ std::string typical_section(const Report& report) {
                                     typical.engine.empty() ? "" : " in the engine " + typical.engine));
     content += paragraph(levels_text(typical));
     if (typical.columns.size() > 1)
-      content += figure([&](graphics::FigureSize layout) { return typical_figure(report, typical, layout); },
+      content += figure([&](figures::FigureSize layout) { return typical_figure(report, typical, layout); },
                         "Small points: the typical distance of each champion. Line: their median with its "
                         "BCa interval. Grey: the medians of the others.");
     content += table_of(report, typical);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "amble/core/index.hpp"
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/svg.hpp"
 #include "amble/ledger/measures.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/verdict_kinds.hpp"
@@ -101,8 +101,8 @@ std::string two_means_text(const Judgement& judgement, std::string_view unit) {
 /// "at least 8", "1.18 to 1.54"; of a plateau "at most 5 %".
 std::string bounds_text(const ClaimSpec& claim) {
   const auto text = [&claim](double bound) {
-    return claim.kind == ledger::ClaimKind::plateau ? graphics::number(100.0 * bound) + " %"
-                                                    : graphics::number(bound, 3);
+    return claim.kind == ledger::ClaimKind::plateau ? figures::number(100.0 * bound) + " %"
+                                                    : figures::number(bound, 3);
   };
   if (claim.at_most == ledger::unbounded) return "at least " + text(claim.at_least);
   if (claim.at_least == -ledger::unbounded) return "at most " + text(claim.at_most);
@@ -171,7 +171,7 @@ std::string no_loss_text(const ClaimSpec& claim, const Judgement& judgement, boo
   std::string text;
   if (claim.margin > 0.0)
     text = fmt::format(" That it is not worse by more than the stated {} is {} (one-sided {}).",
-                       graphics::number(claim.margin, 9), not_inferior ? "shown" : "not shown",
+                       figures::number(claim.margin, 9), not_inferior ? "shown" : "not shown",
                        p_text(*judgement.p_equivalence));
   else if (judgement.verdict == Verdict::compatible)
     text = " No margin was stated, so no test can show that it does not do worse.";
@@ -250,7 +250,7 @@ void conclude_difference(const ClaimSpec& claim, Judgement& judgement) {
       direction == statistics::Direction::equal
           ? std::string(where) + "."
           : fmt::format("{} {} significant at {} after Holm’s adjustment.", where,
-                        significant ? "and is" : "but is not", graphics::number(claim.alpha, 9));
+                        significant ? "and is" : "but is not", figures::number(claim.alpha, 9));
   if (claim.relation == ledger::Relation::not_less)
     judgement.reason += no_loss_text(claim, judgement, not_inferior);
 }

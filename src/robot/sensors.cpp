@@ -4,7 +4,7 @@
 
 namespace amble::robot {
 
-Quat level_frame(Vec3 gravity_m_s2) {
+Quat horizontal_frame(Vec3 gravity_m_s2) {
   if (gravity_m_s2.x == 0.0 && gravity_m_s2.y == 0.0) return {};
   const Vec3 up = (-1.0 / norm(gravity_m_s2)) * gravity_m_s2;
   // From z to `up` by the angle a about z × up: (1 + cos a, sin a × axis) is twice cos(a/2) times the

@@ -35,6 +35,6 @@ struct ExtraSenses {
 
 /// The level frame in the world, in which attitude is measured: its z axis points against gravity. Where that
 /// is the world's z axis, or there is no gravity, it is the world's frame; else the one that is turned least.
-Quat level_frame(Vec3 gravity_m_s2);
+Quat horizontal_frame(Vec3 gravity_m_s2);
 
 }  // namespace amble::robot

@@ -2,7 +2,7 @@
 
 #include "amble/controllers/factory.hpp"
 #include "amble/substrate/summary.hpp"
-#include "tests/graphics/golden.hpp"
+#include "tests/figures/golden.hpp"
 #include "tests/robot/legged.hpp"
 
 namespace amble::controllers {

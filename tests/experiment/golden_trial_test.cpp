@@ -4,7 +4,7 @@
 #include "amble/core/hash.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/ground/kinds.hpp"
-#include "tests/graphics/golden.hpp"
+#include "tests/figures/golden.hpp"
 
 // What GoldenRun's quadruped on the plane does not meet: other bodies, grounds, damages, pushes, scores. Only
 // the batch engine, as there.

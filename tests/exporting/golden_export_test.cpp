@@ -5,7 +5,7 @@
 #include "amble/exporting/c_source.hpp"
 #include "amble/exporting/json_source.hpp"
 #include "tests/exporting/champions.hpp"
-#include "tests/graphics/golden.hpp"
+#include "tests/figures/golden.hpp"
 
 namespace amble::exporting {
 namespace {

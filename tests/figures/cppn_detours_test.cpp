@@ -9,8 +9,6 @@
 namespace amble::figures {
 namespace {
 
-using graphics::Point;
-
 constexpr double radius_px = 15.0;
 
 double distance(Point a, Point b) {

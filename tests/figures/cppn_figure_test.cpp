@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "tests/figures/cppn_samples.hpp"
-#include "tests/graphics/xml.hpp"
+#include "tests/figures/xml.hpp"
 
 namespace amble::figures {
 namespace {

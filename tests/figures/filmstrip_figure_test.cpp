@@ -5,13 +5,12 @@
 
 #include <algorithm>
 
-#include "tests/graphics/xml.hpp"
+#include "tests/figures/xml.hpp"
 #include "tests/motion/fixture.hpp"
 
 namespace amble::figures {
 namespace {
 
-using graphics::FigureSize;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::Not;

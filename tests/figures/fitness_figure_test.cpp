@@ -5,12 +5,11 @@
 
 #include <algorithm>
 
-#include "tests/graphics/xml.hpp"
+#include "tests/figures/xml.hpp"
 
 namespace amble::figures {
 namespace {
 
-using graphics::FigureSize;
 using testing::Contains;
 
 record::Generations table() {
@@ -96,7 +95,7 @@ TEST_P(FitnessFigure, IsNoLongerThanWideWhateverTheGenerationsAndKeepsEachExtrem
   }
   const auto elements = tests::parse_xml(fitness_figure(generations, GetParam()));
   const auto best = tests::points(tests::with_class(elements, "best").at(0));
-  EXPECT_LE(best.size(), 4.0 * graphics::width_px(GetParam()));
+  EXPECT_LE(best.size(), 4.0 * width_px(GetParam()));
   const auto [highest, lowest] =
       std::ranges::minmax(best, {}, [](const auto& point) { return point.second; });
   EXPECT_NEAR(highest.first, lowest.first, 0.11);

@@ -3,13 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/graphics/xml.hpp"
+#include "tests/figures/xml.hpp"
 #include "tests/motion/fixture.hpp"
 
 namespace amble::figures {
 namespace {
 
-using graphics::FigureSize;
 using testing::Contains;
 
 std::vector<tests::XmlElement> in_leg(const std::vector<tests::XmlElement>& elements,

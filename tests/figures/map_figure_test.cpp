@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "amble/core/error.hpp"
-#include "tests/graphics/xml.hpp"
+#include "tests/figures/xml.hpp"
 
 namespace amble::figures {
 namespace {
@@ -60,7 +60,8 @@ TEST(MapFigure, DrawsEachCellAndNamesThoseThatAreFilled) {
   EXPECT_THAT(svg, testing::HasSubstr("cell 23: 2.500 m\nd&lt;4 0.75 … 1\n"));
   EXPECT_THAT(svg, testing::HasSubstr("cell 5: 0.000 m"));
   std::size_t empty_cells = 0;
-  for (std::size_t at = svg.find("\"nobody\""); at != std::string::npos; at = svg.find("\"nobody\"", at + 1))
+  for (std::size_t at = svg.find("\"empty-cell\""); at != std::string::npos;
+       at = svg.find("\"empty-cell\"", at + 1))
     ++empty_cells;
   EXPECT_EQ(empty_cells, 22u);
 }
@@ -104,7 +105,7 @@ std::pair<std::string, std::string> scale(const GridMap& map) {
 
 TEST(MapFigure, HasAScaleFromZeroToTheBestAndNeverBelowZero) {
   GridMap map = map_of({2, 2});
-  EXPECT_EQ(scale(map), (std::pair<std::string, std::string>{"0", "0 m"})) << "nobody";
+  EXPECT_EQ(scale(map), (std::pair<std::string, std::string>{"0", "0 m"})) << "empty-cell";
   map.objective[1] = -2.0;
   EXPECT_EQ(scale(map), (std::pair<std::string, std::string>{"0", "0 m"})) << "only one that went backwards";
   EXPECT_THAT(map_svg(map), testing::HasSubstr("shade0 cell1"));

@@ -5,13 +5,12 @@
 
 #include <cmath>
 
-#include "tests/graphics/xml.hpp"
+#include "tests/figures/xml.hpp"
 #include "tests/motion/fixture.hpp"
 
 namespace amble::figures {
 namespace {
 
-using graphics::FigureSize;
 using testing::Contains;
 
 /// A bar's length in px and the metres it stands for.

@@ -3,13 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/graphics/xml.hpp"
+#include "tests/figures/xml.hpp"
 #include "tests/motion/fixture.hpp"
 
 namespace amble::figures {
 namespace {
 
-using graphics::FigureSize;
 using testing::Contains;
 using testing::Not;
 
@@ -101,7 +100,7 @@ TEST_P(PatternFigure, FillsItsWidthWithColumnsOfOneWidthUnderBarsOfTheirLegs) {
       EXPECT_NEAR(ranges[i].number("width"), ranges[0].number("width"), 0.02);
     }
     EXPECT_NEAR(heads.back().number("x") + heads.back().number("width") + right_of_range_px,
-                graphics::width_px(GetParam()), 0.02)
+                width_px(GetParam()), 0.02)
         << legs;
   }
 }

@@ -12,7 +12,6 @@
 namespace amble::figures {
 namespace {
 
-using graphics::Point;
 using testing::ElementsAre;
 
 /// A single geom as a robot.

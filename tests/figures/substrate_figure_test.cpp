@@ -7,13 +7,12 @@
 #include <set>
 
 #include "amble/figures/substrate_places.hpp"
-#include "tests/graphics/xml.hpp"
+#include "tests/figures/xml.hpp"
 #include "tests/motion/fixture.hpp"
 
 namespace amble::figures {
 namespace {
 
-using graphics::FigureSize, graphics::width_px;
 using testing::HasSubstr;
 using testing::IsSupersetOf;
 using testing::Not;

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "amble/figures/filmstrip_figure.hpp"
-#include "tests/graphics/xml.hpp"
+#include "tests/figures/xml.hpp"
 #include "tests/motion/fixture.hpp"
 
 namespace amble::figures {

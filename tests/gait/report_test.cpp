@@ -9,7 +9,7 @@
 
 #include "amble/gait/report_text.hpp"
 #include "amble/io/json_file.hpp"
-#include "tests/graphics/golden.hpp"
+#include "tests/figures/golden.hpp"
 
 namespace amble::gait {
 namespace {

@@ -5,7 +5,7 @@
 #include "amble/morphology/robot_guess.hpp"
 #include "amble/robot/json.hpp"
 #include "amble/robot/summary.hpp"
-#include "tests/graphics/golden.hpp"
+#include "tests/figures/golden.hpp"
 #include "tests/models/small_models.hpp"
 #include "tests/morphology/files.hpp"
 

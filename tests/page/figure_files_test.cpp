@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tests/graphics/xml.hpp"
+#include "tests/figures/xml.hpp"
 #include "tests/motion/fixture.hpp"
 
 namespace amble::page {

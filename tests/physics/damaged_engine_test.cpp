@@ -56,7 +56,7 @@ void walk(Engine& engine, const robot::RobotSpec& robot, int first, int last) {
   }
 }
 
-void expect_near(const Motion& a, const Motion& b, double tolerance) {
+void expect_near(const MovingPose& a, const MovingPose& b, double tolerance) {
   EXPECT_NEAR(norm(a.pose.root.position_m - b.pose.root.position_m), 0.0, tolerance);
   EXPECT_NEAR(norm(a.velocity_m_s - b.velocity_m_s), 0.0, tolerance);
   EXPECT_NEAR(norm(a.angular_velocity_rad_s - b.angular_velocity_rad_s), 0.0, 10.0 * tolerance);
@@ -227,13 +227,13 @@ TEST_P(Damaged, ALegThatFallsOffLeavesTheRestAsItMoved) {
   engine->place(0);
   engine->push(0, {3.0, 1.0, 0.0});
   walk(*engine, robot, 1, 30);
-  const Motion before = engine->motion(0);
+  const MovingPose before = engine->motion(0);
   // The pose that the rest has when it is cut off, one step of rest before.
   LaneArray targets = targets_for(*engine);
   for (int j = 0; j < 12; ++j)
     targets.at(j, 0) = static_cast<float>(before.pose.joint_angle_rad[to_index(j)]);
   engine->step(targets);
-  const Motion after = engine->motion(0);
+  const MovingPose after = engine->motion(0);
   EXPECT_NEAR(norm(after.pose.root.position_m - before.pose.root.position_m - 0.01 * after.velocity_m_s), 0.0,
               2e-3);
   for (int j = 9; j < 12; ++j) EXPECT_EQ(after.pose.joint_angle_rad[to_index(j)], 0.0);

@@ -33,7 +33,7 @@ void set_targets(int tick, LaneArray& targets) {
 
 /// Every number of the state, bit by bit.
 testing::AssertionResult same_state(const Engine& engine, Simulate& own, const robot::RobotSpec& robot) {
-  const Motion motion = engine.motion(0);
+  const MovingPose motion = engine.motion(0);
   const mjtNum* const q = own.data().qpos;
   const mjtNum* const v = own.data().qvel;
   const Vec3 at = motion.pose.root.position_m;
@@ -175,7 +175,7 @@ TEST(MujocoModel, StartsInTheRobotsPoseWithAnglesFromThere) {
   EXPECT_EQ(bench.engine->root_pose(0).position_m.x, 0.3);
   EXPECT_NEAR(bench.angle(3), 0.1, 1e-7);
   EXPECT_NEAR(bench.engine->sensors().attitude_rad.at(2, 0), 0.2, 1e-6);
-  const Motion motion{pose, {1.0, 0.0, 0.5}, {0.0, 0.2, 0.1}, std::vector<double>(8, 0.4)};
+  const MovingPose motion{pose, {1.0, 0.0, 0.5}, {0.0, 0.2, 0.1}, std::vector<double>(8, 0.4)};
   bench.engine->place_moving(0, motion);
   EXPECT_NEAR(norm(bench.engine->motion(0).angular_velocity_rad_s - motion.angular_velocity_rad_s), 0.0,
               1e-12);

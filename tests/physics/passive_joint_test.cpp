@@ -196,7 +196,7 @@ TEST_P(JointWithoutMotor, TurnsOnAndOn) {
   robot.joints[0].lower_rad = -infinity;
   robot.joints[0].upper_rad = infinity;
   Bench bench(GetParam(), robot, 0.001);
-  Motion motion = bench.engine->motion(0);
+  MovingPose motion = bench.engine->motion(0);
   motion.joint_speed_rad_s = {9.0};
   bench.engine->place_moving(0, motion);
   const double before = bench.engine->motion(0).joint_speed_rad_s[0];

@@ -12,7 +12,7 @@
 #include "amble/report/number_text.hpp"
 #include "amble/report/page_sections.hpp"
 #include "amble/report/tables.hpp"
-#include "tests/graphics/xml.hpp"
+#include "tests/figures/xml.hpp"
 #include "tests/report/fixture.hpp"
 
 namespace amble::report {

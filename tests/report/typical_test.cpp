@@ -8,8 +8,8 @@
 #include "amble/report/figures.hpp"
 #include "amble/report/page.hpp"
 #include "amble/report/tables.hpp"
-#include "tests/graphics/golden.hpp"
-#include "tests/graphics/xml.hpp"
+#include "tests/figures/golden.hpp"
+#include "tests/figures/xml.hpp"
 #include "tests/report/fixture.hpp"
 
 namespace amble::report {
@@ -146,7 +146,7 @@ TEST(Typical, HasASectionAFigureAndRowsOfATableWhereThereAreLevels) {
   std::map<std::string, std::string> made;
   for (const FigureFile& figure : figure_files(report))
     if (figure.name.starts_with("typical")) made[figure.name] = figure.svg;
-  tests::expect_golden(made, {{"typical-15s.svg", "31ef836fa2461987"}});
+  tests::expect_golden(made, {{"typical-15s.svg", "bd87033254b9045f"}});
 }
 
 }  // namespace

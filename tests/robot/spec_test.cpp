@@ -75,12 +75,12 @@ TEST(LevelFrame, HasItsZAxisAgainstGravityAndIsTurnedAboutALevelAxis) {
   Stream stream(1, Purpose::test);
   for (int round = 0; round < 100; ++round) {
     const Vec3 gravity{stream.uniform(-3.0, 3.0), stream.uniform(-3.0, 3.0), stream.uniform(-9.0, -0.5)};
-    const Quat frame = level_frame(gravity);
+    const Quat frame = horizontal_frame(gravity);
     EXPECT_NEAR(norm(rotate(frame, {0.0, 0.0, 1.0}) + (1.0 / norm(gravity)) * gravity), 0.0, 1e-12);
     EXPECT_EQ(frame.z, 0.0);
   }
-  EXPECT_EQ(level_frame({0.0, 0.0, -9.81}), Quat{});
-  EXPECT_EQ(level_frame({}), Quat{});
+  EXPECT_EQ(horizontal_frame({0.0, 0.0, -9.81}), Quat{});
+  EXPECT_EQ(horizontal_frame({}), Quat{});
 }
 
 }  // namespace

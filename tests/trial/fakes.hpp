@@ -31,8 +31,8 @@ class FakeEngine : public physics::Engine {
   void place_at(int lane, const physics::StartPose& pose) override {
     state(lane) = {.placed = true, .position = pose.root.position_m, .rotation = pose.root.rotation};
   }
-  void place_moving(int lane, const physics::Motion& motion) override { place_at(lane, motion.pose); }
-  physics::Motion motion(int lane) const override {
+  void place_moving(int lane, const physics::MovingPose& motion) override { place_at(lane, motion.pose); }
+  physics::MovingPose motion(int lane) const override {
     return {.pose = {root_pose(lane), {0.0}},
             .velocity_m_s = {},
             .angular_velocity_rad_s = {},

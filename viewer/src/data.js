@@ -1,4 +1,4 @@
-// Reads what src/view put into the page.
+// Reads what src/page put into the page.
 
 /** The JSON in the page. */
 export function pageData(document) {

@@ -48,13 +48,13 @@ class LockstepEngine final : public BatchEngine {
     copy_into(lane, posed_);
   }
 
-  void place_moving(int lane, const Motion& motion) override {
+  void place_moving(int lane, const MovingPose& motion) override {
     AMBLE_CHECK(motion.pose.joint_angle_rad.size() == model_.links.size(), "an angle per joint");
     pose(posed_, motion.pose, &motion);
     copy_into(lane, posed_);
   }
 
-  Motion motion(int lane) const override {
+  MovingPose motion(int lane) const override {
     const RobotState state = robots_.state(lane);
     return batch::motion_of(robot_, root_pose(lane), state);
   }
@@ -159,7 +159,7 @@ class LockstepEngine final : public BatchEngine {
   }
 
   /// Sets the robot in lane 0 to a pose, at rest or (if `motion` is given, with that pose) moving.
-  void pose(LockstepState& robots, const StartPose& start, const Motion* motion = nullptr) {
+  void pose(LockstepState& robots, const StartPose& start, const MovingPose* motion = nullptr) {
     robots.at(StateRows::active, 0) = robots.at(StateRows::healthy, 0) = 1.0f;
     RobotState state{.com_m = start.root.position_m,
                      .rotation = start.root.rotation,

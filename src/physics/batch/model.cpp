@@ -217,7 +217,7 @@ Model::Model(const RobotSpec& robot)
          "the batch engine knows no self-collision: set self_collision = false, or use engine ode");
   if (gravity_m_s2.x != 0.0f || gravity_m_s2.y != 0.0f) {
     tilted = true;
-    const Quat rotation = robot::level_frame(robot.gravity_m_s2);
+    const Quat rotation = robot::horizontal_frame(robot.gravity_m_s2);
     level[0] = narrow(rotate(rotation, {1.0, 0.0, 0.0}));
     level[1] = narrow(rotate(rotation, {0.0, 1.0, 0.0}));
     level[2] = narrow(rotate(rotation, {0.0, 0.0, 1.0}));

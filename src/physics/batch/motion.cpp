@@ -20,7 +20,7 @@ Vec3 solve(Vec3 a, Vec3 b, Vec3 c, Vec3 v) {
 
 }  // namespace
 
-Motion motion_of(const robot::RobotSpec& robot, const RootPose& root, const RobotState& state) {
+MovingPose motion_of(const robot::RobotSpec& robot, const RootPose& root, const RobotState& state) {
   const std::vector<double> still(state.speed_rad_s.size(), 0.0);
   // L and v_com are linear in the root's twist and the joints' speeds; L does not depend on the root's
   // velocity, so L − L(speeds) = I ω first, then what is left of v_com.
@@ -38,7 +38,7 @@ Motion motion_of(const robot::RobotSpec& robot, const RootPose& root, const Robo
           .joint_speed_rad_s = state.speed_rad_s};
 }
 
-void set_velocities(const robot::RobotSpec& robot, const Motion& motion, RobotState& state) {
+void set_velocities(const robot::RobotSpec& robot, const MovingPose& motion, RobotState& state) {
   const robot::WholeMotion whole =
       whole_motion(robot, motion.pose.root, {motion.velocity_m_s, motion.angular_velocity_rad_s},
                    {motion.pose.joint_angle_rad, motion.joint_speed_rad_s});

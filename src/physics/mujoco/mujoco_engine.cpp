@@ -63,7 +63,7 @@ class MujocoEngine final : public SingleRobotEngine {
     begin();
   }
 
-  void place_moving(int lane, const Motion& motion) override {
+  void place_moving(int lane, const MovingPose& motion) override {
     reset(lane);
     set_positions(motion.pose);
     // A free joint's angular velocity is in the axes of its body.
@@ -76,12 +76,12 @@ class MujocoEngine final : public SingleRobotEngine {
     begin();
   }
 
-  Motion motion(int lane) const override {
+  MovingPose motion(int lane) const override {
     const RootPose root = root_pose(lane);
-    Motion motion{.pose = {root, {}},
-                  .velocity_m_s = vec3(data_->qvel),
-                  .angular_velocity_rad_s = rotate(root.rotation, vec3(data_->qvel + 3)),
-                  .joint_speed_rad_s = {}};
+    MovingPose motion{.pose = {root, {}},
+                      .velocity_m_s = vec3(data_->qvel),
+                      .angular_velocity_rad_s = rotate(root.rotation, vec3(data_->qvel + 3)),
+                      .joint_speed_rad_s = {}};
     for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
       motion.pose.joint_angle_rad.push_back(data_->qpos[model_.position_of[j]]);
       motion.joint_speed_rad_s.push_back(data_->qvel[model_.dof_of[j]]);

@@ -64,7 +64,7 @@ class MujocoModelEngine final : public SingleRobotEngine {
     begin();
   }
 
-  void place_moving(int lane, const Motion& motion) override {
+  void place_moving(int lane, const MovingPose& motion) override {
     reset(lane);
     set_positions(motion.pose);
     // A free joint's angular velocity is in the axes of its body.
@@ -77,13 +77,13 @@ class MujocoModelEngine final : public SingleRobotEngine {
     begin();
   }
 
-  Motion motion(int lane) const override {
+  MovingPose motion(int lane) const override {
     const RootPose root = root_pose(lane);
     const mjtNum* const speed = data_->qvel + model_.root_dof;
-    Motion motion{.pose = {root, {}},
-                  .velocity_m_s = vec3(speed),
-                  .angular_velocity_rad_s = rotate(root.rotation, vec3(speed + 3)),
-                  .joint_speed_rad_s = {}};
+    MovingPose motion{.pose = {root, {}},
+                      .velocity_m_s = vec3(speed),
+                      .angular_velocity_rad_s = rotate(root.rotation, vec3(speed + 3)),
+                      .joint_speed_rad_s = {}};
     for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
       motion.pose.joint_angle_rad.push_back(angle_rad(j));
       motion.joint_speed_rad_s.push_back(data_->qvel[model_.dof_of[j]]);

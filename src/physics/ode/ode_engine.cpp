@@ -88,7 +88,7 @@ class OdeEngine final : public SingleRobotEngine {
     begin();
   }
 
-  void place_moving(int lane, const Motion& motion) override {
+  void place_moving(int lane, const MovingPose& motion) override {
     make_trial(lane);
     const robot::Pose root{motion.pose.root.position_m, motion.pose.root.rotation};
     const robot::JointStates joints{motion.pose.joint_angle_rad, motion.joint_speed_rad_s};
@@ -98,7 +98,7 @@ class OdeEngine final : public SingleRobotEngine {
     begin();
   }
 
-  Motion motion(int lane) const override {
+  MovingPose motion(int lane) const override {
     const RootPose root = root_pose(lane);
     const Vec3 spin = vec3(bodies_[0].angular_velocity_rad_s);
     const Vec3 com = rotate(root.rotation, robot_.bodies[0].com_m);

@@ -1,4 +1,4 @@
-#include "amble/graphics/axis.hpp"
+#include "amble/figures/axis.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "amble/core/check.hpp"
 
-namespace amble::graphics {
+namespace amble::figures {
 namespace {
 
 // Tolerance for rounding when a bound is itself a multiple of the step.
@@ -86,4 +86,4 @@ void spread(std::vector<double>& positions_px, double gap_px) {
     }
 }
 
-}  // namespace amble::graphics
+}  // namespace amble::figures

@@ -1,4 +1,4 @@
-#include "amble/view/page.hpp"
+#include "amble/page/replay_page.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 
 #include "amble/io/file.hpp"
 #include "tests/io/temporary_folder.hpp"
-#include "tests/view/synthetic.hpp"
+#include "tests/page/synthetic.hpp"
 
-namespace amble::view {
+namespace amble::page {
 namespace {
 
 using tests::SyntheticWalk;
@@ -92,4 +92,4 @@ TEST_F(ViewPageTest, StaysUnder3MegabytesForFiveMinutes) {
 }
 
 }  // namespace
-}  // namespace amble::view
+}  // namespace amble::page

@@ -7,7 +7,7 @@
 
 #include "amble/record/trajectory.hpp"
 
-namespace amble::view {
+namespace amble::page {
 
 /// Numbers at equal intervals of time, for the page: `count` rows, the first at `first_s`.
 struct PackedFrames {
@@ -37,4 +37,4 @@ struct PackedRecording {
 /// missing, foreign, truncated or altered, lacks a column, or holds no robot with legs.
 PackedRecording pack_recording(const std::filesystem::path& path, double pose_interval_s = 0.02);
 
-}  // namespace amble::view
+}  // namespace amble::page

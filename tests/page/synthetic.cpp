@@ -1,4 +1,4 @@
-#include "tests/view/synthetic.hpp"
+#include "tests/page/synthetic.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -8,7 +8,7 @@
 
 #include "amble/io/json_file.hpp"
 
-namespace amble::view {
+namespace amble::page {
 
 /// One robot on the page.
 struct Walker {
@@ -44,4 +44,4 @@ struct ReplayPage {
 /// any browser of 2023 or later. Throws UserError as pack_recording() does.
 std::string make_page(const ReplayPage& page);
 
-}  // namespace amble::view
+}  // namespace amble::page

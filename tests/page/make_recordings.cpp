@@ -8,7 +8,7 @@
 #include "amble/io/json_file.hpp"
 #include "amble/motion/recorded_trial.hpp"
 #include "amble/robot/pose.hpp"
-#include "tests/view/synthetic.hpp"
+#include "tests/page/synthetic.hpp"
 
 namespace {
 

@@ -1,11 +1,11 @@
-#include "amble/graphics/style_sheet.hpp"
+#include "amble/figures/style_sheet.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/svg.hpp"
 
-namespace amble::graphics {
+namespace amble::figures {
 namespace {
 
 using testing::HasSubstr;
@@ -30,15 +30,17 @@ TEST(StyleSheet, OfAFigureThatIsAFileOfItsOwnNeedsNoCustomProperties) {
   figure.line({0, 0}, {40, 20}, "curve");
   figure.end_group();
   const std::string svg =
-      standalone_svg(figure.finish(), ".mine { fill: var(--ink); } .curve.x { fill: none; }");
+      standalone_svg(figure.finish(), ".mine { fill: var(--ink); }\n.curve.x { stroke: var(--c4); }");
   EXPECT_THAT(svg, Not(HasSubstr("var(")));
   EXPECT_THAT(svg, HasSubstr("svg text { font: 13px system-ui, "));
   // Curves have the colour of their leg, light and dark, and no other leg and no other class has a rule.
-  EXPECT_THAT(svg, HasSubstr(".curve { fill: none; stroke-width: 2.4;"));
-  EXPECT_THAT(svg, HasSubstr(".leg1 .curve, .curve.leg1 { stroke: #c2410c; }"));
-  EXPECT_THAT(svg.substr(svg.find("prefers-color-scheme: dark")),
-              HasSubstr(".leg1 .curve, .curve.leg1 { stroke: #f0713a; }"));
-  for (const char* other : {"leg0", ".stance", ".mine", ".curve.x"}) EXPECT_THAT(svg, Not(HasSubstr(other)));
+  const std::size_t dark = svg.find("prefers-color-scheme: dark");
+  EXPECT_THAT(svg, HasSubstr(".curve { fill: none; stroke: currentColor; stroke-width: 2.4;"));
+  EXPECT_THAT(svg.substr(0, dark), HasSubstr("svg .leg1 { color: #c2410c; }"));
+  EXPECT_THAT(svg.substr(dark), HasSubstr("svg .leg1 { color: #f0713a; }"));
+  EXPECT_THAT(svg.substr(dark), HasSubstr(".curve.x { stroke: #35b3a2; }"));
+  EXPECT_THAT(svg.substr(dark), Not(HasSubstr(".curve { fill")));
+  for (const char* other : {"leg0", ".stance", ".mine"}) EXPECT_THAT(svg, Not(HasSubstr(other)));
 }
 
 TEST(StyleSheet, KnowsColoursByLightAndByDark) {
@@ -54,4 +56,4 @@ TEST(StyleSheet, OfAPageHasWhatItsFiguresHave) {
 }
 
 }  // namespace
-}  // namespace amble::graphics
+}  // namespace amble::figures

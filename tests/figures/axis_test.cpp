@@ -1,4 +1,4 @@
-#include "amble/graphics/axis.hpp"
+#include "amble/figures/axis.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "amble/core/random.hpp"
-#include "tests/graphics/xml.hpp"
+#include "tests/figures/xml.hpp"
 
-namespace amble::graphics {
+namespace amble::figures {
 namespace {
 
 using testing::DoubleNear;
@@ -92,4 +92,4 @@ TEST(Spread, KeepsTheOrderOfManyLabels) {
 }
 
 }  // namespace
-}  // namespace amble::graphics
+}  // namespace amble::figures

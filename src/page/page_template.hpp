@@ -2,9 +2,9 @@
 
 #include <string_view>
 
-namespace amble::view {
+namespace amble::page {
 
 /// viewer/dist/page.html as it was when amble was built: the whole page but for title, colours and data.
 std::string_view page_template();
 
-}  // namespace amble::view
+}  // namespace amble::page

@@ -1,4 +1,4 @@
-#include "amble/view/packed_recording.hpp"
+#include "amble/page/packed_recording.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "amble/robot/pose.hpp"
 #include "amble/robot/spec.hpp"
 
-namespace amble::view {
+namespace amble::page {
 namespace {
 
 /// Some columns of a recording, collected row by row.
@@ -117,4 +117,4 @@ PackedRecording pack_recording(const std::filesystem::path& path, double pose_in
           .contacts = contacts.pack(header.frame_s, header.frame_s)};
 }
 
-}  // namespace amble::view
+}  // namespace amble::page

@@ -1,4 +1,4 @@
-#include "tests/graphics/xml.hpp"
+#include "tests/figures/xml.hpp"
 
 #include <cctype>
 #include <sstream>

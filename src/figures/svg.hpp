@@ -10,7 +10,7 @@
 ///   axis.hpp          data intervals, ticks, scales, drawn axes
 ///   layout.hpp        widths of figures (wide and narrow), CSS classes of legs
 ///   style_sheet.hpp   what the CSS classes look like
-namespace amble::graphics {
+namespace amble::figures {
 
 /// A point in a figure: px from the left, px from the top, unless its name ends in another unit.
 struct Point {
@@ -69,4 +69,4 @@ class Svg {
 /// cuts a file that an <img> shows.)
 std::string with_margin(std::string element, double margin_px);
 
-}  // namespace amble::graphics
+}  // namespace amble::figures

@@ -1,13 +1,13 @@
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/svg.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <limits>
 
-#include "tests/graphics/xml.hpp"
+#include "tests/figures/xml.hpp"
 
-namespace amble::graphics {
+namespace amble::figures {
 namespace {
 
 TEST(Number, HasAPointAndNoTrailingZeros) {
@@ -74,4 +74,4 @@ TEST(SvgDeathTest, RefusesAGroupThatIsNotEnded) {
 }
 
 }  // namespace
-}  // namespace amble::graphics
+}  // namespace amble::figures

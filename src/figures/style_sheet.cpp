@@ -1,34 +1,39 @@
-#include "amble/graphics/style_sheet.hpp"
+#include "amble/figures/style_sheet.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
 
 #include "amble/core/check.hpp"
-#include "amble/graphics/resolved_style.hpp"
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/figure_size.hpp"
+#include "amble/figures/svg.hpp"
 
-namespace amble::graphics {
+namespace amble::figures {
 namespace {
 
-constexpr std::string_view light_colours = R"css(
-  --paper: #fcfcfb; --panel: #f3f4f4; --ground: #e6e8ea; --ink: #16191d; --soft: #5d6670; --line: #b9c0c7;
-  --mid: #8e979f; --hair: #e4e7ea; --trunk: #d5dae0; --trunk-line: #7b8590;
-  --c0: #00599c; --c1: #c2410c; --c2: #3b9ee0; --c3: #e8a013; --c4: #00796b; --c5: #8e4fb0; --c6: #7d8a1f; --c7: #c75c93;
-  --plus: #00796b; --minus: #c2410c;)css";
+/// A colour of the palette: in CSS var(--name).
+struct Colour {
+  std::string_view name, light, dark;
+};
+constexpr std::array palette{
+    Colour{"paper", "#fcfcfb", "#101317"},  Colour{"panel", "#f3f4f4", "#181c21"},
+    Colour{"ground", "#e6e8ea", "#232930"}, Colour{"ink", "#16191d", "#e9ecef"},
+    Colour{"soft", "#5d6670", "#98a2ad"},   Colour{"line", "#b9c0c7", "#4a535d"},
+    Colour{"mid", "#8e979f", "#727d88"},    Colour{"hair", "#e4e7ea", "#262c33"},
+    Colour{"trunk", "#d5dae0", "#39424c"},  Colour{"trunk-line", "#7b8590", "#8b97a3"},
+    Colour{"c0", "#00599c", "#3d8fe0"},     Colour{"c1", "#c2410c", "#f0713a"},
+    Colour{"c2", "#3b9ee0", "#8ecbff"},     Colour{"c3", "#e8a013", "#ffc75a"},
+    Colour{"c4", "#00796b", "#35b3a2"},     Colour{"c5", "#8e4fb0", "#b98ad6"},
+    Colour{"c6", "#7d8a1f", "#b3c043"},     Colour{"c7", "#c75c93", "#e58fbb"},
+    Colour{"plus", "#00796b", "#35b3a2"},   Colour{"minus", "#c2410c", "#f0713a"}};
 
-constexpr std::string_view fonts = R"css(
-  --sans: system-ui, -apple-system, "Segoe UI", Roboto, Inter, "Noto Sans", "Helvetica Neue", Arial, sans-serif;
-  --mono: ui-monospace, SFMono-Regular, Menlo, Consolas, "Liberation Mono", "DejaVu Sans Mono", monospace;
-)css";
-
-constexpr std::string_view dark_colours = R"css(
-    --paper: #101317; --panel: #181c21; --ground: #232930; --ink: #e9ecef; --soft: #98a2ad; --line: #4a535d;
-    --mid: #727d88; --hair: #262c33; --trunk: #39424c; --trunk-line: #8b97a3;
-    --c0: #3d8fe0; --c1: #f0713a; --c2: #8ecbff; --c3: #ffc75a; --c4: #35b3a2; --c5: #b98ad6; --c6: #b3c043; --c7: #e58fbb;
-    --plus: #35b3a2; --minus: #f0713a;
-)css";
-
-constexpr std::string_view legs =
-    R"css(.leg0 { --leg: var(--c0); } .leg1 { --leg: var(--c1); } .leg2 { --leg: var(--c2); } .leg3 { --leg: var(--c3); }
-.leg4 { --leg: var(--c4); } .leg5 { --leg: var(--c5); } .leg6 { --leg: var(--c6); } .leg7 { --leg: var(--c7); }
-)css";
+constexpr std::string_view sans =
+    "system-ui, -apple-system, \"Segoe UI\", Roboto, Inter, \"Noto Sans\", \"Helvetica Neue\", Arial, "
+    "sans-serif";
+constexpr std::string_view mono =
+    "ui-monospace, SFMono-Regular, Menlo, Consolas, \"Liberation Mono\", \"DejaVu Sans Mono\", monospace";
 
 constexpr std::string_view cppn = R"css(
 .cppn text { font: 13px var(--sans); fill: var(--ink); }
@@ -93,20 +98,27 @@ svg text.value { fill: var(--soft); }
 svg text.halo { paint-order: stroke; stroke: var(--paper); stroke-width: 4px; stroke-linejoin: round; }
 .axis { stroke: var(--line); }
 .grid { stroke: var(--hair); }
-.curve { fill: none; stroke: var(--leg); stroke-width: 2.4; stroke-linejoin: round; stroke-linecap: round; }
-.curve.best { stroke: var(--ink); stroke-width: 2.6; } .dot.best { fill: var(--ink); }
-.curve.mean { stroke: var(--soft); stroke-width: 1.6; } .dot.mean { fill: var(--soft); }
-.curve.median { stroke: var(--mid); stroke-width: 1.6; } .dot.median { fill: var(--mid); }
-.curve.small { stroke: var(--ink); stroke-width: 1.6; } .dot.small { fill: var(--ink); }
-svg text.mean, svg text.median { font-weight: 450; fill: var(--soft); }
+.curve { fill: none; stroke: currentColor; stroke-width: 2.4; stroke-linejoin: round; stroke-linecap: round; }
+.curve.best { stroke: var(--ink); stroke-width: 2.6; }
+.dot.best { fill: var(--ink); }
+.curve.mean { stroke: var(--soft); stroke-width: 1.6; }
+.dot.mean { fill: var(--soft); }
+.curve.median { stroke: var(--mid); stroke-width: 1.6; }
+.dot.median { fill: var(--mid); }
+.curve.small { stroke: var(--ink); stroke-width: 1.6; }
+.dot.small { fill: var(--ink); }
+svg text.mean { font-weight: 450; fill: var(--soft); }
+svg text.median { font-weight: 450; fill: var(--soft); }
 .under-best { fill: var(--ink); opacity: .05; }
-.curve.typical { stroke: var(--c0); stroke-width: 2; } .dot.typical { fill: var(--c0); }
-.quartiles { fill: var(--c0); opacity: .16; } svg text.typical { fill: var(--c0); }
+.curve.typical { stroke: var(--c0); stroke-width: 2; }
+.dot.typical { fill: var(--c0); }
+.quartiles { fill: var(--c0); opacity: .16; }
+svg text.typical { fill: var(--c0); }
 )css";
 
 constexpr std::string_view maps = R"css(
 svg text.map-axis { font-size: 17px; fill: var(--soft); }
-.nobody { fill: var(--panel); }
+.empty-cell { fill: var(--panel); }
 .shade0 { fill: var(--c0); opacity: 0.16; }
 .shade1 { fill: var(--c0); opacity: 0.265; }
 .shade2 { fill: var(--c0); opacity: 0.37; }
@@ -119,7 +131,7 @@ svg text.map-axis { font-size: 17px; fill: var(--soft); }
 )css";
 
 constexpr std::string_view figures = R"css(
-.stance { fill: var(--leg); }
+.stance { fill: currentColor; }
 .track { fill: var(--panel); }
 .trigger { fill: var(--ink); }
 .zoomed { fill: none; stroke: var(--line); }
@@ -129,23 +141,24 @@ constexpr std::string_view figures = R"css(
 .offset { stroke: var(--ink); stroke-dasharray: 2 3; }
 .path { fill: none; stroke: var(--ink); stroke-width: 2; stroke-linejoin: round; stroke-linecap: round; }
 .beeline { stroke: var(--soft); stroke-dasharray: 2 5; }
-.footprint { fill: var(--leg); }
+.footprint { fill: currentColor; }
 .trunk-outline { fill: none; stroke: var(--line); stroke-width: 1.2; }
-.start { fill: var(--paper); stroke: var(--ink); stroke-width: 2; } .end { fill: var(--ink); }
+.start { fill: var(--paper); stroke: var(--ink); stroke-width: 2; }
+.end { fill: var(--ink); }
 .scale-bar { stroke: var(--ink); stroke-width: 1.2; }
 .cell { fill: var(--panel); }
 .ground { fill: var(--ground); }
 .ground-line { stroke: var(--line); }
 .trunk { fill: var(--trunk); stroke: var(--trunk-line); stroke-width: 1.2; stroke-linejoin: round; }
-.limb { fill: var(--leg); stroke: var(--panel); stroke-width: 1.2; stroke-linejoin: round; }
-.foot { fill: var(--panel); stroke: var(--leg); stroke-width: 2; }
-.foot-down { fill: var(--leg); stroke: var(--leg); stroke-width: 2; }
+.limb { fill: currentColor; stroke: var(--panel); stroke-width: 1.2; stroke-linejoin: round; }
+.foot { fill: var(--panel); stroke: currentColor; stroke-width: 2; }
+.foot-down { fill: currentColor; stroke: currentColor; stroke-width: 2; }
 .far { opacity: .42; }
 .plane { fill: var(--panel); stroke: var(--hair); }
-.link { stroke: var(--leg); stroke-width: 1.1; opacity: .7; } .link.strong { stroke-width: 1.8; } .link.weak { stroke-width: .6; }
+.link { stroke: currentColor; stroke-width: 1.1; opacity: .7; } .link.strong { stroke-width: 1.8; } .link.weak { stroke-width: .6; }
 .many .link { opacity: .2; stroke-width: .7; } .many .link.strong { stroke-width: 1.1; }
-.loop { fill: none; stroke: var(--leg); stroke-width: 1.1; }
-.arrow { fill: var(--leg); }
+.loop { fill: none; stroke: currentColor; stroke-width: 1.1; }
+.arrow { fill: currentColor; }
 .node-sensor { fill: var(--paper); stroke: var(--ink); stroke-width: 1.6; }
 .node-hidden { fill: var(--paper); stroke: var(--ink); stroke-width: 1.6; }
 .node-joint { fill: var(--ink); stroke: var(--ink); stroke-width: 1.6; }
@@ -173,16 +186,63 @@ constexpr std::string_view phone_and_paper = R"css(
 }
 )css";
 
-/// The custom properties of both schemes, and the classes of legs.
+void replace_all(std::string& text, std::string_view what, std::string_view with) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
+    text.replace(at, what.size(), with);
+}
+
+std::string declared(std::string_view Colour::*scheme) {
+  std::string declarations;
+  for (const Colour& colour : palette) declarations += fmt::format(" --{}: {};", colour.name, colour.*scheme);
+  return declarations;
+}
+
+/// Classes of legs: --leg for what is around figures, the current colour in them.
+std::string legs(bool in_page) {
+  std::string rules;
+  for (int leg = 0; leg < leg_colours; ++leg) {
+    if (in_page) rules += fmt::format(".leg{0} {{ --leg: var(--c{0}); }}\n", leg);
+    rules += fmt::format("svg .leg{0} {{ color: var(--c{0}); }}\n", leg);
+  }
+  return rules;
+}
+
+/// The palette of both schemes as custom properties, fonts, and the classes of legs.
 std::string colours() {
-  std::string sheet = "\n:root {\n  color-scheme: light dark;";
-  sheet += light_colours;
-  sheet += fonts;
-  sheet += "}\n@media screen and (prefers-color-scheme: dark) {\n  :root {";
-  sheet += dark_colours;
-  sheet += "  }\n}\n";
-  sheet += legs;
-  return sheet;
+  return fmt::format(
+             "\n:root {{ color-scheme: light dark;{} --sans: {}; --mono: {}; }}\n"
+             "@media screen and (prefers-color-scheme: dark) {{ :root {{{} }} }}\n",
+             declared(&Colour::light), sans, mono, declared(&Colour::dark)) +
+         legs(true);
+}
+
+/// The lines of `rules` whose first class occurs in the element, and those that name none.
+std::vector<std::string_view> lines_for(std::string_view rules, std::string_view element) {
+  constexpr std::string_view name = "abcdefghijklmnopqrstuvwxyz0123456789-_";
+  std::vector<std::string_view> kept;
+  while (!rules.empty()) {
+    const std::size_t end = std::min(rules.find('\n'), rules.size());
+    const std::string_view line = rules.substr(0, end);
+    rules.remove_prefix(std::min(end + 1, rules.size()));
+    const std::size_t dot = std::min(line.find('.'), line.find('{'));
+    const bool has_class = dot != std::string_view::npos && line[dot] == '.';
+    const std::string_view first =
+        has_class ? line.substr(dot + 1, line.find_first_not_of(name, dot + 1) - dot - 1) : "";
+    if (!line.empty() && element.find(first) != std::string_view::npos) kept.push_back(line);
+  }
+  return kept;
+}
+
+/// Those lines with the palette's values for its names; only those with colours, if asked.
+std::string resolved(const std::vector<std::string_view>& lines, std::string_view Colour::*scheme,
+                     bool colours_only) {
+  std::string style;
+  for (const std::string_view line : lines)
+    if (!colours_only || line.find("var(--") != std::string_view::npos) style.append(line) += '\n';
+  for (const Colour& colour : palette)
+    replace_all(style, fmt::format("var(--{})", colour.name), colour.*scheme);
+  replace_all(style, "var(--sans)", sans);
+  return style;
 }
 
 }  // namespace
@@ -205,13 +265,13 @@ std::string standalone_svg(std::string element, std::string_view more_rules) {
   element = with_margin(std::move(element), 16.0);
   const std::size_t head_end = element.find('>');
   AMBLE_CHECK(head_end != std::string::npos, "an SVG element begins with its tag");
-  std::string rules = "svg { color-scheme: light dark; background: var(--paper); overflow: visible; }";
-  for (const std::string_view part : {plots, maps, figures, cppn, more_rules}) rules += part;
-  const CustomProperties shared = custom_properties(fonts);
-  CustomProperties light = custom_properties(light_colours), dark = custom_properties(dark_colours);
-  light.insert(shared.begin(), shared.end());
-  dark.insert(shared.begin(), shared.end());
-  const std::string style = "\n<style>\n" + resolved_style(rules, light, dark, element) + "</style>";
+  std::string rules =
+      "svg { color-scheme: light dark; background: var(--paper); overflow: visible; }\n" + legs(false);
+  for (const std::string_view part : {plots, maps, figures, cppn, more_rules}) rules.append(part) += '\n';
+  const std::vector<std::string_view> lines = lines_for(rules, element);
+  const std::string style =
+      fmt::format("\n<style>\n{}@media screen and (prefers-color-scheme: dark) {{\n{}}}\n</style>",
+                  resolved(lines, &Colour::light, false), resolved(lines, &Colour::dark, true));
   return element.insert(head_end + 1, style);
 }
 
@@ -221,4 +281,4 @@ std::string with_rules(std::string svg, std::string_view rules) {
   return svg.insert(end, rules);
 }
 
-}  // namespace amble::graphics
+}  // namespace amble::figures

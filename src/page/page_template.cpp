@@ -1,4 +1,4 @@
-#include "amble/view/page_template.hpp"
+#include "amble/page/page_template.hpp"
 
 #include <cstddef>
 
@@ -21,10 +21,10 @@ extern const char amble_view_page_begin[];
 extern const char amble_view_page_end[];
 }
 
-namespace amble::view {
+namespace amble::page {
 
 std::string_view page_template() {
   return {amble_view_page_begin, to_index(amble_view_page_end - amble_view_page_begin)};
 }
 
-}  // namespace amble::view
+}  // namespace amble::page

@@ -1,4 +1,4 @@
-#include "amble//view/packed_recording.hpp"
+#include "amble/page/packed_recording.hpp"
 #include "amble/robot/pose.hpp"
 
 #include <gmock/gmock.h>
@@ -13,9 +13,9 @@
 #include "amble/record/frame_codec.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/motion/fixture.hpp"
-#include "tests/view/synthetic.hpp"
+#include "tests/page/synthetic.hpp"
 
-namespace amble::view {
+namespace amble::page {
 namespace {
 
 using tests::SyntheticWalk;
@@ -154,4 +154,4 @@ TEST_F(PackedRecordingTest, RefusesARobotWithoutFeet) {
 }
 
 }  // namespace
-}  // namespace amble::view
+}  // namespace amble::page

@@ -1,4 +1,4 @@
-#include "amble/page/page.hpp"
+#include "amble/page/run_page.hpp"
 
 #include <fmt/format.h>
 
@@ -7,15 +7,16 @@
 
 #include "amble/core/index.hpp"
 #include "amble/figures/figures.hpp"
-#include "amble/graphics/style_sheet.hpp"
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/style_sheet.hpp"
+#include "amble/figures/svg.hpp"
 #include "amble/io/xml.hpp"
 #include "amble/motion/footfalls.hpp"
+#include "amble/page/html_page.hpp"
 
 namespace amble::page {
 namespace {
 
-using graphics::FigureSize, graphics::leg_class, io::escape_xml;
+using figures::FigureSize, figures::leg_class, io::escape_xml;
 
 /// Both layouts of a figure; the style sheet shows the one that fits.
 std::string both(const std::function<std::string(FigureSize)>& figure) {
@@ -159,7 +160,7 @@ std::string controller_section(const motion::RecordedTrial& recorded) {
                   "legs. Dotted: {}. The last row counts how far the timer had come when the foot came down "
                   "and reset it; "
                   "beyond the end of the axis it had stopped.",
-                  graphics::number(supg.period_s()), offset),
+                  figures::number(supg.period_s()), offset),
       both([&](FigureSize layout) {
         return figures::pattern_figure(recorded.robot, supg, recorded.motion, layout);
       }));
@@ -217,13 +218,7 @@ std::string make_page(const RunPage& page, const motion::RecordedTrial& recorded
   if (page.generations) body += fitness_section(*page.generations, page.objective);
   if (moved) body += walk_sections(recorded, summary);
   body += provenance_section(page);
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n<meta "
-      "charset=\"utf-8\"/>\n"
-      "<meta name=\"viewport\" content=\"width=device-width, "
-      "initial-scale=1\"/>\n<title>{}</title>\n<style>{}</style>\n</head>\n"
-      "<body>\n<main>\n{}</main>\n</body>\n</html>\n",
-      escape_xml(page.title), graphics::style_sheet(), body);
+  return html_page(page.title, figures::style_sheet(), body);
 }
 
 }  // namespace amble::page

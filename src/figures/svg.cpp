@@ -1,4 +1,4 @@
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/svg.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "amble/core/check.hpp"
 #include "amble/io/xml.hpp"
 
-namespace amble::graphics {
+namespace amble::figures {
 
 namespace {
 
@@ -152,4 +152,4 @@ std::string with_margin(std::string element, double margin_px) {
                                           .height = box[3] + 2.0 * margin_px}));
 }
 
-}  // namespace amble::graphics
+}  // namespace amble::figures

@@ -4,9 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include "amble/graphics/svg.hpp"
+#include "amble/figures/svg.hpp"
 
-namespace amble::graphics {
+namespace amble::figures {
 
 /// A closed interval of data.
 struct Interval {
@@ -55,4 +55,4 @@ void draw_x_axis(Svg& svg, const Scale& x, const Ticks& ticks, double base_px, s
 /// order, each as near to its old position as possible.
 void spread(std::vector<double>& positions_px, double gap_px);
 
-}  // namespace amble::graphics
+}  // namespace amble::figures

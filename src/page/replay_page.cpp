@@ -1,4 +1,4 @@
-#include "amble/view/page.hpp"
+#include "amble/page/replay_page.hpp"
 
 #include <cmath>
 #include <string_view>
@@ -7,15 +7,15 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
-#include "amble/graphics/style_sheet.hpp"
+#include "amble/figures/style_sheet.hpp"
 #include "amble/ground/recorded.hpp"
 #include "amble/io/base64.hpp"
 #include "amble/io/xml.hpp"
+#include "amble/page/packed_recording.hpp"
+#include "amble/page/page_template.hpp"
 #include "amble/record/frame_codec.hpp"
-#include "amble/view/packed_recording.hpp"
-#include "amble/view/page_template.hpp"
 
-namespace amble::view {
+namespace amble::page {
 namespace {
 
 io::Json frames_json(const PackedFrames& frames) {
@@ -97,7 +97,7 @@ std::string make_page(const ReplayPage& page) {
     data["map"] = {{"svg", map->map_svg}, {"curves_svg", map->curves_svg},   {"note", map->note},
                    {"table", map->table}, {"table_title", map->table_title}, {"table_note", map->table_note}};
   const std::string style =
-      graphics::shared_style_sheet() + (page.map ? graphics::map_style_sheet() : std::string());
+      figures::shared_style_sheet() + (page.map ? figures::map_style_sheet() : std::string());
 
   std::string html;
   std::string_view rest = page_template();
@@ -109,4 +109,4 @@ std::string make_page(const ReplayPage& page) {
   return html;
 }
 
-}  // namespace amble::view
+}  // namespace amble::page

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace amble::graphics {
+namespace amble::figures {
 
 /// Every figure is drawn twice, for wide windows and paper and for phones; the page shows the one that fits.
 enum class FigureSize { wide, narrow };
@@ -20,4 +20,4 @@ inline std::string leg_class(int leg) {
   return "leg" + std::to_string(leg % leg_colours);
 }
 
-}  // namespace amble::graphics
+}  // namespace amble::figures
