@@ -1,5 +1,6 @@
 #include "amble/morphology/lost_shapes.hpp"
 
+#include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
@@ -67,6 +68,19 @@ bool is_of_a_foot(const mjModel_& model, int root, int geom,
       return false;
   }
   return true;
+}
+
+void let_visuals_collide(mjModel_& model, ReadingNotes& notes) {
+  std::vector<int> shapes;
+  for (int g = 0; g < model.ngeom; ++g) {
+    if (model.geom_bodyid[g] == 0) continue;
+    if (collides(model, g)) return;
+    shapes.push_back(g);
+  }
+  if (shapes.empty()) return;
+  for (const int g : shapes) model.geom_contype[g] = model.geom_conaffinity[g] = 1;
+  notes.add(Reading::replaced,
+            fmt::format("that nothing of the robot collides: its {} shapes to look at do", shapes.size()));
 }
 
 }  // namespace amble::morphology

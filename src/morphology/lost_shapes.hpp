@@ -3,6 +3,8 @@
 #include <map>
 #include <string>
 
+#include "amble/morphology/reading_notes.hpp"
+
 struct mjModel_;
 
 namespace amble::morphology {
@@ -20,5 +22,9 @@ bool ends_a_leg(const mjModel_& model, int root, int body);
 /// another robot. `missing_meshes`: by MuJoCo's name.
 bool is_of_a_foot(const mjModel_& model, int root, int geom,
                   const std::map<std::string, std::string>& missing_meshes);
+
+/// If no shape of any body collides, all shapes do that there are to look at: else the robot would fall
+/// through the ground.
+void let_visuals_collide(mjModel_& model, ReadingNotes& notes);
 
 }  // namespace amble::morphology

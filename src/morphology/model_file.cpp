@@ -15,6 +15,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
+#include "amble/morphology/lost_shapes.hpp"
 #include "amble/morphology/missing_mass.hpp"
 #include "amble/morphology/mujoco_handlers.hpp"
 
@@ -280,6 +281,7 @@ ModelFile compile_model(const std::filesystem::path& path) try {
   compiled.root_is_welded = text.urdf;
   Compiler compiler(text, path, compiled.notes);
   compiled.model = compiler.compile();
+  let_visuals_collide(*compiled.model, compiled.notes);
   compiled.mended_bodies = mend_masses(*compiled.model, text, compiled.notes);
   compiled.motors = std::move(text.motors);
   compiled.motors_named = std::move(text.motors_named);

@@ -234,5 +234,22 @@ TEST(IncompleteModel, WithTheLimitsOfATemplateHasNeitherItsTorqueNorItsSpeed) {
   EXPECT_THAT(fmt::format("{}", fmt::join(guess.doubts, ";")), Not(HasSubstr("at a crawl")));
 }
 
+TEST(IncompleteModel, OfWhichNothingCollidesTouchesTheGroundByWhatThereIsToLookAt) {
+  const Files files;
+  std::string text = tests::urdf_with_effort();
+  for (const char* tag : {"<collision", "</collision"})
+    for (std::size_t at = text.find(tag); at != std::string::npos; at = text.find(tag))
+      text.replace(at, std::string_view(tag).size(), tag[1] == '/' ? "</visual" : "<visual");
+  const RobotGuess guess = guess_robot(compile_model(files.write("r.urdf", text)), "r.urdf");
+  EXPECT_THAT(guess.toml, HasSubstr("legs = [\"left\", \"right\"]"));
+  EXPECT_THAT(extract_parts(compile_model(files.path("r.urdf"))).notes.text(),
+              HasSubstr("that nothing of the robot collides: its"));
+  // With one that does, the others are there to be looked at.
+  const std::string silent = with(foot_ball, "mass", R"(contype="0" conaffinity="0" mass)");
+  const ModelParts parts = incomplete(files, four_legs(trunk_box, thigh_rod, shin_rod + silent));
+  EXPECT_TRUE(std::ranges::none_of(
+      parts.geoms, [](const robot::Geom& geom) { return geom.collides && geom.name.ends_with("_ball"); }));
+}
+
 }  // namespace
 }  // namespace amble::morphology
