@@ -4,7 +4,7 @@ PREFIX ?= /usr/local
 JOBS ?= $(shell nproc)
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 
-.PHONY: demo picture build test test-aarch64 python package bench install doxygen coverage clean
+.PHONY: demo picture build test test-aarch64 python package bench install doxygen article reproduce-sample coverage clean
 
 demo: build
 	rm -rf demo
@@ -71,6 +71,27 @@ doxygen:
 	./setup --docs
 	mkdir -p build/doxygen
 	{ cat docs/Doxyfile; printf 'INPUT ='; sed 's|^| include/amble/|' cmake/public_headers.txt | tr -d '\n'; echo; } | doxygen -
+
+# The article about the reproduction, build/paper/article.pdf. Stops where text and ledgers differ (tools/article-numbers), and at a
+# line that does not fit.
+article: build
+	./setup --article
+	rm -rf build/paper
+	mkdir -p build/paper
+	tools/article-numbers build/release/src/cli/amble --check --tables build/paper/tables
+	for figure in distance-five-min typical-15s; do \
+	  rsvg-convert -f pdf -o build/paper/$$figure.pdf build/paper/tables/paper/figures/$$figure.svg || exit 1; done
+	cd paper && for pass in 1 2 3; do \
+	  pdflatex -interaction=nonstopmode -halt-on-error -output-directory=../build/paper article >../build/paper/pdflatex.txt || \
+	    { grep -A3 '^!' ../build/paper/pdflatex.txt; exit 1; }; \
+	  [ $$pass != 1 ] || (cd ../build/paper && BIBINPUTS=../../paper: bibtex -terse article) || exit 1; done
+	@! grep -E '^Overfull|undefined|multiply' build/paper/article.log
+	@echo "now open build/paper/article.pdf"
+
+# Twelve runs of the paper's study, drawn by this seed, repeated from nothing and compared with the ledger, digests included.
+SAMPLE ?= 2013
+reproduce-sample: build
+	tools/spot-check build/release/src/cli/amble studies/paper.toml results/paper 12 $(SAMPLE) $(JOBS)
 
 # Which lines of src the tests run, without those of page, oracles and intervals: build/coverage/index.html. Half an hour on two cores.
 coverage:
