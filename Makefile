@@ -4,7 +4,7 @@ PREFIX ?= /usr/local
 JOBS ?= $(shell nproc)
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 
-.PHONY: demo picture build test test-aarch64 python package bench install doxygen article reproduce-sample coverage clean
+.PHONY: demo picture build wasm wasm-check test test-aarch64 python package bench install doxygen article reproduce-sample coverage clean
 
 demo: build
 	rm -rf demo
@@ -25,6 +25,19 @@ build:
 	./setup
 	cmake --preset release
 	cmake --build --preset release
+
+# The part of amble that runs in pages, viewer/dist/amble.wasm, which is committed. The same compiler gives the same bytes: `make wasm-check`.
+wasm:
+	./setup --wasm
+	cmake --preset wasm
+	cmake --build --preset wasm
+	cp build/wasm/src/browser/amble.wasm viewer/dist/amble.wasm
+
+wasm-check:
+	./setup --wasm
+	cmake --preset wasm
+	cmake --build --preset wasm
+	@cmp build/wasm/src/browser/amble.wasm viewer/dist/amble.wasm || { echo "viewer/dist/amble.wasm is not what src gives: run make wasm" >&2; exit 1; }
 
 # The programs that tests run (browser, Slurm, Clang for exported C) are installed while the tests compile. One job more than
 # processors: a test that waits needs none.

@@ -57,6 +57,9 @@ endfunction()
 # third of the time to compile. Calls everywhere would make the solver's loop, and with it tests that simulate, six times slower.
 function(amble_kernels)
   amble_compile_apart(${ARGN})
+  if(AMBLE_WASM)
+    set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS -O2)
+  endif()
   # Highway marks NEON's functions as having instructions for cryptography, and GCC 12 forgets that in constructors that nobody wrote:
   # they cannot call those functions unless all may have them. None uses them, so any aarch64 runs this.
   if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
@@ -91,6 +94,10 @@ endfunction()
 # The library of a folder adds something to a registry by itself: whatever links it takes the object that defines
 # amble_registers_<folder>, which does that.
 function(amble_registers folder)
+  if(AMBLE_WASM) # where -u takes an object and then drops what nobody calls
+    target_link_options(amble_${folder} INTERFACE LINKER:--export=amble_registers_${folder})
+    return()
+  endif()
   target_link_options(amble_${folder} INTERFACE LINKER:-u,amble_registers_${folder})
   set_property(GLOBAL APPEND PROPERTY AMBLE_REGISTERS -Wl,-u,amble_registers_${folder})
 endfunction()

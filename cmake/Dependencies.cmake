@@ -1,4 +1,8 @@
 # Every third-party library amble links, found in one place. docs/ARCHITECTURE.md says why each is there.
+if(AMBLE_WASM)
+  include(cmake/WasmDependencies.cmake)
+  return()
+endif()
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 find_package(fmt REQUIRED)

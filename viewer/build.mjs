@@ -9,10 +9,12 @@ import { fileURLToPath } from "node:url";
 const here = fileURLToPath(new URL(".", import.meta.url));
 const read = (name) => readFile(here + name, "utf8");
 
-async function program() {
+/** One script of a source and all that it needs. */
+async function bundle(source, define = {}) {
   const { outputFiles } = await build({
     absWorkingDir: here,
-    entryPoints: ["src/main.js"],
+    entryPoints: [source],
+    define,
     bundle: true,
     minify: true,
     write: false,
@@ -22,6 +24,11 @@ async function program() {
     legalComments: "none", // the whole licence stands at the top of the page
   });
   return outputFiles[0].text.trim();
+}
+
+/** The page's, which holds that of its worker as a text. */
+async function program() {
+  return bundle("src/main.js", { AMBLE_EVOLVE_WORKER: JSON.stringify(await bundle("src/evolve_worker.js")) });
 }
 
 async function page() {

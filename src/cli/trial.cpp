@@ -14,9 +14,11 @@
 #include "amble/cli/messages.hpp"
 #include "amble/cli/option_checks.hpp"
 #include "amble/cli/stop_signal.hpp"
+#include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"
 #include "amble/damage/text.hpp"
-#include "amble/experiment/episode_set.hpp"
+#include "amble/experiment/problem/episode_set.hpp"
+#include "amble/experiment/problem/live_inputs.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/gait/report_text.hpp"
@@ -35,6 +37,7 @@ struct TrialOptions {
   std::optional<std::uint32_t> episode, unseen;
   std::optional<std::filesystem::path> ground;
   std::optional<std::string> damage;
+  std::optional<std::filesystem::path> inputs;
   presentation::TrialChoice disturbance;
 };
 
@@ -99,8 +102,28 @@ void print_typical(const experiment::Champion& champion, const TrialOptions& opt
                                       trials.level().under()));
 }
 
+/// A live session of a page, with all that was done to the robot.
+ExitCode run_again(const std::filesystem::path& champion_path, const std::filesystem::path& inputs_path) {
+  const std::string text = io::read_file(champion_path);
+  const auto session = experiment::parse_inputs(io::read_file(inputs_path), inputs_path.string());
+  if (session.champion != hex(hash_text(text)))
+    fail(ExitCode::bad_input, "{}: it is of another champion than {}", inputs_path.string(),
+         champion_path.string());
+  const auto champion = experiment::parse_champion_for(session.engine, text, champion_path.string());
+  const auto again = experiment::replay_live(champion, session);
+  fmt::print("engine    {}\nsteps     {}\ninputs    {}\ndistance  {:.3f} m\nat last   {}\n", session.engine,
+             again.steps, session.inputs.size(), again.distance_m, again.fallen ? "fallen" : "upright");
+  if (!again.first_difference) {
+    fmt::print("bits      the same in every step\n");
+    return ExitCode::ok;
+  }
+  fmt::print("bits      other ones from step {} on\n", *again.first_difference);
+  return ExitCode::differs;
+}
+
 ExitCode run_trial(const TrialOptions& options) {
   const auto path = experiment::champion_at(options.champion);
+  if (options.inputs) return run_again(path, *options.inputs);
   auto champion = experiment::load_champion(path);
   if (options.ground)
     change_as_in(*options.ground,
@@ -172,6 +195,12 @@ void add_trial(CLI::App& app, Action& action) {
                       "With the robot damaged as in the [damage] of this config, or as "
                       "KIND:NAME[=NUMBER][@SECONDS] says, e.g. "
                       "missing:FL,weak:FR_knee=0.3@5 (default: as in its evolution)");
+  auto* const inputs = command->add_option("--inputs", options->inputs,
+                                           "Run a live session of a page again, with all that was done to "
+                                           "the robot: the file that the page saved");
+  for (const char* other : {"--seconds", "--engine", "--record", "--episode", "--unseen", "--ground",
+                            "--damage", "--level", "--noise", "--trials", "--undisturbed"})
+    inputs->excludes(command->get_option(other));
   add_examples(*command, {{"amble trial runs/1", "what it typically does"},
                           {"amble trial runs/1 --seconds 300 --engine ode", ""},
                           {"amble trial runs/1 --damage missing:FL", "with its front left leg missing"}});

@@ -11,6 +11,9 @@
 #include <hwy/highway.h>
 
 #include "amble/core/fused.hpp"
+#if HWY_ARCH_WASM
+#include "amble/core/fused_wasm.hpp"
+#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace amble::simd::HWY_NAMESPACE {
@@ -42,6 +45,8 @@ HWY_INLINE void store(V v, float* to) {
 HWY_INLINE V fma(V a, V b, V c) {
 #if HWY_NATIVE_FMA
   return hn::MulAdd(a, b, c);
+#elif HWY_ARCH_WASM
+  return V{AMBLE_FUSED(a.raw, b.raw, c.raw)};
 #else
   HWY_ALIGN float as[width], bs[width], cs[width];
   store(a, as);

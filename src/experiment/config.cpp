@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "amble/core/error.hpp"
-#include "amble/experiment/episode_set.hpp"
-#include "amble/experiment/implied_settings.hpp"
+#include "amble/experiment/problem/episode_set.hpp"
+#include "amble/experiment/problem/implied_settings.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/toml_settings.hpp"
 #include "amble/physics/engine_kinds.hpp"

@@ -15,7 +15,7 @@
 #include "amble/core/error.hpp"
 #include "amble/cppn/settings.hpp"
 #include "amble/damage/settings.hpp"
-#include "amble/experiment/evaluation_settings.hpp"
+#include "amble/experiment/problem/evaluation_settings.hpp"
 #include "amble/ground/settings.hpp"
 #include "amble/io/own_settings.hpp"
 #include "amble/io/settings.hpp"

@@ -4,15 +4,12 @@
 #include <span>
 #include <vector>
 
-#include "amble/experiment/episode_set.hpp"
 #include "amble/experiment/evaluator.hpp"
-#include "amble/trial/noise_settings.hpp"
+#include "amble/experiment/problem/episode_set.hpp"
+#include "amble/experiment/problem/objective.hpp"
 #include "amble/trial/scenario.hpp"
 
 namespace amble::experiment {
-
-/// The objective of a genome from the scores (at least one) of its episodes.
-double objective(trial::EpisodeScore combined, std::span<const double> scores);
 
 /// The trials numbered `first`, `first` + 1, … of EpisodeSet::unseen, for `count` trials of any genome; none
 /// for a problem without noise. `ground` is that of their keys.

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "amble/experiment/evaluation_settings.hpp"
 #include "amble/experiment/evaluator.hpp"
 #include "amble/experiment/problem.hpp"
+#include "amble/experiment/problem/evaluation_settings.hpp"
 #include "amble/score/behaviour.hpp"
 #include "amble/search/evaluation.hpp"
 

@@ -1,27 +1,17 @@
 #include "amble/experiment/problem.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
 #include "amble/core/error.hpp"
-#include "amble/damage/stages.hpp"
-#include "amble/experiment/episode_set.hpp"
 #include "amble/io/file.hpp"
-#include "amble/io/json_file.hpp"
 #include "amble/io/printable.hpp"
 #include "amble/morphology/robot_file.hpp"
-#include "amble/physics/damaged_engine.hpp"
 #include "amble/robot/check.hpp"
-#include "amble/robot/json.hpp"
-#include "amble/robot/original_model.hpp"
-#include "amble/robot/pose.hpp"
 
 namespace amble::experiment {
 namespace {
-
-constexpr int robot_version = 1;
 
 /// Relative to the current folder if the file is in it: shorter in messages.
 std::filesystem::path as_seen_from_here(const std::filesystem::path& file) {
@@ -57,136 +47,9 @@ Problem Problem::make(const Config& config, robot::RobotSpec robot) {
   return problem;
 }
 
-void Problem::complete() {
-  trial.validate();
-  ground.validate();
-  noise.validate(trial, ground.start_place_m > 0.0 || controller.sensing.is_noisy());
-  score.validate();
-  damage.validate(robot);
-  check_start();
-  // Champion files have the nodes themselves, however the config came by them.
-  controller.substrate = controllers::substrate_of(controller, robot);
-  architecture = controllers::make_architecture(controller, robot, trial.timestep_s);
-  make_engine();  // throws if the engine cannot simulate the robot
-}
-
-std::unique_ptr<physics::Engine> Problem::make_engine(bool torques) const {
-  const robot::ExtraSenses sensed =
-      architecture != nullptr ? architecture->extra_senses() : robot::ExtraSenses();
-  const bool needed = torques || sensed.torque || make_score().measures().energy;
-  return physics::make_damaged_engine(engine, robot, damage,
-                                      {.timestep_s = trial.timestep_s,
-                                       .torques = needed,
-                                       .loads = sensed.load,
-                                       .ground_friction = ground.friction,
-                                       .own = engine_own});
-}
-
-std::unique_ptr<controllers::Parameters> Problem::decode(const neat::Genome& genome) const {
-  return architecture->decode(cppn::Network(genome, cppn));
-}
-
-score::Score Problem::make_score() const {
-  const double mass_kg =
-      damage.changes_body() ? damage::robot_at_start(robot, damage).total_mass_kg() : robot.total_mass_kg();
-  return score::Score(score, trial.steps() * trial.timestep_s, mass_kg * norm(robot.gravity_m_s2));
-}
-
-trial::Protocol Problem::protocol(const record::PathSampling& path, const record::Measures& measures) const {
-  record::Measures all = make_score().measures();
-  all |= measures;
-  std::vector<trial::NumbTouch> numb;
-  for (const damage::NumbFoot& foot : damage::numb_feet(robot, damage))
-    numb.push_back({foot.leg, damage::first_step(foot.from_s, trial.timestep_s)});
-  return {.steps = trial.steps(),
-          .timestep_s = trial.timestep_s,
-          .first_command = trial.first_command,
-          .path = path,
-          .measures = all,
-          .numb = std::move(numb),
-          .sensing = {architecture->extra_senses(),
-                      controllers::sensor_models(controller.sensing, robot, trial.timestep_s)},
-          .fall_height_m = robot.fall_height_m,
-          .start_rotation = robot.bodies[0].rotation};
-}
-
-void Problem::set_ground(const ground::Settings& other) {
-  other.validate();
-  if (other.friction < 0.0 && ground.friction >= 0.0)
-    fail_setting({"ground.friction"},
-                 "ground.friction = -1: the robot's own friction is no longer known here; "
-                 "expected a number");
-  if (other.slope_x != ground.slope_x || other.slope_y != ground.slope_y)
-    robot.gravity_m_s2 = other.tilted({0.0, 0.0, -norm(robot.gravity_m_s2)});
-  if (other.friction >= 0.0) robot.contact.friction = other.friction;
-  ground = other;
-  check_start();
-}
-
-void Problem::set_damage(const damage::Settings& other) {
-  other.validate(robot);
-  damage = other;
-  make_engine();
-}
-
-void Problem::check_start() const {
-  if (!ground.has_field()) return;
-  const auto full = make_ground({.generation = static_cast<std::uint32_t>(ground.grow_generations)});
-  const auto start = robot::start_poses(robot);
-  constexpr double slack_m = 1e-3;
-  if (full->clearance_m(robot, start) < std::min(0.0, robot::clearance_m(robot, start)) - slack_m)
-    fail_setting({"ground.start_radius_m", "ground.kind"},
-                 "ground.start_radius_m = {}: the robot starts in the ground; expected a larger flat place",
-                 ground.start_radius_m);
-}
-
-std::shared_ptr<const ground::Ground> Problem::make_ground(const ground::Key& key) const {
-  if (!ground.has_field()) return nullptr;
-  return std::make_shared<const ground::Ground>(ground::make_field(ground, key), robot);
-}
-
-ground::Key ground_of(const trial::ScenarioKey& key) {
-  return {.seed = key.seed, .generation = key.generation, .set = ground_number(key.episode)};
-}
-
-std::shared_ptr<const ground::Ground> GenerationGround::of(const Problem& problem, std::int64_t seed,
-                                                           int generation) {
-  const ground::Key key = normalised(problem.ground, {.seed = static_cast<std::uint64_t>(seed),
-                                                      .generation = static_cast<std::uint32_t>(generation)});
-  if (key != key_) ground_ = problem.make_ground(key);
-  key_ = key;
-  return ground_;
-}
-
-trial::Scenario Problem::scenario(const trial::ScenarioKey& key, const ground::Ground* on) const {
-  return trial::draw_scenario(noise, robot, trial.steps(), trial.timestep_s, key,
-                              {.ground = on, .place_m = ground.start_place_m});
-}
-
-std::vector<trial::Scenario> Problem::scenarios(std::int64_t seed, int generation,
-                                                const ground::Ground* on) const {
-  std::vector<trial::Scenario> all;
-  if (!trials_vary()) return all;
-  for (int episode = 0; episode < noise.episodes; ++episode)
-    all.push_back(scenario({.seed = static_cast<std::uint64_t>(seed),
-                            .generation = static_cast<std::uint32_t>(generation),
-                            .episode = static_cast<std::uint32_t>(episode)},
-                           on));
-  return all;
-}
-
 robot::RobotSpec load_robot_file(const std::filesystem::path& path, morphology::ReadingNotes* notes) {
   if (path.extension() != ".json") return morphology::load_robot(path, notes);
   return robot_from_text(io::read_file(path), path.string());
-}
-
-robot::RobotSpec robot_from_text(const std::string& text, const std::string& what) {
-  const auto sealed = io::unseal_json("amble-robot", robot_version, text, what);
-  const io::JsonView root(sealed.document, what);
-  robot::RobotSpec robot = robot::from_json(root.at("robot"));
-  if (root.has("original_model"))
-    robot.original = robot::original_model_from_json(root.at("original_model"), robot);
-  return robot;
 }
 
 robot::RobotSpec load_robot(const Config& config) {
@@ -196,12 +59,6 @@ robot::RobotSpec load_robot(const Config& config) {
     fail(ExitCode::io, "{}: 'robot': {}: {}", config.locate_setting({"robot"}), io::printable(file.string()),
          error ? error.message() : "No such file or directory");
   return load_robot_file(file);
-}
-
-std::string robot_file_text(const robot::RobotSpec& robot) {
-  io::Json document{{"robot", robot::to_json(robot)}};
-  if (robot.original) document["original_model"] = robot::to_json(*robot.original);
-  return io::sealed_json("amble-robot", robot_version, document);
 }
 
 }  // namespace amble::experiment

@@ -1,101 +1,13 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
 
-#include "amble/controllers/controller.hpp"
-#include "amble/controllers/factory.hpp"
-#include "amble/cppn/settings.hpp"
-#include "amble/damage/settings.hpp"
 #include "amble/experiment/config.hpp"
-#include "amble/ground/ground.hpp"
-#include "amble/ground/settings.hpp"
-#include "amble/io/own_settings.hpp"
+#include "amble/experiment/problem/problem.hpp"
 #include "amble/morphology/reading_notes.hpp"
-#include "amble/neat/genome.hpp"
 #include "amble/robot/spec.hpp"
-#include "amble/score/score.hpp"
-#include "amble/trial/noise_settings.hpp"
-#include "amble/trial/scenario.hpp"
-#include "amble/trial/settings.hpp"
-#include "amble/trial/trial.hpp"
 
 namespace amble::experiment {
-
-/// Everything that maps a genome to a trajectory: robot, engine, architecture, trial. Const, shared by all
-/// workers.
-struct Problem {
-  robot::RobotSpec robot;
-  std::string engine;
-  cppn::Settings cppn;
-  controllers::ControllerSettings controller;
-  trial::Settings trial;
-  trial::NoiseSettings noise;
-  score::Settings score;
-  ground::Settings ground;
-  damage::Settings damage = {};
-  io::OwnSettings engine_own = {};  ///< of an engine that is not one of amble's own
-  ground::Key ground_key = {};      ///< of uneven ground in trials without noise
-  std::shared_ptr<const controllers::Architecture> architecture;
-
-  /// `robot` as in its file, intact whatever `damage` says: that is done to the engine's; the problem's robot
-  /// starts Config::drop_m higher, feels gravity as on the ground's slope, and has its friction. Throws
-  /// UserError if the parts do not fit together (an engine that cannot simulate the robot, a controller for
-  /// other legs).
-  static Problem make(const Config& config, robot::RobotSpec robot);
-  /// Makes `architecture` from the other members and checks that they fit.
-  void complete();
-
-  /// Changes the ground, and with it the robot's gravity and friction. Throws UserError if `other` leaves
-  /// friction to the robot's file and the ground so far did not.
-  void set_ground(const ground::Settings& other);
-  /// Changes the damage. Throws SettingError if the robot has no such parts, UserError if the engine cannot
-  /// simulate what is left.
-  void set_damage(const damage::Settings& other);
-  /// Throws SettingError if the start pose is in uneven ground.
-  void check_start() const;
-
-  int cppn_inputs() const { return static_cast<int>(architecture->cppn_inputs().size()); }
-  int cppn_outputs() const { return static_cast<int>(architecture->cppn_outputs().size()); }
-  /// `torques`: see physics::EngineSettings; always with them if the score measures energy.
-  std::unique_ptr<physics::Engine> make_engine(bool torques = false) const;
-  std::unique_ptr<controllers::Parameters> decode(const neat::Genome& genome) const;
-  score::Score make_score() const;
-  /// What a trial of this score counts in evolution: with trial.fall_factor for a fall.
-  double credited(double score_of_trial, record::Outcome outcome) const {
-    return score::credited(score_of_trial, outcome, trial.fall_factor);
-  }
-  /// `measures`: those that the score does not need itself.
-  trial::Protocol protocol(const record::PathSampling& path, const record::Measures& measures = {}) const;
-  /// Whether trials differ: by noise, that of sensors included, or by the place where they start.
-  bool trials_vary() const {
-    return noise.any() || ground.start_place_m > 0.0 || controller.sensing.is_noisy();
-  }
-  /// Null for the plane.
-  std::shared_ptr<const ground::Ground> make_ground(const ground::Key& key) const;
-  /// `on`: the ground of the trial, null for the plane.
-  trial::Scenario scenario(const trial::ScenarioKey& key, const ground::Ground* on = nullptr) const;
-  /// The scenarios of a generation, the same for all genomes, one per episode; empty unless trials_vary().
-  std::vector<trial::Scenario> scenarios(std::int64_t seed, int generation,
-                                         const ground::Ground* on = nullptr) const;
-};
-
-/// The ground of a trial under noise: that of its generation, or of its EpisodeSet.
-ground::Key ground_of(const trial::ScenarioKey& key);
-
-/// The ground of each generation of a run, made anew only when it changes.
-class GenerationGround {
- public:
-  std::shared_ptr<const ground::Ground> of(const Problem& problem, std::int64_t seed, int generation);
-
- private:
-  std::optional<ground::Key> key_;
-  std::shared_ptr<const ground::Ground> ground_;
-};
 
 /// The robot of a config. Throws UserError; if its file is missing, with the place that names it.
 robot::RobotSpec load_robot(const Config& config);
@@ -103,9 +15,5 @@ robot::RobotSpec load_robot(const Config& config);
 /// how the model's parts were handled. Throws UserError.
 robot::RobotSpec load_robot_file(const std::filesystem::path& path,
                                  morphology::ReadingNotes* notes = nullptr);
-/// The text of a robot.json.
-std::string robot_file_text(const robot::RobotSpec& robot);
-/// What robot_file_text() wrote. `what` names the file. Throws UserError(ExitCode::bad_file).
-robot::RobotSpec robot_from_text(const std::string& text, const std::string& what);
 
 }  // namespace amble::experiment

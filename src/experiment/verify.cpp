@@ -10,7 +10,7 @@
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/experiment/champion.hpp"
-#include "amble/experiment/problem_json.hpp"
+#include "amble/experiment/problem/problem_json.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "amble/core/index.hpp"
-#include "amble/experiment/problem_json.hpp"
+#include "amble/experiment/problem/problem_json.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/neat/genome_json.hpp"
 #include "amble/robot/json.hpp"

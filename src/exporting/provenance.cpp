@@ -5,7 +5,7 @@
 #include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"
 #include "amble/experiment/build_info.hpp"
-#include "amble/experiment/problem_json.hpp"
+#include "amble/experiment/problem/problem_json.hpp"
 
 namespace amble::exporting {
 

@@ -1,3 +1,4 @@
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -46,7 +47,8 @@ bool add_link(Genome& genome, double weight_limit, bool recurrent, Innovations& 
 
 bool delete_link(Genome& genome, Stream& stream) {
   if (genome.links.empty()) return false;
-  genome.links.erase(genome.links.begin() + stream.below(static_cast<std::uint32_t>(genome.links.size())));
+  const std::uint32_t place = stream.below(static_cast<std::uint32_t>(genome.links.size()));
+  genome.links.erase(genome.links.begin() + static_cast<std::ptrdiff_t>(place));
   remove_unlinked_hidden_nodes(genome);
   return true;
 }

@@ -13,18 +13,30 @@ amble_view_page_begin:
   .incbin ")asm" AMBLE_VIEWER_PAGE R"asm("
 amble_view_page_end:
   .byte 0
+  .global amble_view_module_begin
+  .global amble_view_module_end
+amble_view_module_begin:
+  .incbin ")asm" AMBLE_BROWSER_MODULE R"asm("
+amble_view_module_end:
+  .byte 0
   .popsection
 )asm");
 
 extern "C" {
 extern const char amble_view_page_begin[];
 extern const char amble_view_page_end[];
+extern const char amble_view_module_begin[];
+extern const char amble_view_module_end[];
 }
 
 namespace amble::page {
 
 std::string_view page_template() {
   return {amble_view_page_begin, to_index(amble_view_page_end - amble_view_page_begin)};
+}
+
+std::string_view browser_module() {
+  return {amble_view_module_begin, to_index(amble_view_module_end - amble_view_module_begin)};
 }
 
 }  // namespace amble::page

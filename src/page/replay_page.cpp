@@ -1,5 +1,6 @@
 #include "amble/page/replay_page.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "amble/page/packed_recording.hpp"
 #include "amble/page/page_template.hpp"
 #include "amble/record/frame_codec.hpp"
+#include "amble/robot/deflate.hpp"
 
 namespace amble::page {
 namespace {
@@ -61,7 +63,8 @@ io::Json walker_json(const Walker& walker) {
           {"contacts", frames_json(recording.contacts)},
           {"cppn_svg", walker.cppn_svg.empty() ? io::Json(nullptr) : io::Json(walker.cppn_svg)},
           {"gait", walker.gait},
-          {"cell", walker.cell ? io::Json(*walker.cell) : io::Json(nullptr)}};
+          {"cell", walker.cell ? io::Json(*walker.cell) : io::Json(nullptr)},
+          {"champion", walker.champion.empty() ? io::Json(nullptr) : io::Json(walker.champion)}};
 }
 
 /// JSON for the content of a <script> element: pure ASCII and without "<", which occurs in strings only.
@@ -74,6 +77,14 @@ std::string script_text(const io::Json& json) {
       text += c;
   }
   return text;
+}
+
+/// The WebAssembly module, where a walker can be simulated.
+std::string module_element(const ReplayPage& page) {
+  const auto has_champion = [](const Walker& walker) { return !walker.champion.empty(); };
+  if (std::ranges::none_of(page.walkers, has_champion)) return {};
+  return "<script type=\"text/plain\" id=\"amble-module\">" +
+         io::base64(robot::deflated(std::string(browser_module()))) + "</script>";
 }
 
 /// Appends the template up to a mark, then `content` instead of the mark; returns the rest.
@@ -105,6 +116,7 @@ std::string make_page(const ReplayPage& page) {
   rest = fill(rest, "<!--amble:palette-->", "<style>" + style + "</style>", html);
   rest = fill(rest, "<!--amble:data-->",
               "<script type=\"application/json\" id=\"amble-data\">" + script_text(data) + "</script>", html);
+  rest = fill(rest, "<!--amble:module-->", module_element(page), html);
   html += rest;
   return html;
 }

@@ -17,6 +17,8 @@ struct Walker {
   std::string cppn_svg;  ///< figures::cppn_figure() of its controller; empty: unknown
   io::Json gait;         ///< "amble-gait" (docs/FORMATS.md); null: the page shows duty factors only
   std::optional<std::uint32_t> cell = {};  ///< of the map that the page shows; with a map all have one
+  /// The text of its champion's file: then the page can also simulate it (docs/BROWSER.md). Empty: it cannot.
+  std::string champion = {};
 };
 
 /// A map of elites from which the reader chooses the walkers that are shown.

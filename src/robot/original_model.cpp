@@ -1,40 +1,15 @@
 #include "amble/robot/original_model.hpp"
 
-#include <zlib.h>
-
 #include <cstdint>
-#include <optional>
 #include <utility>
 
-#include "amble/core/check.hpp"
 #include "amble/io/base64.hpp"
+#include "amble/robot/deflate.hpp"
 
 namespace amble::robot {
 namespace {
 
 constexpr std::int64_t largest_mesh_bytes = 50'000'000;
-
-std::string deflated(const std::string& bytes) {
-  std::string stream(compressBound(static_cast<uLong>(bytes.size())), '\0');
-  auto size = static_cast<uLongf>(stream.size());
-  const int status =
-      compress2(reinterpret_cast<Bytef*>(stream.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-                static_cast<uLong>(bytes.size()), 6);
-  AMBLE_CHECK(status == Z_OK, "deflating into a large enough buffer");
-  stream.resize(size);
-  return stream;
-}
-
-std::optional<std::string> inflated(const std::optional<std::string>& stream, std::size_t bytes) {
-  if (!stream) return std::nullopt;
-  std::string all(bytes, '\0');
-  auto size = static_cast<uLongf>(bytes);
-  const int status =
-      uncompress(reinterpret_cast<Bytef*>(all.data()), &size, reinterpret_cast<const Bytef*>(stream->data()),
-                 static_cast<uLong>(stream->size()));
-  if (status != Z_OK || size != bytes) return std::nullopt;
-  return all;
-}
 
 std::vector<int> numbers_of(const io::JsonView& json, std::size_t count) {
   if (json.size() != count) json.bad("a number for each of the robot's");

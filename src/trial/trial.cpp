@@ -12,7 +12,7 @@
 namespace amble::trial {
 
 Runner::Runner(physics::Engine& engine, controllers::Batch& controllers, const Protocol& protocol)
-    : engine_(engine),
+    : engine_(&engine),
       controllers_(controllers),
       protocol_(protocol),
       targets_rad_(engine.sensors().joint_angle_rad.rows(), engine.lanes()),
@@ -26,20 +26,37 @@ Runner::Runner(physics::Engine& engine, controllers::Batch& controllers, const P
 // The step loop: sensors → controllers → targets (noise applies to both), engine step, then evaluate each
 // lane.
 void Runner::run(TaskQueue& queue, const std::atomic<bool>& stop) {
-  for (int lane = 0; lane < engine_.lanes(); ++lane) refill(lane, queue);
-  while (busy_ > 0 && !stop.load(std::memory_order_relaxed)) {
-    const double before_s = now_s();
-    controllers_.step(disturbances_.read(senses_.read(engine_)), targets_rad_);
-    if (protocol_.first_command == FirstCommand::after_first_step) hold_first_steps();
-    disturbances_.act(targets_rad_, engine_);
-    const double between_s = now_s();
-    engine_.step(targets_rad_);
-    control_s_ += between_s - before_s;
-    physics_s_ += now_s() - between_s;
+  begin(queue);
+  while (busy_ > 0 && !stop.load(std::memory_order_relaxed)) tick(queue);
+}
 
-    for (int lane = 0; lane < engine_.lanes(); ++lane)
-      if (lanes_[to_index(lane)].busy) after_step(lane, queue);
-  }
+void Runner::begin(TaskQueue& queue) {
+  for (int lane = 0; lane < engine_->lanes(); ++lane) refill(lane, queue);
+}
+
+bool Runner::tick(TaskQueue& queue) {
+  const double before_s = now_s();
+  controllers_.step(disturbances_.read(senses_.read(*engine_)), targets_rad_);
+  if (protocol_.first_command == FirstCommand::after_first_step) hold_first_steps();
+  disturbances_.act(targets_rad_, *engine_);
+  const double between_s = now_s();
+  engine_->step(targets_rad_);
+  control_s_ += between_s - before_s;
+  physics_s_ += now_s() - between_s;
+
+  for (int lane = 0; lane < engine_->lanes(); ++lane)
+    if (lanes_[to_index(lane)].busy) after_step(lane, queue);
+  return busy_ > 0;
+}
+
+void Runner::move_to(physics::Engine& engine, const std::vector<int>& numb_legs) {
+  AMBLE_CHECK(engine.lanes() == engine_->lanes(), "an engine of as many lanes");
+  for (const Lane& slot : lanes_)
+    AMBLE_CHECK(!slot.busy || slot.task.scenario == nullptr, "a scenario belongs to one engine");
+  engine_ = &engine;
+  std::vector<NumbTouch> numb;
+  for (const int leg : numb_legs) numb.push_back({.leg = leg});
+  disturbances_ = Disturbances(engine.sensors(), std::move(numb));
 }
 
 void Runner::refill(int lane, TaskQueue& queue) {
@@ -49,18 +66,18 @@ void Runner::refill(int lane, TaskQueue& queue) {
   slot.busy = task.has_value();
   disturbances_.load(lane, task ? task->scenario : nullptr);
   if (!task) {
-    engine_.retire(lane);
+    engine_->retire(lane);
     return;
   }
   ++busy_;
   {
     const Stopwatch watch(physics_s_);
     if (task->scenario && task->scenario->start)
-      engine_.place_at(lane, *task->scenario->start);
+      engine_->place_at(lane, *task->scenario->start);
     else
-      engine_.place(lane);
+      engine_->place(lane);
   }
-  senses_.load(lane, engine_, task->scenario);
+  senses_.load(lane, *engine_, task->scenario);
   slot.task = std::move(*task);
   controllers_.load(lane, *slot.task.parameters);
   note_start(slot, lane);
@@ -70,24 +87,24 @@ void Runner::refill(int lane, TaskQueue& queue) {
 void Runner::note_start(Lane& slot, int lane) {
   slot.trajectory = {};
   slot.trajectory.timestep_s = protocol_.timestep_s;
-  slot.trajectory.com_start_m = slot.last_healthy_com_m = engine_.com_m(lane);
+  slot.trajectory.com_start_m = slot.last_healthy_com_m = engine_->com_m(lane);
   note_forward(lane, slot.trajectory.forward_x, slot.trajectory.forward_y);
   if (protocol_.measures.contacts)
-    slot.trajectory.contact_steps.assign(to_index(engine_.sensors().touch.rows()), 0);
+    slot.trajectory.contact_steps.assign(to_index(engine_->sensors().touch.rows()), 0);
   if (protocol_.measures.footfalls) {
-    slot.trajectory.footfall_steps.assign(to_index(engine_.sensors().touch.rows()), {});
-    slot.last_touch_step.assign(to_index(engine_.sensors().touch.rows()),
+    slot.trajectory.footfall_steps.assign(to_index(engine_->sensors().touch.rows()), {});
+    slot.last_touch_step.assign(to_index(engine_->sensors().touch.rows()),
                                 std::numeric_limits<int>::min() / 2);
   }
   if (!protocol_.measures.energy) return;
   slot.angle_rad.clear();
-  const LaneArray& angle_rad = engine_.sensors().joint_angle_rad;
+  const LaneArray& angle_rad = engine_->sensors().joint_angle_rad;
   for (int joint = 0; joint < angle_rad.rows(); ++joint) slot.angle_rad.push_back(angle_rad.at(joint, lane));
 }
 
 /// The projection on the ground of the root's forward axis, of unit length; unchanged where that is upright.
 void Runner::note_forward(int lane, double& x, double& y) const {
-  const Quat turn = engine_.root_pose(lane).rotation * conjugate(protocol_.start_rotation);
+  const Quat turn = engine_->root_pose(lane).rotation * conjugate(protocol_.start_rotation);
   const Vec3 forward = rotate(turn, {1.0, 0.0, 0.0});
   const double length = std::sqrt(forward.x * forward.x + forward.y * forward.y);
   if (!(length > 1e-6)) return;
@@ -97,8 +114,8 @@ void Runner::note_forward(int lane, double& x, double& y) const {
 
 /// Sets the targets of lanes in their first step to the present joint angles.
 void Runner::hold_first_steps() {
-  const LaneArray& angle_rad = engine_.sensors().joint_angle_rad;
-  for (int lane = 0; lane < engine_.lanes(); ++lane) {
+  const LaneArray& angle_rad = engine_->sensors().joint_angle_rad;
+  for (int lane = 0; lane < engine_->lanes(); ++lane) {
     const Lane& slot = lanes_[to_index(lane)];
     if (!slot.busy || slot.trajectory.steps > 0) continue;
     for (int joint = 0; joint < targets_rad_.rows(); ++joint)
@@ -126,9 +143,9 @@ std::optional<record::Outcome> Runner::advance(int lane) {
   record::Trajectory& trajectory = slot.trajectory;
   ++trajectory.steps;
   ++steps_simulated_;
-  if (!engine_.healthy(lane)) return record::Outcome::diverged;
+  if (!engine_->healthy(lane)) return record::Outcome::diverged;
 
-  slot.last_healthy_com_m = engine_.com_m(lane);
+  slot.last_healthy_com_m = engine_->com_m(lane);
   if (protocol_.path.at(trajectory.steps, protocol_.steps)) {
     const Vec3 moved = slot.last_healthy_com_m - trajectory.com_start_m;
     trajectory.com_path_m.push_back(static_cast<float>(moved.x));
@@ -139,10 +156,10 @@ std::optional<record::Outcome> Runner::advance(int lane) {
   if (protocol_.first_command == FirstCommand::after_first_step && trajectory.steps == 1)
     controllers_.load(lane, *slot.task.parameters);
   if (slot.task.observer)
-    slot.task.observer->on_step(trajectory.steps, engine_, controllers_, targets_rad_, lane);
+    slot.task.observer->on_step(trajectory.steps, *engine_, controllers_, targets_rad_, lane);
 
-  const Vec3 root_m = engine_.root_com_m(lane);
-  const double ground_m = engine_.ground() ? engine_.ground()->height_m(root_m.x, root_m.y) : 0.0;
+  const Vec3 root_m = engine_->root_com_m(lane);
+  const double ground_m = engine_->ground() ? engine_->ground()->height_m(root_m.x, root_m.y) : 0.0;
   if (protocol_.measures.height) trajectory.height_steps_m += root_m.z - ground_m;
   if (root_m.z - ground_m < protocol_.fall_height_m) return record::Outcome::fell;
   if (trajectory.steps == protocol_.steps) return record::Outcome::completed;
@@ -154,12 +171,12 @@ void Runner::measure(int lane) {
   Lane& slot = lanes_[to_index(lane)];
   if (protocol_.measures.uprightness) {
     // R_zz of the rotation matrix, from the quaternion.
-    const Quat q = engine_.root_pose(lane).rotation;
+    const Quat q = engine_->root_pose(lane).rotation;
     slot.trajectory.upright_steps += 1.0 - 2.0 * (q.x * q.x + q.y * q.y);
   }
   if (protocol_.measures.contacts)
     for (std::size_t leg = 0; leg < slot.trajectory.contact_steps.size(); ++leg)
-      slot.trajectory.contact_steps[leg] += engine_.sensors().touch.at(static_cast<int>(leg), lane) > 0.0f;
+      slot.trajectory.contact_steps[leg] += engine_->sensors().touch.at(static_cast<int>(leg), lane) > 0.0f;
   if (protocol_.measures.footfalls) note_footfalls(lane);
   if (protocol_.measures.seconds) {
     record::Trajectory& trajectory = slot.trajectory;
@@ -171,8 +188,8 @@ void Runner::measure(int lane) {
   }
   if (!protocol_.measures.energy) return;
   // Work of each motor in this step: τ Δq, braking counted like driving.
-  const LaneArray& angle_rad = engine_.sensors().joint_angle_rad;
-  const LaneArray& torque_nm = *engine_.motor_torque_nm();
+  const LaneArray& angle_rad = engine_->sensors().joint_angle_rad;
+  const LaneArray& torque_nm = *engine_->motor_torque_nm();
   for (int joint = 0; joint < angle_rad.rows(); ++joint) {
     double& before_rad = slot.angle_rad[to_index(joint)];
     const double now_rad = angle_rad.at(joint, lane);
@@ -187,7 +204,7 @@ void Runner::note_footfalls(int lane) {
   // Off during the steps between two touches.
   const double least_off = record::footfall_off_s / protocol_.timestep_s - 1e-6;
   for (std::size_t leg = 0; leg < slot.last_touch_step.size(); ++leg) {
-    if (!(engine_.sensors().touch.at(static_cast<int>(leg), lane) > 0.0f)) continue;
+    if (!(engine_->sensors().touch.at(static_cast<int>(leg), lane) > 0.0f)) continue;
     if (record::has_come_down(step, slot.last_touch_step[leg], least_off))
       slot.trajectory.footfall_steps[leg].push_back(step);
     slot.last_touch_step[leg] = step;

@@ -69,7 +69,17 @@ class Runner {
   /// Until the queue is empty and the last trial has ended, or `stop` is set (then trials in flight are
   /// dropped).
   void run(TaskQueue& queue, const std::atomic<bool>& stop);
+  /// The parts of run(): fills the lanes, then one step of all; false when the last trial has ended.
+  void begin(TaskQueue& queue);
+  bool tick(TaskQueue& queue);
 
+  /// From the next tick on the robots are those of another engine of as many lanes, joints and legs, in which
+  /// they are placed already; controllers and what they sense go on. Without scenarios. `numb`: feet that are
+  /// numb from now on.
+  void move_to(physics::Engine& engine, const std::vector<int>& numb_legs);
+
+  /// Of the last tick.
+  const LaneArray& targets_rad() const { return targets_rad_; }
   /// Steps simulated, and time spent in the engine and in controllers and noise, since the runner was made.
   std::uint64_t steps_simulated() const { return steps_simulated_; }
   double physics_s() const { return physics_s_; }
@@ -94,7 +104,7 @@ class Runner {
   void measure(int lane);
   void note_footfalls(int lane);
 
-  physics::Engine& engine_;
+  physics::Engine* engine_;
   controllers::Batch& controllers_;
   Protocol protocol_;
   LaneArray targets_rad_;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "amble/experiment/problem_json.hpp"
+#include "amble/experiment/problem/problem_json.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/verify.hpp"
 #include "amble/record/recording.hpp"

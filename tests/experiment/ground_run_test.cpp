@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "amble/experiment/episode_set.hpp"
-#include "amble/experiment/problem_json.hpp"
+#include "amble/experiment/problem/episode_set.hpp"
+#include "amble/experiment/problem/problem_json.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/verify.hpp"
 #include "amble/ground/recorded.hpp"

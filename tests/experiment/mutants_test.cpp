@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "amble/core/random.hpp"
-#include "amble/experiment/episode_set.hpp"
 #include "amble/experiment/evaluator.hpp"
+#include "amble/experiment/problem/episode_set.hpp"
 #include "amble/neat/initial_genome.hpp"
 #include "amble/neat/innovations.hpp"
 #include "amble/neat/mutation.hpp"

@@ -26,15 +26,16 @@ export function launch({ gl = true } = {}) {
 }
 
 /** Opens a page, standing still at `at_s` (null: as a reader would, playing). `problems` collects what goes wrong. */
-export async function open(browser, path, { at_s = 0, ...context } = {}) {
+export async function open(browser, path, { at_s = 0, hash = null, ...context } = {}) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...context });
   page.setDefaultTimeout(60_000);
   const problems = [];
-  const url = pathToFileURL(path).href + (at_s === null ? "" : `#t=${at_s}`);
+  const parts = [...(hash ? [hash] : []), ...(at_s === null ? [] : [`t=${at_s}`])];
+  const url = pathToFileURL(path).href + (parts.length ? `#${parts.join("&")}` : "");
   page.on("console", (message) => problems.push(`console ${message.type()}: ${message.text()}`));
   page.on("pageerror", (error) => problems.push(`error: ${error.message}`));
   page.on("request", (request) => {
-    if (request.url().split("#")[0] !== url.split("#")[0] && !request.url().startsWith("data:"))
+    if (request.url().split("#")[0] !== url.split("#")[0] && !/^(data|blob):/.test(request.url()))
       problems.push(`request: ${request.url()}`);
   });
   await page.goto(url);

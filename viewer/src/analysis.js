@@ -56,6 +56,7 @@ export class Analysis {
     const text = "A bar means that the foot is on the ground." +
       (chatters ? ` A hairline is chatter of its sensor: a gap or a touch under ${walk.debounce_s} s, which does not count.` : "") +
       (walk.triggers ? " A triangle marks a trigger: the foot came down and reset the timer of its leg." : "");
+    if (walk.live) return section("Footfalls", text, keys, plot);
     const gait = new GaitTable(walk);
     this.shown.push(gait);
     const made = section("Footfalls and gait", text, keys, plot, gait.element);

@@ -10,6 +10,7 @@ export class Clock {
     this.playing = false;
     this.speed = 1;
     this.listeners = [];
+    this.more = null; // of what is simulated: brings it to a time and gives the time that was reached
   }
 
   /** `listener` is called after every change. */
@@ -21,6 +22,7 @@ export class Clock {
   }
 
   seek(time_s) {
+    this.ahead_s = 0;
     this.time_s = Math.min(Math.max(time_s, 0), this.duration_s);
     this.changed();
   }
@@ -30,8 +32,8 @@ export class Clock {
     this.seek((Math.round(this.time_s / FRAME_S) + frames) * FRAME_S);
   }
   play() {
-    if (this.duration_s === 0) return;
-    if (this.time_s >= this.duration_s) this.time_s = 0;
+    if (this.duration_s === 0 && !this.more) return;
+    if (this.time_s >= this.duration_s && !this.more) this.time_s = 0;
     this.playing = true;
     this.changed();
   }
@@ -56,11 +58,11 @@ export class Clock {
   /** `real_s` seconds have passed. */
   advance(real_s) {
     if (!this.playing) return;
-    this.time_s += real_s * this.speed;
-    if (this.time_s >= this.duration_s) {
-      this.time_s = this.duration_s;
-      this.playing = false;
-    }
+    const aim_s = this.time_s + (this.ahead_s ?? 0) + real_s * this.speed;
+    if (this.more && aim_s > this.duration_s) this.duration_s = this.more(aim_s);
+    this.time_s = Math.min(aim_s, this.duration_s);
+    if (this.more) this.ahead_s = Math.min(aim_s - this.time_s, FRAME_S); // what is less than a step is for the next frame
+    else if (this.time_s === this.duration_s) this.playing = false;
     this.changed();
   }
 }

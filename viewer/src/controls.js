@@ -39,6 +39,7 @@ export function connectTransport(clock) {
   byId("back").addEventListener("click", () => clock.step(-1));
   byId("forth").addEventListener("click", () => clock.step(1));
   return () => {
+    if (clock.more) slider.max = clock.duration_s;
     slider.value = clock.time_s;
     slider.setAttribute("aria-valuetext", `${clock.time_s.toFixed(2)} seconds`);
     speed.value = clock.speed;

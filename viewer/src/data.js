@@ -5,7 +5,8 @@ export function pageData(document) {
   return JSON.parse(document.getElementById("amble-data").textContent);
 }
 
-async function inflate(base64) {
+/** Undoes deflate and base64. */
+export async function inflate(base64) {
   const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());

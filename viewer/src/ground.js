@@ -105,24 +105,13 @@ function gridGeometry(step_m, extent) {
 /** The way of the centre of mass as a ribbon on the ground; what is past is drawn stronger. */
 export class Trail {
   constructor(walk, width_m) {
-    const [x, y] = walk.com;
-    const count = walk.poses.count;
-    const points = new Float32Array(count * 6);
+    Object.assign(this, { walk, width_m, made: 0, side: [0, 1] });
+    const rows = walk.com[0].length; // of what is simulated, more than there are so far
     const indices = [];
-    let side = [0, 1];
-    for (let k = 0; k < count; ++k) {
-      const ahead = Math.min(k + 3, count - 1), behind = Math.max(k - 3, 0);
-      const dx = x[ahead] - x[behind], dy = y[ahead] - y[behind], length = Math.hypot(dx, dy);
-      if (length > 1e-6) side = [-dy / length, dx / length];
-      for (const [s, sign] of [[0, 1], [3, -1]]) {
-        points[6 * k + s] = x[k] + sign * side[0] * width_m / 2;
-        points[6 * k + s + 1] = y[k] + sign * side[1] * width_m / 2;
-        if (walk.ground) points[6 * k + s + 2] = heightAt(walk.ground, points[6 * k + s], points[6 * k + s + 1]) + ABOVE_M;
-      }
-      if (k > 0) indices.push(2 * k - 2, 2 * k - 1, 2 * k, 2 * k - 1, 2 * k + 1, 2 * k);
-    }
-    const attribute = new BufferAttribute(points, 3);
-    const geometry = () => new BufferGeometry().setAttribute("position", attribute).setIndex(indices);
+    for (let k = 1; k < rows; ++k) indices.push(2 * k - 2, 2 * k - 1, 2 * k, 2 * k - 1, 2 * k + 1, 2 * k);
+    this.points = new BufferAttribute(new Float32Array(rows * 6), 3);
+    this.extend();
+    const geometry = () => new BufferGeometry().setAttribute("position", this.points).setIndex(indices);
     const material = (opacity) => new MeshBasicMaterial({ transparent: true, opacity, depthWrite: false, side: 2 });
     this.past = new Mesh(geometry(), material(0.75));
     this.whole = new Mesh(geometry(), material(0.16));
@@ -132,10 +121,35 @@ export class Trail {
     [this.whole.renderOrder, this.past.renderOrder] = [-5, -4];
   }
 
+  /** Makes the rows that the walk has and the ribbon has not; all anew where the walk has begun again. */
+  extend() {
+    const { walk, width_m } = this, [x, y] = walk.com, { count } = walk.poses, points = this.points.array;
+    if (count < this.made) this.made = 0;
+    if (count === this.made) return;
+    const first = this.made;
+    for (let k = first; k < count; ++k) {
+      const ahead = Math.min(k + 3, count - 1), behind = Math.max(k - 3, 0);
+      const dx = x[ahead] - x[behind], dy = y[ahead] - y[behind], length = Math.hypot(dx, dy);
+      if (length > 1e-6) this.side = [-dy / length, dx / length];
+      for (const [s, sign] of [[0, 1], [3, -1]]) {
+        const at = 6 * k + s;
+        points[at] = x[k] + sign * this.side[0] * width_m / 2;
+        points[at + 1] = y[k] + sign * this.side[1] * width_m / 2;
+        points[at + 2] = walk.ground ? heightAt(walk.ground, points[at], points[at + 1]) + ABOVE_M : 0;
+      }
+    }
+    this.made = count;
+    this.points.clearUpdateRanges();
+    this.points.addUpdateRange(6 * first, 6 * (count - first));
+    this.points.needsUpdate = true;
+  }
+
   paint(css) {
     for (const part of [this.past, this.whole]) part.material.color.set(css);
   }
   setRow(row) {
+    this.extend();
+    this.whole.geometry.setDrawRange(0, 6 * (this.made - 1));
     this.past.geometry.setDrawRange(0, 6 * row);
   }
 }

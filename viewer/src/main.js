@@ -1,5 +1,6 @@
 import { pageData } from "./data.js";
 import { heightAt } from "./heights.js";
+import { Live, askedLive, liveChoice, liveWalk } from "./live.js";
 import { chosenCells, showMap } from "./map.js";
 import { Page } from "./page.js";
 import { Walk } from "./walk.js";
@@ -18,7 +19,7 @@ const askedTime = () => {
 
 /** What scripts and tests may ask of the page. Times in seconds, walkers by their place. */
 const publicApi = (page) => ({
-  duration: page.clock.duration_s,
+  duration: page.clock.duration_s, // so far, of one that is simulated
   walkers: page.walks.map(({ title }) => title),
   time: () => page.clock.time_s,
   playing: () => page.clock.playing,
@@ -50,6 +51,9 @@ const publicApi = (page) => ({
   /** How long the last frames took to compute and draw, ms. */
   frames: () => page.frames,
   hasStage: () => page.stage !== null,
+  /** Of a walker that is simulated (null: it is recorded): its LiveRobot, and simulating so many seconds at once. */
+  live: () => page.live?.walk.live ?? null,
+  simulate: (seconds) => page.clock.seek((page.clock.duration_s = page.clock.more(page.clock.duration_s + seconds))),
 });
 
 /** All walkers; of a map those of the cells in the page's address, which the reader changes by choosing others. */
@@ -67,7 +71,15 @@ async function start() {
     return;
   }
   const data = pageData(document);
-  const page = new Page(data, await Promise.all(shownWalkers(data).map(Walk.unpack)));
+  const live = askedLive(location.hash), champion = data.walkers[live]?.champion;
+  const walks = champion ? [await liveWalk(data.walkers[live])] : await Promise.all(shownWalkers(data).map(Walk.unpack));
+  const page = new Page(data, walks);
+  const links = liveChoice(data.walkers, champion ? live : null);
+  if (links) {
+    document.getElementById("subtitle").after(links);
+    addEventListener("hashchange", () => askedLive(location.hash) !== live && location.reload());
+  }
+  if (champion) new Live(page, walks[0]);
   const time_s = askedTime();
   if (time_s !== null) page.clock.seek(time_s);
   else if (!matchMedia("(prefers-reduced-motion: reduce)").matches) page.clock.play();

@@ -19,7 +19,8 @@ export class Page {
     this.walks = walks;
     this.clock = new Clock(Math.max(...walks.map(({ seconds }) => seconds)));
     const narrow = innerWidth < 700;
-    this.window = new TimeWindow(this.clock.duration_s, narrow ? 2 : 5);
+    const span_s = narrow ? 2 : 5;
+    this.window = new TimeWindow(walks[0].live ? span_s : this.clock.duration_s, span_s);
     this.selected = 0;
     this.layout = "side";
     this.camera = "follow";
@@ -42,7 +43,7 @@ export class Page {
 
   head({ title }) {
     byId("title").textContent = title;
-    if (this.walks.length <= FEW)
+    if (this.walks.length <= FEW && !this.walks[0].live)
       byId("subtitle").textContent = this.walks.map((walk) => story(walk, this.walks.length > 1)).join(" ");
   }
 
@@ -91,9 +92,10 @@ export class Page {
       [...this.walkerChoice.element.children].forEach((button, i) => button.classList.add(`walker${i % 4}`));
       this.placeWalkers(this.walkerChoice.element);
     }
-    const spans = SPANS_S.filter((span) => span < this.clock.duration_s).map((span) => [span, `${span} s`]);
+    const live = Boolean(this.walks[0].live);
+    const spans = SPANS_S.filter((span) => live || span < this.clock.duration_s).map((span) => [span, `${span} s`]);
     if (spans.length) {
-      spans.push([this.clock.duration_s, "all"]);
+      if (!live) spans.push([this.clock.duration_s, "all"]);
       this.spanChoice = choice("Time shown in the diagrams", spans, this.window.span_s, (span) => this.setSpan(span));
       this.spanChoice.element.classList.add("spans");
     }
@@ -122,6 +124,7 @@ export class Page {
     this.invalidate();
   }
   setSpan(span_s) {
+    if (this.live) this.window.duration_s = Math.max(this.clock.duration_s, span_s);
     this.window.setSpan(Number(span_s));
     this.spanChoice.choose(span_s);
     this.invalidate();
@@ -160,6 +163,7 @@ export class Page {
 
   frame(now_ms) {
     this.asked = false;
+    this.live?.update(now_ms);
     if (this.clock.playing && this.last_ms !== undefined) {
       const passed_s = (now_ms - this.last_ms) / 1000;
       this.clock.advance(Math.min(passed_s, 0.25));
@@ -183,6 +187,7 @@ export class Page {
     this.overview.show();
     this.showTransport();
     for (const update of this.now) update();
+    if (this.live) byId("subtitle").textContent = this.live.story();
     this.frames.push(performance.now() - start_ms);
     if (this.frames.length > FRAMES_KEPT) this.frames.shift();
     this.showing = false;

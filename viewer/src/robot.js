@@ -149,6 +149,11 @@ export class RobotModel {
     }
   }
 
+  /** Legs that are there no more are not to be seen. */
+  setMissing(legs) {
+    for (const { mesh, leg } of this.parts) mesh.visible = !legs.includes(leg);
+  }
+
   /** What a foot looks like now: its colour, and whether it has an outline. */
   footLook(leg) {
     const { material, outline } = this.feet[leg].shapes[0];

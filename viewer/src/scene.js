@@ -47,11 +47,8 @@ export class Stage {
 
     this.camera = new PerspectiveCamera(32, 1, 0.02 * this.reach, 80 * this.reach);
     this.camera.up.set(...upwards(walks[0].robot));
-    this.controls = new OrbitControls(this.camera, this.canvas);
-    this.controls.maxPolarAngle = 0.495 * Math.PI;
-    this.controls.minDistance = 0.8 * this.reach;
-    this.controls.maxDistance = 25 * this.reach;
-    this.controls.addEventListener("change", onChange);
+    this.onChange = onChange;
+    this.makeControls();
     this.pixelRatio = 2; // more is not seen
     this.mode = "follow";
     this.side = true;
@@ -72,6 +69,35 @@ export class Stage {
     if (terrain) group.add(terrain.mesh);
     this.scene.add(group);
     return { walk, group, model, trail, terrain };
+  }
+
+  /** For the camera's upright as it is now. */
+  makeControls() {
+    const target = this.controls?.target;
+    this.controls?.dispose();
+    this.controls = new OrbitControls(this.camera, this.canvas);
+    if (target) this.controls.target.copy(target);
+    this.controls.maxPolarAngle = 0.495 * Math.PI;
+    this.controls.minDistance = 0.8 * this.reach;
+    this.controls.maxDistance = 25 * this.reach;
+    this.controls.addEventListener("change", this.onChange);
+  }
+
+  /** Takes over a walker's ground and gravity, which may have changed, and the legs that it lacks. */
+  renew(i, missing) {
+    const lane = this.lanes[i];
+    if (lane.terrain) {
+      lane.group.remove(lane.terrain.mesh);
+      lane.terrain.mesh.geometry.dispose();
+    }
+    lane.terrain = lane.walk.ground ? new Terrain(lane.walk.ground) : null;
+    if (lane.terrain) lane.group.add(lane.terrain.mesh);
+    lane.model.setMissing(missing);
+    const up = upwards(lane.walk.robot);
+    if (this.camera.up.toArray().every((part, axis) => Math.abs(part - up[axis]) < 1e-9)) return;
+    this.camera.up.set(...up);
+    this.makeControls();
+    this.controls.update();
   }
 
   addLights() {

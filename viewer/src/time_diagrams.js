@@ -93,14 +93,18 @@ const extent = (columns) => {
 
 /** Speed over the ground and height of the centre of mass, of all walkers. */
 export function motionPlot(walks, window, clock, selected) {
-  const speeds = walks.map((walk) => speedColumn(walk));
-  const heights = walks.map((walk) => walk.com[2]), [lowest, highest] = extent(heights);
-  const rows = [
-    { title: "Speed, m/s", columns: speeds, axis: niceAxis(0, Math.max(0.05, extent(speeds)[1]), 4) },
-    { title: "Height, m", columns: heights, axis: niceAxis(lowest - 0.002, highest + 0.002, 4) },
-  ];
-  return new Plot("Speed and height of the centre of mass", rows.length * MOTION_ROW, window, clock, (pen) => {
-    rows.forEach(({ title, columns, axis: { lower, upper, ticks, text } }, r) => {
+  const speeds = walks.map((walk) => walk.speeds ?? speedColumn(walk));
+  const heights = walks.map((walk) => walk.com[2]);
+  const known = walks.every((walk) => !walk.extremes) && { speed: extent(speeds), height: extent(heights) };
+  const rows = () => {
+    const { speed, height } = known || walks[0].extremes;
+    return [
+      { title: "Speed, m/s", columns: speeds, axis: niceAxis(0, Math.max(0.05, speed[1]), 4) },
+      { title: "Height, m", columns: heights, axis: niceAxis(height[0] - 0.002, height[1] + 0.002, 4) },
+    ];
+  };
+  return new Plot("Speed and height of the centre of mass", 2 * MOTION_ROW, window, clock, (pen) => {
+    rows().forEach(({ title, columns, axis: { lower, upper, ticks, text } }, r) => {
       const base = (r + 1) * MOTION_ROW - 8, height = MOTION_ROW - 40;
       const y = (value) => base - ((value - lower) / (upper - lower)) * height;
       pen.text(title, 0, base - height - 18, { weight: 600, css: "--ink" });

@@ -22,20 +22,24 @@ export class Walk {
     this.targets = this.robot.joints.map((joint) => poses.get("target." + joint.name));
     this.timers = this.columnsOfLegs(poses, "timer.");
     this.touches = this.columnsOfLegs(contacts, "touch.");
-    const triggers = this.columnsOfLegs(contacts, "trigger.");
     this.debounce_s = this.gait?.settings.debounce_s ?? 0;
-    this.footfalls();
-    this.triggers = triggers && triggers.map((trigger) => onsets(trigger, contacts.step_s));
+    this.triggered = this.columnsOfLegs(contacts, "trigger.");
+    this.findEvents();
     this.supg = this.controller.patterns_rad ? this.controller : null;
   }
 
-  /** Stances as the gait figures count them, [from, to] in seconds, and when there was chatter in and between them. */
-  footfalls() {
+  /**
+   * Stances as the gait figures count them, [from, to] in seconds, when there was chatter in and between them, and when
+   * a foot triggered its timer.
+   */
+  findEvents() {
     const { step_s, count } = this.contacts;
+    const known = (column) => column.subarray(0, count);
+    this.triggers = this.triggered && this.triggered.map((trigger) => onsets(known(trigger), step_s));
     const least = Math.round(this.debounce_s / step_s);
     const span = ([first, end]) => [first === 0 ? 0 : (first + 1) * step_s, Math.min(end + 1, count) * step_s];
     const middles = (rows) => rows.map(span).map(([from, to]) => (from + to) / 2);
-    const all = this.touches.map((touch) => footfalls(runs(touch), least));
+    const all = this.touches.map((touch) => footfalls(runs(known(touch)), least));
     this.stances = all.map(({ stances }) => stances.map(span));
     this.chatter = all.map(({ gaps, touches }) => ({ gaps: middles(gaps), touches: middles(touches) }));
   }

@@ -1,4 +1,4 @@
-#include "amble/experiment/implied_settings.hpp"
+#include "amble/experiment/problem/implied_settings.hpp"
 
 namespace amble::experiment {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "amble/experiment/problem.hpp"
+#include "amble/experiment/problem/problem.hpp"
 #include "amble/io/json_file.hpp"
 
 namespace amble::experiment {

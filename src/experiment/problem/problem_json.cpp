@@ -1,6 +1,6 @@
-#include "amble/experiment/problem_json.hpp"
+#include "amble/experiment/problem/problem_json.hpp"
 
-#include "amble/experiment/implied_settings.hpp"
+#include "amble/experiment/problem/implied_settings.hpp"
 #include "amble/physics/engine_kinds.hpp"
 #include "amble/robot/json.hpp"
 #include "amble/robot/original_model.hpp"

@@ -1,4 +1,4 @@
-#include "amble/experiment/evaluation_settings.hpp"
+#include "amble/experiment/problem/evaluation_settings.hpp"
 
 namespace amble::experiment {
 

@@ -1,0 +1,22 @@
+# For WebAssembly: libraries that are headers alone, of this machine, since Debian has none for it. Links to them stand in a folder of their
+# own, or the machine's own libc would be found beside them.
+set(headers ${PROJECT_BINARY_DIR}/headers)
+file(MAKE_DIRECTORY ${headers})
+foreach(name fmt nlohmann hwy Random123 boost xxhash.h)
+  if(NOT EXISTS /usr/include/${name})
+    message(FATAL_ERROR "/usr/include/${name} is missing: ./setup --wasm")
+  endif()
+  file(CREATE_LINK /usr/include/${name} ${headers}/${name} SYMBOLIC)
+endforeach()
+
+function(wasm_headers target)
+  add_library(${target} INTERFACE IMPORTED)
+  target_include_directories(${target} SYSTEM INTERFACE ${headers})
+  target_compile_definitions(${target} INTERFACE ${ARGN})
+endfunction()
+wasm_headers(fmt::fmt FMT_HEADER_ONLY)
+wasm_headers(nlohmann_json::nlohmann_json)
+wasm_headers(hwy::hwy HWY_COMPILE_ONLY_STATIC)
+wasm_headers(PkgConfig::XXHASH XXH_INLINE_ALL)
+set(RANDOM123_INCLUDE_DIR ${headers})
+set(BOOST_MATH_INCLUDE_DIR ${headers})

@@ -1,0 +1,93 @@
+#include "amble/experiment/problem/live_trial.hpp"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "amble/core/check.hpp"
+#include "amble/damage/stages.hpp"
+#include "amble/robot/pose.hpp"
+
+namespace amble::experiment {
+namespace {
+
+/// Rounded up to a micrometre or so, which hides the last bits of the sines behind it.
+double rounded_up(double height_m) {
+  constexpr double per_metre = 0x1p20;
+  return std::ceil(height_m * per_metre) / per_metre;
+}
+
+double clearance_m(const robot::RobotSpec& robot, const ground::Ground* ground,
+                   const physics::StartPose& pose) {
+  const auto bodies =
+      robot::poses_at(robot, {pose.root.position_m, pose.root.rotation}, pose.joint_angle_rad);
+  return ground != nullptr ? ground->clearance_m(robot, bodies) : robot::clearance_m(robot, bodies);
+}
+
+/// That of the trial, without its end.
+trial::Protocol endless(const Problem& problem) {
+  trial::Protocol protocol = problem.protocol({});
+  protocol.steps = std::numeric_limits<int>::max();
+  protocol.fall_height_m = -std::numeric_limits<double>::infinity();
+  protocol.measures = {};
+  return protocol;
+}
+
+}  // namespace
+
+LiveTrial::LiveTrial(const Problem& problem, const neat::Genome& genome)
+    : problem_(problem),
+      ground_(problem_.make_ground(problem_.ground_key)),
+      engine_(problem_.make_engine()),
+      controllers_(problem_.architecture->make_batch(engine_->lanes())),
+      parameters_(problem_.decode(genome)),
+      task_(std::make_unique<trial::OneTask>(parameters_)) {
+  if (ground_) engine_->set_ground(ground_);
+  runner_ = std::make_unique<trial::Runner>(*engine_, *controllers_, endless(problem_));
+  runner_->begin(*task_);
+}
+
+void LiveTrial::apply(const Input& input) {
+  AMBLE_CHECK(input.step == steps_ + 1, "an input comes before the next step");
+  if (!healthy_) return;
+  if (input.ground || input.damage) {
+    Problem next = problem_;
+    if (input.ground) next.set_ground(*input.ground);
+    if (input.damage) next.set_damage(*input.damage);
+    move_to(std::move(next));
+  }
+  if (input.push_n_s) engine_->push(lane, *input.push_n_s);
+}
+
+void LiveTrial::move_to(Problem next) {
+  auto engine = next.make_engine();
+  auto ground = next.make_ground(next.ground_key);
+  if (ground) engine->set_ground(ground);
+  physics::MovingPose motion = engine_->motion(lane);
+  const double sunk_m = std::min(0.0, clearance_m(problem_.robot, ground_.get(), motion.pose)) -
+                        clearance_m(next.robot, ground.get(), motion.pose);
+  if (sunk_m > 0.0) motion.pose.root.position_m.z += rounded_up(sunk_m);
+  engine->place_moving(lane, motion);
+
+  std::vector<int> numb;
+  for (const damage::NumbFoot& foot : damage::numb_feet(next.robot, next.damage)) numb.push_back(foot.leg);
+  runner_->move_to(*engine, numb);
+  engine_ = std::move(engine);
+  ground_ = std::move(ground);
+  problem_ = std::move(next);
+}
+
+bool LiveTrial::step() {
+  if (!healthy_) return false;
+  healthy_ = runner_->tick(*task_);
+  if (healthy_) ++steps_;
+  return healthy_;
+}
+
+bool LiveTrial::fallen() const {
+  const Vec3 root_m = engine_->root_com_m(lane);
+  const double ground_m = ground_ ? ground_->height_m(root_m.x, root_m.y) : 0.0;
+  return root_m.z - ground_m < problem_.robot.fall_height_m;
+}
+
+}  // namespace amble::experiment

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace amble::robot {
+
+/// A zlib stream of the bytes.
+std::string deflated(const std::string& bytes);
+/// Undoes it; nothing if the stream is none, or not of exactly so many bytes.
+std::optional<std::string> inflated(const std::optional<std::string>& stream, std::size_t bytes);
+
+}  // namespace amble::robot

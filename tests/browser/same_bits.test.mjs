@@ -1,0 +1,102 @@
+// The module that pages carry computes the native program's bits: `amble trial --inputs` repeats in C++ what was done in WebAssembly.
+import assert from "node:assert/strict";
+import { execFileSync, spawnSync } from "node:child_process";
+import { mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { before, test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { LiveRobot, chooseModule } from "../../viewer/src/amble.js";
+import { STEPS, runSession } from "./sessions.mjs";
+
+const { AMBLE_PROGRAM, AMBLE_WORK } = process.env;
+const source = (name) => fileURLToPath(new URL(`../../${name}`, import.meta.url));
+const text = (path) => readFileSync(path, "utf8");
+
+// All kinds of controllers, and robots with two to eight legs.
+const GALLERY = ["servo", "hexapod", "biped", "octopod"];
+const EVOLVED = [["quick/quadruped", 3], ["quick/oscillators", 3], ["quick/sine", 3], ["quick/ctrnn", 3], ["quick/quadruped", 4], ["repertoire/hexapod", 2]];
+
+let module;
+before(async () => {
+  ({ module } = await chooseModule([{ name: "amble", bytes: readFileSync(source("viewer/dist/amble.wasm")) }]));
+  rmSync(AMBLE_WORK, { recursive: true, force: true });
+  mkdirSync(AMBLE_WORK, { recursive: true });
+});
+
+/** A champion after three generations. */
+function evolved(config, seed) {
+  const run = join(AMBLE_WORK, `${config.replace("/", "-")}-${seed}`);
+  const options = ["--seed", String(seed), "--generations", "3", "--jobs", "1", "--out", run];
+  execFileSync(AMBLE_PROGRAM, ["evolve", source(`configs/${config}.toml`), ...options], { stdio: "ignore" });
+  return join(run, "champions", readdirSync(join(run, "champions")).sort().at(-1));
+}
+
+/** What the native program says of a session. */
+function again(champion, robot, name) {
+  const inputs = join(AMBLE_WORK, `${name}.json`);
+  writeFileSync(inputs, robot.inputs());
+  return spawnSync(AMBLE_PROGRAM, ["trial", champion, "--inputs", inputs], { encoding: "utf8" });
+}
+
+const champions = [...GALLERY.map((name) => [name, () => source(`robots/${name}/champion.json`)]),
+                   ...EVOLVED.map(([config, seed]) => [`${config}, seed ${seed}`, () => evolved(config, seed)])];
+
+champions.forEach(([name, find], number) =>
+  test(`${name}: the same bits in ${STEPS} steps of a session, and in the trial of its file`, async () => {
+    const champion = find();
+    const robot = await LiveRobot.open(module, text(champion));
+    assert.equal(robot.stepsAsRecorded(), robot.describe().recorded_steps);
+    await runSession(robot, number);
+    const { status, stdout, stderr } = again(champion, robot, `session-${number}`);
+    assert.equal(stderr, "");
+    assert.match(stdout, new RegExp(`^steps +${STEPS}$`, "m"));
+    assert.match(stdout, /^bits +the same in every step$/m);
+    assert.equal(status, 0);
+  }));
+
+test("the native program tells the first step that is another, and another champion", async () => {
+  const champion = source("robots/servo/champion.json");
+  const robot = await LiveRobot.open(module, text(champion));
+  robot.step(20);
+  const other = again(source("robots/biped/champion.json"), robot, "other");
+  assert.equal(other.status, 2);
+  assert.match(other.stderr, /it is of another champion/);
+  assert.equal(again(champion, robot, "same").status, 0);
+});
+
+test("what does not fit the robot is refused in a sentence, and the walk goes on as if it had not been asked", async () => {
+  const champion = text(source("robots/servo/champion.json"));
+  const robot = await LiveRobot.open(module, champion), undisturbed = await LiveRobot.open(module, champion);
+  robot.step(50);
+  robot.push([0.1, 0, 0]);
+  robot.step(10);
+  await assert.rejects(robot.setDamage({ parts: [{ kind: "missing" }] }), /damage: key 'parts\[0\].leg' is missing/);
+  await assert.rejects(robot.setGround({ ...robot.describe().ground, height_m: -3 }), /ground: key 'height_m' must be/);
+  robot.step(40);
+  undisturbed.step(50);
+  undisturbed.push([0.1, 0, 0]);
+  undisturbed.step(50);
+  assert.equal(robot.hash(), undisturbed.hash());
+});
+
+test("what is no champion is refused in a sentence", async () => {
+  const champion = text(source("robots/servo/champion.json"));
+  await assert.rejects(LiveRobot.open(module, "{"), /not valid JSON/);
+  await assert.rejects(LiveRobot.open(module, '{"format": "amble-robot"}'), /not a champion's file/);
+  await assert.rejects(LiveRobot.open(module, champion.replace('"generation": ', '"generation": 1')), /altered: its checksum does not fit/);
+  await assert.rejects(LiveRobot.open(module, champion.replace('"version": ', '"version": 9')), /version \d+ of the file format/);
+});
+
+test("a walk begins again as it was, with what has been changed", async () => {
+  const robot = await LiveRobot.open(module, text(source("robots/servo/champion.json")));
+  robot.step(100);
+  const first = robot.hash();
+  robot.restart({ asEvolved: true });
+  robot.step(100);
+  assert.equal(robot.hash(), first);
+  await robot.setGround({ ...robot.describe().ground, slope_x: 0.1 });
+  robot.restart();
+  assert.equal(robot.describe().ground.slope_x, 0.1);
+  robot.step(100);
+  assert.notEqual(robot.hash(), first);
+});

@@ -1,0 +1,177 @@
+#include "amble/browser/session.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "amble/browser/fused_check.hpp"
+#include "amble/browser/interface.hpp"
+#include "amble/core/error.hpp"
+#include "amble/core/hash.hpp"
+#include "amble/io/json_file.hpp"
+#include "tests/browser/champion.hpp"
+
+namespace amble::browser {
+namespace {
+
+using experiment::parse_champion_for;
+using experiment::parse_inputs;
+using experiment::replay_live;
+
+io::Json description(const Session& session) {
+  return io::parse_json(session.describe(), "description");
+}
+
+/// The value of a column of Session::state().
+double value(Session& session, const std::string& column) {
+  const auto names = description(session).at("columns");
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i] == column) return session.state().at(i);
+  ADD_FAILURE() << "no column " << column;
+  return 0.0;
+}
+
+std::string ground_json(const Session& session, const std::string& kind, double slope_x = 0.0) {
+  io::Json ground = description(session).at("ground");
+  ground["kind"] = kind;
+  ground["height_m"] = 0.02;
+  ground["slope_x"] = slope_x;
+  return ground.dump();
+}
+
+std::string damage_json(const std::string& kind, const std::string& leg, const std::string& joint = "") {
+  const io::Json part{{"kind", kind},     {"leg", leg},   {"joint", joint}, {"body", ""},
+                      {"angle_rad", 0.0}, {"share", 0.5}, {"mass_kg", 0.1}, {"x_m", 0.0},
+                      {"y_m", 0.0},       {"z_m", 0.0},   {"from_s", 0.0}};
+  return io::Json{{"parts", {part}}}.dump();
+}
+
+TEST(Session, WithoutInputsEachStepIsThatOfTheChampionsOwnTrialToTheBit) {
+  const Session session(tests::champion_text());
+  EXPECT_EQ(session.steps_as_recorded(), 1500);
+}
+
+TEST(Session, WhatWasDoneIsRepeatedToTheBit) {
+  const std::string champion = tests::champion_text();
+  Session session(champion);
+  session.step(120);
+  session.push({0.1, 0.2, 0.0});
+  session.step(80);
+  session.set_ground(ground_json(session, "rough", 0.05));
+  session.step(200);
+  session.set_damage(damage_json("missing", "rear_left"));
+  session.step(150);
+  session.set_damage(damage_json("locked", "", "front_left_hip"));
+  session.step(50);
+  session.push({0.0, 0.1, 0.0});  // comes before a step that is not made, and is no part of the session
+
+  const auto record = parse_inputs(session.inputs(), "inputs");
+  EXPECT_EQ(record.inputs.size(), 4u);
+  EXPECT_EQ(record.champion, hex(hash_text(champion)));
+  const auto again = replay_live(parse_champion_for(record.engine, champion, "champion"), record);
+  EXPECT_EQ(again.steps, 600);
+  EXPECT_EQ(again.first_difference, std::nullopt);
+}
+
+TEST(Session, AnotherBitIsFoundAtItsStep) {
+  const std::string champion = tests::champion_text();
+  Session session(champion);
+  session.step(50);
+  auto record = parse_inputs(session.inputs(), "inputs");
+  record.trace[29] ^= 1u;
+  EXPECT_EQ(replay_live(parse_champion_for(record.engine, champion, "champion"), record).first_difference,
+            30);
+}
+
+TEST(Session, GoesOnWhereItIsWhenGroundOrBodyChange) {
+  Session session(tests::champion_text());
+  session.step(300);
+  const double x_m = value(session, "com.x"), knee_rad = value(session, "angle.front_left_knee");
+  session.set_ground(ground_json(session, "plane", 0.1));
+  EXPECT_NEAR(value(session, "com.x"), x_m, 1e-5);
+  EXPECT_NEAR(value(session, "angle.front_left_knee"), knee_rad, 1e-6);
+  session.set_damage(damage_json("missing", "rear_left"));
+  EXPECT_NEAR(value(session, "com.x"), x_m, 0.05);  // a leg less has moved the centre of mass
+  EXPECT_EQ(value(session, "step"), 300.0);
+  EXPECT_EQ(session.step(10), 10);
+}
+
+TEST(Session, OnNewGroundItIsLiftedOutOfIt) {
+  Session session(tests::champion_text());
+  session.step(300);
+  const double z_m = value(session, "root.z");
+  io::Json ground = description(session).at("ground");
+  ground["kind"] = "hills";
+  ground["height_m"] = 0.5;
+  ground["start_radius_m"] = 0.1;
+  EXPECT_EQ(session.heights_m(), nullptr);
+  session.set_ground(ground.dump());
+  EXPECT_NE(session.heights_m(), nullptr);
+  EXPECT_GE(value(session, "root.z"), z_m - 1e-6);
+  EXPECT_EQ(session.step(100), 100);
+}
+
+TEST(Session, WhatDoesNotFitIsRefusedAndNothingHasChanged) {
+  Session session(tests::champion_text());
+  session.step(10);
+  EXPECT_THROW(session.set_damage(damage_json("missing", "fifth")), UserError);
+  EXPECT_THROW(session.set_ground("{\"kind\": \"swamp\"}"), UserError);
+  EXPECT_THROW(session.set_ground("{"), UserError);
+  session.step(10);
+  Session undisturbed(tests::champion_text());
+  undisturbed.step(20);
+  EXPECT_EQ(session.trace(), undisturbed.trace());
+}
+
+TEST(Session, StartsAgainWithWhatItHasOrAsEvolved) {
+  Session session(tests::champion_text());
+  session.set_damage(damage_json("numb", "rear_left"));
+  session.step(200);
+  const auto trace = session.trace();
+  session.restart(false);
+  EXPECT_EQ(value(session, "step"), 0.0);
+  session.step(200);
+  EXPECT_EQ(session.trace(), trace);
+  session.restart(true);
+  EXPECT_EQ(description(session).at("damage").at("parts").size(), 0u);
+  session.step(200);
+  EXPECT_NE(session.trace(), trace);
+}
+
+TEST(Session, RefusesWhatIsNoChampion) {
+  EXPECT_THROW(Session("{}"), UserError);
+  EXPECT_THROW(Session("no JSON"), UserError);
+  std::string altered = tests::champion_text();
+  altered.replace(altered.find("\"generation\": "), 15, "\"generation\": 9");
+  EXPECT_THROW(Session{altered}, UserError);
+}
+
+TEST(Interface, DoesWhatTheSessionDoes) {
+  const std::string champion = tests::champion_text();
+  const auto give = [](const std::string& text) {
+    std::copy(text.begin(), text.end(), amble_text(text.size()));
+  };
+  const auto taken = [] { return std::string(amble_result(), amble_result_size()); };
+  give(champion);
+  amble_open();
+  EXPECT_EQ(amble_step(100), 100);
+  amble_push(0.05, 0.0, 0.0);
+  amble_step(100);
+  Session session(champion);
+  session.step(100);
+  session.push({0.05, 0.0, 0.0});
+  session.step(100);
+  amble_inputs();
+  EXPECT_EQ(taken(), session.inputs());
+  amble_describe();
+  EXPECT_EQ(taken(), session.describe());
+  EXPECT_EQ(amble_state()[0], 200.0);
+  EXPECT_EQ(amble_heights(), nullptr);
+}
+
+TEST(Fused, KernelsAddProductsUnrounded) {
+  EXPECT_TRUE(is_fused());
+}
+
+}  // namespace
+}  // namespace amble::browser

@@ -1,0 +1,213 @@
+// A champion that is simulated in its page.
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { LiveRobot, chooseModule } from "../../viewer/src/amble.js";
+import { launch, makePage, open, pictureOf, settled } from "./browser.mjs";
+
+const { AMBLE_PAGES, AMBLE_PROGRAM, AMBLE_SOURCE } = process.env;
+const CHAMPION = join(AMBLE_SOURCE, "robots/servo/champion.json");
+
+let browser, walk;
+before(async () => {
+  browser = await launch();
+  walk = makePage("live.html", CHAMPION, "--undisturbed");
+});
+after(() => browser.close());
+
+/** Runs `steps` on a page whose walker is simulated, on which nothing may go wrong. */
+async function onPage(options, steps, path = walk) {
+  const { page, problems } = await open(browser, path, { hash: "live", ...options });
+  try {
+    await steps(page);
+    assert.deepEqual(problems, []);
+  } finally {
+    await page.close();
+  }
+}
+
+const time = (page) => page.evaluate(() => window.amble.time());
+const hash = (page) => page.evaluate(() => window.amble.live().hash());
+const simulate = (page, seconds) => page.evaluate((s) => { window.amble.simulate(s); window.amble.render(); }, seconds);
+const description = (page) => page.evaluate(() => window.amble.live().describe());
+const choose = (page, label, value) => page.locator("#live .live-row", { hasText: label }).locator("select").selectOption(value);
+const move = (page, label, value) =>
+  page.locator("#live .live-row", { hasText: label }).locator("input").evaluate((slider, to) => {
+    slider.value = to;
+    slider.dispatchEvent(new Event("change", { bubbles: true }));
+  }, value);
+
+/** What the native program says of all that was done on a page. */
+async function natively(page, name, champion = CHAMPION) {
+  const inputs = join(AMBLE_PAGES, name);
+  writeFileSync(inputs, await page.evaluate(() => window.amble.live().inputs()));
+  return spawnSync(AMBLE_PROGRAM, ["trial", champion, "--inputs", inputs], { encoding: "utf8" }).stdout;
+}
+
+test("a champion's page leads to itself simulated, and back", async () => {
+  const { page, problems } = await open(browser, walk);
+  await page.click(".live-link:not([aria-current])");
+  await page.waitForFunction(() => window.amble?.live());
+  await page.click(".live-link:not([aria-current])");
+  await page.waitForFunction(() => window.amble?.live() === null);
+  assert.deepEqual(problems, []);
+  await page.close();
+});
+
+test("it walks by itself, and pause, slow motion and the way back in time are those of recordings", () =>
+  onPage({ at_s: null }, async (page) => {
+    await page.waitForFunction(() => window.amble.time() > 0.5);
+    await page.click("#play");
+    const stopped = await time(page), states = await hash(page);
+    await page.waitForTimeout(300);
+    assert.equal(await time(page), stopped);
+    await page.evaluate(() => window.amble.seek(0.2));
+    assert.ok(Math.abs((await time(page)) - 0.2) < 1e-9);
+    assert.equal(await hash(page), states);
+    await page.selectOption("#speed", "0.1");
+    await page.evaluate(() => { window.amble.seek(1e9); window.amble.play(); });
+    await page.waitForFunction((t) => window.amble.time() > t + 0.02, stopped);
+  }));
+
+test("this browser computes the bits of the champion's file, and of the module in Node.js after all that can be done", () =>
+  onPage({}, async (page) => {
+    await page.waitForFunction(() => /Exact: .* in all 1500 steps/.test(document.querySelector(".live-bits").textContent));
+    const session = async (live) => {
+      const { ground, robot } = live.describe();
+      const part = { kind: "missing", leg: robot.legs[1].name, joint: "", body: "", angle_rad: 0, share: 1, mass_kg: 1, x_m: 0, y_m: 0, z_m: 0, from_s: 0 };
+      live.step(300);
+      live.push([0.2, 0.1, 0.05]);
+      live.step(300);
+      await live.setGround({ ...ground, kind: "stones", height_m: 0.02, slope_x: 0.05, friction: 0.7 });
+      live.step(400);
+      await live.setDamage({ parts: [part] });
+      live.step(1000);
+      return live.hash();
+    };
+    const { module } = await chooseModule([{ name: "amble", bytes: readFileSync(join(AMBLE_SOURCE, "viewer/dist/amble.wasm")) }]);
+    const expected = await session(await LiveRobot.open(module, readFileSync(CHAMPION, "utf8")));
+    assert.equal(await page.evaluate(`(${session})(window.amble.live())`), expected);
+  }));
+
+test("dragging its body pushes it, and the native program repeats to the bit what was done", () =>
+  onPage({}, async (page) => {
+    await simulate(page, 1);
+    const box = await page.locator("#stage canvas").first().boundingBox();
+    const [x, y] = await page.evaluate(() => window.amble.seen(0));
+    const at = [box.x + ((x + 1) / 2) * box.width, box.y + ((1 - y) / 2) * box.height];
+    await page.mouse.move(...at);
+    await page.mouse.down();
+    await page.mouse.move(at[0] + 150, at[1] - 40, { steps: 4 });
+    await page.waitForFunction(() => window.amble.time() > 1.4);
+    await page.mouse.up();
+    await page.evaluate(() => window.amble.pause());
+    const { inputs } = JSON.parse(await page.evaluate(() => window.amble.live().inputs()));
+    assert.ok(inputs.length > 5 && inputs.every(({ push_n_s }) => push_n_s), `${inputs.length} pushes`);
+    await choose(page, "Kind", "rough");
+    await move(page, "Uphill, forward", 0.1);
+    await page.locator("#live .live-legs input").first().uncheck();
+    await simulate(page, 3);
+    assert.match(await natively(page, "dragged.json"), /^bits +the same in every step$/m);
+  }));
+
+test("a push by button is a push, too, and ends", () =>
+  onPage({}, async (page) => {
+    await page.click("text=right →");
+    await page.waitForFunction(() => window.amble.time() > 0.5);
+    await page.evaluate(() => window.amble.pause());
+    const { inputs } = JSON.parse(await page.evaluate(() => window.amble.live().inputs()));
+    assert.deepEqual(inputs.map(({ step }) => step), [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]);
+    assert.ok(inputs.every(({ push_n_s: [x, y, z] }) => x === 0 && y < 0 && z === 0));
+  }));
+
+test("what is chosen is what it walks on and what it is", () =>
+  onPage({}, async (page) => {
+    await simulate(page, 0.5);
+    const plane = await pictureOf(page);
+    await choose(page, "Kind", "stairs");
+    await settled(page);
+    assert.notEqual((await pictureOf(page)).hash, plane.hash);
+    await move(page, "Friction", 0.3);
+    await choose(page, "Joint locked", "front_left_knee");
+    await move(page, "Load", 0.5);
+    await settled(page);
+    const { ground, damage, mass_kg } = await description(page);
+    assert.deepEqual([ground.kind, ground.friction], ["stairs", 0.3]);
+    assert.deepEqual(damage.parts.map(({ kind }) => kind), ["locked", "payload"]);
+    assert.ok(Math.abs(damage.parts[1].mass_kg - 0.5 * mass_kg) < 1e-9);
+    await simulate(page, 2);
+    const angles = await page.evaluate(() => [0.6, 2.5].map((t) => window.amble.pose(0, t).angles[0]));
+    assert.ok(Math.abs(angles[0] - angles[1]) < 0.05, `the locked knee went from ${angles[0]} to ${angles[1]} rad`);
+  }));
+
+test("it starts again with what was changed, or as it was evolved", () =>
+  onPage({}, async (page) => {
+    await page.locator("#live .live-legs input").last().uncheck();
+    await simulate(page, 1);
+    await page.click("text=Start again");
+    await page.waitForFunction(() => window.amble.time() < 0.9);
+    assert.equal((await description(page)).damage.parts.length, 1);
+    await page.click("text=As it was evolved");
+    await page.waitForFunction(() => document.querySelector("#live .live-legs input:not(:checked)") === null);
+    assert.equal((await description(page)).damage.parts.length, 0);
+  }));
+
+test("it evolves twenty generations in the page, whose best walks there and is a champion's file that the native program repeats", () =>
+  onPage({}, async (page) => {
+    const evolve = page.locator("#live fieldset", { hasText: "Evolve it anew" });
+    const button = (name) => evolve.getByRole("button", { name, exact: true });
+    const status = () => evolve.locator("[role=status]").textContent();
+    await move(page, "Population", 20);
+    await move(page, "Length of a trial", 2);
+    await button("Evolve").click();
+    await page.waitForFunction(() => /Generation (19|[2-9]\d)/.test([...document.querySelectorAll("#live [role=status]")].at(-1).textContent));
+    await button("Pause").click();
+    await page.waitForTimeout(300);
+    const paused = await status();
+    await page.waitForTimeout(300);
+    assert.equal(await status(), paused);
+    const curve = await pictureOf(page, ".evolve-curve");
+    assert.ok(curve.colours > 20, `only ${curve.colours} colours`);
+
+    await button("Show the best").click();
+    await page.waitForFunction(() => /Exact: .* in all \d+ steps/.test(document.querySelector(".live-bits").textContent));
+    assert.match(await page.locator("#title").textContent(), /Evolved in this page/);
+    await page.evaluate(() => window.amble.pause());
+    await simulate(page, 2);
+    const champion = join(AMBLE_PAGES, "evolved.json");
+    writeFileSync(champion, await page.evaluate(() => window.amble.live().champion));
+    assert.match(await natively(page, "evolved-inputs.json", champion), /^bits +the same in every step$/m);
+    await button("Go on").click();
+    await page.waitForFunction((before) => [...document.querySelectorAll("#live [role=status]")].at(-1).textContent !== before, paused);
+    await button("From nothing again").click();
+    assert.equal(await status(), "");
+  }));
+
+test("ten seconds are simulated in a quarter of that, diagrams and all", () =>
+  onPage({}, async (page) => {
+    const took_ms = await page.evaluate(() => {
+      const start = performance.now();
+      window.amble.simulate(10);
+      return performance.now() - start;
+    });
+    console.log(`# 10 s simulated in ${took_ms.toFixed(0)} ms`);
+    assert.ok(took_ms < 2500, `${took_ms} ms`);
+  }));
+
+test("in a window 390 px wide nothing runs over, and all that can be chosen has a name", () =>
+  onPage({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }, async (page) => {
+    assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 390);
+    const nameless = await page.locator("#live :is(input, select, button)").evaluateAll((controls) =>
+      controls.filter((control) => !(control.labels?.[0]?.textContent.trim() || control.textContent.trim() || control.ariaLabel)).length);
+    assert.equal(nameless, 0);
+  }));
+
+test("a champion's file that was altered is told, and nothing else is shown of it", async () => {
+  const altered = walk.replace("live.html", "altered.html");
+  writeFileSync(altered, readFileSync(walk, "utf8").replace('\\"generation\\": ', '\\"generation\\": 1'));
+  const { page } = await open(browser, altered, { hash: "live" });
+  assert.match(await page.locator("#trouble").textContent(), /altered: its checksum does not fit/);
+  await page.close();
+});

@@ -1,0 +1,108 @@
+// A page whose walker is simulated in it. It is the page of the address that ends in #live, or #live=1 for the second.
+import { LiveRobot, chooseModule } from "./amble.js";
+import { inflate } from "./data.js";
+import { EvolvePanel } from "./evolve_panel.js";
+import { LivePanel } from "./live_panel.js";
+import { LiveWalk } from "./live_walk.js";
+import { Drag } from "./drag.js";
+import { element } from "./theme.js";
+
+const DIAGRAMS_EVERY_MS = 80; // while it walks
+
+/** Which walker the address asks for; null: the recordings. */
+export function askedLive(hash) {
+  const match = /(?:^#|&)live(?:=(\d+))?/.exec(hash);
+  return match ? Number(match[1] ?? 0) : null;
+}
+
+/** The walk of a walker's champion, in its start pose. */
+export async function liveWalk(json) {
+  const bytes = await inflate(document.getElementById("amble-module").textContent);
+  const { module } = await chooseModule([{ name: "amble", bytes }]);
+  return new LiveWalk(await LiveRobot.open(module, json.champion), json);
+}
+
+/** What can be chosen where a champion came with the page: its recording, or itself. */
+export function liveChoice(walkers, live) {
+  const many = walkers.length > 1;
+  const links = walkers.map(({ champion, title }, i) => ({ champion, title, i })).filter(({ champion }) => champion).map(({ title, i }) => {
+    const link = element("a", { class: "live-link", href: `#live=${i}` }, live === i ? "Simulated live" : many ? `Drive ${title}` : "Drive it live");
+    if (live === i) link.setAttribute("aria-current", "page");
+    return link;
+  });
+  if (!links.length) return null;
+  const back = element("a", { class: "live-link", href: "#recorded" }, "Recorded");
+  if (live === null) back.setAttribute("aria-current", "page");
+  return element("nav", { class: "live-choice", "aria-label": "Recorded or live" }, back, ...links);
+}
+
+/** Connects a page to its one walk that is simulated. */
+export class Live {
+  constructor(page, walk) {
+    Object.assign(this, { page, walk, clock: page.clock });
+    this.clock.more = (until_s) => {
+      const reached_s = walk.advance(until_s);
+      if (walk.outcome === "diverged" || walk.full) this.clock.pause();
+      return reached_s;
+    };
+    const { module, champion } = walk.live;
+    this.evolve = new EvolvePanel({ module, champion, show: (text, generation) => this.showBest(text, generation) });
+    this.panel = new LivePanel(document.getElementById("live"), this, "");
+    if (page.stage) this.drag = new Drag(page.stage, this);
+    page.live = this;
+    this.changed();
+    setTimeout(() => this.compare(), 300);
+  }
+
+  /** Another champion of the robot, evolved here, walks from now on. */
+  async showBest(text, generation) {
+    this.walk.become(await LiveRobot.open(this.walk.live.module, text));
+    document.getElementById("title").textContent = `Evolved in this page, generation ${generation}`;
+    this.clock.duration_s = 0;
+    this.clock.seek(0);
+    this.page.select(0);
+    this.panel.read();
+    this.changed();
+    this.compare();
+    this.clock.play();
+  }
+
+  /** Ground, gravity or body are others. */
+  changed() {
+    this.page.stage?.renew(0, this.panel?.missingLegs() ?? []);
+    this.page.invalidate();
+  }
+
+  /** Whether these are the native program's bits, by the trial in the champion's file. */
+  compare() {
+    const { recorded_steps: steps, evolved_in, engine } = this.walk.description;
+    if (steps === 0) {
+      this.panel.bits.textContent = evolved_in === engine
+        ? "Arithmetic: exact, each product added with one rounding as in the native program. Its file has no trial to compare with."
+        : `Evolved in the engine ${evolved_in}; here it walks in the engine ${engine}, with the native program’s bits.`;
+      return;
+    }
+    const same = this.walk.live.stepsAsRecorded();
+    this.panel.bits.textContent = same === steps
+      ? `Exact: the champion’s own trial came out here with the native program’s bits in all ${steps} steps.`
+      : `Other bits than the native program’s: its own trial is the same for ${same} of ${steps} steps.`;
+  }
+
+  /** Before each frame. */
+  update(now_ms) {
+    this.drag?.update();
+    const { window } = this.page;
+    window.duration_s = Math.max(this.clock.duration_s, window.span_s);
+    if (this.clock.duration_s === this.shown_s || (this.clock.playing && now_ms - this.shown_ms < DIAGRAMS_EVERY_MS)) return;
+    this.page.analysis.repaint();
+    this.page.overview.repaint();
+    [this.shown_s, this.shown_ms] = [this.clock.duration_s, now_ms];
+  }
+
+  story() {
+    const { walk } = this;
+    if (walk.outcome === "diverged") return "The simulation broke down: start again.";
+    if (walk.full) return "Ten minutes are over: start again.";
+    return walk.fallen ? "It has fallen." : "It is upright.";
+  }
+}
