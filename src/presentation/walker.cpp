@@ -7,7 +7,6 @@
 #include "amble/figures/cppn_figure.hpp"
 #include "amble/gait/recorded_gait.hpp"
 #include "amble/gait/report_text.hpp"
-#include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/presentation/cppn_graph.hpp"
 #include "amble/study/gait_observer.hpp"
@@ -36,7 +35,10 @@ std::optional<page::Walker> walk(const experiment::Champion& champion, const std
   walker->title = fmt::format("{}, generation {}{}", champion.experiment, champion.generation,
                               engine_note(champion, options));
   walker->cppn_svg = figures::cppn_figure(cppn_graph(champion));
-  walker->champion = io::read_file(path);
+  // The page simulates amble's reading of the robot: the model itself would only make it larger.
+  experiment::Champion shown = champion;
+  shown.problem.robot.original = nullptr;
+  walker->champion = experiment::champion_text(shown);
   return walker;
 }
 

@@ -24,18 +24,18 @@ std::map<std::string, std::string> everything_of(const Report& report) {
 TEST(GoldenReport, OfAStudyWithClaimsOfAllKindsMatchesTheGoldenHash) {
   tests::expect_golden(everything_of(make_report(small_study())), {{"bests.csv", "1c77f25a4bd6a929"},
                                                                    {"curves.csv", "d40556d895ef1a3b"},
-                                                                   {"curves.svg", "1746ce677050705d"},
-                                                                   {"distance-long.svg", "8486e9373b1b7429"},
-                                                                   {"distance-ode.svg", "9b57fef4b5bb87dc"},
-                                                                   {"distance.svg", "b50e8c08468766b9"},
+                                                                   {"curves.svg", "625d1787f141bd4c"},
+                                                                   {"distance-long.svg", "7e400d8078fdbdf8"},
+                                                                   {"distance-ode.svg", "d2efe48e54d7170e"},
+                                                                   {"distance.svg", "9c6b93ca425adec2"},
                                                                    {"gaits.csv", "959e7d3d2a7f6266"},
-                                                                   {"report.html", "0f628496522f78dc"},
+                                                                   {"report.html", "93f538d2d13bfd42"},
                                                                    {"runs.csv", "1f4f4065d23006c9"},
                                                                    {"survival.csv", "a9e3ab0405e89883"},
-                                                                   {"upright-long.svg", "eaf7c66f041e51ac"},
-                                                                   {"upright-ode.svg", "058efbf282c06714"},
-                                                                   {"walking-long.svg", "6cda526e92bd1395"},
-                                                                   {"walking-ode.svg", "e6b3281177ff7ee4"}});
+                                                                   {"upright-long.svg", "db68d5dd2e14c067"},
+                                                                   {"upright-ode.svg", "15fcd9103a15cc7f"},
+                                                                   {"walking-long.svg", "6f747892234f463c"},
+                                                                   {"walking-ode.svg", "9768c91b3fe7ac02"}});
 }
 
 TEST(GoldenReport, OfMutantsMatchesTheGoldenHash) {
@@ -48,7 +48,7 @@ TEST(GoldenReport, OfMutantsMatchesTheGoldenHash) {
   });
   tests::expect_golden(made, {{"mutants-long.svg", "54f814c86cb1bf2d"},
                               {"mutants.csv", "83f46b3dfd1e8088"},
-                              {"report.html", "0f628496522f78dc"}});
+                              {"report.html", "3dd897e8b30c4d51"}});
 }
 
 TEST(GoldenReport, OfFiveConditionsMatchesTheGoldenHash) {
