@@ -55,6 +55,7 @@ void Runner::move_to(physics::Engine& engine, const std::vector<int>& numb_legs)
     AMBLE_CHECK(!slot.busy || slot.task.scenario == nullptr, "a scenario belongs to one engine");
   engine_ = &engine;
   std::vector<NumbTouch> numb;
+  numb.reserve(numb_legs.size());
   for (const int leg : numb_legs) numb.push_back({.leg = leg});
   disturbances_ = Disturbances(engine.sensors(), std::move(numb));
 }
