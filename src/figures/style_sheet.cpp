@@ -198,10 +198,10 @@ std::string declared(std::string_view Colour::*scheme) {
 }
 
 /// Classes of legs: --leg for what is around figures, the current colour in them.
-std::string legs(bool in_page) {
+std::string legs(bool whole_page) {
   std::string rules;
   for (int leg = 0; leg < leg_colours; ++leg) {
-    if (in_page) rules += fmt::format(".leg{0} {{ --leg: var(--c{0}); }}\n", leg);
+    if (whole_page) rules += fmt::format(".leg{0} {{ --leg: var(--c{0}); }}\n", leg);
     rules += fmt::format("svg .leg{0} {{ color: var(--c{0}); }}\n", leg);
   }
   return rules;
