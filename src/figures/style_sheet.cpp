@@ -186,9 +186,9 @@ constexpr std::string_view phone_and_paper = R"css(
 }
 )css";
 
-void replace_all(std::string& text, std::string_view what, std::string_view with) {
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
-    text.replace(at, what.size(), with);
+void replace_all(std::string& rules, std::string_view what, std::string_view with) {
+  for (std::size_t at = rules.find(what); at != std::string::npos; at = rules.find(what, at + with.size()))
+    rules.replace(at, what.size(), with);
 }
 
 std::string declared(std::string_view Colour::*scheme) {
