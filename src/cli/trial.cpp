@@ -36,7 +36,7 @@ struct TrialOptions {
   std::optional<std::filesystem::path> record;
   std::optional<std::uint32_t> episode, unseen;
   std::optional<std::filesystem::path> ground;
-  std::optional<std::string> damage;
+  std::optional<std::string> damage, command;
   std::optional<std::filesystem::path> inputs;
   presentation::TrialChoice disturbance;
 };
@@ -88,6 +88,21 @@ void damage_as_in(const std::string& spec, experiment::Champion& champion) {
     change_as_in(spec, [&](const experiment::Config& config) { champion.problem.set_damage(config.damage); });
 }
 
+/// `spec`: a config file, or commands in one line (trial::parse_commands).
+void command_as_in(const std::string& spec, std::optional<double> seconds, experiment::Champion& champion) {
+  trial::CommandSettings command{.kind = trial::CommandKind::fixed};
+  std::error_code error;
+  if (std::filesystem::exists(spec, error))
+    command = experiment::load_config(spec, {}).command;
+  else
+    command.stretches = trial::parse_commands(spec);
+  if (seconds) champion.problem.trial.duration_s = *seconds;
+  champion.problem.trial.validate();
+  champion.problem.set_commands(command);
+  if (!champion.problem.architecture->extra_senses().commands())
+    print_message("--command: this champion senses no commands, and walks as it would without\n");
+}
+
 /// What the champion typically does in trials like this one.
 void print_typical(const experiment::Champion& champion, const TrialOptions& options) {
   experiment::Problem problem = champion.problem;
@@ -129,6 +144,7 @@ ExitCode run_trial(const TrialOptions& options) {
     change_as_in(*options.ground,
                  [&](const experiment::Config& config) { champion.problem.set_ground(config.ground); });
   if (options.damage) damage_as_in(*options.damage, champion);
+  if (options.command) command_as_in(*options.command, options.seconds, champion);
   if (options.record) io::refuse_to_replace(*options.record, record::recording_magic, "a recording");
   study::GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
   experiment::ReplayOptions how{.seconds = options.seconds,
@@ -156,6 +172,10 @@ ExitCode run_trial(const TrialOptions& options) {
   fmt::print("outcome   {}\nupright   {:.2f} s\ndistance  {:.3f} m\nspeed     {:.3f} m/s\n",
              record::outcome_names[to_index(result.outcome)], result.seconds, result.distance_m,
              result.distance_m / result.seconds);
+  if (const auto& tracking = result.tracking)
+    fmt::print(
+        "commands  followed to {:.3f} of 1; wrong by {:.3f} m/s and {:.3f} rad/s (mean over seconds)\n",
+        tracking->tracking, tracking->speed_error_m_s, tracking->turn_error_rad_s);
   if (!replay->events.empty()) {
     fmt::print("events   ");
     for (const auto& [name, count] : replay->events) fmt::print(" {} {}", name, count);
@@ -195,13 +215,17 @@ void add_trial(CLI::App& app, Action& action) {
                       "With the robot damaged as in the [damage] of this config, or as "
                       "KIND:NAME[=NUMBER][@SECONDS] says, e.g. "
                       "missing:FL,weak:FR_knee=0.3@5 (default: as in its evolution)");
+  command->add_option("--command", options->command,
+                      "Told to do this: SPEED,TURN[,SECONDS]; … in m/s, rad/s to the left and s, or the "
+                      "[command] of this config (default: as in its evolution)");
   auto* const inputs = command->add_option("--inputs", options->inputs,
                                            "Run a live session of a page again, with all that was done to "
                                            "the robot: the file that the page saved");
   for (const char* other : {"--seconds", "--engine", "--record", "--episode", "--unseen", "--ground",
-                            "--damage", "--level", "--noise", "--trials", "--undisturbed"})
+                            "--damage", "--command", "--level", "--noise", "--trials", "--undisturbed"})
     inputs->excludes(command->get_option(other));
   add_examples(*command, {{"amble trial runs/1", "what it typically does"},
+                          {"amble trial runs/1 --command \"0.4,0; 0.4,0.5; 0,0\"", "straight, left, stop"},
                           {"amble trial runs/1 --seconds 300 --engine ode", ""},
                           {"amble trial runs/1 --damage missing:FL", "with its front left leg missing"}});
   command->callback([options, &action] {

@@ -48,6 +48,7 @@ void Config::describe(io::SettingsVisitor& visitor) {
   visitor.table("controller", controller, {"how a CPPN becomes a controller"});
   visitor.table("trial", trial, {"one trial of one controller"});
   visitor.table("noise", noise, {"noise in trials, and how many of them make an evaluation; off by default"});
+  visitor.table("command", command, {"what robots are told to do in trials: nothing by default"});
   visitor.table("evaluation", evaluation,
                 {"how trials are spent under noise; by default alike for all genomes"});
   visitor.table("ground", ground, {"what robots walk on: flat by default"});
@@ -90,7 +91,8 @@ void Config::validate() const {
   neat.validate();
   trial.validate();
   ground.validate();
-  noise.validate(trial, ground.start_place_m > 0.0 || controller.sensing.is_noisy());
+  command.validate(trial);
+  noise.validate(trial, ground.start_place_m > 0.0 || controller.sensing.is_noisy() || command.varies());
   score.validate();
   check_evaluation();
   if (champion.episodes > 0 && !disturbed())
@@ -101,7 +103,7 @@ void Config::validate() const {
 }
 
 bool Config::disturbed() const {
-  return noise.any() || ground.start_place_m > 0.0 || controller.sensing.is_noisy();
+  return noise.any() || ground.start_place_m > 0.0 || controller.sensing.is_noisy() || command.varies();
 }
 
 void Config::check_evaluation() const {
@@ -162,7 +164,7 @@ std::string Config::identity() const {
   io::Json values = io::Json::object();
   copy.describe(*io::json_writer(values));
   // Later tables and keys are omitted at their defaults, so that earlier results still match.
-  leave_out_implied(values, copy.score, copy.ground, copy.damage);
+  leave_out_implied(values, copy.score, copy.ground, copy.damage, copy.command);
   if (copy.search.kind != "map-elites") {
     values.at("search").erase("map_elites");
   } else if (!copy.search.map_elites.tries_candidates_again()) {

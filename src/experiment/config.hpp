@@ -26,6 +26,7 @@
 #include "amble/score/behaviour.hpp"
 #include "amble/score/score.hpp"
 #include "amble/search/strategies.hpp"
+#include "amble/trial/command_settings.hpp"
 #include "amble/trial/noise_settings.hpp"
 #include "amble/trial/settings.hpp"
 
@@ -66,6 +67,7 @@ struct Config {
   controllers::ControllerSettings controller;
   trial::Settings trial;
   trial::NoiseSettings noise;
+  trial::CommandSettings command = {};
   EvaluationSettings evaluation;
   score::Settings score;
   ground::Settings ground;

@@ -37,6 +37,7 @@ Problem Problem::make(const Config& config, robot::RobotSpec robot) {
                   .score = config.score,
                   .ground = config.ground,
                   .damage = config.damage,
+                  .command = config.command,
                   .engine_own = config.engine_own,
                   .architecture = nullptr};
   try {

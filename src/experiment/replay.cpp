@@ -4,8 +4,13 @@
 #include "amble/ground/recorded.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/robot/json.hpp"
+#include "amble/score/tracking.hpp"
 
 namespace amble::experiment {
+
+record::Measures tracking_measures(const Problem& problem) {
+  return problem.command.kind == trial::CommandKind::none ? record::Measures() : score::tracking_measures;
+}
 
 std::optional<Replay> replay(const Problem& original, const neat::Genome& genome,
                              const ReplayOptions& options, const std::atomic<bool>& stop) {
@@ -20,6 +25,13 @@ std::optional<Replay> replay(const Problem& original, const neat::Genome& genome
   if (ground) engine->set_ground(ground);
   const auto controllers = problem.architecture->make_batch(engine->lanes());
   auto parameters = problem.decode(genome);
+
+  std::optional<trial::Scenario> scenario;
+  if (options.noise) scenario = problem.scenario(*options.noise, ground.get());
+  const trial::Protocol protocol = problem.protocol({}, tracking_measures(problem));
+  const trial::CommandSchedule* const commands = scenario && scenario->commands ? &*scenario->commands
+                                                 : protocol.commands            ? &*protocol.commands
+                                                                                : nullptr;
 
   trial::TraceObserver trace;
   trial::EventObserver events(*controllers);
@@ -40,14 +52,12 @@ std::optional<Replay> replay(const Problem& original, const neat::Genome& genome
             .ground_json = ground ? ground::to_json(problem.ground, ground_key).dump() : std::string(),
             .damage_json =
                 problem.damage.is_default() ? std::string() : io::settings_to_json(problem.damage).dump()},
-        problem.robot, *engine, *controllers);
+        problem.robot, *engine, *controllers, commands);
     observers.add(*recording);
   }
 
-  std::optional<trial::Scenario> scenario;
-  if (options.noise) scenario = problem.scenario(*options.noise, ground.get());
   trial::OneTask task(std::move(parameters), &observers, scenario ? &*scenario : nullptr);
-  trial::Runner runner(*engine, *controllers, problem.protocol({}));
+  trial::Runner runner(*engine, *controllers, protocol);
   runner.run(task, stop);
   if (!task.result()) return std::nullopt;
   if (recording) recording->finish(task.result()->outcome);

@@ -31,6 +31,9 @@ struct Replay {
   double physics_s = 0.0;                 ///< time spent in the engine
 };
 
+/// What must be measured for TrialResult::tracking: nothing without commands.
+record::Measures tracking_measures(const Problem& problem);
+
 /// One trial of one genome, without noise unless an option sets it. Nothing if `stop` was set before it ended
 /// (then nothing is recorded). Throws UserError.
 std::optional<Replay> replay(const Problem& problem, const neat::Genome& genome, const ReplayOptions& options,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "amble/experiment/replay.hpp"
 #include "amble/ground/height_field.hpp"
 
 namespace amble::experiment {
@@ -57,7 +58,7 @@ bool replay_on(const Problem& problem, const std::shared_ptr<const ground::Groun
   for (std::size_t i = 0; i < trials.size(); ++i)
     if (trials[i].noise) scenarios[i] = problem.scenario(*trials[i].noise, ground.get());
   TogetherQueue queue(parameters, trials, scenarios);
-  trial::Runner(*engine, *controllers, problem.protocol({})).run(queue, stop);
+  trial::Runner(*engine, *controllers, problem.protocol({}, tracking_measures(problem))).run(queue, stop);
   for (const auto& trajectory : queue.trajectories()) {
     if (!trajectory) return false;
     results.push_back(summarise(problem, *trajectory));

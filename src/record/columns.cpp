@@ -21,4 +21,8 @@ std::vector<std::string> torque_columns(const std::vector<std::string>& joints) 
   return columns;
 }
 
+std::vector<std::string> command_columns() {
+  return {"command.speed", "command.turn"};
+}
+
 }  // namespace amble::record

@@ -32,6 +32,9 @@ std::vector<std::string> standard_columns(const std::vector<std::string>& joints
 /// joint.
 std::vector<std::string> torque_columns(const std::vector<std::string>& joints);
 
+/// The last columns of a trial with commands: command.speed (m/s) and command.turn (rad/s to the left).
+std::vector<std::string> command_columns();
+
 /// Writes a recording chunk by chunk, so that memory does not grow with its length. The file appears under
 /// its name only with finish(); without it the temporary file is removed. Throws UserError(ExitCode::io).
 class RecordingWriter {

@@ -34,7 +34,7 @@ struct PathSampling {
 /// Optional measurements of a trial, which cost time.
 struct Measures {
   bool energy = false, uprightness = false, seconds = false, contacts = false, footfalls = false,
-       height = false;
+       height = false, headings = false, commands = false;
 
   Measures& operator|=(const Measures& other) {
     energy |= other.energy;
@@ -43,6 +43,8 @@ struct Measures {
     contacts |= other.contacts;
     footfalls |= other.footfalls;
     height |= other.height;
+    headings |= other.headings;
+    commands |= other.commands;
     return *this;
   }
 };
@@ -78,6 +80,14 @@ struct Trajectory {
   std::vector<std::vector<int>> footfall_steps;
   /// Measures::height: sum over steps of the height of the root's centre of mass over the ground below it, m.
   double height_steps_m = 0.0;
+
+  /// Measures::headings: how far the root has turned to the left since the start, whole turns counted, after
+  /// each whole second and after the last step, rad.
+  std::vector<double> turned_by_second_rad;
+  double turned_rad = 0.0;
+  /// Measures::commands: mean of what was commanded in each whole second, speed (m/s) and turn (rad/s) in
+  /// turn. Empty without commands.
+  std::vector<double> command_by_second;
 
   double seconds() const { return steps * timestep_s; }
 };

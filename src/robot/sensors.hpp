@@ -16,18 +16,27 @@ struct SensorFrame {
   LaneArray joint_torque_nm = {};    ///< joints × lanes: of the motors in the last step
   LaneArray yaw_rate_rad_s = {};     ///< 1 × lanes: how far the yaw turned in the last tick, by its length
   LaneArray foot_load_n = {};        ///< legs × lanes: the ground's normal force in the last step
+  /// 2 × lanes: what the robot is told, speed along its own forward axis (m/s) and turn to the left (rad/s).
+  LaneArray command = {};
+  /// 1 × lanes, −π … π: how far the heading that the commanded turns lead to is to the left of the robot's.
+  LaneArray heading_error_rad = {};
 };
 
 /// Which of a frame's rows that not every controller needs are asked for.
 struct ExtraSenses {
   bool speed = false, torque = false, yaw_rate = false, load = false;
+  bool command = false, heading_error = false;
 
-  bool any() const { return speed || torque || yaw_rate || load; }
+  bool any() const { return speed || torque || yaw_rate || load || commands(); }
+  /// Whether anything depends on what the robot is told.
+  bool commands() const { return command || heading_error; }
   ExtraSenses& operator|=(const ExtraSenses& other) {
     speed |= other.speed;
     torque |= other.torque;
     yaw_rate |= other.yaw_rate;
     load |= other.load;
+    command |= other.command;
+    heading_error |= other.heading_error;
     return *this;
   }
   friend bool operator==(const ExtraSenses&, const ExtraSenses&) = default;

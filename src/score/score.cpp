@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "amble/core/check.hpp"
@@ -14,6 +13,8 @@
 #include "amble/core/index.hpp"
 #include "amble/core/registry.hpp"
 #include "amble/io/expectation.hpp"
+#include "amble/score/direction.hpp"
+#include "amble/score/tracking.hpp"
 
 namespace amble::score {
 namespace {
@@ -21,44 +22,6 @@ namespace {
 /// In a straight line over the ground, in any direction.
 double distance(const record::Trajectory& trajectory, const Context&) {
   return distance_m(trajectory);
-}
-
-/// A direction over the ground, of unit length.
-struct Direction {
-  double x = 1.0, y = 0.0;
-};
-
-double along(Direction direction, double x_m, double y_m) {
-  return x_m * direction.x + y_m * direction.y;
-}
-
-/// Cosine and sine of an angle of at most 45 degrees, by their Taylor series up to the last bit. The
-/// library's functions have other last bits on other CPUs.
-Direction small_turn(double angle_rad) {
-  Direction turn{1.0, angle_rad};
-  double cosine_term = 1.0, sine_term = angle_rad;
-  for (int n = 2; n <= 20; n += 2) {
-    cosine_term *= -angle_rad * angle_rad / (n * (n - 1));
-    sine_term *= -angle_rad * angle_rad / (n * (n + 1));
-    turn.x += cosine_term;
-    turn.y += sine_term;
-  }
-  return turn;
-}
-
-/// Cosine and sine of an angle, degrees; exact for multiples of 90.
-Direction unit_direction(double angle_deg) {
-  const double quarters = std::nearbyint(angle_deg / 90.0);
-  Direction turn = small_turn((angle_deg - 90.0 * quarters) * (std::numbers::pi / 180.0));
-  for (int i = 0; i < (static_cast<int>(quarters) % 4 + 4) % 4; ++i) turn = {-turn.y, turn.x};
-  return turn;
-}
-
-/// The robot's forward axis at the start, turned counter-clockwise.
-Direction turned(const record::Trajectory& trajectory, double angle_deg) {
-  const Direction turn = unit_direction(angle_deg);
-  const Direction forward{trajectory.forward_x, trajectory.forward_y};
-  return {forward.x * turn.x - forward.y * turn.y, forward.x * turn.y + forward.y * turn.x};
 }
 
 double displacement_m(const record::Trajectory& trajectory, double angle_deg) {
@@ -116,25 +79,6 @@ double upright_time(const record::Trajectory& trajectory, const Context& context
 /// Displacement to the left of the robot's own forward axis at the start.
 double sideways(const record::Trajectory& trajectory, const Context&) {
   return displacement_m(trajectory, 90.0);
-}
-
-/// Angle of a direction to the x axis, −180 … 180 degrees, by the series of the arc tangent: as small_turn(),
-/// not by the library's function.
-double angle_deg(Direction direction) {
-  const double x = std::abs(direction.x), y = std::abs(direction.y);
-  const double low = std::min(x, y), high = std::max(x, y);
-  if (high == 0.0) return 0.0;
-  // The series of the half angle, whose tangent is at most tan 22.5° = 0.41: tan(φ/2) = sin φ / (1 + cos φ).
-  const double tangent = low / (high + std::sqrt(low * low + high * high));
-  double sum = 0.0, power = tangent;
-  for (int n = 1; n <= 41; n += 2) {
-    sum += (n % 4 == 1 ? power : -power) / n;
-    power *= tangent * tangent;
-  }
-  double angle = 2.0 * sum * (180.0 / std::numbers::pi);
-  if (y > x) angle = 90.0 - angle;
-  if (direction.x < 0.0) angle = 180.0 - angle;
-  return direction.y < 0.0 ? -angle : angle;
 }
 
 /// How far the robot has turned to the left from the start to the end.
@@ -208,7 +152,12 @@ Registry<Quantity>& all_quantities() {
                                  {"upright_time", "", share_range, {}, upright_time},
                                  {"duty_factor", "", share_range, {.contacts = true}, duty_factor, true},
                                  {"phase", "", share_range, {.footfalls = true}, phase, true},
-                                 {"height", "m", signed_range, {.height = true}, height}});
+                                 {"height", "m", signed_range, {.height = true}, height},
+                                 {"yaw_rate", "rad/s", signed_range, {.headings = true}, yaw_rate},
+                                 {"speed_error", "m/s", positive_range, tracking_measures, speed_error},
+                                 {"turn_error", "rad/s", positive_range, tracking_measures, turn_error},
+                                 {"heading_error", "rad", positive_range, tracking_measures, heading_error},
+                                 {"tracking", "", share_range, tracking_measures, tracking}});
   return all;
 }
 
@@ -238,6 +187,13 @@ void Limit::describe(io::SettingsVisitor& visitor) {
   visitor.number("most", most, {-unbounded, unbounded}, {"not above this"});
 }
 
+void TrackingSettings::describe(io::SettingsVisitor& visitor) {
+  visitor.number("speed_m_s", speed_m_s, {1e-6, 1e3},
+                 {"an error of speed as large as this counts 0 where a slower speed is commanded, m/s"});
+  visitor.number("turn_rad_s", turn_rad_s, {1e-6, 1e3},
+                 {"an error of turning as large as this counts 0 where a slower turn is commanded, rad/s"});
+}
+
 void Settings::describe(io::SettingsVisitor& visitor) {
   visitor.tables("terms", terms,
                  {"the score is the sum of these, at least 0", "Morse et al. 2013, sec. 4: distance"});
@@ -249,6 +205,8 @@ void Settings::describe(io::SettingsVisitor& visitor) {
       {"which way heading and speed_kept go, degrees to the left of the robot's forward axis at the "
        "start"});
   visitor.number("speed_m_s", speed_m_s, {1e-6, 1e3}, {"speed wanted by speed_kept, m/s"});
+  visitor.table("tracking", tracking,
+                {.what = "how strictly the quantity tracking judges", .defaults_are_implied = true});
 }
 
 void Settings::validate() const {

@@ -34,6 +34,15 @@ struct Limit {
   void describe(io::SettingsVisitor& visitor);
 };
 
+/// How strictly the quantity `tracking` judges (tracking.hpp).
+struct TrackingSettings {
+  double speed_m_s = 0.2;
+  double turn_rad_s = 0.5;
+
+  void describe(io::SettingsVisitor& visitor);
+  friend bool operator==(const TrackingSettings&, const TrackingSettings&) = default;
+};
+
 /// Definition of a score. The default is the paper's: distance in a straight line alone.
 struct Settings {
   std::vector<Term> terms{Term()};
@@ -41,6 +50,7 @@ struct Settings {
   double breach_factor = 0.0;
   double heading_deg = 0.0;  ///< to the left (counter-clockwise) of the robot's forward axis at the start
   double speed_m_s = 0.5;
+  TrackingSettings tracking = {};
 
   void describe(io::SettingsVisitor& visitor);
   /// Throws SettingError for a quantity that does not exist, and for limits that no trial can meet.

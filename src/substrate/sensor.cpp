@@ -31,6 +31,12 @@ constexpr std::array kinds{
     SensorKind{"yaw", Kind::yaw, Owner::robot, "rad", std::numbers::pi, "of the root, in the level frame"},
     SensorKind{"yaw_rate", Kind::yaw_rate, Owner::robot, "rad/s", 2.0,
                "how far the yaw has turned since the last tick, by its length"},
+    SensorKind{"command_speed", Kind::command_speed, Owner::robot, "m/s", 1.0,
+               "the speed along its own forward axis that the robot is told"},
+    SensorKind{"command_turn", Kind::command_turn, Owner::robot, "rad/s", 1.0,
+               "the rate of turning to the left that the robot is told"},
+    SensorKind{"heading_error", Kind::heading_error, Owner::robot, "rad", 1.0,
+               "how far the heading that the commanded turns have led to is to the left of the robot's"},
     SensorKind{"sine", Kind::sine, Owner::clock, "1", 1.0, "sin(2π t / substrate.sine_period_s)"},
 };
 
@@ -107,6 +113,12 @@ const float* row_of(const Sensor& sensor, const robot::SensorFrame& frame) {
       return row(frame.yaw_rate_rad_s, 0);
     case Kind::load:
       return row(frame.foot_load_n, sensor.index);
+    case Kind::command_speed:
+      return row(frame.command, 0);
+    case Kind::command_turn:
+      return row(frame.command, 1);
+    case Kind::heading_error:
+      return row(frame.heading_error_rad, 0);
     case Kind::sine:
       break;
   }
@@ -117,7 +129,9 @@ robot::ExtraSenses extra_senses(const Sensor& sensor) {
   return {.speed = sensor.kind == Kind::speed,
           .torque = sensor.kind == Kind::torque,
           .yaw_rate = sensor.kind == Kind::yaw_rate,
-          .load = sensor.kind == Kind::load};
+          .load = sensor.kind == Kind::load,
+          .command = sensor.kind == Kind::command_speed || sensor.kind == Kind::command_turn,
+          .heading_error = sensor.kind == Kind::heading_error};
 }
 
 }  // namespace amble::substrate

@@ -17,11 +17,14 @@ struct Sensor {
     roll,   ///< of the root, rad
     pitch,
     yaw,
-    sine,      ///< sin(2π t / period), t from 0 at the first tick
-    speed,     ///< of joint `index`, rad/s
-    torque,    ///< of the motor of joint `index`, N m
-    yaw_rate,  ///< of the root, rad/s
-    load,      ///< of the foot of leg `index`, N
+    sine,           ///< sin(2π t / period), t from 0 at the first tick
+    speed,          ///< of joint `index`, rad/s
+    torque,         ///< of the motor of joint `index`, N m
+    yaw_rate,       ///< of the root, rad/s
+    load,           ///< of the foot of leg `index`, N
+    command_speed,  ///< that the robot is told, m/s
+    command_turn,   ///< that the robot is told, rad/s to the left
+    heading_error,  ///< how far the heading it was told is to its left, rad
   };
   Kind kind = Kind::sine;
   int index = 0;  ///< joint or leg

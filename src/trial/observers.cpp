@@ -6,7 +6,7 @@ namespace amble::trial {
 namespace {
 
 record::RecordingHeader with_columns(record::RecordingHeader header, const robot::RobotSpec& robot,
-                                     bool torques, const controllers::Batch& controllers) {
+                                     bool torques, const controllers::Batch& controllers, bool commands) {
   std::vector<std::string> joints, legs;
   for (const auto& joint : robot.joints) joints.push_back(joint.name);
   for (const auto& leg : robot.legs) legs.push_back(leg.name);
@@ -14,6 +14,8 @@ record::RecordingHeader with_columns(record::RecordingHeader header, const robot
   if (torques)
     for (auto& name : record::torque_columns(joints)) header.columns.push_back(std::move(name));
   for (auto& name : controllers.state_names()) header.columns.push_back(std::move(name));
+  if (commands)
+    for (auto& name : record::command_columns()) header.columns.push_back(std::move(name));
   return header;
 }
 
@@ -39,12 +41,15 @@ void EventObserver::on_step(int, const physics::Engine&, const controllers::Batc
 
 RecordingObserver::RecordingObserver(const std::filesystem::path& path, record::RecordingHeader header,
                                      const robot::RobotSpec& robot, const physics::Engine& engine,
-                                     const controllers::Batch& controllers)
-    : writer_(path, with_columns(std::move(header), robot, engine.motor_torque_nm() != nullptr, controllers)),
-      state_count_(controllers.state_names().size()) {}
+                                     const controllers::Batch& controllers, const CommandSchedule* commands)
+    : writer_(path, with_columns(std::move(header), robot, engine.motor_torque_nm() != nullptr, controllers,
+                                 commands != nullptr)),
+      state_count_(controllers.state_names().size()),
+      commands_(commands) {}
 
-void RecordingObserver::on_step(int, const physics::Engine& engine, const controllers::Batch& controllers,
-                                const LaneArray& targets_rad, int lane) {
+void RecordingObserver::on_step(int step, const physics::Engine& engine,
+                                const controllers::Batch& controllers, const LaneArray& targets_rad,
+                                int lane) {
   frame_.clear();
   const auto put = [this](double value) { frame_.push_back(static_cast<float>(value)); };
   const auto put_lane = [&](const LaneArray& rows) {
@@ -61,6 +66,10 @@ void RecordingObserver::on_step(int, const physics::Engine& engine, const contro
   if (const LaneArray* torques_nm = engine.motor_torque_nm()) put_lane(*torques_nm);
   frame_.resize(frame_.size() + state_count_);
   controllers.state(lane, std::span(frame_).last(state_count_));
+  if (commands_ != nullptr) {
+    const Command command = commands_->at(step - 1);
+    frame_.insert(frame_.end(), {command.speed_m_s, command.turn_rad_s});
+  }
   writer_.add(frame_);
 }
 

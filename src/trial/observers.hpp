@@ -7,6 +7,7 @@
 
 #include "amble/record/recording.hpp"
 #include "amble/robot/spec.hpp"
+#include "amble/trial/commands.hpp"
 #include "amble/trial/trial.hpp"
 
 namespace amble::trial {
@@ -46,10 +47,11 @@ class EventObserver : public Observer {
 /// Writes every step of a trial to a recording (record/recording.hpp).
 class RecordingObserver : public Observer {
  public:
-  /// `header` with everything but the columns. Motor torques are recorded if the engine reports them.
+  /// `header` with everything but the columns. Motor torques are recorded if the engine reports them, and
+  /// `commands` (not copied) if there are any.
   RecordingObserver(const std::filesystem::path& path, record::RecordingHeader header,
                     const robot::RobotSpec& robot, const physics::Engine& engine,
-                    const controllers::Batch& controllers);
+                    const controllers::Batch& controllers, const CommandSchedule* commands = nullptr);
   void on_step(int step, const physics::Engine& engine, const controllers::Batch& controllers,
                const LaneArray& targets_rad, int lane) override;
   void finish(record::Outcome outcome) { writer_.finish(outcome); }
@@ -57,6 +59,7 @@ class RecordingObserver : public Observer {
  private:
   record::RecordingWriter writer_;
   std::size_t state_count_;
+  const CommandSchedule* commands_;
   std::vector<float> frame_;
 };
 

@@ -19,7 +19,8 @@ enum class Kind : std::uint32_t {
   sensors = 3,
   latency = 4,
   place = 5,
-  readings = 6
+  readings = 6,
+  commands = 7
 };
 constexpr std::uint32_t most_kinds = 16;
 
@@ -105,11 +106,19 @@ std::vector<float> draw_offsets(std::size_t count, double largest, Stream& strea
   return offsets;
 }
 
+/// Of two episodes that mirror each other both have the stream of the first.
+CommandSchedule draw_commands(const CommandSettings& command, int steps, double timestep_s, ScenarioKey key) {
+  const bool mirror = command.mirrored && key.episode % 2 == 1;
+  if (mirror) --key.episode;
+  return drawn_commands(command, steps, timestep_s, stream_of(key, Kind::commands), mirror);
+}
+
 }  // namespace
 
 Scenario draw_scenario(const NoiseSettings& noise, const RobotSpec& robot, int steps, double timestep_s,
-                       const ScenarioKey& key, const StartGround& start) {
+                       const ScenarioKey& key, const StartGround& start, const CommandSettings& command) {
   Scenario scenario;
+  if (command.varies()) scenario.commands = draw_commands(command, steps, timestep_s, key);
   if (noise.first_undisturbed && key.episode == 0) {
     scenario.attitude_sensor_rad.assign(3, -0.0f);  // which leaves even −0 as it is when added
     scenario.joint_sensor_rad.assign(robot.joints.size(), -0.0f);

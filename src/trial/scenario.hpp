@@ -9,6 +9,7 @@
 #include "amble/ground/ground.hpp"
 #include "amble/physics/engine.hpp"
 #include "amble/robot/spec.hpp"
+#include "amble/trial/commands.hpp"
 #include "amble/trial/noise_settings.hpp"
 
 namespace amble::trial {
@@ -31,6 +32,7 @@ struct Scenario {
   std::vector<float> attitude_sensor_rad;   ///< the same for roll, pitch and yaw
   int latency_ticks = 0;                    ///< until the first targets arrive, targets are 0
   std::optional<Stream> readings = {};      ///< noise of single readings (trial/senses.hpp); nothing: none
+  std::optional<CommandSchedule> commands = {};  ///< drawn ones; nothing: those of Protocol::commands
 };
 
 /// Names a scenario: the same key and settings give the same scenario, to the bit.
@@ -62,7 +64,10 @@ struct StartGround {
 ///
 /// On uneven ground the robot is put `start_place_m` or less from the origin along x and y, and lifted or
 /// lowered to where it is as high over the ground as in its own start pose on the plane.
+///
+/// Commands are drawn whatever the noise, also for an undisturbed episode.
 Scenario draw_scenario(const NoiseSettings& noise, const robot::RobotSpec& robot, int steps,
-                       double timestep_s, const ScenarioKey& key, const StartGround& start = {});
+                       double timestep_s, const ScenarioKey& key, const StartGround& start = {},
+                       const CommandSettings& command = {});
 
 }  // namespace amble::trial

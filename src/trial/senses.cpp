@@ -20,14 +20,18 @@ float rate_of(float before_rad, float now_rad, float rate_hz) {
 }
 
 float turning_rate_of(float before_rad, float now_rad, float rate_hz) {
+  return wrapped_rad(now_rad - before_rad) * rate_hz;
+}
+
+float wrapped_rad(float angle_rad) {
   constexpr float half_turn = 3.14159265f, turn = 6.28318531f;
-  const float moved = now_rad - before_rad;
-  return (moved > half_turn ? moved - turn : moved < -half_turn ? moved + turn : moved) * rate_hz;
+  return angle_rad > half_turn ? angle_rad - turn : angle_rad < -half_turn ? angle_rad + turn : angle_rad;
 }
 
 Senses::Senses(const Sensing& sensing, const robot::SensorFrame& sensors, double timestep_s)
     : sensing_(sensing),
       rate_hz_(static_cast<float>(1.0 / timestep_s)),
+      timestep_s_(static_cast<float>(timestep_s)),
       lanes_(to_index(sensors.touch.lanes())),
       angle_before_rad_(sensors.joint_angle_rad),
       yaw_before_rad_(1, sensors.touch.lanes()) {
@@ -39,17 +43,26 @@ Senses::Senses(const Sensing& sensing, const robot::SensorFrame& sensors, double
   if (sensing.extra.torque) read_.joint_torque_nm = LaneArray(sensors.joint_angle_rad.rows(), lanes);
   if (sensing.extra.load) read_.foot_load_n = LaneArray(sensors.touch.rows(), lanes);
   if (sensing.extra.yaw_rate) read_.yaw_rate_rad_s = LaneArray(1, lanes);
+  if (sensing.extra.command) read_.command = LaneArray(2, lanes);
+  if (sensing.extra.heading_error) read_.heading_error_rad = LaneArray(1, lanes);
 }
 
-void Senses::load(int lane, const physics::Engine& engine, const Scenario* scenario) {
+void Senses::load(int lane, const physics::Engine& engine, const Scenario* scenario,
+                  const CommandSchedule* commands) {
   Lane& slot = lanes_[to_index(lane)];
   slot.tick = 0;
+  slot.commands = commands;
+  face(lane, engine);
   slot.noise.reset();
   if (scenario != nullptr) slot.noise = scenario->readings;
   const robot::SensorFrame& sensors = engine.sensors();
   for (int joint = 0; joint < angle_before_rad_.rows(); ++joint)
     angle_before_rad_.at(joint, lane) = sensors.joint_angle_rad.at(joint, lane);
   yaw_before_rad_.at(0, lane) = sensors.attitude_rad.at(yaw_row, lane);
+}
+
+void Senses::face(int lane, const physics::Engine& engine) {
+  lanes_[to_index(lane)].wanted_yaw_rad = engine.sensors().attitude_rad.at(yaw_row, lane);
 }
 
 const robot::SensorFrame& Senses::read(const physics::Engine& engine) {
@@ -59,6 +72,7 @@ const robot::SensorFrame& Senses::read(const physics::Engine& engine) {
   read_.touch = sensors.touch;
   read_.attitude_rad = sensors.attitude_rad;
   take_rates(engine);
+  if (sensing_.extra.commands()) take_commands(sensors);
   for (std::size_t i = 0; i < lanes_.size(); ++i) {
     for (Imperfect& sensor : imperfect_) read_imperfect(sensor, static_cast<int>(i));
     ++lanes_[i].tick;
@@ -89,6 +103,23 @@ void Senses::take_rates(const physics::Engine& engine) {
   if (!sensing_.extra.torque) return;
   AMBLE_CHECK(engine.motor_torque_nm() != nullptr, "the engine measures torques");
   read_.joint_torque_nm = *engine.motor_torque_nm();
+}
+
+void Senses::take_commands(const robot::SensorFrame& sensors) {
+  for (std::size_t i = 0; i < lanes_.size(); ++i) {
+    Lane& slot = lanes_[i];
+    const int lane = static_cast<int>(i);
+    const Command command = slot.commands != nullptr ? slot.commands->at(slot.tick) : Command();
+    if (sensing_.extra.command) {
+      read_.command.at(0, lane) = command.speed_m_s;
+      read_.command.at(1, lane) = command.turn_rad_s;
+    }
+    if (!sensing_.extra.heading_error) continue;
+    read_.heading_error_rad.at(0, lane) =
+        wrapped_rad(slot.wanted_yaw_rad - sensors.attitude_rad.at(yaw_row, lane));
+    const float turned_rad = command.turn_rad_s * timestep_s_;
+    slot.wanted_yaw_rad = wrapped_rad(slot.wanted_yaw_rad + turned_rad);
+  }
 }
 
 void Senses::read_imperfect(Imperfect& sensor, int lane) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "amble/controllers/sensing.hpp"
+#include "amble/core/index.hpp"
 #include "amble/core/lanes.hpp"
 #include "amble/core/random.hpp"
 #include "amble/physics/engine.hpp"
@@ -24,18 +25,30 @@ float rate_of(float before_rad, float now_rad, float rate_hz);
 /// The same of an angle that goes from π to −π.
 float turning_rate_of(float before_rad, float now_rad, float rate_hz);
 
+/// An angle of at most three half turns as one of at most half a turn, in single precision.
+float wrapped_rad(float angle_rad);
+
 /// The sensors of a runner's robots as they are read: rates and torques that engines do not put into their
 /// frames, and then for each reading, in this order: its delay (before so much time has gone by, the value at
 /// the start), its dead time (it is renewed in the first tick and then every hold_ticks ticks), and its
 /// noise, uniform, anew for each reading, by a stream of the trial's scenario; without a scenario there is
-/// none. Scales are the controllers'. Rates are those of true angles.
+/// none. Scales are the controllers'. Rates and headings are those of true angles.
+///
+/// The heading that commands lead to is the robot's own before the first tick, and turns by the commanded
+/// rate times the tick after each tick.
 class Senses {
  public:
   /// `sensors` gives the number of lanes and rows. Torques only of an engine that measures them.
   Senses(const Sensing& sensing, const robot::SensorFrame& sensors, double timestep_s);
 
-  /// The robot of this lane was placed; `scenario` is that of its trial, or null.
-  void load(int lane, const physics::Engine& engine, const Scenario* scenario);
+  /// The robot of this lane was placed; `scenario` is that of its trial, or null; `commands` likewise (not
+  /// copied).
+  void load(int lane, const physics::Engine& engine, const Scenario* scenario,
+            const CommandSchedule* commands = nullptr);
+  /// From now on the heading that commands lead to begins with the present one.
+  void face(int lane, const physics::Engine& engine);
+  /// There is no trial in this lane.
+  void clear(int lane) { lanes_[to_index(lane)].commands = nullptr; }
   /// As controllers read them in this tick; once per tick. Valid until the next call. Without anything to do
   /// it is the engine's own.
   const robot::SensorFrame& read(const physics::Engine& engine);
@@ -43,6 +56,8 @@ class Senses {
  private:
   struct Lane {
     int tick = 0;
+    const CommandSchedule* commands = nullptr;
+    float wanted_yaw_rad = 0.0f;
     std::optional<Stream> noise;
   };
   /// A sensor's ring buffer over the ticks of its delay, for all lanes, and its last readings.
@@ -52,10 +67,11 @@ class Senses {
   };
 
   void take_rates(const physics::Engine& engine);
+  void take_commands(const robot::SensorFrame& sensors);
   void read_imperfect(Imperfect& sensor, int lane);
 
   Sensing sensing_;
-  float rate_hz_;
+  float rate_hz_, timestep_s_;
   std::vector<Lane> lanes_;
   std::vector<Imperfect> imperfect_;
   LaneArray angle_before_rad_, yaw_before_rad_;

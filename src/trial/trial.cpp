@@ -10,6 +10,11 @@
 #include "amble/record/footfall.hpp"
 
 namespace amble::trial {
+namespace {
+
+constexpr int heading_row = 2;
+
+}  // namespace
 
 Runner::Runner(physics::Engine& engine, controllers::Batch& controllers, const Protocol& protocol)
     : engine_(&engine),
@@ -68,6 +73,7 @@ void Runner::refill(int lane, TaskQueue& queue) {
   disturbances_.load(lane, task ? task->scenario : nullptr);
   if (!task) {
     engine_->retire(lane);
+    senses_.clear(lane);
     return;
   }
   ++busy_;
@@ -78,7 +84,7 @@ void Runner::refill(int lane, TaskQueue& queue) {
     else
       engine_->place(lane);
   }
-  senses_.load(lane, *engine_, task->scenario);
+  senses_.load(lane, *engine_, task->scenario, commands_of(*task));
   slot.task = std::move(*task);
   controllers_.load(lane, *slot.task.parameters);
   note_start(slot, lane);
@@ -97,6 +103,9 @@ void Runner::note_start(Lane& slot, int lane) {
     slot.last_touch_step.assign(to_index(engine_->sensors().touch.rows()),
                                 std::numeric_limits<int>::min() / 2);
   }
+  slot.yaw_rad = engine_->sensors().attitude_rad.at(heading_row, lane);
+  slot.speed_sum_m_s = slot.turn_sum_rad_s = 0.0;
+  slot.second_begins = 0;
   if (!protocol_.measures.energy) return;
   slot.angle_rad.clear();
   const LaneArray& angle_rad = engine_->sensors().joint_angle_rad;
@@ -154,8 +163,10 @@ std::optional<record::Outcome> Runner::advance(int lane) {
   }
   measure(lane);
   // Its output for the first step was not used: it starts now.
-  if (protocol_.first_command == FirstCommand::after_first_step && trajectory.steps == 1)
+  if (protocol_.first_command == FirstCommand::after_first_step && trajectory.steps == 1) {
     controllers_.load(lane, *slot.task.parameters);
+    senses_.face(lane, *engine_);
+  }
   if (slot.task.observer)
     slot.task.observer->on_step(trajectory.steps, *engine_, controllers_, targets_rad_, lane);
 
@@ -187,6 +198,7 @@ void Runner::measure(int lane) {
       trajectory.com_by_second_m.insert(trajectory.com_by_second_m.end(), {moved.x, moved.y});
     }
   }
+  if (protocol_.measures.headings || protocol_.measures.commands) note_seconds(lane);
   if (!protocol_.measures.energy) return;
   // Work of each motor in this step: τ Δq, braking counted like driving.
   const LaneArray& angle_rad = engine_->sensors().joint_angle_rad;
@@ -197,6 +209,35 @@ void Runner::measure(int lane) {
     slot.trajectory.energy_j += std::abs(torque_nm.at(joint, lane) * (now_rad - before_rad));
     before_rad = now_rad;
   }
+}
+
+const CommandSchedule* Runner::commands_of(const Task& task) const {
+  if (task.scenario != nullptr && task.scenario->commands) return &*task.scenario->commands;
+  return protocol_.commands ? &*protocol_.commands : nullptr;
+}
+
+/// Headings and commands, second by second.
+void Runner::note_seconds(int lane) {
+  Lane& slot = lanes_[to_index(lane)];
+  record::Trajectory& trajectory = slot.trajectory;
+  const float yaw_rad = engine_->sensors().attitude_rad.at(heading_row, lane);
+  trajectory.turned_rad += static_cast<double>(wrapped_rad(yaw_rad - slot.yaw_rad));
+  slot.yaw_rad = yaw_rad;
+  const CommandSchedule* const commands = commands_of(slot.task);
+  if (commands != nullptr) {
+    const Command command = commands->at(trajectory.steps - 1);
+    slot.speed_sum_m_s += static_cast<double>(command.speed_m_s);
+    slot.turn_sum_rad_s += static_cast<double>(command.turn_rad_s);
+  }
+  if (record::second_count(trajectory.seconds()) <= static_cast<int>(trajectory.turned_by_second_rad.size()))
+    return;
+  trajectory.turned_by_second_rad.push_back(trajectory.turned_rad);
+  const int steps = trajectory.steps - slot.second_begins;
+  if (commands != nullptr)
+    trajectory.command_by_second.insert(trajectory.command_by_second.end(),
+                                        {slot.speed_sum_m_s / steps, slot.turn_sum_rad_s / steps});
+  slot.speed_sum_m_s = slot.turn_sum_rad_s = 0.0;
+  slot.second_begins = trajectory.steps;
 }
 
 void Runner::note_footfalls(int lane) {

@@ -11,6 +11,7 @@
 #include "amble/controllers/controller.hpp"
 #include "amble/physics/engine.hpp"
 #include "amble/record/trajectory.hpp"
+#include "amble/trial/commands.hpp"
 #include "amble/trial/disturbances.hpp"
 #include "amble/trial/scenario.hpp"
 #include "amble/trial/senses.hpp"
@@ -52,11 +53,12 @@ struct Protocol {
   double timestep_s = 0.01;
   FirstCommand first_command = FirstCommand::before_first_step;
   record::PathSampling path;
-  record::Measures measures;         ///< energy: only with an engine that has motor torques
-  std::vector<NumbTouch> numb = {};  ///< in every trial
-  Sensing sensing = {};              ///< torques: only with an engine that has them
-  double fall_height_m = 0.0;        ///< of the root's centre of mass over the ground below it
-  Quat start_rotation;               ///< of the root in the robot's own start pose
+  record::Measures measures;                     ///< energy: only with an engine that has motor torques
+  std::vector<NumbTouch> numb = {};              ///< in every trial
+  Sensing sensing = {};                          ///< torques: only with an engine that has them
+  std::optional<CommandSchedule> commands = {};  ///< of trials whose scenario has none
+  double fall_height_m = 0.0;                    ///< of the root's centre of mass over the ground below it
+  Quat start_rotation;                           ///< of the root in the robot's own start pose
 };
 
 /// Runs trials on one engine, as many at a time as it has lanes; a lane whose trial has ended takes the next
@@ -92,6 +94,9 @@ class Runner {
     Vec3 last_healthy_com_m;
     std::vector<double> angle_rad;     ///< after the last step; only where energy is measured
     std::vector<int> last_touch_step;  ///< by leg; only where footfalls are measured
+    float yaw_rad = 0.0f;              ///< after the last step; only where headings are measured
+    double speed_sum_m_s = 0.0, turn_sum_rad_s = 0.0;  ///< of commands in this second
+    int second_begins = 0;                             ///< steps before this second
     bool busy = false;
   };
 
@@ -103,6 +108,8 @@ class Runner {
   std::optional<record::Outcome> advance(int lane);
   void measure(int lane);
   void note_footfalls(int lane);
+  void note_seconds(int lane);
+  const CommandSchedule* commands_of(const Task& task) const;
 
   physics::Engine* engine_;
   controllers::Batch& controllers_;

@@ -62,7 +62,7 @@ TEST(RegisterQuantity, ListsItAfterAmblesOwn) {
     } catch (const UserError& error) {
       const std::string text = error.what();
       return quantities().size() == own + 1 && quantities().front().name == "distance" &&
-             text.ends_with(", height, hurry");
+             text.ends_with(", tracking, hurry");
     }
     return false;
   });

@@ -313,10 +313,12 @@ std::string error_of(const Settings& settings) {
 TEST(ScoreSettings, AreRefusedWhereTheyNameNothingOrCannotBeKept) {
   EXPECT_EQ(error_of({}), "");
   EXPECT_EQ(error_of({.terms = {}}), "score.terms: expected at least one term");
-  EXPECT_THAT(error_of({.terms = {{.quantity = "joy"}}}),
-              testing::StartsWith(
-                  "score.terms: quantity \"joy\": expected distance, forward, heading, sideways, turn, "
-                  "speed_kept, energy, economy, uprightness, upright_time, duty_factor, phase, height"));
+  EXPECT_THAT(
+      error_of({.terms = {{.quantity = "joy"}}}),
+      testing::StartsWith(
+          "score.terms: quantity \"joy\": expected distance, forward, heading, sideways, turn, "
+          "speed_kept, energy, economy, uprightness, upright_time, duty_factor, phase, height, yaw_rate, "
+          "speed_error, turn_error, heading_error, tracking"));
   EXPECT_THAT(error_of({.limits = {{.quantity = "joy"}}}), testing::HasSubstr("score.limits: quantity"));
   EXPECT_EQ(error_of({.limits = {{.quantity = "uprightness", .least = 0.9, .most = 0.5}}}),
             "score.limits: uprightness: least = 0.9 is above most = 0.5");

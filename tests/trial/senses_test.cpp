@@ -109,5 +109,38 @@ TEST(Senses, BeginAnewWithEachTrial) {
   EXPECT_EQ(sensors.joint_angle_rad.at(0, 0), static_cast<float>(robot.angle_rad(10)));
 }
 
+CommandSchedule turning_left(float rad_s) {
+  return {{{0, {0.3f, rad_s}}, {500, {0.0f, 0.0f}}}, 0};
+}
+
+TEST(Senses, TellWhatIsCommandedInEachTick) {
+  const CommandSchedule schedule = turning_left(0.5f);
+  FakeEngine engine(2);
+  Senses senses({.extra = {.command = true}, .models = {}}, engine.sensors(), timestep_s);
+  senses.load(0, engine, nullptr, &schedule);
+  senses.load(1, engine, nullptr, nullptr);
+  for (int tick = 0; tick < 600; ++tick) {
+    const LaneArray& command = senses.read(engine).command;
+    EXPECT_EQ(command.at(0, 0), tick < 500 ? 0.3f : 0.0f);
+    EXPECT_EQ(command.at(1, 0), tick < 500 ? 0.5f : 0.0f);
+    EXPECT_EQ(command.at(0, 1), 0.0f);
+  }
+}
+
+TEST(Senses, OfTheHeadingErrorIsTheSumOfCommandedTurnsLessTheYaw) {
+  const CommandSchedule schedule = turning_left(0.5f);
+  FakeEngine engine(1);
+  engine.frame().attitude_rad.at(2, 0) = 3.0f;
+  Senses senses({.extra = {.heading_error = true}, .models = {}}, engine.sensors(), timestep_s);
+  senses.load(0, engine, nullptr, &schedule);
+  for (int tick = 0; tick < 900; ++tick) {
+    // It turns half as fast as it is told, and for longer.
+    const double yaw_rad = 3.0 + 0.0025 * tick, wanted_rad = 3.0 + 0.005 * std::min(tick, 500);
+    engine.frame().attitude_rad.at(2, 0) = static_cast<float>(std::remainder(yaw_rad, 2.0 * M_PI));
+    EXPECT_NEAR(senses.read(engine).heading_error_rad.at(0, 0),
+                std::remainder(wanted_rad - yaw_rad, 2.0 * M_PI), 1e-4);
+  }
+}
+
 }  // namespace
 }  // namespace amble::trial

@@ -327,5 +327,43 @@ TEST(Runner, MeasuresTheFallHeightFromTheGroundBelowTheRoot) {
   }
 }
 
+TEST(Runner, NotesHeadingsAndCommandsSecondBySecond) {
+  FakeEngine engine(1);
+  FakeBatch controllers(1);
+  Protocol protocol;
+  protocol.steps = 250;
+  protocol.measures = {.headings = true, .commands = true};
+  protocol.commands = CommandSchedule({{0, {0.4f, 0.0f}}, {150, {0.2f, -0.5f}}}, 0);
+  Runner runner(engine, controllers, protocol);
+  Queue queue({FakeParameters(0.001f)});
+  const std::atomic<bool> stop{false};
+  runner.run(queue, stop);
+  const record::Trajectory& trajectory = *queue.results[0];
+  ASSERT_EQ(trajectory.turned_by_second_rad.size(), 2u);
+  ASSERT_EQ(trajectory.command_by_second.size(), 4u);
+  EXPECT_NEAR(trajectory.command_by_second[0], 0.4, 1e-6);
+  EXPECT_NEAR(trajectory.command_by_second[2], 0.3, 1e-6);
+  EXPECT_NEAR(trajectory.command_by_second[3], -0.25, 1e-6);
+  EXPECT_EQ(trajectory.turned_rad, 0.0);
+}
+
+TEST(Runner, ObeysTheScenariosCommandsBeforeTheProtocols) {
+  FakeEngine engine(1);
+  FakeBatch controllers(1);
+  Protocol protocol;
+  protocol.steps = 100;
+  protocol.measures = {.commands = true};
+  protocol.commands = CommandSchedule({{0, {0.4f, 0.0f}}}, 0);
+  Scenario scenario;
+  scenario.joint_sensor_rad = {0.0f};
+  scenario.attitude_sensor_rad = {0.0f, 0.0f, 0.0f};
+  scenario.commands = CommandSchedule({{0, {0.0f, 1.0f}}}, 0);
+  Runner runner(engine, controllers, protocol);
+  Queue queue({FakeParameters(0.001f)}, &scenario);
+  const std::atomic<bool> stop{false};
+  runner.run(queue, stop);
+  EXPECT_NEAR(queue.results[0]->command_by_second[1], 1.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace amble::trial

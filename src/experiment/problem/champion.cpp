@@ -16,6 +16,7 @@
 #include "amble/neat/genome_json.hpp"
 #include "amble/robot/original_model.hpp"
 #include "amble/score/score.hpp"
+#include "amble/score/tracking.hpp"
 
 namespace amble::experiment {
 namespace {
@@ -124,11 +125,25 @@ Champion champion_from(const io::Json& document, const std::string& what) {
 
 }  // namespace
 
+namespace {
+
+std::optional<Tracking> tracking_of(const Problem& problem, const record::Trajectory& trajectory) {
+  if (trajectory.command_by_second.empty()) return std::nullopt;
+  const score::Context context{.settings = problem.score,
+                               .duration_s = problem.trial.steps() * problem.trial.timestep_s};
+  return Tracking{.speed_error_m_s = score::speed_error(trajectory, context),
+                  .turn_error_rad_s = score::turn_error(trajectory, context),
+                  .tracking = score::tracking(trajectory, context)};
+}
+
+}  // namespace
+
 TrialResult summarise(const Problem& problem, const record::Trajectory& trajectory) {
   TrialResult result{.distance_m = score::distance_m(trajectory),
                      .steps = trajectory.steps,
                      .seconds = trajectory.seconds(),
-                     .outcome = trajectory.outcome};
+                     .outcome = trajectory.outcome,
+                     .tracking = tracking_of(problem, trajectory)};
   if (!problem.score.is_distance()) result.score = problem.make_score().of(trajectory);
   return result;
 }

@@ -14,6 +14,11 @@
 
 namespace amble::experiment {
 
+/// How well commands were followed (docs/SCORES.md).
+struct Tracking {
+  double speed_error_m_s = 0.0, turn_error_rad_s = 0.0, tracking = 0.0;
+};
+
 /// The result of a trial.
 struct TrialResult {
   double distance_m = 0.0;
@@ -21,6 +26,7 @@ struct TrialResult {
   int steps = 0;
   double seconds = 0.0;
   record::Outcome outcome = record::Outcome::completed;
+  std::optional<Tracking> tracking = {};  ///< where commands were measured
 
   double value() const { return score.value_or(distance_m); }
 };

@@ -22,13 +22,18 @@ constexpr int robot_version = 1;
 void Problem::complete() {
   trial.validate();
   ground.validate();
-  noise.validate(trial, ground.start_place_m > 0.0 || controller.sensing.is_noisy());
+  command.validate(trial);
+  noise.validate(trial, ground.start_place_m > 0.0 || controller.sensing.is_noisy() || command.varies());
   score.validate();
   damage.validate(robot);
   check_start();
   // Champion files have the nodes themselves, however the config came by them.
   controller.substrate = controllers::substrate_of(controller, robot);
   architecture = controllers::make_architecture(controller, robot, trial.timestep_s);
+  if (architecture->extra_senses().commands() && command.kind == trial::CommandKind::none)
+    fail_setting({"command.kind", "controller.substrate", "controller.supg.modulation.sensors"},
+                 "command.kind = \"none\": the controller senses commands, and there are none; expected "
+                 "fixed or random");
   make_engine();  // throws if the engine cannot simulate the robot
 }
 
@@ -68,6 +73,7 @@ trial::Protocol Problem::protocol(const record::PathSampling& path, const record
           .numb = std::move(numb),
           .sensing = {architecture->extra_senses(),
                       controllers::sensor_models(controller.sensing, robot, trial.timestep_s)},
+          .commands = trial::planned_commands(command, trial.steps(), trial.timestep_s),
           .fall_height_m = robot.fall_height_m,
           .start_rotation = robot.bodies[0].rotation};
 }
@@ -89,6 +95,11 @@ void Problem::set_damage(const damage::Settings& other) {
   other.validate(robot);
   damage = other;
   make_engine();
+}
+
+void Problem::set_commands(const trial::CommandSettings& other) {
+  other.validate(trial);
+  command = other;
 }
 
 void Problem::check_start() const {
@@ -122,7 +133,7 @@ std::shared_ptr<const ground::Ground> GenerationGround::of(const Problem& proble
 
 trial::Scenario Problem::scenario(const trial::ScenarioKey& key, const ground::Ground* on) const {
   return trial::draw_scenario(noise, robot, trial.steps(), trial.timestep_s, key,
-                              {.ground = on, .place_m = ground.start_place_m});
+                              {.ground = on, .place_m = ground.start_place_m}, command);
 }
 
 std::vector<trial::Scenario> Problem::scenarios(std::int64_t seed, int generation,

@@ -16,6 +16,7 @@
 #include "amble/neat/genome.hpp"
 #include "amble/robot/spec.hpp"
 #include "amble/score/score.hpp"
+#include "amble/trial/command_settings.hpp"
 #include "amble/trial/noise_settings.hpp"
 #include "amble/trial/scenario.hpp"
 #include "amble/trial/settings.hpp"
@@ -37,6 +38,7 @@ struct Problem {
   score::Settings score;
   ground::Settings ground;
   damage::Settings damage = {};
+  trial::CommandSettings command = {};
   io::OwnSettings engine_own = {};  ///< of an engine that is not one of amble's own
   ground::Key ground_key = {};      ///< of uneven ground in trials without noise
   std::shared_ptr<const controllers::Architecture> architecture;
@@ -55,6 +57,8 @@ struct Problem {
   /// Changes the damage. Throws SettingError if the robot has no such parts, UserError if the engine cannot
   /// simulate what is left.
   void set_damage(const damage::Settings& other);
+  /// Changes what the robot is told. Throws SettingError for commands that do not fit the trial.
+  void set_commands(const trial::CommandSettings& other);
   /// Throws SettingError if the start pose is in uneven ground.
   void check_start() const;
 
@@ -70,9 +74,10 @@ struct Problem {
   }
   /// `measures`: those that the score does not need itself.
   trial::Protocol protocol(const record::PathSampling& path, const record::Measures& measures = {}) const;
-  /// Whether trials differ: by noise, that of sensors included, or by the place where they start.
+  /// Whether trials differ: by noise, that of sensors included, by the place where they start, or by
+  /// commands.
   bool trials_vary() const {
-    return noise.any() || ground.start_place_m > 0.0 || controller.sensing.is_noisy();
+    return noise.any() || ground.start_place_m > 0.0 || controller.sensing.is_noisy() || command.varies();
   }
   /// Null for the plane.
   std::shared_ptr<const ground::Ground> make_ground(const ground::Key& key) const;

@@ -15,9 +15,10 @@ io::Json problem_json(const Problem& problem) {
                 {"robot", robot::to_json(problem.robot)},
                 {"score", io::settings_to_json(problem.score)},
                 {"ground", io::settings_to_json(problem.ground)},
-                {"damage", io::settings_to_json(problem.damage)}};
+                {"damage", io::settings_to_json(problem.damage)},
+                {"command", io::settings_to_json(problem.command)}};
   if (!problem.engine_own.numbers.empty()) json["engine_own"] = problem.engine_own.numbers;
-  leave_out_implied(json, problem.score, problem.ground, problem.damage);
+  leave_out_implied(json, problem.score, problem.ground, problem.damage, problem.command);
   return json;
 }
 
@@ -40,6 +41,8 @@ Problem problem_from_json(const io::JsonView& root) {
   if (root.has("score")) problem.score = io::settings_from_json<score::Settings>(root.at("score"));
   if (root.has("ground")) problem.ground = io::settings_from_json<ground::Settings>(root.at("ground"));
   if (root.has("damage")) problem.damage = io::settings_from_json<damage::Settings>(root.at("damage"));
+  if (root.has("command"))
+    problem.command = io::settings_from_json<trial::CommandSettings>(root.at("command"));
   if (const auto* kind = physics::find_engine(problem.engine); kind != nullptr)
     for (const io::OwnNumber& number : kind->numbers)
       problem.engine_own.numbers[number.name] = root.at("engine_own").at(number.name).finite_number();

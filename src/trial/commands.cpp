@@ -1,0 +1,134 @@
+#include "amble/trial/commands.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "amble/core/check.hpp"
+#include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
+#include "amble/io/printable.hpp"
+
+namespace amble::trial {
+namespace {
+
+int ticks_of(double time_s, double timestep_s) {
+  return static_cast<int>(std::lround(time_s / timestep_s));
+}
+
+Command command_of(const CommandStretch& stretch) {
+  return {static_cast<float>(stretch.speed_m_s), static_cast<float>(stretch.turn_rad_s)};
+}
+
+/// Straight ahead, to the left, to the right, and a stop.
+std::vector<CommandStretch> all_round(const CommandSettings& settings) {
+  const double speed_m_s = settings.most_speed_m_s, turn_rad_s = settings.most_turn_rad_s;
+  return {{speed_m_s, 0.0}, {speed_m_s, turn_rad_s}, {speed_m_s, -turn_rad_s}, {0.0, 0.0}};
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blank = " \t";
+  const std::size_t first = text.find_first_not_of(blank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blank) - first + 1);
+}
+
+std::vector<std::string_view> split(std::string_view text, char at) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t end = text.find(at);
+    parts.push_back(trimmed(text.substr(0, end)));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+std::optional<double> number_of(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+CommandSchedule::CommandSchedule(std::vector<Stretch> stretches, int ramp_ticks)
+    : stretches_(std::move(stretches)), ramp_ticks_(ramp_ticks) {
+  AMBLE_CHECK(!stretches_.empty() && stretches_.front().first_tick == 0, "a schedule begins with tick 0");
+}
+
+Command CommandSchedule::at(int tick) const {
+  std::size_t i = 0;
+  while (i + 1 < stretches_.size() && stretches_[i + 1].first_tick <= tick) ++i;
+  const Command now = stretches_[i].command;
+  const int done = tick - stretches_[i].first_tick + 1;
+  if (done >= ramp_ticks_) return now;
+  const Command before = i > 0 ? stretches_[i - 1].command : Command();
+  const float share = static_cast<float>(done) / static_cast<float>(ramp_ticks_);
+  return {before.speed_m_s + share * (now.speed_m_s - before.speed_m_s),
+          before.turn_rad_s + share * (now.turn_rad_s - before.turn_rad_s)};
+}
+
+std::optional<CommandSchedule> planned_commands(const CommandSettings& settings, int steps,
+                                                double timestep_s) {
+  if (settings.kind == CommandKind::none) return std::nullopt;
+  const auto list = settings.stretches.empty() ? all_round(settings) : settings.stretches;
+  double listed_s = 0.0, shares = 0.0;
+  for (const CommandStretch& stretch : list) {
+    listed_s += stretch.seconds;
+    shares += stretch.seconds == 0.0 ? 1.0 : 0.0;
+  }
+  const double share_s = (steps * timestep_s - listed_s) / std::max(shares, 1.0);
+  std::vector<CommandSchedule::Stretch> stretches;
+  double begin_s = 0.0;
+  for (const CommandStretch& stretch : list) {
+    const int first_tick = ticks_of(begin_s, timestep_s);
+    // Of two that begin with the same tick, one has no time.
+    if (!stretches.empty() && stretches.back().first_tick == first_tick) stretches.pop_back();
+    stretches.push_back({first_tick, command_of(stretch)});
+    begin_s += stretch.seconds > 0.0 ? stretch.seconds : std::max(share_s, 0.0);
+  }
+  return CommandSchedule(std::move(stretches), ticks_of(settings.ramp_s, timestep_s));
+}
+
+CommandSchedule drawn_commands(const CommandSettings& settings, int steps, double timestep_s, Stream stream,
+                               bool mirror) {
+  const int length = std::max(1, ticks_of(settings.stretch_s, timestep_s));
+  std::vector<CommandSchedule::Stretch> stretches;
+  for (int first = 0; first < steps || first == 0; first += length) {
+    const double kind = stream.uniform();
+    CommandStretch drawn{.speed_m_s = stream.uniform(settings.least_speed_m_s, settings.most_speed_m_s),
+                         .turn_rad_s = stream.uniform(-settings.most_turn_rad_s, settings.most_turn_rad_s)};
+    if (kind < settings.stop_share) drawn = {};
+    if (kind < settings.stop_share + settings.straight_share) drawn.turn_rad_s = 0.0;
+    if (mirror) drawn.turn_rad_s = 0.0 - drawn.turn_rad_s;
+    stretches.push_back({first, command_of(drawn)});
+  }
+  return {std::move(stretches), ticks_of(settings.ramp_s, timestep_s)};
+}
+
+std::vector<CommandStretch> parse_commands(std::string_view text) {
+  std::vector<CommandStretch> stretches;
+  for (const std::string_view part : split(text, ';')) {
+    std::vector<double> numbers;
+    for (const std::string_view word : split(part, ','))
+      if (const auto number = number_of(word)) numbers.push_back(*number);
+    const std::size_t words = split(part, ',').size();
+    CommandStretch stretch;
+    const bool complete = numbers.size() == words && (words == 2 || words == 3);
+    if (complete) stretch = {numbers[0], numbers[1], words == 3 ? numbers[2] : 0.0};
+    if (!complete || std::fabs(stretch.speed_m_s) > 100.0 || std::fabs(stretch.turn_rad_s) > 100.0 ||
+        stretch.seconds < 0.0)
+      fail(ExitCode::bad_input,
+           "command \"{}\": expected SPEED,TURN or SPEED,TURN,SECONDS (m/s, rad/s to the left, s), e.g. "
+           "\"0.4,0; 0.4,0.5; 0,0\"",
+           io::printable(std::string(part)));
+    stretches.push_back(stretch);
+  }
+  return stretches;
+}
+
+}  // namespace amble::trial
