@@ -27,6 +27,13 @@ robot::SensorFrame sensed(int tick, int joints, int legs) {
     for (int axis = 0; axis < 3; ++axis)
       frame.attitude_rad.at(axis, lane) = static_cast<float>(0.3 * wave(axis));
   }
+  frame.command = LaneArray(2, lanes);
+  frame.heading_error_rad = frame.yaw_rate_rad_s = LaneArray(1, lanes);
+  for (int lane = 0; lane < lanes; ++lane) {
+    frame.command.at(0, lane) = 0.4f;
+    frame.command.at(1, lane) = static_cast<float>(0.5 * std::sin(0.01 * tick + lane));
+    frame.heading_error_rad.at(0, lane) = frame.yaw_rate_rad_s.at(0, lane) = frame.attitude_rad.at(2, lane);
+  }
   return frame;
 }
 
@@ -65,6 +72,8 @@ void measure_each(const std::string& suffix, const std::string& note, std::vecto
   add("supg_modulated", "authors' whose rate and shape three sensors change",
       controller_us("supg", {R"(controller.supg.modulation.sensors=["pitch","angle.knee","touch"])",
                              "controller.supg.modulation.rate=1", "controller.supg.modulation.shape=1"}));
+  add("mixed", "SUPGs with eight neurons and commands",
+      controller_us("supg", {"controller.kind=mixed", "controller.substrate=auto", "command.kind=random"}));
   add("sine", "authors'", controller_us("sine"));
   add("ctrnn", "authors', 17 steps from a cleared state", controller_us("ctrnn"));
   add("ctrnn_kept", "the paper's rule: one step, state kept",

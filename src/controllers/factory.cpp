@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "amble/controllers/automatic.hpp"
+#include "amble/controllers/mixed.hpp"
 #include "amble/controllers/supg.hpp"
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
@@ -27,6 +28,12 @@ std::unique_ptr<const Architecture> make_oscillators(const ControllerSettings& s
   return std::make_unique<OscillatorArchitecture>(settings.oscillators, robot, timestep_s);
 }
 
+std::unique_ptr<const Architecture> make_mixed(const ControllerSettings& settings,
+                                               const robot::RobotSpec& robot, double timestep_s) {
+  return std::make_unique<MixedArchitecture>(settings.supg, settings.mixed, settings.substrate, robot,
+                                             timestep_s, settings.sensing);
+}
+
 // amble's own architectures. A new one is a row here, a class derived from Architecture, perhaps a function
 // that makes its substrate from a robot, and, if it has settings, a member of ControllerSettings with its
 // line below.
@@ -39,6 +46,8 @@ Registry<ControllerKind>& kinds() {
         make<NetworkArchitecture, &ControllerSettings::network>, automatic_network},
        {"ctrnn", "continuous-time neurons (ctrnn)", make<CtrnnArchitecture, &ControllerSettings::ctrnn>,
         automatic_ctrnn},
+       {"mixed", "SUPGs, neurons and sensors in one substrate, with the settings of supg as well (mixed)",
+        make_mixed, automatic_mixed},
        {"oscillators", "a sine for each joint, without a substrate (oscillators)", make_oscillators}});
   return all;
 }
@@ -92,6 +101,10 @@ void ControllerSettings::describe(io::SettingsVisitor& visitor) {
   visitor.table("oscillators", oscillators,
                 {.what = "a sine for each joint",
                  .source = "Raffin et al., arXiv 2310.05808",
+                 .defaults_are_implied = true});
+  visitor.table("mixed", mixed,
+                {.what = "how strongly neurons and sensors act on SUPGs in one substrate with them",
+                 .source = "Morse et al. 2013, sec. 6, name it as future work",
                  .defaults_are_implied = true});
   if (const auto& numbers = kind_of(*this).numbers; !numbers.empty()) {
     visitor.begin("own", {"settings of this kind, which is not one of amble's own"});

@@ -7,6 +7,7 @@
 
 #include "amble/controllers/controller.hpp"
 #include "amble/controllers/ctrnn.hpp"
+#include "amble/controllers/mixed_settings.hpp"
 #include "amble/controllers/network.hpp"
 #include "amble/controllers/oscillators.hpp"
 #include "amble/controllers/sensing.hpp"
@@ -26,6 +27,7 @@ struct ControllerSettings {
   CtrnnSettings ctrnn;
   SensingSettings sensing = {};
   OscillatorSettings oscillators;
+  MixedSettings mixed = {};
   io::OwnSettings own;  ///< of a kind that a program or a plugin has added
 
   void describe(io::SettingsVisitor& visitor);

@@ -28,6 +28,7 @@ using simd::HWY_NAMESPACE::set;
 using simd::HWY_NAMESPACE::store;
 using simd::HWY_NAMESPACE::V;
 using simd::HWY_NAMESPACE::width;
+using simd::HWY_NAMESPACE::zero;
 
 /// s(x) = 1/(1 + e^(−slope x)). Once for many vectors, what depends on the slope alone.
 class Logistic {

@@ -147,6 +147,7 @@ void ModulatedSupgBatch::step(const robot::SensorFrame& sensors, LaneArray& targ
               "touch must be legs × lanes");
   AMBLE_CHECK(targets_rad.lanes() == lanes_, "targets must be joints × lanes");
   if (supgs_.contact) supgs_.contact->update(sensors);
+  begin_tick(sensors);
   for (int leg = 0; leg < parked_.legs(); ++leg) {
     sense(leg, sensors);
     set_rates(leg);
@@ -274,11 +275,18 @@ void ModulatedSupgBatch::write_joint(int row, float* continued_rad, float* prese
   const JointRange& range = supgs_.joints.ranges[to_index(joint)];
   const float lower = range.at(0.0), upper = range.at(1.0);
   float* const targets = targets_rad.row(joint);
-  if (!smoother_) return limit(continued_rad, lower, upper, lanes_, targets);
+  reshape(row, continued_rad);
+  if (!smoother_) {
+    limit(continued_rad, lower, upper, lanes_, targets);
+    end_target(row, targets);
+    return;
+  }
+  reshape(row, present_rad);
   limit(continued_rad, lower, upper, lanes_, continued_rad);
   limit(present_rad, lower, upper, lanes_, present_rad);
   start_filters(row, present_rad);
   smoother_->smooth(row, continued_rad, present_rad, jumped_.data(), lower, upper, targets);
+  end_target(row, targets);
 }
 
 /// In a lane's first tick its filters start at rest where the target is.

@@ -12,16 +12,6 @@
 
 namespace amble::controllers {
 
-/// What a batch of modulated SUPGs needs to know beside its settings.
-struct ModulatedSupgs {
-  SupgSettings settings;
-  double timestep_s = 0.01;
-  std::vector<std::string> leg_names;
-  SupgJoints joints;
-  std::vector<std::vector<LegSensor>> sensors;  ///< leg by leg
-  std::optional<ContactEstimate> contact;
-};
-
 /// Modulated SUPG controllers stepping together; what they do is documented at SupgArchitecture. Timers are
 /// updated over the lanes; targets are interpolated lane by lane, four joints at a time, as an entry's
 /// numbers lie together. Without sensors, with reset 1 and no refractory time it does to the bit what
@@ -38,10 +28,28 @@ class ModulatedSupgBatch : public Batch {
   void state(int lane, std::span<float> values) const override;
   std::vector<std::size_t> events() const override;
 
+ protected:
+  // What a derived kind of controller adds; nothing here.
+  /// At the beginning of a tick, before any timer is updated.
+  virtual void begin_tick(const robot::SensorFrame& /*sensors*/) {}
+  /// Sets advances(), by how much the timers of a leg grow in this tick.
+  virtual void set_rates(int leg);
+  /// Changes the targets of a SUPG (index in SupgJoints::of_legs), by lane, before they are limited.
+  virtual void reshape(int /*supg*/, float* /*targets_rad*/) {}
+  /// What its targets have become.
+  virtual void end_target(int /*supg*/, const float* /*targets_rad*/) {}
+
+  const std::int32_t* timers(int leg) const { return timer_.data() + index(leg, 0); }
+  std::int32_t* advances() { return advance_.data(); }
+  std::int32_t period_parts() const { return period_; }
+  const JointRange& range_of(int supg) const {
+    return supgs_.joints
+        .ranges[static_cast<std::size_t>(supgs_.joints.of_legs[static_cast<std::size_t>(supg)])];
+  }
+
  private:
   std::size_t index(int leg, int lane) const { return static_cast<std::size_t>(leg * lanes_ + lane); }
   void sense(int leg, const robot::SensorFrame& sensors);
-  void set_rates(int leg);
   void update_timers(int leg, const float* contact, const std::int32_t* by_chance);
   void pull(int leg);
   void write_targets(int leg, LaneArray& targets_rad);

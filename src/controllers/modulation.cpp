@@ -68,11 +68,17 @@ LegSensor leg_sensor(const std::string& name, std::size_t leg, const robot::Robo
     if (!joint) return {};
     sensor.sensor.index = *joint;
   }
-  set_scale(*kind, robot, static_cast<double>(scale_of(models, sensor.sensor)), sensor);
-  return sensor;
+  return scaled_sensor(sensor.sensor, robot, models);
 }
 
 }  // namespace
+
+LegSensor scaled_sensor(const substrate::Sensor& sensor, const robot::RobotSpec& robot,
+                        const std::vector<SensorModel>& models) {
+  LegSensor scaled{.is_there = true, .sensor = sensor};
+  set_scale(substrate::kind_of(sensor), robot, static_cast<double>(scale_of(models, sensor)), scaled);
+  return scaled;
+}
 
 std::vector<std::vector<LegSensor>> leg_sensors(const ModulationSettings& settings,
                                                 const SensingSettings& sensing, const robot::RobotSpec& robot,

@@ -31,6 +31,10 @@ struct LegSensor {
   }
 };
 
+/// One that the robot has.
+LegSensor scaled_sensor(const substrate::Sensor& sensor, const robot::RobotSpec& robot,
+                        const std::vector<SensorModel>& models);
+
 /// Leg by leg, sensor by sensor of the settings. Throws SettingError for one that there is not.
 std::vector<std::vector<LegSensor>> leg_sensors(const ModulationSettings& settings,
                                                 const SensingSettings& sensing, const robot::RobotSpec& robot,

@@ -140,7 +140,10 @@ void NeuralBatch::sense(const robot::SensorFrame& sensors) {
       case Kind::speed:
       case Kind::torque:
       case Kind::load:
-      case Kind::yaw_rate: {
+      case Kind::yaw_rate:
+      case Kind::command_speed:
+      case Kind::command_turn:
+      case Kind::heading_error: {
         const float* const from = substrate::row_of(sensor, sensors);
         AMBLE_CHECK(from != nullptr && sensors.touch.lanes() == lanes_, "the sensors are of another robot");
         std::copy_n(from, lanes_, row);

@@ -275,6 +275,28 @@ void general(const NeuralRows& rows, const CtrnnRows& ctrnn, int steps, bool pot
   });
 }
 
+void sums(const SumTable& table, const float* values, float* to, int lanes) {
+  for (int lane = 0; lane < lanes; lane += width)
+    for_sums(
+        table, values, lane, [](std::size_t) HWY_ATTR { return zero(); }, as_it_is,
+        [=](std::size_t n, V sum) HWY_ATTR { store(sum, to + n + lane); });
+}
+
+void tanh_euler(const SumTable& table, const float* values, const float* bias, const float* step,
+                const float* from, float* to, int lanes) {
+  const Logistic logistic(2.0f);
+  const V two = set(2.0f), one = set(1.0f), dust = set(1e-9f);
+  for (int lane = 0; lane < lanes; lane += width)
+    for_sums(
+        table, values, lane, [=](std::size_t n) HWY_ATTR { return load(bias + n + lane); }, by(logistic),
+        [=](std::size_t n, V s) HWY_ATTR {
+          // tanh x = 2 s(x) − 1 for the logistic function of slope 2.
+          const V y = load(from + n + lane), aim = hn::Sub(hn::Mul(two, s), one);
+          const V next = fma(load(step + n + lane), hn::Sub(aim, y), y);
+          store(hn::IfThenElse(hn::Lt(hn::Abs(next), dust), zero(), next), to + n + lane);
+        });
+}
+
 void logistic_values(float* values, std::size_t count, float slope) {
   const Logistic logistic(slope);
   HWY_ALIGN float some[width] = {};
@@ -297,6 +319,8 @@ HWY_EXPORT(passes);
 HWY_EXPORT(rate_euler);
 HWY_EXPORT(general);
 HWY_EXPORT(logistic_values);
+HWY_EXPORT(sums);
+HWY_EXPORT(tanh_euler);
 
 void run_levels(const NeuralRows& rows) {
   HWY_DYNAMIC_DISPATCH(levels)(rows);
@@ -313,6 +337,15 @@ void run_rate_euler(const NeuralRows& rows, const CtrnnRows& ctrnn, int steps, b
 void run_general(const NeuralRows& rows, const CtrnnRows& ctrnn, int steps, bool potential,
                  bool runge_kutta) {
   HWY_DYNAMIC_DISPATCH(general)(rows, ctrnn, steps, potential, runge_kutta);
+}
+
+void run_sums(const SumTable& table, const float* values, float* to, int lanes) {
+  HWY_DYNAMIC_DISPATCH(sums)(table, values, to, lanes);
+}
+
+void run_tanh_euler(const SumTable& table, const float* values, const float* bias, const float* step,
+                    const float* from, float* to, int lanes) {
+  HWY_DYNAMIC_DISPATCH(tanh_euler)(table, values, bias, step, from, to, lanes);
 }
 
 void logistic_array(float* values, std::size_t count, float slope) {

@@ -40,6 +40,13 @@ void run_rate_euler(const NeuralRows& rows, const CtrnnRows& ctrnn, int steps, b
 /// The same for either equation and by either method, from y.
 void run_general(const NeuralRows& rows, const CtrnnRows& ctrnn, int steps, bool potential, bool runge_kutta);
 
+/// Weighted sums from +0: sums[neuron] = Σ weight × value, both as rows of as many floats.
+void run_sums(const SumTable& table, const float* values, float* sums, int lanes);
+/// to[neuron] = y + step (tanh(Σ weight × value + bias) − y) with y = from[neuron], 0 within ± 1e−9. `to`
+/// must not overlap what is read.
+void run_tanh_euler(const SumTable& table, const float* values, const float* bias, const float* step,
+                    const float* from, float* to, int lanes);
+
 /// Replaces `count` values by their logistic function.
 void logistic_array(float* values, std::size_t count, float slope);
 

@@ -74,7 +74,7 @@ ModulatedParameters::ModulatedParameters(SupgParameters targets, int sensors)
 
 SupgArchitecture::SupgArchitecture(const SupgSettings& settings, const substrate::Settings& substrate,
                                    const robot::RobotSpec& robot, double timestep_s,
-                                   const SensingSettings& sensing)
+                                   const SensingSettings& sensing, std::vector<std::string> neuron_properties)
     : settings_(settings),
       timestep_s_(timestep_s),
       period_ticks_(controllers::period_ticks(settings, timestep_s)),
@@ -84,9 +84,10 @@ SupgArchitecture::SupgArchitecture(const SupgSettings& settings, const substrate
       leg_sensors_(leg_sensors(settings.modulation, sensing, robot, timestep_s)),
       offset_zeros_(offset_zeros(substrate)),
       layout_(substrate,
-              {.kind = "supg",
-               .network = false,
+              {.kind = neuron_properties.empty() ? "supg" : "mixed",
+               .network = !neuron_properties.empty(),
                .properties = {std::string(substrate::pattern_property), std::string(offset_property)},
+               .neuron_properties = neuron_properties,
                .pattern_ticks = period_ticks_,
                .time = settings.seam.time,
                .more_inputs = more_inputs(settings.modulation),
@@ -124,15 +125,14 @@ SupgParameters SupgArchitecture::blank() const {
   return parameters;
 }
 
-std::unique_ptr<Parameters> SupgArchitecture::decode(const cppn::Network& network) const {
-  const substrate::Decoded decoded = layout_.decode(network);
+SupgParameters SupgArchitecture::targets_of(const substrate::Decoded& decoded) const {
   const auto offsets = decoded.of(offset_property);
-  auto parameters = std::make_unique<SupgParameters>(blank());
+  SupgParameters parameters = blank();
   for (int leg = 0; leg < legs(); ++leg) {
     if (first_driver(leg) < 0) continue;
     const auto a = static_cast<double>(offsets[to_index(first_driver(leg))]);
     const double ticks = std::ceil((a + 1.0) * 0.5 * period_ticks_);
-    parameters->set_offset_ticks(leg, static_cast<int>(std::clamp(ticks, 1.0, period_ticks_ - 1.0)));
+    parameters.set_offset_ticks(leg, static_cast<int>(std::clamp(ticks, 1.0, period_ticks_ - 1.0)));
     for (int type = 0; type < types(); ++type) {
       if (driver(leg, type) < 0) continue;
       const JointRange& range = joints_.ranges[to_index(joint(leg, type))];
@@ -144,10 +144,15 @@ std::unique_ptr<Parameters> SupgArchitecture::decode(const cppn::Network& networ
       for (int tick = 0; tick <= period_ticks_; ++tick) {
         const double from_middle = static_cast<double>(tick) / period_ticks_ - 0.5;
         const double p = static_cast<double>(pattern[tick]) - from_middle * trend;
-        parameters->targets_rad(leg, tick)[type] = range.at(std::clamp((p + 1.0) * 0.5, 0.0, 1.0));
+        parameters.targets_rad(leg, tick)[type] = range.at(std::clamp((p + 1.0) * 0.5, 0.0, 1.0));
       }
     }
   }
+  return parameters;
+}
+
+std::unique_ptr<Parameters> SupgArchitecture::decode(const cppn::Network& network) const {
+  auto parameters = std::make_unique<SupgParameters>(targets_of(layout_.decode(network)));
   if (!modulated()) return parameters;
   auto all = std::make_unique<ModulatedParameters>(std::move(*parameters), sensors());
   add_modulation(network, *all);
@@ -215,11 +220,13 @@ void SupgArchitecture::add_modulation(const cppn::Network& network, ModulatedPar
 
 std::unique_ptr<Batch> SupgArchitecture::make_batch(int lanes) const {
   if (modulated())
-    return std::make_unique<ModulatedSupgBatch>(
-        ModulatedSupgs{settings_, timestep_s_, leg_names_, joints_, leg_sensors_, contact(lanes)},
-        ModulatedParameters(blank(), sensors()), lanes);
+    return std::make_unique<ModulatedSupgBatch>(supgs(lanes), ModulatedParameters(blank(), sensors()), lanes);
   return std::make_unique<SupgBatch>(settings_, timestep_s_, leg_names_, joints_, blank(), lanes,
                                      contact(lanes));
+}
+
+ModulatedSupgs SupgArchitecture::supgs(int lanes) const {
+  return {settings_, timestep_s_, leg_names_, joints_, leg_sensors_, contact(lanes)};
 }
 
 std::optional<ContactEstimate> SupgArchitecture::contact(int lanes) const {

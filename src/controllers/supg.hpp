@@ -73,6 +73,16 @@ struct SupgJoints {
   std::vector<Held> others;
 };
 
+/// What a batch of modulated SUPGs needs to know beside its parameters.
+struct ModulatedSupgs {
+  SupgSettings settings;
+  double timestep_s = 0.01;
+  std::vector<std::string> leg_names;
+  SupgJoints joints;
+  std::vector<std::vector<LegSensor>> sensors;  ///< leg by leg
+  std::optional<ContactEstimate> contact;
+};
+
 /// Single-unit pattern generators: one per driven joint, each with a pattern over one period that its leg's
 /// trigger starts anew (Morse et al. 2013, sec. 3).
 ///
@@ -115,7 +125,8 @@ class SupgArchitecture : public Architecture {
   /// Throws UserError: a period that is not a whole number of ticks; a substrate that does not fit the robot,
   /// or in which the SUPGs of a leg could get different offsets.
   SupgArchitecture(const SupgSettings& settings, const substrate::Settings& substrate,
-                   const robot::RobotSpec& robot, double timestep_s, const SensingSettings& sensing = {});
+                   const robot::RobotSpec& robot, double timestep_s, const SensingSettings& sensing = {})
+      : SupgArchitecture(settings, substrate, robot, timestep_s, sensing, {}) {}
 
   std::string name() const override { return "supg"; }
   const std::vector<std::string>& cppn_inputs() const override { return layout_.input_names(); }
@@ -130,6 +141,22 @@ class SupgArchitecture : public Architecture {
 
   int period_ticks() const { return period_ticks_; }
 
+ protected:
+  /// Of a kind that has neurons beside SUPGs, with these properties (substrate::Needs); none: of SUPGs alone.
+  SupgArchitecture(const SupgSettings& settings, const substrate::Settings& substrate,
+                   const robot::RobotSpec& robot, double timestep_s, const SensingSettings& sensing,
+                   std::vector<std::string> neuron_properties);
+
+  const SupgSettings& settings() const { return settings_; }
+  const SupgJoints& joints() const { return joints_; }
+  double timestep_s() const { return timestep_s_; }
+  int types() const { return static_cast<int>(joint_types_.size()); }
+  /// The targets and offsets that a CPPN gives.
+  SupgParameters targets_of(const substrate::Decoded& decoded) const;
+  /// With every target in the middle of its range and every offset 1.
+  SupgParameters blank() const;
+  ModulatedSupgs supgs(int lanes) const;
+
  private:
   std::optional<ContactEstimate> contact(int lanes) const;
   bool modulated() const { return settings_.modulation.any(); }
@@ -142,9 +169,6 @@ class SupgArchitecture : public Architecture {
   /// The first node that drives a joint of the leg, whose offset is the leg's; −1: none does.
   int first_driver(int leg) const;
   int legs() const { return static_cast<int>(leg_names_.size()); }
-  int types() const { return static_cast<int>(joint_types_.size()); }
-  /// With every target in the middle of its range and every offset 1.
-  SupgParameters blank() const;
 
   SupgSettings settings_;
   double timestep_s_;

@@ -28,7 +28,10 @@ struct Needs {
   std::string_view kind;                ///< for messages
   bool network = true;                  ///< whether there are links, sensors and nodes that drive no joint
   std::vector<std::string> properties;  ///< that each node but the sensors must have
-  int pattern_ticks = 0;                ///< patterns are queried at times 0, 1/ticks, …, 1
+  /// Where it is not empty: what nodes that drive no joint must have in place of `properties`, and links may
+  /// have any port.
+  std::vector<std::string> neuron_properties = {};
+  int pattern_ticks = 0;  ///< patterns are queried at times 0, 1/ticks, …, 1
   TimeInputs time = TimeInputs::line;
   /// Behind those of the substrate, for queries of the controller's own; 0 in all of the layout's.
   std::vector<std::string> more_inputs = {};
@@ -45,6 +48,7 @@ struct Node {
 struct Link {
   int source = 0, target = 0;  ///< nodes
   int output = 0;              ///< CPPN output that gives the weight
+  Port port = Port::hidden;
 };
 
 /// The numbers that a CPPN gives a substrate: one set per genome.
@@ -56,7 +60,7 @@ struct Decoded {
   };
 
   std::vector<float> weights;      ///< link by link; 0 where the link is not expressed
-  std::vector<Values> properties;  ///< as Needs::properties; empty for patterns
+  std::vector<Values> properties;  ///< all that the controller needs; empty for patterns
   std::vector<float> patterns;     ///< node by node, tick by tick: 0 … pattern_ticks
 
   /// By node. A property that the controller does not need is a programming error.

@@ -58,6 +58,8 @@ void LayoutBuilder::set_names() {
   layout_.weight_range_ = settings_.weight_range;
   layout_.pattern_ticks_ = needs_.pattern_ticks;
   layout_.properties_ = needs_.properties;
+  layout_.properties_.insert(layout_.properties_.end(), needs_.neuron_properties.begin(),
+                             needs_.neuron_properties.end());
   read_.resize(settings_.outputs.size());
   if (!needs_.network && !settings_.links.empty())
     refuse("links", ": a controller of kind {} has no links", needs_.kind);
@@ -176,22 +178,51 @@ void LayoutBuilder::add_links() {
 }
 
 void LayoutBuilder::add_link(std::size_t index, int source, int target, int output) {
-  if (const auto [first, is_new] = linked_.try_emplace({source, target}, index); !is_new)
+  const Port port = settings_.links[index].port;
+  check_port(index, source, target);
+  if (const auto [first, is_new] = linked_.try_emplace({source, target, port}, index); !is_new)
     refuse(item("links", index), ": \"{}\" is linked to \"{}\" already by links[{}]", name_of(source),
            name_of(target), first->second);
   if (layout_.links_.size() == most_links) refuse("links", " are more than {}", most_links);
-  layout_.links_.push_back({source, target, output});
+  layout_.links_.push_back({source, target, output, port});
   layout_.link_points_.push_back(points_.add(link_inputs(source, target)));
+}
+
+/// Sensors and neurons act on neurons and SUPGs, SUPGs on neurons and on other SUPGs' phases.
+void LayoutBuilder::check_port(std::size_t index, int source, int target) const {
+  const Port port = settings_.links[index].port;
+  const std::string key = item("links", index, "port");
+  const std::string_view name = port_names[to_index(static_cast<int>(port))];
+  if (!has_ports()) {
+    if (port != Port::hidden)
+      refuse(key, " = \"{}\": links of a controller of kind {} have no ports: expected hidden", name,
+             needs_.kind);
+    return;
+  }
+  const Node &from = layout_.nodes_[to_index(source)], &to = layout_.nodes_[to_index(target)];
+  if (to.sensor) refuse(item("links", index, "to"), ": \"{}\" is a sensor", to.name);
+  const bool to_supg = to.joint >= 0, from_supg = from.joint >= 0;
+  if (to_supg != (port != Port::hidden))
+    refuse(key, " = \"{}\": \"{}\" is a {}: expected {}", name, to.name, to_supg ? "SUPG" : "neuron",
+           to_supg ? "rate, amplitude, shift or coupling" : "hidden");
+  if (to_supg && from_supg != (port == Port::coupling))
+    refuse(key, " = \"{}\": \"{}\" is a {}: expected {}", name, from.name,
+           from_supg ? "SUPG" : "sensor or a neuron", from_supg ? "coupling" : "rate, amplitude or shift");
+}
+
+const std::vector<std::string>& LayoutBuilder::needed(int node) const {
+  return has_ports() && layout_.nodes_[to_index(node)].joint < 0 ? needs_.neuron_properties
+                                                                 : needs_.properties;
 }
 
 void LayoutBuilder::add_properties() {
   for (std::size_t i = 0; i < settings_.properties.size(); ++i) {
     const PropertySettings& property = settings_.properties[i];
-    if (std::ranges::count(needs_.properties, property.property) == 0)
+    if (std::ranges::count(layout_.properties_, property.property) == 0)
       refuse(item("properties", i, "property"),
              " = \"{}\": nodes of a controller of kind {} have no such property{}{}", property.property,
-             needs_.kind, needs_.properties.empty() ? "" : ": expected ",
-             fmt::join(needs_.properties, " or "));
+             needs_.kind, layout_.properties_.empty() ? "" : ": expected ",
+             fmt::join(layout_.properties_, " or "));
     if (property.property == pattern_property && property.output.empty())
       refuse(item("properties", i, "output"), " is missing: a pattern is not constant");
     for (const int node : nodes_of(property.of, item("properties", i, "of"))) add_property(i, node);
@@ -204,6 +235,10 @@ void LayoutBuilder::add_property(std::size_t index, int node) {
   const int index_of_property = layout_.property_index(what);
   if (layout_.nodes_[to_index(node)].sensor)
     refuse(item("properties", index, "of"), ": \"{}\" is a sensor and has no {}", name_of(node), what);
+  if (std::ranges::count(needed(node), what) == 0)
+    refuse(item("properties", index, "of"), ": \"{}\" {} a joint and has no {}: expected {}", name_of(node),
+           layout_.nodes_[to_index(node)].joint >= 0 ? "drives" : "does not drive", what,
+           fmt::join(needed(node), " or "));
   for (const Layout::Source& other : layout_.sources_)
     if (other.node == node && other.property == index_of_property)
       refuse(item("properties", index), ": the {} of \"{}\" is given already", what, name_of(node));
@@ -224,12 +259,13 @@ void LayoutBuilder::add_property(std::size_t index, int node) {
 }
 
 void LayoutBuilder::check_properties() const {
-  for (const std::string& property : needs_.properties) {
+  for (const std::string& property : layout_.properties_) {
     std::vector<bool> has(layout_.nodes_.size());
     for (const Layout::Source& source : layout_.sources_)
       if (source.property == layout_.property_index(property)) has[to_index(source.node)] = true;
     for (std::size_t node = 0; node < has.size(); ++node)
-      if (!has[node] && !layout_.nodes_[node].sensor)
+      if (!has[node] && !layout_.nodes_[node].sensor &&
+          std::ranges::count(needed(static_cast<int>(node)), property) > 0)
         refuse("properties", ": \"{}\" has no {}, which a controller of kind {} needs",
                layout_.nodes_[node].name, property, needs_.kind);
   }

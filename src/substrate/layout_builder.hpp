@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "amble/core/index.hpp"
@@ -25,6 +26,7 @@ class LayoutBuilder {
   void assign_joints();
   void add_links();
   void add_link(std::size_t item, int source, int target, int output);
+  void check_port(std::size_t item, int source, int target) const;
   void add_properties();
   void add_property(std::size_t item, int node);
   void check_properties() const;
@@ -33,6 +35,9 @@ class LayoutBuilder {
   /// The nodes with this name or of this group.
   std::vector<int> nodes_of(const std::string& name, const std::string& key) const;
   bool is_node(const std::string& name) const;
+  /// The properties that a node must have.
+  const std::vector<std::string>& needed(int node) const;
+  bool has_ports() const { return !needs_.neuron_properties.empty(); }
   int output_of(const std::string& name, const std::string& key);
   std::vector<std::size_t> coordinates_of(const std::vector<std::string>& names,
                                           const std::string& key) const;
@@ -47,8 +52,8 @@ class LayoutBuilder {
   const robot::RobotSpec& robot_;
   bool has_time_ = false;
   std::size_t time_inputs_ = 0, first_time_input_ = 0;
-  std::vector<bool> read_;                             ///< output by output
-  std::map<std::pair<int, int>, std::size_t> linked_;  ///< by which item
+  std::vector<bool> read_;                                    ///< output by output
+  std::map<std::tuple<int, int, Port>, std::size_t> linked_;  ///< by which item
   QueryPoints points_;
 };
 

@@ -16,7 +16,8 @@ void NodeSettings::describe(io::SettingsVisitor& visitor) {
   visitor.text(
       "sensor", sensor,
       {"what the node senses: angle.JOINT (rad), touch.LEG (0 or 1), load.LEG (N), speed.JOINT (rad/s), "
-       "torque.JOINT (N m), roll, pitch, yaw (rad), yaw_rate (rad/s) or sine; empty: nothing"});
+       "torque.JOINT (N m), roll, pitch, yaw (rad), yaw_rate (rad/s), command_speed (m/s), command_turn "
+       "(rad/s), heading_error (rad) or sine; empty: nothing"});
   visitor.text("joint", joint, {"joint that the node drives; each joint needs one; empty: none"});
 }
 
@@ -26,6 +27,12 @@ void LinkSettings::describe(io::SettingsVisitor& visitor) {
                {"group or node where they end; within a group every node is linked to every other, and to "
                 "itself only by its own name"});
   visitor.text("weight", weight, {"CPPN output that gives the weights"});
+  visitor.choice(
+      "port", port, port_names,
+      {.what = "what the links act on: a neuron's sum (hidden), or, with kind mixed, a SUPG: its leg's rate, "
+               "its pattern's amplitude, a shift of it, or its leg's rate by the phase of another leg "
+               "(coupling)",
+       .first_is_implied = true});
   visitor.texts("same", same, {"only nodes that agree in these coordinates are linked"});
   visitor.flag("both_ways", both_ways, {"whether the same links lead back, too"});
 }
@@ -33,7 +40,7 @@ void LinkSettings::describe(io::SettingsVisitor& visitor) {
 void PropertySettings::describe(io::SettingsVisitor& visitor) {
   visitor.text("of", of, {"group or node"});
   visitor.text("property", property,
-               {"what is given: pattern or offset (supg), bias or time_constant (ctrnn)"});
+               {"what is given: pattern or offset (supg), bias or time_constant (ctrnn; of both, mixed)"});
   visitor.text("output", output, {"CPPN output that gives it; empty: it is `value` everywhere"});
   visitor.number("low", low, value_range, {"the property where that output is −1 or less"});
   visitor.number("high", high, value_range, {"the property where that output is 1 or more"});

@@ -34,12 +34,18 @@ struct NodeSettings {
   void describe(io::SettingsVisitor& visitor);
 };
 
+/// What a link acts on. Ports other than `hidden` are those of SUPGs beside neurons (controllers/mixed.hpp).
+enum class Port { hidden, rate, amplitude, shift, coupling };
+inline constexpr std::array<std::string_view, 5> port_names{"hidden", "rate", "amplitude", "shift",
+                                                            "coupling"};
+
 /// Links between all nodes of two groups.
 struct LinkSettings {
   std::string from, to;           ///< a group, or one node
   std::string weight = "weight";  ///< the CPPN output that gives the weights
   std::vector<std::string> same;  ///< only pairs that agree in these coordinates
   bool both_ways = false;
+  Port port = Port::hidden;
 
   void describe(io::SettingsVisitor& visitor);
 };

@@ -42,6 +42,9 @@ std::string role_of(const Node& node, const robot::RobotSpec& robot) {
     case Sensor::Kind::torque:
     case Sensor::Kind::yaw_rate:
     case Sensor::Kind::load:
+    case Sensor::Kind::command_speed:
+    case Sensor::Kind::command_turn:
+    case Sensor::Kind::heading_error:
       break;
   }
   return "?";

@@ -41,13 +41,13 @@ inline robot::RobotSpec hopper() {
 }
 
 inline Needs supg_needs(int ticks = 100) {
-  return {"supg", false, {"pattern", "offset"}, ticks};
+  return {.kind = "supg", .network = false, .properties = {"pattern", "offset"}, .pattern_ticks = ticks};
 }
 inline Needs network_needs() {
-  return {"network", true, {}, 0};
+  return {.kind = "network", .network = true, .properties = {}, .pattern_ticks = 0};
 }
 inline Needs ctrnn_needs() {
-  return {"ctrnn", true, {"bias", "time_constant"}, 0};
+  return {.kind = "ctrnn", .network = true, .properties = {"bias", "time_constant"}, .pattern_ticks = 0};
 }
 
 }  // namespace amble::substrate

@@ -100,7 +100,7 @@ TEST(BadSubstrate, SensorOrJointThatTheRobotLacks) {
   EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[0].sensor = "smell"; }),
             "nodes[0].sensor = \"smell\": expected angle.JOINT, touch.LEG, load.LEG, speed.JOINT, "
             "torque.JOINT, roll, "
-            "pitch, yaw, yaw_rate or sine");
+            "pitch, yaw, yaw_rate, command_speed, command_turn, heading_error or sine");
   EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[3].joint = "FL_elbow"; }),
             "nodes[3].joint = \"FL_elbow\": the robot has no such joint");
 }
@@ -167,8 +167,8 @@ TEST(BadSubstrate, EmptyNamesAndEmptyLists) {
 
 TEST(BadSubstrate, SensorWithoutAnOwnerOrOfAKindThatRobotsLack) {
   const std::string expected =
-      "\": expected angle.JOINT, touch.LEG, load.LEG, speed.JOINT, torque.JOINT, roll, pitch, yaw, yaw_rate "
-      "or sine";
+      "\": expected angle.JOINT, touch.LEG, load.LEG, speed.JOINT, torque.JOINT, roll, pitch, yaw, yaw_rate, "
+      "command_speed, command_turn, heading_error or sine";
   for (const std::string name : {"angle", "touch", "smell.FL", "roll.FL", "Angle.FL_knee"})
     EXPECT_EQ(ctrnn([&](Settings& s) { s.nodes[0].sensor = name; }),
               "nodes[0].sensor = \"" + name + expected);

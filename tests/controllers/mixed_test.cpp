@@ -1,0 +1,440 @@
+#include "amble/controllers/mixed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "amble/controllers/supg_batch.hpp"
+#include "amble/core/error.hpp"
+#include "amble/cppn/activation.hpp"
+#include "tests/controllers/mixed_fixture.hpp"
+#include "tests/controllers/plain_network.hpp"
+
+namespace amble::controllers {
+namespace {
+
+constexpr double timestep_s = 0.01;
+constexpr int legs = 4, types = 3, joints = 12, period = 17, neurons = 3;
+
+SupgSettings supg_settings() {
+  SupgSettings settings;
+  settings.period_s = period * timestep_s;
+  return settings;
+}
+
+MixedArchitecture architecture(const SupgSettings& supg, const MixedSettings& mixed = {}) {
+  return {supg, mixed, mixed_substrate(), quadruped(), timestep_s, {}};
+}
+
+robot::SensorFrame frame(int lanes) {
+  robot::SensorFrame sensors{.joint_angle_rad = LaneArray(joints, lanes),
+                             .touch = LaneArray(legs, lanes),
+                             .attitude_rad = LaneArray(3, lanes)};
+  sensors.command = LaneArray(2, lanes);
+  return sensors;
+}
+
+void move_randomly(robot::SensorFrame& sensors, Stream& stream) {
+  for (int lane = 0; lane < sensors.touch.lanes(); ++lane) {
+    for (int leg = 0; leg < legs; ++leg)
+      if (stream.chance(0.2)) sensors.touch.at(leg, lane) = 1.0f - sensors.touch.at(leg, lane);
+    for (int joint = 0; joint < joints; ++joint)
+      sensors.joint_angle_rad.at(joint, lane) = static_cast<float>(stream.uniform(-0.9, 0.9));
+    for (int axis = 0; axis < 3; ++axis)
+      sensors.attitude_rad.at(axis, lane) = static_cast<float>(stream.uniform(-0.7, 0.7));
+    sensors.command.at(1, lane) = static_cast<float>(stream.uniform(-1.5, 1.5));
+  }
+}
+
+float plain_sine_of_twice(float x) {
+  cppn::activate(neat::Activation::sine, cppn::Linear::identity, {&x, 1});
+  return x;
+}
+
+float within_one(float x) {
+  return std::clamp(x, -1.0f, 1.0f);
+}
+
+/// One robot's mixed controller, number by number.
+class PlainMixed {
+ public:
+  PlainMixed(const MixedArchitecture& architecture, const SupgSettings& settings,
+             const MixedParameters& parameters)
+      : net_(architecture.net()), settings_(settings), parameters_(parameters), legs_(legs) {
+    said_.resize(static_cast<std::size_t>(net_.rows()));
+  }
+
+  void tick(const robot::SensorFrame& sensors, int lane) {
+    ++tick_;
+    for (std::size_t s = 0; s < net_.sensors.size(); ++s)
+      said_[s] = net_.sensors[s].sensed(substrate::row_of(net_.sensors[s].sensor, sensors)[lane]);
+    std::vector<float> after;
+    for (std::size_t n = 0; n < neurons; ++n) {
+      const float before = neuron(n);
+      const float aim = 2.0f * plain_logistic(sum(net_.hidden[n], parameters_.biases[n]), 2.0f) - 1.0f;
+      const float y = std::fma(parameters_.steps[n], aim - before, before);
+      after.push_back(std::fabs(y) < 1e-9f ? 0.0f : y);
+    }
+    std::copy(after.begin(), after.end(), said_.begin() + net_.first_neuron());
+    std::vector<float> rho;
+    for (int leg = 0; leg < legs; ++leg) rho.push_back(rate_of(leg));
+    for (int leg = 0; leg < legs; ++leg)
+      grow(legs_[static_cast<std::size_t>(leg)], leg, rho[static_cast<std::size_t>(leg)],
+           sensors.touch.at(leg, lane) > 0.5f);
+    for (std::size_t supg = 0; supg < joints; ++supg) target_[supg] = target_of(supg);
+    for (std::size_t i = 0; i < net_.listened.size(); ++i) {
+      const auto supg = static_cast<std::size_t>(net_.listened[i]);
+      const JointRange& range = ranges_[supg];
+      const auto per_half = static_cast<float>(2.0 / (range.upper_rad - range.lower_rad));
+      said_[static_cast<std::size_t>(net_.first_listened()) + i] = (target_[supg] - middle(range)) * per_half;
+    }
+  }
+
+  float target_rad(int joint) const { return target_[static_cast<std::size_t>(joint)]; }
+  float neuron(std::size_t n) const { return said_[static_cast<std::size_t>(net_.first_neuron()) + n]; }
+  float timer(int leg) const {
+    const std::int32_t parts = legs_[static_cast<std::size_t>(leg)].timer;
+    return parts < 0 ? -1.0f : static_cast<float>(parts) / parts_per_tick;
+  }
+
+ private:
+  struct Leg {
+    std::int32_t timer = -1;
+    int off_for = 0;
+  };
+
+  float sum(const MixedNet::Sum& sum, float start) const {
+    for (const auto& [source, index] : sum.links)
+      start = std::fma(parameters_.weights[static_cast<std::size_t>(index)],
+                       said_[static_cast<std::size_t>(source)], start);
+    return start;
+  }
+  float turns(int leg) const {
+    return static_cast<float>(legs_[static_cast<std::size_t>(leg)].timer) *
+           (1.0f / static_cast<float>(period * parts_per_tick));
+  }
+  float wave(int leg, float ahead) const {
+    constexpr auto pi = static_cast<float>(std::numbers::pi);
+    return legs_[static_cast<std::size_t>(leg)].timer < 0 ? 0.0f
+                                                          : plain_sine_of_twice((turns(leg) + ahead) * pi);
+  }
+  float rate_of(int leg) const {
+    float sines = 0.0f, cosines = 0.0f;
+    for (std::size_t k = 0; k < net_.couplings.size(); ++k) {
+      const auto& [its, other, index] = net_.couplings[k];
+      if (its != leg) continue;
+      const float sine = wave(other, 0.0f), cosine = wave(other, 0.25f);
+      sines = std::fma(-parameters_.out_of_phase[k], cosine, std::fma(parameters_.in_phase[k], sine, sines));
+      cosines =
+          std::fma(parameters_.in_phase[k], cosine, std::fma(parameters_.out_of_phase[k], sine, cosines));
+    }
+    const float ahead = sines * wave(leg, 0.25f), behind = cosines * wave(leg, 0.0f);
+    return within_one(sum(net_.rates[static_cast<std::size_t>(leg)], 0.0f) + (ahead - behind));
+  }
+  void grow(Leg& leg, int index, float rho, bool touching) {
+    const bool phase = settings_.offset == Offset::phase;
+    const std::int32_t whole = period * parts_per_tick, start = settings_.start_tick * parts_per_tick;
+    const int first_tick = phase ? 1 : parameters_.offset_ticks(index) + 1;
+    const bool triggered = touching && settings_.trigger == Trigger::edge && tick_ > first_tick &&
+                           leg.off_for >= settings_.trigger_debounce_ticks;
+    if (tick_ == first_tick) leg.timer = phase ? parameters_.offset_ticks(index) * parts_per_tick : start;
+    if ((tick_ > first_tick || phase) && leg.timer >= 0) {
+      leg.timer += advance_parts(rho);
+      if (leg.timer >= whole)
+        leg.timer = settings_.idle == Idle::mid    ? -1
+                    : settings_.idle == Idle::hold ? whole
+                                                   : leg.timer - whole;
+    }
+    if (triggered) leg.timer = start;
+    leg.off_for = touching ? 0 : leg.off_for + 1;
+  }
+  static float middle(const JointRange& range) {
+    return static_cast<float>(0.5 * (range.lower_rad + range.upper_rad));
+  }
+  float target_of(std::size_t supg) const {
+    const int leg = static_cast<int>(supg) / types, type = static_cast<int>(supg) % types;
+    const std::int32_t timer = legs_[static_cast<std::size_t>(leg)].timer;
+    const int entry = timer < 0 ? -1 : timer >> parts_bits;
+    const float share =
+        timer < 0 ? 0.0f : static_cast<float>(timer & (parts_per_tick - 1)) * (1.0f / parts_per_tick);
+    const float a = parameters_.modulation().entry(leg, entry)[type],
+                b = parameters_.modulation().entry(leg, entry + 1)[type];
+    float y = a + share * (b - a);
+    const JointRange& range = ranges_[supg];
+    const auto half = static_cast<float>(0.5 * (range.upper_rad - range.lower_rad));
+    const float more = (y - middle(range)) * within_one(sum(net_.amplitudes[supg], 0.0f));
+    const float shift = within_one(sum(net_.shifts[supg], 0.0f)) * half;
+    if (net_.reshapes(supg)) y = (y + more) + shift;
+    return std::clamp(y, range.at(0.0), range.at(1.0));
+  }
+
+  const MixedNet& net_;
+  SupgSettings settings_;
+  const MixedParameters& parameters_;
+  std::vector<JointRange> ranges_ = joint_ranges(quadruped());
+  std::vector<Leg> legs_;
+  std::vector<float> said_;
+  std::array<float, joints> target_{};
+  int tick_ = 0;
+};
+
+TEST(Mixed, EqualsItsPlainTwinForAllSwitchesAndLaneCounts) {
+  Stream stream(71, Purpose::test);
+  for (const Trigger trigger : {Trigger::edge, Trigger::none})
+    for (const Offset offset : {Offset::phase, Offset::delay})
+      for (const Idle idle : {Idle::mid, Idle::hold, Idle::wrap})
+        for (const int lanes : {1, 5, 16, 33}) {
+          SupgSettings settings = supg_settings();
+          settings.trigger = trigger;
+          settings.offset = offset;
+          settings.idle = idle;
+          const MixedArchitecture mixed = architecture(settings);
+          const auto batch = mixed.make_batch(lanes);
+          std::vector<std::unique_ptr<MixedParameters>> parameters;
+          std::vector<PlainMixed> plain;
+          for (int lane = 0; lane < lanes; ++lane) {
+            parameters.push_back(random_mixed(mixed, stream, lane % 3 == 0 ? 0.2 : 0.8));
+            batch->load(lane, *parameters.back());
+            plain.emplace_back(mixed, settings, *parameters.back());
+          }
+          auto sensors = frame(lanes);
+          LaneArray targets(joints, lanes);
+          std::vector<float> state(batch->state_names().size());
+          for (int tick = 0; tick < 60; ++tick) {
+            move_randomly(sensors, stream);
+            batch->step(sensors, targets);
+            for (int lane = 0; lane < lanes; ++lane) {
+              PlainMixed& twin = plain[static_cast<std::size_t>(lane)];
+              twin.tick(sensors, lane);
+              batch->state(lane, state);
+              for (int leg = 0; leg < legs; ++leg)
+                ASSERT_EQ(state[static_cast<std::size_t>(leg)], twin.timer(leg)) << tick << " " << lane;
+              for (std::size_t n = 0; n < neurons; ++n)
+                ASSERT_EQ(std::bit_cast<std::uint32_t>(state[2 * legs + n]),
+                          std::bit_cast<std::uint32_t>(twin.neuron(n)))
+                    << tick << " " << lane;
+              for (int joint = 0; joint < joints; ++joint)
+                ASSERT_EQ(targets.at(joint, lane), twin.target_rad(joint)) << tick << " " << joint;
+            }
+          }
+        }
+}
+
+TEST(Mixed, WithAllGainsZeroIsTheSupgsAloneToTheBit) {
+  Stream stream(72, Purpose::test);
+  for (const bool smooth : {false, true}) {
+    SupgSettings settings = supg_settings();
+    if (smooth) settings.seam = {.residual_s = 0.03, .filter_s = 0.02};
+    const MixedArchitecture mixed =
+        architecture(settings, {.rate = 0.0, .amplitude = 0.0, .shift = 0.0, .coupling = 0.0});
+    constexpr int lanes = 17;
+    const auto batch = mixed.make_batch(lanes);
+    SupgJoints all;
+    for (int joint = 0; joint < joints; ++joint) all.of_legs.push_back(joint);
+    all.ranges = joint_ranges(quadruped());
+    SupgBatch plain(settings, timestep_s, {"FL", "FR", "BL", "BR"}, all, *random_mixed(mixed, stream), lanes);
+    std::vector<std::unique_ptr<MixedParameters>> parameters;
+    for (int lane = 0; lane < lanes; ++lane) {
+      auto one = random_mixed(mixed, stream);
+      // As decode() has it: of all links only the hidden ones are left.
+      for (std::size_t i = 0; i < one->weights.size(); ++i)
+        if (mixed.layout().links()[i].port != substrate::Port::hidden) one->weights[i] = 0.0f;
+      std::ranges::fill(one->in_phase, 0.0f);
+      std::ranges::fill(one->out_of_phase, 0.0f);
+      parameters.push_back(std::move(one));
+      batch->load(lane, *parameters.back());
+      plain.load(lane, *parameters.back());
+    }
+    auto sensors = frame(lanes);
+    LaneArray targets(joints, lanes), expected(joints, lanes);
+    for (int tick = 0; tick < 80; ++tick) {
+      move_randomly(sensors, stream);
+      batch->step(sensors, targets);
+      plain.step(sensors, expected);
+      for (int joint = 0; joint < joints; ++joint)
+        for (int lane = 0; lane < lanes; ++lane)
+          ASSERT_EQ(std::bit_cast<std::uint32_t>(targets.at(joint, lane)),
+                    std::bit_cast<std::uint32_t>(expected.at(joint, lane)));
+    }
+  }
+}
+
+/// Leg 1 coupled to leg 0 alone, with strength c.
+struct Coupled {
+  explicit Coupled(float c, Offset offset = Offset::phase) : mixed(make(offset)) {
+    Stream stream(73, Purpose::test);
+    parameters = random_mixed(mixed, stream, 0.0);
+    parameters->set_offset_ticks(0, 20);
+    parameters->set_offset_ticks(1, 45);
+    const double ahead = offset == Offset::phase ? 20 - 45 : 45 - 20;
+    const double psi = ahead / 100.0;
+    for (std::size_t k = 0; k < mixed.net().couplings.size(); ++k)
+      if (mixed.net().couplings[k].leg == 1 && mixed.net().couplings[k].other == 0) {
+        parameters->in_phase[k] = static_cast<float>(c * std::cos(2.0 * std::numbers::pi * psi));
+        parameters->out_of_phase[k] = static_cast<float>(c * std::sin(2.0 * std::numbers::pi * psi));
+      }
+    batch = mixed.make_batch(1);
+    batch->load(0, *parameters);
+  }
+  static MixedArchitecture make(Offset offset) {
+    SupgSettings settings;
+    settings.period_s = 1.0;
+    settings.idle = Idle::wrap;
+    settings.offset = offset;
+    return architecture(settings);
+  }
+  /// How far leg 1 is ahead of leg 0, periods within ± ½, after one more tick.
+  double tick(bool touch = false) {
+    auto sensors = frame(1);
+    sensors.touch.at(1, 0) = touch ? 1.0f : 0.0f;
+    LaneArray targets(joints, 1);
+    batch->step(sensors, targets);
+    std::vector<float> state(batch->state_names().size());
+    batch->state(0, state);
+    return std::remainder((static_cast<double>(state[1]) - static_cast<double>(state[0])) / 100.0, 1.0);
+  }
+
+  MixedArchitecture mixed;
+  std::unique_ptr<MixedParameters> parameters;
+  std::unique_ptr<Batch> batch;
+};
+
+TEST(Mixed, CouplingAloneLocksLegsAtTheDifferenceOfTheirOffsets) {
+  for (const Offset offset : {Offset::phase, Offset::delay}) {
+    const double locked = offset == Offset::phase ? 0.25 : -0.25;
+    Coupled legs_with(0.5f, offset), legs_without(0.0f, offset);
+    for (int t = 0; t < 100; ++t) {
+      legs_with.tick();
+      legs_without.tick();
+    }
+    // A trigger takes leg 1 away from there.
+    EXPECT_GT(std::fabs(legs_with.tick(true) - locked), 0.05);
+    legs_without.tick(true);
+    for (int t = 0; t < 1500; ++t) {
+      legs_with.tick();
+      legs_without.tick();
+    }
+    EXPECT_NEAR(legs_with.tick(), locked, 1e-3);
+    EXPECT_GT(std::fabs(legs_without.tick() - locked), 0.05);
+  }
+}
+
+TEST(Mixed, CoupledPhasesFollowTheClosedFormNearTheLock) {
+  // d' = (1/T)(2^(−c sin 2πd) − 1), so that tan πd = tan πd₀ e^(−2π c ln 2 t/T) for small c.
+  constexpr float c = 0.02f;
+  Coupled coupled(c);
+  for (int t = 0; t < 80; ++t) coupled.tick();
+  const double before = coupled.tick(true) - 0.25;
+  double after = 0.0;
+  constexpr int ticks = 1000;
+  for (int t = 0; t < ticks; ++t) after = coupled.tick() - 0.25;
+  const double shrunk =
+      std::exp(-2.0 * std::numbers::pi * static_cast<double>(c) * std::numbers::ln2 * ticks / 100.0);
+  EXPECT_NEAR(std::tan(std::numbers::pi * after), std::tan(std::numbers::pi * before) * shrunk,
+              0.02 * std::fabs(std::tan(std::numbers::pi * before) * shrunk));
+}
+
+TEST(Mixed, ARateThatIsAlwaysThereMakesThePeriodByItsPowerOfTwo) {
+  SupgSettings settings;
+  settings.period_s = 1.0;
+  settings.idle = Idle::wrap;
+  settings.trigger = Trigger::none;
+  const MixedArchitecture mixed = architecture(settings);
+  Stream stream(74, Purpose::test);
+  const auto parameters = random_mixed(mixed, stream, 0.0);
+  for (const MixedNet::Link& link : mixed.net().rates[2].links)
+    if (link.source == 0) parameters->weights[static_cast<std::size_t>(link.index)] = -0.5f;
+  const auto batch = mixed.make_batch(1);
+  batch->load(0, *parameters);
+  auto sensors = frame(1);
+  sensors.command.at(1, 0) = 1.0f;
+  LaneArray targets(joints, 1);
+  std::vector<float> state(batch->state_names().size());
+  int wraps = 0;
+  float before = -1.0f;
+  for (int tick = 0; tick < 10000; ++tick) {
+    batch->step(sensors, targets);
+    batch->state(0, state);
+    wraps += state[2] < before ? 1 : 0;
+    before = state[2];
+  }
+  EXPECT_NEAR(wraps, 10000 / (100 * std::exp2(0.5)), 1.0);
+}
+
+TEST(Mixed, TurnsTheOtherWayForAMirroredRobotAndCommand) {
+  // Left and right legs change places, and so does what acts on them; sideways numbers change their sign.
+  SupgSettings settings = supg_settings();
+  const MixedArchitecture mixed = architecture(settings);
+  Stream stream(75, Purpose::test);
+  const auto one = random_mixed(mixed, stream, 0.0);
+  auto other = std::make_unique<MixedParameters>(*one);
+  const auto mirrored = [](int supg) { return (supg / types ^ 1) * types + supg % types; };
+  for (int supg = 0; supg < joints; ++supg)
+    for (std::size_t i = 0; i < mixed.net().amplitudes[static_cast<std::size_t>(supg)].links.size(); ++i) {
+      const auto& [source, index] = mixed.net().amplitudes[static_cast<std::size_t>(supg)].links[i];
+      const auto& twin = mixed.net().amplitudes[static_cast<std::size_t>(mirrored(supg))].links[i];
+      if (source != 0) continue;
+      const auto weight = static_cast<float>(stream.uniform(-1.0, 1.0));
+      one->weights[static_cast<std::size_t>(index)] = weight;
+      other->weights[static_cast<std::size_t>(twin.index)] = -weight;
+    }
+  for (int leg = 0; leg < legs; ++leg) {
+    other->set_offset_ticks(leg ^ 1, one->offset_ticks(leg));
+    for (int timer = -1; timer <= period + 1; ++timer)
+      for (int type = 0; type < types; ++type)
+        other->modulation().entry(leg ^ 1, timer)[type] = one->modulation().entry(leg, timer)[type];
+  }
+  const auto batch = mixed.make_batch(2);
+  batch->load(0, *one);
+  batch->load(1, *other);
+  auto sensors = frame(2);
+  LaneArray targets(joints, 2);
+  for (int tick = 0; tick < 50; ++tick) {
+    const auto turn = static_cast<float>(stream.uniform(-1.0, 1.0));
+    sensors.command.at(1, 0) = turn;
+    sensors.command.at(1, 1) = -turn;
+    for (int leg = 0; leg < legs; ++leg)
+      sensors.touch.at(leg, 0) = sensors.touch.at(leg ^ 1, 1) = stream.chance(0.5) ? 1.0f : 0.0f;
+    batch->step(sensors, targets);
+    for (int supg = 0; supg < joints; ++supg) ASSERT_EQ(targets.at(supg, 0), targets.at(mirrored(supg), 1));
+  }
+}
+
+std::string refusal(const std::function<void(substrate::Settings&)>& change, SupgSettings supg = {}) {
+  substrate::Settings settings = mixed_substrate();
+  change(settings);
+  try {
+    const MixedArchitecture made(supg, {}, settings, quadruped(), timestep_s);
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(Mixed, RefusesLinksThatItsNodesCannotHave) {
+  using substrate::Port;
+  EXPECT_EQ(refusal([](auto&) {}), "none");
+  EXPECT_EQ(refusal([](auto& s) { s.links[0].port = Port::rate; }),
+            "controller.substrate.links[0].port = \"rate\": \"n0\" is a neuron: expected hidden");
+  EXPECT_EQ(
+      refusal([](auto& s) { s.links[4].port = Port::hidden; }),
+      "controller.substrate.links[4].port = \"hidden\": \"s0\" is a SUPG: expected rate, amplitude, shift "
+      "or coupling");
+  EXPECT_EQ(refusal([](auto& s) { s.links.back().port = Port::shift; }),
+            "controller.substrate.links[10].port = \"shift\": \"s0\" is a SUPG: expected coupling");
+  EXPECT_EQ(refusal([](auto& s) { s.nodes[0].sensor = "sine"; }).substr(0, 55),
+            "controller.substrate.nodes: \"command_turn\" is a clock: ");
+  EXPECT_EQ(
+      refusal([](auto& s) { s.properties[4].of = "lead"; }),
+      "controller.substrate.properties[4].of: \"s0\" drives a joint and has no bias: expected pattern or "
+      "offset");
+  EXPECT_EQ(refusal([](auto& s) { s.properties.back().low = 0.0; }),
+            "controller.substrate.properties: a time constant can be 0: expected more than 0");
+  EXPECT_EQ(refusal([](auto&) {}, {.modulation = {.sensors = {"pitch"}}}).substr(0, 35),
+            "controller.supg.modulation.sensors:");
+}
+
+}  // namespace
+}  // namespace amble::controllers

@@ -1,0 +1,90 @@
+#include <gtest/gtest.h>
+
+#include "amble/experiment/problem/problem_json.hpp"
+#include "amble/experiment/replay.hpp"
+#include "amble/experiment/verify.hpp"
+#include "amble/record/recording.hpp"
+#include "tests/experiment/fixture.hpp"
+
+// Runs of robots that are told what to do.
+namespace amble::experiment {
+namespace {
+
+const std::vector<std::string> told{"engine=batch",
+                                    "controller.kind=mixed",
+                                    "controller.substrate=auto",
+                                    "command.kind=random",
+                                    "command.stretch_s=1",
+                                    "noise.episodes=2",
+                                    R"(score.terms=[{quantity="tracking"}])"};
+
+TEST(CommandRun, IsTheSameForAnyNumberOfWorkersAndAfterAnInterruptionAndIsVerified) {
+  const TemporaryFolder scratch;
+  const Config config = small_config(told);
+  Listener one, three, first(2), second;
+  ASSERT_EQ(Run::start(scratch / "one", config, 1).execute(one, one.stop), RunStatus::finished);
+  ASSERT_EQ(Run::start(scratch / "three", config, 3).execute(three, three.stop), RunStatus::finished);
+  ASSERT_EQ(Run::start(scratch / "two", config, 2).execute(first, first.stop), RunStatus::interrupted);
+  ASSERT_EQ(Run::resume(scratch / "two", {}, 1).execute(second, second.stop), RunStatus::finished);
+  const std::string expected = champion_bytes(scratch / "one");
+  EXPECT_GT(expected.size(), 1000u);
+  EXPECT_TRUE(champion_bytes(scratch / "three") == expected);
+  EXPECT_TRUE(champion_bytes(scratch / "two") == expected);
+  const RunPaths paths(scratch / "one");
+  const Origin origin = origin_of(paths);
+  for (const auto& file : paths.champion_files()) {
+    const auto verified = verify_champion(file, unstopped, &origin);
+    EXPECT_TRUE(verified->agrees) << verified->text;
+    EXPECT_EQ(load_champion(file).problem.command, config.command);
+  }
+}
+
+TEST(CommandRun, LeavesIdentityAndChampionsWithoutItAsTheyWere) {
+  EXPECT_FALSE(identity_json(small_config()).contains("command"));
+  EXPECT_FALSE(identity_json(small_config()).at("controller").contains("mixed"));
+  EXPECT_FALSE(problem_json(small_problem()).contains("command"));
+  EXPECT_TRUE(identity_json(small_config(told)).contains("command"));
+}
+
+TEST(CommandRun, IsSteeredInEveryEngineAndRecorded) {
+  const TemporaryFolder scratch;
+  for (const char* const engine : {"ode", "batch", "mujoco"}) {
+    auto settings = told;
+    settings[0] = std::string("engine=") + engine;
+    settings.emplace_back("trial.duration_s=2");
+    Problem problem = small_problem(small_config(settings));
+    const auto genome = small_population(problem).genomes()[0];
+    problem.set_commands({.kind = trial::CommandKind::fixed, .stretches = {{0.4, 0.0}, {0.4, 0.5}}});
+    const auto file = scratch / (std::string(engine) + ".rec");
+    const auto replayed = replay(problem, genome, {.record = file}, unstopped);
+    ASSERT_TRUE(replayed->result.tracking);
+    EXPECT_GE(replayed->result.tracking->speed_error_m_s, 0.0);
+    record::RecordingReader reader(file);
+    const auto turn = static_cast<std::size_t>(reader.column("command.turn"));
+    std::vector<float> frame;
+    for (int step = 0; reader.next(frame); ++step) EXPECT_EQ(frame[turn], step < 100 ? 0.0f : 0.5f);
+  }
+}
+
+TEST(CommandRun, DrawsNewCommandsForEachGenerationAndTheSameForAllItsGenomes) {
+  const Problem problem = small_problem(small_config(told));
+  EXPECT_TRUE(problem.trials_vary());
+  const auto one = problem.scenarios(1, 0), again = problem.scenarios(1, 0), next = problem.scenarios(1, 1);
+  ASSERT_EQ(one.size(), 2u);
+  EXPECT_EQ(one[0].commands->at(0), again[0].commands->at(0));
+  EXPECT_NE(one[0].commands->at(0), next[0].commands->at(0));
+}
+
+TEST(CommandRun, RefusesAControllerThatSensesCommandsWhereThereAreNone) {
+  try {
+    small_problem(small_config({"controller.kind=mixed", "controller.substrate=auto"}));
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("command.kind = \"none\": the controller senses commands"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace amble::experiment
