@@ -29,6 +29,8 @@ struct Controllers {
     sensors.yaw_rate_rad_s = LaneArray(1, count);
     sensors.joint_torque_nm = LaneArray(joints, count);
     sensors.foot_load_n = LaneArray(legs, count);
+    sensors.command = LaneArray(2, count);
+    sensors.heading_error_rad = wanted_yaw_rad = LaneArray(1, count);
     for (const neat::Genome& genome : genomes) parameters.push_back(task->problem().decode(genome));
     reset({});
   }
@@ -57,6 +59,19 @@ struct Controllers {
                 : 0.0f;
     }
   }
+  /// How far the heading that the commanded turns lead to is to the left, from a lane's first tick on. Before
+  /// take_rates().
+  void take_headings() {
+    const auto timestep_s = static_cast<float>(task->problem().trial.timestep_s);
+    for (int lane = 0; lane < count; ++lane) {
+      const float yaw_rad = sensors.attitude_rad.at(2, lane);
+      float& wanted_rad = wanted_yaw_rad.at(0, lane);
+      if (!begun[to_index(lane)]) wanted_rad = yaw_rad;
+      sensors.heading_error_rad.at(0, lane) = trial::wrapped_rad(wanted_rad - yaw_rad);
+      const float turned_rad = sensors.command.at(1, lane) * timestep_s;
+      wanted_rad = trial::wrapped_rad(wanted_rad + turned_rad);
+    }
+  }
   void tick() {
     batch->step(sensors, targets_rad);
     for (int lane = 0; lane < count; ++lane)
@@ -69,7 +84,7 @@ struct Controllers {
   std::vector<std::unique_ptr<controllers::Parameters>> parameters;
   std::unique_ptr<controllers::Batch> batch;
   robot::SensorFrame sensors;
-  LaneArray targets_rad;
+  LaneArray targets_rad, wanted_yaw_rad;
   std::shared_ptr<std::vector<float>> shown;  ///< count × joints; views keep it
   robot::ExtraSenses extra;
   float rate_hz;
@@ -111,13 +126,14 @@ std::optional<Rows> rows_if_sensed(const py::object& object, const std::string& 
 
 py::array step_controllers(Controllers& self, const py::object& angle_rad, const py::object& touch,
                            const py::object& attitude_rad, const py::object& torque_nm,
-                           const py::object& load_n) {
+                           const py::object& load_n, const py::object& command) {
   const auto angles = finite_rows(angle_rad, "angle_rad", self.count, self.joints),
              touches = finite_rows(touch, "touch", self.count, self.legs);
   std::optional<Rows> attitudes;
   if (!attitude_rad.is_none()) attitudes = finite_rows(attitude_rad, "attitude_rad", self.count, 3);
   const auto torques = rows_if_sensed(torque_nm, "torque_nm", self.extra.torque, self.count, self.joints),
-             loads = rows_if_sensed(load_n, "load_n", self.extra.load, self.count, self.legs);
+             loads = rows_if_sensed(load_n, "load_n", self.extra.load, self.count, self.legs),
+             commands = rows_if_sensed(command, "command", self.extra.commands(), self.count, 2);
   {
     const py::gil_scoped_release release;
     const auto lock = self.lock.hold();
@@ -131,6 +147,8 @@ py::array step_controllers(Controllers& self, const py::object& angle_rad, const
       self.sensors.attitude_rad = LaneArray(3, self.count);
     if (torques) to_lanes(*torques, self.sensors.joint_torque_nm);
     if (loads) to_lanes(*loads, self.sensors.foot_load_n);
+    if (commands) to_lanes(*commands, self.sensors.command);
+    self.take_headings();
     self.take_rates(angles_before_rad, attitudes_before_rad);
     self.tick();
   }
@@ -166,12 +184,12 @@ Joints and legs are in control order (docs/CONVENTIONS.md), as in Robots.)")
       .def(
           "step", step_controllers, py::arg("angle_rad"), py::arg("touch"),
           py::arg("attitude_rad") = py::none(), py::arg("torque_nm") = py::none(),
-          py::arg("load_n") = py::none(),
+          py::arg("load_n") = py::none(), py::arg("command") = py::none(),
           R"(One tick (Config: trial.timestep_s): sensors in, target angles out: [n, joints], rad, a live read-only view.
 
 angle_rad: [n, joints], from the start pose. touch: [n, legs], 1 on the ground, else 0. attitude_rad: [n, 3], roll, pitch
-and yaw of the root (default: 0). torque_nm: [n, joints], load_n: [n, legs], of controllers that sense them (docs/CONTROLLERS.md);
-speeds and the yaw rate are taken from tick to tick. All finite. The interpreter's lock is released. Raises TypeError and ValueError.)")
+and yaw of the root (default: 0). torque_nm: [n, joints], load_n: [n, legs], command: [n, 2], speed (m/s) and turn to the left
+(rad/s), of controllers that sense them (docs/CONTROLLERS.md); speeds, the yaw rate and the heading error are taken from tick to tick. All finite. The interpreter's lock is released. Raises TypeError and ValueError.)")
       .def("reset", reset_controllers, py::arg("mask") = py::none(),
            "Puts controllers into their initial state. mask: [n], bool: which ones (default: all).")
       .def_property_readonly(

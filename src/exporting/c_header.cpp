@@ -12,6 +12,7 @@ std::string kind_in_words(const ControllerTables& tables) {
   return tables.kind == "supg"      ? "single-unit pattern generators (SUPG)"
          : tables.kind == "ctrnn"   ? "a continuous-time recurrent neural network (CTRNN)"
          : tables.kind == "network" ? "a network of neurons"
+         : tables.kind == "mixed"   ? "single-unit pattern generators (SUPG) and neurons"
                                     : tables.kind;
 }
 
@@ -60,6 +61,9 @@ std::vector<std::string> sensor_lines(const ControllerTables& tables, const robo
         "  yaw_rate_rad_s    rad/s: (yaw now - yaw one tick ago, the short way) / tick; 0 at first");
   if (tables.reads_loads())
     lines.push_back("  load_n[leg]       N of the ground against the foot, along its normal; 0 at first");
+  if (tables.reads_commands())
+    lines.push_back(
+        "  Commands, by its function set_command: a speed along its own forward axis and a turn to the left");
   if (lines.size() == 1) lines = {"Sensors: it reads none."};
   if (const auto* const neural = std::get_if<NeuralTables>(&tables.parts)) {
     std::vector<std::string> names;
@@ -158,13 +162,14 @@ void add_structs(const ControllerTables& tables, bool fixed, CText& text) {
     add_supg_state(*supg, text);
   else
     add_neural_state(std::get<NeuralTables>(tables.parts), text);
+  add_command_state(tables, text);
   text.line("}} {}_state;", text.prefix());
   text.line("");
 }
 
 constexpr std::string_view functions = R"(/* The controller before its first step. */
 void $p_init($p_state *state);
-/* One step: from this tick's sensors to this tick's targets. To be called once per tick. */
+$command/* One step: from this tick's sensors to this tick's targets. To be called once per tick. */
 void $p_step($p_state *state, const $p_sensors *sensors, $p_targets *targets);
 
 #ifdef $P_SELF_TEST
@@ -181,6 +186,12 @@ float $p_self_test(void);
 #endif
 )";
 
+constexpr std::string_view command =
+    R"(/* Tells it a speed along its own forward axis, m/s, and a turn to the left, rad/s; from the next step on.
+ * At first it is to stand still. */
+void $p_set_command($p_state *state, float speed_m_s, float turn_rad_s);
+)";
+
 void add_constants(const ControllerTables& tables, bool fixed, CText& text) {
   const std::string upper = upper_case(text.prefix());
   text.line("#define {}_JOINTS {}", upper, tables.joints.size());
@@ -192,6 +203,11 @@ void add_constants(const ControllerTables& tables, bool fixed, CText& text) {
   if (const auto* const supg = std::get_if<SupgTables>(&tables.parts); supg != nullptr && supg->modulation)
     text.line("#define {}_TICK_PARTS {} /* timers in the state count in these */", upper,
               controllers::parts_per_tick);
+  if (const auto* const supg = std::get_if<SupgTables>(&tables.parts); supg != nullptr && supg->mixed) {
+    text.line("#define {}_NEURONS {} /* in the state's values, from here on: */", upper,
+              supg->mixed->neurons.size());
+    text.line("#define {}_FIRST_NEURON {}", upper, supg->mixed->sensors.size());
+  }
   if (fixed) text.line("#define {}_FRACTION_BITS {}", upper, fraction_bits(tables));
   text.line("#define {}_READS_TOUCH {}", upper, tables.reads_touch() ? 1 : 0);
   text.line("#define {}_READS_ANGLES {}", upper, tables.reads_angles() ? 1 : 0);
@@ -200,6 +216,7 @@ void add_constants(const ControllerTables& tables, bool fixed, CText& text) {
   if (tables.reads_torques()) text.line("#define {}_READS_TORQUES 1", upper);
   if (tables.reads_yaw_rate()) text.line("#define {}_READS_YAW_RATE 1", upper);
   if (tables.reads_loads()) text.line("#define {}_READS_LOADS 1", upper);
+  if (tables.reads_commands()) text.line("#define {}_OBEYS 1", upper);
   text.line("");
 }
 
@@ -232,7 +249,7 @@ std::string c_header(const ControllerTables& tables, const robot::RobotSpec& rob
   add_enumerators(legs, text);
   add_rows(tables, trace, joints, legs, text);
   add_structs(tables, fixed, text);
-  text.block(functions);
+  text.block(replaced(functions, "$command", tables.reads_commands() ? command : ""));
   return text.take();
 }
 

@@ -18,14 +18,8 @@ static float within_one(float s) {
 )";
 
 constexpr std::string_view rate_text = R"(/* By how much a leg's timer grows: a tick times 2^rho. */
-static int32_t growth(const float *sensed, int leg) {
-  float rho = 0.0f, power, part;
-  int s;
-  for (s = 0; s < sensor_count; ++s) {
-    part = rate[leg][s] * sensed[s];
-    rho = rho + part;
-  }
-  rho = within_one(rho);
+static int32_t growth($from, int leg) {
+$sum  rho = within_one(rho);
   power = 1.52527338e-05f;
   power = power * rho + 0.000154035304f;
   power = power * rho + 0.00133335581f;
@@ -38,6 +32,14 @@ static int32_t growth(const float *sensed, int leg) {
   return (int32_t)(power + 0.5f);
 }
 
+)";
+
+constexpr std::string_view sensed_sum = R"(  float rho = 0.0f, power, part;
+  int s;
+  for (s = 0; s < sensor_count; ++s) {
+    part = rate[leg][s] * sensed[s];
+    rho = rho + part;
+  }
 )";
 
 constexpr std::string_view timer_text = R"(/* The shorter way round to start, or a share of it. */
@@ -84,11 +86,11 @@ static float between(const float *entry, float share) {
   return a + part;
 }
 
-static float target(int joint, int32_t timer, const float *sensed) {
+static float target($owner_int joint, int32_t timer, const float *sensed) {
   const int32_t entry = timer < 0 ? 0 : (timer >> tick_bits) + 1;
   const float share = timer < 0 ? 0.0f : (float)(timer & (tick_parts - 1)) * (1.0f / (float)tick_parts);
   float y = between(&pattern[joint][entry], share);
-$gains  return limited(y, joint);
+$gains  return limited($y, joint);
 }
 
 )";
@@ -106,8 +108,8 @@ constexpr std::string_view step_text =
   int32_t continued[$P_LEGS];
   int leg, joint;
   (void)in;
-$contacts  for (leg = 0; leg < $P_LEGS; ++leg) {
-    sense(in, leg, sensed[leg]);
+$heading$contacts  for (leg = 0; leg < $P_LEGS; ++leg) {
+    sense($statein, leg, sensed[leg]);
     continued[leg] = update_timer(state, leg, $touching, $grown);
   }
   for (joint = 0; joint < $P_JOINTS; ++joint) {
@@ -121,12 +123,12 @@ $end}
 )";
 
 constexpr std::string_view plain_target =
-    "    targets->angle_rad[joint] = target(joint, state->timer[leg], sensed[leg]);\n";
+    "    targets->angle_rad[joint] = target($ownerjoint, state->timer[leg], sensed[leg]);\n";
 
 constexpr std::string_view smoothed_target = R"(    {
       const int jumped = continued[leg] != state->timer[leg];
-      const float on_rad = target(joint, continued[leg], sensed[leg]);
-      const float at_rad = jumped ? target(joint, state->timer[leg], sensed[leg]) : on_rad;
+      const float on_rad = target($ownerjoint, continued[leg], sensed[leg]);
+      const float at_rad = jumped ? target($ownerjoint, state->timer[leg], sensed[leg]) : on_rad;
 $first      targets->angle_rad[joint] = smoothed(state, joint, on_rad, at_rad, jumped);
     }
 )";
@@ -149,37 +151,10 @@ $rest}
 
 )";
 
-/// The member of the struct PREFIX_sensors that a leg's sensor reads.
-std::string member(const substrate::Sensor& sensor) {
-  using Kind = substrate::Sensor::Kind;
-  switch (sensor.kind) {
-    case Kind::angle:
-      return fmt::format("in->angle_rad[{}]", sensor.index);
-    case Kind::touch:
-      return fmt::format("in->touch[{}]", sensor.index);
-    case Kind::load:
-      return fmt::format("in->load_n[{}]", sensor.index);
-    case Kind::speed:
-      return fmt::format("in->speed_rad_s[{}]", sensor.index);
-    case Kind::torque:
-      return fmt::format("in->torque_nm[{}]", sensor.index);
-    case Kind::roll:
-      return "in->roll_rad";
-    case Kind::pitch:
-      return "in->pitch_rad";
-    case Kind::yaw:
-      return "in->yaw_rad";
-    case Kind::yaw_rate:
-      return "in->yaw_rate_rad_s";
-    case Kind::sine:
-      break;
-  }
-  return "0.0f";
-}
-
-void add_sense(const SupgTables::Modulation& modulation, CText& text) {
+void add_sense(const SupgTables::Modulation& modulation, bool commands, CText& text) {
   text.line("/* What a leg senses. */");
-  text.line("static void sense(const {}_sensors *in, int leg, float *sensed) {{", text.prefix());
+  text.line("static void sense({1}const {0}_sensors *in, int leg, float *sensed) {{", text.prefix(),
+            commands ? fmt::format("const {}_state *state, ", text.prefix()) : std::string());
   if (modulation.sensor_count() > 0) text.line("  float product;");
   text.line("  switch (leg) {{");
   for (std::size_t leg = 0; leg < modulation.sensors.size(); ++leg) {
@@ -190,7 +165,7 @@ void add_sense(const SupgTables::Modulation& modulation, CText& text) {
         text.line("      sensed[{}] = 0.0f;", s);
         continue;
       }
-      text.line("      product = {} * {};", member(sensor.sensor), c_float(sensor.gain));
+      text.line("      product = {} * {};", c_sensor_member(sensor.sensor), c_float(sensor.gain));
       text.line("      sensed[{}] = within_one(product - {});", s, c_float(sensor.shift));
     }
     text.line("      break;");
@@ -198,7 +173,7 @@ void add_sense(const SupgTables::Modulation& modulation, CText& text) {
   text.line("    default:");
   text.line("      break;");
   text.line("  }}");
-  text.line("  (void)in, (void)sensed;");
+  text.line("  (void)in, (void)sensed{};", commands ? ", (void)state" : "");
   text.line("}}");
   text.line("");
 }
@@ -218,6 +193,15 @@ void add_gains(const SupgTables::Modulation& modulation, std::size_t joints, std
     text.line("  }},");
   }
   text.line("}};");
+}
+
+void add_rates(const SupgTables::Modulation& modulation, CText& text) {
+  std::vector<std::vector<std::string>> rates;
+  for (const auto& leg : modulation.rates) {
+    auto& row = rates.emplace_back();
+    for (const float rate : leg) row.push_back(c_float(rate));
+  }
+  text.array(fmt::format("static const float rate[{}_LEGS][sensor_count]", upper_case(text.prefix())), rates);
 }
 
 void add_constants(const SupgTables& supg, CText& text) {
@@ -245,6 +229,39 @@ void add_constants(const SupgTables& supg, CText& text) {
 
 }  // namespace
 
+std::string c_sensor_member(const substrate::Sensor& sensor) {
+  using Kind = substrate::Sensor::Kind;
+  switch (sensor.kind) {
+    case Kind::angle:
+      return fmt::format("in->angle_rad[{}]", sensor.index);
+    case Kind::touch:
+      return fmt::format("in->touch[{}]", sensor.index);
+    case Kind::load:
+      return fmt::format("in->load_n[{}]", sensor.index);
+    case Kind::speed:
+      return fmt::format("in->speed_rad_s[{}]", sensor.index);
+    case Kind::torque:
+      return fmt::format("in->torque_nm[{}]", sensor.index);
+    case Kind::roll:
+      return "in->roll_rad";
+    case Kind::pitch:
+      return "in->pitch_rad";
+    case Kind::yaw:
+      return "in->yaw_rad";
+    case Kind::yaw_rate:
+      return "in->yaw_rate_rad_s";
+    case Kind::command_speed:
+      return "state->command_speed_m_s";
+    case Kind::command_turn:
+      return "state->command_turn_rad_s";
+    case Kind::heading_error:
+      return "state->heading_error_rad";
+    case Kind::sine:
+      break;
+  }
+  return "0.0f";
+}
+
 void add_modulated_state(const SupgTables& tables, CText& text) {
   const std::string upper = upper_case(text.prefix());
   text.line("  int32_t timer[{}_LEGS];    /* in 2^-{} ticks; -1: stopped */", upper, controllers::parts_bits);
@@ -252,6 +269,7 @@ void add_modulated_state(const SupgTables& tables, CText& text) {
   text.line("  int32_t wait[{}_LEGS];     /* ticks before the first start; -1 once it was */", upper);
   text.line("  int32_t rests[{}_LEGS];    /* ticks in which there is no other trigger */", upper);
   text.line("  uint8_t trigger[{}_LEGS];  /* 1 in the tick of a trigger */", upper);
+  if (tables.mixed) add_mixed_state(*tables.mixed, text);
   if (tables.contact) add_contact_state(*tables.contact, text);
   if (!tables.seam) return;
   add_seam_state(*tables.seam, text);
@@ -262,45 +280,56 @@ void add_modulated(const ControllerTables& tables, CText& text) {
   const auto& supg = std::get<SupgTables>(tables.parts);
   const SupgTables::Modulation& modulation = *supg.modulation;
   add_constants(supg, text);
-  const std::string upper = upper_case(text.prefix());
   const std::size_t entries = to_index(supg.period_ticks + 3);
   if (modulation.shapes()) add_gains(modulation, tables.joints.size(), entries, text);
-  if (modulation.rates_on) {
-    std::vector<std::vector<std::string>> rates;
-    for (const auto& leg : modulation.rates) {
-      auto& row = rates.emplace_back();
-      for (const float rate : leg) row.push_back(c_float(rate));
-    }
-    text.array(fmt::format("static const float rate[{}_LEGS][sensor_count]", upper), rates);
-  }
+  if (modulation.rates_on) add_rates(modulation, text);
   add_limits(supg.limits_rad, text);
   text.line("");
-  if (modulation.sensor_count() > 0) text.block(helpers);
-  add_sense(modulation, text);
-  if (modulation.rates_on) text.block(rate_text);
+  if (modulation.sensor_count() > 0 || supg.mixed) text.block(helpers);
+  add_commands(tables, text);
+  add_sense(modulation, tables.reads_commands(), text);
+  if (supg.mixed) add_mixed(supg, text);
+  const std::string state = fmt::format("const {}_state *state", text.prefix());
+  if (supg.mixed)
+    text.block(replaced(replaced(rate_text, "$from", state), "$sum",
+                        "  float rho, power;\n" + c_mixed_growth(*supg.mixed)));
+  else if (modulation.rates_on)
+    text.block(replaced(replaced(rate_text, "$from", "const float *sensed"), "$sum", sensed_sum));
   const bool triggered = supg.is_triggered();
   std::string timers = replaced(timer_text, "$triggered",
                                 triggered ? "started && touching && state->rests[leg] == 0 && "
                                             "state->airborne[leg] >= airborne_needed"
                                           : "0");
+  timers = replaced(timers, "$owner_", supg.mixed ? state + ", " : "");
+  timers = replaced(timers, "$y", supg.mixed ? "reshaped(state, joint, y)" : "y");
   text.block(replaced(timers, "$gains", modulation.shapes() ? gains_text : "  (void)sensed;\n"));
   if (supg.seam) add_smoothing(*supg.seam, text);
   const bool filters = supg.seam && supg.seam->filter_order > 0;
   std::string rest = supg.seam && supg.seam->residual_decay > 0.0f ? c_residual_init() : "";
   if (filters) rest += "  state->begun = 0;\n";
   if (supg.contact) rest += c_contact_init(*supg.contact);
+  rest += c_command_init(tables);
+  if (supg.mixed) rest += c_mixed_init(*supg.mixed);
   text.block(replaced(replaced(init_text, "$rest", rest), "$variables",
                       rest.find("joint") != std::string::npos ? ", joint" : ""));
   std::string step = replaced(step_text, "$target",
                               supg.seam ? replaced(smoothed_target, "$first", filters ? first_stages : "")
                                         : std::string(plain_target));
+  step = replaced(step, "$statein", tables.reads_commands() ? "state, in" : "in");
+  step = replaced(step, "$ownerjoint", supg.mixed ? "state, joint" : "joint");
+  step = replaced(step, "$heading",
+                  c_command_step(tables, "in") + (supg.mixed ? "  run_net(state, in);\n" : ""));
   step = replaced(step, "$contacts", supg.contact ? "  update_contacts(state, in);\n" : "");
   step = replaced(step, "$touching",
                   !triggered     ? "0"
                   : supg.contact ? "state->contact[leg]"
                                  : "in->touch[leg] > 0.5f");
-  step = replaced(step, "$grown", modulation.rates_on ? "growth(sensed[leg], leg)" : "tick_parts");
-  const std::string end = filters ? "  state->begun = 1;\n" : supg.seam ? "" : "  (void)continued;\n";
+  step = replaced(step, "$grown",
+                  supg.mixed            ? "growth(state, leg)"
+                  : modulation.rates_on ? "growth(sensed[leg], leg)"
+                                        : "tick_parts");
+  std::string end = filters ? "  state->begun = 1;\n" : supg.seam ? "" : "  (void)continued;\n";
+  if (supg.mixed) end += c_mixed_end(*supg.mixed);
   text.block(replaced(step, "$end", end + (supg.contact ? c_contact_end(*supg.contact) : "")));
 }
 

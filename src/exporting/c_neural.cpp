@@ -119,6 +119,12 @@ std::string reading(const substrate::Sensor& sensor, substrate::Attitude formula
       return fmt::format("in->torque_nm[{}]", sensor.index);
     case Kind::yaw_rate:
       return "in->yaw_rate_rad_s";
+    case Kind::command_speed:
+      return "s->command_speed_m_s";
+    case Kind::command_turn:
+      return "s->command_turn_rad_s";
+    case Kind::heading_error:
+      return "s->heading_error_rad";
     case Kind::sine:
       break;
   }
@@ -140,6 +146,7 @@ void add_sensing(const ControllerTables& tables, const NeuralTables& neural, CTe
               c_double(neural.sine_period_s));
     text.block(c_clock_sine);
   }
+  add_commands(tables, text);
   text.line("static void read_sensors({0}_state *s, const {0}_sensors *in) {{", text.prefix());
   if (neural.sensors.empty()) text.line("  (void)s;");
   if (!senses(neural)) text.line("  (void)in;");
@@ -213,9 +220,10 @@ void add_neural(const ControllerTables& tables, CText& text) {
   if (neural.potential) text.line("    state->y[n] = 0.0f;");
   text.line("  }}");
   if (has_sine(neural)) text.line("  state->tick = 0;");
+  text.block(c_command_init(tables));
   text.line("}}");
   text.line("");
-  text.block(c_step_begin);
+  text.block(replaced(c_step_begin, "$heading", c_command_step(tables, "sensors")));
   if (has_sine(neural)) text.line("  ++state->tick;");
   text.block(c_step_end);
 }

@@ -280,7 +280,7 @@ const std::string_view c_ctrnn_end_potential = R"(  find_values(s, y);
 const std::string_view c_step_begin =
     R"(void $p_step($p_state *state, const $p_sensors *sensors, $p_targets *targets) {
   int joint;
-  read_sensors(state, sensors);
+$heading  read_sensors(state, sensors);
   update(state);
 )";
 

@@ -21,6 +21,13 @@ void add_neural_state(const NeuralTables& tables, CText& text);
 void add_supg(const ControllerTables& tables, const CSourceOptions& options, CText& text);
 void add_neural(const ControllerTables& tables, CText& text);
 
+/// Of what senses commands: members of the state, functions, what else PREFIX_init and PREFIX_step do.
+/// Nothing for other controllers. `sensors`: the name of the step's argument.
+void add_command_state(const ControllerTables& tables, CText& text);
+void add_commands(const ControllerTables& tables, CText& text);
+std::string c_command_init(const ControllerTables& tables);
+std::string c_command_step(const ControllerTables& tables, const char* sensors);
+
 /// Of SUPGs whose targets are smoothed: members of the state, tables and functions, and what else the
 /// function PREFIX_init does. `timer`: the type of timers.
 void add_seam_state(const SupgTables::Seam& seam, CText& text);
@@ -42,6 +49,16 @@ std::string c_contact_end(const SupgTables::Contact& contact);
 /// Of modulated SUPGs: members of the state, and all behind the targets' table.
 void add_modulated_state(const SupgTables& tables, CText& text);
 void add_modulated(const ControllerTables& tables, CText& text);
+
+/// Of what is around the SUPGs of a mixed controller: members of the state, tables and functions, the sum
+/// that is ρ, and what else the functions PREFIX_init (with `leg`) and PREFIX_step (at its end) do.
+void add_mixed_state(const SupgTables::Mixed& mixed, CText& text);
+void add_mixed(const SupgTables& supg, CText& text);
+std::string c_mixed_growth(const SupgTables::Mixed& mixed);
+std::string c_mixed_init(const SupgTables::Mixed& mixed);
+std::string c_mixed_end(const SupgTables::Mixed& mixed);
+/// The member of the struct PREFIX_sensors, or of the state, that a sensor reads.
+std::string c_sensor_member(const substrate::Sensor& sensor);
 
 void add_self_test(const ControllerTables& tables, const Trace& trace, const CSourceOptions& options,
                    CText& text);

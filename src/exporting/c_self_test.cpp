@@ -61,6 +61,8 @@ void add_vectors(const ControllerTables& tables, const Trace& trace, bool fixed,
   if (tables.reads_loads())
     text.array(fmt::format("static const float test_load_n[test_ticks][{}_LEGS]", upper),
                literals(trace, &Trace::Tick::load_n));
+  if (tables.reads_commands())
+    text.array("static const float test_command[test_ticks][2]", literals(trace, &Trace::Tick::command));
   if (fixed)
     text.array(fmt::format("static const int16_t test_target[test_ticks][{}_JOINTS]", upper),
                fixed_targets(tables, trace));
@@ -146,7 +148,7 @@ constexpr std::string_view self_test_begin = R"(float $p_self_test(void) {
   $p_init(&state);
   for (tick = 0; tick < test_ticks; ++tick) {
     test_sense(tick, &sensors);
-    $p_step(&state, &sensors, &targets);
+$command    $p_step(&state, &sensors, &targets);
     if (!test_in_range(&targets)) return -1.0f;
     for (i = 0; i < $P_JOINTS; ++i) {
       float error_rad = (float)($difference) / $one_rad;
@@ -209,7 +211,11 @@ void add_self_test(const ControllerTables& tables, const Trace& trace, const CSo
   text.block(replaced(in_range, "$angle", member));
   const std::string difference = fmt::format("targets.{}[i] - test_target[tick][i]", member);
   const std::string one_rad = fixed ? fmt::format("{}.0f", 1 << fraction_bits(tables)) : "1.0f";
-  text.block(replaced(replaced(self_test_begin, "$difference", difference), "$one_rad", one_rad));
+  const std::string_view command =
+      tables.reads_commands() ? "    $p_set_command(&state, test_command[tick][0], test_command[tick][1]);\n"
+                              : "";
+  text.block(replaced(replaced(replaced(self_test_begin, "$difference", difference), "$one_rad", one_rad),
+                      "$command", command));
   if (!fixed) text.block(bad_readings);
   text.block(self_test_end);
 }

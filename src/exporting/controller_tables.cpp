@@ -12,6 +12,7 @@
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
+#include "amble/exporting/mixed_tables.hpp"
 
 namespace amble::exporting {
 namespace {
@@ -232,6 +233,10 @@ substrate::Sensor::Kind read_by(const SupgTables::Contact& contact) {
 bool reads(const ControllerTables& tables, auto wanted) {
   if (const auto* const supg = std::get_if<SupgTables>(&tables.parts)) {
     if (supg->contact && wanted(read_by(*supg->contact))) return true;
+    if (supg->mixed && std::ranges::any_of(supg->mixed->sensors, [&](const controllers::LegSensor& sensor) {
+          return wanted(sensor.sensor.kind);
+        }))
+      return true;
     if (!supg->modulation) return false;
     return std::ranges::any_of(supg->modulation->sensors, [&](const auto& leg) {
       return std::ranges::any_of(leg, [&](const controllers::LegSensor& sensor) {
@@ -260,7 +265,8 @@ bool ControllerTables::reads_touch() const {
 bool ControllerTables::reads_attitude() const {
   using Kind = substrate::Sensor::Kind;
   return reads(*this, [](auto sensed) {
-    return sensed == Kind::roll || sensed == Kind::pitch || sensed == Kind::yaw;
+    return sensed == Kind::roll || sensed == Kind::pitch || sensed == Kind::yaw ||
+           sensed == Kind::heading_error;
   });
 }
 
@@ -280,6 +286,17 @@ bool ControllerTables::reads_loads() const {
   return reads(*this, [](auto sensed) { return sensed == substrate::Sensor::Kind::load; });
 }
 
+bool ControllerTables::reads_commands() const {
+  using Kind = substrate::Sensor::Kind;
+  return reads(*this, [](auto sensed) {
+    return sensed == Kind::command_speed || sensed == Kind::command_turn || sensed == Kind::heading_error;
+  });
+}
+
+bool ControllerTables::reads_heading_error() const {
+  return reads(*this, [](auto sensed) { return sensed == substrate::Sensor::Kind::heading_error; });
+}
+
 bool ControllerTables::reads_nothing() const {
   return !reads_touch() && !reads_angles() && !reads_attitude() && !reads_speeds() && !reads_torques() &&
          !reads_yaw_rate() && !reads_loads();
@@ -296,7 +313,12 @@ ControllerTables controller_tables(const Problem& problem, const neat::Genome& g
   for (const robot::Leg& leg : problem.robot.legs) tables.legs.push_back(leg.name);
   const auto* const neural = dynamic_cast<const controllers::NeuralParameters*>(parameters.get());
   if (const auto* const supg = dynamic_cast<const SupgParameters*>(parameters.get())) {
-    tables.parts = supg_tables(problem, *supg);
+    SupgTables parts = supg_tables(problem, *supg);
+    const auto* const mixed = dynamic_cast<const controllers::MixedArchitecture*>(&architecture);
+    if (mixed != nullptr)
+      parts.mixed =
+          mixed_tables(*mixed, dynamic_cast<const controllers::MixedParameters&>(*supg), problem.robot);
+    tables.parts = std::move(parts);
     // A joint of no leg is held where it is.
     for (std::size_t j = problem.robot.leg_joint_count(); j < tables.joints.size(); ++j)
       tables.joints[j].lower_rad = tables.joints[j].upper_rad =
@@ -306,7 +328,8 @@ ControllerTables controller_tables(const Problem& problem, const neat::Genome& g
   } else if (const auto* ctrnn = dynamic_cast<const controllers::CtrnnArchitecture*>(&architecture)) {
     tables.parts = ctrnn_tables(problem, *ctrnn, *neural);
   } else {
-    fail(ExitCode::bad_input, "a controller of kind {} cannot be exported: expected supg, network or ctrnn",
+    fail(ExitCode::bad_input,
+         "a controller of kind {} cannot be exported: expected supg, mixed, network or ctrnn",
          architecture.name());
   }
   return tables;

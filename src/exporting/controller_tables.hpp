@@ -25,6 +25,12 @@ struct CommandedJoint {
   bool motor = true;  ///< false: it moves freely, and its target is 0 and means nothing
 };
 
+/// A link of a sum; `source`: what it reads, in an order that the sum's owner says.
+struct WeightedLink {
+  int source = 0;
+  float weight = 0.0f;
+};
+
 /// SUPGs as tables (controllers::SupgArchitecture says what each number means).
 struct SupgTables {
   struct Leg {
@@ -68,6 +74,31 @@ struct SupgTables {
   };
   std::optional<Modulation> modulation = {};
 
+  /// controllers::MixedBatch, beside `modulation`. Sources are rows of MixedNet.
+  struct Mixed {
+    struct Neuron {
+      std::string name;
+      float bias = 0.0f, step = 0.0f;
+      std::vector<WeightedLink> links;
+    };
+    struct Listened {
+      int joint = 0;
+      float per_half = 0.0f;  ///< by which its distance from the middle is multiplied, 1/rad
+    };
+
+    std::vector<controllers::LegSensor> sensors;
+    std::vector<std::string> sensor_names;
+    std::vector<Neuron> neurons = {};
+    std::vector<Listened> listened = {};
+    std::vector<std::vector<WeightedLink>> rates = {};                    ///< leg by leg
+    std::vector<std::vector<WeightedLink>> amplitudes = {}, shifts = {};  ///< joint by joint
+    /// Leg by leg, first for sines and then for cosines; sources are the legs' sines, then their cosines.
+    /// Empty without couplings.
+    std::vector<std::vector<WeightedLink>> pulls = {};
+    std::vector<std::array<float, 2>> ranges_rad = {};  ///< joint by joint: middle, and half the width
+  };
+  std::optional<Mixed> mixed = {};
+
   /// controllers::ContactEstimate, which stands for touches.
   struct Contact {
     controllers::ContactSource source = controllers::ContactSource::torque;
@@ -82,10 +113,7 @@ struct SupgTables {
 /// CtrnnArchitecture, and to the bit in docs/CONTROLLERS.md.
 struct NeuralTables {
   /// An expressed link. `source`: of Neuron::from_sensors in `sensors`, of from_neurons in `neurons`.
-  struct Link {
-    int source = 0;
-    float weight = 0.0f;
-  };
+  using Link = WeightedLink;
   struct Neuron {
     std::string name;
     int node = 0;                    ///< in the substrate's list of nodes
@@ -133,6 +161,8 @@ struct ControllerTables {
   bool reads_torques() const;
   bool reads_yaw_rate() const;
   bool reads_loads() const;
+  bool reads_commands() const;  ///< by PREFIX_set_command, not by sensors
+  bool reads_heading_error() const;
   bool reads_nothing() const;
   /// How often it must be called: 1 / timestep_s.
   double rate_hz() const { return 1.0 / timestep_s; }

@@ -42,6 +42,24 @@ Json joints_json(const ControllerTables& tables) {
 }
 
 /// The arrays that a controller reads, with what their numbers mean.
+/// What it is told, and what follows of it.
+void add_told(const ControllerTables& tables, Json& list) {
+  if (tables.reads_commands())
+    list.push_back({{"name", "command"},
+                    {"count", 2},
+                    {"order", "speed, turn"},
+                    {"unit", "m/s, rad/s"},
+                    {"meaning", "what it is told: speed along its forward axis, turn to the left"}});
+  if (tables.reads_heading_error())
+    list.push_back({{"name", "heading_error_rad"},
+                    {"count", 1},
+                    {"order", ""},
+                    {"unit", "rad"},
+                    {"meaning",
+                     "how far the first yaw plus the sum of all commanded turns before this tick, times the "
+                     "tick, is to the left of the yaw"}});
+}
+
 Json sensors_json(const ControllerTables& tables) {
   Json list = Json::array();
   if (tables.reads_touch())
@@ -89,6 +107,7 @@ Json sensors_json(const ControllerTables& tables) {
                     {"order", ""},
                     {"unit", "rad/s"},
                     {"meaning", "yaw now less yaw one tick ago, the short way, by the tick; 0 at first"}});
+  add_told(tables, list);
   return list;
 }
 
@@ -113,6 +132,12 @@ std::string sensor_name(const substrate::Sensor& sensor, const ControllerTables&
       return "torque." + tables.joints[to_index(sensor.index)].name;
     case Kind::yaw_rate:
       return "yaw_rate";
+    case Kind::command_speed:
+      return "command_speed";
+    case Kind::command_turn:
+      return "command_turn";
+    case Kind::heading_error:
+      return "heading_error";
     case Kind::load:
       return "load." + tables.legs[to_index(sensor.index)];
   }
@@ -139,6 +164,40 @@ Json modulation_json(const SupgTables::Modulation& modulation, const ControllerT
   return json;
 }
 
+Json links_json(const std::vector<WeightedLink>& links) {
+  Json list = Json::array();
+  for (const WeightedLink& link : links) list.push_back({link.source, link.weight});
+  return list;
+}
+
+Json sums_json(const std::vector<std::vector<WeightedLink>>& sums) {
+  Json list = Json::array();
+  for (const auto& links : sums) list.push_back(links_json(links));
+  return list;
+}
+
+/// Sources are the sensors, then the neurons, then the joints listened to, in this order.
+Json mixed_json(const SupgTables::Mixed& mixed, const ControllerTables& tables) {
+  Json json{{"sensors", Json::array()}, {"neurons", Json::array()}, {"listened", Json::array()}};
+  for (std::size_t s = 0; s < mixed.sensors.size(); ++s)
+    json["sensors"].push_back({{"name", mixed.sensor_names[s]},
+                               {"reads", sensor_name(mixed.sensors[s].sensor, tables)},
+                               {"gain", mixed.sensors[s].gain},
+                               {"shift", mixed.sensors[s].shift}});
+  for (const auto& neuron : mixed.neurons)
+    json["neurons"].push_back({{"name", neuron.name},
+                               {"bias", neuron.bias},
+                               {"step", neuron.step},
+                               {"links", links_json(neuron.links)}});
+  for (const auto& [joint, per_half] : mixed.listened)
+    json["listened"].push_back({{"joint", joint}, {"per_half", per_half}});
+  json["rates"] = sums_json(mixed.rates);
+  json["amplitudes"] = sums_json(mixed.amplitudes);
+  json["shifts"] = sums_json(mixed.shifts);
+  json["pulls"] = sums_json(mixed.pulls);
+  return json;
+}
+
 Json supg_json(const SupgTables& supg, const ControllerTables& tables) {
   Json json{{"period_ticks", supg.period_ticks},
             {"airborne_ticks_needed", supg.airborne_ticks_needed},
@@ -156,6 +215,7 @@ Json supg_json(const SupgTables& supg, const ControllerTables& tables) {
                     {"filter_share", supg.seam->filter_share},
                     {"filter_order", supg.seam->filter_order}};
   if (supg.modulation) json["modulation"] = modulation_json(*supg.modulation, tables);
+  if (supg.mixed) json["mixed"] = mixed_json(*supg.mixed, tables);
   if (supg.contact)
     json["contact"] = {{"source", controllers::contact_source_names[to_index(supg.contact->source)]},
                        {"joints", supg.contact->joints},
@@ -169,12 +229,6 @@ Json sensor_json(const NeuralTables::Sensor& sensor, const ControllerTables& tab
   Json json{{"name", sensor.name}, {"reads", sensor_name(sensor.reads, tables)}};
   if (sensor.scale != 1.0f) json["scale"] = sensor.scale;
   return json;
-}
-
-Json links_json(const std::vector<NeuralTables::Link>& links) {
-  Json list = Json::array();
-  for (const NeuralTables::Link& link : links) list.push_back({link.source, link.weight});
-  return list;
 }
 
 Json neural_json(const NeuralTables& neural, const ControllerTables& tables) {
@@ -228,6 +282,8 @@ Json trace_json(const ControllerTables& tables, const Trace& trace) {
     if (tables.reads_torques()) entry["torque_nm"] = tick.torque_nm;
     if (tables.reads_yaw_rate()) entry["yaw_rate_rad_s"] = tick.yaw_rate_rad_s;
     if (tables.reads_loads()) entry["load_n"] = tick.load_n;
+    if (tables.reads_commands()) entry["command"] = tick.command;
+    if (tables.reads_heading_error()) entry["heading_error_rad"] = tick.heading_error_rad;
     entry["target_rad"] = tick.target_rad;
     entry["state"] = tick.state;
     json["ticks"].push_back(std::move(entry));

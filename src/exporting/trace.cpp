@@ -22,6 +22,8 @@ Trace::Tick of_lane(const robot::SensorFrame& sensors, int lane) {
           .torque_nm = of_lane(sensors.joint_torque_nm, lane),
           .load_n = of_lane(sensors.foot_load_n, lane),
           .yaw_rate_rad_s = of_lane(sensors.yaw_rate_rad_s, lane),
+          .command = of_lane(sensors.command, lane),
+          .heading_error_rad = of_lane(sensors.heading_error_rad, lane),
           .target_rad = {},
           .state = {}};
 }
@@ -32,14 +34,16 @@ class Recorder final : public trial::Observer {
   /// `engine`: with the robot in its start pose.
   Recorder(Trace& trace, const trial::Protocol& protocol, const physics::Engine& engine, bool skip_first)
       : trace_(trace), senses_(protocol.sensing, engine.sensors(), protocol.timestep_s), skip_(skip_first) {
-    senses_.load(0, engine, nullptr);
+    senses_.load(0, engine, nullptr, protocol.commands ? &*protocol.commands : nullptr);
     sensed_ = of_lane(senses_.read(engine), 0);
   }
 
   void on_step(int, const physics::Engine& engine, const controllers::Batch& controllers,
                const LaneArray& targets_rad, int lane) override {
     // trial::FirstCommand::after_first_step: the motors held the joints in this step.
-    if (!std::exchange(skip_, false)) {
+    if (std::exchange(skip_, false)) {
+      senses_.face(0, engine);
+    } else {
       sensed_.target_rad = of_lane(targets_rad, lane);
       sensed_.state.resize(trace_.state_names.size());
       controllers.state(lane, sensed_.state);

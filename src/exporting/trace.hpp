@@ -19,6 +19,8 @@ struct Trace {
     std::vector<float> speed_rad_s = {}, torque_nm = {};  ///< by joint; empty where they are not asked for
     std::vector<float> load_n = {};                       ///< by leg, likewise
     std::vector<float> yaw_rate_rad_s = {};               ///< one, or none likewise
+    std::vector<float> command = {};                      ///< speed and turn, likewise
+    std::vector<float> heading_error_rad = {};            ///< one, or none likewise
     std::vector<float> target_rad;                        ///< by joint
     std::vector<float> state;                             ///< by state name, after the tick
   };

@@ -111,6 +111,20 @@ std::vector<Sample> modulated_samples() {
        "quadruped",
        {supg + "contact.source=shock", supg + "contact.threshold=5", modulation + "reset=0.5"}},
       {"soft_reset", "authors/supg", "quadruped", {modulation + "reset=0.25", seam + "filter_s=0.02"}},
+      {"obeying",
+       "authors/supg",
+       "hexapod",
+       {modulation + R"(sensors=["command_turn","heading_error"])", modulation + "rate=1",
+        modulation + "shape=1", "command.kind=random", "trial.first_command=before_first_step"}},
+      {"mixed",
+       "authors/supg",
+       "quadruped",
+       {"controller.kind=mixed", "controller.substrate=auto", "command.kind=random", "cppn.linear=identity"}},
+      {"mixed_smooth",
+       "paper/supg",
+       "hexapod",
+       {"controller.kind=mixed", supg + "idle=wrap", seam + "residual_s=0.05", seam + "filter_s=0.02",
+        "command.kind=random", "cppn.linear=identity", modulation + "reset=0.5"}},
   };
 }
 

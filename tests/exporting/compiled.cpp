@@ -71,7 +71,7 @@ Difference replay(const fs::path& program, const exporting::ControllerTables& ta
   std::string sensed;
   for (const auto& tick : trace.ticks)
     for (const auto* const values : {&tick.angle_rad, &tick.touch, &tick.attitude_rad, &tick.speed_rad_s,
-                                     &tick.torque_nm, &tick.yaw_rate_rad_s, &tick.load_n})
+                                     &tick.torque_nm, &tick.yaw_rate_rad_s, &tick.load_n, &tick.command})
       append(sensed, *values);
   const fs::path in = program.string() + ".in", out = program.string() + ".out";
   io::write_file(in, sensed);

@@ -1,7 +1,8 @@
 /* Feeds the exported controller "walker" what is on the standard input and writes what it answers, tick by
  * tick, as float32. Input: angles of all joints, touches of all legs, roll, pitch, yaw, and where they are read
- * speeds and torques of all joints, the yaw rate, and loads of all legs. Output: targets of
- * all joints (rad), then the state: of SUPGs timers and triggers by leg, else the neurons' values. */
+ * speeds and torques of all joints, the yaw rate, loads of all legs, and speed and turn commanded. Output: targets of
+ * all joints (rad), then the state: of SUPGs timers and triggers by leg, and then the neurons' values,
+ * or the neurons' values alone. */
 #include "walker.h"
 
 #include <stdio.h>
@@ -26,7 +27,12 @@ enum { loads = WALKER_LEGS };
 #else
 enum { loads = 0 };
 #endif
-enum { usual = WALKER_JOINTS + WALKER_LEGS + 3, inputs = usual + speeds + torques + yaw_rates + loads };
+#ifdef WALKER_OBEYS
+enum { commands = 2 };
+#else
+enum { commands = 0 };
+#endif
+enum { usual = WALKER_JOINTS + WALKER_LEGS + 3, told = usual + speeds + torques + yaw_rates + loads, inputs = told + commands };
 
 static void put(float value) { fwrite(&value, sizeof value, 1, stdout); }
 
@@ -67,6 +73,9 @@ int main(void) {
 #ifdef WALKER_READS_YAW_RATE
     sensors.yaw_rate_rad_s = in[usual + speeds + torques];
 #endif
+#ifdef WALKER_OBEYS
+    walker_set_command(&state, in[told], in[told + 1]);
+#endif
     walker_step(&state, &sensors, &targets);
     for (i = 0; i < WALKER_JOINTS; ++i) {
 #ifdef WALKER_FRACTION_BITS
@@ -75,7 +84,7 @@ int main(void) {
       put(targets.angle_rad[i]);
 #endif
     }
-#ifdef WALKER_NEURONS
+#if defined(WALKER_NEURONS) && !defined(WALKER_TICK_PARTS)
     for (i = 0; i < WALKER_NEURONS; ++i) put(state.neuron[i]);
 #else
 #ifdef WALKER_TICK_PARTS
@@ -85,6 +94,9 @@ int main(void) {
     for (i = 0; i < WALKER_LEGS; ++i) put((float)state.timer[i]);
 #endif
     for (i = 0; i < WALKER_LEGS; ++i) put((float)state.trigger[i]);
+#ifdef WALKER_FIRST_NEURON
+    for (i = 0; i < WALKER_NEURONS; ++i) put(state.value[WALKER_FIRST_NEURON + i]);
+#endif
 #endif
   }
   return 0;

@@ -1,0 +1,64 @@
+#include "amble/exporting/c_parts.hpp"
+
+/// What a robot is told, in C: trial::Senses operation by operation.
+namespace amble::exporting {
+namespace {
+
+constexpr std::string_view set_text =
+    R"(void $p_set_command($p_state *state, float speed_m_s, float turn_rad_s) {
+  state->command_speed_m_s = speed_m_s;
+  state->command_turn_rad_s = turn_rad_s;
+}
+
+)";
+
+constexpr std::string_view heading_text = R"(static float within_half_a_turn(float angle_rad) {
+  return angle_rad > 3.14159265f    ? angle_rad - 6.28318531f
+         : angle_rad < -3.14159265f ? angle_rad + 6.28318531f
+                                    : angle_rad;
+}
+
+/* How far the heading that the commanded turns have led to is to the left of the robot's. */
+static void update_heading($p_state *state, const $p_sensors *in) {
+  const float turned_rad = state->command_turn_rad_s * $tick;
+  if (!state->faces && in->yaw_rad - in->yaw_rad == 0.0f) { /* the first finite one */
+    state->faces = 1;
+    state->wanted_yaw_rad = in->yaw_rad;
+  }
+  state->heading_error_rad = within_half_a_turn(state->wanted_yaw_rad - in->yaw_rad);
+  state->wanted_yaw_rad = within_half_a_turn(state->wanted_yaw_rad + turned_rad);
+}
+
+)";
+
+}  // namespace
+
+void add_command_state(const ControllerTables& tables, CText& text) {
+  if (!tables.reads_commands()) return;
+  text.line("  float command_speed_m_s, command_turn_rad_s; /* what it is told */");
+  if (!tables.reads_heading_error()) return;
+  text.line("  float wanted_yaw_rad, heading_error_rad;");
+  text.line("  uint8_t faces;");
+}
+
+void add_commands(const ControllerTables& tables, CText& text) {
+  if (!tables.reads_commands()) return;
+  text.block(set_text);
+  if (tables.reads_heading_error())
+    text.block(replaced(heading_text, "$tick", c_float(static_cast<float>(tables.timestep_s))));
+}
+
+std::string c_command_init(const ControllerTables& tables) {
+  if (!tables.reads_commands()) return {};
+  std::string text = "  $p_set_command(state, 0.0f, 0.0f);\n";
+  if (tables.reads_heading_error())
+    text += "  state->wanted_yaw_rad = state->heading_error_rad = 0.0f;\n  state->faces = 0;\n";
+  return text;
+}
+
+std::string c_command_step(const ControllerTables& tables, const char* sensors) {
+  return tables.reads_heading_error() ? fmt::format("  update_heading(state, {});\n", sensors)
+                                      : std::string();
+}
+
+}  // namespace amble::exporting
