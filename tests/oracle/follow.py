@@ -16,12 +16,15 @@ import tempfile
 import numpy as np
 
 from recording import Recording
+import mixed
 from modulated import ModulatedLeg, Modulation
 from seam import Seam
 from supg import STOPPED, Leg, Patterns
 
 CONFIGS = pathlib.Path(__file__).resolve().parents[2] / "configs"
 
+# A mixed substrate, and something to obey.
+TOLD = ["controller.kind=mixed", "controller.substrate=auto", "command.kind=random", "command.stretch_s=1"]
 # What each run changes in its preset.
 RUNS = {
     "authors": [
@@ -38,6 +41,8 @@ RUNS = {
          "controller.supg.modulation.reset=0.5", "controller.supg.modulation.refractory_ticks=20",
          "controller.supg.idle=wrap", "controller.supg.seam.residual_s=0.05"],
         ["controller.supg.seam.residual_s=0.02", "controller.supg.seam.filter_s=0.03", "controller.supg.idle=wrap"],
+        [*TOLD, "trial.first_command=before_first_step"],
+        [*TOLD, "trial.first_command=before_first_step", "controller.supg.idle=wrap", "controller.supg.seam.residual_s=0.05"],
     ],
     "paper": [
         [],
@@ -56,7 +61,8 @@ RUNS = {
 # What the recordings of a preset must have shown, so that following them means something.
 SHOWN = {
     "authors": ["cycle in a CPPN", "hidden node", "start by phase", "delayed start", "trigger", "trigger in mid-cycle",
-                "mid", "hold", "wrap", "bounce", "jump", "other rate", "shift", "pull", "refractory"],
+                "mid", "hold", "wrap", "bounce", "jump", "other rate", "shift", "pull", "refractory", "reshaped",
+                "neuron that is not 0", "link to hidden", "link to rate", "link to amplitude", "link to shift", "link to coupling"],
     "paper": ["hidden node", "delayed start", "start by phase", "trigger in mid-cycle", "trigger ignored", "mid", "hold", "wrap"],
     "robust": ["hidden node", "delayed start", "start by phase", "trigger in mid-cycle", "hold", "wrap"],
 }
@@ -81,7 +87,8 @@ def follow(champion, recording, events):
     events["champion"] += 1
     recorded_offsets = recording.header["controller"]["offset_ticks"]
     modulation = Modulation(patterns, champion)
-    is_modulated = "modulation" in patterns.settings
+    net = mixed.Net(patterns, champion, events) if champion["controller"]["kind"] == "mixed" else None
+    is_modulated = "modulation" in patterns.settings or net is not None
     legs = []
     for name, offsets, recorded in zip(patterns.legs, patterns.offset_ticks, recorded_offsets):
         if recorded not in offsets:
@@ -92,7 +99,13 @@ def follow(champion, recording, events):
              for limit, tolerance in zip(limits, patterns.tolerance_rad)]
     waits = champion["trial"]["first_command"] == "after_first_step"
 
+    # What a phase begins with: a wait makes it later.
+    ahead = -1.0 if patterns.settings["offset"] == "delay" else 1.0
+    offsets = [ahead * ticks / patterns.period_ticks for ticks in recorded_offsets]
+
     for frame in range(recording.frames):
+        if net:
+            rates, amplitudes, shifts = net.tick(recording, frame, [mixed.phase(leg) for leg in legs], offsets)
         # Touches are felt in the pose at the beginning of a frame's step, and read before the next one.
         felt = max(frame - 1, 0)
         for number, (leg, name, joints) in enumerate(zip(legs, patterns.legs, patterns.joints_of_leg)):
@@ -101,7 +114,7 @@ def follow(champion, recording, events):
             touching = recording["touch." + name][felt] == 1.0
             if begun and is_modulated:
                 sensed = modulation.sensed(number, recording, frame)
-                rho = sum(rate[number] * s for rate, s in zip(modulation.rates, sensed))
+                rho = rates[number] if net else sum(rate[number] * s for rate, s in zip(modulation.rates, sensed))
                 leg.tick_sensing(touching, rho, recorded_timer)
                 if abs(recorded_timer - leg.timer) < TIMER_TOLERANCE:
                     leg.timer = float(recorded_timer)
@@ -115,15 +128,19 @@ def follow(champion, recording, events):
                 else:
                     jumped = leg.timer != leg.continued_timer
                     gains = [gain[joint] for gain in modulation.gains_rad]
-                    continued_rad, present_rad = (
-                        min(max(patterns.shifted_rad(joint, timer, gains, sensed), limits[joint][0]), limits[joint][1])
-                        for timer in (leg.continued_timer, leg.timer))
+                    both = [patterns.shifted_rad(joint, timer, gains, sensed) for timer in (leg.continued_timer, leg.timer)]
+                    if net:
+                        name, middle = patterns.joints[joint], patterns.middle_rad[joint]
+                        half = 0.5 * (limits[joint][1] - limits[joint][0])
+                        both = [y + (y - middle) * amplitudes[name] + shifts[name] * half for y in both]
+                        events["reshaped"] += abs(shifts[name]) + abs(amplitudes[name]) > 0.01
+                    continued_rad, present_rad = (min(max(y, limits[joint][0]), limits[joint][1]) for y in both)
                     expected, tolerance = seams[joint].next(continued_rad, present_rad, jumped)
                     events["shift"] += any(abs(gain[0] * s) > 0.01 for gain, s in zip(gains, sensed))
                     if is_modulated:
                         tolerance += 1e-4  # a sensor read in other digits
                     events["jump"] += jumped
-                    if leg.timer == STOPPED and not seams[joint].smooths:
+                    if leg.timer == STOPPED and not seams[joint].smooths and not net:
                         tolerance = 1e-6
                 target = recording["target." + patterns.joints[joint]][frame]
                 if not abs(target - expected) <= tolerance:

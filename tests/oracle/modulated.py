@@ -75,7 +75,7 @@ class ModulatedLeg(Leg):
 
     def __init__(self, *arguments):
         super().__init__(*arguments)
-        self.modulation = self.settings["modulation"]
+        self.modulation = self.settings.get("modulation", {"reset": 1.0, "refractory_ticks": 0})
         self.rests = 0
 
     def tick_sensing(self, touching, rho, recorded_timer):

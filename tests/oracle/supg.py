@@ -49,11 +49,15 @@ class Patterns:
     def points(self, joint_name, property_name, times, sensor=0.0):
         """Queries of a node, and the output that says this property of it."""
         place = dict(zip(self._substrate["coordinates"], self._nodes[joint_name]["at"]))
-        settings = next(p for p in self._substrate["properties"] if p["property"] == property_name)
+        node = self._nodes[joint_name]
+        settings = next(p for p in self._substrate["properties"]
+                        if p["property"] == property_name and p["of"] in (node["name"], node["group"]))
         for coordinate in settings["zero"]:
             place[coordinate] = 0.0
         sensing = [sensor] if self.settings.get("modulation", {}).get("sensors") else []
-        points = np.array([[*place.values(), *self._time(time, property_name), *sensing] for time in times])
+        # With links the CPPN has coordinates of a target, too, which a node's own queries leave at 0.
+        target = [0.0] * len(place) if self._substrate["links"] else []
+        points = np.array([[*place.values(), *target, *self._time(time, property_name), *sensing] for time in times])
         return points, self._substrate["outputs"].index(settings["output"])
 
     def _time(self, time, property_name):
