@@ -40,7 +40,7 @@ constexpr std::array map_measures{
     MapMeasure{"staying_share", "share of the elites that stay in their cell", true}};
 
 /// What a test must look for to have a measure.
-enum class Requires { trials, episodes, reaching, mutants };
+enum class Requires { trials, episodes, reaching, mutants, commands };
 
 struct TestMeasure {
   std::string_view name, label;
@@ -100,6 +100,15 @@ constexpr std::array test_measures{
     TestMeasure{"moving_s", "time in motion, s",
                 [](const Record&, const TestResult& t) { return t.moving_s(); }},
     TestMeasure{"kept", "distance / distance in evolution", kept},
+    TestMeasure{"tracking", "commands followed, 0 … 1",
+                [](const Record&, const TestResult& t) { return t.obeyed(&Obeyed::tracking); },
+                Requires::commands, true},
+    TestMeasure{"speed_error", "error of speed, m/s",
+                [](const Record&, const TestResult& t) { return t.obeyed(&Obeyed::speed_error_m_s); },
+                Requires::commands},
+    TestMeasure{"turn_error", "error of turning, rad/s",
+                [](const Record&, const TestResult& t) { return t.obeyed(&Obeyed::turn_error_rad_s); },
+                Requires::commands},
     TestMeasure{"reached_s", "wall time until it was reached, s", reached_s, Requires::reaching},
     TestMeasure{"reached_generation", "generation that reached it",
                 [](const Record&, const TestResult& t) -> Found {
@@ -127,6 +136,8 @@ bool has(const TestSpec& test, Requires needs) {
       return test.reach_m > 0.0;
     case Requires::mutants:
       return test.mutants > 0;
+    case Requires::commands:
+      return !test.command.empty();
     case Requires::trials:
       break;
   }
@@ -159,13 +170,15 @@ std::string measure_names() {
   std::string corrected;
   for (const MapMeasure& row : map_measures)
     (row.is_corrected ? corrected : text) += fmt::format("{}, ", row.name);
-  std::array<std::string, 4> of_tests;
+  std::array<std::string, 5> of_tests;
   for (const TestMeasure& row : test_measures) {
     std::string& names = of_tests.at(to_index(row.needs));
     names += fmt::format("{}.{}", names.empty() ? "" : ", ", row.name);
   }
-  return fmt::format("{}with map_trials {}TEST{}, with episodes {}, with reach_m {}, with mutants {}", text,
-                     corrected, of_tests[0], of_tests[1], of_tests[2], of_tests[3]);
+  return fmt::format(
+      "{}with map_trials {}TEST{}, with episodes {}, with reach_m {}, with mutants {}, with "
+      "command {}",
+      text, corrected, of_tests[0], of_tests[1], of_tests[2], of_tests[3], of_tests[4]);
 }
 
 std::vector<std::string> measures_of_runs() {

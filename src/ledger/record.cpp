@@ -29,10 +29,15 @@ double median_of(const std::vector<EpisodeResult>& episodes, Value EpisodeResult
 }
 
 io::Json to_json(const EpisodeResult& episode) {
-  return {{"distance_m", episode.distance_m},
-          {"seconds", episode.seconds},
-          {"walking_s", episode.walking_s},
-          {"outcome", record::outcome_names[to_index(episode.outcome)]}};
+  io::Json json{{"distance_m", episode.distance_m},
+                {"seconds", episode.seconds},
+                {"walking_s", episode.walking_s},
+                {"outcome", record::outcome_names[to_index(episode.outcome)]}};
+  if (episode.obeyed)
+    json["obeyed"] = {{"tracking", episode.obeyed->tracking},
+                      {"speed_error_m_s", episode.obeyed->speed_error_m_s},
+                      {"turn_error_rad_s", episode.obeyed->turn_error_rad_s}};
+  return json;
 }
 
 EpisodeResult episode_from(const io::JsonView& view) {
@@ -43,6 +48,12 @@ EpisodeResult episode_from(const io::JsonView& view) {
   const auto found = std::ranges::find(record::outcome_names, outcome);
   if (found == record::outcome_names.end()) view.at("outcome").bad("completed, fell or diverged");
   episode.outcome = static_cast<record::Outcome>(found - record::outcome_names.begin());
+  if (view.has("obeyed")) {
+    const io::JsonView obeyed = view.at("obeyed");
+    episode.obeyed = {.tracking = obeyed.at("tracking").finite_number(),
+                      .speed_error_m_s = obeyed.at("speed_error_m_s").finite_number(),
+                      .turn_error_rad_s = obeyed.at("turn_error_rad_s").finite_number()};
+  }
   return episode;
 }
 
@@ -205,6 +216,14 @@ double TestResult::upright_s() const {
 }
 double TestResult::walking_s() const {
   return median_of(episodes, &EpisodeResult::walking_s);
+}
+
+std::optional<double> TestResult::obeyed(double Obeyed::*value) const {
+  std::vector<double> values;
+  for (const EpisodeResult& episode : episodes)
+    if (episode.obeyed) values.push_back(*episode.obeyed.*value);
+  if (values.empty()) return std::nullopt;
+  return statistics::median(values);
 }
 
 std::optional<double> TestResult::moving_s() const {

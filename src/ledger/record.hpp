@@ -14,12 +14,20 @@
 
 namespace amble::ledger {
 
+/// How well a robot did what it was told (score/tracking.hpp).
+struct Obeyed {
+  double tracking = 0.0, speed_error_m_s = 0.0, turn_error_rad_s = 0.0;
+
+  friend bool operator==(const Obeyed&, const Obeyed&) = default;
+};
+
 /// One trial of a champion.
 struct EpisodeResult {
   double distance_m = 0.0;
   double seconds = 0.0;    ///< until it ended
   double walking_s = 0.0;  ///< score::WalkingMeter
   record::Outcome outcome = record::Outcome::completed;
+  std::optional<Obeyed> obeyed = {};  ///< of a trial with commands
 
   friend bool operator==(const EpisodeResult&, const EpisodeResult&) = default;
 };
@@ -52,6 +60,8 @@ struct TestResult {
   score::Typical typical() const;
   double upright_s() const;  ///< median
   double walking_s() const;  ///< median
+  /// Median of the episodes with commands; nothing if there are none.
+  std::optional<double> obeyed(double Obeyed::*value) const;
   /// Time in motion in the first episode, s: windows of 10 s (or of one sample of the path, if that is more)
   /// over which it gets farther than 25 cm, also after pauses; where one ends in each sample, the first
   /// counts whole. Nothing of trials that are shorter than 10 s, which have no window.

@@ -115,6 +115,10 @@ void TestSpec::describe(io::SettingsVisitor& visitor) {
   visitor.text("level", level, {"level of disturbance of the trials, in place of noise; empty: none"});
   visitor.text("ground", ground, {"config file whose [ground] the champion walks on; empty: its own"});
   visitor.text("damage", damage, {"config file whose [damage] the champion's robot has; empty: its own"});
+  visitor.text(
+      "command", command,
+      {"what the champion is told, \"SPEED,TURN[,SECONDS]; …\" in m/s, rad/s to the left and s; empty: "
+       "as in its own config"});
   visitor.integer("episodes", episodes, {1, 1000}, {"trials under noise that evolution has not met"});
   visitor.number("reach_m", reach_m, {0, 1e6},
                  {"the first best of the run whose median trial gets that far is found, m; 0: not"});

@@ -38,6 +38,8 @@ struct TestSpec {
   std::string level;   ///< record::Level that disturbs them, in place of `noise`; empty: none
   std::string ground;  ///< config file whose [ground] the champion walks on; empty: that of its own config
   std::string damage;  ///< config file whose [damage] the champion has; empty: that of its own config
+  std::string
+      command;  ///< what it is told (trial::parse_commands); empty: by the [command] of its own config
   /// Trials under noise, on uneven ground, or from places that evolution has not used; 1 without any of it.
   int episodes = 1;
   /// > 0: also finds the first of the run's successive bests whose median trial gets that far, m.

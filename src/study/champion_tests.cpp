@@ -54,6 +54,14 @@ class WalkObserver : public trial::Observer {
   std::vector<double> path_m_;
 };
 
+/// Rounded as in records.
+std::optional<ledger::Obeyed> obeyed(const experiment::TrialResult& trial) {
+  if (!trial.tracking) return std::nullopt;
+  return ledger::Obeyed{.tracking = thousandths(trial.tracking->tracking),
+                        .speed_error_m_s = thousandths(trial.tracking->speed_error_m_s),
+                        .turn_error_rad_s = thousandths(trial.tracking->turn_error_rad_s)};
+}
+
 std::string gait_name(const gait::Report& report) {
   if (!report.classification) return {};
   return std::string(gait::gait_names[to_index(report.classification->gait)]);
@@ -147,7 +155,8 @@ std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experi
     result.episodes.push_back({.distance_m = trial.distance_m,
                                .seconds = trial.seconds,
                                .walking_s = std::min(walks[i].walking_s(), trial.seconds),
-                               .outcome = trial.outcome});
+                               .outcome = trial.outcome,
+                               .obeyed = obeyed(trial)});
   }
   result.gait = gait_name(gait.finish(replayed->front().outcome));
   result.path_m = walks.front().path_m();

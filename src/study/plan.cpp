@@ -13,6 +13,7 @@
 #include "amble/io/json_file.hpp"
 #include "amble/io/toml_text.hpp"
 #include "amble/physics/engine.hpp"
+#include "amble/trial/commands.hpp"
 
 namespace amble::study {
 namespace {
@@ -43,6 +44,12 @@ PlannedTest plan_test(const ledger::StudySpec& study, std::size_t index) {
                     "(ground.start_place_m), all trials are the same",
                     key_of("tests", index, "episodes"), test.spec.episodes));
   if (!test.spec.damage.empty()) test.damage = experiment::load_config(test.spec.damage, {}).damage;
+  if (test.spec.command.empty()) return test;
+  try {
+    test.command = {.kind = trial::CommandKind::fixed, .stretches = trial::parse_commands(test.spec.command)};
+  } catch (const UserError& error) {
+    throw study.error_at(key_of("tests", index, "command"), error.what());
+  }
   return test;
 }
 
@@ -89,6 +96,7 @@ experiment::Problem PlannedTest::problem(experiment::Problem home) const {
   home.trial.validate();
   if (ground) home.set_ground(*ground);
   if (damage) home.set_damage(*damage);
+  if (command) home.set_commands(*command);
   return home;
 }
 
@@ -101,6 +109,7 @@ std::string PlannedTest::settings_hash(std::string_view home) const {
   if (spec.mutants > 0) definition["mutants"] = spec.mutants;
   if (ground) definition["ground"] = io::settings_to_json(*ground);
   if (damage) definition["damage"] = io::settings_to_json(*damage);
+  if (command) definition["command"] = io::settings_to_json(*command);
   return hex(hash_text(definition.dump()));
 }
 

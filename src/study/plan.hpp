@@ -22,9 +22,10 @@ namespace amble::study {
 /// A test with the files that it names read.
 struct PlannedTest {
   ledger::TestSpec spec;
-  trial::NoiseSettings noise;                   ///< that of TestSpec::noise
-  std::optional<ground::Settings> ground = {};  ///< that of TestSpec::ground
-  std::optional<damage::Settings> damage = {};  ///< that of TestSpec::damage
+  trial::NoiseSettings noise;                          ///< that of TestSpec::noise
+  std::optional<ground::Settings> ground = {};         ///< that of TestSpec::ground
+  std::optional<damage::Settings> damage = {};         ///< that of TestSpec::damage
+  std::optional<trial::CommandSettings> command = {};  ///< that of TestSpec::command
 
   /// The commit of a program: a result that another one measured is to be measured again. Empty: any will do.
   std::string measured_by = {};
