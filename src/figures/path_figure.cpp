@@ -26,6 +26,7 @@ struct Footprint {
 /// Everything in the figure, in metres to the right and up.
 struct Scene {
   std::vector<Point> path_m;
+  std::vector<Point> commanded_m;  ///< where commands lead; empty without
   std::vector<Footprint> footprints;
   std::vector<std::vector<Point>> trunk_m;  ///< outlines of its geoms, at the start and at the end
 };
@@ -43,6 +44,7 @@ Scene make_scene(const robot::RobotSpec& robot, const motion::Motion& motion, co
   const auto project = [&](Vec3 at) { return Point{dot(at, camera.right), dot(at, camera.up)}; };
   scene.path_m.push_back(project(motion.com_start_m));
   for (const Vec3 com_m : motion.com_m) scene.path_m.push_back(project(com_m));
+  for (const Vec3 at_m : motion::commanded_path_m(robot, motion)) scene.commanded_m.push_back(project(at_m));
   for (std::size_t leg = 0; leg < robot.legs.size(); ++leg)
     for (const int frame : motion::touchdown_frames(motion.touch[leg]))
       scene.footprints.push_back(
@@ -71,6 +73,7 @@ Map make_map(const Scene& scene, FigureSize layout) {
     y = including(y, at.y);
   };
   for (const Point at : scene.path_m) include(at);
+  for (const Point at : scene.commanded_m) include(at);
   for (const Footprint& print : scene.footprints) include(print.at_m);
   for (const auto& trunk : scene.trunk_m)
     for (const Point at : trunk) include(at);
@@ -116,7 +119,11 @@ void draw_scale_bar(Svg& svg, const Map& map, double right, double y, double ste
 
 void draw_ends(Svg& svg, const Map& map, const Scene& scene, const motion::Summary& summary, double width) {
   const Point start = map(scene.path_m.front()), end = map(scene.path_m.back());
-  svg.line(start, end, "beeline");
+  // Of a robot that was told where to go, that in place of the straight line.
+  if (scene.commanded_m.empty())
+    svg.line(start, end, "beeline");
+  else
+    svg.polyline(thinned(scene.commanded_m, map), "zoomed beeline");
   svg.circle(start, 5, "start");
   svg.circle(end, 5, "end");
   const auto name = [&](Point at, double below, const std::string& text) {

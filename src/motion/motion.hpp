@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "amble/core/math.hpp"
@@ -32,6 +33,10 @@ struct Motion {
   /// is the one after the frame in which the foot was first seen touching.
   std::vector<std::vector<bool>> trigger;
 
+  /// What it was told in the step that led to the frame, speed (m/s) and turn to the left (rad/s); empty if
+  /// nothing.
+  std::vector<std::array<float, 2>> command;
+
   int frames() const { return static_cast<int>(root_m.size()); }
   double seconds() const { return frames() * frame_s; }
   double time_s(int frame) const { return (frame + 1) * frame_s; }
@@ -39,6 +44,10 @@ struct Motion {
 
 /// World poses of all bodies in one frame.
 std::vector<robot::Pose> body_poses(const robot::RobotSpec& robot, const Motion& motion, int frame);
+
+/// Where the commands lead, over the ground: from the start of its centre of mass, along its forward axis in
+/// the first frame, frame by frame; empty without commands. At the height of the start.
+std::vector<Vec3> commanded_path_m(const robot::RobotSpec& robot, const Motion& motion);
 
 /// The headline numbers of a recording.
 struct Summary {

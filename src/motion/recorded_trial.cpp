@@ -28,6 +28,8 @@ class FrameColumns {
       if (has("timer." + leg.name)) timer_.push_back(find(reader, "timer." + leg.name));
       if (has("trigger." + leg.name)) trigger_.push_back(find(reader, "trigger." + leg.name));
     }
+    if (has("command.speed") && has("command.turn"))
+      command_ = {find(reader, "command.speed"), find(reader, "command.turn")};
     // Timers of only some legs are ignored: all that use them compare legs.
     if (timer_.size() != robot.legs.size()) timer_.clear();
     if (trigger_.size() != robot.legs.size()) trigger_.clear();
@@ -47,6 +49,7 @@ class FrameColumns {
     motion.com_m.push_back({frame[com_[0]], frame[com_[1]], frame[com_[2]]});
     for (std::size_t i = 0; i < angle_.size(); ++i) motion.angle_rad[i].push_back(frame[angle_[i]]);
     for (std::size_t i = 0; i < touch_.size(); ++i) motion.touch[i].push_back(frame[touch_[i]] > 0.5f);
+    if (!command_.empty()) motion.command.push_back({frame[command_[0]], frame[command_[1]]});
     for (std::size_t i = 0; i < timer_.size(); ++i) motion.timer_ticks[i].push_back(frame[timer_[i]]);
     for (std::size_t i = 0; i < trigger_.size(); ++i) motion.trigger[i].push_back(frame[trigger_[i]] > 0.5f);
   }
@@ -56,7 +59,7 @@ class FrameColumns {
     return static_cast<std::size_t>(reader.column(name));
   }
 
-  std::vector<std::size_t> root_, com_, angle_, touch_, timer_, trigger_;
+  std::vector<std::size_t> root_, com_, angle_, touch_, timer_, trigger_, command_;
 };
 
 }  // namespace

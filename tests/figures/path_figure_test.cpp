@@ -104,5 +104,20 @@ TEST(PathFigure, TakesOneFrameAndAFootThatNeverTouches) {
   EXPECT_THAT(tests::texts(elements), Contains("0.05 m after 0.1 s"));
 }
 
+TEST(PathFigure, HasWhereCommandsLeadInPlaceOfTheStraightLine) {
+  motion::RecordedTrial recorded = tests::walk(40);
+  const auto frames = static_cast<std::size_t>(recorded.motion.frames());
+  recorded.motion.command.assign(frames, {2.0f, 0.0f});
+  const double way_m = 2.0 * recorded.motion.frame_s * static_cast<double>(frames);
+  const auto path_m = motion::commanded_path_m(recorded.robot, recorded.motion);
+  ASSERT_EQ(path_m.size(), frames + 1);
+  const Vec3 moved = path_m.back() - path_m.front();
+  EXPECT_NEAR(std::hypot(moved.x, moved.y), way_m, 1e-9);
+  const auto elements = tests::parse_xml(path_figure(recorded.robot, recorded.motion, FigureSize::wide));
+  const auto commanded = tests::with_class(elements, "beeline");
+  ASSERT_EQ(commanded.size(), 1u);
+  EXPECT_EQ(commanded[0].name, "polyline");
+}
+
 }  // namespace
 }  // namespace amble::figures
