@@ -60,10 +60,13 @@ class MassMender {
         "moments of inertia of bodies with a mesh that cannot be read, by those of their other shapes, or of "
         "a ball of water, with the mass that their geoms have",
         lost_);
-    note(
-        "moments of inertia that would need a body larger than the robot, by those of the shapes with the "
-        "body's mass",
-        templates_);
+    if (!templates_.empty())
+      notes.add(
+          Reading::replaced,
+          fmt::format("moments of inertia that would need a body larger than the robot, by those of the "
+                      "shapes with the body's mass; check inertia, mass and units: {}",
+                      fmt::join(templates_, ", ")),
+          true);
     return mended_;
   }
 

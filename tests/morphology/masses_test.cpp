@@ -199,7 +199,7 @@ TEST(Masses, WithMomentsOfABodyLargerThanTheRobotHaveThoseOfTheirShapesInBothFor
   EXPECT_EQ(body(mjcf, "thigh").mass_kg, 2.0);
   EXPECT_LT(body(mjcf, "thigh").inertia_kg_m2.x, 2.0 * 0.25 / 12.0);
   EXPECT_THAT(mjcf.notes.text(), HasSubstr("larger than the robot, by those of the shapes with the body's "
-                                           "mass: thigh"));
+                                           "mass; check inertia, mass and units: thigh"));
 
   std::string urdf = urdf_with_effort();
   for (std::size_t at = urdf.find("\"0.01\""); at != std::string::npos; at = urdf.find("\"0.01\""))
