@@ -254,6 +254,8 @@ std::string c_sensor_member(const substrate::Sensor& sensor) {
       return "state->command_speed_m_s";
     case Kind::command_turn:
       return "state->command_turn_rad_s";
+    case Kind::command_stop:
+      return "state->command_stop";
     case Kind::heading_error:
       return "state->heading_error_rad";
     case Kind::sine:

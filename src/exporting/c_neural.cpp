@@ -123,6 +123,8 @@ std::string reading(const substrate::Sensor& sensor, substrate::Attitude formula
       return "s->command_speed_m_s";
     case Kind::command_turn:
       return "s->command_turn_rad_s";
+    case Kind::command_stop:
+      return "s->command_stop";
     case Kind::heading_error:
       return "s->heading_error_rad";
     case Kind::sine:
