@@ -197,6 +197,7 @@ py::dict new_robot(const py::object& model, const py::object& out) {
   py::dict dict;
   dict["robot"] = written.robot_file.string();
   dict["config"] = written.config_file.string();
+  if (!written.steer_file.empty()) dict["steer_config"] = written.steer_file.string();
   dict["ready"] = written.ready;
   dict["missing"] = written.asked;
   dict["settled"] = written.settled;

@@ -62,6 +62,10 @@ TEST_F(RobotInit, WroteTheRobotsOfTheGallery) {
     EXPECT_EQ(without_model(toml), slurp(committed + name + ".toml"));
     EXPECT_EQ(without_include(slurp(folder + "/evolve.toml")),
               without_include(slurp(committed + "evolve.toml")));
+    EXPECT_EQ(std::filesystem::exists(folder + "/steer.toml"), name != "biped");
+    if (name == "biped") continue;
+    EXPECT_EQ(without_include(slurp(folder + "/steer.toml")),
+              without_include(slurp(committed + "steer.toml")));
   }
 }
 

@@ -18,7 +18,7 @@ def test_a_model_becomes_what_the_command_line_makes_of_it(model, tmp_path):
     said = subprocess.run([os.environ["AMBLE_PROGRAM"], "robot", "--init", model, "-o", tmp_path / "theirs"],
                           capture_output=True, text=True, check=True).stdout
     assert made["text"].replace("/mine/", "/theirs/") == said
-    for name, key in (("servo.toml", "robot"), ("evolve.toml", "config")):
+    for name, key in (("servo.toml", "robot"), ("evolve.toml", "config"), ("steer.toml", "steer_config")):
         assert made[key] == str(tmp_path / "mine" / name)
         assert (tmp_path / "mine" / name).read_bytes() == (tmp_path / "theirs" / name).read_bytes()
     assert made["ready"] and made["missing"] == made["warnings"] == []

@@ -100,6 +100,18 @@ TEST(Layout, ExpressesNoLinkAtTheThresholdItself) {
       EXPECT_FLOAT_EQ(weight, o > 0 ? 1.5f : -1.5f);
 }
 
+TEST(Layout, MultipliesWeightsByACoordinateOfTheirTargets) {
+  auto settings = substrate_of(line);
+  settings.nodes[2].at = {-0.5};
+  settings.links[0].times = settings.links[2].times = "x";
+  const Layout layout(settings, ctrnn_needs(), hopper());
+  // All outputs say 0.6, which is (0.6 − 0.2)/0.8 × 3 = 1.5.
+  const auto decoded = layout.decode(linear_cppn({{0.6, 0, 0}, {0, 0, 0}, {0, 0, 0}}));
+  ASSERT_EQ(decoded.weights.size(), 5u);
+  const double factors[] = {0.25, -0.5, 1.0, 1.0, -0.5};
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(decoded.weights[i], 1.5 * factors[i], 1e-6) << i;
+}
+
 TEST(Layout, AsksForPropertiesWithTheOtherCoordinatesZero) {
   const Layout layout(substrate_of(line), ctrnn_needs(), hopper());
   // bias: o = 0.5 + x1 + 100 x2 with x2 = 0, so 0.75 and 1; on the line from −2 at −1 to 6 at 1 that is 5

@@ -121,6 +121,8 @@ TEST(BadSubstrate, WrongCoordinates) {
   EXPECT_EQ(ctrnn([](Settings& s) { s.coordinates[1] = "x"; }), "coordinates[1] = \"x\" is there twice");
   EXPECT_EQ(ctrnn([](Settings& s) { s.links[0].same = {"module"}; }),
             "links[0].same: there is no coordinate \"module\" (there are x, y, module_x, module_y)");
+  EXPECT_EQ(ctrnn([](Settings& s) { s.links[0].times = "side"; }),
+            "links[0].times: there is no coordinate \"side\" (there are x, y, module_x, module_y)");
   EXPECT_EQ(supg([](Settings& s) { s.properties[1].zero = {"type"}; }),
             "properties[1].zero: there is no coordinate \"type\" (there are leg, joint_type)");
 }

@@ -120,7 +120,10 @@ TEST(Senses, TellWhatIsCommandedInEachTick) {
   senses.load(0, engine, nullptr, &schedule);
   senses.load(1, engine, nullptr, nullptr);
   for (int tick = 0; tick < 600; ++tick) {
-    const LaneArray& command = senses.read(engine).command;
+    const robot::SensorFrame& read = senses.read(engine);
+    const LaneArray& command = read.command;
+    EXPECT_EQ(read.command_stop.at(0, 0), tick < 500 ? 0.0f : 1.0f);
+    EXPECT_EQ(read.command_stop.at(0, 1), 1.0f);
     EXPECT_EQ(command.at(0, 0), tick < 500 ? 0.3f : 0.0f);
     EXPECT_EQ(command.at(1, 0), tick < 500 ? 0.5f : 0.0f);
     EXPECT_EQ(command.at(0, 1), 0.0f);
