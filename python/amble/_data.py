@@ -17,6 +17,6 @@ def robots():
     found = {}
     for file in sorted(data_folder().glob("robots/*/*.toml")):
         kind, variant = file.parent.name, file.stem
-        if variant != "evolve":
+        if variant not in ("evolve", "steer"):
             found[kind if variant in (kind, "authors") else f"{kind}/{variant}"] = file
     return found
