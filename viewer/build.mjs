@@ -1,5 +1,5 @@
-// Makes dist/page.html, the page that amble fills with recordings: skeleton, style sheet, program and the
-// licences of what is in it, in one file. `--check` compares with what is there instead of writing.
+// Makes dist/page.html and dist/lab.html, the pages that amble fills with recordings and with robots: skeleton, style
+// sheet, program and the licences of what is in it, in one file. `--check` compares with what is there instead of writing.
 //
 // The result depends on the sources and on package-lock.json only: no time, no path, no host.
 import { build, transform } from "esbuild";
@@ -26,32 +26,36 @@ async function bundle(source, define = {}) {
   return outputFiles[0].text.trim();
 }
 
-/** The page's, which holds that of its worker as a text. */
-async function program() {
-  return bundle("src/main.js", { AMBLE_EVOLVE_WORKER: JSON.stringify(await bundle("src/evolve_worker.js")) });
-}
+/** A page: skeleton, style sheets, and a program that holds its worker's as a text. */
+const PAGES = [
+  { name: "page.html", skeleton: "src/page.html", styles: ["src/style.css"], program: "src/main.js", worker: ["AMBLE_EVOLVE_WORKER", "src/evolve_worker.js"] },
+  { name: "lab.html", skeleton: "src/lab/lab.html", styles: ["src/style.css", "src/lab/lab.css"], program: "src/lab/main.js", worker: ["AMBLE_LAB_WORKER", "src/lab/worker.js"] },
+];
 
-async function page() {
-  const style = (await transform(await read("src/style.css"), { loader: "css", minify: true })).code.trim();
-  const script = await program();
+async function make({ skeleton, styles, program, worker: [name, worker] }) {
+  const sheets = (await Promise.all(styles.map(read))).join("\n");
+  const style = (await transform(sheets, { loader: "css", minify: true })).code.trim();
+  const script = await bundle(program, { [name]: JSON.stringify(await bundle(worker)) });
   for (const [what, text] of [["program", script], ["style sheet", style]])
     if (/<\/(script|style)|<!--/i.test(text)) throw new Error(`the ${what} would end its element`);
   const licence = (await read("node_modules/three/LICENSE")).trim();
   const version = JSON.parse(await read("package.json")).dependencies.three;
   const parts = { style, script, licence: `three.js ${version}, https://threejs.org\n\n${licence}` };
-  return (await read("src/page.html")).replace(/<!--viewer:(\w+)-->/g, (_, name) => parts[name]);
+  return (await read(skeleton)).replace(/<!--viewer:(\w+)-->/g, (_, part) => parts[part]);
 }
 
-const made = await page();
-if (process.argv.includes("--check")) {
-  const committed = await read("dist/page.html").catch(() => "");
-  if (made !== committed) {
-    console.error("viewer/dist/page.html is not what its sources give: run `npm ci && npm run build` in viewer/");
-    process.exit(1);
+await mkdir(here + "dist", { recursive: true });
+for (const page of PAGES) {
+  const made = await make(page), file = `dist/${page.name}`;
+  if (process.argv.includes("--check")) {
+    const committed = await read(file).catch(() => "");
+    if (made !== committed) {
+      console.error(`viewer/${file} is not what its sources give: run \`npm ci && npm run build\` in viewer/`);
+      process.exit(1);
+    }
+    console.log(`viewer/${file} is what its sources give`);
+  } else {
+    await writeFile(here + file, made);
+    console.log(`${file}: ${(made.length / 1024).toFixed(0)} KiB`);
   }
-  console.log("viewer/dist/page.html is what its sources give");
-} else {
-  await mkdir(here + "dist", { recursive: true });
-  await writeFile(here + "dist/page.html", made);
-  console.log(`dist/page.html: ${(made.length / 1024).toFixed(0)} KiB`);
 }

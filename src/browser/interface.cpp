@@ -3,10 +3,12 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "amble/browser/evolution.hpp"
 #include "amble/browser/fused_check.hpp"
 #include "amble/browser/session.hpp"
+#include "amble/browser/texts.hpp"
 #include "amble/core/check.hpp"
 #include "amble/core/hash.hpp"
 
@@ -28,6 +30,17 @@ amble::browser::Evolution& started_evolution() {
 }
 
 }  // namespace
+
+namespace amble::browser {
+
+const std::string& taken_text() {
+  return text;
+}
+void give_text(std::string given) {
+  result = std::move(given);
+}
+
+}  // namespace amble::browser
 
 char* amble_text(std::size_t size) {
   text.assign(size, '\0');

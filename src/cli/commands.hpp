@@ -20,6 +20,7 @@ void add_robot(CLI::App& app, Action& action);
 void add_verify(CLI::App& app, Action& action);
 void add_page(CLI::App& app, Action& action);
 void add_view(CLI::App& app, Action& action);
+void add_lab(CLI::App& app, Action& action);
 void add_draw(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
 void add_adapt(CLI::App& app, Action& action);

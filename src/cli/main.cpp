@@ -73,7 +73,7 @@ void add_commands(CLI::App& app, amble::cli::Action& action) {
   using namespace amble::cli;
   const std::vector<Group> groups{
       {"Evolve", {add_evolve, add_resume, add_study}},
-      {"See", {add_view, add_page, add_repertoire, add_draw}},
+      {"See", {add_view, add_lab, add_page, add_repertoire, add_draw}},
       {"Measure", {add_trial, add_compare, add_gait, add_report, add_info, add_verify}},
       {"Take away, and adapt", {add_export, add_adapt}},
       {"Robots and settings", {add_robot, add_settings, add_substrate}},

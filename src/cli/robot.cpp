@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "amble/cli/commands.hpp"
+#include "amble/cli/data_folder.hpp"
 #include "amble/cli/help.hpp"
 #include "amble/experiment/problem.hpp"
 #include "amble/experiment/robot_folder.hpp"
@@ -21,24 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The config that a new one extends: in the source tree or the installation that this program is part of,
-/// or below the current folder.
-std::optional<fs::path> preset() {
-  std::error_code error;
-  std::vector<fs::path> folders;
-  for (fs::path at = fs::read_symlink("/proc/self/exe", error).parent_path(); at.has_relative_path();
-       at = at.parent_path()) {
-    folders.push_back(at);
-    folders.push_back(at / "share/amble");
-  }
-  folders.push_back(fs::current_path());
-  for (const fs::path& folder : folders)
-    if (fs::exists(folder / experiment::robot_preset, error)) return folder / experiment::robot_preset;
-  return std::nullopt;
-}
-
 ExitCode init_robot(const fs::path& model, const fs::path& folder) {
-  const auto written = experiment::write_robot_folder(model, folder, preset());
+  const auto written = experiment::write_robot_folder(model, folder, preset_of_robots());
   fmt::print("{}", written.text);
   return written.ready ? ExitCode::ok : ExitCode::bad_input;
 }

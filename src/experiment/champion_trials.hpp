@@ -5,7 +5,7 @@
 
 #include "amble/experiment/champion.hpp"
 #include "amble/experiment/config.hpp"
-#include "amble/experiment/stage_times.hpp"
+#include "amble/experiment/plan/stage_times.hpp"
 
 namespace amble::experiment {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "amble/experiment/evaluator.hpp"
+#include "amble/experiment/plan/told_generation.hpp"
 #include "amble/experiment/problem/episode_set.hpp"
 #include "amble/experiment/problem/objective.hpp"
 #include "amble/trial/scenario.hpp"
@@ -15,12 +16,6 @@ namespace amble::experiment {
 /// for a problem without noise. `ground` is that of their keys.
 std::vector<trial::Scenario> unseen_scenarios(const Problem& problem, std::int64_t seed, int first, int count,
                                               const ground::Ground* ground);
-/// The key of trial n of a set, and of its ground: of any genome, for sets that no generation has of its own.
-trial::ScenarioKey episode_key(EpisodeSet set, std::int64_t seed, std::uint32_t n = 0);
-
-/// What each trial of a genome counts in evolution: the problem's score, with its factor for falls.
-std::vector<double> credited_scores(const Problem& problem, std::span<const record::Trajectory> trials);
-
 /// The objective of each genome of a generation, by the problem's score; Morse et al. 2013, sec. 4: m.
 std::vector<double> objectives(const Problem& problem, const GenerationResult& result);
 

@@ -70,19 +70,7 @@ std::vector<std::size_t> finalists_of(std::span<const double> objectives, double
 }
 
 ToldGeneration told(const EvaluatedGeneration& evaluated, const score::Behaviour& behaviour) {
-  const std::size_t genomes = evaluated.objectives.size();
-  ToldGeneration all;
-  all.behaviours.reserve(genomes);  // the evaluations refer to what is in it
-  all.evaluations.reserve(genomes);
-  for (std::size_t i = 0; i < genomes; ++i) {
-    const auto episodes = evaluated.result.of_genome(i);
-    all.behaviours.push_back(behaviour.of(episodes));
-    const bool viable =
-        std::ranges::count(episodes, record::Outcome::diverged, &record::Trajectory::outcome) == 0;
-    all.evaluations.push_back(
-        {.objective = evaluated.objectives[i], .behaviour = all.behaviours.back(), .viable = viable});
-  }
-  return all;
+  return told(evaluated.result.trajectories, evaluated.result.episodes, evaluated.objectives, behaviour);
 }
 
 std::optional<EvaluatedGeneration> evaluate_generation(Evaluator& evaluator, const Problem& problem,

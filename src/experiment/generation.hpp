@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "amble/experiment/evaluator.hpp"
+#include "amble/experiment/plan/told_generation.hpp"
 #include "amble/experiment/problem.hpp"
 #include "amble/experiment/problem/evaluation_settings.hpp"
 #include "amble/score/behaviour.hpp"
@@ -30,11 +31,6 @@ std::optional<EvaluatedGeneration> evaluate_generation(Evaluator& evaluator, con
                                                        int generation, std::span<const neat::Genome> genomes,
                                                        const std::atomic<bool>& stop);
 
-/// What a search is told of a generation. May be moved, not copied: the evaluations refer to the behaviours.
-struct ToldGeneration {
-  std::vector<std::vector<float>> behaviours;
-  std::vector<search::Evaluation> evaluations;  ///< by genome; not viable: a trial of it diverged
-};
 ToldGeneration told(const EvaluatedGeneration& evaluated, const score::Behaviour& behaviour);
 
 /// Indices of the best share of the genomes, at least one, ascending; of equal objectives the first.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "amble/experiment/plan/size_settings.hpp"
 #include "amble/morphology/model_file.hpp"
 #include "amble/morphology/reading_notes.hpp"
 #include "amble/morphology/robot_guess.hpp"
@@ -32,21 +33,5 @@ struct EngineChoice {
   std::string engine, why_not_batch;
 };
 EngineChoice fastest_engine(const robot::RobotSpec& robot);
-
-/// Settings for a robot of another size than the presets' quadruped, by Froude's rule: times go with the
-/// square root of the legs' height over gravity, speeds with that of the legs' height times gravity. None for
-/// a robot of about that size.
-struct SizeSettings {
-  double leg_height_m = 0.0, preset_leg_height_m = 0.0;
-  double period_s = 0.0, push_m_s = 0.0, start_height_m = 0.0;
-};
-std::optional<SizeSettings> settings_of_size(const robot::RobotSpec& robot);
-
-/// The greatest commands for a robot, by the height of its hips over its feet (Froude): a brisk walk, and a
-/// turn of half a circle in some ten to twenty strides. None without legs on both sides.
-struct CommandSizes {
-  double leg_height_m = 0.0, most_speed_m_s = 0.0, most_turn_rad_s = 0.0;
-};
-std::optional<CommandSizes> commands_of_size(const robot::RobotSpec& robot);
 
 }  // namespace amble::experiment

@@ -8,7 +8,6 @@
 #include "amble/io/file.hpp"
 #include "amble/io/printable.hpp"
 #include "amble/morphology/robot_file.hpp"
-#include "amble/robot/check.hpp"
 
 namespace amble::experiment {
 namespace {
@@ -21,32 +20,6 @@ std::filesystem::path as_seen_from_here(const std::filesystem::path& file) {
 }
 
 }  // namespace
-
-Problem Problem::make(const Config& config, robot::RobotSpec robot) {
-  if (const auto fault = robot::gravity_fault(robot.gravity_m_s2); !fault.empty())
-    fail(ExitCode::bad_input, "robot '{}': {}", io::printable(robot.name), fault);
-  robot.bodies[0].position_m.z += config.drop_m;
-  robot.gravity_m_s2 = config.ground.tilted(robot.gravity_m_s2);
-  if (config.ground.friction >= 0.0) robot.contact.friction = config.ground.friction;
-  Problem problem{.robot = std::move(robot),
-                  .engine = config.engine,
-                  .cppn = config.cppn,
-                  .controller = config.controller,
-                  .trial = config.trial,
-                  .noise = config.noise,
-                  .score = config.score,
-                  .ground = config.ground,
-                  .damage = config.damage,
-                  .command = config.command,
-                  .engine_own = config.engine_own,
-                  .architecture = nullptr};
-  try {
-    problem.complete();
-  } catch (const SettingError& error) {
-    throw config.with_location(error);
-  }
-  return problem;
-}
 
 robot::RobotSpec load_robot_file(const std::filesystem::path& path, morphology::ReadingNotes* notes) {
   if (path.extension() != ".json") return morphology::load_robot(path, notes);

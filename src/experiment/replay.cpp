@@ -4,13 +4,8 @@
 #include "amble/ground/recorded.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/robot/json.hpp"
-#include "amble/score/tracking.hpp"
 
 namespace amble::experiment {
-
-record::Measures tracking_measures(const Problem& problem) {
-  return problem.command.kind == trial::CommandKind::none ? record::Measures() : score::tracking_measures;
-}
 
 std::optional<Replay> replay(const Problem& original, const neat::Genome& genome,
                              const ReplayOptions& options, const std::atomic<bool>& stop) {

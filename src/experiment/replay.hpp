@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "amble/experiment/champion.hpp"
+#include "amble/experiment/plan/told_generation.hpp"
 #include "amble/trial/observers.hpp"
 #include "amble/trial/trial.hpp"
 
@@ -30,9 +31,6 @@ struct Replay {
   std::vector<std::uint32_t> trace;       ///< trial::TraceObserver; empty unless ReplayOptions::trace
   double physics_s = 0.0;                 ///< time spent in the engine
 };
-
-/// What must be measured for TrialResult::tracking: nothing without commands.
-record::Measures tracking_measures(const Problem& problem);
 
 /// One trial of one genome, without noise unless an option sets it. Nothing if `stop` was set before it ended
 /// (then nothing is recorded). Throws UserError.

@@ -9,7 +9,7 @@
 
 #include "amble/experiment/config.hpp"
 #include "amble/experiment/evaluator.hpp"
-#include "amble/experiment/generation_row.hpp"
+#include "amble/experiment/plan/generation_row.hpp"
 #include "amble/experiment/problem.hpp"
 #include "amble/experiment/run_files.hpp"
 #include "amble/experiment/run_folder.hpp"

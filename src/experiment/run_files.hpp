@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "amble/experiment/config.hpp"
-#include "amble/experiment/generation_row.hpp"
+#include "amble/experiment/plan/generation_row.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/experiment/run_state.hpp"
 #include "amble/io/file.hpp"

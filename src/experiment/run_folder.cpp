@@ -14,6 +14,7 @@
 #include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
 #include "amble/experiment/build_info.hpp"
+#include "amble/experiment/plan/manifest.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/shell.hpp"
@@ -22,9 +23,6 @@ namespace amble::experiment {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view manifest_format = "amble-manifest";
-/// The version of the run folder as a whole: raised whenever an older program's run could not go on here.
-constexpr int run_version = 6;
 constexpr std::string_view lock_name = ".lock";
 
 std::string champion_name(int generation) {
@@ -256,11 +254,7 @@ void RunFolder::note_process(const Config& config, int jobs, int from_generation
                                     .cpu = cpu_name(),
                                     .jobs = jobs,
                                     .from_generation = from_generation}));
-  io::write_file(paths_.manifest, io::sealed_json(manifest_format, run_version,
-                                                  {{"name", config.name},
-                                                   {"seed", config.seed},
-                                                   {"engine", config.engine},
-                                                   {"processes", processes}}));
+  io::write_file(paths_.manifest, manifest_text(config, processes));
 }
 
 }  // namespace amble::experiment

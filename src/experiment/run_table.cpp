@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "amble/core/error.hpp"
-#include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"
-#include "amble/experiment/generation_row.hpp"
+#include "amble/experiment/plan/generation_row.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/printable.hpp"
 #include "amble/io/shell.hpp"
@@ -122,16 +121,6 @@ class TableCheck {
 };
 
 }  // namespace
-
-std::uint64_t table_digest(std::uint64_t before, std::string_view header, std::string_view line) {
-  const auto names = io::split(without_end(header), ',');
-  const auto untimed = std::ranges::find(names, record::column::wall_s) - names.begin();
-  std::size_t end = 0;
-  for (auto column = untimed; column > 0 && end < line.size(); --column)
-    end = std::min(line.find(',', end), line.size() - 1) + 1;
-  const std::uint64_t digest = hash_bytes(line.data(), end, before);
-  return digest == 0 ? 1 : digest;
-}
 
 std::uint64_t check_table(const RunPaths& paths, const Progress& progress, const search::Strategy& strategy) {
   return TableCheck(paths, strategy).check(progress);

@@ -1,18 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
-#include <string_view>
 
-#include "amble/experiment/checkpoint.hpp"
+#include "amble/experiment/plan/checkpoint.hpp"
+#include "amble/experiment/plan/table_digest.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/search/strategy.hpp"
 
 namespace amble::experiment {
-
-/// The digest of a run's table after one more line (the header is the first, after 0): of all columns but
-/// times, so the same for any number of workers. Never 0.
-std::uint64_t table_digest(std::uint64_t before, std::string_view header, std::string_view line);
 
 /// Compares generations.csv with what the run wrote, before anything is cut off it: rows up to the
 /// checkpoint's, to the bit if it has their digest; after them no more than a killed process may have left.

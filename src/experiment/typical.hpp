@@ -12,30 +12,13 @@
 
 #include "amble/experiment/champion.hpp"
 #include "amble/experiment/evaluator.hpp"
+#include "amble/experiment/plan/typical_level.hpp"
 #include "amble/score/typical.hpp"
 
 namespace amble::experiment {
 
-/// In place of a level's name: the noise of the run itself.
-inline constexpr std::string_view own_noise = "own";
-
-/// Trials that tell what a walker typically does while a run goes on.
-inline constexpr int running_trials = 16;
-/// The same for what commands say of it: 64, or 16 in an engine that has one lane.
+/// Trials that tell it where commands do: 64, or 16 in an engine that has one lane.
 int reported_trials(std::string_view engine);
-
-/// What disturbs a problem's typical trials.
-struct TypicalLevel {
-  std::string name;  ///< of a record::Level, or `own_noise`; empty: noise from elsewhere
-  trial::NoiseSettings noise;
-  std::string from = {};  ///< where that noise is from: a config's name
-
-  /// "under its own noise", "at the level milli" or "under the noise of windy.toml".
-  std::string under() const;
-};
-/// `asked`: a level's name, or `own_noise`; empty: own noise where the problem has some, else
-/// record::default_level. Throws UserError for an unknown level, and for own noise where there is none.
-TypicalLevel typical_level(const Problem& problem, const std::string& asked = {});
 
 /// The [noise] of a config. Throws UserError if it is none.
 TypicalLevel level_of_config(const std::filesystem::path& config);
@@ -65,11 +48,6 @@ class TypicalTrials {
   std::vector<trial::Scenario> scenarios_;
   std::unique_ptr<Evaluator> evaluator_;
 };
-
-/// The typical distance of the trials, m.
-score::Typical typical_distance(std::span<const TrialResult> trials);
-/// The same of what they count in evolution: the problem's score, with its factor for falls.
-score::Typical typical_objective(const Problem& problem, std::span<const TrialResult> trials);
 
 /// The trial that shows what is typical: that of the median distance; of an even number the lower one of the
 /// two in the middle.

@@ -24,8 +24,8 @@ class InputFile {
 
  private:
   std::filesystem::path path_;
-  int fd_ = -1;        ///< −1: from memory
-  std::string bytes_;  ///< then all of them
+  [[maybe_unused]] int fd_ = -1;  ///< −1: from memory
+  std::string bytes_;             ///< then all of them
   std::size_t position_ = 0;
 };
 

@@ -19,6 +19,12 @@ amble_view_module_begin:
   .incbin ")asm" AMBLE_BROWSER_MODULE R"asm("
 amble_view_module_end:
   .byte 0
+  .global amble_lab_page_begin
+  .global amble_lab_page_end
+amble_lab_page_begin:
+  .incbin ")asm" AMBLE_LAB_PAGE R"asm("
+amble_lab_page_end:
+  .byte 0
   .popsection
 )asm");
 
@@ -27,12 +33,18 @@ extern const char amble_view_page_begin[];
 extern const char amble_view_page_end[];
 extern const char amble_view_module_begin[];
 extern const char amble_view_module_end[];
+extern const char amble_lab_page_begin[];
+extern const char amble_lab_page_end[];
 }
 
 namespace amble::page {
 
 std::string_view page_template() {
   return {amble_view_page_begin, to_index(amble_view_page_end - amble_view_page_begin)};
+}
+
+std::string_view lab_template() {
+  return {amble_lab_page_begin, to_index(amble_lab_page_end - amble_lab_page_begin)};
 }
 
 std::string_view browser_module() {

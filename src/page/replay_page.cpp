@@ -14,8 +14,8 @@
 #include "amble/io/xml.hpp"
 #include "amble/page/packed_recording.hpp"
 #include "amble/page/page_template.hpp"
+#include "amble/page/template_marks.hpp"
 #include "amble/record/frame_codec.hpp"
-#include "amble/robot/deflate.hpp"
 
 namespace amble::page {
 namespace {
@@ -67,34 +67,10 @@ io::Json walker_json(const Walker& walker) {
           {"champion", walker.champion.empty() ? io::Json(nullptr) : io::Json(walker.champion)}};
 }
 
-/// JSON for the content of a <script> element: pure ASCII and without "<", which occurs in strings only.
-std::string script_text(const io::Json& json) {
-  std::string text;
-  for (const char c : json.dump(-1, ' ', true, io::Json::error_handler_t::replace)) {
-    if (c == '<')
-      text += "\\u003c";
-    else
-      text += c;
-  }
-  return text;
-}
-
 /// The WebAssembly module, where a walker can be simulated.
-std::string module_element(const ReplayPage& page) {
+std::string module_where_needed(const ReplayPage& page) {
   const auto has_champion = [](const Walker& walker) { return !walker.champion.empty(); };
-  if (std::ranges::none_of(page.walkers, has_champion)) return {};
-  return "<script type=\"text/plain\" id=\"amble-module\">" +
-         io::base64(robot::deflated(std::string(browser_module()))) + "</script>";
-}
-
-/// Appends the template up to a mark, then `content` instead of the mark; returns the rest.
-std::string_view fill(std::string_view rest, std::string_view mark, std::string_view content,
-                      std::string& page) {
-  const auto at = rest.find(mark);
-  AMBLE_CHECK(at != std::string_view::npos, "the page's template has all marks, in order");
-  page += rest.substr(0, at);
-  page += content;
-  return rest.substr(at + mark.size());
+  return std::ranges::any_of(page.walkers, has_champion) ? module_element() : std::string();
 }
 
 }  // namespace
@@ -116,7 +92,7 @@ std::string make_page(const ReplayPage& page) {
   rest = fill(rest, "<!--amble:palette-->", "<style>" + style + "</style>", html);
   rest = fill(rest, "<!--amble:data-->",
               "<script type=\"application/json\" id=\"amble-data\">" + script_text(data) + "</script>", html);
-  rest = fill(rest, "<!--amble:module-->", module_element(page), html);
+  rest = fill(rest, "<!--amble:module-->", module_where_needed(page), html);
   html += rest;
   return html;
 }

@@ -1,4 +1,4 @@
-#include "amble/experiment/generation_row.hpp"
+#include "amble/experiment/plan/generation_row.hpp"
 
 #include <gtest/gtest.h>
 

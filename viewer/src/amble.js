@@ -64,17 +64,24 @@ export class Machine {
   text(at, size) {
     return new TextDecoder().decode(new Uint8Array(this.exports.memory.buffer, at, size));
   }
-  /** Calls a function that takes a text. */
-  give(name, text) {
-    const bytes = new TextEncoder().encode(text);
+  /** Calls a function that takes a text, or bytes. */
+  give(name, content, ...numbers) {
+    const bytes = typeof content === "string" ? new TextEncoder().encode(content) : content;
     const at = this.exports.amble_text(bytes.length);
     new Uint8Array(this.exports.memory.buffer, at, bytes.length).set(bytes);
-    this.exports[`amble_${name}`]();
+    this.exports[`amble_${name}`](...numbers);
   }
   /** Calls a function that gives a text. */
-  take(name) {
-    this.exports[`amble_${name}`]();
+  take(name, ...numbers) {
+    this.exports[`amble_${name}`](...numbers);
+    return this.given();
+  }
+  /** What the last function that gives a text gave; the same as bytes, copied. */
+  given() {
     return this.text(this.exports.amble_result(), this.exports.amble_result_size());
+  }
+  givenBytes() {
+    return new Uint8Array(this.exports.memory.buffer, this.exports.amble_result(), this.exports.amble_result_size()).slice();
   }
   isExact() {
     return this.exports.amble_is_exact() === 1;

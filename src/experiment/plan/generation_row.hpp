@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "amble/experiment/stage_times.hpp"
+#include "amble/experiment/plan/stage_times.hpp"
 #include "amble/record/trajectory.hpp"
 #include "amble/score/typical.hpp"
 #include "amble/search/metric.hpp"

@@ -1,0 +1,106 @@
+// What can be chosen, as a form.
+import { element } from "../theme.js";
+import { group, row, slider } from "../widgets.js";
+
+const select = (options) => element("select", {}, ...options.map(([value, text]) => element("option", { value }, text)));
+const count = (min, max, step = 1) => element("input", { type: "number", min, max, step, inputmode: "numeric" });
+
+const CONTROLLERS = [["supg", "SUPGs: a touch starts each leg’s movement"], ["together", "SUPGs, all legs start together"],
+                     ["sine", "A network with a sine wave"], ["ctrnn", "Neurons that swing by themselves (CTRNN)"]];
+const SEARCHES = [["objective", "Distance: who gets farthest has children"], ["novelty", "Novelty: who ends where nobody was"],
+                  ["map-elites", "A map: the best of each kind (MAP-Elites)"]];
+const MUTATIONS = [["all", "Weights, nodes and links"], ["weights", "Weights only: no growth"], ["none", "None: children are only mixed"]];
+const NOISES = [["none", "None: each walk repeats exactly"], ["little", "A little: other starts"], ["strong", "A lot: pushes, slips, wrong sensors"]];
+const GROUNDS = ["plane", "hills", "rough", "stones", "blocks", "stairs", "hurdles"].map((kind) => [kind, kind === "plane" ? "flat" : kind]);
+const GRAVITIES = [["1", "Earth"], ["0.38", "Mars (38 %)"], ["0.17", "Moon (17 %)"], ["2.5", "Jupiter (250 %)"]];
+
+export class Form {
+  /** `changed(key)` is called after the user has chosen. */
+  constructor(robots, changed) {
+    Object.assign(this, { changed, fields: new Map(), rows: [] });
+    this.run = group("The run",
+      this.field("robot", "Robot", select(robots.map(({ id, name }) => [id, name]))), this.field("controller", "Controller", select(CONTROLLERS)),
+      this.field("search", "Who has children", select(SEARCHES)), this.field("population", "Population", slider(10, 200, 10, 60), ({ population }) => `${population}`),
+      this.field("generations", "Generations", count(1, 5000)), this.field("seconds", "Length of a trial", slider(2, 20, 1, 8), ({ seconds }) => `${seconds} s`),
+      this.field("seed", "Seed (which dice)", count(0, 999999)));
+    this.more = element("details", {}, element("summary", {}, "More: feet, mutation, a lost leg"),
+      this.field("feels", "Feels its feet", element("input", { type: "checkbox" })), this.field("mutation", "Mutation", select(MUTATIONS)),
+      this.field("lost", "It loses a leg", select([["never", "never"], ["first", "its first"]])), this.field("lostAt", "at generation", count(1, 5000)));
+    this.run.append(this.more);
+    this.world = group("The world",
+      this.field("noise", "Noise", select(NOISES)), this.field("ground", "Ground", select(GROUNDS)),
+      this.field("roughness", "How rough", slider(0.04, 0.4, 0.02, 0.12), ({ roughness }) => `${Math.round(100 * roughness)} % of a leg`),
+      this.field("slope", "Uphill", slider(-0.3, 0.3, 0.02, 0), ({ slope }) => `${Math.round(100 * slope)} %`.replace("-", "−")),
+      this.field("gravity", "Gravity", select(GRAVITIES)), this.field("missing", "Leg that is missing", select([["", "none"]])));
+  }
+
+  field(key, name, control, text = () => "") {
+    const made = row(name, control, () => text(this.values()));
+    control.name = key;
+    control.addEventListener("input", () => this.show());
+    control.addEventListener("change", () => this.changed(key));
+    this.fields.set(key, control);
+    this.rows.push({ ...made, control });
+    return made.label;
+  }
+
+  values() {
+    const values = {};
+    for (const [key, control] of this.fields) values[key] = valueOf(key, control);
+    return values;
+  }
+
+  set(values) {
+    for (const [key, value] of Object.entries(values)) {
+      const control = this.fields.get(key);
+      if (!control) continue;
+      if (control.type === "checkbox") control.checked = value;
+      else control.value = String(value);
+      if (control.tagName === "SELECT" && control.selectedIndex < 0) control.selectedIndex = 0;
+    }
+    this.show();
+  }
+
+  /** A robot of one's own among the others. */
+  addRobot(id, name) {
+    const robots = this.fields.get("robot");
+    [...robots.options].find((option) => option.value === id)?.remove();
+    robots.prepend(element("option", { value: id }, name));
+  }
+
+  /** The legs and controllers that the robot has. */
+  setRobot({ facts, configs }) {
+    const missing = this.fields.get("missing"), chosen = missing.value;
+    missing.replaceChildren(element("option", { value: "" }, "none"), ...facts.legs.map((leg) => element("option", { value: leg }, leg.replaceAll("_", " "))));
+    missing.value = facts.legs.includes(chosen) ? chosen : "";
+    const controllers = this.fields.get("controller");
+    for (const option of controllers.options) option.disabled = !configs[option.value];
+    if (controllers.selectedOptions[0]?.disabled) controllers.value = "supg";
+    this.show();
+  }
+
+  /** While a run goes on only its world can be changed. */
+  lock(locked) {
+    this.locked = locked;
+    this.show();
+  }
+
+  show() {
+    const now = this.values();
+    for (const { show } of this.rows) show();
+    for (const control of this.run.querySelectorAll("input, select")) control.disabled = Boolean(this.locked);
+    const can = (key, possible) => (this.fields.get(key).disabled = !possible);
+    can("roughness", now.ground !== "plane");
+    if (this.locked) return;
+    can("feels", ["supg", "together"].includes(now.controller));
+    can("lostAt", now.lost !== "never");
+    can("mutation", now.search !== "map-elites");
+  }
+}
+
+function valueOf(key, control) {
+  if (control.type === "checkbox") return control.checked;
+  if (control.tagName === "SELECT") return key === "gravity" ? Number(control.value) : control.value;
+  const value = Number(control.value), { min, max } = control;
+  return Math.min(Math.max(Number.isFinite(value) ? value : Number(min), Number(min)), Number(max));
+}

@@ -1,0 +1,360 @@
+// The lab: form, lesson, a run, and what is shown of it.
+import { Machine } from "../amble.js";
+import { Patterns } from "../patterns.js";
+import { number } from "../plot.js";
+import { element, onThemeChange } from "../theme.js";
+import { drawCppn } from "./cppn.js";
+import { Curve } from "./curve.js";
+import { Ends } from "./ends.js";
+import { Evolution } from "./evolution.js";
+import { download, readFile, runBlob } from "./files.js";
+import { Form } from "./form.js";
+import { lessonList } from "./lesson.js";
+import { MapView } from "./map_view.js";
+import { DEFAULTS, WORLD, changedPlan, configsFor, planOf } from "./plan.js";
+import { LabStage } from "./stage.js";
+import { Thread } from "./thread.js";
+import { Toolbar } from "./toolbar.js";
+
+const SAY_EVERY = 10; // generations, to screen readers
+const PREVIEW_MS = 250; // after the last change of a setting
+const SUPG_NOTE = "Each leg’s joints, over one cycle of its timer. The line is where the leg is now; touch sends it back to the start.";
+const byId = (id) => document.getElementById(id);
+
+export class Lab {
+  constructor(module, robots, { threads, still }) {
+    Object.assign(this, { module, threads, robots: new Map(robots.map((robot) => [robot.id, robot])), progress: null, best: null, still });
+    this.form = new Form(robots, (key) => this.chosen(key));
+    byId("settings").append(this.form.run, this.form.world);
+    byId("lesson").append(lessonList((experiment, step) => this.setUp(experiment, step)));
+    this.toolbar = new Toolbar(this);
+    this.curve = new Curve();
+    this.ends = new Ends();
+    this.map = new MapView((cell) => this.attempt(() => this.showElite(cell)));
+    byId("curves").append(this.curve.element);
+    byId("ends").append(this.ends.element);
+    byId("cells").append(this.map.element);
+    this.stage = new LabStage(module, byId("stage"), {
+      now: (walk, time_s) => this.showNow(time_s), shown: (walk) => this.showInside(walk),
+      trouble: (error) => this.complain(error.message), noPicture: () => this.noPicture(),
+    });
+    onThemeChange(() => this.repaint());
+    this.openDropped();
+  }
+
+  async begin() {
+    for (const robot of this.robots.values()) robot.facts = await this.facts(robot.text);
+    this.form.set({ ...DEFAULTS, ...WORLD });
+    this.form.setRobot(this.robot());
+    await this.preview();
+  }
+
+  robot() {
+    return this.robots.get(this.form.values().robot) ?? this.robots.values().next().value;
+  }
+
+  /** What the module says of a robot's or champion's file. */
+  async facts(text) {
+    const machine = await Machine.start(this.module);
+    machine.give("robot_facts", text);
+    const facts = JSON.parse(machine.given()), json = JSON.parse(text);
+    return { ...facts, root_height_m: json.robot.bodies[0].position_m[2] };
+  }
+
+  // What the user does.
+
+  /** Does something that may fail with a message. */
+  async attempt(action) {
+    byId("trouble").hidden = true;
+    try {
+      return await action();
+    } catch (error) {
+      this.complain(error.message);
+    }
+  }
+
+  chosen(key) {
+    if (key === "robot") this.form.setRobot(this.robot());
+    if (!this.evolution) {
+      clearTimeout(this.waiting);
+      this.waiting = setTimeout(() => this.attempt(() => this.preview()), PREVIEW_MS);
+    } else if (key in WORLD) {
+      this.changeWorld();
+    }
+  }
+
+  setUp(experiment, step) {
+    if (this.evolution) this.anew();
+    if (this.experiment !== experiment.id) this.curve.forget();
+    this.experiment = experiment.id;
+    this.stepName = experiment.steps.length > 1 ? step.name : experiment.title;
+    const { robot } = this.form.values();
+    this.form.set({ ...DEFAULTS, ...WORLD, robot, ...step.set });
+    this.form.setRobot(this.robot());
+    this.attempt(() => this.preview());
+    this.say(`${experiment.title}: ${step.name}. The settings are in place; press Start.`);
+    this.toolbar.start.focus({ preventScroll: true });
+    byId("control").scrollIntoView({ block: "nearest", behavior: matchMedia("(prefers-reduced-motion: reduce)").matches ? "auto" : "smooth" });
+  }
+
+  /** Start, pause or go on. */
+  toggle() {
+    return this.attempt(async () => {
+      if (!this.evolution) await this.start();
+      else if (this.evolution.state === "running") this.pause();
+      else this.goOn();
+    });
+  }
+
+  async start() {
+    const settings = this.form.values(), robot = this.robot(), plan = planOf(settings, robot);
+    this.toolbar.busy("Starting");
+    try {
+      await this.open(plan, settings);
+    } catch (error) {
+      this.anew();
+      throw error;
+    }
+    if (settings.lost !== "never" && robot.facts.legs.length > 1)
+      this.evolution.changeAt(settings.lostAt, changedPlan(plan, { ...settings, missing: robot.facts.legs[0] }, robot));
+    this.goOn();
+  }
+
+  async open(plan, settings, files = null) {
+    clearTimeout(this.waiting);
+    this.evolution = new Evolution(this.module, this.threads, {
+      generation: (progress, champion) => this.take(progress, champion), ended: () => this.ended(),
+      changed: (generation) => this.worldChanged(generation), trouble: (error) => this.broken(error),
+    });
+    Object.assign(this, { settings, progress: null, best: null, began_ms: performance.now(), steps: 0 });
+    this.names = await this.evolution.open(plan, files);
+    this.curve.begin(this.runName(settings));
+    this.ends.begin();
+    this.map.begin();
+    byId("map").hidden = settings.search !== "map-elites";
+    this.form.lock(true);
+    this.refresh();
+  }
+
+  runName(settings) {
+    return this.stepName ?? `${this.robot().name}, seed ${settings.seed}`;
+  }
+
+  goOn() {
+    this.evolution.goOn();
+    this.say("Evolution runs.");
+    this.refresh();
+  }
+  pause() {
+    this.evolution.pause();
+    this.say("Evolution pauses.");
+    this.refresh();
+  }
+
+  /** Ends the run; settings can be chosen again. */
+  anew() {
+    this.evolution?.stop();
+    Object.assign(this, { evolution: null, progress: null });
+    this.form.lock(false);
+    byId("places").hidden = true;
+    this.refresh();
+  }
+
+  changeWorld() {
+    const { evolution } = this, settings = this.form.values();
+    if (["ended", "broken"].includes(evolution.state)) return;
+    this.settings = { ...this.settings, ...settings };
+    evolution.changeAt(evolution.generation, changedPlan(evolution.plan, settings, this.robot()));
+    this.say("The world changes with the next generation.");
+  }
+
+  // What the run says.
+
+  take(progress, champion) {
+    this.progress = progress;
+    this.steps = progress.steps;
+    if (champion) {
+      this.best = { text: champion, generation: progress.generation };
+      const title = `Best of generation ${progress.generation}`;
+      this.attempt(() => this.stage.show(champion, title, { soon: !this.stage.walk || this.stage.random }));
+      this.stage.random = false;
+    }
+    this.curve.add({ ...progress, ends: undefined, map: undefined });
+    byId("places").hidden = false;
+    this.ends.add(progress);
+    this.map.add(progress);
+    if (progress.generation % SAY_EVERY === 0) this.say(this.summary());
+    this.refresh();
+  }
+
+  summary() {
+    const { generation, best, best_so_far, median, fell, species } = this.progress;
+    return `Generation ${generation}: best ${number(best, 2)} m, median ${number(median, 2)} m, best so far ${number(best_so_far, 2)} m; ${fell} fell; ${species.length} species.`;
+  }
+
+  worldChanged(generation) {
+    this.curve.mark(generation);
+    const { settings } = this;
+    if (settings.lost !== "never" && settings.lostAt === generation) this.form.set({ missing: this.robot().facts.legs[0] });
+    this.say(`Generation ${generation}: the world is another one. The best starts anew.`);
+  }
+  ended() {
+    this.say(`The run is over. ${this.summary()}`);
+    this.refresh();
+  }
+  broken(error) {
+    this.complain(`The run ended: ${error.message}. Its best walker can still be saved.`);
+    this.refresh();
+  }
+
+  // What is shown.
+
+  /** The robot with a first random network. */
+  async preview() {
+    const settings = this.form.values(), plan = planOf(settings, this.robot());
+    this.looker?.die();
+    const looker = (this.looker = new Thread(this.module));
+    try {
+      await looker.ask("plan", plan);
+      this.names = await looker.ask("begin");
+      const text = await looker.ask("first");
+      if (looker !== this.looker || this.evolution) return;
+      this.best = null;
+      await this.stage.show(text, "A random network");
+      this.stage.random = true;
+      if (!this.still) this.stage.clock.play();
+      this.refresh();
+    } catch (error) {
+      if (looker === this.looker) throw error;
+    } finally {
+      looker.die();
+    }
+  }
+
+  async showElite(cell) {
+    const text = await this.evolution.elite(cell);
+    this.best = { text, generation: this.progress.generation };
+    await this.stage.show(text, "Of the map");
+    this.stage.clock.play();
+  }
+
+  showNow(time_s) {
+    const story = this.stage.story(time_s);
+    if (byId("story").textContent !== story) byId("story").textContent = story;
+    this.patterns?.show(time_s);
+  }
+
+  showInside(walk) {
+    const { genome } = JSON.parse(this.stage.text);
+    byId("inside").hidden = false;
+    byId("cppn").replaceChildren(drawCppn(genome, this.names));
+    this.patterns = walk.supg ? new Patterns(walk) : null;
+    byId("patterns").replaceChildren(...(this.patterns ? [element("p", { class: "lead" }, SUPG_NOTE), this.patterns.element]
+      : [element("p", { class: "lead" }, "This controller has no patterns over time: the network gives the weights of the neurons that move the joints.")]));
+    this.patterns?.show(0);
+  }
+
+  refresh() {
+    this.toolbar.show();
+  }
+  repaint() {
+    this.stage.paint();
+    this.curve.picture.repaint();
+    this.ends.picture.repaint();
+  }
+  noPicture() {
+    byId("stage").append(element("p", { class: "no-stage" }, "This browser shows no 3-D pictures (no WebGL). Evolution and diagrams work without."));
+  }
+
+  say(text) {
+    byId("said").textContent = text;
+  }
+  complain(text) {
+    const trouble = byId("trouble");
+    trouble.hidden = false;
+    trouble.textContent = text;
+    trouble.scrollIntoView({ block: "nearest" });
+  }
+
+  // Files.
+
+  saveBest() {
+    download(new Blob([this.best.text], { type: "application/json" }), "champion.json");
+  }
+  async saveRun() {
+    const { history, marks } = this.curve;
+    download(runBlob(await this.evolution.files(), { settings: { ...this.settings, ...this.form.values() }, robot: { name: this.robot().name }, history, marks }), "amble-run.tar");
+  }
+
+  openDropped() {
+    const over = (event, on) => {
+      if (![...event.dataTransfer.types].includes("Files")) return;
+      event.preventDefault();
+      document.body.classList.toggle("dropping", on);
+    };
+    addEventListener("dragover", (event) => over(event, true));
+    addEventListener("dragleave", (event) => over(event, false));
+    addEventListener("drop", (event) => {
+      over(event, false);
+      if (event.dataTransfer.files[0]) this.openFile(event.dataTransfer.files[0]);
+    });
+  }
+
+  openFile(file) {
+    return this.attempt(async () => {
+      try {
+        const read = readFile(new Uint8Array(await file.arrayBuffer()));
+        if (read.run) await this.openRun(read.run);
+        else await this.openRobot(read.champion ?? read.robot, read.champion);
+      } catch (error) {
+        throw new Error(`${file.name} was not opened: ${error.message}`);
+      }
+    });
+  }
+
+  async openRobot(text, champion) {
+    const facts = await this.facts(text);
+    if (!facts.legs.length) throw new Error("its robot has no legs");
+    this.anew();
+    this.addRobot("own", facts, text);
+    this.form.set({ ...this.form.values(), robot: "own" });
+    this.form.setRobot(this.robot());
+    await this.preview();
+    if (!champion) return this.say(`${facts.name} is chosen. Press Start to evolve it.`);
+    this.names = { inputs: [], outputs: [] };
+    this.best = { text, generation: JSON.parse(text).generation };
+    await this.stage.show(text, "From the file");
+    this.stage.random = true;
+    this.refresh();
+  }
+
+  addRobot(id, facts, text, gravity = 1) {
+    const [model] = this.robots.values(), name = `${facts.name} (yours)`;
+    this.robots.set(id, { id, name, text, facts, gravity, configs: configsFor(facts, model) });
+    this.form.addRobot(id, name);
+  }
+
+  async openRun({ files, plan, memory, robot }) {
+    const facts = await this.facts(robot), { settings, history, marks } = memory;
+    this.anew();
+    this.addRobot("own", facts, robot, settings.gravity);
+    this.form.set({ ...DEFAULTS, ...WORLD, ...settings, robot: "own" });
+    this.form.setRobot(this.robot());
+    this.form.set({ missing: settings.missing });
+    this.stepName = undefined;
+    try {
+      await this.open(plan, { ...settings, robot: "own" }, files);
+    } catch (error) {
+      this.anew();
+      throw error;
+    }
+    Object.assign(this.curve, { history: history.slice(0, this.evolution.generation), marks });
+    this.curve.show();
+    this.progress = this.curve.history.at(-1) ?? null;
+    const text = await this.evolution.champion();
+    this.best = { text, generation: this.progress?.best_generation ?? 0 };
+    await this.stage.show(text, `Best of generation ${this.best.generation}`);
+    this.say(`The run is open: ${this.evolution.generation} generations are over. Press Go on.`);
+    this.refresh();
+  }
+}

@@ -1,0 +1,112 @@
+// The best walker, walking in the 3-D picture; when its time is over it begins again, or gives way to a better one.
+import { LiveRobot } from "../amble.js";
+import { Clock } from "../clock.js";
+import { Drag } from "../drag.js";
+import { LiveWalk } from "../live_walk.js";
+import { number } from "../plot.js";
+import { Stage } from "../scene.js";
+
+const PAUSE_S = 0.6; // after a walk, before the next
+
+export class LabStage {
+  /** `parent`: where the picture goes; `now(text)`: what it does, for those who look; `shown(walk)`: another walker. */
+  constructor(module, parent, hear) {
+    Object.assign(this, { module, parent, hear, next: null });
+    this.clock = new Clock(0);
+    this.clock.listen(() => this.invalidate());
+    new ResizeObserver(() => this.invalidate()).observe(parent);
+  }
+
+  /** Lets a champion's file walk: at once, or when the walk of now is over. */
+  async show(text, title, { soon = true } = {}) {
+    this.next = { text, title };
+    if (soon || !this.walk || !this.clock.playing) await this.takeNext();
+  }
+
+  async takeNext() {
+    const { text, title } = this.next;
+    this.next = null;
+    const live = await LiveRobot.open(this.module, text), { name, joints } = live.describe().robot;
+    const same = this.walk && name === this.robotName && joints.length === this.joints;
+    if (same) this.walk.become(live);
+    else this.begin(live, title);
+    Object.assign(this, { title, robotName: name, joints: joints.length, text });
+    this.again();
+    this.hear.shown(this.walk);
+  }
+
+  begin(live, title) {
+    this.walk = new LiveWalk(live, { title, origin: "", cppn_svg: null });
+    this.stage?.renderer.dispose();
+    this.stage?.canvas.remove();
+    this.stage?.paper.remove();
+    this.stage = null;
+    try {
+      this.stage = new Stage(this.parent, [this.walk], () => this.invalidate());
+      this.drag = new Drag(this.stage, this);
+    } catch (error) {
+      console.info(error.message);
+      this.hear.noPicture();
+    }
+    this.clock.more = (until_s) => {
+      const reached_s = this.walk.advance(Math.min(until_s, this.duration_s));
+      return this.walk.outcome === "diverged" ? this.duration_s : reached_s;
+    };
+  }
+
+  /** From its start, if it may move. */
+  again() {
+    if (this.walk.seconds > 0) this.walk.restart({ asEvolved: true });
+    this.duration_s = this.walk.description.duration_s;
+    this.over_s = 0;
+    this.clock.duration_s = 0;
+    this.clock.seek(0);
+    this.stage?.renew(0, this.missing());
+    this.stage?.resetCamera();
+    this.invalidate();
+  }
+
+  missing() {
+    const names = this.walk.description.damage.parts.filter(({ kind }) => kind === "missing").map(({ leg }) => leg);
+    return names.map((name) => this.walk.robot.legs.findIndex((leg) => leg.name === name));
+  }
+
+  invalidate() {
+    if (this.asked || this.showing || !this.walk) return;
+    this.asked = true;
+    requestAnimationFrame((now_ms) => this.frame(now_ms));
+  }
+
+  frame(now_ms) {
+    this.asked = false;
+    this.drag?.update();
+    const passed_s = this.clock.playing && this.last_ms !== undefined ? Math.min((now_ms - this.last_ms) / 1000, 0.1) : 0;
+    this.last_ms = this.clock.playing ? now_ms : undefined;
+    if (passed_s > 0) this.move(passed_s);
+    this.showing = true;
+    if (this.stage) {
+      this.stage.resize();
+      this.stage.show(Math.min(this.clock.time_s, this.walk.seconds));
+    }
+    this.hear.now(this.walk, Math.min(this.clock.time_s, this.walk.seconds));
+    this.showing = false;
+    if (this.clock.playing) this.invalidate();
+  }
+
+  move(passed_s) {
+    if (this.walk.seconds < this.duration_s - 1e-9 && this.walk.outcome !== "diverged") return this.clock.advance(passed_s);
+    this.over_s += passed_s;
+    if (this.over_s < PAUSE_S || this.drag?.held) return;
+    if (this.next) this.takeNext().catch((error) => this.hear.trouble(error));
+    else this.again();
+  }
+
+  paint() {
+    this.stage?.paint();
+    this.invalidate();
+  }
+
+  story(time_s) {
+    return `${this.title}: ${number(this.walk.distance(time_s), 2)} m after ${number(time_s, 1)} s.`;
+  }
+}
