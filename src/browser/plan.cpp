@@ -22,6 +22,9 @@ experiment::Config config_in(const io::JsonView& plan) {
     fail(ExitCode::bad_input, "champion.episodes = {}: expected 0 in a page", config.champion.episodes);
   if (config.evaluation.finalists > 0.0)
     fail(ExitCode::bad_input, "evaluation.finalists = {}: expected 0 in a page", config.evaluation.finalists);
+  if (config.search.map_elites.tries_candidates_again())  // there WebAssembly could have other bits
+    fail(ExitCode::bad_input, "search.map_elites.trials = {}: expected 1 in a page",
+         config.search.map_elites.trials);
   if (plan.has("new") && plan.at("new").flag())
     config.neat.speciation.scale_targets(config.neat.population.size);
   config.validate();

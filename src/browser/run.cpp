@@ -71,13 +71,13 @@ void Run::restore(const Files& files) {
   if (!logs.empty()) {
     log_ = file_of(files, logs[0]);
     io::InputFile file(log_, logs[0]);
-    log_.resize(to_index(strategy.restore_log(0, file, logs[0])));
+    log_.resize(static_cast<std::size_t>(strategy.restore_log(0, file, logs[0])));
   }
   table_ = file_of(files, "generations.csv");
   if (table_.size() < progress.csv_bytes)
     fail(ExitCode::bad_file, "generations.csv: it ends after {} bytes of {}", table_.size(),
          progress.csv_bytes);
-  table_.resize(to_index(progress.csv_bytes));
+  table_.resize(static_cast<std::size_t>(progress.csv_bytes));
   header_ = table_.substr(0, table_.find('\n') + 1);
   if (const auto unknown = experiment::unknown_column(header_, strategy.metrics()); !unknown.empty())
     fail(ExitCode::bad_file, "generations.csv: column '{}': expected the columns of the run", unknown);

@@ -6,6 +6,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/experiment/champion.hpp"
+#include "amble/experiment/checkpoint.hpp"
 #include "amble/experiment/run_table.hpp"
 #include "amble/io/file.hpp"
 #include "amble/robot/json.hpp"

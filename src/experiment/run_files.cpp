@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "amble/experiment/checkpoint.hpp"
 #include "amble/experiment/run_table.hpp"
 
 namespace amble::experiment {

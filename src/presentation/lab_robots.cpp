@@ -30,7 +30,7 @@ Config for_lab(Config config) {
 /// The preset's controller in the world of `base`.
 Config with_controller(const Config& base, const fs::path& preset) {
   Config config = experiment::load_config(
-      preset, {.assignments = {"robot=" + io::toml_quoted(base.robot), "controller.substrate=\"auto\""}});
+      preset, {{"robot=" + io::toml_quoted(base.robot), "controller.substrate=\"auto\""}, {}, {}});
   config.drop_m = base.drop_m;
   config.noise = base.noise;
   config.score = base.score;
@@ -54,7 +54,7 @@ Config all_together(Config config, const robot::RobotSpec& robot) {
 }
 
 page::LabRobot lab_robot(const fs::path& path, const fs::path& data) {
-  const Config base = experiment::load_config(path, {.assignments = {"engine=\"batch\""}});
+  const Config base = experiment::load_config(path, {{"engine=\"batch\""}, {}, {}});
   robot::RobotSpec robot = experiment::load_robot(base);
   robot.original = nullptr;  // no page needs it
   std::vector<std::pair<std::string, Config>> configs;

@@ -160,12 +160,32 @@ export class Lab {
     this.refresh();
   }
 
+  /** From the next generation on, if it is a world in which the robot can be. */
   changeWorld() {
     const { evolution } = this, settings = this.form.values();
     if (["ended", "broken"].includes(evolution.state)) return;
-    this.settings = { ...this.settings, ...settings };
-    evolution.changeAt(evolution.generation, changedPlan(evolution.plan, settings, this.robot()));
-    this.say("The world changes with the next generation.");
+    const plan = changedPlan(evolution.plan, settings, this.robot());
+    this.attempt(async () => {
+      try {
+        await this.checked(plan);
+      } catch (error) {
+        this.form.set(this.settings);
+        throw error;
+      }
+      this.settings = settings;
+      evolution.changeAt(evolution.generation, plan);
+      this.say("The world changes with the next generation.");
+    });
+  }
+
+  /** Rejects where the module refuses a plan. */
+  async checked(plan) {
+    const thread = new Thread(this.module);
+    try {
+      await thread.ask("plan", plan);
+    } finally {
+      thread.die();
+    }
   }
 
   // What the run says.

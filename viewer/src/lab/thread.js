@@ -15,7 +15,7 @@ export class Thread {
       else failed(new Error(error));
     };
     this.worker.onerror = (event) => this.die(new Error(event.message || "a thread of the page ended"));
-    this.ready = this.ask("start", module);
+    this.ask("start", module).catch(() => {}); // what is asked next fails with the same message
   }
 
   ask(does, ...values) {

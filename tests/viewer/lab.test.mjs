@@ -1,0 +1,261 @@
+// The lab: a page in which walkers evolve.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { amble, launch, open, pictureOf } from "./browser.mjs";
+
+const { AMBLE_PAGES, AMBLE_SOURCE, AMBLE_AXE } = process.env;
+const MB = 1e6;
+
+let browser, lab;
+before(async () => {
+  mkdirSync(AMBLE_PAGES, { recursive: true });
+  lab = join(AMBLE_PAGES, "lab.html");
+  rmSync(lab, { force: true });
+  amble("lab", "-o", lab);
+  browser = await launch();
+});
+after(() => browser.close());
+
+/** Runs `steps` in the lab, in which nothing may go wrong. */
+async function inLab(options, steps) {
+  const { page, problems } = await open(browser, lab, { at_s: null, hash: "threads=2", ...options });
+  try {
+    await page.waitForFunction(() => window.amble.stage.walk || document.querySelector("#trouble:not([hidden])"));
+    await steps(page);
+    assert.deepEqual(problems, []);
+  } finally {
+    await page.close();
+  }
+}
+
+const button = (page, name) => page.getByRole("button", { name, exact: true });
+const field = (page, name) => page.locator("#settings").getByLabel(name, { exact: true });
+const set = (page, values) => page.evaluate((v) => { window.amble.form.set(v); window.amble.chosen("population"); }, values);
+const generation = (page) => page.evaluate(() => window.amble.evolution?.generation ?? 0);
+const until = (page, count) => page.waitForFunction((n) => window.amble.evolution.generation >= n, count, { timeout: 120_000 });
+const trouble = (page) => page.locator("#trouble").textContent();
+const history = (page) => page.evaluate(() => window.amble.curve.history);
+
+/** What a click saves; gives its path. */
+async function saved(page, click, name) {
+  const [download] = await Promise.all([page.waitForEvent("download"), click()]);
+  const path = join(AMBLE_PAGES, name);
+  await download.saveAs(path);
+  return path;
+}
+
+const SMALL = { robot: "servo", population: 20, seconds: 2, generations: 20 };
+
+test("it opens from a file, asks no network for anything, and is at most 1.5 MB", () =>
+  inLab({}, async (page) => {
+    assert.ok(readFileSync(lab).length <= 1.5 * MB, `${readFileSync(lab).length} bytes`);
+    assert.match(await page.locator("meta[http-equiv]").getAttribute("content"), /^default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; /);
+    assert.ok((await pictureOf(page)).colours > 50);
+    assert.match(await page.locator("#story").textContent(), /random network/);
+    assert.equal(await page.locator("#settings select[name=robot] option").count(), 5);
+  }));
+
+test("twenty generations in the page: curve and species grow, it pauses and goes on, and the same run natively has the same table", () =>
+  inLab({}, async (page) => {
+    await set(page, SMALL);
+    await button(page, "Start").click();
+    await until(page, 4);
+    await button(page, "Pause").click();
+    await page.waitForTimeout(600);
+    const at = await generation(page), early = await pictureOf(page, ".lab-curve");
+    await page.waitForTimeout(400);
+    assert.equal(await generation(page), at);
+    await button(page, "Go on").click();
+    await page.waitForFunction(() => window.amble.evolution.state === "ended", null, { timeout: 120_000 });
+    assert.notEqual((await pictureOf(page, ".lab-curve")).hash, early.hash);
+    const told = await history(page);
+    assert.equal(told.length, 20);
+    assert.ok(told.every(({ species }) => species.reduce((sum, [, size]) => sum + size, 0) === 20));
+    assert.ok(await page.locator("#cppn svg .neuron").count() > 1);
+    assert.ok(await page.locator("#patterns .pattern").count() > 3);
+
+    const champion = await saved(page, () => button(page, "Save the walker").click(), "champion.json");
+    assert.match(amble("info", champion), /champion/i);
+    assert.match(amble("trial", champion, "--undisturbed"), /m/);
+    const tar = await saved(page, () => button(page, "Save the run").click(), "run.tar");
+    for (const folder of ["amble-run", "native"]) rmSync(join(AMBLE_PAGES, folder), { recursive: true, force: true });
+    execFileSync("tar", ["xf", tar], { cwd: AMBLE_PAGES });
+    const run = join(AMBLE_PAGES, "amble-run");
+    amble("evolve", join(run, "config.toml"), "--jobs", "2", "--out", join(AMBLE_PAGES, "native"));
+    const table = (folder) => readFileSync(join(folder, "generations.csv"), "utf8").trim().split("\n").slice(1).map((line) => line.split(",").slice(0, 5).map(Number));
+    assert.deepEqual(table(run), table(join(AMBLE_PAGES, "native")));
+    assert.deepEqual(told.map(({ best }) => best), table(run).map((row) => row[1]));
+    amble("resume", run, "--generations", "22", "--jobs", "1");
+    assert.ok(existsSync(join(run, "checkpoint.bin")));
+  }));
+
+test("any number of threads gives the same generations", async () => {
+  const all = [];
+  for (const threads of [1, 3])
+    await inLab({ hash: `threads=${threads}` }, async (page) => {
+      await set(page, { ...SMALL, generations: 5, noise: "strong" });
+      await button(page, "Start").click();
+      await page.waitForFunction(() => window.amble.evolution?.state === "ended", null, { timeout: 120_000 });
+      all.push((await history(page)).map(({ best, median, steps, species }) => ({ best, median, steps, species })));
+    });
+  assert.deepEqual(all[0], all[1]);
+});
+
+test("a run that was saved is opened and goes on to the same generations", () =>
+  inLab({}, async (page) => {
+    await set(page, { ...SMALL, generations: 8, search: "novelty" });
+    await button(page, "Start").click();
+    await until(page, 4);
+    await button(page, "Pause").click();
+    await page.waitForTimeout(500);
+    const tar = await saved(page, () => button(page, "Save the run").click(), "part.tar");
+    await button(page, "Go on").click();
+    await page.waitForFunction(() => window.amble.evolution.state === "ended", null, { timeout: 120_000 });
+    const whole = (await history(page)).map(({ best }) => best);
+    await page.setInputFiles("#file", tar);
+    await page.waitForFunction(() => window.amble.evolution?.state === "paused");
+    assert.ok((await generation(page)) >= 4);
+    await button(page, "Go on").click();
+    await page.waitForFunction(() => window.amble.evolution.state === "ended", null, { timeout: 120_000 });
+    assert.deepEqual((await history(page)).map(({ best }) => best), whole);
+  }));
+
+test("a leg is lost while it evolves: the best begins anew, and what walks has a leg less", () =>
+  inLab({}, async (page) => {
+    await set(page, { ...SMALL, generations: 6, lost: "first", lostAt: 3 });
+    await button(page, "Start").click();
+    await page.waitForFunction(() => window.amble.evolution?.state === "ended", null, { timeout: 120_000 });
+    assert.deepEqual(await page.evaluate(() => window.amble.curve.marks), [3]);
+    const champion = JSON.parse(await page.evaluate(() => window.amble.best.text));
+    assert.deepEqual(champion.damage.parts.map(({ kind }) => kind), ["missing"]);
+    assert.ok(champion.generation >= 3);
+    assert.equal(await field(page, "Leg that is missing").inputValue(), "front_left");
+  }));
+
+test("a map fills, and the walker of a cell walks", () =>
+  inLab({}, async (page) => {
+    await set(page, { ...SMALL, generations: 4, search: "map-elites" });
+    await button(page, "Start").click();
+    await page.waitForFunction(() => window.amble.evolution?.state === "ended", null, { timeout: 120_000 });
+    const filled = page.locator(".lab-map button:enabled");
+    assert.ok((await filled.count()) > 3);
+    await filled.first().click();
+    await page.waitForFunction(() => /Of the map/.test(document.getElementById("story").textContent));
+    await filled.first().press("ArrowRight");
+  }));
+
+test("each experiment sets up the lab, and its runs stay in the diagram to compare with", () =>
+  inLab({}, async (page) => {
+    const experiments = page.locator(".experiment");
+    assert.ok((await experiments.count()) >= 12);
+    for (let i = 0; i < (await experiments.count()); ++i) {
+      const one = experiments.nth(i);
+      await one.locator("summary").click();
+      for (const step of await one.locator(".lab-buttons button").all()) {
+        await step.click();
+        await page.waitForFunction(() => window.amble.stage.random);
+        assert.equal(await page.locator("#trouble").isHidden(), true, await trouble(page));
+      }
+    }
+    await page.locator("#experiment-trigger summary").click();
+    for (const step of ["With touch", "Without touch"]) {
+      await button(page, step).click();
+      await set(page, { ...SMALL, generations: 3, feels: step === "With touch" });
+      await button(page, "Start").click();
+      await page.waitForFunction(() => window.amble.evolution?.state === "ended", null, { timeout: 120_000 });
+    }
+    assert.match(await page.locator("#curves .keys").textContent(), /With touch/);
+  }));
+
+test("files that cannot be opened are told in the page, and one's own robot evolves", () =>
+  inLab({}, async (page) => {
+    const file = (name, text) => {
+      writeFileSync(join(AMBLE_PAGES, name), text);
+      return join(AMBLE_PAGES, name);
+    };
+    const champion = readFileSync(join(AMBLE_SOURCE, "robots/biped/champion.json"), "utf8");
+    const refused = async (name, text, message) => {
+      await page.setInputFiles("#file", file(name, text));
+      await page.waitForFunction((n) => document.getElementById("trouble").textContent.startsWith(n), name);
+      assert.match(await trouble(page), message);
+    };
+    await refused("broken.json", champion.slice(0, 2000), /was not opened: it is neither/);
+    await refused("altered.json", champion.replace('"generation": ', '"generation": 1'), /altered: its checksum does not fit/);
+    await refused("other.json", '{"format": "amble-repertoire"}', /no robot, champion or run of amble/);
+    await page.setInputFiles("#file", join(AMBLE_SOURCE, "robots/biped/champion.json"));
+    await page.waitForFunction(() => /From the file/.test(document.getElementById("story").textContent));
+    assert.equal(await page.locator("#trouble").isHidden(), true);
+    assert.equal(await field(page, "Robot").inputValue(), "own");
+    await set(page, { population: 10, seconds: 2, generations: 2 });
+    await button(page, "Start").click();
+    await page.waitForFunction(() => window.amble.evolution?.state === "ended", null, { timeout: 120_000 });
+  }));
+
+test("a thread that dies has a successor; a run that cannot go on is told", () =>
+  inLab({}, async (page) => {
+    await set(page, { ...SMALL, generations: 6 });
+    await button(page, "Start").click();
+    await until(page, 2);
+    await page.evaluate(() => window.amble.evolution.trials[0].die(new Error("killed")));
+    await page.waitForFunction(() => window.amble.evolution.state === "ended", null, { timeout: 120_000 });
+    await button(page, "Stop and begin anew").click();
+    await page.waitForFunction(() => window.amble.stage.random);
+    await button(page, "Start").click();
+    await until(page, 1);
+    await page.evaluate(() => window.amble.evolution.search.die(new Error("killed")));
+    await page.waitForFunction(() => /The run ended: killed/.test(document.getElementById("trouble").textContent));
+    assert.equal(await button(page, "Save the walker").isVisible(), true);
+  }));
+
+test("a browser without SIMD is told so", async () => {
+  const page = await browser.newPage();
+  await page.addInitScript(() => { WebAssembly.validate = () => false; });
+  await page.goto(`file://${lab}`);
+  await page.locator("#trouble").waitFor();
+  assert.match(await trouble(page), /needs WebAssembly with SIMD/);
+  await page.close();
+});
+
+test("without 3-D pictures it says so, and evolves", async () => {
+  const flat = await launch({ gl: false });
+  const { page } = await open(flat, lab, { at_s: null });
+  await page.waitForFunction(() => window.amble.stage.walk);
+  assert.match(await page.locator(".no-stage").textContent(), /no WebGL/);
+  await set(page, { ...SMALL, generations: 2 });
+  await button(page, "Start").click();
+  await page.waitForFunction(() => window.amble.evolution?.state === "ended", null, { timeout: 120_000 });
+  await flat.close();
+});
+
+test("it is used by keyboard alone, and where motion is unwanted nothing moves by itself", () =>
+  inLab({ reducedMotion: "reduce" }, async (page) => {
+    assert.equal(await page.evaluate(() => window.amble.stage.clock.playing), false);
+    await page.keyboard.press("Tab");
+    assert.equal(await page.evaluate(() => document.activeElement.className), "skip");
+    await page.keyboard.press("Enter");
+    for (let i = 0; i < 3 && (await page.evaluate(() => document.activeElement.textContent)) !== "Start"; ++i) await page.keyboard.press("Tab");
+    await set(page, { ...SMALL, generations: 3 });
+    await page.keyboard.press("Enter");
+    await page.waitForFunction(() => window.amble.evolution?.state === "ended", null, { timeout: 120_000 });
+    assert.match(await page.locator("#said").textContent(), /The run is over\. Generation 2: best/);
+    assert.equal(await page.evaluate(() => window.amble.stage.clock.playing), false);
+  }));
+
+for (const [width, scheme] of [[360, "light"], [800, "dark"], [1400, "light"]])
+  test(`${width} px wide, ${scheme}: nothing runs over, all controls have names and can be hit`, () =>
+    inLab({ viewport: { width, height: 800 }, colorScheme: scheme, ...(width < 500 ? { hasTouch: true, isMobile: true } : {}) }, async (page) => {
+      await set(page, { ...SMALL, generations: 3 });
+      await button(page, "Start").click();
+      await page.waitForFunction(() => window.amble.evolution?.state === "ended", null, { timeout: 120_000 });
+      assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width);
+      const nameless = await page.locator(":is(input, select, button, summary):visible").evaluateAll((controls) =>
+        controls.filter((control) => !(control.labels?.[0]?.textContent.trim() || control.textContent.trim() || control.ariaLabel)).length);
+      assert.equal(nameless, 0);
+      if (!AMBLE_AXE || !existsSync(AMBLE_AXE)) return;
+      await page.evaluate(readFileSync(AMBLE_AXE, "utf8"));
+      const { violations } = await page.evaluate(() => window.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"] }));
+      assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes.map(({ target }) => target.join(" "))]), []);
+    }));
