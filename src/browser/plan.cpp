@@ -53,6 +53,7 @@ Plan::Plan(const std::string& json)
 }
 
 robot::RobotSpec robot_in(const std::string& text) {
+  if (!io::Json::accept(text)) fail(ExitCode::bad_file, "the robot's file: not valid JSON");
   const io::Json document = io::parse_json(text, "the robot's file");
   const auto format = document.is_object() ? document.value("format", "") : std::string();
   if (format == "amble-champion") {

@@ -3,7 +3,7 @@ import { niceAxis, number } from "../plot.js";
 import { colour, element } from "../theme.js";
 import { Picture, line, write } from "./picture.js";
 
-const LEFT = 44, RIGHT = 12, TOP = 12, AXIS = 24, BANDS = 64, GAP = 24;
+const LEFT = 54, RIGHT = 12, TOP = 12, AXIS = 24, BANDS = 64, GAP = 24;
 const OLD = [[6, 4], [2, 4], [9, 3, 2, 3]]; // how runs before are dashed, the latest first
 
 export class Curve {
@@ -43,7 +43,7 @@ export class Curve {
   }
 
   showKeys() {
-    const key = (kind, text) => element("span", { class: `line-key ${kind}` }, text);
+    const key = (kind, text) => element("span", { class: `line-key key-${kind}` }, text);
     this.keys.replaceChildren(key("best", "best so far"), key("now", "best of the generation"), key("median", "median"), key("typical", "what the best typically does"),
       ...this.before.map(({ name }, i) => key(`old${i}`, name)));
   }
@@ -60,6 +60,7 @@ export class Curve {
       line(context, [[LEFT, y(tick)], [width - RIGHT, y(tick)]], "--hair", 1);
       write(context, tick === ticks.at(-1) ? `${text(tick)} m` : text(tick), LEFT - 8, y(tick), { align: "right", size: 11.5 });
     }
+    if (runs.every((run) => run.length === 0)) write(context, "Press Start: each generation adds a point.", (LEFT + width) / 2, base / 2, { align: "center", size: 14 });
     const curve = (run, value, css, thick, dash) => line(context, run.map((row) => [x(row.generation), y(value(row))]), css, thick, dash);
     for (const generation of this.marks) this.paintMark(context, x(generation), base);
     before.forEach((run, i) => curve(run.history, (row) => row.best_so_far, "--mid", 1.6, OLD[i]));

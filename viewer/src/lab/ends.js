@@ -9,7 +9,7 @@ const PAD = 14;
 export class Ends {
   constructor() {
     this.generations = [];
-    this.picture = new Picture("Where the robots ended, from above", "lab-ends", (width) => Math.min(0.7 * width, 300), (...all) => this.paint(...all));
+    this.picture = new Picture("Where the robots ended, from above", "lab-ends", (width) => Math.min(0.8 * width, 340), (...all) => this.paint(...all));
     this.element = this.picture.element;
   }
 
@@ -28,13 +28,13 @@ export class Ends {
     const reach = Math.max(0.3, ...this.generations.map(farthest));
     const scale = (Math.min(width, height) / 2 - PAD) / reach, x0 = width / 2, y0 = height / 2;
     const step = niceStep(reach, 3);
-    for (let r = step; r <= 3 * reach; r += step) {
+    for (let r = step; r * scale <= Math.max(width, height) / 2 + PAD; r += step) {
       context.beginPath();
       context.arc(x0, y0, r * scale, 0, 2 * Math.PI);
       context.strokeStyle = colour("--hair");
       context.lineWidth = 1;
       context.stroke();
-      if (r <= reach * 1.05) write(context, `${number(r, step < 1 ? 1 : 0)} m`, x0 + 4, y0 - r * scale - 6, { size: 11 });
+      if (r * scale < height / 2 - 12) write(context, `${number(r, step < 1 ? 1 : 0)} m`, x0 + 4, y0 - r * scale - 6, { size: 11 });
     }
     this.generations.forEach((ends, i) => {
       const now = i === this.generations.length - 1;

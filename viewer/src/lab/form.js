@@ -5,31 +5,37 @@ import { group, row, slider } from "../widgets.js";
 const select = (options) => element("select", {}, ...options.map(([value, text]) => element("option", { value }, text)));
 const count = (min, max, step = 1) => element("input", { type: "number", min, max, step, inputmode: "numeric" });
 
-const CONTROLLERS = [["supg", "SUPGs: a touch starts each leg’s movement"], ["together", "SUPGs, all legs start together"],
-                     ["sine", "A network with a sine wave"], ["ctrnn", "Neurons that swing by themselves (CTRNN)"]];
-const SEARCHES = [["objective", "Distance: who gets farthest has children"], ["novelty", "Novelty: who ends where nobody was"],
-                  ["map-elites", "A map: the best of each kind (MAP-Elites)"]];
-const MUTATIONS = [["all", "Weights, nodes and links"], ["weights", "Weights only: no growth"], ["none", "None: children are only mixed"]];
-const NOISES = [["none", "None: each walk repeats exactly"], ["little", "A little: other starts"], ["strong", "A lot: pushes, slips, wrong sensors"]];
+const CONTROLLERS = [["supg", "SUPGs"], ["together", "SUPGs, together"], ["sine", "sine wave"], ["ctrnn", "CTRNN"]];
+const SEARCHES = [["objective", "the farthest"], ["novelty", "the newest"], ["map-elites", "the best of each kind"]];
+const MUTATIONS = [["all", "weights, nodes, links"], ["weights", "weights only"], ["none", "none"]];
+const NOISES = [["none", "none"], ["little", "a little"], ["strong", "a lot"]];
+const HINTS = {
+  supg: "Each joint has a pattern, which begins anew when its foot touches the ground.", together: "As SUPGs, but all legs begin at the same time.",
+  sine: "A network of neurons reads joints, feet and a sine wave, its clock.", ctrnn: "Neurons that act on each other over time, and make a rhythm by themselves.",
+  objective: "Who walks farthest has most children.", novelty: "Who ends where nobody has ended has most children: novelty search.",
+  "map-elites": "A map keeps the best robot of each kind, and all of them have children: MAP-Elites.",
+  all: "Children get other weights, and now and then a new node or link.", weights: "The network stays as large as it is.", none: "Children are only mixed from two parents.",
+  none_noise: "Each walk repeats exactly.", little: "Each generation starts a thousandth of a radian differently.", strong: "Pushes, drops, wrong sensors, late motors.",
+};
 const GROUNDS = ["plane", "hills", "rough", "stones", "blocks", "stairs", "hurdles"].map((kind) => [kind, kind === "plane" ? "flat" : kind]);
 const GRAVITIES = [["1", "Earth"], ["0.38", "Mars (38 %)"], ["0.17", "Moon (17 %)"], ["2.5", "Jupiter (250 %)"]];
 
 export class Form {
   /** `changed(key)` is called after the user has chosen. */
   constructor(robots, changed) {
-    Object.assign(this, { changed, fields: new Map(), rows: [] });
+    Object.assign(this, { changed, fields: new Map(), rows: [], hints: [] });
     this.run = group("The run",
       this.field("robot", "Robot", select(robots.map(({ id, name }) => [id, name]))), this.field("controller", "Controller", select(CONTROLLERS)),
-      this.field("search", "Who has children", select(SEARCHES)), this.field("population", "Population", slider(10, 200, 10, 60), ({ population }) => `${population}`),
+      this.hint("controller"), this.field("search", "Who has children", select(SEARCHES)), this.hint("search"), this.field("population", "Population", slider(10, 200, 10, 60), ({ population }) => `${population}`),
       this.field("generations", "Generations", count(1, 5000)), this.field("seconds", "Length of a trial", slider(2, 20, 1, 8), ({ seconds }) => `${seconds} s`),
       this.field("seed", "Seed (which dice)", count(0, 999999)));
     this.more = element("details", {}, element("summary", {}, "More: feet, mutation, a lost leg"),
-      this.field("feels", "Feels its feet", element("input", { type: "checkbox" })), this.field("mutation", "Mutation", select(MUTATIONS)),
+      this.field("feels", "Feels its feet", element("input", { type: "checkbox" })), this.field("mutation", "Mutation", select(MUTATIONS)), this.hint("mutation"),
       this.field("lost", "It loses a leg", select([["never", "never"], ["first", "its first"]])), this.field("lostAt", "at generation", count(1, 5000)));
     this.run.append(this.more);
     this.world = group("The world",
-      this.field("noise", "Noise", select(NOISES)), this.field("ground", "Ground", select(GROUNDS)),
-      this.field("roughness", "How rough", slider(0.04, 0.4, 0.02, 0.12), ({ roughness }) => `${Math.round(100 * roughness)} % of a leg`),
+      this.field("noise", "Noise", select(NOISES)), this.hint("noise"), this.field("ground", "Ground", select(GROUNDS)),
+      this.field("roughness", "Height, of a leg", slider(0.04, 0.4, 0.02, 0.12), ({ roughness }) => `${Math.round(100 * roughness)} %`),
       this.field("slope", "Uphill", slider(-0.3, 0.3, 0.02, 0), ({ slope }) => `${Math.round(100 * slope)} %`.replace("-", "−")),
       this.field("gravity", "Gravity", select(GRAVITIES)), this.field("missing", "Leg that is missing", select([["", "none"]])));
   }
@@ -42,6 +48,14 @@ export class Form {
     this.fields.set(key, control);
     this.rows.push({ ...made, control });
     return made.label;
+  }
+
+  /** What the choice means. */
+  hint(key) {
+    const text = element("p", { class: "hint", id: `hint-${key}` }), control = this.fields.get(key);
+    control.setAttribute("aria-describedby", text.id);
+    this.hints.push(() => (text.textContent = HINTS[`${control.value}_${key}`] ?? HINTS[control.value] ?? ""));
+    return text;
   }
 
   values() {
@@ -87,7 +101,7 @@ export class Form {
 
   show() {
     const now = this.values();
-    for (const { show } of this.rows) show();
+    for (const show of [...this.rows.map((one) => one.show), ...this.hints]) show();
     for (const control of this.run.querySelectorAll("input, select")) control.disabled = Boolean(this.locked);
     const can = (key, possible) => (this.fields.get(key).disabled = !possible);
     can("roughness", now.ground !== "plane");

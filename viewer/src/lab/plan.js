@@ -76,7 +76,7 @@ export function changedPlan(plan, settings, robot) {
   const base = structuredClone(robot.configs[settings.controller]);
   Object.assign(changed.config, { noise: base.noise, ground: base.ground, damage: base.damage });
   world(changed.config, settings, robot.facts);
-  return JSON.stringify({ ...changed, robot: robot.text, gravity: settings.gravity / (robot.gravity ?? 1), new: false });
+  return JSON.stringify({ ...changed, robot: robot.text, gravity: settings.gravity / (robot.gravity ?? 1) });
 }
 
 /** The configs of one's own robot: those of one in the gallery, with the times and pushes that fit its size. */

@@ -7,6 +7,7 @@ import { number } from "../plot.js";
 import { Stage } from "../scene.js";
 
 const PAUSE_S = 0.6; // after a walk, before the next
+const LEAST_S = 2.5; // of a walk, before a better one takes its place
 
 export class LabStage {
   /** `parent`: where the picture goes; `now(text)`: what it does, for those who look; `shown(walk)`: another walker. */
@@ -26,6 +27,7 @@ export class LabStage {
   async takeNext() {
     const { text, title } = this.next;
     this.next = null;
+    this.over_s = 0;
     const live = await LiveRobot.open(this.module, text), { name, joints } = live.describe().robot;
     const same = this.walk && name === this.robotName && joints.length === this.joints;
     if (same) this.walk.become(live);
@@ -94,11 +96,12 @@ export class LabStage {
   }
 
   move(passed_s) {
+    if (this.next && this.walk.seconds >= LEAST_S && !this.drag?.held) return this.takeNext().catch((error) => this.hear.trouble(error));
     if (this.walk.seconds < this.duration_s - 1e-9 && this.walk.outcome !== "diverged") return this.clock.advance(passed_s);
     this.over_s += passed_s;
+    if (this.next) return this.takeNext().catch((error) => this.hear.trouble(error));
     if (this.over_s < PAUSE_S || this.drag?.held) return;
-    if (this.next) this.takeNext().catch((error) => this.hear.trouble(error));
-    else this.again();
+    this.again();
   }
 
   paint() {

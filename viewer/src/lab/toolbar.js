@@ -24,7 +24,7 @@ export class Toolbar {
     this.walk = button("Let it walk", () => this.toggleWalk());
     this.push = button("Push it", () => this.pushIt(), { title: "From its right side; or drag its body" });
     byId("views").append(this.walk, this.push);
-    this.numbers = ["Generation", "Best so far", "Typically", "Median", "Species", "Speed"].map((name) => {
+    this.numbers = ["Generation", "Best so far", "Typically", "Median", "Species", "Pace"].map((name) => {
       const value = element("dd", {});
       byId("now").append(element("div", {}, element("dt", {}, name), value));
       return value;
@@ -60,7 +60,7 @@ export class Toolbar {
 
   showNumbers(progress, evolution) {
     const metres = (value) => [number(value, 2), element("small", {}, " m")];
-    const per_s = evolution?.rate ? [number(evolution.rate, evolution.rate < 10 ? 1 : 0), element("small", {}, " generations/s")] : ["–"];
+    const per_s = evolution?.rate ? [number(evolution.rate, evolution.rate < 10 ? 1 : 0), element("small", {}, " per second")] : ["–"];
     const all = [[`${progress.generation + 1}`, element("small", {}, ` of ${evolution?.generations ?? "–"}`)], metres(progress.best_so_far),
                  metres(progress.typical), metres(progress.median), [progress.map ? "–" : `${progress.species.length}`], per_s];
     this.numbers.forEach((cell, i) => cell.replaceChildren(...all[i]));
