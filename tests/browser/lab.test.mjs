@@ -39,7 +39,7 @@ function sameRun(folder, other) {
 }
 
 const RUNS = {
-  "distance, other starts": ["authors", {}],
+  "distance, other starts": ["quadruped (authors)", {}],
   "distance, without noise": ["servo", { noise: "none" }],
   "pushes and wrong sensors": ["hexapod", { noise: "strong" }],
   "novelty": ["servo", { search: "novelty" }],
@@ -95,7 +95,7 @@ test("a world that changes begins a new best, and the run can still be resumed",
 
 test("one's own robot has the controllers of the gallery, in its size", async () => {
   const text = readFileSync(source("robots/octopod/champion.json"), "utf8"), { facts } = robots.get("octopod");
-  const own = { name: "own", text, facts, configs: configsFor(facts, robots.get("authors")) };
+  const own = { name: "own", text, facts, configs: configsFor(facts, robots.get("quadruped (authors)")) };
   const plan = planOf({ ...DEFAULTS, ...WORLD, population: 10, seconds: 1, generations: 1 }, own);
   assert.equal(JSON.parse(plan).config.controller.supg.period_s, 0.45);
   const run = await LabRun.begin(module, plan);

@@ -32,7 +32,7 @@ async function inLab(options, steps) {
 }
 
 const button = (page, name) => page.getByRole("button", { name, exact: true });
-const field = (page, name) => page.locator("#settings").getByLabel(name, { exact: true });
+const field = (page, key) => page.locator(`#settings [name=${key}]`);
 const set = (page, values) => page.evaluate((v) => { window.amble.form.set(v); window.amble.chosen("population"); }, values);
 const generation = (page) => page.evaluate(() => window.amble.evolution?.generation ?? 0);
 const until = (page, count) => page.waitForFunction((n) => window.amble.evolution.generation >= n, count, { timeout: 120_000 });
@@ -132,7 +132,7 @@ test("a leg is lost while it evolves: the best begins anew, and what walks has a
     const champion = JSON.parse(await page.evaluate(() => window.amble.best.text));
     assert.deepEqual(champion.damage.parts.map(({ kind }) => kind), ["missing"]);
     assert.ok(champion.generation >= 3);
-    assert.equal(await field(page, "Leg that is missing").inputValue(), "front_left");
+    assert.equal(await field(page, "missing").inputValue(), "front_left");
   }));
 
 test("a map fills, and the walker of a cell walks", () =>
@@ -188,7 +188,7 @@ test("files that cannot be opened are told in the page, and one's own robot evol
     await page.setInputFiles("#file", join(AMBLE_SOURCE, "robots/biped/champion.json"));
     await page.waitForFunction(() => /From the file/.test(document.getElementById("story").textContent));
     assert.equal(await page.locator("#trouble").isHidden(), true);
-    assert.equal(await field(page, "Robot").inputValue(), "own");
+    assert.equal(await field(page, "robot").inputValue(), "own");
     await set(page, { population: 10, seconds: 2, generations: 2 });
     await button(page, "Start").click();
     await page.waitForFunction(() => window.amble.evolution?.state === "ended", null, { timeout: 120_000 });

@@ -274,6 +274,9 @@ export class Lab {
     this.patterns?.show(0);
   }
 
+  render() {
+    this.stage.draw();
+  }
   refresh() {
     this.toolbar.show();
   }

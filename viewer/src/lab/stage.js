@@ -85,14 +85,20 @@ export class LabStage {
     const passed_s = this.clock.playing && this.last_ms !== undefined ? Math.min((now_ms - this.last_ms) / 1000, 0.1) : 0;
     this.last_ms = this.clock.playing ? now_ms : undefined;
     if (passed_s > 0) this.move(passed_s);
-    this.showing = true;
+    this.draw();
+    if (this.clock.playing) this.invalidate();
+  }
+
+  /** Now, without waiting for the browser's next frame. */
+  draw() {
+    const time_s = Math.min(this.clock.time_s, this.walk.seconds);
+    this.showing = true; // what moves the camera here asks for no other frame
     if (this.stage) {
       this.stage.resize();
-      this.stage.show(Math.min(this.clock.time_s, this.walk.seconds));
+      this.stage.show(time_s);
     }
-    this.hear.now(this.walk, Math.min(this.clock.time_s, this.walk.seconds));
+    this.hear.now(this.walk, time_s);
     this.showing = false;
-    if (this.clock.playing) this.invalidate();
   }
 
   move(passed_s) {
