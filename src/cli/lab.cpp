@@ -43,7 +43,7 @@ void add_lab(CLI::App& app, Action& action) {
                       "Configs whose robots are in it (default: the gallery, robots/)");
   command->add_option("-o,--out", options->out, "The page to write (HTML)")->required();
   add_examples(*command, {{"amble lab -o amble-lab.html", "open it in a browser"},
-                          {"amble lab my_robot/evolve.toml -o my-lab.html", "for one's own robot"}});
+                          {"amble lab robots/servo/evolve.toml -o my-lab.html", "for one's own robot"}});
   command->callback([options, &action] { action = [options] { return make_lab(*options); }; });
 }
 

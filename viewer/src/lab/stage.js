@@ -7,7 +7,8 @@ import { number } from "../plot.js";
 import { Stage } from "../scene.js";
 
 const PAUSE_S = 0.6; // after a walk, before the next
-const LEAST_S = 2.5; // of a walk, before a better one takes its place
+const LEAST_MS = 2500; // of a walk, before a better one takes its place
+const SLOW_S = 0.07, SLOW_FRAMES = 20; // frames so far apart, so many of them, are too much for the machine
 
 export class LabStage {
   /** `parent`: where the picture goes; `now(text)`: what it does, for those who look; `shown(walk)`: another walker. */
@@ -61,6 +62,7 @@ export class LabStage {
     if (this.walk.seconds > 0) this.walk.restart({ asEvolved: true });
     this.duration_s = this.walk.description.duration_s;
     this.over_s = 0;
+    this.began_ms = performance.now();
     this.clock.duration_s = 0;
     this.clock.seek(0);
     this.stage?.renew(0, this.missing());
@@ -84,6 +86,8 @@ export class LabStage {
     this.drag?.update();
     const passed_s = this.clock.playing && this.last_ms !== undefined ? Math.min((now_ms - this.last_ms) / 1000, 0.1) : 0;
     this.last_ms = this.clock.playing ? now_ms : undefined;
+    this.slow = passed_s > SLOW_S ? (this.slow ?? 0) + 1 : 0;
+    if (this.slow === SLOW_FRAMES) this.stage?.simplify();
     if (passed_s > 0) this.move(passed_s);
     this.draw();
     if (this.clock.playing) this.invalidate();
@@ -102,7 +106,7 @@ export class LabStage {
   }
 
   move(passed_s) {
-    if (this.next && this.walk.seconds >= LEAST_S && !this.drag?.held) return this.takeNext().catch((error) => this.hear.trouble(error));
+    if (this.next && performance.now() - this.began_ms > LEAST_MS && !this.drag?.held) return this.takeNext().catch((error) => this.hear.trouble(error));
     if (this.walk.seconds < this.duration_s - 1e-9 && this.walk.outcome !== "diverged") return this.clock.advance(passed_s);
     this.over_s += passed_s;
     if (this.next) return this.takeNext().catch((error) => this.hear.trouble(error));

@@ -62,7 +62,7 @@ export class Toolbar {
     const metres = (value) => [number(value, 2), element("small", {}, " m")];
     const per_s = evolution?.rate ? [number(evolution.rate, evolution.rate < 10 ? 1 : 0), element("small", {}, " per second")] : ["–"];
     const all = [[`${progress.generation + 1}`, element("small", {}, ` of ${evolution?.generations ?? "–"}`)], metres(progress.best_so_far),
-                 metres(progress.typical), metres(progress.median), [progress.map ? "–" : `${progress.species.length}`], per_s];
+                 metres(progress.typical), metres(progress.median), progress.map ? [`${progress.map.length}`, element("small", {}, " cells")] : [`${progress.species.length}`], per_s];
     this.numbers.forEach((cell, i) => cell.replaceChildren(...all[i]));
   }
 
