@@ -1,4 +1,4 @@
-#include "amble/experiment/run_table.hpp"
+#include "amble/experiment/checkpoint.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "amble/experiment/champion.hpp"
+#include "amble/experiment/checkpoint.hpp"
 #include "amble/io/binary.hpp"
 #include "amble/robot/json.hpp"
 #include "tests/experiment/fixture.hpp"
