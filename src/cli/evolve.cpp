@@ -8,17 +8,15 @@
 #include <string>
 #include <utility>
 
-#include "amble/cli/commands.hpp"
-#include "amble/cli/disturbance.hpp"
 #include "amble/cli/help.hpp"
 #include "amble/cli/messages.hpp"
-#include "amble/cli/option_checks.hpp"
+#include "amble/cli/options.hpp"
 #include "amble/cli/progress.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/repertoire.hpp"
 #include "amble/experiment/run.hpp"
 #include "amble/experiment/start_look.hpp"
-#include "amble/io/shell.hpp"
+#include "amble/io/quoting.hpp"
 
 namespace amble::cli {
 namespace {

@@ -9,19 +9,15 @@
 #include <string>
 #include <vector>
 
-#include "amble/cli/commands.hpp"
-#include "amble/cli/compare_table.hpp"
-#include "amble/cli/disturbance.hpp"
+#include "amble/cli/compare.hpp"
 #include "amble/cli/help.hpp"
-#include "amble/cli/option_checks.hpp"
+#include "amble/cli/options.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/build_info.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/io/file.hpp"
-#include "amble/io/scratch_file.hpp"
-#include "amble/io/shell.hpp"
-#include "amble/page/figure_files.hpp"
+#include "amble/io/quoting.hpp"
 
 namespace amble::cli {
 namespace {

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "amble/cli/commands.hpp"
 #include "amble/cli/help.hpp"
 #include "amble/experiment/config.hpp"
 #include "amble/io/toml_settings.hpp"

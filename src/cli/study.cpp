@@ -8,17 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "amble/cli/commands.hpp"
 #include "amble/cli/help.hpp"
 #include "amble/cli/messages.hpp"
-#include "amble/cli/option_checks.hpp"
+#include "amble/cli/options.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/cli/study_processes.hpp"
 #include "amble/cli/study_progress.hpp"
 #include "amble/core/index.hpp"
 #include "amble/io/file.hpp"
-#include "amble/io/shell.hpp"
-#include "amble/study/fit.hpp"
+#include "amble/io/quoting.hpp"
+#include "amble/study/plan.hpp"
 #include "amble/study/slurm.hpp"
 #include "amble/study/worker.hpp"
 

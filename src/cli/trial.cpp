@@ -8,11 +8,9 @@
 #include <string_view>
 #include <system_error>
 
-#include "amble/cli/commands.hpp"
-#include "amble/cli/disturbance.hpp"
 #include "amble/cli/help.hpp"
 #include "amble/cli/messages.hpp"
-#include "amble/cli/option_checks.hpp"
+#include "amble/cli/options.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"

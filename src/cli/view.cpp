@@ -9,15 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "amble/cli/commands.hpp"
-#include "amble/cli/disturbance.hpp"
 #include "amble/cli/help.hpp"
-#include "amble/cli/option_checks.hpp"
+#include "amble/cli/options.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/io/file.hpp"
-#include "amble/io/scratch_file.hpp"
 #include "amble/page/replay_page.hpp"
 #include "amble/presentation/walker.hpp"
 #include "amble/record/recording.hpp"

@@ -8,7 +8,7 @@
 
 #include "amble/controllers/joint_range.hpp"
 #include "amble/controllers/sensing.hpp"
-#include "amble/controllers/supg_modulation.hpp"
+#include "amble/controllers/supg_settings.hpp"
 #include "amble/cppn/network.hpp"
 #include "amble/robot/spec.hpp"
 #include "amble/substrate/layout.hpp"

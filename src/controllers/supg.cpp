@@ -12,7 +12,7 @@
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/io/json_file.hpp"
-#include "amble/substrate/query_points.hpp"
+#include "amble/substrate/layout.hpp"
 
 namespace amble::controllers {
 

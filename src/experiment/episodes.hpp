@@ -6,7 +6,7 @@
 
 #include "amble/experiment/evaluator.hpp"
 #include "amble/experiment/problem/episode_set.hpp"
-#include "amble/experiment/problem/objective.hpp"
+#include "amble/experiment/problem/evaluation_settings.hpp"
 #include "amble/trial/scenario.hpp"
 
 namespace amble::experiment {

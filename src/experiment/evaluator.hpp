@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "amble/core/process.hpp"
+#include "amble/experiment/generation_row.hpp"
 #include "amble/experiment/problem.hpp"
-#include "amble/experiment/stage_times.hpp"
 #include "amble/record/trajectory.hpp"
 
 namespace amble::experiment {

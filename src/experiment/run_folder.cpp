@@ -16,7 +16,7 @@
 #include "amble/experiment/build_info.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
-#include "amble/io/shell.hpp"
+#include "amble/io/quoting.hpp"
 
 namespace amble::experiment {
 namespace fs = std::filesystem;

@@ -43,7 +43,7 @@ bool has_sine(const NeuralTables& tables) {
   });
 }
 
-/// Whether some sensor is the arc tangent of an attitude's tangent (controllers/attitude.hpp).
+/// Whether some sensor is the arc tangent of an attitude's tangent (controllers/sensing.hpp).
 bool has_swapped_attitude(const NeuralTables& tables) {
   using Kind = substrate::Sensor::Kind;
   return tables.attitude == substrate::Attitude::misordered_quaternion &&

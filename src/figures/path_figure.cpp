@@ -9,7 +9,7 @@
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
 #include "amble/figures/axis.hpp"
-#include "amble/figures/silhouette.hpp"
+#include "amble/figures/side_view.hpp"
 #include "amble/figures/svg.hpp"
 #include "amble/motion/footfalls.hpp"
 #include "amble/robot/legs.hpp"

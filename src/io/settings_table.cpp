@@ -4,8 +4,7 @@
 #include <functional>
 #include <span>
 
-#include "amble/io/expectation.hpp"
-#include "amble/io/settings_printer.hpp"
+#include "amble/io/settings_text.hpp"
 #include "amble/io/toml_settings.hpp"
 
 namespace amble::io {

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <mujoco/mujoco.h>
 #include <mutex>
 #include <stdexcept>
+
+#include "amble/core/math.hpp"
 
 namespace amble::morphology {
 
@@ -30,5 +33,13 @@ class ScopedMujocoHandlers {
 /// From now on in this process, unless somebody has handlers of his own: errors throw MujocoError, warnings
 /// are dropped. For code that steps models of strangers in many threads.
 void keep_mujoco_quiet();
+
+/// Three or four numbers of one of MuJoCo's arrays.
+inline Vec3 vec3(const mjtNum* numbers) {
+  return {numbers[0], numbers[1], numbers[2]};
+}
+inline Quat quat(const mjtNum* numbers) {
+  return {numbers[0], numbers[1], numbers[2], numbers[3]};
+}
 
 }  // namespace amble::morphology

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "amble/core/error.hpp"
+#include "amble/io/quoting.hpp"
 #include "amble/io/toml_settings.hpp"
-#include "amble/io/toml_text.hpp"
 
 namespace amble::morphology {
 namespace {

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "amble/core/error.hpp"
-#include "amble/io/shell.hpp"
+#include "amble/io/quoting.hpp"
 #include "tests/cli/process.hpp"
 #include "tests/models/small_models.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "amble/figures/substrate_places.hpp"
+#include "amble/figures/substrate_graph.hpp"
 #include "tests/figures/xml.hpp"
 #include "tests/motion/fixture.hpp"
 

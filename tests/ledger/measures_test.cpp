@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "amble/core/error.hpp"
-#include "amble/ledger/evolved_as.hpp"
 #include "amble/ledger/study_spec.hpp"
 #include "amble/score/score.hpp"
 #include "tests/ledger/samples.hpp"

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <random>
 
-#include "amble/ground/recorded.hpp"
+#include "amble/ground/ground.hpp"
 #include "tests/motion/fixture.hpp"
 
 namespace amble::tests {

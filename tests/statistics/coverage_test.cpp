@@ -7,7 +7,7 @@
 #include "amble/core/random.hpp"
 #include "amble/statistics/bootstrap.hpp"
 #include "amble/statistics/descriptive.hpp"
-#include "amble/statistics/rank_test.hpp"
+#include "amble/statistics/hypothesis_tests.hpp"
 #include "tests/statistics/oracles.hpp"
 
 namespace amble::statistics {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "amble/core/index.hpp"
-#include "amble/io/xml.hpp"
+#include "amble/io/quoting.hpp"
 #include "amble/morphology/mjcf_writer.hpp"
 #include "amble/robot/collision_points.hpp"
 

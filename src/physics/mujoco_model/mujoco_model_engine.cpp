@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
-
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -11,9 +10,9 @@
 #include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"
-#include "amble/io/printable.hpp"
+#include "amble/io/text.hpp"
 #include "amble/morphology/mujoco_handlers.hpp"
-#include "amble/morphology/mujoco_math.hpp"
+#include "amble/physics/engine_kinds.hpp"
 #include "amble/physics/mujoco_model/actuation.hpp"
 #include "amble/physics/mujoco_model/model.hpp"
 #include "amble/physics/mujoco_model/uneven_ground.hpp"
@@ -345,3 +344,12 @@ std::vector<std::string> original_model_notes(const RobotSpec& robot, double tim
 }
 
 }  // namespace amble::physics
+
+// Every program that links this library has the engine: amble_registers() in cmake/AmbleTargets.cmake.
+extern "C" const bool amble_registers_physics_mujoco_model;
+const bool amble_registers_physics_mujoco_model = [] {
+  amble::physics::register_engine({.name = "mujoco-model",
+                                   .traits = {.lanes = 1, .of_original_model = true},
+                                   .make = amble::physics::make_mujoco_model_engine});
+  return true;
+}();
