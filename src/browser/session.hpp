@@ -38,7 +38,7 @@ class Session {
   const std::vector<double>& state();
   /// Heights of uneven ground: ground::HeightField::heights_m; null for the plane.
   const float* heights_m() const;
-  /// Of each step: trial::TraceObserver.
+  /// A hash for each step: trial::TraceObserver.
   const std::vector<std::uint32_t>& trace() const { return record_.trace; }
   /// In how many steps from the first on the champion's own trial is that of its file, if that engine is
   /// `batch`. Runs it.

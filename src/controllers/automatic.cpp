@@ -89,7 +89,7 @@ class Modules {
   std::string left_hidden(int leg) const { return legs_.name(leg) + ".hidden left"; }
   std::string right_hidden(int leg) const { return legs_.name(leg) + ".hidden right"; }
   std::string touch_of(int leg) const { return legs_.name(leg) + ".touch"; }
-  /// Of a motor in its module, −1 … 1 from left to right.
+  /// Where a motor is in its module, −1 … 1 from left to right.
   double x_of(const LegMotor& motor, int leg) const {
     return evenly_spread(legs_.place_across(motor.type, legs_.is_right(leg)), legs_.types());
   }

@@ -24,7 +24,7 @@ struct LegSensor {
   substrate::Sensor sensor = {};
   float gain = 1.0f, shift = 0.0f;
 
-  /// Of any reading; −1 of one that is not a number.
+  /// What a reading says, from −1 to 1; −1 for one that is not a number.
   float sensed(float reading) const {
     const float s = reading * gain - shift, above = s > -1.0f ? s : -1.0f;
     return above < 1.0f ? above : 1.0f;

@@ -121,7 +121,7 @@ std::optional<robot::Geom> hull_of(const std::vector<Vec3>& points, bool collide
   return geom;
 }
 
-/// Of all bodies in the model's own pose.
+/// The poses of all bodies, in the model's own start pose.
 std::vector<robot::Pose> poses_of(const mjModel_& model) {
   std::vector<robot::Pose> poses(to_index(model.nbody));
   for (int b = 1; b < model.nbody; ++b)

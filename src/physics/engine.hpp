@@ -39,8 +39,8 @@ struct EngineSettings {
   double timestep_s = 0.01;
   bool torques = false;  ///< measure motor_torque_nm(); changes nothing else
   bool loads = false;    ///< measure foot_load_n(); changes nothing else
-  /// Of the ground, which has then that of all contacts (RobotSpec::contact has it already); negative: none.
-  /// For engines that have friction of their own.
+  /// The ground's coefficient, which then holds for all contacts (RobotSpec::contact has it already);
+  /// negative: none. For engines that have friction of their own.
   double ground_friction = -1.0;
   bool uneven_ground = false;  ///< whether set_ground() is to be called; an engine may refuse it here
   io::OwnSettings own = {};    ///< of an engine that a program or a plugin has added

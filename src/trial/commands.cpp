@@ -145,7 +145,7 @@ std::optional<CommandSchedule> planned_commands(const CommandSettings& settings,
   double begin_s = 0.0;
   for (const CommandStretch& stretch : list) {
     const int first_tick = ticks_of(begin_s, timestep_s);
-    // Of two that begin with the same tick, one has no time.
+    // Where two begin with the same tick, the first has no time.
     if (!stretches.empty() && stretches.back().first_tick == first_tick) stretches.pop_back();
     stretches.push_back({first_tick, command_of(stretch)});
     begin_s += stretch.seconds > 0.0 ? stretch.seconds : std::max(share_s, 0.0);

@@ -30,7 +30,7 @@ struct CommandSettings {
   CommandKind kind = CommandKind::none;
   std::vector<CommandStretch> stretches = {};
   double ramp_s = 0.0;
-  // Of CommandKind::random:
+  // For CommandKind::random:
   double stretch_s = 5.0;
   double least_speed_m_s = 0.0, most_speed_m_s = 0.4;
   double most_turn_rad_s = 0.5;
@@ -67,7 +67,7 @@ class CommandSchedule {
   /// `ramp_ticks` ticks from the command of the stretch before, and from rest.
   CommandSchedule(std::vector<Stretch> stretches, int ramp_ticks);
 
-  /// Of a tick from 0 on. Single precision, each operation rounded.
+  /// The command in a tick, from 0 on. Single precision, each operation rounded.
   Command at(int tick) const;
   const std::vector<Stretch>& stretches() const { return stretches_; }
 

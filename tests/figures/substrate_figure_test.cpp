@@ -85,7 +85,7 @@ TEST(SubstrateFigure, PutsAFrameAroundEachPlaneAndModule) {
 }
 
 TEST(SubstrateFigure, PutsNodesInTheDirectionsOfTheirCoordinates) {
-  // Of larger coordinates: right, up, or both, where planes are seen from the side.
+  // Where larger coordinates are: right, up, or both, where planes are seen from the side.
   struct Direction {
     int right, up;
   };

@@ -102,7 +102,7 @@ TEST(AddLink, ClosesNoCycleInAFeedForwardGenome) {
   const auto hits = added_pairs(false, 9000);
   std::set<Pair> pairs;
   for (const auto& [pair, count] : hits) pairs.insert(pair);
-  // Of the recurrent twelve not: a node to itself (three times), and 3 → 4, because 4 → 3 is there.
+  // Not among the twelve recurrent ones: a node to itself (three times), and 3 → 4, because 4 → 3 is there.
   EXPECT_EQ(pairs, (std::set<Pair>{{0, 3}, {0, 4}, {1, 2}, {1, 3}, {2, 3}, {2, 4}, {3, 2}, {4, 2}}));
 }
 
