@@ -70,7 +70,7 @@ ExitCode execute(experiment::Run run, const std::filesystem::path& named, int jo
   }
   print_best(run, jobs);
   const bool has_map = experiment::fills_map(run.config());
-  fmt::print("look at it by: amble page {} -o page.html\n", word);
+  fmt::print("look at it by: amble view {} --static -o page.html\n", word);
   fmt::print("to see it, run: amble {} {} -o {}\n", has_map ? "repertoire" : "view", word,
              has_map ? "map.html" : "walker.html");
   const std::string verdict = run.tally().verdict();

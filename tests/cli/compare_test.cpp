@@ -152,7 +152,7 @@ TEST_F(Compare, TheMedianTrialIsWhatGaitViewAndPageShowOfAWalkerEvolvedUnderNois
   EXPECT_THAT(amble({"view", champion_, "--trials", "5", "-o", view}).out,
               HasSubstr("its median trial is shown"));
   EXPECT_THAT(slurp(view), HasSubstr(", median trial"));
-  EXPECT_EQ(amble({"page", run_, "--trials", "5", "-o", page}).exit_code, 0);
+  EXPECT_EQ(amble({"view", run_, "--static", "--trials", "5", "-o", page}).exit_code, 0);
   EXPECT_THAT(slurp(page), HasSubstr("typically "));
   EXPECT_THAT(slurp(page), HasSubstr("the median of these trials"));
   EXPECT_EQ(amble({"view", run_, "--undisturbed", "-o", view}).exit_code, 0);

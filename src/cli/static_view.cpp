@@ -1,35 +1,29 @@
-#include "amble/core/index.hpp"
-#include "amble/page/run_page.hpp"
+#include "amble/cli/static_view.hpp"
 
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "amble/cli/compare.hpp"
 #include "amble/cli/help.hpp"
+#include "amble/cli/messages.hpp"
 #include "amble/cli/options.hpp"
 #include "amble/cli/stop_signal.hpp"
+#include "amble/core/index.hpp"
 #include "amble/experiment/build_info.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/quoting.hpp"
+#include "amble/page/run_page.hpp"
 
 namespace amble::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct PageOptions {
-  fs::path run, out;
-  std::optional<fs::path> figures;
-  std::optional<std::string> engine;
-  presentation::TrialChoice disturbance;
-};
 
 std::string noise_text(const trial::NoiseSettings& noise) {
   if (!noise.any()) return "none";
@@ -64,7 +58,7 @@ std::vector<page::Fact> facts(const experiment::Config& config, const experiment
   return facts;
 }
 
-void refuse_to_replace_others(const PageOptions& options) {
+void refuse_to_replace_others(const StaticView& options) {
   io::refuse_to_replace(options.out, "<!DOCTYPE html>", "a page");
   if (!options.figures) return;
   fs::create_directories(*options.figures);
@@ -99,11 +93,14 @@ page::RunPage page_of(const experiment::RunPaths& paths, const experiment::Confi
       .objective = score::objective_of(config.score),
       .cppn = page::CppnSize{champion.genome.count(neat::NodeKind::hidden), champion.genome.enabled_links()},
       .facts = facts(config, champion, engine.value_or(config.engine), shown),
-      .commands = {fmt::format("amble evolve {} --out AGAIN", io::shell_word(paths.config.string())),
-                   fmt::format("amble page AGAIN{} -o page.html", engine ? " --engine " + *engine : "")}};
+      .commands = {
+          fmt::format("amble evolve {} --out AGAIN", io::shell_word(paths.config.string())),
+          fmt::format("amble view AGAIN --static{} -o page.html", engine ? " --engine " + *engine : "")}};
 }
 
-ExitCode make_page(const PageOptions& options) {
+}  // namespace
+
+ExitCode make_static_view(const StaticView& options) {
   stop_signal();  // from here on what is in the folder for temporary files is removed
   const experiment::RunPaths paths = experiment::find_run(options.run);
   refuse_to_replace_others(options);
@@ -124,11 +121,9 @@ ExitCode make_page(const PageOptions& options) {
   return ExitCode::ok;
 }
 
-}  // namespace
-
 void add_page(CLI::App& app, Action& action) {
-  auto* command = app.add_subcommand("page", "Make a page with figures of a run and its champion");
-  auto options = std::make_shared<PageOptions>();
+  auto* command = app.add_subcommand("page", "The same as amble view DIR --static");
+  auto options = std::make_shared<StaticView>();
   command->add_option("DIR", options->run, "Run folder")->required();
   command->add_option("-o,--out", options->out, "The page to write (HTML)")->required();
   command->add_option("--figures", options->figures,
@@ -136,9 +131,15 @@ void add_page(CLI::App& app, Action& action) {
   add_disturbance(*command, options->disturbance);
   add_engine(*command, options->engine,
              "Physics engine in which the champion is shown (default: as in its evolution)");
-  add_examples(*command, {{"amble page runs/1 -o figures.html", ""},
-                          {"amble page runs/1 -o figures.html --engine ode --figures figures", ""}});
-  command->callback([options, &action] { action = [options] { return make_page(*options); }; });
+  add_examples(*command,
+               {{"amble page runs/1 -o figures.html", "amble view runs/1 --static -o figures.html"}});
+  command->callback([options, &action] {
+    action = [options] {
+      const ExitCode code = make_static_view(*options);
+      print_message("amble page DIR is called amble view DIR --static now\n");
+      return code;
+    };
+  });
 }
 
 }  // namespace amble::cli
