@@ -81,6 +81,16 @@ std::vector<std::string> setting_keys(const SettingsColumn& column) {
   return keys;
 }
 
+std::string keys_to_markdown(const std::function<void(SettingsVisitor&)>& describe) {
+  std::vector<Row> rows;
+  ColumnCollector collector(rows, 0, 1);
+  describe(collector);
+  std::string table = "| key | what it means | allowed |\n|---|---|---|\n";
+  for (const Row& row : rows)
+    table += fmt::format("| {} {} {}\n", cell("`" + row.key + "`"), cell(row.what), cell(row.expected));
+  return table;
+}
+
 std::string settings_to_markdown(const std::vector<SettingsColumn>& columns, SettingsRows wanted) {
   std::vector<Row> rows;
   for (std::size_t i = 0; i < columns.size(); ++i) {

@@ -29,6 +29,7 @@ TEST(Docs, SettingsAreTheProgramsOwnTables) {
                            source + "/configs/robust/supg-objective.toml"});
   expect_in_settings_page({"--differing", authors + "supg-objective.toml", authors + "sine-objective.toml",
                            authors + "ctrnn-objective.toml"});
+  expect_in_settings_page({"--robot"});
 }
 
 TEST(Docs, EveryCommandExplainsItself) {
