@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "amble/exporting/c_source.hpp"
 #include "amble/exporting/c_text.hpp"
 
@@ -57,8 +59,8 @@ void add_mixed(const SupgTables& supg, CText& text);
 std::string c_mixed_growth(const SupgTables::Mixed& mixed);
 std::string c_mixed_init(const SupgTables::Mixed& mixed);
 std::string c_mixed_end(const SupgTables::Mixed& mixed);
-/// The member of the struct PREFIX_sensors, or of the state, that a sensor reads.
-std::string c_sensor_member(const substrate::Sensor& sensor);
+/// The member of the struct PREFIX_sensors, or of the state, a variable of that name, that a sensor reads.
+std::string c_sensor_member(const substrate::Sensor& sensor, std::string_view state = "state");
 
 void add_self_test(const ControllerTables& tables, const Trace& trace, const CSourceOptions& options,
                    CText& text);

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <mujoco/mujoco.h>
+#include <memory>
 #include <mutex>
 #include <stdexcept>
+#include <string_view>
 
 #include "amble/core/math.hpp"
 
@@ -33,6 +35,14 @@ class ScopedMujocoHandlers {
 /// From now on in this process, unless somebody has handlers of his own: errors throw MujocoError, warnings
 /// are dropped. For code that steps models of strangers in many threads.
 void keep_mujoco_quiet();
+
+struct DeleteMujocoData {
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+using MujocoData = std::unique_ptr<mjData, DeleteMujocoData>;
+
+/// The state of a simulation. Throws UserError "ENGINE: …" if MuJoCo refuses.
+MujocoData new_mujoco_data(const mjModel* model, std::string_view engine);
 
 /// Three or four numbers of one of MuJoCo's arrays.
 inline Vec3 vec3(const mjtNum* numbers) {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "amble/core/check.hpp"
-#include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"
 #include "amble/morphology/mujoco_handlers.hpp"
@@ -27,19 +26,6 @@ using robot::ServoMode;
 /// MuJoCo's ids: the ground is its first geom, the root the only child of its world body.
 constexpr int ground_geom = 0, root_body = 1;
 
-struct DeleteData {
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-
-std::unique_ptr<mjData, DeleteData> new_data(const mjModel* model) {
-  const morphology::ScopedMujocoHandlers handlers;
-  try {
-    return std::unique_ptr<mjData, DeleteData>(mj_makeData(model));
-  } catch (const morphology::MujocoError& fatal) {
-    fail(ExitCode::bad_input, "the mujoco engine: {}", fatal.what());
-  }
-}
-
 /// MuJoCo 2.2: one robot per engine, double precision, joint angles as coordinates, semi-implicit Euler
 /// without substeps, at most 20 iterations of Newton's method to a tolerance of 1e-10, elliptic friction
 /// cones. Contacts, stops and velocity servos have the erp and cfm of RobotSpec::contact, as in ODE
@@ -52,7 +38,7 @@ class MujocoEngine final : public SingleRobotEngine {
   MujocoEngine(const RobotSpec& robot, const EngineSettings& settings)
       : SingleRobotEngine(robot, settings),
         model_(mujoco::make_model(robot, settings.timestep_s)),
-        data_(new_data(model_.get())),
+        data_(morphology::new_mujoco_data(model_.get(), "the mujoco engine")),
         ground_contacts_(robot, model_),
         slip_(robot.contact.friction, settings.timestep_s) {}
 
@@ -296,7 +282,7 @@ class MujocoEngine final : public SingleRobotEngine {
   }
 
   const mujoco::Model model_;
-  const std::unique_ptr<mjData, DeleteData> data_;
+  const morphology::MujocoData data_;
   mujoco::GroundContacts ground_contacts_;
   mujoco::Slip slip_;
 };

@@ -25,19 +25,9 @@ using morphology::quat;
 using morphology::vec3;
 using robot::RobotSpec;
 
-struct DeleteModelData {
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-using DataPointer = std::unique_ptr<mjData, DeleteModelData>;
-
-DataPointer new_model_data(const mjModel* model) {
+morphology::MujocoData new_model_data(const mjModel* model) {
   morphology::keep_mujoco_quiet();
-  const morphology::ScopedMujocoHandlers handlers;
-  try {
-    return DataPointer(mj_makeData(model));
-  } catch (const morphology::MujocoError& fatal) {
-    fail(ExitCode::bad_input, "the engine mujoco-model: {}", fatal.what());
-  }
+  return morphology::new_mujoco_data(model, "the engine mujoco-model");
 }
 
 class MujocoModelEngine final : public SingleRobotEngine {
@@ -327,7 +317,7 @@ class MujocoModelEngine final : public SingleRobotEngine {
 
   const mujoco_model::Model model_;
   mujoco_model::Actuation actuation_;
-  const DataPointer data_;
+  const morphology::MujocoData data_;
   mujoco_model::UnevenGround uneven_ground_;
   const double tick_s_;
   std::vector<double> positions_;
