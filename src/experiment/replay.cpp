@@ -1,7 +1,7 @@
 #include "amble/experiment/replay.hpp"
 
 #include "amble/damage/stages.hpp"
-#include "amble/ground/ground.hpp"
+#include "amble/ground/recorded.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/robot/json.hpp"
 #include "amble/score/tracking.hpp"

@@ -5,7 +5,6 @@
 
 #include "amble/core/math.hpp"
 #include "amble/ground/height_field.hpp"
-#include "amble/io/json_file.hpp"
 #include "amble/robot/collision_points.hpp"
 #include "amble/robot/pose.hpp"
 #include "amble/robot/spec.hpp"
@@ -50,11 +49,5 @@ class Ground {
   std::vector<HeightField> fields_;
   double highest_m_;
 };
-
-/// Names a field in files: {"settings": …, "key": …}.
-io::Json to_json(const Settings& settings, const Key& key);
-
-/// The field named so, made again. Throws UserError.
-HeightField field_from_json(const io::JsonView& json);
 
 }  // namespace amble::ground

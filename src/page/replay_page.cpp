@@ -9,7 +9,7 @@
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
 #include "amble/figures/style_sheet.hpp"
-#include "amble/ground/ground.hpp"
+#include "amble/ground/recorded.hpp"
 #include "amble/io/base64.hpp"
 #include "amble/io/quoting.hpp"
 #include "amble/page/html_page.hpp"

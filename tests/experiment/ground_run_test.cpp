@@ -6,7 +6,7 @@
 #include "amble/experiment/problem/problem_json.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/verify.hpp"
-#include "amble/ground/ground.hpp"
+#include "amble/ground/recorded.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/record/recording.hpp"
 #include "amble/robot/pose.hpp"

@@ -8,7 +8,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/random.hpp"
-#include "amble/ground/ground.hpp"
+#include "amble/ground/recorded.hpp"
 
 namespace amble::ground {
 namespace {

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <random>
 
-#include "amble/ground/ground.hpp"
+#include "amble/ground/recorded.hpp"
 #include "tests/motion/fixture.hpp"
 
 namespace amble::tests {
