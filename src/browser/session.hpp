@@ -11,7 +11,7 @@
 
 namespace amble::browser {
 
-/// In which all walk here: the engine that needs no library.
+/// The engine in which all walk here: the one that needs no library.
 inline constexpr const char* engine = "batch";
 
 /// A champion that walks in a page, and the record of what was done to it.

@@ -136,7 +136,7 @@ void add_page(CLI::App& app, Action& action) {
   command->callback([options, &action] {
     action = [options] {
       const ExitCode code = make_static_view(*options);
-      print_message("amble page DIR is called amble view DIR --static now\n");
+      print_message("amble page DIR: now written amble view DIR --static\n");
       return code;
     };
   });

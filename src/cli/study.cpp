@@ -41,8 +41,8 @@ void take_old_workers(StudyOptions& options) {
   if (!options.workers) return;
   options.per_run = *options.workers;
   options.jobs *= *options.workers;
-  print_message(fmt::format("--workers {0}: asked for by --jobs {1} --per-run {0} now\n", *options.workers,
-                            options.jobs));
+  print_message(
+      fmt::format("--workers {0}: now written --jobs {1} --per-run {0}\n", *options.workers, options.jobs));
 }
 
 /// How much of a study's part is done, begun and neither.

@@ -93,7 +93,7 @@ void refuse_used_folder(const fs::path& folder) {
     fail(ExitCode::bad_input, "--out {}: a file of that name exists", folder.string());
   if (is_run_folder(folder))
     fail(ExitCode::bad_input,
-         "--out {}: holds a run already; go on with it by `amble resume {}`, or name another folder",
+         "--out {}: holds a run already; continue it with `amble resume {}`, or name another folder",
          folder.string(), io::shell_word(folder.string()));
   if (!holds_nothing(folder))
     fail(ExitCode::bad_input, "--out {}: not empty and not a run; name another folder", folder.string());

@@ -16,7 +16,7 @@
 
 namespace amble::experiment {
 
-/// In place of a level's name: the noise of the run itself.
+/// What stands in place of a level's name for the noise of the run itself.
 inline constexpr std::string_view own_noise = "own";
 
 /// Trials that tell what a walker typically does while a run goes on.

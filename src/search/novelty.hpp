@@ -37,7 +37,7 @@ class NoveltySearch : public Criterion {
   std::vector<Metric> metrics() const override;
 
   const Behaviours& archive() const { return archive_; }
-  /// For the next generation.
+  /// The threshold for the next generation.
   double threshold() const { return threshold_; }
 
  private:

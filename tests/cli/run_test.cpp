@@ -241,7 +241,7 @@ TEST(View, StaticIsWhatPageMakes) {
   EXPECT_EQ(made.err, "");
   const auto by_page = amble({"page", run, "-o", page});
   EXPECT_EQ(by_page.exit_code, ok);
-  EXPECT_EQ(by_page.err, "amble page DIR is called amble view DIR --static now\n");
+  EXPECT_EQ(by_page.err, "amble page DIR: now written amble view DIR --static\n");
   EXPECT_EQ(slurp(figures), slurp(page));
 }
 
