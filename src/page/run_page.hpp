@@ -11,7 +11,7 @@
 #include "amble/record/generations_csv.hpp"
 #include "amble/record/objective.hpp"
 
-/// The page of a run and its champion: page.hpp writes the HTML, figure_files.hpp its figures as files.
+/// The page of a run and its champion as HTML, and its figures as files.
 namespace amble::page {
 
 /// A row of the table at the end of a page.
