@@ -24,7 +24,7 @@ RunPage input() {
   page.subtitle = "by \"evolution\"";
   page.cppn = CppnSize{7, 41};
   page.facts = {{"Seed", "1"}, {"Config", "a<b>.toml"}};
-  page.commands = {"amble evolve a.toml --out runs/1 && amble view runs/1 --static"};
+  page.commands = {"amble evolve a.toml --out runs/1 && amble page runs/1"};
   page.generations = record::parse_generations(
       "generation,best,mean,median,species,threshold,mean_hidden,mean_links,evaluations,steps\n"
       "0,0.5,0.25,0.2,3,100,0,8,300,440000\n1,1.5,0.5,0.4,5,90,0.5,9,300,450000\n",
@@ -52,7 +52,7 @@ TEST(Page, IsWellFormedWhateverTheTexts) {
   };
   EXPECT_EQ(text_of("title"), "A <walker> & more");
   EXPECT_EQ(text_of("h1"), "A <walker> & more");
-  EXPECT_EQ(text_of("pre"), "amble evolve a.toml --out runs/1 && amble view runs/1 --static\n");
+  EXPECT_EQ(text_of("pre"), "amble evolve a.toml --out runs/1 && amble page runs/1\n");
 }
 
 TEST(Page, NeedsNeitherNetworkNorScripts) {
