@@ -126,7 +126,6 @@ TEST(Sensing, EachRowOfTheTableIsInTheDocs) {
     EXPECT_NE(docs.find("| `" + std::string(kind.name)), std::string::npos) << kind.name;
 }
 
-using Kind = substrate::Sensor::Kind;
 using substrate::Attitude;
 
 /// Uniform over all rotations, by rejection.
