@@ -30,6 +30,7 @@ struct Controllers {
     sensors.joint_torque_nm = LaneArray(joints, count);
     sensors.foot_load_n = LaneArray(legs, count);
     sensors.command = LaneArray(2, count);
+    sensors.command_stop = LaneArray(1, count);
     sensors.heading_error_rad = wanted_yaw_rad = LaneArray(1, count);
     for (const neat::Genome& genome : genomes) parameters.push_back(task->problem().decode(genome));
     reset({});
@@ -58,6 +59,12 @@ struct Controllers {
                                          rate_hz)
                 : 0.0f;
     }
+  }
+  /// Of the commands that the frame has.
+  void take_stops() {
+    for (int lane = 0; lane < count; ++lane)
+      sensors.command_stop.at(0, lane) =
+          sensors.command.at(0, lane) == 0.0f && sensors.command.at(1, lane) == 0.0f ? 1.0f : 0.0f;
   }
   /// How far the heading that the commanded turns lead to is to the left, from a lane's first tick on. Before
   /// take_rates().
@@ -148,6 +155,7 @@ py::array step_controllers(Controllers& self, const py::object& angle_rad, const
     if (torques) to_lanes(*torques, self.sensors.joint_torque_nm);
     if (loads) to_lanes(*loads, self.sensors.foot_load_n);
     if (commands) to_lanes(*commands, self.sensors.command);
+    self.take_stops();
     self.take_headings();
     self.take_rates(angles_before_rad, attitudes_before_rad);
     self.tick();

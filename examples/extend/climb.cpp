@@ -1,5 +1,7 @@
 // A search of one's own: the best genome so far and its mutants, round by round, a (1 + lambda) evolution
-// strategy. Use: amble --plugin build/libclimb.so evolve climb.toml --out runs/climb
+// strategy.
+// Use:
+//   amble --plugin build/extend/libclimb.so evolve examples/extend/climb.toml --out runs/climb
 #include <memory>
 #include <vector>
 

@@ -1,6 +1,7 @@
 // An engine of one's own, without forces: joints turn towards their targets at a limited speed, the robot
-// always stands on its lowest point, and the feet that touch the ground push it along. Use: amble --plugin
-// build/libpuppet.so evolve puppet.toml --out runs/puppet
+// always stands on its lowest point, and the feet that touch the ground push it along.
+// Use:
+//   amble --plugin build/extend/libpuppet.so evolve examples/extend/puppet.toml --out runs/puppet
 #include <algorithm>
 #include <bit>
 #include <cmath>

@@ -1,5 +1,7 @@
 // A ground and a quantity of one's own: ripples to walk over, and how straight a walk went, for scores,
-// limits and maps. Use: amble --plugin build/libripples.so evolve ripples.toml --out runs/ripples
+// limits and maps.
+// Use:
+//   amble --plugin build/extend/libripples.so evolve examples/extend/ripples.toml --out runs/ripples
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,7 @@
-// A controller of one's own: every joint swings by a sine, whose amplitude and phase a CPPN paints over the
-// robot's joints. Use: amble --plugin build/libswing.so evolve swing.toml --out runs/swing
+// A controller of one's own: every joint swings by a sine, whose amplitude and phase a CPPN paints over
+// the robot's joints.
+// Use:
+//   amble --plugin build/extend/libswing.so evolve examples/extend/swing.toml --out runs/swing
 #include <algorithm>
 #include <cmath>
 #include <memory>

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "amble/controllers/automatic_legs.hpp"
@@ -200,9 +201,10 @@ class Modules {
 using substrate::Port;
 
 /// Groups of nodes.
-constexpr const char *of_body = "body", *of_feet = "touch", *neurons = "hidden", *first_supg = "lead",
-                     *other_supg = "supg";
-constexpr std::array told_sensors{"command_speed", "command_turn", "heading_error", "yaw_rate"};
+constexpr const char *of_stop = "stop", *of_speed = "speed", *of_turn = "turn", *of_feet = "touch",
+                     *neurons = "hidden", *first_supg = "lead", *other_supg = "supg";
+constexpr std::array root_sensors{"command_stop", "command_speed", "command_turn", "heading_error",
+                                  "yaw_rate"};
 
 /// 1 on the left, −1 on the right, 0 where the two cannot be told.
 double side_of(const AutomaticLegs& legs, int leg) {
@@ -221,10 +223,15 @@ void add_mixed_nodes(const AutomaticLegs& legs, const substrate::Settings& supgs
     node.at = std::move(at);
     return &node;
   };
-  const int count = static_cast<int>(told_sensors.size());
+  const int count = static_cast<int>(root_sensors.size());
   for (int i = 0; i < count; ++i) {
-    const std::string sensor = told_sensors[to_index(i)];
-    add(sensor, of_body, {0.0, evenly_spread(i, count), 0.0, -1.0})->sensor = sensor;
+    const std::string sensor = root_sensors[to_index(i)];
+    add(sensor,
+        i == 0   ? of_stop
+        : i == 1 ? of_speed
+                 : of_turn,
+        {0.0, evenly_spread(i, count), 0.0, -1.0})
+        ->sensor = sensor;
   }
   std::size_t next = 0;
   for (int leg = 0; leg < legs.count(); ++leg) {
@@ -242,20 +249,28 @@ void add_mixed_nodes(const AutomaticLegs& legs, const substrate::Settings& supgs
   }
 }
 
-void add_mixed_links(bool has_others, int legs, substrate::Settings& settings) {
-  const auto link = [&](const char* from, const char* to, Port port, const char* output) {
-    settings.links.push_back({.from = from, .to = to, .weight = output, .same = {}, .port = port});
+/// What acts on SUPGs does so by CPPN outputs of its own, so that one weight of a CPPN is enough to steer;
+/// what tells left from right acts on the two sides in opposite senses.
+void add_mixed_links(bool has_sides, bool has_others, int legs, substrate::Settings& settings) {
+  const auto link = [&](const char* from, const char* to, Port port, const std::string& output,
+                        bool by_side = false) {
+    settings.links.push_back({.from = from,
+                              .to = to,
+                              .weight = output,
+                              .same = {},
+                              .port = port,
+                              .times = by_side && has_sides ? "side" : ""});
   };
-  for (const char* from : {of_body, of_feet}) link(from, neurons, Port::hidden, "hidden");
+  for (const char* from : {of_stop, of_speed, of_turn, of_feet}) link(from, neurons, Port::hidden, "hidden");
   if (legs > 0) link(neurons, neurons, Port::hidden, "hidden");
-  for (const char* from : {of_body, neurons}) {
-    link(from, first_supg, Port::rate, "rate");
-    link(from, first_supg, Port::amplitude, "amplitude");
-    link(from, first_supg, Port::shift, "shift");
-    if (!has_others) continue;
-    link(from, other_supg, Port::amplitude, "amplitude");
-    link(from, other_supg, Port::shift, "shift");
-  }
+  const auto shape = [&](const char* from, Port port, const std::string& output) {
+    link(from, first_supg, port, output, from == of_turn);
+    if (has_others && port != Port::rate) link(from, other_supg, port, output, from == of_turn);
+  };
+  shape(of_stop, Port::amplitude, "stop_amplitude");
+  for (const auto& [from, prefix] : {std::pair(of_speed, "speed_"), {of_turn, "turn_"}, {neurons, ""}})
+    for (const Port port : {Port::rate, Port::amplitude, Port::shift})
+      shape(from, port, prefix + std::string(substrate::port_names[to_index(static_cast<int>(port))]));
   if (legs > 1) link(first_supg, first_supg, Port::coupling, "coupling");
 }
 
@@ -319,8 +334,10 @@ substrate::Settings automatic_mixed(const robot::RobotSpec& robot) {
   const substrate::Settings supgs = automatic_supg(robot);
   substrate::Settings settings;
   settings.coordinates = {"leg", "joint_type", "side", "layer"};
-  settings.outputs = {"pattern", "offset",   "hidden", "rate",         "amplitude",
-                      "shift",   "coupling", "bias",   "time_constant"};
+  settings.outputs = {"pattern",        "offset",    "hidden",         "rate",
+                      "amplitude",      "shift",     "speed_rate",     "speed_amplitude",
+                      "speed_shift",    "turn_rate", "turn_amplitude", "turn_shift",
+                      "stop_amplitude", "coupling",  "bias",           "time_constant"};
   add_mixed_nodes(legs, supgs, settings);
   int leads = 0;
   bool has_others = false;
@@ -328,7 +345,7 @@ substrate::Settings automatic_mixed(const robot::RobotSpec& robot) {
     leads += node.group == first_supg ? 1 : 0;
     has_others = has_others || node.group == other_supg;
   }
-  add_mixed_links(has_others, std::min(leads, legs.count()), settings);
+  add_mixed_links(!legs.pairs().empty(), has_others, std::min(leads, legs.count()), settings);
   if (leads < 2) std::erase(settings.outputs, "coupling");
   const auto add = [&](const char* of, std::string_view property, double low, double high) {
     auto& added = settings.properties.emplace_back();

@@ -44,8 +44,8 @@ class Batch {
   virtual std::vector<std::size_t> events() const { return {}; }
 };
 
-/// A kind of controller (SUPG, sine wave, CTRNN) for one robot: knows what its CPPN must look like and how a
-/// CPPN becomes a controller. Const and shared by all workers.
+/// A kind of controller (SUPG, CTRNN, oscillators, …) for one robot: knows what its CPPN must look like and
+/// how a CPPN becomes a controller. Const and shared by all workers.
 class Architecture {
  public:
   virtual ~Architecture() = default;

@@ -143,6 +143,7 @@ void NeuralBatch::sense(const robot::SensorFrame& sensors) {
       case Kind::yaw_rate:
       case Kind::command_speed:
       case Kind::command_turn:
+      case Kind::command_stop:
       case Kind::heading_error: {
         const float* const from = substrate::row_of(sensor, sensors);
         AMBLE_CHECK(from != nullptr && sensors.touch.lanes() == lanes_, "the sensors are of another robot");

@@ -93,9 +93,8 @@ struct ModulatedSupgs {
 ///
 /// The SUPGs of a leg share one timer, in ticks; −1 means stopped. In each tick, in this order:
 /// 1. Touch is read, or what SupgSettings::contact has in its place. It is a trigger with Trigger::level;
-/// with
-///    Trigger::edge only if the foot was off the ground in at least the trigger_debounce_ticks ticks before.
-///    All feet count as touching before tick 1. With Trigger::none there are no triggers; with
+///    with Trigger::edge only if the foot was off the ground in at least the trigger_debounce_ticks ticks
+///    before. All feet count as touching before tick 1. With Trigger::none there are no triggers; with
 ///    Trigger::random they come when RandomTriggers says.
 /// 2. The timer is set. Offset::phase: before tick 1 its value is the offset, from which it grows; a trigger
 ///    in tick 1 is ignored. Offset::delay: it is stopped for `offset` ticks and starts at start_tick in the

@@ -27,7 +27,8 @@ void ModulationSettings::describe(io::SettingsVisitor& visitor) {
   visitor.texts(
       "sensors", sensors,
       {"what a leg's SUPGs sense: of the leg itself touch, load, and angle.TYPE, speed.TYPE, torque.TYPE by "
-       "joint type; of the robot roll, pitch, yaw, yaw_rate; command_speed, command_turn, heading_error"});
+       "joint type; of the robot roll, pitch, yaw, yaw_rate; command_speed, command_turn, command_stop, "
+       "heading_error"});
   visitor.number("rate", rate, {0.0, 1.0},
                  {"how far sensors may change a leg's rate: a factor of 2 to the power of ± this; 0: not"});
   visitor.number("shape", shape, {0.0, 10.0},

@@ -218,4 +218,13 @@ std::optional<SizeSettings> settings_of_size(const robot::RobotSpec& robot) {
                       .start_height_m = preset_drop_m * size};
 }
 
+std::optional<CommandSizes> commands_of_size(const robot::RobotSpec& robot) {
+  const double height_m = robot::leg_height_m(robot), gravity_m_s2 = norm(robot.gravity_m_s2);
+  if (!(height_m > 0.0) || !(gravity_m_s2 > 0.0) || robot.legs.size() < 3) return std::nullopt;
+  const auto rounded = [](double value) { return std::max(std::round(100.0 * value) / 100.0, 0.01); };
+  return CommandSizes{.leg_height_m = height_m,
+                      .most_speed_m_s = rounded(0.2 * std::sqrt(gravity_m_s2 * height_m)),
+                      .most_turn_rad_s = rounded(0.05 * std::sqrt(gravity_m_s2 / height_m))};
+}
+
 }  // namespace amble::experiment

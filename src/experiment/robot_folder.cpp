@@ -112,6 +112,33 @@ std::string config_text(const std::string& name, const std::string& engine,
       legs == 1 || legs == 2 ? score_of_two_legs : "");
 }
 
+/// The config of a robot that is told where to go.
+std::string steer_text(const std::string& name, const CommandSizes& sizes, const fs::path& folder,
+                       const std::optional<fs::path>& preset) {
+  const fs::path part = preset ? preset->parent_path() / steer_part : fs::path("configs/parts/steer.toml");
+  return fmt::format(
+      "# {0}, told a speed and a turn: SUPGs, neurons and sensors in one substrate (docs/STEERING.md).\n"
+      "include = [\"evolve.toml\", {1}]\n"
+      "name = {2}\n"
+      "\n"
+      "[command]  # by the hips, {3:.2g} m over the feet: 0.2 √(g h) and 0.05 √(g / h)\n"
+      "least_speed_m_s = {4:.2g}\n"
+      "most_speed_m_s = {5:.2g}\n"
+      "most_turn_rad_s = {6:.2g}\n"
+      "\n"
+      "[controller.sensing]  # the greatest command reads 1\n"
+      "sensors = [{{ of = \"command_speed\", scale = {7:.3g} }}, {{ of = \"command_turn\", scale = {8:.3g} "
+      "}}]\n"
+      "\n"
+      "[score.tracking]\n"
+      "speed_m_s = {9:.2g}\n"
+      "turn_rad_s = {6:.2g}\n",
+      io::printable(name), io::toml_quoted(preset ? path_from(folder, part) : part.string()),
+      io::toml_quoted(name + ", steered"), sizes.leg_height_m, 0.25 * sizes.most_speed_m_s,
+      sizes.most_speed_m_s, sizes.most_turn_rad_s, 1.0 / sizes.most_speed_m_s, 1.0 / sizes.most_turn_rad_s,
+      0.5 * sizes.most_speed_m_s);
+}
+
 /// What was read and guessed, and what to do next.
 std::string text_of(const RobotFolder& written, const NewRobot& made, const fs::path& folder) {
   const std::string file = written.robot_file.string();
@@ -126,10 +153,16 @@ std::string text_of(const RobotFolder& written, const NewRobot& made, const fs::
   if (!written.asked.empty())
     fmt::format_to(out, "still to be given in {}:\n  {}\n", file, fmt::join(written.asked, "\n  "));
   text += doubts_text(written.warnings);
-  if (written.ready)
-    fmt::format_to(out, "next: read {}, then\n  amble evolve {} --out {}\n", file,
-                   io::shell_word(written.config_file.string()), io::shell_word((folder / "run").string()));
-  else
+  const auto command = [&](const fs::path& config, const char* run) {
+    return fmt::format("  amble evolve {} --out {}", io::shell_word(config.string()),
+                       io::shell_word((folder / run).string()));
+  };
+  if (written.ready) {
+    fmt::format_to(out, "next: read {}, then\n{}\n", file, command(written.config_file, "run"));
+    if (!written.steer_file.empty())
+      fmt::format_to(out, "or, to tell it where to go:\n{}\n", command(written.steer_file, "steered"));
+  }
+  if (!written.ready)
     fmt::format_to(out, "next: complete it, and check it with\n  amble robot {}\n", io::shell_word(file));
   return text;
 }
@@ -184,9 +217,12 @@ RobotFolder write_robot_folder(const fs::path& model, fs::path folder,
   RobotFolder written;
   written.robot_file = folder / (model.stem().string() + ".toml");
   written.config_file = folder / "evolve.toml";
-  if (written.robot_file.filename() == written.config_file.filename())
-    fail(ExitCode::bad_input, "{}: the model must not be called evolve, as the config is", model.string());
-  for (const fs::path& path : {written.robot_file, written.config_file})
+  for (const char* config : {"evolve", "steer"})
+    if (model.stem() == config)
+      fail(ExitCode::bad_input, "{}: the model must not be called {}, as a config is", model.string(),
+           config);
+  const fs::path steer_file = folder / "steer.toml";
+  for (const fs::path& path : {written.robot_file, written.config_file, steer_file})
     if (fs::exists(path))
       fail(ExitCode::bad_input, "{} is there already, and is not replaced", path.string());
   NewRobot made = make_new_robot(file, path_from(folder, model), written.robot_file);
@@ -198,6 +234,10 @@ RobotFolder write_robot_folder(const fs::path& model, fs::path folder,
   if (!sweeps.empty()) robot = morphology::load_robot(written.robot_file);
   const std::string engine = robot ? engine_line(*robot) : "engine = \"batch\"\n";
   io::write_file(written.config_file, config_text(made.guess.name, engine, robot, folder, preset));
+  if (const auto sizes = robot ? commands_of_size(*robot) : std::nullopt) {
+    written.steer_file = steer_file;
+    io::write_file(steer_file, steer_text(made.guess.name, *sizes, folder, preset));
+  }
   written.settled = made.guess.settled;
   written.asked = made.guess.asked;
   written.warnings = made.guess.doubts;

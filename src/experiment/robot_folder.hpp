@@ -25,18 +25,23 @@ std::string start_text(const robot::RobotSpec& robot);
 /// The preset that makes walkers of most robots in a minute (docs/ROBOTS.md), below the folder
 /// that has amble's configs.
 inline constexpr const char* robot_preset = "configs/quick/supg.toml";
+/// What makes of such a config one of a robot that obeys (docs/STEERING.md), as seen from the preset's
+/// folder.
+inline constexpr const char* steer_part = "../parts/steer.toml";
 
 /// What write_robot_folder() wrote.
 struct RobotFolder {
   std::filesystem::path robot_file, config_file;
+  std::filesystem::path steer_file;                   ///< empty: robots on fewer than three legs have none
   bool ready = false;                                 ///< to evolve: the robot was read, and has legs
   std::vector<std::string> settled, asked, warnings;  ///< a line each; asked: what is still to be given
   std::string text;  ///< all of it, what was read and what to do next, as `amble robot --init` prints it
 };
 
-/// Guesses a robot file from a model, MJCF (.xml) or URDF (.urdf), and writes it and a config that extends
-/// `preset` (none: a path to be corrected) into `folder` (empty: one of the model's name, below the current
-/// folder). Throws UserError for a model that cannot be read and for files that are there already.
+/// Guesses a robot file from a model, MJCF (.xml) or URDF (.urdf), and writes it, a config that extends
+/// `preset`, and one that extends that by commands (steer.toml) (none: a path to be corrected) into `folder`
+/// (empty: one of the model's name, below the current folder). Throws UserError for a model that cannot be
+/// read and for files that are there already.
 RobotFolder write_robot_folder(const std::filesystem::path& model, std::filesystem::path folder,
                                const std::optional<std::filesystem::path>& preset);
 

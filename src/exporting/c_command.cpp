@@ -8,6 +8,7 @@ constexpr std::string_view set_text =
     R"(void $p_set_command($p_state *state, float speed_m_s, float turn_rad_s) {
   state->command_speed_m_s = speed_m_s;
   state->command_turn_rad_s = turn_rad_s;
+  state->command_stop = speed_m_s == 0.0f && turn_rad_s == 0.0f ? 1.0f : 0.0f;
 }
 
 )";
@@ -35,7 +36,7 @@ static void update_heading($p_state *state, const $p_sensors *in) {
 
 void add_command_state(const ControllerTables& tables, CText& text) {
   if (!tables.reads_commands()) return;
-  text.line("  float command_speed_m_s, command_turn_rad_s; /* what it is told */");
+  text.line("  float command_speed_m_s, command_turn_rad_s, command_stop; /* what it is told */");
   if (!tables.reads_heading_error()) return;
   text.line("  float wanted_yaw_rad, heading_error_rad;");
   text.line("  uint8_t faces;");

@@ -254,6 +254,8 @@ std::string c_sensor_member(const substrate::Sensor& sensor, std::string_view st
       return fmt::format("{}->command_speed_m_s", state);
     case Kind::command_turn:
       return fmt::format("{}->command_turn_rad_s", state);
+    case Kind::command_stop:
+      return fmt::format("{}->command_stop", state);
     case Kind::heading_error:
       return fmt::format("{}->heading_error_rad", state);
     case Kind::sine:

@@ -289,7 +289,8 @@ bool ControllerTables::reads_loads() const {
 bool ControllerTables::reads_commands() const {
   using Kind = substrate::Sensor::Kind;
   return reads(*this, [](auto sensed) {
-    return sensed == Kind::command_speed || sensed == Kind::command_turn || sensed == Kind::heading_error;
+    return sensed == Kind::command_speed || sensed == Kind::command_turn || sensed == Kind::command_stop ||
+           sensed == Kind::heading_error;
   });
 }
 

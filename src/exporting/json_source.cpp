@@ -136,6 +136,8 @@ std::string sensor_name(const substrate::Sensor& sensor, const ControllerTables&
       return "command_speed";
     case Kind::command_turn:
       return "command_turn";
+    case Kind::command_stop:
+      return "command_stop";
     case Kind::heading_error:
       return "heading_error";
     case Kind::load:

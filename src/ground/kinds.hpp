@@ -24,7 +24,8 @@ constexpr double smooth(double t) {
 struct Kind {
   std::string name;  ///< value of ground.kind
   /// `stream` has the random numbers of this field; `settings.own` has all of `numbers`. Finite everywhere.
-  /// Without random functions of the library's: the same on every CPU, to the bit. Empty: the plane.
+  /// The same on every CPU, to the bit: so without sin, exp and the like of the C library, and without the
+  /// standard library's random numbers. Empty: the plane.
   std::function<Shape(const Settings& settings, double period_m, Stream stream)> shape;
   /// Whether heights follow from the distance to the flat start alone, which then belongs to the shape.
   /// Others are blended into it.

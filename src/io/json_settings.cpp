@@ -18,7 +18,9 @@ class Writer final : public SettingsVisitor {
   void number(std::string_view key, double& value, Range, Doc) override { put(key, json_number(value)); }
   void integer(std::string_view key, std::int64_t& value, Range, Doc) override { put(key, value); }
   void flag(std::string_view key, bool& value, Doc) override { put(key, value); }
-  void text(std::string_view key, std::string& value, Doc) override { put(key, value); }
+  void text(std::string_view key, std::string& value, Doc doc) override {
+    if (!doc.first_is_implied || !value.empty()) put(key, value);
+  }
   void texts(std::string_view key, std::vector<std::string>& value, Doc) override { put(key, value); }
   void numbers(std::string_view key, std::vector<double>& values, Range, Doc) override {
     Json list = Json::array();
@@ -74,7 +76,10 @@ class Reader final : public SettingsReader {
     value = view.integer();
   }
   void flag(std::string_view key, bool& value, Doc) override { value = get(key).flag(); }
-  void text(std::string_view key, std::string& value, Doc) override { value = get(key).text(); }
+  void text(std::string_view key, std::string& value, Doc doc) override {
+    const bool implied = doc.first_is_implied && !tables_.back().view.has(key);
+    value = implied ? std::string() : get(key).text();
+  }
   void texts(std::string_view key, std::vector<std::string>& values, Doc) override {
     const JsonView list = get(key);
     values.assign(list.size(), {});

@@ -8,16 +8,17 @@
 
 namespace amble::io {
 
-/// A number that an extension (a controller or search of somebody's own) can be set by.
+/// A number that an extension (a controller, search, ground or engine of somebody's own) can be set by.
 struct OwnNumber {
-  std::string name;    ///< the key in its table
-  double value = 0.0;  ///< the default
-  Range range = {};
+  std::string name;         ///< the key in its table
+  double value = 0.0;       ///< the default
+  Range range = {};         ///< of what is allowed, in the unit that `what` names
   std::string what = {};    ///< one sentence, with the unit
   std::string source = {};  ///< where the number comes from
 };
 
-/// The numbers of an extension, in the table `own` of a config. amble's own kinds have a struct each instead.
+/// The numbers of an extension, in the table `own` of its part of a config (of an engine: `engine_own`).
+/// amble's own kinds have a struct each instead.
 struct OwnSettings {
   std::map<std::string, double> numbers = {};
 

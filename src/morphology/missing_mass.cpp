@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <numbers>
 #include <set>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "amble/core/index.hpp"
 #include "amble/morphology/model_shapes.hpp"
 #include "amble/morphology/mujoco_handlers.hpp"
+#include "amble/robot/doubts.hpp"
 
 namespace amble::morphology {
 namespace {
@@ -154,6 +156,7 @@ class MassMender {
       else if (!has_inertial[to_index(b)])
         mend_lost(b);
     }
+    mend_templates();
     const auto note = [&](const char* what, const std::vector<std::string>& names) {
       if (!names.empty()) notes.add(Reading::replaced, fmt::format("{}: {}", what, fmt::join(names, ", ")));
     };
@@ -164,6 +167,13 @@ class MassMender {
         "moments of inertia of bodies with a mesh that cannot be read, by those of their other shapes, or of "
         "a ball of water, with the mass that their geoms have",
         lost_);
+    if (!templates_.empty())
+      notes.add(
+          Reading::replaced,
+          fmt::format("moments of inertia that would need a body larger than the robot, by those of the "
+                      "shapes with the body's mass; check inertia, mass and units: {}",
+                      fmt::join(templates_, ", ")),
+          true);
     return mended_;
   }
 
@@ -187,6 +197,42 @@ class MassMender {
       for (int b = root; b < model_.nbody && sum < mjMINVAL; ++b)
         if (is_part(b) && model_.body_mass[b] > 0.0)
           mend(b, model_.names + model_.name_bodyadr[b], model_.body_mass[b]);
+    }
+  }
+
+  /// How far the shapes of the body's robot reach from its root, with all joints as the file has them.
+  double reach_m(int root) const {
+    std::vector<robot::Pose> poses(to_index(model_.nbody));
+    double reach = 0.0;
+    for (int b = root; b < model_.nbody; ++b) {
+      if (model_.body_rootid[b] != root) continue;
+      if (b != root)
+        poses[to_index(b)] = poses[to_index(model_.body_parentid[b])] *
+                             robot::Pose{vec3(model_.body_pos + 3 * b), quat(model_.body_quat + 4 * b)};
+      for (int g = model_.body_geomadr[b], end = g + model_.body_geomnum[b]; g < end; ++g) {
+        const robot::Pose at = poses[to_index(b)] * robot::Pose{vec3(model_.geom_pos + 3 * g), {}};
+        if (!is_placeholder(g)) reach = std::max(reach, norm(at.position_m) + model_.geom_rbound[g]);
+      }
+    }
+    return reach;
+  }
+
+  /// Moments as templates have them, whatever the body. Without shapes they stay, and are doubted.
+  void mend_templates() {
+    std::map<int, double> reaches_m;
+    for (int b = 1; b < model_.nbody; ++b) {
+      const int root = model_.body_rootid[b];
+      const auto [reach, is_new] = reaches_m.try_emplace(root, 0.0);
+      if (is_new) reach->second = reach_m(root);
+      const double mass_kg = model_.body_mass[b];
+      const mjtNum* const moments = model_.body_inertia + 3 * b;
+      if (!robot::is_larger_than_robot(moments[0] + moments[1] + moments[2], mass_kg, reach->second))
+        continue;
+      Solid solid = solid_of(b, true);
+      if (!(solid.volume_m3 > 0.0)) solid = solid_of(b, false);
+      if (!(solid.volume_m3 > 0.0) || !(mass_kg > 0.0)) continue;
+      set(b, mass_kg, solid.inertia_kg_m2(mass_kg));
+      templates_.emplace_back(model_.names + model_.name_bodyadr[b]);
     }
   }
 
@@ -255,7 +301,7 @@ class MassMender {
 
   mjModel_& model_;
   const std::map<std::string, std::string>& missing_meshes_;
-  std::vector<std::string> by_shapes_, filled_, balls_, lost_;
+  std::vector<std::string> by_shapes_, filled_, balls_, lost_, templates_;
   std::set<int> mended_;
 };
 

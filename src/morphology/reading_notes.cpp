@@ -11,14 +11,14 @@
 
 namespace amble::morphology {
 
-void ReadingNotes::add(Reading reading, std::string text) {
+void ReadingNotes::add(Reading reading, std::string text, bool is_doubt) {
   text = io::printable(text);  // names may have characters that break a line
   const auto same = [&](const Line& line) { return line.reading == reading && line.text == text; };
-  if (std::ranges::none_of(lines_, same)) lines_.push_back({reading, std::move(text)});
+  if (std::ranges::none_of(lines_, same)) lines_.push_back({reading, std::move(text), is_doubt});
 }
 
 void ReadingNotes::add(const ReadingNotes& others) {
-  for (const Line& line : others.lines_) add(line.reading, line.text);
+  for (const Line& line : others.lines_) add(line.reading, line.text, line.is_doubt);
 }
 
 std::string ReadingNotes::text() const {

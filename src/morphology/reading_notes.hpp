@@ -19,10 +19,11 @@ class ReadingNotes {
   struct Line {
     Reading reading;
     std::string text;
+    bool is_doubt = false;  ///< also a warning: the file hardly means what it says
   };
 
   /// The same line is kept once.
-  void add(Reading reading, std::string text);
+  void add(Reading reading, std::string text, bool is_doubt = false);
   void add(const ReadingNotes& others);
 
   const std::vector<Line>& lines() const { return lines_; }

@@ -234,6 +234,11 @@ class RobotGuesser {
            a.kp_nm_per_rad == b.kp_nm_per_rad && a.kd_nm_s_per_rad == b.kd_nm_s_per_rad;
   }
 
+  void doubt_readings() {
+    for (const ReadingNotes::Line& line : parts_.notes.lines())
+      if (line.is_doubt) guess_.doubts.push_back(line.text);
+  }
+
   void doubt_motors(const std::vector<ServoGuess>& servos) {
     std::vector<std::string> without_limit, without_gear;
     for (std::size_t j = 0; j < servos.size(); ++j) {
@@ -255,6 +260,7 @@ class RobotGuesser {
   void write_servos() {
     const double bearing_nm = bearing_torque_nm(parts_, legs_.legs.size(), longest_leg_m(parts_, legs_));
     const std::vector<ServoGuess> servos = guess_servos(file_, parts_, bearing_nm);
+    doubt_readings();
     doubt_motors(servos);
     std::vector<int> driven;
     for (const LegGuess& leg : legs_.legs) driven.insert(driven.end(), leg.joints.begin(), leg.joints.end());

@@ -15,7 +15,7 @@ struct RobotGuess {
   std::string toml;                  ///< each guess with its reason as a comment
   std::vector<std::string> settled;  ///< what was made otherwise than the model has it, a line each
   std::vector<std::string> asked;    ///< what the user must give, as the model does not have it
-  std::vector<std::string> doubts;   ///< what of the model's motors is hardly meant
+  std::vector<std::string> doubts;   ///< what of the model's masses and motors is hardly meant
 };
 
 /// Guesses all that a robot file has to say of a model (robots/README.md). `model` is the model's path as the

@@ -39,8 +39,8 @@ struct EngineSettings {
   double timestep_s = 0.01;
   bool torques = false;  ///< measure motor_torque_nm(); changes nothing else
   bool loads = false;    ///< measure foot_load_n(); changes nothing else
-  /// The ground's coefficient, which then holds for all contacts (RobotSpec::contact has it already);
-  /// negative: none. For engines that have friction of their own.
+  /// Coulomb coefficient of the config's ground.friction; negative: it gives none. RobotSpec::contact has it
+  /// already: only for engines that take friction from elsewhere (mujoco-model).
   double ground_friction = -1.0;
   bool uneven_ground = false;  ///< whether set_ground() is to be called; an engine may refuse it here
   io::OwnSettings own = {};    ///< of an engine that a program or a plugin has added
@@ -104,7 +104,8 @@ class Engine {
   virtual Vec3 com_m(int lane) const = 0;
   /// Linear momentum (kg m/s) of the whole robot.
   virtual Vec3 momentum_kg_m_s(int lane) const = 0;
-  /// Hash of all positions and velocities of this lane, to the bit.
+  /// Hash of all positions and velocities of this lane, to the bit: `amble verify` names the first step in
+  /// which it differs.
   virtual std::uint64_t state_hash(int lane) const = 0;
 
  private:

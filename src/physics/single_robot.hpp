@@ -6,6 +6,11 @@
 namespace amble::physics {
 
 /// Common part of engines with one lane: the lane's flags, the sensors and the torques.
+///
+/// A derived class fills `sensors_` where it places the robot and in each step(): joint_angle_rad (joints ×
+/// 1) and touch (legs × 1), attitude_rad by sense_attitude(). step() returns if can_step() is false; else it
+/// sets `healthy_`, `torques_nm_` (joints × 1) if `with_torques_`, and `loads_n_` (legs × 1) if
+/// `with_loads_`.
 class SingleRobotEngine : public Engine {
  public:
   int lanes() const final { return 1; }

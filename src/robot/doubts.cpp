@@ -114,13 +114,12 @@ double reach_m(const RobotSpec& robot) {
   return reach;
 }
 
-/// Moments that a body of that mass would only have if it were more than twice as large as the whole robot.
 void doubt_placeholders(const RobotSpec& robot, std::vector<std::string>& lines) {
   const double reach = reach_m(robot);
   std::vector<std::string> names;
   for (const Body& body : robot.bodies) {
     const double moments = body.inertia_kg_m2.x + body.inertia_kg_m2.y + body.inertia_kg_m2.z;
-    if (reach > 0.0 && moments > 8.0 * body.mass_kg * reach * reach)
+    if (is_larger_than_robot(moments, body.mass_kg, reach))
       names.push_back(
           fmt::format("{} ({:.3g} kg m² in sum for {:.3g} kg)", body.name, moments, body.mass_kg));
   }

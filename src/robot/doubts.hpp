@@ -11,6 +11,12 @@ namespace amble::robot {
 /// greatest density of shapes that are taken for all of a body.
 constexpr double doubted_inertia_factor = 3.0, densest_kg_m3 = 8000.0;
 
+/// Whether a body of that mass would only have moments of inertia of that sum if it were more than twice as
+/// large as its whole robot, which reaches so far: templates of URDF have 100 kg m² for anything.
+constexpr bool is_larger_than_robot(double moments_kg_m2, double mass_kg, double reach_m) {
+  return reach_m > 0.0 && moments_kg_m2 > 8.0 * mass_kg * reach_m * reach_m;
+}
+
 /// What of a robot is allowed but hardly meant, a line each with what to look at; none: nothing.
 /// - A body whose moments of inertia (their sum) are more than three times those of its shapes filled evenly
 ///   with its mass, or less than a third. Shapes that would be denser than steel, or whose centre is

@@ -18,6 +18,8 @@ struct SensorFrame {
   LaneArray foot_load_n = {};        ///< legs × lanes: the ground's normal force in the last step
   /// 2 × lanes: what the robot is told, speed along its own forward axis (m/s) and turn to the left (rad/s).
   LaneArray command = {};
+  /// 1 × lanes: 1 where both are 0, else 0.
+  LaneArray command_stop = {};
   /// 1 × lanes, −π … π: how far the heading that the commanded turns lead to is to the left of the robot's.
   LaneArray heading_error_rad = {};
 };

@@ -25,8 +25,9 @@ struct SearchSpace {
 
 /// A search that configs can choose, as the rest of the program sees it.
 struct StrategyKind {
-  std::string name;       ///< value of search.kind
-  std::string behaviour;  ///< which behaviour its evaluations need (score/behaviour.hpp); "": none
+  std::string name;  ///< value of search.kind
+  /// Which behaviour its evaluations need (score/behaviour.hpp): "path", "descriptors"; "": none.
+  std::string behaviour;
   /// `settings.own` has all of `numbers`.
   std::function<std::unique_ptr<Strategy>(const Settings& settings, const SearchSpace& space)> make;
   /// Candidates of a round; empty: population.size.

@@ -22,10 +22,10 @@ namespace amble::search {
 /// save() and load() cover all state but logs: append-only files for data that would make every checkpoint
 /// large (archives).
 ///
-/// A strategy that breeds genomes itself (neat/mutation.hpp, neat/crossover.hpp) owns the neat::Innovations
-/// they share: begin_generation() before each round, and part of save() and load(). Its random numbers come
-/// from streams of a Purpose of its own (core/random.hpp), keyed by round and candidate; nothing of them
-/// needs saving then.
+/// A strategy that breeds genomes itself (neat/mutation.hpp; within amble neat/crossover.hpp, too, which is
+/// not installed) owns the neat::Innovations they share: begin_generation() before each round, and part of
+/// save() and load(). Its random numbers come from streams of a Purpose of its own (core/random.hpp), keyed
+/// by round and candidate; nothing of them needs saving then.
 class Strategy {
  public:
   virtual ~Strategy() = default;

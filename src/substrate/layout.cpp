@@ -155,7 +155,8 @@ void Layout::decode_weights(std::span<const float> results, Decoded& decoded) co
     // sign(o) (|o| − t) / (1 − t) × weight_range, or 0.
     const double o = interpolated(-1.0, 1.0, output_at(results, links_[i].output, link_points_[i]));
     const double excess = (std::fabs(o) - expression_threshold_) / (1.0 - expression_threshold_);
-    if (excess > 0.0) decoded.weights[i] = static_cast<float>(std::copysign(excess * weight_range_, o));
+    if (excess > 0.0)
+      decoded.weights[i] = static_cast<float>(std::copysign(excess * weight_range_, o) * links_[i].factor);
   }
 }
 

@@ -72,6 +72,7 @@ struct Link {
   int source = 0, target = 0;  ///< nodes
   int output = 0;              ///< CPPN output that gives the weight
   Port port = Port::hidden;
+  double factor = 1.0;  ///< of the weight: LinkSettings::times
 };
 
 /// The numbers that a CPPN gives a substrate: one set per genome.
@@ -99,8 +100,8 @@ struct Decoded {
 /// (TimeInputs), 0 for everything but patterns.
 ///
 /// Outputs o are clamped to −1 … 1. A link's weight is 0 where |o| is at most the expression threshold t, and
-/// else sign(o) (|o| − t)/(1 − t) × weight_range (HyperSharpNEAT). A property is linear in o:
-/// `low` at −1, `high` at 1.
+/// else sign(o) (|o| − t)/(1 − t) × weight_range (HyperSharpNEAT), times Link::factor. A property is linear
+/// in o: `low` at −1, `high` at 1.
 class Layout {
  public:
   /// Throws UserError naming the key where settings, robot and controller do not fit.

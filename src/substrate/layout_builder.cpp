@@ -184,7 +184,11 @@ void LayoutBuilder::add_link(std::size_t index, int source, int target, int outp
     refuse(item("links", index), ": \"{}\" is linked to \"{}\" already by links[{}]", name_of(source),
            name_of(target), first->second);
   if (layout_.links_.size() == most_links) refuse("links", " are more than {}", most_links);
-  layout_.links_.push_back({source, target, output, port});
+  double factor = 1.0;
+  if (const std::string& times = settings_.links[index].times; !times.empty())
+    factor =
+        layout_.nodes_[to_index(target)].at[coordinates_of({times}, item("links", index, "times")).front()];
+  layout_.links_.push_back({source, target, output, port, factor});
   layout_.link_points_.push_back(points_.add(link_inputs(source, target)));
 }
 

@@ -35,6 +35,8 @@ constexpr std::array kinds{
                "the speed along its own forward axis that the robot is told"},
     SensorKind{"command_turn", Kind::command_turn, Owner::robot, "rad/s", 1.0,
                "the rate of turning to the left that the robot is told"},
+    SensorKind{"command_stop", Kind::command_stop, Owner::robot, "1", 1.0,
+               "1 while the robot is told neither a speed nor a turn, else 0"},
     SensorKind{"heading_error", Kind::heading_error, Owner::robot, "rad", 1.0,
                "how far the heading that the commanded turns have led to is to the left of the robot's"},
     SensorKind{"sine", Kind::sine, Owner::clock, "1", 1.0, "sin(2π t / substrate.sine_period_s)"},
@@ -117,6 +119,8 @@ const float* row_of(const Sensor& sensor, const robot::SensorFrame& frame) {
       return row(frame.command, 0);
     case Kind::command_turn:
       return row(frame.command, 1);
+    case Kind::command_stop:
+      return row(frame.command_stop, 0);
     case Kind::heading_error:
       return row(frame.heading_error_rad, 0);
     case Kind::sine:
@@ -130,7 +134,8 @@ robot::ExtraSenses extra_senses(const Sensor& sensor) {
           .torque = sensor.kind == Kind::torque,
           .yaw_rate = sensor.kind == Kind::yaw_rate,
           .load = sensor.kind == Kind::load,
-          .command = sensor.kind == Kind::command_speed || sensor.kind == Kind::command_turn,
+          .command = sensor.kind == Kind::command_speed || sensor.kind == Kind::command_turn ||
+                     sensor.kind == Kind::command_stop,
           .heading_error = sensor.kind == Kind::heading_error};
 }
 

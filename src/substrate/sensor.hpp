@@ -24,6 +24,7 @@ struct Sensor {
     load,           ///< of the foot of leg `index`, N
     command_speed,  ///< that the robot is told, m/s
     command_turn,   ///< that the robot is told, rad/s to the left
+    command_stop,   ///< 1 while the robot is told to stop, else 0
     heading_error,  ///< how far the heading it was told is to its left, rad
   };
   Kind kind = Kind::sine;

@@ -17,7 +17,7 @@ void NodeSettings::describe(io::SettingsVisitor& visitor) {
       "sensor", sensor,
       {"what the node senses: angle.JOINT (rad), touch.LEG (0 or 1), load.LEG (N), speed.JOINT (rad/s), "
        "torque.JOINT (N m), roll, pitch, yaw (rad), yaw_rate (rad/s), command_speed (m/s), command_turn "
-       "(rad/s), heading_error (rad) or sine; empty: nothing"});
+       "(rad/s), command_stop (0 or 1), heading_error (rad) or sine; empty: nothing"});
   visitor.text("joint", joint, {"joint that the node drives; each joint needs one; empty: none"});
 }
 
@@ -32,6 +32,11 @@ void LinkSettings::describe(io::SettingsVisitor& visitor) {
       {.what = "what the links act on: a neuron's sum (hidden), or, with kind mixed, a SUPG: its leg's rate, "
                "its pattern's amplitude, a shift of it, or its leg's rate by the phase of another leg "
                "(coupling)",
+       .first_is_implied = true});
+  visitor.text(
+      "times", times,
+      {.what = "coordinate of the target that multiplies the weights, as the side does of what is to "
+               "act on left and right in opposite senses; empty: none",
        .first_is_implied = true});
   visitor.texts("same", same, {"only nodes that agree in these coordinates are linked"});
   visitor.flag("both_ways", both_ways, {"whether the same links lead back, too"});

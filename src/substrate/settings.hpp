@@ -46,6 +46,7 @@ struct LinkSettings {
   std::vector<std::string> same;  ///< only pairs that agree in these coordinates
   bool both_ways = false;
   Port port = Port::hidden;
+  std::string times = {};  ///< coordinate of the target that multiplies the weights; empty: none
 
   void describe(io::SettingsVisitor& visitor);
 };

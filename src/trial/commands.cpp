@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
+#include <string>
 #include <utility>
 
 #include "amble/core/check.hpp"
@@ -49,9 +51,17 @@ std::vector<std::string_view> split(std::string_view text, char at) {
 
 std::optional<double> number_of(std::string_view text) {
   double value = 0.0;
+#ifdef __cpp_lib_to_chars
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
+  const bool whole = error == std::errc() && end == text.data() + text.size();
+#else
+  // The standard library for WebAssembly reads no floating point in this way, and has one locale only.
+  char* end = nullptr;
+  const std::string copy(text);
+  value = std::strtod(copy.c_str(), &end);
+  const bool whole = !copy.empty() && end == copy.c_str() + copy.size();
+#endif
+  return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace

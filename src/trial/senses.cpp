@@ -43,7 +43,10 @@ Senses::Senses(const Sensing& sensing, const robot::SensorFrame& sensors, double
   if (sensing.extra.torque) read_.joint_torque_nm = LaneArray(sensors.joint_angle_rad.rows(), lanes);
   if (sensing.extra.load) read_.foot_load_n = LaneArray(sensors.touch.rows(), lanes);
   if (sensing.extra.yaw_rate) read_.yaw_rate_rad_s = LaneArray(1, lanes);
-  if (sensing.extra.command) read_.command = LaneArray(2, lanes);
+  if (sensing.extra.command) {
+    read_.command = LaneArray(2, lanes);
+    read_.command_stop = LaneArray(1, lanes);
+  }
   if (sensing.extra.heading_error) read_.heading_error_rad = LaneArray(1, lanes);
 }
 
@@ -113,6 +116,7 @@ void Senses::take_commands(const robot::SensorFrame& sensors) {
     if (sensing_.extra.command) {
       read_.command.at(0, lane) = command.speed_m_s;
       read_.command.at(1, lane) = command.turn_rad_s;
+      read_.command_stop.at(0, lane) = command.is_stop() ? 1.0f : 0.0f;
     }
     if (!sensing_.extra.heading_error) continue;
     read_.heading_error_rad.at(0, lane) =

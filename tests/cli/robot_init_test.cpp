@@ -127,8 +127,11 @@ TEST_F(RobotInit, WarnsOfInertiasTorquesAndMotorsThatAreHardlyMeant) {
   const struct {
     std::string model, file, warning;
   } cases[] = {
-      {changed(servo, "izz=\"0.00333\"", "izz=\"0.333\""), "inertia.urdf",
+      {changed(servo, "izz=\"0.00333\"", "izz=\"0.05\""), "inertia.urdf",
        "  body 'base': its moments of inertia"},
+      {changed(servo, "izz=\"0.00333\"", "izz=\"33.3\""), "template.urdf",
+       "  moments of inertia that would need a body larger than the robot, by those of the shapes with the "
+       "body's mass; check inertia, mass and units: base"},
       {changed(servo, "effort=\"1.0\"", "effort=\"0.1\""), "weak.urdf",
        "  torques that do not hold the weight of 1.52 kg on half of the legs in the start pose: front_left_"},
       {changed(servo, "effort=\"1.0\"", "effort=\"1000\""), "effort.urdf",

@@ -446,7 +446,7 @@ TEST(ModulatedSupg, RefusesSensorsThatThereAreNot) {
       refusal({"pitch", "smell"}),
       "controller.supg.modulation.sensors[1] = \"smell\": expected angle.TYPE, touch, load, speed.TYPE, "
       "torque.TYPE, "
-      "roll, pitch, yaw, yaw_rate, command_speed, command_turn, heading_error");
+      "roll, pitch, yaw, yaw_rate, command_speed, command_turn, command_stop, heading_error");
   EXPECT_EQ(refusal({"angle.elbow"}),
             "controller.supg.modulation.sensors[0] = \"angle.elbow\": the robot has no joint type elbow");
   EXPECT_EQ(refusal({"pitch", "pitch"}), "controller.supg.modulation.sensors[1] = \"pitch\" is there twice");

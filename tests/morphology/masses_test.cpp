@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -183,6 +184,30 @@ TEST(Masses, WithMomentsThatNoBodyHasAreTreatedAlikeInBothFormats) {
   EXPECT_THAT(mjcf(R"(diaginertia="0.01 0.02 0.03")").notes.text(), Not(HasSubstr("by their mean")));
   EXPECT_THAT(mjcf(R"(diaginertia="-0.01 -0.01 -0.01")").notes.text(),
               HasSubstr("negative masses or moments of inertia, which are taken as not given: thigh"));
+}
+
+TEST(Masses, WithMomentsOfABodyLargerThanTheRobotHaveThoseOfTheirShapesInBothFormats) {
+  const Files files;
+  const auto thigh = [&](const std::string& moment) {
+    const std::string inertial =
+        fmt::format(R"(<inertial pos="0 0 -0.2" mass="2" diaginertia="{0} {0} {0}"/>)", moment);
+    return parts_of(files, "m.xml", with(one_leg_xml, thigh_geom, inertial + thigh_geom));
+  };
+  // The robot reaches about a metre: 2 kg of it can have some 16 kg m² in sum.
+  EXPECT_EQ(body(thigh("2"), "thigh").inertia_kg_m2.x, 2.0);
+  const ModelParts mjcf = thigh("100");
+  EXPECT_EQ(body(mjcf, "thigh").mass_kg, 2.0);
+  EXPECT_LT(body(mjcf, "thigh").inertia_kg_m2.x, 2.0 * 0.25 / 12.0);
+  EXPECT_THAT(mjcf.notes.text(), HasSubstr("larger than the robot, by those of the shapes with the body's "
+                                           "mass; check inertia, mass and units: thigh"));
+
+  std::string urdf = urdf_with_effort();
+  for (std::size_t at = urdf.find("\"0.01\""); at != std::string::npos; at = urdf.find("\"0.01\""))
+    urdf.replace(at, 6, "\"100\"");
+  const ModelParts template_urdf = parts_of(files, "r.urdf", urdf);
+  EXPECT_NEAR(body(template_urdf, "left_shin").inertia_kg_m2.x, 0.4 * 0.3 * 0.0009, 1e-9);
+  EXPECT_EQ(body(template_urdf, "left_thigh").inertia_kg_m2.x, 100.0) << "it has no shape";
+  EXPECT_THAT(template_urdf.notes.text(), HasSubstr("larger than the robot"));
 }
 
 TEST(Limits, ThatAreCrossedOrEmptyAreMendedInBothFormatsAndNamed) {

@@ -6,7 +6,7 @@ import numpy as np
 
 from supg import STOPPED
 
-FULL = {"touch": 1.0, "command_speed": 1.0, "command_turn": 1.0, "heading_error": 1.0, "yaw_rate": 2.0}
+FULL = {"touch": 1.0, "command_speed": 1.0, "command_turn": 1.0, "command_stop": 1.0, "heading_error": 1.0, "yaw_rate": 2.0}
 GAINS = {"rate": 1.0, "amplitude": 1.0, "shift": 0.5, "coupling": 1.0}
 # How far a neuron's value by the recording's digits may be from what it is.
 NEURON_TOLERANCE = 2e-4
@@ -79,6 +79,7 @@ class Net:
         if self.wanted_yaw is None:
             self.wanted_yaw = heading
         readings = {"command_speed": float(command[0]), "command_turn": float(command[1]),
+                    "command_stop": float(command[0] == 0.0 and command[1] == 0.0),
                     "heading_error": turn(self.wanted_yaw - heading), "yaw_rate": turn(heading - before) / self.timestep_s}
         self.wanted_yaw = turn(self.wanted_yaw + float(command[1]) * self.timestep_s)
         for node in self.nodes:
@@ -101,15 +102,17 @@ class Net:
             for source in self._group(item["from"]):
                 for target in self._group(item["to"]):
                     if source is not target:
+                        times = item.get("times", "")
                         found.append((source["name"], target["name"], item.get("port", "hidden"),
-                                      self.substrate["outputs"].index(item["weight"])))
+                                      self.substrate["outputs"].index(item["weight"]),
+                                      target["at"][self.substrate["coordinates"].index(times)] if times else 1.0))
                         points.append(self._inputs(source, target))
         outputs = self.patterns.cppn.evaluate(np.array(points), np.float32)
         threshold, weight_range = self.substrate["expression_threshold"], self.substrate["weight_range"]
-        for (source, target, port, output), row in zip(found, outputs):
+        for (source, target, port, output, factor), row in zip(found, outputs):
             o = min(max(float(row[output]), -1.0), 1.0)
             excess = (abs(o) - threshold) / (1.0 - threshold)
-            yield source, target, port, math.copysign(excess * weight_range, o) if excess > 0.0 else 0.0
+            yield source, target, port, factor * math.copysign(excess * weight_range, o) if excess > 0.0 else 0.0
 
     def _property(self, node, name):
         settings = next(p for p in self.substrate["properties"] if p["property"] == name and p["of"] in (node["name"], node["group"]))

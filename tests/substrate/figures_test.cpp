@@ -44,6 +44,7 @@ std::string role_of(const Node& node, const robot::RobotSpec& robot) {
     case Sensor::Kind::load:
     case Sensor::Kind::command_speed:
     case Sensor::Kind::command_turn:
+    case Sensor::Kind::command_stop:
     case Sensor::Kind::heading_error:
       break;
   }

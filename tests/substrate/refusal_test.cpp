@@ -100,7 +100,7 @@ TEST(BadSubstrate, SensorOrJointThatTheRobotLacks) {
   EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[0].sensor = "smell"; }),
             "nodes[0].sensor = \"smell\": expected angle.JOINT, touch.LEG, load.LEG, speed.JOINT, "
             "torque.JOINT, roll, "
-            "pitch, yaw, yaw_rate, command_speed, command_turn, heading_error or sine");
+            "pitch, yaw, yaw_rate, command_speed, command_turn, command_stop, heading_error or sine");
   EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[3].joint = "FL_elbow"; }),
             "nodes[3].joint = \"FL_elbow\": the robot has no such joint");
 }
@@ -168,7 +168,7 @@ TEST(BadSubstrate, EmptyNamesAndEmptyLists) {
 TEST(BadSubstrate, SensorWithoutAnOwnerOrOfAKindThatRobotsLack) {
   const std::string expected =
       "\": expected angle.JOINT, touch.LEG, load.LEG, speed.JOINT, torque.JOINT, roll, pitch, yaw, yaw_rate, "
-      "command_speed, command_turn, heading_error or sine";
+      "command_speed, command_turn, command_stop, heading_error or sine";
   for (const std::string name : {"angle", "touch", "smell.FL", "roll.FL", "Angle.FL_knee"})
     EXPECT_EQ(ctrnn([&](Settings& s) { s.nodes[0].sensor = name; }),
               "nodes[0].sensor = \"" + name + expected);

@@ -11,7 +11,7 @@ const startWorker = () => new Worker(URL.createObjectURL(new Blob([AMBLE_EVOLVE_
 export class EvolvePanel {
   /** `live`: {module, champion: a file's text, show(champion's text)}. */
   constructor(live) {
-    Object.assign(this, { live, history: [], best: null, worker: null, running: false });
+    Object.assign(this, { live, history: [], best: null, worker: null, running: false, frame: null });
     this.population = slider(20, 300, 10, 100);
     this.seconds = slider(2, 20, 1, 8);
     this.nodes = slider(0, 0.3, 0.01, 0.05);
@@ -73,7 +73,11 @@ export class EvolvePanel {
     }
     this.history.push(progress);
     if (best) this.best = { text: best, generation: progress.best_generation };
-    this.refresh();
+    // Small populations have several generations a frame, and what cannot be seen is not drawn.
+    this.frame ??= requestAnimationFrame(() => {
+      this.frame = null;
+      this.refresh();
+    });
   }
 
   saveBest() {
@@ -136,12 +140,13 @@ export class EvolvePanel {
 
   /** Stacked: each species as a band, as high as it has members. */
   paintSpecies(paint, x, top) {
+    const colours = Array.from({ length: 8 }, (_, i) => colour(`--c${i}`));
     this.history.forEach(({ species }, i) => {
       const all = species.reduce((sum, [, size]) => sum + size, 0);
       let at = top;
       for (const [id, size] of species) {
         const high = (size / all) * BANDS;
-        paint.fillStyle = colour(`--c${id % 8}`);
+        paint.fillStyle = colours[id % 8];
         paint.globalAlpha = 0.75;
         paint.fillRect(x(Math.max(0, i - 1)), at, Math.max(1, x(i) - x(Math.max(0, i - 1)) + 0.5), high);
         at += high;
