@@ -10,7 +10,7 @@ demo: build
 	rm -rf demo
 	build/release/src/cli/amble evolve configs/quick/quadruped.toml --seed 8 --generations 350 --jobs $(JOBS) --out demo/run
 	build/release/src/cli/amble compare demo/run --seconds 15,300 --trials 5
-	build/release/src/cli/amble page demo/run --engine ode -o demo/index.html --figures demo/figures
+	build/release/src/cli/amble view demo/run --static --engine ode -o demo/index.html --figures demo/figures
 	build/release/src/cli/amble view demo/run --engine ode -o demo/walk.html
 	@if [ -n "$$DISPLAY$$WAYLAND_DISPLAY" ] && command -v xdg-open >/dev/null; then xdg-open demo/walk.html; \
 	else echo "now open demo/walk.html in a browser"; fi

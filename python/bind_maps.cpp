@@ -13,7 +13,7 @@
 #include "amble/io/file.hpp"
 #include "amble/presentation/adaptation_page.hpp"
 #include "amble/presentation/comparison.hpp"
-#include "amble/presentation/map_file.hpp"
+#include "amble/presentation/map_page.hpp"
 #include "python/bind.hpp"
 #include "python/readable.hpp"
 

@@ -6,10 +6,10 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
-#include "amble/experiment/champion_trials.hpp"
+#include "amble/experiment/champion_choice.hpp"
 #include "amble/experiment/checkpoint.hpp"
 #include "amble/experiment/generation.hpp"
-#include "amble/experiment/run_state.hpp"
+#include "amble/experiment/run_files.hpp"
 #include "amble/neat/genome_json.hpp"
 #include "amble/physics/engine.hpp"
 #include "python/bind.hpp"

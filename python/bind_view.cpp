@@ -2,7 +2,6 @@
 
 #include "amble/experiment/champion.hpp"
 #include "amble/io/file.hpp"
-#include "amble/io/scratch_file.hpp"
 #include "amble/presentation/shown_trial.hpp"
 #include "amble/presentation/walker.hpp"
 #include "python/bind.hpp"

@@ -58,7 +58,7 @@ double quickest(const amble::experiment::Champion& champion, int robots, int ste
 
 #ifdef __wasm__
 
-/// Of the champion whose text, of so many bytes, is there.
+/// The quickest of several measurements with the champion whose text, of so many bytes, is there.
 extern "C" double amble_measure(const char* text, std::size_t size, int robots, int steps) {
   return quickest(amble::experiment::parse_champion_for("batch", std::string(text, size), "champion"), robots,
                   steps);

@@ -6,13 +6,12 @@
 #include <span>
 #include <utility>
 
-#include "amble/browser/engine_name.hpp"
+#include "amble/browser/session.hpp"
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/neat/population.hpp"
 #include "amble/search/generational.hpp"
-#include "amble/search/objective.hpp"
 
 namespace amble::browser {
 namespace {

@@ -56,7 +56,7 @@ class Evolution {
   /// At most so many steps of sixteen robots; true if a generation has ended with them.
   bool advance(int steps);
   const Progress& progress() const { return progress_; }
-  /// Of the generation.
+  /// The species of the generation.
   const std::vector<SpeciesSize>& species() const { return species_; }
   /// Both as a JSON object; "species" as a list of [id, size].
   std::string progress_json() const;

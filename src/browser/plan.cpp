@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "amble/browser/engine_name.hpp"
+#include "amble/browser/session.hpp"
 #include "amble/core/error.hpp"
 #include "amble/experiment/plan/size_settings.hpp"
 #include "amble/experiment/problem/champion.hpp"

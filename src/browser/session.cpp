@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "amble/browser/engine_name.hpp"
 #include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"

@@ -11,6 +11,9 @@
 
 namespace amble::browser {
 
+/// The engine in which all walk here: the one that needs no library.
+inline constexpr const char* engine = "batch";
+
 /// A champion that walks in a page, and the record of what was done to it.
 class Session {
  public:
@@ -35,7 +38,7 @@ class Session {
   const std::vector<double>& state();
   /// Heights of uneven ground: ground::HeightField::heights_m; null for the plane.
   const float* heights_m() const;
-  /// Of each step: trial::TraceObserver.
+  /// A hash for each step: trial::TraceObserver.
   const std::vector<std::uint32_t>& trace() const { return record_.trace; }
   /// In how many steps from the first on the champion's own trial is that of its file, if that engine is
   /// `batch`. Runs it.

@@ -8,12 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "amble/cli/commands.hpp"
 #include "amble/cli/help.hpp"
-#include "amble/cli/option_checks.hpp"
+#include "amble/cli/options.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/io/file.hpp"
-#include "amble/io/shell.hpp"
+#include "amble/io/quoting.hpp"
 #include "amble/presentation/adaptation_page.hpp"
 
 namespace amble::cli {

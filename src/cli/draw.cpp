@@ -5,15 +5,14 @@
 #include <optional>
 #include <string>
 
-#include "amble/cli/commands.hpp"
 #include "amble/cli/help.hpp"
 #include "amble/experiment/run_folder.hpp"
-#include "amble/figures/cppn_dot.hpp"
 #include "amble/figures/cppn_figure.hpp"
+#include "amble/figures/cppn_graph.hpp"
 #include "amble/figures/pattern_figure.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
-#include "amble/presentation/cppn_graph.hpp"
+#include "amble/presentation/walker.hpp"
 
 namespace amble::cli {
 namespace {

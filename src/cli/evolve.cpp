@@ -8,17 +8,15 @@
 #include <string>
 #include <utility>
 
-#include "amble/cli/commands.hpp"
-#include "amble/cli/disturbance.hpp"
 #include "amble/cli/help.hpp"
 #include "amble/cli/messages.hpp"
-#include "amble/cli/option_checks.hpp"
+#include "amble/cli/options.hpp"
 #include "amble/cli/progress.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/repertoire.hpp"
 #include "amble/experiment/run.hpp"
 #include "amble/experiment/start_look.hpp"
-#include "amble/io/shell.hpp"
+#include "amble/io/quoting.hpp"
 
 namespace amble::cli {
 namespace {
@@ -72,7 +70,7 @@ ExitCode execute(experiment::Run run, const std::filesystem::path& named, int jo
   }
   print_best(run, jobs);
   const bool has_map = experiment::fills_map(run.config());
-  fmt::print("look at it by: amble page {} -o page.html\n", word);
+  fmt::print("look at it by: amble view {} --static -o page.html\n", word);
   fmt::print("to see it, run: amble {} {} -o {}\n", has_map ? "repertoire" : "view", word,
              has_map ? "map.html" : "walker.html");
   const std::string verdict = run.tally().verdict();

@@ -7,7 +7,6 @@
 #include <string>
 #include <string_view>
 
-#include "amble/cli/commands.hpp"
 #include "amble/cli/help.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/run_folder.hpp"
@@ -15,7 +14,7 @@
 #include "amble/exporting/c_text.hpp"
 #include "amble/exporting/json_source.hpp"
 #include "amble/io/file.hpp"
-#include "amble/morphology/simulation_mjcf.hpp"
+#include "amble/morphology/mjcf_writer.hpp"
 
 namespace amble::cli {
 namespace {

@@ -4,7 +4,6 @@
 #include <memory>
 #include <vector>
 
-#include "amble/cli/commands.hpp"
 #include "amble/cli/data_folder.hpp"
 #include "amble/cli/help.hpp"
 #include "amble/io/file.hpp"

@@ -12,15 +12,13 @@
 #include <system_error>
 #include <vector>
 
-#include "amble/cli/commands.hpp"
 #include "amble/cli/help.hpp"
 #include "amble/cli/messages.hpp"
-#include "amble/cli/usage_error.hpp"
 #include "amble/experiment/build_info.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/plugin_file.hpp"
-#include "amble/io/shell.hpp"
-#include "amble/io/split.hpp"
+#include "amble/io/quoting.hpp"
+#include "amble/io/text.hpp"
 #include "amble/physics/batch/instruction_set.hpp"
 #include "amble/physics/engine.hpp"
 

@@ -9,16 +9,15 @@
 #include <string>
 #include <vector>
 
-#include "amble/cli/commands.hpp"
 #include "amble/cli/help.hpp"
-#include "amble/cli/option_checks.hpp"
+#include "amble/cli/options.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
 #include "amble/experiment/corrected_map.hpp"
 #include "amble/io/file.hpp"
-#include "amble/io/printable.hpp"
-#include "amble/io/shell.hpp"
-#include "amble/presentation/map_file.hpp"
+#include "amble/io/quoting.hpp"
+#include "amble/io/text.hpp"
+#include "amble/presentation/map_page.hpp"
 
 namespace amble::cli {
 namespace {

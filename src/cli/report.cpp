@@ -6,15 +6,14 @@
 #include <set>
 #include <string>
 
-#include "amble/cli/commands.hpp"
 #include "amble/cli/help.hpp"
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
-#include "amble/io/printable.hpp"
-#include "amble/report/csv.hpp"
+#include "amble/io/text.hpp"
 #include "amble/report/figures.hpp"
-#include "amble/report/json.hpp"
 #include "amble/report/page.hpp"
+#include "amble/report/report.hpp"
+#include "amble/report/tables.hpp"
 
 namespace amble::cli {
 namespace {

@@ -6,12 +6,10 @@
 #include <system_error>
 #include <vector>
 
-#include "amble/cli/commands.hpp"
 #include "amble/cli/data_folder.hpp"
 #include "amble/cli/help.hpp"
 #include "amble/experiment/problem.hpp"
 #include "amble/experiment/robot_folder.hpp"
-#include "amble/experiment/robot_notes.hpp"
 #include "amble/io/file.hpp"
 #include "amble/morphology/mjcf_writer.hpp"
 #include "amble/robot/doubts.hpp"

@@ -6,17 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "amble/cli/commands.hpp"
 #include "amble/cli/help.hpp"
 #include "amble/experiment/config.hpp"
 #include "amble/io/toml_settings.hpp"
+#include "amble/morphology/side_file.hpp"
 
 namespace amble::cli {
 namespace {
 
 struct SettingsOptions {
   std::vector<std::filesystem::path> files;
-  bool differing = false;
+  bool differing = false, robot = false;
 };
 
 /// A preset is a folder of configs, and gives the column its name; or the file does, if the folder is one.
@@ -29,6 +29,13 @@ std::string column_title(const std::filesystem::path& file, const std::vector<st
 
 ExitCode print_settings(const SettingsOptions& options) {
   const auto& files = options.files;
+  if (options.robot) {
+    if (!files.empty() || options.differing)
+      fail(ExitCode::bad_input,
+           "--robot: the keys of robot files, which no config has; expected nothing beside it");
+    fmt::print("{}", io::keys_to_markdown(morphology::describe_side_file));
+    return ExitCode::ok;
+  }
   std::vector<experiment::Config> configs(1);
   for (const auto& file : files) configs.push_back(experiment::load_config(file, {}));
   std::vector<io::SettingsColumn> columns;
@@ -50,6 +57,7 @@ void add_settings(CLI::App& app, Action& action) {
   auto options = std::make_shared<SettingsOptions>();
   command->add_option("CONFIG", options->files, "Config files whose values are shown beside the defaults");
   command->add_flag("--differing", options->differing, "Only settings in which the config files differ");
+  command->add_flag("--robot", options->robot, "The keys of robot files in place of those of configs");
   add_examples(
       *command,
       {{"amble settings", "all with their defaults"},

@@ -8,17 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "amble/cli/commands.hpp"
 #include "amble/cli/help.hpp"
 #include "amble/cli/messages.hpp"
-#include "amble/cli/option_checks.hpp"
+#include "amble/cli/options.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/cli/study_processes.hpp"
 #include "amble/cli/study_progress.hpp"
 #include "amble/core/index.hpp"
 #include "amble/io/file.hpp"
-#include "amble/io/shell.hpp"
-#include "amble/study/fit.hpp"
+#include "amble/io/quoting.hpp"
+#include "amble/study/plan.hpp"
 #include "amble/study/slurm.hpp"
 #include "amble/study/worker.hpp"
 
@@ -42,8 +41,8 @@ void take_old_workers(StudyOptions& options) {
   if (!options.workers) return;
   options.per_run = *options.workers;
   options.jobs *= *options.workers;
-  print_message(fmt::format("--workers {0}: asked for by --jobs {1} --per-run {0} now\n", *options.workers,
-                            options.jobs));
+  print_message(
+      fmt::format("--workers {0}: now written --jobs {1} --per-run {0}\n", *options.workers, options.jobs));
 }
 
 /// How much of a study's part is done, begun and neither.

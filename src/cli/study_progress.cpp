@@ -12,7 +12,7 @@
 #include "amble/cli/progress.hpp"
 #include "amble/core/clock.hpp"
 #include "amble/core/index.hpp"
-#include "amble/io/printable.hpp"
+#include "amble/io/text.hpp"
 #include "amble/score/score.hpp"
 
 namespace amble::cli {

@@ -5,13 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "amble/cli/commands.hpp"
 #include "amble/cli/help.hpp"
 #include "amble/experiment/problem.hpp"
 #include "amble/figures/substrate_figure.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/toml_settings.hpp"
-#include "amble/substrate/summary.hpp"
+#include "amble/substrate/layout.hpp"
 
 namespace amble::cli {
 namespace {

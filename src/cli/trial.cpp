@@ -8,11 +8,9 @@
 #include <string_view>
 #include <system_error>
 
-#include "amble/cli/commands.hpp"
-#include "amble/cli/disturbance.hpp"
 #include "amble/cli/help.hpp"
 #include "amble/cli/messages.hpp"
-#include "amble/cli/option_checks.hpp"
+#include "amble/cli/options.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"
@@ -48,7 +46,7 @@ void take_old_number(TrialOptions& options, std::string_view option, std::uint32
   constexpr std::uint32_t first_unseen = experiment::episode_number(experiment::EpisodeSet::unseen, 0);
   const bool unseen = number >= first_unseen;
   const std::uint32_t of_set = unseen ? number - first_unseen : number;
-  print_message(fmt::format("{} {}: {} is asked for by --{} {} now\n", option, number,
+  print_message(fmt::format("{} {}: for {}, now written --{} {}\n", option, number,
                             unseen ? "a trial that evolution has not met" : "an episode",
                             unseen ? "unseen" : "episode", of_set));
   options.episode.reset();

@@ -7,17 +7,16 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "amble/cli/commands.hpp"
-#include "amble/cli/disturbance.hpp"
 #include "amble/cli/help.hpp"
-#include "amble/cli/option_checks.hpp"
+#include "amble/cli/options.hpp"
+#include "amble/cli/static_view.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/io/file.hpp"
-#include "amble/io/scratch_file.hpp"
 #include "amble/page/replay_page.hpp"
 #include "amble/presentation/walker.hpp"
 #include "amble/record/recording.hpp"
@@ -33,7 +32,8 @@ struct ViewOptions {
   fs::path out;
   presentation::WalkOptions walk;
   std::optional<std::string> title;
-  bool history = false;
+  bool history = false, with_figures = false;
+  std::optional<fs::path> figures;
   presentation::TrialChoice disturbance;
 };
 
@@ -144,7 +144,25 @@ void give_titles(Walkers& walkers, const ViewOptions& options) {
                                           : fmt::format("{} walkers", page.walkers.size());
 }
 
+/// `amble view DIR --static`. What only walkers have is refused.
+ExitCode make_static(const ViewOptions& options) {
+  const std::pair<const char*, bool> others[] = {{"--history", options.history},
+                                                 {"--seconds", options.walk.seconds.has_value()},
+                                                 {"--title", options.title.has_value()}};
+  for (const auto& [name, given] : others)
+    if (given) fail(ExitCode::bad_input, "{}: not with --static, whose page shows one run as it is", name);
+  if (options.inputs.size() > 1)
+    fail(ExitCode::bad_input, "--static: expected one run folder, not {} inputs", options.inputs.size());
+  return make_static_view({.run = options.inputs.front(),
+                           .out = options.out,
+                           .figures = options.figures,
+                           .engine = options.walk.engine,
+                           .disturbance = options.disturbance});
+}
+
 ExitCode make_view(const ViewOptions& options) {
+  if (options.with_figures) return make_static(options);
+  if (options.figures) fail(ExitCode::bad_input, "--figures: only with --static");
   stop_signal();  // from here on what is in the folder for temporary files is removed
   io::refuse_to_replace(options.out, "<!DOCTYPE html>", "a page");
   if (options.history && options.inputs.size() > 1)
@@ -184,11 +202,17 @@ void add_view(CLI::App& app, Action& action) {
   add_disturbance(*command, options->disturbance);
   command->add_flag("--history", options->history,
                     "Of one run folder up to eight champions, from the first to the last, side by side");
+  command->add_flag(
+      "--static", options->with_figures,
+      "Of one run folder a page with figures in place of walkers: fitness curve, footfalls, path");
+  command->add_option("--figures", options->figures,
+                      "With --static: also write each figure as an SVG file into this folder");
   command->add_option("--title", options->title, "Title of the page")->type_name("WORDS");
   add_examples(*command,
                {{"amble view runs/1 -o walker.html", ""},
                 {"amble view runs/1 --history -o history.html", "from its first champion to its last"},
-                {"amble view runs/1 runs/2 -o both.html --seconds 60", "side by side"}});
+                {"amble view runs/1 runs/2 -o both.html --seconds 60", "side by side"},
+                {"amble view runs/1 --static -o figures.html", "fitness curve and figures"}});
   command->callback([options, &action] { action = [options] { return make_view(*options); }; });
 }
 

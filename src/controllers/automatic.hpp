@@ -36,10 +36,10 @@ substrate::Settings automatic_ctrnn(const robot::RobotSpec& robot);
 
 /// SUPGs as automatic_supg() has them, with side (1 left, −1 right) and layer (1) as further coordinates,
 /// which are 0 for patterns and offsets: without links they are the same. A commanded stop, speed and turn,
-/// heading error and yaw rate are sensed at layer −1, each leg's touch at −0.5, and each leg has two neurons at 0.
-/// Sensors lead to neurons, and neurons to each other; all but touches lead to each leg's rate, by its first
-/// SUPG, and to the amplitude and shift of each SUPG, those that tell left from right (turn, heading, yaw
-/// rate) by CPPN outputs of their own and times the SUPG's side; the first SUPGs of legs are coupled.
+/// heading error and yaw rate are sensed at layer −1, each leg's touch at −0.5, and each leg has two neurons
+/// at 0. Sensors lead to neurons, and neurons to each other; all but touches lead to each leg's rate, by its
+/// first SUPG, and to the amplitude and shift of each SUPG, those that tell left from right (turn, heading,
+/// yaw rate) by CPPN outputs of their own and times the SUPG's side; the first SUPGs of legs are coupled.
 substrate::Settings automatic_mixed(const robot::RobotSpec& robot);
 
 }  // namespace amble::controllers

@@ -7,7 +7,7 @@
 
 namespace amble::controllers {
 
-/// Of a neuron; the unit of time is that of CtrnnSettings::step.
+/// The properties of a neuron; the unit of time is that of CtrnnSettings::step.
 inline constexpr std::string_view bias_property = "bias", time_constant_property = "time_constant";
 
 /// Which differential equation the neurons follow (CtrnnArchitecture).

@@ -7,7 +7,6 @@
 
 #include "amble/controllers/controller.hpp"
 #include "amble/controllers/ctrnn.hpp"
-#include "amble/controllers/mixed_settings.hpp"
 #include "amble/controllers/network.hpp"
 #include "amble/controllers/oscillators.hpp"
 #include "amble/controllers/sensing.hpp"

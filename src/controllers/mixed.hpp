@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "amble/controllers/mixed_settings.hpp"
 #include "amble/controllers/supg.hpp"
+#include "amble/controllers/supg_settings.hpp"
 
 namespace amble::controllers {
 
@@ -106,5 +106,10 @@ class MixedArchitecture : public SupgArchitecture {
   double weight_range_;
   std::shared_ptr<const MixedNet> net_;
 };
+
+/// From a layout of which kind and ports of all links have been checked. `of_legs`: SupgJoints. Throws
+/// SettingError for a clock among the sensors, and for a leg that is coupled to itself.
+MixedNet make_mixed_net(const substrate::Layout& layout, const std::vector<int>& of_legs, int types,
+                        const robot::RobotSpec& robot, const std::vector<SensorModel>& models);
 
 }  // namespace amble::controllers

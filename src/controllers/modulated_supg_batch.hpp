@@ -7,8 +7,8 @@
 
 #include "amble/controllers/lane_rows.hpp"
 #include "amble/controllers/modulation.hpp"
-#include "amble/controllers/random_triggers.hpp"
 #include "amble/controllers/supg.hpp"
+#include "amble/controllers/supg_batch.hpp"
 
 namespace amble::controllers {
 

@@ -8,7 +8,7 @@
 
 #include "amble/controllers/joint_range.hpp"
 #include "amble/controllers/sensing.hpp"
-#include "amble/controllers/supg_modulation.hpp"
+#include "amble/controllers/supg_settings.hpp"
 #include "amble/cppn/network.hpp"
 #include "amble/robot/spec.hpp"
 #include "amble/substrate/layout.hpp"
@@ -24,7 +24,7 @@ struct LegSensor {
   substrate::Sensor sensor = {};
   float gain = 1.0f, shift = 0.0f;
 
-  /// Of any reading; −1 of one that is not a number.
+  /// What a reading says, from −1 to 1; −1 for one that is not a number.
   float sensed(float reading) const {
     const float s = reading * gain - shift, above = s > -1.0f ? s : -1.0f;
     return above < 1.0f ? above : 1.0f;

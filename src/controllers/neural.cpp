@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "amble/controllers/attitude.hpp"
+#include "amble/controllers/sensing.hpp"
 #include "amble/core/check.hpp"
 #include "amble/cppn/activation.hpp"
 

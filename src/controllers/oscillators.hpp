@@ -62,7 +62,7 @@ class OscillatorArchitecture : public Architecture {
   std::vector<std::string> inputs_, outputs_;
 };
 
-/// Of one walker. Joints are those of the architecture, in its order.
+/// The parameters of one walker. Joints are those of the architecture, in its order.
 struct OscillatorParameters : Parameters {
   float swing_turns = 0.0f, stance_turns = 0.0f;  ///< a tick
   std::vector<float> amplitude_rad, phase_turns, offset_rad;

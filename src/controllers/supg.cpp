@@ -12,7 +12,7 @@
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/io/json_file.hpp"
-#include "amble/substrate/query_points.hpp"
+#include "amble/substrate/layout.hpp"
 
 namespace amble::controllers {
 
@@ -159,7 +159,7 @@ std::unique_ptr<Parameters> SupgArchitecture::decode(const cppn::Network& networ
   return all;
 }
 
-/// Of a query about a node that is for a sensor, at time 0.
+/// The CPPN's inputs for a node and a sensor, at time 0.
 std::vector<float> SupgArchitecture::query_inputs(int node, int sensor) const {
   const auto& at = layout_.nodes()[to_index(node)].at;
   std::vector<float> inputs(at.begin(), at.end());

@@ -16,7 +16,7 @@
 
 namespace amble::controllers {
 
-/// Of a SUPG's node, −1 … 1; SupgArchitecture says what it means.
+/// The property of a SUPG's node that sets its leg's offset, −1 … 1; SupgArchitecture says what it means.
 inline constexpr std::string_view offset_property = "offset";
 
 /// A decoded SUPG controller: for each joint the target angle at each value of its leg's timer, and the
@@ -141,7 +141,7 @@ class SupgArchitecture : public Architecture {
   int period_ticks() const { return period_ticks_; }
 
  protected:
-  /// Of a kind that has neurons beside SUPGs, with these properties (substrate::Needs); none: of SUPGs alone.
+  /// For a kind that has neurons beside SUPGs, with these properties (substrate::Needs); none: SUPGs alone.
   SupgArchitecture(const SupgSettings& settings, const substrate::Settings& substrate,
                    const robot::RobotSpec& robot, double timestep_s, const SensingSettings& sensing,
                    std::vector<std::string> neuron_properties);

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "amble/controllers/lane_rows.hpp"
-#include "amble/controllers/supg_modulation.hpp"
+#include "amble/controllers/supg_settings.hpp"
 #include "amble/core/lanes.hpp"
 #include "amble/robot/sensors.hpp"
 #include "amble/robot/spec.hpp"

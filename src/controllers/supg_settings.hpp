@@ -1,16 +1,47 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
+#include <vector>
 
-#include "amble/controllers/supg_modulation.hpp"
 #include "amble/controllers/supg_seam.hpp"
 #include "amble/io/settings.hpp"
 
 namespace amble::controllers {
 
+/// What a leg's contact is known from: its foot's touch, the torque of a joint's motor, how far a joint is
+/// behind its target, or a shock that the root feels.
+enum class ContactSource { touch, torque, tracking, shock };
+inline constexpr std::array<std::string_view, 4> contact_source_names{"touch", "torque", "tracking", "shock"};
+
+/// What stands for the touch of a foot, for robots without foot switches. ContactEstimate says how.
+struct ContactSettings {
+  ContactSource source = ContactSource::touch;
+  std::string joint_type;
+  double threshold = 1.0;
+  double release = 0.5;
+
+  void describe(io::SettingsVisitor& visitor);
+  friend bool operator==(const ContactSettings&, const ContactSettings&) = default;
+};
+
+/// How sensors change the cycles of a leg's SUPGs; off by default. SupgArchitecture says what it does.
+struct ModulationSettings {
+  std::vector<std::string> sensors;
+  double rate = 0.0;
+  double shape = 0.0;
+  double reset = 1.0;
+  int refractory_ticks = 0;
+
+  /// Whether anything differs from the paper's SUPGs.
+  bool any() const { return !sensors.empty() || reset != 1.0 || refractory_ticks > 0; }
+  void describe(io::SettingsVisitor& visitor);
+  friend bool operator==(const ModulationSettings&, const ModulationSettings&) = default;
+};
+
 /// What triggers the SUPGs of a leg: its foot coming down, its foot being down, nothing, or moments drawn by
-/// chance (controllers/random_triggers.hpp). The last two are controls: no trigger, and one that says nothing
+/// chance (controllers/supg_batch.hpp). The last two are controls: no trigger, and one that says nothing
 /// of the ground.
 enum class Trigger { edge, level, none, random };
 inline constexpr std::array<std::string_view, 4> trigger_names{"edge", "level", "none", "random"};
@@ -43,5 +74,17 @@ struct SupgSettings {
 
 /// period_s in ticks. Throws UserError unless that is a whole number of at least 2.
 int period_ticks(const SupgSettings& settings, double timestep_s);
+
+/// How strongly the links of a mixed substrate act on SUPGs: what one source that says 1 changes by the
+/// greatest weight. 0: not at all.
+struct MixedSettings {
+  double rate = 1.0;       ///< ρ: the period by a factor of two
+  double amplitude = 1.0;  ///< of the pattern about the middle of the joint's range: once more, or none
+  double shift = 0.5;      ///< of the target, in halves of the joint's range
+  double coupling = 1.0;   ///< ρ, a quarter of a period off
+
+  void describe(io::SettingsVisitor& visitor);
+  friend bool operator==(const MixedSettings&, const MixedSettings&) = default;
+};
 
 }  // namespace amble::controllers

@@ -12,7 +12,6 @@
 
 #include "amble/core/simd-inl.hpp"
 #include "amble/cppn/activation.hpp"
-#include "amble/cppn/activation_constants.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace amble::cppn::HWY_NAMESPACE {

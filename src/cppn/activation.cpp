@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <numbers>
 
-#include "amble/cppn/activation_constants.hpp"
 #include "amble/cppn/kernels.hpp"
 
 namespace amble::cppn {

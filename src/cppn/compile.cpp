@@ -4,7 +4,7 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
-#include "amble/cppn/program.hpp"
+#include "amble/cppn/network.hpp"
 
 namespace amble::cppn {
 namespace {

@@ -4,7 +4,6 @@
 
 #include "amble/core/index.hpp"
 #include "amble/cppn/network.hpp"
-#include "amble/cppn/program.hpp"
 
 /// The inner loops, compiled for several instruction sets; the best that the CPU has is chosen at run time.
 namespace amble::cppn {

@@ -8,8 +8,7 @@
 #include <string>
 
 #include "amble/core/error.hpp"
-#include "amble/io/printable.hpp"
-#include "amble/io/split.hpp"
+#include "amble/io/text.hpp"
 
 namespace amble::damage {
 namespace {

@@ -6,7 +6,7 @@ namespace amble::experiment {
 
 /// Source and compiler of this program, for manifests and --version.
 struct BuildInfo {
-  std::string version;  ///< of `git describe`: "0.1.0" at the tag v0.1.0, "0.1.0-7-gabc1234" later
+  std::string version;  ///< of `git describe`: "0.2.0" at the tag v0.2.0, "0.2.0-7-gabc1234" later
   std::string commit;   ///< git commit, "+" appended if the sources had changes; "unknown" outside a checkout
   std::string compiler;   ///< "GNU 12.2.0"
   std::string flags;      ///< those that affect arithmetic

@@ -7,7 +7,7 @@
 #include "amble/experiment/evaluator.hpp"
 #include "amble/experiment/plan/told_generation.hpp"
 #include "amble/experiment/problem/episode_set.hpp"
-#include "amble/experiment/problem/objective.hpp"
+#include "amble/experiment/problem/evaluation_settings.hpp"
 #include "amble/trial/scenario.hpp"
 
 namespace amble::experiment {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "amble/core/process.hpp"
-#include "amble/experiment/plan/stage_times.hpp"
+#include "amble/experiment/plan/generation_row.hpp"
 #include "amble/experiment/problem.hpp"
 #include "amble/record/trajectory.hpp"
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,14 @@
 #include "amble/experiment/problem.hpp"
 
 namespace amble::experiment {
+
+/// How much memory a process may use without being killed: four fifths of the machine's or, where that is
+/// less, of the smallest limit of the process (ulimit), its control group and the groups above (cgroup v2,
+/// memory.max).
+/// `process_groups` and `groups` are /proc/self/cgroup and the folder where the groups are mounted; without
+/// them, or without a limit, the machine's memory counts.
+double usable_memory_bytes(const std::filesystem::path& process_groups = "/proc/self/cgroup",
+                           const std::filesystem::path& groups = "/sys/fs/cgroup");
 
 /// What a generation keeps in memory at least: its genomes, and the trajectories of all their trials.
 struct MemoryNeed {

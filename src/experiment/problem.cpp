@@ -6,7 +6,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
-#include "amble/io/printable.hpp"
+#include "amble/io/text.hpp"
 #include "amble/morphology/robot_file.hpp"
 
 namespace amble::experiment {

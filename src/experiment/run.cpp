@@ -8,11 +8,10 @@
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/experiment/champion_choice.hpp"
-#include "amble/experiment/champion_trials.hpp"
-#include "amble/experiment/checkpoint_recovery.hpp"
 #include "amble/experiment/episodes.hpp"
 #include "amble/experiment/generation.hpp"
 #include "amble/experiment/memory_need.hpp"
+#include "amble/experiment/run_files.hpp"
 #include "amble/experiment/typical.hpp"
 
 namespace amble::experiment {

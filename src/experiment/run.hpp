@@ -13,8 +13,6 @@
 #include "amble/experiment/problem.hpp"
 #include "amble/experiment/run_files.hpp"
 #include "amble/experiment/run_folder.hpp"
-#include "amble/experiment/run_state.hpp"
-#include "amble/experiment/trial_tally.hpp"
 
 namespace amble::experiment {
 

@@ -7,13 +7,20 @@
 #include <string>
 #include <vector>
 
+#include "amble/experiment/checkpoint.hpp"
 #include "amble/experiment/config.hpp"
 #include "amble/experiment/plan/generation_row.hpp"
+#include "amble/experiment/plan/run_state.hpp"
+#include "amble/experiment/problem.hpp"
 #include "amble/experiment/run_folder.hpp"
-#include "amble/experiment/run_state.hpp"
 #include "amble/io/file.hpp"
+#include "amble/search/strategy.hpp"
 
 namespace amble::experiment {
+
+/// Throws UserError if the config's search does not fit the robot, or could need more memory than this
+/// process may use, which could otherwise kill it after hours.
+void check_search(const Config& config, const Problem& problem);
 
 /// The files of a run that are written after every generation: its table, the logs of its search, its
 /// checkpoint. They are written in an order that allows a run to continue wherever it is interrupted.
@@ -42,5 +49,16 @@ class RunFiles {
   std::vector<std::unique_ptr<io::AppendFile>> logs_;
   std::future<void> settling_;
 };
+
+/// The state from which an interrupted run continues.
+struct Recovery {
+  RunState state;
+  std::vector<std::uint64_t> log_bytes;  ///< length of each of the search's logs at that state
+};
+
+/// Reads it from the newest checkpoint of a run folder that is complete, as are the files that it refers to.
+/// A process may have been killed after writing a checkpoint and before renaming it; it is then renamed.
+/// Throws UserError: no valid checkpoint or log, or the best champion's file is missing or another one.
+Recovery recover(const RunPaths& paths, const Config& config, const Problem& problem);
 
 }  // namespace amble::experiment

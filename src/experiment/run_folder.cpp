@@ -17,7 +17,7 @@
 #include "amble/experiment/plan/manifest.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
-#include "amble/io/shell.hpp"
+#include "amble/io/quoting.hpp"
 
 namespace amble::experiment {
 namespace fs = std::filesystem;
@@ -91,7 +91,7 @@ void refuse_used_folder(const fs::path& folder) {
     fail(ExitCode::bad_input, "--out {}: a file of that name exists", folder.string());
   if (is_run_folder(folder))
     fail(ExitCode::bad_input,
-         "--out {}: holds a run already; go on with it by `amble resume {}`, or name another folder",
+         "--out {}: holds a run already; continue it with `amble resume {}`, or name another folder",
          folder.string(), io::shell_word(folder.string()));
   if (!holds_nothing(folder))
     fail(ExitCode::bad_input, "--out {}: not empty and not a run; name another folder", folder.string());

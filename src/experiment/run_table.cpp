@@ -9,10 +9,9 @@
 #include "amble/core/index.hpp"
 #include "amble/experiment/plan/generation_row.hpp"
 #include "amble/io/file.hpp"
-#include "amble/io/printable.hpp"
-#include "amble/io/shell.hpp"
-#include "amble/io/split.hpp"
-#include "amble/record/generation_columns.hpp"
+#include "amble/io/quoting.hpp"
+#include "amble/io/text.hpp"
+#include "amble/record/generations_csv.hpp"
 
 namespace amble::experiment {
 namespace {

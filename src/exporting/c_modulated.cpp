@@ -229,7 +229,7 @@ void add_constants(const SupgTables& supg, CText& text) {
 
 }  // namespace
 
-std::string c_sensor_member(const substrate::Sensor& sensor) {
+std::string c_sensor_member(const substrate::Sensor& sensor, std::string_view state) {
   using Kind = substrate::Sensor::Kind;
   switch (sensor.kind) {
     case Kind::angle:
@@ -251,13 +251,13 @@ std::string c_sensor_member(const substrate::Sensor& sensor) {
     case Kind::yaw_rate:
       return "in->yaw_rate_rad_s";
     case Kind::command_speed:
-      return "state->command_speed_m_s";
+      return fmt::format("{}->command_speed_m_s", state);
     case Kind::command_turn:
-      return "state->command_turn_rad_s";
+      return fmt::format("{}->command_turn_rad_s", state);
     case Kind::command_stop:
-      return "state->command_stop";
+      return fmt::format("{}->command_stop", state);
     case Kind::heading_error:
-      return "state->heading_error_rad";
+      return fmt::format("{}->heading_error_rad", state);
     case Kind::sine:
       break;
   }

@@ -43,7 +43,7 @@ bool has_sine(const NeuralTables& tables) {
   });
 }
 
-/// Whether some sensor is the arc tangent of an attitude's tangent (controllers/attitude.hpp).
+/// Whether some sensor is the arc tangent of an attitude's tangent (controllers/sensing.hpp).
 bool has_swapped_attitude(const NeuralTables& tables) {
   using Kind = substrate::Sensor::Kind;
   return tables.attitude == substrate::Attitude::misordered_quaternion &&
@@ -99,38 +99,11 @@ void add_tables(const ControllerTables& tables, const NeuralTables& neural, CTex
 /// The expression of the struct PREFIX_sensors that a sensor reads.
 std::string reading(const substrate::Sensor& sensor, substrate::Attitude formula) {
   using Kind = substrate::Sensor::Kind;
-  const bool swapped = formula == substrate::Attitude::misordered_quaternion;
-  switch (sensor.kind) {
-    case Kind::angle:
-      return fmt::format("in->angle_rad[{}]", sensor.index);
-    case Kind::touch:
-      return fmt::format("in->touch[{}]", sensor.index);
-    case Kind::roll:
-      return swapped ? "negative_arc_tangent(in->yaw_rad)" : "in->roll_rad";
-    case Kind::pitch:
-      return "in->pitch_rad";
-    case Kind::yaw:
-      return swapped ? "negative_arc_tangent(in->roll_rad)" : "in->yaw_rad";
-    case Kind::load:
-      return fmt::format("in->load_n[{}]", sensor.index);
-    case Kind::speed:
-      return fmt::format("in->speed_rad_s[{}]", sensor.index);
-    case Kind::torque:
-      return fmt::format("in->torque_nm[{}]", sensor.index);
-    case Kind::yaw_rate:
-      return "in->yaw_rate_rad_s";
-    case Kind::command_speed:
-      return "s->command_speed_m_s";
-    case Kind::command_turn:
-      return "s->command_turn_rad_s";
-    case Kind::command_stop:
-      return "s->command_stop";
-    case Kind::heading_error:
-      return "s->heading_error_rad";
-    case Kind::sine:
-      break;
+  if (formula == substrate::Attitude::misordered_quaternion) {
+    if (sensor.kind == Kind::roll) return "negative_arc_tangent(in->yaw_rad)";
+    if (sensor.kind == Kind::yaw) return "negative_arc_tangent(in->roll_rad)";
   }
-  return {};
+  return c_sensor_member(sensor, "s");
 }
 
 /// The same, multiplied by the sensor's scale.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "amble/exporting/c_source.hpp"
 #include "amble/exporting/c_text.hpp"
 
@@ -21,14 +23,14 @@ void add_neural_state(const NeuralTables& tables, CText& text);
 void add_supg(const ControllerTables& tables, const CSourceOptions& options, CText& text);
 void add_neural(const ControllerTables& tables, CText& text);
 
-/// Of what senses commands: members of the state, functions, what else PREFIX_init and PREFIX_step do.
+/// What senses commands: members of the state, functions, what else PREFIX_init and PREFIX_step do.
 /// Nothing for other controllers. `sensors`: the name of the step's argument.
 void add_command_state(const ControllerTables& tables, CText& text);
 void add_commands(const ControllerTables& tables, CText& text);
 std::string c_command_init(const ControllerTables& tables);
 std::string c_command_step(const ControllerTables& tables, const char* sensors);
 
-/// Of SUPGs whose targets are smoothed: members of the state, tables and functions, and what else the
+/// For SUPGs whose targets are smoothed: members of the state, tables and functions, and what else the
 /// function PREFIX_init does. `timer`: the type of timers.
 void add_seam_state(const SupgTables::Seam& seam, CText& text);
 void add_seam(const SupgTables& supg, const std::string& timer, CText& text);
@@ -39,26 +41,26 @@ void add_limits(const std::vector<std::array<float, 2>>& limits_rad, CText& text
 void add_smoothing(const SupgTables::Seam& seam, CText& text);
 std::string c_residual_init();
 
-/// Of SUPGs whose contacts are guessed: members of the state, the function that guesses, what else the
+/// For SUPGs whose contacts are guessed: members of the state, the function that guesses, what else the
 /// function PREFIX_init does (with `leg` and `joint`), and the end of a step.
 void add_contact_state(const SupgTables::Contact& contact, CText& text);
 void add_contacts(const SupgTables::Contact& contact, CText& text);
 std::string c_contact_init(const SupgTables::Contact& contact);
 std::string c_contact_end(const SupgTables::Contact& contact);
 
-/// Of modulated SUPGs: members of the state, and all behind the targets' table.
+/// For modulated SUPGs: members of the state, and all behind the targets' table.
 void add_modulated_state(const SupgTables& tables, CText& text);
 void add_modulated(const ControllerTables& tables, CText& text);
 
-/// Of what is around the SUPGs of a mixed controller: members of the state, tables and functions, the sum
+/// What is around the SUPGs of a mixed controller: members of the state, tables and functions, the sum
 /// that is ρ, and what else the functions PREFIX_init (with `leg`) and PREFIX_step (at its end) do.
 void add_mixed_state(const SupgTables::Mixed& mixed, CText& text);
 void add_mixed(const SupgTables& supg, CText& text);
 std::string c_mixed_growth(const SupgTables::Mixed& mixed);
 std::string c_mixed_init(const SupgTables::Mixed& mixed);
 std::string c_mixed_end(const SupgTables::Mixed& mixed);
-/// The member of the struct PREFIX_sensors, or of the state, that a sensor reads.
-std::string c_sensor_member(const substrate::Sensor& sensor);
+/// The member of the struct PREFIX_sensors, or of the state, a variable of that name, that a sensor reads.
+std::string c_sensor_member(const substrate::Sensor& sensor, std::string_view state = "state");
 
 void add_self_test(const ControllerTables& tables, const Trace& trace, const CSourceOptions& options,
                    CText& text);

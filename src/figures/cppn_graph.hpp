@@ -49,4 +49,8 @@ struct CppnPlaces {
 /// (barycentres: Sugiyama, Tagawa & Toda 1981).
 CppnPlaces place_nodes(const CppnGraph& graph);
 
+/// A CPPN in the DOT language of Graphviz: functions in the nodes, weights as widths, signs as colours,
+/// disabled links dashed. Graphviz places the nodes, with inputs at one end and outputs at the other.
+std::string cppn_dot(const CppnGraph& graph);
+
 }  // namespace amble::figures

@@ -1,9 +1,9 @@
 #include "amble/figures/filmstrip_figure.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
@@ -11,11 +11,27 @@
 #include "amble/figures/svg.hpp"
 
 namespace amble::figures {
-
 namespace {
 
 constexpr double strip_s = 2.0;
 constexpr double fall_s = 1.0;
+
+constexpr double scene_width_px = 640, scene_height_px = 250, foot_px = 26, head_px = 10;
+
+/// Time from one picture to the next, s: a frame at least.
+double interval_s(const motion::Motion& motion) {
+  return std::max(1.0 / most_pictures_per_s, motion.frame_s);
+}
+
+/// Evenly spaced frames over the time of the filmstrip.
+std::vector<int> animation_frames(const motion::Motion& motion) {
+  const std::vector<int> strip = filmstrip_frames(motion);
+  const double step = interval_s(motion) / motion.frame_s;
+  std::vector<int> frames;
+  for (double frame = strip.front(); frame <= strip.back(); frame += step)
+    frames.push_back(static_cast<int>(std::lround(frame)));
+  return frames;
+}
 
 }  // namespace
 
@@ -60,6 +76,43 @@ std::string filmstrip_figure(const robot::RobotSpec& robot, const motion::Motion
              fmt::format("{:.2f} s", motion.time_s(views[i].frame)));
   }
   return svg.finish();
+}
+
+std::string walk_animation(const robot::RobotSpec& robot, const motion::Motion& motion) {
+  AMBLE_CHECK(motion.frames() > 0, "a recording of a walk has a frame");
+  const std::vector<SideView> views = side_views(robot, motion, animation_frames(motion));
+  const Extent extent = extent_of(views);
+  const double room_px = scene_height_px - foot_px - head_px;
+  const double px_per_m =
+      std::min((scene_width_px - 12) / (2.0 * extent.half_width_m), room_px / extent.height_m);
+  const ViewCell cell{{0, 0, scene_width_px, scene_height_px}, scene_height_px - foot_px, px_per_m};
+  Svg svg(scene_width_px, scene_height_px,
+          fmt::format("The {} walking, seen from the side, {:.2f} s to {:.2f} s", robot.name,
+                      motion.time_s(views.front().frame), motion.time_s(views.back().frame)));
+  svg.rect(cell.box, "cell");
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    svg.begin_group(fmt::format("picture p{}", i));
+    draw_ground(svg, views[i], cell);
+    draw_robot(svg, robot, motion, views[i], cell);
+    svg.end_group();
+  }
+  return svg.finish();
+}
+
+std::string animation_style(const motion::Motion& motion) {
+  const std::size_t count = animation_frames(motion).size();
+  const double length_s = static_cast<double>(count) * interval_s(motion);
+  // A delay in the past: each picture is where it is in the cycle from the start.
+  std::string style = fmt::format(
+      "@keyframes show {{ 0% {{ visibility: visible }} {:.3f}% {{ visibility: hidden }} }}\n"
+      ".picture {{ visibility: hidden; animation: show {:.3f}s step-end infinite }}\n",
+      100.0 / static_cast<double>(count), length_s);
+  for (std::size_t i = 0; i < count; ++i)
+    style += fmt::format(".p{} {{ animation-delay: {:.3f}s }}\n", i,
+                         static_cast<double>(i) * interval_s(motion) - length_s);
+  return style +
+         "@media (prefers-reduced-motion: reduce) { .picture { animation: none } .p0 { visibility: visible } "
+         "}\n";
 }
 
 }  // namespace amble::figures

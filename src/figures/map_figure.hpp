@@ -14,7 +14,7 @@ struct GridMap {
     int bins = 1;
   };
   std::vector<Dimension> dimensions;  ///< at least one
-  /// By cell, the last dimension's bin running fastest; NaN: empty.
+  /// Cell by cell, the last dimension's bin running fastest; NaN: empty.
   std::vector<double> objective;
   std::string unit;  ///< of the objective, e.g. " m"
 

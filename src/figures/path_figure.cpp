@@ -9,7 +9,7 @@
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
 #include "amble/figures/axis.hpp"
-#include "amble/figures/silhouette.hpp"
+#include "amble/figures/side_view.hpp"
 #include "amble/figures/svg.hpp"
 #include "amble/motion/footfalls.hpp"
 #include "amble/robot/legs.hpp"
@@ -119,7 +119,7 @@ void draw_scale_bar(Svg& svg, const Map& map, double right, double y, double ste
 
 void draw_ends(Svg& svg, const Map& map, const Scene& scene, const motion::Summary& summary, double width) {
   const Point start = map(scene.path_m.front()), end = map(scene.path_m.back());
-  // Of a robot that was told where to go, that in place of the straight line.
+  // For a robot that was told where to go, that way in place of the straight line.
   if (scene.commanded_m.empty())
     svg.line(start, end, "beeline");
   else

@@ -4,7 +4,7 @@
 
 #include "amble/figures/figure_size.hpp"
 #include "amble/motion/motion.hpp"
-#include "amble/motion/supg_patterns.hpp"
+#include "amble/motion/recorded_trial.hpp"
 #include "amble/robot/spec.hpp"
 
 namespace amble::figures {

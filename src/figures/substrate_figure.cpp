@@ -9,7 +9,7 @@
 
 #include "amble/core/index.hpp"
 #include "amble/figures/style_sheet.hpp"
-#include "amble/figures/substrate_places.hpp"
+#include "amble/figures/substrate_graph.hpp"
 #include "amble/figures/svg.hpp"
 
 namespace amble::figures {

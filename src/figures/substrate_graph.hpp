@@ -1,9 +1,11 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "amble/motion/neural_network.hpp"
+#include "amble/figures/svg.hpp"
+#include "amble/motion/recorded_trial.hpp"
 
 namespace amble::figures {
 
@@ -27,5 +29,17 @@ Substrate substrate_of(const motion::NeuralNetwork& network);
 
 /// Whether there are few enough coordinates for a figure: four at most.
 bool can_be_drawn(const Substrate& substrate);
+
+/// Positions of a substrate's nodes in a figure, px.
+struct SubstratePlaces {
+  double width_px = 0.0, height_px = 0.0;
+  std::vector<Point> nodes;                           ///< by node
+  std::vector<std::vector<Point>> frames;             ///< outlines of planes or modules
+  std::vector<std::pair<Point, std::string>> titles;  ///< of frames: left ends
+  std::vector<std::pair<Point, std::string>> marks;   ///< along axes: centres
+};
+
+/// Leaves `top_px` free above. Throws UserError unless can_be_drawn().
+SubstratePlaces substrate_places(const Substrate& substrate, double width_px, double top_px);
 
 }  // namespace amble::figures

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "amble/core/check.hpp"
-#include "amble/io/xml.hpp"
+#include "amble/io/quoting.hpp"
 
 namespace amble::figures {
 

@@ -9,12 +9,11 @@
 ///
 ///   meter.hpp           frame by frame → Report: start here
 ///   recorded_gait.hpp   the same for a recording file
-///   report.hpp          all measurements of a trial; report_text.hpp: as JSON, as a table, as a few lines
+///   report.hpp          how footfalls are found, and all measurements of a trial
+///   report_text.hpp     these as JSON, as a table, as a few lines
 ///   gait.hpp            names of gaits and the classification of footfall phases
-///   settings.hpp        how footfalls are found
 ///   body.hpp            what is needed of a robot
-/// and inside of Meter
-///   contact_filter.hpp  debounces touch sensors
+/// and inside of Meter, which debounces touch sensors
 ///   strides.hpp         touch-downs, strides and phases; circular.hpp: statistics of phases
 ///   windows.hpp         the parts of a trial, each with a classification
 ///   travel.hpp          distance, path, work of the motors

@@ -37,7 +37,7 @@ bool has_columns(const record::RecordingReader& reader, const std::string& prefi
   });
 }
 
-/// Of a recording of a controller whose legs have timers.
+/// The columns that show seams, in a recording of a controller whose legs have timers.
 struct Seams {
   Seams(const record::RecordingReader& reader, const robot::RobotSpec& robot, const Body& body)
       : target(reader, "target.", body.joints),

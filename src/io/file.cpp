@@ -4,9 +4,10 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -60,6 +61,27 @@ std::string& last_read() {
 bool is_special_file(const std::filesystem::path& path) {
   struct stat status {};
   return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+}
+
+namespace fs = std::filesystem;
+
+/// TMPDIR, or /tmp where it is not set; set to nothing is not set.
+fs::path folder_for_temporary_files() {
+  const char* const set = std::getenv("TMPDIR");
+  if (set == nullptr || *set == '\0') return "/tmp";
+  std::error_code error;
+  if (!fs::is_directory(set, error))
+    fail(ExitCode::io, "TMPDIR={}: {}: expected a folder for temporary files", set,
+         error ? error.message() : "not a folder");
+  return set;
+}
+
+fs::path new_folder() {
+  const fs::path parent = folder_for_temporary_files();
+  std::string name = (parent / "amble-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr)
+    fail(ExitCode::io, "cannot make folder {}: {}", name, std::generic_category().message(errno));
+  return name;
 }
 
 }  // namespace
@@ -224,6 +246,13 @@ void AppendFile::write(std::string_view bytes) {
 
 void AppendFile::sync() {
   if (!sync_descriptor(fd_)) fail_to_write(path_, errno);
+}
+
+ScratchFile::ScratchFile(const std::string& name) : path_(new_folder() / name) {}
+
+ScratchFile::~ScratchFile() {
+  std::error_code none;
+  fs::remove_all(path_.parent_path(), none);
 }
 
 }  // namespace amble::io

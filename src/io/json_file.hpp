@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "amble/io/altered.hpp"
+#include "amble/io/file.hpp"
 #include "amble/io/settings.hpp"
 
 namespace amble::io {

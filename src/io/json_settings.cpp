@@ -2,8 +2,8 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
-#include "amble/io/expectation.hpp"
 #include "amble/io/json_file.hpp"
+#include "amble/io/settings_text.hpp"
 
 namespace amble::io {
 namespace {

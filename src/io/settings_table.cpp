@@ -4,8 +4,7 @@
 #include <functional>
 #include <span>
 
-#include "amble/io/expectation.hpp"
-#include "amble/io/settings_printer.hpp"
+#include "amble/io/settings_text.hpp"
 #include "amble/io/toml_settings.hpp"
 
 namespace amble::io {
@@ -80,6 +79,16 @@ std::vector<std::string> setting_keys(const SettingsColumn& column) {
   for (const Row& row : rows)
     if (row.key.find('[') == std::string::npos) keys.push_back(row.key);
   return keys;
+}
+
+std::string keys_to_markdown(const std::function<void(SettingsVisitor&)>& describe) {
+  std::vector<Row> rows;
+  ColumnCollector collector(rows, 0, 1);
+  describe(collector);
+  std::string table = "| key | what it means | allowed |\n|---|---|---|\n";
+  for (const Row& row : rows)
+    table += fmt::format("| {} {} {}\n", cell("`" + row.key + "`"), cell(row.what), cell(row.expected));
+  return table;
 }
 
 std::string settings_to_markdown(const std::vector<SettingsColumn>& columns, SettingsRows wanted) {

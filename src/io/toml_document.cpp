@@ -4,10 +4,10 @@
 
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
-#include "amble/io/printable.hpp"
+#include "amble/io/quoting.hpp"
+#include "amble/io/text.hpp"
 #include "amble/io/toml_node.hpp"
 #include "amble/io/toml_settings.hpp"
-#include "amble/io/toml_text.hpp"
 
 namespace amble::io {
 namespace {

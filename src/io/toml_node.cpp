@@ -4,7 +4,7 @@
 #include <charconv>
 
 #include "amble/core/index.hpp"
-#include "amble/io/toml_text.hpp"
+#include "amble/io/quoting.hpp"
 
 namespace amble::io {
 

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "amble/core/error.hpp"
-#include "amble/io/printable.hpp"
+#include "amble/io/text.hpp"
 #include "amble/io/toml_node.hpp"
 
 namespace amble::io {

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "amble/core/error.hpp"
-#include "amble/io/expectation.hpp"
-#include "amble/io/spelling.hpp"
+#include "amble/io/quoting.hpp"
+#include "amble/io/settings_text.hpp"
+#include "amble/io/text.hpp"
 #include "amble/io/toml_node.hpp"
-#include "amble/io/toml_text.hpp"
 
 namespace amble::io {
 namespace {

@@ -83,5 +83,7 @@ std::vector<std::string> setting_keys(const SettingsColumn& column);
 /// number of items.
 std::string settings_to_markdown(const std::vector<SettingsColumn>& columns,
                                  SettingsRows rows = SettingsRows::all);
+/// The same without values and sources.
+std::string keys_to_markdown(const std::function<void(SettingsVisitor&)>& describe);
 
 }  // namespace amble::io

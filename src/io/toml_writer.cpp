@@ -1,8 +1,7 @@
 #include <fmt/format.h>
 
 #include "amble/core/check.hpp"
-#include "amble/io/expectation.hpp"
-#include "amble/io/settings_printer.hpp"
+#include "amble/io/settings_text.hpp"
 #include "amble/io/toml_settings.hpp"
 
 namespace amble::io {

@@ -7,7 +7,7 @@
 
 #include "amble/core/index.hpp"
 #include "amble/gait/gait.hpp"
-#include "amble/io/printable.hpp"
+#include "amble/io/text.hpp"
 #include "amble/ledger/measures.hpp"
 #include "amble/ledger/study_spec.hpp"
 

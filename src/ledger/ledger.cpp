@@ -9,7 +9,7 @@
 #include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
 #include "amble/io/file.hpp"
-#include "amble/io/shell.hpp"
+#include "amble/io/quoting.hpp"
 
 namespace amble::ledger {
 namespace fs = std::filesystem;

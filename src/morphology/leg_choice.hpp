@@ -8,7 +8,7 @@
 
 namespace amble::morphology {
 
-/// By what legs are told from other limbs.
+/// What distinguishes legs from other limbs.
 enum class LegSearch {
   by_ground,     ///< they end near the lowest point of the start pose
   by_structure,  ///< by names and by what repeats, whatever the pose of the legs

@@ -22,8 +22,9 @@ using MissingMasses = std::map<std::string, MissingMass>;
 /// by MuJoCo's balanceinertia. Negative masses and moments become 0.
 void balance_inertias(XmlElement& root, bool urdf, ReadingNotes& notes);
 
-/// Of an MJCF tree: whether each body has an <inertial> that counts, by MuJoCo's number; the world has. Else
-/// its mass is that of its geoms. All false if the tree has another number of bodies than `count`.
+/// Whether each body of an MJCF tree has an <inertial> that counts, by MuJoCo's number; the world has.
+/// Without one a body's mass is that of its geoms. All false if the tree has another number of bodies than
+/// `count`.
 std::vector<bool> bodies_with_inertial(const XmlElement& root, int count);
 
 /// URDF: an <inertial> without <mass> or without <inertia> gets small ones, and is one of `missing`.

@@ -10,10 +10,9 @@
 #include <vector>
 
 #include "amble/core/error.hpp"
-#include "amble/morphology/limit_text.hpp"
 #include "amble/morphology/mass_text.hpp"
 #include "amble/morphology/mesh_file.hpp"
-#include "amble/morphology/mesh_path.hpp"
+#include "amble/morphology/mesh_store.hpp"
 #include "amble/morphology/mjcf_defaults.hpp"
 #include "amble/morphology/mjcf_structure.hpp"
 #include "amble/morphology/number_text.hpp"

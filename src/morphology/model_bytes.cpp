@@ -8,7 +8,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
-#include "amble/io/shell.hpp"
+#include "amble/io/quoting.hpp"
 
 namespace amble::morphology {
 namespace {

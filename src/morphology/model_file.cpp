@@ -15,8 +15,8 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
-#include "amble/morphology/lost_shapes.hpp"
 #include "amble/morphology/missing_mass.hpp"
+#include "amble/morphology/model_shapes.hpp"
 #include "amble/morphology/mujoco_handlers.hpp"
 
 namespace amble::morphology {

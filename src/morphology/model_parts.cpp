@@ -11,11 +11,10 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
-#include "amble/morphology/body_mass.hpp"
-#include "amble/morphology/lost_shapes.hpp"
 #include "amble/morphology/massless_links.hpp"
+#include "amble/morphology/missing_mass.hpp"
 #include "amble/morphology/model_shapes.hpp"
-#include "amble/morphology/mujoco_math.hpp"
+#include "amble/morphology/mujoco_handlers.hpp"
 #include "amble/morphology/start_pose.hpp"
 #include "amble/robot/pose.hpp"
 

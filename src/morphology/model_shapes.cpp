@@ -1,10 +1,11 @@
 #include "amble/morphology/model_shapes.hpp"
 
+#include <fmt/format.h>
 #include <mujoco/mujoco.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <vector>
@@ -12,11 +13,65 @@
 #include "amble/core/index.hpp"
 #include "amble/morphology/convex_hull.hpp"
 #include "amble/morphology/model_parts.hpp"
-#include "amble/morphology/mujoco_math.hpp"
-#include "amble/morphology/round_shape.hpp"
+#include "amble/morphology/mujoco_handlers.hpp"
+#include "amble/robot/pose.hpp"
 
 namespace amble::morphology {
 namespace {
+
+/// The apothem of a polygon of twelve corners, as a share of its radius, is 0.966.
+constexpr double roundest = 0.96;
+/// A ball fills 0.67 of its cylinder, a ball-ended bar up to 0.83, a tyre with round shoulders about 0.88.
+constexpr double least_filling = 0.85;
+constexpr int directions = 72;
+
+double volume_of(std::span<const Vec3> points_m) {
+  constexpr std::size_t corners = 100;
+  const ConvexHull hull = convex_hull(points_m, corners);
+  double volume = 0.0;
+  for (const auto& triangle : hull.triangles) {
+    const auto at = [&](std::size_t k) { return hull.vertices_m[static_cast<std::size_t>(triangle[k])]; };
+    volume += dot(at(0), cross(at(1), at(2))) / 6.0;
+  }
+  return volume;
+}
+
+/// The turn that takes z to a unit vector.
+Quat from_z_to(Vec3 axis) {
+  const Quat half{1.0 + axis.z, -axis.y, axis.x, 0.0};
+  const double length = std::sqrt(half.w * half.w + half.x * half.x + half.y * half.y);
+  if (length < 1e-9) return {0.0, 1.0, 0.0, 0.0};
+  return {half.w / length, half.x / length, half.y / length, 0.0};
+}
+
+std::optional<RoundShape> about(std::span<const Vec3> points_m, Vec3 axis, double volume_m3) {
+  const Quat turn = from_z_to(axis);
+  std::vector<Vec3> points;
+  points.reserve(points_m.size());
+  for (const Vec3 point : points_m) points.push_back(rotate(conjugate(turn), point));
+  const auto [low, high] = std::ranges::minmax(points, {}, &Vec3::z);
+  // How far the outline reaches in each direction; its mean, weighted by direction, is the centre.
+  std::vector<Vec3> ways;
+  std::vector<double> reach;
+  Vec3 centre{0.0, 0.0, 0.5 * (low.z + high.z)};
+  for (int k = 0; k < directions; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / directions;
+    ways.push_back({std::cos(angle), std::sin(angle), 0.0});
+    double most = -std::numeric_limits<double>::infinity();
+    for (const Vec3 point : points) most = std::max(most, dot(ways.back(), point));
+    reach.push_back(most);
+    centre = centre + (2.0 / directions * most) * ways.back();
+  }
+  double radius = 0.0, nearest = std::numeric_limits<double>::infinity();
+  for (const Vec3 point : points)
+    radius = std::max(radius, std::hypot(point.x - centre.x, point.y - centre.y));
+  for (std::size_t k = 0; k < ways.size(); ++k)
+    nearest = std::min(nearest, reach[k] - dot(ways[k], {centre.x, centre.y, 0.0}));
+  const double half_length = 0.5 * (high.z - low.z);
+  const double cylinder = 2.0 * std::numbers::pi * radius * radius * half_length;
+  if (nearest < roundest * radius || volume_m3 < least_filling * cylinder) return std::nullopt;
+  return RoundShape{radius, half_length, {rotate(turn, centre), turn}};
+}
 
 std::vector<Vec3> vertices_of(const mjModel_& model, int mesh) {
   std::vector<Vec3> vertices;
@@ -66,7 +121,38 @@ std::optional<robot::Geom> hull_of(const std::vector<Vec3>& points, bool collide
   return geom;
 }
 
+/// The poses of all bodies, in the model's own start pose.
+std::vector<robot::Pose> poses_of(const mjModel_& model) {
+  std::vector<robot::Pose> poses(to_index(model.nbody));
+  for (int b = 1; b < model.nbody; ++b)
+    poses[to_index(b)] = poses[to_index(model.body_parentid[b])] *
+                         robot::Pose{vec3(model.body_pos + 3 * b), quat(model.body_quat + 4 * b)};
+  return poses;
+}
+
+bool has_children(const mjModel_& model, int body) {
+  for (int b = body + 1; b < model.nbody; ++b)
+    if (model.body_parentid[b] == body) return true;
+  return false;
+}
+
+bool is_on_a_limb(const mjModel_& model, int root, int body) {
+  for (int b = body; b > root; b = model.body_parentid[b])
+    if (model.body_jntnum[b] > 0) return true;
+  return false;
+}
+
 }  // namespace
+
+std::optional<RoundShape> cylinder_of(std::span<const Vec3> points_m, std::span<const Vec3> axes) {
+  constexpr std::size_t fewest_points = 24;
+  if (points_m.size() < fewest_points) return std::nullopt;
+  const double volume_m3 = volume_of(points_m);
+  if (!(volume_m3 > 0.0)) return std::nullopt;
+  for (const Vec3 axis : axes)
+    if (const auto shape = about(points_m, axis, volume_m3)) return shape;
+  return std::nullopt;
+}
 
 bool collides(const mjModel_& model, int geom) {
   if (model.geom_contype[geom] != 0 || model.geom_conaffinity[geom] != 0) return true;
@@ -98,6 +184,52 @@ std::optional<robot::Geom> shape_of(const mjModel_& model, int g, bool collides)
   geom.shape = found->second;
   geom.size_m = {size[0], size[1], size[2]};
   return geom;
+}
+
+bool is_placeholder(const mjModel_& model, int geom,
+                    const std::map<std::string, std::string>& missing_meshes) {
+  return model.geom_type[geom] == mjGEOM_MESH &&
+         missing_meshes.contains(model.names + model.name_meshadr[model.geom_dataid[geom]]);
+}
+
+bool ends_a_leg(const mjModel_& model, int root, int body) {
+  if (has_children(model, body) || !is_on_a_limb(model, root, body)) return false;
+  const std::vector<robot::Pose> poses = poses_of(model);
+  const auto height_m = [&](int b) { return (poses[to_index(b)] * vec3(model.body_ipos + 3 * b)).z; };
+  double lowest = height_m(body);
+  for (int b = root; b < model.nbody; ++b)
+    if (model.body_rootid[b] == root) lowest = std::min(lowest, height_m(b));
+  constexpr double level_m = 1e-6;
+  return height_m(body) <= 0.5 * (height_m(root) + lowest) + level_m;
+}
+
+bool is_of_a_foot(const mjModel_& model, int root, int geom,
+                  const std::map<std::string, std::string>& missing_meshes) {
+  const int body = model.geom_bodyid[geom];
+  if (!ends_a_leg(model, root, body)) return false;
+  const robot::Pose pose = poses_of(model)[to_index(body)];
+  const auto height_m = [&](int g) { return (pose * vec3(model.geom_pos + 3 * g)).z; };
+  // The placeholder's centre, of which its height is known, is that far beside the mesh's origin.
+  constexpr double placeholder_m = 1e-3;
+  for (int g = model.body_geomadr[body], end = g + model.body_geomnum[body]; g < end; ++g) {
+    if (!is_placeholder(model, g, missing_meshes) && collides(model, g) &&
+        height_m(g) < height_m(geom) - placeholder_m)
+      return false;
+  }
+  return true;
+}
+
+void let_visuals_collide(mjModel_& model, ReadingNotes& notes) {
+  std::vector<int> shapes;
+  for (int g = 0; g < model.ngeom; ++g) {
+    if (model.geom_bodyid[g] == 0) continue;
+    if (collides(model, g)) return;
+    shapes.push_back(g);
+  }
+  if (shapes.empty()) return;
+  for (const int g : shapes) model.geom_contype[g] = model.geom_conaffinity[g] = 1;
+  notes.add(Reading::replaced,
+            fmt::format("that nothing of the robot collides: its {} shapes to look at do", shapes.size()));
 }
 
 }  // namespace amble::morphology

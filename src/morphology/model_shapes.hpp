@@ -1,8 +1,28 @@
 #pragma once
 
+#include <map>
 #include <optional>
+#include <span>
+#include <string>
 
+#include "amble/morphology/reading_notes.hpp"
+#include "amble/robot/pose.hpp"
 #include "amble/robot/spec.hpp"
+
+namespace amble::morphology {
+
+/// A cylinder about its z axis: half its length is size_m.y.
+struct RoundShape {
+  double radius_m = 0.0, half_length_m = 0.0;
+  robot::Pose pose;
+};
+
+/// The cylinder that points are the corners of, if they are: a wheel. About one of these axes (unit vectors)
+/// their outline is a circle, at least as much as a polygon of twelve corners is, and their hull fills most
+/// of the cylinder.
+std::optional<RoundShape> cylinder_of(std::span<const Vec3> points_m, std::span<const Vec3> axes);
+
+}  // namespace amble::morphology
 
 struct mjModel_;
 
@@ -17,5 +37,29 @@ bool collides(const mjModel_& model, int geom);
 /// colour are the caller's. Nothing for shapes that robots do not have (planes, height fields) and
 /// for meshes without volume.
 std::optional<robot::Geom> shape_of(const mjModel_& model, int geom, bool collides);
+
+}  // namespace amble::morphology
+
+struct mjModel_;
+
+namespace amble::morphology {
+
+/// Whether a small tetrahedron stands for a geom's mesh, which could not be read. `missing_meshes`: by
+/// MuJoCo's name.
+bool is_placeholder(const mjModel_& model, int geom,
+                    const std::map<std::string, std::string>& missing_meshes);
+
+/// Whether a body is the last one of a limb that reaches down.
+bool ends_a_leg(const mjModel_& model, int root, int body);
+
+/// Whether a colliding mesh that could not be read was (part of) a foot: the last body of a limb that reaches
+/// down has no shape that collides and lies lower. What else is lost is left out; without a foot it would be
+/// another robot. `missing_meshes`: by MuJoCo's name.
+bool is_of_a_foot(const mjModel_& model, int root, int geom,
+                  const std::map<std::string, std::string>& missing_meshes);
+
+/// If no shape of any body collides, all shapes do that there are to look at: else the robot would fall
+/// through the ground.
+void let_visuals_collide(mjModel_& model, ReadingNotes& notes);
 
 }  // namespace amble::morphology

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "amble/core/error.hpp"
+
 namespace amble::morphology {
 namespace {
 
@@ -33,6 +35,15 @@ void keep_mujoco_quiet() {
   const std::lock_guard lock(handler_mutex());
   if (mju_user_error == nullptr) mju_user_error = throw_error;
   if (mju_user_warning == nullptr) mju_user_warning = ignore_warning;
+}
+
+MujocoData new_mujoco_data(const mjModel* model, std::string_view engine) {
+  const ScopedMujocoHandlers handlers;
+  try {
+    return MujocoData(mj_makeData(model));
+  } catch (const MujocoError& fatal) {
+    fail(ExitCode::bad_input, "{}: {}", engine, fatal.what());
+  }
 }
 
 }  // namespace amble::morphology

@@ -14,10 +14,9 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
-#include "amble/morphology/lost_shapes.hpp"
 #include "amble/morphology/mass_text.hpp"
 #include "amble/morphology/model_shapes.hpp"
-#include "amble/morphology/mujoco_math.hpp"
+#include "amble/morphology/mujoco_handlers.hpp"
 #include "amble/morphology/start_pose.hpp"
 
 namespace amble::morphology {

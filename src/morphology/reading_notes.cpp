@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "amble/core/index.hpp"
-#include "amble/io/printable.hpp"
+#include "amble/io/text.hpp"
 
 namespace amble::morphology {
 

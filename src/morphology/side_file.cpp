@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "amble/core/error.hpp"
+#include "amble/io/quoting.hpp"
 #include "amble/io/toml_settings.hpp"
-#include "amble/io/toml_text.hpp"
 
 namespace amble::morphology {
 namespace {
@@ -43,6 +43,56 @@ void visit(io::SettingsVisitor& visitor, robot::Contact& contact) {
                   {"sweeps of the batch engine's solver; 0: as many as the paper's quadruped needs"});
 }
 
+/// The keys of a robot file before its tables.
+struct TopKeys {
+  SideFile& side;
+  std::string model = {};
+  std::vector<double> rpy_deg = {}, quaternion = {};
+
+  void visit(io::SettingsVisitor& visitor) {
+    visitor.text("name", side.name, {"what the robot is called in titles; left out: as its model's file"});
+    visitor.text("model", model, {"its MJCF or URDF file, relative to this file"});
+    visitor.texts("legs", side.legs, {"names of the legs, in control order"});
+    visitor.texts("joint_types", side.joint_types, {"names of the joint types, in control order"});
+    visitor.texts("held", side.held, {"joints of no leg, held at their start angle by their servo"});
+    visitor.texts(
+        "passive", side.passive,
+        {"joints without a motor, which move freely, with the model's spring, damping and friction"});
+    visitor.texts("fixed", side.fixed, {"joints that are welded at their start angle"});
+    visitor.text("start", side.start, {"keyframe of the MJCF that is the start pose"});
+    visitor.numbers(
+        "start_rpy_deg", rpy_deg, {-360.0, 360.0},
+        {"orientation of the root's frame in the start pose: roll, pitch and yaw about the world's x, "
+         "y and z, in this order, degrees; left out: as the model has it"});
+    visitor.numbers("start_quaternion", quaternion, {-largest, largest},
+                    {"the same as a quaternion (w, x, y, z)"});
+    visitor.number("start_height_m", side.root_height_m, {0.0, largest},
+                   {"height of the root's frame in the start pose; 0: as the model has it"});
+    visitor.number("fall_height_m", side.fall_height_m, {-largest, largest},
+                   {"the robot has fallen when the root's centre of mass is lower"});
+    visitor.flag("self_collision", side.self_collision,
+                 {"whether bodies that no joint links collide with each other"});
+    visitor.flag("keep_model", side.keep_model,
+                 {"whether robot.json and champions carry the MJCF itself, for the engine mujoco-model"});
+  }
+};
+
+// What tables mean, and the keys in them whose names are the robot's.
+constexpr io::Doc names_doc{"what the model calls the parts of a leg"},
+    joint_pattern_doc{"pattern for joints; {leg} and {type} are replaced"},
+    foot_pattern_doc{"pattern for foot geoms, or a list; {leg} is replaced"},
+    names_of_leg_doc{"names of this leg's parts where they do not follow the pattern"},
+    foot_doc{"its foot geom, or a list of them"}, joint_doc{"its joint of this type"},
+    servo_doc{"the motor of every joint"},
+    servo_of_doc{"where motors differ: servo_of.TYPE for a joint type, servo_of.LEG.TYPE for one joint"},
+    command_doc{
+        "range of the targets that controllers give, where it is not from stop to stop: "
+        "command.TYPE for a joint type, command.LEG.TYPE for one joint"},
+    range_doc{"lower and upper end, rad, as the model counts the angle"},
+    start_angle_doc{"start angles of single joints"}, angle_doc{"rad, as the model counts the angle"},
+    contact_doc{"contacts of bodies with the ground and each other"};
+const std::string default_joint_pattern = "{leg}_{type}", default_foot_pattern = "{leg}_foot";
+
 /// `pattern` with {leg} and {type} replaced; names that contain such marks stay as they are.
 std::string filled_in(std::string_view pattern, std::string_view leg, std::string_view type) {
   std::string text;
@@ -69,7 +119,7 @@ class SideFileReader {
     read_servos();
     read_commands();
     read_start_angles();
-    reader_->begin("contact", {"contacts of bodies with the ground and each other"});
+    reader_->begin("contact", contact_doc);
     visit(*reader_, side_.contact);
     reader_->end();
     reader_->finish();
@@ -87,30 +137,13 @@ class SideFileReader {
   }
 
   void read_top() {
-    std::string model;
+    TopKeys top{side_};
     side_.fall_height_m = not_given;
     side_.contact = {not_given, not_given, not_given};
-    reader_->text("name", side_.name, {"what the robot is called in titles"});
-    reader_->text("model", model, {"its MJCF or URDF file, relative to this file"});
-    reader_->texts("legs", side_.legs, {"names of the legs, in control order"});
-    reader_->texts("joint_types", side_.joint_types, {"names of the joint types, in control order"});
-    reader_->texts("held", side_.held, {"joints of no leg, held at their start angle by their servo"});
-    reader_->texts(
-        "passive", side_.passive,
-        {"joints without a motor, which move freely, with the model's spring, damping and friction"});
-    reader_->texts("fixed", side_.fixed, {"joints that are welded at their start angle"});
-    reader_->text("start", side_.start, {"keyframe of the MJCF that is the start pose"});
-    read_start_rotation();
-    reader_->number("start_height_m", side_.root_height_m, {0.0, largest},
-                    {"height of the root's frame in the start pose; 0: as the model has it"});
-    reader_->number("fall_height_m", side_.fall_height_m, {-largest, largest},
-                    {"the robot has fallen when the root's centre of mass is lower"});
-    reader_->flag("self_collision", side_.self_collision,
-                  {"whether bodies that no joint links collide with each other"});
-    reader_->flag("keep_model", side_.keep_model,
-                  {"whether robot.json and champions carry the MJCF itself, for the engine mujoco-model"});
-    if (model.empty()) missing("model", "the path of an MJCF or URDF file");
-    side_.model = document_.folder_of("model") / model;
+    top.visit(*reader_);
+    read_start_rotation(top.rpy_deg, top.quaternion);
+    if (top.model.empty()) missing("model", "the path of an MJCF or URDF file");
+    side_.model = document_.folder_of("model") / top.model;
     if (side_.name.empty()) side_.name = side_.model.stem().string();
     check_names("legs", side_.legs);
     check_names("joint_types", side_.joint_types);
@@ -131,14 +164,7 @@ class SideFileReader {
     }
   }
 
-  void read_start_rotation() {
-    std::vector<double> rpy_deg, quaternion;
-    reader_->numbers(
-        "start_rpy_deg", rpy_deg, {-360.0, 360.0},
-        {"orientation of the root's frame in the start pose: roll, pitch and yaw about the world's x, "
-         "y and z, in this order, degrees; left out: as the model has it"});
-    reader_->numbers("start_quaternion", quaternion, {-largest, largest},
-                     {"the same as a quaternion (w, x, y, z)"});
+  void read_start_rotation(const std::vector<double>& rpy_deg, const std::vector<double>& quaternion) {
     const auto refuse = [this](const char* key, const char* expected) {
       fail(ExitCode::bad_input, "{}: '{}': expected {}", document_.where(key), key, expected);
     };
@@ -179,19 +205,19 @@ class SideFileReader {
   }
 
   void read_names() {
-    std::string joint_pattern = "{leg}_{type}";
-    std::vector<std::string> foot_patterns{"{leg}_foot"};
-    reader_->begin("names", {"what the model calls the parts of a leg"});
-    reader_->text("joint", joint_pattern, {"pattern for joints; {leg} and {type} are replaced"});
-    read_foot("names.foot", foot_patterns, "pattern for foot geoms, or a list; {leg} is replaced");
+    std::string joint_pattern = default_joint_pattern;
+    std::vector<std::string> foot_patterns{default_foot_pattern};
+    reader_->begin("names", names_doc);
+    reader_->text("joint", joint_pattern, joint_pattern_doc);
+    read_foot("names.foot", foot_patterns, foot_pattern_doc);
     for (const std::string& leg : side_.legs) {
       LegNames names;
       for (const std::string& pattern : foot_patterns) names.foot.push_back(filled_in(pattern, leg, ""));
-      reader_->begin(leg, {"names of this leg's parts where they do not follow the pattern"});
-      read_foot("names." + io::toml_key(leg) + ".foot", names.foot, "its foot geom, or a list of them");
+      reader_->begin(leg, names_of_leg_doc);
+      read_foot("names." + io::toml_key(leg) + ".foot", names.foot, foot_doc);
       for (const std::string& type : side_.joint_types) {
         std::string joint = filled_in(joint_pattern, leg, type);
-        reader_->text(type, joint, {"its joint of this type"});
+        reader_->text(type, joint, joint_doc);
         names.joints.push_back(std::move(joint));
       }
       reader_->end();
@@ -201,9 +227,9 @@ class SideFileReader {
   }
 
   /// One name or several, at the key "foot" of the table that is open.
-  void read_foot(const std::string& path, std::vector<std::string>& names, std::string_view meaning) {
+  void read_foot(const std::string& path, std::vector<std::string>& names, io::Doc meaning) {
     if (document_.is_list(path)) {
-      reader_->texts("foot", names, {meaning});
+      reader_->texts("foot", names, meaning);
       if (names.empty())
         fail(ExitCode::bad_input, "{}: '{}' = []: expected a geom, or a list of geoms", document_.where(path),
              path);
@@ -211,19 +237,18 @@ class SideFileReader {
     }
     const std::string absent(1, '\0');
     std::string one = absent;
-    reader_->text("foot", one, {meaning});
+    reader_->text("foot", one, meaning);
     if (one != absent) names = {one};
   }
 
   void read_servos() {
     robot::Servo common{robot::ServoMode::velocity, not_given, not_given, not_given, 0.0};
-    reader_->begin("servo", {"the motor of every joint"});
+    reader_->begin("servo", servo_doc);
     visit(*reader_, common);
     reader_->end();
 
     std::vector<robot::Servo> by_type(side_.joint_types.size(), common);
-    reader_->begin("servo_of",
-                   {"where motors differ: servo_of.TYPE for a joint type, servo_of.LEG.TYPE for one joint"});
+    reader_->begin("servo_of", servo_of_doc);
     for (std::size_t t = 0; t < by_type.size(); ++t) read_servo(side_.joint_types[t], by_type[t]);
     for (const std::string& leg : side_.legs) {
       reader_->begin(leg, {"motors of this leg"});
@@ -243,9 +268,7 @@ class SideFileReader {
   /// Ranges of joint types, and of single joints.
   void read_commands() {
     std::vector<std::optional<robot::AngleRange>> by_type(side_.joint_types.size());
-    reader_->begin("command",
-                   {"range of the targets that controllers give, where it is not from stop to stop: "
-                    "command.TYPE for a joint type, command.LEG.TYPE for one joint"});
+    reader_->begin("command", command_doc);
     for (std::size_t t = 0; t < by_type.size(); ++t) read_range("command", side_.joint_types[t], by_type[t]);
     for (const std::string& leg : side_.legs) {
       reader_->begin(leg, {"ranges of this leg"});
@@ -260,8 +283,7 @@ class SideFileReader {
 
   void read_range(const std::string& table, const std::string& key, std::optional<robot::AngleRange>& range) {
     std::vector<double> ends;
-    reader_->numbers(key, ends, {-largest, largest},
-                     {"lower and upper end, rad, as the model counts the angle"});
+    reader_->numbers(key, ends, {-largest, largest}, range_doc);
     if (ends.empty()) return;
     const std::string path = table + "." + io::toml_key(key);
     if (ends.size() != 2 || !(ends[0] < ends[1]))
@@ -271,10 +293,9 @@ class SideFileReader {
   }
 
   void read_start_angles() {
-    reader_->begin("start_angle", {"start angles of single joints"});
+    reader_->begin("start_angle", start_angle_doc);
     for (const std::string& joint : document_.keys_of("start_angle"))
-      reader_->number(joint, side_.start_rad[joint], {-largest, largest},
-                      {"rad, as the model counts the angle"});
+      reader_->number(joint, side_.start_rad[joint], {-largest, largest}, angle_doc);
     reader_->end();
   }
 
@@ -310,6 +331,45 @@ class SideFileReader {
 };
 
 }  // namespace
+
+void describe_side_file(io::SettingsVisitor& visitor) {
+  SideFile side;
+  TopKeys{side}.visit(visitor);
+  const auto table = [&visitor](std::string_view key, io::Doc doc, const auto& inside) {
+    visitor.begin(key, doc);
+    inside();
+    visitor.end();
+  };
+  const auto motor = [&] {
+    robot::Servo servo;
+    visit(visitor, servo);
+  };
+  const auto range = [&] {
+    std::vector<double> ends;
+    visitor.numbers("TYPE", ends, {-largest, largest}, range_doc);
+  };
+  std::string joint = default_joint_pattern, type_joint;
+  std::vector<std::string> feet{default_foot_pattern}, leg_feet;
+  double angle_rad = 0.0;
+  table("names", names_doc, [&] {
+    visitor.text("joint", joint, joint_pattern_doc);
+    visitor.texts("foot", feet, foot_pattern_doc);
+    table("LEG", names_of_leg_doc, [&] {
+      visitor.texts("foot", leg_feet, foot_doc);
+      visitor.text("TYPE", type_joint, joint_doc);
+    });
+  });
+  table("servo", servo_doc, motor);
+  table("servo_of", servo_of_doc, [&] { table("TYPE", servo_of_doc, motor); });
+  table("command", command_doc, [&] {
+    range();
+    table("LEG", command_doc, range);
+  });
+  table("start_angle", start_angle_doc, [&] {
+    visitor.number("JOINT", angle_rad, {-largest, largest}, angle_doc);
+  });
+  table("contact", contact_doc, [&] { visit(visitor, side.contact); });
+}
 
 SideFile read_side_file(const std::filesystem::path& path) {
   if (path.extension() != ".toml") {

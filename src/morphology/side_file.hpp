@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "amble/io/settings.hpp"
 #include "amble/robot/spec.hpp"
 
 namespace amble::morphology {
@@ -17,8 +18,8 @@ struct LegNames {
   std::vector<std::string> joints;  ///< one per joint type; empty: the leg has none of that type
 };
 
-/// The TOML file beside a model: all that MJCF and URDF cannot express. robots/README.md describes it key by
-/// key.
+/// The TOML file beside a model: all that MJCF and URDF cannot express. robots/README.md has an example,
+/// docs/SETTINGS.md all keys, which are those of describe_side_file().
 struct SideFile {
   std::string name;
   std::filesystem::path model;
@@ -41,6 +42,10 @@ struct SideFile {
   bool self_collision = false;
   bool keep_model = false;  ///< whether the robot carries the model itself, for the engine mujoco-model
 };
+
+/// All keys that a robot file may have, with what they mean and what is allowed; LEG, TYPE and JOINT stand
+/// for names of the robot's parts.
+void describe_side_file(io::SettingsVisitor& visitor);
 
 /// Throws UserError naming file, key, value and what was expected.
 SideFile read_side_file(const std::filesystem::path& path);

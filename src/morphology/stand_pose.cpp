@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "amble/core/index.hpp"
-#include "amble/morphology/pose_search.hpp"
+#include "amble/morphology/start_pose.hpp"
 #include "amble/robot/pose.hpp"
 
 namespace amble::morphology {

@@ -10,7 +10,7 @@
 #include "amble/core/index.hpp"
 #include "amble/morphology/facing.hpp"
 #include "amble/morphology/limbs.hpp"
-#include "amble/morphology/odd_joints.hpp"
+#include "amble/morphology/servo_guess.hpp"
 #include "amble/morphology/stand_pose.hpp"
 #include "amble/morphology/start_pose.hpp"
 #include "amble/robot/pose.hpp"

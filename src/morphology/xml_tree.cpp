@@ -214,7 +214,7 @@ void write(XmlElement& element, XmlText& out) {
   out.text += "</" + element.name + ">";
 }
 
-/// Of "&#65" or "&#x41"; 0 and what is beyond Unicode are no characters.
+/// The character that "&#65" or "&#x41" stands for; 0 and what is beyond Unicode are no characters.
 std::optional<char32_t> character_number(std::string_view entity) {
   if (!entity.starts_with("&#") || entity.size() > 10) return std::nullopt;
   const bool hexadecimal = entity.substr(2).starts_with('x');

@@ -9,11 +9,11 @@
 
 /// A recording in memory: what a robot did in one trial, and the controller that drove it.
 ///
-/// - recorded_trial.hpp: a recording file → robot, motion and controller; start here
+/// - recorded_trial.hpp: a recording file → robot, motion and controller (the patterns of a SUPG, or neurons
+/// and
+///   links); start here
 /// - motion.hpp: frames of root, joints, centre of mass, contacts, timers; distance and speed
 /// - footfalls.hpp: when feet touched and triggered, by the raw sensors (amble::gait debounces)
-/// - supg_patterns.hpp: the temporal patterns of a SUPG controller
-/// - neural_network.hpp: neurons and links of a network controller
 namespace amble::motion {
 
 /// What a robot did in one trial, in the world frame (docs/CONVENTIONS.md). Frame k is the state after step

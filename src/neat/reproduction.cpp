@@ -6,10 +6,9 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
-#include "amble/neat/allotment.hpp"
 #include "amble/neat/crossover.hpp"
 #include "amble/neat/mutation.hpp"
-#include "amble/neat/roulette.hpp"
+#include "amble/neat/shares.hpp"
 
 namespace amble::neat {
 namespace {

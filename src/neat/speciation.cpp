@@ -6,10 +6,65 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
-#include "amble/neat/distance.hpp"
 #include "amble/neat/genome_binary.hpp"
 
 namespace amble::neat {
+
+bool Threshold::steer(int species, const SpeciationSettings& settings) {
+  if (species >= settings.target_min && species <= settings.target_max) {
+    step_ = 0.0;
+    return false;
+  }
+  const bool down = species < settings.target_min;
+  const double direction = down ? -1.0 : 1.0;
+  if (step_ == 0.0)
+    step_ = direction * std::max(0.1, (down ? settings.first_step_down : settings.first_step_up) * value_);
+  else
+    step_ *= step_ * direction > 0.0 ? 1.05 : -0.5;
+
+  const double old_value = value_;
+  value_ = std::max(lowest, value_ + step_);
+  if (value_ == lowest) step_ = 0.0;
+  return value_ != old_value;
+}
+
+void Threshold::save(io::BinaryWriter& writer) const {
+  writer.put(value_);
+  writer.put(step_);
+}
+
+void Threshold::load(io::BinaryReader& reader) {
+  value_ = reader.get<double>();
+  step_ = reader.get<double>();
+  if (!std::isfinite(value_) || value_ < lowest || !std::isfinite(step_))
+    reader.bad("a compatibility threshold that cannot be");
+}
+
+double compatibility_distance(const Genome& a, const Genome& b, const DistanceSettings& settings) {
+  std::ptrdiff_t disjoint = 0, matching = 0;
+  double weight_difference = 0.0;
+  auto i = a.links.begin(), j = b.links.begin();
+  while (i != a.links.end() && j != b.links.end()) {
+    if (i->innovation == j->innovation) {
+      ++matching;
+      weight_difference += std::abs(i++->weight - j++->weight);
+    } else {
+      ++disjoint;
+      i->innovation < j->innovation ? ++i : ++j;
+    }
+  }
+  // One list is exhausted: the rest of the other is newer than all of it (excess).
+  const auto excess = (a.links.end() - i) + (b.links.end() - j);
+
+  double genes = 1.0;
+  if (settings.normalised) {
+    genes = static_cast<double>(std::max<std::size_t>({a.links.size(), b.links.size(), 1}));
+    weight_difference /= static_cast<double>(std::max<std::ptrdiff_t>(matching, 1));
+  }
+  return (settings.excess * static_cast<double>(excess) + settings.disjoint * static_cast<double>(disjoint)) /
+             genes +
+         settings.weight * weight_difference;
+}
 
 Speciation::Speciation(const SpeciationSettings& settings)
     : settings_(settings), threshold_(settings.initial_threshold) {}

@@ -9,9 +9,40 @@
 #include "amble/neat/fitness.hpp"
 #include "amble/neat/genome.hpp"
 #include "amble/neat/settings.hpp"
-#include "amble/neat/threshold.hpp"
 
 namespace amble::neat {
+
+/// The compatibility threshold, steered so that the number of species comes to the target range
+/// (HyperSharpNEAT's rule, in which the authors' code raised the first step up): the first step out of the
+/// range is the larger of 0.1 and SpeciationSettings::first_step_down or first_step_up × the threshold; each
+/// further step on the same side is 1.05 times the last; after stepping over the range it turns round and is
+/// half as long. The threshold stays at or above 0.01.
+class Threshold {
+ public:
+  static constexpr double lowest = 0.01;
+
+  explicit Threshold(double initial) : value_(initial) {}
+
+  double value() const { return value_; }
+  /// Takes one step if `species` is out of the range target_min … target_max. Returns whether the value
+  /// changed.
+  bool steer(int species, const SpeciationSettings& settings);
+
+  void save(io::BinaryWriter& writer) const;
+  /// Throws UserError(ExitCode::bad_file).
+  void load(io::BinaryReader& reader);
+
+ private:
+  double value_;
+  double step_ = 0.0;  ///< the last one; 0 while in the range, or at the lowest value
+};
+
+/// The compatibility distance of Stanley & Miikkulainen 2002, eq. 1: excess · E + disjoint · D + weight · W.
+/// E counts the links of one genome that are newer than all of the other's, D the other links that only one
+/// has; W is the sum of |weight difference| over the links of both. If settings.normalised, E and D are
+/// divided by the larger genome's number of links and W by the number of links of both. Disabled links count
+/// like others. Symmetric, ≥ 0.
+double compatibility_distance(const Genome& a, const Genome& b, const DistanceSettings& settings);
 
 struct Species {
   std::uint32_t id = 0;      ///< never used again once the species is extinct

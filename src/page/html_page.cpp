@@ -1,8 +1,10 @@
 #include "amble/page/html_page.hpp"
 
 #include <fmt/format.h>
+#include <cstddef>
 
-#include "amble/io/xml.hpp"
+#include "amble/core/index.hpp"
+#include "amble/io/quoting.hpp"
 
 namespace amble::page {
 
@@ -14,6 +16,55 @@ std::string html_page(std::string_view title, std::string_view style, std::strin
       "initial-scale=1\"/>\n<title>{}</title>\n<style>{}</style>\n</head>\n"
       "<body>\n<main>\n{}</main>\n</body>\n</html>\n",
       io::escape_xml(title), style, body);
+}
+
+}  // namespace amble::page
+
+// The assembler includes the file unchanged.
+asm(R"asm(
+  .pushsection .rodata
+  .global amble_view_page_begin
+  .global amble_view_page_end
+amble_view_page_begin:
+  .incbin ")asm" AMBLE_VIEWER_PAGE R"asm("
+amble_view_page_end:
+  .byte 0
+  .global amble_view_module_begin
+  .global amble_view_module_end
+amble_view_module_begin:
+  .incbin ")asm" AMBLE_BROWSER_MODULE R"asm("
+amble_view_module_end:
+  .byte 0
+  .global amble_lab_page_begin
+  .global amble_lab_page_end
+amble_lab_page_begin:
+  .incbin ")asm" AMBLE_LAB_PAGE R"asm("
+amble_lab_page_end:
+  .byte 0
+  .popsection
+)asm");
+
+extern "C" {
+extern const char amble_view_page_begin[];
+extern const char amble_view_page_end[];
+extern const char amble_view_module_begin[];
+extern const char amble_view_module_end[];
+extern const char amble_lab_page_begin[];
+extern const char amble_lab_page_end[];
+}
+
+namespace amble::page {
+
+std::string_view page_template() {
+  return {amble_view_page_begin, to_index(amble_view_page_end - amble_view_page_begin)};
+}
+
+std::string_view lab_template() {
+  return {amble_lab_page_begin, to_index(amble_lab_page_end - amble_lab_page_begin)};
+}
+
+std::string_view browser_module() {
+  return {amble_view_module_begin, to_index(amble_view_module_end - amble_view_module_begin)};
 }
 
 }  // namespace amble::page

@@ -9,4 +9,13 @@ namespace amble::page {
 /// markup; the title is text. The body stands in <main>.
 std::string html_page(std::string_view title, std::string_view style, std::string_view body);
 
+/// viewer/dist/page.html as it was when amble was built: the whole page but for title, colours and data.
+std::string_view page_template();
+
+/// viewer/dist/lab.html, the same: all but colours and robots.
+std::string_view lab_template();
+
+/// viewer/dist/amble.wasm, the same: the functions of browser/interface.hpp.
+std::string_view browser_module();
+
 }  // namespace amble::page

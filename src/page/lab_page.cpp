@@ -4,7 +4,7 @@
 
 #include "amble/core/check.hpp"
 #include "amble/figures/style_sheet.hpp"
-#include "amble/page/page_template.hpp"
+#include "amble/page/html_page.hpp"
 #include "amble/page/template_marks.hpp"
 
 namespace amble::page {

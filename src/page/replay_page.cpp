@@ -11,9 +11,9 @@
 #include "amble/figures/style_sheet.hpp"
 #include "amble/ground/recorded.hpp"
 #include "amble/io/base64.hpp"
-#include "amble/io/xml.hpp"
+#include "amble/io/quoting.hpp"
+#include "amble/page/html_page.hpp"
 #include "amble/page/packed_recording.hpp"
-#include "amble/page/page_template.hpp"
 #include "amble/page/template_marks.hpp"
 #include "amble/record/frame_codec.hpp"
 

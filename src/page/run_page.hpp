@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "amble/figures/fitness_figure.hpp"
@@ -9,7 +11,7 @@
 #include "amble/record/generations_csv.hpp"
 #include "amble/record/objective.hpp"
 
-/// The page of a run and its champion: page.hpp writes the HTML, figure_files.hpp its figures as files.
+/// The page of a run and its champion as HTML, and its figures as files.
 namespace amble::page {
 
 /// A row of the table at the end of a page.
@@ -34,5 +36,24 @@ struct RunPage {
 
 /// One self-contained HTML page, which is well-formed XML too: no network, no scripts.
 std::string make_page(const RunPage& page, const motion::RecordedTrial& recorded);
+
+}  // namespace amble::page
+
+namespace amble::page {
+
+/// A figure of a page as an SVG file of its own, for papers and slides.
+struct FigureFile {
+  std::string name;  ///< "filmstrip.svg", …
+  std::string svg;
+};
+
+/// All names of figure files.
+inline constexpr std::array<std::string_view, 7> figure_names{
+    "filmstrip.svg", "walk.svg", "fitness.svg", "footfalls.svg", "patterns.svg", "network.svg", "path.svg"};
+
+/// The figures of the page, in its order: filmstrip and the same as an animation, fitness (if
+/// page.generations has any), footfalls, patterns (SUPGs only), network (network controllers only) and path.
+/// Without a recorded step there is fitness only.
+std::vector<FigureFile> figure_files(const RunPage& page, const motion::RecordedTrial& recorded);
 
 }  // namespace amble::page

@@ -2,7 +2,7 @@
 
 #include "amble/core/check.hpp"
 #include "amble/io/base64.hpp"
-#include "amble/page/page_template.hpp"
+#include "amble/page/html_page.hpp"
 #include "amble/robot/deflate.hpp"
 
 namespace amble::page {

@@ -15,7 +15,7 @@ namespace amble::physics {
 namespace {
 
 // amble's own, in the order in which they are listed to users: each is in its folder, and registered where it
-// is linked (`registration.cpp` there).
+// is linked (the end of its source).
 struct Own {
   std::string_view name, target;
 };

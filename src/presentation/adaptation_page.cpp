@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "amble/io/scratch_file.hpp"
+#include "amble/io/file.hpp"
 #include "amble/page/replay_page.hpp"
 #include "amble/presentation/map_page.hpp"
 

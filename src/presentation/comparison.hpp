@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "amble/experiment/champion.hpp"
-#include "amble/experiment/compare_maps.hpp"
 #include "amble/experiment/referees.hpp"
+#include "amble/experiment/repertoire.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/presentation/shown_trial.hpp"
 

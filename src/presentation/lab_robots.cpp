@@ -9,7 +9,7 @@
 #include "amble/core/error.hpp"
 #include "amble/experiment/config.hpp"
 #include "amble/experiment/problem.hpp"
-#include "amble/io/toml_text.hpp"
+#include "amble/io/quoting.hpp"
 
 namespace amble::presentation {
 namespace {

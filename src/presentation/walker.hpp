@@ -6,9 +6,13 @@
 #include <string>
 
 #include "amble/experiment/champion.hpp"
+#include "amble/figures/cppn_graph.hpp"
 #include "amble/page/replay_page.hpp"
 
 namespace amble::presentation {
+
+/// The CPPN of a champion, with the names that its controller gives to inputs and outputs.
+figures::CppnGraph cppn_graph(const experiment::Champion& champion);
 
 /// How a champion walks again; the default of each option is as in its evolution.
 struct WalkOptions {

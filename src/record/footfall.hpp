@@ -7,7 +7,7 @@ namespace amble::record {
 ///
 /// The one rule of what a trial measures, of what figures mark (least_off = 1: every touch after a frame
 /// without), and of what triggers a SUPG (controllers/supg.hpp, with ticks for frames). Gaits are classified
-/// by stances instead, which gait/contact_filter.hpp makes. docs/GAIT.md compares them.
+/// by stances instead, which gait/meter.hpp makes. docs/GAIT.md compares them.
 constexpr bool has_come_down(int frame, int last_touch, double least_off) {
   const int off = frame - last_touch - 1;
   return off >= 1 && off >= least_off;

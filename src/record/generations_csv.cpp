@@ -9,8 +9,7 @@
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/io/file.hpp"
-#include "amble/io/split.hpp"
-#include "amble/record/generation_columns.hpp"
+#include "amble/io/text.hpp"
 
 namespace amble::record {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "amble/core/index.hpp"
-#include "amble/io/xml.hpp"
+#include "amble/io/quoting.hpp"
 #include "amble/report/html.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/page_sections.hpp"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "amble/report/levels.hpp"
-#include "amble/statistics/multiple_tests.hpp"
+#include "amble/report/study_data.hpp"
+#include "amble/statistics/hypothesis_tests.hpp"
 
 namespace amble::report {
 namespace {

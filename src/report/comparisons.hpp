@@ -7,8 +7,7 @@
 #include "amble/report/study_data.hpp"
 #include "amble/statistics/bootstrap.hpp"
 #include "amble/statistics/descriptive.hpp"
-#include "amble/statistics/rank_test.hpp"
-#include "amble/statistics/t_test.hpp"
+#include "amble/statistics/hypothesis_tests.hpp"
 
 namespace amble::report {
 

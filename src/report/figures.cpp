@@ -7,7 +7,7 @@
 #include "amble/report/curves_figure.hpp"
 #include "amble/report/mutants_figure.hpp"
 #include "amble/report/number_text.hpp"
-#include "amble/report/page_style.hpp"
+#include "amble/report/page.hpp"
 #include "amble/report/survival_figure.hpp"
 #include "amble/report/typical_figure.hpp"
 

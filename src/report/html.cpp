@@ -6,7 +6,7 @@
 #include <array>
 
 #include "amble/core/check.hpp"
-#include "amble/io/xml.hpp"
+#include "amble/io/quoting.hpp"
 
 namespace amble::report {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "amble/ledger/evolved_as.hpp"
-#include "amble/report/levels.hpp"
+#include "amble/ledger/measures.hpp"
+#include "amble/report/study_data.hpp"
 
 namespace amble::report {
 namespace {

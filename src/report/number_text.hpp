@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "amble/statistics/interval.hpp"
+#include "amble/statistics/descriptive.hpp"
 
 namespace amble::report {
 

@@ -6,7 +6,7 @@
 
 #include "amble/core/index.hpp"
 #include "amble/figures/svg.hpp"
-#include "amble/io/xml.hpp"
+#include "amble/io/quoting.hpp"
 #include "amble/report/curves_figure.hpp"
 #include "amble/report/figures.hpp"
 #include "amble/report/html.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "amble/io/xml.hpp"
+#include "amble/io/quoting.hpp"
 #include "amble/ledger/measures.hpp"
 #include "amble/report/html.hpp"
 #include "amble/report/number_text.hpp"

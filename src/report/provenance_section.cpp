@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "amble/io/xml.hpp"
+#include "amble/io/quoting.hpp"
 #include "amble/report/html.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/page_sections.hpp"

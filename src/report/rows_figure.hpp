@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "amble/figures/figure_size.hpp"
-#include "amble/statistics/interval.hpp"
+#include "amble/statistics/descriptive.hpp"
 
 namespace amble::report {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "amble/core/index.hpp"
-#include "amble/ledger/evolved_as.hpp"
+#include "amble/ledger/measures.hpp"
 #include "amble/report/verdict.hpp"
 
 namespace amble::report {

@@ -9,9 +9,9 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
-#include "amble/io/printable.hpp"
-#include "amble/ledger/evolved_as.hpp"
+#include "amble/io/text.hpp"
 #include "amble/ledger/ledger.hpp"
+#include "amble/ledger/measures.hpp"
 #include "amble/report/number_text.hpp"
 
 namespace amble::report {

@@ -1,8 +1,7 @@
 #include "amble/report/transfer.hpp"
 
-#include "amble/ledger/evolved_as.hpp"
 #include "amble/ledger/measures.hpp"
-#include "amble/report/levels.hpp"
+#include "amble/report/study_data.hpp"
 #include "amble/statistics/descriptive.hpp"
 
 namespace amble::report {

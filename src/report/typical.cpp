@@ -5,10 +5,9 @@
 #include <algorithm>
 
 #include "amble/core/index.hpp"
-#include "amble/ledger/evolved_as.hpp"
 #include "amble/ledger/measures.hpp"
 #include "amble/record/levels.hpp"
-#include "amble/report/levels.hpp"
+#include "amble/report/study_data.hpp"
 
 namespace amble::report {
 namespace {

@@ -8,7 +8,7 @@
 #include "amble/core/index.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/verdict_kinds.hpp"
-#include "amble/statistics/multiple_tests.hpp"
+#include "amble/statistics/hypothesis_tests.hpp"
 
 namespace amble::report {
 namespace {

@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "amble/report/levels.hpp"
 #include "amble/report/study_data.hpp"
 #include "amble/report/verdict_rules.hpp"
-#include "amble/statistics/interval.hpp"
+#include "amble/statistics/descriptive.hpp"
 
 namespace amble::report {
 

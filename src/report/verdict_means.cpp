@@ -8,11 +8,9 @@
 #include "amble/ledger/measures.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/verdict_kinds.hpp"
-#include "amble/statistics/agreement.hpp"
 #include "amble/statistics/bootstrap.hpp"
 #include "amble/statistics/descriptive.hpp"
-#include "amble/statistics/rank_test.hpp"
-#include "amble/statistics/t_test.hpp"
+#include "amble/statistics/hypothesis_tests.hpp"
 
 namespace amble::report {
 namespace {

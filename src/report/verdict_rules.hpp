@@ -10,7 +10,7 @@
 
 #include "amble/core/index.hpp"
 #include "amble/ledger/claim_spec.hpp"
-#include "amble/statistics/interval.hpp"
+#include "amble/statistics/descriptive.hpp"
 
 namespace amble::report {
 

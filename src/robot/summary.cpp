@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "amble/core/index.hpp"
-#include "amble/io/printable.hpp"
+#include "amble/io/text.hpp"
 #include "amble/robot/legs.hpp"
 #include "amble/robot/pose.hpp"
 

@@ -12,8 +12,7 @@
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/core/registry.hpp"
-#include "amble/io/expectation.hpp"
-#include "amble/score/direction.hpp"
+#include "amble/io/settings_text.hpp"
 #include "amble/score/tracking.hpp"
 
 namespace amble::score {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "amble/search/map_elites_settings.hpp"
+#include "amble/search/settings.hpp"
 
 namespace amble::search {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "amble/neat/settings.hpp"
-#include "amble/search/cma_es_settings.hpp"
 #include "amble/search/covariance_adaptation.hpp"
+#include "amble/search/settings.hpp"
 #include "amble/search/strategies.hpp"
 #include "amble/search/strategy.hpp"
 

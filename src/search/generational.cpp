@@ -1,5 +1,6 @@
 #include "amble/search/generational.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "amble/core/check.hpp"
@@ -48,6 +49,17 @@ std::string GenerationalSearch::take_log_growth(std::size_t i) {
 std::uint64_t GenerationalSearch::restore_log(std::size_t i, io::InputFile& file, const std::string& what) {
   AMBLE_CHECK(i < logs().size(), "the archive is the only log");
   return criterion_->restore_archive(file, what);
+}
+
+std::vector<neat::Fitness> ObjectiveSearch::fitness_of(std::span<const Evaluation> generation) {
+  std::vector<neat::Fitness> fitness;
+  fitness.reserve(generation.size());
+  for (const Evaluation& evaluation : generation) {
+    AMBLE_CHECK(std::isfinite(evaluation.objective) && evaluation.objective >= 0.0,
+                "objectives are finite and >= 0");
+    fitness.push_back({.selection = evaluation.objective, .objective = evaluation.objective});
+  }
+  return fitness;
 }
 
 }  // namespace amble::search

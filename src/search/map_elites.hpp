@@ -10,7 +10,7 @@
 #include "amble/search/cells.hpp"
 #include "amble/search/challengers.hpp"
 #include "amble/search/elite_log.hpp"
-#include "amble/search/map_elites_settings.hpp"
+#include "amble/search/settings.hpp"
 #include "amble/search/strategies.hpp"
 #include "amble/search/strategy.hpp"
 

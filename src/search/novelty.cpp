@@ -7,7 +7,6 @@
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
 #include "amble/search/distance_estimates.hpp"
-#include "amble/search/nearest.hpp"
 
 namespace amble::search {
 namespace {
@@ -44,6 +43,17 @@ class ComparisonSet {
   DistanceEstimates to_archive_, to_candidates_;
   std::vector<Reference> references_;
 };
+
+/// An upper bound of the `count`-th smallest squared distance: the `count`-th smallest upper bound.
+double reach_of(std::span<const Reference> references, std::size_t count) {
+  if (references.size() <= count) return std::numeric_limits<double>::infinity();
+  std::vector<double> upper;
+  upper.reserve(references.size());
+  for (const auto& reference : references) upper.push_back(reference.squared_distance.upper);
+  const auto last = upper.begin() + static_cast<std::ptrdiff_t>(count - 1);
+  std::ranges::nth_element(upper, last);
+  return *last;
+}
 
 }  // namespace
 
@@ -123,6 +133,21 @@ void NoveltySearch::load(io::BinaryReader& reader) {
 
 std::uint64_t NoveltySearch::restore_archive(io::InputFile& file, const std::string& what) {
   return log_.restore(file, what, archive_);
+}
+
+std::vector<double> nearest_squared_distances(std::span<const float> from,
+                                              std::span<const Reference> references, std::size_t count) {
+  if (count == 0) return {};
+  const double reach = reach_of(references, count);
+  std::vector<double> distances;
+  // A reference whose lower bound exceeds the reach cannot be among the nearest.
+  for (const auto& reference : references)
+    if (reference.squared_distance.lower <= reach)
+      distances.push_back(exact_squared_distance(from, reference.behaviour));
+  const std::size_t kept = std::min(count, distances.size());
+  std::ranges::partial_sort(distances, distances.begin() + static_cast<std::ptrdiff_t>(kept));
+  distances.resize(kept);
+  return distances;
 }
 
 }  // namespace amble::search

@@ -9,7 +9,8 @@
 #include "amble/search/archive_log.hpp"
 #include "amble/search/behaviours.hpp"
 #include "amble/search/criterion.hpp"
-#include "amble/search/novelty_settings.hpp"
+#include "amble/search/distance_estimates.hpp"
+#include "amble/search/settings.hpp"
 
 namespace amble::search {
 
@@ -36,7 +37,7 @@ class NoveltySearch : public Criterion {
   std::vector<Metric> metrics() const override;
 
   const Behaviours& archive() const { return archive_; }
-  /// For the next generation.
+  /// The threshold for the next generation.
   double threshold() const { return threshold_; }
 
  private:
@@ -51,5 +52,16 @@ class NoveltySearch : public Criterion {
   int empty_generations_ = 0;
   double last_threshold_ = 0.0, best_novelty_ = 0.0;  ///< of the generation judged last
 };
+
+/// A behaviour that may be among the nearest, with bounds on its distance.
+struct Reference {
+  Bounds squared_distance;
+  std::span<const float> behaviour;
+};
+
+/// Exact squared distances from `from` to the `count` nearest references, ascending; fewer if there are
+/// fewer. The bounds only save work: any valid bounds give the same result to the bit.
+std::vector<double> nearest_squared_distances(std::span<const float> from,
+                                              std::span<const Reference> references, std::size_t count);
 
 }  // namespace amble::search

@@ -8,7 +8,6 @@
 #include "amble/search/generational.hpp"
 #include "amble/search/map_elites.hpp"
 #include "amble/search/novelty.hpp"
-#include "amble/search/objective.hpp"
 
 namespace amble::search {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "amble/statistics/interval.hpp"
+#include "amble/statistics/descriptive.hpp"
 
 namespace amble::statistics {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "amble/statistics/interval.hpp"
+#include "amble/statistics/descriptive.hpp"
 
 namespace amble::statistics {
 

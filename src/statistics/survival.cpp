@@ -37,6 +37,81 @@ std::optional<double> time_of_half(std::span<const SurvivalStep> steps,
   return start_s;
 }
 
+using Matrix = std::vector<std::vector<double>>;
+
+struct Member {
+  double time_s;
+  bool ended;
+  std::size_t group;
+};
+
+std::vector<Member> by_time(std::span<const std::vector<Lifetime>> groups) {
+  std::vector<Member> members;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (const auto& life : groups[g]) {
+      AMBLE_CHECK(std::isfinite(life.time_s) && life.time_s >= 0.0, "lifetimes are finite and not negative");
+      members.push_back({life.time_s, life.ended, g});
+    }
+  }
+  std::ranges::sort(members, {}, &Member::time_s);
+  return members;
+}
+
+struct Sums {
+  std::vector<double> observed, expected;
+  Matrix covariance;  ///< of observed − expected
+};
+
+/// Adds one time: `ends` of those `at_risk`, by group. The ends of a group are hypergeometric.
+void add_time(Sums& sums, const std::vector<double>& at_risk, const std::vector<double>& ends) {
+  double n = 0.0, d = 0.0;
+  for (const double count : at_risk) n += count;
+  for (const double count : ends) d += count;
+  const double factor = n > 1.0 ? d * (n - d) / (n - 1.0) : 0.0;
+  for (std::size_t g = 0; g < at_risk.size(); ++g) {
+    const double share = at_risk[g] / n;
+    sums.observed[g] += ends[g];
+    sums.expected[g] += d * share;
+    for (std::size_t h = 0; h < at_risk.size(); ++h)
+      sums.covariance[g][h] += factor * share * ((g == h ? 1.0 : 0.0) - at_risk[h] / n);
+  }
+}
+
+Sums sums_over_time(std::span<const std::vector<Lifetime>> groups) {
+  const std::size_t k = groups.size();
+  Sums sums{std::vector<double>(k), std::vector<double>(k), Matrix(k, std::vector<double>(k))};
+  std::vector<double> at_risk(k), ends(k), left(k);
+  for (std::size_t g = 0; g < k; ++g) at_risk[g] = static_cast<double>(groups[g].size());
+  const auto members = by_time(groups);
+  for (std::size_t i = 0; i < members.size();) {
+    std::ranges::fill(ends, 0.0);
+    std::ranges::fill(left, 0.0);
+    const double time_s = members[i].time_s;
+    for (; i < members.size() && members[i].time_s == time_s; ++i) {
+      left[members[i].group] += 1.0;
+      if (members[i].ended) ends[members[i].group] += 1.0;
+    }
+    if (std::ranges::any_of(ends, [](double count) { return count > 0.0; })) add_time(sums, at_risk, ends);
+    for (std::size_t g = 0; g < k; ++g) at_risk[g] -= left[g];
+  }
+  return sums;
+}
+
+/// xᵀ A⁻¹ x for a symmetric positive definite A, by A = L Lᵀ: the squared norm of L⁻¹ x.
+double inverse_quadratic_form(Matrix a, std::vector<double> x) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      for (std::size_t l = 0; l < j; ++l) a[i][j] -= a[i][l] * a[j][l];
+      a[i][j] = j < i ? a[i][j] / a[j][j] : std::sqrt(a[i][i]);
+    }
+    for (std::size_t j = 0; j < i; ++j) x[i] -= a[i][j] * x[j];
+    x[i] /= a[i][i];
+    sum += x[i] * x[i];
+  }
+  return sum;
+}
+
 }  // namespace
 
 double SurvivalCurve::at(double time_s) const {
@@ -80,6 +155,33 @@ std::optional<SurvivalCurve> kaplan_meier(std::span<const Lifetime> lifetimes, d
   curve.median_upper_s =
       time_of_half(curve.steps, [](auto& step) { return step.band ? Height(step.band->upper) : Height(); });
   return curve;
+}
+
+std::optional<LogRank> log_rank(std::span<const std::vector<Lifetime>> groups) {
+  const Sums sums = sums_over_time(groups);
+  std::vector<std::size_t> counted;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (sums.expected[g] > 0.0) counted.push_back(g);
+  if (counted.size() < 2) return {};
+
+  LogRank test;
+  test.observed = sums.observed;
+  test.expected = sums.expected;
+  test.degrees_of_freedom = counted.size() - 1;
+  // Rows sum to zero, so one group is left out. What remains is regular unless all end at the first time:
+  // every group was at risk there, and with a survivor the covariance of that time alone is regular.
+  if (sums.covariance[counted[0]][counted[0]] == 0.0) return test;
+  Matrix covariance;
+  std::vector<double> excess;
+  for (std::size_t i = 1; i < counted.size(); ++i) {
+    const std::size_t g = counted[i];
+    excess.push_back(sums.observed[g] - sums.expected[g]);
+    auto& row = covariance.emplace_back();
+    for (std::size_t j = 1; j < counted.size(); ++j) row.push_back(sums.covariance[g][counted[j]]);
+  }
+  test.chi_square = inverse_quadratic_form(std::move(covariance), std::move(excess));
+  test.p = chi_square_upper_tail(test.chi_square, static_cast<double>(test.degrees_of_freedom));
+  return test;
 }
 
 }  // namespace amble::statistics

@@ -25,7 +25,7 @@ void GaitObserver::on_step(int, const physics::Engine& engine, const controllers
   add_seam(controllers, targets_rad, lane);
 }
 
-/// Of controllers whose state begins with a timer and then a trigger per leg, as recordings name them.
+/// Only for controllers whose state begins with a timer and then a trigger per leg, as recordings name them.
 void GaitObserver::add_seam(const controllers::Batch& controllers, const LaneArray& targets_rad, int lane) {
   if (state_.empty()) {
     const std::vector<std::string> names = controllers.state_names();

@@ -5,7 +5,7 @@
 #include <cctype>
 
 #include "amble/core/check.hpp"
-#include "amble/io/shell.hpp"
+#include "amble/io/quoting.hpp"
 
 namespace amble::study {
 namespace {

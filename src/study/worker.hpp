@@ -6,7 +6,6 @@
 
 #include "amble/core/error.hpp"
 #include "amble/ledger/record.hpp"
-#include "amble/study/fit.hpp"
 #include "amble/study/plan.hpp"
 
 namespace amble::study {

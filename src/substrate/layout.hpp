@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +15,28 @@
 #include "amble/substrate/settings.hpp"
 
 namespace amble::substrate {
+
+/// Collects the points at which a CPPN will be queried; equal points are one.
+class QueryPoints {
+ public:
+  /// Index of the point with these inputs.
+  int add(const std::vector<float>& inputs) {
+    const auto [entry, is_new] = index_.try_emplace(inputs, static_cast<int>(in_order_.size()));
+    if (is_new) in_order_.push_back(inputs);
+    return entry->second;
+  }
+
+  cppn::Points points(int inputs) const {
+    cppn::Points points(inputs, static_cast<int>(in_order_.size()));
+    for (std::size_t i = 0; i < in_order_.size(); ++i)
+      for (int k = 0; k < inputs; ++k) points.set(static_cast<int>(i), k, in_order_[i][to_index(k)]);
+    return points;
+  }
+
+ private:
+  std::map<std::vector<float>, int> index_;
+  std::vector<std::vector<float>> in_order_;
+};
 
 /// How a CPPN is told the time t of a pattern, in periods: t, or sin 2πt and cos 2πt, which are the same at
 /// the end of the period as at its beginning.
@@ -131,5 +154,9 @@ class Layout {
   std::vector<Source> sources_;
   cppn::Points points_{0, 0};
 };
+
+/// Text for people: the CPPN's inputs and outputs, every node, how many links there are between groups and by
+/// which output, properties, and every link. `layout` was made from `settings`.
+std::string summary(const Settings& settings, const Layout& layout);
 
 }  // namespace amble::substrate

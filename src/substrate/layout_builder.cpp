@@ -12,7 +12,7 @@ namespace amble::substrate {
 namespace {
 
 constexpr std::size_t most_links = 1'000'000;
-/// Of a query for something that is no pattern.
+/// The tick of a query for something that is no pattern.
 constexpr int no_tick = -1;
 
 template <typename... Args>

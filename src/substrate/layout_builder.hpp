@@ -7,7 +7,6 @@
 
 #include "amble/core/index.hpp"
 #include "amble/substrate/layout.hpp"
-#include "amble/substrate/query_points.hpp"
 
 namespace amble::substrate {
 

@@ -14,7 +14,7 @@ namespace amble::substrate {
 inline constexpr std::string_view pattern_property = "pattern";
 
 /// What the sensors roll, pitch and yaw read: the angles, or what the authors' code takes for them
-/// (controllers/attitude.hpp).
+/// (controllers/sensing.hpp).
 enum class Attitude { true_angles, misordered_quaternion };
 inline constexpr std::array<std::string_view, 2> attitude_names{"true_angles", "misordered_quaternion"};
 

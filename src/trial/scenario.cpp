@@ -106,7 +106,7 @@ std::vector<float> draw_offsets(std::size_t count, double largest, Stream& strea
   return offsets;
 }
 
-/// Of two episodes that mirror each other both have the stream of the first.
+/// Two episodes that mirror each other both have the stream of the first.
 CommandSchedule draw_commands(const CommandSettings& command, int steps, double timestep_s, ScenarioKey key) {
   const bool mirror = command.mirrored && key.episode % 2 == 1;
   if (mirror) --key.episode;

@@ -80,7 +80,7 @@ class Runner {
   /// numb from now on.
   void move_to(physics::Engine& engine, const std::vector<int>& numb_legs);
 
-  /// Of the last tick.
+  /// The targets of the last tick.
   const LaneArray& targets_rad() const { return targets_rad_; }
   /// Steps simulated, and time spent in the engine and in controllers and noise, since the runner was made.
   std::uint64_t steps_simulated() const { return steps_simulated_; }

@@ -186,6 +186,8 @@ TEST_F(BadInput, OutputsThatWouldReplaceFilesOfAnotherKind) {
   const auto champion = fs::directory_iterator(fs::path(run_) / "champions")->path().string();
   expect_refusal({"trial", champion, "--record", champion}, ExitCode::bad_input, "is not a recording");
   expect_refusal({"page", run_, "-o", run_ + "/checkpoint.bin"}, ExitCode::bad_input, "is not a page");
+  expect_refusal({"view", run_, "--static", "-o", run_ + "/checkpoint.bin"}, ExitCode::bad_input,
+                 "is not a page");
   expect_refusal({"gait", run_, "--json", champion}, ExitCode::bad_input, "is not a gait");
   expect_refusal({"substrate", config, "-o", champion}, ExitCode::bad_input, "is not a drawing");
   expect_refusal({"robot", run_ + "/robot.json", "--mjcf", run_ + "/config.toml"}, ExitCode::bad_input,
@@ -249,6 +251,12 @@ TEST_F(BadInput, FolderThatIsNoRun) {
   expect_refusal({"verify", scratch_.path().string()}, ExitCode::bad_input, "not a run folder");
   expect_refusal({"info", scratch_.path().string()}, ExitCode::bad_input, "not a run folder");
   expect_refusal({"page", scratch_.path().string(), "-o", out_}, ExitCode::bad_input, "not a run folder");
+  expect_refusal({"view", scratch_.path().string(), "--static", "-o", out_}, ExitCode::bad_input,
+                 "not a run folder");
+  expect_refusal({"view", scratch_.path().string(), "--static", "--history", "-o", out_}, ExitCode::bad_input,
+                 "--history: not with --static");
+  expect_refusal({"view", scratch_.path().string(), "--figures", out_, "-o", out_}, ExitCode::bad_input,
+                 "--figures: only with --static");
 }
 
 TEST_F(BadInput, TrialOfNoWholeNumberOfSteps) {

@@ -133,12 +133,12 @@ TEST_F(Compare, AnEpisodeAskedForByAnOldNameIsToldTheNewOne) {
   for (const char* name : {"--noise", "--episode"}) {
     const auto old = amble({"trial", champion_, name, "1002"});
     EXPECT_EQ(old.exit_code, 0);
-    EXPECT_EQ(old.err, std::string(name) +
-                           " 1002: a trial that evolution has not met is asked for by --unseen 2 now\n");
+    EXPECT_EQ(old.err,
+              std::string(name) + " 1002: for a trial that evolution has not met, now written --unseen 2\n");
     EXPECT_EQ(old.out, unmet);
   }
   const auto met = amble({"trial", champion_, "--noise", "0"});
-  EXPECT_EQ(met.err, "--noise 0: an episode is asked for by --episode 0 now\n");
+  EXPECT_EQ(met.err, "--noise 0: for an episode, now written --episode 0\n");
   EXPECT_EQ(met.out, amble({"trial", champion_, "--episode", "0"}).out);
   EXPECT_NE(met.out, unmet);
 }
@@ -152,7 +152,7 @@ TEST_F(Compare, TheMedianTrialIsWhatGaitViewAndPageShowOfAWalkerEvolvedUnderNois
   EXPECT_THAT(amble({"view", champion_, "--trials", "5", "-o", view}).out,
               HasSubstr("its median trial is shown"));
   EXPECT_THAT(slurp(view), HasSubstr(", median trial"));
-  EXPECT_EQ(amble({"page", run_, "--trials", "5", "-o", page}).exit_code, 0);
+  EXPECT_EQ(amble({"view", run_, "--static", "--trials", "5", "-o", page}).exit_code, 0);
   EXPECT_THAT(slurp(page), HasSubstr("typically "));
   EXPECT_THAT(slurp(page), HasSubstr("the median of these trials"));
   EXPECT_EQ(amble({"view", run_, "--undisturbed", "-o", view}).exit_code, 0);

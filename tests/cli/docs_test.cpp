@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <sstream>
+#include <string_view>
 
+#include "amble/core/version.hpp"
 #include "tests/cli/process.hpp"
 
 namespace amble::tests {
@@ -27,6 +29,7 @@ TEST(Docs, SettingsAreTheProgramsOwnTables) {
                            source + "/configs/robust/supg-objective.toml"});
   expect_in_settings_page({"--differing", authors + "supg-objective.toml", authors + "sine-objective.toml",
                            authors + "ctrnn-objective.toml"});
+  expect_in_settings_page({"--robot"});
 }
 
 TEST(Docs, EveryCommandExplainsItself) {
@@ -87,8 +90,13 @@ TEST(Docs, TheVersionIsThatOfTheBuildInEveryFileThatHasIt) {
   const std::string version = cmake.substr(at, cmake.find(' ', at) - at);
   EXPECT_NE(slurp(source + "/CITATION.cff").find("\nversion: " + version + "\n"), std::string::npos)
       << version;
-  EXPECT_NE(slurp(source + "/codemeta.json").find("\"version\": \"" + version + "\""), std::string::npos)
-      << version;
+  for (const char* file : {"/codemeta.json", "/viewer/package.json", "/viewer/package-lock.json"})
+    EXPECT_NE(slurp(source + file).find("\"version\": \"" + version + "\""), std::string::npos) << file;
+  EXPECT_EQ(AMBLE_VERSION_TEXT, version) << "src/core/version.hpp";
+  EXPECT_NE(slurp(source + "/docs/RELEASING.md").find("`git tag -s v" + version + " "), std::string::npos);
+  const std::string changes = slurp(source + "/CHANGELOG.md");
+  const std::size_t heading = changes.find("\n## [", changes.find("\n## [Unreleased]\n") + 1);
+  EXPECT_TRUE(std::string_view(changes).substr(heading).starts_with("\n## [" + version + "] – "));
 }
 
 TEST(Docs, TheReadmeStaysUnder150Lines) {

@@ -225,11 +225,24 @@ TEST_P(RunOnEngine, HasChampionsWhoseRecordingInfoAndPageCanRead) {
   EXPECT_EQ(info.exit_code, ok) << info.err;
   EXPECT_NE(info.out.find("trigger.FL"), std::string::npos) << info.out;
   EXPECT_NE(info.out.find("torque.FL_knee"), std::string::npos) << info.out;
-  const auto page =
-      amble({"page", scratch / "run", "-o", scratch / "page.html", "--figures", scratch / "figures"});
+  const auto page = amble(
+      {"view", scratch / "run", "--static", "-o", scratch / "page.html", "--figures", scratch / "figures"});
   EXPECT_EQ(page.exit_code, ok) << page.err;
   EXPECT_TRUE(std::filesystem::exists(scratch / "figures/footfalls.svg"));
   EXPECT_NE(slurp(scratch / "page.html").find("</html>"), std::string::npos);
+}
+
+TEST(View, StaticIsWhatPageMakes) {
+  const TemporaryFolder scratch;
+  ASSERT_EQ(amble(evolve(scratch / "run", 4, 2)).exit_code, ok);
+  const std::string run = scratch / "run", figures = scratch / "figures.html", page = scratch / "page.html";
+  const auto made = amble({"view", run, "--static", "-o", figures});
+  EXPECT_EQ(made.exit_code, ok) << made.err;
+  EXPECT_EQ(made.err, "");
+  const auto by_page = amble({"page", run, "-o", page});
+  EXPECT_EQ(by_page.exit_code, ok);
+  EXPECT_EQ(by_page.err, "amble page DIR: now written amble view DIR --static\n");
+  EXPECT_EQ(slurp(figures), slurp(page));
 }
 
 TEST(Gait, IsTheSameOfARunItsChampionAndARecording) {

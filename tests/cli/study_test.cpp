@@ -231,7 +231,7 @@ TEST_F(Study, PassesItsOptionsOnToSlurmsTasks) {
   const auto old =
       study("s", {"--slurm", script.string(), "--jobs", "2", "--workers", "3", "--discard-runs"});
   EXPECT_EQ(slurp(script), text);
-  EXPECT_NE(old.err.find("--workers 3: asked for by --jobs 6 --per-run 3 now"), std::string::npos) << old.err;
+  EXPECT_NE(old.err.find("--workers 3: now written --jobs 6 --per-run 3"), std::string::npos) << old.err;
 }
 
 }  // namespace

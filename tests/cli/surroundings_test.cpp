@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "amble/core/error.hpp"
-#include "amble/io/shell.hpp"
+#include "amble/io/quoting.hpp"
 #include "tests/cli/process.hpp"
 #include "tests/models/small_models.hpp"
 
@@ -83,7 +83,7 @@ TEST_F(Surroundings, CommandsThatArePrintedCanBePastedWhateverTheRunIsCalled) {
     const Said info = shell("amble info " + io::shell_word(name));
     EXPECT_EQ(info.code, ok) << info.text;
     const Said taken = shell(evolve(name.front() == '-' ? "./" + name : name));
-    const std::size_t from = taken.text.find("by `") + 4;
+    const std::size_t from = taken.text.find("with `") + 6;
     const std::string command = taken.text.substr(from, taken.text.find("`,", from) - from);
     EXPECT_EQ(shell(command + " --generations 2").code, ok) << command;
     EXPECT_FALSE(std::filesystem::exists(scratch_ / "ran"));

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "amble/controllers/factory.hpp"
-#include "amble/substrate/summary.hpp"
+#include "amble/substrate/layout.hpp"
 #include "tests/figures/golden.hpp"
 #include "tests/robot/legged.hpp"
 

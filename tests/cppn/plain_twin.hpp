@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "amble/cppn/activation.hpp"
-#include "amble/cppn/activation_constants.hpp"
 #include "amble/cppn/settings.hpp"
 #include "amble/neat/genome.hpp"
 

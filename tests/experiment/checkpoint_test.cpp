@@ -8,7 +8,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/random.hpp"
-#include "amble/experiment/run_state.hpp"
+#include "amble/experiment/run_files.hpp"
 #include "amble/io/file.hpp"
 #include "tests/experiment/fixture.hpp"
 

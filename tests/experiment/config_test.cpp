@@ -181,7 +181,8 @@ TEST(Config, ErrorsOfIncompatibleSettingsNameWhereTheyWereSet) {
   EXPECT_THAT(error_of("\n\ncontroller.supg.period_s = 1.0049\n"),
               HasSubstr("c.toml:4: controller.supg.period_s = 1.0049"));
   EXPECT_THAT(error_of("controller.substrate.nodes = []\n"), HasSubstr("c.toml:2: controller.substrate."));
-  // Of the keys that are at odds, the one that the config itself sets, and not the file that it includes.
+  // The key that is named, where several are at odds, is the one that the config itself sets, and not the
+  // file that it includes.
   EXPECT_THAT(error_of("trial.timestep_s = 0.011\n"), HasSubstr("c.toml:2: trial.duration_s = 15: expected"));
   EXPECT_THAT(error_of("[controller.substrate]\nnodes = [\n  { at = [0.0, 0.0] },\n]\n"),
               HasSubstr("c.toml:4: controller.substrate.nodes[0].name"));

@@ -153,7 +153,7 @@ TEST_F(NewRobotOf, JointsSlightlyOutsideTheirStopsGoToTheNearestAngleInside) {
   EXPECT_THAT(upper.guess.toml, HasSubstr("[start_angle]\nleft_knee = -0.0524\nright_knee = -0.0524\n"));
 }
 
-/// Of posed_legs(): thighs and shins, one pair for each leg.
+/// A keyframe for posed_legs(): thighs and shins, one pair for each leg.
 std::string key_of(const std::string& name, double height_m, double hip, double knee) {
   std::string qpos = fmt::format("0 0 {} 1 0 0 0", height_m);
   for (int l = 0; l < 4; ++l) qpos += fmt::format(" {} {}", hip, knee);

@@ -1,4 +1,4 @@
-#include "amble/experiment/checkpoint_recovery.hpp"
+#include "amble/experiment/run_files.hpp"
 
 #include <gtest/gtest.h>
 

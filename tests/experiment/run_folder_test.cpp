@@ -55,7 +55,7 @@ TEST_F(Folder, ThatHoldsARunIsNotTakenAgain) {
   begun();
   const auto before = io::read_file(folder_ / "config.toml");
   config_.name = "other";
-  EXPECT_THAT(creating(), HasSubstr("holds a run already; go on with it by `amble resume"));
+  EXPECT_THAT(creating(), HasSubstr("holds a run already; continue it with `amble resume"));
   EXPECT_EQ(io::read_file(folder_ / "config.toml"), before);
 }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "amble/experiment/problem/problem_json.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/verify.hpp"
 #include "tests/experiment/fixture.hpp"

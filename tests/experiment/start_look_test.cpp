@@ -5,8 +5,8 @@
 
 #include <numbers>
 
+#include "amble/experiment/plan/generation_row.hpp"
 #include "amble/experiment/problem.hpp"
-#include "amble/experiment/trial_tally.hpp"
 #include "amble/robot/check.hpp"
 #include "tests/experiment/fixture.hpp"
 

@@ -1,4 +1,5 @@
-#include "amble/morphology/simulation_mjcf.hpp"
+
+#include "amble/morphology/mjcf_writer.hpp"
 
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
@@ -8,7 +9,6 @@
 #include <span>
 
 #include "amble/exporting/trace.hpp"
-#include "amble/morphology/mjcf_writer.hpp"
 #include "amble/morphology/model_file.hpp"
 #include "amble/morphology/model_parts.hpp"
 #include "amble/physics/mujoco/model.hpp"

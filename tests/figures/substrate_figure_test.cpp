@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "amble/figures/substrate_places.hpp"
+#include "amble/figures/substrate_graph.hpp"
 #include "tests/figures/xml.hpp"
 #include "tests/motion/fixture.hpp"
 
@@ -85,7 +85,7 @@ TEST(SubstrateFigure, PutsAFrameAroundEachPlaneAndModule) {
 }
 
 TEST(SubstrateFigure, PutsNodesInTheDirectionsOfTheirCoordinates) {
-  // Of larger coordinates: right, up, or both, where planes are seen from the side.
+  // Where larger coordinates are: right, up, or both, where planes are seen from the side.
   struct Direction {
     int right, up;
   };

@@ -1,4 +1,4 @@
-#include "amble/gait/contact_filter.hpp"
+#include "amble/gait/meter.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 
 #include <limits>
 
+#include "amble/io/quoting.hpp"
 #include "amble/io/toml_settings.hpp"
-#include "amble/io/toml_text.hpp"
 #include "tests/io/expect_error.hpp"
 #include "tests/io/sample_settings.hpp"
 

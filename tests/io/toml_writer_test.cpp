@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "amble/io/quoting.hpp"
 #include "amble/io/toml_settings.hpp"
-#include "amble/io/toml_text.hpp"
 #include "tests/io/random_sample.hpp"
 
 namespace amble::io {

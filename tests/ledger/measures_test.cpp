@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "amble/core/error.hpp"
-#include "amble/ledger/evolved_as.hpp"
 #include "amble/ledger/study_spec.hpp"
 #include "amble/score/score.hpp"
 #include "tests/ledger/samples.hpp"
@@ -61,7 +60,7 @@ TEST(Measures, TimeInMotionLeavesPausesOutAndCountsWhatFollowsThem) {
   steps_m.insert(steps_m.end(), 30, 0.0);
   steps_m.insert(steps_m.end(), 20, 0.1);
   EXPECT_EQ(path_test(1.0, steps_m).moving_s(), 20.0 + 7.0 + 18.0);
-  // Of a path sampled more rarely than once in a window, each step is one.
+  // Where a path is sampled more rarely than once in a window, each step is a window.
   EXPECT_EQ(path_test(36.0, {1.0, 0.2, 0.3}).moving_s(), 72.0);
   Record record = sample_record();
   record.tests.push_back(path_test(1.0, std::vector<double>(12, 0.03)));

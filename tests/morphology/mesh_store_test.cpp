@@ -10,7 +10,6 @@
 
 #include "amble/core/index.hpp"
 #include "amble/morphology/mesh_file.hpp"
-#include "amble/morphology/mesh_path.hpp"
 #include "amble/morphology/model_parts.hpp"
 #include "amble/robot/pose.hpp"
 #include "tests/morphology/files.hpp"

@@ -95,7 +95,7 @@ TEST(MjcfWriter, AcceptsAnyNames) {
   EXPECT_EQ(model->njnt, 13);
 }
 
-/// Of a mesh, in the frame of its body; its place for other shapes.
+/// The mean of a mesh's corners, in the frame of its body; for other shapes their place.
 Vec3 middle_of_corners_m(const robot::Geom& geom) {
   Vec3 sum_m;
   for (const Vec3 vertex : geom.vertices_m) sum_m = sum_m + vertex;

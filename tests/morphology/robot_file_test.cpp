@@ -68,7 +68,7 @@ TEST(LoadRobot, TurnsTheRootByAnglesOrAQuaternion) {
       load_one_leg(files, one_leg_xml, with(one_leg_toml, name, name + "start_rpy_deg = [30, 0, 0]\n"));
   const Vec3 up = rotate(tilted.bodies[0].rotation, Vec3{0.0, 0.0, 1.0});
   expect(up, {0.0, -0.5, std::sqrt(0.75)});
-  // Of any length.
+  // A quaternion may have any length.
   expect(forward("start_quaternion = [2, 0, 0, 2]"), {0.0, 1.0, 0.0});
   EXPECT_EQ(load_one_leg(files).bodies[0].rotation, Quat{});
 }

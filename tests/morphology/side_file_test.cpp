@@ -1,12 +1,16 @@
 #include "amble/morphology/side_file.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "amble/io/file.hpp"
+#include "amble/io/toml_settings.hpp"
 #include "tests/morphology/files.hpp"
 
 namespace amble::morphology {
@@ -207,6 +211,27 @@ TEST(SideFile, TakesLegsOfAnyNameAndFillsInPatternsOnce) {
   EXPECT_TRUE(side.commands[2].has_value());
   EXPECT_THAT(Files().error_of([&] { parse_side_file(with(toml, "[-1.0, 1.0]", "[1.0, -1.0]"), "x.toml"); }),
               testing::HasSubstr("'command.\"a.b\".hip': expected [lower, upper]"));
+}
+
+/// The first block of TOML in a page.
+std::string toml_block(const std::string& page) {
+  constexpr std::string_view begin = "```toml\n", end = "```\n";
+  const std::size_t from = page.find(begin) + begin.size();
+  return page.substr(from, page.find(end, from) - from);
+}
+
+TEST(SideFile, IsWhatTheDocsHaveAsAnExample) {
+  const SideFile side =
+      parse_side_file(toml_block(io::read_file(AMBLE_SOURCE_DIR "/robots/README.md")), "e.toml");
+  EXPECT_EQ(side.names.at(1).joints, (std::vector<std::string>{"", "right_knee_joint"}));
+  EXPECT_EQ(side.start_rad.at("right_knee_joint"), -0.4);
+}
+
+TEST(SideFile, HasATableOfAllItsKeys) {
+  const std::string table = io::keys_to_markdown(describe_side_file);
+  for (const char* key : {"keep_model", "names.LEG.TYPE", "servo_of.TYPE.kd_nm_s_per_rad", "command.LEG.TYPE",
+                          "start_angle.JOINT", "contact.sweeps"})
+    EXPECT_NE(table.find(fmt::format("| `{}` | ", key)), std::string::npos) << key;
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "amble/motion/recorded_trial.hpp"
-#include "amble/motion/supg_patterns.hpp"
 #include "amble/robot/spec.hpp"
 #include "tests/core/error_of.hpp"
 

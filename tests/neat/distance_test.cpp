@@ -1,4 +1,4 @@
-#include "amble/neat/distance.hpp"
+#include "amble/neat/speciation.hpp"
 
 #include <gtest/gtest.h>
 

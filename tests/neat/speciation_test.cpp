@@ -5,7 +5,6 @@
 #include <ostream>
 #include <set>
 
-#include "amble/neat/distance.hpp"
 #include "amble/neat/genome_binary.hpp"
 #include "tests/neat/samples.hpp"
 

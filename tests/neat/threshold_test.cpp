@@ -1,4 +1,4 @@
-#include "amble/neat/threshold.hpp"
+#include "amble/neat/speciation.hpp"
 
 #include <gtest/gtest.h>
 

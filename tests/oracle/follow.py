@@ -71,7 +71,7 @@ SMALL = ["population.size=40", "engine=batch", "mutation.add_node_share=0.3", "m
          "trial.duration_s=6", "seed=3"]
 
 
-# Of a timer that rounding of a rate and of a sensor's digits leave open, ticks.
+# How far a timer may be off, ticks, that rounding of a rate and of a sensor's digits leave open.
 TIMER_TOLERANCE = 2e-3
 
 

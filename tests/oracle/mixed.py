@@ -8,7 +8,7 @@ from supg import STOPPED
 
 FULL = {"touch": 1.0, "command_speed": 1.0, "command_turn": 1.0, "command_stop": 1.0, "heading_error": 1.0, "yaw_rate": 2.0}
 GAINS = {"rate": 1.0, "amplitude": 1.0, "shift": 0.5, "coupling": 1.0}
-# Of a neuron's value, between what it is by the recording's digits and what it is.
+# How far a neuron's value by the recording's digits may be from what it is.
 NEURON_TOLERANCE = 2e-4
 
 

@@ -10,7 +10,7 @@ namespace {
 
 class Flight : public OnEachEngine {};
 ON_EACH_ENGINE(Flight);
-/// Of engines that keep the momentum to the last bits.
+/// Engines that keep the momentum to the last bits.
 class ExactFlight : public OnEachEngine {};
 ON_ENGINES(ExactFlight, "ode", "batch");
 

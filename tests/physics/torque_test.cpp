@@ -123,7 +123,7 @@ TEST_P(Torques, OfATorqueServoAreItsLaw) {
   bench.targets.at(0, 0) = 0.15f;
   for (int n = 0; n < 300; ++n) {
     bench.steps(1);
-    // Of the angle after the step.
+    // By the angle after the step.
     const double expected = std::clamp(20.0 * (static_cast<double>(0.15f) - bench.angle(0)), -2.0, 2.0);
     ASSERT_NEAR(torque(bench, 0), expected, 1e-4) << n;
   }

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "amble/statistics/multiple_tests.hpp"
+#include "amble/statistics/hypothesis_tests.hpp"
 #include "tests/report/fixture.hpp"
 
 namespace amble::report {

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "amble/report/csv.hpp"
 #include "amble/report/figures.hpp"
 #include "amble/report/page.hpp"
 #include "amble/report/tables.hpp"

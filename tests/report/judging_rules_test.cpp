@@ -1,4 +1,4 @@
-#include "amble/ledger/judging_rules.hpp"
+#include "amble/ledger/study_spec.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

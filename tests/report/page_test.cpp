@@ -7,10 +7,10 @@
 #include <algorithm>
 
 #include "amble/core/index.hpp"
-#include "amble/io/xml.hpp"
-#include "amble/report/json.hpp"
+#include "amble/io/quoting.hpp"
 #include "amble/report/number_text.hpp"
 #include "amble/report/page_sections.hpp"
+#include "amble/report/report.hpp"
 #include "amble/report/tables.hpp"
 #include "tests/figures/xml.hpp"
 #include "tests/report/fixture.hpp"

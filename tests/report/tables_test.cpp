@@ -7,8 +7,7 @@
 #include <sstream>
 
 #include "amble/io/json_file.hpp"
-#include "amble/report/csv.hpp"
-#include "amble/report/json.hpp"
+#include "amble/report/report.hpp"
 #include "amble/statistics/descriptive.hpp"
 #include "tests/report/fixture.hpp"
 

@@ -17,7 +17,7 @@ record::Trajectory short_walk() {
   return trajectory;
 }
 
-/// Of a trial of so many steps, each of which is sampled.
+/// The behaviour in a trial of so many steps, each of which is sampled.
 PathBehaviour of_steps(int steps) {
   return PathBehaviour({.steps = steps, .path = {.stride = 1}});
 }

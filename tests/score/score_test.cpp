@@ -9,8 +9,8 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/random.hpp"
-#include "amble/io/expectation.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/settings_text.hpp"
 
 namespace amble::score {
 namespace {

@@ -10,7 +10,7 @@
 namespace amble::search {
 namespace {
 
-/// Of a CPPN with one input and two outputs, so of four weights.
+/// Searches the weights of a CPPN with one input and two outputs, so of four weights.
 class CmaEsTest : public testing::Test {
  protected:
   CmaEsTest() { neat_.population.size = 12; }

@@ -73,7 +73,7 @@ TEST(Curiosity, OfAnEliteMovesWithItToAnotherCell) {
   ASSERT_EQ(search.elites().size(), 3u);
   ASSERT_NE(search.elites().in(1), Elites::none);
   ASSERT_EQ(neat::expand(search.elites()[search.elites().in(1)].genome, ""), curious);
-  // Of two elites drawn the more curious one is a parent, and else the one drawn first: the second elite is
+  // The more curious of two elites drawn is a parent, and else the one drawn first: the second elite is
   // if it is drawn first and then itself or the third, 2/9. Were all alike, it would be 1/3.
   const auto candidates = search.ask().subspan(3);
   const auto share =

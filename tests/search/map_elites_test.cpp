@@ -90,7 +90,7 @@ class SlowMap {
     if (result.viable) decide({result.objective, result.descriptor, 1, 0, genome});
   }
 
-  /// Of the round before's challengers the first that has not been tried again.
+  /// Takes the first challenger of the round before that has not been tried again.
   void challenge_again(const Result& result) {
     Entry entry = challengers.front();
     challengers.erase(challengers.begin());

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "amble/search/novelty_settings.hpp"
+#include "amble/search/settings.hpp"
 
 namespace amble::search {
 

@@ -1,4 +1,4 @@
-#include "amble/search/nearest.hpp"
+#include "amble/search/novelty.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

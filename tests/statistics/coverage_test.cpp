@@ -7,7 +7,7 @@
 #include "amble/core/random.hpp"
 #include "amble/statistics/bootstrap.hpp"
 #include "amble/statistics/descriptive.hpp"
-#include "amble/statistics/rank_test.hpp"
+#include "amble/statistics/hypothesis_tests.hpp"
 #include "tests/statistics/oracles.hpp"
 
 namespace amble::statistics {
@@ -76,7 +76,8 @@ double skewed(Stream& stream, double sigma) {
 }
 constexpr double long_tail = 0.75, short_tail = 0.4;
 
-/// Of two means, 40 and 8 m, of conditions that have nothing to do with one another.
+/// How often the interval covers the ratio of two means, 40 and 8 m, of conditions that have nothing to do
+/// with one another.
 double bca_ratio_coverage(double sigma, double base_sigma) {
   return coverage([=](Stream& stream, std::uint64_t seed) {
     Sample first(n), second(n);

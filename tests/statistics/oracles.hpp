@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "amble/statistics/interval.hpp"
+#include "amble/statistics/descriptive.hpp"
 
 namespace amble::statistics::tests {
 

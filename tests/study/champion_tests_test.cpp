@@ -10,7 +10,7 @@
 #include "amble/experiment/replay.hpp"
 #include "amble/gait/recorded_gait.hpp"
 #include "amble/io/file.hpp"
-#include "amble/ledger/evolved_as.hpp"
+#include "amble/ledger/measures.hpp"
 #include "amble/record/levels.hpp"
 #include "amble/score/walking.hpp"
 #include "amble/study/gait_observer.hpp"

@@ -13,8 +13,8 @@
 namespace amble::study {
 namespace {
 
-/// Of the twenty champions of a kind in the study `paper`, whose legs lie straight on their stops at the
-/// start.
+/// What the twenty champions of a kind reach in the study `paper`, whose legs lie straight on their stops at
+/// the start.
 struct Champions {
   double undisturbed_m = 0.0, typical_m = 0.0;  ///< means
   double alike = 0.0;  ///< share of the disturbed trials that end within 5 % of the undisturbed distance

@@ -51,7 +51,7 @@ const publicApi = (page) => ({
   /** How long the last frames took to compute and draw, ms. */
   frames: () => page.frames,
   hasStage: () => page.stage !== null,
-  /** Of a walker that is simulated (null: it is recorded): its LiveRobot, and simulating so many seconds at once. */
+  /** For a walker that is simulated (null: it is recorded): its LiveRobot, and simulating so many seconds at once. */
   live: () => page.live?.walk.live ?? null,
   simulate: (seconds) => page.clock.seek((page.clock.duration_s = page.clock.more(page.clock.duration_s + seconds))),
 });

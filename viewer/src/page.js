@@ -47,7 +47,7 @@ export class Page {
       byId("subtitle").textContent = this.walks.map((walk) => story(walk, this.walks.length > 1)).join(" ");
   }
 
-  /** Of many walkers a list above the picture, which folds; of few their names in it. */
+  /** For many walkers a list above the picture, which folds; for few their names in it. */
   placeWalkers(choiceElement) {
     if (this.walks.length <= FEW) return byId("who").append(choiceElement);
     const list = element("details", { class: "walker-list" }, element("summary", {}, `${this.walks.length} walkers`), choiceElement);

@@ -126,7 +126,7 @@ export function runs(column) {
 }
 
 /**
- * Runs of touches without chatter, as src/gait/contact_filter.hpp takes it out: gaps of fewer than `least` rows are
+ * Runs of touches without chatter, as src/gait/meter.hpp takes it out: gaps of fewer than `least` rows are
  * closed, then stances of fewer rows dropped. Gives {stances, gaps, touches}; the last two are what did not count.
  */
 export function footfalls(touched, least) {

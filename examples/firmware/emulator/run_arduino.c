@@ -28,7 +28,7 @@ static avr_cycle_count_t held_until;
 
 static long now_us(void) { return (long)(avr->cycle / (clock_hz / 1000000)); }
 
-/* Of a run with `hang`. */
+/* For a run with `hang`. */
 enum { hang_tick = 600, ticks_after_reset = 100 };
 static int hangs, pulses_before, pulses_after;
 static long hung_us, reset_us;

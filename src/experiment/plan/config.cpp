@@ -7,7 +7,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/experiment/problem/episode_set.hpp"
-#include "amble/experiment/problem/implied_settings.hpp"
+#include "amble/experiment/problem/problem_json.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/toml_settings.hpp"
 #include "amble/physics/engine_kinds.hpp"

@@ -24,7 +24,7 @@
 #include "amble/score/behaviour.hpp"
 #include "amble/score/score.hpp"
 #include "amble/search/strategies.hpp"
-#include "amble/trial/command_settings.hpp"
+#include "amble/trial/commands.hpp"
 #include "amble/trial/noise_settings.hpp"
 #include "amble/trial/settings.hpp"
 

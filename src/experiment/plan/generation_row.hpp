@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -7,14 +8,40 @@
 #include <string_view>
 #include <vector>
 
-#include "amble/experiment/plan/stage_times.hpp"
 #include "amble/record/trajectory.hpp"
 #include "amble/score/typical.hpp"
 #include "amble/search/metric.hpp"
 
 namespace amble::experiment {
 
-/// One line of generations.csv (record/generation_columns.hpp). All columns before wall_s, where the times
+/// Wall time of a generation by stage, in seconds; of stages of workers, the mean. The rest is overhead:
+/// trajectories, statistics, the champion's re-run except its physics.
+struct StageTimes {
+  double physics_s = 0.0;   ///< in the engine
+  double decode_s = 0.0;    ///< from genomes to controllers
+  double control_s = 0.0;   ///< controllers, and noise
+  double waiting_s = 0.0;   ///< of workers without a trial for those that had one
+  double search_s = 0.0;    ///< the search: from evaluations to the next candidates
+  double referees_s = 0.0;  ///< trials of champions in the referees
+  double files_s = 0.0;     ///< written and synced
+};
+
+struct Stage {
+  std::string_view column;  ///< of generations.csv
+  std::string_view name;    ///< as displayed
+  double StageTimes::*seconds;
+};
+inline constexpr std::array<Stage, 7> stages{{
+    {"physics_s", "physics", &StageTimes::physics_s},
+    {"decode_s", "genomes to controllers", &StageTimes::decode_s},
+    {"control_s", "controllers, noise", &StageTimes::control_s},
+    {"waiting_s", "waiting for others", &StageTimes::waiting_s},
+    {"search_s", "search", &StageTimes::search_s},
+    {"referees_s", "referees", &StageTimes::referees_s},
+    {"files_s", "files", &StageTimes::files_s},
+}};
+
+/// One line of generations.csv (record/generations_csv.hpp). All columns before wall_s, where the times
 /// begin, are the same bits for any number of workers.
 struct GenerationRow {
   int generation = 0;
@@ -43,5 +70,21 @@ std::string unknown_column(std::string_view header, std::span<const search::Metr
 /// The columns that come from the trials: best, mean, median, fell, diverged.
 void summarise_trials(std::span<const double> objectives, std::span<const record::Trajectory> trajectories,
                       GenerationRow& row);
+
+/// How the trials of a run ended, as far as this process made them.
+class TrialTally {
+ public:
+  /// `full_steps`: length of a trial that nothing ends early.
+  void add(std::span<const record::Trajectory> trajectories, int full_steps);
+
+  std::uint64_t trials() const { return trials_; }
+  std::uint64_t diverged() const { return diverged_; }
+  /// Why the results mean nothing, as a sentence: hardly any trial was one. Empty otherwise, and without any
+  /// trial.
+  std::string verdict() const;
+
+ private:
+  std::uint64_t trials_ = 0, diverged_ = 0, at_once_ = 0;
+};
 
 }  // namespace amble::experiment

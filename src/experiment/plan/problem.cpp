@@ -4,7 +4,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/experiment/plan/config.hpp"
-#include "amble/io/printable.hpp"
+#include "amble/io/text.hpp"
 #include "amble/robot/check.hpp"
 
 namespace amble::experiment {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "amble/core/hash.hpp"
-#include "amble/io/split.hpp"
-#include "amble/record/generation_columns.hpp"
+#include "amble/io/text.hpp"
+#include "amble/record/generations_csv.hpp"
 
 namespace amble::experiment {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "amble/experiment/problem/objective.hpp"
+#include "amble/experiment/problem/evaluation_settings.hpp"
 #include "amble/score/score.hpp"
 #include "amble/score/tracking.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "amble/experiment/problem/evaluation_settings.hpp"
 #include "amble/experiment/problem/problem.hpp"
-#include "amble/io/altered.hpp"
+#include "amble/io/file.hpp"
 #include "amble/neat/genome.hpp"
 #include "amble/record/trajectory.hpp"
 

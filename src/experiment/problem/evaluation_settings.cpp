@@ -1,5 +1,10 @@
 #include "amble/experiment/problem/evaluation_settings.hpp"
 
+#include <algorithm>
+
+#include "amble/core/check.hpp"
+#include "amble/statistics/descriptive.hpp"
+
 namespace amble::experiment {
 
 void EvaluationSettings::describe(io::SettingsVisitor& visitor) {
@@ -11,6 +16,23 @@ void EvaluationSettings::describe(io::SettingsVisitor& visitor) {
       {"share of a generation, its best, that is tried again before anything is selected; 0: none"});
   visitor.integer("finalist_episodes", finalist_episodes, {1, 500},
                   {"further trials of each of them; what counts is noise.score of all its trials"});
+}
+
+double objective(trial::EpisodeScore combined, std::span<const double> scores) {
+  AMBLE_CHECK(!scores.empty(), "an evaluation has an episode");
+  switch (combined) {
+    case trial::EpisodeScore::worst:
+      return std::ranges::min(scores);
+    case trial::EpisodeScore::median:
+      return statistics::median(scores);
+    case trial::EpisodeScore::lower_quartile:
+      return statistics::quantile(scores, 0.25);
+    case trial::EpisodeScore::mean:
+      break;
+  }
+  double sum = 0.0;
+  for (const double score : scores) sum += score;
+  return sum / static_cast<double>(scores.size());
 }
 
 }  // namespace amble::experiment

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string_view>
 
 #include "amble/io/settings.hpp"
+#include "amble/trial/noise_settings.hpp"
 
 namespace amble::experiment {
 
@@ -30,5 +32,8 @@ struct EvaluationSettings {
     return finalists > 0.0 ? episodes + finalist_episodes : episodes;
   }
 };
+
+/// The objective of a genome from the scores (at least one) of its episodes.
+double objective(trial::EpisodeScore combined, std::span<const double> scores);
 
 }  // namespace amble::experiment

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "amble/experiment/problem/trace_text.hpp"
+#include "amble/experiment/problem/problem_json.hpp"
 #include "amble/io/json_file.hpp"
 
 namespace amble::experiment {

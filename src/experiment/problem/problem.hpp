@@ -16,7 +16,7 @@
 #include "amble/neat/genome.hpp"
 #include "amble/robot/spec.hpp"
 #include "amble/score/score.hpp"
-#include "amble/trial/command_settings.hpp"
+#include "amble/trial/commands.hpp"
 #include "amble/trial/noise_settings.hpp"
 #include "amble/trial/scenario.hpp"
 #include "amble/trial/settings.hpp"

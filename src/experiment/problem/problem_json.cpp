@@ -1,6 +1,10 @@
 #include "amble/experiment/problem/problem_json.hpp"
 
-#include "amble/experiment/problem/implied_settings.hpp"
+#include <fmt/format.h>
+#include <charconv>
+#include <cstddef>
+#include <system_error>
+
 #include "amble/physics/engine_kinds.hpp"
 #include "amble/robot/json.hpp"
 #include "amble/robot/original_model.hpp"
@@ -48,6 +52,38 @@ Problem problem_from_json(const io::JsonView& root) {
       problem.engine_own.numbers[number.name] = root.at("engine_own").at(number.name).finite_number();
   problem.complete();
   return problem;
+}
+
+void leave_out_implied(io::Json& json, const score::Settings& score, const ground::Settings& ground,
+                       const damage::Settings& damage, const trial::CommandSettings& command) {
+  if (score.is_distance()) json.erase("score");
+  if (ground.is_default()) json.erase("ground");
+  if (damage.is_default()) json.erase("damage");
+  if (command.is_default()) json.erase("command");
+}
+
+namespace {
+
+constexpr std::size_t digits_per_step = 8;
+
+}  // namespace
+
+std::string trace_text(const std::vector<std::uint32_t>& trace) {
+  std::string text;
+  for (const auto hash : trace) text += fmt::format("{:08x}", hash);
+  return text;
+}
+
+std::vector<std::uint32_t> parse_trace(const io::JsonView& view) {
+  const std::string text = view.text();
+  if (text.size() % digits_per_step != 0) view.bad("eight hexadecimal digits per step");
+  std::vector<std::uint32_t> trace(text.size() / digits_per_step);
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    const char* const first = text.data() + i * digits_per_step;
+    const auto [end, error] = std::from_chars(first, first + digits_per_step, trace[i], 16);
+    if (error != std::errc() || end != first + digits_per_step) view.bad("eight hexadecimal digits per step");
+  }
+  return trace;
 }
 
 }  // namespace amble::experiment

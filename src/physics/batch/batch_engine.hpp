@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "amble/physics/engine.hpp"
+#include "amble/robot/spec.hpp"
 
 namespace amble::physics {
 
@@ -32,3 +33,13 @@ class BatchEngine : public Engine {
 std::unique_ptr<BatchEngine> make_batch_engine(const robot::RobotSpec& robot, const EngineSettings& settings);
 
 }  // namespace amble::physics
+
+namespace amble::physics::batch {
+
+/// Velocities from momenta: the root's frame is at `root`, all else as in `state`.
+MovingPose motion_of(const robot::RobotSpec& robot, const RootPose& root, const RobotState& state);
+
+/// The reverse: sets the velocities and the momentum of `state`.
+void set_velocities(const robot::RobotSpec& robot, const MovingPose& motion, RobotState& state);
+
+}  // namespace amble::physics::batch

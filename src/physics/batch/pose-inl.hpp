@@ -161,7 +161,7 @@ HWY_INLINE V3 point_position(const Point& point, V3 up) {
   const V along = dot(up, axis);
   const V3 down = fma(along, axis, zero3() - up);
   const V square = dot(down, down);
-  // Of a cylinder that is upright but for rounding, every point of the rim is as low.
+  // Where a cylinder is upright but for rounding, every point of its rim is as low.
   const Mask upright = square < set(1e-8f);
   const V scale = set(1.0f) / hn::Sqrt(hn::IfThenElse(upright, set(1.0f), square));
   const V3 start = set(point.rim_start);

@@ -38,7 +38,7 @@ struct ChainBlocks {
   int first = 0, joint_blocks = 0, count = 0;
   int joint_rows = 0;  ///< of the chain; a block has three of them, the last perhaps fewer
 
-  /// Of a chain of three joints: its motors and its first contact are relaxed together.
+  /// Whether it is a chain of three joints, whose motors and first contact are relaxed together.
   bool paired() const { return joint_blocks == 1 && count > 1; }
 };
 

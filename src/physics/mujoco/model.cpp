@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "amble/core/index.hpp"
-#include "amble/io/xml.hpp"
+#include "amble/io/quoting.hpp"
 #include "amble/morphology/mjcf_writer.hpp"
 #include "amble/robot/collision_points.hpp"
 
@@ -95,7 +95,7 @@ void set_options(mjOption& option, double timestep_s) {
   option.disableflags |= mjDSBL_PASSIVE | mjDSBL_ACTUATION | mjDSBL_SENSOR;
 }
 
-/// Of its servo, or of its spring, which has no limit: a number that MuJoCo can compute with.
+/// The limit of its servo's torque. A spring has none: a number that MuJoCo can compute with.
 double largest_torque_nm(const robot::Joint& joint) {
   constexpr double without_limit_nm = 1e9;
   if (joint.has_motor()) return joint.servo.max_torque_nm;

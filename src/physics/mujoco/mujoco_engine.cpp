@@ -1,7 +1,4 @@
-#include "amble/physics/mujoco/mujoco_engine.hpp"
-
 #include <mujoco/mujoco.h>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -9,14 +6,13 @@
 #include <vector>
 
 #include "amble/core/check.hpp"
-#include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"
 #include "amble/morphology/mujoco_handlers.hpp"
-#include "amble/morphology/mujoco_math.hpp"
-#include "amble/physics/mujoco/ground_contacts.hpp"
+#include "amble/physics/engine.hpp"
+#include "amble/physics/engine_kinds.hpp"
+#include "amble/physics/mujoco/contacts.hpp"
 #include "amble/physics/mujoco/model.hpp"
-#include "amble/physics/mujoco/slip.hpp"
 #include "amble/physics/single_robot.hpp"
 
 namespace amble::physics {
@@ -30,25 +26,19 @@ using robot::ServoMode;
 /// MuJoCo's ids: the ground is its first geom, the root the only child of its world body.
 constexpr int ground_geom = 0, root_body = 1;
 
-struct DeleteData {
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-
-std::unique_ptr<mjData, DeleteData> new_data(const mjModel* model) {
-  const morphology::ScopedMujocoHandlers handlers;
-  try {
-    return std::unique_ptr<mjData, DeleteData>(mj_makeData(model));
-  } catch (const morphology::MujocoError& fatal) {
-    fail(ExitCode::bad_input, "the mujoco engine: {}", fatal.what());
-  }
-}
-
+/// MuJoCo 2.2: one robot per engine, double precision, joint angles as coordinates, semi-implicit Euler
+/// without substeps, at most 20 iterations of Newton's method to a tolerance of 1e-10, elliptic friction
+/// cones. Contacts, stops and velocity servos have the erp and cfm of RobotSpec::contact, as in ODE
+/// (mujoco/model.cpp); the torque servo applies its torque for a whole step. A cfm so small that MuJoCo's
+/// impedance would exceed 0.9999 is raised to that. Bodies joined by a joint never collide; of more than 512
+/// contacts the rest is left out. Healthy means: the speeds of the root and of all joints. Throws UserError
+/// for what MuJoCo's compiler refuses.
 class MujocoEngine final : public SingleRobotEngine {
  public:
   MujocoEngine(const RobotSpec& robot, const EngineSettings& settings)
       : SingleRobotEngine(robot, settings),
         model_(mujoco::make_model(robot, settings.timestep_s)),
-        data_(new_data(model_.get())),
+        data_(morphology::new_mujoco_data(model_.get(), "the mujoco engine")),
         ground_contacts_(robot, model_),
         slip_(robot.contact.friction, settings.timestep_s) {}
 
@@ -292,15 +282,24 @@ class MujocoEngine final : public SingleRobotEngine {
   }
 
   const mujoco::Model model_;
-  const std::unique_ptr<mjData, DeleteData> data_;
+  const morphology::MujocoData data_;
   mujoco::GroundContacts ground_contacts_;
   mujoco::Slip slip_;
 };
 
 }  // namespace
 
-std::unique_ptr<Engine> make_mujoco_engine(const RobotSpec& robot, const EngineSettings& settings) {
-  return std::make_unique<MujocoEngine>(robot, settings);
-}
-
 }  // namespace amble::physics
+
+// Every program that links this library has the engine: amble_registers() in cmake/AmbleTargets.cmake.
+extern "C" const bool amble_registers_physics_mujoco;
+const bool amble_registers_physics_mujoco = [] {
+  amble::physics::register_engine(
+      {.name = "mujoco",
+       .traits = {.lanes = 1},
+       .make = [](const amble::robot::RobotSpec& robot,
+                  const amble::physics::EngineSettings& settings) -> std::unique_ptr<amble::physics::Engine> {
+         return std::make_unique<amble::physics::MujocoEngine>(robot, settings);
+       }});
+  return true;
+}();

@@ -8,7 +8,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
-#include "amble/io/printable.hpp"
+#include "amble/io/text.hpp"
 
 namespace amble::physics::mujoco_model {
 namespace {

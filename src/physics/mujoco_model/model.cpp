@@ -7,8 +7,8 @@
 
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
-#include "amble/io/printable.hpp"
-#include "amble/morphology/mujoco_math.hpp"
+#include "amble/io/text.hpp"
+#include "amble/morphology/mujoco_handlers.hpp"
 
 namespace amble::physics::mujoco_model {
 namespace {

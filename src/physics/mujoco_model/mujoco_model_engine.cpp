@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
-
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -11,9 +10,9 @@
 #include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"
-#include "amble/io/printable.hpp"
+#include "amble/io/text.hpp"
 #include "amble/morphology/mujoco_handlers.hpp"
-#include "amble/morphology/mujoco_math.hpp"
+#include "amble/physics/engine_kinds.hpp"
 #include "amble/physics/mujoco_model/actuation.hpp"
 #include "amble/physics/mujoco_model/model.hpp"
 #include "amble/physics/mujoco_model/uneven_ground.hpp"
@@ -26,19 +25,9 @@ using morphology::quat;
 using morphology::vec3;
 using robot::RobotSpec;
 
-struct DeleteModelData {
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-using DataPointer = std::unique_ptr<mjData, DeleteModelData>;
-
-DataPointer new_model_data(const mjModel* model) {
+morphology::MujocoData new_model_data(const mjModel* model) {
   morphology::keep_mujoco_quiet();
-  const morphology::ScopedMujocoHandlers handlers;
-  try {
-    return DataPointer(mj_makeData(model));
-  } catch (const morphology::MujocoError& fatal) {
-    fail(ExitCode::bad_input, "the engine mujoco-model: {}", fatal.what());
-  }
+  return morphology::new_mujoco_data(model, "the engine mujoco-model");
 }
 
 class MujocoModelEngine final : public SingleRobotEngine {
@@ -328,7 +317,7 @@ class MujocoModelEngine final : public SingleRobotEngine {
 
   const mujoco_model::Model model_;
   mujoco_model::Actuation actuation_;
-  const DataPointer data_;
+  const morphology::MujocoData data_;
   mujoco_model::UnevenGround uneven_ground_;
   const double tick_s_;
   std::vector<double> positions_;
@@ -345,3 +334,12 @@ std::vector<std::string> original_model_notes(const RobotSpec& robot, double tim
 }
 
 }  // namespace amble::physics
+
+// Every program that links this library has the engine: amble_registers() in cmake/AmbleTargets.cmake.
+extern "C" const bool amble_registers_physics_mujoco_model;
+const bool amble_registers_physics_mujoco_model = [] {
+  amble::physics::register_engine({.name = "mujoco-model",
+                                   .traits = {.lanes = 1, .of_original_model = true},
+                                   .make = amble::physics::make_mujoco_model_engine});
+  return true;
+}();

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "amble/core/index.hpp"
-#include "amble/morphology/mujoco_math.hpp"
+#include "amble/morphology/mujoco_handlers.hpp"
 
 namespace amble::physics::mujoco_model {
 namespace {

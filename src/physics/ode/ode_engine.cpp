@@ -1,5 +1,3 @@
-#include "amble/physics/ode/ode_engine.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,10 +8,10 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/hash.hpp"
+#include "amble/physics/engine.hpp"
+#include "amble/physics/engine_kinds.hpp"
 #include "amble/physics/ode/contacts.hpp"
-#include "amble/physics/ode/library.hpp"
 #include "amble/physics/ode/motors.hpp"
-#include "amble/physics/ode/torque_meter.hpp"
 #include "amble/physics/ode/world.hpp"
 #include "amble/physics/single_robot.hpp"
 #include "amble/robot/pose.hpp"
@@ -66,6 +64,11 @@ struct Trial {
   }
 };
 
+/// Open Dynamics Engine 0.16, dWorldStep: one robot per engine, double precision. Every constraint, contact
+/// or joint, has the erp and cfm of RobotSpec::contact. Infinite friction is ODE's mu = infinity; finite
+/// friction is a pyramid proportional to the normal force (dContactApprox1), along the world's x and y on the
+/// plane, and along ODE's own pair of tangents (dPlaneSpace) elsewhere.
+/// Bodies joined by a joint never collide. motors.hpp says what acts in the joints.
 class OdeEngine final : public SingleRobotEngine {
  public:
   OdeEngine(const RobotSpec& robot, const EngineSettings& settings)
@@ -207,8 +210,18 @@ class OdeEngine final : public SingleRobotEngine {
 
 }  // namespace
 
-std::unique_ptr<Engine> make_ode_engine(const RobotSpec& robot, const EngineSettings& settings) {
-  return std::make_unique<OdeEngine>(robot, settings);
-}
-
 }  // namespace amble::physics
+
+// Every program that links this library has the engine: amble_registers() in cmake/AmbleTargets.cmake.
+extern "C" const bool amble_registers_physics_ode;
+const bool amble_registers_physics_ode = [] {
+  // ODE has data of its own for each thread.
+  amble::physics::register_engine(
+      {.name = "ode",
+       .traits = {.lanes = 1, .keeps_to_a_thread = true},
+       .make = [](const amble::robot::RobotSpec& robot,
+                  const amble::physics::EngineSettings& settings) -> std::unique_ptr<amble::physics::Engine> {
+         return std::make_unique<amble::physics::OdeEngine>(robot, settings);
+       }});
+  return true;
+}();
