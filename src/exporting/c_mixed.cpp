@@ -82,6 +82,7 @@ class LinkLists {
 std::vector<std::string> floats(const std::vector<SupgTables::Mixed::Neuron>& neurons,
                                 float SupgTables::Mixed::Neuron::*value) {
   std::vector<std::string> list;
+  list.reserve(neurons.size());
   for (const auto& neuron : neurons) list.push_back(c_float(neuron.*value));
   if (list.empty()) list.emplace_back("0.0f");
   return list;
@@ -91,6 +92,7 @@ void add_net_tables(const SupgTables& supg, CText& text) {
   const SupgTables::Mixed& mixed = *supg.mixed;
   LinkLists lists;
   std::vector<std::vector<WeightedLink>> hidden;
+  hidden.reserve(mixed.neurons.size());
   for (const auto& neuron : mixed.neurons) hidden.push_back(neuron.links);
   auto sums = mixed.rates;
   sums.insert(sums.end(), mixed.amplitudes.begin(), mixed.amplitudes.end());

@@ -106,7 +106,7 @@ test("any number of threads gives the same generations", async () => {
 
 test("a run that was saved is opened and goes on to the same generations", () =>
   inLab({}, async (page) => {
-    await set(page, { ...SMALL, generations: 8, search: "novelty" });
+    await set(page, { ...SMALL, generations: 60, search: "novelty" });
     await button(page, "Start").click();
     await until(page, 4);
     await button(page, "Pause").click();
