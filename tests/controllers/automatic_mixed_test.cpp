@@ -75,7 +75,8 @@ TEST(AutomaticMixed, OneConstantOutputBringsAllLegsToTheMiddleOfTheirRangesWhile
 }
 
 TEST(AutomaticMixed, SensesCommandsAndEachFootAndHasTwoNeuronsALeg) {
-  const auto& nodes = mixed_of_quadruped().layout().nodes();
+  const MixedArchitecture mixed = mixed_of_quadruped();
+  const auto& nodes = mixed.layout().nodes();
   const auto count = [&](const std::string& group) {
     return std::ranges::count(nodes, group, &substrate::Node::group);
   };
