@@ -1,4 +1,5 @@
-// Without Boost, which wants threads: to the last bits but one, so that nothing that must be the same bits as elsewhere may use it.
+// Without Boost, which wants threads: to the last bits but one, so that nothing that must be the same bits as
+// elsewhere may use it.
 #include <cmath>
 #include <numbers>
 
