@@ -161,9 +161,9 @@ std::string text_of(const RobotFolder& written, const NewRobot& made, const fs::
     fmt::format_to(out, "next: read {}, then\n{}\n", file, command(written.config_file, "run"));
     if (!written.steer_file.empty())
       fmt::format_to(out, "or, to tell it where to go:\n{}\n", command(written.steer_file, "steered"));
-  }
-  if (!written.ready)
+  } else {
     fmt::format_to(out, "next: complete it, and check it with\n  amble robot {}\n", io::shell_word(file));
+  }
   return text;
 }
 

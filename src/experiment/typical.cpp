@@ -14,6 +14,7 @@
 #include "amble/score/score.hpp"
 
 namespace amble::experiment {
+
 int reported_trials(std::string_view engine) {
   return physics::engine_traits(engine).lanes > 1 ? 64 : running_trials;
 }

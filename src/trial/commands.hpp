@@ -25,7 +25,7 @@ struct CommandStretch {
   friend bool operator==(const CommandStretch&, const CommandStretch&) = default;
 };
 
-/// What robots are told to do in trials: by default nothing. A CommandSchedule comes of it (commands.hpp).
+/// What robots are told to do in trials: by default nothing. A CommandSchedule comes of it.
 struct CommandSettings {
   CommandKind kind = CommandKind::none;
   std::vector<CommandStretch> stretches = {};

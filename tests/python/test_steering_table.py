@@ -5,15 +5,15 @@ import subprocess
 import sys
 
 import amble
+from conftest import SOURCE
 
-SOURCES = pathlib.Path(__file__).parents[2]
 SMALL = {"population.size": 8, "trial.duration_s": 1.0, "generations": 1, "champion.episodes": 0}
 
 
 def test_each_engine_has_a_row_of_eight_commands(tmp_path):
-    amble.evolve(amble.load_config(SOURCES / "robots/servo/steer.toml", SMALL), 1, out=tmp_path / "run")
+    amble.evolve(amble.load_config(SOURCE / "robots/servo/steer.toml", SMALL), 1, out=tmp_path / "run")
     environment = dict(os.environ, AMBLE=os.environ["AMBLE_PROGRAM"], AMBLE_PYTHON=str(pathlib.Path(amble.__file__).parents[1]))
-    command = [sys.executable, SOURCES / "tools/steering-table", "--engines", "batch,ode", "--trials", "1", "--stretch", "0.5",
+    command = [sys.executable, SOURCE / "tools/steering-table", "--engines", "batch,ode", "--trials", "1", "--stretch", "0.5",
                "--speed", "0.2", "--turn", "0.1", tmp_path / "run"]
     rows = subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout.splitlines()
     cells = [[cell.strip() for cell in row.strip("|").split("|")] for row in rows]

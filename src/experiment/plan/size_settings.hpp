@@ -15,8 +15,8 @@ struct SizeSettings {
 };
 std::optional<SizeSettings> settings_of_size(const robot::RobotSpec& robot);
 
-/// The greatest commands for a robot, by the height of its hips over its feet (Froude): a brisk walk, and a
-/// turn of half a circle in some ten to twenty strides. None for fewer than three legs.
+/// The greatest commands for a robot, by the height of its hips over its feet (Froude): a brisk walk, and
+/// half a circle in the time of nineteen periods of settings_of_size(). None for fewer than three legs.
 struct CommandSizes {
   double leg_height_m = 0.0, most_speed_m_s = 0.0, most_turn_rad_s = 0.0;
 };
