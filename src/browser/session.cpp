@@ -1,6 +1,7 @@
 #include "amble/browser/session.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "amble/core/error.hpp"
@@ -33,6 +34,23 @@ std::vector<std::string> column_names(const experiment::Problem& problem, const 
   return names;
 }
 
+/// How fast what was asked for in evolution is, so that a page asks for no more.
+io::Json commands_of(const trial::CommandSettings& settings) {
+  double least_m_s = settings.least_speed_m_s, most_m_s = settings.most_speed_m_s,
+         turn_rad_s = settings.most_turn_rad_s;
+  if (settings.kind == trial::CommandKind::fixed) {
+    least_m_s = most_m_s = turn_rad_s = 0.0;
+    for (const trial::CommandStretch& stretch : settings.stretches) {
+      least_m_s = std::min(least_m_s, stretch.speed_m_s);
+      most_m_s = std::max(most_m_s, stretch.speed_m_s);
+      turn_rad_s = std::max(turn_rad_s, std::abs(stretch.turn_rad_s));
+    }
+  }
+  return {{"least_speed_m_s", std::min(least_m_s, 0.0)},
+          {"most_speed_m_s", most_m_s},
+          {"most_turn_rad_s", turn_rad_s}};
+}
+
 }  // namespace
 
 Session::Session(const std::string& champion)
@@ -45,9 +63,11 @@ Session::Session(const std::string& champion)
 void Session::restart(bool as_evolved) {
   // What it has now becomes an input before the first step.
   experiment::Input now{.ground = {}, .damage = {}};
+  if (as_evolved) told_.reset();
   if (trial_ && !as_evolved) {
     now.ground = trial_->problem().ground;
     now.damage = trial_->problem().damage;
+    now.command = told_;
   }
   record_.inputs.clear();
   record_.trace.clear();
@@ -57,7 +77,7 @@ void Session::restart(bool as_evolved) {
     now.ground.reset();
   if (now.damage && io::settings_to_json(*now.damage) == io::settings_to_json(champion_.problem.damage))
     now.damage.reset();
-  if (now.ground || now.damage) note(std::move(now));
+  if (now.ground || now.damage || now.command) note(std::move(now));
 }
 
 void Session::note(experiment::Input input) {
@@ -68,6 +88,13 @@ void Session::note(experiment::Input input) {
 
 void Session::push(Vec3 impulse_n_s) {
   note({.push_n_s = impulse_n_s});
+}
+
+void Session::command(trial::Command command) {
+  if (!std::isfinite(command.speed_m_s) || !std::isfinite(command.turn_rad_s))
+    fail(ExitCode::bad_input, "command: expected two numbers, m/s and rad/s");
+  note({.command = command});
+  told_ = command;
 }
 
 void Session::set_ground(const std::string& json) {
@@ -108,7 +135,8 @@ std::string Session::describe() const {
        io::parse_json(problem.architecture->parameters_json(trial_->parameters()), "controller")},
       {"ground", io::settings_to_json(problem.ground)},
       {"friction", io::json_number(problem.robot.contact.friction)},
-      {"damage", io::settings_to_json(problem.damage)}};
+      {"damage", io::settings_to_json(problem.damage)},
+      {"commands", trial_->obeys() ? commands_of(problem.command) : io::Json()}};
   return json.dump(-1, ' ', false, io::Json::error_handler_t::replace);
 }
 

@@ -24,6 +24,8 @@ class Session {
   /// file), and begins the record anew.
   void restart(bool as_evolved);
   void push(Vec3 impulse_n_s);
+  /// Throws UserError where the controller senses no commands, or a number is none.
+  void command(trial::Command command);
   /// All settings of [ground] or [damage] as a JSON object. Throws UserError; then nothing has changed.
   void set_ground(const std::string& json);
   void set_damage(const std::string& json);
@@ -53,6 +55,7 @@ class Session {
   std::string evolved_in_;  ///< its engine
   experiment::LiveInputs record_;
   std::unique_ptr<experiment::LiveTrial> trial_;
+  std::optional<trial::Command> told_;  ///< the last command from outside
   std::vector<double> state_;
   std::vector<float> controller_state_;
 };

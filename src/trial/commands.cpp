@@ -135,10 +135,16 @@ Command CommandSchedule::at(int tick) const {
   const Command now = stretches_[i].command;
   const int done = tick - stretches_[i].first_tick + 1;
   if (done >= ramp_ticks_) return now;
-  const Command before = i > 0 ? stretches_[i - 1].command : Command();
+  const Command before = i > 0 ? at(stretches_[i].first_tick - 1) : Command();
   const float share = static_cast<float>(done) / static_cast<float>(ramp_ticks_);
   return {before.speed_m_s + share * (now.speed_m_s - before.speed_m_s),
           before.turn_rad_s + share * (now.turn_rad_s - before.turn_rad_s)};
+}
+
+void CommandSchedule::change(int tick, Command command) {
+  AMBLE_CHECK(tick >= 0, "ticks count from 0");
+  while (!stretches_.empty() && stretches_.back().first_tick >= tick) stretches_.pop_back();
+  stretches_.push_back({tick, command});
 }
 
 std::optional<CommandSchedule> planned_commands(const CommandSettings& settings, int steps,

@@ -64,11 +64,13 @@ class CommandSchedule {
   };
 
   /// The first stretch begins with tick 0, the others later, in order. A command changes linearly in
-  /// `ramp_ticks` ticks from the command of the stretch before, and from rest.
+  /// `ramp_ticks` ticks from what it was in the tick before its stretch, and from rest.
   CommandSchedule(std::vector<Stretch> stretches, int ramp_ticks);
 
   /// The command in a tick, from 0 on. Single precision, each operation rounded.
   Command at(int tick) const;
+  /// From this tick on another command to the end, in place of what was to come.
+  void change(int tick, Command command);
   const std::vector<Stretch>& stretches() const { return stretches_; }
 
  private:

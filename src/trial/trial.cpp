@@ -65,6 +65,11 @@ void Runner::move_to(physics::Engine& engine, const std::vector<int>& numb_legs)
   disturbances_ = Disturbances(engine.sensors(), std::move(numb));
 }
 
+void Runner::tell(int lane, Command command) {
+  AMBLE_CHECK(protocol_.commands.has_value(), "commands are changed where there are some");
+  protocol_.commands->change(lanes_[to_index(lane)].trajectory.steps, command);
+}
+
 void Runner::refill(int lane, TaskQueue& queue) {
   Lane& slot = lanes_[to_index(lane)];
   busy_ -= std::exchange(slot.busy, false);

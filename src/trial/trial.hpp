@@ -80,6 +80,10 @@ class Runner {
   /// numb from now on.
   void move_to(physics::Engine& engine, const std::vector<int>& numb_legs);
 
+  /// From the next tick on the robot of this lane is told another command, to the end of its trial, and so
+  /// are the others of trials without commands of their own. Protocol::commands is there.
+  void tell(int lane, Command command);
+
   /// The targets of the last tick.
   const LaneArray& targets_rad() const { return targets_rad_; }
   /// Steps simulated, and time spent in the engine and in controllers and noise, since the runner was made.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <string>
 
 #include "amble/browser/fused_check.hpp"
@@ -136,6 +137,50 @@ TEST(Session, StartsAgainWithWhatItHasOrAsEvolved) {
   EXPECT_EQ(description(session).at("damage").at("parts").size(), 0u);
   session.step(200);
   EXPECT_NE(session.trace(), trace);
+}
+
+TEST(Session, TellsOneThatObeysAndItGoesElsewhere) {
+  Session session(tests::obeying_champion_text()), other(tests::obeying_champion_text());
+  EXPECT_GT(description(session).at("commands").at("most_speed_m_s").get<double>(), 0.0);
+  session.step(100);
+  other.step(100);
+  EXPECT_EQ(session.trace(), other.trace());
+  session.command({0.2f, 0.3f});
+  other.command({0.2f, -0.3f});
+  session.step(600);
+  other.step(600);
+  EXPECT_NE(session.trace(), other.trace());
+
+  const auto champion = parse_champion_for(engine, tests::obeying_champion_text(), "champion");
+  const auto replay = replay_live(champion, parse_inputs(session.inputs(), "inputs"));
+  EXPECT_EQ(replay.first_difference, std::nullopt);
+  EXPECT_EQ(replay.steps, 700);
+}
+
+TEST(Session, StartsAgainWithTheLastCommandOrAsEvolved) {
+  Session session(tests::obeying_champion_text()), untold(tests::obeying_champion_text());
+  session.command({0.0f, 0.3f});
+  session.step(300);
+  const auto trace = session.trace();
+  session.restart(false);
+  session.step(300);
+  EXPECT_EQ(session.trace(), trace);
+  session.restart(true);
+  session.step(300);
+  untold.step(300);
+  EXPECT_EQ(session.trace(), untold.trace());
+  EXPECT_NE(session.trace(), trace);
+}
+
+TEST(Session, RefusesCommandsThatNobodySensesOrThatAreNone) {
+  Session deaf(tests::champion_text()), obeys(tests::obeying_champion_text());
+  EXPECT_TRUE(description(deaf).at("commands").is_null());
+  EXPECT_THROW(deaf.command({0.1f, 0.0f}), UserError);
+  EXPECT_THROW(obeys.command({std::numeric_limits<float>::infinity(), 0.0f}), UserError);
+  deaf.step(10);
+  Session undisturbed(tests::champion_text());
+  undisturbed.step(10);
+  EXPECT_EQ(deaf.trace(), undisturbed.trace());
 }
 
 TEST(Session, RefusesWhatIsNoChampion) {

@@ -145,5 +145,30 @@ TEST(Commands, ThatMakeNoSenseAreRefused) {
             "command.stretch_s = 0.005: expected at least one timestep, 0.01 s");
 }
 
+TEST(CommandSchedule, GoesOnByAnotherCommandFromTheTickInWhichItIsChanged) {
+  CommandSchedule schedule({{0, {0.4f, 0.0f}}, {100, {0.0f, 0.5f}}, {200, {0.2f, 0.0f}}}, 0);
+  schedule.change(150, {0.1f, -0.2f});
+  EXPECT_EQ(schedule.at(149), (Command{0.0f, 0.5f}));
+  for (const int tick : {150, 200, 100000}) EXPECT_EQ(schedule.at(tick), (Command{0.1f, -0.2f})) << tick;
+  schedule.change(100, {0.3f, 0.0f});
+  EXPECT_EQ(schedule.at(99), (Command{0.4f, 0.0f}));
+  EXPECT_EQ(schedule.at(150), (Command{0.3f, 0.0f}));
+  schedule.change(0, {});
+  EXPECT_EQ(schedule.at(0), Command());
+}
+
+TEST(CommandSchedule, RampsFromWhereAnUnfinishedRampWas) {
+  CommandSchedule schedule({{0, {}}}, 10);
+  schedule.change(100, {1.0f, 0.0f});
+  schedule.change(104, {});
+  EXPECT_EQ(schedule.at(103).speed_m_s, 0.4f);
+  float before_m_s = schedule.at(103).speed_m_s;
+  for (int tick = 104; tick < 114; ++tick) {
+    EXPECT_LT(schedule.at(tick).speed_m_s, before_m_s) << tick;
+    before_m_s = schedule.at(tick).speed_m_s;
+  }
+  EXPECT_EQ(before_m_s, 0.0f);
+}
+
 }  // namespace
 }  // namespace amble::trial

@@ -9,6 +9,7 @@ import { launch, makePage, open, pictureOf, settled } from "./browser.mjs";
 
 const { AMBLE_PAGES, AMBLE_PROGRAM, AMBLE_SOURCE } = process.env;
 const CHAMPION = join(AMBLE_SOURCE, "robots/servo/champion.json");
+const OBEYS = join(AMBLE_SOURCE, "robots/hexapod/steered.json");
 
 let browser, walk;
 before(async () => {
@@ -120,6 +121,46 @@ test("a push by button is a push, too, and ends", () =>
     const { inputs } = JSON.parse(await page.evaluate(() => window.amble.live().inputs()));
     assert.deepEqual(inputs.map(({ step }) => step), [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]);
     assert.ok(inputs.every(({ push_n_s: [x, y, z] }) => x === 0 && y < 0 && z === 0));
+  }));
+
+test("one that obeys is told by keys, pad and gamepad, and the native program repeats to the bit what it was told", async () => {
+  const path = makePage("steered.html", OBEYS, "--undisturbed");
+  await onPage({}, async (page) => {
+    const told = () => page.locator(".steer-said").textContent();
+    const commands = async () => JSON.parse(await page.evaluate(() => window.amble.live().inputs())).inputs.map(({ command }) => command);
+    const { most_speed_m_s: fast, most_turn_rad_s: turn } = (await description(page)).commands;
+    assert.equal(await told(), "as it was evolved");
+    await page.keyboard.down("ArrowUp");
+    assert.match(await told(), /^told: 0\.28 m\/s$/);
+    await simulate(page, 1);
+    await page.keyboard.down("ArrowLeft");
+    await simulate(page, 1);
+    await page.keyboard.up("ArrowUp");
+    await page.keyboard.up("ArrowLeft");
+    assert.equal(await told(), "told: stop");
+    await simulate(page, 0.5);
+    const pad = await page.locator(".steer-pad").boundingBox();
+    await page.mouse.click(pad.x + pad.width - 1, pad.y + pad.height / 2);
+    assert.match(await told(), /to the right$/);
+    await simulate(page, 0.5);
+    const sent = await commands();
+    const close = (command, expected) => command.forEach((part, i) => assert.ok(Math.abs(part - expected[i]) < 1e-6, `${command}`));
+    close(sent[0], [fast, 0]);
+    close(sent[1], [fast, turn]);
+    close(sent.at(-1), [0, -turn]);
+    await page.evaluate(() => { navigator.getGamepads = () => [{ axes: [-1, -0.5] }]; });
+    await page.waitForFunction(() => document.querySelector(".steer-said").textContent.endsWith("to the left"));
+    await page.evaluate(() => { navigator.getGamepads = () => [{ axes: [0, 0] }]; });
+    await page.waitForFunction(() => document.querySelector(".steer-said").textContent === "told: stop");
+    await page.evaluate(() => window.amble.pause());
+    assert.match(await natively(page, "steered-inputs.json", OBEYS), /^bits +the same in every step$/m);
+  }, path);
+});
+
+test("one that senses no commands is not offered any", () =>
+  onPage({}, async (page) => {
+    assert.equal(await page.locator(".steer-pad").count(), 0);
+    assert.equal((await description(page)).commands, null);
   }));
 
 test("what is chosen is what it walks on and what it is", () =>

@@ -165,12 +165,24 @@ export class LiveRobot {
     this.calls.push(action);
   }
 
+  /** What it is told from the next step on: speed along its own axis, m/s, and turning to the left, rad/s. Description.commands is there. */
+  command([speed_m_s, turn_rad_s]) {
+    const action = ({ exports }) => exports.amble_command(speed_m_s, turn_rad_s);
+    action(this.machine);
+    this.told = action;
+    this.calls.push(action);
+  }
+
   /** The start pose again, on the ground and with the damage of now, or as evolved; the record begins anew. */
   restart({ asEvolved = false } = {}) {
     const { ground, damage } = this.describe();
     this.machine.exports.amble_restart(asEvolved ? 1 : 0);
     this.calls = [];
-    if (asEvolved) return;
+    if (asEvolved) {
+      this.told = null;
+      return;
+    }
+    if (this.told) this.calls.push(this.told);
     // A module that takes over has these before its first step, too.
     this.calls.push((machine) => machine.give("set_ground", JSON.stringify(ground)),
                     (machine) => machine.give("set_damage", JSON.stringify(damage)),

@@ -5,6 +5,7 @@ import { EvolvePanel } from "./evolve_panel.js";
 import { LivePanel } from "./live_panel.js";
 import { LiveWalk } from "./live_walk.js";
 import { Drag } from "./drag.js";
+import { Steer } from "./steer.js";
 import { element } from "./theme.js";
 
 const DIAGRAMS_EVERY_MS = 80; // while it walks
@@ -47,6 +48,7 @@ export class Live {
     };
     const { module, champion } = walk.live;
     this.evolve = new EvolvePanel({ module, champion, show: (text, generation) => this.showBest(text, generation) });
+    if (walk.description.commands) this.steer = new Steer(this);
     this.panel = new LivePanel(document.getElementById("live"), this, "");
     if (page.stage) this.drag = new Drag(page.stage, this);
     page.live = this;
@@ -57,6 +59,7 @@ export class Live {
   /** Another champion of the robot, evolved here, walks from now on. */
   async showBest(text, generation) {
     this.walk.become(await LiveRobot.open(this.walk.live.module, text));
+    this.steer?.forget();
     document.getElementById("title").textContent = `Evolved in this page, generation ${generation}`;
     this.clock.duration_s = 0;
     this.clock.seek(0);
@@ -91,6 +94,7 @@ export class Live {
   /** Before each frame. */
   update(now_ms) {
     this.drag?.update();
+    this.steer?.update();
     const { window } = this.page;
     window.duration_s = Math.max(this.clock.duration_s, window.span_s);
     if (this.clock.duration_s === this.shown_s || (this.clock.playing && now_ms - this.shown_ms < DIAGRAMS_EVERY_MS)) return;

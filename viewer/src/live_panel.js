@@ -19,7 +19,7 @@ export class LivePanel {
       element("div", { class: "live-buttons" },
         button("Start again", () => this.restart({})), button("As it was evolved", () => this.restart({ asEvolved: true })),
         button("Save what was done", () => this.save(), { title: "A file with which `amble trial --inputs` does it again, to the bit" })),
-      this.pushes(), this.ground(), this.body(), this.bits, page.evolve.element);
+      ...(page.steer ? [page.steer.element] : []), this.pushes(), this.ground(), this.body(), this.bits, page.evolve.element);
     parent.hidden = false;
     this.read();
   }
@@ -45,6 +45,7 @@ export class LivePanel {
   restart(options) {
     return this.attempt(() => {
       this.walk.restart(options);
+      if (options.asEvolved) this.page.steer?.forget();
       this.page.clock.duration_s = 0;
       this.page.clock.seek(0);
       this.page.clock.play();

@@ -46,6 +46,7 @@ export class LiveWalk extends Walk {
     Object.assign(this, { live, description, table });
     this.force_n = [0, 0, 0]; // pushes as long as it is not zero
     this.kick = { force_n: [0, 0, 0], until_s: 0 }; // the same for a while
+    this.command = null; // to be told before the next step
     this.fallen = false;
     this.extremes = { speed: [0, 0], height: [Infinity, -Infinity] };
     this.readGround();
@@ -112,6 +113,8 @@ export class LiveWalk extends Walk {
       const kicked = this.seconds < this.kick.until_s - 1e-9;
       const impulse_n_s = this.force_n.map((part, axis) => (part + (kicked ? this.kick.force_n[axis] : 0)) * step_s);
       if (impulse_n_s.some((part) => part !== 0)) this.live.push(impulse_n_s);
+      if (this.command) this.live.command(this.command);
+      this.command = null;
       broken = this.live.step(1) === 0;
       if (!broken) this.note();
     }

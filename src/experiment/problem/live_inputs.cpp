@@ -16,12 +16,18 @@ io::Json input_json(const Input& input) {
   if (input.push_n_s) json["push_n_s"] = {input.push_n_s->x, input.push_n_s->y, input.push_n_s->z};
   if (input.ground) json["ground"] = io::settings_to_json(*input.ground);
   if (input.damage) json["damage"] = io::settings_to_json(*input.damage);
+  if (input.command) json["command"] = {input.command->speed_m_s, input.command->turn_rad_s};
   return json;
 }
 
 Vec3 parse_push(const io::JsonView& view) {
   if (view.size() != 3) view.bad("three numbers");
   return {view.at(0).finite_number(), view.at(1).finite_number(), view.at(2).finite_number()};
+}
+
+trial::Command parse_command(const io::JsonView& view) {
+  if (view.size() != 2) view.bad("two numbers, m/s and rad/s");
+  return {static_cast<float>(view.at(0).finite_number()), static_cast<float>(view.at(1).finite_number())};
 }
 
 Input parse_input(const io::JsonView& view, int first, int last) {
@@ -34,6 +40,7 @@ Input parse_input(const io::JsonView& view, int first, int last) {
     input.ground = io::settings_from_json<ground::Settings>(view.at("ground"));
   }
   if (view.has("damage")) input.damage = io::settings_from_json<damage::Settings>(view.at("damage"));
+  if (view.has("command")) input.command = parse_command(view.at("command"));
   return input;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "amble/core/check.hpp"
+#include "amble/core/error.hpp"
 #include "amble/damage/stages.hpp"
 #include "amble/robot/pose.hpp"
 
@@ -50,6 +51,10 @@ LiveTrial::LiveTrial(const Problem& problem, const neat::Genome& genome)
 void LiveTrial::apply(const Input& input) {
   AMBLE_CHECK(input.step == steps_ + 1, "an input comes before the next step");
   if (!healthy_) return;
+  if (input.command && !obeys())
+    fail(ExitCode::bad_input,
+         "command: the controller of \"{}\" senses no commands; configs/steer evolves one that does",
+         problem_.robot.name);
   if (input.ground || input.damage) {
     Problem next = problem_;
     if (input.ground) next.set_ground(*input.ground);
@@ -57,6 +62,11 @@ void LiveTrial::apply(const Input& input) {
     move_to(std::move(next));
   }
   if (input.push_n_s) engine_->push(lane, *input.push_n_s);
+  if (input.command) runner_->tell(lane, *input.command);
+}
+
+bool LiveTrial::obeys() const {
+  return problem_.architecture->extra_senses().commands();
 }
 
 void LiveTrial::move_to(Problem next) {

@@ -9,6 +9,7 @@
 #include "amble/experiment/problem/problem.hpp"
 #include "amble/ground/settings.hpp"
 #include "amble/neat/genome.hpp"
+#include "amble/trial/commands.hpp"
 #include "amble/trial/observers.hpp"
 #include "amble/trial/trial.hpp"
 
@@ -20,6 +21,7 @@ struct Input {
   std::optional<Vec3> push_n_s = {};            ///< physics::Engine::push
   std::optional<ground::Settings> ground = {};  ///< the ground from now on
   std::optional<damage::Settings> damage = {};  ///< all that is wrong with the robot from now on
+  std::optional<trial::Command> command = {};   ///< what it is told from now on
 };
 
 /// A trial without an end, step by step, in which anything may be done to the robot between two steps.
@@ -36,12 +38,14 @@ class LiveTrial {
   LiveTrial& operator=(const LiveTrial&) = delete;
 
   /// What comes before the next step; Input::step is that one's. Throws UserError, and then nothing has
-  /// changed, if the robot has no such part, or the ground is none.
+  /// changed, if the robot has no such part, the ground is none, or the controller senses no commands.
   void apply(const Input& input);
   /// Advances by one step. False if the simulation had broken down before or does so: nothing can follow.
   bool step();
 
   int steps() const { return steps_; }  ///< made so far
+  /// Whether the controller senses commands.
+  bool obeys() const;
   /// Whether the root has been lower than RobotSpec::fall_height_m over the ground after the last step.
   bool fallen() const;
   const Problem& problem() const { return problem_; }
