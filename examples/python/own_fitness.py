@@ -18,7 +18,8 @@ for generation in range(generations):
     controllers = amble.Controllers(search, genomes)
     robots.reset()
     walking, swing_rad, distance_m = np.ones(50, bool), np.zeros(50), np.zeros(50)
-    for tick in range(300):
+    robots.step(robots.angle_rad)  # trial.first_command = "after_first_step", as the preset has it: motors hold for a step
+    for tick in range(299):
         targets_rad = controllers.step(robots.angle_rad, robots.touch, robots.attitude_rad)
         robots.step(targets_rad)
         walking &= ~(robots.fallen | robots.diverged)      # who has fallen stays where it fell

@@ -24,7 +24,7 @@ std::string column_title(const std::filesystem::path& file, const std::vector<st
   const auto folder = file.parent_path();
   const auto in_folder =
       std::ranges::count(files, folder, [](const auto& path) { return path.parent_path(); });
-  return in_folder > 1 ? file.stem().string() : folder.filename().string();
+  return in_folder > 1 || folder.empty() ? file.stem().string() : folder.filename().string();
 }
 
 ExitCode print_settings(const SettingsOptions& options) {

@@ -17,6 +17,7 @@
 #include "amble/core/index.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/quoting.hpp"
+#include "amble/report/undecidable.hpp"
 #include "amble/study/plan.hpp"
 #include "amble/study/slurm.hpp"
 #include "amble/study/worker.hpp"
@@ -43,6 +44,11 @@ void take_old_workers(StudyOptions& options) {
   options.jobs *= *options.workers;
   print_message(
       fmt::format("--workers {0}: now written --jobs {1} --per-run {0}\n", *options.workers, options.jobs));
+}
+
+/// Before the runs, which would not help.
+void warn_of_claims(const study::Plan& plan) {
+  for (const std::string& line : report::undecidable_claims(plan.study)) print_message(line + "\n");
 }
 
 /// How much of a study's part is done, begun and neither.
@@ -169,6 +175,7 @@ ExitCode run_study(const StudyOptions& options) {
   plan.retest(options.retest);
   const auto states = study::survey(plan);
   if (options.slurm) return write_slurm_script(plan, options);
+  if (!options.as_child) warn_of_claims(plan);
   if (options.status) return print_status(plan, states, shard);
   ledger::keep_study(plan.paths, plan.study, options.file);
   for (const auto& unknown : ledger::Ledger(plan.paths).unknown_files(plan.study))

@@ -149,7 +149,11 @@ std::string text_of(const RobotFolder& written, const NewRobot& made, const fs::
   if (!written.settled.empty()) fmt::format_to(out, "\nsettled:\n  {}\n", fmt::join(written.settled, "\n  "));
   if (made.robot)
     if (const std::string start = start_text(*made.robot); !start.empty()) text += "\n" + start;
-  fmt::format_to(out, "\nwrote {} and {}\n", file, written.config_file.string());
+  if (written.steer_file.empty())
+    fmt::format_to(out, "\nwrote {} and {}\n", file, written.config_file.string());
+  else
+    fmt::format_to(out, "\nwrote {}, {} and {}\n", file, written.config_file.string(),
+                   written.steer_file.string());
   if (!written.asked.empty())
     fmt::format_to(out, "still to be given in {}:\n  {}\n", file, fmt::join(written.asked, "\n  "));
   text += doubts_text(written.warnings);

@@ -15,7 +15,47 @@ struct Row {
   std::string what;
   std::string expected;
   std::string source;
-  std::vector<std::string> values;  ///< one per column; empty where a column lacks the key
+  std::vector<std::string> values;      ///< one per column; empty where a column lacks the key
+  std::vector<std::string> items = {};  ///< of a list: all of each column's, as text
+};
+
+/// The fields of a list's items, one after the other.
+class ItemsText final : public SettingsPrinter {
+ public:
+  static std::string of(SettingsList& list) {
+    ItemsText printer;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      printer.text_ += printer.text_.empty() ? "{ " : ", { ";
+      printer.first_ = true;
+      list.describe(i, printer);
+      printer.text_ += " }";
+    }
+    return printer.text_;
+  }
+
+  void begin(std::string_view key, Doc) override {
+    name(key);
+    text_ += "{ ";
+    first_ = true;
+  }
+  void end() override { text_ += " }"; }
+  void list(std::string_view key, SettingsList& items, Doc) override {
+    name(key);
+    text_ += "[" + of(items) + "]";
+  }
+
+ private:
+  void put(std::string_view key, std::string value, std::string_view, Doc) override {
+    name(key);
+    text_ += value;
+  }
+  void name(std::string_view key) {
+    text_ += fmt::format("{}{} = ", first_ ? "" : ", ", key);
+    first_ = false;
+  }
+
+  std::string text_;
+  bool first_ = true;
 };
 
 /// Adds the values of one column to the rows, and rows for keys that are new.
@@ -28,8 +68,10 @@ class ColumnCollector final : public SettingsPrinter {
   void end() override { tables_.pop_back(); }
   /// How many items there are, and the keys that each has.
   void list(std::string_view key, SettingsList& items, Doc doc) override {
-    row(key, expected_tables, doc).values[column_] =
-        fmt::format("{} item{}", items.size(), items.size() == 1 ? "" : "s");
+    Row& target = row(key, expected_tables, doc);
+    target.values[column_] = fmt::format("{} item{}", items.size(), items.size() == 1 ? "" : "s");
+    target.items.resize(columns_);
+    target.items[column_] = ItemsText::of(items);
     tables_.push_back(path_of(key) + "[]");
     in_list_ = true;
     items.describe_default(*this);
@@ -99,9 +141,17 @@ std::string settings_to_markdown(const std::vector<SettingsColumn>& columns, Set
   }
 
   if (wanted == SettingsRows::differing)
-    std::erase_if(rows, [](const Row& row) {
-      const auto others = std::span(row.values).subspan(1);
-      return std::ranges::adjacent_find(others, std::ranges::not_equal_to()) == others.end();
+    std::erase_if(rows, [](Row& row) {
+      const auto differ = [](const std::vector<std::string>& values) {
+        const auto others = std::span(values).subspan(1);
+        return std::ranges::adjacent_find(others, std::ranges::not_equal_to()) != others.end();
+      };
+      if (differ(row.values)) return false;
+      if (row.items.empty() || !differ(row.items)) return true;
+      // Lists of the same length: what is in them.
+      for (std::size_t i = 0; i < row.values.size(); ++i)
+        row.values[i] = row.items[i].empty() ? row.values[i] : fmt::format("`{}`", row.items[i]);
+      return false;
     });
 
   std::string table = "| key | what it means | allowed |";

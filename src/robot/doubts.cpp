@@ -172,6 +172,25 @@ void doubt_stops(const RobotSpec& robot, std::vector<std::string>& lines) {
         fmt::join(odd, ", ")));
 }
 
+/// Stops so near each other, of most joints, as radians are when they are read as degrees.
+void doubt_narrow_stops(const RobotSpec& robot, std::vector<std::string>& lines) {
+  constexpr double narrow_rad = 0.1;
+  std::vector<std::string> narrow;
+  std::size_t moving = 0;
+  for (const Joint& joint : robot.joints) {
+    if (!joint.has_motor()) continue;
+    ++moving;
+    if (joint.upper_rad - joint.lower_rad < narrow_rad)
+      narrow.push_back(
+          fmt::format("{} ({:.3g} to {:.3g} rad)", joint.name, joint.lower_rad, joint.upper_rad));
+  }
+  if (2 * narrow.size() > moving)
+    lines.push_back(fmt::format(
+        "most joints hardly move: {}; are these radians? An MJCF has degrees unless its <compiler angle> is "
+        "\"radian\"",
+        fmt::join(narrow, ", ")));
+}
+
 }  // namespace
 
 std::vector<double> bearing_torques_nm(const RobotSpec& robot) {
@@ -199,6 +218,7 @@ std::vector<std::string> doubts(const RobotSpec& robot) {
   doubt_torques(robot, lines);
   doubt_friction(robot, lines);
   doubt_stops(robot, lines);
+  doubt_narrow_stops(robot, lines);
   return lines;
 }
 

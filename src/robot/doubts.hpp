@@ -24,6 +24,8 @@ constexpr bool is_larger_than_robot(double moments_kg_m2, double mass_kg, double
 ///   nothing.
 /// - A joint whose largest torque does not hold the weight of the robot on half of its legs in the start pose
 ///   (the force is vertical, at the centre of the foot; the weight of the leg itself is not subtracted).
+/// - Stops more than two turns away, and most joints with stops less than 0.1 rad apart: degrees for radians,
+///   or the other way round.
 std::vector<std::string> doubts(const RobotSpec& robot);
 
 /// The torque about each joint's axis, N m and signed, under the weight on half of the legs; 0 of joints that

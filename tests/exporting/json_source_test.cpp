@@ -4,6 +4,8 @@
 
 #include <set>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "amble/exporting/c_source.hpp"
 #include "amble/io/json_file.hpp"
@@ -66,6 +68,29 @@ TEST(JsonSource, AndTheHeaderTellJointsWithoutAMotorAndFeetOfSeveralShapes) {
   EXPECT_NE(c.header.find("no motor, its target"), std::string::npos) << c.header;
   EXPECT_NE(c.header.find("the foot of 'L1': any of 'L1_foot', 'L1_heel'"), std::string::npos) << c.header;
   EXPECT_EQ(c.header.find("the foot of 'R1'"), std::string::npos);
+}
+
+TEST(JsonSource, HasEachSumOfAMixedSubstrateUnderItsName) {
+  const experiment::Champion champion =
+      experiment::load_champion(std::string(AMBLE_SOURCE_DIR) + "/robots/hexapod/steered.json");
+  const SupgTables::Mixed mixed =
+      *std::get<SupgTables>(controller_tables(champion.problem, champion.genome).parts).mixed;
+  const io::Json json = document_of(champion)["controller"]["supg"]["mixed"];
+  std::set<std::string> different;
+  const auto expect_sums = [&](const char* name, const std::vector<std::vector<WeightedLink>>& sums) {
+    io::Json expected = io::Json::array();
+    for (const auto& links : sums) {
+      expected.push_back(io::Json::array());
+      for (const WeightedLink& link : links) expected.back().push_back({link.source, link.weight});
+    }
+    EXPECT_EQ(json[name], expected) << name;
+    different.insert(expected.dump());
+  };
+  expect_sums("rates", mixed.rates);
+  expect_sums("amplitudes", mixed.amplitudes);
+  expect_sums("shifts", mixed.shifts);
+  expect_sums("pulls", mixed.pulls);
+  EXPECT_EQ(different.size(), 4u) << "or two names could be confused";
 }
 
 /// What a reader of the document would compute from its tables, for one tick of a network without cycles.

@@ -165,5 +165,21 @@ TEST(Doubts, StopsAreInRadians) {
   EXPECT_FALSE(says(-1e9, 1e9)) << "as exporters write no stops";
 }
 
+TEST(Doubts, MostJointsThatHardlyMoveHaveRadiansReadAsDegrees) {
+  RobotSpec robot = tests::legged_robot(2);
+  const auto says = [&] {
+    return testing::Matches(testing::Contains(HasSubstr("most joints hardly move: ")))(doubts(robot));
+  };
+  EXPECT_FALSE(says());
+  for (Joint& joint : robot.joints) {
+    joint.lower_rad = -0.7 / 57.3;
+    joint.upper_rad = 0.7 / 57.3;
+  }
+  EXPECT_TRUE(says());
+  const std::size_t half = robot.joints.size() / 2;
+  for (std::size_t j = 0; j < half; ++j) robot.joints[j].upper_rad = 0.7;
+  EXPECT_EQ(says(), 2 * half < robot.joints.size()) << "a few may";
+}
+
 }  // namespace
 }  // namespace amble::robot

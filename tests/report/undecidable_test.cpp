@@ -1,0 +1,59 @@
+#include "amble/report/undecidable.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/report/fixture.hpp"
+
+namespace amble::report {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+ledger::StudySpec with_claim(int seeds, ledger::ClaimSpec claim) {
+  ledger::StudySpec study = sample_study({"a", "b"}, seeds);
+  claim.text = "a is more than b";
+  claim.condition = "a";
+  claim.against = "b";
+  study.claims = {claim};
+  return study;
+}
+
+TEST(UndecidableClaims, AreThoseOfFewerRunsThanDecideAnything) {
+  EXPECT_THAT(
+      undecidable_claims(with_claim(3, {})),
+      ElementsAre("claims[1], \"a is more than b\": with 3 runs of 'a' it cannot be decided; 5 are needed"));
+  EXPECT_THAT(undecidable_claims(with_claim(5, {})), IsEmpty());
+}
+
+TEST(UndecidableClaims, CountTheConditionOfFewerRuns) {
+  ledger::StudySpec study = with_claim(8, {});
+  study.conditions[1].seeds = {1, 2};
+  EXPECT_THAT(undecidable_claims(study), ElementsAre(HasSubstr("with 2 runs of 'b'")));
+}
+
+TEST(UndecidableClaims, OfRanksDependOnHowSmallPIsToBe) {
+  const auto ranks = [](double alpha) {
+    ledger::ClaimSpec claim;
+    claim.test = ledger::TwoSampleTest::mann_whitney;
+    claim.alpha = alpha;
+    return claim;
+  };
+  EXPECT_THAT(undecidable_claims(with_claim(5, ranks(0.05))), IsEmpty());  // the smallest p is 2 of 252
+  EXPECT_THAT(undecidable_claims(with_claim(5, ranks(0.001))), ElementsAre(HasSubstr("7 are needed")));
+  EXPECT_THAT(undecidable_claims(with_claim(7, ranks(0.001))), IsEmpty());
+}
+
+TEST(UndecidableClaims, OfRatiosAndPlateausNeedARunMoreThanOthers) {
+  for (const auto kind : {ledger::ClaimKind::ratio, ledger::ClaimKind::plateau}) {
+    ledger::ClaimSpec claim;
+    claim.kind = kind;
+    EXPECT_THAT(undecidable_claims(with_claim(5, claim)), ElementsAre(HasSubstr("6 are needed")));
+    EXPECT_THAT(undecidable_claims(with_claim(6, claim)), IsEmpty());
+  }
+}
+
+}  // namespace
+}  // namespace amble::report
