@@ -103,6 +103,23 @@ def test_own_fitness_drives_the_search(config):
     assert search.metrics["mean_links"] > amble.Search(config, 3).metrics["mean_links"]
 
 
+def test_a_loop_over_robots_that_first_holds_for_a_step_gives_the_distances_of_trials():
+    config = amble.load_config(amble.data_folder() / "configs/authors/supg-objective.toml", {
+        "engine": "batch", "population.size": 16, "speciation.target_min": 1, "speciation.target_max": 3,
+        "trial.duration_s": 2.0})
+    search = amble.Search(config, seed=1)
+    genomes = search.ask()
+    distance_m, _ = amble.evaluate(search, genomes)
+    robots, controllers = amble.Robots(config, n=16), amble.Controllers(search, genomes)
+    robots.reset()
+    start_m = robots.com_m.copy()
+    robots.step(robots.angle_rad)  # first_command = "after_first_step"
+    for _ in range(199):
+        robots.step(controllers.step(robots.angle_rad, robots.touch, robots.attitude_rad))
+        assert not robots.fallen.any()
+    np.testing.assert_allclose(np.hypot(*(robots.com_m - start_m)[:, :2].T), distance_m, rtol=1e-6)
+
+
 def test_wrong_fitness_is_refused_and_changes_nothing(config):
     search = amble.Search(config, 3)
     before = [genome.digest for genome in search.ask()]
