@@ -16,6 +16,7 @@
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/morphology/missing_mass.hpp"
+#include "amble/morphology/mjcf_schema.hpp"
 #include "amble/morphology/model_shapes.hpp"
 #include "amble/morphology/mujoco_handlers.hpp"
 
@@ -179,7 +180,7 @@ class Compiler {
     if (name == "geom" && problem.find("sizes must be positive") != std::string::npos)
       return remove_geom(*named);
     if (problem.find("unrecognized attribute") != std::string::npos) {
-      remove_attributes(name, between(problem, "attribute: '", "'"), "");
+      remove_attributes(*named, between(problem, "attribute: '", "'"), "");
       return true;
     }
     // Settings of the solver: amble sets its own.
@@ -188,7 +189,7 @@ class Compiler {
       std::vector<std::string> keys;
       for (const auto& [key, value] : named->attributes)
         if (value == keyword) keys.push_back(key);
-      for (const std::string& key : keys) remove_attributes(name, key, keyword);
+      for (const std::string& key : keys) remove_attributes(*named, key, keyword);
       return !keys.empty();
     }
     return problem.find("unrecognized element") != std::string::npos && remove_elements(name);
@@ -221,7 +222,8 @@ class Compiler {
   }
 
   /// All of that name that are written the same; `value` empty: whatever its value.
-  void remove_attributes(const std::string& element_name, const std::string& key, const std::string& value) {
+  void remove_attributes(const XmlElement& first, const std::string& key, const std::string& value) {
+    const std::string element_name = first.name;
     static const std::map<std::string, std::string> meanings{
         {"actuatorfrcrange", "read by `amble robot --init` as the largest torque of a motor"},
         {"kv", "read by `amble robot --init` as the damping of a servo"},
@@ -229,9 +231,16 @@ class Compiler {
         {"gravcomp", "gravity is not compensated in amble"},
         {"actuatorgravcomp", "gravity is not compensated in amble"}};
     const auto meaning = meanings.find(key);
-    notes_.add(Reading::left_out,
-               fmt::format("attribute '{}' of <{}>: {}", key, element_name,
-                           meaning != meanings.end() ? meaning->second : "this MuJoCo does not know it"));
+    const std::string meant = meaning == meanings.end() ? misspelt_attribute(element_name, key) : "";
+    if (!meant.empty())
+      notes_.add(Reading::left_out,
+                 fmt::format("{}:{}: attribute '{}' of <{}>, which MuJoCo does not know (did you mean '{}'?)",
+                             first.file, first.line, key, element_name, meant),
+                 true);
+    else
+      notes_.add(Reading::left_out,
+                 fmt::format("attribute '{}' of <{}>: {}", key, element_name,
+                             meaning != meanings.end() ? meaning->second : "this MuJoCo does not know it"));
     text_.root.visit([&](XmlElement& element, XmlElement*) {
       const auto own = element.attribute(key);
       if (element.name != element_name || !own || (!value.empty() && *own != value)) return;
