@@ -10,8 +10,8 @@ ENDS_PARAGRAPH = rf"{FENCE}|{HEADING}|^[>|]|^(?:[-*+]|1\.) +"
 
 def anchor_of(text):
     """The fragment that GitHub gives a heading."""
-    text = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", text).lower()
-    return re.sub(r"[^\w\- ]", "", text).strip().replace(" ", "-")
+    text = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", text).strip().lower()
+    return re.sub(r"[^\w\- ]", "", text).replace(" ", "-")
 
 
 def plain(text):

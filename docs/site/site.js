@@ -25,6 +25,7 @@ function enclose(link) {
   hero?.classList.add("running");
   link.hidden = true;
   figure.prepend(frame, bar);
+  frame.scrollIntoView({ block: "nearest" });
   frame.addEventListener("load", () => frame.focus(), { once: true });
 }
 
