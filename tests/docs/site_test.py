@@ -167,6 +167,12 @@ class Site(unittest.TestCase):
                 words = re.sub(r"<!--.*?-->|<.*?>", " ", finding, flags=re.S)
                 self.assertLessEqual(set(re.findall(number, words)), set(quoted))
 
+    def test_no_mark_of_markdown_is_left_over(self):
+        for path in sorted(self.folder.glob("read/**/*.html")):
+            with self.subTest(path.relative_to(self.folder)):
+                text = re.sub(r"<pre.*?</pre>|<code>.*?</code>", "", self.pages[path].text, flags=re.S)
+                self.assertNotRegex(re.sub("<[^>]+>", "", text), re.compile(r"\*\*|\]\(|`|\0|^#+ |^\| ", re.M))
+
     def test_the_repository_is_named_where_it_was_given(self):
         for path, page in self.pages.items():
             with self.subTest(path.relative_to(self.folder)):
