@@ -161,6 +161,16 @@ TEST(IncompleteModel, WhoseLinksEndInWhatOnlyShowsSaysSo) {
           "which have shapes to look at and none that collides: 'fl_foot', 'fr_foot', 'rl_foot', 'rr_foot'"));
 }
 
+TEST(IncompleteModel, WhoseShinsOnlyShowAboveFeetThatCollideIsNotSaidToEndInThem) {
+  const Files files;
+  const std::string shin = with(shin_rod, "mass", R"(contype="0" conaffinity="0" mass)");
+  const std::string foot =
+      R"(<body name="LEG_foot" pos="0 0 -.1"><joint name="LEG_ankle" axis="0 1 0" range="-60 60"/>)" +
+      foot_ball + "</body>";
+  EXPECT_THAT(incomplete(files, four_legs(trunk_box, thigh_rod, shin + foot)).notes.text(),
+              Not(HasSubstr("none that collides")));
+}
+
 TEST(IncompleteModel, WithoutInertialsHasTheMassesOfItsGeomsWhateverTheCompilerIsTold) {
   const Files files;
   const ModelParts parts = incomplete(files, four_legs(trunk_box, thigh_rod, shin_rod + foot_ball, "",

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -158,6 +159,20 @@ TEST(MujocoModel, VelocityActuatorsGetTheServosSpeed) {
   bench.targets.at(0, 0) = 0.4f;
   bench.steps(60);
   EXPECT_NEAR(bench.angle(0), 0.4, 0.1);
+}
+
+TEST(MujocoModel, PositionActuatorsOfAnyGainAndBiasAimAtTheTarget) {
+  const Files files;
+  for (const char* gains : {R"(gainprm="40" biasprm="0 -40 -1")", R"(gainprm="20" biasprm="3 -40 -1")"}) {
+    const robot::RobotSpec robot = own_robot(
+        files,
+        own_model(tests::motors(fmt::format(R"(general gaintype="fixed" biastype="affine" {})", gains))));
+    Bench bench(engine_name, lifted(robot, 3.0));
+    for (int j = 0; j < bench.targets.rows(); ++j) bench.targets.at(j, 0) = j % 2 == 0 ? 0.4f : -0.2f;
+    bench.steps(60);
+    for (int j = 0; j < bench.targets.rows(); ++j)
+      EXPECT_NEAR(bench.angle(j), j % 2 == 0 ? 0.4 : -0.2, 0.05) << gains << " " << j;
+  }
 }
 
 TEST(MujocoModel, StartsInTheRobotsPoseWithAnglesFromThere) {

@@ -157,6 +157,17 @@ test("one that obeys is told by keys, pad and gamepad, and the native program re
   }, path);
 });
 
+test("sliders of the panel have their own keys", () =>
+  onPage({}, async (page) => {
+    const slope = page.locator("#live .live-row", { hasText: "Uphill, forward" }).locator("input");
+    const before = await time(page);
+    await slope.focus();
+    for (let i = 0; i < 3; ++i) await page.keyboard.press("ArrowRight");
+    assert.ok(Number(await slope.inputValue()) > 0.02, await slope.inputValue());
+    assert.equal(await time(page), before);
+    await page.waitForFunction(() => window.amble.live().describe().ground.slope_x > 0.02);
+  }));
+
 test("one that senses no commands is not offered any", () =>
   onPage({}, async (page) => {
     assert.equal(await page.locator(".steer-pad").count(), 0);

@@ -77,6 +77,7 @@ export function connectKeys(page) {
   for (let i = 1; i <= 9; ++i) actions[i] = () => page.select(i - 1);
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.tagName === "SELECT") return;
+    if (event.target.tagName === "INPUT" && event.target.id !== "slider" && event.target.type !== "checkbox") return; // its own keys
     const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!action) return;
     event.preventDefault();
