@@ -136,6 +136,7 @@ class Site(unittest.TestCase):
 
     def test_every_robot_with_a_champion_walks_from_the_gallery(self):
         names = {"quadruped"} | {path.parent.name for path in SOURCES.glob("robots/*/champion.json")}
+        names |= {f"{path.parent.name}-steered" for path in SOURCES.glob("robots/*/steered.json")}
         self.assertEqual({path.stem for path in self.folder.glob("walk/*.html")}, names)
         for name in names:
             self.assertIn(f"walk/{name}.html#live", self.front.links)
