@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -24,6 +25,12 @@ inline constexpr std::size_t fewest_resampled = 6;
 /// Fewer runs of a condition decide no claim, whatever its test says. Five against five are the fewest with
 /// which a rank test can reach the paper's level of 0.01 (0.008; four against four 0.029).
 inline constexpr std::size_t fewest_judged = 5;
+
+/// The fewest runs of each condition with which a claim of that kind is judged.
+constexpr std::size_t fewest_runs(ledger::ClaimKind kind) {
+  const bool resampled = kind == ledger::ClaimKind::ratio || kind == ledger::ClaimKind::plateau;
+  return resampled ? std::max(fewest_judged, fewest_resampled) : fewest_judged;
+}
 
 /// A study and those of its runs that are finished.
 struct StudyData {

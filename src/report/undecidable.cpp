@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
 #include "amble/report/study_data.hpp"
 #include "amble/statistics/hypothesis_tests.hpp"
@@ -15,17 +14,6 @@ namespace {
 using ledger::ClaimKind;
 using ledger::ClaimSpec;
 
-std::size_t planned(const ledger::StudySpec& study, const std::string& condition) {
-  const auto* spec = study.find(condition);
-  AMBLE_CHECK(spec != nullptr, "a condition of the study");
-  return study.seeds_of(*spec).size();
-}
-
-std::size_t needed_by(const ClaimSpec& claim) {
-  const bool resampled = claim.kind == ClaimKind::ratio || claim.kind == ClaimKind::plateau;
-  return resampled ? std::max(fewest_judged, fewest_resampled) : fewest_judged;
-}
-
 /// The fewest runs of two equal conditions in which a rank test can have so small a p.
 std::size_t needed_by_ranks(double alpha) {
   std::size_t runs = fewest_judged;
@@ -33,16 +21,16 @@ std::size_t needed_by_ranks(double alpha) {
   return runs;
 }
 
-std::string line_of(const ledger::StudySpec& study, const ClaimSpec& claim) {
-  std::size_t least = planned(study, claim.condition);
+std::string line_of(const StudyData& data, const ClaimSpec& claim) {
+  std::size_t least = data.planned(claim.condition);
   std::string fewest = claim.condition;
-  if (!claim.against.empty() && planned(study, claim.against) < least) {
-    least = planned(study, claim.against);
+  if (!claim.against.empty() && data.planned(claim.against) < least) {
+    least = data.planned(claim.against);
     fewest = claim.against;
   }
-  std::size_t needed = needed_by(claim);
+  std::size_t needed = fewest_runs(claim.kind);
   if (claim.kind == ClaimKind::difference && claim.test == ledger::TwoSampleTest::mann_whitney &&
-      statistics::smallest_mann_whitney_p(planned(study, claim.condition), planned(study, claim.against)) >=
+      statistics::smallest_mann_whitney_p(data.planned(claim.condition), data.planned(claim.against)) >=
           claim.alpha)
     needed = std::max(needed, needed_by_ranks(claim.alpha));
   if (least >= needed) return {};
@@ -53,9 +41,10 @@ std::string line_of(const ledger::StudySpec& study, const ClaimSpec& claim) {
 }  // namespace
 
 std::vector<std::string> undecidable_claims(const ledger::StudySpec& study) {
+  const StudyData data{.study = study, .records = {}, .unknown_files = {}};
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < study.claims.size(); ++i)
-    if (const std::string line = line_of(study, study.claims[i]); !line.empty())
+    if (const std::string line = line_of(data, study.claims[i]); !line.empty())
       lines.push_back(fmt::format("claims[{}], \"{}\": {}", i + 1, study.claims[i].text, line));
   return lines;
 }

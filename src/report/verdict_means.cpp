@@ -142,7 +142,7 @@ Judgement judge_ratio_within(const StudyData& data, const ClaimSpec& claim) {
   }
   Judgement judgement = begin_judgement(data, claim, numerators.size());
   judgement.quantity = "ratio of sums";
-  judgement.reason = too_few(data, claim.condition, judgement.n, fewest_resampled);
+  judgement.reason = too_few(data, claim.condition, judgement.n, fewest_runs(claim.kind));
   if (!judgement.reason.empty()) return judgement;
   judgement.mean = mean_of(numerators);
   judgement.mean_against = mean_of(denominators);
@@ -157,7 +157,7 @@ Judgement judge_ratio_between(const StudyData& data, const ClaimSpec& claim) {
   const TwoSamples samples{data.values(claim.condition, claim.measure),
                            data.values(claim.against, claim.measure)};
   Judgement judgement;
-  const bool enough = begin_two(data, claim, samples, fewest_resampled, judgement);
+  const bool enough = begin_two(data, claim, samples, fewest_runs(claim.kind), judgement);
   judgement.quantity = "ratio of means";
   if (enough && have_means(data, claim, samples, judgement))
     use_bootstrap(statistics::bootstrap_ratio(samples.first, samples.second, statistics::mean), judgement);
@@ -307,8 +307,9 @@ Judgement judge_plateau(const StudyData& data, const ClaimSpec& claim) {
   }
   Judgement judgement = begin_judgement(data, claim, gains.size());
   judgement.quantity = "mean gain, share of the final best";
-  judgement.reason = too_few(data, claim.condition, data.runs(claim.condition).size(), fewest_resampled);
-  if (judgement.reason.empty() && gains.size() < fewest_resampled)
+  judgement.reason =
+      too_few(data, claim.condition, data.runs(claim.condition).size(), fewest_runs(claim.kind));
+  if (judgement.reason.empty() && gains.size() < fewest_runs(claim.kind))
     judgement.reason = fmt::format("The runs are not longer than {} generations.", claim.from_generation);
   if (!judgement.reason.empty()) return judgement;
   const auto found = *statistics::bootstrap(gains, statistics::mean);

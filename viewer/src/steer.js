@@ -67,7 +67,7 @@ export class Steer {
       if (event.type === "keydown") this.held.add(event.key);
       else this.held.delete(event.key);
       const sum = [...this.held].reduce(([a, b], key) => [a + KEYS[key][0], b + KEYS[key][1]], [0, 0]);
-      this.tell(...sum.map((part) => part + 0));
+      this.tell(...sum);
     };
     for (const kind of ["keydown", "keyup"]) document.addEventListener(kind, change, { capture: true });
     window.addEventListener("blur", () => {
