@@ -1,4 +1,5 @@
 # amble_library(<folder> SOURCES … [PUBLIC …] [PRIVATE …]): one static library per folder of src/, target amble_<folder>.
+# amble_quickly_compiled(<target>): not optimised under sanitizers, as it computes little and compiling takes longer than its tests.
 # amble_release_options(SOURCES … OPTIONS …): what some sources of a folder are compiled with in release builds, beside the rest.
 # amble_registers(<folder>): the folder's library adds something to a registry of another.
 # amble_compile_apart(SOURCE …): sources not to be compiled together with others of their folder.
@@ -118,6 +119,21 @@ function(amble_test_headers)
   target_precompile_headers(amble_test_headers PRIVATE <gmock/gmock.h> <gtest/gtest.h> <algorithm> <array> <cmath> <cstdint> <filesystem>
                             <functional> <map> <memory> <optional> <span> <string> <string_view> <utility> <vector>
                             <fmt/format.h> <nlohmann/json.hpp>)
+endfunction()
+
+# Under sanitizers optimising what computes little takes longer than running its tests. The tests' headers are the ones precompiled so.
+function(amble_quickly_compiled target)
+  if(NOT AMBLE_SANITIZE)
+    return()
+  endif()
+  target_compile_options(${target} PRIVATE -O0)
+  if(AMBLE_PRECOMPILED_HEADERS)
+    if(NOT TARGET amble_test_headers)
+      amble_test_headers()
+    endif()
+    set_property(TARGET ${target} PROPERTY PRECOMPILE_HEADERS_REUSE_FROM amble_test_headers)
+    add_dependencies(${target} amble_test_headers)
+  endif()
 endfunction()
 
 # The tests of a folder as one program. TOGETHER: CTest runs it once, because its tests take less time than starting a process for each;

@@ -10,6 +10,7 @@
 
 #include "amble/cli/help.hpp"
 #include "amble/cli/options.hpp"
+#include "amble/cli/progress.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
 #include "amble/experiment/repertoire.hpp"
@@ -50,6 +51,18 @@ std::string distance_text(double distance_m) {
   return fmt::format("{:.3f} m", distance_m);
 }
 
+/// Of fewer trials quartiles say little.
+constexpr std::size_t fewest_for_quartiles = 4;
+
+/// The distance, and where several trials lie: " [4.9, 5.8]", their quartiles.
+std::string spread_text(const EngineResult& result) {
+  if (result.trials.size() < fewest_for_quartiles) return "";
+  std::vector<double> distances_m;
+  for (const TrialResult& trial : result.trials) distances_m.push_back(trial.distance_m);
+  return fmt::format(" [{:.2f}, {:.2f}]", statistics::quantile(distances_m, 0.25),
+                     statistics::quantile(distances_m, 0.75));
+}
+
 std::string kept_text(double distance_m, double of_m) {
   const auto kept = share_kept(distance_m, of_m);
   return kept ? fmt::format(", {:.0f} %", 100.0 * *kept) : "";
@@ -62,7 +75,7 @@ Cells row_cells(const presentation::ComparedChampion& row) {
       fmt::format("{}{:g} s {}", trials > 1 ? fmt::format("{} x ", trials) : "", row.trial_s, row.under)};
   for (const auto& result : row.in) {
     const double walked_m = result.distance_m();
-    cells.push_back(distance_text(walked_m) +
+    cells.push_back(distance_text(walked_m) + spread_text(result) +
                     (result.engine == row.home ? "" : kept_text(walked_m, row.home_m())) + endings(result));
   }
   return cells;
@@ -76,13 +89,22 @@ constexpr std::string_view summary_note =
 /// What a row's percentages mean.
 constexpr std::string_view percent_note = "%: share of the distance in the engine in which it evolved\n";
 
+/// What the brackets of a row mean.
+constexpr std::string_view quartiles_note = "median [quartiles] of the trials\n";
+
 /// What is below a table with so many rows of champions.
 std::string notes(const std::vector<Cells>& lines, std::size_t rows) {
-  const bool percent = std::ranges::any_of(lines, [](const Cells& cells) {
-    return std::ranges::any_of(cells,
-                               [](const std::string& cell) { return cell.find(" %") != std::string::npos; });
-  });
-  return std::string(percent ? percent_note : "") + std::string(lines.size() > rows + 1 ? summary_note : "");
+  const auto some_has = [&lines](std::string_view text) {
+    return std::ranges::any_of(lines, [text](const Cells& cells) {
+      return std::ranges::any_of(
+          cells, [text](const std::string& cell) { return cell.find(text) != std::string::npos; });
+    });
+  };
+  std::string text;
+  if (some_has(" [")) text += quartiles_note;
+  if (some_has(" %")) text += percent_note;
+  if (lines.size() > rows + 1) text += summary_note;
+  return text;
 }
 
 /// All champions for one length of time.
@@ -135,7 +157,10 @@ std::vector<presentation::NamedChampion> load(const std::vector<std::filesystem:
 }
 
 ExitCode run_compare(const Options& options) {
-  const auto rows = presentation::compare(load(options.inputs), options.how, stop_signal());
+  presentation::CompareOptions how = options.how;
+  PartsLine progress("trials");
+  how.on_trial = [&progress](std::size_t done, std::size_t of) { progress.show(done, of); };
+  const auto rows = presentation::compare(load(options.inputs), how, stop_signal());
   if (!rows) fail(ExitCode::interrupted, "stopped before all champions had walked");
   const auto maps = experiment::compare_maps(options.inputs);
   if (options.format == "json")

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "amble/cli/messages.hpp"
 #include "amble/core/clock.hpp"
@@ -63,6 +64,27 @@ void ProgressLine::on_generation(const experiment::GenerationRow& row, const exp
         row.diverged > 0 ? fmt::format("{} diverged", row.diverged) : "",
         fmt::format("{} evals/s", rate_text(static_cast<double>(row.evaluations) / row.wall_s)),
         species ? fmt::format("{:.0f} species", *species) : ""});
+}
+
+PartsLine::PartsLine(std::string what)
+    : what_(std::move(what)),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      start_s_(now_s()),
+      last_print_s_(start_s_) {}
+
+PartsLine::~PartsLine() {
+  if (open_) print_message("\n");
+}
+
+void PartsLine::show(std::size_t done, std::size_t of) {
+  const double now = now_s();
+  const double interval_s = open_ ? terminal_interval_s : plain_interval_s;
+  if (now - last_print_s_ < interval_s && !(open_ && done == of)) return;
+  last_print_s_ = now;
+  const double left_s = (now - start_s_) / static_cast<double>(done) * static_cast<double>(of - done);
+  const std::string line = fmt::format("{} of {} {}, left {}", done, of, what_, clock_text(left_s));
+  print_message(terminal_ ? "\r\033[K" + shortened(line, terminal_columns() - 1) : line + "\n");
+  open_ = terminal_;
 }
 
 void ProgressLine::show(const std::vector<std::string>& parts) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,23 @@ class ProgressLine : public experiment::RunListener {
   int first_generation_;
   double start_s_;
   double last_print_s_ = 0.0;
+};
+
+/// Shows on stderr how many of a number of equal parts are done, and how long the rest takes; nothing if all
+/// take less than some seconds.
+class PartsLine {
+ public:
+  explicit PartsLine(std::string what);  ///< "trials"
+  ~PartsLine();
+  PartsLine(const PartsLine&) = delete;
+  PartsLine& operator=(const PartsLine&) = delete;
+  void show(std::size_t done, std::size_t of);
+
+ private:
+  std::string what_;
+  bool terminal_;
+  bool open_ = false;  ///< a rewritten line has no newline yet
+  double start_s_, last_print_s_;
 };
 
 /// "0:07", "12:30", "3:05:00".

@@ -21,6 +21,7 @@ std::optional<EngineResult> try_in_engine(const std::string& engine, const Probl
     const auto trial = replay(problem, genome, how, stop);
     if (!trial) return std::nullopt;
     result.trials.push_back(trial->result);
+    if (options.on_trial) options.on_trial();
   }
   return result;
 }

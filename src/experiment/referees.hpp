@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@ struct RefereeOptions {
   int jobs = 1;                        ///< at least 1; more: the engines run in parallel
   /// One trial under the problem's noise for each of these; none: one trial without noise.
   std::vector<trial::ScenarioKey> noise = {};
+  /// Called after each trial, by several threads at once if the engines run in parallel.
+  std::function<void()> on_trial = {};
 };
 
 /// The trials of one genome in one engine.

@@ -73,7 +73,7 @@ class RobotGuesser {
     write_commands();
     write_start_angles();
     write_contact();
-    guess_.settled = settled(start_, why_not_);
+    std::ranges::move(settled(start_, why_not_), std::back_inserter(guess_.settled));
     return std::move(guess_);
   }
 
@@ -262,6 +262,10 @@ class RobotGuesser {
     const std::vector<ServoGuess> servos = guess_servos(file_, parts_, bearing_nm);
     doubt_readings();
     doubt_motors(servos);
+    if (std::ranges::any_of(servos, &ServoGuess::has_no_speed_limit))
+      guess_.settled.emplace_back(
+          "position actuators turn as fast as their torque allows, as an MJCF has no greatest speed; if what "
+          "evolves vibrates, give [servo] one: docs/BUILDING.md");
     std::vector<int> driven;
     for (const LegGuess& leg : legs_.legs) driven.insert(driven.end(), leg.joints.begin(), leg.joints.end());
     if (std::string slow = slow_joints(file_, parts_, driven, longest_leg_m(parts_, legs_)); !slow.empty())

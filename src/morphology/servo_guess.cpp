@@ -108,7 +108,7 @@ class ServoGuesser {
     return {torque(most, actuator.kp, kd),
             fmt::format("kp{} of the model's actuator{}; torque: {}", kd > 0.0 ? " and kd" : "",
                         kd > 0.0 || damping == 0.0 ? "" : ", whose damping is that of the joint", source),
-            !has_limit(actuator, hint)};
+            !has_limit(actuator, hint), false, true};
   }
 
   ServoGuess of_effort(const MotorHint& hint) const {

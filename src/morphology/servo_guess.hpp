@@ -10,8 +10,9 @@ namespace amble::morphology {
 struct ServoGuess {
   robot::Servo servo;
   std::string why;
-  bool torque_is_guessed = false;  ///< the model has no limit, or one that is no motor's
-  bool lacks_gear = false;         ///< its torque is that of a control of ±1 with a gear of 1
+  bool torque_is_guessed = false;   ///< the model has no limit, or one that is no motor's
+  bool lacks_gear = false;          ///< its torque is that of a control of ±1 with a gear of 1
+  bool has_no_speed_limit = false;  ///< a position actuator: as fast as its torque allows
 };
 
 /// The torque with which a leg of that length bears its share of the robot's weight at right angles.

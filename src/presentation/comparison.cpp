@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <mutex>
 #include <utility>
 
 #include "amble/core/error.hpp"
@@ -56,20 +57,28 @@ std::vector<trial::ScenarioKey> unseen_noise(const experiment::Champion& champio
   return keys;
 }
 
+/// One key for each trial in an engine; none: one trial without noise.
+std::vector<trial::ScenarioKey> trial_keys(const experiment::Champion& champion,
+                                           const CompareOptions& options) {
+  if (options.disturbance.undisturbed) return {};
+  if (options.episodes) return unseen_noise(champion, *options.episodes);
+  const int asked = options.disturbance.trials;
+  return typical_keys(champion, asked > 0 ? asked : experiment::running_trials);
+}
+
 std::optional<ComparedChampion> row_of(const NamedChampion& named, double seconds,
                                        const std::vector<std::string>& engines, const CompareOptions& options,
-                                       const std::atomic<bool>& stop) {
+                                       const std::function<void()>& on_trial, const std::atomic<bool>& stop) {
   auto [name, champion] = named;
-  experiment::RefereeOptions referee_options{.seconds = seconds, .jobs = static_cast<int>(engines.size())};
+  const experiment::RefereeOptions referee_options{.seconds = seconds,
+                                                   .jobs = static_cast<int>(engines.size()),
+                                                   .noise = trial_keys(champion, options),
+                                                   .on_trial = on_trial};
   std::string under = "without noise";
   if (!options.disturbance.undisturbed) {
     const auto level = level_of(champion.problem, options.disturbance);
     champion.problem.noise = level.noise;
     under = level.under();
-    const int asked = options.disturbance.trials;
-    referee_options.noise = options.episodes
-                                ? unseen_noise(champion, *options.episodes)
-                                : typical_keys(champion, asked > 0 ? asked : experiment::running_trials);
   }
   try {
     auto results =
@@ -95,12 +104,23 @@ std::optional<std::vector<ComparedChampion>> compare(const std::vector<NamedCham
                                                      const CompareOptions& options,
                                                      const std::atomic<bool>& stop) {
   const auto engines = engines_of(options.engines, champions);
+  const std::size_t lengths = std::max<std::size_t>(options.seconds.size(), 1);
+  std::size_t trials = 0;
+  for (const auto& named : champions)
+    trials += lengths * engines.size() * std::max<std::size_t>(trial_keys(named.champion, options).size(), 1);
+  std::mutex counting;
+  std::size_t done = 0;
+  const auto count = [&] {
+    const std::lock_guard lock(counting);
+    ++done;
+    if (options.on_trial) options.on_trial(done, trials);
+  };
   std::vector<ComparedChampion> rows;
   for (const auto& named : champions) {
     auto lengths_s = options.seconds;
     if (lengths_s.empty()) lengths_s.push_back(named.champion.problem.trial.duration_s);
     for (const double length_s : lengths_s) {
-      auto row = row_of(named, length_s, engines, options, stop);
+      auto row = row_of(named, length_s, engines, options, count, stop);
       if (!row) return std::nullopt;
       rows.push_back(std::move(*row));
     }

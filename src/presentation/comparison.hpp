@@ -1,6 +1,8 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +40,8 @@ struct CompareOptions {
   TrialChoice disturbance = {};  ///< `trials` 0: experiment::running_trials, the same in every engine
   /// In place of `disturbance.trials` so many episodes of an evaluation that evolution has not met.
   std::optional<std::uint32_t> episodes = {};
+  /// Called after each trial, by one thread at a time, with how many are done and how many there are in all.
+  std::function<void(std::size_t done, std::size_t of)> on_trial = {};
 };
 
 /// Lets champions walk in several engines: a row per champion and length. The engines of one row run in

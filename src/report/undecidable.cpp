@@ -45,7 +45,7 @@ std::vector<std::string> undecidable_claims(const ledger::StudySpec& study) {
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < study.claims.size(); ++i)
     if (const std::string line = line_of(data, study.claims[i]); !line.empty())
-      lines.push_back(fmt::format("claims[{}], \"{}\": {}", i + 1, study.claims[i].text, line));
+      lines.push_back(fmt::format("claims[{}], \"{}\": {}", i, study.claims[i].text, line));
   return lines;
 }
 

@@ -115,6 +115,19 @@ TEST_F(Compare, SaysByDefaultWhatAChampionTypicallyDoes) {
                                      row["results"][0]["distance_m"].get<double>())));
 }
 
+TEST_F(Compare, SaysWhereHalfOfItsTrialsLieIfThereAreEnough) {
+  const std::string trial = amble({"trial", champion_, "--trials", "5"}).out;
+  const std::string half = "noise ", unit = " m, ";
+  const std::size_t begin = trial.find(half) + half.size();
+  std::string quartiles = trial.substr(begin, trial.find(unit, begin) - begin);
+  quartiles.replace(quartiles.find(" to "), 4, ", ");
+  const auto five = amble({"compare", champion_, "--engines", "batch", "--trials", "5"});
+  EXPECT_THAT(five.out, HasSubstr(" m [" + quartiles + "]"));
+  EXPECT_THAT(five.out, HasSubstr("\nmedian [quartiles] of the trials\n"));
+  EXPECT_EQ(five.err, "") << "progress is for those who have to wait";
+  EXPECT_THAT(amble({"compare", champion_, "--engines", "batch", "--trials", "3"}).out, Not(HasSubstr("[")));
+}
+
 TEST_F(Compare, TheNoiseOfAConfigIsTheSameTrialsInEveryCommand) {
   const auto compared = amble(
       {"compare", champion_, "--engines", "batch", "--noise", robust, "--trials", "3", "--format", "json"});

@@ -200,6 +200,21 @@ TEST(IncompleteModel, WhoseActuatorsPullATendonOverOneJointIsDrivenThere) {
   EXPECT_THAT(write_xml(text).text, HasSubstr("gear=\"3\""));
 }
 
+TEST(IncompleteModel, WhosePositionActuatorsHaveNoGreatestSpeedIsSaidToBeSo) {
+  const Files files;
+  const auto said = [&](const char* actuator) {
+    std::string actuators = "<actuator>";
+    for (const char* leg : {"fl", "fr", "rl", "rr"})
+      for (const char* joint : {"hip", "knee"})
+        actuators += fmt::format(R"(<{} joint="{}_{}" forcerange="-5 5"/>)", actuator, leg, joint);
+    const ModelFile file = compile_model(files.write(
+        "m.xml", four_legs(trunk_box, thigh_rod, shin_rod + foot_ball, actuators + "</actuator>")));
+    return fmt::format("{}", fmt::join(guess_robot(file, "m.xml").settled, "\n"));
+  };
+  EXPECT_THAT(said(R"(position kp="20")"), HasSubstr("as fast as their torque allows"));
+  EXPECT_THAT(said(R"(velocity kv="2")"), Not(HasSubstr("as fast as")));
+}
+
 TEST(IncompleteModel, BelowAnEmptyLinkIsFreeByItself) {
   const Files files;
   for (const char* type : {"floating", "planar"}) {

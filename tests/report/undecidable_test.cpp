@@ -24,7 +24,7 @@ ledger::StudySpec with_claim(int seeds, ledger::ClaimSpec claim) {
 TEST(UndecidableClaims, AreThoseOfFewerRunsThanDecideAnything) {
   EXPECT_THAT(
       undecidable_claims(with_claim(3, {})),
-      ElementsAre("claims[1], \"a is more than b\": with 3 runs of 'a' it cannot be decided; 5 are needed"));
+      ElementsAre("claims[0], \"a is more than b\": with 3 runs of 'a' it cannot be decided; 5 are needed"));
   EXPECT_THAT(undecidable_claims(with_claim(5, {})), IsEmpty());
 }
 
