@@ -62,6 +62,9 @@ void amble_restart(int as_evolved) {
 void amble_push(double x_n_s, double y_n_s, double z_n_s) {
   open_session().push({x_n_s, y_n_s, z_n_s});
 }
+void amble_lift(double height_m) {
+  open_session().lift(height_m);
+}
 void amble_command(double speed_m_s, double turn_rad_s) {
   open_session().command({static_cast<float>(speed_m_s), static_cast<float>(turn_rad_s)});
 }

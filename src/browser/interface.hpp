@@ -17,6 +17,7 @@ std::size_t amble_result_size();
 void amble_open();
 void amble_restart(int as_evolved);
 void amble_push(double x_n_s, double y_n_s, double z_n_s);
+void amble_lift(double height_m);
 void amble_command(double speed_m_s, double turn_rad_s);
 /// Take the settings as JSON.
 void amble_set_ground();

@@ -90,6 +90,10 @@ void Session::push(Vec3 impulse_n_s) {
   note({.push_n_s = impulse_n_s});
 }
 
+void Session::lift(double height_m) {
+  note({.lift_m = height_m});
+}
+
 void Session::command(trial::Command command) {
   if (!std::isfinite(command.speed_m_s) || !std::isfinite(command.turn_rad_s))
     fail(ExitCode::bad_input, "command: expected two numbers, m/s and rad/s");

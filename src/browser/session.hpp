@@ -24,6 +24,8 @@ class Session {
   /// file), and begins the record anew.
   void restart(bool as_evolved);
   void push(Vec3 impulse_n_s);
+  /// Lifts it, as it is, and lets it fall. Throws UserError for a height out of (0, 100].
+  void lift(double height_m);
   /// Throws UserError where the controller senses no commands, or a number is none.
   void command(trial::Command command);
   /// All settings of [ground] or [damage] as a JSON object. Throws UserError; then nothing has changed.

@@ -17,7 +17,8 @@ LiveInputs session() {
           .inputs = {{.step = 3, .push_n_s = Vec3{0.1, -0.2, 1e-300}},
                      {.step = 3, .ground = ground},
                      {.step = 9, .damage = damage},
-                     {.step = 10, .command = trial::Command{0.1f, -0.3f}}},
+                     {.step = 10, .command = trial::Command{0.1f, -0.3f}},
+                     {.step = 10, .lift_m = 0.125}},
           .trace = std::vector<std::uint32_t>(10, 0xdeadbeef)};
 }
 
@@ -33,6 +34,7 @@ TEST(LiveInputs, TextReadsBackToTheSameBits) {
   EXPECT_EQ(read.inputs[1].ground->kind, "stairs");
   EXPECT_EQ(read.inputs[2].damage->parts.at(0).leg, "rear_left");
   EXPECT_EQ(read.inputs[3].command, (trial::Command{0.1f, -0.3f}));
+  EXPECT_EQ(read.inputs[4].lift_m, 0.125);
   EXPECT_EQ(read.trace.size(), 10u);
 }
 

@@ -2,13 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "amble/browser/fused_check.hpp"
 #include "amble/browser/interface.hpp"
 #include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
+#include "amble/core/index.hpp"
 #include "amble/io/json_file.hpp"
 #include "tests/browser/champion.hpp"
 
@@ -52,11 +56,34 @@ TEST(Session, WithoutInputsEachStepIsThatOfTheChampionsOwnTrialToTheBit) {
   EXPECT_EQ(session.steps_as_recorded(), 1500);
 }
 
+TEST(Session, WhatIsLiftedFallsFromThere) {
+  Session lifted(tests::champion_text()), left(tests::champion_text());
+  const auto height_m = [](Session& session) {
+    const auto columns =
+        nlohmann::json::parse(session.describe()).at("columns").get<std::vector<std::string>>();
+    return session.state().at(to_index(std::ranges::find(columns, "com.z") - columns.begin()));
+  };
+  lifted.step(50);
+  left.step(50);
+  lifted.lift(0.5);
+  lifted.step(1);
+  left.step(1);
+  EXPECT_NEAR(height_m(lifted) - height_m(left), 0.5, 0.01);
+  constexpr double fall_s = 0.2, g = 9.81;
+  lifted.step(20);
+  EXPECT_NEAR(height_m(lifted) - height_m(left), 0.5 - 0.5 * g * fall_s * fall_s, 0.03);
+  lifted.step(100);
+  EXPECT_LT(height_m(lifted), height_m(left) + 0.1) << "it is down again";
+  for (const double wrong : {0.0, -1.0, 101.0, std::nan("")}) EXPECT_THROW(lifted.lift(wrong), UserError);
+}
+
 TEST(Session, WhatWasDoneIsRepeatedToTheBit) {
   const std::string champion = tests::champion_text();
   Session session(champion);
   session.step(120);
   session.push({0.1, 0.2, 0.0});
+  session.step(80);
+  session.lift(0.3);
   session.step(80);
   session.set_ground(ground_json(session, "rough", 0.05));
   session.step(200);
@@ -67,10 +94,10 @@ TEST(Session, WhatWasDoneIsRepeatedToTheBit) {
   session.push({0.0, 0.1, 0.0});  // comes before a step that is not made, and is no part of the session
 
   const auto record = parse_inputs(session.inputs(), "inputs");
-  EXPECT_EQ(record.inputs.size(), 4u);
+  EXPECT_EQ(record.inputs.size(), 5u);
   EXPECT_EQ(record.champion, hex(hash_text(champion)));
   const auto again = replay_live(parse_champion_for(record.engine, champion, "champion"), record);
-  EXPECT_EQ(again.steps, 600);
+  EXPECT_EQ(again.steps, 680);
   EXPECT_EQ(again.first_difference, std::nullopt);
 }
 
@@ -201,10 +228,12 @@ TEST(Interface, DoesWhatTheSessionDoes) {
   amble_open();
   EXPECT_EQ(amble_step(100), 100);
   amble_push(0.05, 0.0, 0.0);
+  amble_lift(0.1);
   amble_step(100);
   Session session(champion);
   session.step(100);
   session.push({0.05, 0.0, 0.0});
+  session.lift(0.1);
   session.step(100);
   amble_inputs();
   EXPECT_EQ(taken(), session.inputs());

@@ -123,6 +123,18 @@ test("a push by button is a push, too, and ends", () =>
     assert.ok(inputs.every(({ push_n_s: [x, y, z] }) => x === 0 && y < 0 && z === 0));
   }));
 
+test("what is lifted falls, and the native program repeats it to the bit", () =>
+  onPage({}, async (page) => {
+    await simulate(page, 0.5);
+    await page.click("text=Lift and drop");
+    await page.waitForFunction(() => window.amble.time() > 1);
+    await page.evaluate(() => window.amble.pause());
+    const { inputs } = JSON.parse(await page.evaluate(() => window.amble.live().inputs()));
+    assert.equal(inputs.length, 1);
+    assert.ok(inputs[0].lift_m > 0.05 && inputs[0].step > 40, JSON.stringify(inputs));
+    assert.match(await natively(page, "dropped.json"), /^bits +the same in every step$/m);
+  }));
+
 test("one that obeys is told by keys, pad and gamepad, and the native program repeats to the bit what it was told", async () => {
   const path = makePage("steered.html", OBEYS, "--undisturbed");
   await onPage({}, async (page) => {

@@ -165,6 +165,13 @@ export class LiveRobot {
     this.calls.push(action);
   }
 
+  /** Lifts it, as it is, by up to 100 m before the next step, and lets it fall. */
+  lift(height_m) {
+    const action = ({ exports }) => exports.amble_lift(height_m);
+    action(this.machine);
+    this.calls.push(action);
+  }
+
   /** What it is told from the next step on: speed along its own axis, m/s, and turning to the left, rad/s. Description.commands is there. */
   command([speed_m_s, turn_rad_s]) {
     const action = ({ exports }) => exports.amble_command(speed_m_s, turn_rad_s);

@@ -67,14 +67,31 @@ export class LivePanel {
       clock.seek(clock.duration_s); // what is past cannot be pushed
       clock.play();
     };
-    return group("Push", element("div", { class: "live-buttons" },
-      button("← left", push(0, 1)), button("right →", push(0, -1)), button("↑ forward", push(1, 0)), button("↓ back", push(-1, 0))));
+    const tall_m = this.tall_m(), step_m = 10 ** Math.floor(Math.log10(tall_m / 10));
+    const height = slider(step_m, 4 * Math.ceil(tall_m / step_m) * step_m, step_m, Math.round(tall_m / step_m) * step_m);
+    const from = row("Height of a drop", height, () => `${number(Number(height.value), 2)} m`);
+    from.show();
+    from.label.addEventListener("input", from.show);
+    const drop = () => {
+      const { clock } = this.page;
+      clock.seek(clock.duration_s);
+      this.walk.live.lift(Number(height.value));
+      clock.play();
+    };
+    return group("Push and drop", element("div", { class: "live-buttons" },
+      button("← left", push(0, 1)), button("right →", push(0, -1)), button("↑ forward", push(1, 0)), button("↓ back", push(-1, 0)),
+      button("Lift and drop", drop)), from.label);
+  }
+
+  /** How high its trunk is as it starts. */
+  tall_m() {
+    return this.walk.robot.bodies[0].position_m[2] || 0.5;
   }
 
   ground() {
     const { ground_kinds: kinds } = this.walk.description;
     this.kind = element("select", { "aria-label": "Kind of ground" }, ...kinds.map((kind) => element("option", { value: kind }, kind)));
-    const tall_m = this.walk.robot.bodies[0].position_m[2] || 0.5; // what is rough for an insect is smooth for a horse
+    const tall_m = this.tall_m(); // what is rough for an insect is smooth for a horse
     const step_m = 10 ** Math.floor(Math.log10(tall_m / 20));
     this.first = { height_m: Math.max(step_m, Math.round((0.1 * tall_m) / step_m) * step_m), length_m: Math.min(Math.max(2.5 * tall_m, 0.01), 100) };
     this.height = slider(step_m, Math.ceil((0.6 * tall_m) / step_m) * step_m, step_m, this.first.height_m);

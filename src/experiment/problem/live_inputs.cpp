@@ -14,6 +14,7 @@ constexpr int inputs_version = 1;
 io::Json input_json(const Input& input) {
   io::Json json{{"step", input.step}};
   if (input.push_n_s) json["push_n_s"] = {input.push_n_s->x, input.push_n_s->y, input.push_n_s->z};
+  if (input.lift_m) json["lift_m"] = *input.lift_m;
   if (input.ground) json["ground"] = io::settings_to_json(*input.ground);
   if (input.damage) json["damage"] = io::settings_to_json(*input.damage);
   if (input.command) json["command"] = {input.command->speed_m_s, input.command->turn_rad_s};
@@ -36,9 +37,8 @@ Input parse_input(const io::JsonView& view, int first, int last) {
     view.at("step").bad("a step of the session, not before that of the last input");
   Input input{.step = static_cast<int>(step)};
   if (view.has("push_n_s")) input.push_n_s = parse_push(view.at("push_n_s"));
-  if (view.has("ground")) {
-    input.ground = io::settings_from_json<ground::Settings>(view.at("ground"));
-  }
+  if (view.has("lift_m")) input.lift_m = view.at("lift_m").finite_number();
+  if (view.has("ground")) input.ground = io::settings_from_json<ground::Settings>(view.at("ground"));
   if (view.has("damage")) input.damage = io::settings_from_json<damage::Settings>(view.at("damage"));
   if (view.has("command")) input.command = parse_command(view.at("command"));
   return input;

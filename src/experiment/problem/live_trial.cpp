@@ -12,6 +12,8 @@
 namespace amble::experiment {
 namespace {
 
+constexpr double most_lift_m = 100.0;
+
 /// Rounded up to a micrometre or so, which hides the last bits of the sines behind it.
 double rounded_up(double height_m) {
   constexpr double per_metre = 0x1p20;
@@ -55,12 +57,16 @@ void LiveTrial::apply(const Input& input) {
     fail(ExitCode::bad_input,
          "command: the controller of \"{}\" senses no commands; configs/steer evolves one that does",
          problem_.robot.name);
+  if (input.lift_m && !(*input.lift_m > 0.0 && *input.lift_m <= most_lift_m))
+    fail(ExitCode::bad_input, "lift_m = {}: expected more than 0 and at most {} m", *input.lift_m,
+         most_lift_m);
   if (input.ground || input.damage) {
     Problem next = problem_;
     if (input.ground) next.set_ground(*input.ground);
     if (input.damage) next.set_damage(*input.damage);
     move_to(std::move(next));
   }
+  if (input.lift_m) lift(*input.lift_m);
   if (input.push_n_s) engine_->push(lane, *input.push_n_s);
   if (input.command) runner_->tell(lane, *input.command);
 }
@@ -85,6 +91,12 @@ void LiveTrial::move_to(Problem next) {
   engine_ = std::move(engine);
   ground_ = std::move(ground);
   problem_ = std::move(next);
+}
+
+void LiveTrial::lift(double height_m) {
+  physics::MovingPose motion = engine_->motion(lane);
+  motion.pose.root.position_m.z += height_m;
+  engine_->place_moving(lane, motion);
 }
 
 bool LiveTrial::step() {

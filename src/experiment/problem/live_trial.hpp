@@ -19,6 +19,7 @@ namespace amble::experiment {
 struct Input {
   int step = 1;                                 ///< the step that it comes before; steps count from 1
   std::optional<Vec3> push_n_s = {};            ///< physics::Engine::push
+  std::optional<double> lift_m = {};            ///< it is lifted by so much, as it is, and falls; in (0, 100]
   std::optional<ground::Settings> ground = {};  ///< the ground from now on
   std::optional<damage::Settings> damage = {};  ///< all that is wrong with the robot from now on
   std::optional<trial::Command> command = {};   ///< what it is told from now on
@@ -38,7 +39,8 @@ class LiveTrial {
   LiveTrial& operator=(const LiveTrial&) = delete;
 
   /// What comes before the next step; Input::step is that one's. Throws UserError, and then nothing has
-  /// changed, if the robot has no such part, the ground is none, or the controller senses no commands.
+  /// changed, if the robot has no such part, the ground is none, the controller senses no commands, or the
+  /// lift is out of its range.
   void apply(const Input& input);
   /// Advances by one step. False if the simulation had broken down before or does so: nothing can follow.
   bool step();
@@ -57,6 +59,7 @@ class LiveTrial {
 
  private:
   void move_to(Problem next);
+  void lift(double height_m);
 
   Problem problem_;
   std::shared_ptr<const ground::Ground> ground_;
