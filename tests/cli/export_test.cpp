@@ -100,6 +100,11 @@ TEST(ExportCommand, RefusesInOneLine) {
     EXPECT_EQ(refused.exit_code, 2) << refused.err;
     EXPECT_THAT(refused.err, AllOf(StartsWith("amble: "), HasSubstr(message)));
   }
+  EXPECT_THAT(amble({"export", AMBLE_SOURCE_DIR "/robots/hexapod/steered.json", "--format", "c", "--fixed",
+                     "-o", scratch / "a.c"})
+                  .err,
+              HasSubstr("of kind mixed"))
+      << "not of its modulation, which nobody set";
   EXPECT_EQ(slurp(scratch / "mine.c"), "int main(void) { return 0; }\n");
   EXPECT_FALSE(std::filesystem::exists(scratch / "a.c"));
 }
