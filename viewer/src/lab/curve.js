@@ -1,10 +1,17 @@
 // The curves of a run, generation by generation, over its species as stacked bands; runs before it as thin lines.
-import { niceAxis, number } from "../plot.js";
-import { colour, element } from "../theme.js";
+import { niceAxis, niceStep, number } from "../plot.js";
+import { colour, element, svgElement } from "../theme.js";
 import { Picture, line, write } from "./picture.js";
 
 const LEFT = 54, RIGHT = 12, TOP = 12, AXIS = 24, BANDS = 64, GAP = 24;
-const OLD = [[6, 4], [2, 4], [9, 3, 2, 3]]; // how runs before are dashed, the latest first
+// Runs before, the latest first: colour and dashes.
+const OLD = [["--c5", [7, 3]], ["--c3", [2, 3]], ["--c6", [9, 3, 2, 3]]];
+const LINES = [["best so far", (row) => row.best_so_far, "--ink", 2.4, []], ["best of the generation", ({ best }) => best, "--c1", 1, []],
+               ["median", ({ median }) => median, "--c0", 1.8, []], ["what the best so far typically does", ({ typical }) => typical, "--c4", 2, [1, 4]]];
+
+/** Species, or filled cells of a map, as words. */
+export const kindsOf = ({ species, count, cells, map }) =>
+  map || cells !== undefined ? `${cells ?? map.length} cells of the map` : `${count ?? species.length} species`;
 
 export class Curve {
   constructor() {
@@ -38,20 +45,20 @@ export class Curve {
   show() {
     this.showKeys();
     const now = this.history.at(-1);
-    if (now) this.picture.label(`Curves of ${this.history.length} generations: the best so far walks ${number(now.best_so_far, 2)} m, the median ${number(now.median, 2)} m; ${now.species.length} species`);
+    if (now) this.picture.label(`Curves of ${this.history.length} generations: the best so far walks ${number(now.best_so_far, 2)} m, the median ${number(now.median, 2)} m; ${kindsOf(now)}`);
     this.picture.repaint();
   }
 
   showKeys() {
-    const key = (kind, text) => element("span", { class: `line-key key-${kind}` }, text);
-    this.keys.replaceChildren(key("best", "best so far"), key("now", "best of the generation"), key("median", "median"), key("typical", "what the best typically does"),
-      ...this.before.map(({ name }, i) => key(`old${i}`, name)));
+    const ends = ({ name, history }) => `before: ${name}, ${number(history.at(-1).best_so_far, 1)} m (typically ${number(history.at(-1).typical, 1)} m)`;
+    this.keys.replaceChildren(...LINES.map(([text, , ...look]) => key(text, ...look)),
+                              ...this.before.map((run, i) => key(ends(run), OLD[i][0], 1.8, OLD[i][1])));
   }
 
   paint(context, width, height) {
     const { history, before } = this, runs = [history, ...before.map((run) => run.history)];
     const most = Math.max(10, ...runs.map((run) => run.length - 1));
-    const bands = history.some(({ species }) => species.length) ? BANDS + GAP : 0, base = height - AXIS - bands;
+    const bands = history.some(({ species }) => species?.length) ? BANDS + GAP : 0, base = height - AXIS - bands;
     const x = (generation) => LEFT + (generation / most) * (width - LEFT - RIGHT);
     const upper_m = Math.max(0.1, ...runs.flat().map(({ best_so_far, best }) => Math.max(best_so_far, best)));
     const { lower, upper, ticks, text } = niceAxis(0, upper_m, 5);
@@ -63,19 +70,24 @@ export class Curve {
     if (runs.every((run) => run.length === 0)) write(context, "Press Start: each generation adds a point.", (LEFT + width) / 2, base / 2, { align: "center", size: 14 });
     const curve = (run, value, css, thick, dash) => line(context, run.map((row) => [x(row.generation), y(value(row))]), css, thick, dash);
     for (const generation of this.marks) this.paintMark(context, x(generation), base);
-    before.forEach((run, i) => curve(run.history, (row) => row.best_so_far, "--mid", 1.6, OLD[i]));
-    curve(history, ({ median }) => median, "--c0", 1.8);
-    curve(history, ({ best }) => best, "--c1", 1);
-    curve(history, ({ typical }) => typical, "--c4", 1.8, [1, 4]);
-    curve(history, (row) => row.best_so_far, "--ink", 2.4);
+    before.forEach((run, i) => curve(run.history, (row) => row.best_so_far, OLD[i][0], 1.8, OLD[i][1]));
+    for (const [, ...look] of [...LINES].reverse()) curve(history, ...look);
     for (const [value, css] of [[(row) => row.best_so_far, "--ink"], [(row) => row.median, "--c0"]]) this.paintEnd(context, x, y, value, css);
-    write(context, "generation 0", LEFT, base + 12, { size: 11.5 });
-    write(context, String(most), width - RIGHT, base + 12, { align: "right", size: 11.5 });
+    this.paintGenerations(context, x, base + 12, most, width);
     if (bands) this.paintSpecies(context, x, base + GAP + 8, width);
   }
 
+  paintGenerations(context, x, y, most, width) {
+    const step = Math.max(1, niceStep(most, width < 500 ? 4 : 8));
+    write(context, "generation 0", LEFT - 8, y, { size: 11.5 });
+    for (let at = step; at <= most; at += step)
+      if (x(at) > LEFT + 84) write(context, String(at), Math.min(x(at), width - RIGHT - 8), y, { align: "center", size: 11.5 });
+  }
+
+  /** The world changed. */
   paintMark(context, x, base) {
     line(context, [[x, TOP], [x, base]], "--ink", 1.2, [4, 4]);
+    write(context, "another world", x + 4, TOP + 4, { size: 11 });
   }
   paintEnd(context, x, y, value, css) {
     const now = this.history.at(-1);
@@ -103,4 +115,10 @@ export class Curve {
     context.globalAlpha = 1;
     write(context, "species", LEFT - 8, top + high / 2, { align: "right", size: 11 });
   }
+}
+
+/** A line as in the picture, and what it is. */
+function key(text, css, thick, dash) {
+  const shown = svgElement("line", { x1: 1, y1: 5, x2: 27, y2: 5, stroke: `var(${css})`, "stroke-width": Math.max(thick, 1.4), "stroke-dasharray": dash.join(" "), "stroke-linecap": "round" });
+  return element("span", { class: "line-key" }, svgElement("svg", { width: 28, height: 10, "aria-hidden": "true" }, shown), text);
 }

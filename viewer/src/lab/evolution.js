@@ -4,7 +4,7 @@ import { Thread } from "./thread.js";
 
 export class Evolution {
   /**
-   * `hear`: {began(description), generation(progress, champion | null), ended(), trouble(Error)}.
+   * `hear`: {generation(progress, champion | null), ended(), trouble(Error), changedPlan(settings), changed(generation, settings)}.
    * @param {WebAssembly.Module} module of chooseModule()
    * @param {number} threads for trials
    */
@@ -12,7 +12,7 @@ export class Evolution {
     Object.assign(this, { module, hear, generation: 0, state: "new" });
     this.search = new Thread(module);
     this.trials = Array.from({ length: threads }, () => new Thread(module));
-    this.changes = []; // {generation, plan}, by rising generation
+    this.changes = []; // {generation, settings, planned}, by rising generation
   }
 
   /** Prepares a new run, or with `files` the one that they are. Rejects with a message. */
@@ -23,8 +23,16 @@ export class Evolution {
     this.generation = this.description.generation;
     this.generations = this.description.generations;
     await Promise.all(this.trials.map((thread) => thread.ask("plan", plan)));
-    this.state = "paused";
+    this.state = this.generation < this.generations ? "paused" : "ended";
     return this.description;
+  }
+
+  /** After its end: makes room for so many generations more. */
+  async more(count) {
+    const files = await this.files(), saved = files.find(({ path }) => path === "config.json");
+    const config = { ...JSON.parse(new TextDecoder().decode(saved.bytes)), generations: this.generation + count };
+    this.went = undefined;
+    await this.open(JSON.stringify({ ...JSON.parse(this.plan), config, new: false }), files);
   }
 
   /** A champion's file: the first genome, before anything has walked; the best so far. */
@@ -33,6 +41,10 @@ export class Evolution {
   }
   champion() {
     return this.search.ask("champion");
+  }
+  /** Of the generation that ended last, as generation() hears it; after open() with files its map alone is true. */
+  progress() {
+    return this.search.ask("progress");
   }
   elite(cell) {
     return this.search.ask("elite", cell);
@@ -58,10 +70,14 @@ export class Evolution {
     for (const thread of [this.search, ...this.trials]) thread.die();
   }
 
-  /** From that generation on another world. */
-  changeAt(generation, plan) {
-    this.changes.push({ generation, plan });
-    this.changes.sort((a, b) => a.generation - b.generation);
+  /** From that generation on another world. `planned`: from the beginning, and not by who watches. */
+  changeAt(generation, settings, planned = false) {
+    this.changes.push({ generation, settings, planned });
+    this.changes.sort((a, b) => a.generation - b.generation || a.planned - b.planned);
+  }
+  /** What was to come next by who watches does not. */
+  forgetChanges() {
+    this.changes = this.changes.filter(({ planned }) => planned);
   }
 
   async run() {
@@ -88,12 +104,11 @@ export class Evolution {
 
   async changeWorld() {
     while (this.changes.length && this.changes[0].generation <= this.generation) {
-      const { plan } = this.changes.shift();
+      const { settings } = this.changes.shift(), plan = this.hear.changedPlan(settings);
       await this.search.ask("change", plan);
       this.plan = plan;
       await Promise.all(this.trials.map((thread) => thread.ask("plan", plan)));
-      this.best_generation = undefined;
-      this.hear.changed?.(this.generation);
+      this.hear.changed(this.generation, settings);
     }
   }
 

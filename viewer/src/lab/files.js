@@ -1,5 +1,6 @@
 // What the lab saves and opens: champions, robots, and runs as folders in one file.
 import { element } from "../theme.js";
+import { generationsOf } from "./table.js";
 import { fromTar, isTar, toTar } from "./tar.js";
 
 const FOLDER = "amble-run";
@@ -11,7 +12,7 @@ export function download(blob, name) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
 
-/** A run's files with what the lab remembers of it ({settings, history, marks}), as a tar of the folder. */
+/** A run's files with what the lab remembers of it ({settings, history, marks, changes}), as a tar of the folder. */
 export function runBlob(files, memory) {
   const lab = new TextEncoder().encode(JSON.stringify({ format: "amble-lab", version: VERSION, ...memory }));
   return toTar([...files, { path: "lab.json", bytes: lab }].map(({ path, bytes }) => ({ path: `${FOLDER}/${path}`, bytes })));
@@ -44,5 +45,7 @@ function readRun(all) {
   };
   const memory = JSON.parse(text("lab.json")), config = JSON.parse(text("config.json")), robot = text("robot.json");
   if (memory.format !== "amble-lab" || memory.version !== VERSION) throw new Error("its lab.json is of another version");
-  return { files: files.filter(({ path }) => path !== "lab.json"), plan: JSON.stringify({ config, robot, new: false }), memory, robot };
+  config.generations = generationsOf(text("config.toml"), config.generations); // which amble resume makes longer
+  const plan = JSON.stringify({ config, robot, new: false });
+  return { files: files.filter(({ path }) => path !== "lab.json"), plan, table: text("generations.csv"), memory, robot };
 }

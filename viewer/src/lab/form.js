@@ -20,6 +20,16 @@ const HINTS = {
 const GROUNDS = ["plane", "hills", "rough", "stones", "blocks", "stairs", "hurdles"].map((kind) => [kind, kind === "plane" ? "flat" : kind]);
 const GRAVITIES = [["1", "Earth"], ["0.38", "Mars (38 %)"], ["0.17", "Moon (17 %)"], ["2.5", "Jupiter (250 %)"]];
 
+// What a change of the world does, by the state of the run.
+const WHEN = {
+  none: "Into this world the first generation is born.",
+  paused: "A change counts from the next generation on: the best so far is that of another world then, and begins anew.",
+  ended: "The run is over. Ground, slope and a missing leg count at once for the walker in the picture. All of it, noise and gravity too, counts for more generations.",
+  broken: "The run has ended: nothing walks here any more. Begin anew to choose a world.",
+};
+WHEN.running = WHEN.paused;
+const LATER = ["noise", "gravity"];
+
 export class Form {
   /** `changed(key)` is called after the user has chosen. */
   constructor(robots, changed) {
@@ -33,7 +43,8 @@ export class Form {
       this.field("feels", "Feels its feet", element("input", { type: "checkbox" })), this.field("mutation", "Mutation", select(MUTATIONS)), this.hint("mutation"),
       this.field("lost", "It loses a leg", select([["never", "never"], ["first", "its first"]])), this.field("lostAt", "at generation", count(1, 5000)));
     this.run.append(this.more);
-    this.world = group("The world",
+    this.saidOfWorld = element("p", { class: "hint world-when" });
+    this.world = group("The world", this.saidOfWorld,
       this.field("noise", "Noise", select(NOISES)), this.hint("noise"), this.field("ground", "Ground", select(GROUNDS)),
       this.field("roughness", "Height, of a leg", slider(0.04, 0.4, 0.02, 0.12), ({ roughness }) => `${Math.round(100 * roughness)} %`),
       this.field("slope", "Uphill", slider(-0.3, 0.3, 0.02, 0), ({ slope }) => `${Math.round(100 * slope)} %`.replace("-", "−")),
@@ -93,6 +104,15 @@ export class Form {
     this.show();
   }
 
+  /** When a change of the world counts: `state` of the run, if there is one. */
+  sayWorld(state) {
+    const text = WHEN[state] ?? WHEN.none;
+    if (this.saidOfWorld.textContent !== text) this.saidOfWorld.textContent = text;
+    for (const control of this.world.querySelectorAll("input, select")) control.closest("label").classList.toggle("later", state === "ended" && LATER.includes(control.name));
+    this.broken = state === "broken";
+    this.show();
+  }
+
   /** While a run goes on only its world can be changed. */
   lock(locked) {
     this.locked = locked;
@@ -104,7 +124,8 @@ export class Form {
     for (const show of [...this.rows.map((one) => one.show), ...this.hints]) show();
     for (const control of this.run.querySelectorAll("input, select")) control.disabled = Boolean(this.locked);
     const can = (key, possible) => (this.fields.get(key).disabled = !possible);
-    can("roughness", now.ground !== "plane");
+    for (const control of this.world.querySelectorAll("input, select")) control.disabled = Boolean(this.broken);
+    if (!this.broken) can("roughness", now.ground !== "plane");
     if (this.locked) return;
     can("feels", ["supg", "together"].includes(now.controller));
     can("lostAt", now.lost !== "never");

@@ -4,19 +4,20 @@ import { Patterns } from "../patterns.js";
 import { number } from "../plot.js";
 import { element, onThemeChange } from "../theme.js";
 import { drawCppn } from "./cppn.js";
-import { Curve } from "./curve.js";
+import { Curve, kindsOf } from "./curve.js";
 import { Ends } from "./ends.js";
 import { Evolution } from "./evolution.js";
-import { download, readFile, runBlob } from "./files.js";
+import { Files } from "./open.js";
 import { Form } from "./form.js";
 import { lessonList } from "./lesson.js";
 import { MapView } from "./map_view.js";
-import { DEFAULTS, WORLD, changedPlan, configsFor, planOf } from "./plan.js";
+import { DEFAULTS, WORLD, changedPlan, planOf, sameWorld, worldOf } from "./plan.js";
 import { LabStage } from "./stage.js";
 import { Thread } from "./thread.js";
 import { Toolbar } from "./toolbar.js";
 
 const SAY_EVERY = 10; // generations, to screen readers
+const MORE = 100; // generations, after the end
 const PREVIEW_MS = 250; // after the last change of a setting
 const SUPG_NOTE = "Each leg’s joints, over one cycle of its timer. The line is where the leg is now; touch sends it back to the start.";
 const byId = (id) => document.getElementById(id);
@@ -38,8 +39,8 @@ export class Lab {
       now: (walk, time_s) => this.showNow(time_s), shown: (walk) => this.showInside(walk),
       trouble: (error) => this.complain(error.message), noPicture: () => this.noPicture(),
     });
+    this.files = new Files(this);
     onThemeChange(() => this.repaint());
-    this.openDropped();
   }
 
   async begin() {
@@ -79,7 +80,7 @@ export class Lab {
       clearTimeout(this.waiting);
       this.waiting = setTimeout(() => this.attempt(() => this.preview()), PREVIEW_MS);
     } else if (key in WORLD) {
-      this.changeWorld();
+      this.attempt(() => this.changeWorld());
     }
   }
 
@@ -97,13 +98,18 @@ export class Lab {
     byId("control").scrollIntoView({ block: "nearest", behavior: matchMedia("(prefers-reduced-motion: reduce)").matches ? "auto" : "smooth" });
   }
 
-  /** Start, pause or go on. */
+  /** Start, pause, go on, or more after the end. */
   toggle() {
     return this.attempt(async () => {
+      const { state } = this.evolution ?? {};
       if (!this.evolution) await this.start();
-      else if (this.evolution.state === "running") this.pause();
+      else if (state === "running") this.pause();
+      else if (state === "ended") await this.more();
       else this.goOn();
     });
+  }
+  get more_generations() {
+    return MORE;
   }
 
   async start() {
@@ -116,7 +122,17 @@ export class Lab {
       throw error;
     }
     if (settings.lost !== "never" && robot.facts.legs.length > 1)
-      this.evolution.changeAt(settings.lostAt, changedPlan(plan, { ...settings, missing: robot.facts.legs[0] }, robot));
+      this.evolution.changeAt(settings.lostAt, { missing: robot.facts.legs[0] }, true);
+    this.goOn();
+  }
+
+  async more() {
+    this.toolbar.busy("Starting");
+    try {
+      await this.evolution.more(MORE);
+    } finally {
+      this.refresh();
+    }
     this.goOn();
   }
 
@@ -124,9 +140,10 @@ export class Lab {
     clearTimeout(this.waiting);
     this.evolution = new Evolution(this.module, this.threads, {
       generation: (progress, champion) => this.take(progress, champion), ended: () => this.ended(),
-      changed: (generation) => this.worldChanged(generation), trouble: (error) => this.broken(error),
+      changedPlan: (changes) => this.nextPlan(changes), changed: (generation, changes) => this.worldChanged(generation, changes),
+      trouble: (error) => this.broken(error),
     });
-    Object.assign(this, { settings, progress: null, best: null, began_ms: performance.now(), steps: 0 });
+    Object.assign(this, { settings, progress: null, best: null });
     this.names = await this.evolution.open(plan, files);
     this.curve.begin(this.runName(settings));
     this.ends.begin();
@@ -160,22 +177,31 @@ export class Lab {
     this.refresh();
   }
 
-  /** From the next generation on, if it is a world in which the robot can be. */
-  changeWorld() {
-    const { evolution } = this, settings = this.form.values();
-    if (["ended", "broken"].includes(evolution.state)) return;
-    const plan = changedPlan(evolution.plan, settings, this.robot());
-    this.attempt(async () => {
-      try {
-        await this.checked(plan);
-      } catch (error) {
-        this.form.set(this.settings);
-        throw error;
-      }
-      this.settings = settings;
-      evolution.changeAt(evolution.generation, plan);
+  /** From the next generation on, if it is a world in which the robot can be; after the end what walks is put there at once. */
+  async changeWorld() {
+    const { evolution, settings } = this, world = worldOf(this.form.values());
+    if (evolution.state === "broken") return;
+    const plan = changedPlan(evolution.plan, { ...settings, ...world }, this.robot());
+    try {
+      await this.checked(plan);
+    } catch (error) {
+      this.form.set(worldOf(settings));
+      throw error;
+    }
+    evolution.forgetChanges();
+    if (!sameWorld(world, settings)) evolution.changeAt(evolution.generation, world);
+    if (evolution.state === "ended") {
+      const { ground, damage } = JSON.parse(plan).config;
+      await this.stage.put({ ground, damage });
+      this.say("The walker is there now.");
+    } else {
       this.say("The world changes with the next generation.");
-    });
+    }
+  }
+
+  nextPlan(changes) {
+    this.settings = { ...this.settings, ...changes };
+    return changedPlan(this.evolution.plan, this.settings, this.robot());
   }
 
   /** Rejects where the module refuses a plan. */
@@ -192,14 +218,13 @@ export class Lab {
 
   take(progress, champion) {
     this.progress = progress;
-    this.steps = progress.steps;
     if (champion) {
       this.best = { text: champion, generation: progress.generation };
       const title = `Best of generation ${progress.generation}`;
       this.attempt(() => this.stage.show(champion, title, { soon: !this.stage.walk || this.stage.random }));
       this.stage.random = false;
     }
-    this.curve.add({ ...progress, ends: undefined, map: undefined });
+    this.curve.add({ ...progress, ends: undefined, map: undefined, cells: progress.map?.length });
     byId("places").hidden = false;
     this.ends.add(progress);
     this.map.add(progress);
@@ -208,14 +233,13 @@ export class Lab {
   }
 
   summary() {
-    const { generation, best, best_so_far, median, fell, species } = this.progress;
-    return `Generation ${generation}: best ${number(best, 2)} m, median ${number(median, 2)} m, best so far ${number(best_so_far, 2)} m; ${fell} fell; ${species.length} species.`;
+    const { generation, best, best_so_far, median, fell } = this.progress;
+    return `Generation ${generation}: best ${number(best, 2)} m, median ${number(median, 2)} m, best so far ${number(best_so_far, 2)} m; ${fell} fell; ${kindsOf(this.progress)}.`;
   }
 
-  worldChanged(generation) {
+  worldChanged(generation, changes) {
     this.curve.mark(generation);
-    const { settings } = this;
-    if (settings.lost !== "never" && settings.lostAt === generation) this.form.set({ missing: this.robot().facts.legs[0] });
+    this.form.set(changes);
     this.say(`Generation ${generation}: the world is another one. The best starts anew.`);
   }
   ended() {
@@ -297,87 +321,5 @@ export class Lab {
     trouble.hidden = false;
     trouble.textContent = text;
     trouble.scrollIntoView({ block: "nearest" });
-  }
-
-  // Files.
-
-  saveBest() {
-    download(new Blob([this.best.text], { type: "application/json" }), "champion.json");
-  }
-  async saveRun() {
-    const { history, marks } = this.curve;
-    download(runBlob(await this.evolution.files(), { settings: { ...this.settings, ...this.form.values() }, robot: { name: this.robot().name }, history, marks }), "amble-run.tar");
-  }
-
-  openDropped() {
-    const over = (event, on) => {
-      if (![...event.dataTransfer.types].includes("Files")) return;
-      event.preventDefault();
-      document.body.classList.toggle("dropping", on);
-    };
-    addEventListener("dragover", (event) => over(event, true));
-    addEventListener("dragleave", (event) => over(event, false));
-    addEventListener("drop", (event) => {
-      over(event, false);
-      if (event.dataTransfer.files[0]) this.openFile(event.dataTransfer.files[0]);
-    });
-  }
-
-  openFile(file) {
-    return this.attempt(async () => {
-      try {
-        const read = readFile(new Uint8Array(await file.arrayBuffer()));
-        if (read.run) await this.openRun(read.run);
-        else await this.openRobot(read.champion ?? read.robot, read.champion);
-      } catch (error) {
-        throw new Error(`${file.name} was not opened: ${error.message}`);
-      }
-    });
-  }
-
-  async openRobot(text, champion) {
-    const facts = await this.facts(text);
-    if (!facts.legs.length) throw new Error("its robot has no legs");
-    this.anew();
-    this.addRobot("own", facts, text);
-    this.form.set({ ...this.form.values(), robot: "own" });
-    this.form.setRobot(this.robot());
-    await this.preview();
-    if (!champion) return this.say(`${facts.name} is chosen. Press Start to evolve it.`);
-    this.names = { inputs: [], outputs: [] };
-    this.best = { text, generation: JSON.parse(text).generation };
-    await this.stage.show(text, "From the file");
-    this.stage.random = true;
-    this.refresh();
-  }
-
-  addRobot(id, facts, text, gravity = 1) {
-    const [model] = this.robots.values(), name = `${facts.name} (yours)`;
-    this.robots.set(id, { id, name, text, facts, gravity, configs: configsFor(facts, model) });
-    this.form.addRobot(id, name);
-  }
-
-  async openRun({ files, plan, memory, robot }) {
-    const facts = await this.facts(robot), { settings, history, marks } = memory;
-    this.anew();
-    this.addRobot("own", facts, robot, settings.gravity);
-    this.form.set({ ...DEFAULTS, ...WORLD, ...settings, robot: "own" });
-    this.form.setRobot(this.robot());
-    this.form.set({ missing: settings.missing });
-    this.stepName = undefined;
-    try {
-      await this.open(plan, { ...settings, robot: "own" }, files);
-    } catch (error) {
-      this.anew();
-      throw error;
-    }
-    Object.assign(this.curve, { history: history.slice(0, this.evolution.generation), marks });
-    this.curve.show();
-    this.progress = this.curve.history.at(-1) ?? null;
-    const text = await this.evolution.champion();
-    this.best = { text, generation: this.progress?.best_generation ?? 0 };
-    await this.stage.show(text, `Best of generation ${this.best.generation}`);
-    this.say(`The run is open: ${this.evolution.generation} generations are over. Press Go on.`);
-    this.refresh();
   }
 }

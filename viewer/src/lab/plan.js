@@ -2,10 +2,14 @@
 
 /** What a lesson begins with. World: what may change while a run goes on. */
 export const DEFAULTS = {
-  robot: "quadruped", controller: "supg", search: "objective", population: 60, generations: 100, seed: 1, seconds: 8,
+  robot: "hexapod", controller: "supg", search: "objective", population: 60, generations: 100, seed: 1, seconds: 8,
   feels: true, mutation: "all", lost: "never", lostAt: 50,
 };
 export const WORLD = { noise: "little", ground: "plane", roughness: 0.12, slope: 0, gravity: 1, missing: "" };
+
+/** Of settings those of the world. */
+export const worldOf = (settings) => Object.fromEntries(Object.keys(WORLD).map((key) => [key, settings[key] ?? WORLD[key]]));
+export const sameWorld = (one, other) => Object.keys(WORLD).every((key) => one[key] === (other[key] ?? WORLD[key]));
 
 /** A damage's settings, all of which a config must have. */
 const PART = { kind: "missing", leg: "", joint: "", body: "", angle_rad: 0, share: 0.5, mass_kg: 1, x_m: 0, y_m: 0, z_m: 0, from_s: 0 };

@@ -33,7 +33,7 @@ export class LabStage {
     const same = this.walk && name === this.robotName && joints.length === this.joints;
     if (same) this.walk.become(live);
     else this.begin(live, title);
-    Object.assign(this, { title, robotName: name, joints: joints.length, text });
+    Object.assign(this, { title, robotName: name, joints: joints.length, text, elsewhere: false });
     this.again();
     this.hear.shown(this.walk);
   }
@@ -57,9 +57,20 @@ export class LabStage {
     };
   }
 
+  /** What walks begins again on another ground or with another body: {ground, damage}, as in a config. Rejects with a message. */
+  async put({ ground, damage }) {
+    const { live, description } = this.walk, known = Object.keys(description.ground);
+    await live.setGround({ ...description.ground, ...Object.fromEntries(Object.entries(ground).filter(([key]) => known.includes(key))) });
+    await live.setDamage(damage);
+    this.elsewhere = true;
+    this.walk.renew();
+    this.again();
+    this.clock.play();
+  }
+
   /** From its start, if it may move. */
   again() {
-    if (this.walk.seconds > 0) this.walk.restart({ asEvolved: true });
+    if (this.walk.seconds > 0 || this.elsewhere) this.walk.restart({ asEvolved: !this.elsewhere });
     this.duration_s = this.walk.description.duration_s;
     this.over_s = 0;
     this.began_ms = performance.now();

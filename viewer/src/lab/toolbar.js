@@ -2,8 +2,11 @@
 import { number } from "../plot.js";
 import { element } from "../theme.js";
 import { button } from "../widgets.js";
+import { mapBins } from "./plan.js";
 
 const PUSH_S = 0.1, PUSH_M_S = 0.25; // a push gives the whole robot this speed
+
+const NUMBERS = ["Generations", "Best so far", "Best, typically", "Median of all", "Species", "Generations/s"];
 
 const byId = (id) => document.getElementById(id);
 
@@ -12,11 +15,11 @@ export class Toolbar {
     this.lab = lab;
     this.start = button("Start", () => lab.toggle(), { class: "primary" });
     this.again = button("Stop and begin anew", () => this.beginAnew());
-    this.saveBest = button("Save the walker", () => lab.saveBest(), { title: "A champion’s file, which all commands of amble take" });
-    this.saveRun = button("Save the run", () => lab.attempt(() => lab.saveRun()), { title: "A folder in one file: the lab opens it again, and amble resume goes on with it" });
+    this.saveBest = button("Save the walker", () => lab.files.saveBest(), { title: "A champion’s file, which all commands of amble take" });
+    this.saveRun = button("Save the run", () => lab.attempt(() => lab.files.saveRun()), { title: "A folder in one file: the lab opens it again, and amble resume goes on with it" });
     this.file = element("input", { type: "file", id: "file", class: "unseen", accept: ".json,.tar,application/json,application/x-tar", "aria-label": "Open a robot, a champion or a run", tabindex: "-1" });
     this.file.addEventListener("change", () => {
-      if (this.file.files[0]) lab.openFile(this.file.files[0]);
+      if (this.file.files[0]) lab.files.open(this.file.files[0]);
       this.file.value = "";
     });
     this.open = button("Open a file", () => this.file.click(), { title: "A robot.json, a champion, or a run that was saved here; or drop it on the page" });
@@ -24,10 +27,11 @@ export class Toolbar {
     this.walk = button("Let it walk", () => this.toggleWalk());
     this.push = button("Push it", () => this.pushIt(), { title: "From its right side; or drag its body" });
     byId("views").append(this.walk, this.push);
-    this.numbers = ["Generation", "Best so far", "Typically", "Median", "Species", "Pace"].map((name) => {
+    this.numbers = NUMBERS.map((name) => {
       const value = element("dd", {});
-      byId("now").append(element("div", {}, element("dt", {}, name), value));
-      return value;
+      const label = element("dt", {}, name);
+      byId("now").append(element("div", {}, label, value));
+      return { label, value };
     });
     this.interval = setInterval(() => this.showWalk(), 300);
     this.show();
@@ -46,11 +50,12 @@ export class Toolbar {
 
   show() {
     const { lab } = this, { evolution, progress } = lab, state = evolution?.state;
-    this.start.textContent = !evolution ? "Start" : state === "running" ? "Pause" : state === "ended" ? "It is over" : "Go on";
-    this.start.disabled = ["ended", "broken"].includes(state);
+    this.start.textContent = !evolution ? "Start" : state === "running" ? "Pause" : state === "ended" ? `${lab.more_generations} more generations` : "Go on";
+    this.start.disabled = state === "broken";
     this.again.hidden = !evolution;
     this.saveBest.hidden = !lab.best;
     this.saveRun.hidden = !evolution || !progress;
+    lab.form.sayWorld(state);
     const bar = byId("progress");
     bar.max = evolution?.generations ?? 1;
     bar.value = evolution?.generation ?? 0;
@@ -60,10 +65,12 @@ export class Toolbar {
 
   showNumbers(progress, evolution) {
     const metres = (value) => [number(value, 2), element("small", {}, " m")];
-    const per_s = evolution?.rate ? [number(evolution.rate, evolution.rate < 10 ? 1 : 0), element("small", {}, " per second")] : ["–"];
-    const all = [[`${progress.generation + 1}`, element("small", {}, ` of ${evolution?.generations ?? "–"}`)], metres(progress.best_so_far),
-                 metres(progress.typical), metres(progress.median), progress.map ? [`${progress.map.length}`, element("small", {}, " cells")] : [`${progress.species.length}`], per_s];
-    this.numbers.forEach((cell, i) => cell.replaceChildren(...all[i]));
+    const { rate } = evolution ?? {}, { map } = progress, of = (total) => element("small", {}, ` of ${total}`);
+    const kinds = map ? [`${map.length}`, of(mapBins ** 2)] : [`${progress.count ?? progress.species.length}`];
+    const all = [[`${progress.generation + 1}`, of(evolution?.generations ?? "–")], metres(progress.best_so_far), metres(progress.typical),
+                 metres(progress.median), kinds, [rate ? number(rate, rate < 10 ? 1 : 0) : "–"]];
+    this.numbers.forEach(({ value }, i) => value.replaceChildren(...all[i]));
+    this.numbers[NUMBERS.indexOf("Species")].label.textContent = map ? "Cells filled" : "Species";
   }
 
   toggleWalk() {

@@ -51,6 +51,7 @@ const CAN = {
   chunks,
   take: (first, bytes) => machine.give("run_take", bytes, first),
   tell: (wall_s) => JSON.parse(machine.take("run_tell", wall_s)),
+  progress: () => JSON.parse(machine.take("run_progress")),
   first: () => machine.take("run_first"),
   champion: () => machine.take("run_champion"),
   elite: (cell) => machine.take("run_elite", cell),
