@@ -8,7 +8,7 @@ const section = (title, text, ...content) =>
   element("section", {}, element("h2", {}, title), ...(text ? [element("p", { class: "lead" }, text)] : []), ...content);
 /** A picture that came with the page. */
 function drawing(svg) {
-  const box = element("div", { class: "scroll cppn-box" });
+  const box = element("div", { class: "scroll cppn-box", tabindex: "0", role: "group", "aria-label": "The network, which may be wider than the page" });
   box.innerHTML = svg;
   const picture = box.firstElementChild;
   picture.style.minWidth = `${0.65 * picture.width.baseVal.value}px`; // for legibility on a phone

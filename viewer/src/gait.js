@@ -24,7 +24,7 @@ export class GaitTable {
     Object.assign(this, { walk, gait: walk.gait });
     this.element = element("div", { class: "gait-box" });
     if (this.gait) this.element.append(this.headline());
-    this.element.append(element("div", { class: "scroll" }, this.table()));
+    this.element.append(element("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": "Footfall of each leg, which may be wider than the page" }, this.table()));
     if (this.now && walk.robot.legs.length > MOST_COLUMNS)
       this.element.append(element("p", { class: "gait-now-line" }, "Now: ", this.title));
     if (this.gait) this.element.append(this.key(), this.figures());
@@ -45,7 +45,7 @@ export class GaitTable {
       element("tr", attributes, first, ...cells.map((cell) => element("td", {}, cell)));
     const th = (title) => element("th", {}, title);
     if (legs.length > MOST_COLUMNS) {
-      const titles = element("tr", {}, th(""), ...measures.map(({ title, now }) => th(now ? `${title} now` : title)));
+      const titles = element("tr", {}, element("td", {}), ...measures.map(({ title, now }) => th(now ? `${title} now` : title)));
       const rows = head.map((name, leg) => row(name, measures.map(({ cells }) => cells[leg])));
       return element("table", { class: "gait by-leg" }, titles, ...rows);
     }
@@ -55,7 +55,7 @@ export class GaitTable {
       const title = element("td", { colspan: legs.length }, this.title);
       rows.splice(first, 0, element("tr", { class: "gait-now" }, th("Now"), title));
     }
-    return element("table", { class: "gait" }, element("tr", {}, th(""), ...head), ...rows);
+    return element("table", { class: "gait" }, element("tr", {}, element("td", {}), ...head), ...rows);
   }
 
   /** {title, cells: one per leg, now: whether they follow the time}. */

@@ -33,7 +33,7 @@ function table({ table: [head, ...rows], table_title, table_note }, cells, onCho
     return element("tr", {}, element("th", { scope: "row" }, choose), ...row.slice(1).map((text) => element("td", {}, text)));
   });
   const made = element("table", { class: "trials" }, element("tr", {}, ...head.map((text) => element("th", { scope: "col" }, text))), ...body);
-  return [element("h2", {}, table_title), element("p", { class: "lead" }, table_note), element("div", { class: "scroll" }, made)];
+  return [element("h2", {}, table_title), element("p", { class: "lead" }, table_note), element("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": table_title }, made)];
 }
 
 /** Fills the section of the map. `onChoose` gets the cells that shall walk. */
