@@ -69,7 +69,7 @@ export class Curve {
     }
     if (runs.every((run) => run.length === 0)) write(context, "Press Start: each generation adds a point.", (LEFT + width) / 2, base / 2, { align: "center", size: 14 });
     const curve = (run, value, css, thick, dash) => line(context, run.map((row) => [x(row.generation), y(value(row))]), css, thick, dash);
-    for (const generation of this.marks) this.paintMark(context, x(generation), base);
+    for (const generation of this.marks) this.paintMark(context, x(generation), base, width);
     before.forEach((run, i) => curve(run.history, (row) => row.best_so_far, OLD[i][0], 1.8, OLD[i][1]));
     for (const [, ...look] of [...LINES].reverse()) curve(history, ...look);
     for (const [value, css] of [[(row) => row.best_so_far, "--ink"], [(row) => row.median, "--c0"]]) this.paintEnd(context, x, y, value, css);
@@ -85,9 +85,10 @@ export class Curve {
   }
 
   /** The world changed. */
-  paintMark(context, x, base) {
+  paintMark(context, x, base, end) {
     line(context, [[x, TOP], [x, base]], "--ink", 1.2, [4, 4]);
-    write(context, "another world", x + 4, TOP + 4, { size: 11 });
+    const right = x > end - 90;
+    write(context, "another world", right ? x - 4 : x + 4, TOP + 4, { align: right ? "right" : "left", size: 11 });
   }
   paintEnd(context, x, y, value, css) {
     const now = this.history.at(-1);

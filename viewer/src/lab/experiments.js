@@ -1,22 +1,29 @@
 // Experiments for a lesson: settings, a question to think about before, and what to look for after. `steps` are runs one after the other;
 // the curve of the run before stays in the diagram to compare with.
 
-export const EXPERIMENTS = [
-  { id: "first", title: "The first steps", question: "The first networks are random. Will any of them walk? How would you find out which is the best of sixty bad ones?",
+// In experiments that compare: enough robots for species to be seen.
+const SIXTY = { population: 60, generations: 100 };
+const compared = ({ steps, ...rest }) => ({ ...rest, steps: steps.map(({ name, set }) => ({ name, set: { ...SIXTY, ...set } })) });
+
+const FIRST = [
+  { id: "first", title: "The first steps", question: "The first networks are random. Will any of them walk? How would you find out which is the best of twenty bad ones?",
     steps: [{ name: "Evolve a walker", set: {} }],
     look: "When does the curve rise: slowly, or in jumps? What does the walker do differently after a jump? Which feet move together?" },
   { id: "luck", title: "Luck", question: "If the same evolution began again with other dice, would it find the same way of walking?",
     steps: [{ name: "Seed 1", set: { seed: 1 } }, { name: "Seed 2", set: { seed: 2 } }, { name: "Seed 3", set: { seed: 3 } }],
     look: "How far apart are the curves? Anything you compare in the other experiments must be larger than that. Let everybody in the class take a seed." },
+];
+
+const COMPARISONS = [
   { id: "trigger", title: "Without feeling its feet", question: "A foot that touches the ground starts its leg’s movement anew. What if the movements just repeat, whatever the feet feel?",
     steps: [{ name: "With touch", set: {} }, { name: "Without touch", set: { feels: false } }],
     look: "Which one gets farther? Push both (drag the body): which one finds its rhythm again?" },
   { id: "together", title: "All legs start together", question: "The network also decides when each leg starts: its offset. What can a robot do whose legs must all start together?",
     steps: [{ name: "Own starts", set: {} }, { name: "All together", set: { controller: "together" } }],
-    look: "Look at the feet: do the legs stay together? Touch can drive them apart again. How?" },
+    look: "Look at the feet: do the legs stay together? Touch can drive them apart again. How? Compare what each typically does: who falls?" },
   { id: "mutation", title: "No mutation", question: "Children are mixed from their parents, but nothing new is ever added. How long can that go on getting better?",
     steps: [{ name: "With mutations", set: {} }, { name: "Only mixing", set: { mutation: "none" } }],
-    look: "Look at the median: all become alike. What became of the species?" },
+    look: "Look at how near the median comes to the best: all become alike. How long does the best still rise?" },
   { id: "growth", title: "A network that cannot grow", question: "Mutations usually add nodes and links. Is that needed to walk?",
     steps: [{ name: "It may grow", set: {} }, { name: "It stays as it is", set: { mutation: "weights" } }],
     look: "Count the nodes of the champion’s network. Do its painted patterns have more bends when it may grow?" },
@@ -37,11 +44,13 @@ export const EXPERIMENTS = [
     look: "Compare the best, but also what it typically does. Change the ground afterwards: which one minds more?" },
   { id: "noise", title: "One walk is not a gait", question: "Without any noise each walk is exactly the same every time. Is the best then a good walker, or a lucky one?",
     steps: [{ name: "No noise", set: { noise: "none" } }, { name: "A little noise", set: { noise: "little" } }, { name: "Pushes, too", set: { noise: "strong" } }],
-    look: "Compare the best with the number beside “typically”: what is left when the start differs by a thousandth of a radian?" },
-  { id: "rough", title: "Rough ground", question: "On uneven ground every generation meets other bumps. Will it learn to lift its feet?",
-    steps: [{ name: "Flat", set: {} }, { name: "Rough", set: { ground: "rough", roughness: 0.2 } }],
-    look: "Look at the feet from the side. Then put the walker of the flat ground onto the rough one, and the other way round." },
+    look: "Compare “best so far” with “best, typically”: what is left when the start differs by a thousandth of a radian?" },
+  { id: "rough", title: "Hurdles", question: "Bars lie across the way, a fifth of a leg high, in every generation elsewhere. Does who grew up among them walk better there than who grew up on flat ground?",
+    steps: [{ name: "Flat", set: {} }, { name: "Hurdles", set: { ground: "hurdles", roughness: 0.2 } }],
+    look: "Look at the feet from the side. When a run is over, choose the other ground: who minds more, the walker of the flat ground or that of the hurdles?" },
   { id: "map", title: "Not one winner, but many", question: "What if the best of each kind is kept: those that slide, those that hop, tall ones, low ones?",
     steps: [{ name: "Fill a map", set: { search: "map-elites", generations: 150 } }],
     look: "Choose cells of the map: who walks there? Where are cells that stay empty, and why can nobody walk like that?" },
 ];
+
+export const EXPERIMENTS = [...FIRST, ...COMPARISONS.map(compared)];

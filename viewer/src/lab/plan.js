@@ -2,7 +2,7 @@
 
 /** What a lesson begins with. World: what may change while a run goes on. */
 export const DEFAULTS = {
-  robot: "hexapod", controller: "supg", search: "objective", population: 60, generations: 100, seed: 1, seconds: 8,
+  robot: "hexapod", controller: "supg", search: "objective", population: 20, generations: 300, seed: 1, seconds: 8,
   feels: true, mutation: "all", lost: "never", lostAt: 50,
 };
 export const WORLD = { noise: "little", ground: "plane", roughness: 0.12, slope: 0, gravity: 1, missing: "" };
@@ -51,7 +51,7 @@ function world(config, settings, facts) {
   if (now.noise !== "strong") Object.assign(config.noise, now.noise === "little" ? LITTLE_NOISE : NO_NOISE);
   Object.assign(config.ground, { kind: now.ground, slope_x: now.slope });
   if (now.ground !== "plane")
-    Object.assign(config.ground, { height_m: now.roughness * tall_m, length_m: Math.min(Math.max(2.5 * tall_m, 0.05), 100), start_radius_m: 1.5 * tall_m,
+    Object.assign(config.ground, { height_m: now.roughness * tall_m, length_m: Math.min(Math.max(2.5 * tall_m, 0.05), 100), start_radius_m: 2.25 * tall_m,
                                    cell_m: Math.min(Math.max(0.2 * tall_m, 0.005), 0.04), vary: "generations" });
   config.damage.parts = now.missing ? [{ ...PART, leg: now.missing }] : [];
 }

@@ -2,10 +2,11 @@
 // The tables of docs/LAB.md: what comes out at the lab's settings. Runs are those of `amble evolve`, which have the lab's bits, with
 // the configs that the lab writes; needs Node.js and a PROGRAM that was built.
 //
-//   tools/lab-table PROGRAM first [--seeds 10] [--folder DIR]          the first settings of each robot
-//   tools/lab-table PROGRAM experiments [--seeds 3] [--folder DIR]     all experiments, or those that are named: --only leg,map
+//   tools/lab-table.mjs PROGRAM first [--seeds 10] [--folder DIR]          the first settings of each robot
+//   tools/lab-table.mjs PROGRAM experiments [--seeds 3] [--folder DIR]     all experiments, or those that are named: --only leg,map
+//   tools/lab-table.mjs PROGRAM costs                                      seconds of a processor, and megabytes
 //
-// DIR (default: lab-runs) keeps the runs; what is there is not run again. --processes 2 go at a time.
+// DIR (default: runs/lab) keeps the runs; what is there is not run again. --processes 2 go at a time.
 import { execFile, execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { existsSync, mkdirSync, readFileSync, readdirSync, renameSync, rmSync, writeFileSync } from "node:fs";
@@ -19,10 +20,10 @@ import { DEFAULTS, WORLD, changedPlan, planOf } from "../viewer/src/lab/plan.js"
 const source = (name) => fileURLToPath(new URL(`../${name}`, import.meta.url));
 const { values: options, positionals: [program, what] } = parseArgs({
   allowPositionals: true,
-  options: { seeds: { type: "string" }, folder: { type: "string", default: "lab-runs" }, only: { type: "string" }, processes: { type: "string", default: "2" } },
+  options: { seeds: { type: "string" }, folder: { type: "string", default: "runs/lab" }, only: { type: "string" }, processes: { type: "string", default: "2" } },
 });
-if (!program || !["first", "experiments"].includes(what)) {
-  console.error("tools/lab-table PROGRAM first|experiments [--seeds N] [--folder DIR] [--only ID,…] [--processes N]");
+if (!program || !["first", "experiments", "costs"].includes(what)) {
+  console.error("tools/lab-table.mjs PROGRAM first|experiments|costs [--seeds N] [--folder DIR] [--only ID,…] [--processes N]");
   process.exit(2);
 }
 process.env.AMBLE_PROGRAM = resolve(program);
@@ -101,28 +102,67 @@ const shown = robots.has(DEFAULTS.robot) ? DEFAULTS.robot : [...robots.keys()][0
 const complete = (set, robotName, label) => ({ ...DEFAULTS, ...WORLD, ...set, robotName, label });
 const sum = (values) => values.reduce((total, value) => total + value, 0);
 
-/** What the first settings reach, robot by robot; the one that is shown first with more seeds. */
+/** What the first settings reach, robot by robot: that which is shown first with more seeds, and the paper's with what it needs. */
 async function first() {
-  const cases = [...robots.keys()].sort((a, b) => (b === shown) - (a === shown)).map((name) => [name, seeds(name === shown ? 10 : 3)]);
-  const settings = (name, seed) => complete({ seed }, name, "first settings");
-  const rows = await allRows(cases.flatMap(([name, all]) => all.map((seed) => settings(name, seed))));
-  line("robot, seeds", "typically, m, after 25 generations", "50", `${DEFAULTS.generations}`, `best, m, after ${DEFAULTS.generations}`, "robot-steps, millions");
-  line("---", "---", "---", "---", "---", "---");
-  for (const [name, all] of cases) {
-    const runs = all.map((seed) => rows(settings(name, seed))), at = (generation) => runs.map((run) => metres(run[generation - 1].typical)).join(" ");
+  const names = [...robots.keys()].sort((a, b) => (b === shown) - (a === shown));
+  const cases = names.map((name) => ({ name, all: seeds(name === shown ? 10 : 3), set: {}, label: name }));
+  for (const name of names.filter((one) => one.startsWith("quadruped")))
+    cases.push({ name, all: seeds(3), set: { population: 100, generations: 100, seconds: 12 }, label: `${name}, 100 of 100, 12 s` });
+  const settings = ({ name, set, label }, seed) => complete({ seed, ...set }, name, label);
+  const rows = await allRows(cases.flatMap((one) => one.all.map((seed) => settings(one, seed))));
+  line("robot", "seeds", "typically, m, after a sixth of the generations", "a third", "all", "best, m", "robot-steps, millions");
+  line("---", "---", "---", "---", "---", "---", "---");
+  for (const one of cases) {
+    const runs = one.all.map((seed) => rows(settings(one, seed))), at = (share) => runs.map((run) => metres(run[Math.round(share * run.length) - 1].typical)).join(", ");
     const steps = runs.map((run) => sum(run.map((row) => row.steps)) / 1e6);
-    line(`${name}, 1 to ${all.length}`, at(25), at(50), at(DEFAULTS.generations), runs.map((run) => metres(run.at(-1).best_so_far)).join(" "), metres(sum(steps) / steps.length));
+    line(one.label, `1 to ${one.all.length}`, at(1 / 6), at(1 / 3), at(1), runs.map((run) => metres(run.at(-1).best_so_far)).join(", "), metres(sum(steps) / steps.length));
   }
 }
 
-/** What is said of a run, beside its distances. */
+/** What generations cost in the module, in seconds of one processor, and how large the page is. */
+async function costs() {
+  line("robot", "robot-steps a second", "first 10 generations, s");
+  line("---", "---", "---");
+  for (const [name, robot] of robots) {
+    const lab = await LabRun.begin(module, planOf({ ...DEFAULTS, ...WORLD }, robot)), before = process.cpuUsage();
+    let steps = 0;
+    for (let i = 0; i < 10; ++i) ({ steps } = lab.step());
+    const { user, system } = process.cpuUsage(before), took_s = (user + system) / 1e6;
+    line(name, Math.round(steps / took_s / 1000) * 1000, metres(took_s));
+  }
+  const bytes = readFileSync(lab).length, packed = /id="amble-module">(.*?)<\/script>/s.exec(readFileSync(lab, "utf8"))[1].length;
+  console.log(`\nThe page: ${(bytes / 1e6).toFixed(2)} MB, ${(packed / 1e6).toFixed(2)} of it the simulator.`);
+}
+
+/** What is said of a run, beside its distances; `at`: its folder, `others`: those of the same seed in the other steps. */
 const MORE = {
+  together: (run) => fell(run),
   mutation: (run) => `median ${metres(run.at(-1).median)}, ${run.at(-1).species} species`,
   growth: (run) => `${run.at(-1).best_hidden} hidden nodes`,
+  novelty: (run, at, settings) => spread(at, settings),
   leg: (run) => recovery(run),
   tiny: (run) => `${run.at(-1).species} species, ${flat(run)}`,
+  noise: (run) => fell(run),
+  rough: (run, at, settings, others) => elsewhere(at, others),
   map: (run) => `${run.at(-1).elites} cells`,
 };
+
+const fell = (run) => `${Math.round(100 * run.at(-1).typical_fell)} % fell`;
+
+/** How far from their middle the next generation ends. */
+async function spread(at, settings) {
+  const plan = planOf(settings, robots.get(settings.robotName)), begun = await LabRun.begin(module, plan);
+  const config = JSON.parse(Buffer.from(begun.files().find(([path]) => path === "config.json")[1]).toString());
+  const { ends } = (await LabRun.begin(module, JSON.stringify({ ...JSON.parse(plan), config, new: false }), { files: filesOf(at) })).step();
+  const x = ends.filter((_, i) => i % 2 === 0), y = ends.filter((_, i) => i % 2), middle = (all) => sum(all) / all.length;
+  return `${metres(middle(x.map((one, i) => Math.hypot(one - middle(x), y[i] - middle(y)))))} m apart`;
+}
+
+/** What the champion typically does on the ground of the other step. */
+async function elsewhere(at, [other]) {
+  const { stdout } = await amble("trial", at, "--ground", join(other, "config.toml"), "--trials", "16");
+  return `${metres(Number(/typically ([0-9.]+) m/.exec(stdout)[1]))} on the other ground`;
+}
 
 /** From the last generation with all legs to the generation that is typically as good. */
 function recovery(run) {
@@ -154,10 +194,12 @@ async function experiments() {
   line("---", "---", "---", "---", "---");
   let before;
   for (const { id, title, name, runs } of all) {
+    const more = [], others = (seed) => all.filter((one) => one.id === id && one.name !== name).map((one) => placeOf(one.runs.find((run) => run.seed === seed) ?? one.runs[0]));
+    for (const one of MORE[id] ? runs : []) more.push(await MORE[id](rows(one), placeOf(one), one, others(one.seed)));
     const ends = runs.map((one) => rows(one)), last = (column) => ends.map((run) => metres(run.at(-1)[column])).join(", ");
-    line(id === before ? "" : title, name, last("best_so_far"), last("typical"), MORE[id] ? ends.map(MORE[id]).join("; ") : "");
+    line(id === before ? "" : title, name, last("best_so_far"), last("typical"), more.join("; "));
     before = id;
   }
 }
 
-await { first, experiments }[what]();
+await { first, experiments, costs }[what]();
