@@ -104,6 +104,23 @@ test("any number of threads gives the same generations", async () => {
   assert.deepEqual(all[0], all[1]);
 });
 
+test("a pause in the midst of a generation of many genomes ends in the same generations", async () => {
+  const all = [];
+  for (const pauses of [0, 6])
+    await inLab({}, async (page) => {
+      await set(page, { ...SMALL, population: 100, generations: 4 });
+      await button(page, "Start").click();
+      for (let i = 0; i < pauses; ++i) {
+        await page.waitForTimeout(150);
+        await page.evaluate(() => { const { evolution } = window.amble; if (evolution.state === "running") { evolution.pause(); setTimeout(() => evolution.goOn(), 400); } });
+        await page.waitForTimeout(500);
+      }
+      await page.waitForFunction(() => window.amble.evolution?.state === "ended", null, { timeout: 120_000 });
+      all.push((await history(page)).map(({ best, median }) => [best, median]));
+    });
+  assert.deepEqual(all[0], all[1]);
+});
+
 test("a run that was saved is opened and goes on to the same generations", () =>
   inLab({}, async (page) => {
     await set(page, { ...SMALL, generations: 60, search: "novelty" });

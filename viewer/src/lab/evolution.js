@@ -12,6 +12,7 @@ export class Evolution {
     Object.assign(this, { module, hear, generation: 0, state: "new" });
     this.search = new Thread(module);
     this.trials = Array.from({ length: threads }, () => new Thread(module));
+    this.waiting = []; // what goes on when it is no longer paused
     this.changes = []; // {generation, settings, planned}, by rising generation
   }
 
@@ -58,7 +59,7 @@ export class Evolution {
     if (this.state !== "paused") return;
     this.state = "running";
     this.went ??= this.run();
-    this.resume?.();
+    this.resume();
   }
   /** Takes effect as soon as the trials that run now have ended. */
   pause() {
@@ -66,7 +67,7 @@ export class Evolution {
   }
   stop() {
     this.state = "stopped";
-    this.resume?.();
+    this.resume();
     for (const thread of [this.search, ...this.trials]) thread.die();
   }
 
@@ -96,9 +97,12 @@ export class Evolution {
     }
   }
 
-  /** Waits while it is paused. */
+  resume() {
+    for (const done of this.waiting.splice(0)) done();
+  }
+  /** Waits while it is paused; each thread may. */
   async going() {
-    while (this.state === "paused") await new Promise((done) => (this.resume = done));
+    while (this.state === "paused") await new Promise((done) => this.waiting.push(done));
     if (this.state === "stopped") throw new Error("stopped");
   }
 
