@@ -1,4 +1,5 @@
-# amble_library(<folder> SOURCES … [PUBLIC …] [PRIVATE …]): one static library per folder of src/, target amble_<folder>.
+# amble_library(<folder> SOURCES … [PUBLIC …] [PRIVATE …] [NOT_INSTALLED]): one static library per folder of src/, target amble_<folder>.
+# NOT_INSTALLED: it is part of the program alone, and no component for users.
 # amble_quickly_compiled(<target>): not optimised under sanitizers, as it computes little and compiling takes longer than its tests.
 # amble_release_options(SOURCES … OPTIONS …): what some sources of a folder are compiled with in release builds, beside the rest.
 # amble_registers(<folder>): the folder's library adds something to a registry of another.
@@ -76,7 +77,7 @@ function(amble_kernels)
 endfunction()
 
 function(amble_library folder)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "NOT_INSTALLED" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target amble_${folder})
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(amble::${folder} ALIAS ${target})
@@ -85,7 +86,9 @@ function(amble_library folder)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE $<BUILD_INTERFACE:amble_options> ${ARG_PRIVATE})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${folder})
-  set_property(GLOBAL APPEND PROPERTY AMBLE_LIBRARIES ${target})
+  if(NOT ARG_NOT_INSTALLED)
+    set_property(GLOBAL APPEND PROPERTY AMBLE_LIBRARIES ${target})
+  endif()
   if(AMBLE_PRECOMPILED_HEADERS)
     target_precompile_headers(${target} REUSE_FROM amble_common_headers)
   endif()

@@ -1,4 +1,4 @@
-// Makes dist/page.html and dist/lab.html, the pages that amble fills with recordings and with robots: skeleton, style
+// Makes dist/page.html, dist/lab.html and dist/watch.html, the pages that amble fills with recordings, with robots, and serves: skeleton, style
 // sheet, program and the licences of what is in it, in one file. `--check` compares with what is there instead of writing.
 //
 // The result depends on the sources and on package-lock.json only: no time, no path, no host.
@@ -26,16 +26,17 @@ async function bundle(source, define = {}) {
   return outputFiles[0].text.trim();
 }
 
-/** A page: skeleton, style sheets, and a program that holds its worker's as a text. */
+/** A page: skeleton, style sheets, and a program that holds its worker's, if it has one, as a text. */
 const PAGES = [
   { name: "page.html", skeleton: "src/page.html", styles: ["src/style.css"], program: "src/main.js", worker: ["AMBLE_EVOLVE_WORKER", "src/evolve_worker.js"] },
   { name: "lab.html", skeleton: "src/lab/lab.html", styles: ["src/style.css", "src/lab/lab.css"], program: "src/lab/main.js", worker: ["AMBLE_LAB_WORKER", "src/lab/worker.js"] },
+  { name: "watch.html", skeleton: "src/watch/watch.html", styles: ["src/style.css", "src/lab/lab.css", "src/watch/watch.css"], program: "src/watch/main.js" },
 ];
 
-async function make({ skeleton, styles, program, worker: [name, worker] }) {
+async function make({ skeleton, styles, program, worker }) {
   const sheets = (await Promise.all(styles.map(read))).join("\n");
   const style = (await transform(sheets, { loader: "css", minify: true })).code.trim();
-  const script = await bundle(program, { [name]: JSON.stringify(await bundle(worker)) });
+  const script = await bundle(program, worker && { [worker[0]]: JSON.stringify(await bundle(worker[1])) });
   for (const [what, text] of [["program", script], ["style sheet", style]])
     if (/<\/(script|style)|<!--/i.test(text)) throw new Error(`the ${what} would end its element`);
   const licence = (await read("node_modules/three/LICENSE")).trim();

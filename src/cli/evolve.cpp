@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "amble/cli/help.hpp"
+#include "amble/cli/live_server.hpp"
 #include "amble/cli/messages.hpp"
 #include "amble/cli/options.hpp"
 #include "amble/cli/progress.hpp"
@@ -21,11 +22,28 @@
 namespace amble::cli {
 namespace {
 
+struct WatchOptions {
+  bool watch = false;
+  LiveOptions live;
+};
+
 struct EvolveOptions {
   std::filesystem::path config, out;
   experiment::Overrides overrides;
   int jobs = 1;
+  WatchOptions watch;
 };
+
+void add_watch(CLI::App& command, WatchOptions& options) {
+  auto* flag = command.add_flag("--watch", options.watch,
+                                "Serve a page of the run while it goes on, to browsers here");
+  add_live(command, options.live, flag);
+}
+
+/// Takes the port before anything is written.
+std::unique_ptr<LiveServer> server_for(const WatchOptions& options) {
+  return options.watch ? std::make_unique<LiveServer>(options.live) : nullptr;
+}
 
 /// What the champion typically does, and behind it what made it the champion.
 void print_best(const experiment::Run& run, int jobs) {
@@ -51,23 +69,28 @@ void print_oddities(const experiment::Run& run) {
     print_message(fmt::format("note: {}\n", odd));
 }
 
-/// `named`: the folder as it was given.
-ExitCode execute(experiment::Run run, const std::filesystem::path& named, int jobs) {
+/// `named`: the folder as it was given. `server`: may be null.
+ExitCode execute(experiment::Run run, const std::filesystem::path& named, int jobs,
+                 std::unique_ptr<LiveServer> server) {
   std::signal(SIGPIPE, SIG_IGN);  // the run goes on if the reader of its progress ends
   const std::string folder = named.string(), word = io::shell_word(folder);
   if (run.generation() >= run.config().generations)
     fmt::print("{}: all {} generations are done; for more: --generations N\n", folder,
                run.config().generations);
   experiment::RunStatus status;
+  if (server) server->begin(named);
   {
     ProgressLine progress(run.generation(), run.config());
     status = run.execute(progress, stop_signal());
   }
   if (status == experiment::RunStatus::interrupted) {
-    print_message(fmt::format("stopped at generation {} of {}; to continue, run: amble resume {}\n",
-                              run.generation(), run.config().generations, word));
+    const std::string text = fmt::format("stopped at generation {} of {}; to continue, run: amble resume {}",
+                                         run.generation(), run.config().generations, word);
+    print_message(text + "\n");
+    if (server) server->end("The run was " + text);
     return ExitCode::interrupted;
   }
+  if (server) server->end(fmt::format("The run has ended; its files are in {}", folder));
   print_best(run, jobs);
   const bool has_map = experiment::fills_map(run.config());
   fmt::print("look at it by: amble view {} --static -o page.html\n", word);
@@ -97,18 +120,22 @@ void add_evolve(CLI::App& app, Action& action) {
       ->check(between(1, experiment::most_generations));
   command->add_option("--out", options->out, "The run folder to make; it must be new or empty")->required();
   add_jobs(*command, options->jobs);
+  add_watch(*command, options->watch);
   add_examples(
       *command,
       {{"amble evolve configs/quick/quadruped.toml --seed 8 --out runs/1", "a walker in half a minute"},
        {"amble evolve configs/quick/quadruped.toml --set population.size=300 --generations 100 --out runs/2",
-        ""}});
+        ""},
+       {"amble evolve configs/quick/quadruped.toml --out runs/3 --watch",
+        "and a page to watch it in a browser"}});
   command->callback([options, &action] {
     action = [options] {
       stop_signal();
       const auto config = experiment::load_config(options->config, options->overrides);
+      auto server = server_for(options->watch);
       auto run = experiment::Run::start(options->out, config, options->jobs);
       print_oddities(run);
-      return execute(std::move(run), options->out, options->jobs);
+      return execute(std::move(run), options->out, options->jobs, std::move(server));
     };
   });
 }
@@ -118,6 +145,7 @@ void add_resume(CLI::App& app, Action& action) {
     std::filesystem::path folder;
     std::optional<int> generations;
     int jobs = 1;
+    WatchOptions watch;
   };
   auto* command = app.add_subcommand("resume", "Go on with a run that was stopped, or make it longer");
   auto options = std::make_shared<Options>();
@@ -125,13 +153,15 @@ void add_resume(CLI::App& app, Action& action) {
   command->add_option("--generations", options->generations, "Generations to evaluate in all")
       ->check(between(1, experiment::most_generations));
   add_jobs(*command, options->jobs);
+  add_watch(*command, options->watch);
   add_examples(*command, {{"amble resume runs/1", "on after Ctrl-C, kill -9, a power cut"},
                           {"amble resume runs/1 --generations 800", "longer"}});
   command->callback([options, &action] {
     action = [options] {
       stop_signal();
+      auto server = server_for(options->watch);
       return execute(experiment::Run::resume(options->folder, options->generations, options->jobs),
-                     options->folder, options->jobs);
+                     options->folder, options->jobs, std::move(server));
     };
   });
 }

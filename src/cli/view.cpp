@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "amble/cli/help.hpp"
+#include "amble/cli/live_view.hpp"
 #include "amble/cli/options.hpp"
 #include "amble/cli/static_view.hpp"
 #include "amble/cli/stop_signal.hpp"
@@ -32,7 +33,8 @@ struct ViewOptions {
   fs::path out;
   presentation::WalkOptions walk;
   std::optional<std::string> title;
-  bool history = false, with_figures = false;
+  bool history = false, with_figures = false, live = false;
+  LiveOptions live_options;
   std::optional<fs::path> figures;
   presentation::TrialChoice disturbance;
 };
@@ -160,7 +162,17 @@ ExitCode make_static(const ViewOptions& options) {
                            .disturbance = options.disturbance});
 }
 
+/// `amble view --live DIR`.
+ExitCode make_live(const ViewOptions& options) {
+  if (options.inputs.size() > 1)
+    fail(ExitCode::bad_input,
+         "--live: expected one folder, of a run or of runs such as a study's, not {} inputs",
+         options.inputs.size());
+  return make_live_view(options.inputs.front(), options.live_options);
+}
+
 ExitCode make_view(const ViewOptions& options) {
+  if (options.live) return make_live(options);
   if (options.with_figures) return make_static(options);
   if (options.figures) fail(ExitCode::bad_input, "--figures: only with --static");
   stop_signal();  // from here on what is in the folder for temporary files is removed
@@ -192,7 +204,8 @@ void add_view(CLI::App& app, Action& action) {
           "INPUT", options->inputs,
           "Champions (JSON), run folders (their best champions) and recordings; several walk together")
       ->required();
-  command->add_option("-o,--out", options->out, "The page to write (HTML)")->required();
+  auto* out =
+      command->add_option("-o,--out", options->out, "The page to write (HTML; required without --live)");
   command
       ->add_option("--seconds", options->walk.seconds,
                    "How long champions walk, s (default: as in their evolution)")
@@ -208,12 +221,22 @@ void add_view(CLI::App& app, Action& action) {
   command->add_option("--figures", options->figures,
                       "With --static: also write each figure as an SVG file into this folder");
   command->add_option("--title", options->title, "Title of the page")->type_name("WORDS");
+  auto* live =
+      command->add_flag("--live", options->live,
+                        "Serve a page of a run that goes on, or of all runs in a folder, until Ctrl-C");
+  for (auto* other : command->get_options())
+    if (!other->get_positional() && other != live && other != command->get_help_ptr()) live->excludes(other);
+  add_live(*command, options->live_options, live);
   add_examples(*command,
                {{"amble view runs/1 -o walker.html", ""},
                 {"amble view runs/1 --history -o history.html", "from its first champion to its last"},
                 {"amble view runs/1 runs/2 -o both.html --seconds 60", "side by side"},
-                {"amble view runs/1 --static -o figures.html", "fitness curve and figures"}});
-  command->callback([options, &action] { action = [options] { return make_view(*options); }; });
+                {"amble view runs/1 --static -o figures.html", "fitness curve and figures"},
+                {"amble view results/paper --live", "a page of all runs of a study, while they go on"}});
+  command->callback([options, out, &action] {
+    if (!options->live && out->empty()) throw CLI::RequiredError(out->get_name());
+    action = [options] { return make_view(*options); };
+  });
 }
 
 }  // namespace amble::cli

@@ -41,6 +41,12 @@ amble_lab_page_begin:
   .incbin ")asm" AMBLE_LAB_PAGE R"asm("
 amble_lab_page_end:
   .byte 0
+  .global amble_watch_page_begin
+  .global amble_watch_page_end
+amble_watch_page_begin:
+  .incbin ")asm" AMBLE_WATCH_PAGE R"asm("
+amble_watch_page_end:
+  .byte 0
   .popsection
 )asm");
 
@@ -51,6 +57,8 @@ extern const char amble_view_module_begin[];
 extern const char amble_view_module_end[];
 extern const char amble_lab_page_begin[];
 extern const char amble_lab_page_end[];
+extern const char amble_watch_page_begin[];
+extern const char amble_watch_page_end[];
 }
 
 namespace amble::page {
@@ -61,6 +69,10 @@ std::string_view page_template() {
 
 std::string_view lab_template() {
   return {amble_lab_page_begin, to_index(amble_lab_page_end - amble_lab_page_begin)};
+}
+
+std::string_view watch_template() {
+  return {amble_watch_page_begin, to_index(amble_watch_page_end - amble_watch_page_begin)};
 }
 
 std::string_view browser_module() {

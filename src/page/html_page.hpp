@@ -15,6 +15,9 @@ std::string_view page_template();
 /// viewer/dist/lab.html, the same: all but colours and robots.
 std::string_view lab_template();
 
+/// viewer/dist/watch.html, the same: all but colours and simulator.
+std::string_view watch_template();
+
 /// viewer/dist/amble.wasm, the same: the functions of browser/interface.hpp.
 std::string_view browser_module();
 

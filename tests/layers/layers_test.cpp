@@ -169,7 +169,7 @@ std::string letters_of(const testing::TestParamInfo<Library>& library) {
 INSTANTIATE_TEST_SUITE_P(
     Layers, OneDoor,
     testing::Values(
-        Library{"<ode/", {"physics/ode/"}}, Library{"<CLI/", {"cli/"}},
+        Library{"<ode/", {"physics/ode/"}}, Library{"<CLI/", {"cli/"}}, Library{"<httplib", {"serving/"}},
         Library{"<mujoco/", {"morphology/", "physics/mujoco/", "physics/mujoco_model/"}},
         Library{"<toml++/", {"io/"}}, Library{"<xxhash", {"core/"}}, Library{"<Random123/", {"core/"}},
         Library{"<hwy/",

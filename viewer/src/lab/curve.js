@@ -14,7 +14,9 @@ export const kindsOf = ({ species, count, cells, map }) =>
   map || cells !== undefined ? `${cells ?? map.length} cells of the map` : `${count ?? species.length} species`;
 
 export class Curve {
-  constructor() {
+  /** `hint`: what stands there before the first generation. `unit`: of what is drawn, with its space. */
+  constructor({ hint = "Press Start: each generation adds a point.", unit = " m" } = {}) {
+    Object.assign(this, { hint, unit });
     this.history = [];
     this.marks = []; // generations at which the world changed
     this.before = []; // {name, history}, the latest first
@@ -45,7 +47,7 @@ export class Curve {
   show() {
     this.showKeys();
     const now = this.history.at(-1);
-    if (now) this.picture.label(`Curves of ${this.history.length} generations: the best so far walks ${number(now.best_so_far, 2)} m, the median ${number(now.median, 2)} m; ${kindsOf(now)}`);
+    if (now) this.picture.label(`Curves of ${this.history.length} generations: the best so far walks ${number(now.best_so_far, 2)}${this.unit}, the median ${number(now.median, 2)}${this.unit}; ${kindsOf(now)}`);
     this.picture.repaint();
   }
 
@@ -58,16 +60,17 @@ export class Curve {
   paint(context, width, height) {
     const { history, before } = this, runs = [history, ...before.map((run) => run.history)];
     const most = Math.max(10, ...runs.map((run) => run.length - 1));
-    const bands = history.some(({ species }) => species?.length) ? BANDS + GAP : 0, base = height - AXIS - bands;
+    const bands = history.some(({ species, count }) => species?.length || count > 0) ? BANDS + GAP : 0, base = height - AXIS - bands;
     const x = (generation) => LEFT + (generation / most) * (width - LEFT - RIGHT);
-    const upper_m = Math.max(0.1, ...runs.flat().map(({ best_so_far, best }) => Math.max(best_so_far, best)));
-    const { lower, upper, ticks, text } = niceAxis(0, upper_m, 5);
+    let highest = 0.1;
+    for (const { best_so_far, best } of runs.flat()) highest = Math.max(highest, best_so_far || 0, best || 0);
+    const { lower, upper, ticks, text } = niceAxis(0, highest, 5);
     const y = (value) => base - ((value - lower) / (upper - lower)) * (base - TOP);
     for (const tick of ticks) {
       line(context, [[LEFT, y(tick)], [width - RIGHT, y(tick)]], "--hair", 1);
-      write(context, tick === ticks.at(-1) ? `${text(tick)} m` : text(tick), LEFT - 8, y(tick), { align: "right", size: 11.5 });
+      write(context, tick === ticks.at(-1) ? text(tick) + this.unit : text(tick), LEFT - 8, y(tick), { align: "right", size: 11.5 });
     }
-    if (runs.every((run) => run.length === 0)) write(context, "Press Start: each generation adds a point.", (LEFT + width) / 2, base / 2, { align: "center", size: 14 });
+    if (runs.every((run) => run.length === 0)) write(context, this.hint, (LEFT + width) / 2, base / 2, { align: "center", size: 14 });
     const curve = (run, value, css, thick, dash) => line(context, run.map((row) => [x(row.generation), y(value(row))]), css, thick, dash);
     for (const generation of this.marks) this.paintMark(context, x(generation), base, width);
     before.forEach((run, i) => curve(run.history, (row) => row.best_so_far, OLD[i][0], 1.8, OLD[i][1]));
@@ -99,17 +102,19 @@ export class Curve {
     context.fill();
   }
 
-  /** Stacked: each species as a band, as high as it has members. */
+  /** Stacked: each species as a band, as high as it has members; where only their number is known, equal ones in grey. */
   paintSpecies(context, x, top, width) {
     const high = BANDS - 8;
-    this.history.forEach(({ species, generation }) => {
-      const all = species.reduce((sum, [, size]) => sum + size, 0), from = x(generation - 0.5), wide = x(generation + 0.5) - from;
+    this.history.forEach(({ species, count, generation }, i) => {
+      const bands = species.length ? species : Array.from({ length: count || 0 }, () => [null, 1]);
+      const next = this.history[i + 1]?.generation ?? generation + 1, from = Math.max(x(generation - 0.5), LEFT), wide = Math.min(x(next - 0.5) + 0.5, width - RIGHT) - from;
+      const all = bands.reduce((sum, [, size]) => sum + size, 0);
       let at = top;
-      for (const [id, size] of species) {
+      for (const [id, size] of bands) {
         const tall = (size / all) * high;
-        context.fillStyle = colour(`--c${id % 8}`);
-        context.globalAlpha = 0.45 + 0.4 * (Math.floor(id / 8) % 2);
-        context.fillRect(Math.max(from, LEFT), at, Math.min(wide + 0.5, width - RIGHT - from), Math.max(tall - 0.6, 0.4));
+        context.fillStyle = colour(id === null ? "--mid" : `--c${id % 8}`);
+        context.globalAlpha = id === null ? 0.4 : 0.45 + 0.4 * (Math.floor(id / 8) % 2);
+        context.fillRect(from, at, wide, Math.max(tall - 0.6, 0.4));
         at += tall;
       }
     });

@@ -1,0 +1,165 @@
+// The page of runs that go on, served by the program.
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { mkdirSync, readFileSync, renameSync, rmSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { amble, launch, pictureOf } from "./browser.mjs";
+
+const { AMBLE_PAGES, AMBLE_PROGRAM, AMBLE_SOURCE, AMBLE_AXE } = process.env;
+const CONFIG = join(AMBLE_SOURCE, "configs/quick/quadruped.toml");
+const SMALL = ["--set", "population.size=40", "--set", "trial.duration_s=2", "--jobs", "1"];
+
+let browser;
+before(async () => {
+  mkdirSync(AMBLE_PAGES, { recursive: true });
+  browser = await launch();
+});
+after(() => browser.close());
+
+const folder = (name) => {
+  const path = join(AMBLE_PAGES, name);
+  rmSync(path, { recursive: true, force: true });
+  return path;
+};
+const evolve = (out, generations, ...more) => ["evolve", CONFIG, ...SMALL, "--generations", String(generations), "--out", out, ...more];
+
+/** A process that serves pages: {url, ended, stop()}. */
+function serve(...words) {
+  const process_ = spawn(AMBLE_PROGRAM, words);
+  const ended = new Promise((done) => process_.on("exit", done));
+  let said = "";
+  const url = new Promise((found, failed) => {
+    process_.stderr.on("data", (text) => {
+      said += text;
+      const match = /watch it at (\S+)\n/.exec(said);
+      if (match) found(match[1]);
+    });
+    process_.on("exit", () => failed(new Error(said)));
+  });
+  return { url, ended, kill: (signal) => process_.kill(signal), stop: () => (process_.kill("SIGINT"), ended) };
+}
+
+/** A page of the server, in which nothing may go wrong but what `expected` allows. */
+async function inPage(server, steps, { hash = "", expected = /^$/, ...options } = {}) {
+  const url = await server.url, page = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...options }), problems = [];
+  page.setDefaultTimeout(60_000);
+  page.on("console", (message) => problems.push(`console ${message.type()}: ${message.text()}`));
+  page.on("pageerror", (error) => problems.push(`error: ${error.message}`));
+  page.on("request", (request) => !request.url().startsWith(new URL(url).origin) && !/^(data|blob):/.test(request.url()) && problems.push(request.url()));
+  try {
+    await page.goto(url + hash);
+    await page.waitForFunction(() => window.amble || !document.getElementById("trouble").hidden);
+    await steps(page);
+    assert.deepEqual(problems.filter((problem) => !expected.test(problem)), []);
+    assert.ok(await page.locator("#trouble").isHidden(), await page.locator("#trouble").textContent());
+  } finally {
+    await page.close();
+  }
+}
+
+const story = (page) => page.locator("#stage-text").textContent();
+const says = (page, text) => page.waitForFunction((part) => document.getElementById("stage-text").textContent.includes(part), text);
+const rows = (page) => page.evaluate(() => window.amble.rows.map(({ generation, best, best_so_far, median, typical }) => ({ generation, best, best_so_far, median, typical })));
+const table = (run) => readFileSync(join(run, "generations.csv"), "utf8").trim().split("\n").slice(1).map((line) => line.split(",").map(Number));
+
+test("a run's curve grows, its best walks, and when it ends the page says where its files are", async () => {
+  const run = folder("ends"), server = serve(...evolve(run, 40, "--watch"));
+  await inPage(server, async (page) => {
+    await page.waitForFunction(() => window.amble.rows.length > 3);
+    assert.match(await story(page), /It runs: generation \d+ of 40/);
+    const early = await pictureOf(page, ".lab-curve");
+    await page.waitForFunction(() => window.amble.stage.walk);
+    assert.ok((await pictureOf(page)).colours > 50);
+    assert.match(await page.locator("#story").textContent(), /Best of generation \d+: /);
+    await says(page, "The run has ended; its files are in");
+    assert.ok((await story(page)).includes(run));
+    assert.notEqual((await pictureOf(page, ".lab-curve")).hash, early.hash);
+    const shown = await rows(page);
+    assert.equal(shown.length, 40);
+    assert.deepEqual(shown.map(({ best }) => best), table(run).map((row) => row[1]));
+    assert.ok(await page.evaluate(() => window.amble.rows.some(({ species }) => species.length > 0 && species.reduce((sum, [, size]) => sum + size, 0) === 40)), "sizes of species");
+    assert.ok(await page.locator("#runs").isHidden());
+    if (AMBLE_AXE) {
+      await page.addScriptTag({ path: AMBLE_AXE });
+      const { violations } = await page.evaluate(() => window.axe.run());
+      assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes[0].html}`), []);
+    }
+  });
+  assert.equal(await server.ended, 0);
+});
+
+test("several runs are one view; one that is chosen is shown, the one before stays as a line", async () => {
+  const study = folder("study");
+  for (const [name, seed] of [["a", 1], ["b", 2]]) amble(...evolve(join(study, name), 5, "--seed", String(seed)));
+  const server = serve("view", "--live", study), other = serve(...evolve(join(study, "c"), 100_000, "--seed", "3", "--watch"));
+  await other.url;
+  await inPage(server, async (page) => {
+    await page.waitForFunction(() => document.querySelectorAll(".run-list tbody tr").length === 3);
+    await page.getByRole("button", { name: "b", exact: true }).click();
+    await says(page, "The run has ended");
+    await page.waitForFunction(() => window.amble.rows.length === 5);
+    assert.match(await page.locator("#name").textContent(), /, seed 2$/);
+    await page.getByRole("button", { name: "c", exact: true }).click();
+    await page.waitForFunction(() => window.amble.rows.length > 2);
+    assert.match(await page.locator("#runs-note").textContent(), /^3 runs: 1 going on, 2 ended\.$/);
+    assert.equal(await page.evaluate(() => window.amble.curve.before[0].name), "b");
+    assert.equal(await page.locator('.run-list [aria-pressed="true"]').textContent(), "c");
+    await other.stop();
+    await says(page, "Stopped at generation");
+  });
+  assert.equal(await server.stop(), 0);
+});
+
+test("a folder that vanishes, and comes back, is told", async () => {
+  const run = folder("vanishes"), elsewhere = folder("elsewhere");
+  amble(...evolve(run, 3));
+  const server = serve("view", "--live", run);
+  await inPage(server, async (page) => {
+    await says(page, "The run has ended");
+    await page.waitForFunction(() => window.amble.stage.walk && window.amble.rows.length === 3);
+    renameSync(run, elsewhere);
+    await says(page, "has vanished");
+    assert.equal((await rows(page)).length, 3);
+    renameSync(elsewhere, run);
+    await says(page, "The run has ended");
+  });
+  await server.stop();
+});
+
+test("a program that was killed is told", async () => {
+  const run = folder("killed");
+  amble(...evolve(run, 3));
+  const server = serve("view", "--live", run);
+  await inPage(server, async (page) => {
+    await says(page, "The run has ended");
+    await page.waitForFunction(() => window.amble.stage.walk && window.amble.rows.length === 3);
+    server.kill("SIGKILL");
+    await says(page, "does not answer: it has ended, or was killed");
+    assert.equal((await rows(page)).length, 3);
+  }, { expected: /ERR_CONNECTION_REFUSED|ERR_INCOMPLETE_CHUNKED|ERR_EMPTY_RESPONSE|Failed to fetch/ });
+});
+
+test("a map is seen to fill", async () => {
+  const run = folder("map"), config = join(AMBLE_SOURCE, "configs/repertoire/quadruped.toml");
+  amble("evolve", config, "--jobs", "1", "--set", "search.map_elites.batch=32", "--set", "search.map_elites.initial=64", "--set", "trial.duration_s=2", "--set", "search.map_elites.trials=1", "--generations", "3", "--out", run);
+  const server = serve("view", "--live", run);
+  await inPage(server, async (page) => {
+    await page.waitForFunction(() => !document.getElementById("map").hidden);
+    const note = await page.locator("#map-note").textContent(), filled = Number(/^(\d+) of \d+ cells are filled/.exec(note)[1]);
+    assert.equal(filled, table(run).at(-1)[readFileSync(join(run, "generations.csv"), "utf8").split("\n")[0].split(",").indexOf("elites")]);
+    assert.ok((await pictureOf(page, ".lab-cells")).colours > 2);
+  });
+  await server.stop();
+});
+
+test("a narrow screen shows all of it", async () => {
+  const run = folder("narrow");
+  amble(...evolve(run, 3));
+  const server = serve("view", "--live", run);
+  await inPage(server, async (page) => {
+    await page.waitForFunction(() => window.amble.rows.length === 3);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+  }, { viewport: { width: 360, height: 740 } });
+  await server.stop();
+});
