@@ -10,6 +10,7 @@
 #include "amble/cli/messages.hpp"
 #include "amble/cli/options.hpp"
 #include "amble/core/clock.hpp"
+#include "amble/page/html_page.hpp"
 #include "amble/page/watch_page.hpp"
 #include "amble/presentation/walker.hpp"
 
@@ -45,10 +46,12 @@ class LiveServer::Pages : public serving::Site {
  public:
   explicit Pages(watch::Watcher& watcher)
       : watcher_(watcher),
-        page_(std::make_shared<const std::string>(page::make_watch_page(presentation::made_by()))) {}
+        page_(std::make_shared<const std::string>(page::make_watch_page(presentation::made_by()))),
+        module_(std::make_shared<const std::string>(page::browser_module())) {}
 
   serving::Answer get(const serving::Request& request) override {
     if (request.path == "/") return {.type = "text/html; charset=utf-8", .body = page_};
+    if (request.path == "/amble.wasm") return {.type = "application/wasm", .body = module_};
     if (request.path == "/runs") return file("application/json", watcher_.overview(), "");
     const std::string run = request.value("run");
     if (request.path == "/champion") {
@@ -77,7 +80,7 @@ class LiveServer::Pages : public serving::Site {
   }
 
   watch::Watcher& watcher_;
-  serving::Text page_;
+  serving::Text page_, module_;
 };
 
 void add_live(CLI::App& command, LiveOptions& options, CLI::Option* flag) {

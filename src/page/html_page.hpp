@@ -15,7 +15,7 @@ std::string_view page_template();
 /// viewer/dist/lab.html, the same: all but colours and robots.
 std::string_view lab_template();
 
-/// viewer/dist/watch.html, the same: all but colours and simulator.
+/// viewer/dist/watch.html, the same: all but colours.
 std::string_view watch_template();
 
 /// viewer/dist/amble.wasm, the same: the functions of browser/interface.hpp.

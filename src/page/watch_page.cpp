@@ -16,7 +16,6 @@ std::string make_watch_page(const std::string& made_by) {
               "<script type=\"application/json\" id=\"amble-data\">" +
                   script_text(io::Json{{"made_by", made_by}}) + "</script>",
               html);
-  rest = fill(rest, "<!--amble:module-->", module_element(), html);
   html += rest;
   return html;
 }

@@ -21,8 +21,8 @@ std::string text_of(const io::Json& data) {
 
 }  // namespace
 
-Watcher::Reader::Reader(Watcher& watcher, std::shared_ptr<Feed> feed)
-    : watcher_(watcher), feed_(std::move(feed)) {}
+Watcher::Reader::Reader(Watcher& watcher, std::string id)
+    : watcher_(watcher), id_(std::move(id)), feed_(watcher.feed_of(id_)) {}
 
 Watcher::Reader::~Reader() {
   const std::lock_guard lock(watcher_.mutex_);
@@ -42,6 +42,7 @@ bool Watcher::Reader::is_behind() const {
 
 std::string Watcher::Reader::events() {
   std::string events;
+  if (!feed_) feed_ = watcher_.feed_of(id_);
   if (seen_ < watcher_.folder_version_) add_event(events, "folder", text_of(watcher_.folder_json()));
   if (seen_ != watcher_.version_) add_runs(events);
   seen_ = watcher_.version_;

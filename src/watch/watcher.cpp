@@ -31,7 +31,6 @@ Watcher::Watcher(const fs::path& folder) : folder_(folder) {
   if (!fs::is_directory(folder))
     fail(ExitCode::bad_input, "{}: no such folder; expected a run folder or one with run folders in it",
          io::printable(folder.string()));
-  single_ = experiment::is_run_folder(folder);
   look(now_s());
   thread_ = std::thread([this] { work(); });
 }
@@ -100,8 +99,10 @@ bool Watcher::look(double now_s) {
 
 bool Watcher::find_runs() {
   const std::size_t before = runs_.size();
+  // A folder in which nothing was may become a run.
+  if (runs_.empty()) single_ = experiment::is_run_folder(folder_);
   if (single_) {
-    if (runs_.empty()) add(folder_, ".");
+    add(folder_, ".");
     return runs_.size() != before;
   }
   std::error_code none;
@@ -211,19 +212,21 @@ std::unique_ptr<Watcher::Reader> Watcher::read(const std::string& id) {
   std::unique_ptr<Reader> reader;
   {
     const std::lock_guard lock(mutex_);
-    std::shared_ptr<Feed> feed;
-    if (const SummaryReader* run = find(id)) {
-      feed = feeds_[id].lock();
-      if (!feed) {
-        feeds_[id] = feed = std::make_shared<Feed>(run->paths());
-        if (end_text_) feed->poll(now_s());
-      }
-    }
-    reader.reset(new Reader(*this, std::move(feed)));
+    reader.reset(new Reader(*this, id));
     ++readers_;
   }
   changed_.notify_all();
   return reader;
+}
+
+std::shared_ptr<Feed> Watcher::feed_of(const std::string& id) {
+  const SummaryReader* run = find(id);
+  if (run == nullptr) return nullptr;
+  auto feed = feeds_[id].lock();
+  if (feed) return feed;
+  feeds_[id] = feed = std::make_shared<Feed>(run->paths());
+  if (end_text_) feed->poll(now_s());
+  return feed;
 }
 
 }  // namespace amble::watch

@@ -62,6 +62,8 @@ class Watcher {
   bool find_runs();
   void add(const std::filesystem::path& folder, const std::string& id);
   bool look_at_study();
+  /// The feed of a run, which all its readers share; null if there is no such run, or not yet.
+  std::shared_ptr<Feed> feed_of(const std::string& id);
   const SummaryReader* find(const std::string& id) const;
   io::Json folder_json() const;
 
@@ -93,14 +95,15 @@ class Watcher::Reader {
 
  private:
   friend class Watcher;
-  Reader(Watcher& watcher, std::shared_ptr<Feed> feed);
+  Reader(Watcher& watcher, std::string id);
   std::string events();
   void add_runs(std::string& events);
   void add_rows(std::string& events);
   bool is_behind() const;
 
   Watcher& watcher_;
-  std::shared_ptr<Feed> feed_;
+  std::string id_;
+  std::shared_ptr<Feed> feed_;  ///< null as long as there is no such run
   std::uint64_t seen_ = 0;
   int beginning_ = 0, populations_ = 0;
   std::size_t lines_ = 0;

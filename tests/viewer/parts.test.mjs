@@ -3,6 +3,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { niceAxis } from "../../viewer/src/plot.js";
 import { footfalls, runs } from "../../viewer/src/walk.js";
+import { placeOf } from "../../viewer/src/watch/map_picture.js";
+import { clockText, rowReader, thinned } from "../../viewer/src/watch/rows.js";
 
 /** Numbers in [0, 1), the same ones in each run (Lehmer's generator with the factor 48271). */
 function* numbers() {
@@ -57,4 +59,31 @@ test("an axis has at least two ticks, different ones, and holds what it is for",
     assert.equal(new Set(axis.ticks.map(axis.text)).size, axis.ticks.length, `${axis.ticks.map(axis.text)}`);
     assert.ok(Math.abs(axis.ticks[0] - axis.lower) <= slack && Math.abs(axis.ticks.at(-1) - axis.upper) <= slack);
   }
+});
+
+test("watch: rows are read by the table's header, missing cells are no numbers", () => {
+  const read = rowReader("generation,best,species,wall_s");
+  const row = read("7,1.5,3,0.25");
+  assert.deepEqual([row.generation, row.best, row.count, row.wall_s], [7, 1.5, 3, 0.25]);
+  assert.deepEqual(row.species, []);
+  assert.ok(Number.isNaN(rowReader("generation,species")("7,").count));
+});
+
+test("watch: of a long run few points are drawn, the last among them", () => {
+  const rows = Array.from({ length: 10_001 }, (_, i) => i);
+  assert.equal(thinned(rows.slice(0, 3000)).length, 3000);
+  const drawn = thinned(rows.slice(0, 10_000));
+  assert.ok(drawn.length <= 3001 && drawn[0] === 0 && drawn.at(-1) === 9999);
+  assert.ok(drawn.every((row, i) => i === 0 || row > drawn[i - 1]));
+});
+
+test("watch: times are written as the program writes them", () => {
+  assert.deepEqual([7, 750, 11_100, -1].map(clockText), ["0:07", "12:30", "3:05:00", "0:00"]);
+});
+
+test("watch: dimensions of a map nest, the last one's bin runs fastest", () => {
+  const axes = [{ bins: 2 }, { bins: 3 }, { bins: 5 }, { bins: 7 }];
+  const cell = ((1 * 3 + 2) * 5 + 4) * 7 + 6;
+  assert.deepEqual(placeOf(axes, cell), { column: 1 * 5 + 4, row: 2 * 7 + 6 });
+  assert.deepEqual(placeOf([{ bins: 4 }], 3), { column: 3, row: 0 });
 });

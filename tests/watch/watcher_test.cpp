@@ -173,6 +173,18 @@ TEST(Watcher, OfAFolderOfRunsTellsOfAllAndFindsNewOnes) {
   EXPECT_THAT(ids, ElementsAre("runs/ctrnn-001", "runs/sine-001", "runs/supg-001"));
 }
 
+TEST(Watcher, ARunThatBeginsInAFolderThatWasEmptyIsTold) {
+  const test::TemporaryFolder scratch;
+  Watcher watcher(scratch.path());
+  Page page(watcher, ".");
+  ASSERT_TRUE(page.hears("folder"));
+  FakeRun run(scratch.path(), 10);
+  run.grow(0.5);
+  ASSERT_TRUE(page.hears("folder", [](const io::Json& data) { return data["single"] == true; }));
+  while (page.lines().size() < 2) ASSERT_TRUE(page.read());
+  EXPECT_EQ(watcher.summaries().size(), 1U);
+}
+
 TEST(Watcher, GivesChampionsAndTablesOfItsRunsAndNothingElse) {
   const test::TemporaryFolder scratch;
   FakeRun run(scratch / "run", 10);

@@ -1,11 +1,12 @@
 import { chooseModule } from "../amble.js";
-import { inflate, pageData } from "../data.js";
+import { pageData } from "../data.js";
 import { element } from "../theme.js";
 import { Watch } from "./watch.js";
 
 async function start() {
-  if (typeof DecompressionStream === "undefined") throw new Error("This browser is too old: it needs one of 2023 or later.");
-  const bytes = await inflate(document.getElementById("amble-module").textContent);
+  const answer = await fetch("amble.wasm"); // the simulator, for the best walker
+  if (!answer.ok) throw new Error(await answer.text());
+  const bytes = new Uint8Array(await answer.arrayBuffer());
   const { module } = await chooseModule([{ name: "amble", bytes }]);
   const watch = new Watch(module, { still: matchMedia("(prefers-reduced-motion: reduce)").matches });
   document.getElementById("app").hidden = false;
