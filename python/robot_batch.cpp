@@ -185,8 +185,8 @@ void RobotBatch::observe_body(const Group& group, int lane) {
   to[1] = static_cast<float>(com_m.y);
   to[2] = static_cast<float>(com_m.z);
   // As Runner::advance, src/trial/trial.cpp, on the plane z = 0: no engine here is given another ground.
-  observations_->fallen[to_index(group.first + lane)] =
-      group.engine->root_com_m(lane).z < robot_.fall_height_m;
+  observations_->fallen[to_index(group.first + lane)] = robot_.fall_rule().met(
+      group.engine->root_com_m(lane).z, robot_.upright(group.engine->root_pose(lane).rotation));
 }
 
 std::vector<std::uint64_t> RobotBatch::state_hashes() const {

@@ -39,7 +39,7 @@ double measure(const amble::experiment::Champion& champion, int robots, int step
   Copies copies(champion.problem.decode(champion.genome), robots);
   amble::trial::Protocol protocol = champion.problem.protocol({});
   protocol.steps = steps + 1;
-  protocol.fall_height_m = -1e9;
+  protocol.fall.below_m = -1e9;
   amble::trial::Runner runner(*engine, *controllers, protocol);
   runner.begin(copies);
   const double before_s = amble::now_s();

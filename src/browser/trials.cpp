@@ -81,7 +81,7 @@ class Trials::Queue : public trial::TaskQueue {
 
 Trials::Trials(std::shared_ptr<const Plan> plan)
     : plan_(std::move(plan)),
-      engine_(plan_->problem.make_engine(plan_->behaviour->measures().energy)),
+      engine_(plan_->problem.make_engine(plan_->behaviour->measures().need_torques())),
       controllers_(plan_->problem.architecture->make_batch(engine_->lanes())) {
   const auto& behaviour = *plan_->behaviour;
   runner_ = std::make_unique<trial::Runner>(*engine_, *controllers_,

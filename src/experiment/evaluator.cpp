@@ -110,7 +110,7 @@ struct WorkerContext {
 
   trial::Runner& open(const Problem& problem, const record::PathSampling& path,
                       const record::Measures& measures, const std::shared_ptr<const ground::Ground>& ground) {
-    if (!engine) engine = problem.make_engine(measures.energy);
+    if (!engine) engine = problem.make_engine(measures.need_torques());
     if (engine->ground() != ground.get()) engine->set_ground(ground);
     if (!controllers) controllers = problem.architecture->make_batch(engine->lanes());
     if (!runner) runner.emplace(*engine, *controllers, problem.protocol(path, measures));

@@ -195,7 +195,11 @@ EngineChoice fastest_engine(const robot::RobotSpec& robot) {
     physics::make_engine("batch", robot, {.timestep_s = 0.01});
     return {"batch", ""};
   } catch (const UserError& error) {
-    return {"ode", error.what()};
+    const bool by_model_alone =
+        robot.original && std::ranges::any_of(robot.joints, [](const robot::Joint& joint) {
+          return joint.servo.hold_torque;
+        });
+    return {by_model_alone ? "mujoco-model" : "ode", error.what()};
   }
 }
 

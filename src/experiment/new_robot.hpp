@@ -28,7 +28,8 @@ struct NewRobot {
 NewRobot make_new_robot(const morphology::ModelFile& model_file, const std::filesystem::path& model,
                         const std::filesystem::path& file);
 
-/// The fastest engine that can simulate a robot: batch, or ode and why not batch.
+/// The fastest engine that can simulate a robot: batch, or ode and why not batch, or mujoco-model where
+/// servos hold their torques.
 struct EngineChoice {
   std::string engine, why_not_batch;
 };

@@ -195,7 +195,9 @@ class Hold {
   }
 
  private:
-  bool fallen() const { return engine_->root_com_m(0).z < robot_.fall_height_m; }
+  bool fallen() const {
+    return robot_.fall_rule().met(engine_->root_com_m(0).z, robot_.upright(engine_->root_pose(0).rotation));
+  }
 
   void advance(int step) {
     engine_->step(targets_rad_);

@@ -154,6 +154,13 @@ std::optional<RoundShape> cylinder_of(std::span<const Vec3> points_m, std::span<
   return std::nullopt;
 }
 
+bool moves_as_root(const mjModel_& model, int body) {
+  const int joints = model.body_jntnum[body], first = model.body_jntadr[body];
+  if (joints == 1 && model.jnt_type[first] == mjJNT_FREE) return true;
+  return joints > 0 && std::all_of(model.jnt_type + first, model.jnt_type + first + joints,
+                                   [](int type) { return type == mjJNT_SLIDE || type == mjJNT_HINGE; });
+}
+
 bool collides(const mjModel_& model, int geom) {
   if (model.geom_contype[geom] != 0 || model.geom_conaffinity[geom] != 0) return true;
   const auto tree = [&](int g) { return model.body_rootid[model.geom_bodyid[g]]; };

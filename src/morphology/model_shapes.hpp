@@ -28,6 +28,10 @@ struct mjModel_;
 
 namespace amble::morphology {
 
+/// Whether a body of the world can be a robot's root in the engine mujoco-model: it moves by a free joint, or
+/// by slides and hinges alone.
+bool moves_as_root(const mjModel_& model, int body);
+
 /// Whether a geom can touch the ground: its contype or conaffinity is not 0, or a <pair> joins it with a geom
 /// of another tree of bodies, such as the floor.
 bool collides(const mjModel_& model, int geom);

@@ -79,8 +79,8 @@ class ModelKeeper {
   void refuse_bound_root(const ModelParts& parts) const {
     if (parts.model_joints.empty()) refuse("the robot has no joints");
     const int root = model_.body_rootid[model_.jnt_bodyid[parts.model_joints[0]]];
-    if (model_.body_jntnum[root] != 1 || model_.jnt_type[model_.body_jntadr[root]] != mjJNT_FREE)
-      refuse("its root '{}' has no free joint, and so cannot walk",
+    if (!moves_as_root(model_, root))
+      refuse("its root '{}' moves neither by a free joint nor by slides and hinges, and so cannot walk",
              std::string_view(model_.names + model_.name_bodyadr[root]));
   }
 

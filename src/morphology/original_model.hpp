@@ -14,8 +14,8 @@ namespace amble::morphology {
 /// that `robot` was made from. Added: where the model has no ground, the plane
 /// z = 0 with MuJoCo's own friction, which everything touches that collides. Of models for a newer MuJoCo are
 /// kept: kv and dampratio of position actuators, actuatorfrcrange of joints with one actuator, and
-/// implicitfast as implicit; notes say so. Throws UserError in one line: URDF; a root without a free joint;
-/// meshes of more than 32 MB; what cannot be compiled.
+/// implicitfast as implicit; notes say so. Throws UserError in one line: URDF; a root that moves neither by a
+/// free joint nor by slides and hinges; meshes of more than 32 MB; what cannot be compiled.
 std::shared_ptr<const robot::OriginalModel> keep_model(const ModelFile& file, const ReadingOptions& options,
                                                        const ModelParts& parts, const robot::RobotSpec& robot,
                                                        ReadingNotes& notes);

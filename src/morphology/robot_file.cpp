@@ -168,6 +168,7 @@ class JointOrder {
 
   void check_command(const robot::Joint& joint, double start) const {
     constexpr double rounding_rad = 1e-9;
+    if (joint.servo.hold_torque) return;
     if (joint.command->lower_rad >= joint.lower_rad - rounding_rad &&
         joint.command->upper_rad <= joint.upper_rad + rounding_rad) {
       robot::Joint& own = robot_.joints.back();
@@ -228,6 +229,11 @@ void check_height(const std::string& what, const robot::RobotSpec& robot) {
          "{}: 'fall_height_m' = {}: expected less than {:.3f} m, where the root's centre of mass starts, or "
          "every trial would end at once",
          what, robot.fall_height_m, start_m);
+  if (start_m >= robot.fall_above_m)
+    fail(ExitCode::bad_input,
+         "{}: 'fall_above_m' = {}: expected more than {:.3f} m, where the root's centre of mass starts, or "
+         "every trial would end at once",
+         what, robot.fall_above_m, start_m);
 }
 
 }  // namespace
@@ -253,6 +259,8 @@ robot::RobotSpec make_robot(const SideFile& side, const ModelFile& model, const 
   robot.contact = side.contact;
   robot.gravity_m_s2 = parts.gravity_m_s2;
   robot.fall_height_m = side.fall_height_m;
+  robot.fall_above_m = side.fall_above_m;
+  robot.fall_tilt_rad = side.fall_tilt_rad;
   robot.self_collision = side.self_collision;
 
   robot::check_robot(robot,

@@ -31,6 +31,10 @@ void visit(io::SettingsVisitor& visitor, robot::Servo& servo) {
                  {"torque servo: torque per angle still to go, N m/rad"});
   visitor.number("kd_nm_s_per_rad", servo.kd_nm_s_per_rad, {0.0, largest},
                  {"torque servo: torque per speed, N m s/rad"});
+  visitor.flag(
+      "hold_torque", servo.hold_torque,
+      {"torque servo in the engine mujoco-model: the torque is set at the beginning of a tick and held "
+       "for it"});
 }
 
 void visit(io::SettingsVisitor& visitor, robot::Contact& contact) {
@@ -70,6 +74,10 @@ struct TopKeys {
                    {"height of the root's frame in the start pose; 0: as the model has it"});
     visitor.number("fall_height_m", side.fall_height_m, {-largest, largest},
                    {"the robot has fallen when the root's centre of mass is lower"});
+    visitor.number("fall_above_m", side.fall_above_m, {-largest, unbounded},
+                   {"or when it is higher; inf: never"});
+    visitor.number("fall_tilt_rad", side.fall_tilt_rad, {0.0, unbounded},
+                   {"or when the root tilts by more from its start pose, rad; inf: never"});
     visitor.flag("self_collision", side.self_collision,
                  {"whether bodies that no joint links collide with each other"});
     visitor.flag("keep_model", side.keep_model,
@@ -317,6 +325,9 @@ class SideFileReader {
   void require_numbers(robot::Servo& servo) const {
     const bool velocity = servo.mode == robot::ServoMode::velocity;
     require("servo.max_torque_nm", servo.max_torque_nm);
+    if (velocity && servo.hold_torque)
+      fail(ExitCode::bad_input, "{}: 'servo.hold_torque' = true: expected mode = \"torque\" beside it",
+           path_);
     require(velocity ? "servo.gain_per_s" : "servo.kp_nm_per_rad",
             velocity ? servo.gain_per_s : servo.kp_nm_per_rad);
     // What the mode does not use is zero.

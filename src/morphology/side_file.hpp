@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -39,6 +40,8 @@ struct SideFile {
   std::optional<Quat> start_rotation;  ///< of the root in the world; none: as the model has it
   double root_height_m = 0.0;          ///< of the root's frame; 0: as the model has it
   double fall_height_m = 0.0;
+  double fall_above_m = std::numeric_limits<double>::infinity();
+  double fall_tilt_rad = std::numeric_limits<double>::infinity();
   bool self_collision = false;
   bool keep_model = false;  ///< whether the robot carries the model itself, for the engine mujoco-model
 };

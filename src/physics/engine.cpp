@@ -9,6 +9,7 @@
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
 #include "amble/core/registry.hpp"
+#include "amble/io/text.hpp"
 #include "amble/physics/engine_kinds.hpp"
 
 namespace amble::physics {
@@ -31,6 +32,15 @@ Registry<EngineKind>& kinds() {
 const EngineKind& kind_of(std::string_view name) {
   check_engine_name(name);
   return *find_engine(name);
+}
+
+void refuse_held_torques(std::string_view name, const robot::RobotSpec& robot) {
+  for (const robot::Joint& joint : robot.joints)
+    if (joint.servo.hold_torque)
+      fail(ExitCode::bad_input,
+           "the engine '{}': the servo of joint '{}' holds its torque for a tick (servo.hold_torque in the "
+           "robot file), which only engines of the model itself do: expected engine = \"mujoco-model\"",
+           name, io::printable(joint.name));
 }
 
 }  // namespace
@@ -83,6 +93,7 @@ std::unique_ptr<Engine> make_engine(std::string_view name, const robot::RobotSpe
                                     const EngineSettings& settings) {
   AMBLE_CHECK(settings.timestep_s > 0.0, "timestep_s");
   const EngineKind& kind = kind_of(name);
+  if (!kind.traits.of_original_model) refuse_held_torques(name, robot);
   EngineSettings all = settings;
   all.own.complete(kind.numbers);
   auto engine = kind.make(robot, all);

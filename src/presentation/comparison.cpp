@@ -15,10 +15,13 @@
 namespace amble::presentation {
 namespace {
 
-/// Engines of robots' own models are for those that carry one, intact.
+/// Engines of robots' own models are for those that carry one, intact; the others for servos that do not hold
+/// their torques.
 bool can_simulate(std::string_view engine, const experiment::Problem& problem) {
-  return !physics::engine_traits(engine).of_original_model ||
-         (problem.robot.original && !problem.damage.changes_body());
+  if (physics::engine_traits(engine).of_original_model)
+    return problem.robot.original && !problem.damage.changes_body();
+  return std::ranges::none_of(problem.robot.joints,
+                              [](const robot::Joint& joint) { return joint.servo.hold_torque; });
 }
 
 /// The requested engines and every champion's own, with which the others are compared.

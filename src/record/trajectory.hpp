@@ -13,7 +13,7 @@ namespace amble::record {
 /// How a trial ended. A diverged simulation is an outcome, not an error.
 enum class Outcome : std::uint8_t {
   completed = 0,  ///< ran its full time
-  fell = 1,       ///< the root's centre of mass was lower than RobotSpec::fall_height_m over the ground
+  fell = 1,       ///< RobotSpec::fall_rule was met
   diverged = 2,   ///< values not finite, or absurdly large; the last healthy state counts
 };
 inline constexpr std::array<std::string_view, 3> outcome_names{"completed", "fell", "diverged"};
@@ -34,7 +34,7 @@ struct PathSampling {
 /// Optional measurements of a trial, which cost time.
 struct Measures {
   bool energy = false, uprightness = false, seconds = false, contacts = false, footfalls = false,
-       height = false, headings = false, commands = false;
+       height = false, headings = false, commands = false, effort = false, root = false;
 
   Measures& operator|=(const Measures& other) {
     energy |= other.energy;
@@ -45,8 +45,12 @@ struct Measures {
     height |= other.height;
     headings |= other.headings;
     commands |= other.commands;
+    effort |= other.effort;
+    root |= other.root;
     return *this;
   }
+  /// Whether the engine must measure torques for them.
+  bool need_torques() const { return energy || effort; }
 };
 
 /// Whole seconds in a time, s; a time a rounding error short of one more has that, too.
@@ -71,6 +75,10 @@ struct Trajectory {
   std::vector<double> com_by_second_m;
   /// Measures::energy: Σ |torque × change of angle| over motors and steps, J.
   double energy_j = 0.0;
+  /// Measures::root: the origin of the root's frame before the first step and after the last.
+  Vec3 root_start_m, root_end_m;
+  /// Measures::effort: Σ (torque / largest torque)² over motors and steps.
+  double effort_steps = 0.0;
   /// Measures::uprightness: sum over steps of the cosine between the root's z axis and the vertical.
   double upright_steps = 0.0;
   /// Measures::contacts: of each leg, the steps after which its foot touched something.

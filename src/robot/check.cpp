@@ -36,6 +36,8 @@ class Checker {
     check_contact();
     if (!finite(robot_.gravity_m_s2)) bad("gravity must be finite");
     if (!std::isfinite(robot_.fall_height_m)) bad("fall_height_m must be finite");
+    if (!(robot_.fall_above_m > robot_.fall_height_m)) bad("fall_above_m must be above fall_height_m");
+    if (!(robot_.fall_tilt_rad > 0.0)) bad("fall_tilt_rad must be positive");
   }
 
  private:
@@ -100,8 +102,9 @@ class Checker {
     const AngleRange command = joint.command_range();
     must(std::isfinite(command.lower_rad) && std::isfinite(command.upper_rad),
          "has no stops, so it needs a range of command");
-    must(joint.lower_rad <= command.lower_rad && command.lower_rad <= command.upper_rad &&
-             command.upper_rad <= joint.upper_rad,
+    must(command.lower_rad <= command.upper_rad &&
+             (joint.servo.hold_torque ||
+              (joint.lower_rad <= command.lower_rad && command.upper_rad <= joint.upper_rad)),
          "must have a range of command within its stops");
     if (!(joint.lower_rad <= 0.0 && joint.upper_rad >= 0.0)) {
       bad("joint '{}': the start pose, angle 0, lies outside its range {} … {} rad", joint.name,

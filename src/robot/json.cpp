@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -85,12 +86,15 @@ Body read_body(const JsonView& json) {
           .inertia_rotation = quat(json.at("inertia_rotation"))};
 }
 
+/// "hold_torque" is there only where it is set.
 Json json_of_servo(const Servo& servo) {
-  return {{"mode", servo_mode_names[to_index(servo.mode)]},
-          {"gain_per_s", servo.gain_per_s},
-          {"max_torque_nm", servo.max_torque_nm},
-          {"kp_nm_per_rad", servo.kp_nm_per_rad},
-          {"kd_nm_s_per_rad", servo.kd_nm_s_per_rad}};
+  Json json{{"mode", servo_mode_names[to_index(servo.mode)]},
+            {"gain_per_s", servo.gain_per_s},
+            {"max_torque_nm", servo.max_torque_nm},
+            {"kp_nm_per_rad", servo.kp_nm_per_rad},
+            {"kd_nm_s_per_rad", servo.kd_nm_s_per_rad}};
+  if (servo.hold_torque) json["hold_torque"] = true;
+  return json;
 }
 
 Servo read_servo(const JsonView& json) {
@@ -98,7 +102,8 @@ Servo read_servo(const JsonView& json) {
           .gain_per_s = json.at("gain_per_s").number(),
           .max_torque_nm = json.at("max_torque_nm").number(),
           .kp_nm_per_rad = json.at("kp_nm_per_rad").number(),
-          .kd_nm_s_per_rad = json.at("kd_nm_s_per_rad").number()};
+          .kd_nm_s_per_rad = json.at("kd_nm_s_per_rad").number(),
+          .hold_torque = json.has("hold_torque") && json.at("hold_torque").flag()};
 }
 
 /// Members of a joint that are left out where they are 0.
@@ -218,17 +223,21 @@ Json json_of_leg(const Leg& leg) {
 
 }  // namespace
 
+/// "fall_above_m" and "fall_tilt_rad" are there only where they are finite.
 Json to_json(const RobotSpec& robot) {
-  return {{"name", robot.name},
-          {"bodies", array_of(robot.bodies, json_of_body)},
-          {"joints", array_of(robot.joints, json_of_joint)},
-          {"geoms", array_of(robot.geoms, json_of_geom)},
-          {"joint_types", robot.joint_types},
-          {"legs", array_of(robot.legs, json_of_leg)},
-          {"contact", json_of_contact(robot.contact)},
-          {"gravity_m_s2", json_of(robot.gravity_m_s2)},
-          {"fall_height_m", robot.fall_height_m},
-          {"self_collision", robot.self_collision}};
+  Json json{{"name", robot.name},
+            {"bodies", array_of(robot.bodies, json_of_body)},
+            {"joints", array_of(robot.joints, json_of_joint)},
+            {"geoms", array_of(robot.geoms, json_of_geom)},
+            {"joint_types", robot.joint_types},
+            {"legs", array_of(robot.legs, json_of_leg)},
+            {"contact", json_of_contact(robot.contact)},
+            {"gravity_m_s2", json_of(robot.gravity_m_s2)},
+            {"fall_height_m", robot.fall_height_m},
+            {"self_collision", robot.self_collision}};
+  if (std::isfinite(robot.fall_above_m)) json["fall_above_m"] = robot.fall_above_m;
+  if (std::isfinite(robot.fall_tilt_rad)) json["fall_tilt_rad"] = robot.fall_tilt_rad;
+  return json;
 }
 
 RobotSpec from_json(const JsonView& json) {
@@ -243,6 +252,8 @@ RobotSpec from_json(const JsonView& json) {
                   .gravity_m_s2 = vec3(json.at("gravity_m_s2")),
                   .fall_height_m = json.at("fall_height_m").number(),
                   .self_collision = json.at("self_collision").flag()};
+  if (json.has("fall_above_m")) robot.fall_above_m = json.at("fall_above_m").number();
+  if (json.has("fall_tilt_rad")) robot.fall_tilt_rad = json.at("fall_tilt_rad").number();
   check_robot(robot, [&](const std::string& problem) { json.refuse("holds no valid robot: " + problem); });
   return robot;
 }

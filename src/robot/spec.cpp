@@ -1,6 +1,7 @@
 #include "amble/robot/spec.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "amble/core/index.hpp"
@@ -14,6 +15,14 @@ Servo Joint::acting_servo() const {
           .max_torque_nm = std::numeric_limits<double>::infinity(),
           .kp_nm_per_rad = stiffness_nm_per_rad,
           .kd_nm_s_per_rad = 0.0};
+}
+
+bool FallRule::met(double height_m, double up) const {
+  return height_m < below_m || height_m > above_m || (std::isfinite(tilt_rad) && up < std::cos(tilt_rad));
+}
+
+double RobotSpec::upright(const Quat& root_rotation) const {
+  return rotate(root_rotation * conjugate(bodies[0].rotation), {0.0, 0.0, 1.0}).z;
 }
 
 bool Leg::has_foot_geom(int geom) const {

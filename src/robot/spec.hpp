@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -66,6 +67,10 @@ struct Servo {
   double max_torque_nm = 5.0;
   double kp_nm_per_rad = 0.0;
   double kd_nm_s_per_rad = 0.0;
+  /// ServoMode::torque, in the engine mujoco-model alone: the torque is that of the angle and the speed at
+  /// the beginning of a tick, and is held for the tick, as an action of Gymnasium's environments is. Targets
+  /// may lie beyond the stops: then it presses against one.
+  bool hold_torque = false;
 };
 
 struct AngleRange {
@@ -88,8 +93,8 @@ struct Joint {
   Vec3 anchor_m;                            ///< in the frame of `body`
   Vec3 axis;                                ///< unit vector in the frame of `body`, at zero angles
   double lower_rad = 0.0, upper_rad = 0.0;  ///< stops; ± infinity: none
-  /// Range of the targets that controllers give, finite and within the stops; none: from stop to stop. If its
-  /// width is 0 no controller drives the joint: its servo holds it there.
+  /// Range of the targets that controllers give, finite and within the stops (but for Servo::hold_torque);
+  /// none: from stop to stop. If its width is 0 no controller drives the joint: its servo holds it there.
   std::optional<AngleRange> command = std::nullopt;
   Servo servo;
   double armature_kg_m2 = 0.0;  ///< inertia of the motor's rotor, times the gear ratio squared
@@ -132,6 +137,17 @@ struct Contact {
   int sweeps = 0;
 };
 
+/// When a trial ends as `fell`.
+struct FallRule {
+  double below_m = 0.0;  ///< the root's centre of mass is lower than this over the ground below it
+  double above_m = std::numeric_limits<double>::infinity();  ///< or higher than this
+  double tilt_rad =
+      std::numeric_limits<double>::infinity();  ///< or its z axis of the start pose tilts by more
+
+  /// `up`: cosine of the angle between the vertical and the root's axis that was vertical in the start pose.
+  bool met(double height_m, double up) const;
+};
+
 /// All that is known of a robot: const, shared by all workers, independent of any engine. Joints are in
 /// control order: leg by leg and type by type, without gaps, then those that belong to no leg (head, spine,
 /// tail), which are not driven: their motors hold them, or they have none. That is the order of motors,
@@ -147,11 +163,17 @@ struct RobotSpec {
   Vec3 gravity_m_s2{0.0, 0.0, -9.8};
   /// A trial ends as `fell` when the root's centre of mass is lower than this over the ground below it.
   double fall_height_m = 0.0;
+  /// And when it is higher than this, or the root tilts from its start pose by more than this.
+  double fall_above_m = std::numeric_limits<double>::infinity();
+  double fall_tilt_rad = std::numeric_limits<double>::infinity();
   bool self_collision = false;
   /// The MJCF itself, for the engine mujoco-model; null unless the robot file says keep_model = true.
   std::shared_ptr<const OriginalModel> original = nullptr;
 
   double total_mass_kg() const;
+  FallRule fall_rule() const { return {fall_height_m, fall_above_m, fall_tilt_rad}; }
+  /// FallRule::met of a root that is turned so.
+  double upright(const Quat& root_rotation) const;
   /// Number of joints that belong to legs: the first of `joints`.
   std::size_t leg_joint_count() const;
   /// The body of a leg's foot: that of the first of its shapes.

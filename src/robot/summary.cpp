@@ -152,8 +152,12 @@ std::string summary(const RobotSpec& robot) {
   text += fmt::format("contact: friction {}, erp {}, cfm {} m/s per N; self-collision {}\n",
                       number(contact.friction), number(contact.erp), number(contact.cfm_s_per_kg),
                       robot.self_collision ? "on" : "off");
-  text += fmt::format("gravity: {} m/s2; the robot has fallen below {} m\n", numbers(robot.gravity_m_s2),
+  text += fmt::format("gravity: {} m/s2; the robot has fallen below {} m", numbers(robot.gravity_m_s2),
                       number(robot.fall_height_m));
+  if (std::isfinite(robot.fall_above_m)) text += fmt::format(", above {} m", number(robot.fall_above_m));
+  if (std::isfinite(robot.fall_tilt_rad))
+    text += fmt::format(", tilted by more than {} rad", number(robot.fall_tilt_rad));
+  text += "\n";
   return text;
 }
 

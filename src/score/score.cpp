@@ -33,6 +33,12 @@ double forward(const record::Trajectory& trajectory, const Context&) {
   return displacement_m(trajectory, 0.0);
 }
 
+/// The same of the root's frame instead of the centre of mass.
+double root_forward(const record::Trajectory& trajectory, const Context&) {
+  const Vec3 moved = trajectory.root_end_m - trajectory.root_start_m;
+  return along(turned(trajectory, 0.0), moved.x, moved.y);
+}
+
 /// Displacement along the heading of the settings.
 double heading(const record::Trajectory& trajectory, const Context& context) {
   return displacement_m(trajectory, context.settings.heading_deg);
@@ -132,6 +138,15 @@ double energy(const record::Trajectory& trajectory, const Context&) {
   return trajectory.energy_j;
 }
 
+double effort(const record::Trajectory& trajectory, const Context&) {
+  return trajectory.effort_steps;
+}
+
+/// The same for each trial: shifts a score that would fall below 0 and stay there.
+double constant(const record::Trajectory&, const Context&) {
+  return 1.0;
+}
+
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr io::Range signed_range{-infinite, infinite}, positive_range{0.0, infinite}, share_range{0.0, 1.0};
 
@@ -156,7 +171,10 @@ Registry<Quantity>& all_quantities() {
                                  {"speed_error", "m/s", positive_range, tracking_measures, speed_error},
                                  {"turn_error", "rad/s", positive_range, tracking_measures, turn_error},
                                  {"heading_error", "rad", positive_range, tracking_measures, heading_error},
-                                 {"tracking", "", share_range, tracking_measures, tracking}});
+                                 {"tracking", "", share_range, tracking_measures, tracking},
+                                 {"root_forward", "m", signed_range, {.root = true}, root_forward},
+                                 {"effort", "", positive_range, {.effort = true}, effort},
+                                 {"constant", "", {1.0, 1.0}, {}, constant}});
   return all;
 }
 

@@ -25,7 +25,9 @@ Runner::Runner(physics::Engine& engine, controllers::Batch& controllers, const P
       disturbances_(engine.sensors(), protocol.numb),
       lanes_(to_index(engine.lanes())) {
   AMBLE_CHECK(controllers.lanes() == engine.lanes(), "one controller per robot");
-  AMBLE_CHECK(!protocol.measures.energy || engine.motor_torque_nm(), "energy is measured by torques");
+  AMBLE_CHECK(!protocol.measures.need_torques() || engine.motor_torque_nm(), "work is measured by torques");
+  AMBLE_CHECK(!protocol.measures.effort || to_index(targets_rad_.rows()) == protocol.max_torque_nm.size(),
+              "effort is a share of the largest torques");
 }
 
 // The step loop: sensors → controllers → targets (noise applies to both), engine step, then evaluate each
@@ -100,6 +102,8 @@ void Runner::note_start(Lane& slot, int lane) {
   slot.trajectory = {};
   slot.trajectory.timestep_s = protocol_.timestep_s;
   slot.trajectory.com_start_m = slot.last_healthy_com_m = engine_->com_m(lane);
+  if (protocol_.measures.root)
+    slot.trajectory.root_start_m = slot.trajectory.root_end_m = engine_->root_pose(lane).position_m;
   note_forward(lane, slot.trajectory.forward_x, slot.trajectory.forward_y);
   if (protocol_.measures.contacts)
     slot.trajectory.contact_steps.assign(to_index(engine_->sensors().touch.rows()), 0);
@@ -161,6 +165,7 @@ std::optional<record::Outcome> Runner::advance(int lane) {
   if (!engine_->healthy(lane)) return record::Outcome::diverged;
 
   slot.last_healthy_com_m = engine_->com_m(lane);
+  if (protocol_.measures.root) trajectory.root_end_m = engine_->root_pose(lane).position_m;
   if (protocol_.path.at(trajectory.steps, protocol_.steps)) {
     const Vec3 moved = slot.last_healthy_com_m - trajectory.com_start_m;
     trajectory.com_path_m.push_back(static_cast<float>(moved.x));
@@ -175,12 +180,19 @@ std::optional<record::Outcome> Runner::advance(int lane) {
   if (slot.task.observer)
     slot.task.observer->on_step(trajectory.steps, *engine_, controllers_, targets_rad_, lane);
 
-  const Vec3 root_m = engine_->root_com_m(lane);
+  const Vec3 root_m = engine_->root_com_m(lane);  // its centre of mass
   const double ground_m = engine_->ground() ? engine_->ground()->height_m(root_m.x, root_m.y) : 0.0;
   if (protocol_.measures.height) trajectory.height_steps_m += root_m.z - ground_m;
-  if (root_m.z - ground_m < protocol_.fall_height_m) return record::Outcome::fell;
+  if (protocol_.fall.met(root_m.z - ground_m, upright(lane))) return record::Outcome::fell;
   if (trajectory.steps == protocol_.steps) return record::Outcome::completed;
   return std::nullopt;
+}
+
+/// What FallRule::met asks for; 1 where that does not matter.
+double Runner::upright(int lane) const {
+  if (!std::isfinite(protocol_.fall.tilt_rad)) return 1.0;
+  const Quat turn = engine_->root_pose(lane).rotation * conjugate(protocol_.start_rotation);
+  return rotate(turn, {0.0, 0.0, 1.0}).z;
 }
 
 /// Adds what scores need of this step to the lane's trajectory.
@@ -204,11 +216,21 @@ void Runner::measure(int lane) {
     }
   }
   if (protocol_.measures.headings || protocol_.measures.commands) note_seconds(lane);
-  if (!protocol_.measures.energy) return;
-  // Work of each motor in this step: τ Δq, braking counted like driving.
+  if (protocol_.measures.need_torques()) note_work(lane);
+}
+
+/// Work and effort of each motor in this step.
+void Runner::note_work(int lane) {
+  Lane& slot = lanes_[to_index(lane)];
   const LaneArray& angle_rad = engine_->sensors().joint_angle_rad;
   const LaneArray& torque_nm = *engine_->motor_torque_nm();
-  for (int joint = 0; joint < angle_rad.rows(); ++joint) {
+  for (int joint = 0; protocol_.measures.effort && joint < torque_nm.rows(); ++joint) {
+    const double most_nm = protocol_.max_torque_nm[to_index(joint)];
+    const double share = most_nm > 0.0 ? torque_nm.at(joint, lane) / most_nm : 0.0;
+    slot.trajectory.effort_steps += share * share;
+  }
+  // Work: τ Δq, braking counted like driving.
+  for (int joint = 0; protocol_.measures.energy && joint < angle_rad.rows(); ++joint) {
     double& before_rad = slot.angle_rad[to_index(joint)];
     const double now_rad = angle_rad.at(joint, lane);
     slot.trajectory.energy_j += std::abs(torque_nm.at(joint, lane) * (now_rad - before_rad));

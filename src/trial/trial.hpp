@@ -57,8 +57,9 @@ struct Protocol {
   std::vector<NumbTouch> numb = {};              ///< in every trial
   Sensing sensing = {};                          ///< torques: only with an engine that has them
   std::optional<CommandSchedule> commands = {};  ///< of trials whose scenario has none
-  double fall_height_m = 0.0;                    ///< of the root's centre of mass over the ground below it
-  Quat start_rotation;                           ///< of the root in the robot's own start pose
+  robot::FallRule fall = {};
+  std::vector<double> max_torque_nm = {};  ///< by joint, 0: it has no motor; for measures.effort
+  Quat start_rotation;                     ///< of the root in the robot's own start pose
 };
 
 /// Runs trials on one engine, as many at a time as it has lanes; a lane whose trial has ended takes the next
@@ -111,6 +112,8 @@ class Runner {
   void after_step(int lane, TaskQueue& queue);
   std::optional<record::Outcome> advance(int lane);
   void measure(int lane);
+  double upright(int lane) const;
+  void note_work(int lane);
   void note_footfalls(int lane);
   void note_seconds(int lane);
   const CommandSchedule* commands_of(const Task& task) const;

@@ -193,8 +193,13 @@ TEST(OriginalModel, RefusesWhatCannotWalkByItself) {
             "of its own");
   EXPECT_EQ(refusal("own.xml", tests::model_text(tests::four_legs(), "")),
             "own.xml: the model cannot be kept for the engine mujoco-model (keep_model = true): its root "
-            "'trunk' has no "
-            "free joint, and so cannot walk");
+            "'trunk' moves neither by a free joint nor by slides and hinges, and so cannot walk");
+  EXPECT_EQ(refusal("own.xml", tests::model_text(tests::four_legs(), R"(<joint type="ball"/>)")),
+            "own.xml: the model cannot be kept for the engine mujoco-model (keep_model = true): its root "
+            "'trunk' moves neither by a free joint nor by slides and hinges, and so cannot walk");
+  EXPECT_EQ(refusal("own.xml", tests::model_text(tests::four_legs(),
+                                                 R"(<joint type="slide" axis="1 0 0" name="rail"/>)")),
+            "accepted");
   // --init says so in the robot file and goes on.
   const auto fixed = files.write("own.xml", tests::model_text(tests::four_legs(), ""));
   const std::string toml = guess_robot(compile_model(fixed), "own.xml", true).toml;

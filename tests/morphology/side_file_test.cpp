@@ -188,6 +188,20 @@ TEST(SideFile, TakesNumbersToTheEndsOfTheirRanges) {
             std::string::npos);
 }
 
+TEST(SideFile, TakesFurtherFallsAndTorquesThatAreHeld) {
+  const Files files;
+  const auto read_with = [&](const std::string& was, const std::string& is) {
+    return files.error_of([&] { read(files, with(one_leg_toml, was, is)); });
+  };
+  EXPECT_EQ(read_with("fall_height_m = 0.5", "fall_height_m = 0.5\nfall_above_m = inf\nfall_tilt_rad = 0.2"),
+            "accepted");
+  EXPECT_NE(read_with("fall_height_m = 0.5", "fall_height_m = 0.5\nfall_tilt_rad = -1").find("fall_tilt_rad"),
+            std::string::npos);
+  EXPECT_NE(read_with("gain_per_s = 9.0", "gain_per_s = 9.0\nhold_torque = true")
+                .find("'servo.hold_torque' = true: expected mode = \"torque\" beside it"),
+            std::string::npos);
+}
+
 TEST(SideFile, HasRangesOfCommandOfTwoRisingNumbers) {
   const Files files;
   const auto refusal = [&](const std::string& range) {

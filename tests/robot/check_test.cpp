@@ -206,6 +206,14 @@ TEST(CheckRobot, DrawsItsLimitsWhereTheMessagesSay) {
     EXPECT_EQ(problem_after([&](RobotSpec& r) { r.joints[0].command = range; }),
               "joint 'A_hip' must have a range of command within its stops")
         << range.lower_rad << " to " << range.upper_rad;
+  // A servo that holds its torque may press against a stop.
+  EXPECT_TRUE(accepted([](RobotSpec& r) {
+    r.joints[0].command = AngleRange{-0.8, 0.9};
+    r.joints[0].servo.hold_torque = true;
+  }));
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.fall_above_m = r.fall_height_m; }),
+            "fall_above_m must be above fall_height_m");
+  EXPECT_EQ(problem_after([](RobotSpec& r) { r.fall_tilt_rad = 0.0; }), "fall_tilt_rad must be positive");
   EXPECT_EQ(problem_after([](RobotSpec& r) { r.geoms[to_index(r.legs[0].foot_geoms[0])].collides = false; }),
             "leg 'A' has a foot that cannot collide");
 }

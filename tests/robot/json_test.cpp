@@ -27,6 +27,27 @@ RobotSpec through_text(const RobotSpec& robot) {
   return from_json({parsed, "FILE", "robot"});
 }
 
+TEST(RobotJson, WritesHeldTorquesAndFurtherFallsOnlyWhereThereAreSome) {
+  RobotSpec robot = quadruped();
+  const std::string text = to_json(robot).dump();
+  for (const char* key : {"hold_torque", "fall_above_m", "fall_tilt_rad"})
+    EXPECT_EQ(text.find(key), std::string::npos) << key;
+  EXPECT_TRUE(std::isinf(through_text(robot).fall_above_m) && std::isinf(through_text(robot).fall_tilt_rad));
+  robot.fall_above_m = 2.5;
+  robot.fall_tilt_rad = 0.1;
+  robot.joints[1].servo = {.mode = ServoMode::torque,
+                           .gain_per_s = 0.0,
+                           .max_torque_nm = 3.0,
+                           .kp_nm_per_rad = 2.0,
+                           .kd_nm_s_per_rad = 1.0,
+                           .hold_torque = true};
+  const RobotSpec again = through_text(robot);
+  EXPECT_EQ(again.fall_above_m, 2.5);
+  EXPECT_EQ(again.fall_tilt_rad, 0.1);
+  EXPECT_TRUE(again.joints[1].servo.hold_torque);
+  EXPECT_FALSE(again.joints[0].servo.hold_torque);
+}
+
 TEST(RobotJson, ReadsBackTheSameRobotToTheBit) {
   RobotSpec robot = quadruped();
   // Numbers without a short decimal form.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "amble/core/random.hpp"
 #include "amble/robot/collision_points.hpp"
 #include "amble/robot/sensors.hpp"
@@ -17,6 +19,26 @@ using morphology::load_one_leg;
 TEST(RobotSpec, SumsTheMassesOfItsBodies) {
   const Files files;
   EXPECT_DOUBLE_EQ(load_one_leg(files).total_mass_kg(), 4.75);
+}
+
+TEST(FallRule, IsMetBelowAboveOrTilted) {
+  const FallRule by_height{.below_m = 0.2, .above_m = 1.0};
+  EXPECT_TRUE(by_height.met(0.19, 1.0));
+  EXPECT_FALSE(by_height.met(0.2, -1.0));
+  EXPECT_FALSE(by_height.met(1.0, -1.0));
+  EXPECT_TRUE(by_height.met(1.01, 1.0));
+  const FallRule by_tilt{.below_m = 0.0, .tilt_rad = 0.5};
+  EXPECT_FALSE(by_tilt.met(1e9, std::cos(0.49)));
+  EXPECT_TRUE(by_tilt.met(1e9, std::cos(0.51)));
+}
+
+TEST(RobotSpec, SeesATiltFromItsOwnStartPose) {
+  const Files files;
+  RobotSpec robot = load_one_leg(files);
+  robot.bodies[0].rotation = axis_angle({0.0, 0.6, 0.8}, 0.7);
+  const Quat turned = axis_angle({1.0, 0.0, 0.0}, 0.3) * robot.bodies[0].rotation;
+  EXPECT_NEAR(robot.upright(turned), std::cos(0.3), 1e-12);
+  EXPECT_NEAR(robot.upright(axis_angle({0.0, 0.0, 1.0}, 2.0) * robot.bodies[0].rotation), 1.0, 1e-12);
 }
 
 TEST(RobotSpec, NamesTheJointsOfABodyInTheOrderOfTheChain) {

@@ -54,6 +54,27 @@ double of_walk(const std::string& quantity, Settings settings = {}) {
   return Score(settings, 15.0, 100.0).of(walk());
 }
 
+// What the tasks of configs/tasks are made of.
+TEST(Score, AddsUpRewardsOfStepsFromTheRootsWayAndTheEffort) {
+  record::Trajectory trajectory = walk();
+  trajectory.steps = 600;
+  trajectory.root_start_m = {0.5, 1.0, 0.7};
+  trajectory.root_end_m = {2.5, 9.0, 0.2};
+  trajectory.effort_steps = 40.0;
+  Settings settings;
+  settings.terms = {{.quantity = "root_forward", .weight = 100.0},
+                    {.quantity = "upright_time", .weight = 1500.0},
+                    {.quantity = "effort", .weight = -0.5}};
+  settings.validate();
+  const Score score(settings, 15.0, 100.0);
+  EXPECT_DOUBLE_EQ(score.of(trajectory), 200.0 + 600.0 - 20.0);
+  EXPECT_TRUE(score.measures().root && score.measures().effort && score.measures().need_torques());
+  EXPECT_FALSE(score.measures().energy);
+  trajectory.forward_x = 0.0;
+  trajectory.forward_y = 1.0;
+  EXPECT_DOUBLE_EQ(score.of(trajectory), 800.0 + 600.0 - 20.0) << "along its own forward axis";
+}
+
 TEST(Score, IsTheDistanceByDefaultToTheBit) {
   EXPECT_TRUE(Settings().is_distance());
   EXPECT_EQ(Score({}, 15.0, 100.0).of(walk()), distance_m(walk()));

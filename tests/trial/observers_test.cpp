@@ -38,7 +38,7 @@ void run(controllers::Batch& batch, Observer& observer, int steps, float target_
   FakeEngine engine(1);
   Protocol protocol;
   protocol.steps = steps;
-  protocol.fall_height_m = 0.0;
+  protocol.fall.below_m = 0.0;
   const std::atomic<bool> never{false};
   OneTask task(std::make_unique<FakeParameters>(target_rad), &observer);
   Runner(engine, batch, protocol).run(task, never);

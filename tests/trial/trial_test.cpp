@@ -19,7 +19,7 @@ Protocol protocol(int steps, double fall_height_m = 0.0, record::PathSampling pa
   Protocol protocol;
   protocol.steps = steps;
   protocol.path = path;
-  protocol.fall_height_m = fall_height_m;
+  protocol.fall.below_m = fall_height_m;
   return protocol;
 }
 
@@ -44,6 +44,37 @@ TEST(Runner, EndsATrialInTheStepThatBringsTheRootBelowTheFallHeight) {
   EXPECT_EQ(trajectory.outcome, record::Outcome::fell);
   EXPECT_EQ(trajectory.steps, 11);  // 1 − 11 mm is the first height below 0.9895 m
   EXPECT_DOUBLE_EQ(trajectory.com_end_m.x, 11.0);
+}
+
+TEST(Runner, EndsATrialWhoseRootIsTooHighOrTiltedTooFar) {
+  const auto steps_of = [](robot::FallRule fall, double roll_rad) {
+    FakeEngine engine(1);
+    FakeBatch batch(1);
+    Protocol how = protocol(100);
+    how.fall = fall;
+    // The fake robot keeps its rotation: the start pose is what it is tilted from.
+    how.start_rotation = axis_angle({1.0, 0.0, 0.0}, roll_rad);
+    Queue queue({FakeParameters(1.0f)});
+    Runner(engine, batch, how).run(queue, never);
+    return queue.results[0]->outcome == record::Outcome::fell ? queue.results[0]->steps : 0;
+  };
+  EXPECT_EQ(steps_of({.below_m = 0.0, .above_m = 0.9985}, 0.0), 1);
+  EXPECT_EQ(steps_of({.below_m = 0.0, .above_m = 0.9995}, 0.0), 0) << "it sinks by 1 mm a step";
+  EXPECT_EQ(steps_of({.below_m = 0.0, .tilt_rad = 0.2}, 0.21), 1);
+  EXPECT_EQ(steps_of({.below_m = 0.0, .tilt_rad = 0.2}, -0.21), 1);
+  EXPECT_EQ(steps_of({.below_m = 0.0, .tilt_rad = 0.2}, 0.19), 0);
+}
+
+TEST(Runner, MeasuresHowFarTheRootsFrameMoved) {
+  FakeEngine engine(1);
+  FakeBatch batch(1);
+  Protocol how = protocol(7);
+  how.measures.root = true;
+  Queue queue({FakeParameters(0.5f)});
+  Runner(engine, batch, how).run(queue, never);
+  EXPECT_EQ(queue.results[0]->root_start_m.x, 0.0);
+  EXPECT_DOUBLE_EQ(queue.results[0]->root_end_m.x, 3.5);
+  EXPECT_NEAR(queue.results[0]->root_end_m.z, 0.993, 1e-12);
 }
 
 TEST(Runner, CallsAFallInTheLastStepAFall) {

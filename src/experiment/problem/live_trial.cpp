@@ -31,7 +31,8 @@ double clearance_m(const robot::RobotSpec& robot, const ground::Ground* ground,
 trial::Protocol endless(const Problem& problem) {
   trial::Protocol protocol = problem.protocol({});
   protocol.steps = std::numeric_limits<int>::max();
-  protocol.fall_height_m = -std::numeric_limits<double>::infinity();
+  protocol.fall.below_m = -std::numeric_limits<double>::infinity();
+  protocol.fall.above_m = protocol.fall.tilt_rad = std::numeric_limits<double>::infinity();
   protocol.measures = {};
   return protocol;
 }
@@ -109,7 +110,8 @@ bool LiveTrial::step() {
 bool LiveTrial::fallen() const {
   const Vec3 root_m = engine_->root_com_m(lane);
   const double ground_m = ground_ ? ground_->height_m(root_m.x, root_m.y) : 0.0;
-  return root_m.z - ground_m < problem_.robot.fall_height_m;
+  const robot::RobotSpec& robot = problem_.robot;
+  return robot.fall_rule().met(root_m.z - ground_m, robot.upright(engine_->root_pose(lane).rotation));
 }
 
 }  // namespace amble::experiment

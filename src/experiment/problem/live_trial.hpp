@@ -48,7 +48,7 @@ class LiveTrial {
   int steps() const { return steps_; }  ///< made so far
   /// Whether the controller senses commands.
   bool obeys() const;
-  /// Whether the root has been lower than RobotSpec::fall_height_m over the ground after the last step.
+  /// Whether RobotSpec::fall_rule was met after the last step.
   bool fallen() const;
   const Problem& problem() const { return problem_; }
   const physics::Engine& engine() const { return *engine_; }

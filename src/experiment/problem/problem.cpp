@@ -40,7 +40,7 @@ void Problem::complete() {
 std::unique_ptr<physics::Engine> Problem::make_engine(bool torques) const {
   const robot::ExtraSenses sensed =
       architecture != nullptr ? architecture->extra_senses() : robot::ExtraSenses();
-  const bool needed = torques || sensed.torque || make_score().measures().energy;
+  const bool needed = torques || sensed.torque || make_score().measures().need_torques();
   return physics::make_damaged_engine(engine, robot, damage,
                                       {.timestep_s = trial.timestep_s,
                                        .torques = needed,
@@ -65,6 +65,9 @@ trial::Protocol Problem::protocol(const record::PathSampling& path, const record
   std::vector<trial::NumbTouch> numb;
   for (const damage::NumbFoot& foot : damage::numb_feet(robot, damage))
     numb.push_back({foot.leg, damage::first_step(foot.from_s, trial.timestep_s)});
+  std::vector<double> max_torque_nm;
+  for (const robot::Joint& joint : robot.joints)
+    max_torque_nm.push_back(joint.has_motor() ? joint.servo.max_torque_nm : 0.0);
   return {.steps = trial.steps(),
           .timestep_s = trial.timestep_s,
           .first_command = trial.first_command,
@@ -74,7 +77,8 @@ trial::Protocol Problem::protocol(const record::PathSampling& path, const record
           .sensing = {architecture->extra_senses(),
                       controllers::sensor_models(controller.sensing, robot, trial.timestep_s)},
           .commands = trial::planned_commands(command, trial.steps(), trial.timestep_s),
-          .fall_height_m = robot.fall_height_m,
+          .fall = robot.fall_rule(),
+          .max_torque_nm = std::move(max_torque_nm),
           .start_rotation = robot.bodies[0].rotation};
 }
 

@@ -107,6 +107,7 @@ void Actuation::set_servo(const robot::Servo& servo, Drive& drive) const {
   drive.kp = servo.kp_nm_per_rad;
   drive.kd = servo.kd_nm_s_per_rad;
   drive.speed_per_rad = velocity ? servo.gain_per_s : drive.kd > 0.0 ? drive.kp / drive.kd : 0.0;
+  if (servo.hold_torque) return;
   const double h = model_->opt.timestep, a = model_->dof_invweight0[drive.dof];
   const double most_kd = 1.0 / (2.0 * h * a), most_kp = most_kd / (2.0 * h);
   drive.torque_per_speed = velocity ? most_kd : 0.0;
@@ -132,14 +133,14 @@ double Actuation::servo_torque_nm(std::size_t joint, double error_rad, double sp
   return std::clamp(torque_nm + sum_nm, -most_nm, most_nm);
 }
 
-void Actuation::drive(const LaneArray& targets_rad, mjData& data) {
+void Actuation::drive(const LaneArray& targets_rad, bool first, mjData& data) {
   for (std::size_t j = 0; j < drives_.size(); ++j) {
     const Drive& drive = drives_[j];
     if (drive.way == Way::free) continue;
     const robot::Joint& joint = robot_.joints[j];
-    const double target_rad = std::clamp(static_cast<double>(targets_rad.at(static_cast<int>(j), 0)),
-                                         joint.lower_rad, joint.upper_rad) +
-                              drive.start_rad;
+    double target_rad = static_cast<double>(targets_rad.at(static_cast<int>(j), 0));
+    if (!joint.servo.hold_torque) target_rad = std::clamp(target_rad, joint.lower_rad, joint.upper_rad);
+    target_rad += drive.start_rad;
     if (drive.way == Way::position) {
       // Where gain × control + bias + slope × length is 0. In a position actuator the slope is −gain.
       const double length = drive.gear * target_rad;
@@ -152,6 +153,7 @@ void Actuation::drive(const LaneArray& targets_rad, mjData& data) {
       data.ctrl[drive.actuator] = drive.gear * drive.speed_per_rad * error_rad;
       continue;
     }
+    if (!first && joint.servo.hold_torque) continue;
     const double torque_nm = servo_torque_nm(j, error_rad, data.qvel[drive.dof]);
     if (drive.way == Way::motor)
       data.ctrl[drive.actuator] = torque_nm / (drive.gear * drive.gain);

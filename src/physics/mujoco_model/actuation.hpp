@@ -26,6 +26,7 @@ enum class Way {
 ///   ServoMode::torque    kp (target − q) − kd q̇, with kd at most 1/(2 h A) and kp at most 1/(4 h² A), as
 ///   more
 ///                        would oscillate
+///   with Servo::hold_torque kp and kd as they are, once for all steps of a tick
 ///   ServoMode::velocity  P + Σ P / 5 over all steps so far, with P = (gain (target − q) − q̇) / (2 h A): the
 ///                        joint comes to its speed in some steps, whatever the load
 class Actuation {
@@ -35,8 +36,9 @@ class Actuation {
 
   /// Forgets all steps.
   void reset();
-  /// Sets controls and applied torques of the next step. `targets_rad`: joints × 1, clamped to the stops.
-  void drive(const LaneArray& targets_rad, mjData& data);
+  /// Sets controls and applied torques of the next step, with those that servos hold only in the `first` of a
+  /// tick. `targets_rad`: joints × 1, clamped to the stops but for such servos.
+  void drive(const LaneArray& targets_rad, bool first, mjData& data);
   /// The sums of velocity servos, N m by joint: with MuJoCo's data the whole state.
   const std::vector<double>& sums_nm() const { return sums_nm_; }
   /// Torque of a joint's drive in the last step, N m, with all of its actuators.

@@ -8,6 +8,7 @@
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/io/text.hpp"
+#include "amble/morphology/model_shapes.hpp"
 #include "amble/morphology/mujoco_handlers.hpp"
 
 namespace amble::physics::mujoco_model {
@@ -49,11 +50,9 @@ void find_parts(const robot::RobotSpec& robot, Model& model) {
     model.position_of.push_back(m.jnt_qposadr[joint]);
     model.dof_of.push_back(m.jnt_dofadr[joint]);
   }
-  model.root_body = m.body_rootid[m.jnt_bodyid[original.joints[0]]];
-  const int root_joint = m.body_jntadr[model.root_body];
-  if (root_joint < 0 || m.jnt_type[root_joint] != mjJNT_FREE) refuse_misfit(robot);
-  model.root_position = m.jnt_qposadr[root_joint];
-  model.root_dof = m.jnt_dofadr[root_joint];
+  const int root = m.body_rootid[m.jnt_bodyid[original.joints[0]]];
+  if (!morphology::moves_as_root(m, root)) refuse_misfit(robot);
+  model.root = Root(m, root);
   model.leg_of.assign(to_index(m.ngeom), -1);
   for (int leg = 0; leg < static_cast<int>(robot.legs.size()); ++leg)
     for (const int geom : robot.legs[to_index(leg)].foot_geoms) {
@@ -63,6 +62,36 @@ void find_parts(const robot::RobotSpec& robot, Model& model) {
     }
   for (int g = 0; g < m.ngeom; ++g)
     if (is_ground(m, g)) model.grounds.push_back(g);
+}
+
+/// Puts the root of the start pose where the robot has it.
+void place_root(const robot::RobotSpec& robot, Model& model) {
+  const robot::Body& wanted = robot.bodies[0];
+  if (model.root.is_free()) {
+    const Vec3 p = wanted.position_m;
+    const Quat q = wanted.rotation;
+    const mjtNum pose[] = {p.x, p.y, p.z, q.w, q.x, q.y, q.z};
+    std::ranges::copy(pose, model.start.begin() + model.root.position());
+    return;
+  }
+  const morphology::MujocoData data = morphology::new_mujoco_data(model.get(), "the engine mujoco-model");
+  std::ranges::copy(model.start, data->qpos);
+  mj_kinematics(model.get(), data.get());
+  const auto apart = [&] {
+    const RootPose is = model.root.pose(*data);
+    const Quat turn = is.rotation * conjugate(wanted.rotation);
+    return std::max(norm(is.position_m - wanted.position_m), norm(Vec3{turn.x, turn.y, turn.z}));
+  };
+  constexpr double rounding = 1e-9;
+  if (apart() <= rounding) return;  // the model's own numbers stay as they are
+  model.root.place(model.get(), {wanted.position_m, wanted.rotation}, data.get());
+  if (apart() > rounding)
+    fail(ExitCode::bad_input,
+         "the engine mujoco-model: robot '{}': its root is not free, and the joints on which it moves do not "
+         "let it start at ({:.4g}, {:.4g}, {:.4g}) m turned as it is: expected start_height_m, drop_m and "
+         "start_rpy_deg to leave it where they can take it",
+         io::printable(robot.name), wanted.position_m.x, wanted.position_m.y, wanted.position_m.z);
+  std::copy(data->qpos, data->qpos + model->nq, model.start.begin());
 }
 
 constexpr int least_stack_numbers = 1'000'000;
@@ -104,10 +133,7 @@ Model make_model(const robot::RobotSpec& robot, const EngineSettings& settings) 
               .leg_of = {},
               .grounds = {}};
   find_parts(robot, model);
-  const robot::Body& root = robot.bodies[0];
-  const mjtNum pose[] = {root.position_m.x, root.position_m.y, root.position_m.z, root.rotation.w,
-                         root.rotation.x,   root.rotation.y,   root.rotation.z};
-  std::ranges::copy(pose, model.start.begin() + model.root_position);
+  place_root(robot, model);
   mjModel& m = *model.mujoco;
   m.opt.gravity[0] = robot.gravity_m_s2.x;
   m.opt.gravity[1] = robot.gravity_m_s2.y;

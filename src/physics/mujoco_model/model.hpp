@@ -6,6 +6,7 @@
 
 #include "amble/morphology/model_file.hpp"
 #include "amble/physics/engine.hpp"
+#include "amble/physics/mujoco_model/root.hpp"
 #include "amble/robot/original_model.hpp"
 #include "amble/robot/spec.hpp"
 
@@ -15,8 +16,7 @@ namespace amble::physics::mujoco_model {
 struct Model {
   morphology::ModelPointer mujoco;
   std::vector<double> start;  ///< qpos of the start pose, with the root where the robot has it
-  int root_body = 1;          ///< its free joint is `root_position` in qpos, `root_dof` in qvel
-  int root_position = 0, root_dof = 0;
+  Root root = {};
   std::vector<int> position_of;  ///< by joint: index into qpos
   std::vector<int> dof_of;       ///< by joint: index into qvel
   std::vector<int> leg_of;       ///< by MuJoCo's geom: the leg whose foot it is of, −1: none
@@ -33,7 +33,7 @@ struct Model {
 /// The model, with gravity as the robot feels it and the friction of the ground, if that has one
 /// (EngineSettings). A tick is a whole number of MuJoCo's steps: where the model's timestep does not divide
 /// it, steps are made shorter. Throws UserError: a robot without such a model, one that was kept by another
-/// program.
+/// program, a start pose in which the root's joints do not let it be.
 Model make_model(const robot::RobotSpec& robot, const EngineSettings& settings);
 
 }  // namespace amble::physics::mujoco_model

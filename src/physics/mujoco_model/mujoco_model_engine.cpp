@@ -21,7 +21,6 @@
 namespace amble::physics {
 namespace {
 
-using morphology::quat;
 using morphology::vec3;
 using robot::RobotSpec;
 
@@ -56,22 +55,17 @@ class MujocoModelEngine final : public SingleRobotEngine {
   void place_moving(int lane, const MovingPose& motion) override {
     reset(lane);
     set_positions(motion.pose);
-    // A free joint's angular velocity is in the axes of its body.
-    const Vec3 v = motion.velocity_m_s,
-               w = rotate(conjugate(motion.pose.root.rotation), motion.angular_velocity_rad_s);
-    const mjtNum root[] = {v.x, v.y, v.z, w.x, w.y, w.z};
-    std::ranges::copy(root, data_->qvel + model_.root_dof);
+    model_.root.move(model_.get(), motion.velocity_m_s, motion.angular_velocity_rad_s, data_.get());
     for (std::size_t j = 0; j < motion.joint_speed_rad_s.size(); ++j)
       data_->qvel[model_.dof_of[j]] = motion.joint_speed_rad_s[j];
     begin();
   }
 
   MovingPose motion(int lane) const override {
-    const RootPose root = root_pose(lane);
-    const mjtNum* const speed = data_->qvel + model_.root_dof;
-    MovingPose motion{.pose = {root, {}},
-                      .velocity_m_s = vec3(speed),
-                      .angular_velocity_rad_s = rotate(root.rotation, vec3(speed + 3)),
+    const mujoco_model::Root::Motion root = model_.root.motion(model_.get(), data_.get());
+    MovingPose motion{.pose = {root_pose(lane), {}},
+                      .velocity_m_s = root.velocity_m_s,
+                      .angular_velocity_rad_s = root.angular_velocity_rad_s,
                       .joint_speed_rad_s = {}};
     for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
       motion.pose.joint_angle_rad.push_back(angle_rad(j));
@@ -85,13 +79,13 @@ class MujocoModelEngine final : public SingleRobotEngine {
     torques_nm_.set_lane(0, 0.0f);
     loads_n_.set_lane(0, 0.0f);
     try {
-      for (int i = 0; i < model_.steps && !data_was_reset(); ++i) step_once(targets_rad);
+      for (int i = 0; i < model_.steps && !data_was_reset(); ++i) step_once(targets_rad, i == 0);
     } catch (const morphology::MujocoError&) {  // too little memory for its contacts
       healthy_ = false;
       return;
     }
     find_touch();
-    mju_zero(data_->xfrc_applied + 6 * model_.root_body, 6);
+    mju_zero(data_->xfrc_applied + 6 * model_.root.body(), 6);
     read_state();
   }
 
@@ -99,16 +93,15 @@ class MujocoModelEngine final : public SingleRobotEngine {
     check_pushable(lane);
     // xfrc_applied acts at the centre of mass of MuJoCo's body, which may be a part of the robot's root.
     const Vec3 force_n = (1.0 / tick_s_) * impulse_n_s;
-    const Vec3 lever_m = root_com_m(lane) - vec3(data_->xipos + 3 * model_.root_body);
+    const Vec3 lever_m = root_com_m(lane) - vec3(data_->xipos + 3 * model_.root.body());
     const Vec3 moment_nm = cross(lever_m, force_n);
     const mjtNum wrench[] = {force_n.x, force_n.y, force_n.z, moment_nm.x, moment_nm.y, moment_nm.z};
-    mju_addTo(data_->xfrc_applied + 6 * model_.root_body, wrench, 6);
+    mju_addTo(data_->xfrc_applied + 6 * model_.root.body(), wrench, 6);
   }
 
   RootPose root_pose(int lane) const override {
     check_lane(lane);
-    const mjtNum* const q = data_->qpos + model_.root_position;
-    return {vec3(q), quat(q + 3)};
+    return model_.root.pose(*data_);
   }
 
   Vec3 root_com_m(int lane) const override {
@@ -118,14 +111,15 @@ class MujocoModelEngine final : public SingleRobotEngine {
 
   Vec3 com_m(int lane) const override {
     check_lane(lane);
-    return vec3(data_->subtree_com + 3 * model_.root_body);
+    return vec3(data_->subtree_com + 3 * model_.root.body());
   }
 
   Vec3 momentum_kg_m_s(int lane) const override {
     check_lane(lane);
     mj_comVel(model_.get(), data_.get());
     mj_subtreeVel(model_.get(), data_.get());
-    return model_->body_subtreemass[model_.root_body] * vec3(data_->subtree_linvel + 3 * model_.root_body);
+    return model_->body_subtreemass[model_.root.body()] *
+           vec3(data_->subtree_linvel + 3 * model_.root.body());
   }
 
   std::uint64_t state_hash(int lane) const override {
@@ -151,11 +145,11 @@ class MujocoModelEngine final : public SingleRobotEngine {
       standing += collides && model_.stands(g) && std::ranges::count(model_.grounds, g) == 0;
     }
     for (int b = 1; b < model_->nbody; ++b)
-      falling += model_->body_parentid[b] == 0 && b != model_.root_body && model_->body_weldid[b] != 0;
+      falling += model_->body_parentid[b] == 0 && b != model_.root.body() && model_->body_weldid[b] != 0;
     if (standing > 0)
       notes.push_back(fmt::format("{} geoms of the model's world are in the way as well", standing));
     if (falling > 0) notes.push_back(fmt::format("{} bodies that are not the robot's move as well", falling));
-    const double mass_kg = model_->body_subtreemass[model_.root_body], of_robot_kg = robot_.total_mass_kg();
+    const double mass_kg = model_->body_subtreemass[model_.root.body()], of_robot_kg = robot_.total_mass_kg();
     constexpr double rounding = 1e-6;
     if (std::abs(mass_kg - of_robot_kg) > rounding * of_robot_kg)
       notes.push_back(fmt::format("the model weighs {:.4g} kg, the robot {:.4g} kg", mass_kg, of_robot_kg));
@@ -175,8 +169,8 @@ class MujocoModelEngine final : public SingleRobotEngine {
     actuation_.reset();
   }
 
-  void step_once(const LaneArray& targets_rad) {
-    actuation_.drive(targets_rad, *data_);
+  void step_once(const LaneArray& targets_rad, bool first) {
+    actuation_.drive(targets_rad, first, *data_);
     if (ground() == nullptr)
       mj_step(model_.get(), data_.get());
     else
@@ -192,10 +186,7 @@ class MujocoModelEngine final : public SingleRobotEngine {
 
   void set_positions(const StartPose& pose) {
     AMBLE_CHECK(pose.joint_angle_rad.size() == robot_.joints.size(), "one angle per joint");
-    const auto& [position_m, rotation] = pose.root;
-    const mjtNum root[] = {position_m.x, position_m.y, position_m.z, rotation.w,
-                           rotation.x,   rotation.y,   rotation.z};
-    std::ranges::copy(root, data_->qpos + model_.root_position);
+    model_.root.place(model_.get(), pose.root, data_.get());
     for (std::size_t j = 0; j < pose.joint_angle_rad.size(); ++j)
       data_->qpos[model_.position_of[j]] = start_rad(j) + pose.joint_angle_rad[j];
   }
@@ -296,8 +287,12 @@ class MujocoModelEngine final : public SingleRobotEngine {
     for (const double x : std::span(data_->qpos, to_index(model_->nq))) sum += x;
     for (const double v : std::span(data_->qvel, to_index(model_->nv))) sum += v;
     if (!std::isfinite(sum)) return false;
-    const mjtNum* const root = data_->qvel + model_.root_dof;
-    bool slow = norm(vec3(root)) <= absurd_speed && norm(vec3(root + 3)) <= absurd_speed;
+    const mjtNum* const root = data_->qvel + model_.root.dof();
+    bool slow = true;
+    if (model_.root.is_free())
+      slow = norm(vec3(root)) <= absurd_speed && norm(vec3(root + 3)) <= absurd_speed;
+    else
+      for (int d = 0; d < model_.root.dofs(); ++d) slow = slow && std::abs(root[d]) <= absurd_speed;
     for (const int dof : model_.dof_of) slow = slow && std::abs(data_->qvel[dof]) <= absurd_speed;
     return slow;
   }

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include "amble/physics/engine.hpp"
+
+namespace amble::physics::mujoco_model {
+
+/// How a robot's root hangs in the world of its own model: by a free joint, or by slides and hinges, as
+/// planar walkers do (morphology::moves_as_root); then it moves no further than these let it.
+class Root {
+ public:
+  Root() = default;
+  Root(const mjModel& model, int body);
+
+  int body() const { return body_; }
+  /// Its first degree of freedom in qvel, and how many there are.
+  int dof() const { return dof_; }
+  int dofs() const { return dofs_; }
+  int position() const { return position_; }  ///< likewise its first number in qpos
+  bool is_free() const { return free_; }
+
+  /// Puts it there as far as its joints let it: on hinges, the turn about each axis in their order; on
+  /// slides, what then is left along each. Other joints in `data` stay; computes the positions of bodies.
+  void place(const mjModel* model, const RootPose& pose, mjData* data) const;
+  /// Sets its speeds likewise. After place(), or other positions of bodies.
+  void move(const mjModel* model, Vec3 velocity_m_s, Vec3 angular_velocity_rad_s, mjData* data) const;
+
+  /// Of a free root qpos itself; of others, as the positions of bodies were computed last.
+  RootPose pose(const mjData& data) const;
+  /// Velocity of the origin of its frame, and angular velocity, world axes.
+  struct Motion {
+    Vec3 velocity_m_s, angular_velocity_rad_s;
+  };
+  Motion motion(const mjModel* model, mjData* data) const;
+
+ private:
+  int body_ = 1, joint_ = 0, joints_ = 1;
+  int position_ = 0, dof_ = 0, dofs_ = 6;
+  bool free_ = true;
+};
+
+}  // namespace amble::physics::mujoco_model
