@@ -167,14 +167,14 @@ Registry<Quantity>& all_quantities() {
                                  {"duty_factor", "", share_range, {.contacts = true}, duty_factor, true},
                                  {"phase", "", share_range, {.footfalls = true}, phase, true},
                                  {"height", "m", signed_range, {.height = true}, height},
+                                 {"root_forward", "m", signed_range, {.root = true}, root_forward},
+                                 {"effort", "", positive_range, {.effort = true}, effort},
+                                 {"constant", "", {1.0, 1.0}, {}, constant},
                                  {"yaw_rate", "rad/s", signed_range, {.headings = true}, yaw_rate},
                                  {"speed_error", "m/s", positive_range, tracking_measures, speed_error},
                                  {"turn_error", "rad/s", positive_range, tracking_measures, turn_error},
                                  {"heading_error", "rad", positive_range, tracking_measures, heading_error},
-                                 {"tracking", "", share_range, tracking_measures, tracking},
-                                 {"root_forward", "m", signed_range, {.root = true}, root_forward},
-                                 {"effort", "", positive_range, {.effort = true}, effort},
-                                 {"constant", "", {1.0, 1.0}, {}, constant}});
+                                 {"tracking", "", share_range, tracking_measures, tracking}});
   return all;
 }
 
