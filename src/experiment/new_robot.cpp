@@ -196,9 +196,8 @@ EngineChoice fastest_engine(const robot::RobotSpec& robot) {
     return {"batch", ""};
   } catch (const UserError& error) {
     const bool by_model_alone =
-        robot.original && std::ranges::any_of(robot.joints, [](const robot::Joint& joint) {
-          return joint.servo.hold_torque;
-        });
+        robot.original &&
+        std::ranges::any_of(robot.joints, [](const robot::Joint& joint) { return joint.servo.hold_torque; });
     return {by_model_alone ? "mujoco-model" : "ode", error.what()};
   }
 }

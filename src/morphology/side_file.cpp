@@ -74,8 +74,7 @@ struct TopKeys {
                    {"height of the root's frame in the start pose; 0: as the model has it"});
     visitor.number("fall_height_m", side.fall_height_m, {-largest, largest},
                    {"the robot has fallen when the root's centre of mass is lower"});
-    visitor.number("fall_above_m", side.fall_above_m, {0.0, unbounded},
-                   {"or when it is higher; inf: never"});
+    visitor.number("fall_above_m", side.fall_above_m, {0.0, unbounded}, {"or when it is higher; inf: never"});
     visitor.number("fall_tilt_rad", side.fall_tilt_rad, {0.0, unbounded},
                    {"or when the root tilts by more from its start pose, rad; inf: never"});
     visitor.flag("self_collision", side.self_collision,
