@@ -19,7 +19,7 @@
 namespace amble::watch {
 namespace {
 
-constexpr double least_interval_s = 1.0, most_share = 0.01;
+constexpr double least_interval_s = 2.0, most_share = 0.002;
 /// Of an archive that is still read.
 constexpr std::int64_t most_archive_bytes = std::int64_t{256} << 20;
 /// Elites that pages are told one by one.

@@ -10,8 +10,8 @@
 namespace amble::watch {
 
 /// What a run's checkpoint and archive have of its population: the sizes of its species, its map. The table
-/// has neither. Reading takes longer than all else, so it is done at most once a second, and as seldom as
-/// keeps it below a hundredth of the time.
+/// has neither. Reading takes longer than all else, so it is done at most every two seconds, and as seldom as
+/// keeps it below 1/500 of the time.
 class PopulationReader {
  public:
   explicit PopulationReader(const experiment::RunPaths& paths);
