@@ -114,7 +114,7 @@ std::string run_hash(const SmallRun& small) {
                         .timestep_s = timestep_s,
                         .path = behaviour->path(),
                         .measures = behaviour->measures(),
-                        .fall_height_m = robot.fall_height_m,
+                        .fall = robot.fall_rule(),
                         .start_rotation = robot.bodies[0].rotation});
   const std::atomic<bool> never{false};
   std::uint64_t hash = 0;

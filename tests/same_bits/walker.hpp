@@ -62,7 +62,7 @@ struct Walker {
                    .first_command = trial.first_command,
                    .path = {},
                    .measures = {},
-                   .fall_height_m = robot.fall_height_m,
+                   .fall = robot.fall_rule(),
                    .start_rotation = robot.bodies[0].rotation})
         .run(task, never);
     return observer.trace();
