@@ -19,7 +19,7 @@ std::string script_text(const io::Json& json) {
 }
 
 std::string packed(const std::string& bytes) {
-  return io::base64(robot::deflated(bytes));
+  return io::base64(robot::deflated(bytes, 9));
 }
 
 std::string module_element() {

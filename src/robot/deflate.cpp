@@ -6,12 +6,12 @@
 
 namespace amble::robot {
 
-std::string deflated(const std::string& bytes) {
+std::string deflated(const std::string& bytes, int level) {
   std::string stream(compressBound(static_cast<uLong>(bytes.size())), '\0');
   auto size = static_cast<uLongf>(stream.size());
   const int status =
       compress2(reinterpret_cast<Bytef*>(stream.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-                static_cast<uLong>(bytes.size()), 6);
+                static_cast<uLong>(bytes.size()), level);
   AMBLE_CHECK(status == Z_OK, "deflating into a large enough buffer");
   stream.resize(size);
   return stream;

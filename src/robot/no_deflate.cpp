@@ -5,7 +5,7 @@
 
 namespace amble::robot {
 
-std::string deflated(const std::string&) {
+std::string deflated(const std::string&, int) {
   check_failed(__FILE__, __LINE__, "zlib", "is not in this build");
 }
 
