@@ -64,19 +64,21 @@ const rows = (page) => page.evaluate(() => window.amble.rows.map(({ generation, 
 const table = (run) => readFileSync(join(run, "generations.csv"), "utf8").trim().split("\n").slice(1).map((line) => line.split(",").map(Number));
 
 test("a run's curve grows, its best walks, and when it ends the page says where its files are", async () => {
-  const run = folder("ends"), server = serve(...evolve(run, 40, "--watch"));
+  // Ten seconds at least, so that a page sees it go on, also on a quick machine.
+  const generations = 200, run = folder("ends"), server = serve(...evolve(run, generations, "--watch", "--set", "trial.duration_s=8"));
   await inPage(server, async (page) => {
     await page.waitForFunction(() => window.amble.rows.length > 3);
-    assert.match(await story(page), /It runs: generation \d+ of 40/);
+    assert.match(await story(page), /It runs: generation \d+ of 200/);
     const early = await pictureOf(page, ".lab-curve");
     await page.waitForFunction(() => window.amble.stage.walk);
     assert.ok((await pictureOf(page)).colours > 50);
     assert.match(await page.locator("#story").textContent(), /Best of generation \d+: /);
+    page.setDefaultTimeout(300_000);
     await says(page, "The run has ended; its files are in");
     assert.ok((await story(page)).includes(run));
     assert.notEqual((await pictureOf(page, ".lab-curve")).hash, early.hash);
     const shown = await rows(page);
-    assert.equal(shown.length, 40);
+    assert.equal(shown.length, generations);
     assert.deepEqual(shown.map(({ best }) => best), table(run).map((row) => row[1]));
     assert.ok(await page.evaluate(() => window.amble.rows.some(({ species }) => species.length > 0 && species.reduce((sum, [, size]) => sum + size, 0) === 40)), "sizes of species");
     assert.ok(await page.locator("#runs").isHidden());
