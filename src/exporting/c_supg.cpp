@@ -101,9 +101,10 @@ std::vector<std::vector<std::string>> pattern_rows(const ControllerTables& table
 
 void check_fixed(const SupgTables& supg) {
   if (supg.mixed)
-    fail(ExitCode::bad_input,
-         "--fixed: the controller is of kind mixed, whose neurons are exported in floating point alone: leave "
-         "out --fixed");
+    fail(
+        ExitCode::bad_input,
+        "--fixed: the controller is of kind mixed, whose neurons are exported in floating point alone: leave "
+        "out --fixed");
   if (supg.contact)
     fail(ExitCode::bad_input,
          "--fixed: controller.supg.contact is exported in floating point alone: leave out --fixed");
