@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "amble/core/index.hpp"
+#include "amble/report/number_text.hpp"
 #include "amble/report/study_data.hpp"
 #include "amble/statistics/hypothesis_tests.hpp"
 
