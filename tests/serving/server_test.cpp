@@ -86,8 +86,11 @@ struct Served {
 /// Waits until something holds, ten seconds at most.
 template <typename Condition>
 bool soon(Condition condition) {
-  for (int i = 0; i < 1000 && !condition(); ++i) std::this_thread::sleep_for(10ms);
-  return condition();
+  for (int i = 0; i < 1000; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(10ms);
+  }
+  return false;
 }
 
 std::string refusal(const Settings& settings) {

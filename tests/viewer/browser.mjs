@@ -25,9 +25,10 @@ export function launch({ gl = true } = {}) {
   return chromium.launch({ executablePath: CHROMIUM, args });
 }
 
-/** Opens a page, standing still at `at_s` (null: as a reader would, playing). `problems` collects what goes wrong. */
+/** Opens a page, standing still at `at_s` (null: as a reader would, playing). `problems` collects what goes wrong. A quarter of the
+ * pixels, because it is the processor that draws them. */
 export async function open(browser, path, { at_s = 0, hash = null, ...context } = {}) {
-  const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...context });
+  const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, deviceScaleFactor: 0.5, ...context });
   page.setDefaultTimeout(60_000);
   const problems = [];
   const parts = [...(hash ? [hash] : []), ...(at_s === null ? [] : [`t=${at_s}`])];

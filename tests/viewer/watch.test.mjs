@@ -42,7 +42,7 @@ function serve(...words) {
 
 /** A page of the server, in which nothing may go wrong but what `expected` allows. */
 async function inPage(server, steps, { hash = "", expected = /^$/, ...options } = {}) {
-  const url = await server.url, page = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...options }), problems = [];
+  const url = await server.url, page = await browser.newPage({ viewport: { width: 1280, height: 800 }, deviceScaleFactor: 0.5, ...options }), problems = [];
   page.setDefaultTimeout(60_000);
   page.on("console", (message) => problems.push(`console ${message.type()}: ${message.text()}`));
   page.on("pageerror", (error) => problems.push(`error: ${error.message}`));
