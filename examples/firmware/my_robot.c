@@ -6,15 +6,20 @@
  * Paste what `table` prints in place of the rows below. */
 #define UNTRIED(pin) {pin, 1, 1500, 700, 2300, 4100, 637}
 
-#if defined(__AVR__) || defined(ARDUINO_PINS)
-/* Channels of a PCA9685, and pins of an Arduino Mega. */
+#if defined(__AVR__) || defined(ROBOT_PCA9685)
+/* Channels of a PCA9685. */
 const servo robot_servos[] = {UNTRIED(0), UNTRIED(1), UNTRIED(2), UNTRIED(3), UNTRIED(4),  UNTRIED(5),
                               UNTRIED(6), UNTRIED(7), UNTRIED(8), UNTRIED(9), UNTRIED(10), UNTRIED(11)};
+#else
+/* GPIOs of an ESP32. */
+const servo robot_servos[] = {UNTRIED(13), UNTRIED(14), UNTRIED(16), UNTRIED(17), UNTRIED(18), UNTRIED(19),
+                              UNTRIED(21), UNTRIED(22), UNTRIED(23), UNTRIED(25), UNTRIED(26), UNTRIED(27)};
+#endif
+#ifdef __AVR__
+/* Pins of an Arduino Mega. */
 const uint8_t robot_switch_pins[] = {22, 23, 24, 25};
 #else
 /* GPIOs of an ESP32. Those from 34 to 39 are inputs without pull-ups. */
-const servo robot_servos[] = {UNTRIED(13), UNTRIED(14), UNTRIED(16), UNTRIED(17), UNTRIED(18), UNTRIED(19),
-                              UNTRIED(21), UNTRIED(22), UNTRIED(23), UNTRIED(25), UNTRIED(26), UNTRIED(27)};
 const uint8_t robot_switch_pins[] = {34, 35, 36, 39};
 #endif
 

@@ -176,6 +176,14 @@ TEST(Firmware, OfAnEsp32WalksStopsAndKeepsItsLimitsIn60EmulatedSecondsAsItsPageS
   expect_in_page(table_of(judged.out));
 }
 
+TEST(Firmware, OfAnEsp32DoesTheSameWithAPca9685) {
+  if (!installed_for_esp32()) GTEST_SKIP() << "compiler and emulator: ./setup --firmware";
+  const TemporaryFolder scratch;
+  const Ran ran = make_example(scratch, "run-60s-esp32-pca9685");
+  ASSERT_EQ(ran.exit_code, 0) << ran.out;
+  expect_in_page(table_of(ran.out));
+}
+
 TEST(Firmware, OfAnArduinoDoesTheSameWithAPca9685) {
   if (!installed_for_arduino()) GTEST_SKIP() << "compiler, core and emulator: ./setup --firmware";
   const TemporaryFolder scratch;
@@ -272,15 +280,23 @@ TEST(Firmware, CalibrationAnswersAsItsPageSaysAndItsTableCompiles) {
 TEST(Firmware, OfAnEsp32ComesAsAComponentOfEspIdf) {
   if (!installed("riscv64-unknown-elf-gcc")) GTEST_SKIP() << "riscv64-unknown-elf-gcc: ./setup --firmware";
   const TemporaryFolder scratch;
-  const Ran ran = make_example(scratch, "esp32");
-  EXPECT_EQ(ran.exit_code, 0) << ran.out;
-  EXPECT_TRUE(std::filesystem::exists(scratch / "main/main.c"));
+  for (const auto& [target, ours, other] :
+       {std::tuple{"esp32", "main/pulses_ledc.c", "main/pulses_pca9685.c"},
+        {"esp32-pca9685", "main/pulses_pca9685.c", "main/pulses_ledc.c"},
+        {"esp32", "main/pulses_ledc.c", "main/pca9685.c"}}) {
+    const Ran ran = make_example(scratch, target);
+    EXPECT_EQ(ran.exit_code, 0) << ran.out;
+    EXPECT_TRUE(std::filesystem::exists(scratch / "main/main.c"));
+    EXPECT_TRUE(std::filesystem::exists(scratch / ours)) << target;
+    EXPECT_FALSE(std::filesystem::exists(scratch / other)) << target;
+  }
 }
 
 TEST(Firmware, NamesNoLegAndNoJoint) {
-  for (const char* file : {"robot.c", "robot.h", "my_robot.c", "board.h", "safety.c", "calibrate.c",
-                           "servos.c", "arduino/arduino.ino", "esp32/main.c", "emulator/board_qemu.c",
-                           "emulator/esp_idf_fake.c", "emulator/check_run.c"}) {
+  for (const char* file :
+       {"robot.c", "robot.h", "my_robot.c", "board.h", "safety.c", "calibrate.c", "servos.c",
+        "arduino/arduino.ino", "esp32/main.c", "esp32/pulses_ledc.c", "esp32/pulses_pca9685.c",
+        "emulator/board_qemu.c", "emulator/esp_idf_fake.c", "emulator/check_run.c"}) {
     const std::string text = io::read_file(example + file);
     for (const char* name : {"WALKER_JOINT_", "WALKER_LEG_", "front", "rear", "knee", "shoulder"})
       EXPECT_EQ(text.find(name), std::string::npos) << file << " " << name;

@@ -2,6 +2,7 @@
  * servos whose pulses are written down:
  *   T tick microseconds     a tick begins
  *   P pin microseconds      a pulse, 0: none
+ *   C channel counts        a pulse of a PCA9685, 0: none
  *   S text                  what the robot prints
  * On a bare processor in QEMU the log goes to the host by semihosting, on the host to the standard output. With
  * -DSERIAL the standard input is the serial port, a line each second; nothing else happens, and nothing is logged but
@@ -10,7 +11,7 @@
 #include "robot.h"
 #include "script.h"
 
-enum { stop_pin = 32, arm_pin = 0, all_channels = 16, line_ticks = 100 };
+enum { stop_pin = 32, arm_pin = 0, output_enable_pin = 4, all_channels = 16, line_ticks = 100 };
 
 static uint32_t tick;
 static int64_t now_us;
@@ -93,6 +94,13 @@ esp_err_t esp_task_wdt_reset(void) { return 0; }
 
 esp_err_t gpio_config(const gpio_config_t *config) { return config->pin_bit_mask == 0; }
 
+/* The only output is OE of a PCA9685. */
+static int outputs_are_on;
+esp_err_t gpio_set_level(gpio_num_t pin, uint32_t level) {
+  outputs_are_on = level == 0;
+  return pin != output_enable_pin;
+}
+
 int gpio_get_level(gpio_num_t pin) {
 #ifndef SERIAL
   uint32_t leg;
@@ -125,6 +133,34 @@ esp_err_t ledc_set_duty(ledc_mode_t mode, ledc_channel_t channel, uint32_t duty)
 esp_err_t ledc_update_duty(ledc_mode_t mode, ledc_channel_t channel) {
   const int i = index_of(mode, channel);
   log_numbers("P ", (uint32_t)pin_of[i], (duty_of[i] * 20000u + 32768u) / 65536u);
+  return 0;
+}
+
+/* ---- PCA9685 ---- */
+
+enum { mode1 = 0x00, pre_scale = 0xfe, asleep = 0x10, auto_increment = 0x20, at_50_hz = 121, led0 = 0x06, off = 0x10 };
+static uint8_t registers[256];
+
+esp_err_t i2c_new_master_bus(const i2c_master_bus_config_t *config, i2c_master_bus_handle_t *bus) {
+  *bus = 0;
+  return config->sda_io_num == config->scl_io_num || config->flags.enable_internal_pullup != 0;
+}
+
+esp_err_t i2c_master_bus_add_device(i2c_master_bus_handle_t bus, const i2c_device_config_t *config,
+                                    i2c_master_dev_handle_t *device) {
+  *device = 0;
+  return bus != 0 || config->device_address != 0x40 || config->scl_speed_hz > 1000000;
+}
+
+/* Where the chip would not do what it is told, the log has no pulse, and the run is judged bad. */
+esp_err_t i2c_master_transmit(i2c_master_dev_handle_t device, const uint8_t *bytes, size_t count, int longest_ms) {
+  const uint32_t channel = (uint32_t)(bytes[0] - led0) / 4u;
+  size_t i;
+  if (bytes[0] == pre_scale && !(registers[mode1] & asleep)) return 1; /* the divider is taken only while it sleeps */
+  for (i = 1; i < count; ++i) registers[(bytes[0] + i - 1) & 0xff] = bytes[i];
+  if (count != 5 || channel >= all_channels || bytes[1] != 0 || bytes[2] != 0) return device != 0 || longest_ms < 1;
+  if (!outputs_are_on || registers[pre_scale] != at_50_hz || registers[mode1] != auto_increment) return 1;
+  log_numbers("C ", channel, bytes[4] & off ? 0u : bytes[3] + 256u * bytes[4]);
   return 0;
 }
 

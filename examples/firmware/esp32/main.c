@@ -1,18 +1,16 @@
-/* A walking robot on an ESP32 under ESP-IDF: servos on its LED PWM controller, 16 channels. */
+/* A walking robot on an ESP32 under ESP-IDF. Where the servos' pulses come from: pulses_ledc.c or pulses_pca9685.c. */
 #include "driver/gpio.h"
-#include "driver/ledc.h"
 #include "driver/uart.h"
 #include "esp_task_wdt.h"
 #include "esp_timer.h"
 #include "freertos/FreeRTOS.h"
 #include "freertos/task.h"
 
+#include "pulses.h"
 #include "robot.h"
 
 /* The button BOOT is at GPIO 0. */
-enum { stop_pin = 32, arm_pin = 0, channels = 8, period_us = 20000, serial_buffer = 2048 };
-
-typedef char a_channel_for_each_joint[WALKER_JOINTS <= 2 * channels ? 1 : -1];
+enum { stop_pin = 32, arm_pin = 0, serial_buffer = 2048 };
 
 static robot walker;
 
@@ -33,21 +31,6 @@ int board_read(walker_sensors *sensors) {
 int board_stop_pressed(void) { return gpio_get_level((gpio_num_t)stop_pin) == 1; }
 int board_arm_pressed(void) { return gpio_get_level((gpio_num_t)arm_pin) == 0; }
 
-/* Channels are in the order of the joints. */
-static int joint_of(uint8_t pin) {
-  int joint = 0;
-  while (joint + 1 < WALKER_JOINTS && robot_servos[joint].pin != pin) ++joint;
-  return joint;
-}
-
-void board_pulse(uint8_t pin, int16_t pulse_us) {
-  const int joint = joint_of(pin);
-  const ledc_mode_t mode = joint < channels ? LEDC_HIGH_SPEED_MODE : LEDC_LOW_SPEED_MODE;
-  const ledc_channel_t channel = (ledc_channel_t)(joint % channels);
-  ledc_set_duty(mode, channel, ((uint32_t)pulse_us * 65536u + period_us / 2) / period_us);
-  ledc_update_duty(mode, channel);
-}
-
 int board_get_character(void) {
   uint8_t character;
   return uart_read_bytes(UART_NUM_0, &character, 1, 0) == 1 ? character : -1;
@@ -67,31 +50,11 @@ static void configure_input(int pin) {
   gpio_config(&config);
 }
 
-static void configure_servos(void) {
-  int mode, joint;
-  for (mode = 0; mode < 2; ++mode) {
-    const ledc_timer_config_t timer = {.speed_mode = mode ? LEDC_LOW_SPEED_MODE : LEDC_HIGH_SPEED_MODE,
-                                       .duty_resolution = LEDC_TIMER_16_BIT,
-                                       .timer_num = LEDC_TIMER_0,
-                                       .freq_hz = 1000000 / period_us,
-                                       .clk_cfg = LEDC_AUTO_CLK};
-    ledc_timer_config(&timer);
-  }
-  for (joint = 0; joint < WALKER_JOINTS; ++joint) {
-    const ledc_channel_config_t channel = {
-        .gpio_num = robot_servos[joint].pin,
-        .speed_mode = joint < channels ? LEDC_HIGH_SPEED_MODE : LEDC_LOW_SPEED_MODE,
-        .channel = (ledc_channel_t)(joint % channels),
-        .timer_sel = LEDC_TIMER_0};
-    ledc_channel_config(&channel);
-  }
-}
-
 void app_main(void);
 void app_main(void) {
   TickType_t last_wake;
   int leg;
-  configure_servos();
+  pulses_begin();
   for (leg = 0; leg < WALKER_LEGS; ++leg) configure_input(robot_switch_pins[leg]);
   configure_input(stop_pin);
   configure_input(arm_pin);
