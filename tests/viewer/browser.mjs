@@ -6,7 +6,8 @@ import { pathToFileURL } from "node:url";
 import { chromium } from "../../viewer/node_modules/playwright-core/index.mjs";
 
 const { AMBLE_PROGRAM, AMBLE_RECORDINGS, AMBLE_PAGES, CHROMIUM = "/usr/bin/chromium" } = process.env;
-const SOFTWARE_GL = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+// The processor draws the pages' 3-D; it puts a page's parts together faster by itself than by this GL.
+const SOFTWARE_GL = ["--disable-gpu-compositing", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 
 export const recording = (name) => join(AMBLE_RECORDINGS, name);
 export const amble = (...words) => execFileSync(AMBLE_PROGRAM, words, { encoding: "utf8" });
@@ -25,6 +26,9 @@ export function launch({ gl = true } = {}) {
   return chromium.launch({ executablePath: CHROMIUM, args });
 }
 
+/** False for what the browser says of the way in which it was started. */
+export const isOurs = (message) => !/GPU stall due to ReadPixels/.test(message.text());
+
 /** Opens a page, standing still at `at_s` (null: as a reader would, playing). `problems` collects what goes wrong. A quarter of the
  * pixels, because it is the processor that draws them. */
 export async function open(browser, path, { at_s = 0, hash = null, ...context } = {}) {
@@ -33,7 +37,7 @@ export async function open(browser, path, { at_s = 0, hash = null, ...context } 
   const problems = [];
   const parts = [...(hash ? [hash] : []), ...(at_s === null ? [] : [`t=${at_s}`])];
   const url = pathToFileURL(path).href + (parts.length ? `#${parts.join("&")}` : "");
-  page.on("console", (message) => problems.push(`console ${message.type()}: ${message.text()}`));
+  page.on("console", (message) => isOurs(message) && problems.push(`console ${message.type()}: ${message.text()}`));
   page.on("pageerror", (error) => problems.push(`error: ${error.message}`));
   page.on("request", (request) => {
     if (request.url().split("#")[0] !== url.split("#")[0] && !/^(data|blob):/.test(request.url()))

@@ -4,7 +4,7 @@ import { spawn } from "node:child_process";
 import { mkdirSync, readFileSync, renameSync, rmSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { amble, launch, pictureOf } from "./browser.mjs";
+import { isOurs, amble, launch, pictureOf } from "./browser.mjs";
 
 const { AMBLE_PAGES, AMBLE_PROGRAM, AMBLE_SOURCE, AMBLE_AXE } = process.env;
 const CONFIG = join(AMBLE_SOURCE, "configs/quick/quadruped.toml");
@@ -44,7 +44,7 @@ function serve(...words) {
 async function inPage(server, steps, { hash = "", expected = /^$/, ...options } = {}) {
   const url = await server.url, page = await browser.newPage({ viewport: { width: 1280, height: 800 }, deviceScaleFactor: 0.5, ...options }), problems = [];
   page.setDefaultTimeout(60_000);
-  page.on("console", (message) => problems.push(`console ${message.type()}: ${message.text()}`));
+  page.on("console", (message) => isOurs(message) && problems.push(`console ${message.type()}: ${message.text()}`));
   page.on("pageerror", (error) => problems.push(`error: ${error.message}`));
   page.on("request", (request) => !request.url().startsWith(new URL(url).origin) && !/^(data|blob):/.test(request.url()) && problems.push(request.url()));
   try {

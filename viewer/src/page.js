@@ -163,6 +163,7 @@ export class Page {
 
   frame(now_ms) {
     this.asked = false;
+    if (this.clock.playing && this.stage?.rests(now_ms)) return this.invalidate();
     this.live?.update(now_ms);
     if (this.clock.playing && this.last_ms !== undefined) {
       const passed_s = (now_ms - this.last_ms) / 1000;

@@ -21,6 +21,14 @@ function upwards({ gravity_m_s2 }) {
   return length > 0 ? gravity_m_s2.map((part) => -part / length) : [0, 0, 1];
 }
 
+/** Whether the processor draws, for want of a graphics card: then each picture costs what could compute. */
+function drawnByProcessor(renderer) {
+  const gl = renderer.getContext();
+  let name = gl.getParameter(gl.RENDERER);
+  if (name === "WebKit WebGL") name = gl.getParameter(gl.getExtension("WEBGL_debug_renderer_info")?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER);
+  return /swiftshader|llvmpipe|softpipe|basic render/i.test(name);
+}
+
 export class Stage {
   /** Throws if the browser gives no WebGL. */
   constructor(parent, walks, onChange) {
@@ -50,6 +58,7 @@ export class Stage {
     this.onChange = onChange;
     this.makeControls();
     this.pixelRatio = 2; // more is not seen
+    this.slow = drawnByProcessor(this.renderer);
     this.mode = "follow";
     this.side = true;
     this.selected = 0;
@@ -223,8 +232,18 @@ export class Stage {
     return [x, y];
   }
 
+  /** While it plays: is it too early for the next picture? Processors draw every 33 ms at most. */
+  rests(now_ms) {
+    if (!this.slow) return false;
+    if (!this.simple) this.simplify();
+    if (now_ms - (this.drawn_ms ?? -1e9) < 30) return true;
+    this.drawn_ms = now_ms;
+    return false;
+  }
+
   /** Less to draw, for machines that cannot keep up. */
   simplify() {
+    this.simple = true;
     this.renderer.shadowMap.enabled = this.sun.castShadow = false;
     this.pixelRatio = 1;
     this.width = 0; // so that resize() sets the size anew

@@ -94,6 +94,7 @@ export class LabStage {
 
   frame(now_ms) {
     this.asked = false;
+    if (this.clock.playing && this.stage?.rests(now_ms)) return this.invalidate();
     this.drag?.update();
     const passed_s = this.clock.playing && this.last_ms !== undefined ? Math.min((now_ms - this.last_ms) / 1000, 0.1) : 0;
     this.last_ms = this.clock.playing ? now_ms : undefined;
