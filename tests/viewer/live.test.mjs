@@ -275,3 +275,14 @@ test("a champion's file that was altered is told, and nothing else is shown of i
   assert.match(await page.locator("#trouble").textContent(), /altered: its checksum does not fit/);
   await page.close();
 });
+
+test("the page that README begins with is one to drive, by a module that gives the champion's bits", () =>
+  onPage({}, async (page) => {
+    assert.ok(readFileSync(join(AMBLE_SOURCE, "README.md"), "utf8").includes("](docs/drive.html)"));
+    await page.keyboard.down("ArrowUp");
+    await simulate(page, 2);
+    await page.keyboard.up("ArrowUp");
+    assert.match(await page.locator(".steer-said").textContent(), /^told: /);
+    const [x] = await page.evaluate(() => window.amble.placed(0)[0]);
+    assert.ok(Math.abs(x) > 0.05, `${x} m`);
+  }, join(AMBLE_SOURCE, "docs/drive.html")));
