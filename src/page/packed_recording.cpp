@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "amble/core/index.hpp"
@@ -58,6 +59,7 @@ Table pose_table(const record::RecordingReader& reader, const robot::RobotSpec& 
   for (const auto& joint : robot.joints) table.require("angle." + joint.name);
   for (const auto& joint : robot.joints) table.require("target." + joint.name);
   for (const auto& leg : robot.legs) table.accept("timer." + leg.name);
+  for (const std::string& name : record::command_columns()) table.accept(name);
   return table;
 }
 

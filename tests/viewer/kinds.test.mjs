@@ -306,3 +306,21 @@ test("damaged data is reported in the page", async () => {
   assert.match(await page.locator("#trouble").textContent(), /could not be shown/);
   await page.close();
 });
+
+test("of a walker with commands the page has what it was told and the way there, and of others not", async () => {
+  const recorded = join(process.env.AMBLE_PAGES, "told.rec");
+  rmSync(recorded, { force: true });
+  amble("trial", join(process.env.AMBLE_SOURCE, "robots/hexapod/steered.json"), "--command", "0.2,0.3; 0,0", "--seconds", "6", "--undisturbed", "--record", recorded);
+  const headings = (page) => page.locator("h2").allTextContents();
+  await onPage(makePage("told.html", recorded), { at_s: 2 }, async (page) => {
+    assert.ok((await headings(page)).includes("Told and done"));
+    const path = page.locator(".path-from-above");
+    assert.match(await path.getAttribute("aria-label"), /At the end they are \d\.\d m apart\.$/);
+    const early = await pictureOf(page, ".path-from-above");
+    assert.ok(early.colours > 10, `${early.colours} colours`);
+    await page.evaluate(() => { window.amble.seek(5); window.amble.render(); });
+    assert.notEqual((await pictureOf(page, ".path-from-above")).hash, early.hash);
+  });
+  await onPage(makePage("untold.html", recording("walk.rec")), {}, async (page) =>
+    assert.ok(!(await headings(page)).includes("Told and done")));
+});

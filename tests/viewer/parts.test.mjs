@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { niceAxis } from "../../viewer/src/plot.js";
+import { rates, wantedPath } from "../../viewer/src/told_path.js";
 import { footfalls, runs } from "../../viewer/src/walk.js";
 import { placeOf } from "../../viewer/src/watch/map_picture.js";
 import { clockText, rowReader, thinned } from "../../viewer/src/watch/rows.js";
@@ -86,4 +87,35 @@ test("watch: dimensions of a map nest, the last one's bin runs fastest", () => {
   const cell = ((1 * 3 + 2) * 5 + 4) * 7 + 6;
   assert.deepEqual(placeOf(axes, cell), { column: 1 * 5 + 4, row: 2 * 7 + 6 });
   assert.deepEqual(placeOf([{ bins: 4 }], 3), { column: 3, row: 0 });
+});
+
+/** A robot whose own pose looks along y, and which walks and turns as it is told, but for `slower`. */
+function circling({ speed, turn, seconds, slower = 1 }) {
+  const step_s = 0.02, count = Math.round(seconds / step_s) + 1, times = Array.from({ length: count }, (_, k) => k * step_s);
+  const radius = speed / turn, along = (t) => turn * t * slower, quarter = Math.PI / 4;
+  const rotations = times.map((t) => [Math.cos(along(t) / 2 + quarter), 0, 0, Math.sin(along(t) / 2 + quarter)]);
+  return {
+    poses: { step_s, count, first_s: 0 },
+    com: [times.map((t) => radius * Math.sin(along(t))), times.map((t) => radius * (1 - Math.cos(along(t)))), times.map(() => 0.2)],
+    rootColumns: [[], [], [], ...[0, 1, 2, 3].map((i) => rotations.map((rotation) => rotation[i]))],
+    robot: { bodies: [{ rotation: [Math.cos(quarter), 0, 0, Math.sin(quarter)] }] },
+    commands: [times.map(() => speed), times.map(() => turn)],
+  };
+}
+
+test("a command that stays is a circle, which one who obeys walks", () => {
+  const walk = circling({ speed: 0.3, turn: 0.5, seconds: 2 * Math.PI / 0.5 });
+  const { headings, speeds, turns } = rates(walk), [x, y] = wantedPath(walk, headings);
+  assert.ok(Math.abs(headings.at(-1) - 2 * Math.PI) < 0.02, `${headings.at(-1)} rad`);
+  for (let k = 60; k + 60 < x.length; ++k) {
+    assert.ok(Math.hypot(x[k] - walk.com[0][k], y[k] - walk.com[1][k]) < 0.01, `row ${k}`);
+    assert.ok(Math.abs(speeds[k] - 0.3) < 0.005 && Math.abs(turns[k] - 0.5) < 1e-9, `row ${k}: ${speeds[k]} m/s, ${turns[k]} rad/s`);
+  }
+});
+
+test("where a robot lags behind its commands, its rates say so and the wanted path does not", () => {
+  const walk = circling({ speed: 0.3, turn: -0.5, seconds: 10, slower: 0.5 }), { headings, speeds, turns } = rates(walk);
+  assert.ok(Math.abs(speeds[200] - 0.15) < 0.003 && Math.abs(turns[200] + 0.25) < 1e-9);
+  const [x, y] = wantedPath(walk, headings), full = circling({ speed: 0.3, turn: -0.5, seconds: 10 });
+  assert.ok(Math.hypot(x[400] - full.com[0][400], y[400] - full.com[1][400]) < 0.01);
 });

@@ -2,7 +2,8 @@
 import { GaitTable } from "./gait.js";
 import { Patterns } from "./patterns.js";
 import { element, legClass } from "./theme.js";
-import { footfallPlot, jointPlots, motionPlot, timerPlot } from "./time_diagrams.js";
+import { PathFromAbove, rates } from "./told_path.js";
+import { commandPlot, footfallPlot, jointPlots, motionPlot, timerPlot } from "./time_diagrams.js";
 
 const section = (title, text, ...content) =>
   element("section", {}, element("h2", {}, title), ...(text ? [element("p", { class: "lead" }, text)] : []), ...content);
@@ -34,6 +35,7 @@ export class Analysis {
     };
     const { window, clock } = this;
     this.parent.replaceChildren(
+      ...this.told(walk, plot),
       this.footfalls(walk, plot(footfallPlot(walk, window, clock))),
       ...this.supg(walk, plot),
       section("Joints", "Each joint’s angle, in the colour of its leg, and the target that its servo follows, thin. " +
@@ -62,6 +64,14 @@ export class Analysis {
     const made = section("Footfalls and gait", text, keys, plot, gait.element);
     if (!walk.everTouched()) made.append(note("No foot touched the ground."));
     return made;
+  }
+
+  told(walk, plot) {
+    if (!walk.commands) return [];
+    const done = rates(walk), path = new PathFromAbove(walk, done.headings);
+    this.shown.push(path);
+    return [section("Told and done", "Dashed: the speed and the turn that it was told, and the way that they lead to from its start. " +
+                    "Black: what it did, means over a second.", path.element, plot(commandPlot(walk, done, this.window, this.clock)))];
   }
 
   supg(walk, plot) {

@@ -104,14 +104,8 @@ export function motionPlot(walks, window, clock, selected) {
     ];
   };
   return new Plot("Speed and height of the centre of mass", 2 * MOTION_ROW, window, clock, (pen) => {
-    rows().forEach(({ title, columns, axis: { lower, upper, ticks, text } }, r) => {
-      const base = (r + 1) * MOTION_ROW - 8, height = MOTION_ROW - 40;
-      const y = (value) => base - ((value - lower) / (upper - lower)) * height;
-      pen.text(title, 0, base - height - 18, { weight: 600, css: "--ink" });
-      for (const tick of ticks) {
-        pen.hair(pen.left, y(tick), pen.right, y(tick));
-        pen.text(text(tick), pen.left - 8, y(tick), { align: "right", size: 11.5 });
-      }
+    rows().forEach(({ title, columns, axis }, r) => {
+      const y = band(pen, r, title, axis);
       walks.forEach((walk, i) => {
         const css = walks.length === 1 ? "--ink" : walkerLineColour(i);
         pen.curve(columns[i], walk.poses, y, css, i === selected() ? 2.4 : 1.6);
@@ -119,6 +113,35 @@ export function motionPlot(walks, window, clock, selected) {
     });
   });
 }
+
+/** Title and axis of one quantity of several, one below the other; gives value → px. */
+function band(pen, row, title, { lower, upper, ticks, text }) {
+  const base = (row + 1) * MOTION_ROW - 8, height = MOTION_ROW - 40;
+  const y = (value) => base - ((value - lower) / (upper - lower)) * height;
+  pen.text(title, 0, base - height - 18, { weight: 600, css: "--ink" });
+  for (const tick of ticks) {
+    pen.hair(pen.left, y(tick), pen.right, y(tick));
+    pen.text(text(tick), pen.left - 8, y(tick), { align: "right", size: 11.5 });
+  }
+  return y;
+}
+
+/** What a walker was told, thin, and what it did. */
+export function commandPlot(walk, { speeds, turns }, window, clock) {
+  const [told, turned] = walk.commands;
+  const rows = [["Speed along its own axis, m/s", told, speeds], ["Turn to the left, rad/s", turned, turns]].map(([title, ...columns]) =>
+    ({ title, columns, axis: niceAxis(...around(extent(columns)), 4) }));
+  return new Plot("What it was told, and what it did", 2 * MOTION_ROW, window, clock, (pen) => {
+    rows.forEach(({ title, columns: [wanted, done], axis }, r) => {
+      const y = band(pen, r, title, axis);
+      pen.curve(done, walk.poses, y, "--ink", 2.4);
+      pen.curve(wanted, walk.poses, y, "--told", 1.6, { dash: [6, 3] });
+    });
+  });
+}
+
+/** Not nothing, and 0 in it. */
+const around = ([lower, upper]) => [Math.min(lower, -0.02), Math.max(upper, 0.02)];
 
 function speedColumn(walk) {
   const { count, first_s, step_s } = walk.poses;

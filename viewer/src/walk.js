@@ -21,6 +21,8 @@ export class Walk {
     this.angles = this.robot.joints.map((joint) => poses.get("angle." + joint.name));
     this.targets = this.robot.joints.map((joint) => poses.get("target." + joint.name));
     this.timers = this.columnsOfLegs(poses, "timer.");
+    const commands = ["speed", "turn"].map((name) => poses.get("command." + name));
+    this.commands = commands.every(Boolean) ? commands : null;
     this.touches = this.columnsOfLegs(contacts, "touch.");
     this.debounce_s = this.gait?.settings.debounce_s ?? 0;
     this.triggered = this.columnsOfLegs(contacts, "trigger.");
