@@ -34,7 +34,7 @@ struct TrialOptions {
   std::optional<std::filesystem::path> record;
   std::optional<std::uint32_t> episode, unseen;
   std::optional<std::filesystem::path> ground;
-  std::optional<std::string> damage, command;
+  std::optional<std::string> damage, command, steering;
   std::optional<std::filesystem::path> inputs;
   presentation::TrialChoice disturbance;
 };
@@ -97,7 +97,14 @@ void command_as_in(const std::string& spec, std::optional<double> seconds, exper
   if (seconds) champion.problem.trial.duration_s = *seconds;
   champion.problem.trial.validate();
   champion.problem.set_commands(command);
-  if (!champion.problem.architecture->extra_senses().commands())
+}
+
+/// What it is told, and how it is steered by hand.
+void tell(const TrialOptions& options, experiment::Champion& champion) {
+  if (options.command) command_as_in(*options.command, options.seconds, champion);
+  if (options.steering)
+    champion.problem.set_differential(experiment::parse_differential(*options.steering, "--steering"));
+  if (options.command && !champion.problem.architecture->extra_senses().commands())
     print_message("--command: this champion senses no commands, and walks as it would without\n");
 }
 
@@ -142,7 +149,7 @@ ExitCode run_trial(const TrialOptions& options) {
     change_as_in(*options.ground,
                  [&](const experiment::Config& config) { champion.problem.set_ground(config.ground); });
   if (options.damage) damage_as_in(*options.damage, champion);
-  if (options.command) command_as_in(*options.command, options.seconds, champion);
+  tell(options, champion);
   if (options.record) io::refuse_to_replace(*options.record, record::recording_magic, "a recording");
   study::GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
   experiment::ReplayOptions how{.seconds = options.seconds,
@@ -216,11 +223,15 @@ void add_trial(CLI::App& app, Action& action) {
   command->add_option("--command", options->command,
                       "Told to do this: SPEED,TURN[,SECONDS]; … in m/s, rad/s to the left and s, or the "
                       "[command] of this config (default: as in its evolution)");
+  command->add_option("--steering", options->steering,
+                      "Steered by hand: [controller.differential] in one line, e.g. \"turn_gain = 1.5, "
+                      "full_speed_m_s = 0.4\" (default: as in its evolution)");
   auto* const inputs = command->add_option("--inputs", options->inputs,
                                            "Run a live session of a page again, with all that was done to "
                                            "the robot: the file that the page saved");
-  for (const char* other : {"--seconds", "--engine", "--record", "--episode", "--unseen", "--ground",
-                            "--damage", "--command", "--level", "--noise", "--trials", "--undisturbed"})
+  for (const char* other :
+       {"--seconds", "--engine", "--record", "--episode", "--unseen", "--ground", "--damage", "--command",
+        "--steering", "--level", "--noise", "--trials", "--undisturbed"})
     inputs->excludes(command->get_option(other));
   add_examples(*command, {{"amble trial runs/1", "what it typically does"},
                           {"amble trial runs/1 --command \"0.4,0; 0.4,0.5; 0,0\"", "straight, left, stop"},

@@ -74,6 +74,19 @@ void CtrnnSettings::describe(io::SettingsVisitor& visitor) {
                   "the authors' code: cleared; Morse et al. 2013: a CTRNN, so kept"});
   visitor.number("slope", slope, {1e-3, 1e3},
                  {"slope of the neurons' logistic function", "HyperSharpNEAT: 4.9; Beer 1995: 1"});
+  visitor.texts(
+      "sensors", sensors,
+      {.what =
+           "with controller.substrate = \"auto\": what each leg's module senses beside its touch, by names "
+           "as those of controller.supg.modulation.sensors; in the sensors' units times their "
+           "controller.sensing.sensors[].scale",
+       .first_is_implied = true});
+  visitor.choice(
+      "motor_bias", motor_bias, motor_bias_names,
+      {.what = "with controller.substrate = \"auto\": biases of the neurons that drive joints: 3 (fixed), "
+               "or from −3 to 3 by the CPPN (evolved)",
+       .source = "the authors' code: fixed",
+       .first_is_implied = true});
 }
 
 CtrnnArchitecture::CtrnnArchitecture(const CtrnnSettings& settings, const substrate::Settings& substrate,

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "amble/controllers/neural.hpp"
 
@@ -21,6 +23,10 @@ inline constexpr std::array<std::string_view, 3> integrator_names{"euler", "expo
 enum class StateRule { kept, cleared };
 inline constexpr std::array<std::string_view, 2> state_rule_names{"kept", "cleared"};
 
+/// Biases of the motors of an automatic substrate: those of the authors, or as the CPPN has them.
+enum class MotorBias { fixed, evolved };
+inline constexpr std::array<std::string_view, 2> motor_bias_names{"fixed", "evolved"};
+
 /// A continuous-time recurrent neural network. The defaults are what the authors' code did.
 struct CtrnnSettings {
   Equation equation = Equation::rate;
@@ -29,6 +35,10 @@ struct CtrnnSettings {
   int steps_per_tick = 17;  ///< ≥ 1
   StateRule state = StateRule::cleared;
   double slope = 4.9;  ///< of s(x), > 0
+  /// What each module of an automatic substrate senses beside its touch, and its motors'
+  /// biases (automatic_variants.hpp).
+  std::vector<std::string> sensors = {};
+  MotorBias motor_bias = MotorBias::fixed;
 
   void describe(io::SettingsVisitor& visitor);
 };

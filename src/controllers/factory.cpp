@@ -1,11 +1,13 @@
 #include "amble/controllers/factory.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string_view>
 #include <utility>
 
 #include "amble/controllers/automatic.hpp"
+#include "amble/controllers/automatic_variants.hpp"
 #include "amble/controllers/mixed.hpp"
 #include "amble/controllers/supg.hpp"
 #include "amble/core/check.hpp"
@@ -83,6 +85,37 @@ void check_without_lists(const substrate::Settings& settings) {
   }
 }
 
+/// Refuses senses of modules in a listed substrate that has no nodes for them.
+void check_module_senses(const ControllerSettings& settings) {
+  if (settings.kind != "ctrnn" || settings.ctrnn.sensors.empty()) return;
+  const bool made = std::ranges::any_of(settings.substrate.nodes, [](const substrate::NodeSettings& node) {
+    return node.group == sense_group || node.group == turn_group;
+  });
+  if (!made)
+    fail_setting(
+        {"controller.ctrnn.sensors"},
+        "controller.ctrnn.sensors: the nodes of controller.substrate are listed; expected nodes with "
+        "sensors there, or controller.substrate = \"auto\"");
+}
+
+/// What settings of the kind change in the substrate that is made from the robot.
+void vary(const ControllerSettings& settings, const robot::RobotSpec& robot, substrate::Settings& made) {
+  if (settings.kind == "ctrnn") {
+    add_module_senses(robot, settings.ctrnn.sensors, made);
+    if (settings.ctrnn.motor_bias == MotorBias::evolved) evolve_motor_biases(made);
+  }
+  if (settings.kind == "mixed" && settings.mixed.neurons == LegNeurons::none) remove_neurons(made);
+}
+
+/// Refuses what hand-made steering would falsify.
+void check_differential(const ControllerSettings& settings) {
+  if ((settings.kind == "supg" || settings.kind == "mixed") &&
+      settings.supg.contact.source == ContactSource::tracking)
+    fail_setting({"controller.differential", "controller.supg.contact.source"},
+                 "controller.supg.contact.source = \"tracking\": contacts are guessed from targets, which "
+                 "controller.differential changes; expected another source");
+}
+
 }  // namespace
 
 void ControllerSettings::describe(io::SettingsVisitor& visitor) {
@@ -106,6 +139,11 @@ void ControllerSettings::describe(io::SettingsVisitor& visitor) {
                 {.what = "how strongly neurons and sensors act on SUPGs in one substrate with them",
                  .source = "Morse et al. 2013, sec. 6, name it as future work",
                  .defaults_are_implied = true});
+  visitor.table(
+      "differential", differential,
+      {.what = "steering by hand of a controller that senses no commands: the legs on the inner side of "
+               "a turn swing less far; off by default",
+       .defaults_are_implied = true});
   if (const auto& numbers = kind_of(*this).numbers; !numbers.empty()) {
     visitor.begin("own", {"settings of this kind, which is not one of amble's own"});
     own.describe(visitor, numbers);
@@ -120,13 +158,17 @@ void register_controller(ControllerKind kind) {
 
 substrate::Settings substrate_of(const ControllerSettings& settings, const robot::RobotSpec& robot) {
   substrate::Settings substrate = settings.substrate;
-  if (substrate.layout == substrate::LayoutSource::listed) return substrate;
+  if (substrate.layout == substrate::LayoutSource::listed) {
+    check_module_senses(settings);
+    return substrate;
+  }
   check_without_lists(substrate);
   if (!kind_of(settings).automatic)
     fail_setting({"controller.substrate.layout", "controller.substrate", "controller.kind"},
                  "controller.substrate.layout = \"auto\": a controller of kind {} has no automatic substrate",
                  settings.kind);
   substrate::Settings made = kind_of(settings).automatic(robot);
+  vary(settings, robot, made);
   substrate.layout = substrate::LayoutSource::listed;
   substrate.coordinates = std::move(made.coordinates);
   substrate.outputs = std::move(made.outputs);
@@ -141,7 +183,11 @@ std::unique_ptr<const Architecture> make_architecture(const ControllerSettings& 
   ControllerSettings listed = settings;
   listed.substrate = substrate_of(settings, robot);
   listed.own.complete(kind_of(settings).numbers);
-  return kind_of(settings).make(listed, robot, timestep_s);
+  auto made = kind_of(settings).make(listed, robot, timestep_s);
+  if (!settings.differential.any()) return made;
+  check_differential(settings);
+  return std::make_unique<DifferentialArchitecture>(std::move(made), settings.differential, robot,
+                                                    timestep_s);
 }
 
 }  // namespace amble::controllers

@@ -7,6 +7,7 @@
 
 #include "amble/controllers/controller.hpp"
 #include "amble/controllers/ctrnn.hpp"
+#include "amble/controllers/differential.hpp"
 #include "amble/controllers/network.hpp"
 #include "amble/controllers/oscillators.hpp"
 #include "amble/controllers/sensing.hpp"
@@ -27,6 +28,7 @@ struct ControllerSettings {
   SensingSettings sensing = {};
   OscillatorSettings oscillators;
   MixedSettings mixed = {};
+  DifferentialSettings differential = {};
   io::OwnSettings own;  ///< of a kind that a program or a plugin has added
 
   void describe(io::SettingsVisitor& visitor);

@@ -147,6 +147,11 @@ void MixedSettings::describe(io::SettingsVisitor& visitor) {
   visitor.number("coupling", coupling, {0.0, 10.0},
                  {"the same for coupling: ρ where the other leg is a quarter of a period ahead of where it "
                   "should be"});
+  visitor.choice(
+      "neurons", neurons, leg_neurons_names,
+      {.what = "with controller.substrate = \"auto\": two neurons a leg, or none, for comparison: then "
+               "what is commanded acts on SUPGs alone",
+       .first_is_implied = true});
 }
 
 MixedArchitecture::MixedArchitecture(const SupgSettings& supg, const MixedSettings& mixed,

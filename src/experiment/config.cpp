@@ -33,4 +33,18 @@ Config config_from(const io::TomlDocument& read, const Overrides& overrides) {
   return config;
 }
 
+controllers::DifferentialSettings parse_differential(const std::string& text, const std::string& what) {
+  const auto document = io::TomlDocument::parse("differential = { " + text + " }", what);
+  controllers::DifferentialSettings settings;
+  const auto reader = document.reader();
+  reader->table("differential", settings, {"steering by hand"});
+  reader->finish();
+  if (!settings.any())
+    fail(ExitCode::bad_input,
+         "{}: \"{}\" steers nothing: expected turn_gain, full_speed_m_s or both, e.g. \"turn_gain = 1.5, "
+         "full_speed_m_s = 0.4\"",
+         what, text);
+  return settings;
+}
+
 }  // namespace amble::experiment

@@ -49,7 +49,7 @@ ground::Key ground_key(const Problem& problem, const TogetherTrial& trial) {
 bool replay_on(const Problem& problem, const std::shared_ptr<const ground::Ground>& ground,
                const std::shared_ptr<const controllers::Parameters>& parameters,
                std::span<const TogetherTrial> trials, std::vector<TrialResult>& results,
-               const std::atomic<bool>& stop) {
+               const record::Measures& measures, const std::atomic<bool>& stop) {
   // Motor torques as in a replay() that is observed.
   const auto engine = problem.make_engine(true);
   if (ground) engine->set_ground(ground);
@@ -58,7 +58,9 @@ bool replay_on(const Problem& problem, const std::shared_ptr<const ground::Groun
   for (std::size_t i = 0; i < trials.size(); ++i)
     if (trials[i].noise) scenarios[i] = problem.scenario(*trials[i].noise, ground.get());
   TogetherQueue queue(parameters, trials, scenarios);
-  trial::Runner(*engine, *controllers, problem.protocol({}, tracking_measures(problem))).run(queue, stop);
+  record::Measures all = tracking_measures(problem);
+  all |= measures;
+  trial::Runner(*engine, *controllers, problem.protocol({}, all)).run(queue, stop);
   for (const auto& trajectory : queue.trajectories()) {
     if (!trajectory) return false;
     results.push_back(summarise(problem, *trajectory));
@@ -70,7 +72,8 @@ bool replay_on(const Problem& problem, const std::shared_ptr<const ground::Groun
 
 std::optional<std::vector<TrialResult>> replay_together(const Problem& original, const neat::Genome& genome,
                                                         double seconds, std::span<const TogetherTrial> trials,
-                                                        const std::atomic<bool>& stop) {
+                                                        const std::atomic<bool>& stop,
+                                                        const record::Measures& measures) {
   Problem problem = original;
   problem.trial.duration_s = seconds;
   problem.trial.validate();
@@ -86,7 +89,7 @@ std::optional<std::vector<TrialResult>> replay_together(const Problem& original,
           rest, [&](const TogetherTrial& trial) { return ground_key(problem, trial) != key; });
       rest = rest.first(static_cast<std::size_t>(other - rest.begin()));
     }
-    if (!replay_on(problem, ground, parameters, rest, results, stop)) return std::nullopt;
+    if (!replay_on(problem, ground, parameters, rest, results, measures, stop)) return std::nullopt;
   }
   return results;
 }

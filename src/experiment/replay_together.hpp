@@ -19,10 +19,11 @@ struct TogetherTrial {
 
 /// Several trials of one genome, each of that length, as many at a time as the engine has lanes, on one
 /// thread. Results and what observers see are to the bit those of replay() trial by trial. Trials on
-/// different uneven ground run one after the other. Nothing if `stop` was set before the last ended. Throws
-/// UserError.
+/// different uneven ground run one after the other. `measures`: those that the problem does not need itself.
+/// Nothing if `stop` was set before the last ended. Throws UserError.
 std::optional<std::vector<TrialResult>> replay_together(const Problem& problem, const neat::Genome& genome,
                                                         double seconds, std::span<const TogetherTrial> trials,
-                                                        const std::atomic<bool>& stop);
+                                                        const std::atomic<bool>& stop,
+                                                        const record::Measures& measures = {});
 
 }  // namespace amble::experiment

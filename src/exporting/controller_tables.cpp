@@ -305,6 +305,10 @@ bool ControllerTables::reads_nothing() const {
 
 ControllerTables controller_tables(const Problem& problem, const neat::Genome& genome) {
   const controllers::Architecture& architecture = *problem.architecture;
+  if (problem.controller.differential.any())
+    fail(ExitCode::bad_input,
+         "controller.differential cannot be exported: it is a baseline for simulations; expected a champion "
+         "without it");
   const auto parameters = problem.decode(genome);
   ControllerTables tables{.kind = architecture.name(),
                           .timestep_s = problem.trial.timestep_s,

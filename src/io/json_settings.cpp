@@ -21,7 +21,9 @@ class Writer final : public SettingsVisitor {
   void text(std::string_view key, std::string& value, Doc doc) override {
     if (!doc.first_is_implied || !value.empty()) put(key, value);
   }
-  void texts(std::string_view key, std::vector<std::string>& value, Doc) override { put(key, value); }
+  void texts(std::string_view key, std::vector<std::string>& value, Doc doc) override {
+    if (!doc.first_is_implied || !value.empty()) put(key, value);
+  }
   void numbers(std::string_view key, std::vector<double>& values, Range, Doc) override {
     Json list = Json::array();
     for (const double value : values) list.push_back(json_number(value));
@@ -80,7 +82,9 @@ class Reader final : public SettingsReader {
     const bool implied = doc.first_is_implied && !tables_.back().view.has(key);
     value = implied ? std::string() : get(key).text();
   }
-  void texts(std::string_view key, std::vector<std::string>& values, Doc) override {
+  void texts(std::string_view key, std::vector<std::string>& values, Doc doc) override {
+    values.clear();
+    if (doc.first_is_implied && !tables_.back().view.has(key)) return;
     const JsonView list = get(key);
     values.assign(list.size(), {});
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = list.at(i).text();

@@ -17,8 +17,8 @@ namespace amble::io {
 struct Doc {
   std::string_view what;         ///< one sentence, with the unit
   std::string_view source = {};  ///< where the number comes from, e.g. "Morse et al. 2013, sec. 4"
-  /// For a choice or a text that files of earlier versions lack: JSON leaves it out while it is the first
-  /// name, or empty.
+  /// For a choice, a text or texts that files of earlier versions lack: JSON leaves it out while it is the
+  /// first name, or empty.
   bool first_is_implied = false;
   /// For a table that files of earlier versions lack: JSON leaves it out while all of it is at its defaults.
   bool defaults_are_implied = false;

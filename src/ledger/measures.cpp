@@ -65,7 +65,7 @@ constexpr std::array map_measures{
     MapMeasure{"staying_share", "share of the elites that stay in their cell", true}};
 
 /// What a test must look for to have a measure.
-enum class Requires { trials, episodes, reaching, mutants, commands };
+enum class Requires { trials, episodes, reaching, mutants, commands, energy };
 
 struct TestMeasure {
   std::string_view name, label;
@@ -134,6 +134,8 @@ constexpr std::array test_measures{
     TestMeasure{"turn_error", "error of turning, rad/s",
                 [](const Record&, const TestResult& t) { return t.obeyed(&Obeyed::turn_error_rad_s); },
                 Requires::commands},
+    TestMeasure{"cost_of_transport", "cost of transport",
+                [](const Record&, const TestResult& t) { return t.cost_of_transport(); }, Requires::energy},
     TestMeasure{"reached_s", "wall time until it was reached, s", reached_s, Requires::reaching},
     TestMeasure{"reached_generation", "generation that reached it",
                 [](const Record&, const TestResult& t) -> Found {
@@ -163,6 +165,8 @@ bool has(const TestSpec& test, Requires needs) {
       return test.mutants > 0;
     case Requires::commands:
       return !test.command.empty();
+    case Requires::energy:
+      return test.energy;
     case Requires::trials:
       break;
   }
@@ -195,15 +199,15 @@ std::string measure_names() {
   std::string corrected;
   for (const MapMeasure& row : map_measures)
     (row.is_corrected ? corrected : text) += fmt::format("{}, ", row.name);
-  std::array<std::string, 5> of_tests;
+  std::array<std::string, 6> of_tests;
   for (const TestMeasure& row : test_measures) {
     std::string& names = of_tests.at(to_index(row.needs));
     names += fmt::format("{}.{}", names.empty() ? "" : ", ", row.name);
   }
   return fmt::format(
       "{}with map_trials {}TEST{}, with episodes {}, with reach_m {}, with mutants {}, with "
-      "command {}",
-      text, corrected, of_tests[0], of_tests[1], of_tests[2], of_tests[3], of_tests[4]);
+      "command {}, with energy {}",
+      text, corrected, of_tests[0], of_tests[1], of_tests[2], of_tests[3], of_tests[4], of_tests[5]);
 }
 
 std::vector<std::string> measures_of_runs() {

@@ -37,6 +37,10 @@ io::Json to_json(const EpisodeResult& episode) {
     json["obeyed"] = {{"tracking", episode.obeyed->tracking},
                       {"speed_error_m_s", episode.obeyed->speed_error_m_s},
                       {"turn_error_rad_s", episode.obeyed->turn_error_rad_s}};
+  if (episode.spent)
+    json["spent"] = {{"energy_j", episode.spent->energy_j},
+                     {"way_m", episode.spent->way_m},
+                     {"weight_n", episode.spent->weight_n}};
   return json;
 }
 
@@ -53,6 +57,13 @@ EpisodeResult episode_from(const io::JsonView& view) {
     episode.obeyed = {.tracking = obeyed.at("tracking").finite_number(),
                       .speed_error_m_s = obeyed.at("speed_error_m_s").finite_number(),
                       .turn_error_rad_s = obeyed.at("turn_error_rad_s").finite_number()};
+  }
+  if (view.has("spent")) {
+    const io::JsonView spent = view.at("spent");
+    episode.spent = {.energy_j = spent.at("energy_j").finite_number(),
+                     .way_m = spent.at("way_m").finite_number(),
+                     .weight_n = spent.at("weight_n").finite_number()};
+    if (!(episode.spent->weight_n > 0.0)) spent.at("weight_n").bad("a number of more than 0");
   }
   return episode;
 }
@@ -224,6 +235,19 @@ std::optional<double> TestResult::obeyed(double Obeyed::*value) const {
     if (episode.obeyed) values.push_back(*episode.obeyed.*value);
   if (values.empty()) return std::nullopt;
   return statistics::median(values);
+}
+
+std::optional<double> TestResult::cost_of_transport() const {
+  double energy_j = 0.0, weighed_way_j = 0.0;
+  bool measured = false;
+  for (const EpisodeResult& episode : episodes)
+    if (const auto& spent = episode.spent) {
+      measured = true;
+      energy_j += spent->energy_j;
+      weighed_way_j += spent->weight_n * spent->way_m;
+    }
+  if (!measured) return std::nullopt;
+  return weighed_way_j > 0.0 ? energy_j / weighed_way_j : std::numeric_limits<double>::infinity();
 }
 
 std::optional<double> TestResult::moving_s() const {

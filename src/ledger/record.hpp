@@ -21,6 +21,15 @@ struct Obeyed {
   friend bool operator==(const Obeyed&, const Obeyed&) = default;
 };
 
+/// What a trial took (TestSpec::energy).
+struct Spent {
+  double energy_j = 0.0;  ///< Σ |torque × change of angle| over motors and steps
+  double way_m = 0.0;     ///< from whole second to whole second
+  double weight_n = 0.0;
+
+  friend bool operator==(const Spent&, const Spent&) = default;
+};
+
 /// One trial of a champion.
 struct EpisodeResult {
   double distance_m = 0.0;
@@ -28,6 +37,7 @@ struct EpisodeResult {
   double walking_s = 0.0;  ///< score::WalkingMeter
   record::Outcome outcome = record::Outcome::completed;
   std::optional<Obeyed> obeyed = {};  ///< of a trial with commands
+  std::optional<Spent> spent = {};    ///< of a test that measures it
 
   friend bool operator==(const EpisodeResult&, const EpisodeResult&) = default;
 };
@@ -62,6 +72,9 @@ struct TestResult {
   double walking_s() const;  ///< median
   /// Median of the episodes with commands; nothing if there are none.
   std::optional<double> obeyed(double Obeyed::*value) const;
+  /// Energy of all episodes that were measured, by weight and way; infinite for a robot that went nowhere.
+  /// Nothing if there are none.
+  std::optional<double> cost_of_transport() const;
   /// Time in motion in the first episode, s: windows of 10 s (or of one sample of the path, if that is more)
   /// over which it gets farther than 25 cm, also after pauses; where one ends in each sample, the first
   /// counts whole. Nothing of trials that are shorter than 10 s, which have no window.

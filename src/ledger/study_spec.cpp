@@ -60,6 +60,13 @@ void check_conditions(const StudySpec& study) {
       throw study.error_at(item("conditions", i, "config"),
                            fmt::format("'{}' is missing: expected the path of a config file",
                                        item("conditions", i, "config")));
+    const auto commands = [&](const TestSpec& test) {
+      return !test.command.empty() && test.applies_to(condition.name);
+    };
+    if (!condition.steering.empty() && std::ranges::none_of(study.tests, commands))
+      throw study.error_at(
+          item("conditions", i, "steering"),
+          fmt::format("'{}': no test of the condition has a command", item("conditions", i, "steering")));
     if (condition.seeds.empty() && study.seeds.empty())
       throw study.error_at("seeds", "'seeds' is missing: expected a list of whole numbers");
   }
@@ -102,6 +109,9 @@ void ConditionSpec::describe(io::SettingsVisitor& visitor) {
   visitor.text("robot", robot, {"robot file, relative to the study file; empty: the config's"});
   visitor.texts("settings", settings,
                 {"\"key.path=value\", laid over the config after the study's settings"});
+  visitor.text("steering", steering,
+               {"[controller.differential] in one line, \"turn_gain = 1.5, full_speed_m_s = 0.4\", by which "
+                "champions are steered in tests with a command; empty: as in their own config"});
   visitor.numbers("seeds", seeds, {0, largest_seed}, {"seeds of its runs; empty: the study's"});
   visitor.integer("generations", generations, {0, most_generations},
                   {"generations of its runs; 0: the study's"});
@@ -122,6 +132,7 @@ void TestSpec::describe(io::SettingsVisitor& visitor) {
   visitor.integer("episodes", episodes, {1, 1000}, {"trials under noise that evolution has not met"});
   visitor.number("reach_m", reach_m, {0, 1e6},
                  {"the first best of the run whose median trial gets that far is found, m; 0: not"});
+  visitor.flag("energy", energy, {"whether the cost of transport is measured"});
   visitor.integer("mutants", mutants, {0, most_mutants},
                   {"mutants of the champion that are tried beside it, in the same trials; 0: none"});
   visitor.texts("conditions", conditions, {"conditions whose champions are tested; empty: all"});

@@ -35,8 +35,11 @@ struct ConditionSpec {
   std::string config;  ///< config file; relative to the study file until load_study() resolves it
   std::string robot;   ///< robot file; likewise; empty: the config's
   std::vector<std::string> settings;  ///< "key.path=value", laid over the config after StudySpec::settings
-  std::vector<double> seeds;          ///< empty: StudySpec::seeds
-  int generations = 0;                ///< 0: StudySpec::generations
+  /// [controller.differential] in one line, by which champions are steered in tests with commands; empty: by
+  /// their own config.
+  std::string steering;
+  std::vector<double> seeds;  ///< empty: StudySpec::seeds
+  int generations = 0;        ///< 0: StudySpec::generations
 
   const std::string& label() const { return title.empty() ? name : title; }
   void describe(io::SettingsVisitor& visitor);
@@ -57,6 +60,7 @@ struct TestSpec {
   int episodes = 1;
   /// > 0: also finds the first of the run's successive bests whose median trial gets that far, m.
   double reach_m = 0.0;
+  bool energy = false;  ///< also measures what the trials cost (Spent)
   /// > 0: also tries so many mutants of the champion in the same trials (record::Mutant).
   int mutants = 0;
   std::vector<std::string> conditions;  ///< names; empty: all

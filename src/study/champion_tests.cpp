@@ -62,6 +62,15 @@ std::optional<ledger::Obeyed> obeyed(const experiment::TrialResult& trial) {
                         .turn_error_rad_s = thousandths(trial.tracking->turn_error_rad_s)};
 }
 
+/// Rounded as in records.
+std::optional<ledger::Spent> spent(const PlannedTest& test, const experiment::Problem& problem,
+                                   const experiment::TrialResult& trial) {
+  if (!test.spec.energy) return std::nullopt;
+  return ledger::Spent{.energy_j = thousandths(trial.energy_j),
+                       .way_m = thousandths(trial.way_m),
+                       .weight_n = thousandths(problem.weight_n())};
+}
+
 std::string gait_name(const gait::Report& report) {
   if (!report.classification) return {};
   return std::string(gait::gait_names[to_index(report.classification->gait)]);
@@ -147,8 +156,9 @@ std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experi
   auto trials = trials_of(test, problem, champion);
   for (std::size_t i = 0; i < trials.size(); ++i)
     trials[i].observer = i == 0 ? static_cast<trial::Observer*>(&first) : &walks[i];
+  const record::Measures measures{.energy = test.spec.energy, .seconds = test.spec.energy};
   const auto replayed =
-      experiment::replay_together(problem, champion.genome, test.spec.seconds, trials, stop);
+      experiment::replay_together(problem, champion.genome, test.spec.seconds, trials, stop, measures);
   if (!replayed) return std::nullopt;
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const experiment::TrialResult& trial = (*replayed)[i];
@@ -156,7 +166,8 @@ std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experi
                                .seconds = trial.seconds,
                                .walking_s = std::min(walks[i].walking_s(), trial.seconds),
                                .outcome = trial.outcome,
-                               .obeyed = obeyed(trial)});
+                               .obeyed = obeyed(trial),
+                               .spent = spent(test, problem, trial)});
   }
   result.gait = gait_name(gait.finish(replayed->front().outcome));
   result.path_m = walks.front().path_m();

@@ -67,6 +67,12 @@ void check_tests(const PlannedCondition& condition) {
   }
 }
 
+/// The test as champions meet it that are steered by hand.
+PlannedTest steered(PlannedTest test, const std::optional<controllers::DifferentialSettings>& steering) {
+  if (test.command) test.steering = steering;
+  return test;
+}
+
 PlannedCondition plan_condition(const ledger::StudySpec& study, std::size_t index,
                                 const std::vector<PlannedTest>& tests) {
   const ledger::ConditionSpec& spec = study.conditions[index];
@@ -78,9 +84,11 @@ PlannedCondition plan_condition(const ledger::StudySpec& study, std::size_t inde
   PlannedCondition condition{.spec = spec, .config = {}, .robot = {}, .tests = {}, .hash = {}};
   try {
     condition.config = experiment::load_config(spec.config, overrides);
+    std::optional<controllers::DifferentialSettings> steering;
+    if (!spec.steering.empty()) steering = experiment::parse_differential(spec.steering, "steering");
     condition.robot = experiment::load_robot(condition.config);
     for (const PlannedTest& test : tests)
-      if (test.spec.applies_to(spec.name)) condition.tests.push_back(test);
+      if (test.spec.applies_to(spec.name)) condition.tests.push_back(steered(test, steering));
     check_tests(condition);
   } catch (const UserError& error) {
     fail(error.code(), "condition '{}': {}", spec.name, error.what());
@@ -182,6 +190,7 @@ experiment::Problem PlannedTest::problem(experiment::Problem home) const {
   if (ground) home.set_ground(*ground);
   if (damage) home.set_damage(*damage);
   if (command) home.set_commands(*command);
+  if (steering) home.set_differential(*steering);
   return home;
 }
 
@@ -195,6 +204,8 @@ std::string PlannedTest::settings_hash(std::string_view home) const {
   if (ground) definition["ground"] = io::settings_to_json(*ground);
   if (damage) definition["damage"] = io::settings_to_json(*damage);
   if (command) definition["command"] = io::settings_to_json(*command);
+  if (steering) definition["steering"] = io::settings_to_json(*steering);
+  if (spec.energy) definition["energy"] = true;
   return hex(hash_text(definition.dump()));
 }
 

@@ -26,6 +26,8 @@ struct PlannedTest {
   std::optional<ground::Settings> ground = {};         ///< that of TestSpec::ground
   std::optional<damage::Settings> damage = {};         ///< that of TestSpec::damage
   std::optional<trial::CommandSettings> command = {};  ///< that of TestSpec::command
+  /// ConditionSpec::steering, in tests with a command.
+  std::optional<controllers::DifferentialSettings> steering = {};
 
   /// The commit of a program: a result that another one measured is to be measured again. Empty: any will do.
   std::string measured_by = {};

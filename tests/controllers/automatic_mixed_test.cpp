@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "amble/controllers/automatic.hpp"
+#include "amble/controllers/factory.hpp"
 #include "amble/controllers/mixed.hpp"
 #include "amble/core/index.hpp"
+#include "amble/io/json_file.hpp"
 #include "tests/controllers/one_joint.hpp"
 #include "tests/robot/legged.hpp"
 
@@ -72,6 +74,30 @@ TEST(AutomaticMixed, OneConstantOutputBringsAllLegsToTheMiddleOfTheirRangesWhile
       ASSERT_NEAR(targets.at(joint, 0), 0.5 * (range.lower_rad + range.upper_rad), 1e-6) << joint;
     }
   }
+}
+
+TEST(AutomaticMixed, WithoutNeuronsHasWhatActsOnSupgsByItselfAndNoOutputThatNothingReads) {
+  ControllerSettings settings;
+  settings.kind = "mixed";
+  settings.substrate.layout = substrate::LayoutSource::automatic;
+  const auto robot = tests::legged_robot(2);
+  EXPECT_FALSE(io::settings_to_json(settings).contains("mixed")) << "two neurons a leg are implied";
+  settings.mixed.neurons = LegNeurons::none;
+  const auto made = make_architecture(settings, robot, 0.01);
+  const auto& mixed = dynamic_cast<const MixedArchitecture&>(*made);
+  EXPECT_TRUE(mixed.net().neurons.empty());
+  EXPECT_EQ(mixed.net().sensors.size(), 5u);
+  EXPECT_EQ(mixed.net().couplings.size(), 4u * 3u);
+  for (const char* gone : {"hidden", "rate", "amplitude", "shift", "bias", "time_constant"})
+    EXPECT_EQ(std::ranges::count(mixed.layout().output_names(), gone), 0) << gone;
+  const auto full = mixed_of_quadruped();
+  const auto to_supgs = [](const substrate::Layout& layout) {
+    return std::ranges::count_if(layout.links(), [&](const substrate::Link& link) {
+      const auto& from = layout.nodes()[to_index(link.source)];
+      return link.port != Port::hidden && (from.sensor || from.joint >= 0);
+    });
+  };
+  EXPECT_EQ(to_supgs(mixed.layout()), to_supgs(full.layout()));
 }
 
 TEST(AutomaticMixed, SensesCommandsAndEachFootAndHasTwoNeuronsALeg) {

@@ -221,6 +221,79 @@ TEST(AutomaticCtrnn, OfOneLegHasNoOutputForLinksBetweenModules) {
             (std::vector<std::string>{"intra", "bias", "time_constant"}));
 }
 
+/// An automatic CTRNN whose modules sense this.
+ControllerSettings sensing_modules(std::vector<std::string> sensors) {
+  ControllerSettings settings = automatic("ctrnn");
+  settings.ctrnn.sensors = std::move(sensors);
+  return settings;
+}
+
+TEST(AutomaticCtrnn, GivesEachModuleItsSensesWhichActOnTheSidesInOppositeSensesWhereTheyTellThemApart) {
+  const auto robot = tests::legged_robot(2);
+  const auto settings =
+      substrate_of(sensing_modules({"command_speed", "command_turn", "angle.hip_fb"}), robot);
+  EXPECT_EQ(at(settings, "L1.command_turn"), (std::vector{0.0, -2.0, -1.0, 1.0}));
+  const auto angle = std::ranges::find(settings.nodes, "R2.angle.hip_fb", &substrate::NodeSettings::name);
+  ASSERT_NE(angle, settings.nodes.end());
+  EXPECT_EQ(angle->sensor, "angle.R2_hip_fb");
+  EXPECT_EQ(settings.outputs.size(), automatic_ctrnn(robot).outputs.size() + 2);
+
+  const auto made = make_architecture(sensing_modules({"command_speed", "command_turn"}), robot, 0.01);
+  EXPECT_TRUE(made->extra_senses().command);
+  const substrate::Layout& layout = *made->substrate();
+  std::vector<double> outputs(layout.output_names().size());
+  outputs[to_index(std::ranges::find(layout.output_names(), "turn") - layout.output_names().begin())] = 1.0;
+  const auto decoded = layout.decode(constant_cppn(static_cast<int>(layout.input_names().size()), outputs));
+  int steered = 0;
+  for (std::size_t i = 0; i < decoded.weights.size(); ++i) {
+    const substrate::Link& link = layout.links()[i];
+    const bool turns = layout.nodes()[to_index(link.source)].group == "turn";
+    const double side = layout.nodes()[to_index(link.target)].at[2];
+    EXPECT_FLOAT_EQ(decoded.weights[i], turns ? static_cast<float>(3.0 * side) : 0.0f);
+    steered += turns ? 1 : 0;
+  }
+  EXPECT_EQ(steered, 4 * 5) << "two hidden neurons and three motors a leg";
+}
+
+TEST(AutomaticCtrnn, MotorsHaveBiasesByTheCppnWhereTheyAreToEvolve) {
+  ControllerSettings settings = automatic("ctrnn");
+  settings.ctrnn.motor_bias = MotorBias::evolved;
+  const auto made = make_architecture(settings, tests::legged_robot(2), 0.01);
+  const substrate::Layout& layout = *made->substrate();
+  std::vector<double> outputs(layout.output_names().size());
+  outputs[to_index(std::ranges::find(layout.output_names(), "bias") - layout.output_names().begin())] = 0.5;
+  const auto decoded = layout.decode(constant_cppn(static_cast<int>(layout.input_names().size()), outputs));
+  for (std::size_t i = 0; i < layout.nodes().size(); ++i)
+    if (!layout.nodes()[i].sensor) {
+      EXPECT_FLOAT_EQ(decoded.of("bias")[i], layout.nodes()[i].joint >= 0 ? 1.5f : 0.5f);
+    }
+}
+
+TEST(AutomaticCtrnn, WithoutSensesIsAsItWasAndRefusesThoseThatItCannotGive) {
+  const auto robot = tests::legged_robot(2);
+  EXPECT_EQ(io::settings_to_json(substrate_of(automatic("ctrnn"), robot)).dump(), [&] {
+    substrate::Settings made = automatic_ctrnn(robot);
+    made.layout = substrate::LayoutSource::listed;
+    return io::settings_to_json(made).dump();
+  }());
+  EXPECT_FALSE(io::settings_to_json(automatic("ctrnn")).at("ctrnn").contains("sensors"));
+  const auto refusal = [&](ControllerSettings settings) -> std::string {
+    try {
+      substrate_of(settings, robot);
+    } catch (const SettingError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_NE(refusal(sensing_modules({"pitch", "pitch"})).find("[1] = \"pitch\" is there twice"),
+            std::string::npos);
+  EXPECT_NE(refusal(sensing_modules({"touch"})).find("modules sense touch already"), std::string::npos);
+  EXPECT_NE(refusal(sensing_modules({"angle.toe"})).find("no joint type toe"), std::string::npos);
+  ControllerSettings listed = sensing_modules({"pitch"});
+  listed.substrate = automatic_ctrnn(robot);
+  EXPECT_NE(refusal(listed).find("the nodes of controller.substrate are listed"), std::string::npos);
+}
+
 TEST(AutomaticSubstrate, SuitsRobotsOfOneToFiveLegPairsWithAnyJointsHeld) {
   // Whatever is held: the layout is accepted, which refuses equal places, groups without nodes, links that
   // link nothing, and outputs that nothing reads.

@@ -86,5 +86,51 @@ TEST(CommandRun, RefusesAControllerThatSensesCommandsWhereThereAreNone) {
   }
 }
 
+TEST(CommandRun, OfAWalkerThatIsSteeredByHandIsVerifiedAndKeptInChampions) {
+  const TemporaryFolder scratch;
+  auto settings = told;
+  settings[1] = "controller.kind=oscillators";
+  settings.erase(settings.begin() + 2);
+  settings.emplace_back("controller.differential.turn_gain=1.5");
+  settings.emplace_back("controller.differential.full_speed_m_s=0.4");
+  const Config config = small_config(settings);
+  Listener one, three;
+  ASSERT_EQ(Run::start(scratch / "one", config, 1).execute(one, one.stop), RunStatus::finished);
+  ASSERT_EQ(Run::start(scratch / "three", config, 3).execute(three, three.stop), RunStatus::finished);
+  EXPECT_TRUE(champion_bytes(scratch / "three") == champion_bytes(scratch / "one"));
+  const RunPaths paths(scratch / "one");
+  const Origin origin = origin_of(paths);
+  for (const auto& file : paths.champion_files()) {
+    EXPECT_TRUE(verify_champion(file, unstopped, &origin)->agrees);
+    EXPECT_EQ(load_champion(file).problem.controller.differential, config.controller.differential);
+  }
+  EXPECT_TRUE(identity_json(config).at("controller").contains("differential"));
+  EXPECT_FALSE(identity_json(small_config()).at("controller").contains("differential"));
+}
+
+TEST(CommandRun, SteeringByHandNeedsCommandsAndIsTakenOffAgain) {
+  Problem problem = small_problem();
+  const auto genome = small_population(problem).genomes()[0];
+  const auto distance_m = [&] {
+    return replay(problem, genome, {.seconds = 2.0}, unstopped)->result.distance_m;
+  };
+  const double plain_m = distance_m();
+  try {
+    Problem untold = problem;
+    untold.set_differential({.full_speed_m_s = 0.4});
+    FAIL();
+  } catch (const UserError& error) {
+    EXPECT_NE(std::string(error.what()).find("command.kind = \"none\""), std::string::npos) << error.what();
+  }
+  problem.set_commands({.kind = trial::CommandKind::fixed, .stretches = {{0.2, 0.0}}});
+  EXPECT_EQ(distance_m(), plain_m) << "what does not hear commands walks as before";
+  problem.set_differential({.full_speed_m_s = 0.4});
+  EXPECT_NE(distance_m(), plain_m);
+  problem.set_differential({.full_speed_m_s = 0.2});
+  EXPECT_EQ(distance_m(), plain_m) << "full speed";
+  problem.set_differential({});
+  EXPECT_EQ(distance_m(), plain_m);
+}
+
 }  // namespace
 }  // namespace amble::experiment

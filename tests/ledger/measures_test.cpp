@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "amble/core/error.hpp"
 #include "amble/ledger/study_spec.hpp"
 #include "amble/score/score.hpp"
@@ -33,6 +35,20 @@ TEST(Measures, OfSeveralEpisodesAreAlsoTheirQuartilesTheLuckiestAndWhatFell) {
   EXPECT_EQ(measure(record, "five.upper_quartile_m"), 4.0);
   EXPECT_EQ(measure(record, "five.best_m"), 5.0);
   EXPECT_EQ(measure(record, "five.fell_share"), 0.4);
+}
+
+TEST(Measures, CostOfTransportIsEnergyByWeightAndWayAndInfiniteOfWhatGoesNowhere) {
+  Record record = sample_record();
+  EXPECT_FALSE(measure(record, "five.cost_of_transport"));
+  record.tests[0].episodes[0].spent = {.energy_j = 60.0, .way_m = 3.0, .weight_n = 10.0};
+  EXPECT_EQ(measure(record, "five.cost_of_transport"), 2.0);
+  EXPECT_EQ(parse_record(record_text(record), "record").tests[0].episodes[0].spent,
+            record.tests[0].episodes[0].spent);
+  record.tests[0].episodes.push_back(record.tests[0].episodes[0]);
+  record.tests[0].episodes[1].spent = {.energy_j = 40.0, .way_m = 1.0, .weight_n = 10.0};
+  EXPECT_EQ(measure(record, "five.cost_of_transport"), 2.5) << "of all the way";
+  for (EpisodeResult& episode : record.tests[0].episodes) episode.spent->way_m = 0.0;
+  EXPECT_EQ(measure(record, "five.cost_of_transport"), std::numeric_limits<double>::infinity());
 }
 
 /// A test whose path goes `steps_m` along x from sample to sample.

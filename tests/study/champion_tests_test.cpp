@@ -171,6 +171,34 @@ TEST(ChampionTest, OfADamagedRobotIsTheTrialOfThatRobot) {
   EXPECT_NE(expected.distance_m, replayed(3.0).distance_m);
 }
 
+TEST(ChampionTest, SteeredByHandIsTheTrialOfThatWalkerAndMeasuresItsCost) {
+  PlannedTest test{.spec = trial_test("t", 6.0), .noise = {}};
+  test.spec.command = "0.4,0.5";
+  test.spec.energy = true;
+  test.command = {.kind = trial::CommandKind::fixed, .stretches = {{0.4, 0.5}}};
+  test.steering = {.turn_gain = 1.0, .full_speed_m_s = 0.4};
+  auto problem = champion().problem;
+  problem.set_commands(*test.command);
+  problem.set_differential(*test.steering);
+  const auto expected = experiment::replay(problem, champion().genome, {.seconds = 6.0}, never)->result;
+  const auto result = run_test(test, champion(), never);
+  EXPECT_EQ(result->episodes[0].distance_m, expected.distance_m);
+  EXPECT_NE(expected.distance_m, replayed(6.0).distance_m);
+  ASSERT_TRUE(result->episodes[0].obeyed && result->episodes[0].spent);
+  EXPECT_GT(result->episodes[0].spent->energy_j, 0.0);
+  EXPECT_NEAR(result->episodes[0].spent->weight_n, problem.weight_n(), 1e-3);
+  // From second to second as the path of the record has it.
+  double way_m = 0.0, x_m = 0.0, y_m = 0.0;
+  for (std::size_t i = 0; i + 1 < result->path_m.size(); i += 2) {
+    way_m += std::hypot(result->path_m[i] - x_m, result->path_m[i + 1] - y_m);
+    x_m = result->path_m[i];
+    y_m = result->path_m[i + 1];
+  }
+  EXPECT_NEAR(result->episodes[0].spent->way_m, way_m, 0.02);
+  test.spec.energy = false;
+  EXPECT_FALSE(run_test(test, champion(), never)->episodes[0].spent);
+}
+
 TEST(ChampionTest, SamplesItsFirstTrialsPathInMillimetresEverySecondOrThreeHundredTimes) {
   const auto brief = tested(trial_test("t", 6.0));
   EXPECT_EQ(brief.path_interval_s, 1.0);

@@ -129,9 +129,39 @@ TEST(PlannedTest, IsTheSameOnlyIfNothingDiffersThatChangesItsTrials) {
   PlannedTest mutated = test, more_mutants = test;
   mutated.spec.mutants = 10;
   more_mutants.spec.mutants = 11;
-  for (const PlannedTest& other :
-       {longer, more, noisy, uneven, steeper, damaged, otherwise, mutated, more_mutants})
+  PlannedTest steered = test, harder = test, measured = test;
+  steered.steering.emplace().turn_gain = 1.0;
+  harder.steering.emplace().turn_gain = 2.0;
+  measured.spec.energy = true;
+  for (const PlannedTest& other : {longer, more, noisy, uneven, steeper, damaged, otherwise, mutated,
+                                   more_mutants, steered, harder, measured})
     EXPECT_TRUE(others.insert(other.settings_hash("batch")).second);
+}
+
+TEST(Plan, ChampionsOfAConditionThatIsSteeredAreSoInTestsWithACommandAlone) {
+  auto study = small_study();
+  study.conditions = {condition("hand", "authors/supg-objective"),
+                      condition("bare", "authors/supg-objective")};
+  study.conditions[0].steering = "turn_gain = 1.5, full_speed_m_s = 0.4";
+  study.tests = {trial_test("told", 2.0), trial_test("free", 2.0)};
+  study.tests[0].command = "0.4,0; 0.4,0.5";
+  const Plan plan = make_plan(study, "out");
+  ASSERT_TRUE(plan.conditions[0].tests[0].steering);
+  EXPECT_EQ(plan.conditions[0].tests[0].steering->turn_gain, 1.5);
+  EXPECT_FALSE(plan.conditions[0].tests[1].steering);
+  EXPECT_FALSE(plan.conditions[1].tests[0].steering);
+  const auto refused = [&](const std::string& steering) -> std::string {
+    study.conditions[0].steering = steering;
+    try {
+      make_plan(study, "out");
+    } catch (const UserError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_THAT(refused("heading_gain = 0"), testing::HasSubstr("steers nothing"));
+  EXPECT_THAT(refused("turn_gan = 1"), testing::HasSubstr("turn_gain"));
+  EXPECT_THAT(refused("turn_gain = 1, joint_types = [\"toe\"]"), testing::HasSubstr("no joint type toe"));
 }
 
 TEST(Plan, RefusesEpisodesThatWouldAllBeTheSameTrial) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -135,6 +136,19 @@ std::optional<Tracking> tracking_of(const Problem& problem, const record::Trajec
                   .tracking = score::tracking(trajectory, context)};
 }
 
+/// The way from whole second to whole second over the ground, m.
+double way_m(const record::Trajectory& trajectory) {
+  const std::vector<double>& places_m = trajectory.com_by_second_m;
+  double sum_m = 0.0, x_m = 0.0, y_m = 0.0;
+  for (std::size_t i = 0; i + 1 < places_m.size(); i += 2) {
+    const double dx_m = places_m[i] - x_m, dy_m = places_m[i + 1] - y_m;
+    sum_m += std::sqrt(dx_m * dx_m + dy_m * dy_m);
+    x_m = places_m[i];
+    y_m = places_m[i + 1];
+  }
+  return sum_m;
+}
+
 }  // namespace
 
 TrialResult summarise(const Problem& problem, const record::Trajectory& trajectory) {
@@ -142,7 +156,9 @@ TrialResult summarise(const Problem& problem, const record::Trajectory& trajecto
                      .steps = trajectory.steps,
                      .seconds = trajectory.seconds(),
                      .outcome = trajectory.outcome,
-                     .tracking = tracking_of(problem, trajectory)};
+                     .tracking = tracking_of(problem, trajectory),
+                     .energy_j = trajectory.energy_j,
+                     .way_m = way_m(trajectory)};
   if (!problem.score.is_distance()) result.score = problem.make_score().of(trajectory);
   return result;
 }

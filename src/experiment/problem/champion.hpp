@@ -27,6 +27,8 @@ struct TrialResult {
   double seconds = 0.0;
   record::Outcome outcome = record::Outcome::completed;
   std::optional<Tracking> tracking = {};  ///< where commands were measured
+  double energy_j = 0.0;                  ///< where record::Measures::energy was
+  double way_m = 0.0;  ///< from whole second to whole second, where record::Measures::seconds was
 
   double value() const { return score.value_or(distance_m); }
 };

@@ -29,12 +29,17 @@ void Problem::complete() {
   check_start();
   // Champion files have the nodes themselves, however the config came by them.
   controller.substrate = controllers::substrate_of(controller, robot);
+  make_architecture();
+  make_engine();  // throws if the engine cannot simulate the robot
+}
+
+void Problem::make_architecture() {
   architecture = controllers::make_architecture(controller, robot, trial.timestep_s);
   if (architecture->extra_senses().commands() && command.kind == trial::CommandKind::none)
-    fail_setting({"command.kind", "controller.substrate", "controller.supg.modulation.sensors"},
+    fail_setting({"command.kind", "controller.substrate", "controller.supg.modulation.sensors",
+                  "controller.differential"},
                  "command.kind = \"none\": the controller senses commands, and there are none; expected "
                  "fixed or random");
-  make_engine();  // throws if the engine cannot simulate the robot
 }
 
 std::unique_ptr<physics::Engine> Problem::make_engine(bool torques) const {
@@ -54,9 +59,13 @@ std::unique_ptr<controllers::Parameters> Problem::decode(const neat::Genome& gen
 }
 
 score::Score Problem::make_score() const {
+  return score::Score(score, trial.steps() * trial.timestep_s, weight_n());
+}
+
+double Problem::weight_n() const {
   const double mass_kg =
       damage.changes_body() ? damage::robot_at_start(robot, damage).total_mass_kg() : robot.total_mass_kg();
-  return score::Score(score, trial.steps() * trial.timestep_s, mass_kg * norm(robot.gravity_m_s2));
+  return mass_kg * norm(robot.gravity_m_s2);
 }
 
 trial::Protocol Problem::protocol(const record::PathSampling& path, const record::Measures& measures) const {
@@ -104,6 +113,11 @@ void Problem::set_damage(const damage::Settings& other) {
 void Problem::set_commands(const trial::CommandSettings& other) {
   other.validate(trial);
   command = other;
+}
+
+void Problem::set_differential(const controllers::DifferentialSettings& other) {
+  controller.differential = other;
+  make_architecture();
 }
 
 void Problem::check_start() const {

@@ -59,6 +59,9 @@ struct Problem {
   void set_damage(const damage::Settings& other);
   /// Changes what the robot is told. Throws SettingError for commands that do not fit the trial.
   void set_commands(const trial::CommandSettings& other);
+  /// Has the walker steered by hand, or not. Throws SettingError where nothing is commanded, or where the
+  /// robot cannot be steered so.
+  void set_differential(const controllers::DifferentialSettings& other);
   /// Throws SettingError if the start pose is in uneven ground.
   void check_start() const;
 
@@ -68,6 +71,8 @@ struct Problem {
   std::unique_ptr<physics::Engine> make_engine(bool torques = false) const;
   std::unique_ptr<controllers::Parameters> decode(const neat::Genome& genome) const;
   score::Score make_score() const;
+  /// Of what is left of the robot after damage at the start, N.
+  double weight_n() const;
   /// What a trial of this score counts in evolution: with trial.fall_factor for a fall.
   double credited(double score_of_trial, record::Outcome outcome) const {
     return score::credited(score_of_trial, outcome, trial.fall_factor);
@@ -86,6 +91,9 @@ struct Problem {
   /// The scenarios of a generation, the same for all genomes, one per episode; empty unless trials_vary().
   std::vector<trial::Scenario> scenarios(std::int64_t seed, int generation,
                                          const ground::Ground* on = nullptr) const;
+
+ private:
+  void make_architecture();
 };
 
 /// The ground of a trial under noise: that of its generation, or of its EpisodeSet.

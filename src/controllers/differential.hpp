@@ -1,0 +1,89 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "amble/controllers/controller.hpp"
+#include "amble/io/settings.hpp"
+
+namespace amble::controllers {
+
+/// About which angle a joint swings less: that of the start pose, or the middle of its range.
+enum class SwingCentre { start_pose, middle };
+inline constexpr std::array<std::string_view, 2> swing_centre_names{"start_pose", "middle"};
+
+/// Differential steering by hand, of a controller that senses no commands itself. Off by default.
+struct DifferentialSettings {
+  double turn_gain = 0.0;       ///< s/rad: inner legs swing by 1 − turn_gain × |turn|
+  double full_speed_m_s = 0.0;  ///< the command at which legs swing as evolved; 0: speed is not steered
+  double heading_gain = 0.0;    ///< 1/s: rad/s added to the turn per rad of heading error
+  double change_s = 0.3;        ///< time in which a swing goes from 1 to 0
+  SwingCentre about = SwingCentre::start_pose;
+  std::vector<std::string> joint_types = {};  ///< of the joints that swing a leg; empty: SwingJoints
+
+  void describe(io::SettingsVisitor& visitor);
+  bool any() const { return turn_gain > 0.0 || full_speed_m_s > 0.0 || heading_gain > 0.0; }
+  friend bool operator==(const DifferentialSettings&, const DifferentialSettings&) = default;
+};
+
+/// Which joints swing a leg forward and back, and on which side each leg is.
+struct SwingJoints {
+  std::vector<std::vector<int>> of_legs;  ///< leg by leg: indices into RobotSpec::joints
+  std::vector<int> sides;                 ///< leg by leg: 1 left, −1 right, 0 neither
+};
+
+/// Of each leg the driven joint that moves its foot farthest forward or back per radian in the start pose,
+/// the first of those that do so alike; none where no joint moves it at least 1 mm. With `joint_types` the
+/// driven joints of these types instead. A leg is left if its hip (robot::hips_m) is left of the mean of
+/// all. Throws SettingError for a type that the robot lacks.
+SwingJoints swing_joints(const robot::RobotSpec& robot, const std::vector<std::string>& joint_types);
+
+/// Any controller, steered by hand as a tracked vehicle is. With v and w what is commanded (m/s, rad/s to the
+/// left), e the heading error (rad), u = w + heading_gain e and each leg's target y about the centre c:
+///
+///   a = v / full_speed_m_s, within ± 1; 0 while a stop is commanded; 1 where full_speed_m_s is 0
+///   s = max(−1, 1 − turn_gain |u|) of legs on the inner side (left for u > 0), else 1
+///   swinging joints  y → c + (y − c) a s      all others  y → c + (y − c) × (0 while a stop is commanded)
+///
+/// limited to the joint's range. A factor (a s of each side, and that of the others) moves by at most
+/// timestep / change_s a tick, and begins with what the first tick asks for. Where a factor is 1 the target
+/// is to the bit the controller's own. The controller itself goes on: its clocks know nothing of it.
+class DifferentialArchitecture : public Architecture {
+ public:
+  /// Throws SettingError: no legs to be told apart, a gain without effect.
+  DifferentialArchitecture(std::unique_ptr<const Architecture> walker, const DifferentialSettings& settings,
+                           const robot::RobotSpec& robot, double timestep_s);
+
+  std::string name() const override { return walker_->name(); }
+  const std::vector<std::string>& cppn_inputs() const override { return walker_->cppn_inputs(); }
+  const std::vector<std::string>& cppn_outputs() const override { return walker_->cppn_outputs(); }
+  const substrate::Layout* substrate() const override { return walker_->substrate(); }
+  std::unique_ptr<Parameters> decode(const cppn::Network& network) const override {
+    return walker_->decode(network);
+  }
+  std::unique_ptr<Batch> make_batch(int lanes) const override;
+  robot::ExtraSenses extra_senses() const override;
+  std::string parameters_json(const Parameters& parameters) const override {
+    return walker_->parameters_json(parameters);
+  }
+
+  /// What one target is multiplied by.
+  enum Factor { left, right, between, others };
+  /// A joint that is steered.
+  struct Steered {
+    int joint = 0;
+    Factor factor = others;
+    float centre_rad = 0.0f, lower_rad = 0.0f, upper_rad = 0.0f;
+  };
+
+ private:
+  std::unique_ptr<const Architecture> walker_;
+  DifferentialSettings settings_;
+  double timestep_s_;
+  std::vector<Steered> joints_;
+};
+
+}  // namespace amble::controllers
