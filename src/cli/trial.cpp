@@ -177,10 +177,12 @@ ExitCode run_trial(const TrialOptions& options) {
   fmt::print("outcome   {}\nupright   {:.2f} s\ndistance  {:.3f} m\nspeed     {:.3f} m/s\n",
              record::outcome_names[to_index(result.outcome)], result.seconds, result.distance_m,
              result.distance_m / result.seconds);
-  if (const auto& tracking = result.tracking)
+  if (const auto& tracking = result.tracking; tracking && tracking->speed_error_m_s)
     fmt::print(
         "commands  followed to {:.3f} of 1; wrong by {:.3f} m/s and {:.3f} rad/s (mean over seconds)\n",
-        tracking->tracking, tracking->speed_error_m_s, tracking->turn_error_rad_s);
+        tracking->tracking, *tracking->speed_error_m_s, *tracking->turn_error_rad_s);
+  else if (tracking)
+    fmt::print("commands  followed to 0 of 1: it ended within the first second\n");
   if (!replay->events.empty()) {
     fmt::print("events   ");
     for (const auto& [name, count] : replay->events) fmt::print(" {} {}", name, count);

@@ -1,6 +1,7 @@
 #include "amble/ledger/record.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -16,6 +17,12 @@ namespace {
 
 constexpr std::string_view record_format = "amble-study-record";
 constexpr int record_version = 2;
+
+// As records name them.
+constexpr std::array<std::pair<const char*, std::optional<double> Obeyed::*>, 3> obeyed_values{
+    {{"tracking", &Obeyed::tracking},
+     {"speed_error_m_s", &Obeyed::speed_error_m_s},
+     {"turn_error_rad_s", &Obeyed::turn_error_rad_s}}};
 
 // A robot moves if it gets that far in that time: the rule of standing still of score/walking.hpp.
 constexpr double moving_window_s = 10.0, moving_m = 0.25;
@@ -34,9 +41,8 @@ io::Json to_json(const EpisodeResult& episode) {
                 {"walking_s", episode.walking_s},
                 {"outcome", record::outcome_names[to_index(episode.outcome)]}};
   if (episode.obeyed)
-    json["obeyed"] = {{"tracking", episode.obeyed->tracking},
-                      {"speed_error_m_s", episode.obeyed->speed_error_m_s},
-                      {"turn_error_rad_s", episode.obeyed->turn_error_rad_s}};
+    for (const auto& [key, value] : obeyed_values)
+      if (const auto& found = *episode.obeyed.*value) json["obeyed"][key] = *found;
   if (episode.spent)
     json["spent"] = {{"energy_j", episode.spent->energy_j},
                      {"way_m", episode.spent->way_m},
@@ -54,9 +60,10 @@ EpisodeResult episode_from(const io::JsonView& view) {
   episode.outcome = static_cast<record::Outcome>(found - record::outcome_names.begin());
   if (view.has("obeyed")) {
     const io::JsonView obeyed = view.at("obeyed");
-    episode.obeyed = {.tracking = obeyed.at("tracking").finite_number(),
-                      .speed_error_m_s = obeyed.at("speed_error_m_s").finite_number(),
-                      .turn_error_rad_s = obeyed.at("turn_error_rad_s").finite_number()};
+    episode.obeyed.emplace();
+    for (const auto& [key, value] : obeyed_values)
+      if (value == &Obeyed::tracking || obeyed.has(key))
+        *episode.obeyed.*value = obeyed.at(key).finite_number();
   }
   if (view.has("spent")) {
     const io::JsonView spent = view.at("spent");
@@ -229,10 +236,10 @@ double TestResult::walking_s() const {
   return median_of(episodes, &EpisodeResult::walking_s);
 }
 
-std::optional<double> TestResult::obeyed(double Obeyed::*value) const {
+std::optional<double> TestResult::obeyed(std::optional<double> Obeyed::*value) const {
   std::vector<double> values;
   for (const EpisodeResult& episode : episodes)
-    if (episode.obeyed) values.push_back(*episode.obeyed.*value);
+    if (episode.obeyed && *episode.obeyed.*value) values.push_back(*(*episode.obeyed.*value));
   if (values.empty()) return std::nullopt;
   return statistics::median(values);
 }

@@ -16,7 +16,9 @@ namespace amble::ledger {
 
 /// How well a robot did what it was told (score/tracking.hpp).
 struct Obeyed {
-  double tracking = 0.0, speed_error_m_s = 0.0, turn_error_rad_s = 0.0;
+  std::optional<double> tracking = {};
+  /// Nothing for a trial that ended within its first second.
+  std::optional<double> speed_error_m_s = {}, turn_error_rad_s = {};
 
   friend bool operator==(const Obeyed&, const Obeyed&) = default;
 };
@@ -71,7 +73,7 @@ struct TestResult {
   double upright_s() const;  ///< median
   double walking_s() const;  ///< median
   /// Median of the episodes with commands; nothing if there are none.
-  std::optional<double> obeyed(double Obeyed::*value) const;
+  std::optional<double> obeyed(std::optional<double> Obeyed::*value) const;
   /// Energy of all episodes that were measured, by weight and way; infinite for a robot that went nowhere.
   /// Nothing if there are none.
   std::optional<double> cost_of_transport() const;

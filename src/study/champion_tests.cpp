@@ -57,9 +57,10 @@ class WalkObserver : public trial::Observer {
 /// Rounded as in records.
 std::optional<ledger::Obeyed> obeyed(const experiment::TrialResult& trial) {
   if (!trial.tracking) return std::nullopt;
-  return ledger::Obeyed{.tracking = thousandths(trial.tracking->tracking),
-                        .speed_error_m_s = thousandths(trial.tracking->speed_error_m_s),
-                        .turn_error_rad_s = thousandths(trial.tracking->turn_error_rad_s)};
+  ledger::Obeyed obeyed{.tracking = thousandths(trial.tracking->tracking)};
+  if (const auto& error = trial.tracking->speed_error_m_s) obeyed.speed_error_m_s = thousandths(*error);
+  if (const auto& error = trial.tracking->turn_error_rad_s) obeyed.turn_error_rad_s = thousandths(*error);
+  return obeyed;
 }
 
 /// Rounded as in records.

@@ -58,12 +58,30 @@ TEST(CommandRun, IsSteeredInEveryEngineAndRecorded) {
     const auto file = scratch / (std::string(engine) + ".rec");
     const auto replayed = replay(problem, genome, {.record = file}, unstopped);
     ASSERT_TRUE(replayed->result.tracking);
-    EXPECT_GE(replayed->result.tracking->speed_error_m_s, 0.0);
+    EXPECT_GE(replayed->result.tracking->speed_error_m_s.value(), 0.0);
     record::RecordingReader reader(file);
     const auto turn = static_cast<std::size_t>(reader.column("command.turn"));
     std::vector<float> frame;
     for (int step = 0; reader.next(frame); ++step) EXPECT_EQ(frame[turn], step < 100 ? 0.0f : 0.5f);
   }
+}
+
+TEST(CommandRun, OfATrialThatEndsWithinItsFirstSecondFollowsNothing) {
+  auto settings = told;
+  settings.emplace_back("trial.duration_s=2");
+  const Problem problem = small_problem(small_config(settings));
+  record::Trajectory trajectory;
+  trajectory.outcome = record::Outcome::fell;
+  trajectory.steps = 99;
+  trajectory.timestep_s = problem.trial.timestep_s;
+  const TrialResult fell = summarise(problem, trajectory);
+  ASSERT_TRUE(fell.tracking);
+  EXPECT_EQ(fell.tracking->tracking, 0.0);
+  EXPECT_FALSE(fell.tracking->speed_error_m_s);
+  trajectory.steps = 150;  // commands were not measured
+  EXPECT_FALSE(summarise(problem, trajectory).tracking);
+  trajectory.steps = 99;
+  EXPECT_FALSE(summarise(small_problem(), trajectory).tracking);
 }
 
 TEST(CommandRun, DrawsNewCommandsForEachGenerationAndTheSameForAllItsGenomes) {

@@ -33,6 +33,21 @@ TEST(Record, ReadsBackAsItWasWritten) {
   EXPECT_EQ(again.champion_file, record.champion_file);
 }
 
+TEST(Record, ReadsBackHowCommandsWereFollowedAndThatATrialOfLessThanASecondDidNot) {
+  Record record = sample_record();
+  auto& episodes = record.tests[1].episodes;
+  ASSERT_FALSE(episodes.empty());
+  episodes.resize(1);
+  episodes.push_back(episodes[0]);
+  episodes[0].obeyed = {.tracking = 0.5, .speed_error_m_s = 0.125, .turn_error_rad_s = 0.25};
+  episodes[1].obeyed = {.tracking = 0.0};
+  const Record again = parse_record(record_text(record), "r.json");
+  EXPECT_EQ(record_text(again), record_text(record));
+  EXPECT_EQ(again.tests[1].obeyed(&Obeyed::tracking), 0.25);
+  EXPECT_EQ(again.tests[1].obeyed(&Obeyed::speed_error_m_s), 0.125);
+  EXPECT_FALSE(again.tests[0].obeyed(&Obeyed::tracking));
+}
+
 /// A record whose second test has two mutants.
 Record mutated_record() {
   Record record = sample_record();

@@ -128,12 +128,14 @@ Champion champion_from(const io::Json& document, const std::string& what) {
 namespace {
 
 std::optional<Tracking> tracking_of(const Problem& problem, const record::Trajectory& trajectory) {
+  const bool told = problem.command.kind != trial::CommandKind::none;
+  if (told && record::second_count(trajectory.seconds()) == 0) return Tracking{};
   if (trajectory.command_by_second.empty()) return std::nullopt;
   const score::Context context{.settings = problem.score,
                                .duration_s = problem.trial.steps() * problem.trial.timestep_s};
-  return Tracking{.speed_error_m_s = score::speed_error(trajectory, context),
-                  .turn_error_rad_s = score::turn_error(trajectory, context),
-                  .tracking = score::tracking(trajectory, context)};
+  return Tracking{.tracking = score::tracking(trajectory, context),
+                  .speed_error_m_s = score::speed_error(trajectory, context),
+                  .turn_error_rad_s = score::turn_error(trajectory, context)};
 }
 
 /// The way from whole second to whole second over the ground, m.

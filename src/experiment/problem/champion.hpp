@@ -16,7 +16,10 @@ namespace amble::experiment {
 
 /// How well commands were followed (docs/SCORES.md).
 struct Tracking {
-  double speed_error_m_s = 0.0, turn_error_rad_s = 0.0, tracking = 0.0;
+  double tracking = 0.0;
+  /// Means over the trial's whole seconds; nothing for a trial that ended within its first, whose tracking is
+  /// 0.
+  std::optional<double> speed_error_m_s = {}, turn_error_rad_s = {};
 };
 
 /// The result of a trial.
