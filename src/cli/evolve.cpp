@@ -22,28 +22,12 @@
 namespace amble::cli {
 namespace {
 
-struct WatchOptions {
-  bool watch = false;
-  LiveOptions live;
-};
-
 struct EvolveOptions {
   std::filesystem::path config, out;
   experiment::Overrides overrides;
   int jobs = 1;
   WatchOptions watch;
 };
-
-void add_watch(CLI::App& command, WatchOptions& options) {
-  auto* flag = command.add_flag("--watch", options.watch,
-                                "Serve a page of the run while it goes on, to browsers here");
-  add_live(command, options.live, flag);
-}
-
-/// Takes the port before anything is written.
-std::unique_ptr<LiveServer> server_for(const WatchOptions& options) {
-  return options.watch ? std::make_unique<LiveServer>(options.live) : nullptr;
-}
 
 /// What the champion typically does, and behind it what made it the champion.
 void print_best(const experiment::Run& run, int jobs) {
@@ -120,7 +104,7 @@ void add_evolve(CLI::App& app, Action& action) {
       ->check(between(1, experiment::most_generations));
   command->add_option("--out", options->out, "The run folder to make; it must be new or empty")->required();
   add_jobs(*command, options->jobs);
-  add_watch(*command, options->watch);
+  add_watch(*command, options->watch, "run");
   add_examples(
       *command,
       {{"amble evolve configs/quick/quadruped.toml --seed 8 --out runs/1", "a walker in half a minute"},
@@ -153,7 +137,7 @@ void add_resume(CLI::App& app, Action& action) {
   command->add_option("--generations", options->generations, "Generations to evaluate in all")
       ->check(between(1, experiment::most_generations));
   add_jobs(*command, options->jobs);
-  add_watch(*command, options->watch);
+  add_watch(*command, options->watch, "run");
   add_examples(*command, {{"amble resume runs/1", "on after Ctrl-C, kill -9, a power cut"},
                           {"amble resume runs/1 --generations 800", "longer"}});
   command->callback([options, &action] {

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <chrono>
+#include <cstdint>
 #include <thread>
 #include <utility>
 
@@ -54,12 +55,8 @@ class LiveServer::Pages : public serving::Site {
     if (request.path == "/amble.wasm") return {.type = "application/wasm", .body = module_};
     if (request.path == "/runs") return file("application/json", watcher_.overview(), "");
     const std::string run = request.value("run");
-    if (request.path == "/champion") {
-      const std::string generation = request.value("generation");
-      const auto number = whole_number(generation);
-      if (!generation.empty() && !number) return serving::text_answer(404, "no such champion\n");
-      return file("application/json", watcher_.champion(run, number), "no such champion\n");
-    }
+    if (request.path == "/champion")
+      return file("application/json", champion(run, request), "no such champion\n");
     if (request.path == "/generations.csv")
       return file("text/csv; charset=utf-8", watcher_.table(run), "no such run\n");
     if (request.path == "/events")
@@ -74,6 +71,15 @@ class LiveServer::Pages : public serving::Site {
   }
 
  private:
+  /// Of a cell of the map, of a generation, or the latest; empty if there is none.
+  std::string champion(const std::string& run, const serving::Request& request) const {
+    const std::string generation = request.value("generation"), cell = request.value("cell");
+    const auto number = whole_number(generation), place = whole_number(cell);
+    if (!cell.empty())
+      return place && *place >= 0 ? watcher_.elite(run, static_cast<std::uint32_t>(*place)) : std::string();
+    return generation.empty() || number ? watcher_.champion(run, number) : std::string();
+  }
+
   static serving::Answer file(const std::string& type, std::string text, const std::string& missing) {
     if (text.empty()) return serving::text_answer(404, missing);
     return {.type = type, .body = std::make_shared<const std::string>(std::move(text))};
@@ -93,6 +99,17 @@ void add_live(CLI::App& command, LiveOptions& options, CLI::Option* flag) {
                   "encryption")
       ->type_name("ADDRESS")
       ->needs(flag);
+}
+
+void add_watch(CLI::App& command, WatchOptions& options, const std::string& what) {
+  options.flag =
+      command.add_flag("--watch", options.watch,
+                       fmt::format("Serve a page of the {} while it goes on, to browsers here", what));
+  add_live(command, options.live, options.flag);
+}
+
+std::unique_ptr<LiveServer> server_for(const WatchOptions& options) {
+  return options.watch ? std::make_unique<LiveServer>(options.live) : nullptr;
 }
 
 LiveServer::LiveServer(const LiveOptions& options)

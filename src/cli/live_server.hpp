@@ -41,4 +41,17 @@ class LiveServer {
   serving::Server server_;
 };
 
+/// Whether and where a page of what a command computes is served meanwhile.
+struct WatchOptions {
+  bool watch = false;
+  LiveOptions live;
+  CLI::Option* flag = nullptr;  ///< --watch
+};
+
+/// Adds --watch, --port and --address. `what` goes on: "run", "study".
+void add_watch(CLI::App& command, WatchOptions& options, const std::string& what);
+
+/// Takes the port, which is done before anything is written; null without --watch. Throws UserError.
+std::unique_ptr<LiveServer> server_for(const WatchOptions& options);
+
 }  // namespace amble::cli

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "amble/cli/help.hpp"
+#include "amble/cli/live_server.hpp"
 #include "amble/cli/messages.hpp"
 #include "amble/cli/options.hpp"
 #include "amble/cli/stop_signal.hpp"
@@ -35,6 +36,7 @@ struct StudyOptions {
   std::vector<std::string> retest;
   std::optional<std::filesystem::path> slurm;
   int slurm_tasks = 20, slurm_minutes = 60;
+  WatchOptions watch;
 };
 
 /// `--workers`, which once were those within each of `--jobs` processes.
@@ -167,9 +169,30 @@ ExitCode write_slurm_script(const study::Plan& plan, const StudyOptions& options
   return ExitCode::ok;
 }
 
+/// Works on the study's part, in as many processes as there are runs for.
+ExitCode work(const study::Plan& plan, const std::vector<study::RunStatus>& states,
+              const StudyOptions& options) {
+  const auto part = plan.shard(study::Shard::parse(options.shard));
+  const auto open =
+      std::ranges::count_if(part, [&](std::size_t run) { return states[run] != study::RunStatus::done; });
+  const int processes =
+      std::min(std::max(1, options.jobs / options.per_run), std::max(1, static_cast<int>(open)));
+  if (processes == 1 || options.as_child) return work_here(plan, states, options);
+  return work_in_processes(plan, states, options, processes);
+}
+
+/// What pages are told at the end.
+std::string farewell(const StudyOptions& options, ExitCode code) {
+  if (code == ExitCode::interrupted) return "The study was stopped; to continue, run the same command.";
+  if (code != ExitCode::ok) return "The study has ended, not all of its runs: the same command tries again.";
+  return fmt::format("The study has ended; for its report, run: amble report {} -o report.html",
+                     io::shell_word(options.out.string()));
+}
+
 ExitCode run_study(const StudyOptions& options) {
   stop_signal();
   std::signal(SIGPIPE, SIG_IGN);
+  auto server = server_for(options.watch);
   const auto shard = study::Shard::parse(options.shard);
   auto plan = study::make_plan(ledger::load_study(options.file), options.out);
   plan.retest(options.retest);
@@ -181,13 +204,10 @@ ExitCode run_study(const StudyOptions& options) {
   for (const auto& unknown : ledger::Ledger(plan.paths).unknown_files(plan.study))
     if (!options.as_child)
       print_message(fmt::format("{}: no run of this study; passed over\n", unknown.string()));
-  const auto part = plan.shard(shard);
-  const auto open =
-      std::ranges::count_if(part, [&](std::size_t run) { return states[run] != study::RunStatus::done; });
-  const int processes =
-      std::min(std::max(1, options.jobs / options.per_run), std::max(1, static_cast<int>(open)));
-  if (processes == 1 || options.as_child) return work_here(plan, states, options);
-  return work_in_processes(plan, states, options, processes);
+  if (server) server->begin(options.out);
+  const ExitCode code = work(plan, states, options);
+  if (server) server->end(farewell(options, code));
+  return code;
 }
 
 }  // namespace
@@ -208,7 +228,8 @@ void add_study(CLI::App& app, Action& action) {
       ->capture_default_str();
   command->add_flag("--discard-runs", options->discard_runs,
                     "Remove a run's folder once its record is in the ledger");
-  command->add_flag("--status", options->status, "Only say what is done");
+  auto* status = command->add_flag("--status", options->status, "Only say what is done");
+  add_watch(*command, options->watch, "study");
   auto* retest =
       command
           ->add_option("--retest", options->retest,
@@ -228,10 +249,12 @@ void add_study(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->needs(slurm)
       ->check(between(3, 100000));
+  options->watch.flag->excludes(status)->excludes(slurm);
   command->add_flag("--child", options->as_child)->group("");
   add_examples(*command,
                {{"amble study studies/smoke.toml --out results/smoke", ""},
                 {"amble study studies/smoke.toml --out results/smoke --status", ""},
+                {"amble study studies/smoke.toml --out results/smoke --watch", "and a page of its runs"},
                 {"amble study studies/paper.toml --out results/paper --slurm job.sh --tasks 20", ""}});
   command->callback([options, &action] {
     action = [options] {

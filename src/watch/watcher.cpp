@@ -11,6 +11,7 @@
 #include "amble/io/background_thread.hpp"
 #include "amble/io/text.hpp"
 #include "amble/ledger/ledger.hpp"
+#include "amble/watch/elite.hpp"
 
 namespace amble::watch {
 namespace fs = std::filesystem;
@@ -133,8 +134,8 @@ bool Watcher::look_at_study() {
     planned_.reset();
     try {
       int runs = 0;
-      for (const auto& condition : ledger::load_study_copy(paths).conditions)
-        runs += static_cast<int>(condition.seeds.size());
+      const auto spec = ledger::load_study_copy(paths);
+      for (const auto& condition : spec.conditions) runs += static_cast<int>(spec.seeds_of(condition).size());
       planned_ = runs;
     } catch (const UserError&) {
       // Of another version, or no study of amble.
@@ -180,6 +181,16 @@ std::string Watcher::champion(const std::string& id, std::optional<int> generati
     if (generation && *generation >= 0) file = run->paths().champion(*generation);
   }
   return file ? read_part(*file, 0, most_file_bytes) : std::string();
+}
+
+std::string Watcher::elite(const std::string& id, std::uint32_t cell) const {
+  std::optional<experiment::RunPaths> paths;
+  {
+    const std::lock_guard lock(mutex_);
+    if (const SummaryReader* run = find(id)) paths = run->paths();
+  }
+  const std::lock_guard lock(elite_mutex_);
+  return paths ? elite_text(*paths, cell) : std::string();
 }
 
 std::string Watcher::table(const std::string& id) const {

@@ -35,6 +35,8 @@ class Watcher {
   std::string overview() const;
   /// The text of a run's champion's file: of a generation, or of the latest; empty if there is none.
   std::string champion(const std::string& id, std::optional<int> generation) const;
+  /// The text of the champion's file of the elite in a cell of a run's map (elite_text); one at a time.
+  std::string elite(const std::string& id, std::uint32_t cell) const;
   /// The text of a run's generations.csv; empty if there is none.
   std::string table(const std::string& id) const;
 
@@ -68,7 +70,7 @@ class Watcher {
   io::Json folder_json() const;
 
   const std::filesystem::path folder_;
-  mutable std::mutex mutex_;
+  mutable std::mutex mutex_, elite_mutex_;
   std::condition_variable changed_;
   std::map<std::string, std::unique_ptr<Followed>> runs_;  ///< by Summary::id
   std::map<std::string, std::weak_ptr<Feed>> feeds_;

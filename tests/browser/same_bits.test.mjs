@@ -1,20 +1,13 @@
 // The module that pages carry computes the native program's bits: `amble trial --inputs` repeats in C++ what was done in WebAssembly.
 import assert from "node:assert/strict";
-import { execFileSync, spawnSync } from "node:child_process";
-import { mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
-import { join } from "node:path";
+import { mkdirSync, readFileSync, rmSync } from "node:fs";
 import { before, test } from "node:test";
-import { fileURLToPath } from "node:url";
 import { LiveRobot, chooseModule } from "../../viewer/src/amble.js";
+import { again, champions, source } from "./champions.mjs";
 import { STEPS, runSession } from "./sessions.mjs";
 
-const { AMBLE_PROGRAM, AMBLE_WORK } = process.env;
-const source = (name) => fileURLToPath(new URL(`../../${name}`, import.meta.url));
+const { AMBLE_WORK } = process.env;
 const text = (path) => readFileSync(path, "utf8");
-
-// All kinds of controllers, and robots with two to eight legs.
-const GALLERY = ["servo", "hexapod", "biped", "octopod"];
-const EVOLVED = [["quick/quadruped", 3], ["quick/oscillators", 3], ["quick/sine", 3], ["quick/ctrnn", 3], ["quick/quadruped", 4], ["repertoire/hexapod", 2]];
 
 let module;
 before(async () => {
@@ -23,31 +16,12 @@ before(async () => {
   mkdirSync(AMBLE_WORK, { recursive: true });
 });
 
-/** A champion after three generations. */
-function evolved(config, seed) {
-  const run = join(AMBLE_WORK, `${config.replace("/", "-")}-${seed}`);
-  const options = ["--seed", String(seed), "--generations", "3", "--jobs", "1", "--out", run];
-  execFileSync(AMBLE_PROGRAM, ["evolve", source(`configs/${config}.toml`), ...options], { stdio: "ignore" });
-  return join(run, "champions", readdirSync(join(run, "champions")).sort().at(-1));
-}
-
-/** What the native program says of a session. */
-function again(champion, robot, name) {
-  const inputs = join(AMBLE_WORK, `${name}.json`);
-  writeFileSync(inputs, robot.inputs());
-  return spawnSync(AMBLE_PROGRAM, ["trial", champion, "--inputs", inputs], { encoding: "utf8" });
-}
-
-const champions = [...GALLERY.map((name) => [name, () => source(`robots/${name}/champion.json`)]),
-                   ...EVOLVED.map(([config, seed]) => [`${config}, seed ${seed}`, () => evolved(config, seed)])];
-
-champions.forEach(([name, find], number) =>
+champions.forEach(([name, champion], number) =>
   test(`${name}: the same bits in ${STEPS} steps of a session, and in the trial of its file`, async () => {
-    const champion = find();
     const robot = await LiveRobot.open(module, text(champion));
     assert.equal(robot.stepsAsRecorded(), robot.describe().recorded_steps);
     await runSession(robot, number);
-    const { status, stdout, stderr } = again(champion, robot, `session-${number}`);
+    const { status, stdout, stderr } = again(champion, robot.inputs(), `session-${number}`);
     assert.equal(stderr, "");
     assert.match(stdout, new RegExp(`^steps +${STEPS}$`, "m"));
     assert.match(stdout, /^bits +the same in every step$/m);
@@ -58,10 +32,10 @@ test("the native program tells the first step that is another, and another champ
   const champion = source("robots/servo/champion.json");
   const robot = await LiveRobot.open(module, text(champion));
   robot.step(20);
-  const other = again(source("robots/biped/champion.json"), robot, "other");
+  const other = again(source("robots/biped/champion.json"), robot.inputs(), "other");
   assert.equal(other.status, 2);
   assert.match(other.stderr, /it is of another champion/);
-  assert.equal(again(champion, robot, "same").status, 0);
+  assert.equal(again(champion, robot.inputs(), "same").status, 0);
 });
 
 test("what does not fit the robot is refused in a sentence, and the walk goes on as if it had not been asked", async () => {

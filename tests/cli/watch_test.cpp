@@ -1,4 +1,4 @@
-// Pages of runs that go on: `evolve --watch`, `resume --watch`, `view --live`.
+// Pages of runs that go on: `evolve --watch`, `resume --watch`, `study --watch`, `view --live`.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +10,7 @@
 
 #include "amble/core/error.hpp"
 #include "tests/cli/process.hpp"
+#include "tests/cli/study_fixture.hpp"
 #include "tests/serving/connection.hpp"
 
 namespace amble::tests {
@@ -108,6 +109,41 @@ TEST(Watching, ARunThatIsStoppedTellsSoAndIsResumedWithAPage) {
   EXPECT_EQ(resumed.wait().exit_code, interrupted);
 }
 
+using WatchedStudy = Study;
+
+TEST_F(WatchedStudy, TellsAllItsRunsAndItsEndAndHasTheSameLedger) {
+  for (const char* jobs : {"1", "2"}) {
+    const std::string name = std::string("watched-") + jobs;
+    const int port = Port().let_go();
+    Process run(command(name, {"--jobs", jobs, "--watch", "--port", std::to_string(port)}));
+    wait_for(port);
+    Connection page(port, "GET", "/events?run=runs/supg-001");
+    EXPECT_TRUE(
+        page.hears("event: end\ndata: {\"text\":\"The study has ended; for its report, run: amble report "));
+    const std::string heard = page.all();
+    EXPECT_THAT(heard, AllOf(HasSubstr("\"planned\":6"), HasSubstr("\"recorded\":6"), HasSubstr("\"3,")));
+    for (const char* condition : {"supg", "sine"})
+      for (const char* seed : {"001", "002", "003"})
+        EXPECT_THAT(heard, HasSubstr(std::string("\"id\":\"runs/") + condition + "-" + seed + "\""));
+    const auto finished = run.wait();
+    EXPECT_EQ(finished.exit_code, ok) << finished.err;
+    EXPECT_THAT(finished.err, HasSubstr("watch it at http://127.0.0.1:" + std::to_string(port) + "/\n"));
+    EXPECT_EQ(digest(finished), digest(study("alone")));
+  }
+}
+
+TEST_F(WatchedStudy, ThatIsStoppedTellsSo) {
+  write(replaced(study_toml, "generations = 4", "generations = 100000"));
+  const int port = Port().let_go();
+  Process run(command("stopped", {"--jobs", "2", "--watch", "--port", std::to_string(port)}));
+  wait_for(port);
+  Connection page(port, "GET", "/events");
+  ASSERT_TRUE(page.hears("\"stage\":\"running\""));
+  run.signal(SIGINT);
+  EXPECT_TRUE(page.hears("The study was stopped; to continue, run the same command."));
+  EXPECT_EQ(run.wait().exit_code, interrupted);
+}
+
 TEST(Watching, APortInUseIsToldBeforeAnythingIsWritten) {
   const TemporaryFolder scratch;
   const Port taken;
@@ -181,6 +217,15 @@ TEST(Watching, WhatCannotBeIsToldInALine) {
               HasSubstr("expected a whole number from 1 to 65535"));
   EXPECT_THAT(refusal(evolve(scratch / "run", 3, {"--watch", "--address", "192.0.2.1"})),
               HasSubstr("--address 192.0.2.1: not an address of this computer"));
+  const auto study = [&scratch](std::vector<std::string> more) {
+    std::vector<std::string> words{"study", AMBLE_SOURCE_DIR "/studies/smoke.toml", "--out", scratch / "run"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  EXPECT_THAT(refusal(study({"--watch", "--status"})), AllOf(HasSubstr("--watch"), HasSubstr("--status")));
+  EXPECT_THAT(refusal(study({"--watch", "--slurm", scratch / "job.sh"})),
+              AllOf(HasSubstr("--watch"), HasSubstr("--slurm")));
+  EXPECT_THAT(refusal(study({"--port", "8000"})), HasSubstr("--watch"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "run"));
 }
 

@@ -142,9 +142,12 @@ test("a program that was killed is told", async () => {
   }, { expected: /net::ERR_|Failed to fetch/ });
 });
 
+const MAP = [join(AMBLE_SOURCE, "configs/repertoire/quadruped.toml"), "--jobs", "1", "--set", "search.map_elites.batch=32", "--set", "search.map_elites.initial=64",
+             "--set", "trial.duration_s=2", "--set", "search.map_elites.trials=1"];
+
 test("a map is seen to fill", async () => {
-  const run = folder("map"), config = join(AMBLE_SOURCE, "configs/repertoire/quadruped.toml");
-  amble("evolve", config, "--jobs", "1", "--set", "search.map_elites.batch=32", "--set", "search.map_elites.initial=64", "--set", "trial.duration_s=2", "--set", "search.map_elites.trials=1", "--generations", "3", "--out", run);
+  const run = folder("map");
+  amble("evolve", ...MAP, "--generations", "3", "--out", run);
   const server = serve("view", "--live", run);
   await inPage(server, async (page) => {
     await page.waitForFunction(() => !document.getElementById("map").hidden);
@@ -153,6 +156,55 @@ test("a map is seen to fill", async () => {
     assert.ok((await pictureOf(page, ".lab-cells")).colours > 2);
   });
   await server.stop();
+});
+
+test("a cell of the map is chosen by a click or by keys, its elite walks until the best is asked for, and how its trial ends is said", async () => {
+  const run = folder("cells");
+  amble("evolve", ...MAP, "--generations", "3", "--out", run);
+  const server = serve("view", "--live", run);
+  await inPage(server, async (page) => {
+    await page.waitForFunction(() => !document.getElementById("map").hidden && window.amble.stage.walk);
+    const champion = JSON.parse(await page.evaluate(() => window.amble.stage.text));
+    // The middle of the cell whose elite gets farthest.
+    const { cell, at } = await page.evaluate(() => {
+      const { map } = window.amble, place = map.bestPlace(), { axes } = map.map;
+      const [wide, tall] = [0, 1].map((first) => axes.reduce((bins, axis, i) => (i % 2 === first ? bins * axis.bins : bins), 1));
+      const { clientWidth, clientHeight } = map.canvas;
+      return { cell: place.cell, at: { x: ((place.column + 0.5) / wide) * clientWidth, y: ((tall - place.row - 0.5) / tall) * clientHeight } };
+    });
+    const shown = (id) => page.waitForFunction((number) => document.getElementById("story").textContent.startsWith(`Cell ${number} of the map: `), id);
+    await page.locator(".lab-cells").click({ position: at });
+    await shown(cell);
+    const file = join(AMBLE_PAGES, "elite.json");
+    rmSync(file, { force: true });
+    amble("repertoire", run, "--cell", String(cell), "-o", file);
+    assert.equal(await page.evaluate(() => window.amble.stage.text), readFileSync(file, "utf8"));
+    assert.match(await page.locator(".lab-cells").getAttribute("aria-label"), new RegExp(` Cell ${cell} is chosen: `));
+    await page.waitForFunction(() => / (Its trial is over; it has not fallen|It fell after \d+\.\d s, at \d+\.\d+ m: its trial was over there)\.$/.test(document.getElementById("story").textContent));
+
+    await page.locator(".lab-cells").focus();
+    for (const key of ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"]) await page.keyboard.press(key);
+    const other = await page.evaluate(() => window.amble.elite);
+    await shown(other);
+    assert.ok(await page.evaluate((id) => window.amble.map.map.filled.some(([filled]) => filled === id), other));
+    await page.getByRole("button", { name: "The best again", exact: true }).click();
+    await page.waitForFunction(() => /^Best of generation \d+: /.test(document.getElementById("story").textContent));
+    assert.deepEqual(JSON.parse(await page.evaluate(() => window.amble.stage.text)).genome, champion.genome);
+    assert.ok(await page.getByRole("button", { name: "The best again", exact: true }).isHidden());
+  });
+  await server.stop();
+});
+
+test("a study that goes on has a page of its runs", async () => {
+  const out = folder("studied"), server = serve("study", join(AMBLE_SOURCE, "studies/smoke.toml"), "--out", out, "--jobs", "1", "--watch");
+  await inPage(server, async (page) => {
+    await page.waitForFunction(() => window.amble.rows.length > 0 && window.amble.stage.walk);
+    assert.match(await page.locator("#runs-note").textContent(), / \d of 6 are in the study’s ledger\.$/);
+    await says(page, "The study has ended; for its report, run: amble report");
+    assert.equal(await page.locator(".run-list tbody tr").count(), 6);
+    assert.match(await page.locator("#runs-note").textContent(), /^6 runs: 6 ended\. 6 of 6 are in the study’s ledger\.$/);
+  });
+  assert.equal(await server.ended, 0);
 });
 
 test("a narrow screen shows all of it", async () => {

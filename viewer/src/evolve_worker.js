@@ -40,5 +40,5 @@ onmessage = async ({ data }) => {
   }
   const was = running;
   running = data.running;
-  if (running && !was) attempt();
+  if (running && !was && machine) attempt();
 };

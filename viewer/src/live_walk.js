@@ -48,6 +48,7 @@ export class LiveWalk extends Walk {
     this.kick = { force_n: [0, 0, 0], until_s: 0 }; // the same for a while
     this.command = null; // to be told before the next step
     this.fallen = false;
+    this.fell_s = null; // when first
     this.extremes = { speed: [0, 0], height: [Infinity, -Infinity] };
     this.readGround();
     this.note();
@@ -71,6 +72,7 @@ export class LiveWalk extends Walk {
     this.table.count = 0;
     this.seconds = 0;
     this.outcome = "completed";
+    this.fell_s = null;
     this.extremes = { speed: [0, 0], height: [Infinity, -Infinity] };
     this.renew();
     this.note();
@@ -130,6 +132,7 @@ export class LiveWalk extends Walk {
     table.add([...state, 0]);
     this.seconds = row * table.step_s;
     this.fallen = state[1] > 0;
+    if (this.fallen) this.fell_s ??= this.seconds;
     const before = Math.max(0, row - Math.round(SPEED_WINDOW_S / table.step_s)), [x, y, z] = this.com;
     const speed = row > before ? Math.hypot(x[row] - x[before], y[row] - y[before]) / ((row - before) * table.step_s) : 0;
     this.speeds[row] = speed;

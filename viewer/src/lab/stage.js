@@ -131,7 +131,11 @@ export class LabStage {
     this.invalidate();
   }
 
+  /** Where it is, and how its trial ended once it has. */
   story(time_s) {
-    return `${this.title}: ${number(this.walk.distance(time_s), 2)} m after ${number(time_s, 1)} s.`;
+    const { walk } = this, { fell_s } = walk, now = `${this.title}: ${number(walk.distance(time_s), 2)} m after ${number(time_s, 1)} s.`;
+    if (fell_s !== null && time_s >= fell_s - 1e-9) return `${now} It fell after ${number(fell_s, 1)} s, at ${number(walk.distance(fell_s), 2)} m: its trial was over there.`;
+    if (walk.outcome === "diverged" && time_s >= walk.seconds - 1e-9) return `${now} The simulation broke down.`;
+    return time_s >= this.duration_s - 1e-9 ? `${now} Its trial is over; it has not fallen.` : now;
   }
 }

@@ -3,7 +3,7 @@ import { Machine } from "../amble.js";
 
 const STEPS = 200; // of sixteen robots at a time
 
-let machine;
+let machine, started;
 
 /** Genomes for as many threads, in fours, which the module computes as one, and at most sixteen at a time. */
 function chunks(threads) {
@@ -33,9 +33,7 @@ function giveFile({ path, bytes }) {
 }
 
 const CAN = {
-  async start(module) {
-    machine = await Machine.start(module);
-  },
+  start() {},
   plan: (text) => machine.give("run_plan", text),
   // The run.
   begin() {
@@ -69,8 +67,11 @@ const CAN = {
   },
 };
 
+// What is asked for while the module starts, which some browsers take longer for, waits for it; if it cannot start, all fails by its message.
 onmessage = async ({ data: { id, does, with: values } }) => {
   try {
+    if (does === "start") started = Machine.start(...values);
+    machine = await started;
     postMessage({ id, value: await CAN[does](...values) });
   } catch (error) {
     postMessage({ id, error: error.message });

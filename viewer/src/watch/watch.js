@@ -15,9 +15,9 @@ const askedRun = () => decodeURIComponent(/(?:^#|&)run=([^&]*)/.exec(location.ha
 
 export class Watch {
   constructor(module, { still }) {
-    Object.assign(this, { still, runs: new Map(), folder: {}, rows: [], chosen: null, endText: null, lostText: null });
+    Object.assign(this, { still, runs: new Map(), folder: {}, rows: [], chosen: null, elite: null, endText: null, lostText: null });
     this.curve = new Curve({ hint: "Each generation adds a point." });
-    this.map = new MapPicture();
+    this.map = new MapPicture((cell) => this.showElite(cell));
     this.list = new RunList((id) => this.choose(id));
     byId("curves").append(this.curve.element);
     byId("cells").append(this.map.element);
@@ -32,7 +32,8 @@ export class Watch {
       trouble: (error) => this.complain(error.message), noPicture: () => this.noPicture(),
     });
     this.walk = button("Let it walk", () => (this.stage.clock.playing ? this.stage.clock.pause() : this.stage.clock.play()), { hidden: "" });
-    byId("views").append(this.walk);
+    this.best = button("The best again", () => this.showBest(), { hidden: "" });
+    byId("views").append(this.walk, this.best);
     this.stage.clock.listen(() => this.showWalk());
     onThemeChange(() => this.repaint());
     const hear = ["folder", "runs", "begin", "rows", "population", "end"].map((name) => [name, (data) => this[`take_${name}`](data)]);
@@ -51,6 +52,7 @@ export class Watch {
     if (!id || id === this.chosen) return;
     Object.assign(this, { chosen: id, rows: [], sizes: null, shownChampion: undefined });
     this.another = true;
+    this.forgetElite();
     location.hash = `run=${encodeURIComponent(id)}`;
     byId("map").hidden = true;
     this.stream.open(id);
@@ -119,20 +121,49 @@ export class Watch {
   /** Lets the latest champion walk, when the one before has walked. */
   async showChampion() {
     const run = this.runs.get(this.chosen);
-    if (!run || run.champion === null || run.champion === this.shownChampion) return;
+    if (!run || run.champion === null || run.champion === this.shownChampion || this.elite !== null) return;
     const { id, champion } = run, first = this.shownChampion === undefined;
     this.shownChampion = champion;
     try {
       const answer = await fetch(`champion?run=${encodeURIComponent(id)}&generation=${champion}`);
       if (!answer.ok) throw new Error(await answer.text());
       const text = await answer.text();
-      if (id !== this.chosen || champion !== this.shownChampion) return;
+      if (id !== this.chosen || champion !== this.shownChampion || this.elite !== null) return;
       await this.stage.show(text, `Best of generation ${champion}`, { soon: first });
       if (first && !this.still) this.stage.clock.play();
       this.walk.hidden = false;
     } catch (error) {
       if (!this.lostText && this.runs.get(id).stage !== "gone") this.complain(`The best walker cannot be shown: ${error.message}`);
     }
+  }
+
+  /** Lets the elite of a cell of the map walk, until the best is asked for again. */
+  async showElite(cell) {
+    const id = this.chosen;
+    this.elite = cell;
+    this.map.mark(cell);
+    byId("trouble").hidden = true;
+    try {
+      const answer = await fetch(`champion?run=${encodeURIComponent(id)}&cell=${cell}`);
+      if (!answer.ok) throw new Error(await answer.text());
+      const text = await answer.text();
+      if (id !== this.chosen || cell !== this.elite) return;
+      await this.stage.show(text, `Cell ${cell} of the map`);
+      this.stage.clock.play();
+      this.walk.hidden = this.best.hidden = false;
+    } catch (error) {
+      if (!this.lostText && cell === this.elite) this.complain(`The walker of cell ${cell} cannot be shown: ${error.message}`);
+    }
+  }
+  showBest() {
+    this.forgetElite();
+    this.shownChampion = undefined;
+    this.showChampion();
+  }
+  forgetElite() {
+    this.elite = null;
+    this.best.hidden = true;
+    this.map.mark(null);
   }
 
   refresh() {

@@ -1,0 +1,100 @@
+// node in_browser.test.mjs firefox|chromium: the module in a browser computes the native program's bits, and amble's pages work there.
+// Exit code 77 where that browser is not installed.
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { after, before, test } from "node:test";
+import { LiveRobot, chooseModule } from "../../viewer/src/amble.js";
+import { again, champions, source } from "./champions.mjs";
+import { Browser, findBrowser, madeFolder } from "./harness.mjs";
+import { amble, table } from "./lab_runs.mjs";
+import { STEPS, runSession } from "./sessions.mjs";
+
+const { AMBLE_PROGRAM, AMBLE_WORK } = process.env, [, , kind] = process.argv;
+if (!findBrowser(kind)) {
+  console.log(`skipped: ${kind} is not installed (./setup --${kind === "firefox" ? "dev" : "tools"})`);
+  process.exit(77);
+}
+const GENERATIONS = 20;
+const SERVO = source("robots/servo/champion.json");
+const text = (path) => readFileSync(path, "utf8");
+
+let browser, module;
+before(async () => {
+  madeFolder(AMBLE_WORK);
+  ({ module } = await chooseModule([{ name: "amble", bytes: readFileSync(source("viewer/dist/amble.wasm")) }]));
+  browser = await Browser.open(kind, { jobs: "tests/browser/in_page.mjs", pages: AMBLE_WORK });
+  const { agent, processors } = await browser.run("who");
+  console.log(`# ${agent}; ${processors} processors`);
+});
+after(() => browser?.close());
+
+/** Without 3-D pictures, as where there is neither a graphics card nor a program that stands in for it, a page says so once. */
+const problemsOf = ({ problems }) => problems.filter((problem) => !/WebGL/i.test(problem));
+
+champions.forEach(([name, champion], number) =>
+  test(`${name}: the same bits natively, in Node.js and here, in ${STEPS} steps of a session and in the trial of its file`, async () => {
+    const robot = await LiveRobot.open(module, text(champion));
+    await runSession(robot, number);
+    const { recorded, asRecorded, hash, inputs } = await browser.run("session", { text: text(champion), number });
+    assert.equal(hash, robot.hash());
+    assert.equal(asRecorded, recorded);
+    const { status, stdout, stderr } = again(champion, inputs, `session-${number}`);
+    assert.equal(stderr, "");
+    assert.match(stdout, new RegExp(`^steps +${STEPS}$`, "m"));
+    assert.match(stdout, /^bits +the same in every step$/m);
+    assert.equal(status, 0);
+    console.log(`# ${name}: ${hash}`);
+  }));
+
+test("a page of recordings opens, and nothing goes wrong in it", async () => {
+  amble("view", SERVO, "--undisturbed", "-o", join(AMBLE_WORK, "walk.html"));
+  const told = await browser.run("view", { url: "/pages/walk.html#t=0" });
+  assert.deepEqual(problemsOf(told), []);
+  assert.match(told.title, /servo/i);
+});
+
+test("a champion's page simulates it with the bits of its file, and evolves in its worker", async () => {
+  const told = await browser.run("live", { url: "/pages/walk.html#live", generations: GENERATIONS });
+  assert.deepEqual(problemsOf(told), []);
+  assert.match(told.bits, /Exact: .* in all 1500 steps/);
+});
+
+test(`${GENERATIONS} generations in the lab, in its workers, have the table and the champions of amble evolve`, async () => {
+  amble("lab", "-o", join(AMBLE_WORK, "lab.html"));
+  const settings = { robot: "servo", population: 20, seconds: 2, generations: GENERATIONS };
+  const told = await browser.run("lab", { url: "/pages/lab.html#threads=2", settings });
+  assert.deepEqual(problemsOf(told), []);
+  assert.equal(told.history, GENERATIONS);
+  const run = join(AMBLE_WORK, "lab-here"), native = join(AMBLE_WORK, "lab-native");
+  for (const [path, bytes] of told.files) {
+    mkdirSync(dirname(join(run, path)), { recursive: true });
+    writeFileSync(join(run, path), Buffer.from(bytes, "base64"));
+  }
+  amble("evolve", join(run, "config.toml"), "--jobs", "1", "--out", native);
+  const names = (folder) => readdirSync(join(folder, "champions")).sort();
+  assert.deepEqual(table(run), table(native));
+  assert.deepEqual(names(run), names(native));
+  assert.ok(names(run).length > 1);
+  for (const name of names(run)) assert.equal(text(join(run, "champions", name)), text(join(native, "champions", name)), name);
+});
+
+test("the page of a run, which the program serves, shows its curve and lets its best walk", async () => {
+  const server = spawn(AMBLE_PROGRAM, ["view", "--live", join(AMBLE_WORK, "lab-native")]);
+  try {
+    browser.program = await new Promise((found, failed) => {
+      let said = "";
+      server.stderr.on("data", (more) => {
+        const match = /watch it at (\S+)\n/.exec((said += more));
+        if (match) found(match[1]);
+      });
+      server.on("exit", () => failed(new Error(said)));
+    });
+    const told = await browser.run("watch", { rows: GENERATIONS });
+    assert.deepEqual(problemsOf(told), []);
+    assert.match(told.said, /The run has ended/);
+  } finally {
+    server.kill("SIGINT");
+  }
+});

@@ -1,0 +1,89 @@
+// What a page does for in_browser.test.mjs: sessions of champions, and amble's own pages in a frame.
+import { LiveRobot, chooseModule } from "../../viewer/src/amble.js";
+import { runSession } from "./sessions.mjs";
+
+const LONGEST_MS = 200_000;
+let module = null;
+
+async function champion(text) {
+  module ??= await fetch("/source/viewer/dist/amble.wasm").then((answer) => answer.arrayBuffer()).then((bytes) => chooseModule([{ name: "amble", bytes }]));
+  return LiveRobot.open(module.module, text);
+}
+
+const pause = (ms) => new Promise((done) => setTimeout(done, ms));
+
+/** Waits until something holds; `what`: its name if it never does. */
+async function until(what, holds) {
+  for (const end = performance.now() + LONGEST_MS; performance.now() < end; await pause(30)) {
+    const value = holds();
+    if (value) return value;
+  }
+  throw new Error(`it never came that ${what}`);
+}
+
+/** Opens one of amble's pages in a frame; `steps(window)` gives what is told, to which what went wrong is added. */
+async function inFrame(url, steps) {
+  const frame = document.createElement("iframe");
+  frame.src = url;
+  document.body.replaceChildren(frame);
+  await new Promise((done) => frame.addEventListener("load", done, { once: true }));
+  const page = frame.contentWindow, shown = page.document.getElementById("trouble");
+  await until("the page has started", () => page.amble || !shown.hidden);
+  if (!shown.hidden) throw new Error(`the page says: ${shown.textContent}`);
+  const told = await steps(page);
+  if (!shown.hidden) throw new Error(`the page says: ${shown.textContent}`);
+  const problems = [...page.problems]; // not what comes of the page's end
+  frame.remove();
+  return { ...told, problems };
+}
+
+const textOf = (page, selector) => page.document.querySelector(selector)?.textContent ?? "";
+const press = (page, name) => [...page.document.querySelectorAll("button")].find((button) => button.textContent === name).click();
+
+export default {
+  who: () => ({ agent: navigator.userAgent, processors: navigator.hardwareConcurrency }),
+
+  /** Session `number` of a champion. */
+  async session({ text, number }) {
+    const robot = await champion(text), recorded = robot.describe().recorded_steps, asRecorded = robot.stepsAsRecorded();
+    await runSession(robot, number);
+    return { recorded, asRecorded, hash: robot.hash(), inputs: robot.inputs() };
+  },
+
+  /** A page of recordings: that it starts, and what it is called. */
+  view: ({ url }) => inFrame(url, async (page) => ({ title: textOf(page, "#title") })),
+
+  /** The page of a champion that is simulated: compares with its file, walks, and evolves so many generations in its worker. */
+  live: ({ url, generations }) => inFrame(url, async (page) => {
+    await until("it has walked", () => page.amble.live() && page.amble.time() > 0.2);
+    const bits = await until("it has compared", () => /in all|from step/.test(textOf(page, ".live-bits")) && textOf(page, ".live-bits"));
+    for (const [label, value] of [["Population", 20], ["Length of a trial", 2]]) {
+      const row = [...page.document.querySelectorAll("#live .live-row")].find(({ textContent }) => textContent.includes(label));
+      const slider = row.querySelector("input");
+      slider.value = value;
+      slider.dispatchEvent(new page.Event("change", { bubbles: true }));
+    }
+    const said = () => [...page.document.querySelectorAll("#live [role=status]")].at(-1).textContent;
+    press(page, "Evolve");
+    await until(`${generations} generations have evolved`, () => Number(/Generation (\d+)/.exec(said())?.[1] ?? -1) >= generations - 1);
+    return { bits, said: said() };
+  }),
+
+  /** A run of the lab in workers: all files of its folder. */
+  lab: ({ url, settings }) => inFrame(url, async (page) => {
+    const lab = page.amble;
+    lab.form.set(settings);
+    lab.chosen("robot");
+    press(page, "Start");
+    await until("the run has ended", () => lab.evolution?.state === "ended" || lab.evolution?.state === "broken");
+    const files = (await lab.evolution.files()).map(({ path, bytes }) => [path, btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""))]);
+    return { said: textOf(page, "#said"), history: lab.curve.history.length, files };
+  }),
+
+  /** The page of a run that has ended, served by the program. */
+  watch: ({ rows }) => inFrame("/program/", async (page) => {
+    await until("its curve is there", () => page.amble.rows.length === rows);
+    await until("its best walks", () => /Best of generation \d+: /.test(textOf(page, "#story")));
+    return { said: textOf(page, "#stage-text") };
+  }),
+};
