@@ -134,7 +134,8 @@ endfunction()
 # What computes little is optimised little: a sixth of the time to compile all. Under sanitizers not at all, and there the tests' headers are
 # the ones precompiled so. GCC takes these options from the precompiled headers, so each has its own.
 function(amble_quickly_compiled target)
-  if(AMBLE_WASM)
+  if(AMBLE_WASM) # pages carry it
+    target_compile_options(${target} PRIVATE -Oz)
     return()
   endif()
   set(headers amble_test_headers)
