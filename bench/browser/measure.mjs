@@ -1,16 +1,118 @@
-// node --experimental-wasm-relaxed-simd measure.mjs FOLDER CHAMPION...: us per robot-step in each module, of one robot and of sixteen.
-import { readFileSync } from "node:fs";
-import { join } from "node:path";
-import { Machine } from "../../viewer/src/amble.js";
+// node --experimental-wasm-relaxed-simd measure.mjs NATIVE_BUILD MODULES [--quick] [--seeds N] [CHAMPION…]: the tables of docs/BROWSER.md (tools/measure-browser).
+import { execFileSync } from "node:child_process";
+import { copyFileSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
+import { availableParallelism, cpus, tmpdir } from "node:os";
+import { basename, dirname, join, resolve } from "node:path";
+import { parseArgs } from "node:util";
+import { gzipSync } from "node:zlib";
+import { Browser, findBrowser } from "../../tests/browser/harness.mjs";
+import { stepsIn } from "./in_page.mjs";
 
-const [, , folder, ...champions] = process.argv;
-for (const name of ["exact", "relaxed", "rounding"]) {
-  const machine = await Machine.start(await WebAssembly.compile(readFileSync(join(folder, `measure-${name}.wasm`))));
-  for (const path of champions) {
-    const bytes = readFileSync(path), { memory, amble_text, amble_measure } = machine.exports;
-    const at = amble_text(bytes.length);
-    new Uint8Array(memory.buffer, at, bytes.length).set(bytes);
-    const [one, sixteen] = [1, 16].map((robots) => amble_measure(at, bytes.length, robots, 1000).toFixed(1));
-    console.log(`${path}, ${name}${machine.isExact() ? "" : " (other bits)"}: 1 robot ${one}, 16 robots ${sixteen} us per robot-step`);
+const { values: options, positionals: [build, modules, ...named] } = parseArgs({
+  allowPositionals: true, options: { quick: { type: "boolean", default: false }, seeds: { type: "string" } },
+});
+const paths = named.length ? named : ["servo", "octopod"].map((name) => `robots/${name}/champion.json`);
+const COUNT = options.quick ? 100 : 1000, LIVE_S = options.quick ? 3 : 20, METRES = options.quick ? 1 : 3, GENERATIONS = options.quick ? 10 : 300;
+const SEEDS = Array.from({ length: Number(options.seeds ?? (options.quick ? 1 : 3)) }, (_, i) => i + 1);
+const MODULES = { exact: "exact: what pages carry", relaxed: "relaxed SIMD, `f32x4.relaxed_madd`", rounding: "products rounded: other bits" };
+const program = resolve(build, "src/cli/amble");
+
+const line = (...cells) => console.log(`| ${cells.join(" | ")} |`);
+const head = (...cells) => (console.log(), line(...cells), line(...cells.map(() => "---")));
+const say = (text) => console.error(`# ${text}`);
+const one = (value) => value.toFixed(1), percent = (share) => `${(100 * share).toFixed(0)} %`;
+const median = (values) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
+const nameOf = (agent) => ({ Firefox: "Firefox", Chrome: "Chromium" })[/(Firefox|Chrome)\/\d+/.exec(agent)[1]] + " " + /(?:Firefox|Chrome)\/(\d+)/.exec(agent)[1];
+
+const folder = mkdtempSync(join(tmpdir(), "amble-measure-"));
+const champions = paths.map((path) => readFileSync(path, "utf8"));
+const robots = paths.map((path) => basename(dirname(path)));
+
+/** A row for a module somewhere. */
+function stepsRow(where, name, told) {
+  if (!told) return line(where, MODULES[name], ...robots.flatMap(() => ["not taken", ""]));
+  line(where, MODULES[name] + (told.exact || name === "rounding" ? "" : " (OTHER BITS)"), ...told.us.flat().map(one));
+}
+
+async function stepsEverywhere(browsers) {
+  head("µs per robot-step", "module", ...robots.flatMap((robot) => [`${robot}, 1 robot`, "16 robots"]));
+  say("natively");
+  const told = execFileSync(join(build, "bench/lane_steps"), paths, { encoding: "utf8" });
+  line("native", "always sixteen at once", ...[...told.matchAll(/1 robot ([\d.]+), 16 robots ([\d.]+)/g)].flatMap(([, a, b]) => [one(Number(a)), one(Number(b))]));
+  for (const name of Object.keys(MODULES)) {
+    const file = `measure-${name}.wasm`, bytes = readFileSync(join(modules, file));
+    copyFileSync(join(modules, file), join(folder, file));
+    say(`Node.js, ${name}`);
+    stepsRow(`Node.js ${process.versions.node.split(".")[0]}`, name, WebAssembly.validate(bytes) ? await stepsIn(await WebAssembly.compile(bytes), champions, COUNT) : null);
+    for (const { browser, called } of browsers) {
+      say(`${called}, ${name}`);
+      stepsRow(called, name, await browser.run("steps", { name: file, champions, count: COUNT }));
+    }
   }
+}
+
+/** A row: what, and what each browser gives. */
+async function pageRow(browsers, what, of) {
+  const cells = [];
+  for (const one_ of browsers) {
+    say(`${one_.called}: ${what}`);
+    cells.push(await of(one_));
+  }
+  line(what, ...cells);
+}
+
+async function livePages(browsers) {
+  for (const [i, path] of paths.entries()) {
+    const page = join(folder, `${robots[i]}.html`);
+    execFileSync(program, ["view", path, "--undisturbed", "-o", page]);
+    await pageRow(browsers, `${robots[i]}, live: frames/s; of a core, the page's own thread; all of the browser's processes`, async ({ browser }) => {
+      const told = await browser.run("live", { url: `/pages/${robots[i]}.html#live`, seconds: LIVE_S });
+      const [before_s, after_s] = browser.clock.splice(0);
+      return `${one(told.frames_s)}; ${percent(told.busy_share)}; ${percent((after_s - before_s) / LIVE_S)}${told.picture ? "" : " (no 3-D picture)"}`;
+    });
+  }
+}
+
+async function labRuns(browsers) {
+  execFileSync(program, ["lab", "-o", join(folder, "lab.html")]);
+  for (const threads of [...new Set([1, Math.min(availableParallelism(), 4)])])
+    for (const seed of SEEDS)
+      await pageRow(browsers, `lab, ${threads} worker${threads > 1 ? "s" : ""}, seed ${seed}: thousand robot-steps/s for each worker; s to a walker of ${METRES} m`, async (it) => {
+        const told = await it.browser.run("lab", { url: `/pages/lab.html#threads=${threads}`, seed, metres: METRES, generations: GENERATIONS });
+        const rate = told.steps / told.seconds / threads, reached = told.best_m >= METRES;
+        if (reached) it.runs.push({ steps: told.steps, rate });
+        return `${one(rate / 1000)}; ${reached ? one(told.seconds) : `none (best ${one(told.best_m)} m) in ${one(told.seconds)}`}`;
+      });
+  await pageRow(browsers, `the same on four processors, by the median of steps (${SEEDS.length} seeds) and of steps/s, s`, ({ runs }) =>
+    runs.length ? one(median(runs.map(({ steps }) => steps)) / median(runs.map(({ rate }) => rate)) / 4) : "–");
+}
+
+function sizes(browsers) {
+  const watch = readFileSync("viewer/dist/watch.html"), wasm = readFileSync("viewer/dist/amble.wasm");
+  const files = [...robots.map((robot) => [`a walk of ${robot} with what drives it live`, join(folder, `${robot}.html`)]), ["the lab", join(folder, "lab.html")]];
+  const mb = (bytes) => `${(bytes / 1e6).toFixed(2)} MB`;
+  for (const [what, path] of files) line(`size of the page: ${what}`, mb(statSync(path).size), ...browsers.slice(1).map(() => ""));
+  line("size of the page: runs that go on, served; its module; the module packed, as pages carry it", `${mb(watch.length)}; ${mb(wasm.length)}; ${mb((gzipSync(wasm, { level: 9 }).length * 4) / 3)}`, ...browsers.slice(1).map(() => ""));
+}
+
+const browsers = [];
+try {
+  for (const kind of ["chromium", "firefox"])
+    if (findBrowser(kind)) {
+      const browser = await Browser.open(kind, { jobs: "bench/browser/in_page.mjs", pages: folder, longest_s: 900 });
+      browsers.push({ browser, runs: [], called: nameOf(await browser.run("who")) });
+    } else {
+      say(`${kind} is not installed`);
+    }
+  console.log(`${cpus()[0].model}, ${availableParallelism()} processors; ${new Date().toISOString().slice(0, 10)}${options.quick ? "; --quick: no figures to keep" : ""}`);
+  await stepsEverywhere(browsers);
+  if (browsers.length) {
+    head("page", ...browsers.map(({ called }) => called));
+    await livePages(browsers);
+    await labRuns(browsers);
+    sizes(browsers);
+  }
+} finally {
+  await Promise.all(browsers.map(({ browser }) => browser.close()));
+  rmSync(folder, { recursive: true });
 }

@@ -1,6 +1,6 @@
 // A browser without a driver: a server on this computer alone gives it a page, which asks for jobs and posts what comes out.
 import { spawn } from "node:child_process";
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { createServer, request } from "node:http";
 import { tmpdir } from "node:os";
 import { delimiter, extname, join, normalize } from "node:path";
@@ -50,11 +50,11 @@ const withEar = (html) => html.replace("<head>", () => `<head>${EAR}`);
 export class Browser {
   /**
    * Starts it in a fresh profile. `jobs`: a module below the sources whose default export has a function for each job; `pages`: a
-   * folder whose files are at /pages/.
+   * folder whose files are at /pages/; a job takes at most `longest_s`.
    */
-  static async open(kind, { jobs, pages }) {
+  static async open(kind, { jobs, pages, longest_s = JOB_S }) {
     const browser = new Browser();
-    Object.assign(browser, { kind, pages, asked: [], waiting: null, told: new Map(), count: 0, output: "" });
+    Object.assign(browser, { kind, pages, longest_s, asked: [], clock: [], waiting: null, told: new Map(), count: 0, output: "" });
     browser.server = createServer((ask, answer) => browser.answer(ask, answer).catch((error) => answer.writeHead(500).end(error.message)));
     await new Promise((done) => browser.server.listen(0, "127.0.0.1", done));
     browser.url = `http://127.0.0.1:${browser.server.address().port}`;
@@ -79,7 +79,7 @@ export class Browser {
   run(job, given = {}) {
     return new Promise((done, failed) => {
       const id = ++this.count;
-      const timer = setTimeout(() => this.fail(`${job}: no answer after ${JOB_S} s`), 1000 * JOB_S);
+      const timer = setTimeout(() => this.fail(`${job}: no answer after ${this.longest_s} s`), 1000 * this.longest_s);
       this.told.set(id, { done, failed, timer });
       this.asked.push({ id, job, given });
       this.hand();
@@ -107,6 +107,10 @@ export class Browser {
     if (pathname === "/next") {
       this.waiting = answer;
       return this.hand();
+    }
+    if (pathname === "/clock") {
+      this.clock.push(processorSeconds(this.process.pid));
+      return answer.writeHead(204).end();
     }
     if (pathname === "/told") return this.hear(ask, answer);
     const [, root, ...rest] = decodeURIComponent(pathname).split("/"), name = normalize(`/${rest.join("/")}`);
@@ -175,6 +179,20 @@ for (;;) {
   await fetch("/told", { method: "POST", body: JSON.stringify(told) });
 }
 </script></body></html>`;
+
+/** What a process and all that it started have used of processors so far, s. */
+function processorSeconds(root) {
+  const all = readdirSync("/proc").filter((name) => /^\d+$/.test(name)).flatMap((pid) => {
+    try {
+      const [, parent, ...rest] = readFileSync(`/proc/${pid}/stat`, "utf8").replace(/^.*\) /s, "").split(" ");
+      return [{ pid: Number(pid), parent: Number(parent), used_s: (Number(rest[9]) + Number(rest[10])) / 100 }]; // utime and stime, in 1/100 s
+    } catch {
+      return []; // it has ended
+    }
+  });
+  const sum = (pid) => all.filter(({ parent }) => parent === pid).reduce((total, one) => total + one.used_s + sum(one.pid), 0);
+  return sum(root) + (all.find(({ pid }) => pid === root)?.used_s ?? 0);
+}
 
 /** A folder for pages, which is made. */
 export function madeFolder(path) {

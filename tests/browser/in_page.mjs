@@ -1,44 +1,14 @@
 // What a page does for in_browser.test.mjs: sessions of champions, and amble's own pages in a frame.
 import { LiveRobot, chooseModule } from "../../viewer/src/amble.js";
+import { inFrame, press, textOf, until } from "./frame.mjs";
 import { runSession } from "./sessions.mjs";
 
-const LONGEST_MS = 200_000;
 let module = null;
 
 async function champion(text) {
   module ??= await fetch("/source/viewer/dist/amble.wasm").then((answer) => answer.arrayBuffer()).then((bytes) => chooseModule([{ name: "amble", bytes }]));
   return LiveRobot.open(module.module, text);
 }
-
-const pause = (ms) => new Promise((done) => setTimeout(done, ms));
-
-/** Waits until something holds; `what`: its name if it never does. */
-async function until(what, holds) {
-  for (const end = performance.now() + LONGEST_MS; performance.now() < end; await pause(30)) {
-    const value = holds();
-    if (value) return value;
-  }
-  throw new Error(`it never came that ${what}`);
-}
-
-/** Opens one of amble's pages in a frame; `steps(window)` gives what is told, to which what went wrong is added. */
-async function inFrame(url, steps) {
-  const frame = document.createElement("iframe");
-  frame.src = url;
-  document.body.replaceChildren(frame);
-  await new Promise((done) => frame.addEventListener("load", done, { once: true }));
-  const page = frame.contentWindow, shown = page.document.getElementById("trouble");
-  await until("the page has started", () => page.amble || !shown.hidden);
-  if (!shown.hidden) throw new Error(`the page says: ${shown.textContent}`);
-  const told = await steps(page);
-  if (!shown.hidden) throw new Error(`the page says: ${shown.textContent}`);
-  const problems = [...page.problems]; // not what comes of the page's end
-  frame.remove();
-  return { ...told, problems };
-}
-
-const textOf = (page, selector) => page.document.querySelector(selector)?.textContent ?? "";
-const press = (page, name) => [...page.document.querySelectorAll("button")].find((button) => button.textContent === name).click();
 
 export default {
   who: () => ({ agent: navigator.userAgent, processors: navigator.hardwareConcurrency }),
