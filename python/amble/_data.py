@@ -1,4 +1,5 @@
 import pathlib
+import tomllib
 
 _HERE = pathlib.Path(__file__).resolve()
 
@@ -17,6 +18,6 @@ def robots():
     found = {}
     for file in sorted(data_folder().glob("robots/*/*.toml")):
         kind, variant = file.parent.name, file.stem
-        if variant not in ("evolve", "steer"):
+        if "model" in tomllib.loads(file.read_text(encoding="utf-8")):  # others there are configs
             found[kind if variant in (kind, "authors") else f"{kind}/{variant}"] = file
     return found
