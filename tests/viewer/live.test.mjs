@@ -276,7 +276,7 @@ test("a champion's file that was altered is told, and nothing else is shown of i
   await page.close();
 });
 
-test("the page that README begins with is one to drive, by a module that gives the champion's bits", () =>
+test("the page that README begins with is one to drive", () =>
   onPage({}, async (page) => {
     assert.ok(readFileSync(join(AMBLE_SOURCE, "README.md"), "utf8").includes("](docs/drive.html)"));
     await page.keyboard.down("ArrowUp");
