@@ -38,14 +38,17 @@ wasm-check:
 	cmp build/wasm/src/browser/amble.wasm viewer/dist/amble.wasm || { echo "viewer/dist/amble.wasm is not what src gives: run make wasm" >&2; exit 1; }; \
 	else echo "skipped: the compiler for WebAssembly could not be installed (see above)"; fi
 
+# Without those that take long (pages in browsers, clusters, every command of the docs, installing): TESTS=all is what CI runs.
 # The programs that tests run (browser, Slurm, Clang for exported C) are installed while the tests compile. One job more than
 # processors: a test that waits needs none.
+TESTS ?= short
 test:
 	./setup $(if $(filter fuzz,$(PRESET)),--dev,--test)
 	@{ ./setup --tools && viewer/install-packages >/dev/null; } & tools=$$!; \
 	set -ex; cmake --preset $(PRESET); cmake --build --preset $(PRESET); \
 	wait $$tools || echo "some tests will be skipped: see above"; \
-	ctest --preset $(PRESET) -j $$(($(JOBS) + 1))
+	ctest --preset $(PRESET) -j $$(($(JOBS) + 1)) $(if $(filter all,$(TESTS)),,-LE long)
+	@$(if $(filter all,$(TESTS)),,echo "the tests that take long are left out; to run them too: make test TESTS=all")
 
 # The libraries that need neither ODE nor MuJoCo, compiled for aarch64, and their tests under an emulator: the same bits as on x86-64.
 test-aarch64:
