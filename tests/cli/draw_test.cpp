@@ -4,7 +4,7 @@
 #include "tests/cli/process.hpp"
 
 namespace amble::tests {
-namespace {
+namespace draw_test {
 
 using testing::AllOf;
 using testing::EndsWith;
@@ -71,5 +71,5 @@ TEST(DrawCommand, DrawsCppnsOfOtherControllersButNoPatterns) {
   EXPECT_FALSE(std::filesystem::exists(scratch / "patterns.svg"));
 }
 
-}  // namespace
+}  // namespace draw_test
 }  // namespace amble::tests

@@ -7,7 +7,7 @@
 #include "tests/cli/process.hpp"
 
 namespace amble::tests {
-namespace {
+namespace export_test {
 
 using testing::AllOf;
 using testing::EndsWith;
@@ -109,5 +109,5 @@ TEST(ExportCommand, RefusesInOneLine) {
   EXPECT_FALSE(std::filesystem::exists(scratch / "a.c"));
 }
 
-}  // namespace
+}  // namespace export_test
 }  // namespace amble::tests

@@ -10,7 +10,7 @@
 #include "tests/cli/process.hpp"
 
 namespace amble::tests {
-namespace {
+namespace run_test {
 
 using Arguments = std::vector<std::string>;
 
@@ -266,5 +266,5 @@ TEST(Gait, IsTheSameOfARunItsChampionAndARecording) {
   EXPECT_EQ(amble({"gait", scratch / "walk.rec"}).out, table.out);
 }
 
-}  // namespace
+}  // namespace run_test
 }  // namespace amble::tests

@@ -9,7 +9,7 @@
 #include "tests/cli/process.hpp"
 
 namespace amble::tests {
-namespace {
+namespace streams_test {
 
 constexpr int ok = static_cast<int>(ExitCode::ok), bad_input = static_cast<int>(ExitCode::bad_input),
               io = static_cast<int>(ExitCode::io);
@@ -66,5 +66,5 @@ TEST(StandardStreams, ThatCannotBeWrittenLeaveTheExitCodeAsItIs) {
   EXPECT_EQ(shell("info /nowhere 2>/dev/full"), io);
 }
 
-}  // namespace
+}  // namespace streams_test
 }  // namespace amble::tests

@@ -7,7 +7,7 @@
 #include "tests/cli/process.hpp"
 
 namespace amble::tests {
-namespace {
+namespace substrate_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -123,5 +123,5 @@ TEST(SubstrateCommand, AndAllOthersTakeASubstrateThatAUserMade) {
   EXPECT_THAT(slurp(scratch / "page.html"), HasSubstr("of 38 possible links are expressed"));
 }
 
-}  // namespace
+}  // namespace substrate_test
 }  // namespace amble::tests

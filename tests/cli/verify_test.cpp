@@ -5,7 +5,7 @@
 #include "tests/cli/process.hpp"
 
 namespace amble::tests {
-namespace {
+namespace verify_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -94,5 +94,5 @@ TEST_F(VerifyRun, ARunDoesNotGoOnWithoutItsBestChampion) {
   EXPECT_EQ(amble(resume).exit_code, ok);
 }
 
-}  // namespace
+}  // namespace verify_test
 }  // namespace amble::tests

@@ -14,7 +14,7 @@
 #include "tests/serving/connection.hpp"
 
 namespace amble::tests {
-namespace {
+namespace watch_test {
 
 using test::Connection;
 using testing::AllOf;
@@ -229,5 +229,5 @@ TEST(Watching, WhatCannotBeIsToldInALine) {
   EXPECT_FALSE(std::filesystem::exists(scratch / "run"));
 }
 
-}  // namespace
+}  // namespace watch_test
 }  // namespace amble::tests

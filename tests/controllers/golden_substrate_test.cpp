@@ -6,7 +6,7 @@
 #include "tests/robot/legged.hpp"
 
 namespace amble::controllers {
-namespace {
+namespace golden_substrate_test {
 
 /// A CPPN whose outputs are sums of its inputs, each with another weight.
 cppn::Network sums(const Architecture& architecture) {
@@ -52,5 +52,5 @@ TEST(GoldenSubstrate, OfTwoToSixLegsMatches) {
                                {"supg3.txt", "f5076218472207f7"}});
 }
 
-}  // namespace
+}  // namespace golden_substrate_test
 }  // namespace amble::controllers

@@ -13,7 +13,7 @@
 #include "tests/controllers/plain_network.hpp"
 
 namespace amble::controllers {
-namespace {
+namespace mixed_test {
 
 constexpr double timestep_s = 0.01;
 constexpr int legs = 4, types = 3, joints = 12, period = 17, neurons = 3;
@@ -436,5 +436,5 @@ TEST(Mixed, RefusesLinksThatItsNodesCannotHave) {
             "controller.supg.modulation.sensors:");
 }
 
-}  // namespace
+}  // namespace mixed_test
 }  // namespace amble::controllers

@@ -14,7 +14,7 @@
 #include "tests/controllers/supg_substrate.hpp"
 
 namespace amble::controllers {
-namespace {
+namespace modulated_supg_test {
 
 constexpr double timestep_s = 0.01;
 constexpr int legs = 4, types = 3, joints = legs * types;
@@ -455,5 +455,5 @@ TEST(ModulatedSupg, RefusesSensorsThatThereAreNot) {
   EXPECT_NE(refusal({"touch.FL"}), "none");
 }
 
-}  // namespace
+}  // namespace modulated_supg_test
 }  // namespace amble::controllers

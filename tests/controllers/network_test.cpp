@@ -9,7 +9,7 @@
 #include "tests/controllers/one_joint.hpp"
 
 namespace amble::controllers {
-namespace {
+namespace network_test {
 
 /// A sensor, a hidden neuron and a motor in a row.
 substrate::Settings row_with(const std::string& sensor) {
@@ -112,5 +112,5 @@ TEST(Network, WritesItsParametersAsJson) {
   EXPECT_TRUE(nlohmann::json::parse(architecture.parameters_json(*silent))["links"].empty());
 }
 
-}  // namespace
+}  // namespace network_test
 }  // namespace amble::controllers

@@ -17,7 +17,7 @@
 #include "tests/controllers/quadruped.hpp"
 
 namespace amble::controllers {
-namespace {
+namespace sensing_test {
 
 using Kind = substrate::Sensor::Kind;
 
@@ -222,6 +222,6 @@ TEST(AttitudeDeathTest, OtherSensorsHaveNone) {
   EXPECT_DEATH(sense_attitude(Kind::sine, Attitude::true_angles, attitude_rad, {&value, 1}), "no sensor");
 }
 
-}  // namespace
+}  // namespace sensing_test
 
 }  // namespace amble::controllers

@@ -12,7 +12,7 @@
 #include "tests/controllers/supg_substrate.hpp"
 
 namespace amble::controllers {
-namespace {
+namespace supg_batch_test {
 
 constexpr double timestep_s = 0.01;
 constexpr int legs = 4, types = 3, period = 6;
@@ -219,5 +219,5 @@ TEST(SupgBatchDeathTest, RefusesParametersOfAnotherArchitecture) {
   EXPECT_DEATH(batch->load(1, numbered_parameters(1)), "no such lane");
 }
 
-}  // namespace
+}  // namespace supg_batch_test
 }  // namespace amble::controllers

@@ -9,7 +9,7 @@
 #include "tests/controllers/supg_substrate.hpp"
 
 namespace amble::controllers {
-namespace {
+namespace supg_contact_test {
 
 constexpr double timestep_s = 0.01;
 constexpr int legs = 4, joints = 12;
@@ -113,5 +113,5 @@ TEST(SupgContact, TriggersALegAsATouchWould) {
   }
 }
 
-}  // namespace
+}  // namespace supg_contact_test
 }  // namespace amble::controllers

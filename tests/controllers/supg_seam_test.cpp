@@ -14,7 +14,7 @@
 #include "tests/controllers/supg_substrate.hpp"
 
 namespace amble::controllers {
-namespace {
+namespace supg_seam_test {
 
 constexpr double timestep_s = 0.01;
 constexpr int legs = 4, types = 3, joints = legs * types, period = 12;
@@ -269,5 +269,5 @@ TEST(SupgSeam, IsLeftOutOfJsonAtItsDefaultsAndReadBackElse) {
       SeamSettings());
 }
 
-}  // namespace
+}  // namespace supg_seam_test
 }  // namespace amble::controllers

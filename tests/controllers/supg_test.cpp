@@ -8,7 +8,7 @@
 #include "tests/controllers/supg_substrate.hpp"
 
 namespace amble::controllers {
-namespace {
+namespace supg_test {
 
 constexpr double timestep_s = 0.01;
 
@@ -210,5 +210,5 @@ TEST(Supg, RefusesARobotThatItsSubstrateDoesNotFit) {
   EXPECT_THROW(SupgArchitecture(SupgSettings(), supg_substrate(), robot, timestep_s), UserError);
 }
 
-}  // namespace
+}  // namespace supg_test
 }  // namespace amble::controllers

@@ -8,7 +8,7 @@
 #include "tests/controllers/supg_substrate.hpp"
 
 namespace amble::controllers {
-namespace {
+namespace supg_twin_test {
 
 constexpr double timestep_s = 0.01;
 constexpr int legs = 4, types = 3, period = 9;
@@ -183,5 +183,5 @@ TEST(SupgBatch, StepsWithLanesThatWereNeverLoaded) {
   for (int joint = 0; joint < legs * types; ++joint) EXPECT_TRUE(std::abs(targets.at(joint, 9)) <= 0.8f);
 }
 
-}  // namespace
+}  // namespace supg_twin_test
 }  // namespace amble::controllers

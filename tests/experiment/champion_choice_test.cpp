@@ -16,7 +16,7 @@
 #include "tests/experiment/fixture.hpp"
 
 namespace amble::experiment {
-namespace {
+namespace champion_choice_test {
 
 const std::atomic<bool> never{false};
 constexpr int generations = 25;
@@ -161,5 +161,5 @@ TEST(ChampionChoice, IsNoPartOfAConfigsIdentityUnlessItIsMade) {
       << "as before it could be chosen";
 }
 
-}  // namespace
+}  // namespace champion_choice_test
 }  // namespace amble::experiment

@@ -7,7 +7,7 @@
 #include "tests/experiment/fixture.hpp"
 
 namespace amble::experiment {
-namespace {
+namespace evaluator_test {
 
 const std::atomic<bool> never{false};
 
@@ -91,5 +91,5 @@ TEST(Evaluator, GivesNothingWhenItIsStopped) {
   EXPECT_TRUE(evaluator.evaluate(population.genomes(), never)) << "and works again afterwards";
 }
 
-}  // namespace
+}  // namespace evaluator_test
 }  // namespace amble::experiment

@@ -9,7 +9,7 @@
 // What GoldenRun's quadruped on the plane does not meet: other bodies, grounds, damages, pushes, scores. Only
 // the batch engine, as there.
 namespace amble::experiment {
-namespace {
+namespace golden_trial_test {
 
 /// A line of a trial of three seconds.
 std::string line(const std::string& what, const Problem& problem, const neat::Genome& genome,
@@ -98,5 +98,5 @@ TEST(GoldenTrial, OfTheGallerysChampionsMatches) {
                                {"servo-trials.txt", "85970ba1a87db023"}});
 }
 
-}  // namespace
+}  // namespace golden_trial_test
 }  // namespace amble::experiment

@@ -16,7 +16,7 @@
 
 // Runs whose score is not the distance.
 namespace amble::experiment {
-namespace {
+namespace scored_run_test {
 
 const std::atomic<bool> never{false};
 
@@ -222,5 +222,5 @@ TEST(ScoredRun, OfTheDistanceAloneIsTheRunWithoutAScore) {
             io::read_file(RunPaths(scratch / "named").best_champion()));
 }
 
-}  // namespace
+}  // namespace scored_run_test
 }  // namespace amble::experiment

@@ -14,7 +14,7 @@
 #include "tests/experiment/fixture.hpp"
 
 namespace amble::experiment {
-namespace {
+namespace typical_test {
 
 std::vector<double> distances_m(const std::vector<TrialResult>& trials) {
   std::vector<double> all;
@@ -132,5 +132,5 @@ TEST(Run, TellsWhatItsChampionTypicallyDoesInEveryGeneration) {
   }
 }
 
-}  // namespace
+}  // namespace typical_test
 }  // namespace amble::experiment

@@ -10,7 +10,7 @@
 #include "tests/experiment/fixture.hpp"
 
 namespace amble::experiment {
-namespace {
+namespace verify_test {
 
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -143,5 +143,5 @@ TEST_F(Verify, CallsADamagedFileUnsound) {
   EXPECT_THAT(found.text, StartsWith("unsound: "));
 }
 
-}  // namespace
+}  // namespace verify_test
 }  // namespace amble::experiment

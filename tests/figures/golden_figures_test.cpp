@@ -12,7 +12,7 @@
 #include "tests/motion/fixture.hpp"
 
 namespace amble::figures {
-namespace {
+namespace golden_figures_test {
 
 /// A wave of period `period` between −1 and 1.
 double zigzag(int at, int period) {
@@ -171,5 +171,5 @@ TEST(GoldenFigures, OfNetworksMatchTheGoldenHashes) {
                                {"tangled-cppn.svg", "61e312681deb04c6"}});
 }
 
-}  // namespace
+}  // namespace golden_figures_test
 }  // namespace amble::figures

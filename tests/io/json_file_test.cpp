@@ -12,7 +12,7 @@
 #include "tests/io/expect_error.hpp"
 
 namespace amble::io {
-namespace {
+namespace json_file_test {
 
 using test::error_of;
 
@@ -274,6 +274,6 @@ TEST_F(JsonViewTest, ListsEndAtTheirSize) {
             "c.json: key 'a.list[5]' is missing");
 }
 
-}  // namespace
+}  // namespace json_file_test
 
 }  // namespace amble::io

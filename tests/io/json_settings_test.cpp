@@ -7,7 +7,7 @@
 #include "tests/io/random_sample.hpp"
 
 namespace amble::io {
-namespace {
+namespace json_settings_test {
 
 using test::error_of;
 using test::Sample;
@@ -79,5 +79,5 @@ TEST(JsonSettings, NamePlaceOfABadItemOfAList) {
             "c.json: key 'config.knots[0]' must be an object");
 }
 
-}  // namespace
+}  // namespace json_settings_test
 }  // namespace amble::io

@@ -6,7 +6,7 @@
 #include "tests/io/temporary_folder.hpp"
 
 namespace amble::io {
-namespace {
+namespace toml_syntax_test {
 
 using test::error_of;
 
@@ -77,5 +77,5 @@ TEST(TomlSyntax, SixteenLevelsAreAccepted) {
   accepted(repeated("a.", 16) + "b = 1\nb." + repeated("a.", 15) + "b = 1");
 }
 
-}  // namespace
+}  // namespace toml_syntax_test
 }  // namespace amble::io

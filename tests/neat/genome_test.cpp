@@ -10,7 +10,7 @@
 #include "tests/neat/samples.hpp"
 
 namespace amble::neat {
-namespace {
+namespace genome_test {
 
 Genome small() {
   return sample_genome(2, 1,
@@ -194,6 +194,6 @@ TEST(Validate, DrawsTheBordersBetweenKindsOfNodesWhereTheyAre) {
   EXPECT_NE(error_of([&] { validate(genome, 2, 1, false); }).find("out of order"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace genome_test
 
 }  // namespace amble::neat

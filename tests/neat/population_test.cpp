@@ -11,7 +11,7 @@
 #include "tests/neat/samples.hpp"
 
 namespace amble::neat {
-namespace {
+namespace population_test {
 
 Settings small_settings(int size = 60) {
   Settings settings = lively_settings();
@@ -247,5 +247,5 @@ TEST(PopulationDeathTest, AbortsOnFitnessThatIsNoNumber) {
   EXPECT_DEATH(population.advance(std::span(fitness).first(59)), "one fitness per genome");
 }
 
-}  // namespace
+}  // namespace population_test
 }  // namespace amble::neat

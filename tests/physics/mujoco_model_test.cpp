@@ -15,7 +15,7 @@
 #include "tests/physics/scene.hpp"
 
 namespace amble::physics {
-namespace {
+namespace mujoco_model_test {
 
 using morphology::Files;
 using morphology::with;
@@ -395,5 +395,5 @@ TEST(MujocoModel, RefusesWhatItCannotDo) {
                UserError);
 }
 
-}  // namespace
+}  // namespace mujoco_model_test
 }  // namespace amble::physics

@@ -5,7 +5,7 @@
 #include "tests/physics/scene.hpp"
 
 namespace amble::physics {
-namespace {
+namespace servo_test {
 
 class VelocityServo : public OnEachEngine {};
 ON_EACH_ENGINE(VelocityServo);
@@ -129,5 +129,5 @@ TEST_P(Servo, ClampsTargetsToTheStops) {
   }
 }
 
-}  // namespace
+}  // namespace servo_test
 }  // namespace amble::physics

@@ -11,7 +11,7 @@
 #include "tests/search/samples.hpp"
 
 namespace amble::search {
-namespace {
+namespace distance_estimates_test {
 
 TEST(DistanceEstimates, BoundsHoldForBehavioursOfAllShapes) {
   for (const std::size_t length : {1u, 2u, 7u, 64u, 750u, 3000u}) {
@@ -65,5 +65,5 @@ TEST(DistanceEstimates, RestoreTheNumberOfThreads) {
 }
 #endif
 
-}  // namespace
+}  // namespace distance_estimates_test
 }  // namespace amble::search

@@ -10,7 +10,7 @@
 #include "amble/trial/scenario.hpp"
 
 namespace amble::trial {
-namespace {
+namespace commands_test {
 
 constexpr double tick_s = 0.01;
 
@@ -170,5 +170,5 @@ TEST(CommandSchedule, RampsFromWhereAnUnfinishedRampWas) {
   EXPECT_EQ(before_m_s, 0.0f);
 }
 
-}  // namespace
+}  // namespace commands_test
 }  // namespace amble::trial
