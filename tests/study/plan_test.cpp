@@ -153,7 +153,7 @@ TEST(Plan, AConditionSwitchesBetweenTheElitesOfAMapAloneAndItsRecordsAreNoOthers
     make_plan(study, "out");
     FAIL() << "accepted";
   } catch (const UserError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("gaits = 4: the config has search.kind = \"neat\""));
+    EXPECT_THAT(error.what(), testing::HasSubstr("gaits = 4: the config has search.kind = \"objective\""));
   }
 }
 
