@@ -14,6 +14,7 @@
 #include "amble/cli/stop_signal.hpp"
 #include "amble/core/index.hpp"
 #include "amble/experiment/corrected_map.hpp"
+#include "amble/experiment/switching_champion.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/quoting.hpp"
 #include "amble/io/text.hpp"
@@ -29,6 +30,8 @@ struct RepertoireOptions {
   std::optional<fs::path> out;
   std::optional<std::uint32_t> cell;
   std::optional<int> retest;
+  std::optional<int> gaits;
+  double heading_gain = 1.0;
   int walkers = 200;
   int jobs = 1;
 };
@@ -98,6 +101,29 @@ ExitCode write_elite(const experiment::Repertoire& repertoire, std::uint32_t cel
   return ExitCode::ok;
 }
 
+/// A walker that switches between elites as it is told.
+ExitCode write_switching(const experiment::Repertoire& repertoire, const RepertoireOptions& options) {
+  constexpr int usual_trials = 16;
+  if (!options.out || options.out->extension() != ".json")
+    fail(ExitCode::bad_input, "--switching {}: expected -o FILE.json", *options.gaits);
+  io::refuse_to_replace(*options.out, "{\n  \"format\": \"amble-champion\"", "a champion");
+  const int trials = std::max(1, options.retest.value_or(usual_trials));
+  const auto corrected = experiment::correct_map(repertoire, trials, options.jobs, stop_signal());
+  if (!corrected) return ExitCode::interrupted;
+  const auto gaits = experiment::pick_gaits(repertoire, *corrected, *options.gaits);
+  const auto champion =
+      experiment::switching_champion(repertoire, gaits, options.heading_gain, options.jobs, stop_signal());
+  if (!champion) return ExitCode::interrupted;
+  fmt::print("{:>4} {:>8} {:>12} {:>14}\n", "gait", "cell", "speed m/s", "turn rad/s");
+  for (std::size_t i = 0; i < gaits.size(); ++i)
+    fmt::print("{:>4} {:>8} {:>12.2f} {:>14.2f}\n", i + 1, repertoire.elites[gaits[i].number].cell,
+               gaits[i].speed_m_s, gaits[i].turn_rad_s);
+  io::write_file(*options.out, experiment::champion_text(*champion));
+  fmt::print("to see it do as it is told, run: amble view {} -o walker.html\n",
+             io::shell_word(options.out->string()));
+  return ExitCode::ok;
+}
+
 ExitCode write_map(const experiment::Repertoire& repertoire, const RepertoireOptions& options) {
   const presentation::MapFileOptions how{
       .trials = options.retest, .walkers = to_index(options.walkers), .jobs = options.jobs};
@@ -110,6 +136,7 @@ ExitCode write_map(const experiment::Repertoire& repertoire, const RepertoireOpt
 
 ExitCode run_repertoire(const RepertoireOptions& options) {
   const auto repertoire = experiment::load_repertoire(experiment::find_run(options.run));
+  if (options.gaits) return write_switching(repertoire, options);
   if (options.cell) return write_elite(repertoire, *options.cell, options.out);
   if (options.out) return write_map(repertoire, options);
   if (options.retest.value_or(0) == 0) {
@@ -140,12 +167,24 @@ void add_repertoire(CLI::App& app, Action& action) {
           "Try each elite in so many new trials under noise: what the map keeps of what it says; with "
           "-o FILE.html, .svg or .csv what each elite keeps (20 if the map was made under noise; 0: not)")
       ->check(between(0, 1000));
+  auto* const switching = command->add_option(
+      "--switching", options->gaits,
+      "A champion that does as it is told: at each trigger a leg takes over the elite that is nearest to the "
+      "commanded speed and turn, of so many that cover what all do in new trials (docs/STEERING.md)");
+  switching->check(between(1, 1000))->excludes("--cell");
+  command
+      ->add_option("--heading-gain", options->heading_gain,
+                   "With --switching: rate of turning added for each radian of heading error, 1/s")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
   command->add_option("--walkers", options->walkers, "Cells at most that can be chosen in FILE.html")
       ->check(between(1, 10000))
       ->capture_default_str();
   add_jobs(*command, options->jobs, "Processors for --retest; the results do not depend on it");
   add_examples(*command, {{"amble repertoire runs/map", "coverage, QD score, what its elites keep"},
-                          {"amble repertoire runs/map -o map.html", ""}});
+                          {"amble repertoire runs/map -o map.html", ""},
+                          {"amble repertoire runs/map --switching 16 -o walker.json",
+                           "a walker that obeys, of a map of speeds and turns"}});
   command->callback([options, &action] { action = [options] { return run_repertoire(*options); }; });
 }
 

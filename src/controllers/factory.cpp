@@ -144,6 +144,9 @@ void ControllerSettings::describe(io::SettingsVisitor& visitor) {
       {.what = "steering by hand of a controller that senses no commands: the legs on the inner side of "
                "a turn swing less far; off by default",
        .defaults_are_implied = true});
+  visitor.table("switching", switching,
+                {.what = "gaits among which SUPGs switch at their triggers, as commanded; off by default",
+                 .defaults_are_implied = true});
   if (const auto& numbers = kind_of(*this).numbers; !numbers.empty()) {
     visitor.begin("own", {"settings of this kind, which is not one of amble's own"});
     own.describe(visitor, numbers);
@@ -188,6 +191,24 @@ std::unique_ptr<const Architecture> make_architecture(const ControllerSettings& 
   check_differential(settings);
   return std::make_unique<DifferentialArchitecture>(std::move(made), settings.differential, robot,
                                                     timestep_s);
+}
+
+std::unique_ptr<const Architecture> with_gaits(std::unique_ptr<const Architecture> made,
+                                               std::vector<std::unique_ptr<Parameters>> gaits,
+                                               const ControllerSettings& settings,
+                                               const robot::RobotSpec& robot) {
+  if (settings.differential.any())
+    fail_setting({"controller.switching", "controller.differential"},
+                 "controller.switching and controller.differential both steer; expected one of them");
+  const auto* const supg = dynamic_cast<const SupgArchitecture*>(made.get());
+  if (supg == nullptr || settings.kind != "supg")
+    fail_setting({"controller.switching", "controller.kind"},
+                 "controller.switching: controllers of kind {} cannot switch gaits; expected kind supg",
+                 settings.kind);
+  std::unique_ptr<const SupgArchitecture> walker(supg);
+  static_cast<void>(made.release());  // it is the same
+  return std::make_unique<SwitchingArchitecture>(std::move(walker), settings.switching, std::move(gaits),
+                                                 robot);
 }
 
 }  // namespace amble::controllers

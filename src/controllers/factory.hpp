@@ -12,6 +12,7 @@
 #include "amble/controllers/oscillators.hpp"
 #include "amble/controllers/sensing.hpp"
 #include "amble/controllers/supg_settings.hpp"
+#include "amble/controllers/switching.hpp"
 #include "amble/io/own_settings.hpp"
 #include "amble/io/settings.hpp"
 #include "amble/substrate/settings.hpp"
@@ -29,6 +30,7 @@ struct ControllerSettings {
   OscillatorSettings oscillators;
   MixedSettings mixed = {};
   DifferentialSettings differential = {};
+  SwitchingSettings switching = {};
   io::OwnSettings own;  ///< of a kind that a program or a plugin has added
 
   void describe(io::SettingsVisitor& visitor);
@@ -56,8 +58,16 @@ void register_controller(ControllerKind kind);
 /// kind makes from the robot (automatic.hpp). Throws SettingError where both are given.
 substrate::Settings substrate_of(const ControllerSettings& settings, const robot::RobotSpec& robot);
 
-/// By the settings' kind. Throws UserError where settings and robot do not fit.
+/// By the settings' kind. Throws UserError where settings and robot do not fit. What the genomes of
+/// SwitchingSettings do it cannot know: with_gaits() adds it.
 std::unique_ptr<const Architecture> make_architecture(const ControllerSettings& settings,
                                                       const robot::RobotSpec& robot, double timestep_s);
+
+/// `made` by make_architecture(), which from now on switches between the gaits of `settings.switching`;
+/// `gaits`: these in order, as `made` decodes them. Throws SettingError where such a controller cannot.
+std::unique_ptr<const Architecture> with_gaits(std::unique_ptr<const Architecture> made,
+                                               std::vector<std::unique_ptr<Parameters>> gaits,
+                                               const ControllerSettings& settings,
+                                               const robot::RobotSpec& robot);
 
 }  // namespace amble::controllers

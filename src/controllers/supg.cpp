@@ -221,8 +221,11 @@ void SupgArchitecture::add_modulation(const cppn::Network& network, ModulatedPar
 std::unique_ptr<Batch> SupgArchitecture::make_batch(int lanes) const {
   if (modulated())
     return std::make_unique<ModulatedSupgBatch>(supgs(lanes), ModulatedParameters(blank(), sensors()), lanes);
-  return std::make_unique<SupgBatch>(settings_, timestep_s_, leg_names_, joints_, blank(), lanes,
-                                     contact(lanes));
+  return std::make_unique<SupgBatch>(make_plain_batch(lanes));
+}
+
+SupgBatch SupgArchitecture::make_plain_batch(int lanes) const {
+  return {settings_, timestep_s_, leg_names_, joints_, blank(), lanes, contact(lanes)};
 }
 
 ModulatedSupgs SupgArchitecture::supgs(int lanes) const {

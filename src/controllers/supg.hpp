@@ -16,6 +16,8 @@
 
 namespace amble::controllers {
 
+class SupgBatch;
+
 /// The property of a SUPG's node that sets its leg's offset, −1 … 1; SupgArchitecture says what it means.
 inline constexpr std::string_view offset_property = "offset";
 
@@ -139,6 +141,11 @@ class SupgArchitecture : public Architecture {
   robot::ExtraSenses extra_senses() const override;
 
   int period_ticks() const { return period_ticks_; }
+  bool modulated() const { return settings_.modulation.any(); }
+  /// With every target in the middle of its range and every offset 1.
+  SupgParameters blank() const;
+  /// For kinds that build on SUPGs without modulation.
+  SupgBatch make_plain_batch(int lanes) const;
 
  protected:
   /// For a kind that has neurons beside SUPGs, with these properties (substrate::Needs); none: SUPGs alone.
@@ -152,13 +159,10 @@ class SupgArchitecture : public Architecture {
   int types() const { return static_cast<int>(joint_types_.size()); }
   /// The targets and offsets that a CPPN gives.
   SupgParameters targets_of(const substrate::Decoded& decoded) const;
-  /// With every target in the middle of its range and every offset 1.
-  SupgParameters blank() const;
   ModulatedSupgs supgs(int lanes) const;
 
  private:
   std::optional<ContactEstimate> contact(int lanes) const;
-  bool modulated() const { return settings_.modulation.any(); }
   int sensors() const { return static_cast<int>(settings_.modulation.sensors.size()); }
   void add_modulation(const cppn::Network& network, ModulatedParameters& parameters) const;
   std::vector<float> query_inputs(int node, int sensor) const;

@@ -88,7 +88,7 @@ SupgBatch::SupgBatch(const SupgSettings& settings, double timestep_s, std::vecto
       contact_(std::move(contact)) {
   AMBLE_CHECK(lanes > 0, "a batch has at least one lane");
   const auto size = static_cast<std::size_t>(parked_.legs() * lanes);
-  tables_.resize(static_cast<std::size_t>(lanes));
+  tables_.resize(size);
   for (auto* const values : {&timer_, &airborne_ticks_, &wait_ticks_, &first_timer_, &triggered_})
     values->resize(size);
   no_chance_.resize(static_cast<std::size_t>(lanes));
@@ -97,6 +97,7 @@ SupgBatch::SupgBatch(const SupgSettings& settings, double timestep_s, std::vecto
     smoother_.emplace(settings.seam, timestep_s, static_cast<int>(joints_.of_legs.size()), lanes);
     for (auto* const values : {&continued_, &jumped_}) values->resize(to_index(lanes));
     for (auto* const values : {&continued_rad_, &present_rad_}) values->resize(to_index(lanes));
+    continued_tables_.resize(to_index(lanes));
   }
   for (int lane = 0; lane < lanes; ++lane) load(lane, parked_);
 }
@@ -107,22 +108,27 @@ void SupgBatch::load(int lane, const Parameters& parameters) {
   AMBLE_CHECK(supg != nullptr && supg->legs() == parked_.legs() && supg->types() == parked_.types() &&
                   supg->period_ticks() == period_ticks_,
               "the parameters belong to another architecture");
-  tables_[static_cast<std::size_t>(lane)] = supg->targets_rad(0, 0);
   if (random_) random_->load(lane);
   if (contact_) contact_->load(lane);
   for (int leg = 0; leg < supg->legs(); ++leg) {
-    const std::size_t i = index(leg, lane);
-    const bool phase = offset_ == Offset::phase;
-    timer_[i] = stopped;
-    airborne_ticks_[i] = 0;
-    wait_ticks_[i] = phase ? 0 : supg->offset_ticks(leg);
-    first_timer_[i] = phase ? after(supg->offset_ticks(leg)) : start_tick_;
-    triggered_[i] = 0;
+    begin(leg, lane, *supg);
     if (!smoother_) continue;
-    const float* const first_rad = supg->targets_rad(leg, phase ? first_timer_[i] : stopped);
+    const std::int32_t first = offset_ == Offset::phase ? first_timer_[index(leg, lane)] : stopped;
+    const float* const first_rad = supg->targets_rad(leg, first);
     for (int type = 0; type < supg->types(); ++type)
       smoother_->load(leg * supg->types() + type, lane, first_rad[type]);
   }
+}
+
+void SupgBatch::begin(int leg, int lane, const SupgParameters& supg) {
+  const std::size_t i = index(leg, lane);
+  const bool phase = offset_ == Offset::phase;
+  play(leg, lane, supg);
+  timer_[i] = stopped;
+  airborne_ticks_[i] = 0;
+  wait_ticks_[i] = phase ? 0 : supg.offset_ticks(leg);
+  first_timer_[i] = phase ? after(supg.offset_ticks(leg)) : start_tick_;
+  triggered_[i] = 0;
 }
 
 void SupgBatch::step(const robot::SensorFrame& sensors, LaneArray& targets_rad) {
@@ -134,6 +140,7 @@ void SupgBatch::step(const robot::SensorFrame& sensors, LaneArray& targets_rad) 
     const std::int32_t* const by_chance = random_ ? random_->advance(leg) : no_chance_.data();
     if (smoother_) continue_timers(leg);
     update_timers(leg, contact_ ? contact_->row(leg) : sensors.touch.row(leg), by_chance);
+    timers_are_set(leg);
     if (smoother_)
       write_smoothed(leg, targets_rad);
     else
@@ -179,7 +186,7 @@ void SupgBatch::write_targets(int leg, LaneArray& targets_rad) const {
   const std::ptrdiff_t types = parked_.types(), lanes = lanes_;
   const std::ptrdiff_t from = parked_.targets_rad(leg, 0) - parked_.targets_rad(0, 0);
   const std::int32_t* const timer = timer_.data() + index(leg, 0);
-  const float* const* const tables = tables_.data();
+  const float* const* const tables = tables_.data() + index(leg, 0);
   for (std::ptrdiff_t type = 0; type < types; ++type) {
     const int joint = joints_.of_legs[to_index(leg * types + type)];
     if (joint < 0) continue;
@@ -196,6 +203,7 @@ void SupgBatch::continue_timers(int leg) {
   const std::int32_t* const first_timer = first_timer_.data() + first;
   std::int32_t* const continued = continued_.data();
   const std::int32_t period = period_ticks_, phase = mask(offset_ == Offset::phase);
+  std::copy_n(tables_.data() + first, lanes_, continued_tables_.data());
   for (int lane = 0; lane < lanes_; ++lane) {
     const std::int32_t next =
         select(mask(timer[lane] == stopped), stopped, std::min(timer[lane] + 1, period));
@@ -209,12 +217,13 @@ void SupgBatch::write_smoothed(int leg, LaneArray& targets_rad) {
   const std::int32_t* const timer = timer_.data() + index(leg, 0);
   const std::int32_t* const continued = continued_.data();
   std::int32_t* const jumped = jumped_.data();
+  const float* const* const tables = tables_.data() + index(leg, 0);
+  const float* const* const tables_before = continued_tables_.data();
   std::int32_t any = 0;
   for (std::ptrdiff_t lane = 0; lane < lanes; ++lane) {
-    jumped[lane] = mask(timer[lane] != continued[lane]);
+    jumped[lane] = mask(timer[lane] != continued[lane]) | mask(tables[lane] != tables_before[lane]);
     any |= jumped[lane];
   }
-  const float* const* const tables = tables_.data();
   for (std::ptrdiff_t type = 0; type < types; ++type) {
     const std::ptrdiff_t row = leg * types + type;
     const int joint = joints_.of_legs[to_index(row)];
@@ -222,7 +231,7 @@ void SupgBatch::write_smoothed(int leg, LaneArray& targets_rad) {
     float* const continued_rad = continued_rad_.data();
     float* const present_rad = present_rad_.data();
     for (std::ptrdiff_t lane = 0; lane < lanes; ++lane)
-      continued_rad[lane] = tables[lane][from + continued[lane] * types + type];
+      continued_rad[lane] = tables_before[lane][from + continued[lane] * types + type];
     if (any != 0)
       for (std::ptrdiff_t lane = 0; lane < lanes; ++lane)
         present_rad[lane] = tables[lane][from + timer[lane] * types + type];

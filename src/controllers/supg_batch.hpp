@@ -47,6 +47,25 @@ class SupgBatch : public Batch {
   void state(int lane, std::span<float> values) const override;
   std::vector<std::size_t> events() const override;
 
+ protected:
+  /// For batches that change what a leg plays: called in each tick for each leg when its timers are set and
+  /// before its targets are written. play() and begin() may be called then.
+  virtual void timers_are_set(int /*leg*/) {}
+  const std::vector<std::string>& leg_names() const { return leg_names_; }
+  /// Whether a trigger fired in this tick.
+  bool triggered(int leg, int lane) const { return triggered_[index(leg, lane)] != 0; }
+  /// Whether its cycle has ended in this tick, or its timer stands.
+  bool at_end(int leg, int lane) const {
+    const std::int32_t timer = timer_[index(leg, lane)];
+    return timer == end_of_cycle_ || timer == SupgParameters::stopped;
+  }
+  /// From now on the leg plays the patterns of `supg`, its timer as it is.
+  void play(int leg, int lane, const SupgParameters& supg) {
+    tables_[index(leg, lane)] = supg.targets_rad(0, 0);
+  }
+  /// The same, and the leg begins as at the start of a trial.
+  void begin(int leg, int lane, const SupgParameters& supg);
+
  private:
   std::size_t index(int leg, int lane) const { return static_cast<std::size_t>(leg * lanes_ + lane); }
   /// What a timer that runs becomes in the next tick.
@@ -71,7 +90,8 @@ class SupgBatch : public Batch {
   SupgParameters parked_;
   int lanes_;
 
-  std::vector<const float*> tables_;          ///< by lane: its controller's targets of leg 0 at timer 0
+  std::vector<const float*>
+      tables_;  ///< leg by leg, over the lanes: its controller's targets of leg 0 at timer 0
   std::vector<std::int32_t> timer_;           ///< ticks, or SupgParameters::stopped
   std::vector<std::int32_t> airborne_ticks_;  ///< ticks in a row for which the foot has been off the ground
   std::vector<std::int32_t>
@@ -85,6 +105,7 @@ class SupgBatch : public Batch {
   std::optional<SeamSmoother> smoother_;
   std::vector<std::int32_t> continued_, jumped_;    ///< by lane, of the leg in hand: a timer, and a mask
   std::vector<float> continued_rad_, present_rad_;  ///< by lane, of the joint in hand: its pattern there
+  std::vector<const float*> continued_tables_;  ///< by lane, of the leg in hand: its table before this tick
 };
 
 }  // namespace amble::controllers

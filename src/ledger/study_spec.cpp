@@ -112,6 +112,9 @@ void ConditionSpec::describe(io::SettingsVisitor& visitor) {
   visitor.text("steering", steering,
                {"[controller.differential] in one line, \"turn_gain = 1.5, full_speed_m_s = 0.4\", by which "
                 "champions are steered in tests with a command; empty: as in their own config"});
+  visitor.integer("gaits", gaits, {0, 1000},
+                  {"champions that switch between so many elites of the run's map as they are told "
+                   "(`amble repertoire RUN --switching N`), in place of its best elite; 0: the best elite"});
   visitor.numbers("seeds", seeds, {0, largest_seed}, {"seeds of its runs; empty: the study's"});
   visitor.integer("generations", generations, {0, most_generations},
                   {"generations of its runs; 0: the study's"});

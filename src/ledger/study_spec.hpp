@@ -38,6 +38,8 @@ struct ConditionSpec {
   /// [controller.differential] in one line, by which champions are steered in tests with commands; empty: by
   /// their own config.
   std::string steering;
+  /// > 0: champions that switch between so many elites of the run's map as they are told.
+  int gaits = 0;
   std::vector<double> seeds;  ///< empty: StudySpec::seeds
   int generations = 0;        ///< 0: StudySpec::generations
 

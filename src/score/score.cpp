@@ -171,6 +171,7 @@ Registry<Quantity>& all_quantities() {
                                  {"effort", "", positive_range, {.effort = true}, effort},
                                  {"constant", "", {1.0, 1.0}, {}, constant},
                                  {"yaw_rate", "rad/s", signed_range, {.headings = true}, yaw_rate},
+                                 {"own_speed", "m/s", signed_range, own_speed_measures, own_speed},
                                  {"speed_error", "m/s", positive_range, tracking_measures, speed_error},
                                  {"turn_error", "rad/s", positive_range, tracking_measures, turn_error},
                                  {"heading_error", "rad", positive_range, tracking_measures, heading_error},

@@ -124,6 +124,10 @@ double yaw_rate(const record::Trajectory& trajectory, const Context&) {
   return trajectory.steps > 0 ? trajectory.turned_rad / trajectory.seconds() : 0.0;
 }
 
+double own_speed(const record::Trajectory& trajectory, const Context&) {
+  return mean_of(seconds_of(trajectory), [](const Second& second) { return second.along_m_s; });
+}
+
 double speed_error(const record::Trajectory& trajectory, const Context&) {
   return mean_of(seconds_of(trajectory), [](const Second& second) { return second.speed_error_m_s(); });
 }

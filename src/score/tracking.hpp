@@ -33,6 +33,10 @@ namespace amble::score {
 
 inline constexpr record::Measures tracking_measures{.seconds = true, .headings = true, .commands = true};
 
+inline constexpr record::Measures own_speed_measures{.seconds = true, .headings = true};
+
+/// Mean of Δ f / 1 s, m/s: how fast it walks along its own forward axis; 0 without seconds.
+double own_speed(const record::Trajectory& trajectory, const Context& context);
 /// Turned from start to end by the trial's length, rad/s, to the left; 0 for a trial of no steps.
 double yaw_rate(const record::Trajectory& trajectory, const Context& context);
 /// Mean of |Δ / 1 s − v f|, m/s: moving sideways is an error, too. Without commands v = 0; 0 without seconds.

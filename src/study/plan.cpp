@@ -87,6 +87,10 @@ PlannedCondition plan_condition(const ledger::StudySpec& study, std::size_t inde
     std::optional<controllers::DifferentialSettings> steering;
     if (!spec.steering.empty()) steering = experiment::parse_differential(spec.steering, "steering");
     condition.robot = experiment::load_robot(condition.config);
+    if (spec.gaits > 0 && !experiment::fills_map(condition.config))
+      fail(ExitCode::bad_input,
+           "gaits = {}: the config has search.kind = \"{}\"; expected \"map-elites\", as in configs/steer/map.toml",
+           spec.gaits, condition.config.search.kind);
     for (const PlannedTest& test : tests)
       if (test.spec.applies_to(spec.name)) condition.tests.push_back(steered(test, steering));
     check_tests(condition);
@@ -99,7 +103,7 @@ PlannedCondition plan_condition(const ledger::StudySpec& study, std::size_t inde
 
 /// Why a record does not fit; empty if it does, or only lacks tests.
 std::string record_misfit(const PlannedCondition& condition, const ledger::Record& record) {
-  if (record.config != condition.hash) return "made with other settings or another robot";
+  if (record.config != condition.recorded_hash()) return "made with other settings or another robot";
   if (record.generations != condition.config.generations)
     return fmt::format("{} generations instead of {}", record.generations, condition.config.generations);
   for (const PlannedTest& test : condition.tests) {
@@ -214,6 +218,10 @@ bool PlannedTest::is_due(const ledger::Record& record) const {
   const auto& made = record.provenance;
   const auto later = made.added_by.find(spec.name);
   return !measured_by.empty() && measured_by != (later == made.added_by.end() ? made.commit : later->second);
+}
+
+std::string PlannedCondition::recorded_hash() const {
+  return spec.gaits == 0 ? hash : hex(hash_text(fmt::format("{}, {} gaits", hash, spec.gaits)));
 }
 
 bool PlannedCondition::has_all_tests(const ledger::Record& record) const {

@@ -49,6 +49,9 @@ struct PlannedCondition {
   std::vector<PlannedTest> tests;
   std::string hash;  ///< config_hash() of it
 
+  /// The hash that records have: with ConditionSpec::gaits another one.
+  std::string recorded_hash() const;
+
   /// Whether a record of the condition has all that the tests are to measure.
   bool has_all_tests(const ledger::Record& record) const;
 };

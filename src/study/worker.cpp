@@ -18,6 +18,7 @@
 #include "amble/experiment/build_info.hpp"
 #include "amble/experiment/corrected_map.hpp"
 #include "amble/experiment/run.hpp"
+#include "amble/experiment/switching_champion.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/lock.hpp"
 #include "amble/physics/batch/instruction_set.hpp"
@@ -96,7 +97,8 @@ class Worker {
     RunProgress progress(run, listener_);
     if (evolution->execute(progress, stop_) == experiment::RunStatus::interrupted) return Step::interrupted;
     auto record = first_record(run, *evolution);
-    if (!correct_map_of(*evolution, record)) return Step::interrupted;
+    if (!correct_map_of(*evolution, record) || !switch_gaits(run, *evolution, record))
+      return Step::interrupted;
     const Step step = add_tests(run, std::move(record), true);
     evolution.reset();
     if (step == Step::done) discard(run);
@@ -159,7 +161,7 @@ class Worker {
     return {.study = plan_.study.name,
             .condition = condition.spec.name,
             .seed = run.seed,
-            .config = condition.hash,
+            .config = condition.recorded_hash(),
             .generations = evolution.config().generations,
             .engine = evolution.config().engine,
             .evaluations = evolution.progress().evaluations,
@@ -186,6 +188,25 @@ class Worker {
     record.map_figures["corrected_coverage"] = corrected->coverage();
     record.map_figures["corrected_qd_score"] = corrected->qd_score();
     record.map_figures["staying_share"] = corrected->staying_share();
+    return true;
+  }
+
+  /// Puts a champion that switches between elites in the place of the best one, if the condition asks for it.
+  /// False: interrupted.
+  bool switch_gaits(const PlannedRun& run, const experiment::Run& evolution, ledger::Record& record) const {
+    const int gaits = plan_.condition(run).spec.gaits;
+    if (gaits == 0) return true;
+    constexpr int trials = 16;
+    constexpr double heading_gain = 1.0;
+    const auto repertoire = experiment::load_repertoire(evolution.paths());
+    const auto corrected = experiment::correct_map(repertoire, trials, options_.workers, stop_);
+    if (!corrected) return false;
+    const auto picked = experiment::pick_gaits(repertoire, *corrected, gaits);
+    const auto champion =
+        experiment::switching_champion(repertoire, picked, heading_gain, options_.workers, stop_);
+    if (!champion) return false;
+    record.champion = champion_to_json(*champion);
+    record.champion_file = hex(hash_text(experiment::champion_text(*champion)));
     return true;
   }
 

@@ -222,8 +222,35 @@ TEST_F(RepertoireCommand, IsComparedCellByCellWithMapsOfTheSameCells) {
   EXPECT_THAT(text, HasSubstr("other cells"));
 }
 
+TEST_F(RepertoireCommand, WritesAWalkerThatSwitchesBetweenElitesAsItIsTold) {
+  const std::string folder = scratch_ / "gaits", out = scratch_ / "switching.json";
+  ASSERT_EQ(amble({"evolve", source + "/robots/hexapod/gaits.toml", "--set", "search.map_elites.batch=64",
+                   "--set", "search.map_elites.initial=256", "--set", "trial.duration_s=2", "--set",
+                   "search.map_elites.trials=1", "--generations", "3", "--out", folder})
+                .exit_code,
+            0);
+  const auto made = amble({"repertoire", folder, "--switching", "4", "--retest", "2", "-o", out});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("amble view " + out));
+  const auto champion = json(out);
+  const auto& gaits = champion["controller"]["switching"]["gaits"];
+  ASSERT_EQ(gaits.size(), 4u);
+  EXPECT_EQ(nlohmann::json::parse(gaits[0]["genome"].get<std::string>()), champion["genome"]);
+  std::set<std::pair<double, double>> different;
+  for (const auto& gait : gaits) different.insert({gait["speed_m_s"], gait["turn_rad_s"]});
+  EXPECT_EQ(different.size(), 4u);
+  EXPECT_THAT(amble({"trial", out, "--command", "0.2,0; 0,0.3; 0,0", "--undisturbed"}).out,
+              HasSubstr("followed to"));
+  EXPECT_EQ(amble({"verify", out}).exit_code, 0);
+  EXPECT_THAT(amble({"export", out, "-o", scratch_ / "c"}).err,
+              HasSubstr("controller.switching cannot be exported"));
+}
+
 TEST_F(RepertoireCommand, RefusesWhatItCannotDoInOneLine) {
   const auto folder = run();
+  expect_refusal({"repertoire", folder, "--switching", "4", "-o", scratch_ / "walker.json"},
+                 ExitCode::bad_input, "the map has no dimension own_speed");
+  expect_refusal({"repertoire", folder, "--switching", "4"}, ExitCode::bad_input, "expected -o FILE.json");
   const std::string out = scratch_ / "elite.json";
   expect_refusal({"repertoire", folder, "--cell", "625", "-o", out}, ExitCode::bad_input,
                  "the map has the cells 0 … 624");

@@ -339,7 +339,7 @@ TEST(ScoreSettings, AreRefusedWhereTheyNameNothingOrCannotBeKept) {
       testing::StartsWith(
           "score.terms: quantity \"joy\": expected distance, forward, heading, sideways, turn, "
           "speed_kept, energy, economy, uprightness, upright_time, duty_factor, phase, height, root_forward, "
-          "effort, constant, yaw_rate, speed_error, turn_error, heading_error, tracking"));
+          "effort, constant, yaw_rate, own_speed, speed_error, turn_error, heading_error, tracking"));
   EXPECT_THAT(error_of({.limits = {{.quantity = "joy"}}}), testing::HasSubstr("score.limits: quantity"));
   EXPECT_EQ(error_of({.limits = {{.quantity = "uprightness", .least = 0.9, .most = 0.5}}}),
             "score.limits: uprightness: least = 0.9 is above most = 0.5");

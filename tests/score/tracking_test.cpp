@@ -49,6 +49,16 @@ TEST(Tracking, IsAllOfARobotThatDoesWhatItIsTold) {
   EXPECT_NEAR(yaw_rate(obedient, context(26)), 10.0 / 26.0, 1e-9);
 }
 
+TEST(OwnSpeed, IsThatAlongItsOwnForwardAxisHoweverItTurnsWithoutCommands) {
+  record::Trajectory circling = drive({{0.4, 1.0, 0.0, 0.0, 13}}),
+                     backwards = drive({{-0.3, -0.4, 0.0, 0.0, 5}});
+  circling.command_by_second.clear();
+  // The chord of a second is 2 sin(1/2) of the arc.
+  EXPECT_NEAR(own_speed(circling, context(13)), 0.4 * 2.0 * std::sin(0.5), 1e-4);
+  EXPECT_NEAR(own_speed(backwards, context(5)), -0.3 * 2.0 * std::sin(0.2) / 0.4, 1e-4);
+  EXPECT_EQ(own_speed(record::Trajectory(), context(5)), 0.0);
+}
+
 TEST(Tracking, IsNothingOfARobotThatStandsStillWhateverItIsTold) {
   for (const double speed : {0.0, 0.02, 0.4, -0.3})
     for (const double turn : {0.0, 0.1, -0.8}) {

@@ -138,6 +138,25 @@ TEST(PlannedTest, IsTheSameOnlyIfNothingDiffersThatChangesItsTrials) {
     EXPECT_TRUE(others.insert(other.settings_hash("batch")).second);
 }
 
+TEST(Plan, AConditionSwitchesBetweenTheElitesOfAMapAloneAndItsRecordsAreNoOthers) {
+  auto study = small_study();
+  study.conditions = {condition("best", "repertoire/quadruped"),
+                      condition("switching", "repertoire/quadruped")};
+  study.conditions[1].gaits = 4;
+  const Plan plan = make_plan(study, "out");
+  EXPECT_EQ(plan.conditions[0].hash, plan.conditions[1].hash) << "the runs are the same";
+  EXPECT_EQ(plan.conditions[0].recorded_hash(), plan.conditions[0].hash);
+  EXPECT_NE(plan.conditions[1].recorded_hash(), plan.conditions[1].hash);
+  study.conditions = {condition("switching", "authors/supg-objective")};
+  study.conditions[0].gaits = 4;
+  try {
+    make_plan(study, "out");
+    FAIL() << "accepted";
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("gaits = 4: the config has search.kind = \"objective\""));
+  }
+}
+
 TEST(Plan, ChampionsOfAConditionThatIsSteeredAreSoInTestsWithACommandAlone) {
   auto study = small_study();
   study.conditions = {condition("hand", "authors/supg-objective"),

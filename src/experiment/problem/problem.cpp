@@ -1,5 +1,7 @@
 #include "amble/experiment/problem/problem.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -7,6 +9,7 @@
 #include "amble/damage/stages.hpp"
 #include "amble/experiment/problem/episode_set.hpp"
 #include "amble/io/json_file.hpp"
+#include "amble/neat/genome_text.hpp"
 #include "amble/physics/damaged_engine.hpp"
 #include "amble/robot/json.hpp"
 #include "amble/robot/original_model.hpp"
@@ -16,6 +19,25 @@ namespace amble::experiment {
 namespace {
 
 constexpr int robot_version = 1;
+
+/// The gaits' genomes as controllers.
+std::vector<std::unique_ptr<controllers::Parameters>> decoded_gaits(
+    const controllers::SwitchingSettings& settings, const controllers::Architecture& architecture,
+    const cppn::Settings& cppn) {
+  std::vector<std::unique_ptr<controllers::Parameters>> gaits;
+  for (std::size_t i = 0; i < settings.gaits.size(); ++i) {
+    const std::string key = fmt::format("controller.switching.gaits[{}].genome", i);
+    const neat::Genome genome = neat::parse_genome(settings.gaits[i].genome, key);
+    try {
+      neat::validate(genome, static_cast<int>(architecture.cppn_inputs().size()),
+                     static_cast<int>(architecture.cppn_outputs().size()), cppn.recurrent);
+    } catch (const UserError& error) {
+      fail(ExitCode::bad_file, "{}: {}", key, error.what());
+    }
+    gaits.push_back(architecture.decode(cppn::Network(genome, cppn)));
+  }
+  return gaits;
+}
 
 }  // namespace
 
@@ -34,10 +56,15 @@ void Problem::complete() {
 }
 
 void Problem::make_architecture() {
-  architecture = controllers::make_architecture(controller, robot, trial.timestep_s);
+  auto made = controllers::make_architecture(controller, robot, trial.timestep_s);
+  if (controller.switching.any()) {
+    auto gaits = decoded_gaits(controller.switching, *made, cppn);
+    made = controllers::with_gaits(std::move(made), std::move(gaits), controller, robot);
+  }
+  architecture = std::move(made);
   if (architecture->extra_senses().commands() && command.kind == trial::CommandKind::none)
     fail_setting({"command.kind", "controller.substrate", "controller.supg.modulation.sensors",
-                  "controller.differential"},
+                  "controller.differential", "controller.switching"},
                  "command.kind = \"none\": the controller senses commands, and there are none; expected "
                  "fixed or random");
 }

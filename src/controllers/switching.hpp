@@ -1,0 +1,85 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "amble/controllers/controller.hpp"
+#include "amble/controllers/supg.hpp"
+#include "amble/io/settings.hpp"
+
+namespace amble::controllers {
+
+/// One of the gaits among which a walker switches.
+struct GaitSettings {
+  double speed_m_s = 0.0;   ///< at which it walks
+  double turn_rad_s = 0.0;  ///< at which it turns, to the left
+  std::string genome;       ///< of its CPPN, as neat::genome_text() writes it
+
+  void describe(io::SettingsVisitor& visitor);
+  friend bool operator==(const GaitSettings&, const GaitSettings&) = default;
+};
+
+/// Switching between gaits as commanded, for SUPGs. Off by default, when there are no gaits.
+struct SwitchingSettings {
+  std::vector<GaitSettings> gaits = {};
+  double heading_gain = 0.0;  ///< 1/s: rad/s added to the turn per rad of heading error
+
+  void describe(io::SettingsVisitor& visitor);
+  bool any() const { return !gaits.empty(); }
+  friend bool operator==(const SwitchingSettings&, const SwitchingSettings&) = default;
+};
+
+/// Which gait does best what is commanded: that whose (speed, turn) is nearest, each in parts of the range
+/// that the gaits span; of equally near ones the first. A part that they all have in common does not count.
+class GaitChoice {
+ public:
+  explicit GaitChoice(const SwitchingSettings& settings);
+  int nearest(float speed_m_s, float turn_rad_s) const;
+
+ private:
+  std::vector<float> speeds_, turns_;  ///< in parts of their ranges
+  float by_speed_ = 0.0f, by_turn_ = 0.0f;
+};
+
+/// SUPGs of which each leg plays one of several gaits, the commanded one (Morse et al. 2013 name control of
+/// direction as future work). With v and w what is commanded (m/s, rad/s to the left) and e the heading error
+/// (rad), the gait that is wanted is that of GaitChoice for v and w + heading_gain e; while a stop is
+/// commanded it is standing, in which all joints keep their start pose.
+///
+/// A leg takes the wanted gait at its trigger, at the end of its cycle, and while its timer is stopped; its
+/// timer and all else go on as they are. From standing a leg begins as at the start of a trial, by the
+/// offset of the new gait. What is wanted in the first tick is what legs begin with. With one gait, and
+/// without stops, it is to the bit the walker of that gait's genome alone.
+///
+/// The CPPN of a champion's own genome is not asked: each gait has one. Programs that write such champions
+/// let the own genome be that of the first gait.
+class SwitchingArchitecture : public Architecture {
+ public:
+  /// `gaits`: those of the settings, in order, decoded by `walker`. Throws SettingError if the walker
+  /// modulates its SUPGs.
+  SwitchingArchitecture(std::unique_ptr<const SupgArchitecture> walker, const SwitchingSettings& settings,
+                        std::vector<std::unique_ptr<Parameters>> gaits, const robot::RobotSpec& robot);
+
+  std::string name() const override { return walker_->name(); }
+  const std::vector<std::string>& cppn_inputs() const override { return walker_->cppn_inputs(); }
+  const std::vector<std::string>& cppn_outputs() const override { return walker_->cppn_outputs(); }
+  const substrate::Layout* substrate() const override { return walker_->substrate(); }
+  std::unique_ptr<Parameters> decode(const cppn::Network& network) const override {
+    return walker_->decode(network);
+  }
+  std::unique_ptr<Batch> make_batch(int lanes) const override;
+  robot::ExtraSenses extra_senses() const override;
+  /// Of the own genome.
+  std::string parameters_json(const Parameters& parameters) const override {
+    return walker_->parameters_json(parameters);
+  }
+
+ private:
+  std::unique_ptr<const SupgArchitecture> walker_;
+  SwitchingSettings settings_;
+  std::vector<std::unique_ptr<Parameters>> gaits_;  ///< each a SupgParameters
+  SupgParameters standing_;
+};
+
+}  // namespace amble::controllers
