@@ -180,7 +180,7 @@ SwitchingArchitecture::SwitchingArchitecture(std::unique_ptr<const SupgArchitect
 }
 
 std::unique_ptr<Batch> SwitchingArchitecture::make_batch(int lanes) const {
-  SwitchingBatch::Gaits gaits{.standing = &standing_};
+  SwitchingBatch::Gaits gaits{.all = {}, .standing = &standing_};
   for (const auto& gait : gaits_) gaits.all.push_back(dynamic_cast<const SupgParameters*>(gait.get()));
   return std::make_unique<SwitchingBatch>(walker_->make_plain_batch(lanes), std::move(gaits), settings_,
                                           standing_.legs());

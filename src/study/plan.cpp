@@ -11,6 +11,7 @@
 #include "amble/core/index.hpp"
 #include "amble/experiment/build_info.hpp"
 #include "amble/experiment/problem.hpp"
+#include "amble/experiment/repertoire.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/quoting.hpp"
@@ -89,7 +90,8 @@ PlannedCondition plan_condition(const ledger::StudySpec& study, std::size_t inde
     condition.robot = experiment::load_robot(condition.config);
     if (spec.gaits > 0 && !experiment::fills_map(condition.config))
       fail(ExitCode::bad_input,
-           "gaits = {}: the config has search.kind = \"{}\"; expected \"map-elites\", as in configs/steer/map.toml",
+           "gaits = {}: the config has search.kind = \"{}\"; expected \"map-elites\", as in "
+           "configs/steer/map.toml",
            spec.gaits, condition.config.search.kind);
     for (const PlannedTest& test : tests)
       if (test.spec.applies_to(spec.name)) condition.tests.push_back(steered(test, steering));

@@ -7,6 +7,7 @@
 #include "amble/core/error.hpp"
 #include "amble/core/random.hpp"
 #include "tests/controllers/supg_substrate.hpp"
+#include "tests/robot/legged.hpp"
 
 namespace amble::controllers {
 namespace {
@@ -199,16 +200,20 @@ TEST(Switching, IsRefusedForOtherControllersAndBesideSteeringByHand) {
     settings.substrate = substrate::Settings();
     settings.substrate.layout = substrate::LayoutSource::automatic;
     settings.switching.gaits = {{0.1, 0.0, ""}};
-    auto made = make_architecture(settings, quadruped(), timestep_s);
+    const robot::RobotSpec robot = tests::legged_robot(2);
+    auto made = make_architecture(settings, robot, timestep_s);
     try {
-      with_gaits(std::move(made), {}, settings, quadruped());
+      with_gaits(std::move(made), {}, settings, robot);
     } catch (const UserError& error) {
       return error.what();
     }
     return "accepted";
   };
-  EXPECT_THAT(refused({.kind = "ctrnn"}), HasSubstr("controllers of kind ctrnn cannot switch gaits"));
-  EXPECT_THAT(refused({.differential = {.turn_gain = 1.0}}), HasSubstr("both steer"));
+  ControllerSettings ctrnn, steered;
+  ctrnn.kind = "ctrnn";
+  steered.differential.turn_gain = 1.0;
+  EXPECT_THAT(refused(ctrnn), HasSubstr("controllers of kind ctrnn cannot switch gaits"));
+  EXPECT_THAT(refused(steered), HasSubstr("both steer"));
 }
 
 }  // namespace
