@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "amble/controllers/supg_batch.hpp"
@@ -184,6 +185,12 @@ std::unique_ptr<Batch> SwitchingArchitecture::make_batch(int lanes) const {
   for (const auto& gait : gaits_) gaits.all.push_back(dynamic_cast<const SupgParameters*>(gait.get()));
   return std::make_unique<SwitchingBatch>(walker_->make_plain_batch(lanes), std::move(gaits), settings_,
                                           standing_.legs());
+}
+
+std::string SwitchingArchitecture::parameters_json(const Parameters& parameters) const {
+  auto json = nlohmann::ordered_json::parse(walker_->parameters_json(parameters));
+  json["gaits"] = gaits_.size();
+  return json.dump();
 }
 
 robot::ExtraSenses SwitchingArchitecture::extra_senses() const {

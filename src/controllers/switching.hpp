@@ -70,10 +70,8 @@ class SwitchingArchitecture : public Architecture {
   }
   std::unique_ptr<Batch> make_batch(int lanes) const override;
   robot::ExtraSenses extra_senses() const override;
-  /// Of the own genome.
-  std::string parameters_json(const Parameters& parameters) const override {
-    return walker_->parameters_json(parameters);
-  }
+  /// Of the own genome, and how many `gaits` there are.
+  std::string parameters_json(const Parameters& parameters) const override;
 
  private:
   std::unique_ptr<const SupgArchitecture> walker_;

@@ -83,7 +83,8 @@ export class Analysis {
     return [section("Timers and patterns",
       `Each leg’s timer climbs through its ${walk.supg.period_ticks * walk.supg.timestep_s} s and a trigger sends it back; ` +
       "below, the target angle of each joint over its leg’s timer, over the joint’s range, with the place of the timer now. " +
-      `Dotted: ${walk.supg.offset === "phase" ? "where the leg’s timer starts" : "how long the leg waits before its timer starts"}.`,
+      `Dotted: ${walk.supg.offset === "phase" ? "where the leg’s timer starts" : "how long the leg waits before its timer starts"}.` +
+      (walk.supg.gaits ? ` The patterns are those of the first of ${walk.supg.gaits} gaits, between which legs switch as they are told.` : ""),
       plot(timerPlot(walk, this.window, this.clock)), patterns.element)];
   }
 
