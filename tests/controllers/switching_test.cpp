@@ -10,7 +10,7 @@
 #include "tests/robot/legged.hpp"
 
 namespace amble::controllers {
-namespace {
+namespace switching_test {
 
 using testing::HasSubstr;
 
@@ -216,5 +216,5 @@ TEST(Switching, IsRefusedForOtherControllersAndBesideSteeringByHand) {
   EXPECT_THAT(refused(steered), HasSubstr("both steer"));
 }
 
-}  // namespace
+}  // namespace switching_test
 }  // namespace amble::controllers

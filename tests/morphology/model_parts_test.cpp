@@ -11,7 +11,7 @@
 #include "tests/morphology/files.hpp"
 
 namespace amble::morphology {
-namespace {
+namespace model_parts_test {
 
 ModelParts parts_of(const Files& files, const std::string& text, const std::string& name = "m.xml") {
   return extract_parts(compile_model(files.write(name, text)));
@@ -255,5 +255,5 @@ TEST(ExtractParts, KeepsTheHalfAxesOfAnEllipsoid) {
   EXPECT_NEAR(most.z, 0.3, 0.03);
 }
 
-}  // namespace
+}  // namespace model_parts_test
 }  // namespace amble::morphology
