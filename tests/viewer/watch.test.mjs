@@ -1,7 +1,7 @@
 // The page of runs that go on, served by the program.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
-import { mkdirSync, readFileSync, renameSync, rmSync } from "node:fs";
+import { mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { isOurs, amble, launch, pictureOf } from "./browser.mjs";
@@ -196,7 +196,11 @@ test("a cell of the map is chosen by a click or by keys, its elite walks until t
 });
 
 test("a study that goes on has a page of its runs", async () => {
-  const out = folder("studied"), server = serve("study", join(AMBLE_SOURCE, "studies/smoke.toml"), "--out", out, "--jobs", "1", "--watch");
+  // The study in miniature with longer runs: it must not end before a browser has opened its page.
+  const out = folder("studied"), file = `${out}.toml`;
+  writeFileSync(file, readFileSync(join(AMBLE_SOURCE, "studies/smoke.toml"), "utf8").replace("generations = 5", "generations = 80")
+    .replaceAll("../configs", join(AMBLE_SOURCE, "configs")));
+  const server = serve("study", file, "--out", out, "--jobs", "1", "--watch");
   await inPage(server, async (page) => {
     await page.waitForFunction(() => window.amble.rows.length > 0 && window.amble.stage.walk);
     assert.match(await page.locator("#runs-note").textContent(), / \d of 6 are in the study’s ledger\.$/);
