@@ -31,7 +31,7 @@ struct RepertoireOptions {
   std::optional<std::uint32_t> cell;
   std::optional<int> retest;
   std::optional<int> gaits;
-  double heading_gain = 1.0;
+  double heading_gain = experiment::usual_heading_gain;
   int walkers = 200;
   int jobs = 1;
 };
@@ -103,11 +103,10 @@ ExitCode write_elite(const experiment::Repertoire& repertoire, std::uint32_t cel
 
 /// A walker that switches between elites as it is told.
 ExitCode write_switching(const experiment::Repertoire& repertoire, const RepertoireOptions& options) {
-  constexpr int usual_trials = 16;
   if (!options.out || options.out->extension() != ".json")
     fail(ExitCode::bad_input, "--switching {}: expected -o FILE.json", *options.gaits);
   io::refuse_to_replace(*options.out, "{\n  \"format\": \"amble-champion\"", "a champion");
-  const int trials = std::max(1, options.retest.value_or(usual_trials));
+  const int trials = std::max(1, options.retest.value_or(experiment::usual_gait_trials));
   const auto corrected = experiment::correct_map(repertoire, trials, options.jobs, stop_signal());
   if (!corrected) return ExitCode::interrupted;
   const auto gaits = experiment::pick_gaits(repertoire, *corrected, *options.gaits);

@@ -17,6 +17,10 @@ struct PickedGait {
   double turn_rad_s = 0.0;
 };
 
+/// What a map's elites are tried by, and how a walker heeds its heading, where nothing else is said.
+inline constexpr int usual_gait_trials = 16;
+inline constexpr double usual_heading_gain = 1.0;
+
 /// At most `count` ≥ 1 gaits that cover what a map's elites can do, by the corrected map: first the fastest
 /// of those that turn least, then one after the other the elite that is farthest from all picked, speed and
 /// turn each in parts of the range of all. Of several elites in a cell of the corrected map the best counts;

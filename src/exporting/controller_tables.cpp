@@ -308,8 +308,7 @@ ControllerTables controller_tables(const Problem& problem, const neat::Genome& g
   if (problem.controller.switching.any())
     fail(ExitCode::bad_input,
          "controller.switching cannot be exported; expected a champion of one genome, as `amble repertoire "
-         "RUN --cell` "
-         "writes");
+         "RUN --cell` writes");
   if (problem.controller.differential.any())
     fail(ExitCode::bad_input,
          "controller.differential cannot be exported: it is a baseline for simulations; expected a champion "

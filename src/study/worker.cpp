@@ -196,14 +196,13 @@ class Worker {
   bool switch_gaits(const PlannedRun& run, const experiment::Run& evolution, ledger::Record& record) const {
     const int gaits = plan_.condition(run).spec.gaits;
     if (gaits == 0) return true;
-    constexpr int trials = 16;
-    constexpr double heading_gain = 1.0;
     const auto repertoire = experiment::load_repertoire(evolution.paths());
-    const auto corrected = experiment::correct_map(repertoire, trials, options_.workers, stop_);
+    const auto corrected =
+        experiment::correct_map(repertoire, experiment::usual_gait_trials, options_.workers, stop_);
     if (!corrected) return false;
     const auto picked = experiment::pick_gaits(repertoire, *corrected, gaits);
-    const auto champion =
-        experiment::switching_champion(repertoire, picked, heading_gain, options_.workers, stop_);
+    const auto champion = experiment::switching_champion(repertoire, picked, experiment::usual_heading_gain,
+                                                         options_.workers, stop_);
     if (!champion) return false;
     record.champion = champion_to_json(*champion);
     record.champion_file = hex(hash_text(experiment::champion_text(*champion)));
