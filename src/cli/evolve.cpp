@@ -14,6 +14,7 @@
 #include "amble/cli/options.hpp"
 #include "amble/cli/progress.hpp"
 #include "amble/cli/stop_signal.hpp"
+#include "amble/experiment/config.hpp"
 #include "amble/experiment/repertoire.hpp"
 #include "amble/experiment/run.hpp"
 #include "amble/experiment/start_look.hpp"
@@ -119,6 +120,8 @@ void add_evolve(CLI::App& app, Action& action) {
       auto server = server_for(options->watch);
       auto run = experiment::Run::start(options->out, config, options->jobs);
       print_oddities(run);
+      for (const auto& idle : experiment::idle_assignments(config, options->overrides.assignments))
+        print_message(fmt::format("note: --set {}\n", idle));
       return execute(std::move(run), options->out, options->jobs, std::move(server));
     };
   });

@@ -14,7 +14,7 @@ constexpr int most_trials = 100000;
 
 /// "own|control|micro|100-micro|milli".
 std::string level_values() {
-  std::string text(experiment::own_noise);
+  std::string text(record::own_noise);
   for (const record::Level& level : record::levels()) text += fmt::format("|{}", level.name);
   return text;
 }

@@ -16,6 +16,7 @@
 #include "amble/cli/study_processes.hpp"
 #include "amble/cli/study_progress.hpp"
 #include "amble/core/index.hpp"
+#include "amble/experiment/config.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/quoting.hpp"
 #include "amble/report/undecidable.hpp"
@@ -51,6 +52,13 @@ void take_old_workers(StudyOptions& options) {
 /// Before the runs, which would not help.
 void warn_of_claims(const study::Plan& plan) {
   for (const std::string& line : report::undecidable_claims(plan.study)) print_message(line + "\n");
+}
+
+/// Settings of a condition's own that it does not use: it is not the ablation that it is meant to be.
+void warn_of_idle_settings(const study::Plan& plan) {
+  for (const study::PlannedCondition& condition : plan.conditions)
+    for (const auto& idle : experiment::idle_assignments(condition.config, condition.spec.settings))
+      print_message(fmt::format("note: condition '{}': {}\n", condition.spec.name, idle));
 }
 
 /// How much of a study's part is done, begun and neither.
@@ -198,7 +206,10 @@ ExitCode run_study(const StudyOptions& options) {
   plan.retest(options.retest);
   const auto states = study::survey(plan);
   if (options.slurm) return write_slurm_script(plan, options);
-  if (!options.as_child) warn_of_claims(plan);
+  if (!options.as_child) {
+    warn_of_claims(plan);
+    warn_of_idle_settings(plan);
+  }
   if (options.status) return print_status(plan, states, shard);
   ledger::keep_study(plan.paths, plan.study, options.file);
   for (const auto& unknown : ledger::Ledger(plan.paths).unknown_files(plan.study))

@@ -117,7 +117,7 @@ struct Record {
   std::uint64_t evaluations = 0, steps = 0;
   double best_objective = 0.0;  ///< objective of the best genome
   int best_generation = 0;
-  int hidden = 0, links = 0;  ///< of the champion's CPPN
+  int hidden = 0, links = 0;  ///< of the champion's CPPN; of all its gaits' where it switches
   /// What a run that fills a map has at its end: coverage, qd_score, map_best, entering_share, and in studies
   /// with `map_trials` corrected_coverage, corrected_qd_score, staying_share (docs/STUDIES.md).
   std::map<std::string, double> map_figures = {};

@@ -85,10 +85,10 @@ void check_tests(const StudySpec& study) {
     const TestSpec& test = study.tests[i];
     check_name(study, item("tests", i, "name"), test.name, names);
     check_condition_names(study, item("tests", i, "conditions"), test.conditions);
-    if (!test.level.empty() && record::find_level(test.level) == nullptr)
+    if (!test.level.empty() && test.level != record::own_noise && record::find_level(test.level) == nullptr)
       throw study.error_at(item("tests", i, "level"),
-                           fmt::format("'{}' = \"{}\": expected {}", item("tests", i, "level"), test.level,
-                                       record::level_names()));
+                           fmt::format("'{}' = \"{}\": expected {}, {}", item("tests", i, "level"),
+                                       test.level, record::own_noise, record::level_names()));
     if (!test.level.empty() && !test.noise.empty())
       throw study.error_at(
           item("tests", i, "level"),
@@ -125,7 +125,9 @@ void TestSpec::describe(io::SettingsVisitor& visitor) {
   visitor.text("engine", engine, {"physics engine; empty: the run's own"});
   visitor.number("seconds", seconds, {1e-5, 1e6}, {"length of the trials, s"});
   visitor.text("noise", noise, {"config file whose [noise] disturbs the trials; empty: none"});
-  visitor.text("level", level, {"level of disturbance of the trials, in place of noise; empty: none"});
+  visitor.text("level", level,
+               {"level of disturbance of the trials, in place of noise, or \"own\": the noise of each "
+                "condition's own config; empty: none"});
   visitor.text("ground", ground, {"config file whose [ground] the champion walks on; empty: its own"});
   visitor.text("damage", damage, {"config file whose [damage] the champion's robot has; empty: its own"});
   visitor.text(

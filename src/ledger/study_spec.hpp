@@ -52,8 +52,9 @@ struct TestSpec {
   std::string name;
   std::string engine;  ///< empty: the engine of the run
   double seconds = 300.0;
-  std::string noise;   ///< config file whose [noise] disturbs the trials; empty: no noise
-  std::string level;   ///< record::Level that disturbs them, in place of `noise`; empty: none
+  std::string noise;  ///< config file whose [noise] disturbs the trials; empty: no noise
+  std::string
+      level;  ///< record::Level that disturbs them, or record::own_noise, in place of `noise`; empty: none
   std::string ground;  ///< config file whose [ground] the champion walks on; empty: that of its own config
   std::string damage;  ///< config file whose [damage] the champion has; empty: that of its own config
   std::string

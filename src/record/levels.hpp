@@ -25,6 +25,9 @@ const Level* find_level(std::string_view name);
 /// "control, micro, 100-micro or milli", for messages.
 std::string level_names();
 
+/// What takes a level's place where the noise is that of a walker's own evolution.
+inline constexpr std::string_view own_noise = "own";
+
 /// The level at which the champions of runs without noise of their own are judged.
 inline constexpr std::string_view default_level = "milli";
 

@@ -7,6 +7,7 @@
 #include "amble/core/index.hpp"
 #include "amble/figures/svg.hpp"
 #include "amble/io/quoting.hpp"
+#include "amble/record/levels.hpp"
 #include "amble/report/curves_figure.hpp"
 #include "amble/report/figures.hpp"
 #include "amble/report/html.hpp"
@@ -31,10 +32,14 @@ std::string mean_sd(const SampleSummary* sample) {
 }
 
 std::string log_rank_text(const SurvivalTable& table) {
-  if (table.log_rank)
-    return fmt::format("Log-rank test across {} conditions: χ² = {}, {} df, {}.", table.conditions.size(),
-                       number_text(table.log_rank->chi_square), table.log_rank->degrees_of_freedom,
-                       p_text(table.log_rank->p));
+  if (const auto& test = table.log_rank) {
+    const std::string text =
+        fmt::format("Log-rank test across {} conditions: χ² = {}, {} df, {}", table.conditions.size(),
+                    number_text(test->chi_square), test->degrees_of_freedom, p_text(test->p));
+    if (!test->exact_p) return text + ".";
+    return text +
+           fmt::format("; by all ways to deal out so few runs, which counts, {}.", p_text(*test->exact_p));
+  }
   const bool any_ended =
       std::ranges::any_of(table.conditions, [](const auto& condition) { return condition.curve.ended > 0; });
   return any_ended ? "One condition alone: no log-rank test."
@@ -118,7 +123,9 @@ std::string test_text(const Report& report, const ledger::TestSpec& test) {
   if (!test.ground.empty()) text += ", on the ground of " + config_text(test.ground);
   if (!test.damage.empty()) text += ", with the damage of " + config_text(test.damage);
   const std::string episodes = counted(to_index(test.episodes), "episode");
-  if (!test.level.empty())
+  if (test.level == record::own_noise)
+    text += fmt::format(", {} under the noise of its own evolution, which it has not met (median)", episodes);
+  else if (!test.level.empty())
     text += fmt::format(", {} at the level {} (median)", episodes, test.level);
   else if (!test.noise.empty())
     text += fmt::format(", {} under noise that evolution has not met (median)", episodes);

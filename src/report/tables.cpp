@@ -207,7 +207,7 @@ Table log_rank_table(const Report& report) {
   Table table{"log_rank",
               "how long a condition lasted in a test; the log-rank test is over all its conditions",
               {"test", "doing", "condition", "trial_s", "n", "ended", "expected", "median_s",
-               "median_lower_s", "median_upper_s", "chi_square", "df", "p"},
+               "median_lower_s", "median_upper_s", "chi_square", "df", "p", "exact_p"},
               {}};
   for (const SurvivalTable& survival : report.survival)
     for (std::size_t i = 0; i < survival.conditions.size(); ++i) {
@@ -218,7 +218,8 @@ Table log_rank_table(const Report& report) {
                             cell(condition.curve.ended), test ? Cell(test->expected[i]) : Cell(),
                             cell(condition.curve.median_s), cell(condition.curve.median_lower_s),
                             cell(condition.curve.median_upper_s), test ? Cell(test->chi_square) : Cell(),
-                            test ? cell(test->degrees_of_freedom) : Cell(), test ? Cell(test->p) : Cell()});
+                            test ? cell(test->degrees_of_freedom) : Cell(), test ? Cell(test->p) : Cell(),
+                            test ? cell(test->exact_p) : Cell()});
     }
   return table;
 }

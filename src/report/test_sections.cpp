@@ -46,8 +46,9 @@ std::string levels_text(const TypicalTable& typical) {
   std::string text;
   for (const TypicalTable::Column& column : typical.columns) {
     const record::Level* const level = record::find_level(column.level);
-    const std::string_view meaning =
-        level == nullptr ? std::string_view("one exact trial, as it was evolved or tested") : level->meaning;
+    std::string_view meaning = "one exact trial, as it was evolved or tested";
+    if (level != nullptr) meaning = level->meaning;
+    if (column.level == record::own_noise) meaning = "noise as in evolution, which it has not met";
     text += fmt::format("{}“{}”: {}", text.empty() ? "" : "; ", disturbance_name(column), meaning);
   }
   return text + ".";

@@ -112,6 +112,65 @@ double inverse_quadratic_form(Matrix a, std::vector<double> x) {
   return sum;
 }
 
+std::optional<LogRank> asymptotic_log_rank(std::span<const std::vector<Lifetime>> groups) {
+  const Sums sums = sums_over_time(groups);
+  std::vector<std::size_t> counted;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (sums.expected[g] > 0.0) counted.push_back(g);
+  if (counted.size() < 2) return {};
+
+  LogRank test;
+  test.observed = sums.observed;
+  test.expected = sums.expected;
+  test.degrees_of_freedom = counted.size() - 1;
+  // Rows sum to zero, so one group is left out. What remains is regular unless all end at the first time:
+  // every group was at risk there, and with a survivor the covariance of that time alone is regular.
+  if (sums.covariance[counted[0]][counted[0]] == 0.0) return test;
+  Matrix covariance;
+  std::vector<double> excess;
+  for (std::size_t i = 1; i < counted.size(); ++i) {
+    const std::size_t g = counted[i];
+    excess.push_back(sums.observed[g] - sums.expected[g]);
+    auto& row = covariance.emplace_back();
+    for (std::size_t j = 1; j < counted.size(); ++j) row.push_back(sums.covariance[g][counted[j]]);
+  }
+  test.chi_square = inverse_quadratic_form(std::move(covariance), std::move(excess));
+  test.p = chi_square_upper_tail(test.chi_square, static_cast<double>(test.degrees_of_freedom));
+  return test;
+}
+
+/// In how many ways the members of all groups can be dealt out to groups of these sizes.
+double arrangements(std::span<const std::vector<Lifetime>> groups) {
+  double ways = 1.0;
+  std::size_t dealt = 0;
+  for (const auto& group : groups)
+    for (std::size_t i = 1; i <= group.size(); ++i)
+      ways *= static_cast<double>(++dealt) / static_cast<double>(i);
+  return std::round(ways);
+}
+
+/// LogRank::exact_p, by all arrangements.
+double permutation_p(std::span<const std::vector<Lifetime>> groups, double chi_square) {
+  std::vector<Lifetime> all;
+  std::vector<std::size_t> labels;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (const Lifetime& life : groups[g]) {
+      all.push_back(life);
+      labels.push_back(g);
+    }
+  // Arrangements that differ by members alike have the same chi-square but for rounding.
+  const double least = chi_square * (1.0 - 1e-9);
+  double ways = 0.0, as_far = 0.0;
+  do {
+    std::vector<std::vector<Lifetime>> dealt(groups.size());
+    for (std::size_t i = 0; i < all.size(); ++i) dealt[labels[i]].push_back(all[i]);
+    const auto test = asymptotic_log_rank(dealt);
+    ++ways;
+    as_far += (test ? test->chi_square : 0.0) >= least;
+  } while (std::ranges::next_permutation(labels).found);
+  return as_far / ways;
+}
+
 }  // namespace
 
 double SurvivalCurve::at(double time_s) const {
@@ -158,29 +217,9 @@ std::optional<SurvivalCurve> kaplan_meier(std::span<const Lifetime> lifetimes, d
 }
 
 std::optional<LogRank> log_rank(std::span<const std::vector<Lifetime>> groups) {
-  const Sums sums = sums_over_time(groups);
-  std::vector<std::size_t> counted;
-  for (std::size_t g = 0; g < groups.size(); ++g)
-    if (sums.expected[g] > 0.0) counted.push_back(g);
-  if (counted.size() < 2) return {};
-
-  LogRank test;
-  test.observed = sums.observed;
-  test.expected = sums.expected;
-  test.degrees_of_freedom = counted.size() - 1;
-  // Rows sum to zero, so one group is left out. What remains is regular unless all end at the first time:
-  // every group was at risk there, and with a survivor the covariance of that time alone is regular.
-  if (sums.covariance[counted[0]][counted[0]] == 0.0) return test;
-  Matrix covariance;
-  std::vector<double> excess;
-  for (std::size_t i = 1; i < counted.size(); ++i) {
-    const std::size_t g = counted[i];
-    excess.push_back(sums.observed[g] - sums.expected[g]);
-    auto& row = covariance.emplace_back();
-    for (std::size_t j = 1; j < counted.size(); ++j) row.push_back(sums.covariance[g][counted[j]]);
-  }
-  test.chi_square = inverse_quadratic_form(std::move(covariance), std::move(excess));
-  test.p = chi_square_upper_tail(test.chi_square, static_cast<double>(test.degrees_of_freedom));
+  auto test = asymptotic_log_rank(groups);
+  if (test && arrangements(groups) <= most_arrangements)
+    test->exact_p = permutation_p(groups, test->chi_square);
   return test;
 }
 

@@ -55,9 +55,14 @@ std::optional<SurvivalCurve> kaplan_meier(std::span<const Lifetime> lifetimes, d
 struct LogRank {
   double chi_square = 0.0;
   std::size_t degrees_of_freedom = 1;  ///< groups that were at risk when a lifetime ended, minus one
-  double p = 1.0;
+  double p = 1.0;  ///< from the distribution of chi-square, which is off where groups are small
+  /// Share of all ways to deal the lifetimes out to groups of these sizes with a chi-square at least as large
+  /// (a permutation test); none where there are more than `most_arrangements` ways.
+  std::optional<double> exact_p;
   std::vector<double> observed, expected;  ///< ends per group, as counted and under the hypothesis
 };
+
+inline constexpr double most_arrangements = 5000.0;
 
 /// Log-rank test (Mantel 1966; Peto & Peto 1972) of any number of groups, as R's survdiff with rho = 0.
 /// Groups that were at risk at no end of a lifetime (among them empty ones) do not count. None if fewer than

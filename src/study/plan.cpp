@@ -16,6 +16,7 @@
 #include "amble/io/json_file.hpp"
 #include "amble/io/quoting.hpp"
 #include "amble/physics/engine.hpp"
+#include "amble/record/levels.hpp"
 #include "amble/trial/commands.hpp"
 
 namespace amble::study {
@@ -38,9 +39,11 @@ PlannedTest plan_test(const ledger::StudySpec& study, std::size_t index) {
       throw study.error_at(key_of("tests", index, "noise"),
                            fmt::format("{}: is without noise", test.spec.noise));
   }
-  if (!test.spec.level.empty()) test.noise = trial::noise_of(*record::find_level(test.spec.level));
+  if (const record::Level* const level = record::find_level(test.spec.level); level != nullptr)
+    test.noise = trial::noise_of(*level);
   if (!test.spec.ground.empty()) test.ground = experiment::load_config(test.spec.ground, {}).ground;
-  if (test.ground && test.ground->start_place_m <= 0.0 && !test.noise.any() && test.spec.episodes != 1)
+  if (test.ground && test.ground->start_place_m <= 0.0 && !test.spec.is_disturbed() &&
+      test.spec.episodes != 1)
     throw study.error_at(
         key_of("tests", index, "episodes"),
         fmt::format("'{}' = {}: without noise, and with all starts at one place of the ground "
@@ -68,8 +71,35 @@ void check_tests(const PlannedCondition& condition) {
   }
 }
 
-/// The test as champions meet it that are steered by hand.
-PlannedTest steered(PlannedTest test, const std::optional<controllers::DifferentialSettings>& steering) {
+/// Throws UserError: the condition's champions switch between the elites of a map, and its runs make none, or
+/// a test asks when a run's champions first got somewhere, which are elites that do not switch.
+void check_gaits(const PlannedCondition& condition) {
+  if (condition.spec.gaits == 0) return;
+  if (!experiment::fills_map(condition.config))
+    fail(ExitCode::bad_input,
+         "gaits = {}: the config has search.kind = \"{}\"; expected \"map-elites\", as in "
+         "configs/steer/map.toml",
+         condition.spec.gaits, condition.config.search.kind);
+  for (const PlannedTest& test : condition.tests)
+    if (test.spec.reach_m > 0.0)
+      fail(
+          ExitCode::bad_input,
+          "gaits = {}: test '{}' has reach_m, which looks through a run's champions, and they do not switch; "
+          "leave the condition out of the test's conditions",
+          condition.spec.gaits, test.spec.name);
+}
+
+/// The test as the champions of a condition meet it: under its own noise where the test asks for that, and
+/// steered by hand where they are. Throws UserError: it has no noise.
+PlannedTest of_condition(PlannedTest test, const experiment::Config& config,
+                         const std::optional<controllers::DifferentialSettings>& steering) {
+  if (test.spec.level == record::own_noise) {
+    test.noise = config.noise;
+    test.noise.first_undisturbed = false;
+    if (!test.noise.any())
+      fail(ExitCode::bad_input, "test '{}' has level = \"{}\", and the config is without noise; expected {}",
+           test.spec.name, record::own_noise, record::level_names());
+  }
   if (test.command) test.steering = steering;
   return test;
 }
@@ -88,14 +118,11 @@ PlannedCondition plan_condition(const ledger::StudySpec& study, std::size_t inde
     std::optional<controllers::DifferentialSettings> steering;
     if (!spec.steering.empty()) steering = experiment::parse_differential(spec.steering, "steering");
     condition.robot = experiment::load_robot(condition.config);
-    if (spec.gaits > 0 && !experiment::fills_map(condition.config))
-      fail(ExitCode::bad_input,
-           "gaits = {}: the config has search.kind = \"{}\"; expected \"map-elites\", as in "
-           "configs/steer/map.toml",
-           spec.gaits, condition.config.search.kind);
     for (const PlannedTest& test : tests)
-      if (test.spec.applies_to(spec.name)) condition.tests.push_back(steered(test, steering));
+      if (test.spec.applies_to(spec.name))
+        condition.tests.push_back(of_condition(test, condition.config, steering));
     check_tests(condition);
+    check_gaits(condition);
   } catch (const UserError& error) {
     fail(error.code(), "condition '{}': {}", spec.name, error.what());
   }

@@ -21,6 +21,7 @@
 #include "amble/experiment/switching_champion.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/lock.hpp"
+#include "amble/neat/genome_compact.hpp"
 #include "amble/physics/batch/instruction_set.hpp"
 #include "amble/record/generations_csv.hpp"
 #include "amble/study/champion_tests.hpp"
@@ -206,6 +207,13 @@ class Worker {
     if (!champion) return false;
     record.champion = champion_to_json(*champion);
     record.champion_file = hex(hash_text(experiment::champion_text(*champion)));
+    // What the walker carries is the size of all its gaits' CPPNs.
+    record.hidden = record.links = 0;
+    for (const experiment::PickedGait& gait : picked) {
+      const auto genome = neat::expand(repertoire.elites[gait.number].genome, "archive.bin");
+      record.hidden += genome.count(neat::NodeKind::hidden);
+      record.links += genome.enabled_links();
+    }
     return true;
   }
 

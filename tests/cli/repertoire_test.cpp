@@ -252,6 +252,8 @@ TEST_F(RepertoireCommand, RefusesWhatItCannotDoInOneLine) {
   expect_refusal({"repertoire", folder, "--switching", "4", "-o", scratch_ / "walker.json"},
                  ExitCode::bad_input, "the map has no dimension own_speed");
   expect_refusal({"repertoire", folder, "--switching", "4"}, ExitCode::bad_input, "expected -o FILE.json");
+  expect_refusal({"repertoire", folder, "--heading-gain", "1"}, ExitCode::bad_input,
+                 "--heading-gain requires --switching");
   const std::string out = scratch_ / "elite.json";
   expect_refusal({"repertoire", folder, "--cell", "625", "-o", out}, ExitCode::bad_input,
                  "the map has the cells 0 … 624");

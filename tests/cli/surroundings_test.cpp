@@ -247,6 +247,22 @@ TEST_F(Surroundings, InitAndTheStartOfARunSayWhatAHeldRobotDoes) {
               HasSubstr("start: held for a second in its start pose, it stands"));
 }
 
+TEST_F(Surroundings, SettingsWithoutEffectAreNamedAtTheStartOfARunAndOfAStudy) {
+  const Said run =
+      shell("amble evolve " AMBLE_SOURCE_DIR
+            "/configs/paper/sine-objective.toml --set controller.supg.idle=mid --set population.size=2 "
+            "--set trial.duration_s=0.2 --generations 1 --jobs 1 --out idle");
+  EXPECT_EQ(run.code, ok) << run.text;
+  EXPECT_THAT(run.text,
+              HasSubstr("note: --set controller.supg.idle has no effect: controller.kind is \"network\""));
+  spill(scratch_ / "study.toml",
+        "name = \"s\"\nseeds = [1]\ngenerations = 1\nsettings = [\"population.size=2\", "
+        "\"controller.supg.idle=mid\"]\n[[conditions]]\nname = \"sine\"\nconfig = \"" AMBLE_SOURCE_DIR
+        "/configs/paper/sine-objective.toml\"\nsettings = [\"controller.supg.offset=phase\"]\n");
+  EXPECT_THAT(shell("amble study study.toml --out s --status").text,
+              HasSubstr("note: condition 'sine': controller.supg.offset has no effect"));
+}
+
 TEST_F(Surroundings, AUrdfIsTheSameRobotByABareNameAndByAPath) {
   const std::string stl = [] {
     std::string text(80, ' ');

@@ -228,6 +228,25 @@ TEST(Config, WithoutARobotIsRefusedByName) {
   }
 }
 
+TEST(Config, AssignmentsThatItDoesNotUseAreNamed) {
+  const auto idle = [](const std::string& preset, const std::vector<std::string>& assignments) {
+    const Overrides overrides{.assignments = assignments, .seed = {}, .generations = {}};
+    return idle_assignments(load_config(configs + preset, overrides), assignments);
+  };
+  using testing::ElementsAre;
+  EXPECT_THAT(idle("authors/supg-objective.toml",
+                   {"controller.supg.offset=phase", "seed=2", "controller.ctrnn.steps_per_tick=3",
+                    "search.novelty.neighbours=5", "population.size=30"}),
+              ElementsAre("controller.ctrnn.steps_per_tick has no effect: controller.kind is \"supg\"",
+                          "search.novelty.neighbours has no effect: search.kind is \"objective\""));
+  EXPECT_THAT(idle("authors/supg-objective.toml",
+                   {"controller.kind=mixed", "controller.substrate=auto", "controller.supg.idle=mid",
+                    "search.kind=novelty", "search.novelty.neighbours=5"}),
+              ElementsAre());
+  EXPECT_THAT(idle("authors/sine-objective.toml", {"controller.supg.idle=mid"}),
+              ElementsAre("controller.supg.idle has no effect: controller.kind is \"network\""));
+}
+
 TEST(Config, PresetsMakeTheArchitecturesOfThePaper) {
   // Inputs and outputs of the CPPN: section 3, figures 6 and 7.
   const std::map<std::string, std::pair<int, int>> sizes{

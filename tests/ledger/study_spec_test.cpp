@@ -349,7 +349,8 @@ TEST(StudySpec, LevelsOfDisturbanceAreKnownByNameAndTakeThePlaceOfNoise) {
     return diagnostic(replaced(good, five, five + more));
   };
   EXPECT_EQ(with("level = \"milli\"\nepisodes = 16\n"), "");
-  EXPECT_NE(with("level = \"mili\"\n").find("expected control, micro, 100-micro or milli"),
+  EXPECT_EQ(with("level = \"own\"\nepisodes = 16\n"), "");
+  EXPECT_NE(with("level = \"mili\"\n").find("expected own, control, micro, 100-micro or milli"),
             std::string::npos);
   EXPECT_NE(with("level = \"milli\"\nnoise = \"n.toml\"\n").find("expected one of them"), std::string::npos);
 }

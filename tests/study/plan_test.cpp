@@ -13,6 +13,7 @@
 #include "amble/experiment/problem.hpp"
 #include "amble/experiment/run.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/json_file.hpp"
 #include "tests/io/expect_error.hpp"
 #include "tests/study/fixture.hpp"
 
@@ -154,6 +155,50 @@ TEST(Plan, AConditionSwitchesBetweenTheElitesOfAMapAloneAndItsRecordsAreNoOthers
     FAIL() << "accepted";
   } catch (const UserError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("gaits = 4: the config has search.kind = \"objective\""));
+  }
+}
+
+TEST(Plan, ATestUnderOwnNoiseHasThatOfEachConditionAndIsRefusedWhereThereIsNone) {
+  auto study = small_study();
+  study.conditions = {condition("robust", "robust/supg-objective"), condition("quick", "quick/supg")};
+  study.tests = {trial_test("own", 2.0)};
+  study.tests[0].level = "own";
+  study.tests[0].episodes = 3;
+  const Plan plan = make_plan(study, "out");
+  const PlannedTest &robust = plan.conditions[0].tests.at(0), &quick = plan.conditions[1].tests.at(0);
+  EXPECT_TRUE(robust.noise.any());
+  EXPECT_FALSE(robust.noise.first_undisturbed);
+  EXPECT_EQ(io::settings_to_json(quick.noise), io::settings_to_json([&] {
+              auto noise = plan.conditions[1].config.noise;
+              noise.first_undisturbed = false;
+              return noise;
+            }()));
+  EXPECT_NE(robust.settings_hash("batch"), "");
+  study.conditions.push_back(condition("exact", "authors/supg-objective"));
+  try {
+    make_plan(study, "out");
+    FAIL() << "accepted";
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("condition 'exact': test 'own' has level = \"own\""));
+  }
+}
+
+TEST(Plan, ATestThatLooksThroughARunsChampionsIsRefusedWhereTheyDoNotSwitchAsTheWalkerDoes) {
+  auto study = small_study();
+  study.conditions = {condition("best", "repertoire/quadruped"),
+                      condition("switching", "repertoire/quadruped")};
+  study.conditions[1].gaits = 4;
+  study.tests = {trial_test("walk", 2.0)};
+  study.tests[0].reach_m = 1.0;
+  study.tests[0].conditions = {"best"};
+  EXPECT_EQ(make_plan(study, "out").conditions[0].tests.size(), 1U);
+  study.tests[0].conditions = {};
+  try {
+    make_plan(study, "out");
+    FAIL() << "accepted";
+  } catch (const UserError& error) {
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr("condition 'switching': gaits = 4: test 'walk' has reach_m"));
   }
 }
 

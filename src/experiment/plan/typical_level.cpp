@@ -10,6 +10,8 @@
 namespace amble::experiment {
 namespace {
 
+using record::own_noise;
+
 score::Typical typical_of(std::span<const TrialResult> trials, auto value) {
   std::vector<double> values;
   std::vector<record::Outcome> outcomes;

@@ -11,21 +11,18 @@
 
 namespace amble::experiment {
 
-/// In place of a level's name: the noise of the run itself.
-inline constexpr std::string_view own_noise = "own";
-
 /// Trials that tell what a walker typically does while a run goes on.
 inline constexpr int running_trials = 16;
 /// What disturbs a problem's typical trials.
 struct TypicalLevel {
-  std::string name;  ///< of a record::Level, or `own_noise`; empty: noise from elsewhere
+  std::string name;  ///< of a record::Level, or record::own_noise; empty: noise from elsewhere
   trial::NoiseSettings noise;
   std::string from = {};  ///< where that noise is from: a config's name
 
   /// "under its own noise", "at the level milli" or "under the noise of windy.toml".
   std::string under() const;
 };
-/// `asked`: a level's name, or `own_noise`; empty: own noise where the problem has some, else
+/// `asked`: a level's name, or record::own_noise; empty: own noise where the problem has some, else
 /// record::default_level. Throws UserError for an unknown level, and for own noise where there is none.
 TypicalLevel typical_level(const Problem& problem, const std::string& asked = {});
 
