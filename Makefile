@@ -26,16 +26,21 @@ build:
 	cmake --preset release
 	cmake --build --preset release
 
-# The part of amble that runs in pages, viewer/dist/amble.wasm, which is committed. The same compiler gives the same bytes: `make wasm-check`.
+# The part of amble that runs in pages, viewer/dist/amble.wasm, and what the module with relaxed SIMD differs by from it, which are committed.
+# The same compiler gives the same bytes: `make wasm-check`.
+MODULES := build/wasm/src/browser
 wasm:
 	./setup --wasm
 	cmake --preset wasm
 	cmake --build --preset wasm
-	cp build/wasm/src/browser/amble.wasm viewer/dist/amble.wasm
+	node viewer/make-patch.mjs $(MODULES)/amble.wasm $(MODULES)/amble-relaxed.wasm viewer/dist/amble-relaxed.patch
+	cp $(MODULES)/amble.wasm viewer/dist/amble.wasm
 
 wasm-check:
 	@if ./setup --wasm; then set -ex; cmake --preset wasm; cmake --build --preset wasm; \
-	cmp build/wasm/src/browser/amble.wasm viewer/dist/amble.wasm || { echo "viewer/dist/amble.wasm is not what src gives: run make wasm" >&2; exit 1; }; \
+	node viewer/make-patch.mjs $(MODULES)/amble.wasm $(MODULES)/amble-relaxed.wasm $(MODULES)/amble-relaxed.patch; \
+	for file in amble.wasm amble-relaxed.patch; do cmp $(MODULES)/$$file viewer/dist/$$file || \
+	  { echo "viewer/dist/$$file is not what src gives: run make wasm" >&2; exit 1; }; done; \
 	else echo "skipped: the compiler for WebAssembly could not be installed (see above)"; fi
 
 # Without those that take long (pages in browsers, clusters, every command of the docs, installing): TESTS=all is what CI runs.

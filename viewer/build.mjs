@@ -1,5 +1,6 @@
 // Makes dist/page.html, dist/lab.html and dist/watch.html, the pages that amble fills with recordings, with robots, and serves: skeleton, style
-// sheet, program and the licences of what is in it, in one file. `--check` compares with what is there instead of writing.
+// sheet, program and the licences of what is in it, in one file. amble packs the program when it fills a page (src/page). `--check` compares with
+// what is there instead of writing.
 //
 // The result depends on the sources and on package-lock.json only: no time, no path, no host.
 import { build, transform } from "esbuild";
@@ -37,11 +38,12 @@ async function make({ skeleton, styles, program, worker }) {
   const sheets = (await Promise.all(styles.map(read))).join("\n");
   const style = (await transform(sheets, { loader: "css", minify: true })).code.trim();
   const script = await bundle(program, worker && { [worker[0]]: JSON.stringify(await bundle(worker[1])) });
-  for (const [what, text] of [["program", script], ["style sheet", style]])
+  const unpack = await bundle("src/unpack.js");
+  for (const [what, text] of [["program", script], ["style sheet", style], ["unpacking", unpack]])
     if (/<\/(script|style)|<!--/i.test(text)) throw new Error(`the ${what} would end its element`);
   const licence = (await read("node_modules/three/LICENSE")).trim();
   const version = JSON.parse(await read("package.json")).dependencies.three;
-  const parts = { style, script, licence: `three.js ${version}, https://threejs.org\n\n${licence}` };
+  const parts = { style, script, unpack, licence: `three.js ${version}, https://threejs.org\n\n${licence}` };
   return (await read(skeleton)).replace(/<!--viewer:(\w+)-->/g, (_, part) => parts[part]);
 }
 

@@ -35,6 +35,12 @@ amble_view_module_begin:
   .incbin ")asm" AMBLE_BROWSER_MODULE R"asm("
 amble_view_module_end:
   .byte 0
+  .global amble_relaxed_module_begin
+  .global amble_relaxed_module_end
+amble_relaxed_module_begin:
+  .incbin ")asm" AMBLE_RELAXED_MODULE R"asm("
+amble_relaxed_module_end:
+  .byte 0
   .global amble_lab_page_begin
   .global amble_lab_page_end
 amble_lab_page_begin:
@@ -55,6 +61,8 @@ extern const char amble_view_page_begin[];
 extern const char amble_view_page_end[];
 extern const char amble_view_module_begin[];
 extern const char amble_view_module_end[];
+extern const char amble_relaxed_module_begin[];
+extern const char amble_relaxed_module_end[];
 extern const char amble_lab_page_begin[];
 extern const char amble_lab_page_end[];
 extern const char amble_watch_page_begin[];
@@ -77,6 +85,10 @@ std::string_view watch_template() {
 
 std::string_view browser_module() {
   return {amble_view_module_begin, to_index(amble_view_module_end - amble_view_module_begin)};
+}
+
+std::string_view relaxed_patch() {
+  return {amble_relaxed_module_begin, to_index(amble_relaxed_module_end - amble_relaxed_module_begin)};
 }
 
 }  // namespace amble::page

@@ -21,4 +21,8 @@ std::string_view watch_template();
 /// viewer/dist/amble.wasm, the same: the functions of browser/interface.hpp.
 std::string_view browser_module();
 
+/// viewer/dist/amble-relaxed.patch, the same: makes of that module one with WebAssembly's relaxed SIMD
+/// (viewer/src/patch.js).
+std::string_view relaxed_patch();
+
 }  // namespace amble::page

@@ -24,8 +24,8 @@ std::string make_lab_page(const std::vector<LabRobot>& robots, const std::string
   rest = fill(rest, "<!--amble:palette-->", "<style>" + figures::shared_style_sheet() + "</style>", html);
   rest = fill(rest, "<!--amble:data-->",
               "<script type=\"application/json\" id=\"amble-data\">" + script_text(data) + "</script>", html);
-  rest = fill(rest, "<!--amble:module-->", module_element(), html);
-  html += rest;
+  rest = fill(rest, "<!--amble:module-->", module_elements(), html);
+  fill_end(rest, html);
   return html;
 }
 

@@ -48,6 +48,11 @@ io::Json ground_json(const std::string& recorded, const std::string& what) {
   return {{"cell_m", field.cell_m()}, {"unit_m", unit_m}, {"heights", frames_json(frames)}};
 }
 
+/// Null for an empty text.
+io::Json packed_text(const std::string& text) {
+  return text.empty() ? io::Json(nullptr) : io::Json(packed(text));
+}
+
 io::Json walker_json(const Walker& walker) {
   const PackedRecording recording =
       walker.cell ? pack_recording(walker.recording, 0.04) : pack_recording(walker.recording);
@@ -61,16 +66,16 @@ io::Json walker_json(const Walker& walker) {
           {"ground", ground_json(recording.ground_json, what)},
           {"poses", frames_json(recording.poses)},
           {"contacts", frames_json(recording.contacts)},
-          {"cppn_svg", walker.cppn_svg.empty() ? io::Json(nullptr) : io::Json(walker.cppn_svg)},
+          {"cppn_svg", packed_text(walker.cppn_svg)},
           {"gait", walker.gait},
           {"cell", walker.cell ? io::Json(*walker.cell) : io::Json(nullptr)},
-          {"champion", walker.champion.empty() ? io::Json(nullptr) : io::Json(walker.champion)}};
+          {"champion", packed_text(walker.champion)}};
 }
 
 /// The WebAssembly module, where a walker can be simulated.
 std::string module_where_needed(const ReplayPage& page) {
   const auto has_champion = [](const Walker& walker) { return !walker.champion.empty(); };
-  return std::ranges::any_of(page.walkers, has_champion) ? module_element() : std::string();
+  return std::ranges::any_of(page.walkers, has_champion) ? module_elements() : std::string();
 }
 
 }  // namespace
@@ -93,7 +98,7 @@ std::string make_page(const ReplayPage& page) {
   rest = fill(rest, "<!--amble:data-->",
               "<script type=\"application/json\" id=\"amble-data\">" + script_text(data) + "</script>", html);
   rest = fill(rest, "<!--amble:module-->", module_where_needed(page), html);
-  html += rest;
+  fill_end(rest, html);
   return html;
 }
 

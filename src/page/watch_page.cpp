@@ -16,7 +16,7 @@ std::string make_watch_page(const std::string& made_by) {
               "<script type=\"application/json\" id=\"amble-data\">" +
                   script_text(io::Json{{"made_by", made_by}}) + "</script>",
               html);
-  html += rest;
+  fill_end(rest, html);
   return html;
 }
 

@@ -7,7 +7,7 @@ import { delimiter, extname, join, normalize } from "node:path";
 import { fileURLToPath } from "node:url";
 
 const SOURCE = fileURLToPath(new URL("../../", import.meta.url));
-const TYPES = { ".html": "text/html; charset=utf-8", ".mjs": "text/javascript", ".js": "text/javascript", ".wasm": "application/wasm", ".json": "application/json" };
+const TYPES = { ".html": "text/html; charset=utf-8", ".mjs": "text/javascript", ".js": "text/javascript", ".wasm": "application/wasm", ".patch": "application/octet-stream", ".json": "application/json" };
 const JOB_S = 240;
 
 // What a browser of that name is called, what makes it start alone, and what keeps it from asking anybody for anything.

@@ -1,12 +1,20 @@
 // What a page does for in_browser.test.mjs: sessions of champions, and amble's own pages in a frame.
 import { LiveRobot, chooseModule } from "../../viewer/src/amble.js";
+import { patched } from "../../viewer/src/patch.js";
 import { inFrame, press, textOf, until } from "./frame.mjs";
 import { runSession } from "./sessions.mjs";
 
 let module = null;
 
+/** As amble's pages choose it. */
+async function chosenModule() {
+  const [bytes, patch] = await Promise.all(["amble.wasm", "amble-relaxed.patch"].map(async (file) =>
+    new Uint8Array(await (await fetch(`/source/viewer/dist/${file}`)).arrayBuffer())));
+  return chooseModule([{ name: "relaxed", bytes: patched(bytes, patch) }, { name: "amble", bytes }]);
+}
+
 async function champion(text) {
-  module ??= await fetch("/source/viewer/dist/amble.wasm").then((answer) => answer.arrayBuffer()).then((bytes) => chooseModule([{ name: "amble", bytes }]));
+  module ??= await chosenModule();
   return LiveRobot.open(module.module, text);
 }
 
@@ -17,7 +25,7 @@ export default {
   async session({ text, number }) {
     const robot = await champion(text), recorded = robot.describe().recorded_steps, asRecorded = robot.stepsAsRecorded();
     await runSession(robot, number);
-    return { recorded, asRecorded, hash: robot.hash(), inputs: robot.inputs() };
+    return { recorded, asRecorded, hash: robot.hash(), inputs: robot.inputs(), module: module.name };
   },
 
   /** A page of recordings: that it starts, and what it is called. */

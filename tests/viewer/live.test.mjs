@@ -4,6 +4,7 @@ import { spawnSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
+import { deflateSync, inflateSync } from "node:zlib";
 import { LiveRobot, chooseModule } from "../../viewer/src/amble.js";
 import { launch, makePage, open, pictureOf, settled } from "./browser.mjs";
 
@@ -270,7 +271,10 @@ test("in a window 390 px wide nothing runs over, and all that can be chosen has 
 
 test("a champion's file that was altered is told, and nothing else is shown of it", async () => {
   const altered = walk.replace("live.html", "altered.html");
-  writeFileSync(altered, readFileSync(walk, "utf8").replace('\\"generation\\": ', '\\"generation\\": 1'));
+  const html = readFileSync(walk, "utf8"), packed = /"champion":"([^"]+)"/.exec(html)[1];
+  const text = inflateSync(Buffer.from(packed, "base64")).toString(), other = text.replace('"generation": ', '"generation": 1');
+  assert.notEqual(other, text);
+  writeFileSync(altered, html.replace(packed, deflateSync(other).toString("base64")));
   const { page } = await open(browser, altered, { hash: "live" });
   assert.match(await page.locator("#trouble").textContent(), /altered: its checksum does not fit/);
   await page.close();

@@ -1,6 +1,9 @@
 // A champion that walks in this page: the functions of the WebAssembly module of src/browser, typed. What goes wrong
 // in the module ends it; then a new one is brought to where it was, and the message is thrown as an Error.
 
+import { inflate } from "./data.js";
+import { patched } from "./patch.js";
+
 /**
  * @typedef {object} Description what does not change from step to step
  * @property {string} experiment
@@ -86,6 +89,15 @@ export class Machine {
   isExact() {
     return this.exports.amble_is_exact() === 1;
   }
+}
+
+/**
+ * The modules of a page, the fastest first: with relaxed SIMD, whose multiply-add is one instruction, and the one that every browser takes.
+ * @param {Document} document filled by src/page
+ */
+export async function modulesOf(document) {
+  const [bytes, patch] = await Promise.all(["amble-module", "amble-relaxed"].map((id) => inflate(document.getElementById(id).textContent)));
+  return [{ name: "relaxed", bytes: patched(bytes, patch) }, { name: "amble", bytes }];
 }
 
 /**

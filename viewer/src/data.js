@@ -12,6 +12,11 @@ export async function inflate(base64) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
+/** The same of a text; null of null. */
+export async function inflateText(base64) {
+  return base64 === null ? null : new TextDecoder().decode(await inflate(base64));
+}
+
 /**
  * Frames as src/record packs them: the bytes of the float32 numbers sorted, all highest bytes first, column by
  * column. Gives {count, first_s, step_s, get(name) → Float32Array or undefined}.

@@ -1,6 +1,6 @@
 // A page whose walker is simulated in it. It is the page of the address that ends in #live, or #live=1 for the second.
-import { LiveRobot, chooseModule } from "./amble.js";
-import { inflate } from "./data.js";
+import { LiveRobot, chooseModule, modulesOf } from "./amble.js";
+import { inflateText } from "./data.js";
 import { EvolvePanel } from "./evolve_panel.js";
 import { LivePanel } from "./live_panel.js";
 import { LiveWalk } from "./live_walk.js";
@@ -18,9 +18,9 @@ export function askedLive(hash) {
 
 /** The walk of a walker's champion, in its start pose. */
 export async function liveWalk(json) {
-  const bytes = await inflate(document.getElementById("amble-module").textContent);
-  const { module } = await chooseModule([{ name: "amble", bytes }]);
-  return new LiveWalk(await LiveRobot.open(module, json.champion), json);
+  const { module } = await chooseModule(await modulesOf(document));
+  const [champion, cppn_svg] = await Promise.all([json.champion, json.cppn_svg].map(inflateText));
+  return new LiveWalk(await LiveRobot.open(module, champion), { ...json, cppn_svg });
 }
 
 /** What can be chosen where a champion came with the page: its recording, or itself. */

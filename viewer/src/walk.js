@@ -1,5 +1,5 @@
 // One recorded walk: what the robot did at any time.
-import { unpackFrames } from "./data.js";
+import { inflateText, unpackFrames } from "./data.js";
 import { unpackGround } from "./heights.js";
 
 const ROOT = ["x", "y", "z", "qw", "qx", "qy", "qz"].map((name) => "root." + name);
@@ -8,8 +8,8 @@ const SPEED_WINDOW_S = 0.5; // speed is the way of this long
 
 export class Walk {
   static async unpack(json) {
-    const ground = await unpackGround(json.ground);
-    return new Walk({ ...json, ground }, await unpackFrames(json.poses), await unpackFrames(json.contacts));
+    const ground = await unpackGround(json.ground), cppn_svg = await inflateText(json.cppn_svg);
+    return new Walk({ ...json, ground, cppn_svg }, await unpackFrames(json.poses), await unpackFrames(json.contacts));
   }
 
   constructor(json, poses, contacts) {

@@ -1,4 +1,4 @@
-import { chooseModule } from "../amble.js";
+import { chooseModule, modulesOf } from "../amble.js";
 import { inflate, pageData } from "../data.js";
 import { element } from "../theme.js";
 import { Lab } from "./lab.js";
@@ -21,8 +21,7 @@ async function start() {
   if (typeof DecompressionStream === "undefined") throw new Error("This browser is too old: it needs one of 2023 or later.");
   const { made_by, robots: packed } = pageData(document);
   const robots = JSON.parse(new TextDecoder().decode(await inflate(packed)));
-  const bytes = await inflate(document.getElementById("amble-module").textContent);
-  const { module } = await chooseModule([{ name: "amble", bytes }]);
+  const { module } = await chooseModule(await modulesOf(document));
   const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
   const lab = new Lab(module, robots, { threads: threads(), still });
   document.getElementById("app").hidden = false;
