@@ -47,6 +47,11 @@ class Writer {
   signed(value) {
     this.number(value < 0 ? -2 * value - 1 : 2 * value);
   }
+  /** Bytes that are new. */
+  fresh(bytes) {
+    this.number(bytes.length);
+    for (const byte of bytes) this.bytes.push(byte);
+  }
   /** A copy's bytes that differ. */
   differences(base, from, module, at, length) {
     const alike = (i) => base[from + i] === module[at + i];
@@ -78,8 +83,7 @@ export function makePatch(base, module) {
       ++at;
       continue;
     }
-    writer.number(at - written);
-    writer.bytes.push(...module.subarray(written, at));
+    writer.fresh(module.subarray(written, at));
     writer.signed(best.from - copied);
     writer.number(best.length);
     writer.differences(base, best.from, module, at, best.length);
@@ -87,8 +91,7 @@ export function makePatch(base, module) {
     [written, copied] = [at, best.from + best.length];
   }
   if (written < module.length) {
-    writer.number(module.length - written);
-    for (const byte of module.subarray(written)) writer.bytes.push(byte);
+    writer.fresh(module.subarray(written));
     writer.signed(0);
     writer.number(0);
   }

@@ -1,6 +1,8 @@
 // Parts of the page's program that need no browser.
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { makePatch } from "../../viewer/make-patch.mjs";
+import { patched } from "../../viewer/src/patch.js";
 import { niceAxis } from "../../viewer/src/plot.js";
 import { rates, wantedPath } from "../../viewer/src/told_path.js";
 import { footfalls, runs } from "../../viewer/src/walk.js";
@@ -118,4 +120,24 @@ test("where a robot lags behind its commands, its rates say so and the wanted pa
   assert.ok(Math.abs(speeds[200] - 0.15) < 0.003 && Math.abs(turns[200] + 0.25) < 1e-9);
   const [x, y] = wantedPath(walk, headings), full = circling({ speed: 0.3, turn: -0.5, seconds: 10 });
   assert.ok(Math.hypot(x[400] - full.com[0][400], y[400] - full.com[1][400]) < 0.01);
+});
+
+test("a patch makes of a module any other, and one that is cut off is told", () => {
+  const draw = numbers(), below = (count) => Math.floor(draw.next().value * count);
+  const bytes = (count) => Uint8Array.from({ length: count }, () => below(256));
+  for (let i = 0; i < 60; ++i) {
+    const base = bytes(below(4000)), pieces = [];
+    // Parts of the base in any order, some with a byte changed, and what is new between them.
+    for (let k = below(8); k > 0; --k) {
+      const from = below(base.length + 1), piece = base.slice(from, from + below(1500));
+      if (piece.length && below(2)) piece[below(piece.length)] ^= 1 + below(255);
+      pieces.push(piece, bytes(below(2) * below(300)));
+    }
+    const module = Uint8Array.from(pieces.flatMap((piece) => [...piece])), patch = makePatch(base, module);
+    assert.deepEqual(patched(base, patch), module);
+    if (module.length) assert.throws(() => patched(base, patch.subarray(0, patch.length - 1)), /damaged/);
+  }
+  const base = bytes(20000), module = base.slice();
+  for (let at = 0; at < module.length; at += 100) module[at] += 3;
+  assert.ok(makePatch(base, module).length < 700, "bytes that differ are few");
 });
