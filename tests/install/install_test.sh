@@ -59,6 +59,10 @@ cmake --build "$scratch/alone" >/dev/null
 [ "$("$scratch/alone/engines")" = batch ] || { echo "a program has other engines than the one it links" >&2; exit 1; }
 if ldd "$scratch/alone/engines" | grep -E 'libode|libmujoco|openblas'; then echo "the batch engine alone needs others' libraries" >&2; exit 1; fi
 
+# Without pkg-config that is said, and not what it would have found.
+said=$(cmake -S "$scratch" -B "$scratch/bare" -DCMAKE_PREFIX_PATH="$scratch/prefix" -DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON 2>&1 || true)
+case $(echo "$said" | tr -s ' \n' ' ') in *"needs pkg-config, which finds"*) ;; *) echo "a missing pkg-config is not told: $said" >&2; exit 1 ;; esac
+
 # NEAT by itself, from the installed tree.
 cmake -S "$here/../../examples/neat" -B "$scratch/neat" -DCMAKE_PREFIX_PATH="$scratch/prefix" >/dev/null
 cmake --build "$scratch/neat" >/dev/null
