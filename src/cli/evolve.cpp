@@ -78,7 +78,7 @@ ExitCode execute(experiment::Run run, const std::filesystem::path& named, int jo
   if (server) server->end(fmt::format("The run has ended; its files are in {}", folder));
   print_best(run, jobs);
   const bool has_map = experiment::fills_map(run.config());
-  fmt::print("look at it by: amble view {} --static -o page.html\n", word);
+  fmt::print("to read about it, run: amble view {} --static -o page.html\n", word);
   fmt::print("to see it, run: amble {} {} -o {}\n", has_map ? "repertoire" : "view", word,
              has_map ? "map.html" : "walker.html");
   const std::string verdict = run.tally().verdict();

@@ -74,7 +74,7 @@ TEST_F(Surroundings, CommandsThatArePrintedCanBePastedWhateverTheRunIsCalled) {
        {"my run", "run$1 & co", "it's", "$(touch ran)", "a;b", "-x", "läufe/größe"}) {
     const Said run = shell(evolve(name.front() == '-' ? "./" + name : name));
     ASSERT_EQ(run.code, ok) << run.text;
-    for (const char* line : {"to see it, run: ", "look at it by: "}) {
+    for (const char* line : {"to see it, run: ", "to read about it, run: "}) {
       const std::string command = after(run.text, line);
       ASSERT_NE(command, "") << run.text;
       const Said pasted = shell("rm -f *.html; " + command + " && ls *.html");
