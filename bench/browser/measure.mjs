@@ -14,7 +14,7 @@ const { values: options, positionals: [build, modules, ...named] } = parseArgs({
 const paths = named.length ? named : ["servo", "octopod"].map((name) => `robots/${name}/champion.json`);
 const COUNT = options.quick ? 100 : 1000, LIVE_S = options.quick ? 3 : 20, METRES = options.quick ? 1 : 3, GENERATIONS = options.quick ? 10 : 300;
 const SEEDS = Array.from({ length: Number(options.seeds ?? (options.quick ? 1 : 3)) }, (_, i) => i + 1);
-const MODULES = { exact: "exact: what pages carry", relaxed: "relaxed SIMD, `f32x4.relaxed_madd`", rounding: "products rounded: other bits" };
+const MODULES = { exact: "exact, without relaxed SIMD", relaxed: "relaxed SIMD, the same bits", rounding: "products rounded: other bits" };
 const program = resolve(build, "src/cli/amble");
 
 const line = (...cells) => console.log(`| ${cells.join(" | ")} |`);
