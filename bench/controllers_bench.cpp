@@ -72,6 +72,10 @@ void measure_each(const std::string& suffix, const std::string& note, std::vecto
   add("supg_modulated", "authors' whose rate and shape three sensors change",
       controller_us("supg", {R"(controller.supg.modulation.sensors=["pitch","angle.knee","touch"])",
                              "controller.supg.modulation.rate=1", "controller.supg.modulation.shape=1"}));
+  add("supg_modulated_reading", "the same with a pattern for each reading",
+      controller_us("supg", {R"(controller.supg.modulation.sensors=["pitch","angle.knee","touch"])",
+                             "controller.supg.modulation.rate=1", "controller.supg.modulation.shape=1",
+                             "controller.supg.modulation.shape_by=reading"}));
   add("mixed", "SUPGs with eight neurons and commands",
       controller_us("supg", {"controller.kind=mixed", "controller.substrate=auto", "command.kind=random"}));
   add("sine", "authors'", controller_us("sine"));

@@ -51,7 +51,7 @@ struct MixedNet {
 class MixedParameters : public ModulatedParameters {
  public:
   MixedParameters(SupgParameters targets, std::size_t links, std::size_t neurons, std::size_t couplings)
-      : ModulatedParameters(std::move(targets), 0),
+      : ModulatedParameters(std::move(targets), 0, 0),
         weights(links),
         biases(neurons),
         steps(neurons),

@@ -99,6 +99,7 @@ ModulatedSupgBatch::ModulatedSupgBatch(ModulatedSupgs supgs, ModulatedParameters
   reset_share_ = reset_share(settings.modulation);
   refractory_ticks_ = settings.modulation.refractory_ticks;
   shapes_ = settings.modulation.shape > 0.0;
+  by_reading_ = settings.modulation.shape_by == ShapeBy::reading;
 
   const int legs = parked_.legs(), sensors = parked_.modulation().sensors();
   tables_.resize(to_index(lanes));
@@ -110,6 +111,7 @@ ModulatedSupgBatch::ModulatedSupgBatch(ModulatedSupgs supgs, ModulatedParameters
   for (auto* const values : {&advance_, &no_chance_, &jumped_, &fresh_}) values->resize(to_index(lanes));
   std::ranges::fill(advance_, parts_per_tick);
   sensed_ = LaneRows(sensors, lanes);
+  if (by_reading_) weights_ = LaneRows(parked_.modulation().channels(), lanes);
   rates_ = LaneRows(legs * sensors, lanes);
   for (auto* const values : {&continued_rad_, &present_rad_})
     values->resize(to_index(parked_.modulation().width() * lanes));
@@ -150,6 +152,7 @@ void ModulatedSupgBatch::step(const robot::SensorFrame& sensors, LaneArray& targ
   begin_tick(sensors);
   for (int leg = 0; leg < parked_.legs(); ++leg) {
     sense(leg, sensors);
+    if (shapes_ && by_reading_) weigh_levels();
     set_rates(leg);
     update_timers(leg, supgs_.contact ? supgs_.contact->row(leg) : sensors.touch.row(leg),
                   random_ ? random_->advance(leg) : no_chance_.data());
@@ -174,6 +177,17 @@ void ModulatedSupgBatch::sense(int leg, const robot::SensorFrame& sensors) {
     AMBLE_CHECK(reading != nullptr, "the sensors are of another robot");
     for (int lane = 0; lane < lanes_; ++lane) sensed[lane] = sensor.sensed(reading[lane]);
   }
+}
+
+/// How much each level of each sensor says.
+void ModulatedSupgBatch::weigh_levels() {
+  const int lanes = lanes_, sensors = parked_.modulation().sensors();
+  for (int s = 0, channel = 0; s < sensors; ++s)
+    for (const float level : reading_levels) {
+      const float* const sensed = sensed_.row(s);
+      float* const weights = weights_.row(channel++);
+      for (int lane = 0; lane < lanes; ++lane) weights[lane] = weight_of_level(sensed[lane], level);
+    }
 }
 
 /// ρ = Σ a s, limited to ± 1.
@@ -227,8 +241,9 @@ void ModulatedSupgBatch::find_entries(int leg, const std::int32_t* timers) {
 void ModulatedSupgBatch::interpolate(int first, int end, float* targets_rad) const {
   const std::ptrdiff_t lanes = lanes_, width = parked_.modulation().width();
   const auto stride = static_cast<std::ptrdiff_t>(parked_.modulation().stride());
-  const auto row = static_cast<std::ptrdiff_t>(sensed_.stride());
-  const int sensors = shapes_ ? parked_.modulation().sensors() : 0;
+  const LaneRows& channels = by_reading_ ? weights_ : sensed_;
+  const auto row = static_cast<std::ptrdiff_t>(channels.stride());
+  const int count = shapes_ ? parked_.modulation().channels() : 0;
   const float* const* const tables = tables_.data();
   const std::int32_t* const at = entry_.data();
   const float* const shares = share_.data();
@@ -236,12 +251,12 @@ void ModulatedSupgBatch::interpolate(int first, int end, float* targets_rad) con
     float* const to = targets_rad + block * lanes;
     for (int lane = first; lane < end; ++lane) {
       const float* entry = tables[lane] + at[lane] + block;
-      const float* sensed = sensors > 0 ? sensed_.data() + lane : nullptr;
+      const float* says = count > 0 ? channels.data() + lane : nullptr;
       const float share = shares[lane];
       Four y = between(entry, entry + stride, share);
-      for (int s = 0; s < sensors; ++s, sensed += row) {
+      for (int channel = 0; channel < count; ++channel, says += row) {
         entry += width;
-        y = plus(y, between(entry, entry + stride, share), *sensed);
+        y = plus(y, between(entry, entry + stride, share), *says);
       }
       for (std::ptrdiff_t i = 0; i < 4; ++i) to[i * lanes + lane] = y.at[to_index(i)];
     }

@@ -50,6 +50,7 @@ class ModulatedSupgBatch : public Batch {
  private:
   std::size_t index(int leg, int lane) const { return static_cast<std::size_t>(leg * lanes_ + lane); }
   void sense(int leg, const robot::SensorFrame& sensors);
+  void weigh_levels();
   void update_timers(int leg, const float* contact, const std::int32_t* by_chance);
   void pull(int leg);
   void write_targets(int leg, LaneArray& targets_rad);
@@ -62,7 +63,7 @@ class ModulatedSupgBatch : public Batch {
   ModulatedParameters parked_;
   int lanes_;
   std::int32_t period_, start_, end_of_cycle_;  ///< in parts; the last −1: stopped
-  bool wraps_, shapes_;
+  bool wraps_, shapes_, by_reading_;
   std::int32_t airborne_ticks_needed_, by_touch_, phase_, reset_share_, refractory_ticks_;
 
   std::vector<const float*> tables_;     ///< by lane: its controller's entries
@@ -71,9 +72,10 @@ class ModulatedSupgBatch : public Batch {
   std::vector<std::int32_t> timer_;      ///< leg by leg over the lanes: parts, −1 stopped
   std::vector<std::int32_t> continued_;  ///< what it would be in this tick without a jump
   std::vector<std::int32_t> airborne_ticks_, wait_ticks_, first_timer_, triggered_, refractory_left_;
-  LaneRows sensed_;                                       ///< of the leg in hand, sensor by sensor
-  LaneRows rates_;                                        ///< leg by leg, sensor by sensor
-  std::vector<std::int32_t> advance_;                     ///< of the leg in hand, by lane
+  LaneRows sensed_;                    ///< of the leg in hand, sensor by sensor
+  LaneRows weights_;                   ///< the same, channel by channel; of ShapeBy::reading
+  LaneRows rates_;                     ///< leg by leg, sensor by sensor
+  std::vector<std::int32_t> advance_;  ///< of the leg in hand, by lane
   std::vector<std::int32_t> no_chance_, jumped_, fresh_;  ///< by lane; the last: 1 before its first tick
   std::vector<float> continued_rad_, present_rad_;        ///< of the leg in hand, type by type
   std::optional<RandomTriggers> random_;

@@ -96,11 +96,17 @@ std::vector<std::vector<LegSensor>> leg_sensors(const ModulationSettings& settin
   return sensors;
 }
 
-Modulation::Modulation(int legs, int types, int period_ticks, int sensors)
+int shape_channels(const ModulationSettings& settings) {
+  const auto sensors = static_cast<int>(settings.sensors.size());
+  return settings.shape_by == ShapeBy::reading ? sensors * static_cast<int>(reading_levels.size()) : sensors;
+}
+
+Modulation::Modulation(int legs, int types, int period_ticks, int sensors, int channels)
     : period_ticks_(period_ticks),
       sensors_(sensors),
+      channels_(channels),
       width_((types + 3) / 4 * 4),
-      stride_bits_(static_cast<int>(std::bit_width(static_cast<unsigned>((1 + sensors) * width_ - 1)))),
+      stride_bits_(static_cast<int>(std::bit_width(static_cast<unsigned>((1 + channels) * width_ - 1)))),
       values_(to_index(legs * (period_ticks + 3)) * stride()),
       rates_(to_index(legs * sensors)) {}
 

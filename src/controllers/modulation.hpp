@@ -15,8 +15,10 @@
 
 namespace amble::controllers {
 
-/// CPPN input and outputs that modulated SUPGs have beside the others.
-inline constexpr std::string_view sensor_input = "sensor", gain_output = "gain", rate_output = "rate";
+/// CPPN input and outputs that modulated SUPGs have beside the others. With ShapeBy::reading each sensor has
+/// an input of its own, such as sensed.pitch.
+inline constexpr std::string_view sensor_input = "sensor", reading_input = "sensed.";
+inline constexpr std::string_view gain_output = "gain", rate_output = "rate";
 
 /// How a leg senses: s = reading × gain − shift, limited to ± 1, so that about ± 1 is the whole range.
 struct LegSensor {
@@ -40,19 +42,32 @@ std::vector<std::vector<LegSensor>> leg_sensors(const ModulationSettings& settin
                                                 const SensingSettings& sensing, const robot::RobotSpec& robot,
                                                 double timestep_s);
 
+/// The readings at which ShapeBy::reading has patterns; at 0 it is the pattern itself.
+inline constexpr std::array<float, 4> reading_levels{-1.0f, -0.5f, 0.5f, 1.0f};
+
+/// How much of the pattern at a level a reading s takes: 1 there, and linearly less, to 0 half a unit away.
+inline float weight_of_level(float s, float level) {
+  const float away = (s + s) - (level + level), near = 1.0f - (away < 0.0f ? -away : away);
+  return near > 0.0f ? near : 0.0f;
+}
+
+/// What shifts targets has so many channels: sensors, or their levels, sensor by sensor.
+int shape_channels(const ModulationSettings& settings);
+
 /// What a CPPN says of how sensors modulate each leg.
 class Modulation {
  public:
-  Modulation(int legs, int types, int period_ticks, int sensors);
+  Modulation(int legs, int types, int period_ticks, int sensors, int channels);
 
   /// In front of the pattern's first entry, timer −1, and behind the last, timer `period`, is one more, so
   /// that there is always a next.
   int entries() const { return period_ticks_ + 3; }
   int sensors() const { return sensors_; }
+  int channels() const { return channels_; }
   /// Types, in multiples of four.
   int width() const { return width_; }
   /// Floats from one entry to the next, a power of two: groups of width() numbers, type by type; first the
-  /// targets (rad), then sensor by sensor what it shifts them by where it says 1 (rad).
+  /// targets (rad), then channel by channel what it shifts them by where it says 1 (rad).
   std::size_t stride() const { return std::size_t{1} << stride_bits_; }
   int stride_bits() const { return stride_bits_; }
   float* entry(int leg, int timer) { return values_.data() + index(leg, timer); }
@@ -66,7 +81,7 @@ class Modulation {
     return static_cast<std::size_t>(leg * entries() + timer + 1) * stride();
   }
 
-  int period_ticks_, sensors_, width_, stride_bits_;
+  int period_ticks_, sensors_, channels_, width_, stride_bits_;
   std::vector<float> values_, rates_;
 };
 

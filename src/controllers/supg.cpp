@@ -37,11 +37,15 @@ SupgJoints joints_of(const robot::RobotSpec& robot) {
 
 std::vector<std::string> more_inputs(const ModulationSettings& settings) {
   if (settings.sensors.empty()) return {};
-  return {std::string(sensor_input)};
+  if (settings.shape_by == ShapeBy::gain) return {std::string(sensor_input)};
+  std::vector<std::string> inputs;
+  for (const std::string& sensor : settings.sensors) inputs.push_back(std::string(reading_input) + sensor);
+  return inputs;
 }
 
 std::vector<std::string> more_outputs(const ModulationSettings& settings) {
   if (settings.sensors.empty()) return {};
+  if (settings.shape_by == ShapeBy::reading) return {std::string(rate_output)};
   return {std::string(gain_output), std::string(rate_output)};
 }
 
@@ -65,8 +69,8 @@ std::vector<std::size_t> offset_zeros(const substrate::Settings& substrate) {
 
 }  // namespace
 
-ModulatedParameters::ModulatedParameters(SupgParameters targets, int sensors)
-    : SupgParameters(std::move(targets)), modulation_(legs(), types(), period_ticks(), sensors) {
+ModulatedParameters::ModulatedParameters(SupgParameters targets, int sensors, int channels)
+    : SupgParameters(std::move(targets)), modulation_(legs(), types(), period_ticks(), sensors, channels) {
   for (int leg = 0; leg < legs(); ++leg)
     for (int timer = stopped; timer <= period_ticks() + 1; ++timer)
       std::copy_n(targets_rad(leg, std::min(timer, period_ticks())), types(), modulation_.entry(leg, timer));
@@ -135,92 +139,42 @@ SupgParameters SupgArchitecture::targets_of(const substrate::Decoded& decoded) c
     parameters.set_offset_ticks(leg, static_cast<int>(std::clamp(ticks, 1.0, period_ticks_ - 1.0)));
     for (int type = 0; type < types(); ++type) {
       if (driver(leg, type) < 0) continue;
-      const JointRange& range = joints_.ranges[to_index(joint(leg, type))];
-      const float* const pattern =
-          decoded.patterns.data() + static_cast<std::ptrdiff_t>(driver(leg, type)) * (period_ticks_ + 1);
-      const double trend = settings_.seam.detrend
-                               ? static_cast<double>(pattern[period_ticks_]) - static_cast<double>(pattern[0])
-                               : 0.0;
-      for (int tick = 0; tick <= period_ticks_; ++tick) {
-        const double from_middle = static_cast<double>(tick) / period_ticks_ - 0.5;
-        const double p = static_cast<double>(pattern[tick]) - from_middle * trend;
-        parameters.targets_rad(leg, tick)[type] = range.at(std::clamp((p + 1.0) * 0.5, 0.0, 1.0));
-      }
+      const PatternTargets targets = pattern_targets(leg, type, decoded.patterns);
+      for (int tick = 0; tick <= period_ticks_; ++tick)
+        parameters.targets_rad(leg, tick)[type] = targets.at_rad(tick);
     }
   }
   return parameters;
 }
 
+SupgArchitecture::PatternTargets SupgArchitecture::pattern_targets(int leg, int type,
+                                                                   const std::vector<float>& patterns) const {
+  const float* const pattern =
+      patterns.data() + static_cast<std::ptrdiff_t>(driver(leg, type)) * (period_ticks_ + 1);
+  const double trend = settings_.seam.detrend
+                           ? static_cast<double>(pattern[period_ticks_]) - static_cast<double>(pattern[0])
+                           : 0.0;
+  return {joints_.ranges[to_index(joint(leg, type))], pattern, period_ticks_, trend};
+}
+
+float SupgArchitecture::PatternTargets::at_rad(int tick) const {
+  const double from_middle = static_cast<double>(tick) / period_ticks - 0.5;
+  const double p = static_cast<double>(pattern[tick]) - from_middle * trend;
+  return range.at(std::clamp((p + 1.0) * 0.5, 0.0, 1.0));
+}
+
 std::unique_ptr<Parameters> SupgArchitecture::decode(const cppn::Network& network) const {
   auto parameters = std::make_unique<SupgParameters>(targets_of(layout_.decode(network)));
   if (!modulated()) return parameters;
-  auto all = std::make_unique<ModulatedParameters>(std::move(*parameters), sensors());
+  auto all = std::make_unique<ModulatedParameters>(std::move(*parameters), sensors(), channels());
   add_modulation(network, *all);
   return all;
 }
 
-/// The CPPN's inputs for a node and a sensor, at time 0.
-std::vector<float> SupgArchitecture::query_inputs(int node, int sensor) const {
-  const auto& at = layout_.nodes()[to_index(node)].at;
-  std::vector<float> inputs(at.begin(), at.end());
-  inputs.resize(layout_.input_names().size());
-  inputs.back() = static_cast<float>((sensor + 1.0) / sensors());
-  return inputs;
-}
-
-void SupgArchitecture::add_modulation(const cppn::Network& network, ModulatedParameters& parameters) const {
-  if (sensors() == 0) return;
-  const std::size_t coordinates = layout_.coordinates().size(), all = layout_.input_names().size();
-  substrate::QueryPoints queries;
-  struct Gain {
-    int leg, type, sensor, tick, point;
-  };
-  struct Rate {
-    int leg, sensor, point;
-  };
-  std::vector<Gain> gains;
-  std::vector<Rate> rates;
-  for (int sensor = 0; sensor < sensors(); ++sensor)
-    for (int leg = 0; leg < legs(); ++leg) {
-      for (int type = 0; type < types(); ++type) {
-        if (driver(leg, type) < 0) continue;
-        std::vector<float> inputs = query_inputs(driver(leg, type), sensor);
-        for (int tick = 0; tick <= period_ticks_; ++tick) {
-          substrate::set_time_inputs(settings_.seam.time, tick, period_ticks_,
-                                     std::span(inputs).subspan(coordinates, all - 1 - coordinates));
-          gains.push_back({leg, type, sensor, tick, queries.add(inputs)});
-        }
-      }
-      if (first_driver(leg) < 0) continue;
-      std::vector<float> inputs = query_inputs(first_driver(leg), sensor);
-      for (const std::size_t zero : offset_zeros_) inputs[zero] = 0.0f;
-      rates.push_back({leg, sensor, queries.add(inputs)});
-    }
-  const cppn::Points points = queries.points(static_cast<int>(all));
-  std::vector<float> results(layout_.output_names().size() * to_index(points.capacity()));
-  network.evaluate(points, results);
-  const int outputs = static_cast<int>(layout_.output_names().size());
-  const auto output = [&](int index, int point) {
-    return std::clamp(static_cast<double>(results[to_index(index * points.capacity() + point)]), -1.0, 1.0);
-  };
-  Modulation& modulation = parameters.modulation();
-  for (const Gain& gain : gains) {
-    const JointRange& range = joints_.ranges[to_index(joint(gain.leg, gain.type))];
-    const double most_rad = settings_.modulation.shape * 0.5 * (range.upper_rad - range.lower_rad);
-    const int group = (1 + gain.sensor) * modulation.width() + gain.type;
-    modulation.entry(gain.leg, gain.tick)[group] =
-        static_cast<float>(most_rad * output(outputs - 2, gain.point));
-    if (gain.tick == period_ticks_)
-      modulation.entry(gain.leg, gain.tick + 1)[group] = modulation.entry(gain.leg, gain.tick)[group];
-  }
-  for (const Rate& rate : rates)
-    modulation.rate(rate.leg, rate.sensor) =
-        static_cast<float>(settings_.modulation.rate * output(outputs - 1, rate.point));
-}
-
 std::unique_ptr<Batch> SupgArchitecture::make_batch(int lanes) const {
   if (modulated())
-    return std::make_unique<ModulatedSupgBatch>(supgs(lanes), ModulatedParameters(blank(), sensors()), lanes);
+    return std::make_unique<ModulatedSupgBatch>(supgs(lanes),
+                                                ModulatedParameters(blank(), sensors(), channels()), lanes);
   return std::make_unique<SupgBatch>(make_plain_batch(lanes));
 }
 

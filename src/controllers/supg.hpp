@@ -54,7 +54,7 @@ class SupgParameters : public Parameters {
 /// The same with what sensors change, which begins with the same targets.
 class ModulatedParameters : public SupgParameters {
  public:
-  ModulatedParameters(SupgParameters targets, int sensors);
+  ModulatedParameters(SupgParameters targets, int sensors, int channels);
   const Modulation& modulation() const { return modulation_; }
   Modulation& modulation() { return modulation_; }
 
@@ -112,7 +112,8 @@ struct ModulatedSupgs {
 /// - rate: in a tick a timer that runs grows by 2^ρ, ρ = Σ a s limited to ± 1. It counts in parts of 2^−14
 ///   ticks (advance_parts), and Idle::wrap takes the period off it. Waits are not modulated.
 /// - shape: a target is P(timer) + Σ G(timer) s, limited to the joint's range; between ticks P and G are
-///   linear.
+///   linear. With ShapeBy::reading G is a function of s: P(timer) + Σ D(timer, s), linear between readings of
+///   −1, −½, 0, ½ and 1; D is 0 at 0.
 /// - reset: a trigger moves a timer, after its growth, by this share of the shorter way round to start_tick
 ///   (reset_timer); one that stands starts, unless the share is 0.
 /// - refractory_ticks: in so many ticks after a trigger there is no other.
@@ -121,6 +122,9 @@ struct ModulatedSupgs {
 /// ModulationSettings::shape times half the joint's range is G; `rate`, at the coordinates of the leg's first
 /// node with those at 0 that its offset has at 0, and time 0, times ModulationSettings::rate is a. They are
 /// there whatever rate and shape are, so that these can be 0 for comparison.
+/// With ShapeBy::reading there is no output `gain`, and an input for each sensor, `sensed.pitch`, in place of
+/// `sensor`: D(t, s) is ModulationSettings::shape times what the targets of the node's pattern become where
+/// the sensor's input is s and all others are 0; for a that input is 1.
 class SupgArchitecture : public Architecture {
  public:
   /// Throws UserError: a period that is not a whole number of ticks; a substrate that does not fit the robot,
@@ -163,8 +167,23 @@ class SupgArchitecture : public Architecture {
 
  private:
   std::optional<ContactEstimate> contact(int lanes) const;
+  /// What a SUPG's pattern says: targets, rad, by tick.
+  struct PatternTargets {
+    JointRange range;
+    const float* pattern;
+    int period_ticks;
+    double trend;
+    float at_rad(int tick) const;
+  };
+  PatternTargets pattern_targets(int leg, int type, const std::vector<float>& patterns) const;
+
   int sensors() const { return static_cast<int>(settings_.modulation.sensors.size()); }
+  int channels() const { return shape_channels(settings_.modulation); }
+  // In supg_modulation.cpp.
   void add_modulation(const cppn::Network& network, ModulatedParameters& parameters) const;
+  void add_rates(const cppn::Network& network, ModulatedParameters& parameters) const;
+  void add_gains(const cppn::Network& network, ModulatedParameters& parameters) const;
+  void add_readings(const cppn::Network& network, ModulatedParameters& parameters) const;
   std::vector<float> query_inputs(int node, int sensor) const;
   int joint(int leg, int type) const { return joints_.of_legs[to_index(leg * types() + type)]; }
   /// The node of the substrate that drives it; −1: none does.

@@ -31,8 +31,15 @@ void ModulationSettings::describe(io::SettingsVisitor& visitor) {
        "heading_error"});
   visitor.number("rate", rate, {0.0, 1.0},
                  {"how far sensors may change a leg's rate: a factor of 2 to the power of ± this; 0: not"});
-  visitor.number("shape", shape, {0.0, 10.0},
-                 {"how far one sensor may shift a target, in halves of the joint's range; 0: not"});
+  visitor.number(
+      "shape", shape, {0.0, 10.0},
+      {"how far one sensor may shift a target, in halves of the joint's range (by gain), or by which "
+       "share of what the pattern says (by reading); 0: not"});
+  visitor.choice(
+      "shape_by", shape_by, shape_by_names,
+      {.what = "what is sensed shifts targets by a gain that the CPPN gives it (gain), or is an input of "
+               "the CPPN, which says another pattern for each reading (reading)",
+       .first_is_implied = true});
   visitor.number("reset", reset, {0.0, 1.0},
                  {"share of the way to start_tick that a trigger moves the timer: 1 all of it, 0 none",
                   "Morse et al. 2013: 1"});

@@ -26,11 +26,17 @@ struct ContactSettings {
   friend bool operator==(const ContactSettings&, const ContactSettings&) = default;
 };
 
+/// What shifts a target: what is sensed times a gain of the CPPN, or what the pattern becomes where the CPPN
+/// has the reading as an input.
+enum class ShapeBy { gain, reading };
+inline constexpr std::array<std::string_view, 2> shape_by_names{"gain", "reading"};
+
 /// How sensors change the cycles of a leg's SUPGs; off by default. SupgArchitecture says what it does.
 struct ModulationSettings {
   std::vector<std::string> sensors;
   double rate = 0.0;
   double shape = 0.0;
+  ShapeBy shape_by = ShapeBy::gain;
   double reset = 1.0;
   int refractory_ticks = 0;
 

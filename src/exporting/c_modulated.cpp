@@ -102,6 +102,24 @@ constexpr std::string_view gains_text = R"(  int s;
   }
 )";
 
+constexpr std::string_view weight_text = R"(/* How much of the pattern at a level a reading takes. */
+static float weight_of_level(float s, float level) {
+  const float twice = s + s, away = twice - (level + level);
+  const float near = 1.0f - (away < 0.0f ? -away : away);
+  return near > 0.0f ? near : 0.0f;
+}
+
+)";
+
+constexpr std::string_view readings_text = R"(  int s, l;
+  for (s = 0; s < sensor_count; ++s)
+    for (l = 0; l < level_count; ++l) {
+      const float part = between(&gain[s * level_count + l][joint][entry], share);
+      const float shift = part * weight_of_level(sensed[s], reading_level[l]);
+      y = y + shift;
+    }
+)";
+
 constexpr std::string_view step_text =
     R"(void $p_step($p_state *state, const $p_sensors *in, $p_targets *targets) {
   float sensed[$P_LEGS][sensor_count + 1];
@@ -180,12 +198,13 @@ void add_sense(const SupgTables::Modulation& modulation, bool commands, CText& t
 
 void add_gains(const SupgTables::Modulation& modulation, std::size_t joints, std::size_t entries,
                CText& text) {
-  text.line("/* What each sensor shifts each joint's targets by where it says 1, entry by entry. */");
+  text.line("/* What each sensor shifts each joint's targets by {}, entry by entry. */",
+            modulation.by_reading ? "at each level" : "where it says 1");
   text.line("static const float gain[{}][{}][{}] IN_FLASH = {{", modulation.gains_rad.size(), joints,
             entries);
-  for (const auto& sensor : modulation.gains_rad) {
+  for (const auto& channel : modulation.gains_rad) {
     text.line("  {{");
-    for (const auto& joint : sensor) {
+    for (const auto& joint : channel) {
       std::string row;
       for (const float value : joint) row += (row.empty() ? "" : ", ") + c_float(value);
       text.line("    {{{}}},", joint.empty() ? "0" : row);
@@ -193,6 +212,15 @@ void add_gains(const SupgTables::Modulation& modulation, std::size_t joints, std
     text.line("  }},");
   }
   text.line("}};");
+}
+
+void add_levels(CText& text) {
+  std::vector<std::string> levels;
+  for (const float level : controllers::reading_levels) levels.push_back(c_float(level));
+  text.line("enum {{ level_count = {} }};", levels.size());
+  text.array("static const float reading_level[level_count]", levels);
+  text.line("");
+  text.block(weight_text);
 }
 
 void add_rates(const SupgTables::Modulation& modulation, CText& text) {
@@ -288,6 +316,8 @@ void add_modulated(const ControllerTables& tables, CText& text) {
   add_limits(supg.limits_rad, text);
   text.line("");
   if (modulation.sensor_count() > 0 || supg.mixed) text.block(helpers);
+  const bool levels = modulation.by_reading && modulation.shapes();
+  if (levels) add_levels(text);
   add_commands(tables, text);
   add_sense(modulation, tables.reads_commands(), text);
   if (supg.mixed) add_mixed(supg, text);
@@ -304,7 +334,10 @@ void add_modulated(const ControllerTables& tables, CText& text) {
                                           : "0");
   timers = replaced(timers, "$owner_", supg.mixed ? state + ", " : "");
   timers = replaced(timers, "$y", supg.mixed ? "reshaped(state, joint, y)" : "y");
-  text.block(replaced(timers, "$gains", modulation.shapes() ? gains_text : "  (void)sensed;\n"));
+  text.block(replaced(timers, "$gains",
+                      levels                ? readings_text
+                      : modulation.shapes() ? gains_text
+                                            : "  (void)sensed;\n"));
   if (supg.seam) add_smoothing(*supg.seam, text);
   const bool filters = supg.seam && supg.seam->filter_order > 0;
   std::string rest = supg.seam && supg.seam->residual_decay > 0.0f ? c_residual_init() : "";

@@ -82,6 +82,7 @@ SupgTables::Modulation modulation_of(const Problem& problem,
       .sensors = controllers::leg_sensors(settings, problem.controller.sensing, problem.robot,
                                           problem.trial.timestep_s),
       .rates = {},
+      .by_reading = settings.shape_by == controllers::ShapeBy::reading,
       .gains_rad = {}};
   for (int leg = 0; leg < parameters.legs(); ++leg) {
     std::vector<float>& rates = modulation.rates.emplace_back();
@@ -89,14 +90,14 @@ SupgTables::Modulation modulation_of(const Problem& problem,
   }
   if (settings.shape <= 0.0) return modulation;
   const std::vector<std::vector<float>> none(problem.robot.joints.size());
-  modulation.gains_rad.assign(to_index(from.sensors()), none);
+  modulation.gains_rad.assign(to_index(from.channels()), none);
   for (int leg = 0; leg < parameters.legs(); ++leg) {
     const auto& joints = problem.robot.legs[to_index(leg)].joints;
     for (std::size_t type = 0; type < joints.size(); ++type)
-      for (int s = 0; s < from.sensors() && joints[type] >= 0; ++s)
+      for (int channel = 0; channel < from.channels() && joints[type] >= 0; ++channel)
         for (int timer = -1; timer <= parameters.period_ticks() + 1; ++timer)
-          modulation.gains_rad[to_index(s)][to_index(joints[type])].push_back(
-              from.entry(leg, timer)[to_index((1 + s) * from.width()) + type]);
+          modulation.gains_rad[to_index(channel)][to_index(joints[type])].push_back(
+              from.entry(leg, timer)[to_index((1 + channel) * from.width()) + type]);
   }
   return modulation;
 }

@@ -66,7 +66,9 @@ struct SupgTables {
     std::int32_t reset_share = 0, refractory_ticks = 0;
     std::vector<std::vector<controllers::LegSensor>> sensors;  ///< leg by leg
     std::vector<std::vector<float>> rates;                     ///< leg by leg, sensor by sensor
-    /// Sensor by sensor, joint by joint, entries as in targets_rad; empty without shape.
+    bool by_reading = false;                                   ///< controllers::ShapeBy::reading
+    /// Channel by channel (controllers::shape_channels), joint by joint, entries as in targets_rad; empty
+    /// without shape.
     std::vector<std::vector<std::vector<float>>> gains_rad;
 
     std::size_t sensor_count() const { return sensors.empty() ? 0 : sensors.front().size(); }

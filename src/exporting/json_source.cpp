@@ -154,6 +154,7 @@ Json modulation_json(const SupgTables::Modulation& modulation, const ControllerT
             {"sensors", Json::array()},
             {"rates", modulation.rates_on ? Json(modulation.rates) : Json(nullptr)},
             {"gains_rad", modulation.shapes() ? Json(modulation.gains_rad) : Json(nullptr)}};
+  if (modulation.by_reading) json["reading_levels"] = controllers::reading_levels;
   for (const auto& leg : modulation.sensors) {
     Json list = Json::array();
     for (const controllers::LegSensor& sensor : leg)

@@ -169,15 +169,33 @@ void Layout::decode_properties(std::span<const float> results, Decoded& decoded)
   if (pattern_ticks_ > 0) decoded.patterns.resize(nodes_.size() * ticks);
   for (const Source& source : sources_) {
     const std::size_t node = to_index(source.node);
-    float* const values = source.pattern
-                              ? decoded.patterns.data() + node * ticks
-                              : decoded.properties[to_index(source.property)].by_node.data() + node;
-    for (std::size_t i = 0; i < (source.pattern ? ticks : 1); ++i)
-      values[i] = static_cast<float>(
-          source.output < 0
-              ? source.value
-              : interpolated(source.low, source.high, output_at(results, source.output, source.points[i])));
+    decode_source(source, results,
+                  source.pattern ? decoded.patterns.data() + node * ticks
+                                 : decoded.properties[to_index(source.property)].by_node.data() + node);
   }
+}
+
+void Layout::decode_source(const Source& source, std::span<const float> results, float* values) const {
+  for (std::size_t i = 0; i < (source.pattern ? to_index(pattern_ticks_ + 1) : 1); ++i)
+    values[i] = static_cast<float>(
+        source.output < 0
+            ? source.value
+            : interpolated(source.low, source.high, output_at(results, source.output, source.points[i])));
+}
+
+std::vector<float> Layout::patterns(const cppn::Network& network, std::span<const float> more_inputs) const {
+  cppn::Points points = points_;
+  const int first = points.inputs() - static_cast<int>(more_inputs.size());
+  for (int point = 0; point < points.count(); ++point)
+    for (std::size_t i = 0; i < more_inputs.size(); ++i)
+      points.set(point, first + static_cast<int>(i), more_inputs[i]);
+  std::vector<float> results(output_names_.size() * to_index(points.capacity()));
+  network.evaluate(points, results);
+  const std::size_t ticks = to_index(pattern_ticks_ + 1);
+  std::vector<float> patterns(nodes_.size() * ticks);
+  for (const Source& source : sources_)
+    if (source.pattern) decode_source(source, results, patterns.data() + to_index(source.node) * ticks);
+  return patterns;
 }
 
 std::string summary(const Settings& settings, const Layout& layout) {

@@ -123,6 +123,9 @@ class Layout {
 
   const cppn::Points& points() const { return points_; }
   Decoded decode(const cppn::Network& network) const;
+  /// The patterns alone, as in `Decoded`, where the CPPN has these numbers as Needs::more_inputs in place of
+  /// 0.
+  std::vector<float> patterns(const cppn::Network& network, std::span<const float> more_inputs) const;
 
  private:
   friend class LayoutBuilder;
@@ -142,6 +145,8 @@ class Layout {
   float output_at(std::span<const float> results, int output, int point) const;
   void decode_weights(std::span<const float> results, Decoded& decoded) const;
   void decode_properties(std::span<const float> results, Decoded& decoded) const;
+  /// A number, or tick by tick.
+  void decode_source(const Source& source, std::span<const float> results, float* values) const;
 
   std::vector<std::string> coordinates_, input_names_, output_names_;
   double expression_threshold_ = 0.0, weight_range_ = 0.0;

@@ -42,17 +42,17 @@ SupgParameters random_targets(int period, Stream& stream) {
 }
 
 /// With random gains and rates.
-ModulatedParameters random_modulated(int period, int sensors, Stream& stream) {
-  ModulatedParameters parameters(random_targets(period, stream), sensors);
+ModulatedParameters random_modulated(int period, int sensors, Stream& stream, int levels = 1) {
+  ModulatedParameters parameters(random_targets(period, stream), sensors, sensors * levels);
   Modulation& modulation = parameters.modulation();
-  for (int leg = 0; leg < legs; ++leg)
-    for (int s = 0; s < sensors; ++s) {
-      modulation.rate(leg, s) = static_cast<float>(stream.uniform(-1.0, 1.0));
+  for (int leg = 0; leg < legs; ++leg) {
+    for (int s = 0; s < sensors; ++s) modulation.rate(leg, s) = static_cast<float>(stream.uniform(-1.0, 1.0));
+    for (int channel = 0; channel < sensors * levels; ++channel)
       for (int timer = 0; timer <= period + 1; ++timer)
         for (int type = 0; type < types; ++type)
-          modulation.entry(leg, timer)[(1 + s) * modulation.width() + type] =
+          modulation.entry(leg, timer)[(1 + channel) * modulation.width() + type] =
               static_cast<float>(stream.uniform(-0.3, 0.3));
-    }
+  }
   return parameters;
 }
 
@@ -125,11 +125,11 @@ TEST(ModulatedSupg, WithoutGainsIsThePapersToTheBit) {
     SupgBatch plain(settings, timestep_s, leg_names, all_joints(quadruped()), random_targets(period, stream),
                     lanes);
     settings.modulation = {.sensors = {"pitch", "angle.knee"}, .rate = 1.0};
-    ModulatedSupgBatch modulated(supgs(settings), ModulatedParameters(random_targets(period, stream), 2),
+    ModulatedSupgBatch modulated(supgs(settings), ModulatedParameters(random_targets(period, stream), 2, 2),
                                  lanes);
     std::vector<std::unique_ptr<ModulatedParameters>> parameters;
     const auto load = [&](int lane) {
-      parameters.push_back(std::make_unique<ModulatedParameters>(random_targets(period, stream), 2));
+      parameters.push_back(std::make_unique<ModulatedParameters>(random_targets(period, stream), 2, 2));
       plain.load(lane, *parameters.back());
       modulated.load(lane, *parameters.back());
     };
@@ -208,7 +208,13 @@ class PlainLeg {
       return a + share * (b - a);
     };
     float y = read(0);
-    for (std::size_t s = 0; s < sensed.size(); ++s) y = y + read(1 + static_cast<int>(s)) * sensed[s];
+    int channel = 0;
+    for (const float s : sensed)
+      if (settings_.modulation.shape_by == ShapeBy::gain)
+        y = y + read(++channel) * s;
+      else
+        for (const float level : {-1.0f, -0.5f, 0.5f, 1.0f})
+          y = y + read(++channel) * std::max(0.0f, 1.0f - std::fabs(2.0f * s - 2.0f * level));
     return std::clamp(y, range.at(0.0), range.at(1.0));
   }
 
@@ -253,15 +259,18 @@ TEST(ModulatedSupg, EqualsPlainLegsForAllSwitchesAndLaneCounts) {
     settings.modulation = {.sensors = {"pitch", "angle.hip_fb", "touch"},
                            .rate = 1.0,
                            .shape = 1.0,
+                           .shape_by = stream.chance(0.5) ? ShapeBy::gain : ShapeBy::reading,
                            .reset = std::vector{1.0, 0.5, 0.25, 0.0}[stream.below(4)],
                            .refractory_ticks = static_cast<int>(stream.below(4))};
     const auto senses = leg_sensors(settings.modulation, {}, quadruped(), timestep_s);
+    const int levels = settings.modulation.shape_by == ShapeBy::gain ? 1 : 4;
     for (const int lanes : {1, 16, 17}) {
-      ModulatedSupgBatch batch(supgs(settings), random_modulated(period, 3, stream), lanes);
+      ModulatedSupgBatch batch(supgs(settings), random_modulated(period, 3, stream, levels), lanes);
       std::vector<std::unique_ptr<ModulatedParameters>> parameters;
       std::vector<std::vector<PlainLeg>> plain(static_cast<std::size_t>(lanes));
       for (int lane = 0; lane < lanes; ++lane) {
-        parameters.push_back(std::make_unique<ModulatedParameters>(random_modulated(period, 3, stream)));
+        parameters.push_back(
+            std::make_unique<ModulatedParameters>(random_modulated(period, 3, stream, levels)));
         batch.load(lane, *parameters.back());
         for (int leg = 0; leg < legs; ++leg)
           plain[static_cast<std::size_t>(lane)].emplace_back(settings, *parameters.back(), leg);
@@ -302,7 +311,7 @@ std::vector<int> periods_with(double rho, int period, int count) {
   settings.idle = Idle::wrap;
   settings.modulation = {.sensors = {"touch"}, .rate = 1.0};
   Stream stream(1, Purpose::test);
-  ModulatedParameters parameters(random_targets(period, stream), 1);
+  ModulatedParameters parameters(random_targets(period, stream), 1, 1);
   for (int leg = 0; leg < legs; ++leg) parameters.modulation().rate(leg, 0) = static_cast<float>(rho);
   ModulatedSupgBatch batch(supgs(settings), parameters, 1);
   batch.load(0, parameters);
@@ -417,6 +426,64 @@ TEST(ModulatedSupg, DecodesGainsAndRatesAsComputedByHand) {
   EXPECT_NEAR(modulation.rate(0, 1), 0.5 * (-0.2 + 0.6), 1e-6);
   // The pattern knows nothing of sensors: 0.1 + 0.2 time.
   EXPECT_NEAR(parameters.targets_rad(0, 5)[0], -0.8 + 0.4 * (1.2), 1e-6);
+}
+
+/// Outputs pattern, offset and rate of bias, leg, joint type, time and the readings of pitch and touch.
+cppn::Network reading_cppn(const std::array<std::array<double, 6>, 3>& weights) {
+  neat::Genome genome;
+  for (std::uint32_t id = 0; id < 9; ++id)
+    genome.nodes.push_back({id,
+                            id == 0  ? NodeKind::bias
+                            : id < 6 ? NodeKind::input
+                                     : NodeKind::output,
+                            Activation::linear});
+  for (std::uint32_t out = 0; out < 3; ++out)
+    for (std::uint32_t in = 0; in < 6; ++in)
+      genome.links.push_back({out * 6 + in, in, 6 + out, weights[out][in]});
+  return {genome, {cppn::Linear::identity, true}};
+}
+
+TEST(ModulatedSupg, ByReadingIsThePatternThatTheCppnSaysForWhatIsSensed) {
+  SupgSettings settings;
+  settings.period_s = 0.1;
+  settings.trigger = Trigger::none;
+  settings.modulation = {
+      .sensors = {"pitch", "touch"}, .rate = 0.5, .shape = 1.0, .shape_by = ShapeBy::reading};
+  const SupgArchitecture architecture(settings, supg_substrate(), quadruped(), timestep_s);
+  EXPECT_EQ(architecture.cppn_inputs(),
+            (std::vector<std::string>{"leg", "joint_type", "time", "sensed.pitch", "sensed.touch"}));
+  EXPECT_EQ(architecture.cppn_outputs(), (std::vector<std::string>{"pattern", "offset", "rate"}));
+  // pattern = 0.1 time + 0.4 pitch − 0.2 touch, rate = 0.5 type + 0.7 time + 0.6 pitch − 0.1 touch.
+  const auto decoded = architecture.decode(
+      reading_cppn({{{0, 0, 0, 0.1, 0.4, -0.2}, {0.2, 0, 0, 0, 0, 0}, {0, 0, 0.5, 0.7, 0.6, -0.1}}}));
+  const Modulation& modulation = dynamic_cast<const ModulatedParameters&>(*decoded).modulation();
+  EXPECT_NEAR(modulation.rate(0, 0), 0.5 * 0.6, 1e-6);
+  EXPECT_NEAR(modulation.rate(0, 1), 0.5 * -0.1, 1e-6);
+  // A linear pattern is linear between its levels, too: what both sensors say adds up.
+  const auto batch = architecture.make_batch(1);
+  batch->load(0, *decoded);
+  auto sensors = frame(1);
+  LaneArray targets(joints, 1);
+  std::vector<float> state(2 * legs);
+  for (const float pitch_rad : {0.0f, 0.25f, 0.1f, -0.3f, -2.0f}) {
+    sensors.touch.at(0, 0) = 1.0f;
+    sensors.attitude_rad.at(1, 0) = pitch_rad;
+    batch->step(sensors, targets);
+    batch->state(0, state);
+    if (state[0] < 0.0f) break;
+    const double s = std::clamp(pitch_rad / 0.5, -1.0, 1.0);
+    const double pattern = 0.1 * static_cast<double>(state[0]) / 10.0 + 0.4 * s - 0.2;
+    EXPECT_NEAR(targets.at(0, 0), -0.8 + 0.4 * (pattern + 1.0), 1e-5) << pitch_rad;  // FL knee: −0.8 … 0
+  }
+}
+
+TEST(ModulatedSupg, WeightsOfLevelsAreOneThereAndAddUpToOneAboutHalfAUnit) {
+  for (const float at : reading_levels)
+    for (const float level : reading_levels) EXPECT_EQ(weight_of_level(at, level), at == level ? 1.0f : 0.0f);
+  for (const float level : reading_levels) EXPECT_EQ(weight_of_level(0.0f, level), 0.0f);
+  EXPECT_FLOAT_EQ(weight_of_level(0.75f, 0.5f), 0.5f);
+  EXPECT_FLOAT_EQ(weight_of_level(0.75f, 1.0f), 0.5f);
+  EXPECT_FLOAT_EQ(weight_of_level(-0.1f, -0.5f), 0.2f);
 }
 
 TEST(ModulatedSupg, ScalesSensorsToAboutOne) {

@@ -40,6 +40,8 @@ RUNS = {
         ['controller.supg.modulation.sensors=["roll","touch"]', "controller.supg.modulation.rate=0.5",
          "controller.supg.modulation.reset=0.5", "controller.supg.modulation.refractory_ticks=20",
          "controller.supg.idle=wrap", "controller.supg.seam.residual_s=0.05"],
+        ['controller.supg.modulation.sensors=["pitch","angle.knee"]', "controller.supg.modulation.rate=1",
+         "controller.supg.modulation.shape=0.8", "controller.supg.modulation.shape_by=reading", "controller.supg.idle=wrap"],
         ["controller.supg.seam.residual_s=0.02", "controller.supg.seam.filter_s=0.03", "controller.supg.idle=wrap"],
         [*TOLD, "trial.first_command=before_first_step"],
         [*TOLD, "trial.first_command=before_first_step", "controller.supg.idle=wrap", "controller.supg.seam.residual_s=0.05"],
@@ -127,8 +129,7 @@ def follow(champion, recording, events):
                     expected, tolerance = 0.0, 1e-6  # the start pose
                 else:
                     jumped = leg.timer != leg.continued_timer
-                    gains = [gain[joint] for gain in modulation.gains_rad]
-                    both = [patterns.shifted_rad(joint, timer, gains, sensed) for timer in (leg.continued_timer, leg.timer)]
+                    both = [patterns.shifted_rad(joint, timer, modulation, sensed) for timer in (leg.continued_timer, leg.timer)]
                     if net:
                         name, middle = patterns.joints[joint], patterns.middle_rad[joint]
                         half = 0.5 * (limits[joint][1] - limits[joint][0])
@@ -136,7 +137,7 @@ def follow(champion, recording, events):
                         events["reshaped"] += abs(shifts[name]) + abs(amplitudes[name]) > 0.01
                     continued_rad, present_rad = (min(max(y, limits[joint][0]), limits[joint][1]) for y in both)
                     expected, tolerance = seams[joint].next(continued_rad, present_rad, jumped)
-                    events["shift"] += any(abs(gain[0] * s) > 0.01 for gain, s in zip(gains, sensed))
+                    events["shift"] += any(abs(modulation.shift_rad(joint, i, 0, s)) > 0.01 for i, s in enumerate(sensed))
                     if is_modulated:
                         tolerance += 1e-4  # a sensor read in other digits
                     events["jump"] += jumped

@@ -11,7 +11,7 @@ FULL = {"touch": 1.0, "speed": 10.0, "roll": 0.5, "pitch": 0.5, "yaw": math.pi, 
 
 
 class Modulation:
-    """What a champion's CPPN says of its sensors: gains_rad[sensor][joint][tick], rates[sensor][leg]."""
+    """What a champion's CPPN says of its sensors: shifts_rad[sensor][joint][level][tick], rates[sensor][leg]."""
 
     def __init__(self, patterns, champion):
         self.patterns, self.robot = patterns, champion["robot"]
@@ -22,22 +22,37 @@ class Modulation:
         self.scales = [scales.get(name.split(".")[0], 1.0) for name in self.names]
         outputs = len(champion["controller"]["substrate"]["outputs"])
         times = np.arange(patterns.period_ticks + 1) / patterns.period_ticks
-        self.gains_rad, self.rates = [], []
+        self.by_reading = self.settings.get("shape_by") == "reading"
+        self.levels = [-1.0, -0.5, 0.0, 0.5, 1.0] if self.by_reading else [-1.0, 1.0]
+        self.shifts_rad, self.rates = [], []
         for i in range(len(self.names)):
-            coordinate = (i + 1) / len(self.names)
-            self.gains_rad.append([])
-            for joint in self.robot["joints"]:
-                half = 0.5 * (joint["upper_rad"] - joint["lower_rad"])
-                gain = self._output(joint["name"], "pattern", times, coordinate, outputs)
-                self.gains_rad[i].append(self.settings["shape"] * half * gain)
+            of_rate = self._only(i, 1.0) if self.by_reading else [(i + 1) / len(self.names)]
+            self.shifts_rad.append([])
+            for number, joint in enumerate(self.robot["joints"]):
+                if self.by_reading:
+                    at = [patterns.targets_of_reading_rad(joint, self._only(i, level)) for level in self.levels]
+                    self.shifts_rad[i].append(self.settings["shape"] * (np.array(at) - patterns.targets_rad[number]))
+                else:
+                    half = 0.5 * (joint["upper_rad"] - joint["lower_rad"])
+                    gain = self.settings["shape"] * half * self._output(joint["name"], "pattern", times, of_rate, outputs)
+                    self.shifts_rad[i].append(np.array([-gain, gain]))
             self.rates.append([])
             for joints in patterns.joints_of_leg:
-                rate = self._output(patterns.joints[joints[0]], "offset", [0.0], coordinate, outputs + 1)[0]
+                # The last output, behind those of the substrate.
+                rate = self._output(patterns.joints[joints[0]], "offset", [0.0], of_rate, -1)[0]
                 self.rates[i].append(self.settings["rate"] * rate)
 
-    def _output(self, joint_name, like, times, coordinate, output):
-        points, _ = self.patterns.points(joint_name, like, times, coordinate)
+    def _only(self, sensor, says):
+        return [says if i == sensor else 0.0 for i in range(len(self.names))]
+
+    def _output(self, joint_name, like, times, sensing, output):
+        points, _ = self.patterns.points(joint_name, like, times, sensing)
         return np.clip(self.patterns.cppn.evaluate(points, np.float32)[:, output], -1.0, 1.0)
+
+    def shift_rad(self, joint, sensor, timer, s):
+        """What a sensor that says s shifts a target by, at a timer that need not be whole."""
+        ticks = np.arange(self.patterns.period_ticks + 1)
+        return np.interp(s, self.levels, [np.interp(timer, ticks, row) for row in self.shifts_rad[sensor][joint]])
 
     def sensed(self, leg, recording, frame):
         """What the sensors of a leg say in a frame; `frame` − 1 is the one whose end they feel."""

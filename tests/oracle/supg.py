@@ -38,23 +38,25 @@ class Patterns:
             self.tolerance_rad.append(1e-5 + 10.0 * np.abs(both[0] - both[1]).max())
         self.offset_ticks = [self._offset_ticks(self.joints[joints[0]]) for joints in self.joints_of_leg]
 
-    def shifted_rad(self, joint, timer, gains_rad, sensed):
+    def shifted_rad(self, joint, timer, modulation, sensed):
         """The pattern at a timer that need not be whole, and what sensors shift it by."""
         if timer == STOPPED:
             return self.middle_rad[joint]
-        tables = [self.targets_rad[joint], *gains_rad]
-        values = [np.interp(timer, np.arange(self.period_ticks + 1), table) for table in tables]
-        return float(values[0] + sum(gain * s for gain, s in zip(values[1:], sensed)))
+        shift = sum(modulation.shift_rad(joint, i, timer, s) for i, s in enumerate(sensed))
+        return float(np.interp(timer, np.arange(self.period_ticks + 1), self.targets_rad[joint]) + shift)
 
-    def points(self, joint_name, property_name, times, sensor=0.0):
-        """Queries of a node, and the output that says this property of it."""
+    def points(self, joint_name, property_name, times, sensing=None):
+        """Queries of a node, and the output that says this property of it; `sensing`: the CPPN's last inputs."""
         place = dict(zip(self._substrate["coordinates"], self._nodes[joint_name]["at"]))
         node = self._nodes[joint_name]
         settings = next(p for p in self._substrate["properties"]
                         if p["property"] == property_name and p["of"] in (node["name"], node["group"]))
         for coordinate in settings["zero"]:
             place[coordinate] = 0.0
-        sensing = [sensor] if self.settings.get("modulation", {}).get("sensors") else []
+        modulation = self.settings.get("modulation", {})
+        by_reading = modulation.get("shape_by") == "reading"
+        count = len(modulation.get("sensors", [])) if by_reading else min(len(modulation.get("sensors", [])), 1)
+        sensing = [0.0] * count if sensing is None else sensing
         # With links the CPPN has coordinates of a target, too, which a node's own queries leave at 0.
         target = [0.0] * len(place) if self._substrate["links"] else []
         points = np.array([[*place.values(), *target, *self._time(time, property_name), *sensing] for time in times])
@@ -67,8 +69,12 @@ class Patterns:
         angle = 2.0 * math.pi * (time % 1.0)
         return [math.sin(angle), math.cos(angle)] if property_name == "pattern" else [0.0, 0.0]
 
-    def _targets_rad(self, joint, times, dtype):
-        points, output = self.points(joint["name"], "pattern", times)
+    def targets_of_reading_rad(self, joint, readings):
+        """What the targets of a joint are, tick by tick, where the CPPN's sensors say this."""
+        return self._targets_rad(joint, np.arange(self.period_ticks + 1) / self.period_ticks, np.float32, readings)
+
+    def _targets_rad(self, joint, times, dtype, readings=None):
+        points, output = self.points(joint["name"], "pattern", times, readings)
         pattern = np.clip(self.cppn.evaluate(points, dtype)[:, output], -1.0, 1.0)
         if self.seam["detrend"]:
             pattern = pattern - (times - 0.5) * (pattern[-1] - pattern[0])
