@@ -16,6 +16,7 @@ std::vector<double> answers(const cppn::Network& network, const cppn::Points& po
   std::vector<float> results(to_index(outputs * points.capacity()));
   network.evaluate(points, results);
   std::vector<double> said;
+  said.reserve(to_index(points.count()));
   for (int point = 0; point < points.count(); ++point)
     said.push_back(
         std::clamp(static_cast<double>(results[to_index(output * points.capacity() + point)]), -1.0, 1.0));

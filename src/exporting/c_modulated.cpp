@@ -215,8 +215,8 @@ void add_gains(const SupgTables::Modulation& modulation, std::size_t joints, std
 }
 
 void add_levels(CText& text) {
-  std::vector<std::string> levels;
-  for (const float level : controllers::reading_levels) levels.push_back(c_float(level));
+  std::vector<std::string> levels(controllers::reading_levels.size());
+  std::ranges::transform(controllers::reading_levels, levels.begin(), c_float);
   text.line("enum {{ level_count = {} }};", levels.size());
   text.array("static const float reading_level[level_count]", levels);
   text.line("");
@@ -253,6 +253,21 @@ void add_constants(const SupgTables& supg, CText& text) {
   }
   text.array(fmt::format("static const int32_t wait_ticks[{}_LEGS]", upper), waits);
   text.array(fmt::format("static const int32_t first_timer[{}_LEGS]", upper), firsts);
+}
+
+/// What a tick does to a timer, and the target at one.
+void add_timers(const SupgTables& supg, const std::string& state, CText& text) {
+  const SupgTables::Modulation& modulation = *supg.modulation;
+  std::string timers = replaced(timer_text, "$triggered",
+                                supg.is_triggered() ? "started && touching && state->rests[leg] == 0 && "
+                                                      "state->airborne[leg] >= airborne_needed"
+                                                    : "0");
+  timers = replaced(timers, "$owner_", supg.mixed ? state + ", " : "");
+  timers = replaced(timers, "$y", supg.mixed ? "reshaped(state, joint, y)" : "y");
+  text.block(replaced(timers, "$gains",
+                      !modulation.shapes()    ? "  (void)sensed;\n"
+                      : modulation.by_reading ? readings_text
+                                              : gains_text));
 }
 
 }  // namespace
@@ -316,8 +331,7 @@ void add_modulated(const ControllerTables& tables, CText& text) {
   add_limits(supg.limits_rad, text);
   text.line("");
   if (modulation.sensor_count() > 0 || supg.mixed) text.block(helpers);
-  const bool levels = modulation.by_reading && modulation.shapes();
-  if (levels) add_levels(text);
+  if (modulation.by_reading && modulation.shapes()) add_levels(text);
   add_commands(tables, text);
   add_sense(modulation, tables.reads_commands(), text);
   if (supg.mixed) add_mixed(supg, text);
@@ -328,16 +342,7 @@ void add_modulated(const ControllerTables& tables, CText& text) {
   else if (modulation.rates_on)
     text.block(replaced(replaced(rate_text, "$from", "const float *sensed"), "$sum", sensed_sum));
   const bool triggered = supg.is_triggered();
-  std::string timers = replaced(timer_text, "$triggered",
-                                triggered ? "started && touching && state->rests[leg] == 0 && "
-                                            "state->airborne[leg] >= airborne_needed"
-                                          : "0");
-  timers = replaced(timers, "$owner_", supg.mixed ? state + ", " : "");
-  timers = replaced(timers, "$y", supg.mixed ? "reshaped(state, joint, y)" : "y");
-  text.block(replaced(timers, "$gains",
-                      levels                ? readings_text
-                      : modulation.shapes() ? gains_text
-                                            : "  (void)sensed;\n"));
+  add_timers(supg, state, text);
   if (supg.seam) add_smoothing(*supg.seam, text);
   const bool filters = supg.seam && supg.seam->filter_order > 0;
   std::string rest = supg.seam && supg.seam->residual_decay > 0.0f ? c_residual_init() : "";
