@@ -28,7 +28,7 @@ robot::SensorFrame sensed(int tick, int joints, int legs) {
       frame.attitude_rad.at(axis, lane) = static_cast<float>(0.3 * wave(axis));
   }
   frame.command = LaneArray(2, lanes);
-  frame.heading_error_rad = frame.yaw_rate_rad_s = LaneArray(1, lanes);
+  frame.heading_error_rad = frame.yaw_rate_rad_s = frame.command_stop = LaneArray(1, lanes);
   for (int lane = 0; lane < lanes; ++lane) {
     frame.command.at(0, lane) = 0.4f;
     frame.command.at(1, lane) = static_cast<float>(0.5 * std::sin(0.01 * tick + lane));

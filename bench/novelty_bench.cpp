@@ -74,15 +74,15 @@ void measure_novelty(std::vector<Figure>& figures) {
   settings.neighbours = neighbours;
   settings.first_members = settings.archive_limit = static_cast<int>(members);
   search::NoveltySearch search(settings, 2 * samples);
-  search.judge(evaluations(archive));
+  search.fitness_of(evaluations(archive));
   AMBLE_CHECK(search.archive().rows() == members, "the archive is full");
 
-  const auto judged = search.judge(evaluations(generation));
+  const auto judged = search.fitness_of(evaluations(generation));
   const auto expected = naive_novelties(archive, generation);
   for (std::size_t i = 0; i < candidates; ++i)
     AMBLE_CHECK(std::abs(judged[i].selection - expected[i]) <= 1e-12 * expected[i], "both find the same");
 
-  const double seconds = seconds_per_call([&] { search.judge(evaluations(generation)); });
+  const double seconds = seconds_per_call([&] { search.fitness_of(evaluations(generation)); });
   const double naive_s = seconds_per_call([&] { naive_novelties(archive, generation); }, 0.3, 3);
   figures.push_back({"novelty_vs_naive", naive_s / seconds, "1", "judging a generation, over plain loops"});
   figures.push_back({"novelty_generation_ms", seconds * 1e3, "ms",
