@@ -9,11 +9,12 @@ namespace amble::exporting {
 namespace {
 
 std::string kind_in_words(const ControllerTables& tables) {
-  return tables.kind == "supg"      ? "single-unit pattern generators (SUPG)"
-         : tables.kind == "ctrnn"   ? "a continuous-time recurrent neural network (CTRNN)"
-         : tables.kind == "network" ? "a network of neurons"
-         : tables.kind == "mixed"   ? "single-unit pattern generators (SUPG) and neurons"
-                                    : tables.kind;
+  return tables.kind == "supg"          ? "single-unit pattern generators (SUPG)"
+         : tables.kind == "ctrnn"       ? "a continuous-time recurrent neural network (CTRNN)"
+         : tables.kind == "network"     ? "a network of neurons"
+         : tables.kind == "mixed"       ? "single-unit pattern generators (SUPG) and neurons"
+         : tables.kind == "oscillators" ? "an oscillator for each joint"
+                                        : tables.kind;
 }
 
 std::vector<std::string> provenance_lines(const Provenance& from, const std::string& robot) {
@@ -160,8 +161,10 @@ void add_structs(const ControllerTables& tables, bool fixed, CText& text) {
   text.line("typedef struct {{");
   if (const auto* const supg = std::get_if<SupgTables>(&tables.parts))
     add_supg_state(*supg, text);
+  else if (const auto* const neural = std::get_if<NeuralTables>(&tables.parts))
+    add_neural_state(*neural, text);
   else
-    add_neural_state(std::get<NeuralTables>(tables.parts), text);
+    add_oscillator_state(std::get<OscillatorTables>(tables.parts), text);
   add_command_state(tables, text);
   text.line("}} {}_state;", text.prefix());
   text.line("");
@@ -200,6 +203,8 @@ void add_constants(const ControllerTables& tables, bool fixed, CText& text) {
             std::lround(1e6 * tables.timestep_s));
   if (const auto* const neural = std::get_if<NeuralTables>(&tables.parts))
     text.line("#define {}_NEURONS {}", upper, neural->neurons.size());
+  if (const auto* const oscillators = std::get_if<OscillatorTables>(&tables.parts))
+    text.line("#define {}_OSCILLATORS {}", upper, oscillators->oscillators.size());
   if (const auto* const supg = std::get_if<SupgTables>(&tables.parts); supg != nullptr && supg->modulation)
     text.line("#define {}_TICK_PARTS {} /* timers in the state count in these */", upper,
               controllers::parts_per_tick);

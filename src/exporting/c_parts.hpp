@@ -18,10 +18,12 @@ std::string c_header(const ControllerTables& tables, const robot::RobotSpec& rob
 /// Members of the struct PREFIX_state.
 void add_supg_state(const SupgTables& tables, CText& text);
 void add_neural_state(const NeuralTables& tables, CText& text);
+void add_oscillator_state(const OscillatorTables& tables, CText& text);
 
 /// Tables and functions.
 void add_supg(const ControllerTables& tables, const CSourceOptions& options, CText& text);
 void add_neural(const ControllerTables& tables, CText& text);
+void add_oscillators(const ControllerTables& tables, CText& text);
 
 /// What senses commands: members of the state, functions, what else PREFIX_init and PREFIX_step do.
 /// Nothing for other controllers. `sensors`: the name of the step's argument.

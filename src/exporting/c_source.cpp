@@ -67,7 +67,10 @@ CSource c_source(const ControllerTables& tables, const robot::RobotSpec& robot, 
            "--fixed: the controller is of kind {}: expected supg, whose tables alone are "
            "exported in fixed point",
            tables.kind);
-    add_neural(tables, text);
+    if (std::holds_alternative<NeuralTables>(tables.parts))
+      add_neural(tables, text);
+    else
+      add_oscillators(tables, text);
   }
   add_self_test(tables, trace, options, text);
   return {.header = c_header(tables, robot, provenance, trace, options), .source = text.take()};

@@ -7,6 +7,7 @@
 #include "amble/controllers/ctrnn.hpp"
 #include "amble/controllers/joint_range.hpp"
 #include "amble/controllers/network.hpp"
+#include "amble/controllers/oscillators.hpp"
 #include "amble/controllers/supg.hpp"
 #include "amble/controllers/wiring.hpp"
 #include "amble/core/check.hpp"
@@ -153,6 +154,27 @@ SupgTables supg_tables(const Problem& problem, const SupgParameters& parameters)
   return tables;
 }
 
+/// Joints in the order of controllers::OscillatorArchitecture: leg by leg.
+OscillatorTables oscillator_tables(const Problem& problem, const controllers::OscillatorParameters& walker) {
+  OscillatorTables tables{.swing_turns = walker.swing_turns,
+                          .stance_turns = walker.stance_turns,
+                          .resets = problem.controller.oscillators.reset == controllers::PhaseReset::touch};
+  const std::vector<controllers::JointRange> ranges = controllers::joint_ranges(problem.robot);
+  for (const robot::Leg& leg : problem.robot.legs)
+    for (const int joint : leg.joints) {
+      if (joint < 0) continue;
+      const std::size_t i = tables.oscillators.size();
+      const controllers::JointRange& range = ranges[to_index(joint)];
+      tables.oscillators.push_back({.joint = joint,
+                                    .amplitude_rad = walker.amplitude_rad[i],
+                                    .phase_turns = walker.phase_turns[i],
+                                    .offset_rad = walker.offset_rad[i],
+                                    .lower_rad = static_cast<float>(range.lower_rad),
+                                    .upper_rad = static_cast<float>(range.upper_rad)});
+    }
+  return tables;
+}
+
 /// Links of weight 0 are left out; they change no sum (docs/CONTROLLERS.md).
 void add_links(const controllers::Wiring& wiring, const controllers::Wiring::Neuron& from,
                const std::vector<float>& weights, NeuralTables::Neuron& neuron) {
@@ -251,6 +273,12 @@ bool reads(const ControllerTables& tables, auto wanted) {
          });
 }
 
+/// Joints of no leg stay where they are.
+void hold_other_joints(const robot::RobotSpec& robot, ControllerTables& tables) {
+  for (std::size_t j = robot.leg_joint_count(); j < tables.joints.size(); ++j)
+    tables.joints[j].lower_rad = tables.joints[j].upper_rad = controllers::held_target_rad(robot.joints[j]);
+}
+
 }  // namespace
 
 bool ControllerTables::reads_angles() const {
@@ -260,6 +288,8 @@ bool ControllerTables::reads_angles() const {
 bool ControllerTables::reads_touch() const {
   const auto* const supg = std::get_if<SupgTables>(&parts);
   if (supg != nullptr && supg->is_triggered() && !supg->contact) return true;
+  const auto* const oscillators = std::get_if<OscillatorTables>(&parts);
+  if (oscillators != nullptr) return oscillators->resets;
   return reads(*this, [](auto sensed) { return sensed == substrate::Sensor::Kind::touch; });
 }
 
@@ -329,17 +359,17 @@ ControllerTables controller_tables(const Problem& problem, const neat::Genome& g
       parts.mixed =
           mixed_tables(*mixed, dynamic_cast<const controllers::MixedParameters&>(*supg), problem.robot);
     tables.parts = std::move(parts);
-    // A joint of no leg is held where it is.
-    for (std::size_t j = problem.robot.leg_joint_count(); j < tables.joints.size(); ++j)
-      tables.joints[j].lower_rad = tables.joints[j].upper_rad =
-          controllers::held_target_rad(problem.robot.joints[j]);
+    hold_other_joints(problem.robot, tables);
   } else if (const auto* network = dynamic_cast<const controllers::NetworkArchitecture*>(&architecture)) {
     tables.parts = network_tables(problem, *network, *neural);
   } else if (const auto* ctrnn = dynamic_cast<const controllers::CtrnnArchitecture*>(&architecture)) {
     tables.parts = ctrnn_tables(problem, *ctrnn, *neural);
+  } else if (const auto* walker = dynamic_cast<const controllers::OscillatorParameters*>(parameters.get())) {
+    tables.parts = oscillator_tables(problem, *walker);
+    hold_other_joints(problem.robot, tables);
   } else {
     fail(ExitCode::bad_input,
-         "a controller of kind {} cannot be exported: expected supg, mixed, network or ctrnn",
+         "a controller of kind {} cannot be exported: expected supg, mixed, network, ctrnn or oscillators",
          architecture.name());
   }
   return tables;

@@ -147,13 +147,26 @@ struct NeuralTables {
   std::vector<int> neuron_of_joint;  ///< in control order; −1: the joint is held at CommandedJoint::lower_rad
 };
 
+/// Oscillators as tables; what a tick does is documented at controllers::OscillatorArchitecture.
+struct OscillatorTables {
+  struct Oscillator {
+    int joint = 0;  ///< in control order
+    float amplitude_rad = 0.0f, phase_turns = 0.0f, offset_rad = 0.0f;
+    float lower_rad = 0.0f, upper_rad = 0.0f;  ///< to which targets are limited
+  };
+
+  float swing_turns = 0.0f, stance_turns = 0.0f;  ///< a tick
+  bool resets = false;                            ///< controllers::PhaseReset::touch
+  std::vector<Oscillator> oscillators = {};
+};
+
 /// A decoded controller as an export needs it, whatever its architecture.
 struct ControllerTables {
   std::string kind;  ///< controllers::Architecture::name
   double timestep_s = 0.01;
   std::vector<CommandedJoint> joints;  ///< in control order
   std::vector<std::string> legs;
-  std::variant<SupgTables, NeuralTables> parts;
+  std::variant<SupgTables, NeuralTables, OscillatorTables> parts;
 
   /// Which sensors it reads.
   bool reads_angles() const;

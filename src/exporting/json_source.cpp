@@ -3,6 +3,7 @@
 #include <array>
 #include <string_view>
 
+#include "amble/controllers/oscillators.hpp"
 #include "amble/core/index.hpp"
 #include "amble/experiment/problem/problem_json.hpp"
 #include "amble/io/json_file.hpp"
@@ -264,13 +265,30 @@ Json neural_json(const NeuralTables& neural, const ControllerTables& tables) {
   return json;
 }
 
+/// Joints by name, in the order of their phases.
+Json oscillators_json(const OscillatorTables& oscillators, const ControllerTables& tables) {
+  Json json{{"swing_turns", oscillators.swing_turns},
+            {"stance_turns", oscillators.stance_turns},
+            {"reset", controllers::phase_reset_names[oscillators.resets ? 1 : 0]},
+            {"joints", Json::array()}};
+  for (const OscillatorTables::Oscillator& one : oscillators.oscillators)
+    json["joints"].push_back({{"name", tables.joints[to_index(one.joint)].name},
+                              {"amplitude_rad", one.amplitude_rad},
+                              {"phase_turns", one.phase_turns},
+                              {"offset_rad", one.offset_rad},
+                              {"limits_rad", {one.lower_rad, one.upper_rad}}});
+  return json;
+}
+
 Json controller_json(const ControllerTables& tables) {
   Json json{{"kind", tables.kind}, {"timestep_s", tables.timestep_s}, {"rate_hz", tables.rate_hz()},
             {"legs", tables.legs}, {"joints", joints_json(tables)},   {"sensors", sensors_json(tables)}};
   if (const auto* const supg = std::get_if<SupgTables>(&tables.parts))
     json["supg"] = supg_json(*supg, tables);
+  else if (const auto* const neural = std::get_if<NeuralTables>(&tables.parts))
+    json["neural"] = neural_json(*neural, tables);
   else
-    json["neural"] = neural_json(std::get<NeuralTables>(tables.parts), tables);
+    json["oscillators"] = oscillators_json(std::get<OscillatorTables>(tables.parts), tables);
   return json;
 }
 

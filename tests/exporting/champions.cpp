@@ -1,5 +1,6 @@
 #include "tests/exporting/champions.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "amble/io/file.hpp"
@@ -121,6 +122,15 @@ std::vector<Sample> modulated_samples() {
        "hexapod",
        {modulation + R"(sensors=["command_turn","heading_error"])", modulation + "rate=1",
         modulation + "shape=1", "command.kind=random", "trial.first_command=before_first_step"}},
+      {"oscillators", "authors/supg", "quadruped", {"controller.kind=oscillators"}},
+      {"oscillators_reset",
+       "authors/supg",
+       "hexapod",
+       {"controller.kind=oscillators", "controller.oscillators.reset=touch"}},
+      {"oscillators_lacking",
+       "paper/supg",
+       "lacking",
+       {"controller.kind=oscillators", "controller.oscillators.reset=touch"}},
       {"mixed",
        "authors/supg",
        "quadruped",
@@ -142,7 +152,8 @@ Champion evolve(const Sample& sample) {
   if (automatic) {
     io::write_file(scratch / "robot.json", robot_file_text(robot_called(sample.robot)));
     overrides.assignments.push_back("robot=" + (scratch / "robot.json").string());
-    overrides.assignments.emplace_back("controller.substrate=auto");
+    if (std::ranges::count(sample.assignments, "controller.kind=oscillators") == 0)
+      overrides.assignments.emplace_back("controller.substrate=auto");
   }
   overrides.assignments.insert(overrides.assignments.end(), sample.assignments.begin(),
                                sample.assignments.end());

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
 #include <variant>
 
 #include "amble/core/error.hpp"
@@ -32,17 +33,52 @@ TEST(ControllerTables, OfAPhaseAtTheEndOfThePeriodBeginWithWhatFollowsACycle) {
   }
 }
 
+std::string refusal(const experiment::Champion& champion) {
+  try {
+    controller_tables(champion.problem, champion.genome);
+  } catch (const UserError& error) {
+    EXPECT_EQ(error.code(), ExitCode::bad_input);
+    return error.what();
+  }
+  return "none";
+}
+
 TEST(ControllerTables, RefuseTriggersByChance) {
   experiment::Champion champion = tests::evolve({.name = "", .preset = "authors/supg"});
   champion.problem.controller.supg.trigger = controllers::Trigger::random;
-  try {
-    controller_tables(champion.problem, champion.genome);
-    ADD_FAILURE() << "expected a refusal";
-  } catch (const UserError& error) {
-    EXPECT_EQ(error.code(), ExitCode::bad_input);
-    EXPECT_STREQ(error.what(),
-                 "controller.supg.trigger = \"random\" cannot be exported: it is a control for simulations; "
-                 "expected \"edge\", \"level\" or \"none\"");
+  EXPECT_EQ(refusal(champion),
+            "controller.supg.trigger = \"random\" cannot be exported: it is a control for simulations; "
+            "expected \"edge\", \"level\" or \"none\"");
+}
+
+TEST(ControllerTables, RefuseSteeringByHandAndSwitching) {
+  experiment::Champion steered = tests::evolve({.name = "", .preset = "authors/supg"}), switching = steered;
+  steered.problem.controller.differential.turn_gain = 4.0;
+  EXPECT_EQ(
+      refusal(steered),
+      "controller.differential cannot be exported: it is a baseline for simulations; expected a champion "
+      "without it");
+  switching.problem.controller.switching.gaits.resize(2);
+  EXPECT_EQ(
+      refusal(switching),
+      "controller.switching cannot be exported; expected a champion of one genome, as `amble repertoire "
+      "RUN --cell` writes");
+}
+
+TEST(ControllerTables, OfOscillatorsNameTheJointsOfLegsAlone) {
+  const experiment::Champion champion = tests::evolve({.name = "",
+                                                       .preset = "authors/supg",
+                                                       .robot = "hexapod",
+                                                       .assignments = {"controller.kind=oscillators"}});
+  const ControllerTables tables = controller_tables(champion.problem, champion.genome);
+  const auto& parts = std::get<OscillatorTables>(tables.parts);
+  EXPECT_FALSE(parts.resets);
+  EXPECT_TRUE(tables.reads_nothing());
+  ASSERT_EQ(parts.oscillators.size(), champion.problem.robot.leg_joint_count());
+  for (const OscillatorTables::Oscillator& one : parts.oscillators) {
+    EXPECT_GE(one.amplitude_rad, 0.0f);
+    EXPECT_LE(2.0f * one.amplitude_rad, one.upper_rad - one.lower_rad);
+    EXPECT_GE(tables.joints[static_cast<std::size_t>(one.joint)].leg, 0);
   }
 }
 

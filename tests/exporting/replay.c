@@ -2,7 +2,7 @@
  * tick, as float32. Input: angles of all joints, touches of all legs, roll, pitch, yaw, and where they are read
  * speeds and torques of all joints, the yaw rate, loads of all legs, and speed and turn commanded. Output: targets of
  * all joints (rad), then the state: of SUPGs timers and triggers by leg, and then the neurons' values,
- * or the neurons' values alone. */
+ * or the neurons' values alone; of oscillators the first phase, then, where they read touches, triggers by leg. */
 #include "walker.h"
 
 #include <stdio.h>
@@ -84,7 +84,12 @@ int main(void) {
       put(targets.angle_rad[i]);
 #endif
     }
-#if defined(WALKER_NEURONS) && !defined(WALKER_TICK_PARTS)
+#if defined(WALKER_OSCILLATORS)
+    put(state.phase[0]);
+#if WALKER_READS_TOUCH
+    for (i = 0; i < WALKER_LEGS; ++i) put((float)state.trigger[i]);
+#endif
+#elif defined(WALKER_NEURONS) && !defined(WALKER_TICK_PARTS)
     for (i = 0; i < WALKER_NEURONS; ++i) put(state.neuron[i]);
 #else
 #ifdef WALKER_TICK_PARTS
