@@ -108,7 +108,7 @@ void add_evolve(CLI::App& app, Action& action) {
   add_watch(*command, options->watch, "run");
   add_examples(
       *command,
-      {{"amble evolve configs/quick/quadruped.toml --seed 8 --out runs/1", "a walker in half a minute"},
+      {{"amble evolve configs/quick/quadruped.toml --seed 8 --out runs/1", "a walker in 40 s"},
        {"amble evolve configs/quick/quadruped.toml --set population.size=300 --generations 100 --out runs/2",
         ""},
        {"amble evolve configs/quick/quadruped.toml --out runs/3 --watch",

@@ -9,6 +9,7 @@
 
 #include "amble/cli/messages.hpp"
 #include "amble/cli/stop_signal.hpp"
+#include "amble/io/quoting.hpp"
 #include "amble/io/text.hpp"
 
 namespace amble::cli {
@@ -43,6 +44,10 @@ ExitCode make_live_view(const std::filesystem::path& folder, const LiveOptions& 
   const auto& stop = stop_signal();
   LiveServer server(options);
   server.begin(folder);
+  if (server.watcher().summaries().empty())
+    print_message(fmt::format(
+        "{}: no run is here yet; the page waits for one. A study that has ended: amble report {}\n",
+        io::printable(folder.string()), io::shell_word(folder.string())));
   std::map<std::string, Stage> told;
   bool gone = false;
   while (!stop) {

@@ -21,6 +21,7 @@
 #include "amble/experiment/run_folder.hpp"
 #include "amble/gait/report_text.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/text.hpp"
 #include "amble/record/frame_codec.hpp"
 #include "amble/study/gait_observer.hpp"
 
@@ -86,22 +87,43 @@ void damage_as_in(const std::string& spec, experiment::Champion& champion) {
     change_as_in(spec, [&](const experiment::Config& config) { champion.problem.set_damage(config.damage); });
 }
 
+/// Commands that begin when the trial has ended are easily taken for followed.
+void print_untold(const trial::CommandSettings& command, double duration_s) {
+  double begins_s = 0.0;
+  for (const trial::CommandStretch& stretch : command.stretches) {
+    if (begins_s >= duration_s) {
+      print_message(
+          fmt::format("--command: what begins after {:g} s is never told, as the trial is {:g} s long; for "
+                      "more: --seconds\n",
+                      begins_s, duration_s));
+      return;
+    }
+    begins_s += stretch.seconds;
+  }
+}
+
 /// `spec`: a config file, or commands in one line (trial::parse_commands).
 void command_as_in(const std::string& spec, std::optional<double> seconds, experiment::Champion& champion) {
   trial::CommandSettings command{.kind = trial::CommandKind::fixed};
   std::error_code error;
   if (std::filesystem::exists(spec, error))
     command = experiment::load_config(spec, {}).command;
+  else if (spec.ends_with(".toml"))
+    fail(ExitCode::bad_input, "--command: there is no file {}", io::printable(spec));
   else
     command.stretches = trial::parse_commands(spec);
   if (seconds) champion.problem.trial.duration_s = *seconds;
   champion.problem.trial.validate();
   champion.problem.set_commands(command);
+  print_untold(command, champion.problem.trial.duration_s);
 }
 
 /// What it is told, and how it is steered by hand.
 void tell(const TrialOptions& options, experiment::Champion& champion) {
   if (options.command) command_as_in(*options.command, options.seconds, champion);
+  if (options.steering && champion.problem.command.kind == trial::CommandKind::none)
+    fail(ExitCode::bad_input, "--steering: {} was told nothing in its evolution; expected --command as well",
+         options.champion.string());
   if (options.steering)
     champion.problem.set_differential(experiment::parse_differential(*options.steering, "--steering"));
   if (options.command && !champion.problem.architecture->extra_senses().commands())
@@ -161,6 +183,8 @@ ExitCode run_trial(const TrialOptions& options) {
                                 .noise = {}};
   const bool one_episode = options.episode || options.unseen;
   if (one_episode) {
+    if (options.disturbance.noise)
+      champion.problem.noise = presentation::level_of(champion.problem, options.disturbance).noise;
     if (!champion.problem.trials_vary())
       fail(ExitCode::bad_input, "--{}: {} was evolved without noise, and from one place",
            options.episode ? "episode" : "unseen", path.string());
@@ -211,11 +235,18 @@ void add_trial(CLI::App& app, Action& action) {
           ->add_option("--episode", options->episode,
                        "Only one trial, disturbed as in this episode of its evaluation, from 0")
           ->check(between(0u, most_old_number));
-  command
-      ->add_option("--unseen", options->unseen,
-                   "Only one trial, disturbed as evolution has not met it: which one, from 0")
-      ->check(between(0u, experiment::most_unseen_episodes))
-      ->excludes(episode);
+  auto* const unseen =
+      command
+          ->add_option(
+              "--unseen", options->unseen,
+              "Only one trial, disturbed as evolution has not met it, or by --noise: which one, from 0")
+          ->check(between(0u, experiment::most_unseen_episodes))
+          ->excludes(episode);
+  for (const char* other : {"--level", "--trials", "--undisturbed"}) {
+    episode->excludes(command->get_option(other));
+    unseen->excludes(command->get_option(other));
+  }
+  episode->excludes(command->get_option("--noise"));
   command->add_option("--ground", options->ground,
                       "Walk on the [ground] of this config (default: as in its evolution)");
   command->add_option("--damage", options->damage,

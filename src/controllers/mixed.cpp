@@ -154,17 +154,26 @@ void MixedSettings::describe(io::SettingsVisitor& visitor) {
        .first_is_implied = true});
 }
 
-MixedArchitecture::MixedArchitecture(const SupgSettings& supg, const MixedSettings& mixed,
-                                     const substrate::Settings& substrate, const robot::RobotSpec& robot,
-                                     double timestep_s, const SensingSettings& sensing)
-    : SupgArchitecture(supg, substrate, robot, timestep_s, sensing,
-                       {std::string(bias_property), std::string(time_constant_property)}),
-      mixed_(mixed),
-      weight_range_(substrate.weight_range) {
+namespace {
+
+/// Sensors of modulation would be one more way to sense.
+const SupgSettings& without_sensors(const SupgSettings& supg) {
   if (!supg.modulation.sensors.empty())
     fail_setting({"controller.supg.modulation.sensors"},
                  "controller.supg.modulation.sensors: with kind mixed what SUPGs sense are nodes of the "
                  "substrate; expected none");
+  return supg;
+}
+
+}  // namespace
+
+MixedArchitecture::MixedArchitecture(const SupgSettings& supg, const MixedSettings& mixed,
+                                     const substrate::Settings& substrate, const robot::RobotSpec& robot,
+                                     double timestep_s, const SensingSettings& sensing)
+    : SupgArchitecture(without_sensors(supg), substrate, robot, timestep_s, sensing,
+                       {std::string(bias_property), std::string(time_constant_property)}),
+      mixed_(mixed),
+      weight_range_(substrate.weight_range) {
   net_ = std::make_shared<const MixedNet>(
       make_mixed_net(layout(), joints().of_legs, types(), robot, sensor_models(sensing, robot, timestep_s)));
   if (!net_->neurons.empty() && !(layout().lowest(time_constant_property) > 0.0))

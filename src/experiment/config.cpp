@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -13,7 +14,17 @@ namespace amble::experiment {
 namespace fs = std::filesystem;
 
 Config load_config(const std::filesystem::path& path, const Overrides& overrides) {
-  return config_from(io::TomlDocument::read(path), overrides);
+  const io::TomlDocument document = io::TomlDocument::read(path);
+  // The first unknown key of another kind of file would say little.
+  if (document.is_list("conditions"))
+    fail(ExitCode::bad_input, "{}: a study, and not the config of a run; expected `amble study` for it",
+         path.string());
+  if (document.is_list("legs"))
+    fail(ExitCode::bad_input,
+         "{}: a robot, and not the config of a run; expected a config that has robot = \"…\", e.g. the "
+         "evolve.toml beside it",
+         path.string());
+  return config_from(document, overrides);
 }
 
 Config config_from(const io::TomlDocument& read, const Overrides& overrides) {
@@ -62,6 +73,73 @@ std::optional<std::string> idle_reason(std::string_view key, const Choice& choic
   return fmt::format("{} has no effect: {} is \"{}\"", key, choice.place, kind);
 }
 
+/// What decides, beside the kinds, whether settings are used.
+struct IdleRule {
+  std::string_view path;  ///< settings that begin so
+  std::string_view but;   ///< of which this one is not meant
+  bool (*idle)(const Config&);
+  std::string_view because;
+};
+
+bool has_supgs(const Config& config) {
+  return config.controller.kind == "supg" || config.controller.kind == "mixed";
+}
+
+bool is_triggered(const Config& config) {
+  return config.controller.supg.trigger == controllers::Trigger::edge ||
+         config.controller.supg.trigger == controllers::Trigger::level;
+}
+
+bool senses_nothing(const Config& config) {
+  return config.controller.kind == "supg" && config.controller.supg.modulation.sensors.empty();
+}
+
+constexpr std::array<IdleRule, 14> idle_rules{
+    {{"controller.supg.modulation.rate", "", senses_nothing, "controller.supg.modulation.sensors is empty"},
+     {"controller.supg.modulation.shape", "", senses_nothing, "controller.supg.modulation.sensors is empty"},
+     {"controller.supg.modulation.shape_by", "",
+      [](const Config& config) {
+        return !senses_nothing(config) && config.controller.supg.modulation.shape == 0.0;
+      },
+      "controller.supg.modulation.shape is 0"},
+     {"controller.supg.contact.", "",
+      [](const Config& config) { return has_supgs(config) && !is_triggered(config); },
+      "controller.supg.trigger waits for no contact"},
+     {"controller.supg.contact.", "controller.supg.contact.source",
+      [](const Config& config) {
+        return has_supgs(config) && is_triggered(config) &&
+               config.controller.supg.contact.source == controllers::ContactSource::touch;
+      },
+      "controller.supg.contact.source is \"touch\""},
+     {"controller.supg.contact.joint_type", "",
+      [](const Config& config) {
+        return has_supgs(config) && is_triggered(config) &&
+               config.controller.supg.contact.source == controllers::ContactSource::shock;
+      },
+      "controller.supg.contact.source is \"shock\""},
+     {"controller.supg.trigger_debounce_ticks", "",
+      [](const Config& config) {
+        return has_supgs(config) && config.controller.supg.trigger != controllers::Trigger::edge;
+      },
+      "controller.supg.trigger is not \"edge\""},
+     {"controller.supg.seam.filter_order", "",
+      [](const Config& config) { return has_supgs(config) && config.controller.supg.seam.filter_s == 0.0; },
+      "controller.supg.seam.filter_s is 0"},
+     {"command.", "command.kind",
+      [](const Config& config) { return config.command.kind == trial::CommandKind::none; },
+      "command.kind is \"none\""},
+     {"command.stretches", "",
+      [](const Config& config) { return config.command.kind == trial::CommandKind::random; },
+      "command.kind is \"random\""},
+     {"mutation.", "", [](const Config& config) { return config.search.kind == "cma-es"; },
+      "search.kind is \"cma-es\""},
+     {"crossover.", "", [](const Config& config) { return config.search.kind == "cma-es"; },
+      "search.kind is \"cma-es\""},
+     {"speciation.", "", [](const Config& config) { return config.search.kind == "cma-es"; },
+      "search.kind is \"cma-es\""},
+     {"reproduction.", "", [](const Config& config) { return config.search.kind == "cma-es"; },
+      "search.kind is \"cma-es\""}}};
+
 }  // namespace
 
 std::vector<std::string> idle_assignments(const Config& config, const std::vector<std::string>& assignments) {
@@ -84,6 +162,9 @@ std::vector<std::string> idle_assignments(const Config& config, const std::vecto
     for (const auto& reason : {idle_reason(key, controllers, config.controller.kind),
                                idle_reason(key, searches, config.search.kind)})
       if (reason) idle.push_back(*reason);
+    for (const IdleRule& rule : idle_rules)
+      if (key.starts_with(rule.path) && key != rule.but && rule.idle(config))
+        idle.push_back(fmt::format("{} has no effect: {}", key, rule.because));
   }
   return idle;
 }

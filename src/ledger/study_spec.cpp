@@ -204,6 +204,9 @@ UserError StudySpec::error_at(const std::string& key, const std::string& text) c
 
 StudySpec load_study(const std::filesystem::path& path) {
   const auto document = std::make_shared<io::TomlDocument>(io::TomlDocument::read(path));
+  if (!document->is_list("conditions") && !document->keys_of("controller").empty())
+    fail(ExitCode::bad_input, "{}: the config of a run, and not a study; expected `amble evolve` for it",
+         path.string());
   StudySpec study;
   study.where = [document](const std::string& key) { return document->where(key); };
   const auto reader = document->reader();

@@ -69,7 +69,9 @@ io::Json walker_json(const Walker& walker) {
           {"cppn_svg", packed_text(walker.cppn_svg)},
           {"gait", walker.gait},
           {"cell", walker.cell ? io::Json(*walker.cell) : io::Json(nullptr)},
-          {"champion", packed_text(walker.champion)}};
+          {"champion", packed_text(walker.champion)},
+          {"typical", walker.typical},
+          {"shown", walker.shown}};
 }
 
 /// The WebAssembly module, where a walker can be simulated.

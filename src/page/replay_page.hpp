@@ -19,6 +19,8 @@ struct Walker {
   std::optional<std::uint32_t> cell = {};  ///< of the map that the page shows; with a map all have one
   /// The text of its champion's file: then the page can also simulate it (docs/BROWSER.md). Empty: it cannot.
   std::string champion = {};
+  /// What it typically does, in words, and which trial is shown, e.g. "its median trial"; empty: unknown.
+  std::string typical = {}, shown = {};
 };
 
 /// A map of elites from which the reader chooses the walkers that are shown.

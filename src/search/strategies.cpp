@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "amble/core/check.hpp"
+#include "amble/core/error.hpp"
 #include "amble/core/registry.hpp"
 #include "amble/search/cma_es.hpp"
 #include "amble/search/generational.hpp"
@@ -32,6 +33,15 @@ std::unique_ptr<Strategy> make_map_elites(const Settings& settings, const Search
 
 std::unique_ptr<Strategy> make_cma_es(const Settings& settings, const SearchSpace& space) {
   return std::make_unique<CmaEs>(settings.cma_es, space);
+}
+
+void validate_cma_es(const Settings& settings, std::size_t) {
+  if (settings.cma_es.least_step >= settings.cma_es.step)
+    fail_setting(
+        {"search.cma_es.least_step", "search.cma_es.step"},
+        "search.cma_es.least_step = {}: expected less than search.cma_es.step = {}, or the search would "
+        "begin again in each round",
+        settings.cma_es.least_step, settings.cma_es.step);
 }
 
 void validate_novelty(const Settings& settings, std::size_t behaviour_length) {
@@ -70,19 +80,20 @@ StrategyKind completed(StrategyKind kind) {
 // member of Settings with its line in Settings::describe.
 Registry<StrategyKind>& kinds() {
   static Registry<StrategyKind> all(
-      "search", {completed({.name = "objective", .behaviour = "", .make = make_objective}),
-                 completed({.name = "novelty",
-                            .behaviour = "path",
-                            .make = make_novelty,
-                            .validate = validate_novelty,
-                            .check_memory = check_novelty_memory}),
-                 completed({.name = "map-elites",
-                            .behaviour = "descriptors",
-                            .make = make_map_elites,
-                            .candidates = batch,
-                            .validate = validate_map_elites,
-                            .check_memory = check_map_elites_memory}),
-                 completed({.name = "cma-es", .behaviour = "", .make = make_cma_es})});
+      "search",
+      {completed({.name = "objective", .behaviour = "", .make = make_objective}),
+       completed({.name = "novelty",
+                  .behaviour = "path",
+                  .make = make_novelty,
+                  .validate = validate_novelty,
+                  .check_memory = check_novelty_memory}),
+       completed({.name = "map-elites",
+                  .behaviour = "descriptors",
+                  .make = make_map_elites,
+                  .candidates = batch,
+                  .validate = validate_map_elites,
+                  .check_memory = check_map_elites_memory}),
+       completed({.name = "cma-es", .behaviour = "", .make = make_cma_es, .validate = validate_cma_es})});
   return all;
 }
 

@@ -24,6 +24,16 @@ TEST_F(BadInput, AnUnknownOption) {
   expect_refusal({"info", config, config}, ExitCode::bad_input, "unexpected argument '");
 }
 
+TEST_F(BadInput, AFileOfAnotherKindIsNamedWithTheCommandForIt) {
+  const std::string source = AMBLE_SOURCE_DIR;
+  expect_refusal({"evolve", source + "/studies/smoke.toml", "--out", out_}, ExitCode::bad_input,
+                 "smoke.toml: a study, and not the config of a run; expected `amble study` for it");
+  expect_refusal({"evolve", source + "/robots/hexapod/hexapod.toml", "--out", out_}, ExitCode::bad_input,
+                 "hexapod.toml: a robot, and not the config of a run");
+  expect_refusal({"study", config, "--out", out_}, ExitCode::bad_input,
+                 "the config of a run, and not a study; expected `amble evolve` for it");
+}
+
 TEST_F(BadInput, AnInputThatDoesNotExistIsNamedBeforeAnOptionThatIsMissing) {
   const auto none = scratch_ / "none.toml";
   for (const char* command : {"evolve", "study", "view", "page", "export", "report"})
@@ -265,6 +275,14 @@ TEST_F(BadInput, TrialOfNoWholeNumberOfSteps) {
   expect_refusal({"trial", champion, "--seconds", "1.0001"}, ExitCode::bad_input,
                  "whole number of timesteps");
   expect_refusal({"trial", champion, "--seconds", "-1"}, ExitCode::bad_input, "--seconds");
+  // One trial has no level, and its episode its own noise.
+  expect_refusal({"trial", champion, "--episode", "0", "--undisturbed"}, ExitCode::bad_input,
+                 "--undisturbed");
+  expect_refusal({"trial", champion, "--unseen", "0", "--level", "milli"}, ExitCode::bad_input, "--level");
+  expect_refusal({"trial", champion, "--steering", "turn_gain = 1"}, ExitCode::bad_input,
+                 "expected --command as well");
+  expect_refusal({"trial", champion, "--command", "nowhere.toml"}, ExitCode::bad_input,
+                 "there is no file nowhere.toml");
   for (const std::string command : {"trial", "gait", "compare"})
     expect_refusal({command, champion, "--seconds", "nan"}, ExitCode::bad_input, "nan");
   expect_refusal({"view", champion, "--seconds", "nan", "-o", out_}, ExitCode::bad_input, "nan");

@@ -245,6 +245,43 @@ TEST(Config, AssignmentsThatItDoesNotUseAreNamed) {
               ElementsAre());
   EXPECT_THAT(idle("authors/sine-objective.toml", {"controller.supg.idle=mid"}),
               ElementsAre("controller.supg.idle has no effect: controller.kind is \"network\""));
+  const std::string contact = "controller.supg.contact.", modulation = "controller.supg.modulation.";
+  EXPECT_THAT(
+      idle("authors/supg-objective.toml", {modulation + "rate=1", contact + "threshold=3",
+                                           "controller.supg.seam.filter_order=1", "command.stretch_s=3"}),
+      ElementsAre(modulation + "rate has no effect: " + modulation + "sensors is empty",
+                  contact + "threshold has no effect: " + contact + "source is \"touch\"",
+                  "controller.supg.seam.filter_order has no effect: controller.supg.seam.filter_s is 0",
+                  "command.stretch_s has no effect: command.kind is \"none\""));
+  EXPECT_THAT(idle("authors/supg-objective.toml",
+                   {modulation + "sensors=['pitch']", modulation + "rate=1", modulation + "shape_by=reading",
+                    contact + "source=shock", contact + "joint_type=knee", contact + "threshold=3"}),
+              ElementsAre(modulation + "shape_by has no effect: " + modulation + "shape is 0",
+                          contact + "joint_type has no effect: " + contact + "source is \"shock\""));
+  EXPECT_THAT(idle("authors/supg-objective.toml", {"controller.supg.trigger=none", contact + "source=torque",
+                                                   "search.kind=cma-es", "mutation.add_link_share=0.2"}),
+              ElementsAre(contact + "source has no effect: controller.supg.trigger waits for no contact",
+                          "mutation.add_link_share has no effect: search.kind is \"cma-es\""));
+}
+
+TEST(Config, ForStandingStillIsNoTracking) {
+  const auto refusal = [](const std::vector<std::string>& assignments) -> std::string {
+    try {
+      load_config(configs + "authors/supg-objective.toml",
+                  {.assignments = assignments, .seed = {}, .generations = {}});
+    } catch (const UserError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  const std::string tracking = "score.terms=[{quantity='tracking'}]";
+  EXPECT_THAT(refusal({tracking}),
+              testing::HasSubstr("score.terms[0].quantity = \"tracking\": there are no "
+                                 "commands to follow, and standing still would be best"));
+  EXPECT_EQ(refusal({tracking, "command.kind=random"}), "none");
+  EXPECT_THAT(
+      refusal({"search.kind=cma-es", "search.cma_es.step=0.1", "search.cma_es.least_step=0.2"}),
+      testing::HasSubstr("search.cma_es.least_step = 0.2: expected less than search.cma_es.step = 0.1"));
 }
 
 TEST(Config, PresetsMakeTheArchitecturesOfThePaper) {

@@ -17,6 +17,38 @@ function drawing(svg) {
 }
 const note = (text) => element("p", { class: "note" }, text);
 
+const CONTACTS = { torque: "a motor’s torque", tracking: "how far a joint is from its target", shock: "a shock that the body feels" };
+
+/** What a trigger is, and what it does. */
+function triggerText({ kind, trigger, contact, modulation }) {
+  if (kind === "oscillators") return "the foot came down and its leg’s oscillators began anew";
+  const when = trigger === "random" ? "a moment drawn by chance, whatever the foot does"
+    : contact && contact.source !== "touch" ? `a contact guessed from ${CONTACTS[contact.source]}`
+    : trigger === "level" ? "the foot is down" : "the foot came down";
+  const pull = modulation?.reset ?? 1;
+  return `${when}${pull === 1 ? ", and the timer of its leg is set back" : `, and the timer of its leg moves ${Math.round(100 * pull)} % of the way back`}`;
+}
+
+/** What else moves targets than the pattern that is drawn. */
+function changesText({ kind, modulation }) {
+  if (kind === "mixed") return " The targets are these patterns, stretched and shifted by the links of neurons and sensors, which are not drawn here.";
+  if (!modulation?.sensors?.length) return "";
+  return ` Drawn is the pattern alone; ${modulation.sensors.join(", ")} change${modulation.sensors.length === 1 ? "s" : ""} ` +
+    `${[modulation.rate ? "how fast timers climb" : "", modulation.shape ? "the targets" : ""].filter(Boolean).join(" and ") || "nothing, as its gains are 0"}.`;
+}
+
+/** The numbers that oscillators are. */
+function oscillators(walk) {
+  const { timestep_s, joints, amplitude_rad, phase_turns, offset_rad, swing_turns_per_tick, stance_turns_per_tick, reset } = walk.controller;
+  const hz = (turns) => `${(turns / timestep_s).toFixed(2)} /s`;
+  const cells = (tag, ...texts) => texts.map((text, i) => element(i ? tag : "th", { scope: i || tag === "th" ? "col" : "row" }, text));
+  const rows = joints.map((name, i) => element("tr", {}, ...cells("td", name, offset_rad[i].toFixed(2), amplitude_rad[i].toFixed(2), phase_turns[i].toFixed(2))));
+  return section("Oscillators", `Each joint’s target is its offset and a sine of its own, which turns ${hz(swing_turns_per_tick)} where it is positive and ` +
+    `${hz(stance_turns_per_tick)} where it is not. ${reset === "touch" ? "A foot that comes down begins those of its leg anew." : "Nothing is sensed."}`,
+    element("div", { class: "scroll", tabindex: "0", role: "group", "aria-label": "Oscillators, which may be wider than the page" },
+      element("table", { class: "trials" }, element("tr", {}, ...cells("th", "joint", "offset, rad", "amplitude, rad", "phase, turns")), ...rows)));
+}
+
 export class Analysis {
   constructor(parent, walks, window, clock) {
     Object.assign(this, { parent, walks, window, clock, shown: [], plots: [], selected: 0 });
@@ -57,7 +89,7 @@ export class Analysis {
     const chatters = walk.chatter.some(({ gaps, touches }) => gaps.length + touches.length > 0);
     const text = "A bar means that the foot is on the ground." +
       (chatters ? ` A hairline is chatter of its sensor: a gap or a touch under ${walk.debounce_s} s, which does not count.` : "") +
-      (walk.triggers ? " A triangle marks a trigger: the foot came down and reset the timer of its leg." : "");
+      (walk.triggers ? ` A triangle marks a trigger: ${triggerText(walk.controller)}.` : "");
     if (walk.live) return section("Footfalls", text, keys, plot);
     const gait = new GaitTable(walk);
     this.shown.push(gait);
@@ -75,6 +107,7 @@ export class Analysis {
   }
 
   supg(walk, plot) {
+    if (walk.controller.kind === "oscillators") return [oscillators(walk)];
     if (!walk.supg || !walk.timers)
       return [section("Controller", "", note(`The controller is of kind “${walk.controller.kind}”: it has no timers and no ` +
                                              "temporal patterns to show."))];
@@ -84,6 +117,7 @@ export class Analysis {
       `Each leg’s timer climbs through its ${walk.supg.period_ticks * walk.supg.timestep_s} s and a trigger sends it back; ` +
       "below, the target angle of each joint over its leg’s timer, over the joint’s range, with the place of the timer now. " +
       `Dotted: ${walk.supg.offset === "phase" ? "where the leg’s timer starts" : "how long the leg waits before its timer starts"}.` +
+      changesText(walk.controller) +
       (walk.supg.gaits ? ` The patterns are those of the first of ${walk.supg.gaits} gaits, between which legs switch as they are told.` : ""),
       plot(timerPlot(walk, this.window, this.clock)), patterns.element)];
   }

@@ -50,7 +50,7 @@ export function showMap(section, { map, walkers }, cells, onChoose) {
     if (place >= 0) group.classList.add("chosen", `walker${place}`);
     group.addEventListener("click", (event) => onChoose(afterChoice(cells, walker.cell, event.shiftKey)));
     group.addEventListener("keydown", (event) => {
-      if (event.key !== "Enter") return;
+      if (event.key !== "Enter" && event.key !== " ") return;
       event.preventDefault();
       onChoose(afterChoice(cells, walker.cell, event.shiftKey));
     });

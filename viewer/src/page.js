@@ -195,10 +195,12 @@ export class Page {
   }
 }
 
-/** What became of a walk, in a sentence. */
+const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
+/** What a walker typically does, where that is known, and what became of the walk that is shown. */
 function story(walk, named) {
   const distance = `${number(walk.distance(walk.seconds), 2)} m`, time = `${number(walk.seconds, 2)} s`;
-  const who = named ? `${walk.title}: ` : "";
+  const who = (named ? `${walk.title}: ` : "") + (walk.typical ? `${named ? walk.typical : sentence(walk.typical)}. Shown is ${walk.shown}: ` : "");
   if (walk.seconds === 0) return `${who}no step was recorded; this is the start pose.`;
   if (walk.outcome === "fell") return `${who}${distance}, then it fell after ${time}.`;
   if (walk.outcome === "diverged") return `${who}${distance}; the simulation broke down after ${time}.`;

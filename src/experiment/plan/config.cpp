@@ -94,6 +94,7 @@ void Config::validate() const {
   noise.validate(trial, ground.start_place_m > 0.0 || controller.sensing.is_noisy() || command.varies());
   score.validate();
   check_evaluation();
+  check_tracking();
   if (champion.episodes > 0 && !disturbed())
     fail_setting({"champion.episodes"},
                  "champion.episodes = {}: without any noise they would all be the same; expected 0",
@@ -103,6 +104,16 @@ void Config::validate() const {
 
 bool Config::disturbed() const {
   return noise.any() || ground.start_place_m > 0.0 || controller.sensing.is_noisy() || command.varies();
+}
+
+void Config::check_tracking() const {
+  if (command.kind != trial::CommandKind::none) return;
+  for (std::size_t i = 0; i < score.terms.size(); ++i)
+    if (score.terms[i].quantity == "tracking")
+      fail_setting({fmt::format("score.terms[{}].quantity", i), "command.kind"},
+                   "score.terms[{}].quantity = \"tracking\": there are no commands to follow, and standing "
+                   "still would be best; expected commands (command.kind) or another quantity",
+                   i);
 }
 
 void Config::check_evaluation() const {

@@ -92,6 +92,7 @@ struct Config {
  private:
   void check_referees() const;
   void check_evaluation() const;
+  void check_tracking() const;
   /// Whether trials differ.
   bool disturbed() const;
 };
