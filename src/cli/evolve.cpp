@@ -45,6 +45,11 @@ void print_best(const experiment::Run& run, int jobs) {
   fmt::print("      {}{} without noise; generation {}, {} evaluations\n",
              champion.problem.trials_vary() ? fmt::format("{} in its evaluation, ", text(progress.best)) : "",
              text(champion.result.value()), progress.best_generation, progress.evaluations);
+  if (typical.fell_share > 0.5)
+    fmt::print(
+        "note: it falls in most of these trials. More generations may help: amble resume {} --generations "
+        "{}\n",
+        io::shell_word(run.paths().folder.string()), 2 * run.config().generations);
 }
 
 /// What may make a run meaningless is better known before it has taken hours.

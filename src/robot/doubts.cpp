@@ -130,18 +130,47 @@ void doubt_placeholders(const RobotSpec& robot, std::vector<std::string>& lines)
         reach, fmt::join(names, ", ")));
 }
 
-void doubt_torques(const RobotSpec& robot, std::vector<std::string>& lines) {
-  const std::vector<double> torques = bearing_torques_nm(robot);
+/// work(joint, axis, lever, force) of each joint between a foot and the root, in the start pose: the lever to
+/// the foot's centre, and the weight on half of the legs.
+template <typename Work>
+void for_bearing_joints(const RobotSpec& robot, Work work) {
+  const std::vector<Pose> poses = start_poses(robot);
+  const std::size_t standing = (robot.legs.size() + 1) / 2;
+  for (const Leg& leg : robot.legs) {
+    const Vec3 foot = foot_m(robot, leg, poses);
+    const Vec3 force_n = (-robot.total_mass_kg() / static_cast<double>(standing)) * robot.gravity_m_s2;
+    for (int body = robot.foot_body(leg); body > 0; body = robot.bodies[to_index(body)].parent)
+      for (const int j : robot.joints_of_body(body)) {
+        const Joint& joint = robot.joints[to_index(j)];
+        const Pose& pose = poses[to_index(body)];
+        work(j, rotate(pose.rotation, joint.axis), foot - pose * joint.anchor_m, force_n);
+      }
+  }
+}
+
+/// Joints whose motors have less than these torques, with both.
+std::vector<std::string> weaker_than(const RobotSpec& robot, const std::vector<double>& torques_nm) {
   std::vector<std::string> weak;
-  for (std::size_t j = 0; j < torques.size(); ++j)
-    if (robot.joints[j].has_motor() && std::abs(torques[j]) > robot.joints[j].servo.max_torque_nm)
+  for (std::size_t j = 0; j < torques_nm.size(); ++j)
+    if (robot.joints[j].has_motor() && std::abs(torques_nm[j]) > robot.joints[j].servo.max_torque_nm)
       weak.push_back(fmt::format("{} ({:.3g} of {:.3g} N m)", robot.joints[j].name,
-                                 robot.joints[j].servo.max_torque_nm, std::abs(torques[j])));
-  if (weak.empty()) return;
-  lines.push_back(fmt::format(
-      "torques that do not hold the weight of {:.3g} kg on half of the legs in the start pose: {}; check "
-      "max_torque_nm, masses, and the start pose",
-      robot.total_mass_kg(), fmt::join(weak, ", ")));
+                                 robot.joints[j].servo.max_torque_nm, std::abs(torques_nm[j])));
+  return weak;
+}
+
+/// Straight legs need no torque to stand, but to step.
+void doubt_torques(const RobotSpec& robot, std::vector<std::string>& lines) {
+  if (const auto weak = weaker_than(robot, bearing_torques_nm(robot)); !weak.empty())
+    lines.push_back(fmt::format(
+        "torques that do not hold the weight of {:.3g} kg on half of the legs in the start pose: {}; check "
+        "max_torque_nm, masses, and the start pose",
+        robot.total_mass_kg(), fmt::join(weak, ", ")));
+  else if (const auto stepping = weaker_than(robot, stepping_torques_nm(robot)); !stepping.empty())
+    lines.push_back(fmt::format(
+        "torques that do not hold the weight of {:.3g} kg on half of the legs once a foot is a quarter of "
+        "its "
+        "leg's length ahead or aside: {}; the robot may stand and not walk: check max_torque_nm and masses",
+        robot.total_mass_kg(), fmt::join(stepping, ", ")));
 }
 
 /// With less friction than ice has no foot finds a hold.
@@ -195,19 +224,19 @@ void doubt_narrow_stops(const RobotSpec& robot, std::vector<std::string>& lines)
 
 std::vector<double> bearing_torques_nm(const RobotSpec& robot) {
   std::vector<double> torques(robot.joints.size(), 0.0);
-  const std::vector<Pose> poses = start_poses(robot);
-  const std::size_t standing = (robot.legs.size() + 1) / 2;
-  for (const Leg& leg : robot.legs) {
-    const Vec3 foot = foot_m(robot, leg, poses);
-    const Vec3 force_n = (-robot.total_mass_kg() / static_cast<double>(standing)) * robot.gravity_m_s2;
-    for (int body = robot.foot_body(leg); body > 0; body = robot.bodies[to_index(body)].parent)
-      for (const int j : robot.joints_of_body(body)) {
-        const Joint& joint = robot.joints[to_index(j)];
-        const Pose& pose = poses[to_index(body)];
-        const Vec3 lever_m = foot - pose * joint.anchor_m;
-        torques[to_index(j)] = dot(rotate(pose.rotation, joint.axis), cross(lever_m, force_n));
-      }
-  }
+  for_bearing_joints(robot, [&](int j, const Vec3& axis, const Vec3& lever_m, const Vec3& force_n) {
+    torques[to_index(j)] = dot(axis, cross(lever_m, force_n));
+  });
+  return torques;
+}
+
+std::vector<double> stepping_torques_nm(const RobotSpec& robot) {
+  constexpr double step_share = 0.25;
+  std::vector<double> torques(robot.joints.size(), 0.0);
+  for_bearing_joints(robot, [&](int j, const Vec3& axis, const Vec3& lever_m, const Vec3& force_n) {
+    // What a foot there adds is greatest where it is aside of the axis.
+    torques[to_index(j)] = step_share * norm(lever_m) * norm(cross(axis, force_n));
+  });
   return torques;
 }
 

@@ -23,7 +23,8 @@ constexpr bool is_larger_than_robot(double moments_kg_m2, double mass_kg, double
 ///   farther from the body's centre of mass than their radius of gyration, are not all of it, and say
 ///   nothing.
 /// - A joint whose largest torque does not hold the weight of the robot on half of its legs in the start pose
-///   (the force is vertical, at the centre of the foot; the weight of the leg itself is not subtracted).
+///   (the force is vertical, at the centre of the foot; the weight of the leg itself is not subtracted); if
+///   all do, one that does not hold it once the foot is a quarter of its distance ahead or aside.
 /// - Stops more than two turns away, and most joints with stops less than 0.1 rad apart: degrees for radians,
 ///   or the other way round.
 std::vector<std::string> doubts(const RobotSpec& robot);
@@ -31,5 +32,7 @@ std::vector<std::string> doubts(const RobotSpec& robot);
 /// The torque about each joint's axis, N m and signed, under the weight on half of the legs; 0 of joints that
 /// are not between a foot and the root.
 std::vector<double> bearing_torques_nm(const RobotSpec& robot);
+/// The greatest that the same weight asks of each joint where the foot is aside by a quarter of its distance.
+std::vector<double> stepping_torques_nm(const RobotSpec& robot);
 
 }  // namespace amble::robot

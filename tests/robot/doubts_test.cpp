@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -128,12 +129,32 @@ TEST(Doubts, BearingTorqueIsWeightOnHalfOfTheLegsTimesLever) {
     EXPECT_NEAR(torques[static_cast<std::size_t>(leg.joints[1])], -torque_nm, 1e-9);
     EXPECT_NEAR(torques[static_cast<std::size_t>(leg.joints[2])], 0.0, 1e-9);  // the foot is below its axis
   }
-  for (Joint& joint : robot.joints) joint.servo.max_torque_nm = torque_nm + 0.01;
+  const std::vector<double> stepping = stepping_torques_nm(robot);
+  for (std::size_t j = 0; j < stepping.size(); ++j)
+    robot.joints[j].servo.max_torque_nm = std::max(std::abs(torques[j]), stepping[j]) + 0.01;
   EXPECT_THAT(doubts(robot), IsEmpty());
   robot.joints[1].servo.max_torque_nm = torque_nm - 0.01;
   EXPECT_THAT(
       doubts(robot),
       ElementsAre(HasSubstr("half of the legs in the start pose: L1_hip_fb (2.15 of 2.16 N m); check")));
+}
+
+TEST(Doubts, StraightLegsNeedTorqueToStep) {
+  RobotSpec robot = tests::legged_robot(2);
+  const std::vector<double> standing = bearing_torques_nm(robot), stepping = stepping_torques_nm(robot);
+  const double weight_n = robot.total_mass_kg() * 9.8 / 2;
+  for (const Leg& leg : robot.legs) {
+    // The foot is straight below the knee; how far, tells what a step asks of it.
+    const auto knee = static_cast<std::size_t>(leg.joints[0]), hip = static_cast<std::size_t>(leg.joints[1]);
+    EXPECT_NEAR(standing[knee], 0.0, 1e-9);
+    EXPECT_GT(stepping[knee], 0.0);
+    EXPECT_GT(stepping[hip], stepping[knee]);
+    EXPECT_LT(stepping[hip], 0.25 * weight_n);  // legs shorter than a metre
+  }
+  for (Joint& joint : robot.joints) joint.servo.max_torque_nm = 0.01;
+  EXPECT_THAT(doubts(robot),
+              ElementsAre(HasSubstr(
+                  "once a foot is a quarter of its leg's length ahead or aside: L1_knee (0.01 of ")));
 }
 
 TEST(Doubts, FrictionIsMoreThanThatOfIce) {
