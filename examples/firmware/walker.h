@@ -1,11 +1,11 @@
-/* Controller exported by amble 0.1.0-dev-gb09ca6c (b09ca6c7e83e): single-unit pattern generators (SUPG).
+/* Controller exported by amble 0.2.0-dev-g528ae25 (528ae25f51e5+): single-unit pattern generators (SUPG).
  *
- * experiment  servo, seed 1, generation 37, number 27
+ * experiment  servo, seed 1, generation 373, number 116
  * robot       servo
  * engine      batch
- * result      0.5386324175961085 m in 15 s, completed
- * settings    XXH3 737237114f9651c1
- * genome      XXH3 e98fcbe55cbf8929
+ * result      7.644926738057483 m in 15 s, completed
+ * settings    XXH3 b1307ae9c1727499
+ * genome      XXH3 5a055efed17c7a4e
  *
  * Rate: 100 steps per second, one every 0.01 s. The robot starts in its start pose; its motors hold
  *   the joints where they are for one tick, then the first step.
@@ -42,8 +42,8 @@
  *
  * First step of its own trial, for a look:
  *   touch      0 0 0 0
- *   targets    0.15406923 -0.28628668 -0.26385748 0.16054372 -0.27974513 -0.26158485 0.16688849
- *     -0.27325922 -0.2593139 0.1732949 -0.26663312 -0.25697565
+ *   targets    -0.635256 0.66691047 0.027321976 -0.63190114 0.6732296 0.03867217 -0.6291394
+ *     0.6760412 0.04635472 -0.6356843 0.6744301 0.043228082
  */
 #ifndef WALKER_H
 #define WALKER_H
@@ -87,18 +87,18 @@ enum {
 /* Tables for firmware: ROW(joint, name, leg or -1, least, greatest and first target, rad), and ROW(leg,
  * name). The first target is that of the first step of the controller's own trial. */
 #define WALKER_EACH_JOINT(ROW) \
-  ROW(WALKER_JOINT_FRONT_LEFT_KNEE, "front_left_knee", 0, -0.8f, 0.7f, 0.15406923f) \
-  ROW(WALKER_JOINT_FRONT_LEFT_HIP, "front_left_hip", 0, -0.8f, 0.8f, -0.28628668f) \
-  ROW(WALKER_JOINT_FRONT_LEFT_ROLL, "front_left_roll", 0, -0.4f, 0.8f, -0.26385748f) \
-  ROW(WALKER_JOINT_FRONT_RIGHT_KNEE, "front_right_knee", 1, -0.8f, 0.7f, 0.16054372f) \
-  ROW(WALKER_JOINT_FRONT_RIGHT_HIP, "front_right_hip", 1, -0.8f, 0.8f, -0.27974513f) \
-  ROW(WALKER_JOINT_FRONT_RIGHT_ROLL, "front_right_roll", 1, -0.4f, 0.8f, -0.26158485f) \
-  ROW(WALKER_JOINT_REAR_LEFT_KNEE, "rear_left_knee", 2, -0.8f, 0.7f, 0.16688849f) \
-  ROW(WALKER_JOINT_REAR_LEFT_HIP, "rear_left_hip", 2, -0.8f, 0.8f, -0.27325922f) \
-  ROW(WALKER_JOINT_REAR_LEFT_ROLL, "rear_left_roll", 2, -0.4f, 0.8f, -0.2593139f) \
-  ROW(WALKER_JOINT_REAR_RIGHT_KNEE, "rear_right_knee", 3, -0.8f, 0.7f, 0.1732949f) \
-  ROW(WALKER_JOINT_REAR_RIGHT_HIP, "rear_right_hip", 3, -0.8f, 0.8f, -0.26663312f) \
-  ROW(WALKER_JOINT_REAR_RIGHT_ROLL, "rear_right_roll", 3, -0.4f, 0.8f, -0.25697565f)
+  ROW(WALKER_JOINT_FRONT_LEFT_KNEE, "front_left_knee", 0, -0.8f, 0.7f, -0.635256f) \
+  ROW(WALKER_JOINT_FRONT_LEFT_HIP, "front_left_hip", 0, -0.8f, 0.8f, 0.66691047f) \
+  ROW(WALKER_JOINT_FRONT_LEFT_ROLL, "front_left_roll", 0, -0.4f, 0.8f, 0.027321976f) \
+  ROW(WALKER_JOINT_FRONT_RIGHT_KNEE, "front_right_knee", 1, -0.8f, 0.7f, -0.63190114f) \
+  ROW(WALKER_JOINT_FRONT_RIGHT_HIP, "front_right_hip", 1, -0.8f, 0.8f, 0.6732296f) \
+  ROW(WALKER_JOINT_FRONT_RIGHT_ROLL, "front_right_roll", 1, -0.4f, 0.8f, 0.03867217f) \
+  ROW(WALKER_JOINT_REAR_LEFT_KNEE, "rear_left_knee", 2, -0.8f, 0.7f, -0.6291394f) \
+  ROW(WALKER_JOINT_REAR_LEFT_HIP, "rear_left_hip", 2, -0.8f, 0.8f, 0.6760412f) \
+  ROW(WALKER_JOINT_REAR_LEFT_ROLL, "rear_left_roll", 2, -0.4f, 0.8f, 0.04635472f) \
+  ROW(WALKER_JOINT_REAR_RIGHT_KNEE, "rear_right_knee", 3, -0.8f, 0.7f, -0.6356843f) \
+  ROW(WALKER_JOINT_REAR_RIGHT_HIP, "rear_right_hip", 3, -0.8f, 0.8f, 0.6744301f) \
+  ROW(WALKER_JOINT_REAR_RIGHT_ROLL, "rear_right_roll", 3, -0.4f, 0.8f, 0.043228082f)
 #define WALKER_EACH_LEG(ROW) \
   ROW(WALKER_LEG_FRONT_LEFT, "front_left") \
   ROW(WALKER_LEG_FRONT_RIGHT, "front_right") \

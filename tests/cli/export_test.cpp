@@ -71,13 +71,13 @@ std::string from_second_line(const std::string& text) {
 TEST(ExportCommand, WroteTheControllerOfTheExampleFirmware) {
   const TemporaryFolder scratch;
   const std::string example = source_folder + "/examples/firmware/walker";
-  const auto written = amble({"export", source_folder + "/robots/servo/champion.json", "--format", "c",
+  const auto written = amble({"export", source_folder + "/robots/servo/walker.json", "--format", "c",
                               "--fixed", "-o", scratch / "walker.c"});
   ASSERT_EQ(written.exit_code, 0) << written.err;
   for (const char* extension : {".h", ".c"})
     EXPECT_EQ(from_second_line(slurp(scratch / ("walker" + std::string(extension)))),
               from_second_line(slurp(example + extension)))
-        << "amble export robots/servo/champion.json --format c --fixed -o examples/firmware/walker.c";
+        << "amble export robots/servo/walker.json --format c --fixed -o examples/firmware/walker.c";
 }
 
 TEST(ExportCommand, RefusesInOneLine) {

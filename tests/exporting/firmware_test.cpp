@@ -224,9 +224,9 @@ TEST(Firmware, CheckOfARunSeesEachKindOfFault) {
   const Ran ran = make_example(scratch, "run-60s-host");
   ASSERT_EQ(ran.exit_code, 0) << ran.out;
   for (const auto& [fault, row] : std::map<std::string, std::string>{
-           {"s/^P 13 15../P 13 1777/", "those of the exported controller"},
-           {"s/^P 14 12../P 14 650/", "beyond `least_us`"},
-           {"s/^P 16 13[0-4]./P 16 1400/", "largest change"},
+           {"/^T 1000 /,/^T 1001 /s/^P 13 .*/P 13 1777/", "those of the exported controller"},
+           {"/^T 1000 /,/^T 1001 /s/^P 14 .*/P 14 650/", "beyond `least_us`"},
+           {"/^T 1000 /,/^T 1001 /s/^P 16 .*/P 16 1400/", "largest change"},
            {"/^T 200 /,/^T 201 /s/^P 17 .*/P 17 1700/", "ramps"},
            {"/^T 1850 /,/^T 1851 /s/^P 17 .*/P 17 1700/", "pressed at 18.00 s"},
            {"/^T 3200 /,/^T 3201 /s/^P 17 .*/P 17 1700/", "a tick 70 ms late"},
