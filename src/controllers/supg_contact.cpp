@@ -9,6 +9,29 @@
 
 namespace amble::controllers {
 
+namespace {
+
+/// Refuses thresholds that every tick or none exceeds.
+void check_threshold(const ContactSettings& settings, const robot::RobotSpec& robot,
+                     const std::vector<std::vector<int>>& joints) {
+  const std::string key = "controller.supg.contact.threshold";
+  if (settings.source == ContactSource::touch) return;
+  if (settings.threshold <= 0.0)
+    fail_setting({key}, "{} = 0: every tick would be a contact; expected more", key);
+  if (settings.source != ContactSource::torque) return;
+  for (const auto& leg : joints) {
+    double most_nm = 0.0;
+    for (const int joint : leg)
+      most_nm = std::max(most_nm, robot.joints[to_index(joint)].servo.max_torque_nm);
+    if (settings.threshold >= most_nm)
+      fail_setting({key, "controller.supg.contact.joint_type"},
+                   "{} = {} N m: no motor of a leg gives more than {:.3g}; expected less", key,
+                   settings.threshold, most_nm);
+  }
+}
+
+}  // namespace
+
 std::vector<std::vector<int>> contact_joints(const ContactSettings& settings, const robot::RobotSpec& robot) {
   std::vector<std::vector<int>> joints(robot.legs.size());
   const auto type = std::ranges::find(robot.joint_types, settings.joint_type);
@@ -26,6 +49,7 @@ std::vector<std::vector<int>> contact_joints(const ContactSettings& settings, co
       fail_setting({key}, "{} = \"{}\": leg {} drives no such joint", key, settings.joint_type,
                    robot.legs[leg].name);
   }
+  check_threshold(settings, robot, joints);
   return joints;
 }
 

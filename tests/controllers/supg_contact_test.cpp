@@ -87,6 +87,27 @@ TEST(SupgContact, RefusesAJointTypeThatTheRobotLacks) {
   }
 }
 
+TEST(SupgContact, RefusesThresholdsThatEveryTickOrNoneExceeds) {
+  const auto refusal = [](const ContactSettings& settings) -> std::string {
+    try {
+      contact_joints(settings, quadruped());
+    } catch (const SettingError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  const double most_nm = quadruped().joints[0].servo.max_torque_nm;
+  EXPECT_EQ(refusal({.source = ContactSource::torque, .joint_type = {}, .threshold = 0.99 * most_nm}),
+            "none");
+  EXPECT_NE(refusal({.source = ContactSource::torque, .joint_type = {}, .threshold = most_nm})
+                .find("no motor of a leg gives more"),
+            std::string::npos);
+  EXPECT_NE(refusal({.source = ContactSource::shock, .joint_type = {}, .threshold = 0.0})
+                .find("every tick would be a contact"),
+            std::string::npos);
+  EXPECT_EQ(refusal({.source = ContactSource::touch, .joint_type = {}, .threshold = 0.0}), "none");
+}
+
 TEST(SupgContact, TriggersALegAsATouchWould) {
   SupgSettings settings;
   settings.contact = {.source = ContactSource::torque, .joint_type = "knee", .threshold = 1.0};
