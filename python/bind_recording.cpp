@@ -42,6 +42,9 @@ py::array columns_with(const ReadRecording& recording, const std::string& prefix
 }
 
 py::object gait(const py::object& recording, std::optional<double> seconds) {
+  // What walks again is a champion's own affair.
+  if (py::isinstance<ReadableChampion>(recording)) return recording.attr("gait")(seconds);
+  if (py::isinstance<ReadableRun>(recording)) return recording.attr("champion")().attr("gait")(seconds);
   const bool in_memory = py::isinstance<ReadRecording>(recording);
   const auto path = in_memory ? recording.cast<const ReadRecording&>().path : path_of(recording);
   check_seconds(seconds);
@@ -122,11 +125,11 @@ Read once, it needs its file no more. Can be pickled.)")
         return fmt::format("<amble.Recording of {} frames, {}: {}>", self.count(),
                            record::outcome_names[to_index(self.outcome)], self.path.string());
       });
-  module.def(
-      "gait", gait, py::arg("recording"), py::arg("seconds") = py::none(),
-      R"(Names and measures the gait of a recording (docs/GAIT.md): the dict that `amble gait --json` writes.
+  module.def("gait", gait, py::arg("recording"), py::arg("seconds") = py::none(),
+             R"(Names and measures a gait (docs/GAIT.md): the dict that `amble gait --json` writes.
 
-recording: Recording or path. seconds: the part of it to use, from the beginning. Raises Error.)");
+recording: Recording or its path; or a Champion or Run, which walks for it (Champion.gait). seconds: the part of a recording to
+use, from the beginning; of a champion the length of its trial. Raises Error.)");
   refuse_unmade<ReadRecording>();
 }
 

@@ -5,7 +5,11 @@
 #include "amble/experiment/replay.hpp"
 #include "amble/experiment/run.hpp"
 #include "amble/experiment/start_look.hpp"
+#include "amble/exporting/export_file.hpp"
+#include "amble/gait/report_text.hpp"
 #include "amble/io/file.hpp"
+#include "amble/morphology/mjcf_writer.hpp"
+#include "amble/presentation/champion_gait.hpp"
 #include "amble/presentation/shown_trial.hpp"
 #include "amble/record/frame_codec.hpp"
 #include "amble/record/generations_csv.hpp"
@@ -155,6 +159,50 @@ std::string save_champion(ReadableChampion& self, const py::object& path) {
   return file.string();
 }
 
+py::object gait_of(const ReadableChampion& self, std::optional<double> seconds,
+                   std::optional<std::string> engine, std::string level, int trials, bool undisturbed,
+                   std::optional<int> jobs) {
+  check_seconds(seconds);
+  const int workers = jobs_of(jobs);
+  std::string text;
+  Interruptible interruptible;
+  interruptible.run([&] {
+    const auto walked =
+        presentation::champion_gait(self.value, self.origin(), seconds, engine, {},
+                                    {.level = std::move(level), .trials = trials, .undisturbed = undisturbed},
+                                    workers, interruptible.stop());
+    if (walked) text = gait::report_json(walked->report);
+  });
+  return to_python(io::parse_json(text, "gait"));
+}
+
+/// By its ending, as `amble export` writes it.
+std::string export_champion(const ReadableChampion& self, const py::object& path, bool fixed) {
+  const auto file = path_of(path);
+  const std::string ending = file.extension().string();
+  if (ending != ".c" && ending != ".json" && ending != ".xml")
+    throw py::value_error(fmt::format(
+        "path: {}: expected a name that ends in .c, .json or .xml (the robot, for MuJoCo)", file.string()));
+  if (fixed && ending != ".c") throw py::value_error("fixed: only with a path that ends in .c");
+  Interruptible interruptible;
+  interruptible.run([&] {
+    if (ending == ".c") {
+      exporting::write_c(self.value, file,
+                         fixed ? exporting::Arithmetic::fixed : exporting::Arithmetic::float32,
+                         interruptible.stop());
+      return;
+    }
+    const bool json = ending == ".json";
+    io::refuse_to_replace(file, json ? exporting::export_json_start : "<mujoco",
+                          json ? "a JSON document" : "an MJCF model");
+    const std::string text =
+        json ? exporting::export_json(self.value, interruptible.stop())
+             : morphology::simulation_mjcf(self.value.problem.robot, self.value.problem.trial.timestep_s);
+    if (!text.empty()) io::write_file(file, text);
+  });
+  return file.string();
+}
+
 py::dict typical(const ReadableChampion& self, std::optional<double> seconds,
                  std::optional<std::string> engine, std::string level, int trials, std::optional<int> jobs) {
   check_seconds(seconds);
@@ -188,12 +236,32 @@ py::dict typical(const ReadableChampion& self, std::optional<double> seconds,
   return dict;
 }
 
+/// What is measured of a champion, and written of it for others.
+void bind_outputs(py::class_<ReadableChampion>& champion) {
+  champion
+      .def(
+          "gait", gait_of, py::arg("seconds") = py::none(), py::arg("engine") = py::none(),
+          py::arg("level") = "", py::arg("trials") = 0, py::arg("undisturbed") = false, py::kw_only(),
+          py::arg("jobs") = py::none(),
+          R"(Its gait, in the median of the trials of typical() where it was evolved under noise, else in its trial
+without noise (docs/GAIT.md): the dict that `amble gait --json` writes.
+
+undisturbed: the trial without noise instead. The rest as typical(). Raises Error.)")
+      .def("export", export_champion, py::arg("path"), py::kw_only(), py::arg("fixed") = false,
+           R"(Writes it for use without amble (docs/EXPORT.md); returns the path, a str.
+
+path: FILE.c (beside it FILE.h; its name is the prefix of all names), FILE.json, or FILE.xml (the robot, for MuJoCo).
+fixed: SUPGs in C without floating point. Raises Error, ValueError for another ending.)");
+}
+
 void bind_champion(py::module_& module) {
-  py::class_<ReadableChampion>(
+  py::class_<ReadableChampion> champion(
       module, "Champion",
       R"(A genome with all that it takes to let it walk again: the best of a run, or one of Search.champion().
 
-Read once, it needs its file no more. Can be pickled.)")
+Read once, it needs its file no more. Can be pickled.)");
+  bind_outputs(champion);
+  champion
       .def(py::init([](const py::object& path) { return champion_at(path_of(path)); }), py::arg("path"),
            "path: champion file, or run folder (its best). Raises Error for a file that is not sound.")
       .def_property_readonly(

@@ -51,6 +51,9 @@ page::Walker walker_of(const py::object& object, const presentation::WalkOptions
     shown_of.problem.noise = shown->noise;
     how.noise = shown->key;
     walker = presentation::walk(shown_of, champion.origin(), how, scratch.path(), interruptible.stop());
+    if (!walker) return;
+    walker->typical = shown->typical;
+    walker->shown = shown->which();
   });
   return std::move(*walker);
 }

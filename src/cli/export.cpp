@@ -10,9 +10,7 @@
 #include "amble/cli/help.hpp"
 #include "amble/cli/stop_signal.hpp"
 #include "amble/experiment/run_folder.hpp"
-#include "amble/exporting/c_source.hpp"
-#include "amble/exporting/c_text.hpp"
-#include "amble/exporting/json_source.hpp"
+#include "amble/exporting/export_file.hpp"
 #include "amble/io/file.hpp"
 #include "amble/morphology/mjcf_writer.hpp"
 
@@ -28,54 +26,6 @@ struct ExportOptions {
   bool fixed = false;
 };
 
-/// Ticks of the champion's own trial that become test vectors.
-constexpr int test_ticks = 100;
-
-/// When the first step is.
-std::string start_sentence(const experiment::Problem& problem) {
-  const bool later = problem.trial.first_command == trial::FirstCommand::after_first_step;
-  return later
-             ? "The robot starts in its start pose; its motors hold the joints where they are for one tick, "
-               "then the first step."
-             : "The first step is in the robot's start pose.";
-}
-
-fs::path header_of(const fs::path& source) {
-  return fs::path(source).replace_extension(".h");
-}
-
-void check_c_options(const ExportOptions& options) {
-  if (!options.out || options.out->extension() != ".c")
-    fail(ExitCode::bad_input, "--format c: expected -o FILE.c, beside which FILE.h is written");
-  const std::string stem = options.out->stem().string();
-  if (exporting::c_identifier(stem) != stem)
-    fail(ExitCode::bad_input,
-         "--out {}: the file's name is the prefix of all names in it: expected a letter, "
-         "then letters, digits and underscores",
-         options.out->string());
-  for (const fs::path& path : {*options.out, header_of(*options.out)})
-    io::refuse_to_replace(path, "/* Controller exported by amble", "an exported controller");
-}
-
-void write_c(const experiment::Champion& champion, const ExportOptions& options) {
-  check_c_options(options);
-  const auto tables = exporting::controller_tables(champion.problem, champion.genome);
-  const auto trace = exporting::record_trace(champion.problem, champion.genome, test_ticks, stop_signal());
-  const auto c = exporting::c_source(
-      tables, champion.problem.robot, exporting::provenance_of(champion), trace,
-      {.prefix = options.out->stem().string(),
-       .arithmetic = options.fixed ? exporting::Arithmetic::fixed : exporting::Arithmetic::float32,
-       .start = start_sentence(champion.problem)});
-  io::write_file(header_of(*options.out), c.header);
-  io::write_file(*options.out, c.source);
-}
-
-std::string json_of(const experiment::Champion& champion) {
-  const auto tables = exporting::controller_tables(champion.problem, champion.genome);
-  const auto trace = exporting::record_trace(champion.problem, champion.genome, test_ticks, stop_signal());
-  return exporting::json_source(champion, tables, exporting::provenance_of(champion), trace);
-}
-
 std::string mjcf_of(const experiment::Champion& champion) {
   return morphology::simulation_mjcf(champion.problem.robot, champion.problem.trial.timestep_s);
 }
@@ -87,14 +37,18 @@ ExitCode run_export(const ExportOptions& options) {
                             : options.champion;
   const auto champion = experiment::load_champion(path);
   if (options.format == "c") {
-    write_c(champion, options);
+    if (!options.out || options.out->extension() != ".c")
+      fail(ExitCode::bad_input, "--format c: expected -o FILE.c, beside which FILE.h is written");
+    exporting::write_c(champion, *options.out,
+                       options.fixed ? exporting::Arithmetic::fixed : exporting::Arithmetic::float32,
+                       stop_signal());
     return ExitCode::ok;
   }
   const bool json = options.format == "json";
   if (options.out)
-    io::refuse_to_replace(*options.out, json ? "{\n  \"format\": \"amble-export\"" : "<mujoco",
+    io::refuse_to_replace(*options.out, json ? exporting::export_json_start : "<mujoco",
                           json ? "a JSON document" : "an MJCF model");
-  const std::string text = json ? json_of(champion) : mjcf_of(champion);
+  const std::string text = json ? exporting::export_json(champion, stop_signal()) : mjcf_of(champion);
   if (options.out)
     io::write_file(*options.out, text);
   else

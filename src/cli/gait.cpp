@@ -8,12 +8,11 @@
 #include "amble/cli/help.hpp"
 #include "amble/cli/options.hpp"
 #include "amble/cli/stop_signal.hpp"
-#include "amble/experiment/replay.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/gait/recorded_gait.hpp"
 #include "amble/gait/report_text.hpp"
 #include "amble/io/file.hpp"
-#include "amble/study/gait_observer.hpp"
+#include "amble/presentation/champion_gait.hpp"
 
 namespace amble::cli {
 namespace {
@@ -32,24 +31,15 @@ struct GaitOptions {
 /// Runs a champion, in the median of several trials where it was evolved under noise, and measures its gait.
 /// None if interrupted.
 std::optional<gait::Report> champion_gait(const fs::path& path, const GaitOptions& options) {
-  auto champion = experiment::load_champion(path);
-  const auto shown = shown_trial(champion, options.seconds, options.engine, options.disturbance);
-  champion.problem.noise = shown.noise;
-  if (!shown.typical.empty() && options.json != "-")
-    fmt::print("{}\nthe gait of {}:\n", shown.typical,
-               shown.key ? "the median trial" : "its trial without noise");
-  study::GaitObserver observer(champion.problem.robot, champion.problem.trial.timestep_s, options.settings);
-  const auto replay = experiment::replay(champion.problem, champion.genome,
-                                         {.seconds = options.seconds,
-                                          .engine = options.engine,
-                                          .record = {},
-                                          .origin = path.string(),
-                                          .observer = &observer,
-                                          .trace = false,
-                                          .noise = shown.key},
-                                         stop_signal());
-  if (!replay) return std::nullopt;
-  return observer.finish(replay->result.outcome);
+  const auto champion = experiment::load_champion(path);
+  const auto walked =
+      presentation::champion_gait(champion, path.string(), options.seconds, options.engine, options.settings,
+                                  options.disturbance, processors(), stop_signal());
+  if (!walked) return std::nullopt;
+  if (!walked->shown.typical.empty() && options.json != "-")
+    fmt::print("{}\nthe gait of {}:\n", walked->shown.typical,
+               walked->shown.key ? "the median trial" : "its trial without noise");
+  return walked->report;
 }
 
 std::optional<gait::Report> measure(const GaitOptions& options) {

@@ -116,13 +116,13 @@ void add_champion(Walkers& walkers, const fs::path& input, const ViewOptions& op
   const auto shown = shown_trial(champion, how.seconds, how.engine, options.disturbance);
   champion.problem.noise = shown.noise;
   how.noise = shown.key;
-  const std::string which = shown.key ? "its median trial" : "its trial without noise";
-  if (!shown.typical.empty()) fmt::print("{}: {}; {} is shown\n", input.string(), shown.typical, which);
+  if (!shown.typical.empty())
+    fmt::print("{}: {}; {} is shown\n", input.string(), shown.typical, shown.which());
   const fs::path& recording = walkers.scratch.emplace_back("walk.rec").path();
   auto walker = presentation::walk(champion, path, how, recording, stop_signal());
   if (!walker) fail(ExitCode::interrupted, "stopped before all champions had walked");
   walker->typical = shown.typical;
-  walker->shown = which;
+  walker->shown = shown.which();
   if (options.history) {
     walker->title = fmt::format("gen {}", champion.generation);
     walkers.page.title = champion.experiment + ": its history";

@@ -34,6 +34,8 @@ struct ShownTrial {
   trial::NoiseSettings noise;             ///< under which `key` is
   std::optional<trial::ScenarioKey> key;  ///< for ReplayOptions::noise; nothing: the trial without noise
   std::string typical;  ///< experiment::typical_text(); empty if `undisturbed` was asked for
+
+  const char* which() const { return key ? "its median trial" : "its trial without noise"; }
 };
 /// `seconds` and `engine`: as in experiment::ReplayOptions. Nothing if `stop` was set meanwhile. Throws
 /// UserError.

@@ -171,3 +171,23 @@ def test_views_of_a_recording_outlive_it(recording):
 def test_novelty_runs_have_their_columns(tmp_path):
     run = amble.evolve(amble.load_config(NOVELTY, {**SMALL, "generations": 2}), 1, out=tmp_path / "run")
     assert "archive" in run.generations()
+
+
+def test_a_champion_is_exported_and_its_gait_measured_as_by_the_command_line(tmp_path):
+    config = amble.load_config(CONFIG, {**SMALL, "generations": 1})
+    run = amble.evolve(config, 3, out=tmp_path / "run")
+    champion = run.champion()
+    assert champion.export(tmp_path / "walker.c") == str(tmp_path / "walker.c")
+    assert "walker_step" in (tmp_path / "walker.h").read_text()
+    assert champion.export(tmp_path / "fixed.c", fixed=True) and "FRACTION_BITS" in (tmp_path / "fixed.h").read_text()
+    assert json.loads((tmp_path / champion.export(tmp_path / "walker.json")).read_text())["format"] == "amble-export"
+    assert (tmp_path / champion.export(tmp_path / "robot.xml")).read_text().startswith("<mujoco")
+    with pytest.raises(ValueError, match="ends in .c, .json or .xml"):
+        champion.export(tmp_path / "walker.h")
+    with pytest.raises(amble.Error, match="expected a letter"):
+        champion.export(tmp_path / "2 legs.c")
+    gait = champion.gait(undisturbed=True)
+    champion.trial(record=tmp_path / "walk.rec")
+    recorded = amble.gait(tmp_path / "walk.rec")  # in single precision
+    assert gait["gait"] == recorded["gait"] and gait["distance_m"] == pytest.approx(recorded["distance_m"])
+    assert amble.gait(champion) == champion.gait() == amble.gait(run)

@@ -1,0 +1,61 @@
+#include "amble/exporting/export_file.hpp"
+
+#include "amble/core/error.hpp"
+#include "amble/exporting/c_text.hpp"
+#include "amble/exporting/json_source.hpp"
+#include "amble/io/file.hpp"
+
+namespace amble::exporting {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Ticks of the champion's own trial that become test vectors.
+constexpr int test_ticks = 100;
+
+/// When the first step is.
+std::string start_sentence(const experiment::Problem& problem) {
+  const bool later = problem.trial.first_command == trial::FirstCommand::after_first_step;
+  return later
+             ? "The robot starts in its start pose; its motors hold the joints where they are for one tick, "
+               "then the first step."
+             : "The first step is in the robot's start pose.";
+}
+
+fs::path header_of(const fs::path& source) {
+  return fs::path(source).replace_extension(".h");
+}
+
+void check_c_name(const fs::path& out) {
+  const std::string stem = out.stem().string();
+  if (c_identifier(stem) != stem)
+    fail(ExitCode::bad_input,
+         "{}: the file's name is the prefix of all names in it: expected a letter, then letters, digits and "
+         "underscores",
+         out.string());
+  for (const fs::path& path : {out, header_of(out)})
+    io::refuse_to_replace(path, "/* Controller exported by amble", "an exported controller");
+}
+
+}  // namespace
+
+void write_c(const experiment::Champion& champion, const fs::path& out, Arithmetic arithmetic,
+             const std::atomic<bool>& stop) {
+  check_c_name(out);
+  const auto tables = controller_tables(champion.problem, champion.genome);
+  const auto trace = record_trace(champion.problem, champion.genome, test_ticks, stop);
+  if (stop) return;
+  const auto c = c_source(
+      tables, champion.problem.robot, provenance_of(champion), trace,
+      {.prefix = out.stem().string(), .arithmetic = arithmetic, .start = start_sentence(champion.problem)});
+  io::write_file(header_of(out), c.header);
+  io::write_file(out, c.source);
+}
+
+std::string export_json(const experiment::Champion& champion, const std::atomic<bool>& stop) {
+  const auto tables = controller_tables(champion.problem, champion.genome);
+  const auto trace = record_trace(champion.problem, champion.genome, test_ticks, stop);
+  return stop ? std::string() : json_source(champion, tables, provenance_of(champion), trace);
+}
+
+}  // namespace amble::exporting

@@ -1,0 +1,33 @@
+#include "amble/presentation/champion_gait.hpp"
+
+#include <utility>
+
+#include "amble/experiment/replay.hpp"
+#include "amble/study/gait_observer.hpp"
+
+namespace amble::presentation {
+
+std::optional<ChampionGait> champion_gait(const experiment::Champion& champion, const std::string& origin,
+                                          std::optional<double> seconds,
+                                          const std::optional<std::string>& engine,
+                                          const gait::Settings& settings, const TrialChoice& choice, int jobs,
+                                          const std::atomic<bool>& stop) {
+  auto shown = shown_trial(champion, seconds, engine, choice, jobs, stop);
+  if (!shown) return std::nullopt;
+  experiment::Problem problem = champion.problem;
+  problem.noise = shown->noise;
+  study::GaitObserver observer(problem.robot, problem.trial.timestep_s, settings);
+  const auto replay = experiment::replay(problem, champion.genome,
+                                         {.seconds = seconds,
+                                          .engine = engine,
+                                          .record = {},
+                                          .origin = origin,
+                                          .observer = &observer,
+                                          .trace = false,
+                                          .noise = shown->key},
+                                         stop);
+  if (!replay) return std::nullopt;
+  return ChampionGait{std::move(*shown), observer.finish(replay->result.outcome)};
+}
+
+}  // namespace amble::presentation
