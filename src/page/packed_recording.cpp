@@ -25,12 +25,21 @@ class Table {
     indices_.push_back(to_index(reader_.column(name)));
     names_.push_back(name);
   }
+  /// To 1/512, which packs better: enough for a curve of neurons, which say −1 to 1. Behind all others.
+  void require_coarse(const std::string& name) {
+    require(name);
+    ++coarse_;
+  }
   void accept(const std::string& name) {
     if (std::ranges::find(reader_.header().columns, name) != reader_.header().columns.end()) require(name);
   }
 
   void add(const std::vector<float>& frame) {
-    for (const std::size_t index : indices_) values_.push_back(frame[index]);
+    for (std::size_t i = 0; i < indices_.size(); ++i) {
+      const float value = frame[indices_[i]];
+      const bool coarse = i + coarse_ >= indices_.size();
+      values_.push_back(coarse ? std::round(value * 512.0f) / 512.0f : value);
+    }
   }
   void add_row(const std::vector<float>& row) { values_.insert(values_.end(), row.begin(), row.end()); }
 
@@ -49,8 +58,12 @@ class Table {
   const record::RecordingReader& reader_;
   std::vector<std::string> names_;
   std::vector<std::size_t> indices_;
+  std::size_t coarse_ = 0;  ///< so many at the end
   std::vector<float> values_;
 };
+
+/// More of them fill a page more than they say.
+constexpr int most_neurons = 64;
 
 Table pose_table(const record::RecordingReader& reader, const robot::RobotSpec& robot) {
   Table table(reader);
@@ -60,6 +73,11 @@ Table pose_table(const record::RecordingReader& reader, const robot::RobotSpec& 
   for (const auto& joint : robot.joints) table.require("target." + joint.name);
   for (const auto& leg : robot.legs) table.accept("timer." + leg.name);
   for (const std::string& name : record::command_columns()) table.accept(name);
+  const auto is_neuron = [](const std::string& name) { return name.starts_with("neuron."); };
+  const auto& columns = reader.header().columns;
+  if (std::ranges::count_if(columns, is_neuron) <= most_neurons)
+    for (const std::string& name : columns)
+      if (is_neuron(name)) table.require_coarse(name);
   return table;
 }
 

@@ -126,6 +126,15 @@ test("a controller without patterns is named by its kind, and has no timers", ()
   });
 });
 
+test("a walker with neurons shows what they say, and what it typically does", () =>
+  onPage(join(process.env.AMBLE_SOURCE, "docs/drive.html"), {}, async (page) => {
+    assert.match(await page.locator("#subtitle").textContent(), /^Typically \d\.\d+ m in 15 s: half of 64 trials .*% fell .*\. Shown is its median trial: /);
+    const neurons = page.locator("#analysis section", { hasText: "What each neuron beside the SUPGs says" });
+    assert.equal(await neurons.locator("h2").textContent(), "Neurons");
+    assert.equal(await neurons.locator("canvas").count(), 1);
+    assert.match(await page.locator("#analysis").textContent(), /patterns, stretched and shifted by the links of neurons/);
+  }));
+
 /** A model of a table on ten legs, each with a hip and a knee. */
 function tenLegs() {
   const legs = [0, 1, 2, 3, 4].flatMap((row) => [["L", 1], ["R", -1]].map(([side, y]) => ({ name: `${side}${row + 1}`, x: 0.6 - 0.3 * row, y: 0.14 * y })));

@@ -3,7 +3,7 @@ import { GaitTable } from "./gait.js";
 import { Patterns } from "./patterns.js";
 import { element, legClass } from "./theme.js";
 import { PathFromAbove, rates } from "./told_path.js";
-import { commandPlot, footfallPlot, jointPlots, motionPlot, timerPlot } from "./time_diagrams.js";
+import { commandPlot, footfallPlot, jointPlots, motionPlot, neuronPlot, timerPlot } from "./time_diagrams.js";
 
 const section = (title, text, ...content) =>
   element("section", {}, element("h2", {}, title), ...(text ? [element("p", { class: "lead" }, text)] : []), ...content);
@@ -31,11 +31,15 @@ function triggerText({ kind, trigger, contact, modulation }) {
 
 /** What else moves targets than the pattern that is drawn. */
 function changesText({ kind, modulation }) {
-  if (kind === "mixed") return " The targets are these patterns, stretched and shifted by the links of neurons and sensors, which are not drawn here.";
+  if (kind === "mixed") return " The targets are these patterns, stretched and shifted by the links of neurons and sensors, whose values stand below.";
   if (!modulation?.sensors?.length) return "";
   return ` Drawn is the pattern alone; ${modulation.sensors.join(", ")} change${modulation.sensors.length === 1 ? "s" : ""} ` +
     `${[modulation.rate ? "how fast timers climb" : "", modulation.shape ? "the targets" : ""].filter(Boolean).join(" and ") || "nothing, as its gains are 0"}.`;
 }
+
+const neuronText = ({ controller: { kind } }) => kind === "mixed"
+  ? "What each neuron beside the SUPGs says, from −1 to 1: it listens to sensors, commands and others, and acts on rates, amplitudes and shifts."
+  : "What each neuron says, from 0 to 1. Those that bear a joint’s name are its target, over the joint’s range.";
 
 /** The numbers that oscillators are. */
 function oscillators(walk) {
@@ -70,6 +74,7 @@ export class Analysis {
       ...this.told(walk, plot),
       this.footfalls(walk, plot(footfallPlot(walk, window, clock))),
       ...this.supg(walk, plot),
+      ...(walk.neurons.length ? [section("Neurons", neuronText(walk), plot(neuronPlot(walk, window, clock)))] : []),
       section("Joints", "Each joint’s angle, in the colour of its leg, and the target that its servo follows, thin. " +
               "The height of a row is the joint’s range, which stands beside it in rad.",
               ...jointPlots(walk, window, clock).map(plot)),
@@ -108,6 +113,7 @@ export class Analysis {
 
   supg(walk, plot) {
     if (walk.controller.kind === "oscillators") return [oscillators(walk)];
+    if ((!walk.supg || !walk.timers) && walk.neurons.length) return [];
     if (!walk.supg || !walk.timers)
       return [section("Controller", "", note(`The controller is of kind “${walk.controller.kind}”: it has no timers and no ` +
                                              "temporal patterns to show."))];

@@ -30,5 +30,5 @@ export async function unpackFrames({ columns, first_s, step_s, count, data }) {
     bits[i] = (sorted[i] << 24) | (sorted[all + i] << 16) | (sorted[2 * all + i] << 8) | sorted[3 * all + i];
   const values = new Float32Array(bits.buffer);
   const byName = new Map(columns.map((name, c) => [name, values.subarray(c * count, (c + 1) * count)]));
-  return { count, first_s, step_s, get: (name) => byName.get(name) };
+  return { count, first_s, step_s, names: columns, get: (name) => byName.get(name) };
 }

@@ -10,7 +10,7 @@ class Table {
   constructor(names, rows, step_s) {
     this.columns = names.map(() => new Float32Array(rows));
     this.byName = new Map(names.map((name, c) => [name, this.columns[c]]));
-    Object.assign(this, { rows, first_s: 0, step_s, count: 0 });
+    Object.assign(this, { names, rows, first_s: 0, step_s, count: 0 });
   }
   get(name) {
     return this.byName.get(name);

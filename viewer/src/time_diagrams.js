@@ -4,7 +4,7 @@ import { Plot, niceAxis, number } from "./plot.js";
 import { legColour, walkerLineColour } from "./theme.js";
 
 const TRIGGER_SPAN_S = 40; // in longer windows the triangles would hide each other
-const FOOT_ROW = 30, TIMER_ROW = 40, JOINT_ROW = 46, MOTION_ROW = 112;
+const FOOT_ROW = 30, TIMER_ROW = 40, NEURON_ROW = 26, JOINT_ROW = 46, MOTION_ROW = 112;
 
 /**
  * Footfall diagram (Hildebrand 1965): a bar while the foot is on the ground, a triangle at each trigger. Chatter is a
@@ -47,6 +47,22 @@ export function timerPlot(walk, window, clock) {
       const y = (ticks) => base - (Math.max(ticks, 0) / period) * height;
       pen.curve(walk.timers[leg], walk.poses, y, legColour(leg), 1.6);
       if (walk.triggers) for (const time_s of walk.triggers[leg]) triangle(pen, time_s, base - height - 0.5);
+    });
+  });
+}
+
+/** What each neuron says: from −1 to 1 beside SUPGs, else from 0 to 1. */
+export function neuronPlot(walk, window, clock) {
+  const least = walk.controller.kind === "mixed" ? -1 : 0;
+  return new Plot("Neurons", walk.neurons.length * NEURON_ROW, window, clock, (pen) => {
+    walk.neurons.forEach(({ name, values }, row) => {
+      const base = row * NEURON_ROW + NEURON_ROW - 3, height = NEURON_ROW - 6;
+      const leg = walk.robot.legs.findIndex((one) => name.startsWith(one.name));
+      const [first, ...rest] = name.split(".");
+      pen.text(first, 0, base - height / 2 - (rest.length ? 9 : 6), { size: 10, css: "--ink" });
+      if (rest.length) pen.text(rest.join("."), 0, base - height / 2 + 2, { size: 10 });
+      pen.rect(pen.left, pen.right, base - height, height, "--panel");
+      pen.curve(values, walk.poses, (value) => base - height * (value - least) / (1 - least), leg < 0 ? "--ink" : legColour(leg), 1.4);
     });
   });
 }

@@ -25,6 +25,7 @@ export class Walk {
     this.commands = commands.every(Boolean) ? commands : null;
     this.touches = this.columnsOfLegs(contacts, "touch.");
     this.debounce_s = this.gait?.settings.debounce_s ?? 0;
+    this.neurons = (poses.names ?? []).filter((name) => name.startsWith("neuron.")).map((name) => ({ name: name.slice("neuron.".length), values: poses.get(name) }));
     this.triggered = this.columnsOfLegs(contacts, "trigger.");
     this.findEvents();
     this.supg = this.controller.patterns_rad ? this.controller : null;
