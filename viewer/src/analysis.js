@@ -39,7 +39,7 @@ function changesText({ kind, modulation }) {
 
 const neuronText = ({ controller: { kind } }) => kind === "mixed"
   ? "What each neuron beside the SUPGs says, from −1 to 1: it listens to sensors, commands and others, and acts on rates, amplitudes and shifts."
-  : "What each neuron says, from 0 to 1. Those that bear a joint’s name are its target, over the joint’s range.";
+  : `The controller is of kind “${kind}”. What each neuron says, from 0 to 1; those that bear a joint’s name are its target, over the joint’s range.`;
 
 /** The numbers that oscillators are. */
 function oscillators(walk) {

@@ -107,6 +107,7 @@ export class LabStage {
 
   /** Now, without waiting for the browser's next frame. */
   draw() {
+    if (!this.walk) return; // nothing has walked yet
     const time_s = Math.min(this.clock.time_s, this.walk.seconds);
     this.showing = true; // what moves the camera here asks for no other frame
     if (this.stage) {
