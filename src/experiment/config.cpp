@@ -94,7 +94,7 @@ bool senses_nothing(const Config& config) {
   return config.controller.kind == "supg" && config.controller.supg.modulation.sensors.empty();
 }
 
-constexpr std::array<IdleRule, 14> idle_rules{
+constexpr std::array<IdleRule, 10> idle_rules{
     {{"controller.supg.modulation.rate", "", senses_nothing, "controller.supg.modulation.sensors is empty"},
      {"controller.supg.modulation.shape", "", senses_nothing, "controller.supg.modulation.sensors is empty"},
      {"controller.supg.modulation.shape_by", "",
@@ -130,15 +130,7 @@ constexpr std::array<IdleRule, 14> idle_rules{
       "command.kind is \"none\""},
      {"command.stretches", "",
       [](const Config& config) { return config.command.kind == trial::CommandKind::random; },
-      "command.kind is \"random\""},
-     {"mutation.", "", [](const Config& config) { return config.search.kind == "cma-es"; },
-      "search.kind is \"cma-es\""},
-     {"crossover.", "", [](const Config& config) { return config.search.kind == "cma-es"; },
-      "search.kind is \"cma-es\""},
-     {"speciation.", "", [](const Config& config) { return config.search.kind == "cma-es"; },
-      "search.kind is \"cma-es\""},
-     {"reproduction.", "", [](const Config& config) { return config.search.kind == "cma-es"; },
-      "search.kind is \"cma-es\""}}};
+      "command.kind is \"random\""}}};
 
 }  // namespace
 
@@ -153,7 +145,11 @@ std::vector<std::string> idle_assignments(const Config& config, const std::vecto
                                    {"controller.substrate.", {"supg", "network", "ctrnn", "mixed"}}}};
   static const Choice searches{"search.kind",
                                {"objective", "novelty", "map-elites", "cma-es"},
-                               {{"search.novelty.", {"novelty"}},
+                               {{"mutation.", {"objective", "novelty", "map-elites"}},
+                                {"crossover.", {"objective", "novelty", "map-elites"}},
+                                {"speciation.", {"objective", "novelty", "map-elites"}},
+                                {"reproduction.", {"objective", "novelty", "map-elites"}},
+                                {"search.novelty.", {"novelty"}},
                                 {"search.map_elites.", {"map-elites"}},
                                 {"search.cma_es.", {"cma-es"}}}};
   std::vector<std::string> idle;

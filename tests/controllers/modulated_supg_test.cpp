@@ -384,18 +384,20 @@ TEST(ModulatedSupg, GrowsByPowersOfTwoWithinHalfAPart) {
 using neat::Activation;
 using neat::NodeKind;
 
-/// Outputs pattern, offset, gain and rate of bias, leg, joint type, time and sensor.
-cppn::Network linear_cppn(const std::array<std::array<double, 5>, 4>& weights) {
+/// Each output is the sum of its weights times the inputs, of which the first is the bias.
+template <std::size_t inputs, std::size_t outputs>
+cppn::Network linear_cppn(const std::array<std::array<double, inputs>, outputs>& weights) {
   neat::Genome genome;
-  for (std::uint32_t id = 0; id < 9; ++id)
+  for (std::uint32_t id = 0; id < inputs + outputs; ++id)
     genome.nodes.push_back({id,
-                            id == 0  ? NodeKind::bias
-                            : id < 5 ? NodeKind::input
-                                     : NodeKind::output,
+                            id == 0       ? NodeKind::bias
+                            : id < inputs ? NodeKind::input
+                                          : NodeKind::output,
                             Activation::linear});
-  for (std::uint32_t out = 0; out < 4; ++out)
-    for (std::uint32_t in = 0; in < 5; ++in)
-      genome.links.push_back({out * 5 + in, in, 5 + out, weights[out][in]});
+  for (std::uint32_t out = 0; out < outputs; ++out)
+    for (std::uint32_t in = 0; in < inputs; ++in)
+      genome.links.push_back({static_cast<std::uint32_t>(out * inputs + in), in,
+                              static_cast<std::uint32_t>(inputs + out), weights[out][in]});
   return {genome, {cppn::Linear::identity, true}};
 }
 
@@ -408,7 +410,7 @@ TEST(ModulatedSupg, DecodesGainsAndRatesAsComputedByHand) {
   EXPECT_EQ(architecture.cppn_outputs(), (std::vector<std::string>{"pattern", "offset", "gain", "rate"}));
   // gain = 0.1 + 0.2 type + 0.3 time + 0.4 sensor, rate = 10 leg + 0.5 type + 0.7 time + 0.6 sensor; sensors
   // ½, 1.
-  const auto decoded = architecture.decode(linear_cppn(
+  const auto decoded = architecture.decode(linear_cppn<5, 4>(
       {{{0.1, 0, 0, 0.2, 9.0}, {0.2, 0, 0, 0, 0}, {0.1, 0, 0.2, 0.3, 0.4}, {0.0, 10.0, 0.5, 0.7, 0.6}}}));
   const auto& parameters = dynamic_cast<const ModulatedParameters&>(*decoded);
   const Modulation& modulation = parameters.modulation();
@@ -428,25 +430,11 @@ TEST(ModulatedSupg, DecodesGainsAndRatesAsComputedByHand) {
   EXPECT_NEAR(parameters.targets_rad(0, 5)[0], -0.8 + 0.4 * (1.2), 1e-6);
 }
 
-/// Outputs pattern, offset and rate of bias, leg, joint type, time and the readings of pitch and touch.
-cppn::Network reading_cppn(const std::array<std::array<double, 6>, 3>& weights) {
-  neat::Genome genome;
-  for (std::uint32_t id = 0; id < 9; ++id)
-    genome.nodes.push_back({id,
-                            id == 0  ? NodeKind::bias
-                            : id < 6 ? NodeKind::input
-                                     : NodeKind::output,
-                            Activation::linear});
-  for (std::uint32_t out = 0; out < 3; ++out)
-    for (std::uint32_t in = 0; in < 6; ++in)
-      genome.links.push_back({out * 6 + in, in, 6 + out, weights[out][in]});
-  return {genome, {cppn::Linear::identity, true}};
-}
-
 TEST(ModulatedSupg, ByReadingIsThePatternThatTheCppnSaysForWhatIsSensed) {
   SupgSettings settings;
   settings.period_s = 0.1;
   settings.trigger = Trigger::none;
+  settings.idle = Idle::wrap;
   settings.modulation = {
       .sensors = {"pitch", "touch"}, .rate = 0.5, .shape = 1.0, .shape_by = ShapeBy::reading};
   const SupgArchitecture architecture(settings, supg_substrate(), quadruped(), timestep_s);
@@ -455,7 +443,7 @@ TEST(ModulatedSupg, ByReadingIsThePatternThatTheCppnSaysForWhatIsSensed) {
   EXPECT_EQ(architecture.cppn_outputs(), (std::vector<std::string>{"pattern", "offset", "rate"}));
   // pattern = 0.1 time + 0.4 pitch − 0.2 touch, rate = 0.5 type + 0.7 time + 0.6 pitch − 0.1 touch.
   const auto decoded = architecture.decode(
-      reading_cppn({{{0, 0, 0, 0.1, 0.4, -0.2}, {0.2, 0, 0, 0, 0, 0}, {0, 0, 0.5, 0.7, 0.6, -0.1}}}));
+      linear_cppn<6, 3>({{{0, 0, 0, 0.1, 0.4, -0.2}, {0.2, 0, 0, 0, 0, 0}, {0, 0, 0.5, 0.7, 0.6, -0.1}}}));
   const Modulation& modulation = dynamic_cast<const ModulatedParameters&>(*decoded).modulation();
   EXPECT_NEAR(modulation.rate(0, 0), 0.5 * 0.6, 1e-6);
   EXPECT_NEAR(modulation.rate(0, 1), 0.5 * -0.1, 1e-6);
@@ -470,7 +458,6 @@ TEST(ModulatedSupg, ByReadingIsThePatternThatTheCppnSaysForWhatIsSensed) {
     sensors.attitude_rad.at(1, 0) = pitch_rad;
     batch->step(sensors, targets);
     batch->state(0, state);
-    if (state[0] < 0.0f) break;
     const double s = std::clamp(pitch_rad / 0.5, -1.0, 1.0);
     const double pattern = 0.1 * static_cast<double>(state[0]) / 10.0 + 0.4 * s - 0.2;
     EXPECT_NEAR(targets.at(0, 0), -0.8 + 0.4 * (pattern + 1.0), 1e-5) << pitch_rad;  // FL knee: −0.8 … 0

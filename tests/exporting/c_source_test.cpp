@@ -230,6 +230,39 @@ TEST(CSource, WithoutTriggersReadsNoSensor) {
   }
 }
 
+constexpr std::string_view told_main = R"(#include <math.h>
+#include <stdio.h>
+#include "walker.h"
+int main(void) {
+  static walker_sensors in;
+  walker_targets targets;
+  walker_state state;
+  walker_init(&state);
+  walker_set_command(&state, 0.2f, 0.1f);
+  walker_step(&state, &in, &targets);
+  walker_set_command(&state, NAN, INFINITY);
+  walker_step(&state, &in, &targets);
+  walker_set_command(&state, 1e9f, -1e9f);
+  printf("%g %g\n", state.command_speed_m_s, state.command_turn_rad_s);
+  walker_set_command(&state, 0.2f, 0.1f);
+  walker_step(&state, &in, &targets);
+  printf("%.4f %.4f\n", state.heading_error_rad, state.wanted_yaw_rad);
+  return 0;
+}
+)";
+
+TEST(CSource, KeepsItsHeadingWhateverItIsTold) {
+  const auto all = modulated_samples();
+  const auto obeying = std::ranges::find(all, "obeying", &Sample::name);
+  ASSERT_NE(obeying, all.end());
+  const TemporaryFolder scratch;
+  write_walker(scratch.path(), evolve(*obeying));
+  io::write_file(scratch / "told.c", std::string(told_main));
+  ASSERT_EQ(compile(scratch.path(), "gcc", "-std=c99 -Wall -Wextra -Werror", scratch / "told.c", "told"), "");
+  // Three ticks of 0.1 rad/s: what was not finite changed nothing.
+  EXPECT_EQ(run_shell("'" + (scratch / "told").string() + "'").out, "100 -100\n0.0020 0.0030\n");
+}
+
 TEST(FixedPoint, HasAsManyFractionBitsAsTheWidestRangeLeaves) {
   exporting::ControllerTables tables;
   tables.joints = {{.name = "a", .leg = 0, .lower_rad = -0.8, .upper_rad = 0.4, .driven = true}};
