@@ -16,6 +16,7 @@
 #include "amble/record/recording.hpp"
 #include "python/bind.hpp"
 #include "python/readable.hpp"
+#include "python/trial_choice.hpp"
 
 namespace amble::python {
 namespace {
@@ -161,16 +162,15 @@ std::string save_champion(ReadableChampion& self, const py::object& path) {
 
 py::object gait_of(const ReadableChampion& self, std::optional<double> seconds,
                    std::optional<std::string> engine, std::string level, int trials, bool undisturbed,
-                   std::optional<int> jobs) {
+                   std::optional<int> jobs, const py::object& noise) {
   check_seconds(seconds);
   const int workers = jobs_of(jobs);
+  const auto choice = trial_choice(std::move(level), noise, trials, undisturbed);
   std::string text;
   Interruptible interruptible;
   interruptible.run([&] {
-    const auto walked =
-        presentation::champion_gait(self.value, self.origin(), seconds, engine, {},
-                                    {.level = std::move(level), .trials = trials, .undisturbed = undisturbed},
-                                    workers, interruptible.stop());
+    const auto walked = presentation::champion_gait(self.value, self.origin(), seconds, engine, {}, choice,
+                                                    workers, interruptible.stop());
     if (walked) text = gait::report_json(walked->report);
   });
   return to_python(io::parse_json(text, "gait"));
@@ -204,10 +204,10 @@ std::string export_champion(const ReadableChampion& self, const py::object& path
 }
 
 py::dict typical(const ReadableChampion& self, std::optional<double> seconds,
-                 std::optional<std::string> engine, std::string level, int trials, std::optional<int> jobs) {
+                 std::optional<std::string> engine, std::string level, int trials, std::optional<int> jobs,
+                 const py::object& noise) {
   check_seconds(seconds);
-  if (trials < 0)
-    throw py::value_error(fmt::format("trials: {}: expected a whole number, at least 1", trials));
+  const auto choice = trial_choice(std::move(level), noise, trials);
   const int workers = jobs_of(jobs);
   experiment::Problem problem = self.value.problem;
   if (seconds) problem.trial.duration_s = *seconds;
@@ -217,8 +217,7 @@ py::dict typical(const ReadableChampion& self, std::optional<double> seconds,
   std::string used;
   Interruptible interruptible;
   interruptible.run([&] {
-    auto runner = presentation::typical_trials(problem, self.value.seed,
-                                               {.level = std::move(level), .trials = trials}, workers);
+    auto runner = presentation::typical_trials(problem, self.value.seed, choice, workers);
     used = runner.level().name;
     results = runner.run(self.value.genome, interruptible.stop());
   });
@@ -242,7 +241,7 @@ void bind_outputs(py::class_<ReadableChampion>& champion) {
       .def(
           "gait", gait_of, py::arg("seconds") = py::none(), py::arg("engine") = py::none(),
           py::arg("level") = "", py::arg("trials") = 0, py::arg("undisturbed") = false, py::kw_only(),
-          py::arg("jobs") = py::none(),
+          py::arg("jobs") = py::none(), py::arg("noise") = py::none(),
           R"(Its gait, in the median of the trials of typical() where it was evolved under noise, else in its trial
 without noise (docs/GAIT.md): the dict that `amble gait --json` writes.
 
@@ -294,11 +293,13 @@ seconds: length, s. engine: "ode", "batch", "mujoco" or "mujoco-model". record: 
 Returns a dict: outcome, distance_m, score, seconds, steps, events (of the controller, by name).)")
       .def("typical", typical, py::arg("seconds") = py::none(), py::arg("engine") = py::none(),
            py::arg("level") = "", py::arg("trials") = 0, py::kw_only(), py::arg("jobs") = py::none(),
+           py::arg("noise") = py::none(),
            R"(What it typically does: many trials that evolution has not met, each disturbed otherwise.
 
 seconds, engine: as in trial(). level: "own" (the noise of its evolution), "control", "micro", "100-micro"
 or "milli" (starts that differ by so many radians); default: its own noise, or "milli" without any.
-trials: their number (default: 64, or 16 in engines that run one at a time). jobs: workers.
+noise: path of a config file whose [noise] disturbs instead. trials: their number (default: 64, or 16 in engines
+that run one at a time). jobs: workers.
 Returns a dict: level, distance_m (the median), lower_quartile_m, upper_quartile_m, best_m (the luckiest),
 fell_share, trials (a list of dicts as trial() returns them, without events).)")
       .def("__repr__", [](const ReadableChampion& self) {

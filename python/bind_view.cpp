@@ -1,80 +1,110 @@
 #include <pybind11/stl.h>
 
 #include "amble/experiment/champion.hpp"
-#include "amble/io/file.hpp"
-#include "amble/presentation/shown_trial.hpp"
-#include "amble/presentation/walker.hpp"
+#include "amble/experiment/run_folder.hpp"
+#include "amble/presentation/walkers_page.hpp"
 #include "python/bind.hpp"
 #include "python/readable.hpp"
+#include "python/trial_choice.hpp"
 
 namespace amble::python {
 namespace {
 
-/// As `amble view` takes its inputs.
-bool is_recording_file(const std::filesystem::path& path) {
-  return !std::filesystem::is_directory(path) && path.extension() != ".json";
+/// The folder of a run that was given as such; nothing if it is something else.
+std::optional<std::filesystem::path> run_folder_of(const py::object& object) {
+  if (py::isinstance<ReadableRun>(object)) return object.cast<const ReadableRun&>().paths().folder;
+  if (py::isinstance<ReadableChampion>(object) || py::isinstance<ReadRecording>(object)) return std::nullopt;
+  const auto path = path_of(object);
+  return std::filesystem::is_directory(path) ? std::optional(path) : std::nullopt;
 }
 
-page::Walker walker_of(const py::object& object, const presentation::WalkOptions& options,
-                       const presentation::TrialChoice& choice, const io::ScratchFile& scratch) {
-  const bool is_recording = py::isinstance<ReadRecording>(object);
-  if (is_recording || (!py::isinstance<ReadableChampion>(object) && !py::isinstance<ReadableRun>(object) &&
-                       is_recording_file(path_of(object)))) {
-    if (options.seconds || options.engine || choice.undisturbed)
-      throw py::value_error("a recording has been made already: no seconds, no engine, not undisturbed");
-    if (!is_recording) {
-      const auto path = path_of(object);
-      const py::gil_scoped_release release;
-      return presentation::recorded(path);
-    }
-    // What was read, which its file may not have any more.
-    const auto& recording = object.cast<const ReadRecording&>();
+/// As `amble view` takes its inputs.
+bool is_recording(const py::object& object) {
+  if (py::isinstance<ReadRecording>(object)) return true;
+  if (py::isinstance<ReadableChampion>(object) || run_folder_of(object)) return false;
+  return path_of(object).extension() != ".json";
+}
+
+void add_recording(presentation::WalkersPage& page, const py::object& object) {
+  if (!py::isinstance<ReadRecording>(object)) {
+    const auto path = path_of(object);
     const py::gil_scoped_release release;
-    io::write_file(scratch.path(), recording.bytes);
-    auto walker = presentation::recorded(scratch.path());
-    walker.title = recording.path.stem().string();
-    return walker;
+    return page.add_recording(path);
   }
+  // What was read, which its file may not have any more.
+  const auto& recording = object.cast<const ReadRecording&>();
+  const py::gil_scoped_release release;
+  page.add_recording(recording.bytes, recording.path);
+}
+
+void add_champion(presentation::WalkersPage& page, const py::object& object) {
+  const auto run = run_folder_of(object);
   const auto champion = py::isinstance<ReadableChampion>(object)
                             ? object.cast<const ReadableChampion&>()
-                            : champion_at(py::isinstance<ReadableRun>(object)
-                                              ? object.cast<const ReadableRun&>().paths().best_champion()
-                                              : path_of(object));
-  std::optional<page::Walker> walker;
+                            : champion_at(run ? experiment::find_run(*run).best_champion() : path_of(object));
   Interruptible interruptible;
-  interruptible.run([&] {
-    experiment::Champion shown_of = champion.value;
-    presentation::WalkOptions how = options;
-    const auto shown = presentation::shown_trial(shown_of, how.seconds, how.engine, choice, jobs_of({}),
-                                                 interruptible.stop());
-    if (!shown) return;
-    shown_of.problem.noise = shown->noise;
-    how.noise = shown->key;
-    walker = presentation::walk(shown_of, champion.origin(), how, scratch.path(), interruptible.stop());
-    if (!walker) return;
-    walker->typical = shown->typical;
-    walker->shown = shown->which();
-  });
-  return std::move(*walker);
+  interruptible.run(
+      [&] { page.add_champion(champion.value, champion.origin(), run, jobs_of({}), interruptible.stop()); });
 }
 
-std::string page_of(const py::object& champion, std::optional<double> seconds,
-                    std::optional<std::string> engine, bool undisturbed) {
-  check_seconds(seconds);
-  const io::ScratchFile scratch("walk.rec");
-  page::ReplayPage page{.title = {}, .walkers = {}, .made_by = presentation::made_by()};
-  page.walkers.push_back(walker_of(champion, {.seconds = seconds, .engine = std::move(engine)},
-                                   {.level = {}, .undisturbed = undisturbed}, scratch));
-  page.title = page.walkers.front().title;
+/// The champions of a run from first to last, for the page.
+py::list history_of(const py::list& all) {
+  const auto run = all.size() == 1 ? run_folder_of(all[0]) : std::nullopt;
+  if (!run) throw py::value_error("history: expected one Run, or the path of its folder");
+  py::list ages;
+  for (const auto& file : presentation::champions_of_history(*run)) ages.append(file.string());
+  return ages;
+}
+
+struct ViewArguments {
+  std::optional<double> seconds;
+  std::optional<std::string> engine;
+  std::string level;
+  py::object noise;
+  int trials = 0;
+  bool undisturbed = false, history = false;
+  std::optional<std::string> title;
+};
+
+std::string page_of(const py::list& given, const ViewArguments& arguments) {
+  check_seconds(arguments.seconds);
+  if (given.size() == 0) throw py::value_error("expected at least one champion, run or recording");
+  const auto choice = trial_choice(arguments.level, arguments.noise, arguments.trials, arguments.undisturbed);
+  const presentation::WalkersPageOptions options{
+      .walk = {.seconds = arguments.seconds, .engine = arguments.engine},
+      .disturbance = choice,
+      .title = arguments.title,
+      .history = arguments.history};
+  presentation::WalkersPage page(options);
+  const py::list shown = arguments.history ? history_of(given) : given;
+  for (const auto& item : shown) {
+    const auto object = py::reinterpret_borrow<py::object>(item);
+    if (!is_recording(object)) {
+      add_champion(page, object);
+      continue;
+    }
+    if (const auto key = options.not_for_recordings(); !key.empty())
+      throw py::value_error(fmt::format("{}: a recording has been made already", key));
+    add_recording(page, object);
+  }
   const py::gil_scoped_release release;
-  return page::make_page(page);
+  return std::move(page).html();
 }
 
 }  // namespace
 
 void bind_view(py::module_& module) {
-  module.def("_page", page_of, py::arg("champion"), py::arg("seconds"), py::arg("engine"),
-             py::arg("undisturbed"), "The page of amble.view(), as text.");
+  module.def(
+      "_page",
+      [](const py::list& shown, std::optional<double> seconds, std::optional<std::string> engine,
+         std::string level, py::object noise, int trials, bool undisturbed, bool history,
+         std::optional<std::string> title) {
+        return page_of(shown, {seconds, std::move(engine), std::move(level), std::move(noise), trials,
+                               undisturbed, history, std::move(title)});
+      },
+      py::arg("shown"), py::arg("seconds"), py::arg("engine"), py::arg("level"), py::arg("noise"),
+      py::arg("trials"), py::arg("undisturbed"), py::arg("history"), py::arg("title"),
+      "The page of amble.view(), as text.");
 }
 
 }  // namespace amble::python

@@ -77,7 +77,10 @@ def calls(config, run, recording):
          {"angle_rad": no_array(5, 12), "touch": no_array(5, 4), "attitude_rad": no_array(5, 3)[1:]}),
         (controllers.reset, {"mask": None}, {"mask": bad_mask}),
         (amble.view, {"champion": recording}, {"champion": NO_PATH, "seconds": [0, -1.0, float("nan"), "x", [], 1.0],
-                                               "engine": no_engine, "height": [0, -1, "x", 1.5, None]}),
+                                               "engine": no_engine, "height": [0, -1, "x", 1.5, None],
+                                               "level": ["x", 1, [], "micro"], "noise": NO_PATH + [run, CONFIG],
+                                               "trials": [-1, "x", 1 << 40, 5], "history": [True, "x"],
+                                               "title": [1, []]}),
         (robots.step, {"targets": np.zeros((5, 12))}, {"targets": no_array(5, 12)}),
         (robots.reset, {"mask": None}, {"mask": bad_mask}),
     ]
