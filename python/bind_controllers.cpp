@@ -60,7 +60,7 @@ struct Controllers {
                 : 0.0f;
     }
   }
-  /// Of the commands that the frame has.
+  /// By the commands that the frame has: none is a stop.
   void take_stops() {
     for (int lane = 0; lane < count; ++lane)
       sensors.command_stop.at(0, lane) =

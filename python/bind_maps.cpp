@@ -146,14 +146,14 @@ std::string save_map(const ReadableMap& self, const py::object& path, std::optio
 }
 
 py::object adapt(const ReadableMap& self, const std::string& damage, const std::string& engine, int trials,
-                 int episodes, int judges, const py::object& page, std::optional<int> jobs) {
+                 int episodes, int test_trials, const py::object& page, std::optional<int> jobs) {
   check_trials(trials, 1);
-  if (episodes < 1 || judges < 1) throw py::value_error("episodes, judges: expected at least 1");
+  if (episodes < 1 || test_trials < 1) throw py::value_error("episodes, test_trials: expected at least 1");
   experiment::AdaptSettings settings{.engine = engine,
                                      .damage = experiment::damage_of(damage),
                                      .most_trials = trials,
                                      .episodes = episodes,
-                                     .test_trials = judges};
+                                     .test_trials = test_trials};
   std::optional<std::filesystem::path> file;
   if (!page.is_none()) {
     file = path_of(page);
@@ -240,13 +240,13 @@ trials: new trials of each elite, which the file tells (default: 20 of a map mad
 most that can be chosen in the page. Raises Error.)")
       .def(
           "adapt", adapt, py::arg("damage"), py::arg("engine") = "ode", py::arg("trials") = 20, py::kw_only(),
-          py::arg("episodes") = 1, py::arg("judges") = 20, py::arg("page") = py::none(),
+          py::arg("episodes") = 1, py::arg("test_trials") = 20, py::arg("page") = py::none(),
           py::arg("jobs") = py::none(),
           R"(Lets a damaged robot find a gait in the map, by intelligent trial and error, as `amble adapt` does.
 
 damage: such as "missing:FL,weak:FR_knee=0.3", or the path of a config with [damage]. engine: stands for reality.
-trials: at most. episodes: attempts under different noise whose mean is a trial's result. judges: trials that judge
-before and after. page: path of a page to write. Returns a dict as the command's JSON: intact, damaged, adapted (means),
+trials: at most. episodes: attempts under different noise whose mean is a trial's result. test_trials: trials
+that tell how far it gets before and after. page: path of a page to write. Returns a dict as the command's JSON: intact, damaged, adapted (means),
 cell, done, trials. Raises Error.)")
       .def("__repr__", [](const ReadableMap& self) {
         return fmt::format("<amble.Map of {} cells, {} filled: {}>", self.elites().cells(),

@@ -9,6 +9,7 @@
 #include "amble/browser/session.hpp"
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
+#include "amble/experiment/plan/told_generation.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/neat/population.hpp"
 #include "amble/search/generational.hpp"
@@ -133,16 +134,15 @@ bool Evolution::advance(int steps) {
 }
 
 void Evolution::end_generation() {
-  const score::Score score = of_.problem.make_score();
-  std::vector<double> objectives;
+  const auto& trials = candidates_->trajectories;
+  std::vector<double> objectives = experiment::objectives(of_.problem, trials, 1);
   std::vector<search::Evaluation> evaluations;
   progress_.fell = 0;
-  for (const record::Trajectory& trajectory : candidates_->trajectories) {
-    objectives.push_back(of_.problem.credited(score.of(trajectory), trajectory.outcome));
-    evaluations.push_back({.objective = objectives.back(),
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    evaluations.push_back({.objective = objectives[i],
                            .behaviour = {},
-                           .viable = trajectory.outcome != record::Outcome::diverged});
-    progress_.fell += trajectory.outcome == record::Outcome::fell;
+                           .viable = trials[i].outcome != record::Outcome::diverged});
+    progress_.fell += trials[i].outcome == record::Outcome::fell;
   }
   const auto best = std::ranges::max_element(objectives);
   progress_.generation = search_->round();

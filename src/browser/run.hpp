@@ -11,8 +11,8 @@
 
 #include "amble/browser/plan.hpp"
 #include "amble/browser/trials.hpp"
+#include "amble/experiment/plan/checkpoint.hpp"
 #include "amble/experiment/plan/generation_row.hpp"
-#include "amble/experiment/plan/run_state.hpp"
 #include "amble/experiment/problem/champion.hpp"
 
 namespace amble::browser {
@@ -42,7 +42,7 @@ class Run {
 
   /// What does not change: names of the CPPN's inputs and outputs, and more, as JSON.
   std::string describe() const;
-  /// Of the generation that ended last, for pages.
+  /// The generation that ended last, for pages.
   std::string progress_json() const;
   /// The file of the best so far. AMBLE_CHECK: a generation has ended.
   const std::string& champion() const;

@@ -1,9 +1,12 @@
 // What pages are told of a generation.
+#include <algorithm>
 #include <cmath>
 
 #include "amble/browser/run.hpp"
 #include "amble/io/json_file.hpp"
+#include "amble/search/generational.hpp"
 #include "amble/search/map_elites.hpp"
+#include "amble/search/novelty.hpp"
 
 namespace amble::browser {
 namespace {
@@ -21,6 +24,21 @@ io::Json map_json(const search::Strategy& strategy) {
   for (std::uint32_t i = 0; i < map->elites().size(); ++i)
     cells.push_back({map->elites()[i].cell, rounded(map->elites()[i].objective)});
   return cells;
+}
+
+/// [x, y, x, y, …], m: where the latest members of an archive of paths ended; null for a search without one.
+io::Json archive_json(const search::Strategy& strategy) {
+  constexpr std::size_t most_shown = 2000;
+  const auto* generational = dynamic_cast<const search::GenerationalSearch*>(&strategy);
+  if (generational == nullptr) return nullptr;
+  const auto* novelty = dynamic_cast<const search::NoveltySearch*>(&generational->criterion());
+  if (novelty == nullptr) return nullptr;
+  const search::Behaviours& archive = novelty->archive();
+  io::Json ends = io::Json::array();
+  for (std::size_t r = archive.rows() - std::min(archive.rows(), most_shown); r < archive.rows(); ++r)
+    for (const float coordinate_m : archive.row(r).last(2))
+      ends.push_back(rounded(static_cast<double>(coordinate_m)));
+  return ends;
 }
 
 }  // namespace
@@ -64,6 +82,7 @@ std::string Run::progress_json() const {
       {"species", std::move(species)},
       {"metrics", std::move(metrics)},
       {"ends", std::move(ends)},
+      {"archive", archive_json(*state_.strategy)},
       {"map", map_json(*state_.strategy)}}
       .dump();
 }

@@ -134,6 +134,8 @@ std::string Session::describe() const {
       {"recorded_steps", evolved_in_ == engine ? champion_.trace.size() : 0},
       {"distance_m", champion_.result.distance_m},
       {"columns", column_names(problem, *trial_)},
+      {"cppn_inputs", problem.architecture->cppn_inputs()},
+      {"cppn_outputs", problem.architecture->cppn_outputs()},
       {"robot", robot::to_json(damage::as_drawn(problem.robot, problem.damage))},
       {"controller",
        io::parse_json(problem.architecture->parameters_json(trial_->parameters()), "controller")},

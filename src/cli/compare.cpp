@@ -51,7 +51,7 @@ std::string distance_text(double distance_m) {
   return fmt::format("{:.3f} m", distance_m);
 }
 
-/// Of fewer trials quartiles say little.
+/// Quartiles of fewer trials say little.
 constexpr std::size_t fewest_for_quartiles = 4;
 
 /// The distance, and where several trials lie: " [4.9, 5.8]", their quartiles.

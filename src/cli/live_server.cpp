@@ -71,7 +71,7 @@ class LiveServer::Pages : public serving::Site {
   }
 
  private:
-  /// Of a cell of the map, of a generation, or the latest; empty if there is none.
+  /// The champion of a cell of the map, of a generation, or the latest; empty if there is none.
   std::string champion(const std::string& run, const serving::Request& request) const {
     const std::string generation = request.value("generation"), cell = request.value("cell");
     const auto number = whole_number(generation), place = whole_number(cell);

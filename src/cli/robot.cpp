@@ -14,6 +14,7 @@
 #include "amble/morphology/mjcf_writer.hpp"
 #include "amble/robot/doubts.hpp"
 #include "amble/robot/summary.hpp"
+#include "amble/morphology/reading_notes.hpp"
 
 namespace amble::cli {
 namespace {

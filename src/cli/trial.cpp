@@ -15,6 +15,7 @@
 #include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"
 #include "amble/damage/text.hpp"
+#include "amble/experiment/gait_observer.hpp"
 #include "amble/experiment/problem/episode_set.hpp"
 #include "amble/experiment/problem/live_inputs.hpp"
 #include "amble/experiment/replay.hpp"
@@ -23,7 +24,6 @@
 #include "amble/io/file.hpp"
 #include "amble/io/text.hpp"
 #include "amble/record/frame_codec.hpp"
-#include "amble/study/gait_observer.hpp"
 
 namespace amble::cli {
 namespace {
@@ -173,7 +173,7 @@ ExitCode run_trial(const TrialOptions& options) {
   if (options.damage) damage_as_in(*options.damage, champion);
   tell(options, champion);
   if (options.record) io::refuse_to_replace(*options.record, record::recording_magic, "a recording");
-  study::GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
+  experiment::GaitObserver gait(champion.problem.robot, champion.problem.trial.timestep_s, {});
   experiment::ReplayOptions how{.seconds = options.seconds,
                                 .engine = options.engine,
                                 .record = options.record,

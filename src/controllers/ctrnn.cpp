@@ -57,38 +57,6 @@ class CtrnnBatch final : public NeuralBatch {
 
 }  // namespace
 
-void CtrnnSettings::describe(io::SettingsVisitor& visitor) {
-  visitor.choice("equation", equation, equation_names,
-                 {"what is integrated: the neurons' values (rate: τ dy/dt = −y + s(Σ w y − bias)) or their "
-                  "potentials (potential: τ dy/dt = −y + Σ w s(y + bias))",
-                  "the authors' code: rate; Beer 1995, eq. 1: potential"});
-  visitor.choice("integrator", integrator, integrator_names,
-                 {"how it is integrated", "the authors' code: euler"});
-  visitor.number(
-      "step", step, {1e-6, 1e6},
-      {"length of one step of the integrator, in the unit of the time constants", "the authors' code: 1"});
-  visitor.integer("steps_per_tick", steps_per_tick, {1, 10000},
-                  {"steps of the integrator in a tick", "the authors' code: 17"});
-  visitor.choice("state", state, state_rule_names,
-                 {"whether the neurons' state is kept from tick to tick or cleared before each",
-                  "the authors' code: cleared; Morse et al. 2013: a CTRNN, so kept"});
-  visitor.number("slope", slope, {1e-3, 1e3},
-                 {"slope of the neurons' logistic function", "HyperSharpNEAT: 4.9; Beer 1995: 1"});
-  visitor.texts(
-      "sensors", sensors,
-      {.what =
-           "with controller.substrate = \"auto\": what each leg's module senses beside its touch, by names "
-           "as those of controller.supg.modulation.sensors; in the sensors' units times their "
-           "controller.sensing.sensors[].scale",
-       .first_is_implied = true});
-  visitor.choice(
-      "motor_bias", motor_bias, motor_bias_names,
-      {.what = "with controller.substrate = \"auto\": biases of the neurons that drive joints: 3 (fixed), "
-               "or from −3 to 3 by the CPPN (evolved)",
-       .source = "the authors' code: fixed",
-       .first_is_implied = true});
-}
-
 CtrnnArchitecture::CtrnnArchitecture(const CtrnnSettings& settings, const substrate::Settings& substrate,
                                      const robot::RobotSpec& robot, double timestep_s,
                                      const SensingSettings& sensing)

@@ -1,47 +1,16 @@
 #pragma once
 
-#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "amble/controllers/kind_settings.hpp"
 #include "amble/controllers/neural.hpp"
 
 namespace amble::controllers {
 
 /// The properties of a neuron; the unit of time is that of CtrnnSettings::step.
 inline constexpr std::string_view bias_property = "bias", time_constant_property = "time_constant";
-
-/// Which differential equation the neurons follow (CtrnnArchitecture).
-enum class Equation { rate, potential };
-inline constexpr std::array<std::string_view, 2> equation_names{"rate", "potential"};
-
-enum class Integrator { euler, exponential_euler, rk4 };
-inline constexpr std::array<std::string_view, 3> integrator_names{"euler", "exponential_euler", "rk4"};
-
-/// What becomes of the neurons' state between ticks.
-enum class StateRule { kept, cleared };
-inline constexpr std::array<std::string_view, 2> state_rule_names{"kept", "cleared"};
-
-/// Biases of the motors of an automatic substrate: those of the authors, or as the CPPN has them.
-enum class MotorBias { fixed, evolved };
-inline constexpr std::array<std::string_view, 2> motor_bias_names{"fixed", "evolved"};
-
-/// A continuous-time recurrent neural network. The defaults are what the authors' code did.
-struct CtrnnSettings {
-  Equation equation = Equation::rate;
-  Integrator integrator = Integrator::euler;
-  double step = 1.0;        ///< > 0, in the unit of the time constants
-  int steps_per_tick = 17;  ///< ≥ 1
-  StateRule state = StateRule::cleared;
-  double slope = 4.9;  ///< of s(x), > 0
-  /// What each module of an automatic substrate senses beside its touch, and its motors'
-  /// biases (automatic_variants.hpp).
-  std::vector<std::string> sensors = {};
-  MotorBias motor_bias = MotorBias::fixed;
-
-  void describe(io::SettingsVisitor& visitor);
-};
 
 /// Continuous-time recurrent neural networks in a substrate (Morse et al. 2013, sec. 4 and figure 7). With
 /// s(x) = 1/(1 + e^(−slope x)), bias b and time constant τ of each neuron, weights w and values o of its

@@ -169,29 +169,6 @@ class DifferentialBatch final : public Batch {
 
 }  // namespace
 
-void DifferentialSettings::describe(io::SettingsVisitor& visitor) {
-  visitor.number(
-      "turn_gain", turn_gain, {0.0, 1000.0},
-      {"while a turn of w rad/s is commanded, the legs on the inner side swing 1 − this × |w| as far "
-       "as evolved, down to −1, that is backwards, s/rad; 0: no turns"});
-  visitor.number(
-      "full_speed_m_s", full_speed_m_s, {0.0, 100.0},
-      {"commanded speed at which legs swing as evolved, m/s; by slower ones they swing less, by 0 m/s "
-       "and 0 rad/s all joints stand; 0: speeds and stops are not obeyed"});
-  visitor.number("heading_gain", heading_gain, {0.0, 100.0},
-                 {"rate of turning that is added to the commanded one for each radian of heading error, 1/s; "
-                  "0: none"});
-  visitor.number("change_s", change_s, {0.0, 60.0},
-                 {"time in which legs pass from swinging as evolved to standing, s; 0: at once"});
-  visitor.choice(
-      "about", about, swing_centre_names,
-      {"angle about which a joint moves less: that of the start pose, or the middle of its range"});
-  visitor.texts(
-      "joint_types", joint_types,
-      {"types of the joints that swing a leg forward and back; empty: of each leg the one that moves "
-       "its foot farthest forward per radian in the start pose"});
-}
-
 SwingJoints swing_joints(const robot::RobotSpec& robot, const std::vector<std::string>& joint_types) {
   check_types(robot, joint_types);
   SwingJoints found;

@@ -1,33 +1,13 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "amble/controllers/controller.hpp"
-#include "amble/io/settings.hpp"
+#include "amble/controllers/kind_settings.hpp"
 
 namespace amble::controllers {
-
-/// About which angle a joint swings less: that of the start pose, or the middle of its range.
-enum class SwingCentre { start_pose, middle };
-inline constexpr std::array<std::string_view, 2> swing_centre_names{"start_pose", "middle"};
-
-/// Differential steering by hand, of a controller that senses no commands itself. Off by default.
-struct DifferentialSettings {
-  double turn_gain = 0.0;       ///< s/rad: inner legs swing by 1 − turn_gain × |turn|
-  double full_speed_m_s = 0.0;  ///< the command at which legs swing as evolved; 0: speed is not steered
-  double heading_gain = 0.0;    ///< 1/s: rad/s added to the turn per rad of heading error
-  double change_s = 0.3;        ///< time in which a swing goes from 1 to 0
-  SwingCentre about = SwingCentre::start_pose;
-  std::vector<std::string> joint_types = {};  ///< of the joints that swing a leg; empty: SwingJoints
-
-  void describe(io::SettingsVisitor& visitor);
-  bool any() const { return turn_gain > 0.0 || full_speed_m_s > 0.0 || heading_gain > 0.0; }
-  friend bool operator==(const DifferentialSettings&, const DifferentialSettings&) = default;
-};
 
 /// Which joints swing a leg forward and back, and on which side each leg is.
 struct SwingJoints {
@@ -35,10 +15,10 @@ struct SwingJoints {
   std::vector<int> sides;                 ///< leg by leg: 1 left, −1 right, 0 neither
 };
 
-/// Of each leg the driven joint that moves its foot farthest forward or back per radian in the start pose,
-/// the first of those that do so alike; none where no joint moves it at least 1 mm. With `joint_types` the
-/// driven joints of these types instead. A leg is left if its hip (robot::hips_m) is left of the mean of
-/// all. Throws SettingError for a type that the robot lacks.
+/// Which swing: of each leg the driven joint that moves its foot farthest forward or back per radian in the
+/// start pose, the first of those that do so alike; none where no joint moves it at least 1 mm. With
+/// `joint_types` the driven joints of these types instead. A leg is left if its hip (robot::hips_m) is left
+/// of the mean of all. Throws SettingError for a type that the robot lacks.
 SwingJoints swing_joints(const robot::RobotSpec& robot, const std::vector<std::string>& joint_types);
 
 /// Any controller, steered by hand as a tracked vehicle is. With v and w what is commanded (m/s, rad/s to the

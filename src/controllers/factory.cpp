@@ -8,8 +8,13 @@
 
 #include "amble/controllers/automatic.hpp"
 #include "amble/controllers/automatic_variants.hpp"
+#include "amble/controllers/ctrnn.hpp"
+#include "amble/controllers/differential.hpp"
 #include "amble/controllers/mixed.hpp"
+#include "amble/controllers/network.hpp"
+#include "amble/controllers/oscillators.hpp"
 #include "amble/controllers/supg.hpp"
+#include "amble/controllers/switching.hpp"
 #include "amble/core/check.hpp"
 #include "amble/core/error.hpp"
 #include "amble/core/registry.hpp"

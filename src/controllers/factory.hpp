@@ -6,13 +6,9 @@
 #include <vector>
 
 #include "amble/controllers/controller.hpp"
-#include "amble/controllers/ctrnn.hpp"
-#include "amble/controllers/differential.hpp"
-#include "amble/controllers/network.hpp"
-#include "amble/controllers/oscillators.hpp"
+#include "amble/controllers/kind_settings.hpp"
 #include "amble/controllers/sensing.hpp"
 #include "amble/controllers/supg_settings.hpp"
-#include "amble/controllers/switching.hpp"
 #include "amble/io/own_settings.hpp"
 #include "amble/io/settings.hpp"
 #include "amble/substrate/settings.hpp"

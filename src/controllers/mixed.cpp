@@ -134,26 +134,6 @@ class NetBuilder {
 
 }  // namespace
 
-void MixedSettings::describe(io::SettingsVisitor& visitor) {
-  visitor.number(
-      "rate", rate, {0.0, 10.0},
-      {"what a source that says 1 adds to a leg's ρ by a rate link of the greatest weight: its rate "
-       "is a factor of 2 to the power of ρ, within ± 1; 0: nothing"});
-  visitor.number("amplitude", amplitude, {0.0, 10.0},
-                 {"the same for amplitude: 1 doubles the pattern about the middle of the joint's range, −1 "
-                  "leaves nothing of it"});
-  visitor.number("shift", shift, {0.0, 10.0},
-                 {"the same for shift: of the target, in halves of the joint's range"});
-  visitor.number("coupling", coupling, {0.0, 10.0},
-                 {"the same for coupling: ρ where the other leg is a quarter of a period ahead of where it "
-                  "should be"});
-  visitor.choice(
-      "neurons", neurons, leg_neurons_names,
-      {.what = "with controller.substrate = \"auto\": two neurons a leg, or none, for comparison: then "
-               "what is commanded acts on SUPGs alone",
-       .first_is_implied = true});
-}
-
 namespace {
 
 /// Sensors of modulation would be one more way to sense.

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "amble/controllers/kind_settings.hpp"
 #include "amble/controllers/supg.hpp"
 #include "amble/controllers/supg_settings.hpp"
 

@@ -87,10 +87,11 @@ ModulatedSupgBatch::ModulatedSupgBatch(ModulatedSupgs supgs, ModulatedParameters
   const SupgSettings& settings = supgs_.settings;
   period_ = parked_.period_ticks() * parts_per_tick;
   start_ = settings.start_tick * parts_per_tick;
-  end_of_cycle_ = settings.idle == Idle::mid ? stopped : period_;
-  wraps_ = settings.idle == Idle::wrap;
-  airborne_ticks_needed_ = settings.trigger == Trigger::level ? 0 : settings.trigger_debounce_ticks;
-  by_touch_ = bits_if(settings.trigger == Trigger::edge || settings.trigger == Trigger::level);
+  const CycleRule rule = cycle_rule(settings, parked_.period_ticks());
+  wraps_ = rule.end == 0;  // by as much as the timer is beyond the period
+  end_of_cycle_ = rule.end < 0 ? stopped : period_;
+  airborne_ticks_needed_ = rule.airborne_ticks_needed;
+  by_touch_ = bits_if(rule.by_touch);
   phase_ = bits_if(settings.offset == Offset::phase);
   reset_share_ = reset_share(settings.modulation);
   refractory_ticks_ = settings.modulation.refractory_ticks;

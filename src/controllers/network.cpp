@@ -29,13 +29,6 @@ class NetworkBatch final : public NeuralBatch {
 
 }  // namespace
 
-void NetworkSettings::describe(io::SettingsVisitor& visitor) {
-  visitor.number("slope", slope, {1e-3, 1e3},
-                 {"slope of the neurons' logistic function", "HyperSharpNEAT: 4.9"});
-  visitor.integer("passes", passes, {1, 10000},
-                  {"updates of all neurons in a tick, from a cleared state", "the authors' code: 17"});
-}
-
 NetworkArchitecture::NetworkArchitecture(const NetworkSettings& settings,
                                          const substrate::Settings& substrate, const robot::RobotSpec& robot,
                                          double timestep_s, const SensingSettings& sensing)

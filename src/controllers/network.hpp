@@ -1,16 +1,9 @@
 #pragma once
 
+#include "amble/controllers/kind_settings.hpp"
 #include "amble/controllers/neural.hpp"
 
 namespace amble::controllers {
-
-/// A static network of neurons that is run anew in each tick.
-struct NetworkSettings {
-  double slope = 4.9;
-  int passes = 17;
-
-  void describe(io::SettingsVisitor& visitor);
-};
 
 /// Static neurons in a substrate: value = 1/(1 + e^(−slope Σ weight × value of the source)). With a node
 /// whose sensor is "sine" this is the sine wave architecture (Morse et al. 2013, sec. 4 and figure 6).

@@ -126,19 +126,6 @@ class OscillatorBatch final : public Batch {
 
 }  // namespace
 
-void OscillatorSettings::describe(io::SettingsVisitor& visitor) {
-  constexpr std::string_view paper = "Raffin et al., arXiv 2310.05808";
-  visitor.number("least_frequency_hz", least_frequency_hz, {0.001, 100.0},
-                 {"the slowest that a joint can swing, turns per second", paper});
-  visitor.number("most_frequency_hz", most_frequency_hz, {0.001, 100.0},
-                 {"the fastest that a joint can swing, turns per second", paper});
-  visitor.choice(
-      "reset", reset, phase_reset_names,
-      {"a foot that comes down leaves the phases of its leg as they are (none) or starts them anew "
-       "(touch)",
-       "Raffin et al.: none"});
-}
-
 OscillatorArchitecture::OscillatorArchitecture(const OscillatorSettings& settings,
                                                const robot::RobotSpec& robot, double timestep_s)
     : settings_(settings), timestep_s_(timestep_s), outputs_{"swing_frequency", "stance_frequency"} {

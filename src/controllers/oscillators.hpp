@@ -1,30 +1,16 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "amble/controllers/controller.hpp"
 #include "amble/controllers/joint_range.hpp"
-#include "amble/io/settings.hpp"
+#include "amble/controllers/kind_settings.hpp"
 
 namespace amble::controllers {
-
-/// What a foot that comes down does to the phases of its leg.
-enum class PhaseReset { none, touch };
-inline constexpr std::array<std::string_view, 2> phase_reset_names{"none", "touch"};
-
-struct OscillatorSettings {
-  double least_frequency_hz = 0.3, most_frequency_hz = 3.0;
-  PhaseReset reset = PhaseReset::none;
-
-  void describe(io::SettingsVisitor& visitor);
-  bool operator==(const OscillatorSettings&) const = default;
-};
 
 /// An oscillator for each joint, the baseline of Raffin et al., "An Open-Loop Baseline for Reinforcement
 /// Learning Locomotion Tasks" (arXiv 2310.05808, eq. 1). With amplitude a, phase shift φ and offset b of

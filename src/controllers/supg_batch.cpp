@@ -50,18 +50,6 @@ namespace {
 
 constexpr std::int32_t stopped = SupgParameters::stopped;
 
-std::int32_t end_of_cycle(Idle idle, int period_ticks) {
-  switch (idle) {
-    case Idle::mid:
-      return stopped;
-    case Idle::hold:
-      return period_ticks;
-    case Idle::wrap:
-      return 0;
-  }
-  return stopped;
-}
-
 /// All bits of a condition, and by them one of two numbers.
 constexpr std::int32_t mask(bool condition) {
   return -static_cast<std::int32_t>(condition);
@@ -78,15 +66,16 @@ SupgBatch::SupgBatch(const SupgSettings& settings, double timestep_s, std::vecto
     : offset_(settings.offset),
       start_tick_(settings.start_tick),
       period_ticks_(parked.period_ticks()),
-      airborne_ticks_needed_(settings.trigger == Trigger::level ? 0 : settings.trigger_debounce_ticks),
-      by_touch_(mask(settings.trigger == Trigger::edge || settings.trigger == Trigger::level)),
-      end_of_cycle_(end_of_cycle(settings.idle, parked.period_ticks())),
       leg_names_(std::move(leg_names)),
       joints_(std::move(joints)),
       parked_(std::move(parked)),
       lanes_(lanes),
       contact_(std::move(contact)) {
   AMBLE_CHECK(lanes > 0, "a batch has at least one lane");
+  const CycleRule rule = cycle_rule(settings, period_ticks_);
+  airborne_ticks_needed_ = rule.airborne_ticks_needed;
+  by_touch_ = mask(rule.by_touch);
+  end_of_cycle_ = rule.end;
   const auto size = static_cast<std::size_t>(parked_.legs() * lanes);
   tables_.resize(size);
   for (auto* const values : {&timer_, &airborne_ticks_, &wait_ticks_, &first_timer_, &triggered_})

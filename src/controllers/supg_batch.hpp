@@ -82,9 +82,9 @@ class SupgBatch : public Batch {
 
   Offset offset_;
   std::int32_t start_tick_, period_ticks_;
-  std::int32_t airborne_ticks_needed_;  ///< for a touch to be a trigger
-  std::int32_t by_touch_;               ///< all bits if touches are triggers, else 0
-  std::int32_t end_of_cycle_;           ///< what the timer becomes on reaching the period
+  std::int32_t airborne_ticks_needed_ = 0;  ///< for a touch to be a trigger
+  std::int32_t by_touch_ = 0;               ///< all bits if touches are triggers, else 0
+  std::int32_t end_of_cycle_ = 0;           ///< what the timer becomes on reaching the period
   std::vector<std::string> leg_names_;
   SupgJoints joints_;
   SupgParameters parked_;

@@ -96,4 +96,22 @@ int period_ticks(const SupgSettings& settings, double timestep_s) {
   return static_cast<int>(whole);
 }
 
+CycleRule cycle_rule(const SupgSettings& settings, int period_ticks) {
+  CycleRule rule;
+  switch (settings.idle) {
+    case Idle::mid:
+      rule.end = -1;
+      break;
+    case Idle::hold:
+      rule.end = period_ticks;
+      break;
+    case Idle::wrap:
+      rule.end = 0;
+      break;
+  }
+  rule.by_touch = settings.trigger == Trigger::edge || settings.trigger == Trigger::level;
+  rule.airborne_ticks_needed = settings.trigger == Trigger::level ? 0 : settings.trigger_debounce_ticks;
+  return rule;
+}
+
 }  // namespace amble::controllers

@@ -81,21 +81,12 @@ struct SupgSettings {
 /// period_s in ticks. Throws UserError unless that is a whole number of at least 2.
 int period_ticks(const SupgSettings& settings, double timestep_s);
 
-/// Neurons of an automatic mixed substrate.
-enum class LegNeurons { two, none };
-inline constexpr std::array<std::string_view, 2> leg_neurons_names{"two", "none"};
-
-/// How strongly the links of a mixed substrate act on SUPGs: what one source that says 1 changes by the
-/// greatest weight. 0: not at all.
-struct MixedSettings {
-  double rate = 1.0;       ///< ρ: the period by a factor of two
-  double amplitude = 1.0;  ///< of the pattern about the middle of the joint's range: once more, or none
-  double shift = 0.5;      ///< of the target, in halves of the joint's range
-  double coupling = 1.0;   ///< ρ, a quarter of a period off
-  LegNeurons neurons = LegNeurons::two;  ///< of each leg, in an automatic substrate
-
-  void describe(io::SettingsVisitor& visitor);
-  friend bool operator==(const MixedSettings&, const MixedSettings&) = default;
+/// What the timer of a leg does, in ticks: the settings as batches and exports follow them.
+struct CycleRule {
+  int end = 0;                    ///< the timer's value where a period ends without a trigger; −1: stopped
+  int airborne_ticks_needed = 0;  ///< ticks off the ground before a touch is a trigger; 0: each touch is one
+  bool by_touch = true;           ///< whether touches are triggers at all
 };
+CycleRule cycle_rule(const SupgSettings& settings, int period_ticks);
 
 }  // namespace amble::controllers

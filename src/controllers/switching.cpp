@@ -126,21 +126,6 @@ float in_parts(std::vector<float>& values) {
 
 }  // namespace
 
-void GaitSettings::describe(io::SettingsVisitor& visitor) {
-  visitor.number("speed_m_s", speed_m_s, {-100.0, 100.0}, {"speed at which this gait walks, m/s"});
-  visitor.number("turn_rad_s", turn_rad_s, {-100.0, 100.0}, {"rate at which it turns to the left, rad/s"});
-  visitor.text("genome", genome, {"genome of its CPPN, as in a champion file, as JSON in a text"});
-}
-
-void SwitchingSettings::describe(io::SettingsVisitor& visitor) {
-  visitor.tables(
-      "gaits", gaits,
-      {"what the walker can do: `amble repertoire RUN --switching FILE.json` writes them from a map"});
-  visitor.number("heading_gain", heading_gain, {0.0, 100.0},
-                 {"rate of turning that is added to the commanded one for each radian of heading error, 1/s; "
-                  "0: none"});
-}
-
 GaitChoice::GaitChoice(const SwitchingSettings& settings) {
   AMBLE_CHECK(settings.any(), "there are gaits to choose from");
   for (const GaitSettings& gait : settings.gaits) {

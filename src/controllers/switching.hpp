@@ -5,30 +5,10 @@
 #include <vector>
 
 #include "amble/controllers/controller.hpp"
+#include "amble/controllers/kind_settings.hpp"
 #include "amble/controllers/supg.hpp"
-#include "amble/io/settings.hpp"
 
 namespace amble::controllers {
-
-/// One of the gaits among which a walker switches.
-struct GaitSettings {
-  double speed_m_s = 0.0;   ///< at which it walks
-  double turn_rad_s = 0.0;  ///< at which it turns, to the left
-  std::string genome;       ///< of its CPPN, as neat::genome_text() writes it
-
-  void describe(io::SettingsVisitor& visitor);
-  friend bool operator==(const GaitSettings&, const GaitSettings&) = default;
-};
-
-/// Switching between gaits as commanded, for SUPGs. Off by default, when there are no gaits.
-struct SwitchingSettings {
-  std::vector<GaitSettings> gaits = {};
-  double heading_gain = 0.0;  ///< 1/s: rad/s added to the turn per rad of heading error
-
-  void describe(io::SettingsVisitor& visitor);
-  bool any() const { return !gaits.empty(); }
-  friend bool operator==(const SwitchingSettings&, const SwitchingSettings&) = default;
-};
 
 /// Which gait does best what is commanded: that whose (speed, turn) is nearest, each in parts of the range
 /// that the gaits span; of equally near ones the first. A part that they all have in common does not count.
@@ -70,7 +50,7 @@ class SwitchingArchitecture : public Architecture {
   }
   std::unique_ptr<Batch> make_batch(int lanes) const override;
   robot::ExtraSenses extra_senses() const override;
-  /// Of the own genome, and how many `gaits` there are.
+  /// What the own genome gives, and how many `gaits` there are.
   std::string parameters_json(const Parameters& parameters) const override;
 
  private:

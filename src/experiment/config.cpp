@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "amble/core/error.hpp"
+#include "amble/io/toml_settings.hpp"
 
 namespace amble::experiment {
 namespace fs = std::filesystem;

@@ -7,7 +7,10 @@
 #include <vector>
 
 #include "amble/experiment/plan/config.hpp"
-#include "amble/io/toml_settings.hpp"
+
+namespace amble::io {
+class TomlDocument;
+}
 
 namespace amble::experiment {
 

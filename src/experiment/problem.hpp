@@ -4,8 +4,11 @@
 
 #include "amble/experiment/config.hpp"
 #include "amble/experiment/problem/problem.hpp"
-#include "amble/morphology/reading_notes.hpp"
 #include "amble/robot/spec.hpp"
+
+namespace amble::morphology {
+class ReadingNotes;
+}
 
 namespace amble::experiment {
 

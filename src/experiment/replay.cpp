@@ -1,9 +1,11 @@
 #include "amble/experiment/replay.hpp"
 
 #include "amble/damage/stages.hpp"
+#include "amble/experiment/plan/told_generation.hpp"
 #include "amble/ground/recorded.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/robot/json.hpp"
+#include "amble/trial/observers.hpp"
 
 namespace amble::experiment {
 

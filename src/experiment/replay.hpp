@@ -8,8 +8,6 @@
 #include <vector>
 
 #include "amble/experiment/champion.hpp"
-#include "amble/experiment/plan/told_generation.hpp"
-#include "amble/trial/observers.hpp"
 #include "amble/trial/trial.hpp"
 
 namespace amble::experiment {

@@ -7,11 +7,16 @@
 #include "amble/core/clock.hpp"
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
+#include "amble/experiment/champion.hpp"
 #include "amble/experiment/champion_choice.hpp"
+#include "amble/experiment/config.hpp"
 #include "amble/experiment/episodes.hpp"
+#include "amble/experiment/evaluator.hpp"
 #include "amble/experiment/generation.hpp"
 #include "amble/experiment/memory_need.hpp"
+#include "amble/experiment/problem.hpp"
 #include "amble/experiment/run_files.hpp"
+#include "amble/experiment/run_folder.hpp"
 #include "amble/experiment/typical.hpp"
 
 namespace amble::experiment {
@@ -43,8 +48,43 @@ RunState first_state(const Config& config, const Problem& problem) {
 
 }  // namespace
 
-Run::Run(RunFolder folder, const Config& config, std::unique_ptr<const Problem> problem, RunState state,
-         RunFiles files, int jobs)
+class Run::State {
+ public:
+  State(RunFolder folder, const Config& config, std::unique_ptr<const Problem> problem, RunState state,
+        RunFiles files, int jobs);
+
+  RunStatus execute(RunListener& listener, const std::atomic<bool>& stop);
+
+  const Config& config() const { return config_; }
+  const Progress& progress() const { return state_.progress; }
+  const RunPaths& paths() const { return folder_.paths(); }
+  const Problem& problem() const { return *problem_; }
+  const TrialTally& tally() const { return tally_; }
+  int generation() const { return state_.strategy->round(); }
+
+ private:
+  RunStatus generations(RunListener& listener, const std::atomic<bool>& stop);
+  /// Saves the best of a generation if it becomes the champion; false if `stop` was set meanwhile.
+  bool keep_best(std::span<const neat::Genome> candidates, std::span<const double> objectives,
+                 ChampionChoice& choice, TypicalTrials& typical, GenerationRow& row,
+                 const std::atomic<bool>& stop);
+  /// Measures what the champion typically does; false if `stop` was set meanwhile.
+  bool measure_typical(TypicalTrials& trials, const neat::Genome& champion, const std::atomic<bool>& stop);
+  void tell(const EvaluatedGeneration& evaluated, GenerationRow& row);
+
+  RunFolder folder_;
+  Config config_;
+  std::unique_ptr<const Problem> problem_;
+  std::unique_ptr<const score::Behaviour> behaviour_;
+  RunState state_;
+  RunFiles files_;
+  GenerationGround ground_;
+  TrialTally tally_;
+  int jobs_;
+};
+
+Run::State::State(RunFolder folder, const Config& config, std::unique_ptr<const Problem> problem,
+                  RunState state, RunFiles files, int jobs)
     : folder_(std::move(folder)),
       config_(config),
       problem_(std::move(problem)),
@@ -52,6 +92,30 @@ Run::Run(RunFolder folder, const Config& config, std::unique_ptr<const Problem> 
       state_(std::move(state)),
       files_(std::move(files)),
       jobs_(jobs) {}
+
+Run::Run(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Run::Run(Run&&) noexcept = default;
+Run& Run::operator=(Run&&) noexcept = default;
+Run::~Run() = default;
+
+const Config& Run::config() const {
+  return state_->config();
+}
+const Progress& Run::progress() const {
+  return state_->progress();
+}
+const RunPaths& Run::paths() const {
+  return state_->paths();
+}
+const robot::RobotSpec& Run::robot() const {
+  return state_->problem().robot;
+}
+const TrialTally& Run::tally() const {
+  return state_->tally();
+}
+int Run::generation() const {
+  return state_->generation();
+}
 
 Run Run::start(const std::filesystem::path& folder, const Config& config, int jobs) {
   return start(folder, config, load_robot(config), jobs);
@@ -65,7 +129,8 @@ Run Run::start(const std::filesystem::path& folder, const Config& config, const 
   auto files = RunFiles::start(held.paths(), config, state);
   held.note_process(config, jobs, 0);
   held.save_config(config);  // last: what has a config is a run
-  return Run(std::move(held), config, std::move(problem), std::move(state), std::move(files), jobs);
+  return Run(std::make_unique<State>(std::move(held), config, std::move(problem), std::move(state),
+                                     std::move(files), jobs));
 }
 
 Run Run::resume(const std::filesystem::path& folder, std::optional<int> generations, int jobs) {
@@ -83,10 +148,15 @@ Run Run::resume(const std::filesystem::path& folder, std::optional<int> generati
   held.remove_leftovers();
   if (done < config.generations) held.note_process(config, jobs, done);
   if (generations) held.lengthen(config);
-  return Run(std::move(held), config, std::move(problem), std::move(state), std::move(files), jobs);
+  return Run(std::make_unique<State>(std::move(held), config, std::move(problem), std::move(state),
+                                     std::move(files), jobs));
 }
 
 RunStatus Run::execute(RunListener& listener, const std::atomic<bool>& stop) {
+  return state_->execute(listener, stop);
+}
+
+RunStatus Run::State::execute(RunListener& listener, const std::atomic<bool>& stop) {
   try {
     const RunStatus status = generations(listener, stop);
     files_.settle();
@@ -97,7 +167,7 @@ RunStatus Run::execute(RunListener& listener, const std::atomic<bool>& stop) {
 }
 
 // The generation loop: ask, evaluate, keep the best, tell, write.
-RunStatus Run::generations(RunListener& listener, const std::atomic<bool>& stop) {
+RunStatus Run::State::generations(RunListener& listener, const std::atomic<bool>& stop) {
   Evaluator evaluator(*problem_, behaviour_->path(), jobs_, behaviour_->measures());
   ChampionChoice choice(config_, *problem_, folder_.paths());
   TypicalTrials typical(*problem_, config_.seed, running_trials);
@@ -135,9 +205,9 @@ RunStatus Run::generations(RunListener& listener, const std::atomic<bool>& stop)
   return RunStatus::finished;
 }
 
-bool Run::keep_best(std::span<const neat::Genome> candidates, std::span<const double> objectives,
-                    ChampionChoice& choice, TypicalTrials& typical, GenerationRow& row,
-                    const std::atomic<bool>& stop) {
+bool Run::State::keep_best(std::span<const neat::Genome> candidates, std::span<const double> objectives,
+                           ChampionChoice& choice, TypicalTrials& typical, GenerationRow& row,
+                           const std::atomic<bool>& stop) {
   const auto best = to_index(std::ranges::max_element(objectives) - objectives.begin());
   const neat::Genome& genome = candidates[best];
   row.best_hidden = genome.count(neat::NodeKind::hidden);
@@ -162,14 +232,14 @@ bool Run::keep_best(std::span<const neat::Genome> candidates, std::span<const do
   return true;
 }
 
-bool Run::measure_typical(TypicalTrials& trials, const neat::Genome& champion,
-                          const std::atomic<bool>& stop) {
+bool Run::State::measure_typical(TypicalTrials& trials, const neat::Genome& champion,
+                                 const std::atomic<bool>& stop) {
   const auto results = trials.run(champion, stop);
   if (results) state_.progress.typical = typical_objective(*problem_, *results);
   return results.has_value();
 }
 
-void Run::tell(const EvaluatedGeneration& evaluated, GenerationRow& row) {
+void Run::State::tell(const EvaluatedGeneration& evaluated, GenerationRow& row) {
   const Stopwatch watch(row.times.search_s);
   const ToldGeneration generation = told(evaluated, *behaviour_);
   state_.strategy->tell(generation.evaluations);

@@ -9,8 +9,8 @@
 
 #include "amble/experiment/checkpoint.hpp"
 #include "amble/experiment/config.hpp"
+#include "amble/experiment/plan/checkpoint.hpp"
 #include "amble/experiment/plan/generation_row.hpp"
-#include "amble/experiment/plan/run_state.hpp"
 #include "amble/experiment/problem.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/io/file.hpp"

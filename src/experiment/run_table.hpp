@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "amble/experiment/plan/checkpoint.hpp"
-#include "amble/experiment/plan/table_digest.hpp"
+#include "amble/experiment/plan/generation_row.hpp"
 #include "amble/experiment/run_folder.hpp"
 #include "amble/search/strategy.hpp"
 

@@ -33,32 +33,13 @@ std::vector<CommandedJoint> commanded_joints(const robot::RobotSpec& robot) {
   return joints;
 }
 
-int end_of_cycle(controllers::Idle idle, int period_ticks) {
-  switch (idle) {
-    case controllers::Idle::mid:
-      return SupgParameters::stopped;
-    case controllers::Idle::hold:
-      return period_ticks;
-    case controllers::Idle::wrap:
-      return 0;
-  }
-  return SupgParameters::stopped;
-}
-
-int airborne_ticks_needed(const controllers::SupgSettings& settings) {
-  switch (settings.trigger) {
-    case controllers::Trigger::edge:
-      return settings.trigger_debounce_ticks;
-    case controllers::Trigger::level:
-      return 0;
-    case controllers::Trigger::none:
-      return SupgTables::never;
-    case controllers::Trigger::random:
-      break;
-  }
-  fail(ExitCode::bad_input,
-       "controller.supg.trigger = \"random\" cannot be exported: it is a control for simulations; expected "
-       "\"edge\", \"level\" or \"none\"");
+/// Throws UserError for triggers that no exported controller has.
+int airborne_ticks_needed(const controllers::SupgSettings& settings, const controllers::CycleRule& rule) {
+  if (settings.trigger == controllers::Trigger::random)
+    fail(ExitCode::bad_input,
+         "controller.supg.trigger = \"random\" cannot be exported: it is a control for simulations; expected "
+         "\"edge\", \"level\" or \"none\"");
+  return rule.by_touch ? rule.airborne_ticks_needed : SupgTables::never;
 }
 
 SupgTables::Seam seam_of(const Problem& problem) {
@@ -117,10 +98,11 @@ SupgTables::Contact contact_of(const Problem& problem) {
 SupgTables supg_tables(const Problem& problem, const SupgParameters& parameters) {
   const controllers::SupgSettings& settings = problem.controller.supg;
   const int period = parameters.period_ticks();
+  const controllers::CycleRule rule = controllers::cycle_rule(settings, period);
   SupgTables tables{.period_ticks = period,
-                    .airborne_ticks_needed = airborne_ticks_needed(settings),
+                    .airborne_ticks_needed = airborne_ticks_needed(settings, rule),
                     .start_tick = settings.start_tick,
-                    .end_of_cycle = end_of_cycle(settings.idle, period),
+                    .end_of_cycle = rule.end,
                     .legs = {},
                     .targets_rad = std::vector<std::vector<float>>(problem.robot.joints.size())};
   if (settings.contact.source != controllers::ContactSource::touch && tables.is_triggered())

@@ -8,7 +8,7 @@
 ///
 ///   svg.hpp           the Svg writer with its points, boxes and numbers
 ///   axis.hpp          data intervals, ticks, scales, drawn axes
-///   layout.hpp        widths of figures (wide and narrow), CSS classes of legs
+///   figure_size.hpp   widths of figures (wide and narrow), CSS classes of legs
 ///   style_sheet.hpp   what the CSS classes look like
 namespace amble::figures {
 

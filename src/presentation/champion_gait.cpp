@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "amble/experiment/gait_observer.hpp"
 #include "amble/experiment/replay.hpp"
-#include "amble/study/gait_observer.hpp"
 
 namespace amble::presentation {
 
@@ -16,7 +16,7 @@ std::optional<ChampionGait> champion_gait(const experiment::Champion& champion, 
   if (!shown) return std::nullopt;
   experiment::Problem problem = champion.problem;
   problem.noise = shown->noise;
-  study::GaitObserver observer(problem.robot, problem.trial.timestep_s, settings);
+  experiment::GaitObserver observer(problem.robot, problem.trial.timestep_s, settings);
   const auto replay = experiment::replay(problem, champion.genome,
                                          {.seconds = seconds,
                                           .engine = engine,

@@ -7,12 +7,12 @@
 
 #include "amble/core/index.hpp"
 #include "amble/experiment/build_info.hpp"
+#include "amble/experiment/gait_observer.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/figures/cppn_figure.hpp"
 #include "amble/gait/recorded_gait.hpp"
 #include "amble/gait/report_text.hpp"
 #include "amble/io/json_file.hpp"
-#include "amble/study/gait_observer.hpp"
 
 namespace amble::presentation {
 namespace {
@@ -78,7 +78,7 @@ std::optional<page::Walker> walk(const experiment::Champion& champion, const std
 std::optional<page::Walker> walk(const experiment::Problem& problem, const neat::Genome& genome,
                                  const std::string& origin, const WalkOptions& options,
                                  const std::filesystem::path& recording, const std::atomic<bool>& stop) {
-  study::GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
+  experiment::GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
   const auto replay = experiment::replay(problem, genome,
                                          {.seconds = options.seconds,
                                           .engine = options.engine,

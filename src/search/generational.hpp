@@ -29,6 +29,7 @@ class GenerationalSearch : public Strategy {
   std::uint64_t restore_log(std::size_t i, io::InputFile& file, const std::string& what) override;
 
   const neat::Population& population() const { return population_; }
+  const Criterion& criterion() const { return *criterion_; }
 
  private:
   neat::Population population_;

@@ -7,10 +7,13 @@
 #include <vector>
 
 #include "amble/io/binary.hpp"
-#include "amble/io/file.hpp"
 #include "amble/neat/genome.hpp"
 #include "amble/search/evaluation.hpp"
 #include "amble/search/metric.hpp"
+
+namespace amble::io {
+class InputFile;
+}
 
 namespace amble::search {
 

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "amble/core/index.hpp"
+#include "amble/experiment/gait_observer.hpp"
 #include "amble/experiment/mutants.hpp"
 #include "amble/experiment/replay_together.hpp"
 #include "amble/io/file.hpp"
 #include "amble/record/generations_csv.hpp"
 #include "amble/score/walking.hpp"
 #include "amble/statistics/descriptive.hpp"
-#include "amble/study/gait_observer.hpp"
 #include "amble/trial/observers.hpp"
 
 namespace amble::study {
@@ -148,7 +148,7 @@ std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experi
                             .reached = {},
                             .champion_score = 0.0,
                             .mutants = {}};
-  GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
+  experiment::GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
   std::vector<WalkObserver> walks(to_index(test.spec.episodes),
                                   WalkObserver(problem.trial.timestep_s, interval_s));
   trial::ObserverList first;

@@ -24,12 +24,6 @@ class TraceObserver : public Observer {
   std::vector<std::uint32_t> trace_;
 };
 
-/// How often something happened in a controller.
-struct EventCount {
-  std::string name;  ///< of a state variable, e.g. "trigger.front_left"
-  std::int64_t count = 0;
-};
-
 /// Counts the events of a controller (controllers::Batch::events).
 class EventObserver : public Observer {
  public:

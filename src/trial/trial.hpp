@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,12 @@
 #include "amble/trial/settings.hpp"
 
 namespace amble::trial {
+
+/// How often something happened in a controller.
+struct EventCount {
+  std::string name;  ///< of a state variable, e.g. "trigger.front_left"
+  std::int64_t count = 0;
+};
 
 /// Observes the trial of one lane. Called from the thread that runs it.
 class Observer {

@@ -9,7 +9,7 @@
 #include "amble/core/clock.hpp"
 #include "amble/experiment/checkpoint.hpp"
 #include "amble/experiment/config.hpp"
-#include "amble/experiment/plan/run_state.hpp"
+#include "amble/experiment/plan/checkpoint.hpp"
 #include "amble/experiment/problem.hpp"
 #include "amble/experiment/repertoire.hpp"
 #include "amble/io/file.hpp"
@@ -20,7 +20,7 @@ namespace amble::watch {
 namespace {
 
 constexpr double least_interval_s = 2.0, most_share = 0.002;
-/// Of an archive that is still read.
+/// The largest archive that is still read.
 constexpr std::int64_t most_archive_bytes = std::int64_t{256} << 20;
 /// Elites that pages are told one by one.
 constexpr std::uint32_t most_drawn = 20'000;

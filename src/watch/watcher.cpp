@@ -138,7 +138,7 @@ bool Watcher::look_at_study() {
       for (const auto& condition : spec.conditions) runs += static_cast<int>(spec.seeds_of(condition).size());
       planned_ = runs;
     } catch (const UserError&) {
-      // Of another version, or no study of amble.
+      // It is of another version, or no study of amble.
     }
   }
   int records = 0;

@@ -79,6 +79,29 @@ TEST(BrowserRun, GoesOnFromItsFilesToTheSameBits) {
   }
 }
 
+TEST(BrowserRun, TellsWhereTheMembersOfANoveltyArchiveEnded) {
+  const auto of = plan("novelty"), farthest = plan();
+  browser::Run run(of);
+  std::size_t before = 0;
+  for (int i = 0; i < 3; ++i) {
+    const io::Json told = io::parse_json(step(run, of, 20), "progress");
+    const auto members = told["metrics"]["archive"].get<std::size_t>();
+    ASSERT_EQ(told["archive"].size(), 2 * members);
+    EXPECT_GE(members, before);
+    before = members;
+    if (i > 0 || members == 0) continue;
+    // All of them are robots of the first generation, in their order.
+    std::size_t at = 0;
+    const auto &ends = told["ends"], &archive = told["archive"];
+    for (std::size_t k = 0; k < ends.size() && at < archive.size(); k += 2)
+      if (ends[k] == archive[at] && ends[k + 1] == archive[at + 1]) at += 2;
+    EXPECT_EQ(at, archive.size());
+  }
+  EXPECT_GT(before, 0u);
+  browser::Run other(farthest);
+  EXPECT_TRUE(io::parse_json(step(other, farthest, 20), "progress")["archive"].is_null());
+}
+
 TEST(BrowserRun, RefusesFilesOfAnotherRunAndDamagedOnes) {
   const auto of = plan();
   browser::Run run(of);

@@ -10,7 +10,7 @@
 
 #include "amble/experiment/champion.hpp"
 #include "amble/experiment/checkpoint.hpp"
-#include "amble/experiment/plan/table_digest.hpp"
+#include "amble/experiment/plan/generation_row.hpp"
 #include "amble/io/binary.hpp"
 #include "amble/robot/json.hpp"
 #include "tests/experiment/fixture.hpp"

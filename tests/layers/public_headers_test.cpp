@@ -52,7 +52,7 @@ TEST(PublicHeaders, AreThereAndListedOnce) {
   const auto listed = public_headers();
   const auto all = all_headers();
   EXPECT_GE(listed.size(), 30u);
-  EXPECT_LE(listed.size(), 50u) << "a small surface; what is not needed from outside is not promised";
+  EXPECT_LE(listed.size(), 65u) << "a small surface; what is not needed from outside is not promised";
   EXPECT_EQ(std::set(listed.begin(), listed.end()).size(), listed.size());
   for (const std::string& header : listed) EXPECT_TRUE(all.contains(header)) << header;
 }
@@ -69,8 +69,16 @@ TEST(PublicHeaders, BringNoLibraryOfJsonOrTomlAndNoEngineOfOthers) {
   }
 }
 
+TEST(PublicHeaders, BringFewOthers) {
+  const auto all = all_headers();
+  std::set<std::string> installed;
+  for (const std::string& header : public_headers()) reach(header, all, installed);
+  std::erase_if(installed, [](const std::string& name) { return name.starts_with("<"); });
+  EXPECT_LE(installed.size(), public_headers().size() + 20);
+}
+
 TEST(PublicHeaders, AreThoseOfTheDocs) {
-  static const std::regex row(R"(\| `([a-z_]+)` \| ((`[a-z_]+`,? ?)+) \|.*)"), name("`([a-z_]+)`");
+  static const std::regex row(R"(\| `([a-z_/]+)` \| ((`[a-z_]+`,? ?)+) \|.*)"), name("`([a-z_]+)`");
   std::set<std::string> in_docs;
   std::smatch match;
   for (const std::string& line : lines_of("docs/LIBRARY.md")) {

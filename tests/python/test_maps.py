@@ -67,7 +67,7 @@ def test_a_map_is_saved_by_the_ending_of_its_name(filled, tmp_path):
 
 
 def test_a_damaged_robot_finds_a_gait_as_on_the_command_line(filled, tmp_path):
-    found = amble.Map(filled).adapt("missing:FL", trials=4, judges=2, page=tmp_path / "found.html")
+    found = amble.Map(filled).adapt("missing:FL", trials=4, test_trials=2, page=tmp_path / "found.html")
     said_by_program("adapt", filled.folder, "--damage", "missing:FL", "--trials", 4, "--judge", 2, "-o", tmp_path / "found.json")
     told = json.loads((tmp_path / "found.json").read_text())
     for key in ("intact", "damaged", "adapted", "cell", "done", "trials"):

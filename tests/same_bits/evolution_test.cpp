@@ -76,20 +76,37 @@ search::Settings search_settings(const std::string& kind) {
   return settings;
 }
 
+/// "modulated": SUPGs that sense touch and pitch, by gains; "reading": by a pattern for each reading.
+controllers::ControllerSettings controller_settings(const std::string& name) {
+  controllers::ControllerSettings settings;
+  if (name != "oscillators") settings.substrate.layout = substrate::LayoutSource::automatic;
+  if (name != "modulated" && name != "reading") {
+    settings.kind = name;
+    return settings;
+  }
+  settings.kind = "supg";
+  settings.supg.idle = controllers::Idle::wrap;
+  settings.supg.modulation = {
+      .sensors = {"touch", "pitch"},
+      .rate = 0.5,
+      .shape = 0.5,
+      .shape_by = name == "reading" ? controllers::ShapeBy::reading : controllers::ShapeBy::gain};
+  return settings;
+}
+
 /// Hash of all objectives and behaviours of a run, and of its last candidates.
 std::string run_hash(const SmallRun& small) {
   constexpr int steps = 150, rounds = 6;
   constexpr double timestep_s = 0.01;
   const robot::RobotSpec robot = legged_robot(small.leg_rows);
-  controllers::ControllerSettings controller;
-  controller.kind = small.controller;
-  controller.substrate.layout = substrate::LayoutSource::automatic;
-  const auto architecture = controllers::make_architecture(controller, robot, timestep_s);
+  const auto architecture =
+      controllers::make_architecture(controller_settings(small.controller), robot, timestep_s);
 
   neat::Settings neat;
   neat.population.size = 32;
   neat.speciation.scale_targets(32);
   neat.mutation.add_node_share = 0.3;
+  if (std::string_view(small.search) == "cma-es") neat.genome.initial_link_probability = 1.0;
   const search::Settings settings = search_settings(small.search);
   const search::StrategyKind& kind = search::strategy_kind(settings);
   score::BehaviourSettings described{.steps = steps,
@@ -114,6 +131,8 @@ std::string run_hash(const SmallRun& small) {
                         .timestep_s = timestep_s,
                         .path = behaviour->path(),
                         .measures = behaviour->measures(),
+                        .sensing = {.extra = architecture->extra_senses(), .models = {}},
+                        .commands = trial::CommandSchedule({{0, {0.3f, 0.0f}}, {75, {0.2f, 0.5f}}}, 10),
                         .fall = robot.fall_rule(),
                         .start_rotation = robot.bodies[0].rotation});
   const std::atomic<bool> never{false};
@@ -153,7 +172,11 @@ INSTANTIATE_TEST_SUITE_P(SameBits, GoldenEvolution,
                                          SmallRun{"network", "objective", 2, "e2d5eca137498544"},
                                          SmallRun{"network", "map-elites", 3, "ebe2d87ba554b763"},
                                          SmallRun{"ctrnn", "novelty", 2, "0af50aecfc591f5f"},
-                                         SmallRun{"ctrnn", "map-elites", 1, "3ecb48f53a092895"}),
+                                         SmallRun{"ctrnn", "map-elites", 1, "3ecb48f53a092895"},
+                                         SmallRun{"modulated", "objective", 2, "fcc3786bf621f36e"},
+                                         SmallRun{"reading", "novelty", 2, "8b3b45c6d42215f6"},
+                                         SmallRun{"mixed", "objective", 2, "7e647738fe27b7c0"},
+                                         SmallRun{"oscillators", "cma-es", 2, "b3ce942be9e748db"}),
                          [](const auto& small) {
                            std::string name = std::string(small.param.controller) + "_" + small.param.search;
                            std::ranges::replace(name, '-', '_');

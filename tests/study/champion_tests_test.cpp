@@ -7,13 +7,13 @@
 #include <optional>
 #include <set>
 
+#include "amble/experiment/gait_observer.hpp"
 #include "amble/experiment/replay.hpp"
 #include "amble/gait/recorded_gait.hpp"
 #include "amble/io/file.hpp"
 #include "amble/ledger/measures.hpp"
 #include "amble/record/levels.hpp"
 #include "amble/score/walking.hpp"
-#include "amble/study/gait_observer.hpp"
 #include "tests/study/fixture.hpp"
 
 namespace amble::study {
@@ -86,7 +86,7 @@ TEST(ChampionToJson, IsReadByLedgersAsTheChampionSays) {
 TEST(GaitObserver, MeasuresWhatIsMeasuredOfTheRecording) {
   const test::TemporaryFolder folder;
   const auto& problem = champion().problem;
-  GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
+  experiment::GaitObserver gait(problem.robot, problem.trial.timestep_s, {});
   const auto replay =
       experiment::replay(problem, champion().genome,
                          {.seconds = 6.0, .record = folder.path() / "a.rec", .observer = &gait}, never);

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <string>
 #include <string_view>
 
 #include "amble/experiment/plan/config.hpp"
-#include "amble/score/typical.hpp"
+#include "amble/experiment/plan/progress.hpp"
+#include "amble/experiment/problem/problem.hpp"
+#include "amble/search/strategies.hpp"
 #include "amble/search/strategy.hpp"
 
 namespace amble::experiment {
@@ -15,18 +17,16 @@ inline constexpr std::uint32_t checkpoint_version = 4;
 /// Without Progress::csv_digest; can be read.
 inline constexpr std::uint32_t undigested_checkpoint_version = 3;
 
-/// Progress of a run.
-struct Progress {
-  double best = -1.0;  ///< objective of the champion; −1 before the first generation
-  int best_generation = -1;
-  /// What the champion typically does (objective, running_trials trials); not in checkpoints, as it follows
-  /// from the champion. Nothing before the first generation.
-  std::optional<score::Typical> typical = {};
-  std::uint64_t evaluations = 0;
-  std::uint64_t steps = 0;
-  double wall_s = 0.0;           ///< over all processes that worked on the run
-  std::uint64_t csv_bytes = 0;   ///< length of generations.csv
-  std::uint64_t csv_digest = 0;  ///< table_digest() of it; 0: not known
+/// What a run searches.
+search::SearchSpace space_of(const Config& config, const Problem& problem);
+
+/// A run between two generations: the content of a checkpoint.
+struct RunState {
+  /// Before the first generation.
+  RunState(const Config& config, const Problem& problem);
+
+  Progress progress;
+  std::unique_ptr<search::Strategy> strategy;
 };
 
 /// All state that a run needs to continue, to the bit, as the bytes of a file.

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "amble/core/check.hpp"
+#include "amble/core/hash.hpp"
+#include "amble/io/text.hpp"
 #include "amble/record/generations_csv.hpp"
 #include "amble/statistics/descriptive.hpp"
 
@@ -134,6 +136,16 @@ std::string TrialTally::verdict() const {
       "{}, so the results mean nothing: see what is odd about the robot by `amble robot`, a smaller "
       "trial.timestep_s may help",
       how);
+}
+
+std::uint64_t table_digest(std::uint64_t before, std::string_view header, std::string_view line) {
+  const auto names = io::split(header.substr(0, header.find('\n')), ',');
+  const auto untimed = std::ranges::find(names, record::column::wall_s) - names.begin();
+  std::size_t end = 0;
+  for (auto column = untimed; column > 0 && end < line.size(); --column)
+    end = std::min(line.find(',', end), line.size() - 1) + 1;
+  const std::uint64_t digest = hash_bytes(line.data(), end, before);
+  return digest == 0 ? 1 : digest;
 }
 
 }  // namespace amble::experiment

@@ -67,6 +67,10 @@ std::string csv_line(const GenerationRow& row, std::string_view header);
 /// The first column of a header that a search with these metrics does not have; empty: none.
 std::string unknown_column(std::string_view header, std::span<const search::Metric> search);
 
+/// The digest of a run's table after one more line (the header is the first, after 0): of all columns but
+/// times, so the same for any number of workers. Never 0.
+std::uint64_t table_digest(std::uint64_t before, std::string_view header, std::string_view line);
+
 /// The columns that come from the trials: best, mean, median, fell, diverged.
 void summarise_trials(std::span<const double> objectives, std::span<const record::Trajectory> trajectories,
                       GenerationRow& row);

@@ -71,7 +71,7 @@ struct Problem {
   std::unique_ptr<physics::Engine> make_engine(bool torques = false) const;
   std::unique_ptr<controllers::Parameters> decode(const neat::Genome& genome) const;
   score::Score make_score() const;
-  /// Of what is left of the robot after damage at the start, N.
+  /// Weight of what is left of the robot after damage at the start, N.
   double weight_n() const;
   /// What a trial of this score counts in evolution: with trial.fall_factor for a fall.
   double credited(double score_of_trial, record::Outcome outcome) const {

@@ -62,7 +62,7 @@ class MujocoModelEngine final : public SingleRobotEngine {
   }
 
   MovingPose motion(int lane) const override {
-    const mujoco_model::Root::Motion root = model_.root.motion(model_.get(), data_.get());
+    const mujoco_model::RootMotion root = model_.root.motion(model_.get(), data_.get());
     MovingPose motion{.pose = {root_pose(lane), {}},
                       .velocity_m_s = root.velocity_m_s,
                       .angular_velocity_rad_s = root.angular_velocity_rad_s,

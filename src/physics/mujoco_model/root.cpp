@@ -66,7 +66,7 @@ void Root::move(const mjModel* model, Vec3 velocity_m_s, Vec3 angular_velocity_r
   for (const int type : {mjJNT_HINGE, mjJNT_SLIDE})
     for (int j = joint_; j < joint_ + joints_; ++j) {
       if (model->jnt_type[j] != type) continue;
-      const Motion now = motion(model, data);
+      const RootMotion now = motion(model, data);
       const Vec3 missing = type == mjJNT_HINGE ? angular_velocity_rad_s - now.angular_velocity_rad_s
                                                : velocity_m_s - now.velocity_m_s;
       data->qvel[model->jnt_dofadr[j]] += dot(missing, vec3(data->xaxis + 3 * j));
@@ -79,7 +79,7 @@ RootPose Root::pose(const mjData& data) const {
   return {vec3(q), quat(q + 3)};
 }
 
-Root::Motion Root::motion(const mjModel* model, mjData* data) const {
+RootMotion Root::motion(const mjModel* model, mjData* data) const {
   if (free_) {
     const mjtNum* const speed = data->qvel + dof_;
     return {vec3(speed), rotate(pose(*data).rotation, vec3(speed + 3))};

@@ -6,6 +6,11 @@
 
 namespace amble::physics::mujoco_model {
 
+/// Velocity of the origin of the root's frame, and its angular velocity, world axes.
+struct RootMotion {
+  Vec3 velocity_m_s, angular_velocity_rad_s;
+};
+
 /// How a robot's root hangs in the world of its own model: by a free joint, or by slides and hinges, as
 /// planar walkers do (morphology::moves_as_root); then it moves no further than these let it.
 class Root {
@@ -26,13 +31,9 @@ class Root {
   /// Sets its speeds likewise. After place(), or other positions of bodies.
   void move(const mjModel* model, Vec3 velocity_m_s, Vec3 angular_velocity_rad_s, mjData* data) const;
 
-  /// Of a free root qpos itself; of others, as the positions of bodies were computed last.
+  /// A free root's is in qpos itself; that of others is as the positions of bodies were computed last.
   RootPose pose(const mjData& data) const;
-  /// Velocity of the origin of its frame, and angular velocity, world axes.
-  struct Motion {
-    Vec3 velocity_m_s, angular_velocity_rad_s;
-  };
-  Motion motion(const mjModel* model, mjData* data) const;
+  RootMotion motion(const mjModel* model, mjData* data) const;
 
  private:
   int body_ = 1, joint_ = 0, joints_ = 1;

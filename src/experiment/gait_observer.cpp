@@ -1,6 +1,6 @@
-#include "amble/study/gait_observer.hpp"
+#include "amble/experiment/gait_observer.hpp"
 
-namespace amble::study {
+namespace amble::experiment {
 namespace {
 
 void copy_lane(const LaneArray& rows, int lane, std::vector<float>& values) {
@@ -50,4 +50,4 @@ gait::Report GaitObserver::finish(record::Outcome outcome) {
   return report;
 }
 
-}  // namespace amble::study
+}  // namespace amble::experiment

@@ -7,7 +7,7 @@
 #include "amble/robot/spec.hpp"
 #include "amble/trial/trial.hpp"
 
-namespace amble::study {
+namespace amble::experiment {
 
 /// Measures the gait of a trial while it runs.
 class GaitObserver : public trial::Observer {
@@ -27,4 +27,4 @@ class GaitObserver : public trial::Observer {
   std::vector<float> touch_, angle_rad_, torque_nm_, target_rad_, state_;
 };
 
-}  // namespace amble::study
+}  // namespace amble::experiment

@@ -1,0 +1,94 @@
+#include "amble/experiment/run_paths.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <string>
+#include <system_error>
+
+#include "amble/core/error.hpp"
+#include "amble/core/hash.hpp"
+#include "amble/experiment/config.hpp"
+#include "amble/experiment/plan/manifest.hpp"
+#include "amble/io/file.hpp"
+#include "amble/io/json_file.hpp"
+
+namespace amble::experiment {
+namespace fs = std::filesystem;
+namespace {
+
+std::string champion_name(int generation) {
+  return fmt::format("{:05}.json", generation);
+}
+
+}  // namespace
+
+std::optional<int> generation_of(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  int generation = -1;
+  std::from_chars(stem.data(), stem.data() + stem.size(), generation);
+  if (generation < 0 || file.filename() != champion_name(generation)) return std::nullopt;
+  return generation;
+}
+
+RunPaths::RunPaths(const fs::path& folder_in)
+    : folder(folder_in),
+      config(folder / "config.toml"),
+      robot(folder / "robot.json"),
+      manifest(folder / "manifest.json"),
+      generations(folder / "generations.csv"),
+      checkpoint(folder / "checkpoint.bin"),
+      champions(folder / "champions") {}
+
+fs::path RunPaths::champion(int generation) const {
+  return champions / champion_name(generation);
+}
+
+std::vector<fs::path> RunPaths::champion_files() const {
+  std::vector<fs::path> files;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(champions, none))
+    if (generation_of(entry.path())) files.push_back(entry.path());
+  // As numbers: the names have five digits or more.
+  std::ranges::sort(files, {}, [](const fs::path& file) { return *generation_of(file); });
+  return files;
+}
+
+fs::path RunPaths::best_champion() const {
+  const auto files = champion_files();
+  if (files.empty()) fail(ExitCode::bad_input, "{}: no champion yet", folder.string());
+  return files.back();
+}
+
+std::filesystem::path champion_at(const std::filesystem::path& champion_or_run) {
+  if (!std::filesystem::is_directory(champion_or_run)) return champion_or_run;
+  return find_run(champion_or_run).best_champion();
+}
+
+std::uint64_t run_identity(const RunPaths& paths) {
+  const auto manifest =
+      io::unseal_json(manifest_format, run_version, io::read_file(paths.manifest), paths.manifest.string());
+  const auto processes = manifest.document.value("processes", io::Json::array());
+  const auto config = experiment::load_config(paths.config, {});
+  return hash_text(fmt::format("{} {} {} {} {}", config.seed, config.name, config.identity(),
+                               hash_text(io::read_file(paths.robot)),
+                               processes.empty() ? "" : processes.front().dump()));
+}
+
+bool is_run_folder(const fs::path& folder) {
+  const RunPaths paths(folder);
+  return fs::is_regular_file(paths.config) && fs::is_regular_file(paths.robot);
+}
+
+RunPaths find_run(const fs::path& folder) {
+  if (!fs::is_directory(folder))
+    fail(ExitCode::io, "{}: {}", folder.string(), fs::exists(folder) ? "not a folder" : "no such folder");
+  if (!is_run_folder(folder))
+    fail(ExitCode::bad_input, "{}: not a run folder (config.toml or robot.json is missing)", folder.string());
+  RunPaths paths(folder);
+  io::unseal_json(manifest_format, run_version, io::read_file(paths.manifest), paths.manifest.string());
+  return paths;
+}
+
+}  // namespace amble::experiment

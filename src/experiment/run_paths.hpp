@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace amble::experiment {
+
+/// Where the files of a run are (docs/FORMATS.md).
+struct RunPaths {
+  explicit RunPaths(const std::filesystem::path& folder);
+  std::filesystem::path folder, config, robot, manifest, generations, checkpoint, champions;
+
+  std::filesystem::path champion(int generation) const;
+  /// Champion files in the order of their generations; the last is the best. Other files are ignored.
+  std::vector<std::filesystem::path> champion_files() const;
+  /// Throws UserError if the run has none.
+  std::filesystem::path best_champion() const;
+};
+
+/// The paths of a run to read. Throws UserError: no folder, no run, or one of another version.
+RunPaths find_run(const std::filesystem::path& folder);
+
+/// The champion that a path names: a champion file is itself, a run folder its best champion. Throws
+/// UserError as find_run(), or if the run has none.
+std::filesystem::path champion_at(const std::filesystem::path& champion_or_run);
+
+/// The same for a run wherever its folder is and however long it becomes, another for any other run, even
+/// one of the same name in the same place. Throws UserError.
+std::uint64_t run_identity(const RunPaths& paths);
+
+/// Whether a folder looks like a run's.
+bool is_run_folder(const std::filesystem::path& folder);
+
+/// The generation of a champion's file, by its name; nothing for any other file.
+std::optional<int> generation_of(const std::filesystem::path& file);
+
+}  // namespace amble::experiment
