@@ -12,9 +12,9 @@
 #include "amble/experiment/robot_folder.hpp"
 #include "amble/io/file.hpp"
 #include "amble/morphology/mjcf_writer.hpp"
+#include "amble/morphology/reading_notes.hpp"
 #include "amble/robot/doubts.hpp"
 #include "amble/robot/summary.hpp"
-#include "amble/morphology/reading_notes.hpp"
 
 namespace amble::cli {
 namespace {
