@@ -12,18 +12,21 @@ namespace amble::io {
 class TomlDocument;
 }
 
+/// Experiments: configs, what follows from them, runs and their champions.
 namespace amble::experiment {
 
-/// Overrides of a config file on the command line.
+/// Overrides of a config file on the command line, applied in this order.
 struct Overrides {
-  std::vector<std::string> assignments;  ///< "key.path=value", in order
-  std::optional<std::int64_t> seed;
-  std::optional<int> generations;
+  std::vector<std::string> assignments;  ///< "key.path=value", in order; the value is TOML, or a bare word
+  std::optional<std::int64_t> seed;      ///< Config::seed; nothing: as in the file
+  std::optional<int> generations;        ///< Config::generations; nothing: as in the file
 };
 
-/// Reads, overrides, checks. `robot` becomes an absolute path. Throws UserError.
+/// Reads, overrides, checks. `robot` becomes an absolute path. Throws UserError: no such file (ExitCode::io),
+/// a syntax error, an unknown key, a value out of its range, settings that do not fit together; the
+/// message names file and line where there is one.
 Config load_config(const std::filesystem::path& path, const Overrides& overrides);
-/// The same from a document that has been read, which is copied.
+/// The same from a document that has been read, which is copied. Throws as load_config().
 Config config_from(const io::TomlDocument& document, const Overrides& overrides);
 
 /// The assignments that set what this config does not use: of another controller or search than its own. In

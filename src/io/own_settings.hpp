@@ -12,7 +12,7 @@ namespace amble::io {
 struct OwnNumber {
   std::string name;         ///< the key in its table
   double value = 0.0;       ///< the default
-  Range range = {};         ///< of what is allowed, in the unit that `what` names
+  Range range = {};         ///< what is allowed, in the unit that `what` names
   std::string what = {};    ///< one sentence, with the unit
   std::string source = {};  ///< where the number comes from
 };
@@ -20,9 +20,10 @@ struct OwnNumber {
 /// The numbers of an extension, in the table `own` of its part of a config (of an engine: `engine_own`).
 /// amble's own kinds have a struct each instead.
 struct OwnSettings {
-  std::map<std::string, double> numbers = {};
+  std::map<std::string, double> numbers = {};  ///< by OwnNumber::name
 
-  /// What is not there is visited at its default, and is there from then on.
+  /// Visits the numbers of `known`, which are those of one kind of extension. What is not there is visited at
+  /// its default, and is there from then on.
   void describe(SettingsVisitor& visitor, const std::vector<OwnNumber>& known) {
     for (const OwnNumber& own : known)
       visitor.number(own.name, numbers.try_emplace(own.name, own.value).first->second, own.range,

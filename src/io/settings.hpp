@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+/// Settings that describe themselves, and what is saved as bytes.
 namespace amble::io {
 
 /// Documentation of one setting.
@@ -30,8 +31,8 @@ struct Doc {
 /// Closed range of a number: both bounds belong to it. So infinity is allowed where a bound is infinite,
 /// and only there. NaN is in no range.
 struct Range {
-  double lowest = -std::numeric_limits<double>::infinity();
-  double highest = std::numeric_limits<double>::infinity();
+  double lowest = -std::numeric_limits<double>::infinity();  ///< by default none
+  double highest = std::numeric_limits<double>::infinity();  ///< by default none
 };
 
 class SettingsVisitor;
@@ -40,9 +41,11 @@ class SettingsVisitor;
 class SettingsList {
  public:
   virtual ~SettingsList() = default;
+  /// Items that are in it.
   virtual std::size_t size() const = 0;
   /// Replaces all items by `count` items with default values.
   virtual void renew(std::size_t count) = 0;
+  /// Describes item `index` < size().
   virtual void describe(std::size_t index, SettingsVisitor& visitor) = 0;
   /// Describes an item with default values that is not in the list.
   virtual void describe_default(SettingsVisitor& visitor) const = 0;
@@ -51,27 +54,41 @@ class SettingsList {
 /// Walks over the fields of a settings struct. One `describe(SettingsVisitor&)` member per struct serves
 /// reading TOML, writing TOML, reading and writing JSON, and the table of settings in the docs, so that these
 /// cannot drift apart. Readers change the values, writers leave them as they are.
+///
+/// A reader throws UserError for a value of another type or out of its range, in a line that names file, key,
+/// value and what is allowed. Where TOML lacks a key its value stays as it was; JSON must have all keys but
+/// those that Doc lets it leave out. Who fills a struct in without a reader is held to no range.
+///
+/// A `key` is the name in its table, not a path; no table has it twice.
 class SettingsVisitor {
  public:
   virtual ~SettingsVisitor() = default;
 
   /// A table [key]; what is visited until end() belongs to it.
   virtual void begin(std::string_view key, Doc doc) = 0;
+  /// Ends the table that was begun last.
   virtual void end() = 0;
 
+  /// A number within `range`; TOML may have a whole one.
   virtual void number(std::string_view key, double& value, Range range, Doc doc) = 0;
+  /// A whole number within `range`.
   virtual void integer(std::string_view key, std::int64_t& value, Range range, Doc doc) = 0;
+  /// True or false.
   virtual void flag(std::string_view key, bool& value, Doc doc) = 0;
+  /// Any text.
   virtual void text(std::string_view key, std::string& value, Doc doc) = 0;
+  /// A list of any texts; a reader replaces all of it.
   virtual void texts(std::string_view key, std::vector<std::string>& value, Doc doc) = 0;
+  /// A list of numbers, each within `range`; a reader replaces all of it.
   virtual void numbers(std::string_view key, std::vector<double>& value, Range range, Doc doc) = 0;
+  /// One of `names`; `index` is its place therein, from 0. See choice().
   virtual void choice_index(std::string_view key, int& index, std::span<const std::string_view> names,
                             Doc doc) = 0;
 
   /// A list of tables without tables of their own. A reader that finds the key renews the list.
   virtual void list(std::string_view key, SettingsList& items, Doc doc) = 0;
 
-  /// The range is narrowed to what an int can hold.
+  /// The same for an int; the range is narrowed to what an int can hold.
   void integer(std::string_view key, int& value, Range range, Doc doc) {
     constexpr std::numeric_limits<int> limits;
     std::int64_t wide = value;
@@ -89,7 +106,7 @@ class SettingsVisitor {
   }
 
   /// The name of one of `rows`, each of which has a `name`: for tables to which rows may be added
-  /// (controllers, searches).
+  /// (controllers, searches). `value` must be one of them already.
   template <typename Rows>
   void row_name(std::string_view key, std::string& value, const Rows& rows, Doc doc) {
     std::vector<std::string_view> names;
@@ -100,7 +117,7 @@ class SettingsVisitor {
     value = names[static_cast<std::size_t>(index)];
   }
 
-  /// A nested settings struct as a table of its own.
+  /// A nested settings struct, by its own describe(), as a table of its own.
   template <typename Settings>
   void table(std::string_view key, Settings& settings, Doc doc) {
     if constexpr (std::equality_comparable<Settings>) {
@@ -142,9 +159,10 @@ void SettingsVisitor::tables(std::string_view key, std::vector<Settings>& items,
   list(key, settings, doc);
 }
 
-/// A visitor that reads. finish() must be called after the last field: it refuses keys that were not visited.
+/// A visitor that reads. finish() must be called after the last field.
 class SettingsReader : public SettingsVisitor {
  public:
+  /// Throws UserError for a key that was not visited.
   virtual void finish() = 0;
 };
 

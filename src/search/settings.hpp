@@ -12,80 +12,116 @@
 
 namespace amble::search {
 
-enum class Distance { squared, root };
+/// Distance of two behaviours.
+enum class Distance {
+  squared,  ///< the sum of squared differences (the authors' code)
+  root      ///< its root (Morse et al. 2013, sec. 4)
+};
+/// As configs write them, by Distance.
 inline constexpr std::array<std::string_view, 2> distance_names{"squared", "root"};
 
 /// The behaviours that a candidate's novelty is measured against.
-enum class Neighbours { archive, archive_and_population };
+enum class Neighbours {
+  archive,                ///< the archive alone (the authors' code)
+  archive_and_population  ///< and the rest of its generation (Lehman & Stanley 2011)
+};
+/// As configs write them, by Neighbours.
 inline constexpr std::array<std::string_view, 2> neighbours_names{"archive", "archive_and_population"};
 
-/// After the threshold was lowered because so many generations in a row added no candidate: whether each
-/// further such generation lowers it again, or the count starts anew.
-enum class Lowering { each_generation, count_anew };
+/// After the threshold was lowered because so many generations in a row added no candidate: when it is
+/// lowered again.
+enum class Lowering {
+  each_generation,  ///< in each further such generation (the authors' code)
+  count_anew        ///< after as many more (Lehman's code)
+};
+/// As configs write them, by Lowering.
 inline constexpr std::array<std::string_view, 2> lowering_names{"each_generation", "count_anew"};
 
-/// Novelty search (Lehman & Stanley 2011; Morse et al. 2013, sec. 4). The defaults are what the authors' code
-/// did.
+/// Novelty search (Lehman & Stanley 2011; Morse et al. 2013, sec. 4): a behaviour is the path of the centre
+/// of mass over the ground; candidates that are new enough join an archive. The defaults are what the
+/// authors' code did. Ranges are those that describe() holds a config to. Novelties, and so thresholds, are
+/// in m², or in m with Distance::root, summed over the path's samples and the neighbours.
 struct NoveltySettings {
-  int path_stride = 2;
-  int path_first_step = 1;
-  Distance distance = Distance::squared;
-  Neighbours compare_with = Neighbours::archive;
-  int neighbours = 15;
+  int path_stride = 2;      ///< the path is sampled once in every so many steps, 1 … 1e6 (the paper: 1)
+  int path_first_step = 1;  ///< in which of them, 1 … path_stride
+  Distance distance = Distance::squared;          ///< how far two paths are apart
+  Neighbours compare_with = Neighbours::archive;  ///< among which the nearest neighbours are searched
+  int neighbours = 15;  ///< novelty sums the distances to so many, 1 … 1e6; absent ones count 0
+  /// In generation 0 candidates that are more novel than this join the archive, 1e−9 … 1e12.
   double threshold = 1000.0;
-  int first_members = 15;
-  bool count_first_members = false;
-  int raise_above = 4;
-  double raise_factor = 1.2;
-  int lower_after = 4;
-  Lowering lowering = Lowering::each_generation;
-  double lower_factor = 0.8;
-  double lowest_threshold = 0.0;
-  int archive_limit = 50000;
+  int first_members = 15;            ///< while the archive has fewer members, all candidates join, 0 … 1e6
+  bool count_first_members = false;  ///< whether those count when the threshold adapts (Lehman's code: true)
+  int raise_above = 4;               ///< a generation that adds more raises the threshold, 0 … 1e6
+  double raise_factor = 1.2;         ///< by this factor, 1 … 1000
+  int lower_after = 4;  ///< so many generations in a row that add none lower it, 1 … 1e6 (Lehman's code: 10)
+  Lowering lowering = Lowering::each_generation;  ///< when it is lowered again
+  double lower_factor = 0.8;                      ///< by this factor, 0.001 … 1 (Lehman's code: 0.95)
+  double lowest_threshold = 0.0;                  ///< lowering ends here, 0 … 1e12 (Lehman's code: 0.25)
+  int archive_limit = 50000;                      ///< most members; then none joins, 1 … 1e9
 
-  void describe(io::SettingsVisitor& visitor);
-  /// Throws UserError where these settings do not fit behaviours of this length.
+  void describe(io::SettingsVisitor& visitor);  ///< the table [search.novelty]
+  /// Throws SettingError: path_first_step above path_stride, or behaviours of this length (numbers) that are
+  /// empty or longer than can be compared.
   void validate(std::size_t behaviour_length) const;
-  /// Throws UserError where a full archive and a generation of `population` candidates would not fit into
+  /// Throws SettingError where a full archive and a generation of `population` candidates would not fit into
   /// `memory_bytes`. For running a search only: a config may be read on a smaller machine.
   void check_memory(std::size_t behaviour_length, int population, double memory_bytes) const;
 };
 
 /// One dimension of a map: a quantity of trials and its range.
 struct DescriptorSettings {
-  std::string quantity = "duty_factor";  ///< a row of score::quantities()
-  std::string leg;                       ///< of a quantity that legs have; empty: the mean over legs
-  double least = 0.0, most = 1.0;
-  int bins = 10;  ///< of a grid
+  std::string quantity = "duty_factor";  ///< name of a row of score::quantities()
+  std::string leg;     ///< name of a leg, for a quantity that legs have; empty: the mean over legs
+  double least = 0.0,  ///< lower end of its range, in its unit, −1e9 … 1e9; less counts as this
+      most = 1.0;      ///< upper end, above the lower; more counts as this
+  int bins = 10;       ///< bins of equal width, 1 … 1e6; without effect unless Archive::grid
 
+  /// For axes and tables: "duty_factor FL".
   std::string label() const { return leg.empty() ? quantity : quantity + " " + leg; }
-  void describe(io::SettingsVisitor& visitor);
+  void describe(io::SettingsVisitor& visitor);  ///< an item of search.map_elites.descriptors
 };
 
-enum class Archive { grid, cvt };
+/// Cells of a map.
+enum class Archive {
+  grid,  ///< bins of each descriptor (Mouret & Clune 2015)
+  cvt    ///< surroundings of evenly spread centroids (Vassiliades, Chatzilygeroudis & Mouret 2018)
+};
+/// As configs write them, by Archive.
 inline constexpr std::array<std::string_view, 2> archive_names{"grid", "cvt"};
 
 /// How parents are drawn from the elites.
-enum class Selection { uniform, objective, curiosity };
+enum class Selection {
+  uniform,    ///< any, equally likely
+  objective,  ///< that with the better objective of two
+  curiosity   ///< the more curious of two (Cully & Demiris 2018)
+};
+/// As configs write them, by Selection.
 inline constexpr std::array<std::string_view, 3> selection_names{"uniform", "objective", "curiosity"};
 
-/// MAP-Elites (Mouret & Clune 2015).
+/// MAP-Elites (Mouret & Clune 2015; docs/REPERTOIRES.md). Ranges are those that describe() holds a config to.
 struct MapElitesSettings {
-  std::vector<DescriptorSettings> descriptors = {};
-  Archive archive = Archive::grid;
-  int cells = 10000;
-  int centroid_samples = 100000;
-  std::int64_t centroid_seed = 1;
-  int batch = 1024;
-  int initial = 4096;
-  Selection select = Selection::uniform;
-  double crossover_probability = 0.0;
+  std::vector<DescriptorSettings> descriptors = {};  ///< dimensions of the map; there must be one
+  Archive archive = Archive::grid;                   ///< what its cells are
+  int cells = 10000;                                 ///< Archive::cvt: centroids, 1 … most_cells
+  int centroid_samples = 100000;   ///< Archive::cvt: points of which they are made, cells … 1e8
+  std::int64_t centroid_seed = 1;  ///< Archive::cvt: seed of these points, not the run's, 0 … 1e18
+  int batch = 1024;                ///< genomes evaluated in a round, 1 … 1e6
+  int initial = 4096;  ///< random genomes in the first rounds, rounded up to whole rounds, 1 … 1e9
+  Selection select = Selection::uniform;  ///< how parents are drawn
+  double crossover_probability = 0.0;  ///< that a child has two parents, 0 … 1; else it is a mutated copy
+  /// Share of a batch in which elites are evaluated again, those with the fewest evaluations first, 0 … 0.9.
+  /// Makes sense under noise.
   double reevaluate_share = 0.0;
+  /// Evaluations that a candidate needs at least before it enters the map, each under another round's noise,
+  /// 1 … 1e6 (Justesen, Risi & Mouret 2019; Flageat & Cully 2023).
   int trials = 1;
+  /// Most of a batch that are candidates tried again before they enter, the most promising ones, 0 … 0.9.
+  /// Without effect if `trials` is 1.
   double challenger_share = 0.35;
 
-  void describe(io::SettingsVisitor& visitor);
-  /// Throws SettingError for what cannot be: a map without descriptors, an empty range, too many cells.
+  void describe(io::SettingsVisitor& visitor);  ///< the table [search.map_elites]
+  /// Throws SettingError for what cannot be: a map without descriptors, an empty range, too many cells, fewer
+  /// samples than centroids, shares that leave no room for new genomes or none for challengers.
   void validate() const;
   /// Cells of the map; 0 if there are more than most_cells.
   std::uint32_t cell_count() const;
@@ -97,25 +133,27 @@ struct MapElitesSettings {
   std::size_t most_challengers() const;
 };
 
+/// Largest number of cells of a map.
 inline constexpr std::uint32_t most_cells = 20'000'000;
 
-/// CMA-ES on the weights of a CPPN that never grows.
+/// CMA-ES on the weights of a CPPN that never grows (Hansen, arXiv 1604.00772). In the unit of weights.
 struct CmaEsSettings {
-  double step = 0.3;
-  double least_step = 1e-6;
+  double step = 0.3;         ///< standard deviation of each weight in the first round, 1e−9 … 1000
+  double least_step = 1e-6;  ///< begins again elsewhere when none has a larger one, 0 … 1000, below `step`
 
-  void describe(io::SettingsVisitor& visitor);
+  void describe(io::SettingsVisitor& visitor);  ///< the table [search.cma_es]
   bool operator==(const CmaEsSettings&) const = default;
 };
 
-/// The search strategy, the name of a StrategyKind, and the settings of each.
+/// The search strategy, and the settings of each; those of other kinds are without effect.
 struct Settings {
-  std::string kind = "objective";
-  NoveltySettings novelty;
-  MapElitesSettings map_elites;
-  CmaEsSettings cma_es;
-  io::OwnSettings own;  ///< of a kind that a program or a plugin has added
+  std::string kind = "objective";  ///< the name of a StrategyKind
+  NoveltySettings novelty;         ///< kind "novelty"
+  MapElitesSettings map_elites;    ///< kind "map-elites"
+  CmaEsSettings cma_es;            ///< kind "cma-es"
+  io::OwnSettings own;             ///< a kind that a program or a plugin has added
 
+  /// The table [search]. AMBLE_CHECK: the kind is known, as it is after reading.
   void describe(io::SettingsVisitor& visitor);
 };
 

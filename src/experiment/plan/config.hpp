@@ -30,53 +30,67 @@
 
 namespace amble::experiment {
 
-inline constexpr std::int64_t largest_seed = std::int64_t{1} << 53;  ///< as a JSON number it is exact
+/// Largest Config::seed: as a JSON number it is exact.
+inline constexpr std::int64_t largest_seed = std::int64_t{1} << 53;
+/// Largest Config::generations.
 inline constexpr int most_generations = 1'000'000'000;
 
-/// How the trials that decide on a champion are combined: as those of an evaluation (NoiseSettings::score),
-/// or as trial::EpisodeScore says.
-enum class ChampionScore { as_in_evolution, mean, worst, median, lower_quartile };
+/// How the trials that decide on a champion are combined.
+enum class ChampionScore {
+  as_in_evolution,  ///< as those of an evaluation (trial::NoiseSettings::score)
+  mean,             ///< trial::EpisodeScore::mean
+  worst,            ///< trial::EpisodeScore::worst
+  median,           ///< trial::EpisodeScore::median
+  lower_quartile    ///< trial::EpisodeScore::lower_quartile
+};
+/// As configs write them, by ChampionScore.
 inline constexpr std::array<std::string_view, 5> champion_score_names{"as_in_evolution", "mean", "worst",
                                                                       "median", "lower_quartile"};
 
 /// How a run chooses its champion among the best of the generations.
 struct ChampionSettings {
-  int episodes = 0;  ///< 0: by the objective of its evaluation
-  ChampionScore score = ChampionScore::as_in_evolution;
+  /// Further trials under noise that decide, the same throughout the run, 0 … 1000. 0: the objective of its
+  /// evaluation decides, luck included.
+  int episodes = 0;
+  ChampionScore score = ChampionScore::as_in_evolution;  ///< what counts of their scores
 
-  void describe(io::SettingsVisitor& visitor);
+  void describe(io::SettingsVisitor& visitor);  ///< the table [champion]
+  /// Whether no further trials decide.
   bool is_default() const { return episodes == 0; }
+  /// `score`, with `of_evolution` for as_in_evolution.
   trial::EpisodeScore episode_score(trial::EpisodeScore of_evolution) const;
 };
 
 /// Everything that determines the result of a run, except the robot's own data. docs/SETTINGS.md lists each
-/// key with its source.
+/// key with its source. A member is the key or the table of its name; those of `neat` are tables of the top
+/// level.
 struct Config {
-  std::string name = "unnamed";
-  std::string robot;    ///< robot file (TOML side file, or robot.json of a run folder)
-  double drop_m = 0.0;  ///< height above the start pose at which every trial starts
-  std::string engine = "ode";
-  io::OwnSettings engine_own;         ///< of an engine that a program or a plugin has added
-  std::vector<std::string> referees;  ///< engines in which each new champion is tried again
-  std::int64_t seed = 1;
-  int generations = 800;
-  neat::Settings neat;
-  cppn::Settings cppn;
-  controllers::ControllerSettings controller;
-  trial::Settings trial;
-  trial::NoiseSettings noise;
-  trial::CommandSettings command = {};
-  EvaluationSettings evaluation;
-  score::Settings score;
-  ground::Settings ground;
-  damage::Settings damage;
-  search::Settings search;
-  ChampionSettings champion;
+  std::string name = "unnamed";  ///< what the experiment is called in files and figures
+  std::string robot;             ///< path of a robot file (TOML side file, or robot.json of a run folder)
+  double drop_m = 0.0;           ///< height above the start pose at which every trial starts, 0 … 1
+  std::string engine = "ode";    ///< one of physics::engine_names()
+  io::OwnSettings engine_own;    ///< an engine that a program or a plugin has added
+  std::vector<std::string> referees;  ///< other engines in which each new champion is tried again
+  std::int64_t seed = 1;              ///< seed of all randomness, 0 … largest_seed
+  int generations = 800;              ///< to be evaluated, the initial one included, 1 … most_generations
+  neat::Settings neat;                ///< genomes, their variation and species
+  cppn::Settings cppn;                ///< how genomes are evaluated
+  controllers::ControllerSettings controller;  ///< how a CPPN becomes a controller
+  trial::Settings trial;                       ///< length and timestep of a trial
+  trial::NoiseSettings noise;           ///< noise in trials, and how many make an evaluation; by default none
+  trial::CommandSettings command = {};  ///< what robots are told to do; by default nothing
+  EvaluationSettings evaluation;        ///< how trials are spent under noise
+  score::Settings score;                ///< what makes a gait good; by default the distance
+  ground::Settings ground;              ///< what robots walk on; by default the plane
+  damage::Settings damage;              ///< what is wrong with the robot; by default nothing
+  search::Settings search;              ///< what selects parents
+  ChampionSettings champion;            ///< which of the generations' best is the run's champion
   /// Where one of these keys was set ("FILE:LINE"), for errors found later; empty unless read from a file.
   std::function<std::string(const std::vector<std::string>& keys)> locate_setting;
 
-  void describe(io::SettingsVisitor& visitor);
-  /// Rules that involve several settings. Throws SettingError.
+  void describe(io::SettingsVisitor& visitor);  ///< all of a config
+  /// Rules that involve several settings; what depends on the robot is checked by Problem::make(). Throws
+  /// SettingError.
   void validate() const;
   /// The error with its location prepended, if that is known.
   UserError with_location(const SettingError& error) const;
@@ -86,7 +100,7 @@ struct Config {
   /// All settings but the seed, and but `name`, `robot` and `generations`, which change no evaluation, as
   /// compact JSON without comments: equal for configs that give the same run for the same seed and robot.
   std::string identity() const;
-  /// The whole config as TOML with comments; reads back to the same values.
+  /// The whole config as TOML with comments; reads back to the same values. `locate_setting` is not in it.
   std::string to_toml() const;
 
  private:
