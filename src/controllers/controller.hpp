@@ -11,6 +11,7 @@
 #include "amble/robot/spec.hpp"
 #include "amble/substrate/layout.hpp"
 
+/// Controllers: what a CPPN becomes, and what drives a robot's joints.
 namespace amble::controllers {
 
 /// Parameters of one controller, made once per genome and const from then on. Each architecture derives its
@@ -21,23 +22,26 @@ class Parameters {
 };
 
 /// State of up to lanes() controllers of one architecture that step together, one per robot lane (structure
-/// of arrays). Lanes do not influence each other. Belongs to one thread.
+/// of arrays). Lanes do not influence each other. Belongs to one thread. A lane is 0 … lanes() − 1.
 class Batch {
  public:
   virtual ~Batch() = default;
 
+  /// As many as the engine's that it drives.
   virtual int lanes() const = 0;
-  /// Puts a controller into a lane, in its initial state. `parameters` come from the same Architecture and
-  /// are not copied: they must live until the lane is loaded again.
+  /// Puts a controller into a lane, in its initial state. `parameters` come from the same Architecture
+  /// (AMBLE_CHECK in amble's own) and are not copied: they must live until the lane is loaded again.
   virtual void load(int lane, const Parameters& parameters) = 0;
-  /// One tick: reads the sensors, advances the state, writes target angles (rad, joints × lanes) for all
-  /// loaded lanes; what it writes for others means nothing. Targets lie within the joints' stops.
+  /// One tick: reads the sensors, advances the state, writes target angles (rad from the start pose, joints ×
+  /// lanes, in control order) for all loaded lanes; what it writes for others means nothing. Targets lie
+  /// within robot::Joint::command_range(); joints that are not driven get a constant one. `sensors` has the
+  /// rows of Architecture::extra_senses(), too.
   virtual void step(const robot::SensorFrame& sensors, LaneArray& targets_rad) = 0;
 
-  /// Names of the state variables worth recording (for the SUPG: each leg's timer and trigger), and their
-  /// values in a lane.
+  /// Names of the state variables worth recording (for the SUPG: each leg's timer and trigger).
   virtual std::vector<std::string> state_names() const = 0;
-  /// `values` has as many elements as state_names(), in that order.
+  /// Their values in a lane after its last tick. `values` has as many elements as state_names(), in that
+  /// order.
   virtual void state(int lane, std::span<float> values) const = 0;
   /// Those of state_names() that are 1 after a tick in which something happened and 0 else (for the SUPG: the
   /// triggers), as positions therein: worth counting.
@@ -50,15 +54,20 @@ class Architecture {
  public:
   virtual ~Architecture() = default;
 
+  /// Its kind, for recordings and exports; amble's own have that of controller.kind.
   virtual std::string name() const = 0;
-  /// Names of the CPPN's inputs (the bias not among them) and outputs, in order.
+  /// Names of the CPPN's inputs, in order; the bias is not among them.
   virtual const std::vector<std::string>& cppn_inputs() const = 0;
+  /// Names of the CPPN's outputs, in order; at least one.
   virtual const std::vector<std::string>& cppn_outputs() const = 0;
   /// The substrate, for pictures of it; null for controllers without.
   virtual const substrate::Layout* substrate() const { return nullptr; }
+  /// What this CPPN makes of the controller. The network has as many inputs and outputs as named above
+  /// (AMBLE_CHECK in amble's own). The parameters may outlive the network. Called by several threads at once.
   virtual std::unique_ptr<Parameters> decode(const cppn::Network& network) const = 0;
+  /// Room for as many controllers, at least 1. In each lane load() comes before the first step() that counts.
   virtual std::unique_ptr<Batch> make_batch(int lanes) const = 0;
-  /// What its sensors have to hold beside what engines give.
+  /// What its sensors have to hold beside what engines give: in step() these rows are not empty.
   virtual robot::ExtraSenses extra_senses() const { return {}; }
   /// The parameters as JSON text, for recordings and exports (docs/FORMATS.md).
   virtual std::string parameters_json(const Parameters& parameters) const = 0;

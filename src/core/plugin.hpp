@@ -2,6 +2,9 @@
 
 #include "amble/core/version.hpp"
 
+/// @file
+/// What a shared library is that adds to the program `amble`.
+
 /// A plugin is a shared library that adds controllers, searches, grounds, quantities and engines to the
 /// program: `amble --plugin libmine.so evolve …` (docs/LIBRARY.md). It is one source with
 ///
@@ -15,6 +18,7 @@
   }                                                 \
   extern "C" void amble_plugin_register()
 
+/// @cond
 #define AMBLE_PLUGIN_TEXT_OF(text) #text
 #define AMBLE_PLUGIN_TEXT(text) AMBLE_PLUGIN_TEXT_OF(text)
 #if defined(__clang__)
@@ -22,5 +26,6 @@
 #else
 #define AMBLE_PLUGIN_COMPILER "GCC " AMBLE_PLUGIN_TEXT(__GNUC__)
 #endif
-/// What plugin and program must have in common.
+/// @endcond
+/// What plugin and program must have in common, as a text, e.g. "amble 0.2.0, GCC 12".
 #define AMBLE_PLUGIN_INTERFACE "amble " AMBLE_VERSION_TEXT ", " AMBLE_PLUGIN_COMPILER

@@ -9,18 +9,18 @@ namespace amble {
 /// Values are part of the reproducibility promise: add at the end, never renumber. Those from 1000 on are for
 /// extensions outside amble: static_cast<Purpose>(1000).
 enum class Purpose : std::uint32_t {
-  test = 0,
-  initial_genome = 1,
-  reproduction = 2,
-  speciation = 3,
-  trial_noise = 4,
-  bootstrap = 5,
-  ground = 6,
-  centroids = 7,
-  map_elites = 8,
-  mutants = 9,
-  random_triggers = 10,
-  cma_es = 11,
+  test = 0,              ///< for tests alone
+  initial_genome = 1,    ///< genomes without parents
+  reproduction = 2,      ///< parents, crossover and mutation of NEAT
+  speciation = 3,        ///< reserved: speciation draws nothing
+  trial_noise = 4,       ///< all that a trial::Scenario has
+  bootstrap = 5,         ///< resampling for confidence intervals
+  ground = 6,            ///< heights of uneven ground
+  centroids = 7,         ///< cells of a map that are spread evenly
+  map_elites = 8,        ///< parents and children of MAP-Elites
+  mutants = 9,           ///< mutants that only measure evolvability
+  random_triggers = 10,  ///< triggers of SUPGs by chance
+  cma_es = 11,           ///< samples of CMA-ES
 };
 
 /// A stream of random numbers that depends on its key alone, (seed, purpose, generation, individual), and so
@@ -29,9 +29,13 @@ enum class Purpose : std::uint32_t {
 /// differ between implementations.
 class Stream {
  public:
+  /// Streams of different keys are independent. `generation` and `individual` are any numbers that tell
+  /// streams of one purpose apart.
   Stream(std::uint64_t seed, Purpose purpose, std::uint32_t generation = 0, std::uint32_t individual = 0);
 
+  /// Uniform over all 2^32 values. After 2^34 of them an AMBLE_CHECK fails.
   std::uint32_t next_u32();
+  /// Uniform over all 2^64 values: two of next_u32(), the first one above.
   std::uint64_t next_u64();
 
   /// Uniform in [0, 1), 53 random bits.

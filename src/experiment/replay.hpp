@@ -14,8 +14,8 @@ namespace amble::experiment {
 
 /// How a champion is run again; the default of each option is as in its own file.
 struct ReplayOptions {
-  std::optional<double> seconds = {};
-  std::optional<std::string> engine = {};
+  std::optional<double> seconds = {};                ///< length of the trial, a whole number of timesteps
+  std::optional<std::string> engine = {};            ///< one of physics::engine_names()
   std::optional<std::filesystem::path> record = {};  ///< writes a recording (record/recording.hpp)
   std::string origin = {};                           ///< named in the recording
   trial::Observer* observer = nullptr;               ///< not owned; sees motor torques if the engine has them
@@ -23,15 +23,17 @@ struct ReplayOptions {
   std::optional<trial::ScenarioKey> noise = {};      ///< under the problem's noise; nothing: without any
 };
 
+/// What came of it.
 struct Replay {
-  TrialResult result;
-  std::vector<trial::EventCount> events;  ///< of the controller (controllers::Batch::events)
+  TrialResult result;                     ///< how far it walked, and how the trial ended
+  std::vector<trial::EventCount> events;  ///< the controller's (controllers::Batch::events)
   std::vector<std::uint32_t> trace;       ///< trial::TraceObserver; empty unless ReplayOptions::trace
-  double physics_s = 0.0;                 ///< time spent in the engine
+  double physics_s = 0.0;                 ///< wall time spent in the engine
 };
 
 /// One trial of one genome, without noise unless an option sets it. Nothing if `stop` was set before it ended
-/// (then nothing is recorded). Throws UserError.
+/// (then nothing is recorded). `genome` must be valid for the problem (neat::validate). Throws UserError for
+/// options that do not fit the problem, and if the recording cannot be written.
 std::optional<Replay> replay(const Problem& problem, const neat::Genome& genome, const ReplayOptions& options,
                              const std::atomic<bool>& stop);
 

@@ -17,6 +17,9 @@ namespace amble::neat {
 /// - Nodes: those of bias, inputs and outputs, and the hidden ones at an end of a link of the child;
 ///   a node of both has the fitter's function.
 ///
+/// The parents must be valid, with as many inputs and outputs each (neat::validate; not checked). With
+/// InnovationKey::link they may differ in the function of a node that both have.
+///
 /// Without `recurrent` both parents must be free of cycles, and so is the child: its links of the fitter
 /// parent are, and a link of the weaker that would close a cycle with those taken before it, in order of
 /// innovation, is left out.

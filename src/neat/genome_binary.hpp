@@ -14,7 +14,9 @@ void save(const Genome& genome, io::BinaryWriter& writer);
 /// consistent.
 Genome load_genome(io::BinaryReader& reader);
 
+/// Several genomes, their number first.
 void save(std::span<const Genome> genomes, io::BinaryWriter& writer);
+/// Reads what save() wrote of several; throws as load_genome().
 std::vector<Genome> load_genomes(io::BinaryReader& reader);
 
 }  // namespace amble::neat

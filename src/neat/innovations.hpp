@@ -31,17 +31,21 @@ class Innovations {
   /// no earlier number is used again.
   void begin_generation();
 
-  /// The innovation number of the link from → to.
+  /// The innovation number of the link from → to, given now if it is new. AMBLE_CHECK: both nodes have ids
+  /// that were given before.
   std::uint32_t link(std::uint32_t from, std::uint32_t to);
-  /// The id of the node that splits link `innovation` of `genome`; the genome has no node of that id.
+  /// The id of the node that splits link `innovation` of `genome`, given now if it is new; the genome has no
+  /// node of that id. AMBLE_CHECK: the link's number was given before.
   std::uint32_t node(std::uint32_t innovation, Activation activation, const Genome& genome);
 
   /// Whether every node and link of the genome has a number given here that agrees with the list, as far as
   /// the list goes back.
   bool knows(const Genome& genome) const;
 
+  /// The whole list, for checkpoints.
   void save(io::BinaryWriter& writer) const;
-  /// Replaces the content by what save() wrote; throws UserError(ExitCode::bad_file).
+  /// Replaces the content by what save() wrote under the same settings and numbers of inputs and outputs.
+  /// Throws UserError(ExitCode::bad_file), and then is good for nothing but another load().
   void load(io::BinaryReader& reader);
 
  private:

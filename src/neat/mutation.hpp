@@ -7,7 +7,14 @@
 
 namespace amble::neat {
 
-enum class Mutation { weights = 0, add_link = 1, add_node = 2, delete_link = 3, none = 4 };
+/// The operators of mutate(), in the order of MutationSettings.
+enum class Mutation {
+  weights = 0,      ///< mutate_weights()
+  add_link = 1,     ///< neat::add_link()
+  add_node = 2,     ///< neat::add_node()
+  delete_link = 3,  ///< neat::delete_link()
+  none = 4          ///< no operator applied
+};
 
 /// Applies one operator, drawn by the shares of MutationSettings (HyperSharpNEAT). An operator that does not
 /// apply is removed from the roulette and another is drawn; if none applies, the genome is unchanged. Returns

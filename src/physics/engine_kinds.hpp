@@ -13,10 +13,10 @@ namespace amble::physics {
 
 /// An engine that configs can choose by name.
 struct EngineKind {
-  std::string name;  ///< value of `engine`
-  EngineTraits traits = {};
-  /// `settings.own` has all of `numbers`. Its lanes are those of `traits`. Throws UserError for a robot that
-  /// it cannot simulate.
+  std::string name;          ///< value of `engine`: a–z, 0–9, "-" and "_"
+  EngineTraits traits = {};  ///< the same for all robots
+  /// Must be there (AMBLE_CHECK). `settings.own` has all of `numbers`. Its lanes are those of `traits`.
+  /// Throws UserError for a robot that it cannot simulate.
   std::function<std::unique_ptr<Engine>(const robot::RobotSpec& robot, const EngineSettings& settings)> make;
   std::vector<io::OwnNumber> numbers = {};  ///< its settings: [engine_own]
 };

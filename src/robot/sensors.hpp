@@ -5,15 +5,16 @@
 
 namespace amble::robot {
 
-/// The inputs of controllers, for all lanes at once. Rows in control order (RobotSpec::joints) and leg order.
+/// The inputs of controllers, for all lanes at once, float32. Rows in control order (RobotSpec::joints) and
+/// leg order (RobotSpec::legs).
 struct SensorFrame {
-  LaneArray joint_angle_rad;  ///< joints × lanes
+  LaneArray joint_angle_rad;  ///< joints × lanes, from the robot's own start pose
   LaneArray touch;            ///< legs × lanes: 1 while the foot touches the ground, else 0
   LaneArray attitude_rad;     ///< 3 × lanes: roll, pitch, yaw of the root (core/math.hpp) in the level frame
 
   // What engines leave empty, and trials fill in where it is asked for (trial/senses.hpp).
   LaneArray joint_speed_rad_s = {};  ///< joints × lanes: how far they turned in the last tick, by its length
-  LaneArray joint_torque_nm = {};    ///< joints × lanes: of the motors in the last step
+  LaneArray joint_torque_nm = {};    ///< joints × lanes: the motors' in the last step
   LaneArray yaw_rate_rad_s = {};     ///< 1 × lanes: how far the yaw turned in the last tick, by its length
   LaneArray foot_load_n = {};        ///< legs × lanes: the ground's normal force in the last step
   /// 2 × lanes: what the robot is told, speed along its own forward axis (m/s) and turn to the left (rad/s).
@@ -26,12 +27,18 @@ struct SensorFrame {
 
 /// Which of a frame's rows that not every controller needs are asked for.
 struct ExtraSenses {
-  bool speed = false, torque = false, yaw_rate = false, load = false;
-  bool command = false, heading_error = false;
+  bool speed = false,         ///< SensorFrame::joint_speed_rad_s
+      torque = false,         ///< SensorFrame::joint_torque_nm; only of an engine that measures torques
+      yaw_rate = false,       ///< SensorFrame::yaw_rate_rad_s
+      load = false;           ///< SensorFrame::foot_load_n; only of an engine that measures loads
+  bool command = false,       ///< SensorFrame::command and command_stop
+      heading_error = false;  ///< SensorFrame::heading_error_rad
 
+  /// Whether engines' frames are not enough.
   bool any() const { return speed || torque || yaw_rate || load || commands(); }
   /// Whether anything depends on what the robot is told.
   bool commands() const { return command || heading_error; }
+  /// Asks for what the other does, too.
   ExtraSenses& operator|=(const ExtraSenses& other) {
     speed |= other.speed;
     torque |= other.torque;

@@ -12,7 +12,8 @@
 
 namespace amble::score {
 
-/// Behaviour characterization of a trial: a vector of numbers that searches compare (Lehman & Stanley 2011).
+/// Behaviour characterization of an evaluation: a vector of numbers that searches compare (Lehman & Stanley
+/// 2011).
 /// Const, shared by all threads.
 class Behaviour {
  public:
@@ -23,25 +24,26 @@ class Behaviour {
   virtual record::PathSampling path() const { return {}; }
   /// Measurements of trials that it needs.
   virtual record::Measures measures() const { return {}; }
-  /// The behaviour of one evaluation's episodes (at least one); as long also for trials that ended early.
+  /// The behaviour of one evaluation's episodes (at least one: AMBLE_CHECK), length() numbers also for trials
+  /// that ended early. They were sampled as path() says, and measures() were taken.
   virtual std::vector<float> of(std::span<const record::Trajectory> episodes) const = 0;
 };
 
 /// A quantity in a behaviour.
 struct Descriptor {
-  std::string quantity;  ///< a row of quantities()
-  std::string leg;       ///< of those that legs have, by its name; empty: the mean over legs
+  std::string quantity;  ///< name of a row of quantities()
+  std::string leg;       ///< name of a leg, for a quantity that legs have; empty: the mean over legs
 };
 
 /// Parameters of behaviours.
 struct BehaviourSettings {
-  int steps = 0;                             ///< of a trial that completes
+  int steps = 0;                             ///< length of a trial that completes
   record::PathSampling path = {};            ///< how "path" samples it
-  std::vector<Descriptor> descriptors = {};  ///< of "descriptors"
-  // What their quantities depend on.
-  Settings score = {};
-  double duration_s = 0.0, weight_n = 0.0;
-  std::vector<std::string> leg_names = {};  ///< of the robot; empty: legs are not looked up
+  std::vector<Descriptor> descriptors = {};  ///< what "descriptors" has, in order
+  Settings score = {};                       ///< what quantities of descriptors depend on
+  double duration_s = 0.0,                   ///< Context::duration_s, likewise
+      weight_n = 0.0;                        ///< Context::weight_n, likewise
+  std::vector<std::string> leg_names = {};   ///< the robot's, in order; empty: legs are not looked up
 };
 
 /// The path of the centre of mass over the ground (Morse et al. 2013, sec. 4): x0, y0, x1, y1, …, m, relative
@@ -49,6 +51,7 @@ struct BehaviourSettings {
 /// several episodes that of the first: a mean of paths would not be a path.
 class PathBehaviour : public Behaviour {
  public:
+  /// Takes `steps` and `path`.
   explicit PathBehaviour(const BehaviourSettings& settings);
   std::size_t length() const override { return length_; }
   record::PathSampling path() const override { return path_; }
@@ -79,8 +82,8 @@ class DescriptorBehaviour : public Behaviour {
   std::vector<Dimension> dimensions_;
 };
 
-/// By its name in the table of behaviour.cpp, which search::StrategyKind::behaviour refers to; "" is the
-/// behaviour without numbers. AMBLE_CHECK: the name is known.
+/// By its name, which search::StrategyKind::behaviour refers to: "path", "descriptors", or "", the behaviour
+/// without numbers. AMBLE_CHECK: it is one of them. Throws as DescriptorBehaviour.
 std::unique_ptr<const Behaviour> make_behaviour(std::string_view name, const BehaviourSettings& settings);
 
 }  // namespace amble::score

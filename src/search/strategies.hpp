@@ -16,19 +16,20 @@ namespace amble::search {
 /// The genomes that a strategy searches, and its seed.
 struct SearchSpace {
   const neat::Settings& neat;        ///< genomes, variation, speciation; valid
-  int inputs = 0;                    ///< of the CPPN, without the bias
-  int outputs = 1;                   ///< of the CPPN
+  int inputs = 0;                    ///< the CPPN's, without the bias
+  int outputs = 1;                   ///< the CPPN's, at least 1
   bool recurrent = false;            ///< whether CPPNs may have cycles
-  std::uint64_t seed = 0;            ///< of all randomness
+  std::uint64_t seed = 0;            ///< the run's, from which all randomness follows
   std::size_t behaviour_length = 0;  ///< numbers in each Evaluation::behaviour
 };
 
 /// A search that configs can choose, as the rest of the program sees it.
 struct StrategyKind {
-  std::string name;  ///< value of search.kind
+  std::string name;  ///< value of search.kind: a–z, 0–9, "-" and "_"
   /// Which behaviour its evaluations need (score/behaviour.hpp): "path", "descriptors"; "": none.
   std::string behaviour;
-  /// `settings.own` has all of `numbers`.
+  /// Must be there (AMBLE_CHECK). `settings.own` has all of `numbers`. What `space` refers to need not
+  /// outlive the call.
   std::function<std::unique_ptr<Strategy>(const Settings& settings, const SearchSpace& space)> make;
   /// Candidates of a round; empty: population.size.
   std::function<int(const Settings& settings, const neat::Settings& neat)> candidates = {};

@@ -44,17 +44,18 @@ class Strategy {
   /// change.
   virtual std::vector<Metric> metrics() const = 0;
 
+  /// All state but the logs, for checkpoints; after take_log_growth() of each log.
   virtual void save(io::BinaryWriter& writer) const = 0;
-  /// Replaces the state by what save() wrote under the same settings. Throws UserError(bad_file) if it does
-  /// not fit. restore_log() must follow for each log.
+  /// Replaces the state by what save() wrote under the same settings. Throws UserError(ExitCode::bad_file) if
+  /// it does not fit. restore_log() must follow for each log.
   virtual void load(io::BinaryReader& reader) = 0;
 
   /// File names of the logs, in the run folder: "archive….bin".
   virtual std::vector<std::string> logs() const { return {}; }
-  /// Bytes to append to log `i` since the last call. To be called before save().
+  /// Bytes to append to log `i`, its place in logs(), since the last call. To be called before save().
   virtual std::string take_log_growth(std::size_t i);
-  /// After load(): reads log `i` back; returns its length in the file, bytes. Throws UserError(bad_file)
-  /// "WHAT: …".
+  /// After load(): reads log `i` back; returns its length in the file, bytes. Throws
+  /// UserError(ExitCode::bad_file) "WHAT: …".
   virtual std::uint64_t restore_log(std::size_t i, io::InputFile& file, const std::string& what);
 };
 

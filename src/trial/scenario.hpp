@@ -14,23 +14,26 @@
 
 namespace amble::trial {
 
-/// All noise of one trial, drawn beforehand. Steps count from 1, as in Observer::on_step.
+/// All noise of one trial, drawn beforehand. Steps count from 1, as in Observer::on_step. draw_scenario()
+/// makes one; in one that is made by hand `joint_sensor_rad` and `attitude_sensor_rad` must have their sizes.
 struct Scenario {
+  /// A push of the root.
   struct Push {
     int step = 0;      ///< acts during this step
-    Vec3 impulse_n_s;  ///< physics::Engine::push
+    Vec3 impulse_n_s;  ///< in the world (physics::Engine::push)
   };
+  /// A touch that is read the wrong way round.
   struct TouchFlip {
     int step = 0;  ///< in what the controller reads before this step
-    int leg = 0;
+    int leg = 0;   ///< index in robot::RobotSpec::legs
   };
 
   std::optional<physics::StartPose> start;  ///< nothing: the robot's own start pose
   std::vector<Push> pushes;                 ///< by rising step
   std::vector<TouchFlip> touch_flips;       ///< by rising step
-  std::vector<float> joint_sensor_rad;      ///< added to what is read; per joint
-  std::vector<float> attitude_sensor_rad;   ///< the same for roll, pitch and yaw
-  int latency_ticks = 0;                    ///< until the first targets arrive, targets are 0
+  std::vector<float> joint_sensor_rad;      ///< added to what is read, one number per joint
+  std::vector<float> attitude_sensor_rad;   ///< the same for roll, pitch and yaw: three numbers
+  int latency_ticks = 0;                    ///< how late targets come; until the first arrive, they are 0
   std::optional<Stream> readings = {};      ///< noise of single readings (trial/senses.hpp); nothing: none
   std::optional<CommandSchedule> commands = {};  ///< drawn ones; nothing: those of Protocol::commands
 };
@@ -42,9 +45,9 @@ struct Scenario {
 /// from their comparison. The next generation has others, so that genomes, elites included, cannot adapt to
 /// one scenario.
 struct ScenarioKey {
-  std::uint64_t seed = 0;
-  std::uint32_t generation = 0;
-  std::uint32_t episode = 0;
+  std::uint64_t seed = 0;        ///< the run's
+  std::uint32_t generation = 0;  ///< whose noise it is (experiment::noise_generation)
+  std::uint32_t episode = 0;     ///< trial of an evaluation, from 0; others for trials outside evolution
 };
 
 /// Where trials start.
@@ -65,7 +68,10 @@ struct StartGround {
 /// On uneven ground the robot is put `start_place_m` or less from the origin along x and y, and lifted or
 /// lowered to where it is as high over the ground as in its own start pose on the plane.
 ///
-/// Commands are drawn whatever the noise, also for an undisturbed episode.
+/// Commands are drawn whatever the noise, also for an undisturbed episode; with CommandSettings::mirrored
+/// those of episode 2 n + 1 mirror those of episode 2 n.
+///
+/// `robot` is that of the trial, with its start pose and gravity; the settings must be valid.
 Scenario draw_scenario(const NoiseSettings& noise, const robot::RobotSpec& robot, int steps,
                        double timestep_s, const ScenarioKey& key, const StartGround& start = {},
                        const CommandSettings& command = {});

@@ -17,10 +17,12 @@ struct Sensing {
   robot::ExtraSenses extra;                      ///< rows that the controller reads beside those of engines
   std::vector<controllers::SensorModel> models;  ///< noise, delay, dead time
 
+  /// Whether controllers may read something else than the engine's frame.
   bool any() const { return extra.any() || !models.empty(); }
 };
 
-/// Rates as controllers sense them: how far an angle moved in a tick of 1/rate_hz, in single precision.
+/// Rates as controllers sense them, rad/s: how far an angle moved in a tick of 1/rate_hz, in single
+/// precision.
 float rate_of(float before_rad, float now_rad, float rate_hz);
 /// The same of an angle that goes from π to −π.
 float turning_rate_of(float before_rad, float now_rad, float rate_hz);
@@ -38,7 +40,7 @@ float wrapped_rad(float angle_rad);
 /// rate times the tick after each tick.
 class Senses {
  public:
-  /// `sensors` gives the number of lanes and rows. Torques only of an engine that measures them.
+  /// `sensors` gives the number of lanes and rows. Torques and loads only of an engine that measures them.
   Senses(const Sensing& sensing, const robot::SensorFrame& sensors, double timestep_s);
 
   /// The robot of this lane was placed; `scenario` is that of its trial, or null; `commands` likewise (not
@@ -47,10 +49,11 @@ class Senses {
             const CommandSchedule* commands = nullptr);
   /// From now on the heading that commands lead to begins with the present one.
   void face(int lane, const physics::Engine& engine);
-  /// There is no trial in this lane.
+  /// There is no trial in this lane any more.
   void clear(int lane) { lanes_[to_index(lane)].commands = nullptr; }
-  /// As controllers read them in this tick; once per tick. Valid until the next call. Without anything to do
-  /// it is the engine's own.
+  /// As controllers read them in this tick, all lanes; once per tick. Valid until the next call. Without
+  /// anything to do it is the engine's own. AMBLE_CHECK: the engine measures torques and loads if they are
+  /// asked for.
   const robot::SensorFrame& read(const physics::Engine& engine);
 
  private:

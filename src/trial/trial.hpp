@@ -51,22 +51,24 @@ class TaskQueue {
   virtual ~TaskQueue() = default;
   /// The next controller to try, or nothing when there is no more.
   virtual std::optional<Task> next() = 0;
+  /// The trial of a task has ended; `index` is its Task::index. Trials end in any order. Not called for
+  /// trials that are dropped.
   virtual void done(std::size_t index, record::Trajectory trajectory) = 0;
 };
 
-/// Parameters of all trials of a runner.
+/// Parameters of all trials of a runner. experiment::Problem::protocol() makes them of a problem.
 struct Protocol {
-  int steps = 1500;
-  double timestep_s = 0.01;
-  FirstCommand first_command = FirstCommand::before_first_step;
-  record::PathSampling path;
-  record::Measures measures;                     ///< energy: only with an engine that has motor torques
-  std::vector<NumbTouch> numb = {};              ///< in every trial
-  Sensing sensing = {};                          ///< torques: only with an engine that has them
-  std::optional<CommandSchedule> commands = {};  ///< of trials whose scenario has none
-  robot::FallRule fall = {};
-  std::vector<double> max_torque_nm = {};  ///< by joint, 0: it has no motor; for measures.effort
-  Quat start_rotation;                     ///< of the root in the robot's own start pose
+  int steps = 1500;          ///< steps of a trial that completes, at least 1
+  double timestep_s = 0.01;  ///< the engine's
+  FirstCommand first_command = FirstCommand::before_first_step;  ///< when controllers first act
+  record::PathSampling path;                                     ///< when Trajectory::com_path_m is sampled
+  record::Measures measures;         ///< energy and effort: only with an engine that has motor torques
+  std::vector<NumbTouch> numb = {};  ///< feet whose touch reads 0, in every trial
+  Sensing sensing = {};              ///< torques and loads: only with an engine that has them
+  std::optional<CommandSchedule> commands = {};  ///< for trials whose scenario has none; nothing: no commands
+  robot::FallRule fall = {};                     ///< when a trial ends as fallen
+  std::vector<double> max_torque_nm = {};        ///< by joint, 0: it has no motor; for measures.effort
+  Quat start_rotation;                           ///< root axes → world axes in the robot's own start pose
 };
 
 /// Runs trials on one engine, as many at a time as it has lanes; a lane whose trial has ended takes the next
@@ -74,29 +76,37 @@ struct Protocol {
 /// other lanes or the order. Not thread safe.
 class Runner {
  public:
+  /// `engine` and `controllers` must outlive the runner. AMBLE_CHECK: they have as many lanes; the engine
+  /// measures torques if measures.energy or measures.effort is set; with the latter max_torque_nm is
+  /// complete.
   Runner(physics::Engine& engine, controllers::Batch& controllers, const Protocol& protocol);
 
   /// Until the queue is empty and the last trial has ended, or `stop` is set (then trials in flight are
-  /// dropped).
+  /// dropped). `stop` is looked at before each step.
   void run(TaskQueue& queue, const std::atomic<bool>& stop);
-  /// The parts of run(): fills the lanes, then one step of all; false when the last trial has ended.
+  /// A part of run(): fills the lanes.
   void begin(TaskQueue& queue);
+  /// A part of run(), after begin(): one step of all lanes; false when the last trial has ended.
   bool tick(TaskQueue& queue);
 
-  /// From the next tick on the robots are those of another engine of as many lanes, joints and legs, in which
-  /// they are placed already; controllers and what they sense go on. Without scenarios. `numb`: feet that are
-  /// numb from now on.
+  /// From the next tick on the robots are those of another engine of as many lanes (AMBLE_CHECK), joints and
+  /// legs, in which they are placed already; it must outlive the runner. Controllers and what they sense go
+  /// on. AMBLE_CHECK: no trial has a scenario. `numb_legs`: legs whose feet are numb from now on, in place of
+  /// those of Protocol::numb.
   void move_to(physics::Engine& engine, const std::vector<int>& numb_legs);
 
-  /// From the next tick on the robot of this lane is told another command, to the end of its trial, and so
-  /// are the others of trials without commands of their own. Protocol::commands is there.
+  /// From the next tick on the robot of this lane is told another command, to the end of its trial, and from
+  /// the same tick of theirs so are all others whose scenario has no commands. AMBLE_CHECK:
+  /// Protocol::commands is there. Without effect on a lane whose scenario has commands.
   void tell(int lane, Command command);
 
-  /// The targets of the last tick.
+  /// The targets of the last tick, rad from the start pose, joints × lanes, as the engine got them.
   const LaneArray& targets_rad() const { return targets_rad_; }
-  /// Steps simulated, and time spent in the engine and in controllers and noise, since the runner was made.
+  /// Steps simulated since the runner was made, those of all lanes added.
   std::uint64_t steps_simulated() const { return steps_simulated_; }
+  /// Wall time spent in the engine since the runner was made.
   double physics_s() const { return physics_s_; }
+  /// Wall time spent in controllers, senses and noise since the runner was made.
   double control_s() const { return control_s_; }
 
  private:
@@ -140,6 +150,7 @@ class Runner {
 /// A queue of one task.
 class OneTask : public TaskQueue {
  public:
+  /// The arguments are those of Task.
   explicit OneTask(std::shared_ptr<const controllers::Parameters> parameters, Observer* observer = nullptr,
                    const Scenario* scenario = nullptr)
       : task_(Task{0, std::move(parameters), observer, scenario}) {}

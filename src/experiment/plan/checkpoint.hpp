@@ -13,6 +13,7 @@
 
 namespace amble::experiment {
 
+/// Version of the files that checkpoint_bytes() makes.
 inline constexpr std::uint32_t checkpoint_version = 4;
 /// Without Progress::csv_digest; can be read.
 inline constexpr std::uint32_t undigested_checkpoint_version = 3;

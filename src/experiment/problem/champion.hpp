@@ -16,49 +16,53 @@ namespace amble::experiment {
 
 /// How well commands were followed (docs/SCORES.md).
 struct Tracking {
-  double tracking = 0.0;
-  /// Means over the trial's whole seconds; nothing for a trial that ended within its first, whose tracking is
-  /// 0.
+  double tracking = 0.0;  ///< the quantity of this name, 0 … 1: 1 if commands were followed exactly
+  /// @{
+  /// Mean error over the trial's whole seconds; nothing for a trial that ended within its first, whose
+  /// tracking is 0.
   std::optional<double> speed_error_m_s = {}, turn_error_rad_s = {};
+  /// @}
 };
 
 /// The result of a trial.
 struct TrialResult {
-  double distance_m = 0.0;
-  std::optional<double> score = {};  ///< by Problem::score; nothing if that is the distance
-  int steps = 0;
-  double seconds = 0.0;
-  record::Outcome outcome = record::Outcome::completed;
-  std::optional<Tracking> tracking = {};  ///< where commands were measured
-  double energy_j = 0.0;                  ///< where record::Measures::energy was
-  double way_m = 0.0;  ///< from whole second to whole second, where record::Measures::seconds was
+  double distance_m = 0.0;           ///< score::distance_m(): 0 if it diverged
+  std::optional<double> score = {};  ///< by Problem::score, at least 0; nothing if that is the distance
+  int steps = 0;                     ///< steps simulated
+  double seconds = 0.0;              ///< time simulated
+  record::Outcome outcome = record::Outcome::completed;  ///< how it ended
+  std::optional<Tracking> tracking = {};                 ///< where commands were measured
+  double energy_j = 0.0;  ///< work of the motors, where record::Measures::energy was set; else 0
+  double way_m = 0.0;  ///< way from whole second to whole second, where record::Measures::seconds was; else 0
 
+  /// What it is worth, before trial::Settings::fall_factor: the score, or the distance in its place.
   double value() const { return score.value_or(distance_m); }
 };
+/// The result of a trial of this problem.
 TrialResult summarise(const Problem& problem, const record::Trajectory& trajectory);
 
 /// One of the trials under noise that made a genome a champion.
 struct NoisyTrial {
-  TrialResult result;
-  std::vector<std::uint32_t> trace;
+  TrialResult result;                ///< what came of it
+  std::vector<std::uint32_t> trace;  ///< trial::TraceObserver: one hash per step
 };
 
 /// A trial of a champion in another engine than its own, without noise.
 struct RefereeResult {
-  std::string engine;
-  TrialResult result;
+  std::string engine;  ///< its name
+  TrialResult result;  ///< what came of it
 };
 
 /// The best genome of a run so far, with all that is needed to run it again: robot, controller, trial,
 /// engine. Self-contained.
 struct Champion {
-  std::string experiment;  ///< Config::name of its run
-  std::int64_t seed = 0;
-  int generation = 0;
-  int index = 0;  ///< in its population
-  Problem problem;
-  neat::Genome genome;
-  TrialResult result;                        ///< of its trial without noise
+  std::string experiment;                    ///< Config::name of its run
+  std::int64_t seed = 0;                     ///< Config::seed of its run
+  int generation = 0;                        ///< in which it was the best, from 0
+  int index = 0;                             ///< place among the candidates of its generation, from 0
+  Problem problem;                           ///< what it walks in; noise.episodes are those of its evaluation
+  neat::Genome genome;                       ///< valid for `problem`
+  TrialResult result;                        ///< what came of its trial without noise
   std::vector<std::uint32_t> trace;          ///< trial::TraceObserver of that trial: one hash per step
   std::vector<NoisyTrial> episodes;          ///< Problem::noise; empty if there is none
   std::vector<RefereeResult> referees = {};  ///< in the order of Config::referees; empty if there are none
@@ -66,11 +70,12 @@ struct Champion {
 
   /// Key of the ground of its generation.
   ground::Key ground_key() const;
-  /// Key of the noise of an episode that made it a champion.
+  /// Key of the noise of an episode of its evaluation, from 0.
   trial::ScenarioKey scenario_key(std::size_t episode) const;
-  /// Key of noise that evolution has not used.
+  /// Key of noise that evolution has not used; `episode` from 0, below most_unseen_episodes.
   trial::ScenarioKey unseen_scenario_key(std::size_t episode) const;
-  /// The objective that made it the champion: of its episodes, or its score without noise.
+  /// The objective of its evaluation: that of its episodes, or its score without noise; each times
+  /// trial.fall_factor after a fall.
   double objective() const;
 };
 
@@ -78,19 +83,22 @@ struct Champion {
 /// positive.
 std::optional<double> share_kept(double distance_m, double of_m);
 
-/// The text of a champion file (docs/FORMATS.md).
+/// The text of a champion file (docs/FORMATS.md), sealed by a checksum.
 std::string champion_text(const Champion& champion);
 
+/// What parse_champion() gives.
 struct LoadedChampion {
-  Champion champion;
+  Champion champion;     ///< complete: Problem::complete() has been called
   bool altered = false;  ///< the checksum does not match (only where that is accepted)
 };
 
-/// Throws UserError: (bad_file) foreign, truncated, altered, of another version, or an invalid genome.
+/// What champion_text() wrote. `what` names the file in messages. Throws UserError: (bad_file) foreign,
+/// truncated, altered, of another version, an invalid genome, or parts that do not fit together, as an engine
+/// or a kind of controller that this program does not have.
 LoadedChampion parse_champion(const std::string& text, const std::string& what,
                               io::Altered altered = io::Altered::refuse);
-/// The same to walk in this engine whatever it was evolved in, and without the robot's own model
-/// (RobotSpec::original), which only one engine needs.
+/// The same, altered files always refused, to walk in this engine whatever it was evolved in, and without the
+/// robot's own model (RobotSpec::original), which only one engine needs.
 Champion parse_champion_for(std::string_view engine, const std::string& text, const std::string& what);
 
 }  // namespace amble::experiment

@@ -28,36 +28,44 @@ struct Config;
 
 /// Everything that maps a genome to a trajectory: robot, engine, architecture, trial. Const, shared by all
 /// workers.
+///
+/// Members may be read; those that belong together are changed by the functions below. One that throws may
+/// have changed some of them: what is left is good for nothing but destruction and assignment.
 struct Problem {
-  robot::RobotSpec robot;
-  std::string engine;
-  cppn::Settings cppn;
-  controllers::ControllerSettings controller;
-  trial::Settings trial;
-  trial::NoiseSettings noise;
-  score::Settings score;
-  ground::Settings ground;
-  damage::Settings damage = {};
-  trial::CommandSettings command = {};
-  io::OwnSettings engine_own = {};  ///< of an engine that is not one of amble's own
-  ground::Key ground_key = {};      ///< of uneven ground in trials without noise
+  robot::RobotSpec robot;  ///< intact, with the gravity and friction of the ground, as high as trials start
+  std::string engine;      ///< one of physics::engine_names()
+  cppn::Settings cppn;     ///< how genomes are evaluated
+  controllers::ControllerSettings controller;  ///< with the lists of its substrate, once it is complete
+  trial::Settings trial;                       ///< length and timestep of a trial
+  trial::NoiseSettings noise;                  ///< noise, and episodes of an evaluation
+  score::Settings score;                       ///< what a trial is worth
+  ground::Settings ground;                     ///< what the robot walks on
+  damage::Settings damage = {};                ///< what is done to the engine's robot
+  trial::CommandSettings command = {};         ///< what the robot is told
+  io::OwnSettings engine_own = {};             ///< an engine that is not one of amble's own
+  ground::Key ground_key = {};                 ///< names the uneven ground of trials without noise
+  /// The kind of controller; null until complete().
   std::shared_ptr<const controllers::Architecture> architecture;
 
   /// `robot` as in its file, intact whatever `damage` says: that is done to the engine's; the problem's robot
   /// starts Config::drop_m higher, feels gravity as on the ground's slope, and has its friction. Throws
   /// UserError if the parts do not fit together (an engine that cannot simulate the robot, a controller for
-  /// other legs). Defined beside Config (experiment/problem.hpp), which programs without configs do not need.
+  /// other legs, a robot whose gravity does not point down). Defined beside Config (experiment/problem.hpp),
+  /// which programs without configs do not need.
   static Problem make(const Config& config, robot::RobotSpec robot);
-  /// Makes `architecture` from the other members and checks that they fit.
+  /// Makes `architecture` from the other members and checks that they fit. Throws SettingError, or UserError
+  /// as make_engine().
   void complete();
 
-  /// Changes the ground, and with it the robot's gravity and friction. Throws UserError if `other` leaves
-  /// friction to the robot's file and the ground so far did not.
+  /// Changes the ground, and with it the robot's gravity and friction. Throws SettingError if `other` is not
+  /// valid, leaves friction to the robot's file where the ground so far did not, or has the robot start in
+  /// it.
   void set_ground(const ground::Settings& other);
   /// Changes the damage. Throws SettingError if the robot has no such parts, UserError if the engine cannot
   /// simulate what is left.
   void set_damage(const damage::Settings& other);
-  /// Changes what the robot is told. Throws SettingError for commands that do not fit the trial.
+  /// Changes what the robot is told. Throws SettingError for commands that do not fit the trial. A controller
+  /// that senses commands is not looked at: with CommandKind::none it senses a stop.
   void set_commands(const trial::CommandSettings& other);
   /// Has the walker steered by hand, or not. Throws SettingError where nothing is commanded, or where the
   /// robot cannot be steered so.
@@ -65,28 +73,36 @@ struct Problem {
   /// Throws SettingError if the start pose is in uneven ground.
   void check_start() const;
 
+  /// Inputs of a genome for this problem, the bias not counted.
   int cppn_inputs() const { return static_cast<int>(architecture->cppn_inputs().size()); }
+  /// Outputs of a genome for this problem.
   int cppn_outputs() const { return static_cast<int>(architecture->cppn_outputs().size()); }
-  /// `torques`: see physics::EngineSettings; always with them if the score measures energy.
+  /// The engine of the damaged robot, on the plane: set_ground() gives it another. `torques`: see
+  /// physics::EngineSettings; always with them if the score or the controller needs them. Throws UserError if
+  /// it cannot simulate the robot.
   std::unique_ptr<physics::Engine> make_engine(bool torques = false) const;
+  /// The controller that a genome is, for batches of `architecture`. The genome is valid for cppn_inputs(),
+  /// cppn_outputs() and cppn.recurrent (neat::validate).
   std::unique_ptr<controllers::Parameters> decode(const neat::Genome& genome) const;
+  /// What scores its trials.
   score::Score make_score() const;
   /// Weight of what is left of the robot after damage at the start, N.
   double weight_n() const;
-  /// What a trial of this score counts in evolution: with trial.fall_factor for a fall.
+  /// What a trial of this score counts in evolution: times trial.fall_factor after a fall.
   double credited(double score_of_trial, record::Outcome outcome) const {
     return score::credited(score_of_trial, outcome, trial.fall_factor);
   }
-  /// `measures`: those that the score does not need itself.
+  /// What a trial::Runner runs trials by. `path`: how paths are sampled; `measures`: those that the score
+  /// does not need itself.
   trial::Protocol protocol(const record::PathSampling& path, const record::Measures& measures = {}) const;
   /// Whether trials differ: by noise, that of sensors included, by the place where they start, or by
   /// commands.
   bool trials_vary() const {
     return noise.any() || ground.start_place_m > 0.0 || controller.sensing.is_noisy() || command.varies();
   }
-  /// Null for the plane.
+  /// The uneven ground of this key, for this robot; null for the plane. Takes a while.
   std::shared_ptr<const ground::Ground> make_ground(const ground::Key& key) const;
-  /// `on`: the ground of the trial, null for the plane.
+  /// The noise of a trial. `on`: its ground, null for the plane; it need not outlive the call.
   trial::Scenario scenario(const trial::ScenarioKey& key, const ground::Ground* on = nullptr) const;
   /// The scenarios of a generation, the same for all genomes, one per episode; empty unless trials_vary().
   std::vector<trial::Scenario> scenarios(std::int64_t seed, int generation,
@@ -102,6 +118,7 @@ ground::Key ground_of(const trial::ScenarioKey& key);
 /// The ground of each generation of a run, made anew only when it changes.
 class GenerationGround {
  public:
+  /// What it was at the last call, if that is the same. Null for the plane. Not thread safe.
   std::shared_ptr<const ground::Ground> of(const Problem& problem, std::int64_t seed, int generation);
 
  private:
