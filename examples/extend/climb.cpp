@@ -7,7 +7,7 @@
 
 #include "amble/core/plugin.hpp"
 #include "amble/core/random.hpp"
-#include "amble/neat/genome_binary.hpp"
+#include "amble/neat/genome_io.hpp"
 #include "amble/neat/initial_genome.hpp"
 #include "amble/neat/mutation.hpp"
 #include "amble/search/strategies.hpp"

@@ -14,8 +14,7 @@
 #include "amble/io/binary.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
-#include "amble/neat/genome_binary.hpp"
-#include "amble/neat/genome_compact.hpp"
+#include "amble/neat/genome_io.hpp"
 #include "amble/search/generational.hpp"
 #include "amble/search/map_elites.hpp"
 

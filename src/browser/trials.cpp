@@ -6,7 +6,7 @@
 #include "amble/core/index.hpp"
 #include "amble/experiment/plan/told_generation.hpp"
 #include "amble/io/binary.hpp"
-#include "amble/neat/genome_binary.hpp"
+#include "amble/neat/genome_io.hpp"
 #include "amble/trial/observers.hpp"
 
 namespace amble::browser {

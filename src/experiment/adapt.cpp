@@ -12,7 +12,7 @@
 #include "amble/experiment/episodes.hpp"
 #include "amble/experiment/evaluator.hpp"
 #include "amble/io/json_file.hpp"
-#include "amble/neat/genome_compact.hpp"
+#include "amble/neat/genome_io.hpp"
 
 namespace amble::experiment {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "amble/experiment/episodes.hpp"
 #include "amble/experiment/evaluator.hpp"
-#include "amble/neat/genome_compact.hpp"
+#include "amble/neat/genome_io.hpp"
 #include "amble/search/cells.hpp"
 
 namespace amble::experiment {

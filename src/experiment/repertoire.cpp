@@ -10,7 +10,7 @@
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/settings.hpp"
-#include "amble/neat/genome_compact.hpp"
+#include "amble/neat/genome_io.hpp"
 #include "amble/neat/genome_json.hpp"
 #include "amble/search/elite_log.hpp"
 

@@ -32,7 +32,9 @@ enum class RunStatus {
 /// had never stopped.
 class Run {
  public:
+  /// Can be moved; what is left of it is good for nothing but destruction.
   Run(Run&&) noexcept;
+  /// As the constructor.
   Run& operator=(Run&&) noexcept;
   ~Run();
 

@@ -9,9 +9,18 @@ namespace amble::experiment {
 
 /// Where the files of a run are (docs/FORMATS.md).
 struct RunPaths {
+  /// Those of a run in this folder, whether there is one or not.
   explicit RunPaths(const std::filesystem::path& folder);
-  std::filesystem::path folder, config, robot, manifest, generations, checkpoint, champions;
 
+  std::filesystem::path folder;       ///< as it was given
+  std::filesystem::path config;       ///< config.toml, with all settings of the run
+  std::filesystem::path robot;        ///< robot.json, as it was read at the start
+  std::filesystem::path manifest;     ///< manifest.json: version, and the processes that worked on it
+  std::filesystem::path generations;  ///< generations.csv, a row for each generation
+  std::filesystem::path checkpoint;   ///< checkpoint.bin, from which it continues
+  std::filesystem::path champions;    ///< the folder of champion files
+
+  /// The file of the champion of a generation, from 0.
   std::filesystem::path champion(int generation) const;
   /// Champion files in the order of their generations; the last is the best. Other files are ignored.
   std::vector<std::filesystem::path> champion_files() const;

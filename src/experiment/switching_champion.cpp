@@ -7,8 +7,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/experiment/champion_choice.hpp"
-#include "amble/neat/genome_compact.hpp"
-#include "amble/neat/genome_text.hpp"
+#include "amble/neat/genome_io.hpp"
 
 namespace amble::experiment {
 namespace {

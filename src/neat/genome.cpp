@@ -8,7 +8,7 @@
 #include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"
-#include "amble/neat/genome_binary.hpp"
+#include "amble/neat/genome_io.hpp"
 #include "amble/neat/graph.hpp"
 
 namespace amble::neat {

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "amble/core/index.hpp"
-#include "amble/neat/genome_text.hpp"
+#include "amble/neat/genome_io.hpp"
 
 namespace amble::neat {
 namespace {

@@ -8,7 +8,7 @@
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/core/random.hpp"
-#include "amble/neat/genome_binary.hpp"
+#include "amble/neat/genome_io.hpp"
 #include "amble/neat/initial_genome.hpp"
 #include "amble/neat/innovations.hpp"
 #include "amble/neat/reproduction.hpp"

@@ -6,7 +6,7 @@
 
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
-#include "amble/neat/genome_binary.hpp"
+#include "amble/neat/genome_io.hpp"
 
 namespace amble::neat {
 

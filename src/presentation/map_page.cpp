@@ -14,7 +14,7 @@
 #include "amble/experiment/corrected_map.hpp"
 #include "amble/figures/fitness_figure.hpp"
 #include "amble/io/file.hpp"
-#include "amble/neat/genome_compact.hpp"
+#include "amble/neat/genome_io.hpp"
 #include "amble/page/replay_page.hpp"
 #include "amble/presentation/walker.hpp"
 #include "amble/record/generations_csv.hpp"

@@ -8,7 +8,6 @@
 #include "amble/io/binary.hpp"
 #include "amble/neat/fitness.hpp"
 #include "amble/search/evaluation.hpp"
-#include "amble/search/metric.hpp"
 
 namespace amble::io {
 class InputFile;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 
 namespace amble::search {
 
@@ -10,6 +11,12 @@ struct Evaluation {
   double objective = 0.0;            ///< finite, ≥ 0; higher is better
   std::span<const float> behaviour;  ///< same length for all; empty if the search needs none
   bool viable = true;                ///< false: a simulation diverged, so that its behaviour means nothing
+};
+
+/// A statistic that a search reports for a generation: one cell of generations.csv, in column `name`.
+struct Metric {
+  std::string_view name;  ///< a string literal, without commas; no other column has it
+  double value = 0.0;     ///< written so that it reads back to the same bits
 };
 
 }  // namespace amble::search

@@ -37,6 +37,7 @@ class GenerationalSearch : public Strategy {
 
   /// The candidates of the current round, and their species.
   const neat::Population& population() const { return population_; }
+  /// What selects.
   const Criterion& criterion() const { return *criterion_; }
 
  private:

@@ -9,7 +9,7 @@
 #include "amble/core/error.hpp"
 #include "amble/core/index.hpp"
 #include "amble/neat/crossover.hpp"
-#include "amble/neat/genome_compact.hpp"
+#include "amble/neat/genome_io.hpp"
 #include "amble/neat/initial_genome.hpp"
 #include "amble/neat/mutation.hpp"
 

@@ -112,7 +112,9 @@ void NoveltySearch::adapt_threshold(int added) {
   if (added > settings_.raise_above)
     threshold_ = std::min(std::numeric_limits<double>::max(), threshold_ * settings_.raise_factor);
   if (empty_generations_ < settings_.lower_after) return;
-  threshold_ = std::max(settings_.lowest_threshold, threshold_ * settings_.lower_factor);
+  // A threshold that began below the lowest stays: lowering never raises.
+  threshold_ =
+      std::min(threshold_, std::max(settings_.lowest_threshold, threshold_ * settings_.lower_factor));
   if (settings_.lowering == Lowering::count_anew) empty_generations_ = 0;
 }
 

@@ -9,7 +9,6 @@
 #include "amble/io/binary.hpp"
 #include "amble/neat/genome.hpp"
 #include "amble/search/evaluation.hpp"
-#include "amble/search/metric.hpp"
 
 namespace amble::io {
 class InputFile;

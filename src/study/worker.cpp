@@ -21,7 +21,7 @@
 #include "amble/experiment/switching_champion.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/lock.hpp"
-#include "amble/neat/genome_compact.hpp"
+#include "amble/neat/genome_io.hpp"
 #include "amble/physics/batch/instruction_set.hpp"
 #include "amble/record/generations_csv.hpp"
 #include "amble/study/champion_tests.hpp"

@@ -18,8 +18,11 @@ namespace {
 
 constexpr io::Range speed_range{-100.0, 100.0}, turn_range{-100.0, 100.0}, share_range{0.0, 1.0};
 
+constexpr double longest_s = 1e6;
+
+/// At most as many as the longest trial has; the sum of two is a number, too.
 int ticks_of(double time_s, double timestep_s) {
-  return static_cast<int>(std::lround(time_s / timestep_s));
+  return static_cast<int>(std::lround(std::min(time_s / timestep_s, 1e9)));
 }
 
 Command command_of(const CommandStretch& stretch) {
@@ -70,7 +73,7 @@ void CommandStretch::describe(io::SettingsVisitor& visitor) {
   visitor.number("speed_m_s", speed_m_s, speed_range,
                  {"speed along the robot's own forward axis, m/s; negative: backwards"});
   visitor.number("turn_rad_s", turn_rad_s, turn_range, {"rate of turning to the left, rad/s"});
-  visitor.number("seconds", seconds, {0.0, 1e6},
+  visitor.number("seconds", seconds, {0.0, longest_s},
                  {"how long, s; 0: an equal share of the time that the others leave of the trial"});
 }
 
@@ -83,9 +86,9 @@ void CommandSettings::describe(io::SettingsVisitor& visitor) {
                  {"what is commanded, one after the other; the last goes on to the end. Of random: in trials "
                   "without anything by chance; without a list straight ahead, to the left, to the right and "
                   "a stop"});
-  visitor.number("ramp_s", ramp_s, {0.0, 1e6},
+  visitor.number("ramp_s", ramp_s, {0.0, longest_s},
                  {"time in which a command changes, from rest or from the one before, s; 0: at once"});
-  visitor.number("stretch_s", stretch_s, {1e-3, 1e6}, {"random: length of each stretch, s"});
+  visitor.number("stretch_s", stretch_s, {1e-3, longest_s}, {"random: length of each stretch, s"});
   visitor.number("least_speed_m_s", least_speed_m_s, speed_range, {"random: slowest speed, m/s"});
   visitor.number("most_speed_m_s", most_speed_m_s, speed_range, {"random: fastest speed, m/s"});
   visitor.number("most_turn_rad_s", most_turn_rad_s, {0.0, 100.0},
@@ -196,7 +199,7 @@ std::vector<CommandStretch> parse_commands(std::string_view text) {
     const bool complete = numbers.size() == words && (words == 2 || words == 3);
     if (complete) stretch = {numbers[0], numbers[1], words == 3 ? numbers[2] : 0.0};
     if (!complete || std::fabs(stretch.speed_m_s) > 100.0 || std::fabs(stretch.turn_rad_s) > 100.0 ||
-        stretch.seconds < 0.0)
+        stretch.seconds < 0.0 || stretch.seconds > longest_s)
       fail(ExitCode::bad_input,
            "command \"{}\": expected SPEED,TURN or SPEED,TURN,SECONDS (m/s, rad/s to the left, s), e.g. "
            "\"0.4,0; 0.4,0.5; 0,0\"",

@@ -22,8 +22,8 @@ namespace amble::trial {
 
 /// How often something happened in a controller.
 struct EventCount {
-  std::string name;  ///< of a state variable, e.g. "trigger.front_left"
-  std::int64_t count = 0;
+  std::string name;        ///< of a state variable, e.g. "trigger.front_left"
+  std::int64_t count = 0;  ///< ticks in which it happened
 };
 
 /// Observes the trial of one lane. Called from the thread that runs it.

@@ -9,7 +9,7 @@
 #include "amble/core/error.hpp"
 #include "amble/experiment/episodes.hpp"
 #include "amble/experiment/evaluator.hpp"
-#include "amble/neat/genome_compact.hpp"
+#include "amble/neat/genome_io.hpp"
 #include "tests/experiment/fixture.hpp"
 
 namespace amble::experiment {

@@ -9,7 +9,7 @@
 
 #include "amble/experiment/episodes.hpp"
 #include "amble/experiment/evaluator.hpp"
-#include "amble/neat/genome_compact.hpp"
+#include "amble/neat/genome_io.hpp"
 #include "amble/search/cells.hpp"
 #include "tests/experiment/fixture.hpp"
 

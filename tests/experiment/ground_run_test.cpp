@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "amble/io/json_file.hpp"
 #include "amble/record/recording.hpp"
 #include "amble/robot/pose.hpp"
+#include "tests/core/error_of.hpp"
 #include "tests/experiment/fixture.hpp"
 
 // Runs on other ground than the plane.
@@ -208,6 +210,14 @@ TEST(GroundRun, MayBeginAsDeepInTheGroundAsOnThePlane) {
   robot::RobotSpec robot = load_robot_file(config.robot);
   robot.bodies[0].position_m.z -= robot::clearance_m(robot, robot::start_poses(robot)) + 0.009;
   EXPECT_NO_THROW(Problem::make(config, robot));
+}
+
+TEST(GroundRun, ThatGrowsIsRefusedWhereAllGenerationsHaveTheGroundOfTheFirst) {
+  EXPECT_THAT(
+      error_of([] {
+        small_config({"ground.kind=hills", "ground.grow_generations=2", "evaluation.draw=once"}).validate();
+      }),
+      testing::HasSubstr("would never grow"));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "amble/neat/genome_compact.hpp"
+#include "amble/neat/genome_io.hpp"
 #include "tests/experiment/fixture.hpp"
 
 namespace amble::experiment {

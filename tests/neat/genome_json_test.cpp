@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "amble/core/error.hpp"
-#include "amble/neat/genome_text.hpp"
+#include "amble/neat/genome_io.hpp"
 #include "tests/neat/samples.hpp"
 
 namespace amble::neat {

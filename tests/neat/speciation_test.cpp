@@ -5,7 +5,7 @@
 #include <ostream>
 #include <set>
 
-#include "amble/neat/genome_binary.hpp"
+#include "amble/neat/genome_io.hpp"
 #include "tests/neat/samples.hpp"
 
 namespace amble::neat {

@@ -16,7 +16,7 @@
 #include "amble/core/index.hpp"
 #include "amble/cppn/network.hpp"
 #include "amble/io/binary.hpp"
-#include "amble/neat/genome_binary.hpp"
+#include "amble/neat/genome_io.hpp"
 #include "amble/physics/engine.hpp"
 #include "amble/score/behaviour.hpp"
 #include "amble/score/score.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "amble/neat/genome_compact.hpp"
+#include "amble/neat/genome_io.hpp"
 #include "amble/search/map_elites.hpp"
 
 namespace amble::search {

@@ -11,7 +11,7 @@
 
 #include "amble/core/error.hpp"
 #include "amble/io/file.hpp"
-#include "amble/neat/genome_compact.hpp"
+#include "amble/neat/genome_io.hpp"
 #include "tests/io/temporary_folder.hpp"
 
 namespace amble::search {

@@ -55,7 +55,7 @@ class NaiveNovelty {
     if (added > settings_.raise_above) threshold *= settings_.raise_factor;
     empty_ = added > 0 ? 0 : empty_ + 1;
     if (empty_ < settings_.lower_after) return;
-    threshold = std::max(threshold * settings_.lower_factor, settings_.lowest_threshold);
+    threshold = std::min(threshold, std::max(threshold * settings_.lower_factor, settings_.lowest_threshold));
     if (settings_.lowering == Lowering::count_anew) empty_ = 0;
   }
 

@@ -154,6 +154,18 @@ TEST(NoveltySearch, LowersTheThresholdFromTheFourthEmptyGenerationOnInEach) {
   }
 }
 
+TEST(NoveltySearch, NeverRaisesAThresholdThatBeganBelowTheLowest) {
+  auto settings = plain_settings();
+  settings.threshold = 5.0;
+  settings.lowest_threshold = 9.0;
+  settings.first_members = 1;
+  NoveltySearch search(settings, 1);
+  for (int generation = 1; generation <= 7; ++generation) {
+    judge(search, {1.0f, 1.0f});
+    EXPECT_EQ(search.threshold(), 5.0) << generation;
+  }
+}
+
 TEST(NoveltySearch, CountsEmptyGenerationsAnewAfterOneThatWasNot) {
   auto settings = plain_settings();
   settings.first_members = 1;

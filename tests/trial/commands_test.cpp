@@ -118,8 +118,18 @@ TEST(Commands, AreNewInEachGenerationAndThereWithoutNoise) {
 TEST(Commands, AreReadFromOneLine) {
   const auto stretches = parse_commands("0.4,0; 0.4,-0.5,2.5 ;0,0");
   EXPECT_EQ(stretches, (std::vector<CommandStretch>{{0.4, 0.0}, {0.4, -0.5, 2.5}, {0.0, 0.0}}));
-  for (const char* const bad : {"", "0.4", "0.4,x", "0.4,0,1,2", "0.4,0;", "1e9,0", "0,0,-1", "nan,0"})
+  for (const char* const bad :
+       {"", "0.4", "0.4,x", "0.4,0,1,2", "0.4,0;", "1e9,0", "0,0,-1", "nan,0", "0,0,1e300", "0,0,inf"})
     EXPECT_THROW(parse_commands(bad), UserError) << bad;
+}
+
+TEST(Commands, OfTheLongestTimesAndShortestTicksCountOn) {
+  CommandSettings settings{.kind = CommandKind::fixed,
+                           .stretches = {{0.1, 0.0, 1e6}, {0.2, 0.0, 1e6}, {0.3, 0.0, 1e6}},
+                           .ramp_s = 1e6};
+  const CommandSchedule schedule = planned_commands(settings, 1000, 1e-5).value();
+  EXPECT_LT(schedule.at(999).speed_m_s, 0.1f);
+  EXPECT_GT(schedule.at(999).speed_m_s, 0.0f);
 }
 
 std::string refusal(const CommandSettings& settings) {

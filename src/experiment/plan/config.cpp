@@ -122,6 +122,10 @@ void Config::check_evaluation() const {
         {"evaluation.finalists"},
         "evaluation.finalists = {}: without any noise their trials would all be the same; expected 0",
         evaluation.finalists);
+  if (evaluation.draw == Draw::once && ground.grow_generations > 0)
+    fail_setting({"evaluation.draw", "ground.grow_generations"},
+                 "evaluation.draw = \"once\": the ground of generation 0 in all of them would never grow; "
+                 "expected ground.grow_generations = 0, or \"each_generation\"");
   const int most = evaluation.episodes_of_best(noise.episodes);
   if (most > static_cast<int>(most_evolution_episodes))
     fail_setting({"evaluation.finalist_episodes", "noise.episodes"},

@@ -10,7 +10,7 @@
 
 #include "amble/record/trajectory.hpp"
 #include "amble/score/typical.hpp"
-#include "amble/search/metric.hpp"
+#include "amble/search/evaluation.hpp"
 
 namespace amble::experiment {
 

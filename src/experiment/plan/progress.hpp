@@ -20,11 +20,5 @@ struct Progress {
   std::uint64_t csv_bytes = 0;    ///< length of generations.csv
   std::uint64_t csv_digest = 0;   ///< table_digest() of it; 0: not known
 };
-  std::uint64_t evaluations = 0;
-  std::uint64_t steps = 0;
-  double wall_s = 0.0;           ///< over all processes that worked on the run
-  std::uint64_t csv_bytes = 0;   ///< length of generations.csv
-  std::uint64_t csv_digest = 0;  ///< table_digest() of it; 0: not known
-};
 
 }  // namespace amble::experiment

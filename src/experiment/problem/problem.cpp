@@ -9,7 +9,7 @@
 #include "amble/damage/stages.hpp"
 #include "amble/experiment/problem/episode_set.hpp"
 #include "amble/io/json_file.hpp"
-#include "amble/neat/genome_text.hpp"
+#include "amble/neat/genome_io.hpp"
 #include "amble/physics/damaged_engine.hpp"
 #include "amble/robot/json.hpp"
 #include "amble/robot/original_model.hpp"
