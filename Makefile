@@ -1,5 +1,6 @@
-# Thin: each target prints and runs the commands one would type. PRESET chooses another build for `make test` (asan, tsan, fuzz).
-PRESET ?= dev
+# Thin: each target prints and runs the commands one would type. PRESET chooses another build for `make test`: dev (warnings are errors), asan,
+# tsan, fuzz.
+PRESET ?= release
 PREFIX ?= /usr/local
 JOBS ?= $(shell nproc)
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
@@ -43,14 +44,14 @@ wasm-check:
 	  { echo "viewer/dist/$$file is not what src gives: run make wasm" >&2; exit 1; }; done; \
 	else echo "skipped: the compiler for WebAssembly could not be installed (see above)"; fi
 
-# Without those that take long (pages in browsers, clusters, every command of the docs, installing): TESTS=all is what CI runs.
+# What `make demo` has compiled is not compiled again. Without the tests that take long (pages in browsers, clusters, every command of the docs, installing): TESTS=all is what CI runs.
 # The programs that tests run (browser, Slurm, Clang for exported C) are installed while the tests compile. One job more than
 # processors: a test that waits needs none.
 TESTS ?= short
 test:
 	./setup $(if $(filter fuzz,$(PRESET)),--dev,--test)
 	@{ ./setup --tools && viewer/install-packages >/dev/null; } & tools=$$!; \
-	set -ex; cmake --preset $(PRESET); cmake --build --preset $(PRESET); \
+	set -ex; cmake --preset $(PRESET) $(if $(filter release,$(PRESET)),-DAMBLE_TESTS=ON -DAMBLE_PYTHON=ON); cmake --build --preset $(PRESET); \
 	wait $$tools || echo "some tests will be skipped: see above"; \
 	ctest --preset $(PRESET) -j $$(($(JOBS) + 1)) $(if $(filter all,$(TESTS)),,-LE long)
 	@$(if $(filter all,$(TESTS)),,echo "the tests that take long are left out; to run them too: make test TESTS=all")
@@ -60,28 +61,28 @@ test-aarch64:
 	@if ./setup --aarch64; then set -ex; cmake --preset aarch64; cmake --build --preset aarch64; ctest --preset aarch64 -j $(JOBS); \
 	else echo "skipped: compiler and libraries for aarch64, and the emulator, could not be installed (see above)"; fi
 
-# The Python package, in build/python/python, and its tests.
+# The Python package, in build/release/python, and its tests. It shares what `make demo` has compiled.
 python:
 	./setup --python
-	cmake --preset python
-	cmake --build --preset python --target _amble amble
-	PYTHONPATH=build/python/python AMBLE_PROGRAM=build/python/src/cli/amble /usr/bin/python3 -B -m pytest -q -p no:cacheprovider tests/python
+	cmake --preset release -DAMBLE_PYTHON=ON
+	cmake --build --preset release --target _amble amble
+	PYTHONPATH=build/release/python AMBLE_PROGRAM=build/release/src/cli/amble /usr/bin/python3 -B -m pytest -q -p no:cacheprovider tests/python
 
-# A Debian package of program, headers and Python module: build/python/amble_*.deb, for apt-get install.
+# A Debian package of program, headers and Python module: build/release/amble_*.deb, for apt-get install.
 package:
 	./setup --package
-	cmake --preset python
-	cmake --build --preset python
-	cd build/python && cpack
+	cmake --preset release -DAMBLE_PYTHON=ON
+	cmake --build --preset release
+	cd build/release && cpack
 
 bench:
 	./setup --dev
 	./setup --python
-	cmake --preset python -DAMBLE_BENCHMARKS=ON
-	cmake --build --preset python
-	build/python/bench/amble_bench --csv build/bench.csv
-	PYTHONPATH=build/python/python /usr/bin/python3 -B bench/robots.py build/python/bench/amble_bench
-	build/python/bench/amble_micro
+	cmake --preset release -DAMBLE_PYTHON=ON -DAMBLE_BENCHMARKS=ON
+	cmake --build --preset release
+	build/release/bench/amble_bench --csv build/bench.csv
+	PYTHONPATH=build/release/python /usr/bin/python3 -B bench/robots.py build/release/bench/amble_bench
+	build/release/bench/amble_micro
 
 install: build
 	$(SUDO) cmake --install build/release --prefix $(PREFIX)

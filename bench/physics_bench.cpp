@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <future>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <thread>
 
 #include "amble/experiment/problem.hpp"
 #include "amble/morphology/mjcf_writer.hpp"
@@ -85,7 +88,11 @@ double steps_per_s(const char* name, const robot::RobotSpec& robot) {
 /// solves ODE's stiffer equations.
 double mj_steps_per_s(const robot::RobotSpec& robot, const Targets& targets) {
   const auto mjcf = morphology::write_mjcf(robot);
-  const auto owned = morphology::compile_mjcf(mjcf.text, "bench");
+  static std::mutex compiling;  // MuJoCo's compiler is not for several threads at once
+  const auto owned = [&] {
+    const std::lock_guard lock(compiling);
+    return morphology::compile_mjcf(mjcf.text, "bench");
+  }();
   mjModel* const model = owned.get();
   model->opt.timestep = physics::EngineSettings{}.timestep_s;
   model->opt.iterations = 20;
@@ -108,6 +115,26 @@ double mj_steps_per_s(const robot::RobotSpec& robot, const Targets& targets) {
     }
   });
   return steps / seconds;
+}
+
+/// The sum of what as many threads as there are processors measure at once, each with robots of its own.
+double on_all_processors(const std::function<double()>& rate) {
+  std::vector<std::future<double>> threads;
+  for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
+    threads.push_back(std::async(std::launch::async, rate));
+  double sum = 0.0;
+  for (auto& thread : threads) sum += thread.get();
+  return sum;
+}
+
+void measure_threads(const std::string& name, const robot::RobotSpec& robot, std::vector<Figure>& figures) {
+  const double batch = on_all_processors([&] { return steps_per_s("batch", robot, quarter_swing(robot)); }),
+               mujoco = on_all_processors([&] { return mj_steps_per_s(robot, quarter_swing(robot)); });
+  const std::string what = fmt::format("{} threads, {}", std::thread::hardware_concurrency(), name);
+  figures.push_back({"batch_robot_steps_per_s_threads_" + name, batch, "1/s", what});
+  figures.push_back({"mujoco_robot_steps_per_s_threads_" + name, mujoco, "1/s",
+                     what + ", mj_step alone, a simulation in each thread"});
+  figures.push_back({"batch_vs_mujoco_threads_" + name, batch / mujoco, "1", what});
 }
 
 /// One engine of one lane takes the walkers one after the other.
@@ -158,6 +185,7 @@ void measure_robots(std::vector<Figure>& figures) {
                        "1/s", "one core, authors' quadruped, one step after the other of all"});
   figures.push_back({"mujoco_robot_steps_per_s", mj_steps_per_s(authors, quarter_swing(authors)), "1/s",
                      "one core, authors' quadruped, mj_step alone, at most 20 iterations"});
+  measure_threads("quadruped", authors, figures);
   for (const std::string name : {"biped", "hexapod", "octopod"}) {
     const auto robot =
         experiment::load_robot_file(fmt::format("{0}/robots/{1}/{1}.toml", AMBLE_SOURCE_DIR, name));
@@ -167,6 +195,7 @@ void measure_robots(std::vector<Figure>& figures) {
         fmt::format("one core, {} joints, {} legs", robot.joints.size(), robot.legs.size());
     figures.push_back({"batch_robot_steps_per_s_" + name, batch, "1/s", what});
     figures.push_back({"batch_vs_mujoco_" + name, batch / mujoco, "1", what + ", mj_step alone"});
+    if (name == "hexapod") measure_threads(name, robot, figures);
   }
 }
 

@@ -58,7 +58,7 @@ robot::RobotSpec robot_of(const py::object& robot) {
 }
 
 std::unique_ptr<Robots> make(const py::object& robot, int n, const std::string& engine,
-                             std::optional<double> timestep_s, std::optional<int> threads) {
+                             std::optional<double> timestep_s, std::optional<int> threads, bool forces) {
   const auto check = [](const char* name, int value, int most) {
     if (value < 1 || value > most)
       throw py::value_error(fmt::format("{}: {}: expected a whole number from 1 to {}", name, value, most));
@@ -76,8 +76,9 @@ std::unique_ptr<Robots> make(const py::object& robot, int n, const std::string& 
   const int lanes = physics::engine_traits(engine).lanes;
   const int useful = std::min(jobs_of(threads), (n + lanes - 1) / lanes);
   const py::gil_scoped_release release;
-  return std::make_unique<Robots>(std::move(spec), engine, physics::EngineSettings{.timestep_s = step_s}, n,
-                                  useful);
+  return std::make_unique<Robots>(
+      std::move(spec), engine,
+      physics::EngineSettings{.timestep_s = step_s, .torques = forces, .loads = forces}, n, useful);
 }
 
 py::array columns(const Robots& self, int first, int count) {
@@ -90,6 +91,15 @@ py::array columns(const Robots& self, int first, int count) {
 py::array flags(const Robots& self, std::vector<std::uint8_t> Observations::*member) {
   const auto& all = self.batch.observations();
   return live_view(all, (all.get()->*member).data(), {all->robots}, {1}, "bool");
+}
+
+/// [n, count] of what is there with forces=True alone.
+py::array forces(const Robots& self, std::vector<float> Observations::*member, int count) {
+  const auto& all = self.batch.observations();
+  const std::vector<float>& values = (*all).*member;
+  if (values.empty()) throw py::value_error("made without forces: Robots(…, forces=True) measures them");
+  constexpr auto size = static_cast<py::ssize_t>(sizeof(float));
+  return live_view(all, values.data(), {all->robots, count}, {count * size, size}, "float32");
 }
 
 py::object observations(Robots& self) {
@@ -174,6 +184,19 @@ void bind_views(py::class_<Robots>& type) {
           [](const Robots& self) { return columns(self, self.batch.observations()->com_column(), 3); },
           "Centre of mass of the whole robot in the world, m: [n, 3], a live view.")
       .def_property_readonly(
+          "torque_nm",
+          [](const Robots& self) {
+            return forces(self, &Observations::torque_nm, self.batch.observations()->joints);
+          },
+          R"(Torque of each joint's motor in the last step, N m: [n, joints], a live view. ValueError without forces.)")
+      .def_property_readonly(
+          "load_n",
+          [](const Robots& self) {
+            return forces(self, &Observations::load_n, self.batch.observations()->legs);
+          },
+          R"(Force of the ground against each foot in the last step, along its normal, N: [n, legs], a live view.
+ValueError without forces.)")
+      .def_property_readonly(
           "fallen", [](const Robots& self) { return flags(self, &Observations::fallen); },
           "Whether the root is lower than where trials end as fallen: [n], bool, a live view.")
       .def_property_readonly(
@@ -216,11 +239,11 @@ Arrays are live: step() and reset() write into them, and they stay valid without
 control order (docs/CONVENTIONS.md). Several threads may use one object; their calls come one after the other.)");
   type.def(
           py::init(&make), py::arg("robot"), py::arg("n") = 1, py::arg("engine") = "batch", py::kw_only(),
-          py::arg("timestep_s") = py::none(), py::arg("threads") = py::none(),
+          py::arg("timestep_s") = py::none(), py::arg("threads") = py::none(), py::arg("forces") = false,
           R"(robot: name of one of robots(), path of a robot file (TOML or robot.json), or a Config, of whose ground slope and
 friction count, as robots are on a plane. n: 1 to 1,048,576. engine: "batch" (sixteen at a time), "ode", "mujoco" or "mujoco-model".
-timestep_s: s (default: the config's, else 0.01). threads: default processors; results do not depend on it. All robots
-stand in their start pose. Raises Error.)")
+timestep_s: s (default: the config's, else 0.01). threads: default processors; results do not depend on it. forces:
+measure torque_nm and load_n, too, which changes nothing else. All robots stand in their start pose. Raises Error.)")
       .def(
           "step", step, py::arg("targets"),
           R"(Advances each robot by one timestep towards its target angles; returns observations, the live view.

@@ -71,21 +71,24 @@ void Team::guarded(int share) {
   }
 }
 
-Observations::Observations(int robots_in, int joints_in, int legs_in)
+Observations::Observations(int robots_in, int joints_in, int legs_in, bool forces)
     : robots(robots_in),
       joints(joints_in),
       legs(legs_in),
       width(joints + legs + 6),
       values(to_index(robots) * to_index(width)),
       fallen(to_index(robots)),
-      diverged(to_index(robots)) {}
+      diverged(to_index(robots)),
+      torque_nm(forces ? to_index(robots) * to_index(joints) : 0),
+      load_n(forces ? to_index(robots) * to_index(legs) : 0) {}
 
 RobotBatch::RobotBatch(robot::RobotSpec robot, const std::string& engine,
                        const physics::EngineSettings& settings, int count, int threads)
     : robot_(std::move(robot)),
       settings_(settings),
       observations_(std::make_shared<Observations>(count, static_cast<int>(robot_.joints.size()),
-                                                   static_cast<int>(robot_.legs.size()))),
+                                                   static_cast<int>(robot_.legs.size()),
+                                                   settings.torques && settings.loads)),
       // A caller that takes a share itself may be another thread at the next call.
       team_(std::make_unique<Team>(threads, !physics::engine_traits(engine).keeps_to_a_thread)) {
   for (int first = 0; first < count;) {
@@ -187,6 +190,16 @@ void RobotBatch::observe_body(const Group& group, int lane) {
   // As Runner::advance, src/trial/trial.cpp, on the plane z = 0: no engine here is given another ground.
   observations_->fallen[to_index(group.first + lane)] = robot_.fall_rule().met(
       group.engine->root_com_m(lane).z, robot_.upright(group.engine->root_pose(lane).rotation));
+  if (!observations_->torque_nm.empty()) observe_forces(group, lane);
+}
+
+void RobotBatch::observe_forces(const Group& group, int lane) {
+  const auto copy = [&](const LaneArray* rows, std::vector<float>& all, int count) {
+    float* const to = all.data() + to_index(group.first + lane) * to_index(count);
+    for (int r = 0; r < count; ++r) to[r] = rows != nullptr ? rows->at(r, lane) : 0.0f;
+  };
+  copy(group.engine->motor_torque_nm(), observations_->torque_nm, observations_->joints);
+  copy(group.engine->foot_load_n(), observations_->load_n, observations_->legs);
 }
 
 std::vector<std::uint64_t> RobotBatch::state_hashes() const {

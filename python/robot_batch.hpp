@@ -49,12 +49,14 @@ class Team {
 
 /// What Robots shows of its robots, row by row; one allocation for its whole life, so that views stay valid.
 struct Observations {
-  Observations(int robots, int joints, int legs);
+  /// `forces`: with torques and loads.
+  Observations(int robots, int joints, int legs, bool forces);
 
   int robots, joints, legs;
   int width;                  ///< of a row: angles, touches, attitude (3), centre of mass (3)
   std::vector<float> values;  ///< robots × width
   std::vector<std::uint8_t> fallen, diverged;
+  std::vector<float> torque_nm, load_n;  ///< robots × joints, robots × legs; empty without forces
 
   float* row(int robot) {
     return values.data() + static_cast<std::size_t>(robot) * static_cast<std::size_t>(width);
@@ -104,6 +106,7 @@ class RobotBatch {
   /// The same of all robots of a group.
   void observe(const Group& group);
   void observe_body(const Group& group, int lane);
+  void observe_forces(const Group& group, int lane);
 
   const robot::RobotSpec robot_;
   const physics::EngineSettings settings_;

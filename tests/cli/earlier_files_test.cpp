@@ -63,7 +63,7 @@ TEST_P(FilesOf, ChampionsWalk) {
   const std::string run = copy("novelty-run");
   EXPECT_THAT(good({"trial", run + "/champions/00000.json", "--undisturbed"}).out, HasSubstr("distance"));
   good({"view", run, "-o", scratch_ / "walk.html"});
-  good({"export", run, "-o", scratch_ / "walker.c"});
+  good({"export", run, "--format", "c", "-o", scratch_ / "walker.c"});
 }
 
 TEST_P(FilesOf, RecordingsAndRobotsAreRead) {

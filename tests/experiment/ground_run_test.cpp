@@ -214,7 +214,7 @@ TEST(GroundRun, MayBeginAsDeepInTheGroundAsOnThePlane) {
 
 TEST(GroundRun, ThatGrowsIsRefusedWhereAllGenerationsHaveTheGroundOfTheFirst) {
   EXPECT_THAT(
-      error_of([] {
+      tests::error_of([] {
         small_config({"ground.kind=hills", "ground.grow_generations=2", "evaluation.draw=once"}).validate();
       }),
       testing::HasSubstr("would never grow"));

@@ -45,6 +45,24 @@ def test_no_bit_depends_on_threads_or_neighbours(engine):
     assert len(set(hashes[0])) == n
 
 
+@pytest.mark.parametrize("engine", ["batch", "ode", "mujoco"])
+def test_forces_are_measured_where_asked_for_and_change_no_bit(engine):
+    plain, measured = amble.Robots(ROBOT, 3, engine), amble.Robots(ROBOT, 3, engine, forces=True)
+    torque, load = measured.torque_nm, measured.load_n
+    assert torque.shape == (3, len(measured.joints)) and load.shape == (3, len(measured.legs))
+    for tick in range(200):
+        targets = swing(plain, tick, 3) * (tick > 100)  # it stands, then moves
+        plain.step(targets)
+        measured.step(targets)
+        if tick == 99:  # at rest the ground carries the weight
+            assert load.sum(axis=1) == pytest.approx(5.4 * 9.81, rel=0.2)
+    assert plain.state_hashes().tolist() == measured.state_hashes().tolist()
+    assert np.abs(torque).max() > 0.1 and not torque.flags.writeable
+    for name in ("torque_nm", "load_n"):
+        with pytest.raises(ValueError, match="forces=True"):
+            getattr(plain, name)
+
+
 def test_amble_s_own_robots_go_by_name():
     own = amble.robots()
     assert {"quadruped", "quadruped/paper", "biped", "hexapod", "octopod", "servo"} <= set(own)
