@@ -1,4 +1,4 @@
-// Ten champions whose sessions (sessions.mjs) are to come out alike natively, in Node.js and in browsers. `node champions.mjs` evolves those
+// Eleven champions whose sessions (sessions.mjs) are to come out alike natively, in Node.js and in browsers. `node champions.mjs` evolves those
 // that are not in robots/.
 import { execFileSync, spawnSync } from "node:child_process";
 import { copyFileSync, mkdirSync, readdirSync, rmSync, writeFileSync } from "node:fs";
@@ -8,14 +8,14 @@ import { fileURLToPath } from "node:url";
 const { AMBLE_PROGRAM, AMBLE_WORK, AMBLE_CHAMPIONS } = process.env;
 export const source = (name) => fileURLToPath(new URL(`../../${name}`, import.meta.url));
 
-// All kinds of controllers, and robots with two to eight legs.
-const GALLERY = ["servo", "hexapod", "biped", "octopod"];
+// All kinds of controllers, robots with two to eight legs, and one that obeys.
+const GALLERY = ["servo/champion", "hexapod/champion", "biped/champion", "octopod/champion", "hexapod/steered"];
 const EVOLVED = [["quick/quadruped", 3], ["quick/oscillators", 3], ["quick/sine", 3], ["quick/ctrnn", 3], ["quick/quadruped", 4], ["repertoire/hexapod", 2]];
 
 const slug = (config, seed) => `${config.replace("/", "-")}-${seed}`;
 
 /** [name, the path of its file]. */
-export const champions = [...GALLERY.map((name) => [name, source(`robots/${name}/champion.json`)]),
+export const champions = [...GALLERY.map((name) => [name, source(`robots/${name}.json`)]),
                           ...EVOLVED.map(([config, seed]) => [`${config}, seed ${seed}`, join(AMBLE_CHAMPIONS, `${slug(config, seed)}.json`)])];
 
 /** Makes the file of a champion after three generations. */

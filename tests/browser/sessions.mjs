@@ -36,5 +36,10 @@ export async function runSession(robot, number) {
   robot.push([0.3 * mass_kg, -0.4 * mass_kg, 0.2 * mass_kg]);
   robot.step(500);
   await robot.setDamage({ parts: [] });
-  robot.step(STEPS - 2500);
+  await robot.lift(0.2 * tall_m);
+  const { commands } = description;
+  if (commands) await robot.command([0.5 * commands.most_speed_m_s, 0.4 * commands.most_turn_rad_s]);
+  robot.step(250);
+  if (commands) await robot.command([0, 0]);
+  robot.step(STEPS - 2750);
 }
