@@ -67,6 +67,15 @@ test("a champion's page simulates it with the bits of its file, and evolves in i
   assert.match(told.bits, /Exact: .* in all 1500 steps/);
 });
 
+test("pushed, dropped, on other ground and without a leg it walks as natively, to the bit, and asks nobody for anything", async () => {
+  const told = await browser.run("drive", { url: "/pages/walk.html#live" });
+  assert.deepEqual(problemsOf(told), []);
+  assert.deepEqual(told.asked, []);
+  const { inputs } = JSON.parse(told.inputs);
+  for (const what of ["push_n_s", "lift_m", "ground", "damage"]) assert.ok(inputs.some((input) => what in input), what);
+  assert.match(again(SERVO, told.inputs, "driven").stdout, /^bits +the same in every step$/m);
+});
+
 test(`${GENERATIONS} generations in the lab, in its workers, have the table and the champions of amble evolve`, async () => {
   amble("lab", "-o", join(AMBLE_WORK, "lab.html"));
   const settings = { robot: "servo", population: 20, seconds: 2, generations: GENERATIONS };
@@ -84,6 +93,15 @@ test(`${GENERATIONS} generations in the lab, in its workers, have the table and 
   assert.deepEqual(names(run), names(native));
   assert.ok(names(run).length > 1);
   for (const name of names(run)) assert.equal(text(join(run, "champions", name)), text(join(native, "champions", name)), name);
+});
+
+test("the lab says what is wrong with files that it cannot open", async () => {
+  const champion = text(SERVO);
+  const files = [{ name: "broken.json", text: champion.slice(0, 2000) }, { name: "altered.json", text: champion.replace('"generation": ', '"generation": 1') },
+                 { name: "other.json", text: '{"format": "amble-repertoire"}' }];
+  const told = await browser.run("refused", { url: "/pages/lab.html#threads=2", files, good: { name: "servo.json", text: champion } });
+  assert.deepEqual(problemsOf(told), []);
+  for (const [i, message] of [/neither/, /checksum does not fit/, /no robot, champion or run/].entries()) assert.match(told.said[i], message);
 });
 
 test("the page of a run, which the program serves, shows its curve and lets its best walk", async () => {

@@ -18,6 +18,20 @@ async function champion(text) {
   return LiveRobot.open(module.module, text);
 }
 
+/** What a button saves, as text. */
+async function saved(page, name) {
+  const make = page.URL.createObjectURL;
+  const blob = await new Promise((done) => {
+    page.URL.createObjectURL = (given) => {
+      done(given);
+      return make.call(page.URL, given);
+    };
+    press(page, name);
+  });
+  page.URL.createObjectURL = make;
+  return blob.text();
+}
+
 export default {
   who: () => ({ agent: navigator.userAgent, processors: navigator.hardwareConcurrency }),
 
@@ -45,6 +59,45 @@ export default {
     press(page, "Evolve");
     await until(`${generations} generations have evolved`, () => Number(/Generation (\d+)/.exec(said())?.[1] ?? -1) >= generations - 1);
     return { bits, said: said() };
+  }),
+
+  /** The page of a champion, driven by its controls: what was done, as the page saves it, and what the page has asked for. */
+  drive: ({ url }) => inFrame(url, async (page) => {
+    const walk = async (seconds) => {
+      const from = page.amble.time();
+      await until(`it has walked ${seconds} s`, () => page.amble.live() && page.amble.time() > from + seconds);
+    };
+    await until("it walks", () => page.amble.live() && page.amble.time() > 0.2);
+    press(page, "right →");
+    await walk(0.3);
+    press(page, "Lift and drop");
+    await walk(0.3);
+    const kind = page.document.querySelector("[aria-label='Kind of ground']");
+    kind.value = "rough";
+    kind.dispatchEvent(new page.Event("change", { bubbles: true }));
+    page.document.querySelector("#live .live-legs input").click();
+    await walk(0.5);
+    page.amble.pause();
+    const asked = page.performance.getEntriesByType("resource").map(({ name }) => name).filter((name) => !/^(data|blob):/.test(name));
+    return { inputs: await saved(page, "Save what was done"), asked };
+  }),
+
+  /** What the lab says of files that it cannot open; the last one it can. */
+  refused: ({ url, files, good }) => inFrame(url, async (page) => {
+    const give = ({ name, text }) => {
+      const data = new page.DataTransfer(), input = page.document.getElementById("file");
+      data.items.add(new page.File([text], name));
+      input.files = data.files;
+      input.dispatchEvent(new page.Event("change"));
+    };
+    const said = [];
+    for (const file of files) {
+      give(file);
+      said.push(await until(`${file.name} is refused`, () => textOf(page, "#trouble").startsWith(file.name) && textOf(page, "#trouble")));
+    }
+    give(good);
+    await until("the other walks", () => /From the file/.test(textOf(page, "#story")));
+    return { said };
   }),
 
   /** A run of the lab in workers: all files of its folder. */
