@@ -1,5 +1,4 @@
-// A search of one's own: the best genome so far and its mutants, round by round, a (1 + lambda) evolution
-// strategy.
+// A search of one's own: children of the two best genomes so far, crossed and mutated, round by round.
 // Use:
 //   amble --plugin build/extend/libclimb.so evolve examples/extend/climb.toml --out runs/climb
 #include <memory>
@@ -7,6 +6,7 @@
 
 #include "amble/core/plugin.hpp"
 #include "amble/core/random.hpp"
+#include "amble/neat/crossover.hpp"
 #include "amble/neat/genome_io.hpp"
 #include "amble/neat/initial_genome.hpp"
 #include "amble/neat/mutation.hpp"
@@ -37,22 +37,24 @@ class Climb final : public search::Strategy {
   int round() const override { return round_; }
   std::span<const neat::Genome> ask() const override { return candidates_; }
   void tell(std::span<const search::Evaluation> evaluations) override {
-    for (std::size_t i = 0; i < evaluations.size(); ++i)
-      if (evaluations[i].viable && (best_ < 0.0 || evaluations[i].objective > best_)) {
-        best_ = evaluations[i].objective;
-        parent_ = candidates_[i];
-      }
-    if (best_ < 0.0) parent_ = candidates_.front();
+    for (std::size_t i = 0; i < evaluations.size(); ++i) {
+      if (!evaluations[i].viable || evaluations[i].objective <= best_) continue;
+      second_ = best_ < 0.0 ? candidates_[i] : parent_;
+      parent_ = candidates_[i];
+      best_ = evaluations[i].objective;
+    }
+    if (best_ < 0.0) parent_ = second_ = candidates_.front();
     ++round_;
     breed();
   }
   std::vector<search::Metric> metrics() const override { return {{"climb_best", best_}}; }
 
-  // What a checkpoint must hold: the candidates follow from the parent, the round and the seed.
+  // What a checkpoint must hold: random numbers follow from the round and the seed.
   void save(io::BinaryWriter& writer) const override {
     writer.put(round_);
     writer.put(best_);
     neat::save(parent_, writer);
+    neat::save(second_, writer);
     neat::save(candidates_, writer);
     innovations_.save(writer);
   }
@@ -60,6 +62,7 @@ class Climb final : public search::Strategy {
     round_ = reader.get<int>();
     best_ = reader.get<double>();
     parent_ = neat::load_genome(reader);
+    second_ = neat::load_genome(reader);
     candidates_ = neat::load_genomes(reader);
     innovations_.load(reader);
   }
@@ -67,9 +70,9 @@ class Climb final : public search::Strategy {
  private:
   void breed() {
     innovations_.begin_generation();
-    candidates_.assign(candidates_.size(), parent_);
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       Stream stream(seed_, climbing, static_cast<std::uint32_t>(round_), static_cast<std::uint32_t>(i));
+      candidates_[i] = neat::crossover(parent_, second_, neat_.crossover, recurrent_, stream);
       for (int m = 0; m < mutations_; ++m)
         neat::mutate(candidates_[i], neat_, recurrent_, innovations_, stream);
     }
@@ -81,7 +84,7 @@ class Climb final : public search::Strategy {
   int mutations_, round_ = 0;
   double best_ = -1.0;
   neat::Innovations innovations_;
-  neat::Genome parent_;
+  neat::Genome parent_, second_;  // the best so far, and the best before it
   std::vector<neat::Genome> candidates_;
 };
 

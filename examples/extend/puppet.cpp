@@ -50,7 +50,7 @@ class Puppet final : public physics::SingleRobotEngine {
   }
   void push(int lane, Vec3 impulse_n_s) override {
     check_pushable(lane);
-    push_m_s_ = (1.0 / robot_.total_mass_kg()) * impulse_n_s;
+    push_m_s_ = push_m_s_ + (1.0 / robot_.total_mass_kg()) * impulse_n_s;
   }
 
   void step(const LaneArray& targets_rad) override {
@@ -81,9 +81,10 @@ class Puppet final : public physics::SingleRobotEngine {
   }
   Vec3 momentum_kg_m_s(int) const override { return robot_.total_mass_kg() * velocity_m_s_; }
   std::uint64_t state_hash(int) const override {
-    const Vec3& p = root_.position_m;
+    const auto& [position, rotation] = root_;
     std::vector<double> state = angles_rad_;
-    state.insert(state.end(), {root_.position_m.x, root_.position_m.y, root_.position_m.z});
+    state.insert(state.end(), {position.x, position.y, position.z, rotation.w, rotation.x, rotation.y,
+                               rotation.z, velocity_m_s_.x, velocity_m_s_.y, velocity_m_s_.z});
     std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a over 64-bit words
     for (const double value : state) hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x100000001b3;
     return hash ^ (hash >> 32);

@@ -15,14 +15,15 @@ struct CheckFailure {
   std::string_view detail;  ///< what was expected, in words; valid during the call of the handler
 };
 
-/// What happens first when a check fails. By default "file:line: check failed: condition (detail)" goes to
-/// stderr. If a handler returns, the process aborts, as nothing can be relied on; a handler that throws
-/// leaves the objects that were being used good for nothing but destruction.
+/// What happens first when a check fails, in the thread in which it failed. By default "file:line: check
+/// failed: condition (detail)" goes to stderr. If a handler returns, the process aborts, as nothing can be
+/// relied on; a handler that throws leaves the objects that were being used good for nothing but destruction.
+/// What it throws in a worker's thread leaves Run::execute() in the caller's.
 using CheckHandler = void (*)(const CheckFailure& failure);
 /// Sets the handler of the whole process; null restores the default. Returns the one before. Thread safe.
 CheckHandler set_check_handler(CheckHandler handler);
 
-/// Calls the handler and aborts. What AMBLE_CHECK calls.
+/// Calls the handler, and aborts if it returns. What AMBLE_CHECK calls.
 [[noreturn]] void check_failed(const char* file, int line, const char* condition, std::string_view detail);
 
 }  // namespace amble

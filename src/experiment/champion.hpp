@@ -7,7 +7,9 @@
 
 namespace amble::experiment {
 
-/// The champion of a file. Throws UserError as parse_champion() does, and if the file cannot be read.
+/// The champion of a file, ready to walk again: replay.hpp. Throws UserError: the file cannot be read, is
+/// altered, truncated or of another version (ExitCode::bad_file), or names a controller or an engine that
+/// this program does not have.
 Champion load_champion(const std::filesystem::path& path);
 
 }  // namespace amble::experiment

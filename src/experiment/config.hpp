@@ -26,7 +26,8 @@ struct Overrides {
 /// a syntax error, an unknown key, a value out of its range, settings that do not fit together; the
 /// message names file and line where there is one.
 Config load_config(const std::filesystem::path& path, const Overrides& overrides);
-/// The same from a document that has been read, which is copied. Throws as load_config().
+/// The same from a document that has been read, which is copied. Throws as load_config(). Within amble: the
+/// header of documents is not installed.
 Config config_from(const io::TomlDocument& document, const Overrides& overrides);
 
 /// The assignments that set what this config does not use: of another controller or search than its own. In

@@ -12,7 +12,7 @@
 
 namespace amble::experiment {
 
-/// How a champion is run again; the default of each option is as in its own file.
+/// How a champion is run again; by default as in its file, undisturbed and with a trace.
 struct ReplayOptions {
   std::optional<double> seconds = {};                ///< length of the trial, a whole number of timesteps
   std::optional<std::string> engine = {};            ///< one of physics::engine_names()

@@ -53,7 +53,7 @@ class Run {
 
   /// Runs until all generations are done, or `stop` is set: then the generation in flight is discarded and
   /// the last checkpoint remains. Throws UserError: files cannot be written (ExitCode::io), the engine does
-  /// not repeat a champion (differs), memory is used up; and what the listener throws. The run can be
+  /// not repeat a champion (differs), memory is used up (io); and what the listener throws. The run can be
   /// resumed from its last checkpoint then.
   RunStatus execute(RunListener& listener, const std::atomic<bool>& stop);
 

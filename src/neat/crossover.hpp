@@ -11,9 +11,8 @@ namespace amble::neat {
 /// - Links of both: the weight of one parent, each with probability 1/2.
 /// - Links of the fitter alone: inherited. Links of the weaker alone: by CrossoverSettings::weaker_genes.
 /// - A link that is disabled in a parent that has it is enabled with `enable_probability`, else disabled.
-/// - Of two links of different numbers between the same nodes, which occur where numbers are given anew in
-/// each
-///   generation, the child gets one: the smaller number, with the fitter's weight (the authors' code).
+/// - Of two links of different numbers between the same nodes, which occur where each generation numbers
+///   anew, the child gets one: the smaller number, with the fitter's weight (the authors' code).
 /// - Nodes: those of bias, inputs and outputs, and the hidden ones at an end of a link of the child;
 ///   a node of both has the fitter's function.
 ///

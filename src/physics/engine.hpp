@@ -68,7 +68,7 @@ class Engine {
   virtual int lanes() const = 0;
 
   /// The ground from now on, made for this robot; null: the plane z = 0. Retires all lanes. Throws UserError
-  /// where the engine cannot have this robot on uneven ground.
+  /// where the engine cannot have this robot on uneven ground, which its on_ground() refuses.
   void set_ground(std::shared_ptr<const ground::Ground> ground);
   /// The last of set_ground(); null: the plane z = 0.
   const ground::Ground* ground() const { return ground_.get(); }
@@ -77,8 +77,8 @@ class Engine {
   /// at once (all joint angles 0; a foot touches if it is not above the ground). On uneven ground that pose
   /// may be in the ground: see place_at().
   virtual void place(int lane) = 0;
-  /// The same, but into the given pose, which has an angle for each joint. Joint angles are still counted
-  /// from the robot's own start pose.
+  /// The same, but into the given pose, which has an angle for each joint (AMBLE_CHECK). Joint angles are
+  /// still counted from the robot's own start pose.
   virtual void place_at(int lane, const StartPose& pose) = 0;
   /// The same, but moving. Impulses of the last step, from which a solver would start, are not known.
   virtual void place_moving(int lane, const MovingPose& motion) = 0;
@@ -88,8 +88,8 @@ class Engine {
   virtual void retire(int lane) = 0;
 
   /// Advances every placed lane by one timestep towards its target angles: rad from the start pose, joints ×
-  /// lanes, clamped to the stops (but for robot::Servo::hold_torque). A lane with a target that is NaN
-  /// diverges.
+  /// lanes (AMBLE_CHECK), clamped to the stops (but for robot::Servo::hold_torque). A lane with a target that
+  /// is NaN diverges.
   virtual void step(const LaneArray& targets_rad) = 0;
   /// Pushes the robot of a placed lane: during its next step alone, the force impulse / timestep acts on the
   /// centre of mass of the root body. `impulse_n_s` in N s, world frame. Pushes add up. Placing the
@@ -123,7 +123,7 @@ class Engine {
   virtual std::uint64_t state_hash(int lane) const = 0;
 
  private:
-  /// The ground has changed; all lanes are retired.
+  /// The ground has changed; all lanes are to be retired. May throw UserError.
   virtual void on_ground() {}
 
   std::shared_ptr<const ground::Ground> ground_;

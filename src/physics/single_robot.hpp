@@ -43,8 +43,8 @@ class SingleRobotEngine : public Engine {
   robot::SensorFrame sensors_;    ///< what sensors() gives
   LaneArray torques_nm_,          ///< joints × 1, empty without `with_torques_`
       loads_n_;                   ///< legs × 1, empty without `with_loads_`
-  const Quat level_;              ///< robot::horizontal_frame
-  const bool tilted_;             ///< whether it is not the world's
+  const Quat level_;              ///< from the level frame to the world: robot::horizontal_frame
+  const bool tilted_;             ///< whether the two differ, as on a slope
   bool stepping_ = false;         ///< whether the lane is placed
   bool healthy_ = true;           ///< what healthy() gives
 };

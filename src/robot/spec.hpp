@@ -187,9 +187,9 @@ struct RobotSpec {
   Vec3 gravity_m_s2{0.0, 0.0, -9.8};     ///< in the world; leans on a slope
   /// A trial ends as `fell` when the root's centre of mass is lower than this over the ground below it.
   double fall_height_m = 0.0;
-  /// And when it is higher than this,
+  /// The same when it is higher than this over the ground below it.
   double fall_above_m = std::numeric_limits<double>::infinity();
-  /// or the root tilts from its start pose by more than this.
+  /// The same when the root's own vertical axis leans from that of its start pose by more than this.
   double fall_tilt_rad = std::numeric_limits<double>::infinity();
   bool self_collision = false;  ///< whether bodies that no joint links collide with each other
   /// The MJCF itself, for the engine mujoco-model; null unless the robot file says keep_model = true.

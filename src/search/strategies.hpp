@@ -31,7 +31,7 @@ struct StrategyKind {
   /// Must be there (AMBLE_CHECK). `settings.own` has all of `numbers`. What `space` refers to need not
   /// outlive the call.
   std::function<std::unique_ptr<Strategy>(const Settings& settings, const SearchSpace& space)> make;
-  /// Candidates of a round; empty: population.size.
+  /// Candidates of a round, for estimates of time and memory alone: ask() decides. Empty: population.size.
   std::function<int(const Settings& settings, const neat::Settings& neat)> candidates = {};
   /// Throws SettingError where the settings do not fit behaviours of this length; empty: they always do.
   std::function<void(const Settings& settings, std::size_t behaviour_length)> validate = {};

@@ -24,10 +24,10 @@ namespace amble::search {
 /// save() and load() cover all state but logs: append-only files for data that would make every checkpoint
 /// large (archives).
 ///
-/// A strategy that breeds genomes itself (neat/mutation.hpp; within amble neat/crossover.hpp, too, which is
-/// not installed) owns the neat::Innovations they share: begin_generation() before each round, and part of
-/// save() and load(). Its random numbers come from streams of a Purpose of its own (core/random.hpp), keyed
-/// by round and candidate; nothing of them needs saving then.
+/// A strategy that breeds genomes itself (neat/mutation.hpp, neat/crossover.hpp) owns the neat::Innovations
+/// they share: begin_generation() before each round, and part of save() and load(). Its random numbers come
+/// from streams of a Purpose of its own (core/random.hpp), keyed by round and candidate; nothing of them
+/// needs saving then.
 class Strategy {
  public:
   virtual ~Strategy() = default;
@@ -36,11 +36,12 @@ class Strategy {
   virtual int round() const = 0;
   /// The candidates of the current round, at least one; valid until tell().
   virtual std::span<const neat::Genome> ask() const = 0;
-  /// Takes the evaluations of all candidates, in the order of ask(), and advances to the next round.
+  /// Takes the evaluations of all candidates, as many as ask() gave and in its order (what else is a
+  /// programming error), and advances to the next round.
   virtual void tell(std::span<const Evaluation> evaluations) = 0;
 
-  /// Statistics of the last completed round: columns of generations.csv. The names and their order never
-  /// change.
+  /// Statistics of the last completed round, zeros before the first: columns of generations.csv. The names
+  /// and their order never change.
   virtual std::vector<Metric> metrics() const = 0;
 
   /// All state but the logs, for checkpoints; after take_log_growth() of each log.

@@ -35,8 +35,8 @@ struct CommandStretch {
 /// that describe() holds a config to.
 struct CommandSettings {
   CommandKind kind = CommandKind::none;  ///< where commands come from
-  /// What is commanded, one after the other; the last goes on to the end. With CommandKind::random in trials
-  /// in which nothing is drawn; without a list straight ahead, to the left, to the right and a stop.
+  /// What is commanded, one after the other; the last goes on to the end. With CommandKind::random: used in
+  /// trials in which nothing is drawn; empty: straight ahead, to the left, to the right and a stop.
   std::vector<CommandStretch> stretches = {};
   double ramp_s = 0.0;  ///< time in which a command changes, from rest or the one before, 0 … 1e6; 0: at once
   // For CommandKind::random:

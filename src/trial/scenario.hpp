@@ -46,7 +46,7 @@ struct Scenario {
 /// one scenario.
 struct ScenarioKey {
   std::uint64_t seed = 0;        ///< the run's
-  std::uint32_t generation = 0;  ///< whose noise it is (experiment::noise_generation)
+  std::uint32_t generation = 0;  ///< whose noise it is
   std::uint32_t episode = 0;     ///< trial of an evaluation, from 0; others for trials outside evolution
 };
 

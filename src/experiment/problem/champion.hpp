@@ -72,7 +72,7 @@ struct Champion {
   ground::Key ground_key() const;
   /// Key of the noise of an episode of its evaluation, from 0.
   trial::ScenarioKey scenario_key(std::size_t episode) const;
-  /// Key of noise that evolution has not used; `episode` from 0, below most_unseen_episodes.
+  /// Key of noise that evolution has not used; `episode` from 0, below 999,000.
   trial::ScenarioKey unseen_scenario_key(std::size_t episode) const;
   /// The objective of its evaluation: that of its episodes, or its score without noise; each times
   /// trial.fall_factor after a fall.
