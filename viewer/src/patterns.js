@@ -2,11 +2,14 @@
 import { rangeOf } from "./joints.js";
 import { element, legClass, svgElement } from "./theme.js";
 
-const MOST_ABREAST = 6; // columns
+const MOST_ABREAST = 6, MOST_ON_A_PHONE = 4; // columns
 const WIDTH = 160, HEIGHT = 74, PAD = 5;
 
 /** Legs in one row: all, or rows as equal as can be. */
-const abreast = (legs) => Math.ceil(legs / Math.ceil(legs / MOST_ABREAST));
+const abreast = (legs, most) => Math.ceil(legs / Math.ceil(legs / most));
+
+/** A name that may be broken after its underscores. */
+const breakable = (name) => name.split(/(?<=_)/).flatMap((part, i) => (i ? [element("wbr", {}), part] : [part]));
 
 export class Patterns {
   constructor(walk) {
@@ -17,10 +20,11 @@ export class Patterns {
     const { legs } = walk.robot;
     const columns = legs.map(({ name }, leg) =>
       element("div", { class: "pattern-leg" },
-              element("div", { class: `pattern-head ${legClass(leg)}` }, element("b", {}, name), this.states[leg]),
+              element("div", { class: `pattern-head ${legClass(leg)}` }, element("b", {}, ...breakable(name)), this.states[leg]),
               ...walk.robot.joint_types.map((type, row) => this.panel(leg, row, type.replaceAll("_", " ")))));
     this.element = element("div", { class: "patterns" }, ...columns);
-    this.element.style.setProperty("--abreast", abreast(legs.length));
+    this.element.style.setProperty("--abreast", abreast(legs.length, MOST_ABREAST));
+    this.element.style.setProperty("--abreast-narrow", abreast(legs.length, MOST_ON_A_PHONE));
   }
 
   x(ticks) {

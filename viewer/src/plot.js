@@ -116,16 +116,22 @@ class Pen {
     context.lineJoin = context.lineCap = "round";
   }
 
-  text(text, x, y, { align = "left", weight = 450, size = 12, css = "--soft" } = {}) {
+  text(text, x, y, { align = "left", weight = 450, size = 12, css = "--soft", most } = {}) {
     const { context } = this;
     context.font = `${weight} ${size}px ${colour("--sans")}`;
     context.fillStyle = css.startsWith("--") ? colour(css) : css;
     context.textAlign = align;
     context.textBaseline = "middle";
-    context.fillText(text, x, y);
+    context.fillText(text, x, y, most);
   }
+  /** Beside a row: a long name is broken at the underscore nearest to its middle, and narrowed if that is not enough. */
   rowLabel(text, y, css = "--ink") {
-    this.text(text, 0, y, { weight: 600, css });
+    const { context } = this, room = this.left - 5, style = { weight: 600, css };
+    context.font = `600 12px ${colour("--sans")}`;
+    const breaks = [...text.matchAll(/_./g)].map(({ index }) => index + 1), middle = text.length / 2;
+    if (breaks.length === 0 || context.measureText(text).width <= room) return this.text(text, 0, y, { ...style, most: room });
+    const at = breaks.reduce((a, b) => (Math.abs(b - middle) < Math.abs(a - middle) ? b : a));
+    [text.slice(0, at), text.slice(at)].forEach((part, i) => this.text(part, 0, y + (i - 0.5) * 13, { ...style, most: room }));
   }
 
   rect(x0, x1, y, height, css) {

@@ -1,7 +1,7 @@
 // The curves of a run, generation by generation, over its species as stacked bands; runs before it as thin lines.
 import { niceAxis, niceStep, number } from "../plot.js";
 import { colour, element, svgElement } from "../theme.js";
-import { Picture, line, write } from "./picture.js";
+import { Picture, line, write, writeLines } from "./picture.js";
 
 const LEFT = 54, RIGHT = 12, TOP = 12, AXIS = 24, BANDS = 64, GAP = 24;
 // Runs before, the latest first: colour and dashes.
@@ -66,11 +66,12 @@ export class Curve {
     for (const { best_so_far, best } of runs.flat()) highest = Math.max(highest, best_so_far || 0, best || 0);
     const { lower, upper, ticks, text } = niceAxis(0, highest, 5);
     const y = (value) => base - ((value - lower) / (upper - lower)) * (base - TOP);
-    for (const tick of ticks) {
+    const empty = runs.every((run) => run.length === 0);
+    for (const tick of empty ? [lower] : ticks) {
       line(context, [[LEFT, y(tick)], [width - RIGHT, y(tick)]], "--hair", 1);
       write(context, tick === ticks.at(-1) ? text(tick) + this.unit : text(tick), LEFT - 8, y(tick), { align: "right", size: 11.5 });
     }
-    if (runs.every((run) => run.length === 0)) write(context, this.hint, (LEFT + width) / 2, base / 2, { align: "center", size: 14 });
+    if (empty) writeLines(context, this.hint, (LEFT + width - RIGHT) / 2, base / 2, width - LEFT - RIGHT, { align: "center", size: 14 });
     const curve = (run, value, css, thick, dash) => line(context, run.map((row) => [x(row.generation), y(value(row))]), css, thick, dash);
     for (const generation of this.marks) this.paintMark(context, x(generation), base, width);
     before.forEach((run, i) => curve(run.history, (row) => row.best_so_far, OLD[i][0], 1.8, OLD[i][1]));

@@ -28,7 +28,7 @@ export class Ends {
     const reach = Math.max(0.3, ...this.generations.map(farthest));
     const scale = (Math.min(width, height) / 2 - PAD) / reach, x0 = width / 2, y0 = height / 2;
     const step = niceStep(reach, 3);
-    for (let r = step; r * scale <= Math.max(width, height) / 2 + PAD; r += step) {
+    for (let r = step; r * scale <= Math.min(width, height) / 2; r += step) {
       context.beginPath();
       context.arc(x0, y0, r * scale, 0, 2 * Math.PI);
       context.strokeStyle = colour("--hair");

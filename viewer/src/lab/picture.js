@@ -35,6 +35,18 @@ export function write(context, text, x, y, { align = "left", css = "--soft", siz
   context.fillText(text, x, y);
 }
 
+/** Words in as many lines as `width` needs, around `y`. */
+export function writeLines(context, text, x, y, width, style) {
+  const { size = 12, weight = 450 } = style, lines = [];
+  context.font = `${weight} ${size}px ${colour("--sans")}`;
+  for (const word of text.split(" ")) {
+    const longer = lines.length ? `${lines.at(-1)} ${word}` : word;
+    if (lines.length && context.measureText(longer).width <= width) lines[lines.length - 1] = longer;
+    else lines.push(word);
+  }
+  lines.forEach((one, i) => write(context, one, x, y + (i - (lines.length - 1) / 2) * 1.4 * size, style));
+}
+
 export function line(context, points, css, width, dash = []) {
   context.beginPath();
   for (const [x, y] of points) context.lineTo(x, y);
