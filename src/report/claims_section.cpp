@@ -87,7 +87,7 @@ std::string claims_section(const Report& report) {
   const auto& claims = report.data.study.claims;
   if (claims.empty()) return {};
   const bool published = std::ranges::any_of(claims, has_published_figure);
-  std::vector<Column> columns{{"", false, "index"}, {"Claim", false, "sentence"}};
+  std::vector<Column> columns{{"No.", false, "index"}, {"Claim", false, "sentence"}};
   if (published) columns.push_back({"Published", false, "published"});
   columns.insert(columns.end(),
                  {{"Here", false, "here"}, {"Test", false, "test"}, {"Verdict", false, "judged"}});

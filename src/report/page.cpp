@@ -144,7 +144,7 @@ nav a { color: var(--soft); text-underline-offset: 3px; }
 .data .number { text-align: right; white-space: nowrap; }
 .data small { color: var(--soft); font-size: 12.5px; }
 .data .significant { font-weight: 680; }
-.claims .index { width: 1.6rem; font-weight: 450; color: var(--soft); }
+.claims .index { width: 2rem; font-weight: 450; color: var(--soft); }
 .claims .sentence { width: 37%; } .claims .published { width: 13%; } .claims .here { width: 23%; }
 .claims .test { width: 12%; } .claims .judged { white-space: nowrap; }
 .claims .reason { display: block; margin-top: 3px; color: var(--soft); font-size: 13px; }

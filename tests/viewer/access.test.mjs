@@ -1,35 +1,27 @@
-// Whether pages can be used by everybody, as far as a program can tell: axe-core (viewer/package.json) finds nothing in the lab and in the
-// page of a walker. Without the packages of viewer/package-lock.json the test is skipped (with-packages).
+// Whether pages can be used by everybody, as far as a program can tell: axe-core (viewer/package.json) finds nothing in the lab, in pages of
+// walkers, recorded and simulated, in one of figures, and in the web site, light and dark, at two widths. map.test.mjs, report.test.mjs and
+// watch.test.mjs ask it of their pages. Without the packages of viewer/package-lock.json the test is skipped (with-packages).
 import assert from "node:assert/strict";
-import { mkdirSync, readFileSync, rmSync } from "node:fs";
+import { execFileSync } from "node:child_process";
+import { mkdirSync, rmSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { fileURLToPath } from "node:url";
-import { amble, launch, makePage, open, settled } from "./browser.mjs";
+import { pathToFileURL } from "node:url";
+import { amble, launch, makePage, open, settled, violations, violationsAnywhere } from "./browser.mjs";
 
-const { AMBLE_PAGES, AMBLE_SOURCE } = process.env;
-const AXE = readFileSync(fileURLToPath(new URL("../../viewer/node_modules/axe-core/axe.min.js", import.meta.url)), "utf8");
-const RULES = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"];
-const WIDTH = 1000;
+const { AMBLE_PAGES, AMBLE_PROGRAM, AMBLE_SOURCE } = process.env;
 
-let browser, lab, walker;
+let browser, lab, walker, steered;
 before(async () => {
   mkdirSync(AMBLE_PAGES, { recursive: true });
   lab = join(AMBLE_PAGES, "lab.html");
   rmSync(lab, { force: true });
   amble("lab", "-o", lab);
   walker = makePage("walker.html", join(AMBLE_SOURCE, "robots/servo/champion.json"));
+  steered = makePage("steered.html", join(AMBLE_SOURCE, "robots/hexapod/steered.json"));
   browser = await launch();
 });
 after(() => browser?.close());
-
-/** [rule, places] of what axe-core finds wrong. */
-async function violations(page) {
-  await page.evaluate(AXE);
-  const found = await page.evaluate((runOnly) => window.axe.run(document, { runOnly }), RULES);
-  assert.ok(found.passes.length > 20, `${found.passes.length} rules applied`);
-  return found.violations.map(({ id, nodes }) => [id, nodes.map(({ target }) => target.join(" "))]);
-}
 
 async function showRun(page) {
   await page.waitForFunction(() => window.amble.stage.walk);
@@ -39,23 +31,46 @@ async function showRun(page) {
   await page.locator("summary").evaluateAll((all) => all.slice(-2).forEach((one) => one.click()));
 }
 
-for (const colorScheme of ["light", "dark"]) {
-  const context = { viewport: { width: WIDTH, height: 800 }, colorScheme };
-  test(`axe-core finds nothing wrong in the lab before and after a run, ${colorScheme}`, async () => {
-    const { page } = await open(browser, lab, { at_s: null, hash: "threads=2", ...context });
-    assert.deepEqual(await violations(page), []);
-    await showRun(page);
-    assert.deepEqual(await violations(page), []);
+test("axe-core finds nothing wrong in the lab before and after a run", async () => {
+  const { page } = await open(browser, lab, { at_s: null, hash: "threads=2" });
+  assert.deepEqual(await violationsAnywhere(page), {});
+  await showRun(page);
+  assert.deepEqual(await violationsAnywhere(page), {});
+  await page.close();
+});
+
+for (const [what, path, hash] of [["recorded", () => walker, null], ["recorded, one that obeys", () => steered, null],
+                                  ["simulated", () => walker, "live"], ["simulated, one that obeys", () => steered, "live"]])
+  test(`axe-core finds nothing wrong in the page of a walker: ${what}`, async () => {
+    const { page } = await open(browser, path(), { hash });
+    await settled(page);
+    await page.locator("summary").evaluateAll((all) => all.forEach((one) => one.click()));
+    assert.deepEqual(await violationsAnywhere(page), {});
     await page.close();
   });
 
-  test(`axe-core finds nothing wrong in the page of a walker, ${colorScheme}`, async () => {
-    const { page } = await open(browser, walker, context);
-    await settled(page);
-    assert.deepEqual(await violations(page), []);
-    await page.close();
-  });
+/** A page without a program of amble. */
+async function inPlainPage(path, steps) {
+  const page = await browser.newPage();
+  await page.goto(pathToFileURL(path).href);
+  await steps(page);
+  await page.close();
 }
+
+test("axe-core finds nothing wrong in a page of figures", async () => {
+  const run = join(AMBLE_PAGES, "run");
+  rmSync(run, { recursive: true, force: true });
+  amble("evolve", join(AMBLE_SOURCE, "configs/quick/quadruped.toml"), "--generations", "3", "--set", "population.size=20", "--set", "trial.duration_s=2", "--jobs", "1", "--out", run);
+  const path = makePage("figures.html", "--static", run);
+  await inPlainPage(path, async (page) => assert.deepEqual(await violationsAnywhere(page), {}));
+});
+
+test("axe-core finds nothing wrong in the web site", async () => {
+  const site = join(AMBLE_PAGES, "site");
+  execFileSync(join(AMBLE_SOURCE, "tools/make-site"), [site, "--program", AMBLE_PROGRAM]);
+  for (const name of ["index.html", "read/docs/LAB.html", "read/docs/BUILDING.html"])
+    await inPlainPage(join(site, name), async (page) => assert.deepEqual(await violationsAnywhere(page), {}, name));
+});
 
 test("axe-core would find a button without a name", async () => {
   const { page } = await open(browser, walker, {});

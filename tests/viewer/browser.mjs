@@ -1,8 +1,9 @@
 // A headless Chromium that watches what a page says and asks for.
+import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdirSync, rmSync } from "node:fs";
+import { mkdirSync, readFileSync, rmSync } from "node:fs";
 import { join } from "node:path";
-import { pathToFileURL } from "node:url";
+import { fileURLToPath, pathToFileURL } from "node:url";
 import { chromium } from "../../viewer/node_modules/playwright-core/index.mjs";
 
 const { AMBLE_PROGRAM, AMBLE_RECORDINGS, AMBLE_PAGES, CHROMIUM = "/usr/bin/chromium" } = process.env;
@@ -83,3 +84,28 @@ export const cursors = (page) =>
 /** Waits until the page has drawn the requested state. */
 export const settled = (page) =>
   page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done)))));
+
+const RULES = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"];
+const axe = () => readFileSync(fileURLToPath(new URL("../../viewer/node_modules/axe-core/axe.min.js", import.meta.url)), "utf8");
+
+/** [rule, places] of what axe-core finds wrong. */
+export async function violations(page) {
+  if (!(await page.evaluate(() => "axe" in window))) await page.evaluate(axe());
+  const found = await page.evaluate((runOnly) => window.axe.run(document, { runOnly }), RULES);
+  assert.ok(found.passes.length > 10, `${found.passes.length} rules applied`);
+  return found.violations.map(({ id, nodes }) => [id, nodes.map(({ target }) => target.join(" "))]);
+}
+
+/** The same at two widths, light and dark: {"390 px, light": […]} of those where something is wrong. */
+export async function violationsAnywhere(page) {
+  const all = {};
+  for (const width of [1000, 390])
+    for (const colorScheme of ["light", "dark"]) {
+      await page.setViewportSize({ width, height: 800 });
+      await page.emulateMedia({ colorScheme });
+      await settled(page);
+      const found = await violations(page);
+      if (found.length) all[`${width} px, ${colorScheme}`] = found;
+    }
+  return all;
+}

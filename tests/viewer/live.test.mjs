@@ -187,6 +187,21 @@ test("one that senses no commands is not offered any", () =>
     assert.equal((await description(page)).commands, null);
   }));
 
+test("that it has fallen is said to those who listen, once", () =>
+  onPage({}, async (page) => {
+    const told = page.getByRole("banner").getByRole("status");
+    assert.equal(await told.textContent(), "It is upright.");
+    await told.evaluate((element) => {
+      window.changes = [];
+      new MutationObserver(() => window.changes.push(element.textContent)).observe(element, { childList: true });
+    });
+    for (const leg of (await page.locator("#live .live-legs input").all()).slice(0, 3)) await leg.uncheck();
+    for (let i = 0; i < 20 && (await told.textContent()) !== "It has fallen."; ++i) await simulate(page, 0.5);
+    await simulate(page, 0.5);
+    assert.equal(await page.locator("#subtitle").textContent(), "It has fallen.");
+    assert.deepEqual(await page.evaluate(() => window.changes), ["It has fallen."]);
+  }));
+
 test("what is chosen is what it walks on and what it is", () =>
   onPage({}, async (page) => {
     await simulate(page, 0.5);

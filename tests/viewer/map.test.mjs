@@ -4,7 +4,7 @@ import { rmSync, mkdirSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { afterChoice, chosenCells } from "../../viewer/src/map.js";
-import { amble, launch, open } from "./browser.mjs";
+import { amble, launch, open, violationsAnywhere } from "./browser.mjs";
 
 const { AMBLE_PAGES, AMBLE_SOURCE } = process.env;
 let browser, path;
@@ -53,6 +53,7 @@ test("the first walker is the map's best, and cells that are chosen walk instead
   assert.equal(await page.locator(`#map .cell${a}`).getAttribute("aria-pressed"), "true");
   await page.locator("summary", { hasText: "How it filled" }).click();
   assert.ok(await page.getByText("QD score", { exact: true }).isVisible());
+  assert.deepEqual(await violationsAnywhere(page), {});
   assert.deepEqual(problems, []);
   await page.close();
 });
@@ -72,6 +73,7 @@ test("the page of an adaptation has a table of its trials, whose cells can be ch
     await loaded(page, [tried[other]]);
     assert.equal(await rows.nth(other).getAttribute("aria-pressed"), "true");
   }
+  assert.deepEqual(await violationsAnywhere(page), {});
   assert.deepEqual(problems, []);
   await page.close();
 });

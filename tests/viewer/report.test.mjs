@@ -4,7 +4,7 @@ import { mkdirSync, rmSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
-import { amble, launch } from "./browser.mjs";
+import { amble, launch, violationsAnywhere } from "./browser.mjs";
 
 const { AMBLE_PAGES, AMBLE_SOURCE } = process.env;
 const WIDTHS = [360, 768, 1280];
@@ -89,6 +89,12 @@ for (const colorScheme of ["light", "dark"])
         for (const part of [".verdict.confirmed", ".verdict.contradicted", ".verdict.not-confirmed", "section > p"])
           assert.ok((await contrast(page, part)) >= 4.5, part);
       }));
+
+test("axe-core finds nothing wrong, also in what is folded away", () =>
+  onPage({}, async (page) => {
+    await overflow(page); // unfolds
+    assert.deepEqual(await violationsAnywhere(page), {});
+  }));
 
 test("in print everything is unfolded, light and within the paper", () =>
   onPage({ viewport: { width: 673, height: 950 }, colorScheme: "dark" }, async (page) => { // A4 within its margins

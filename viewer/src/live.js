@@ -48,6 +48,8 @@ export class Live {
     };
     const { module, champion } = walk.live;
     this.evolve = new EvolvePanel({ module, champion, show: (text, generation) => this.showBest(text, generation) });
+    this.told = element("p", { class: "unseen", role: "status" });
+    document.getElementById("subtitle").after(this.told);
     if (walk.description.commands) this.steer = new Steer(this);
     this.panel = new LivePanel(document.getElementById("live"), this, "");
     if (page.stage) this.drag = new Drag(page.stage, this);
@@ -101,6 +103,13 @@ export class Live {
     this.page.analysis.repaint();
     this.page.overview.repaint();
     [this.shown_s, this.shown_ms] = [this.clock.duration_s, now_ms];
+  }
+
+  /** Says how it is, to those who look and to those who listen, when that has changed. */
+  tell() {
+    const story = this.story(), shown = document.getElementById("subtitle");
+    if (shown.textContent === story) return;
+    shown.textContent = this.told.textContent = story;
   }
 
   story() {

@@ -39,6 +39,7 @@ function table({ table: [head, ...rows], table_title, table_note }, cells, onCho
 /** Fills the section of the map. `onChoose` gets the cells that shall walk. */
 export function showMap(section, { map, walkers }, cells, onChoose) {
   const picture = figure(map.svg, "map-box");
+  picture.firstElementChild.setAttribute("role", "group"); // in a picture as such screen readers find no buttons
   for (const walker of walkers) {
     const group = picture.querySelector(`.cell${walker.cell}`);
     group.classList.add("walks");

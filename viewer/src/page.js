@@ -188,7 +188,7 @@ export class Page {
     this.overview.show();
     this.showTransport();
     for (const update of this.now) update();
-    if (this.live) byId("subtitle").textContent = this.live.story();
+    this.live?.tell();
     this.frames.push(performance.now() - start_ms);
     if (this.frames.length > FRAMES_KEPT) this.frames.shift();
     this.showing = false;

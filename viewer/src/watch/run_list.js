@@ -4,7 +4,7 @@ import { element } from "../theme.js";
 import { button } from "../widgets.js";
 import { clockText } from "./rows.js";
 
-const HEAD = ["run", "generation", "best so far", "typically", "left", ""];
+const HEAD = ["run", "generation", "best so far", "typically", "left", "state"];
 export const STAGES = { waiting: "not begun", running: "runs", stopped: "stopped", ended: "has ended", gone: "its folder has vanished" };
 
 export class RunList {
