@@ -1,15 +1,14 @@
 // Whether pages can be used by everybody, as far as a program can tell: axe-core (viewer/package.json) finds nothing in the lab, in pages of
-// walkers, recorded and simulated, in one of figures, and in the web site, light and dark, at two widths. map.test.mjs, report.test.mjs and
+// walkers, recorded and simulated, and in one of figures, light and dark, at two widths. map.test.mjs, report.test.mjs, site.test.mjs and
 // watch.test.mjs ask it of their pages. Without the packages of viewer/package-lock.json the test is skipped (with-packages).
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
 import { mkdirSync, rmSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { amble, launch, makePage, open, settled, violations, violationsAnywhere } from "./browser.mjs";
 
-const { AMBLE_PAGES, AMBLE_PROGRAM, AMBLE_SOURCE } = process.env;
+const { AMBLE_PAGES, AMBLE_SOURCE } = process.env;
 
 let browser, lab, walker, steered;
 before(async () => {
@@ -49,27 +48,15 @@ for (const [what, path, hash] of [["recorded", () => walker, null], ["recorded, 
     await page.close();
   });
 
-/** A page without a program of amble. */
-async function inPlainPage(path, steps) {
-  const page = await browser.newPage();
-  await page.goto(pathToFileURL(path).href);
-  await steps(page);
-  await page.close();
-}
-
 test("axe-core finds nothing wrong in a page of figures", async () => {
   const run = join(AMBLE_PAGES, "run");
   rmSync(run, { recursive: true, force: true });
   amble("evolve", join(AMBLE_SOURCE, "configs/quick/quadruped.toml"), "--generations", "3", "--set", "population.size=20", "--set", "trial.duration_s=2", "--jobs", "1", "--out", run);
   const path = makePage("figures.html", "--static", run);
-  await inPlainPage(path, async (page) => assert.deepEqual(await violationsAnywhere(page), {}));
-});
-
-test("axe-core finds nothing wrong in the web site", async () => {
-  const site = join(AMBLE_PAGES, "site");
-  execFileSync(join(AMBLE_SOURCE, "tools/make-site"), [site, "--program", AMBLE_PROGRAM]);
-  for (const name of ["index.html", "read/docs/LAB.html", "read/docs/BUILDING.html"])
-    await inPlainPage(join(site, name), async (page) => assert.deepEqual(await violationsAnywhere(page), {}, name));
+  const page = await browser.newPage();
+  await page.goto(pathToFileURL(path).href);
+  assert.deepEqual(await violationsAnywhere(page), {});
+  await page.close();
 });
 
 test("axe-core would find a button without a name", async () => {
