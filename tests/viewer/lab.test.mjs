@@ -132,6 +132,7 @@ test("a run that was saved is opened and goes on to the same generations", () =>
     await button(page, "Go on").click();
     await page.waitForFunction(() => window.amble.evolution.state === "ended", null, { timeout: 120_000 });
     const whole = (await history(page)).map(({ best }) => best);
+    assert.match(await page.locator(".lab-ends").getAttribute("aria-label"), /; rings: the \d+ of the archive$/);
     await page.setInputFiles("#file", tar);
     await page.waitForFunction(() => window.amble.evolution?.state === "paused");
     assert.ok((await generation(page)) >= 4);

@@ -93,6 +93,26 @@ test("this browser computes the bits of the champion's file, and of the module i
     assert.equal(await page.evaluate(`(${session})(window.amble.live())`), expected);
   }));
 
+test("footfalls, timers, patterns and joints run along", () =>
+  onPage({}, async (page) => {
+    const seen = async () => {
+      const all = page.locator("#analysis canvas"), pictures = [];
+      for (let i = 0; i < (await all.count()); ++i) {
+        await all.nth(i).scrollIntoViewIfNeeded(); // what is not seen is not painted
+        await settled(page);
+        pictures.push(await all.nth(i).evaluate((canvas) => canvas.toDataURL()));
+      }
+      return { pictures, now: await page.locator(".now-line").evaluateAll((lines) => lines.map((line) => line.getAttribute("x1"))) };
+    };
+    await simulate(page, 0.6);
+    const before = await seen();
+    await simulate(page, 0.73);
+    const after = await seen();
+    assert.ok(before.pictures.length >= 4 && before.now.length > 0, `${before.pictures.length} diagrams`);
+    before.pictures.forEach((picture, i) => assert.ok(after.pictures[i] !== picture, `diagram ${i}`));
+    assert.notDeepEqual(after.now, before.now);
+  }));
+
 test("dragging its body pushes it, and the native program repeats to the bit what was done", () =>
   onPage({}, async (page) => {
     await simulate(page, 1);
@@ -254,6 +274,7 @@ test("it evolves twenty generations in the page, whose best walks there and is a
     await button("Show the best").click();
     await page.waitForFunction(() => /Exact: .* in all \d+ steps/.test(document.querySelector(".live-bits").textContent));
     assert.match(await page.locator("#title").textContent(), /Evolved in this page/);
+    assert.ok((await page.locator("#analysis .cppn .neuron").count()) > 0, "its own network is drawn");
     await page.evaluate(() => window.amble.pause());
     await simulate(page, 2);
     const champion = join(AMBLE_PAGES, "evolved.json");

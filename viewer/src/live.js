@@ -60,7 +60,7 @@ export class Live {
 
   /** Another champion of the robot, evolved here, walks from now on. */
   async showBest(text, generation) {
-    this.walk.become(await LiveRobot.open(this.walk.live.module, text));
+    this.walk.become(await LiveRobot.open(this.walk.live.module, text), JSON.parse(text).genome);
     this.steer?.forget();
     document.getElementById("title").textContent = `Evolved in this page, generation ${generation}`;
     this.clock.duration_s = 0;

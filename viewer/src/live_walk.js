@@ -1,4 +1,5 @@
 // A walk that is simulated while it is looked at: the same as a recorded one, but growing at its end.
+import { drawCppn } from "./cppn.js";
 import { Walk } from "./walk.js";
 
 const LONGEST_S = 600;
@@ -79,11 +80,12 @@ export class LiveWalk extends Walk {
     this.findEvents();
   }
 
-  /** The walk of another champion of the same robot, from time 0. */
-  become(live) {
+  /** The walk of another champion of the same robot, from time 0; `genome`: its network. */
+  become(live, genome) {
     this.live = live;
-    const { controller } = live.describe();
-    Object.assign(this, { controller, supg: controller.patterns_rad ? controller : null, cppn_svg: null });
+    const { controller, cppn_inputs: inputs, cppn_outputs: outputs } = live.describe();
+    const cppn_svg = drawCppn(genome, { inputs, outputs }).outerHTML;
+    Object.assign(this, { controller, supg: controller.patterns_rad ? controller : null, cppn_svg });
     this.begin();
   }
 

@@ -3,7 +3,7 @@ import { Machine } from "../amble.js";
 import { Patterns } from "../patterns.js";
 import { number } from "../plot.js";
 import { element, onThemeChange } from "../theme.js";
-import { drawCppn } from "./cppn.js";
+import { drawCppn } from "../cppn.js";
 import { Curve, kindsOf } from "./curve.js";
 import { Ends } from "./ends.js";
 import { Evolution } from "./evolution.js";

@@ -1,5 +1,5 @@
 // A champion's network, the CPPN: inputs on the left, outputs on the right, and hidden nodes as far right as they are from the inputs.
-import { svgElement } from "../theme.js";
+import { svgElement } from "./theme.js";
 
 const ROW = 34, LAYER = 84, PAD = 16, TEXT = 92;
 // The curves of the functions, within −8 … 8 px.
