@@ -47,15 +47,36 @@ std::unique_ptr<const Architecture> make_mixed(const ControllerSettings& setting
 Registry<ControllerKind>& kinds() {
   static Registry<ControllerKind> all(
       "controller",
-      {{"supg", "single-unit pattern generators (supg)", make<SupgArchitecture, &ControllerSettings::supg>,
-        automatic_supg},
-       {"network", "static neurons (network; with a sine among the sensors the sine wave architecture)",
-        make<NetworkArchitecture, &ControllerSettings::network>, automatic_network},
-       {"ctrnn", "continuous-time neurons (ctrnn)", make<CtrnnArchitecture, &ControllerSettings::ctrnn>,
-        automatic_ctrnn},
-       {"mixed", "SUPGs, neurons and sensors in one substrate, with the settings of supg as well (mixed)",
-        make_mixed, automatic_mixed},
-       {"oscillators", "a sine for each joint, without a substrate (oscillators)", make_oscillators}});
+      {{"supg",
+        "single-unit pattern generators (supg)",
+        make<SupgArchitecture, &ControllerSettings::supg>,
+        automatic_supg,
+        {},
+        {"controller.supg", "controller.substrate"}},
+       {"network",
+        "static neurons (network; with a sine among the sensors the sine wave architecture)",
+        make<NetworkArchitecture, &ControllerSettings::network>,
+        automatic_network,
+        {},
+        {"controller.network", "controller.substrate"}},
+       {"ctrnn",
+        "continuous-time neurons (ctrnn)",
+        make<CtrnnArchitecture, &ControllerSettings::ctrnn>,
+        automatic_ctrnn,
+        {},
+        {"controller.ctrnn", "controller.substrate"}},
+       {"mixed",
+        "SUPGs, neurons and sensors in one substrate, with the settings of supg as well (mixed)",
+        make_mixed,
+        automatic_mixed,
+        {},
+        {"controller.supg", "controller.mixed", "controller.substrate"}},
+       {"oscillators",
+        "a sine for each joint, without a substrate (oscillators)",
+        make_oscillators,
+        {},
+        {},
+        {"controller.oscillators"}}});
   return all;
 }
 
@@ -157,6 +178,10 @@ void ControllerSettings::describe(io::SettingsVisitor& visitor) {
     own.describe(visitor, numbers);
     visitor.end();
   }
+}
+
+const std::deque<ControllerKind>& controller_kinds() {
+  return kinds().rows();
 }
 
 void register_controller(ControllerKind kind) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <memory>
 #include <string>
@@ -45,7 +46,12 @@ struct ControllerKind {
   /// Makes its substrate from a robot (automatic.hpp); empty: it has no rule for that.
   std::function<substrate::Settings(const robot::RobotSpec& robot)> automatic = {};
   std::vector<io::OwnNumber> numbers = {};  ///< its settings: [controller.own]
+  /// Tables of a config that it reads and other kinds may not, "controller.supg"; empty: it is not known.
+  std::vector<std::string> tables = {};
 };
+
+/// All kinds, in the order in which they are listed to users.
+const std::deque<ControllerKind>& controller_kinds();
 
 /// Adds a kind, from then on one of those that configs can choose. Before the first config is read; not
 /// thread safe. Throws UserError for a name that is taken or cannot be one.

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string_view>
 
+#include "amble/controllers/factory.hpp"
 #include "amble/core/error.hpp"
 #include "amble/io/toml_settings.hpp"
+#include "amble/search/strategies.hpp"
 
 namespace amble::experiment {
 namespace fs = std::filesystem;
@@ -52,26 +55,19 @@ Config config_from(const io::TomlDocument& read, const Overrides& overrides) {
 
 namespace {
 
-/// A table of settings, and the kinds that use it.
-struct OwnTable {
-  std::string_view path;
-  std::vector<std::string_view> kinds;
-};
-
-/// What decides which tables are used. Of kinds that are not amble's own it is not known.
-struct Choice {
-  std::string_view place;
-  std::vector<std::string_view> kinds;
-  std::vector<OwnTable> tables;
-};
-
-/// Why an assignment to `key` changes nothing; nothing if it does, or is none of these.
-std::optional<std::string> idle_reason(std::string_view key, const Choice& choice, const std::string& kind) {
-  const auto table = std::ranges::find_if(
-      choice.tables, [&](const OwnTable& candidate) { return key.starts_with(candidate.path); });
-  const auto knows = [&](const auto& kinds) { return std::ranges::find(kinds, kind) != kinds.end(); };
-  if (table == choice.tables.end() || knows(table->kinds) || !knows(choice.kinds)) return {};
-  return fmt::format("{} has no effect: {} is \"{}\"", key, choice.place, kind);
+/// Why an assignment to `key` changes nothing: it is in a table that other kinds read and this one does not.
+/// Nothing if it does, or if it is not known what this kind reads. `place`: the key that chooses the kind.
+template <typename Kind>
+std::optional<std::string> idle_reason(std::string_view key, std::string_view place,
+                                       const std::string& chosen, const std::deque<Kind>& kinds) {
+  const auto reads = [key](const Kind& kind) {
+    return std::ranges::any_of(kind.tables,
+                               [key](const std::string& table) { return key.starts_with(table + "."); });
+  };
+  const auto kind = std::ranges::find(kinds, chosen, &Kind::name);
+  if (kind == kinds.end() || kind->tables.empty() || reads(*kind) || std::ranges::none_of(kinds, reads))
+    return {};
+  return fmt::format("{} has no effect: {} is \"{}\"", key, place, chosen);
 }
 
 /// What decides, beside the kinds, whether settings are used.
@@ -136,28 +132,12 @@ constexpr std::array<IdleRule, 10> idle_rules{
 }  // namespace
 
 std::vector<std::string> idle_assignments(const Config& config, const std::vector<std::string>& assignments) {
-  static const Choice controllers{"controller.kind",
-                                  {"supg", "network", "ctrnn", "mixed", "oscillators"},
-                                  {{"controller.supg.", {"supg", "mixed"}},
-                                   {"controller.network.", {"network"}},
-                                   {"controller.ctrnn.", {"ctrnn"}},
-                                   {"controller.mixed.", {"mixed"}},
-                                   {"controller.oscillators.", {"oscillators"}},
-                                   {"controller.substrate.", {"supg", "network", "ctrnn", "mixed"}}}};
-  static const Choice searches{"search.kind",
-                               {"objective", "novelty", "map-elites", "cma-es"},
-                               {{"mutation.", {"objective", "novelty", "map-elites"}},
-                                {"crossover.", {"objective", "novelty", "map-elites"}},
-                                {"speciation.", {"objective", "novelty", "map-elites"}},
-                                {"reproduction.", {"objective", "novelty", "map-elites"}},
-                                {"search.novelty.", {"novelty"}},
-                                {"search.map_elites.", {"map-elites"}},
-                                {"search.cma_es.", {"cma-es"}}}};
   std::vector<std::string> idle;
   for (const std::string& assignment : assignments) {
     const std::string_view key = std::string_view(assignment).substr(0, assignment.find('='));
-    for (const auto& reason : {idle_reason(key, controllers, config.controller.kind),
-                               idle_reason(key, searches, config.search.kind)})
+    for (const auto& reason :
+         {idle_reason(key, "controller.kind", config.controller.kind, controllers::controller_kinds()),
+          idle_reason(key, "search.kind", config.search.kind, search::strategy_kinds())})
       if (reason) idle.push_back(*reason);
     for (const IdleRule& rule : idle_rules)
       if (key.starts_with(rule.path) && key != rule.but && rule.idle(config))

@@ -76,24 +76,37 @@ StrategyKind completed(StrategyKind kind) {
   return kind;
 }
 
+/// Tables of a search that breeds genomes by NEAT.
+std::vector<std::string> with_variation(std::vector<std::string> own) {
+  own.insert(own.end(), {"mutation", "crossover", "speciation", "reproduction"});
+  return own;
+}
+
 // amble's own strategies. A new one is a row here, a class derived from Strategy, and, if it has settings, a
 // member of Settings with its line in Settings::describe.
 Registry<StrategyKind>& kinds() {
   static Registry<StrategyKind> all(
       "search",
-      {completed({.name = "objective", .behaviour = "", .make = make_objective}),
+      {completed(
+           {.name = "objective", .behaviour = "", .make = make_objective, .tables = with_variation({})}),
        completed({.name = "novelty",
                   .behaviour = "path",
                   .make = make_novelty,
                   .validate = validate_novelty,
-                  .check_memory = check_novelty_memory}),
+                  .check_memory = check_novelty_memory,
+                  .tables = with_variation({"search.novelty"})}),
        completed({.name = "map-elites",
                   .behaviour = "descriptors",
                   .make = make_map_elites,
                   .candidates = batch,
                   .validate = validate_map_elites,
-                  .check_memory = check_map_elites_memory}),
-       completed({.name = "cma-es", .behaviour = "", .make = make_cma_es, .validate = validate_cma_es})});
+                  .check_memory = check_map_elites_memory,
+                  .tables = with_variation({"search.map_elites"})}),
+       completed({.name = "cma-es",
+                  .behaviour = "",
+                  .make = make_cma_es,
+                  .validate = validate_cma_es,
+                  .tables = {"search.cma_es"}})});
   return all;
 }
 
@@ -115,6 +128,10 @@ void Settings::describe(io::SettingsVisitor& visitor) {
     own.describe(visitor, numbers);
     visitor.end();
   }
+}
+
+const std::deque<StrategyKind>& strategy_kinds() {
+  return kinds().rows();
 }
 
 void register_search(StrategyKind kind) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <string>
@@ -40,7 +41,12 @@ struct StrategyKind {
   std::function<void(const Settings& settings, const SearchSpace& space, double memory_bytes)> check_memory =
       {};
   std::vector<io::OwnNumber> numbers = {};  ///< its settings: [search.own]
+  /// Tables of a config that it reads and other kinds may not, "search.novelty"; empty: it is not known.
+  std::vector<std::string> tables = {};
 };
+
+/// All kinds, in the order in which they are listed to users.
+const std::deque<StrategyKind>& strategy_kinds();
 
 /// Adds a search, from then on one of those that configs can choose. Before the first config is read; not
 /// thread safe. Throws UserError for a name that is taken or cannot be one.
