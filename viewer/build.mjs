@@ -4,6 +4,7 @@
 //
 // The result depends on the sources and on package-lock.json only: no time, no path, no host.
 import { build, transform } from "esbuild";
+import { createHash } from "node:crypto";
 import { readFile, writeFile, mkdir } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 
@@ -27,6 +28,9 @@ async function bundle(source, define = {}) {
   return outputFiles[0].text.trim();
 }
 
+/** What a page's Content-Security-Policy names a script by, which may run as it stands here alone; src/unpack.js and src/page leave it as it is. */
+const hashOf = (script) => `'sha256-${createHash("sha256").update(script).digest("base64")}'`;
+
 /** A page: skeleton, style sheets, and a program that holds its worker's, if it has one, as a text. */
 const PAGES = [
   { name: "page.html", skeleton: "src/page.html", styles: ["src/style.css"], program: "src/main.js", worker: ["AMBLE_EVOLVE_WORKER", "src/evolve_worker.js"] },
@@ -43,7 +47,7 @@ async function make({ skeleton, styles, program, worker }) {
     if (/<\/(script|style)|<!--/i.test(text)) throw new Error(`the ${what} would end its element`);
   const licence = (await read("node_modules/three/LICENSE")).trim();
   const version = JSON.parse(await read("package.json")).dependencies.three;
-  const parts = { style, script, unpack, licence: `three.js ${version}, https://threejs.org\n\n${licence}` };
+  const parts = { style, script, unpack, hashes: [script, unpack].map(hashOf).join(" "), licence: `three.js ${version}, https://threejs.org\n\n${licence}` };
   return (await read(skeleton)).replace(/<!--viewer:(\w+)-->/g, (_, part) => parts[part]);
 }
 

@@ -51,7 +51,10 @@ class LiveServer::Pages : public serving::Site {
         module_(std::make_shared<const std::string>(page::browser_module())) {}
 
   serving::Answer get(const serving::Request& request) override {
-    if (request.path == "/") return {.type = "text/html; charset=utf-8", .body = page_};
+    if (request.path == "/")
+      return {.type = "text/html; charset=utf-8",
+              .body = page_,
+              .scripts = std::string(page::watch_page_scripts())};
     if (request.path == "/amble.wasm") return {.type = "application/wasm", .body = module_};
     if (request.path == "/runs") return file("application/json", watcher_.overview(), "");
     const std::string run = request.value("run");

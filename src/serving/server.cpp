@@ -13,6 +13,7 @@
 #include <deque>
 #include <functional>
 #include <mutex>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -34,19 +35,25 @@ constexpr time_t silence_s = 2, stuck_s = 2;
 constexpr std::chrono::milliseconds look_every = 1s, speak_every = 10s;
 constexpr std::string_view still_here = ": still here\n\n";
 
+constexpr const char* policy_header = "Content-Security-Policy";
+
+/// What a browser may do with what it gets, and which scripts of it may run.
+std::string policy(std::string_view scripts) {
+  return fmt::format(
+      "default-src 'none'; script-src {}; style-src 'unsafe-inline'; img-src data: blob:; connect-src "
+      "'self'; "
+      "worker-src blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+      scripts);
+}
+
 /// What browsers may do with what they get. A page brings its own policy too, which is as strict.
 const httplib::Headers& headers_of_all() {
-  static const httplib::Headers headers{
-      {"Cache-Control", "no-store"},
-      {"Content-Security-Policy",
-       "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; "
-       "img-src "
-       "data: blob:; connect-src 'self'; worker-src blob:; base-uri 'none'; form-action 'none'; "
-       "frame-ancestors 'none'"},
-      {"Cross-Origin-Resource-Policy", "same-origin"},
-      {"Referrer-Policy", "no-referrer"},
-      {"X-Content-Type-Options", "nosniff"},
-      {"X-Frame-Options", "DENY"}};
+  static const httplib::Headers headers{{"Cache-Control", "no-store"},
+                                        {policy_header, policy("'none'")},
+                                        {"Cross-Origin-Resource-Policy", "same-origin"},
+                                        {"Referrer-Policy", "no-referrer"},
+                                        {"X-Content-Type-Options", "nosniff"},
+                                        {"X-Frame-Options", "DENY"}};
   return headers;
 }
 
@@ -134,6 +141,10 @@ void refuse(httplib::Response& response, int status, const std::string& text) {
 /// By a provider: what has none the library compresses, which takes seconds for a page.
 void send(httplib::Response& response, const Answer& answer) {
   response.status = answer.status;
+  if (!answer.scripts.empty()) {
+    response.headers.erase(policy_header);  // a second one would not replace it: browsers obey both
+    response.set_header(policy_header, policy(answer.scripts));
+  }
   if (answer.body->empty()) return response.set_content("", answer.type);
   response.set_content_provider(
       answer.body->size(), answer.type,

@@ -28,6 +28,8 @@ struct Answer {
   int status = 200;  ///< of HTTP
   std::string type = "text/plain; charset=utf-8";
   Text body;
+  std::string scripts =
+      {};  ///< of a page: what may run in it, as a Content-Security-Policy lists it; else nothing may
 };
 
 inline Answer text_answer(int status, std::string text) {

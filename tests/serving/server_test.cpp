@@ -62,6 +62,8 @@ class Example : public Site {
   Answer get(const Request& request) override {
     if (request.path == "/")
       return {.type = "text/html", .body = std::make_shared<std::string>(100'000, 'p')};
+    if (request.path == "/page")
+      return {.type = "text/html", .body = std::make_shared<std::string>("p"), .scripts = "'sha256-1234'"};
     if (request.path == "/throws") throw std::runtime_error("a reason");
     if (request.path == "/echo") return text_answer(200, request.value("said"));
     return text_answer(404, "nothing here");
@@ -118,7 +120,7 @@ TEST(Server, ForbidsWhatPagesNeedNot) {
   for (const char* path : {"/", "/other", "/throws"}) {
     const auto answer = served.client().Get(path);
     EXPECT_THAT(answer->get_header_value("Content-Security-Policy"),
-                AllOf(StartsWith("default-src 'none'; "), HasSubstr("connect-src 'self'"),
+                AllOf(StartsWith("default-src 'none'; script-src 'none'; "), HasSubstr("connect-src 'self'"),
                       HasSubstr("frame-ancestors 'none'")));
     EXPECT_EQ(answer->get_header_value("X-Content-Type-Options"), "nosniff");
     EXPECT_EQ(answer->get_header_value("Referrer-Policy"), "no-referrer");
@@ -126,6 +128,14 @@ TEST(Server, ForbidsWhatPagesNeedNot) {
     EXPECT_EQ(answer->get_header_value("Cache-Control"), "no-store");
     EXPECT_FALSE(answer->has_header("Access-Control-Allow-Origin"));
   }
+}
+
+TEST(Server, LetsAPageRunTheScriptsThatItNamesAndNoOthers) {
+  const Served served;
+  const auto answer = served.client().Get("/page");
+  ASSERT_EQ(answer->get_header_value_count("Content-Security-Policy"), 1u);
+  EXPECT_THAT(answer->get_header_value("Content-Security-Policy"),
+              StartsWith("default-src 'none'; script-src 'sha256-1234'; style-src "));
 }
 
 TEST(Server, HeadHasTheHeadersAlone) {

@@ -109,3 +109,20 @@ export async function violationsAnywhere(page) {
     }
   return all;
 }
+
+/** What becomes of scripts that somebody else puts into a page: {ran, refused}, of which each is refused by a directive. */
+export const intruders = (page) =>
+  page.evaluate(async () => {
+    const refused = [], element = (tag, attributes, text) => Object.assign(document.createElement(tag), attributes, { textContent: text });
+    window.ran = [];
+    addEventListener("securitypolicyviolation", ({ effectiveDirective }) => refused.push(effectiveDirective));
+    const inline = element("script", {}, "window.ran.push('inline')"), address = element("script", { src: "data:text/javascript,window.ran.push('address')" }, "");
+    const handler = element("button", {}, "");
+    handler.setAttribute("onclick", "window.ran.push('handler')");
+    for (const one of [inline, address, handler]) document.body.append(one);
+    handler.click();
+    await new Promise((done) => setTimeout(done, 300));
+    for (const one of [inline, address, handler]) one.remove();
+    return { ran: window.ran, refused: [...new Set(refused)].sort() }; // once for each policy, of which a page that is served has two
+  });
+export const NO_INTRUDERS = { ran: [], refused: ["script-src-attr", "script-src-elem"] };

@@ -52,7 +52,7 @@ const SMALL = { robot: "servo", population: 20, seconds: 2, generations: 20 };
 test("it opens from a file, asks no network for anything, and is at most 1.25 MB", () =>
   inLab({}, async (page) => {
     assert.ok(readFileSync(lab).length <= 1.25 * MB, `${readFileSync(lab).length} bytes`);
-    assert.match(await page.locator("meta[http-equiv]").getAttribute("content"), /^default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; /);
+    assert.match(await page.locator("meta[http-equiv]").getAttribute("content"), /^default-src 'none'; script-src 'sha256-\S{44}' 'sha256-\S{44}' 'wasm-unsafe-eval'; /);
     assert.ok((await pictureOf(page)).colours > 50);
     assert.match(await page.locator("#story").textContent(), /random network/);
     assert.equal(await page.locator("#settings select[name=robot] option").count(), 5);

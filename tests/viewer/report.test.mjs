@@ -4,7 +4,7 @@ import { mkdirSync, rmSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
-import { amble, launch, violationsAnywhere } from "./browser.mjs";
+import { NO_INTRUDERS, amble, intruders, launch, violationsAnywhere } from "./browser.mjs";
 
 const { AMBLE_PAGES, AMBLE_SOURCE } = process.env;
 const WIDTHS = [360, 768, 1280];
@@ -95,6 +95,13 @@ test("axe-core finds nothing wrong, also in what is folded away", () =>
     await overflow(page); // unfolds
     assert.deepEqual(await violationsAnywhere(page), {});
   }));
+
+test("a script that is put into it does not run", async () => {
+  const page = await browser.newPage();
+  await page.goto(pathToFileURL(path).href);
+  assert.deepEqual(await intruders(page), NO_INTRUDERS);
+  await page.close();
+});
 
 test("in print everything is unfolded, light and within the paper", () =>
   onPage({ viewport: { width: 673, height: 950 }, colorScheme: "dark" }, async (page) => { // A4 within its margins

@@ -4,7 +4,7 @@ import { spawn } from "node:child_process";
 import { mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { isOurs, amble, launch, pictureOf, violationsAnywhere } from "./browser.mjs";
+import { NO_INTRUDERS, amble, intruders, isOurs, launch, pictureOf, violationsAnywhere } from "./browser.mjs";
 
 const { AMBLE_PAGES, AMBLE_PROGRAM, AMBLE_SOURCE } = process.env;
 const CONFIG = join(AMBLE_SOURCE, "configs/quick/quadruped.toml");
@@ -207,6 +207,18 @@ test("a study that goes on has a page of its runs", async () => {
     assert.match(await page.locator("#runs-note").textContent(), /^6 runs: 6 ended\. 6 of 6 are in the study’s ledger\.$/);
   });
   assert.equal(await server.ended, 0);
+});
+
+test("a script that is put into the page does not run, and nothing runs in what else is served", async () => {
+  const run = folder("policy");
+  amble(...evolve(run, 2));
+  const server = serve("view", "--live", run);
+  await inPage(server, async (page) => assert.deepEqual(await intruders(page), NO_INTRUDERS), { expected: /^console error: .*Content Security Policy/ });
+  const url = await server.url, policy = async (path) => (await fetch(url + path)).headers.get("content-security-policy");
+  const html = await (await fetch(url)).text(), scripts = / script-src [^;]+;/.exec(html)[0];
+  assert.ok((await policy("")).includes(scripts), "that of the header is that of the page");
+  assert.match(await policy("runs"), / script-src 'none';/);
+  await server.stop();
 });
 
 test("a narrow screen shows all of it", async () => {
