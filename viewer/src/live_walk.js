@@ -80,11 +80,11 @@ export class LiveWalk extends Walk {
     this.findEvents();
   }
 
-  /** The walk of another champion of the same robot, from time 0; `genome`: its network. */
-  become(live, genome) {
+  /** The walk of another champion of the same robot, from time 0; `genome`: its network, where the page draws it. */
+  become(live, genome = null) {
     this.live = live;
     const { controller, cppn_inputs: inputs, cppn_outputs: outputs } = live.describe();
-    const cppn_svg = drawCppn(genome, { inputs, outputs }).outerHTML;
+    const cppn_svg = genome && drawCppn(genome, { inputs, outputs }).outerHTML;
     Object.assign(this, { controller, supg: controller.patterns_rad ? controller : null, cppn_svg });
     this.begin();
   }
