@@ -68,7 +68,7 @@ struct ViewArguments {
 
 std::string page_of(const py::list& given, const ViewArguments& arguments) {
   check_seconds(arguments.seconds);
-  if (given.size() == 0) throw py::value_error("expected at least one champion, run or recording");
+  if (given.empty()) throw py::value_error("expected at least one champion, run or recording");
   const auto choice = trial_choice(arguments.level, arguments.noise, arguments.trials, arguments.undisturbed);
   const presentation::WalkersPageOptions options{
       .walk = {.seconds = arguments.seconds, .engine = arguments.engine},
