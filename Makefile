@@ -44,7 +44,8 @@ wasm-check:
 	  { echo "viewer/dist/$$file is not what src gives: run make wasm" >&2; exit 1; }; done; \
 	else echo "skipped: the compiler for WebAssembly could not be installed (see above)"; fi
 
-# What `make demo` has compiled is not compiled again. Without the tests that take long (pages in browsers, clusters, every command of the docs, installing): TESTS=all is what CI runs.
+# What `make demo` has compiled is not compiled again. Without the tests that take long (pages in browsers, clusters, every command of the docs,
+# installing): TESTS=all is what CI runs.
 # The programs that tests run (browser, Slurm, Clang for exported C) are installed while the tests compile. One job more than
 # processors: a test that waits needs none.
 TESTS ?= short

@@ -74,7 +74,7 @@ TEST_P(FilesOf, RecordingsAndRobotsAreRead) {
 }
 
 TEST_P(FilesOf, LedgersAreReported) {
-  const auto told = good({"report", copy("study"), "-o", scratch_ / "report.html"});
+  good({"report", copy("study"), "-o", scratch_ / "report.html"});
   EXPECT_THAT(slurp(scratch_ / "report.html"), HasSubstr("SUPGs walk farther than sine wave networks."));
 }
 

@@ -25,6 +25,10 @@ robot=$scratch/prefix/share/amble/robots/quadruped/authors.toml
 cmake -S "$here/consumer" -B "$scratch/by-cmake" -DCMAKE_PREFIX_PATH="$scratch/prefix" >/dev/null
 cmake --build "$scratch/by-cmake" >/dev/null
 [ "$("$scratch/by-cmake/consumer" "$robot")" = "$expected" ] || { echo "CMake consumer: wrong output" >&2; exit 1; }
+# A champion walks as far as by the program.
+champion=$here/../../robots/servo/champion.json
+far=$("$scratch/prefix/bin/amble" trial "$champion" --undisturbed --seconds 2 | awk '$1 == "distance" { print $2 " m" }')
+[ "$("$scratch/by-cmake/consumer" "$robot" "$champion" | head -n 1)" = "$far" ] || { echo "CMake consumer: not $far" >&2; exit 1; }
 
 pkg_config_path=$(dirname "$(find "$scratch/prefix" -name amble.pc)")
 flags=$(PKG_CONFIG_PATH=$pkg_config_path pkg-config --cflags --libs amble)

@@ -6,7 +6,7 @@
 #include <atomic>
 #include <utility>
 
-#include "tests/experiment/fixture.hpp"
+#include "tests/presentation/champion.hpp"
 
 namespace amble::presentation {
 namespace {
@@ -18,18 +18,9 @@ using testing::Not;
 const std::atomic<bool> going_on{false}, stopped{true};
 
 experiment::Champion standing(int generation) {
-  const experiment::Config config = experiment::small_config({"engine=batch"});
-  experiment::Champion champion{.experiment = "test",
-                                .seed = 7,
-                                .generation = generation,
-                                .problem = experiment::small_problem(config),
-                                .genome = {},
-                                .result = {},
-                                .trace = {},
-                                .episodes = {}};
-  champion.genome =
-      neat::Population(config.neat, champion.problem.cppn_inputs(), champion.problem.cppn_outputs(), true, 5)
-          .genomes()[0];
+  experiment::Champion champion = champion_of({});
+  champion.experiment = "test";
+  champion.generation = generation;
   return champion;
 }
 
