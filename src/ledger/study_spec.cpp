@@ -123,6 +123,8 @@ void ConditionSpec::describe(io::SettingsVisitor& visitor) {
 void TestSpec::describe(io::SettingsVisitor& visitor) {
   visitor.text("name", name, {"how claims call it: a-z, 0-9, '-', '_'"});
   visitor.text("engine", engine, {"physics engine; empty: the run's own"});
+  visitor.texts("engine_own", engine_own,
+                {"\"NAME=NUMBER\", settings of that engine if it has its own; empty: its defaults"});
   visitor.number("seconds", seconds, {1e-5, 1e6}, {"length of the trials, s"});
   visitor.text("noise", noise, {"config file whose [noise] disturbs the trials; empty: none"});
   visitor.text("level", level,

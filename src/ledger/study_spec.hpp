@@ -51,6 +51,8 @@ struct ConditionSpec {
 struct TestSpec {
   std::string name;
   std::string engine;  ///< empty: the engine of the run
+  std::vector<std::string>
+      engine_own;  ///< "NAME=NUMBER", settings of that engine (physics::EngineKind::numbers)
   double seconds = 300.0;
   std::string noise;  ///< config file whose [noise] disturbs the trials; empty: no noise
   std::string

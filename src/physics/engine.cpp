@@ -21,8 +21,8 @@ struct Own {
   std::string_view name, target;
 };
 constexpr std::array own_engines{Own{"ode", "physics_ode"}, Own{"batch", "physics_batch"},
-                                 Own{"mujoco", "physics_mujoco"},
-                                 Own{"mujoco-model", "physics_mujoco_model"}};
+                                 Own{"mujoco", "physics_mujoco"}, Own{"mujoco-model", "physics_mujoco_model"},
+                                 Own{"ode-variant", "physics_ode"}};
 
 Registry<EngineKind>& kinds() {
   static Registry<EngineKind> all("engine", {});

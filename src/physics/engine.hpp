@@ -46,7 +46,7 @@ struct EngineSettings {
   /// already: only for engines that take friction from elsewhere (mujoco-model).
   double ground_friction = -1.0;
   bool uneven_ground = false;  ///< whether set_ground() is to be called; an engine may refuse it here
-  io::OwnSettings own = {};    ///< an engine that a program or a plugin has added
+  io::OwnSettings own = {};    ///< settings of an engine that has its own
 };
 
 /// A robot that is faster has diverged: m/s or rad/s (Engine::healthy).
@@ -142,6 +142,8 @@ struct EngineTraits {
   bool keeps_to_a_thread = false;  ///< only the thread that placed a robot may step it
   /// It simulates RobotSpec::original, not the robot: only robots that carry one, and without damage.
   bool of_original_model = false;
+  /// `amble compare` takes it only if it is named, not among all engines.
+  bool only_if_named = false;
 };
 /// Throws UserError for an unknown name.
 EngineTraits engine_traits(std::string_view name);

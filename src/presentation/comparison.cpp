@@ -32,7 +32,8 @@ std::vector<std::string> engines_of(const std::vector<std::string>& requested,
     const bool asked = requested.empty()
                            ? std::ranges::all_of(champions,
                                                  [&](const NamedChampion& named) {
-                                                   return can_simulate(name, named.champion.problem);
+                                                   return !physics::engine_traits(name).only_if_named &&
+                                                          can_simulate(name, named.champion.problem);
                                                  })
                            : std::ranges::count(requested, name) > 0;
     return asked || std::ranges::any_of(champions, [&](const NamedChampion& named) {

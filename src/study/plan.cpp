@@ -15,49 +15,10 @@
 #include "amble/experiment/run_folder.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/quoting.hpp"
-#include "amble/physics/engine.hpp"
 #include "amble/record/levels.hpp"
-#include "amble/trial/commands.hpp"
 
 namespace amble::study {
 namespace {
-
-std::string key_of(std::string_view list, std::size_t index, std::string_view key) {
-  return fmt::format("{}[{}].{}", list, index, key);
-}
-
-PlannedTest plan_test(const ledger::StudySpec& study, std::size_t index) {
-  PlannedTest test{.spec = study.tests[index], .noise = {}, .ground = {}, .damage = {}};
-  if (!test.spec.engine.empty() && !physics::is_engine(test.spec.engine))
-    throw study.error_at(key_of("tests", index, "engine"),
-                         fmt::format("'{}' = \"{}\": expected {}", key_of("tests", index, "engine"),
-                                     test.spec.engine, fmt::join(physics::engine_names(), ", ")));
-  if (!test.spec.noise.empty()) {
-    test.noise = experiment::load_config(test.spec.noise, {}).noise;
-    test.noise.first_undisturbed = false;
-    if (!test.noise.any())
-      throw study.error_at(key_of("tests", index, "noise"),
-                           fmt::format("{}: is without noise", test.spec.noise));
-  }
-  if (const record::Level* const level = record::find_level(test.spec.level); level != nullptr)
-    test.noise = trial::noise_of(*level);
-  if (!test.spec.ground.empty()) test.ground = experiment::load_config(test.spec.ground, {}).ground;
-  if (test.ground && test.ground->start_place_m <= 0.0 && !test.spec.is_disturbed() &&
-      test.spec.episodes != 1)
-    throw study.error_at(
-        key_of("tests", index, "episodes"),
-        fmt::format("'{}' = {}: without noise, and with all starts at one place of the ground "
-                    "(ground.start_place_m), all trials are the same",
-                    key_of("tests", index, "episodes"), test.spec.episodes));
-  if (!test.spec.damage.empty()) test.damage = experiment::load_config(test.spec.damage, {}).damage;
-  if (test.spec.command.empty()) return test;
-  try {
-    test.command = {.kind = trial::CommandKind::fixed, .stretches = trial::parse_commands(test.spec.command)};
-  } catch (const UserError& error) {
-    throw study.error_at(key_of("tests", index, "command"), error.what());
-  }
-  return test;
-}
 
 /// Throws UserError where a champion of the condition could not be tested.
 void check_tests(const PlannedCondition& condition) {
@@ -214,40 +175,6 @@ using Misfits = std::map<std::pair<std::string, std::string>, std::vector<Planne
 }
 
 }  // namespace
-
-experiment::Problem PlannedTest::problem(experiment::Problem home) const {
-  if (!spec.engine.empty()) home.engine = spec.engine;
-  home.noise = noise;
-  home.trial.duration_s = spec.seconds;
-  home.trial.validate();
-  if (ground) home.set_ground(*ground);
-  if (damage) home.set_damage(*damage);
-  if (command) home.set_commands(*command);
-  if (steering) home.set_differential(*steering);
-  return home;
-}
-
-std::string PlannedTest::settings_hash(std::string_view home) const {
-  io::Json definition{{"engine", spec.engine.empty() ? std::string(home) : spec.engine},
-                      {"seconds", spec.seconds},
-                      {"episodes", spec.episodes},
-                      {"noise", io::settings_to_json(noise)}};
-  if (spec.reach_m > 0.0) definition["reach_m"] = spec.reach_m;
-  if (spec.mutants > 0) definition["mutants"] = spec.mutants;
-  if (ground) definition["ground"] = io::settings_to_json(*ground);
-  if (damage) definition["damage"] = io::settings_to_json(*damage);
-  if (command) definition["command"] = io::settings_to_json(*command);
-  if (steering) definition["steering"] = io::settings_to_json(*steering);
-  if (spec.energy) definition["energy"] = true;
-  return hex(hash_text(definition.dump()));
-}
-
-bool PlannedTest::is_due(const ledger::Record& record) const {
-  if (record.find_test(spec.name) == nullptr) return true;
-  const auto& made = record.provenance;
-  const auto later = made.added_by.find(spec.name);
-  return !measured_by.empty() && measured_by != (later == made.added_by.end() ? made.commit : later->second);
-}
 
 std::string PlannedCondition::recorded_hash() const {
   return spec.gaits == 0 ? hash : hex(hash_text(fmt::format("{}, {} gaits", hash, spec.gaits)));

@@ -76,17 +76,6 @@ TEST(Plan, TakesAConditionsOwnGenerationsAndSettingsBeforeTheStudys) {
   EXPECT_EQ(plan.config({1, 17}).seed, 17);
 }
 
-TEST(Plan, TestsUnderNoiseHaveNoEpisodeWithoutIt) {
-  const test::TemporaryFolder folder;
-  const auto config = folder.put("noise.toml", "include = [\"" + config_file("robust/supg-objective") +
-                                                   "\"]\n[noise]\nfirst_undisturbed = true\n");
-  ASSERT_TRUE(experiment::load_config(config, {}).noise.first_undisturbed);
-  auto study = small_study();
-  study.tests = {trial_test("noisy", 2.0, config, 3)};
-  const Plan plan = make_plan(study, "out");
-  EXPECT_FALSE(plan.conditions[0].tests.at(0).noise.first_undisturbed);
-}
-
 TEST(ConfigHash, IsOfAllThatMakesARunButItsSeedLengthAndName) {
   const auto robot_file = std::string(AMBLE_SOURCE_DIR) + "/robots/quadruped/paper.toml";
   const auto hash_with = [](const std::vector<std::string>& settings, int generations = 4) {
@@ -105,38 +94,6 @@ TEST(ConfigHash, IsOfAllThatMakesARunButItsSeedLengthAndName) {
         "search.kind=novelty", "speciation.first_step_up=0.4", "score.terms=[{quantity=\"forward\"}]"})
     EXPECT_TRUE(others.insert(hash_with({setting})).second) << setting;
   EXPECT_TRUE(others.insert(hash_with({"robot=\"" + robot_file + "\""})).second);
-}
-
-TEST(PlannedTest, IsTheSameOnlyIfNothingDiffersThatChangesItsTrials) {
-  const PlannedTest test{.spec = trial_test("t", 10.0), .noise = {}};
-  const std::string hash = test.settings_hash("batch");
-  PlannedTest renamed = test, explicitly = test;
-  renamed.spec.name = "u";
-  explicitly.spec.engine = "batch";
-  EXPECT_EQ(renamed.settings_hash("batch"), hash);
-  EXPECT_EQ(explicitly.settings_hash("ode"), hash) << "the engine that the run has by itself";
-  std::set<std::string> others{hash, test.settings_hash("ode")};
-  EXPECT_EQ(others.size(), 2u);
-  PlannedTest longer = test, more = test, noisy = test;
-  longer.spec.seconds = 10.5;
-  more.spec.episodes = 2;
-  noisy.noise.push_m_s = 0.1;
-  PlannedTest uneven = test, steeper = test;
-  uneven.ground.emplace();
-  steeper.ground.emplace().slope_x = 0.1;
-  PlannedTest damaged = test, otherwise = test;
-  damaged.damage.emplace().parts = {{.kind = damage::Kind::missing, .leg = "FL"}};
-  otherwise.damage.emplace().parts = {{.kind = damage::Kind::missing, .leg = "FR"}};
-  PlannedTest mutated = test, more_mutants = test;
-  mutated.spec.mutants = 10;
-  more_mutants.spec.mutants = 11;
-  PlannedTest steered = test, harder = test, measured = test;
-  steered.steering.emplace().turn_gain = 1.0;
-  harder.steering.emplace().turn_gain = 2.0;
-  measured.spec.energy = true;
-  for (const PlannedTest& other : {longer, more, noisy, uneven, steeper, damaged, otherwise, mutated,
-                                   more_mutants, steered, harder, measured})
-    EXPECT_TRUE(others.insert(other.settings_hash("batch")).second);
 }
 
 TEST(Plan, AConditionSwitchesBetweenTheElitesOfAMapAloneAndItsRecordsAreNoOthers) {
@@ -226,24 +183,6 @@ TEST(Plan, ChampionsOfAConditionThatIsSteeredAreSoInTestsWithACommandAlone) {
   EXPECT_THAT(refused("heading_gain = 0"), testing::HasSubstr("steers nothing"));
   EXPECT_THAT(refused("turn_gan = 1"), testing::HasSubstr("turn_gain"));
   EXPECT_THAT(refused("turn_gain = 1, joint_types = [\"toe\"]"), testing::HasSubstr("no joint type toe"));
-}
-
-TEST(Plan, RefusesEpisodesThatWouldAllBeTheSameTrial) {
-  const test::TemporaryFolder folder;
-  const auto plan_with = [&](double start_place_m, const std::string& noise, int episodes) {
-    const auto file = folder.path() / "ground.toml";
-    io::write_file(file, fmt::format("include = [\"{}\"]\n[ground]\nkind = \"stones\"\nstart_place_m = {}\n",
-                                     config_file("authors/sine-objective"), start_place_m));
-    auto study = small_study();
-    study.tests = {trial_test("t", 1.0, noise, episodes)};
-    study.tests[0].ground = file.string();
-    return make_plan(study, "nowhere");
-  };
-  const auto error = test::error_of(ExitCode::bad_input, [&] { plan_with(0.0, "", 3); });
-  EXPECT_NE(error.find("'tests[0].episodes' = 3"), std::string::npos) << error;
-  EXPECT_NO_THROW(plan_with(0.0, "", 1));
-  EXPECT_NO_THROW(plan_with(2.0, "", 3));
-  EXPECT_NO_THROW(plan_with(0.0, config_file("robust/supg-objective"), 3));
 }
 
 TEST(Plan, RefusesTestsThatNoChampionCouldBePutTo) {

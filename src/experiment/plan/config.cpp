@@ -38,7 +38,7 @@ void Config::describe(io::SettingsVisitor& visitor) {
   visitor.integer("generations", generations, {1, most_generations},
                   {"generations to evaluate, the initial one included", "Morse et al. 2013, sec. 4"});
   if (const auto* kind = physics::find_engine(engine); kind != nullptr && !kind->numbers.empty()) {
-    visitor.begin("engine_own", {"settings of this engine, which is not one of amble's own"});
+    visitor.begin("engine_own", {"settings of this engine"});
     engine_own.describe(visitor, kind->numbers);
     visitor.end();
   }

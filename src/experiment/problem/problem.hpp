@@ -42,7 +42,7 @@ struct Problem {
   ground::Settings ground;                     ///< what the robot walks on
   damage::Settings damage = {};                ///< what is done to the engine's robot
   trial::CommandSettings command = {};         ///< what the robot is told
-  io::OwnSettings engine_own = {};             ///< an engine that is not one of amble's own
+  io::OwnSettings engine_own = {};             ///< settings of an engine that has its own
   ground::Key ground_key = {};                 ///< names the uneven ground of trials without noise
   /// The kind of controller; null until complete().
   std::shared_ptr<const controllers::Architecture> architecture;

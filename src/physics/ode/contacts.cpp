@@ -33,18 +33,41 @@ bool joined(const RobotSpec& robot, int a, int b) {
   return a == b || robot.bodies[to_index(a)].parent == b || robot.bodies[to_index(b)].parent == a;
 }
 
+/// Friction as the robot and the variant have it.
+dSurfaceParameters surface_of(const RobotSpec& robot, const Variant& variant) {
+  // Coulomb friction |f_t| ≤ μ f_n along each of two directions, a pyramid; without dContactApprox1 mu is a
+  // bound of the force itself, so infinity means sticking (ODE manual, "Contact").
+  dSurfaceParameters surface{};
+  if (variant.friction_n > 0.0) {
+    surface.mu = variant.friction_n;
+  } else {
+    surface.mode = std::isinf(robot.contact.friction) ? 0 : dContactApprox1;
+    surface.mu = std::isinf(robot.contact.friction) ? dInfinity : robot.contact.friction;
+  }
+  return surface;
+}
+
+dSurfaceParameters softened(dSurfaceParameters surface, const Variant& variant) {
+  if (variant.foot_erp > 0.0) surface.mode |= dContactSoftERP;
+  if (variant.foot_cfm_s_per_kg > 0.0) surface.mode |= dContactSoftCFM;
+  surface.soft_erp = variant.foot_erp;
+  surface.soft_cfm = variant.foot_cfm_s_per_kg;
+  return surface;
+}
+
 /// Margin of a bounding sphere for rounding, m.
 constexpr double slack_m = 1e-6;
 
 }  // namespace
 
-Contacts::Contacts(const RobotSpec& robot, const World& world, const ground::Ground* ground, bool loads)
-    : world_(world), ground_(ground), group_(dJointGroupCreate(0)), with_loads_(loads) {
-  // Coulomb friction |f_t| ≤ μ f_n along each of two directions, a pyramid; without dContactApprox1 mu would
-  // be a bound of the force itself, so infinity means sticking (ODE manual, "Contact").
-  surface_.mode = std::isinf(robot.contact.friction) ? 0 : dContactApprox1;
-  surface_.mu = std::isinf(robot.contact.friction) ? dInfinity : robot.contact.friction;
-
+Contacts::Contacts(const RobotSpec& robot, const World& world, const ground::Ground* ground, bool loads,
+                   const Variant& variant)
+    : world_(world),
+      ground_(ground),
+      group_(dJointGroupCreate(0)),
+      with_loads_(loads),
+      surface_(surface_of(robot, variant)),
+      foot_surface_(softened(surface_, variant)) {
   std::vector<int> body_of;
   for (std::size_t g = 0; g < robot.geoms.size(); ++g) {
     const Geom& geom = robot.geoms[g];
@@ -145,9 +168,10 @@ void Contacts::loads(LaneArray& loads_n) const {
 
 void Contacts::add_contacts(int count, dBodyID a, dBodyID b, int leg) {
   for (int c = 0; c < count; ++c) {
-    // Normal row: v_n⁺ + cfm f_n = (erp/h) depth, f_n ≥ 0, with the world's erp and cfm.
+    // Normal row: v_n⁺ + cfm f_n = (erp/h) depth, f_n ≥ 0, with the world's erp and cfm unless the
+    // surface has its own.
     dContact contact{};
-    contact.surface = surface_;
+    contact.surface = leg < 0 ? surface_ : foot_surface_;
     contact.geom = found_[c];
     const dJointID joint = dJointCreateContact(world_.id(), group_, &contact);
     dJointAttach(joint, a, b);

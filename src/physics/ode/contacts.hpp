@@ -7,6 +7,7 @@
 
 #include "amble/core/lanes.hpp"
 #include "amble/ground/ground.hpp"
+#include "amble/physics/ode/variant.hpp"
 #include "amble/physics/ode/world.hpp"
 #include "amble/robot/collision_points.hpp"
 #include "amble/robot/pose.hpp"
@@ -21,7 +22,7 @@ class Contacts {
   /// `ground`: null for the plane z = 0; not owned.
   /// `loads`: whether loads() will be asked for.
   Contacts(const robot::RobotSpec& robot, const World& world, const ground::Ground* ground,
-           bool loads = false);
+           bool loads = false, const Variant& variant = {});
   ~Contacts();
   Contacts(const Contacts&) = delete;
   Contacts& operator=(const Contacts&) = delete;
@@ -65,6 +66,7 @@ class Contacts {
   const bool with_loads_;
   std::deque<Feedback> feedbacks_;  ///< of the feet's contacts; ODE has pointers to them
   dSurfaceParameters surface_{};
+  dSurfaceParameters foot_surface_{};
   std::vector<Collider> colliders_;
   std::vector<Pair> pairs_;  ///< that may collide with each other
   static constexpr int most_contacts = 16;

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "amble/physics/engine_kinds.hpp"
 #include "amble/physics/ode/contacts.hpp"
 #include "amble/physics/ode/motors.hpp"
+#include "amble/physics/ode/variant.hpp"
 #include "amble/physics/ode/world.hpp"
 #include "amble/physics/single_robot.hpp"
 #include "amble/robot/pose.hpp"
@@ -59,7 +61,7 @@ struct Trial {
         const ground::Ground* ground)
       : world(robot, threading),
         motors(robot, world, settings.timestep_s),
-        contacts(robot, world, ground, settings.loads) {
+        contacts(robot, world, ground, settings.loads, ode::Variant::of(settings.own)) {
     if (settings.torques) torques.emplace(robot, motors);
   }
 };
@@ -68,12 +70,14 @@ struct Trial {
 /// or joint, has the erp and cfm of RobotSpec::contact. Infinite friction is ODE's mu = infinity; finite
 /// friction is a pyramid proportional to the normal force (dContactApprox1), along the world's x and y on the
 /// plane, and along ODE's own pair of tangents (dPlaneSpace) elsewhere.
-/// Bodies joined by a joint never collide. motors.hpp says what acts in the joints.
+/// Bodies joined by a joint never collide. motors.hpp says what acts in the joints. With numbers of
+/// ode::Variant it is what they say.
 class OdeEngine final : public SingleRobotEngine {
  public:
   OdeEngine(const RobotSpec& robot, const EngineSettings& settings)
       : SingleRobotEngine(robot, settings),
-        timestep_s_(settings.timestep_s),
+        settings_(settings),
+        quick_sweeps_(ode::Variant::of(settings.own).quick_sweeps),
         total_mass_kg_(robot.total_mass_kg()),
         bodies_(robot.bodies.size()) {
     ode::prepare_thread();
@@ -119,7 +123,9 @@ class OdeEngine final : public SingleRobotEngine {
       if (with_torques_) trial_->torques->before_step(targets_rad);
       // (J M⁻¹ Jᵀ + cfm/h) λ = c/h − J (v/h + M⁻¹ f) with bounds of λ, by Dantzig's pivoting; then v⁺ from
       // λ, and positions with v⁺ (ODE manual, "Constraint Force Mixing (CFM)" and "World Stepping").
-      if (dWorldStep(trial_->world.id(), timestep_s_) == 0) throw ode::Fault("out of memory");
+      const int stepped =
+          quick_sweeps_ > 0 ? quick_step() : dWorldStep(trial_->world.id(), settings_.timestep_s);
+      if (stepped == 0) throw ode::Fault("out of memory");
     } catch (const ode::Fault&) {
       healthy_ = false;
       threading_->replace();
@@ -133,7 +139,7 @@ class OdeEngine final : public SingleRobotEngine {
   void push(int lane, Vec3 impulse_n_s) override {
     check_pushable(lane);
     // ODE adds forces up until the next step, which uses them and sets them back to zero.
-    const Vec3 force_n = (1.0 / timestep_s_) * impulse_n_s;
+    const Vec3 force_n = (1.0 / settings_.timestep_s) * impulse_n_s;
     dBodyAddForce(trial_->world.bodies()[0], force_n.x, force_n.y, force_n.z);
   }
 
@@ -174,9 +180,17 @@ class OdeEngine final : public SingleRobotEngine {
     check_lane(lane);
     ode::prepare_thread();
     trial_.reset();
-    trial_.emplace(robot_, *threading_,
-                   EngineSettings{.timestep_s = timestep_s_, .torques = with_torques_, .loads = with_loads_},
-                   ground());
+    trial_.emplace(robot_, *threading_, settings_, ground());
+    if (quick_sweeps_ > 0) dWorldSetQuickStepNumIterations(trial_->world.id(), quick_sweeps_);
+  }
+
+  /// QuickStep shuffles its rows by numbers that the whole process draws from one stream: each step begins
+  /// that stream anew, and no two steps at once.
+  int quick_step() {
+    static std::mutex mutex;
+    const std::lock_guard lock(mutex);
+    dRandSetSeed(1);
+    return dWorldQuickStep(trial_->world.id(), settings_.timestep_s);
   }
 
   void begin() {
@@ -201,7 +215,8 @@ class OdeEngine final : public SingleRobotEngine {
     sense_attitude(quat(bodies_[0].rotation));
   }
 
-  const double timestep_s_;
+  const EngineSettings settings_;
+  const int quick_sweeps_;
   const double total_mass_kg_;
   std::optional<ode::Threading> threading_;
   std::optional<Trial> trial_;
@@ -215,13 +230,22 @@ class OdeEngine final : public SingleRobotEngine {
 // Every program that links this library has the engine: amble_registers() in cmake/AmbleTargets.cmake.
 extern "C" const bool amble_registers_physics_ode;
 const bool amble_registers_physics_ode = [] {
+  using amble::physics::EngineSettings;
   // ODE has data of its own for each thread.
-  amble::physics::register_engine(
-      {.name = "ode",
-       .traits = {.lanes = 1, .keeps_to_a_thread = true},
-       .make = [](const amble::robot::RobotSpec& robot,
-                  const amble::physics::EngineSettings& settings) -> std::unique_ptr<amble::physics::Engine> {
-         return std::make_unique<amble::physics::OdeEngine>(robot, settings);
-       }});
+  amble::physics::EngineTraits traits{.lanes = 1, .keeps_to_a_thread = true};
+  const auto make = [](const amble::robot::RobotSpec& robot, const EngineSettings& settings) {
+    return std::unique_ptr<amble::physics::Engine>(
+        std::make_unique<amble::physics::OdeEngine>(robot, settings));
+  };
+  const auto as_it_is = [make](const amble::robot::RobotSpec& robot, EngineSettings settings) {
+    settings.own = {};  // numbers that a champion has for another engine
+    return make(robot, settings);
+  };
+  amble::physics::register_engine({.name = "ode", .traits = traits, .make = as_it_is});
+  traits.only_if_named = true;
+  amble::physics::register_engine({.name = "ode-variant",
+                                   .traits = traits,
+                                   .make = make,
+                                   .numbers = amble::physics::ode::variant_numbers()});
   return true;
 }();
