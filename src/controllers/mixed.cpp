@@ -142,6 +142,11 @@ const SupgSettings& without_sensors(const SupgSettings& supg) {
     fail_setting({"controller.supg.modulation.sensors"},
                  "controller.supg.modulation.sensors: with kind mixed what SUPGs sense are nodes of the "
                  "substrate; expected none");
+  if (supg.modulation.load_feedback > 0.0)
+    fail_setting(
+        {"controller.supg.modulation.load_feedback"},
+        "controller.supg.modulation.load_feedback: with kind mixed what changes a timer's rate are links "
+        "of the substrate; expected 0");
   return supg;
 }
 

@@ -108,6 +108,8 @@ ModulatedSupgBatch::ModulatedSupgBatch(ModulatedSupgs supgs, ModulatedParameters
   for (auto* const values : {&advance_, &no_chance_, &jumped_, &fresh_}) values->resize(to_index(lanes));
   std::ranges::fill(advance_, parts_per_tick);
   sensed_ = LaneRows(sensors, lanes);
+  cosines_ = phase_cosines(settings.modulation, parked_.period_ticks());
+  if (!cosines_.empty()) load_ = LaneRows(1, lanes);
   if (by_reading_) weights_ = LaneRows(parked_.modulation().channels(), lanes);
   rates_ = LaneRows(legs * sensors, lanes);
   for (auto* const values : {&continued_rad_, &present_rad_})
@@ -162,18 +164,18 @@ void ModulatedSupgBatch::step(const robot::SensorFrame& sensors, LaneArray& targ
 }
 
 void ModulatedSupgBatch::sense(int leg, const robot::SensorFrame& sensors) {
-  const auto& all = supgs_.sensors[to_index(leg)];
-  for (std::size_t s = 0; s < all.size(); ++s) {
-    const LegSensor sensor = all[s];
-    float* const sensed = sensed_.row(static_cast<int>(s));
+  const auto read = [&](const LegSensor& sensor, float* sensed) {
     if (!sensor.is_there) {
       std::fill_n(sensed, lanes_, 0.0f);
-      continue;
+      return;
     }
     const float* const reading = substrate::row_of(sensor.sensor, sensors);
     AMBLE_CHECK(reading != nullptr, "the sensors are of another robot");
     for (int lane = 0; lane < lanes_; ++lane) sensed[lane] = sensor.sensed(reading[lane]);
-  }
+  };
+  const auto& all = supgs_.sensors[to_index(leg)];
+  for (std::size_t s = 0; s < all.size(); ++s) read(all[s], sensed_.row(static_cast<int>(s)));
+  if (!cosines_.empty()) read(supgs_.loads[to_index(leg)], load_.row(0));
 }
 
 /// How much each level of each sensor says.
@@ -187,10 +189,11 @@ void ModulatedSupgBatch::weigh_levels() {
     }
 }
 
-/// ρ = Σ a s, limited to ± 1.
+/// ρ = Σ a s − σ n cos 2πφ, limited to ± 1.
 void ModulatedSupgBatch::set_rates(int leg) {
-  const int sensors = parked_.modulation().sensors(), lanes = lanes_;
-  if (supgs_.settings.modulation.rate <= 0.0 || sensors == 0) return;
+  const int lanes = lanes_;
+  const int sensors = supgs_.settings.modulation.rate > 0.0 ? parked_.modulation().sensors() : 0;
+  if (sensors == 0 && cosines_.empty()) return;
   float* const rho = present_rad_.data();  // scratch
   std::fill_n(rho, lanes, 0.0f);
   for (int s = 0; s < sensors; ++s) {
@@ -198,9 +201,21 @@ void ModulatedSupgBatch::set_rates(int leg) {
     const float* const sensed = sensed_.row(s);
     for (int lane = 0; lane < lanes; ++lane) rho[lane] = rho[lane] + rate[lane] * sensed[lane];
   }
+  if (!cosines_.empty()) add_load_feedback(leg, rho);
   std::int32_t* const advance = advance_.data();
   limit(rho, -1.0f, 1.0f, lanes, rho);
   for (int lane = 0; lane < lanes; ++lane) advance[lane] = advance_parts(rho[lane]);
+}
+
+void ModulatedSupgBatch::add_load_feedback(int leg, float* rho) const {
+  const auto strength = static_cast<float>(supgs_.settings.modulation.load_feedback);
+  const float* const load = load_.row(0);
+  const std::int32_t* const timer = timers(leg);
+  for (int lane = 0; lane < lanes_; ++lane) {
+    const std::int32_t tick = std::max(timer[lane], 0) >> parts_bits;
+    const float pull = strength * load[lane];
+    rho[lane] = rho[lane] - pull * cosines_[to_index(tick)];
+  }
 }
 
 void ModulatedSupgBatch::update_timers(int leg, const float* contact, const std::int32_t* by_chance) {

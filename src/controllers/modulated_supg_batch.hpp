@@ -51,6 +51,7 @@ class ModulatedSupgBatch : public Batch {
   std::size_t index(int leg, int lane) const { return static_cast<std::size_t>(leg * lanes_ + lane); }
   void sense(int leg, const robot::SensorFrame& sensors);
   void weigh_levels();
+  void add_load_feedback(int leg, float* rho) const;
   void update_timers(int leg, const float* contact, const std::int32_t* by_chance);
   void pull(int leg);
   void write_targets(int leg, LaneArray& targets_rad);
@@ -73,6 +74,8 @@ class ModulatedSupgBatch : public Batch {
   std::vector<std::int32_t> continued_;  ///< what it would be in this tick without a jump
   std::vector<std::int32_t> airborne_ticks_, wait_ticks_, first_timer_, triggered_, refractory_left_;
   LaneRows sensed_;                    ///< of the leg in hand, sensor by sensor
+  LaneRows load_;                      ///< of the leg in hand; of load_feedback
+  std::vector<float> cosines_;         ///< phase_cosines()
   LaneRows weights_;                   ///< the same, channel by channel; of ShapeBy::reading
   LaneRows rates_;                     ///< leg by leg, sensor by sensor
   std::vector<std::int32_t> advance_;  ///< of the leg in hand, by lane

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "amble/core/error.hpp"
@@ -94,6 +95,24 @@ std::vector<std::vector<LegSensor>> leg_sensors(const ModulationSettings& settin
       sensors[leg].push_back(leg_sensor(settings.sensors[i], leg, robot, models, key));
   }
   return sensors;
+}
+
+std::vector<LegSensor> leg_loads(const ModulationSettings& settings, const SensingSettings& sensing,
+                                 const robot::RobotSpec& robot, double timestep_s) {
+  if (settings.load_feedback <= 0.0) return {};
+  const std::vector<SensorModel> models = sensor_models(sensing, robot, timestep_s);
+  std::vector<LegSensor> loads;
+  for (std::size_t leg = 0; leg < robot.legs.size(); ++leg)
+    loads.push_back(scaled_sensor({Sensor::Kind::load, static_cast<int>(leg)}, robot, models));
+  return loads;
+}
+
+std::vector<float> phase_cosines(const ModulationSettings& settings, int period_ticks) {
+  std::vector<float> cosines;
+  if (settings.load_feedback <= 0.0) return cosines;
+  for (int tick = 0; tick <= period_ticks; ++tick)
+    cosines.push_back(static_cast<float>(std::cos(2.0 * std::numbers::pi * tick / period_ticks)));
+  return cosines;
 }
 
 int shape_channels(const ModulationSettings& settings) {

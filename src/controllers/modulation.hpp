@@ -42,6 +42,13 @@ std::vector<std::vector<LegSensor>> leg_sensors(const ModulationSettings& settin
                                                 const SensingSettings& sensing, const robot::RobotSpec& robot,
                                                 double timestep_s);
 
+/// The load of each leg's foot as a share of the robot's weight; none without load_feedback.
+std::vector<LegSensor> leg_loads(const ModulationSettings& settings, const SensingSettings& sensing,
+                                 const robot::RobotSpec& robot, double timestep_s);
+
+/// cos 2πφ by a timer's whole ticks, 0 … period_ticks; none without load_feedback.
+std::vector<float> phase_cosines(const ModulationSettings& settings, int period_ticks);
+
 /// The readings at which ShapeBy::reading has patterns; at 0 it is the pattern itself.
 inline constexpr std::array<float, 4> reading_levels{-1.0f, -0.5f, 0.5f, 1.0f};
 

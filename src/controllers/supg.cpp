@@ -86,6 +86,7 @@ SupgArchitecture::SupgArchitecture(const SupgSettings& settings, const substrate
       joints_(joints_of(robot)),
       contact_joints_(contact_joints(settings.contact, robot)),
       leg_sensors_(leg_sensors(settings.modulation, sensing, robot, timestep_s)),
+      leg_loads_(leg_loads(settings.modulation, sensing, robot, timestep_s)),
       offset_zeros_(offset_zeros(substrate)),
       layout_(substrate,
               {.kind = neuron_properties.empty() ? "supg" : "mixed",
@@ -183,7 +184,7 @@ SupgBatch SupgArchitecture::make_plain_batch(int lanes) const {
 }
 
 ModulatedSupgs SupgArchitecture::supgs(int lanes) const {
-  return {settings_, timestep_s_, leg_names_, joints_, leg_sensors_, contact(lanes)};
+  return {settings_, timestep_s_, leg_names_, joints_, leg_sensors_, leg_loads_, contact(lanes)};
 }
 
 std::optional<ContactEstimate> SupgArchitecture::contact(int lanes) const {
@@ -196,6 +197,7 @@ robot::ExtraSenses SupgArchitecture::extra_senses() const {
   for (const auto& leg : leg_sensors_)
     for (const LegSensor& sensor : leg)
       if (sensor.is_there) extra |= substrate::extra_senses(sensor.sensor);
+  for (const LegSensor& load : leg_loads_) extra |= substrate::extra_senses(load.sensor);
   return extra;
 }
 

@@ -82,7 +82,8 @@ struct ModulatedSupgs {
   std::vector<std::string> leg_names;
   SupgJoints joints;
   std::vector<std::vector<LegSensor>> sensors;  ///< leg by leg
-  std::optional<ContactEstimate> contact;
+  std::vector<LegSensor> loads = {};            ///< of the legs' feet; empty without load_feedback
+  std::optional<ContactEstimate> contact = std::nullopt;
 };
 
 /// Single-unit pattern generators: one per driven joint, each with a pattern over one period that its leg's
@@ -116,6 +117,10 @@ struct ModulatedSupgs {
 ///   −1, −½, 0, ½ and 1; D is 0 at 0.
 /// - reset: a trigger moves a timer, after its growth, by this share of the shorter way round to start_tick
 ///   (reset_timer); one that stands starts, unless the share is 0.
+/// - load_feedback σ: ρ becomes Σ a s − σ n cos 2πφ before it is limited, n the load of the leg's foot by the
+///   robot's weight, φ the timer's whole ticks before the tick by the period: where a foot is loaded, φ is
+///   drawn to three quarters. (Owaki & Ishiguro 2017 have φ̇ = ω − σ N cos φ; here the timer's rate stays
+///   between half and double.)
 /// - refractory_ticks: in so many ticks after a trigger there is no other.
 /// The CPPN has one more input, `sensor`, which is 0 for patterns and offsets and (i + 1)/n for sensor i of
 /// n, and two more outputs, both limited to ± 1: `gain`, at the node's coordinates and each time, times
@@ -199,6 +204,7 @@ class SupgArchitecture : public Architecture {
   SupgJoints joints_;
   std::vector<std::vector<int>> contact_joints_;
   std::vector<std::vector<LegSensor>> leg_sensors_;
+  std::vector<LegSensor> leg_loads_;       ///< empty without load_feedback
   std::vector<std::size_t> offset_zeros_;  ///< coordinates that are 0 in queries of offsets and rates
   substrate::Layout layout_;
 };

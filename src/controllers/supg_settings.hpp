@@ -39,9 +39,10 @@ struct ModulationSettings {
   ShapeBy shape_by = ShapeBy::gain;
   double reset = 1.0;
   int refractory_ticks = 0;
+  double load_feedback = 0.0;
 
   /// Whether anything differs from the paper's SUPGs.
-  bool any() const { return !sensors.empty() || reset != 1.0 || refractory_ticks > 0; }
+  bool any() const { return !sensors.empty() || reset != 1.0 || refractory_ticks > 0 || load_feedback > 0.0; }
   void describe(io::SettingsVisitor& visitor);
   friend bool operator==(const ModulationSettings&, const ModulationSettings&) = default;
 };

@@ -42,6 +42,12 @@ constexpr std::string_view sensed_sum = R"(  float rho = 0.0f, power, part;
   }
 )";
 
+/// Behind what sensors say of rho.
+constexpr std::string_view load_text = R"(  part = load_feedback * sensed[sensor_count];
+  part = part * READ_TARGET(&cosine[timer < 0 ? 0 : timer >> tick_bits]);
+  rho = rho - part;
+)";
+
 constexpr std::string_view timer_text = R"(/* The shorter way round to start, or a share of it. */
 static int32_t pulled(int32_t timer) {
   int32_t way = start - timer;
@@ -173,12 +179,14 @@ void add_sense(const SupgTables::Modulation& modulation, bool commands, CText& t
   text.line("/* What a leg senses. */");
   text.line("static void sense({1}const {0}_sensors *in, int leg, float *sensed) {{", text.prefix(),
             commands ? fmt::format("const {}_state *state, ", text.prefix()) : std::string());
-  if (modulation.sensor_count() > 0) text.line("  float product;");
+  if (modulation.sensor_count() > 0 || modulation.load_feedback > 0.0f) text.line("  float product;");
   text.line("  switch (leg) {{");
   for (std::size_t leg = 0; leg < modulation.sensors.size(); ++leg) {
     text.line("    case {}:", leg);
-    for (std::size_t s = 0; s < modulation.sensors[leg].size(); ++s) {
-      const controllers::LegSensor& sensor = modulation.sensors[leg][s];
+    std::vector<controllers::LegSensor> sensors = modulation.sensors[leg];
+    if (modulation.load_feedback > 0.0f) sensors.push_back(modulation.loads[leg]);
+    for (std::size_t s = 0; s < sensors.size(); ++s) {
+      const controllers::LegSensor& sensor = sensors[s];
       if (!sensor.is_there) {
         text.line("      sensed[{}] = 0.0f;", s);
         continue;
@@ -230,6 +238,26 @@ void add_rates(const SupgTables::Modulation& modulation, CText& text) {
     for (const float rate : leg) row.push_back(c_float(rate));
   }
   text.array(fmt::format("static const float rate[{}_LEGS][sensor_count]", upper_case(text.prefix())), rates);
+}
+
+void add_load_feedback(const SupgTables::Modulation& modulation, CText& text) {
+  std::vector<std::string> cosines(modulation.cosines.size());
+  std::ranges::transform(modulation.cosines, cosines.begin(), c_float);
+  text.line("/* How a foot's load pulls its leg's timer. */");
+  text.line("static const float load_feedback = {};", c_float(modulation.load_feedback));
+  text.array(fmt::format("static const float cosine[{}] IN_FLASH", cosines.size()), cosines);
+}
+
+/// By how much a timer grows, as a function of what is sensed.
+void add_growth(const SupgTables::Modulation& modulation, CText& text) {
+  const bool loads = modulation.load_feedback > 0.0f;
+  std::string sum(modulation.rates_on ? sensed_sum : "  float rho = 0.0f, power, part;\n");
+  if (loads) sum += load_text;
+  const std::string from = loads ? "int32_t timer, const float *sensed" : "const float *sensed";
+  std::string growth = replaced(replaced(rate_text, "$from", from), "$sum", sum);
+  if (!modulation.rates_on)
+    growth = replaced(growth, "  rho = within_one(rho);", "  (void)leg;\n  rho = within_one(rho);");
+  text.block(growth);
 }
 
 void add_constants(const SupgTables& supg, CText& text) {
@@ -328,9 +356,10 @@ void add_modulated(const ControllerTables& tables, CText& text) {
   const std::size_t entries = to_index(supg.period_ticks + 3);
   if (modulation.shapes()) add_gains(modulation, tables.joints.size(), entries, text);
   if (modulation.rates_on) add_rates(modulation, text);
+  if (modulation.load_feedback > 0.0f) add_load_feedback(modulation, text);
   add_limits(supg.limits_rad, text);
   text.line("");
-  if (modulation.sensor_count() > 0 || supg.mixed) text.block(helpers);
+  if (modulation.sensor_count() > 0 || modulation.load_feedback > 0.0f || supg.mixed) text.block(helpers);
   if (modulation.by_reading && modulation.shapes()) add_levels(text);
   add_commands(tables, text);
   add_sense(modulation, tables.reads_commands(), text);
@@ -339,8 +368,8 @@ void add_modulated(const ControllerTables& tables, CText& text) {
   if (supg.mixed)
     text.block(replaced(replaced(rate_text, "$from", state), "$sum",
                         "  float rho, power;\n" + c_mixed_growth(*supg.mixed)));
-  else if (modulation.rates_on)
-    text.block(replaced(replaced(rate_text, "$from", "const float *sensed"), "$sum", sensed_sum));
+  else if (modulation.rates_on || modulation.load_feedback > 0.0f)
+    add_growth(modulation, text);
   const bool triggered = supg.is_triggered();
   add_timers(supg, state, text);
   if (supg.seam) add_smoothing(*supg.seam, text);
@@ -365,9 +394,10 @@ void add_modulated(const ControllerTables& tables, CText& text) {
                   : supg.contact ? "state->contact[leg]"
                                  : "in->touch[leg] > 0.5f");
   step = replaced(step, "$grown",
-                  supg.mixed            ? "growth(state, leg)"
-                  : modulation.rates_on ? "growth(sensed[leg], leg)"
-                                        : "tick_parts");
+                  supg.mixed                        ? "growth(state, leg)"
+                  : modulation.load_feedback > 0.0f ? "growth(state->timer[leg], sensed[leg], leg)"
+                  : modulation.rates_on             ? "growth(sensed[leg], leg)"
+                                                    : "tick_parts");
   std::string end = filters ? "  state->begun = 1;\n" : supg.seam ? "" : "  (void)continued;\n";
   if (supg.mixed) end += c_mixed_end(*supg.mixed);
   text.block(replaced(step, "$end", end + (supg.contact ? c_contact_end(*supg.contact) : "")));

@@ -64,6 +64,10 @@ SupgTables::Modulation modulation_of(const Problem& problem,
       .sensors = controllers::leg_sensors(settings, problem.controller.sensing, problem.robot,
                                           problem.trial.timestep_s),
       .rates = {},
+      .load_feedback = static_cast<float>(settings.load_feedback),
+      .loads = controllers::leg_loads(settings, problem.controller.sensing, problem.robot,
+                                      problem.trial.timestep_s),
+      .cosines = controllers::phase_cosines(settings, parameters.period_ticks()),
       .by_reading = settings.shape_by == controllers::ShapeBy::reading,
       .gains_rad = {}};
   for (int leg = 0; leg < parameters.legs(); ++leg) {
@@ -243,6 +247,7 @@ bool reads(const ControllerTables& tables, auto wanted) {
         }))
       return true;
     if (!supg->modulation) return false;
+    if (supg->modulation->load_feedback > 0.0f && wanted(substrate::Sensor::Kind::load)) return true;
     return std::ranges::any_of(supg->modulation->sensors, [&](const auto& leg) {
       return std::ranges::any_of(leg, [&](const controllers::LegSensor& sensor) {
         return sensor.is_there && wanted(sensor.sensor.kind);

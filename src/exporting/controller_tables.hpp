@@ -66,6 +66,9 @@ struct SupgTables {
     std::int32_t reset_share = 0, refractory_ticks = 0;
     std::vector<std::vector<controllers::LegSensor>> sensors;  ///< leg by leg
     std::vector<std::vector<float>> rates;                     ///< leg by leg, sensor by sensor
+    float load_feedback = 0.0f;                                ///< 0: none, and the next two are empty
+    std::vector<controllers::LegSensor> loads = {};            ///< leg by leg
+    std::vector<float> cosines = {};                           ///< controllers::phase_cosines()
     bool by_reading = false;                                   ///< controllers::ShapeBy::reading
     /// Channel by channel (controllers::shape_channels), joint by joint, entries as in targets_rad; empty
     /// without shape.

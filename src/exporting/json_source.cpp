@@ -155,6 +155,14 @@ Json modulation_json(const SupgTables::Modulation& modulation, const ControllerT
             {"sensors", Json::array()},
             {"rates", modulation.rates_on ? Json(modulation.rates) : Json(nullptr)},
             {"gains_rad", modulation.shapes() ? Json(modulation.gains_rad) : Json(nullptr)}};
+  if (modulation.load_feedback > 0.0f) {
+    Json loads = Json::array();
+    for (const controllers::LegSensor& load : modulation.loads)
+      loads.push_back(
+          {{"reads", sensor_name(load.sensor, tables)}, {"gain", load.gain}, {"shift", load.shift}});
+    json["load_feedback"] = {
+        {"strength", modulation.load_feedback}, {"loads", loads}, {"cosines", modulation.cosines}};
+  }
   if (modulation.by_reading) json["reading_levels"] = controllers::reading_levels;
   for (const auto& leg : modulation.sensors) {
     Json list = Json::array();

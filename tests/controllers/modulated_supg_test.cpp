@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include "amble/controllers/supg_batch.hpp"
@@ -62,19 +63,22 @@ ModulatedSupgs supgs(const SupgSettings& settings) {
           leg_names,
           all_joints(quadruped()),
           leg_sensors(settings.modulation, {}, quadruped(), timestep_s),
-          std::nullopt};
+          leg_loads(settings.modulation, {}, quadruped(), timestep_s)};
 }
 
 robot::SensorFrame frame(int lanes) {
   return {.joint_angle_rad = LaneArray(joints, lanes),
           .touch = LaneArray(legs, lanes),
-          .attitude_rad = LaneArray(3, lanes)};
+          .attitude_rad = LaneArray(3, lanes),
+          .foot_load_n = LaneArray(legs, lanes)};
 }
 
 void move_randomly(robot::SensorFrame& sensors, Stream& stream) {
   for (int lane = 0; lane < sensors.touch.lanes(); ++lane) {
     for (int leg = 0; leg < legs; ++leg)
       if (stream.chance(0.2)) sensors.touch.at(leg, lane) = 1.0f - sensors.touch.at(leg, lane);
+    for (int leg = 0; leg < legs; ++leg)
+      sensors.foot_load_n.at(leg, lane) = static_cast<float>(stream.uniform(-2.0, 40.0));
     for (int joint = 0; joint < joints; ++joint)
       sensors.joint_angle_rad.at(joint, lane) = static_cast<float>(stream.uniform(-0.9, 0.9));
     for (int axis = 0; axis < 3; ++axis)
@@ -177,14 +181,19 @@ class PlainLeg {
   PlainLeg(const SupgSettings& settings, const ModulatedParameters& parameters, int leg)
       : settings_(settings), parameters_(parameters), leg_(leg), period_(parameters.period_ticks()) {}
 
-  void tick(bool touching, const std::vector<float>& sensed) {
+  void tick(bool touching, const std::vector<float>& sensed, float load = 0.0f) {
     ++tick_;
     float rho = 0.0f;
-    for (std::size_t s = 0; s < sensed.size(); ++s)
-      rho = rho + parameters_.modulation().rate(leg_, static_cast<int>(s)) * sensed[s];
+    if (settings_.modulation.rate > 0.0)
+      for (std::size_t s = 0; s < sensed.size(); ++s)
+        rho = rho + parameters_.modulation().rate(leg_, static_cast<int>(s)) * sensed[s];
+    if (settings_.modulation.load_feedback > 0.0) {
+      const double phase = std::max(0.0, std::floor(timer)) / period_;
+      const float pull = static_cast<float>(settings_.modulation.load_feedback) * load;
+      rho = rho - pull * static_cast<float>(std::cos(2.0 * std::numbers::pi * phase));
+    }
     // Another test compares this with 2^ρ.
-    const double growth =
-        settings_.modulation.rate > 0.0 ? advance_parts(std::clamp(rho, -1.0f, 1.0f)) / 16384.0 : 1.0;
+    const double growth = advance_parts(std::clamp(rho, -1.0f, 1.0f)) / 16384.0;
     const bool phase = settings_.offset == Offset::phase;
     const int first_tick = phase ? 1 : parameters_.offset_ticks(leg_) + 1;
     const bool lands = touching && settings_.trigger != Trigger::none &&
@@ -261,8 +270,13 @@ TEST(ModulatedSupg, EqualsPlainLegsForAllSwitchesAndLaneCounts) {
                            .shape = 1.0,
                            .shape_by = stream.chance(0.5) ? ShapeBy::gain : ShapeBy::reading,
                            .reset = std::vector{1.0, 0.5, 0.25, 0.0}[stream.below(4)],
-                           .refractory_ticks = static_cast<int>(stream.below(4))};
+                           .refractory_ticks = static_cast<int>(stream.below(4)),
+                           .load_feedback = stream.chance(0.5) ? 1.5 : 0.0};
+    if (stream.chance(0.2)) settings.modulation.rate = 0.0;
     const auto senses = leg_sensors(settings.modulation, {}, quadruped(), timestep_s);
+    auto with_loads = settings.modulation;
+    with_loads.load_feedback = 1.0;
+    const auto loads = leg_loads(with_loads, {}, quadruped(), timestep_s);
     const int levels = settings.modulation.shape_by == ShapeBy::gain ? 1 : 4;
     for (const int lanes : {1, 16, 17}) {
       ModulatedSupgBatch batch(supgs(settings), random_modulated(period, 3, stream, levels), lanes);
@@ -289,7 +303,8 @@ TEST(ModulatedSupg, EqualsPlainLegsForAllSwitchesAndLaneCounts) {
             std::vector<float> sensed;
             for (const LegSensor& sensor : senses[l])
               sensed.push_back(sensor.sensed(substrate::row_of(sensor.sensor, sensors)[lane]));
-            expected.tick(sensors.touch.at(leg, lane) > 0.5f, sensed);
+            expected.tick(sensors.touch.at(leg, lane) > 0.5f, sensed,
+                          loads[l].sensed(sensors.foot_load_n.at(leg, lane)));
             ASSERT_EQ(state[l], static_cast<float>(expected.timer)) << tick;
             ASSERT_EQ(state[legs + l], expected.triggered ? 1.0f : 0.0f);
             for (int type = 0; type < types; ++type)
@@ -350,6 +365,41 @@ TEST(ModulatedSupg, AConstantSensorGivesThePeriodTimesTwoToTheMinusRho) {
     for (const int period : periods)
       EXPECT_TRUE(rho != std::round(rho) || period == static_cast<int>(expected));
   }
+}
+
+TEST(ModulatedSupg, ALoadedFootHoldsItsTimerAtThreeQuartersAndLiftedItGoesOn) {
+  constexpr int period = 100;
+  SupgSettings settings;
+  settings.period_s = period * timestep_s;
+  settings.trigger = Trigger::none;
+  settings.idle = Idle::wrap;
+  settings.modulation = {.sensors = {}, .load_feedback = 4.0};
+  Stream stream(1, Purpose::test);
+  const ModulatedParameters parameters(random_targets(period, stream), 0, 0);
+  ModulatedSupgBatch batch(supgs(settings), parameters, 1);
+  auto sensors = frame(1);
+  const float weight_n = 1.0f / leg_loads(settings.modulation, {}, quadruped(), timestep_s)[0].gain;
+  // Time that each half of the cycle about ¼ and about ¾ takes, ticks.
+  const auto ticks_of_halves = [&](float share) {
+    batch.load(0, parameters);
+    sensors.foot_load_n.set_lane(0, share * weight_n);
+    LaneArray targets(joints, 1);
+    std::vector<float> state(2 * legs);
+    std::array<int, 2> ticks{};
+    for (int tick = 0; tick < 10 * period; ++tick) {
+      batch.step(sensors, targets);
+      batch.state(0, state);
+      EXPECT_GE(state[0], 0.0f);
+      const double phase = static_cast<double>(state[0]) / period;
+      ++ticks[phase >= 0.25 && phase < 0.75 ? 0 : 1];
+    }
+    return ticks;
+  };
+  const auto lifted = ticks_of_halves(0.0f), loaded = ticks_of_halves(0.5f);
+  EXPECT_EQ(lifted[0], lifted[1]);
+  // cos is negative from ¼ to ¾, where a loaded timer runs twice as fast, and positive in the other half,
+  // where it takes twice as long.
+  EXPECT_GT(loaded[1], 3 * loaded[0]);
 }
 
 TEST(ModulatedSupg, ATriggerMovesATimerTheShorterWayRound) {
