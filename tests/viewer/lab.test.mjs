@@ -47,6 +47,8 @@ async function saved(page, click, name) {
   return path;
 }
 
+/** The walker stands: painting it takes more of a processor than what is tested. */
+const STILL = { reducedMotion: "reduce" };
 const SMALL = { robot: "servo", population: 20, seconds: 2, generations: 20 };
 
 test("it opens from a file, asks no network for anything, and is at most 1.25 MB", () =>
@@ -95,7 +97,7 @@ test("twenty generations in the page: curve and species grow, it pauses and goes
 test("any number of threads gives the same generations", async () => {
   const all = [];
   for (const threads of [1, 3])
-    await inLab({ hash: `threads=${threads}` }, async (page) => {
+    await inLab({ ...STILL, hash: `threads=${threads}` }, async (page) => {
       await set(page, { ...SMALL, generations: 5, noise: "strong" });
       await button(page, "Start").click();
       await page.waitForFunction(() => window.amble.evolution?.state === "ended", null, { timeout: 120_000 });
@@ -107,7 +109,7 @@ test("any number of threads gives the same generations", async () => {
 test("a pause in the midst of a generation of many genomes ends in the same generations", async () => {
   const all = [];
   for (const pauses of [0, 6])
-    await inLab({}, async (page) => {
+    await inLab(STILL, async (page) => {
       await set(page, { ...SMALL, population: 100, generations: 4 });
       await button(page, "Start").click();
       for (let i = 0; i < pauses; ++i) {
@@ -122,7 +124,7 @@ test("a pause in the midst of a generation of many genomes ends in the same gene
 });
 
 test("a run that was saved is opened and goes on to the same generations", () =>
-  inLab({}, async (page) => {
+  inLab(STILL, async (page) => {
     await set(page, { ...SMALL, generations: 60, search: "novelty" });
     await button(page, "Start").click();
     await until(page, 4);
@@ -142,7 +144,7 @@ test("a run that was saved is opened and goes on to the same generations", () =>
   }));
 
 test("a leg is lost while it evolves: the best begins anew, and what walks has a leg less", () =>
-  inLab({}, async (page) => {
+  inLab(STILL, async (page) => {
     await set(page, { ...SMALL, generations: 6, lost: "first", lostAt: 3 });
     await button(page, "Start").click();
     await page.waitForFunction(() => window.amble.evolution?.state === "ended", null, { timeout: 120_000 });
@@ -170,7 +172,7 @@ const bests = (run) => readFileSync(join(run, "generations.csv"), "utf8").trim()
 const ended = (page) => page.waitForFunction(() => window.amble.evolution?.state === "ended", null, { timeout: 120_000 });
 
 test("a run that amble resume made longer opens with its whole curve and its own best; a leg that is still to be lost is lost", () =>
-  inLab({}, async (page) => {
+  inLab(STILL, async (page) => {
     await set(page, { ...SMALL, generations: 4, lost: "first", lostAt: 8 });
     await button(page, "Start").click();
     await ended(page);
@@ -197,7 +199,7 @@ test("a run that amble resume made longer opens with its whole curve and its own
   }));
 
 test("100 more generations are those of a longer run natively", () =>
-  inLab({}, async (page) => {
+  inLab(STILL, async (page) => {
     await set(page, { ...SMALL, generations: 3 });
     await button(page, "Start").click();
     await ended(page);
@@ -214,7 +216,7 @@ test("100 more generations are those of a longer run natively", () =>
   }));
 
 test("after the end the walker goes where the world's settings put it, and more generations are born there", () =>
-  inLab({}, async (page) => {
+  inLab(STILL, async (page) => {
     const put = async (key, value) => {
       await field(page, key).selectOption(value);
       await page.waitForFunction(() => /The walker is there now/.test(document.getElementById("said").textContent));
@@ -241,7 +243,7 @@ test("after the end the walker goes where the world's settings put it, and more 
   }));
 
 test("a map fills, and the walker of a cell walks", () =>
-  inLab({}, async (page) => {
+  inLab(STILL, async (page) => {
     await set(page, { ...SMALL, generations: 4, search: "map-elites" });
     await button(page, "Start").click();
     await page.waitForFunction(() => window.amble.evolution?.state === "ended", null, { timeout: 120_000 });
@@ -255,7 +257,7 @@ test("a map fills, and the walker of a cell walks", () =>
   }));
 
 test("each experiment sets up the lab, and its runs stay in the diagram to compare with", () =>
-  inLab({}, async (page) => {
+  inLab(STILL, async (page) => {
     const experiments = page.locator(".experiment");
     assert.ok((await experiments.count()) >= 12);
     for (let i = 0; i < (await experiments.count()); ++i) {
@@ -278,7 +280,7 @@ test("each experiment sets up the lab, and its runs stay in the diagram to compa
   }));
 
 test("files that cannot be opened are told in the page, and one's own robot evolves", () =>
-  inLab({}, async (page) => {
+  inLab(STILL, async (page) => {
     const file = (name, text) => {
       writeFileSync(join(AMBLE_PAGES, name), text);
       return join(AMBLE_PAGES, name);
@@ -302,7 +304,7 @@ test("files that cannot be opened are told in the page, and one's own robot evol
   }));
 
 test("a thread that dies has a successor; a run that cannot go on is told", () =>
-  inLab({}, async (page) => {
+  inLab(STILL, async (page) => {
     await set(page, { ...SMALL, generations: 6 });
     await button(page, "Start").click();
     await until(page, 2);
