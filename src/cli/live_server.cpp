@@ -57,6 +57,7 @@ class LiveServer::Pages : public serving::Site {
               .scripts = std::string(page::watch_page_scripts())};
     if (request.path == "/amble.wasm") return {.type = "application/wasm", .body = module_};
     if (request.path == "/runs") return file("application/json", watcher_.overview(), "");
+    if (request.path == "/curves") return file("application/json", watcher_.curves(), "");
     const std::string run = request.value("run");
     if (request.path == "/champion")
       return file("application/json", champion(run, request), "no such champion\n");
@@ -65,7 +66,7 @@ class LiveServer::Pages : public serving::Site {
     if (request.path == "/events")
       return {.type = "text/event-stream", .body = std::make_shared<std::string>()};
     return serving::text_answer(
-        404, "there is /, /runs, /events?run=ID, /champion?run=ID and /generations.csv?run=ID\n");
+        404, "there is /, /runs, /curves, /events?run=ID, /champion?run=ID and /generations.csv?run=ID\n");
   }
 
   std::unique_ptr<serving::Stream> events(const serving::Request& request) override {

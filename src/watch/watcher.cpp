@@ -202,6 +202,17 @@ std::string Watcher::table(const std::string& id) const {
   return file ? read_part(*file, 0, most_file_bytes) : std::string();
 }
 
+std::string Watcher::curves() {
+  std::map<std::string, fs::path> tables;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [id, run] : runs_) tables.emplace(id, run->reader.paths().generations);
+  }
+  // Not under the other lock: many tables take long when they are read first.
+  const std::lock_guard lock(curves_mutex_);
+  return curves_.json(tables).dump(-1, ' ', false, io::Json::error_handler_t::replace);
+}
+
 int Watcher::readers() const {
   const std::lock_guard lock(mutex_);
   return readers_;

@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "amble/watch/curves.hpp"
 #include "amble/watch/feed.hpp"
 #include "amble/watch/run_summary.hpp"
 
@@ -39,6 +40,9 @@ class Watcher {
   std::string elite(const std::string& id, std::uint32_t cell) const;
   /// The text of a run's generations.csv; empty if there is none.
   std::string table(const std::string& id) const;
+
+  /// How far the best of every run has got, generation by generation: Curves::json().
+  std::string curves();
 
   /// The events of a run (Summary::id), or without one those of all runs' summaries alone.
   std::unique_ptr<Reader> read(const std::string& id);
@@ -71,6 +75,8 @@ class Watcher {
 
   const std::filesystem::path folder_;
   mutable std::mutex mutex_, elite_mutex_;
+  std::mutex curves_mutex_;
+  Curves curves_;
   std::condition_variable changed_;
   std::map<std::string, std::unique_ptr<Followed>> runs_;  ///< by Summary::id
   std::map<std::string, std::weak_ptr<Feed>> feeds_;

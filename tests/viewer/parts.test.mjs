@@ -6,6 +6,7 @@ import { patched } from "../../viewer/src/patch.js";
 import { niceAxis } from "../../viewer/src/plot.js";
 import { rates, wantedPath } from "../../viewer/src/told_path.js";
 import { footfalls, runs } from "../../viewer/src/walk.js";
+import { bestAfter, conditionOf, median } from "../../viewer/src/watch/all_curves.js";
 import { placeOf } from "../../viewer/src/watch/map_picture.js";
 import { clockText, rowReader, thinned } from "../../viewer/src/watch/rows.js";
 
@@ -140,4 +141,16 @@ test("a patch makes of a module any other, and one that is cut off is told", () 
   const base = bytes(20000), module = base.slice();
   for (let at = 0; at < module.length; at += 100) module[at] += 3;
   assert.ok(makePatch(base, module).length < 700, "bytes that differ are few");
+});
+
+test("runs that differ by a number at the end are of one condition", () => {
+  for (const [id, condition] of [["runs/supg-novelty-007", "supg-novelty"], ["supg-novelty-12", "supg-novelty"], ["7", "7"], ["a", "a"], ["x/seed_3", "seed"], ["runs/1", "1"]])
+    assert.equal(conditionOf(id), condition);
+});
+
+test("the best so far after a generation is that of the last step, as far as the run has got", () => {
+  const run = { last: 9, steps: [[0, 0.5], [3, 1], [7, 2]] };
+  assert.deepEqual([0, 2, 3, 6, 7, 9, 10].map((at) => bestAfter(run, at)), [0.5, 0.5, 1, 1, 2, 2, undefined]);
+  assert.equal(median([3, 1, 2]), 2);
+  assert.equal(median([4, 1, 2, 3]), 2.5);
 });

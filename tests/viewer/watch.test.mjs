@@ -100,10 +100,14 @@ test("several runs are one view; one that is chosen is shown, the one before sta
     assert.match(await page.locator("#name").textContent(), /, seed 2$/);
     await page.getByRole("button", { name: "c", exact: true }).click();
     await page.waitForFunction(() => window.amble.rows.length > 2);
-    assert.match(await page.locator("#runs-note").textContent(), /^3 runs: 1 going on, 2 ended\.$/);
+    assert.match(await page.locator("#runs-note").textContent(), /^3 runs: 1 going on, 2 ended\. A run is chosen/);
     assert.equal(await page.evaluate(() => window.amble.curve.before[0].name), "b");
     assert.deepEqual(await violationsAnywhere(page), {}, "a page of several runs");
     assert.equal(await page.locator('.run-list [aria-pressed="true"]').textContent(), "c");
+    await page.waitForFunction(() => window.amble.all.runs.size === 3);
+    assert.deepEqual(await page.locator("#all-curves .line-key").allTextContents(), ["a", "b", "c"]);
+    assert.match(await page.locator("#all-curves canvas").getAttribute("aria-label"), /a: \d\.\d\d m; b: \d\.\d\d m; c: /);
+    assert.ok((await pictureOf(page, "#all-curves canvas")).colours > 5);
     await other.stop();
     await says(page, "Stopped at generation");
   });
@@ -204,7 +208,7 @@ test("a study that goes on has a page of its runs", async () => {
     assert.match(await page.locator("#runs-note").textContent(), / \d of 6 are in the study’s ledger\.$/);
     await says(page, "The study has ended; for its report, run: amble report");
     assert.equal(await page.locator(".run-list tbody tr").count(), 6);
-    assert.match(await page.locator("#runs-note").textContent(), /^6 runs: 6 ended\. 6 of 6 are in the study’s ledger\.$/);
+    assert.match(await page.locator("#runs-note").textContent(), /^6 runs: 6 ended\. 6 of 6 are in the study’s ledger\. A run is chosen by its line or its name\.$/);
   });
   assert.equal(await server.ended, 0);
 });

@@ -4,6 +4,7 @@ import { element, onThemeChange } from "../theme.js";
 import { button } from "../widgets.js";
 import { Curve } from "../lab/curve.js";
 import { LabStage } from "../lab/stage.js";
+import { AllCurves } from "./all_curves.js";
 import { MapPicture } from "./map_picture.js";
 import { clockText, rowReader, thinned } from "./rows.js";
 import { RunList } from "./run_list.js";
@@ -19,9 +20,11 @@ export class Watch {
     this.curve = new Curve({ hint: "Each generation adds a point." });
     this.map = new MapPicture((cell) => this.showElite(cell));
     this.list = new RunList((id) => this.choose(id));
+    this.all = new AllCurves((id) => this.choose(id));
     byId("curves").append(this.curve.element);
     byId("cells").append(this.map.element);
     byId("run-list").append(this.list.element);
+    byId("all-curves").append(this.all.element);
     this.numbers = ["Generation", "Best so far", "Typically", "Median", "Species", "Left"].map((name) => {
       const term = element("dt", {}, name), value = element("dd", {}, "–");
       byId("now").append(element("div", {}, term, value));
@@ -216,8 +219,10 @@ export class Watch {
     const { planned, recorded } = this.folder;
     const study = recorded === null ? "" : ` ${recorded}${planned === null ? "" : ` of ${planned}`} are in the study’s ledger.`;
     const parts = [[count("running"), "going on"], [count("ended"), "ended"], [count("stopped"), "stopped"], [count("gone"), "vanished"]];
-    byId("runs-note").textContent = `${all.length} runs: ${parts.filter(([n]) => n).map(([n, what]) => `${n} ${what}`).join(", ") || "none begun"}.${study}`;
+    byId("runs-note").textContent = `${all.length} runs: ${parts.filter(([n]) => n).map(([n, what]) => `${n} ${what}`).join(", ") || "none begun"}.${study}${all.length > 1 ? " A run is chosen by its line or its name." : ""}`;
     this.list.show(all, this.chosen);
+    this.all.mark(this.chosen, this.unit());
+    this.all.begin();
   }
 
   showStory(time_s) {
@@ -236,6 +241,7 @@ export class Watch {
     this.stage.paint();
     this.curve.picture.repaint();
     this.map.picture.repaint();
+    this.all.picture.repaint();
   }
   noPicture() {
     byId("stage").append(element("p", { class: "no-stage" }, "This browser shows no 3-D pictures (no WebGL). The diagrams work without."));
