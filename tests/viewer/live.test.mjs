@@ -134,6 +134,31 @@ test("dragging its body pushes it, and the native program repeats to the bit wha
     assert.match(await natively(page, "dragged.json"), /^bits +the same in every step$/m);
   }));
 
+test("a finger drags it as a mouse does, a second finger changes nothing, and the page does not scroll", () =>
+  onPage({ viewport: { width: 390, height: 800 }, hasTouch: true, isMobile: true }, async (page) => {
+    await simulate(page, 0.5);
+    const box = await page.locator("#stage canvas").first().boundingBox();
+    const [x, y] = await page.evaluate(() => window.amble.seen(0));
+    const at = { x: box.x + ((x + 1) / 2) * box.width, y: box.y + ((1 - y) / 2) * box.height };
+    const devtools = await page.context().newCDPSession(page), scrolled = await page.evaluate(() => scrollY);
+    const touch = (type, ...points) => devtools.send("Input.dispatchTouchEvent", { type, touchPoints: points.map((point, id) => ({ id, ...point })) });
+    const pushes = () => page.evaluate(() => JSON.parse(window.amble.live().inputs()).inputs.filter(({ push_n_s }) => push_n_s).length);
+    await touch("touchStart", at);
+    await touch("touchMove", { x: at.x + 70, y: at.y - 30 });
+    await page.waitForFunction(() => window.amble.time() > 0.8);
+    assert.ok((await pushes()) > 2, `${await pushes()} pushes`);
+    const held = { x: at.x + 70, y: at.y - 30 };
+    await touch("touchStart", held, { x: box.x + 8, y: box.y + 8 });
+    await touch("touchMove", held, { x: box.x + 60, y: box.y + 8 });
+    const so_far = await pushes(), now = await page.evaluate(() => window.amble.time());
+    await page.waitForFunction((then) => window.amble.time() > then + 0.3, now);
+    assert.ok((await pushes()) > so_far, "the first still pulls");
+    await touch("touchEnd");
+    await page.evaluate(() => window.amble.pause());
+    assert.equal(await page.evaluate(() => scrollY), scrolled);
+    assert.match(await natively(page, "touched.json"), /^bits +the same in every step$/m);
+  }));
+
 test("a push by button is a push, too, and ends", () =>
   onPage({}, async (page) => {
     await page.click("text=right →");

@@ -12,8 +12,8 @@ export class Drag {
     const { canvas } = stage;
     // Before the camera's controls, which listen on the canvas itself, hear of it.
     canvas.parentElement.addEventListener("pointerdown", (event) => this.begin(event), { capture: true });
-    canvas.addEventListener("pointermove", (event) => this.move(event));
-    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => this.end());
+    canvas.addEventListener("pointermove", (event) => this.isHeldBy(event) && this.move(event));
+    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (event) => this.isHeldBy(event) && this.end());
   }
 
   /** Along y, one long, from the origin; seen through whatever is before it. */
@@ -36,7 +36,7 @@ export class Drag {
   }
 
   begin(event) {
-    if (event.button !== 0 || event.target !== this.stage.canvas) return;
+    if (event.button !== 0 || event.target !== this.stage.canvas || this.held) return; // one finger drags
     this.aim(event);
     const { group, model } = this.stage.lanes[0];
     const [hit] = this.ray.intersectObjects(model.parts.map(({ mesh }) => mesh).filter((mesh) => mesh.visible), false);
@@ -50,17 +50,20 @@ export class Drag {
     this.grasp = hit.point.clone().sub(group.position).sub(model.root.position);
     this.to.copy(hit.point);
     this.held = true;
+    this.pointer = event.pointerId;
     clock.play();
   }
 
+  isHeldBy({ pointerId }) {
+    return this.held && pointerId === this.pointer;
+  }
+
   move(event) {
-    if (!this.held) return;
     this.aim(event);
     this.ray.ray.intersectPlane(this.plane, this.to);
   }
 
   end() {
-    if (!this.held) return;
     this.held = false;
     this.arrow.visible = false;
     this.live.walk.force_n = [0, 0, 0];
