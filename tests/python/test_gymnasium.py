@@ -2,13 +2,24 @@
 
 import enum
 import importlib
+import os
+import re
+import subprocess
 import sys
 import types
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+import amble
 from conftest import ROBOT
+
+STEERED = str(Path(__file__).parents[2] / "robots/hexapod/steered.json")
+
+
+def amble_says(*words):
+    return subprocess.run([os.environ["AMBLE_PROGRAM"], *words], check=True, capture_output=True, text=True).stdout
 
 
 class AutoresetMode(enum.Enum):
@@ -23,6 +34,22 @@ class VectorEnv:
 class Box:
     def __init__(self, low, high, shape=None, dtype=np.float32):
         self.low, self.high, self.shape, self.dtype = low, high, shape or np.shape(low), dtype
+
+
+class Replayed:
+    """One robot that moves as it was recorded."""
+
+    timestep_s = 0.01
+
+    def __init__(self, com_m, yaw):
+        self.all_m, self.yaw = com_m, yaw
+        self.com_m, self.attitude_rad = np.zeros((1, 3), np.float32), np.zeros((1, 3), np.float32)
+
+    def __len__(self):
+        return 1
+
+    def at(self, frame):
+        self.com_m[0, :2], self.attitude_rad[0, 2] = self.all_m[frame] - self.all_m[0], self.yaw[frame]
 
 
 @pytest.fixture
@@ -62,3 +89,51 @@ def test_rewards_add_up_to_the_way_along_x(adapter):
         whole &= ~(terminated | truncated)
     assert whole.any()
     assert np.allclose(total[whole], (env.robots.com_m - start)[whole, 0], atol=1e-5)
+
+
+def test_rewards_of_commands_are_the_programs_tracking_second_by_second(adapter, tmp_path):
+    walk = str(tmp_path / "walk.rec")
+    said = amble_says("trial", STEERED, "--undisturbed", "--seconds", "10", "--record", walk, "--command", "0.3,0.4; 0.2,-0.3")
+    followed = float(re.search(r"followed to (\S+) of 1", said)[1])
+    recording = amble.Recording(walk)
+    com_m = np.stack([recording["com.x"], recording["com.y"]], axis=1)
+    w, x, y, z = (recording["root.q" + axis].astype(np.float64) for axis in "wxyz")
+    yaw = np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+    robots = Replayed(com_m, yaw)
+    commands = adapter.Commands({"stretch_s": 100.0}, robots, np.random.default_rng(1))
+    rewards = []
+    for tick in range(1, 1001):
+        commands.told[:] = (0.3, 0.4) if tick <= 500 else (0.2, -0.3)
+        robots.at(tick - 1)
+        rewards.append(commands.step(np.array([tick]))[0])
+    assert not any(reward for tick, reward in enumerate(rewards, 1) if tick % 100)
+    assert abs(sum(rewards) / 10.0 - followed) < 0.01
+
+
+def test_who_stands_earns_nothing_but_where_a_stop_is_commanded(adapter):
+    still = np.zeros((20, 12), np.float32)
+    for stops, earned in ((0.0, 0.0), (1.0, 2.0)):
+        env = adapter.RobotsEnv(ROBOT, 20, commands={"stop_share": stops, "least_speed_m_s": 0.2})
+        first, _ = env.reset(seed=1)
+        assert first.shape == (20, 21) and (stops == 0.0) == first[:, 19].all()
+        total = sum(env.step(still)[1] for _ in range(200))
+        assert np.allclose(total, earned, atol=0.1), total
+
+
+def test_commands_are_drawn_by_the_seed_and_anew_in_each_stretch(adapter):
+    def told(seed):
+        env = adapter.RobotsEnv(ROBOT, 50, commands={"stretch_s": 0.1})
+        seen = [env.reset(seed=seed)[0][:, 19:]]
+        seen += [env.step(np.zeros((50, 12), np.float32))[0][:, 19:] for _ in range(25)]
+        return np.array(seen)
+
+    one = told(1)
+    assert np.array_equal(one, told(1)) and not np.array_equal(one, told(2))
+    changes = [tick for tick in range(1, 26) if not np.array_equal(one[tick], one[tick - 1])]
+    assert changes == [10, 20]
+    assert np.abs(one[..., 1]).max() <= 0.5 and one[..., 0].min() >= 0.0 and one[..., 0].max() <= 0.4
+
+
+def test_a_command_that_there_is_not_is_refused(adapter):
+    with pytest.raises(ValueError, match="commands has speed: expected stretch_s, "):
+        adapter.RobotsEnv(ROBOT, 1, commands={"speed": 1.0})
