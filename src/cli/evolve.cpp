@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <csignal>
 #include <cstdint>
@@ -19,6 +20,7 @@
 #include "amble/experiment/run.hpp"
 #include "amble/experiment/start_look.hpp"
 #include "amble/io/quoting.hpp"
+#include "amble/robot/doubts.hpp"
 
 namespace amble::cli {
 namespace {
@@ -45,7 +47,11 @@ void print_best(const experiment::Run& run, int jobs) {
   fmt::print("      {}{} without noise; generation {}, {} evaluations\n",
              champion.problem.trials_vary() ? fmt::format("{} in its evaluation, ", text(progress.best)) : "",
              text(champion.result.value()), progress.best_generation, progress.evaluations);
-  if (typical.fell_share > 0.5)
+  if (typical.fell_share > 0.5 && !robot::weak_joints(run.robot()).empty())
+    fmt::print(
+        "note: it falls in most of these trials, and its motors are too weak to hold it up: see the note at "
+        "the beginning\n");
+  else if (typical.fell_share > 0.5)
     fmt::print(
         "note: it falls in most of these trials. More generations may help: amble resume {} --generations "
         "{}\n",
@@ -55,8 +61,13 @@ void print_best(const experiment::Run& run, int jobs) {
 /// What may make a run meaningless is better known before it has taken hours.
 void print_oddities(const experiment::Run& run) {
   const auto& config = run.config();
+  const bool slopes = config.ground.slope_x != 0.0 || config.ground.slope_y != 0.0;
   for (const auto& odd : experiment::odd_at_start(run.robot(), config.engine, config.trial.timestep_s))
-    print_message(fmt::format("note: {}\n", odd));
+    if (!slopes || !odd.starts_with("gravity:")) print_message(fmt::format("note: {}\n", odd));
+  if (const auto weak = robot::weak_joints(run.robot()); !weak.empty())
+    print_message(fmt::format(
+        "note: motors too weak to hold the weight on half of the legs: {}; `amble robot` says more\n",
+        fmt::join(weak, ", ")));
 }
 
 /// `named`: the folder as it was given. `server`: may be null.

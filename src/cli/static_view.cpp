@@ -85,11 +85,13 @@ motion::RecordedTrial record_again(const experiment::Champion& champion, const f
 page::RunPage page_of(const experiment::RunPaths& paths, const experiment::Config& config,
                       const experiment::Champion& champion, const std::optional<std::string>& engine,
                       const presentation::ShownTrial& shown) {
+  const auto generations = record::read_generations(paths.generations);
   return {
       .title = config.name,
-      .subtitle = fmt::format("the champion of {} generations of {}, evolved by amble",
-                              champion.generation + 1, experiment::candidates_per_generation(config)),
-      .generations = record::read_generations(paths.generations),
+      .subtitle = fmt::format(
+          "the champion of {} generations of {}, found in generation {}; evolved by amble",
+          generations.count(), experiment::candidates_per_generation(config), champion.generation),
+      .generations = generations,
       .objective = score::objective_of(config.score),
       .cppn = page::CppnSize{champion.genome.count(neat::NodeKind::hidden), champion.genome.enabled_links()},
       .facts = facts(config, champion, engine.value_or(config.engine), shown),

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -46,11 +47,24 @@ std::string original_model_text(const robot::RobotSpec& robot, const std::vector
       lines.push_back(std::move(line));
       odd = true;
     }
-    if (!odd && !robot.legs.empty()) lines.emplace_back("held for a second in its start pose, it stands");
+    if (!odd && !robot.legs.empty())
+      lines.emplace_back(odd_pose(robot, engine, timestep_s).empty()
+                             ? "held for a second in its start pose, it stands"
+                             : "held in its start pose it does what is said above");
     return fmt::format("in its own model, engine {}:\n  {}\n", engine, fmt::join(lines, "\n  "));
   } catch (const UserError& error) {
     return fmt::format("{}\n", error.what());
   }
+}
+
+/// Of a URDF it is said where its limits are read.
+void warn_of_endless_joints(const robot::RobotSpec& robot, std::vector<std::string>& warnings) {
+  std::vector<std::string> names;
+  for (const robot::Joint& joint : robot.joints)
+    if (joint.driven() && std::isinf(joint.lower_rad) && std::isinf(joint.upper_rad))
+      names.push_back(joint.name);
+  if (!names.empty())
+    warnings.push_back(fmt::format("joints without a range: they have no stops: {}", fmt::join(names, ", ")));
 }
 
 namespace fs = std::filesystem;
@@ -246,6 +260,7 @@ RobotFolder write_robot_folder(const fs::path& model, fs::path folder,
   written.asked = made.guess.asked;
   written.warnings = made.guess.doubts;
   if (robot) std::ranges::copy(robot::doubts(*robot), std::back_inserter(written.warnings));
+  if (robot && model.extension() != ".urdf") warn_of_endless_joints(*robot, written.warnings);
   written.ready = robot && !robot->legs.empty();
   written.text = text_of(written, made, folder);
   return written;

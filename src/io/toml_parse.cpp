@@ -146,6 +146,12 @@ TomlNode parse_toml(std::string_view text, const std::string& name, const std::f
     return root;
   } catch (const toml::parse_error& error) {
     const auto position = error.source().begin;
+    if (const auto first = text.find_first_not_of(" \t\r\n");
+        first != std::string_view::npos && text[first] == '<')
+      fail(ExitCode::bad_input,
+           "{}: XML, perhaps a robot's model; expected TOML: `amble robot --init MODEL` makes a config for a "
+           "model",
+           name);
     fail(ExitCode::bad_input, "{}:{}:{}: TOML syntax error: {}", name, position.line, position.column,
          printable(error.description()));
   }

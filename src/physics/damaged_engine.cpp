@@ -120,8 +120,15 @@ class DamagedEngine final : public Engine {
     Vec3 push_n_s = {};  ///< in the next step
   };
 
-  Lane& state(int lane) { return lanes_.at(to_index(lane)); }
-  const Stage& stage_of(int lane) const { return stages_[lanes_.at(to_index(lane)).stage]; }
+  void check_lane(int lane) const { AMBLE_CHECK(lane >= 0 && lane < lanes(), "there is no such lane"); }
+  Lane& state(int lane) {
+    check_lane(lane);
+    return lanes_[to_index(lane)];
+  }
+  const Stage& stage_of(int lane) const {
+    check_lane(lane);
+    return stages_[lanes_[to_index(lane)].stage];
+  }
 
   /// Each stage's engine has a ground made for its own robot: the same where it touches with the same radii.
   void on_ground() override {

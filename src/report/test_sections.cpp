@@ -175,10 +175,9 @@ std::string stop_rules_section(const Report& report) {
       "stops", "What counts as a stop",
       "How many champions walk to the end of a test, or for as long as a claim says, if standing still is to "
       "stay within a radius for so many seconds. The rule of the ledgers is 10 s within 0.25 m, metered ten "
-      "times a second; the others, and that one again, are computed from the path of the first episode in "
-      "the "
-      "records, one point per second in tests of 300 s, which can miss a step out of the radius or the "
-      "beginning of a stop.",
+      "times a second; the others, and that one again, are computed from the path in the records. Each "
+      "champion counts by its first trial, in the section “Still walking” by its middle one. Paths have one "
+      "point per second in tests of 300 s, and can miss a step out of the radius or the beginning of a stop.",
       content);
 }
 

@@ -160,7 +160,7 @@ std::vector<std::string> weaker_than(const RobotSpec& robot, const std::vector<d
 
 /// Straight legs need no torque to stand, but to step.
 void doubt_torques(const RobotSpec& robot, std::vector<std::string>& lines) {
-  if (const auto weak = weaker_than(robot, bearing_torques_nm(robot)); !weak.empty())
+  if (const auto weak = weak_joints(robot); !weak.empty())
     lines.push_back(fmt::format(
         "torques that do not hold the weight of {:.3g} kg on half of the legs in the start pose: {}; check "
         "max_torque_nm, masses, and the start pose",
@@ -238,6 +238,10 @@ std::vector<double> stepping_torques_nm(const RobotSpec& robot) {
     torques[to_index(j)] = step_share * norm(lever_m) * norm(cross(axis, force_n));
   });
   return torques;
+}
+
+std::vector<std::string> weak_joints(const RobotSpec& robot) {
+  return weaker_than(robot, bearing_torques_nm(robot));
 }
 
 std::vector<std::string> doubts(const RobotSpec& robot) {

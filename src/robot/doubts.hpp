@@ -29,6 +29,10 @@ constexpr bool is_larger_than_robot(double moments_kg_m2, double mass_kg, double
 ///   or the other way round.
 std::vector<std::string> doubts(const RobotSpec& robot);
 
+/// Joints whose largest torque does not hold the weight on half of the legs in the start pose, with both
+/// torques: "knee (0.1 of 0.4 N m)".
+std::vector<std::string> weak_joints(const RobotSpec& robot);
+
 /// The torque about each joint's axis, N m and signed, under the weight on half of the legs; 0 of joints that
 /// are not between a foot and the root.
 std::vector<double> bearing_torques_nm(const RobotSpec& robot);

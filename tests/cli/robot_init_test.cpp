@@ -7,6 +7,7 @@ namespace amble::tests {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 class RobotInit : public BadInput {
  protected:
@@ -153,6 +154,29 @@ TEST_F(RobotInit, WarnsOfInertiasTorquesAndMotorsThatAreHardlyMeant) {
   // What concerns the robot itself is said of its file, too.
   EXPECT_THAT(amble({"robot", scratch_ / "weak.urdf.d/weak.toml"}).out,
               HasSubstr("warnings:\n  torques that"));
+}
+
+TEST_F(RobotInit, SaysOfNoWeakRobotThatItStandsInItsOwnModel) {
+  const std::string hexapod = slurp(source + "/robots/hexapod/hexapod.xml");
+  spill(scratch_ / "weak.xml", changed(hexapod, "forcerange=\"-9 9\"", "forcerange=\"-0.05 0.05\""));
+  const auto init = amble({"robot", "--init", scratch_ / "weak.xml", "-o", scratch_ / "weak"});
+  EXPECT_EQ(init.exit_code, 0) << init.err;
+  EXPECT_THAT(init.out, HasSubstr("held in its start pose it"));
+  EXPECT_THAT(init.out, Not(HasSubstr("it stands")));
+  spill(scratch_ / "strong.xml", hexapod);
+  EXPECT_THAT(amble({"robot", "--init", scratch_ / "strong.xml", "-o", scratch_ / "strong"}).out,
+              HasSubstr("it stands"));
+  // And evolution begins with it.
+  const auto run = amble({"evolve", scratch_ / "weak/evolve.toml", "--generations", "1", "--set",
+                          "population.size=10", "--set", "trial.duration_s=1", "--out", scratch_ / "run"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("note: motors too weak to hold the weight on half of the legs: "));
+}
+
+TEST_F(RobotInit, NamesJointsOfAnMjcfWithoutARange) {
+  spill(scratch_ / "endless.xml", model_text(four_legs({.hip = "", .knee = ""})));
+  const auto init = amble({"robot", "--init", scratch_ / "endless.xml", "-o", scratch_ / "endless"});
+  EXPECT_THAT(init.out, HasSubstr("joints without a range: they have no stops: FL_")) << init.err;
 }
 
 TEST_F(RobotInit, WarnsOfMotorsWithoutAGear) {

@@ -204,6 +204,23 @@ TEST(GroundRun, OfAProblemThatWalksOnOtherGroundIsThatOfAProblemMadeForIt) {
     }
 }
 
+TEST(GroundRun, AProblemWhoseChangeIsRefusedIsWhatItWas) {
+  Problem problem = small_problem(small_config({"ground.friction=0.5"}));
+  const std::string before = problem_json(problem).dump();
+  ground::Settings stones;
+  stones.kind = "stones";
+  stones.height_m = 0.5;
+  stones.start_radius_m = 0.1;
+  stones.slope_x = 0.3;
+  stones.friction = 0.7;
+  EXPECT_THROW(problem.set_ground(stones), UserError);
+  EXPECT_EQ(problem_json(problem).dump(), before);
+  EXPECT_THROW(problem.set_damage({{{.kind = damage::Kind::missing, .leg = "no such leg"}}}), UserError);
+  EXPECT_EQ(problem_json(problem).dump(), before);
+  EXPECT_THROW(problem.set_differential({.turn_gain = 1.0}), UserError) << "nothing is commanded";
+  EXPECT_EQ(problem_json(problem).dump(), before);
+}
+
 TEST(GroundRun, MayBeginAsDeepInTheGroundAsOnThePlane) {
   // Feet that sink in by less than a centimetre are no mistake of the ground's.
   const Config config = small_config({"ground.kind=hills", "drop_m=0"});

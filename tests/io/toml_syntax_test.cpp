@@ -22,6 +22,9 @@ TEST(TomlSyntax, ErrorsNameFileLineAndColumn) {
             "integer 'a'");
   EXPECT_EQ(refusal("[a\n"),
             "x.toml:1:3: TOML syntax error: Error while parsing table header: expected ']', saw '\\n'");
+  EXPECT_EQ(refusal("\n <mujoco>\n"),
+            "x.toml: XML, perhaps a robot's model; expected TOML: `amble robot --init MODEL` makes a config "
+            "for a model");
   EXPECT_EQ(refusal("a = \"\xff\"\n"), "x.toml:1:5: TOML syntax error: Encountered invalid utf-8 sequence");
 }
 

@@ -137,6 +137,7 @@ TEST(Doubts, BearingTorqueIsWeightOnHalfOfTheLegsTimesLever) {
   EXPECT_THAT(
       doubts(robot),
       ElementsAre(HasSubstr("half of the legs in the start pose: L1_hip_fb (2.15 of 2.16 N m); check")));
+  EXPECT_THAT(weak_joints(robot), ElementsAre("L1_hip_fb (2.15 of 2.16 N m)"));
 }
 
 TEST(Doubts, StraightLegsNeedTorqueToStep) {

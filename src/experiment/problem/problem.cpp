@@ -124,17 +124,21 @@ void Problem::set_ground(const ground::Settings& other) {
     fail_setting({"ground.friction"},
                  "ground.friction = -1: the robot's own friction is no longer known here; "
                  "expected a number");
+  Problem changed = *this;
   if (other.slope_x != ground.slope_x || other.slope_y != ground.slope_y)
-    robot.gravity_m_s2 = other.tilted({0.0, 0.0, -norm(robot.gravity_m_s2)});
-  if (other.friction >= 0.0) robot.contact.friction = other.friction;
-  ground = other;
-  check_start();
+    changed.robot.gravity_m_s2 = other.tilted({0.0, 0.0, -norm(robot.gravity_m_s2)});
+  if (other.friction >= 0.0) changed.robot.contact.friction = other.friction;
+  changed.ground = other;
+  changed.check_start();
+  *this = std::move(changed);
 }
 
 void Problem::set_damage(const damage::Settings& other) {
   other.validate(robot);
-  damage = other;
-  make_engine();
+  Problem changed = *this;
+  changed.damage = other;
+  changed.make_engine();
+  *this = std::move(changed);
 }
 
 void Problem::set_commands(const trial::CommandSettings& other) {
@@ -143,8 +147,10 @@ void Problem::set_commands(const trial::CommandSettings& other) {
 }
 
 void Problem::set_differential(const controllers::DifferentialSettings& other) {
-  controller.differential = other;
-  make_architecture();
+  Problem changed = *this;
+  changed.controller.differential = other;
+  changed.make_architecture();
+  *this = std::move(changed);
 }
 
 void Problem::check_start() const {
