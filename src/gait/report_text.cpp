@@ -63,8 +63,10 @@ std::string cost(const Report& report) {
 void print_legs(const Report& report, Text text) {
   // Why a foot makes no strides.
   const auto note = [](const LegGait& leg) {
+    const bool down = leg.contact_share > 0.5, chatters = leg.raw_touchdowns > 1;
     if (leg.touchdowns > 0) return "";
-    return leg.contact_share > 0.5 ? "  never lifts" : "  never lands";
+    if (chatters) return down ? "  lifts for less than --debounce" : "  touches for less than --debounce";
+    return down ? "  never lifts" : "  never lands";
   };
   fmt::format_to(text,
                  "\nleg    lands (sensor)  strides  stride s     sd  duty  ground  phase     R  drift/min\n");

@@ -159,8 +159,24 @@ TEST(GaitMeter, SaysWhichFootNeverLandsOrNeverLifts) {
   const std::string table = report_table(report);
   EXPECT_NE(table.find("never lands"), std::string::npos) << table;
   EXPECT_NE(table.find("never lifts"), std::string::npos) << table;
+  EXPECT_NE(table.find("never lifts"), std::string::npos) << table;
   EXPECT_NE(table.find("pairs: hind –, fore –; fore after hind, left –, "), std::string::npos) << table;
   EXPECT_NE(report_json(report).find("\"hind\": {\"phase\": null, \"resultant\": null,"), std::string::npos);
+}
+
+TEST(GaitMeter, AFootWhoseTouchesAreTooShortToCountIsSaidToTouch) {
+  const Clockwork feet{.stride = 80, .stance = 48, .offset = {20, 60, 0, 40}};
+  Feeder feeder;
+  for (int k = 0; k < 2000; ++k) {
+    auto touch = feet.touch(k);
+    touch[2] = k % 20 == 0 ? 1.0f : 0.0f;
+    touch[1] = k % 20 == 0 ? 0.0f : 1.0f;
+    feeder.add(touch);
+  }
+  const std::string table = report_table(feeder.finish());
+  EXPECT_NE(table.find("touches for less than --debounce"), std::string::npos) << table;
+  EXPECT_NE(table.find("lifts for less than --debounce"), std::string::npos) << table;
+  EXPECT_EQ(table.find("never"), std::string::npos) << table;
 }
 
 TEST(GaitMeter, MeasuresHowAPhaseDrifts) {

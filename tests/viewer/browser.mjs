@@ -35,6 +35,7 @@ export const isOurs = (message) => !/GPU stall due to ReadPixels/.test(message.t
 export async function open(browser, path, { at_s = 0, hash = null, ...context } = {}) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, deviceScaleFactor: 0.5, ...context });
   page.setDefaultTimeout(60_000);
+  page.on("dialog", (dialog) => dialog.accept()); // as long as a test does not listen itself
   const problems = [];
   const parts = [...(hash ? [hash] : []), ...(at_s === null ? [] : [`t=${at_s}`])];
   const url = pathToFileURL(path).href + (parts.length ? `#${parts.join("&")}` : "");

@@ -279,6 +279,27 @@ test("each experiment sets up the lab, and its runs stay in the diagram to compa
     assert.match(await page.locator("#curves .keys").textContent(), /With touch/);
   }));
 
+test("a run that goes on is left for an experiment only if that is confirmed", () =>
+  inLab(STILL, async (page) => {
+    await set(page, { ...SMALL, generations: 500 });
+    await button(page, "Start").click();
+    await until(page, 2);
+    await button(page, "Pause").click();
+    const asked = [];
+    const choose = async (answer) => {
+      page.removeAllListeners("dialog");
+      page.once("dialog", (dialog) => (asked.push(dialog.message()), answer ? dialog.accept() : dialog.dismiss()));
+      await page.locator("#experiment-trigger .lab-buttons button").first().click();
+    };
+    await page.locator("#experiment-trigger summary").click();
+    await choose(false);
+    assert.equal(await page.evaluate(() => window.amble.evolution.state), "paused");
+    await choose(true);
+    await page.waitForFunction(() => window.amble.evolution === null);
+    assert.equal(asked.length, 2);
+    assert.match(asked[0], /^\d+ generations are over, and the run is not\. Leave it\?/);
+  }));
+
 test("files that cannot be opened are told in the page, and one's own robot evolves", () =>
   inLab(STILL, async (page) => {
     const file = (name, text) => {

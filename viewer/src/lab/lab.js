@@ -84,7 +84,14 @@ export class Lab {
     }
   }
 
+  /** Whether what runs, or pauses, may be given up. */
+  mayLeave() {
+    const { state } = this.evolution ?? {}, goesOn = (state === "running" || state === "paused") && this.progress;
+    return !goesOn || confirm(`${this.progress.generation + 1} generations are over, and the run is not. Leave it? What is not saved is lost.`);
+  }
+
   setUp(experiment, step) {
+    if (!this.mayLeave()) return;
     if (this.evolution) this.anew();
     if (this.experiment !== experiment.id) this.curve.forget();
     this.experiment = experiment.id;
