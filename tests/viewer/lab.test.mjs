@@ -57,6 +57,12 @@ test("it opens from a file, asks no network for anything, and is at most 1.25 MB
     assert.match(await page.locator("meta[http-equiv]").getAttribute("content"), /^default-src 'none'; script-src 'sha256-\S{44}' 'sha256-\S{44}' 'wasm-unsafe-eval'; /);
     assert.ok((await pictureOf(page)).colours > 50);
     assert.match(await page.locator("#story").textContent(), /random network/);
+    await page.locator("#footfalls").scrollIntoViewIfNeeded();
+    const drawn = () => pictureOf(page, "#footfalls canvas");
+    await page.waitForFunction(() => window.amble.stage.clock.duration_s > 0.5);
+    const early = await drawn();
+    await page.waitForFunction(() => window.amble.stage.clock.duration_s > 1.5);
+    assert.notEqual((await drawn()).hash, early.hash, "footfalls as it walks");
     assert.equal(await page.locator("#settings select[name=robot] option").count(), 5);
   }));
 

@@ -8,6 +8,7 @@ import { Curve, kindsOf } from "./curve.js";
 import { Ends } from "./ends.js";
 import { Evolution } from "./evolution.js";
 import { Files } from "./open.js";
+import { Footfalls } from "./footfalls.js";
 import { Form } from "./form.js";
 import { lessonList } from "./lesson.js";
 import { MapView } from "./map_view.js";
@@ -39,6 +40,7 @@ export class Lab {
       now: (walk, time_s) => this.showNow(time_s), shown: (walk) => this.showInside(walk),
       trouble: (error) => this.complain(error.message), noPicture: () => this.noPicture(),
     });
+    this.footfalls = new Footfalls(byId("footfalls"), this.stage.clock);
     this.files = new Files(this);
     onThemeChange(() => this.repaint());
   }
@@ -293,9 +295,11 @@ export class Lab {
     const story = this.stage.story(time_s);
     if (byId("story").textContent !== story) byId("story").textContent = story;
     this.patterns?.show(time_s);
+    this.footfalls.show();
   }
 
   showInside(walk) {
+    this.footfalls.begin(walk);
     const { genome } = JSON.parse(this.stage.text);
     byId("inside").hidden = false;
     byId("cppn").replaceChildren(drawCppn(genome, this.names));
@@ -313,6 +317,7 @@ export class Lab {
   }
   repaint() {
     this.stage.paint();
+    this.footfalls.repaint();
     this.curve.picture.repaint();
     this.ends.picture.repaint();
   }

@@ -3,6 +3,7 @@ import { number } from "../plot.js";
 import { element, onThemeChange } from "../theme.js";
 import { button } from "../widgets.js";
 import { Curve } from "../lab/curve.js";
+import { Footfalls } from "../lab/footfalls.js";
 import { LabStage } from "../lab/stage.js";
 import { AllCurves } from "./all_curves.js";
 import { MapPicture } from "./map_picture.js";
@@ -31,9 +32,10 @@ export class Watch {
       return { term, value };
     });
     this.stage = new LabStage(module, byId("stage"), {
-      now: (walk, time_s) => this.showStory(time_s), shown: () => this.showWalk(),
+      now: (walk, time_s) => this.showStory(time_s), shown: (walk) => this.showWalker(walk),
       trouble: (error) => this.complain(error.message), noPicture: () => this.noPicture(),
     });
+    this.footfalls = new Footfalls(byId("footfalls"), this.stage.clock);
     this.walk = button("Let it walk", () => (this.stage.clock.playing ? this.stage.clock.pause() : this.stage.clock.play()), { hidden: "" });
     this.best = button("The best again", () => this.showBest(), { hidden: "" });
     byId("views").append(this.walk, this.best);
@@ -225,7 +227,12 @@ export class Watch {
     this.all.begin();
   }
 
+  showWalker(walk) {
+    this.footfalls.begin(walk);
+    this.showWalk();
+  }
   showStory(time_s) {
+    this.footfalls.show();
     const text = this.stage.story(time_s);
     if (byId("story").textContent !== text) byId("story").textContent = text;
   }
@@ -239,6 +246,7 @@ export class Watch {
   }
   repaint() {
     this.stage.paint();
+    this.footfalls.repaint();
     this.curve.picture.repaint();
     this.map.picture.repaint();
     this.all.picture.repaint();
