@@ -14,9 +14,11 @@ from ._amble import Robots
 
 
 class Commands:
-    """What each robot is told, drawn anew for each stretch, and how well it obeys, second by second (docs/SCORES.md, tracking).
+    """What each robot is told, drawn anew for each stretch, and how well it obeys, second by second.
 
-    Keys and defaults are those of a config's [command]; tracking_speed_m_s and tracking_turn_rad_s those of [score.tracking]."""
+    A second is judged as the quantity `tracking` does (docs/SCORES.md), but one in which a stop is commanded by itself: it counts in
+    full where nothing moves. Keys and defaults are those of a config's [command]; tracking_speed_m_s and tracking_turn_rad_s those
+    of [score.tracking]. A robot's forward axis is the one that points along +x in its start pose."""
 
     DEFAULTS = {"stretch_s": 5.0, "least_speed_m_s": 0.0, "most_speed_m_s": 0.4, "most_turn_rad_s": 0.5, "straight_share": 0.2,
                 "stop_share": 0.1, "tracking_speed_m_s": 0.2, "tracking_turn_rad_s": 0.5}
@@ -26,12 +28,16 @@ class Commands:
         if unknown:
             raise ValueError(f"commands has {', '.join(sorted(unknown))}: expected {', '.join(self.DEFAULTS)}")
         self._settings, self._robots, self.random = self.DEFAULTS | dict(settings), robots, random
+        if self._settings["least_speed_m_s"] > self._settings["most_speed_m_s"]:
+            raise ValueError("commands: least_speed_m_s is more than most_speed_m_s")
+        if not 0.0 <= self._settings["stop_share"] + self._settings["straight_share"] <= 1.0:
+            raise ValueError("commands: stop_share and straight_share: expected shares that are at most 1 together")
         self._second = round(1.0 / robots.timestep_s)
         self._stretch = max(1, round(self._settings["stretch_s"] / robots.timestep_s))
         count = len(robots)
         self.told = np.zeros((count, 2), np.float32)  # speed along its forward axis, m/s, and turn to the left, rad/s
         self._sum, self._begin_m, self._forward = np.zeros((count, 2)), np.zeros((count, 2)), np.zeros((count, 2))
-        self._yaw, self._turned = np.zeros(count), np.zeros(count)
+        self._yaw, self._start_yaw, self._turned = np.zeros(count), np.zeros(count), np.zeros(count)
         self.begin(np.ones(count, bool))
 
     def begin(self, which):
@@ -39,25 +45,28 @@ class Commands:
         self._draw(which)
         self._sum[which], self._turned[which] = 0.0, 0.0
         self._begin_m[which] = self._robots.com_m[which, :2]
-        self._yaw[which] = self._robots.attitude_rad[which, 2]
+        self._yaw[which] = self._start_yaw[which] = self._robots.attitude_rad[which, 2]
 
     def _draw(self, which):
         count, s = int(which.sum()), self._settings
         speed = self.random.uniform(s["least_speed_m_s"], s["most_speed_m_s"], count)
         turn = self.random.uniform(-s["most_turn_rad_s"], s["most_turn_rad_s"], count)
-        turn[self.random.random(count) < s["straight_share"]] = 0.0
+        kind = self.random.random(count)
+        turn[kind < s["stop_share"] + s["straight_share"]] = 0.0
         told = np.stack([speed, turn], axis=1)
-        told[self.random.random(count) < s["stop_share"]] = 0.0
+        told[kind < s["stop_share"]] = 0.0
         self.told[which] = told
 
     def step(self, ticks):
-        """After a tick, the `ticks`-th of each robot's episode: its reward, which a second gives in its last tick."""
-        self._sum += self.told
+        """After a tick, the `ticks`-th of each robot's episode (0: it has just begun): its reward, which a second gives in its last
+        tick."""
+        self._sum[ticks > 0] += self.told[ticks > 0]
         yaw = self._robots.attitude_rad[:, 2].astype(np.float64)
         self._turned += (yaw - self._yaw + np.pi) % (2.0 * np.pi) - np.pi
         self._yaw = yaw
         half = ticks % self._second == self._second // 2
-        self._forward[half] = np.stack([np.cos(yaw), np.sin(yaw)], axis=1)[half]
+        heading = yaw - self._start_yaw
+        self._forward[half] = np.stack([np.cos(heading), np.sin(heading)], axis=1)[half]
         rewards, over = np.zeros(len(ticks)), (ticks % self._second == 0) & (ticks > 0)
         if over.any():
             rewards[over] = self._obeyed(over)
@@ -69,7 +78,7 @@ class Commands:
         return rewards
 
     def _obeyed(self, over):
-        """How well the second that is over obeyed, 0 … 1; 0 is what standing still is worth."""
+        """How well the second that is over obeyed, 0 … 1; 0 is what standing still is worth where there was something to do."""
         told = self._sum[over] / self._second
         v0, w0 = self._settings["tracking_speed_m_s"], self._settings["tracking_turn_rad_s"]
         wanted_m = told[:, :1] * self._forward[over]

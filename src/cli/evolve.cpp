@@ -47,10 +47,10 @@ void print_best(const experiment::Run& run, int jobs) {
   fmt::print("      {}{} without noise; generation {}, {} evaluations\n",
              champion.problem.trials_vary() ? fmt::format("{} in its evaluation, ", text(progress.best)) : "",
              text(champion.result.value()), progress.best_generation, progress.evaluations);
-  if (typical.fell_share > 0.5 && !robot::weak_joints(run.robot()).empty())
-    fmt::print(
-        "note: it falls in most of these trials, and its motors are too weak to hold it up: see the note at "
-        "the beginning\n");
+  const auto weak = robot::weak_joints(run.robot());
+  if (typical.fell_share > 0.5 && !weak.empty())
+    fmt::print("note: it falls in most of these trials, and motors are too weak to hold it up: {}\n",
+               fmt::join(weak, ", "));
   else if (typical.fell_share > 0.5)
     fmt::print(
         "note: it falls in most of these trials. More generations may help: amble resume {} --generations "

@@ -189,11 +189,18 @@ void ModulatedSupgBatch::weigh_levels() {
     }
 }
 
-/// ρ = Σ a s − σ n cos 2πφ, limited to ± 1.
 void ModulatedSupgBatch::set_rates(int leg) {
-  const int lanes = lanes_;
-  const int sensors = supgs_.settings.modulation.rate > 0.0 ? parked_.modulation().sensors() : 0;
-  if (sensors == 0 && cosines_.empty()) return;
+  set_sensed_rates(leg);
+  if (!cosines_.empty()) hold_by_load(leg);
+}
+
+/// ρ = Σ a s, limited to ± 1.
+void ModulatedSupgBatch::set_sensed_rates(int leg) {
+  const int sensors = parked_.modulation().sensors(), lanes = lanes_;
+  if (supgs_.settings.modulation.rate <= 0.0 || sensors == 0) {
+    if (!cosines_.empty()) std::ranges::fill(advance_, parts_per_tick);
+    return;
+  }
   float* const rho = present_rad_.data();  // scratch
   std::fill_n(rho, lanes, 0.0f);
   for (int s = 0; s < sensors; ++s) {
@@ -201,20 +208,20 @@ void ModulatedSupgBatch::set_rates(int leg) {
     const float* const sensed = sensed_.row(s);
     for (int lane = 0; lane < lanes; ++lane) rho[lane] = rho[lane] + rate[lane] * sensed[lane];
   }
-  if (!cosines_.empty()) add_load_feedback(leg, rho);
   std::int32_t* const advance = advance_.data();
   limit(rho, -1.0f, 1.0f, lanes, rho);
   for (int lane = 0; lane < lanes; ++lane) advance[lane] = advance_parts(rho[lane]);
 }
 
-void ModulatedSupgBatch::add_load_feedback(int leg, float* rho) const {
+/// Takes σ n cos 2πφ ticks off each advance.
+void ModulatedSupgBatch::hold_by_load(int leg) {
   const auto strength = static_cast<float>(supgs_.settings.modulation.load_feedback);
   const float* const load = load_.row(0);
   const std::int32_t* const timer = timers(leg);
   for (int lane = 0; lane < lanes_; ++lane) {
-    const std::int32_t tick = std::max(timer[lane], 0) >> parts_bits;
-    const float pull = strength * load[lane];
-    rho[lane] = rho[lane] - pull * cosines_[to_index(tick)];
+    std::int32_t& advance = advance_[to_index(lane)];
+    advance = held_advance(advance, strength * load[lane],
+                           cosines_[to_index(std::max(timer[lane], 0) >> parts_bits)]);
   }
 }
 

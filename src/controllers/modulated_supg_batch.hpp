@@ -51,7 +51,8 @@ class ModulatedSupgBatch : public Batch {
   std::size_t index(int leg, int lane) const { return static_cast<std::size_t>(leg * lanes_ + lane); }
   void sense(int leg, const robot::SensorFrame& sensors);
   void weigh_levels();
-  void add_load_feedback(int leg, float* rho) const;
+  void set_sensed_rates(int leg);
+  void hold_by_load(int leg);
   void update_timers(int leg, const float* contact, const std::int32_t* by_chance);
   void pull(int leg);
   void write_targets(int leg, LaneArray& targets_rad);

@@ -112,6 +112,13 @@ inline std::int32_t advance_parts(float rho) {
   return static_cast<std::int32_t>(and_a_half);
 }
 
+/// An advance, less `pull` × `cosine` ticks, from 0 to two ticks. Single precision, each operation rounded.
+inline std::int32_t held_advance(std::int32_t advance, float pull, float cosine) {
+  const float ticks = pull * cosine, parts = ticks * static_cast<float>(parts_per_tick);
+  const std::int32_t left = advance - static_cast<std::int32_t>(parts);
+  return left < 0 ? 0 : left > 2 * parts_per_tick ? 2 * parts_per_tick : left;
+}
+
 /// Where a trigger takes a timer, in parts: by `share` / 2^15 of the shorter way round to `start`. A timer
 /// that stands (−1) starts unless `share` is 0.
 std::int32_t reset_timer(std::int32_t timer, std::int32_t start, std::int32_t period, std::int32_t share);

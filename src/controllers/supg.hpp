@@ -117,10 +117,10 @@ struct ModulatedSupgs {
 ///   −1, −½, 0, ½ and 1; D is 0 at 0.
 /// - reset: a trigger moves a timer, after its growth, by this share of the shorter way round to start_tick
 ///   (reset_timer); one that stands starts, unless the share is 0.
-/// - load_feedback σ: ρ becomes Σ a s − σ n cos 2πφ before it is limited, n the load of the leg's foot by the
-///   robot's weight, φ the timer's whole ticks before the tick by the period: where a foot is loaded, φ is
-///   drawn to three quarters. (Owaki & Ishiguro 2017 have φ̇ = ω − σ N cos φ; here the timer's rate stays
-///   between half and double.)
+/// - load_feedback σ: a timer that runs grows by 2^ρ − σ n cos 2πφ ticks, from 0 to 2; n is the load of the
+///   leg's foot by the robot's weight, at most 1, φ the timer's whole ticks before the tick by the period.
+///   Where σ n cos 2πφ is 2^ρ or more it stands until the foot bears less: one that climbs stops behind three
+///   quarters (held_advance). Owaki & Ishiguro 2017 have φ̇ = ω − σ N cos φ, which may also run backwards.
 /// - refractory_ticks: in so many ticks after a trigger there is no other.
 /// The CPPN has one more input, `sensor`, which is 0 for patterns and offsets and (i + 1)/n for sensor i of
 /// n, and two more outputs, both limited to ± 1: `gain`, at the node's coordinates and each time, times

@@ -45,10 +45,11 @@ void ModulationSettings::describe(io::SettingsVisitor& visitor) {
                   "Morse et al. 2013: 1"});
   visitor.integer("refractory_ticks", refractory_ticks, {0, 100000},
                   {"ticks after a trigger in which a leg has no other", "Morse et al. 2013: 0"});
-  visitor.number("load_feedback", load_feedback, {0.0, 100.0},
-                 {"how strongly the load of a leg's foot, as a share of the robot's weight, draws the leg's "
-                  "timer towards three quarters of the period; 0: not",
-                  "after Owaki & Ishiguro 2017 (Tegotae); Morse et al. 2013: 0"});
+  visitor.number(
+      "load_feedback", load_feedback, {0.0, 100.0},
+      {"how strongly the load of a leg's foot, as a share of the robot's weight, holds the leg's timer "
+       "behind three quarters of the period, until it bears less; 0: not",
+       "after Owaki & Ishiguro 2017 (Tegotae); Morse et al. 2013: 0"});
 }
 
 void SupgSettings::describe(io::SettingsVisitor& visitor) {

@@ -42,10 +42,15 @@ constexpr std::string_view sensed_sum = R"(  float rho = 0.0f, power, part;
   }
 )";
 
-/// Behind what sensors say of rho.
-constexpr std::string_view load_text = R"(  part = load_feedback * sensed[sensor_count];
+constexpr std::string_view load_text = R"(/* What a foot's load leaves of that growth. */
+static int32_t held(int32_t grown, int32_t timer, float load) {
+  float part = load_feedback * load;
   part = part * READ_TARGET(&cosine[timer < 0 ? 0 : timer >> tick_bits]);
-  rho = rho - part;
+  part = part * (float)tick_parts;
+  grown -= (int32_t)part;
+  return grown < 0 ? 0 : grown > 2 * tick_parts ? 2 * tick_parts : grown;
+}
+
 )";
 
 constexpr std::string_view timer_text = R"(/* The shorter way round to start, or a share of it. */
@@ -248,16 +253,11 @@ void add_load_feedback(const SupgTables::Modulation& modulation, CText& text) {
   text.array(fmt::format("static const float cosine[{}] IN_FLASH", cosines.size()), cosines);
 }
 
-/// By how much a timer grows, as a function of what is sensed.
-void add_growth(const SupgTables::Modulation& modulation, CText& text) {
-  const bool loads = modulation.load_feedback > 0.0f;
-  std::string sum(modulation.rates_on ? sensed_sum : "  float rho = 0.0f, power, part;\n");
-  if (loads) sum += load_text;
-  const std::string from = loads ? "int32_t timer, const float *sensed" : "const float *sensed";
-  std::string growth = replaced(replaced(rate_text, "$from", from), "$sum", sum);
-  if (!modulation.rates_on)
-    growth = replaced(growth, "  rho = within_one(rho);", "  (void)leg;\n  rho = within_one(rho);");
-  text.block(growth);
+/// By how much a leg's timer grows, as an expression of C.
+std::string c_growth(const SupgTables::Modulation& modulation) {
+  const std::string grown = modulation.rates_on ? "growth(sensed[leg], leg)" : "tick_parts";
+  if (modulation.load_feedback <= 0.0f) return grown;
+  return "held(" + grown + ", state->timer[leg], sensed[leg][sensor_count])";
 }
 
 void add_constants(const SupgTables& supg, CText& text) {
@@ -368,8 +368,9 @@ void add_modulated(const ControllerTables& tables, CText& text) {
   if (supg.mixed)
     text.block(replaced(replaced(rate_text, "$from", state), "$sum",
                         "  float rho, power;\n" + c_mixed_growth(*supg.mixed)));
-  else if (modulation.rates_on || modulation.load_feedback > 0.0f)
-    add_growth(modulation, text);
+  else if (modulation.rates_on)
+    text.block(replaced(replaced(rate_text, "$from", "const float *sensed"), "$sum", sensed_sum));
+  if (modulation.load_feedback > 0.0f) text.block(load_text);
   const bool triggered = supg.is_triggered();
   add_timers(supg, state, text);
   if (supg.seam) add_smoothing(*supg.seam, text);
@@ -393,11 +394,7 @@ void add_modulated(const ControllerTables& tables, CText& text) {
                   !triggered     ? "0"
                   : supg.contact ? "state->contact[leg]"
                                  : "in->touch[leg] > 0.5f");
-  step = replaced(step, "$grown",
-                  supg.mixed                        ? "growth(state, leg)"
-                  : modulation.load_feedback > 0.0f ? "growth(state->timer[leg], sensed[leg], leg)"
-                  : modulation.rates_on             ? "growth(sensed[leg], leg)"
-                                                    : "tick_parts");
+  step = replaced(step, "$grown", supg.mixed ? "growth(state, leg)" : c_growth(modulation));
   std::string end = filters ? "  state->begun = 1;\n" : supg.seam ? "" : "  (void)continued;\n";
   if (supg.mixed) end += c_mixed_end(*supg.mixed);
   text.block(replaced(step, "$end", end + (supg.contact ? c_contact_end(*supg.contact) : "")));

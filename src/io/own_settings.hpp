@@ -18,7 +18,7 @@ struct OwnNumber {
 };
 
 /// The numbers of an extension, in the table `own` of its part of a config (of an engine: `engine_own`).
-/// amble's own kinds have a struct each instead.
+/// Most of amble's own kinds have a struct each instead.
 struct OwnSettings {
   std::map<std::string, double> numbers = {};  ///< by OwnNumber::name
 

@@ -36,6 +36,9 @@ io::OwnSettings engine_own_of(const ledger::StudySpec& study, std::size_t index)
   const std::string key = key_of("tests", index, "engine_own");
   io::OwnSettings own;
   const auto* const kind = physics::find_engine(test.engine);
+  if (test.engine.empty() && !test.engine_own.empty())
+    throw study.error_at(key,
+                         fmt::format("'{}': the test names no engine; expected 'engine' beside it", key));
   for (const std::string& assignment : test.engine_own) {
     const auto equals = assignment.find('=');
     const std::string name = assignment.substr(0, equals);
@@ -51,7 +54,8 @@ io::OwnSettings engine_own_of(const ledger::StudySpec& study, std::size_t index)
     if (error != std::errc() || last != end || !(value >= range.lowest && value <= range.highest))
       throw study.error_at(key, fmt::format("'{}' has \"{}\": expected {}=NUMBER from {} to {}", key,
                                             assignment, name, range.lowest, range.highest));
-    own.numbers[name] = value;
+    if (!own.numbers.emplace(name, value).second)
+      throw study.error_at(key, fmt::format("'{}' has {} twice", key, name));
   }
   return own;
 }
@@ -94,7 +98,7 @@ PlannedTest plan_test(const ledger::StudySpec& study, std::size_t index) {
 
 experiment::Problem PlannedTest::problem(experiment::Problem home) const {
   if (!spec.engine.empty()) home.engine = spec.engine;
-  if (!engine_own.numbers.empty()) home.engine_own = engine_own;
+  if (!spec.engine.empty()) home.engine_own = engine_own;
   home.noise = noise;
   home.trial.duration_s = spec.seconds;
   home.trial.validate();

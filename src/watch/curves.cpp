@@ -14,6 +14,7 @@ namespace amble::watch {
 namespace {
 
 constexpr std::size_t most_steps = 200;
+constexpr double most_generations = 1e9;
 
 std::optional<double> number(std::string_view text) {
   double value = 0.0;
@@ -47,9 +48,9 @@ void Curve::read(const std::string& line) {
   }
   if (std::max(generation_at_, best_at_) >= cells.size()) return;
   const auto generation = number(cells[generation_at_]), best = number(cells[best_at_]);
-  if (!generation) return;
+  if (!generation || !(*generation >= 0.0 && *generation <= most_generations)) return;
   last_ = static_cast<int>(*generation);
-  if (best && (steps_.empty() || *best > steps_.back().best)) steps_.push_back({last_, *best});
+  if (best && (steps_.empty() || *best != steps_.back().best)) steps_.push_back({last_, *best});
 }
 
 io::Json Curve::json() const {

@@ -10,8 +10,9 @@
 
 namespace amble::watch {
 
-/// How the best so far of a run has risen, from its table: the generations in which it did, and what it was
-/// from then on. Reads on where it stopped.
+/// How far the best so far of a run gets, from its table: the generations in which that changed, and what it
+/// was from then on. Under noise it may fall: another champion is what counts then. Reads on where it
+/// stopped.
 class Curve {
  public:
   explicit Curve(const std::filesystem::path& table) : tail_(table) {}

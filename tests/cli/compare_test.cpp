@@ -59,6 +59,12 @@ TEST_F(Compare, MakesATableOfTheRequestedEnginesAndTheChampionsOwn) {
       StartsWith("| champion | evolved in | trials | in batch | in mujoco |\n|---|---|---|---|---|\n"));
 }
 
+TEST_F(Compare, TakesAnEngineThatIsAVariantOnlyIfItIsNamed) {
+  EXPECT_THAT(amble({"compare", champion_, "--trials", "1"}).out, Not(HasSubstr("ode-variant")));
+  EXPECT_THAT(amble({"compare", champion_, "--trials", "1", "--engines", "ode-variant"}).out,
+              HasSubstr("in ode-variant"));
+}
+
 TEST_F(Compare, TrialTakesARunFolderForItsBestChampion) {
   const auto of_folder = amble({"trial", run_}), of_file = amble({"trial", champion_});
   EXPECT_EQ(of_folder.exit_code, 0) << of_folder.err;

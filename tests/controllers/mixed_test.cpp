@@ -434,6 +434,8 @@ TEST(Mixed, RefusesLinksThatItsNodesCannotHave) {
             "controller.substrate.properties: a time constant can be 0: expected more than 0");
   EXPECT_EQ(refusal([](auto&) {}, {.modulation = {.sensors = {"pitch"}}}).substr(0, 35),
             "controller.supg.modulation.sensors:");
+  EXPECT_EQ(refusal([](auto&) {}, {.modulation = {.sensors = {}, .load_feedback = 1.0}}).substr(0, 41),
+            "controller.supg.modulation.load_feedback:");
 }
 
 }  // namespace mixed_test

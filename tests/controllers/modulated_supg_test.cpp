@@ -187,13 +187,14 @@ class PlainLeg {
     if (settings_.modulation.rate > 0.0)
       for (std::size_t s = 0; s < sensed.size(); ++s)
         rho = rho + parameters_.modulation().rate(leg_, static_cast<int>(s)) * sensed[s];
+    // Another test compares this with 2^ρ.
+    double growth = advance_parts(std::clamp(rho, -1.0f, 1.0f)) / 16384.0;
     if (settings_.modulation.load_feedback > 0.0) {
       const double phase = std::max(0.0, std::floor(timer)) / period_;
       const float pull = static_cast<float>(settings_.modulation.load_feedback) * load;
-      rho = rho - pull * static_cast<float>(std::cos(2.0 * std::numbers::pi * phase));
+      const float ticks = pull * static_cast<float>(std::cos(2.0 * std::numbers::pi * phase));
+      growth = std::clamp(growth - std::trunc(static_cast<double>(ticks) * 16384.0) / 16384.0, 0.0, 2.0);
     }
-    // Another test compares this with 2^ρ.
-    const double growth = advance_parts(std::clamp(rho, -1.0f, 1.0f)) / 16384.0;
     const bool phase = settings_.offset == Offset::phase;
     const int first_tick = phase ? 1 : parameters_.offset_ticks(leg_) + 1;
     const bool lands = touching && settings_.trigger != Trigger::none &&
@@ -367,39 +368,46 @@ TEST(ModulatedSupg, AConstantSensorGivesThePeriodTimesTwoToTheMinusRho) {
   }
 }
 
-TEST(ModulatedSupg, ALoadedFootHoldsItsTimerAtThreeQuartersAndLiftedItGoesOn) {
-  constexpr int period = 100;
+/// The phase of the first leg after so many ticks under a load that is this share of the robot's weight.
+double phase_under(double feedback, float share, int ticks, bool lifted_then) {
+  constexpr int period = 200;
   SupgSettings settings;
   settings.period_s = period * timestep_s;
   settings.trigger = Trigger::none;
   settings.idle = Idle::wrap;
-  settings.modulation = {.sensors = {}, .load_feedback = 4.0};
+  settings.modulation = {.sensors = {}, .load_feedback = feedback};
   Stream stream(1, Purpose::test);
-  const ModulatedParameters parameters(random_targets(period, stream), 0, 0);
+  SupgParameters targets_of_legs = random_targets(period, stream);
+  for (int leg = 0; leg < legs; ++leg) targets_of_legs.set_offset_ticks(leg, period / 2);
+  const ModulatedParameters parameters(std::move(targets_of_legs), 0, 0);
   ModulatedSupgBatch batch(supgs(settings), parameters, 1);
+  batch.load(0, parameters);
   auto sensors = frame(1);
   const float weight_n = 1.0f / leg_loads(settings.modulation, {}, quadruped(), timestep_s)[0].gain;
-  // Time that each half of the cycle about ¼ and about ¾ takes, ticks.
-  const auto ticks_of_halves = [&](float share) {
-    batch.load(0, parameters);
+  LaneArray targets(joints, 1);
+  std::vector<float> state(2 * legs);
+  for (int tick = 0; tick < ticks; ++tick) {
     sensors.foot_load_n.set_lane(0, share * weight_n);
-    LaneArray targets(joints, 1);
-    std::vector<float> state(2 * legs);
-    std::array<int, 2> ticks{};
-    for (int tick = 0; tick < 10 * period; ++tick) {
-      batch.step(sensors, targets);
-      batch.state(0, state);
-      EXPECT_GE(state[0], 0.0f);
-      const double phase = static_cast<double>(state[0]) / period;
-      ++ticks[phase >= 0.25 && phase < 0.75 ? 0 : 1];
-    }
-    return ticks;
-  };
-  const auto lifted = ticks_of_halves(0.0f), loaded = ticks_of_halves(0.5f);
-  EXPECT_EQ(lifted[0], lifted[1]);
-  // cos is negative from ¼ to ¾, where a loaded timer runs twice as fast, and positive in the other half,
-  // where it takes twice as long.
-  EXPECT_GT(loaded[1], 3 * loaded[0]);
+    batch.step(sensors, targets);
+  }
+  for (int tick = 0; tick < period && lifted_then; ++tick) {
+    sensors.foot_load_n.set_lane(0, 0.0f);
+    batch.step(sensors, targets);
+  }
+  batch.state(0, state);
+  return static_cast<double>(state[0]) / period;
+}
+
+TEST(ModulatedSupg, ALoadedFootHoldsItsTimerBehindThreeQuartersUntilItIsLifted) {
+  for (const double pull : {1.5, 2.0, 10.0}) {
+    const double expected = 1.0 - std::acos(1.0 / pull) / (2.0 * std::numbers::pi);  // cos 2πφ = 1/σn
+    const double held = phase_under(2.0 * pull, 0.5f, 2000, false);
+    EXPECT_NEAR(held, expected, 0.01) << pull;
+    EXPECT_EQ(phase_under(2.0 * pull, 0.5f, 3000, false), held) << "it stands";
+    EXPECT_NEAR(phase_under(2.0 * pull, 0.5f, 2000, true), held, 1e-6)
+        << "and without a load a period is a period";
+  }
+  EXPECT_NE(phase_under(1.0, 0.5f, 2000, false), phase_under(1.0, 0.5f, 2001, false)) << "half is too little";
 }
 
 TEST(ModulatedSupg, ATriggerMovesATimerTheShorterWayRound) {

@@ -70,6 +70,19 @@ TEST(JsonSource, AndTheHeaderTellJointsWithoutAMotorAndFeetOfSeveralShapes) {
   EXPECT_EQ(c.header.find("the foot of 'R1'"), std::string::npos);
 }
 
+TEST(JsonSource, HasWhatHoldsTimersByTheLoadOfTheirFeet) {
+  const io::Json json = document_of(
+      tests::evolve({"load", "authors/supg", "quadruped", {"controller.supg.modulation.load_feedback=4"}}));
+  const io::Json& load = json["controller"]["supg"]["modulation"]["load_feedback"];
+  EXPECT_EQ(load["strength"], 4.0);
+  EXPECT_EQ(load["loads"].size(), json["controller"]["legs"].size());
+  EXPECT_EQ(load["loads"][1]["reads"], "load." + json["controller"]["legs"][1].get<std::string>());
+  const int period = json["controller"]["supg"]["period_ticks"];
+  ASSERT_EQ(load["cosines"].size(), static_cast<std::size_t>(period + 1));
+  EXPECT_EQ(load["cosines"][0], 1.0);
+  EXPECT_NEAR(load["cosines"][period / 2].get<double>(), -1.0, 1e-6);
+}
+
 TEST(JsonSource, HasEachSumOfAMixedSubstrateUnderItsName) {
   const experiment::Champion champion =
       experiment::load_champion(std::string(AMBLE_SOURCE_DIR) + "/robots/hexapod/steered.json");

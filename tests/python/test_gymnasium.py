@@ -113,7 +113,7 @@ def test_rewards_of_commands_are_the_programs_tracking_second_by_second(adapter,
 def test_who_stands_earns_nothing_but_where_a_stop_is_commanded(adapter):
     still = np.zeros((20, 12), np.float32)
     for stops, earned in ((0.0, 0.0), (1.0, 2.0)):
-        env = adapter.RobotsEnv(ROBOT, 20, commands={"stop_share": stops, "least_speed_m_s": 0.2})
+        env = adapter.RobotsEnv(ROBOT, 20, commands={"stop_share": stops, "straight_share": 0.0, "least_speed_m_s": 0.2})
         first, _ = env.reset(seed=1)
         assert first.shape == (20, 21) and (stops == 0.0) == first[:, 19].all()
         total = sum(env.step(still)[1] for _ in range(200))
@@ -137,3 +137,36 @@ def test_commands_are_drawn_by_the_seed_and_anew_in_each_stretch(adapter):
 def test_a_command_that_there_is_not_is_refused(adapter):
     with pytest.raises(ValueError, match="commands has speed: expected stretch_s, "):
         adapter.RobotsEnv(ROBOT, 1, commands={"speed": 1.0})
+
+
+def test_the_tick_that_begins_an_episode_anew_is_none_of_its_first_second(adapter):
+    env = adapter.RobotsEnv(ROBOT, 4, max_ticks=150, commands={"stretch_s": 100.0, "least_speed_m_s": 0.1})
+    env.reset(seed=1)
+    still = np.zeros((4, 12), np.float32)
+    for _ in range(151):
+        env.step(still)
+    assert not env.commands._sum.any()
+    env.step(still)
+    assert np.allclose(env.commands._sum, env.commands.told)
+
+
+def test_forward_is_what_points_along_x_in_the_start_pose(adapter):
+    def rewards(start_yaw):
+        ticks = np.arange(1000)
+        robots = Replayed(np.stack([0.003 * ticks, 0.0 * ticks], axis=1), start_yaw + 0.0 * ticks)
+        robots.at(0)
+        commands = adapter.Commands({"stretch_s": 100.0}, robots, np.random.default_rng(1))
+        commands.told[:] = (0.3, 0.0)
+        total = 0.0
+        for tick in range(1, 1001):
+            robots.at(tick - 1)
+            total += commands.step(np.array([tick]))[0]
+        return total
+
+    assert abs(rewards(0.0) - 10.0) < 0.1 and abs(rewards(1.5) - rewards(0.0)) < 1e-6
+
+
+@pytest.mark.parametrize("commands", [{"least_speed_m_s": 1.0}, {"stop_share": 0.9, "straight_share": 0.2}])
+def test_commands_that_cannot_be_are_refused(adapter, commands):
+    with pytest.raises(ValueError, match="commands: "):
+        adapter.RobotsEnv(ROBOT, 1, commands=commands)

@@ -105,7 +105,8 @@ TEST(PlannedTest, OfSettingsThatItsEngineHasNotIsRefused) {
   };
   EXPECT_THAT(refusal("ode", "quick_sweeps=20"),
               testing::HasSubstr("'tests[0].engine_own': the engine \"ode\" has no setting 'quick_sweeps'"));
-  EXPECT_THAT(refusal("", "quick_sweeps=20"), testing::HasSubstr("has no setting 'quick_sweeps'"));
+  EXPECT_THAT(refusal("", "quick_sweeps=20"),
+              testing::HasSubstr("the test names no engine; expected 'engine' beside it"));
   EXPECT_THAT(refusal("ode-variant", "sweeps=20"), testing::HasSubstr("has no setting 'sweeps'"));
   for (const std::string assignment : {"quick_sweeps", "quick_sweeps=", "quick_sweeps=many",
                                        "quick_sweeps=-1", "quick_sweeps=nan", "quick_sweeps=20 "})

@@ -300,9 +300,13 @@ test("a run that goes on is left for an experiment only if that is confirmed", (
     await page.locator("#experiment-trigger summary").click();
     await choose(false);
     assert.equal(await page.evaluate(() => window.amble.evolution.state), "paused");
+    page.once("dialog", (dialog) => (asked.push(dialog.message()), dialog.dismiss()));
+    await page.setInputFiles("#file", join(AMBLE_SOURCE, "robots/biped/champion.json"));
+    while (asked.length < 2) await page.waitForTimeout(50);
+    assert.notEqual(await field(page, "robot").inputValue(), "own");
     await choose(true);
     await page.waitForFunction(() => window.amble.evolution === null);
-    assert.equal(asked.length, 2);
+    assert.equal(asked.length, 3);
     assert.match(asked[0], /^\d+ generations are over, and the run is not\. Leave it\?/);
   }));
 

@@ -144,7 +144,7 @@ test("a patch makes of a module any other, and one that is cut off is told", () 
 });
 
 test("runs that differ by a number at the end are of one condition", () => {
-  for (const [id, condition] of [["runs/supg-novelty-007", "supg-novelty"], ["supg-novelty-12", "supg-novelty"], ["7", "7"], ["a", "a"], ["x/seed_3", "seed"], ["runs/1", "1"]])
+  for (const [id, condition] of [["runs/supg-novelty-007", "supg-novelty"], ["supg-novelty-12", "supg-novelty"], ["7", "7"], ["a", "a"], ["x/seed_3", "seed"], ["supg/1", "supg"], ["ctrnn/1", "ctrnn"]])
     assert.equal(conditionOf(id), condition);
 });
 

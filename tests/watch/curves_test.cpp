@@ -25,11 +25,11 @@ TEST_F(CurveOfARun, IsNothingBeforeTheFirstGeneration) {
   EXPECT_EQ(now(), "null");
 }
 
-TEST_F(CurveOfARun, HasTheGenerationsInWhichTheBestRose) {
+TEST_F(CurveOfARun, HasTheGenerationsInWhichTheBestChanged) {
   for (const double best : {0.5, 0.5, 1.25, 1.0}) run_.grow(best);
-  EXPECT_EQ(now(), R"({"last":3,"steps":[[0,0.5],[2,1.25]]})");
+  EXPECT_EQ(now(), R"({"last":3,"steps":[[0,0.5],[2,1.25],[3,1.0]]})");
   run_.grow(2.5);
-  EXPECT_EQ(now(), R"({"last":4,"steps":[[0,0.5],[2,1.25],[4,2.5]]})") << "it reads on";
+  EXPECT_EQ(now(), R"({"last":4,"steps":[[0,0.5],[2,1.25],[3,1.0],[4,2.5]]})") << "it reads on";
 }
 
 TEST_F(CurveOfARun, BeginsAnewWithATableThatWasCutBack) {

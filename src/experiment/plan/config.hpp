@@ -69,7 +69,7 @@ struct Config {
   std::string robot;             ///< path of a robot file (TOML side file, or robot.json of a run folder)
   double drop_m = 0.0;           ///< height above the start pose at which every trial starts, 0 … 1
   std::string engine = "ode";    ///< one of physics::engine_names()
-  io::OwnSettings engine_own;    ///< an engine that a program or a plugin has added
+  io::OwnSettings engine_own;    ///< settings of an engine that has its own
   std::vector<std::string> referees;  ///< other engines in which each new champion is tried again
   std::int64_t seed = 1;              ///< seed of all randomness, 0 … largest_seed
   int generations = 800;              ///< to be evaluated, the initial one included, 1 … most_generations

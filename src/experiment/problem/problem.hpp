@@ -29,8 +29,8 @@ struct Config;
 /// Everything that maps a genome to a trajectory: robot, engine, architecture, trial. Const, shared by all
 /// workers.
 ///
-/// Members may be read; those that belong together are changed by the functions below. One that throws may
-/// have changed some of them: what is left is good for nothing but destruction and assignment.
+/// Members may be read; those that belong together are changed by the functions below. Of these complete()
+/// may have changed some when it throws; the others leave all as it was.
 struct Problem {
   robot::RobotSpec robot;  ///< intact, with the gravity and friction of the ground, as high as trials start
   std::string engine;      ///< one of physics::engine_names()

@@ -17,7 +17,7 @@ double number(const io::OwnSettings& own, const char* name) {
 }  // namespace
 
 Variant Variant::of(const io::OwnSettings& own) {
-  return {.quick_sweeps = static_cast<int>(std::lround(number(own, "quick_sweeps"))),
+  return {.quick_sweeps = static_cast<int>(std::ceil(number(own, "quick_sweeps"))),
           .friction_n = number(own, "friction_n"),
           .foot_erp = number(own, "foot_erp"),
           .foot_cfm_s_per_kg = number(own, "foot_cfm_s_per_kg")};

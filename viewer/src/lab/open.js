@@ -45,6 +45,7 @@ export class Files {
   async openRobot(text, champion) {
     const { lab } = this, facts = await lab.facts(text);
     if (!facts.legs.length) throw new Error("its robot has no legs");
+    if (!lab.mayLeave()) return undefined;
     lab.anew();
     this.addRobot(facts, text);
     lab.form.set({ ...lab.form.values(), robot: "own" });
@@ -55,7 +56,7 @@ export class Files {
     lab.best = { text, generation: JSON.parse(text).generation };
     await lab.stage.show(text, "From the file");
     lab.stage.random = true;
-    lab.refresh();
+    return lab.refresh();
   }
 
   addRobot(facts, text, gravity = 1) {
@@ -67,6 +68,7 @@ export class Files {
   async openRun({ files, plan, table, memory, robot }) {
     const { lab } = this, facts = await lab.facts(robot), settings = { ...DEFAULTS, ...WORLD, ...memory.settings, robot: "own" };
     const history = historyOf(table, memory.history);
+    if (!lab.mayLeave()) return;
     lab.anew();
     this.addRobot(facts, robot, settings.gravity);
     lab.form.set(settings);

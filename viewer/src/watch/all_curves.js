@@ -6,10 +6,10 @@ import { Picture, line, write, writeLines } from "../lab/picture.js";
 const LEFT = 54, RIGHT = 12, TOP = 12, AXIS = 24, AGAIN_MS = 10_000, MEDIAN_OF = 3, POINTS = 120, NEAR_PX = 30;
 const LOOKS = Array.from({ length: 8 }, (_, i) => `--c${i}`);
 
-/** The runs of one condition have the same name but for a number at the end: "runs/supg-novelty-007" is of "supg-novelty". */
+/** The runs of one condition have the same name but for a number at the end: "runs/supg-novelty-007" is of "supg-novelty", "supg/7" of "supg". */
 export const conditionOf = (id) => {
-  const name = id.replace(/^.*\//, "");
-  return name.replace(/[-_.]?\d+$/, "") || name;
+  const parts = id.split("/"), name = parts.at(-1).replace(/[-_.]?\d+$/, "");
+  return name || (parts.length > 1 ? parts.slice(0, -1).join("/") : id);
 };
 
 /** The best so far of a run after a generation; undefined where it has not got there. */
@@ -91,7 +91,7 @@ export class AllCurves {
 
   scale(width, height) {
     const all = [...this.runs.values()], most = Math.max(10, ...all.map(({ last }) => last)), base = height - AXIS;
-    const axis = niceAxis(0, Math.max(0.1, ...all.map(({ steps }) => steps.at(-1)[1])), 5);
+    const axis = niceAxis(0, Math.max(0.1, ...all.flatMap(({ steps }) => steps.map(([, best]) => best))), 5);
     return { most, base, axis, x: (generation) => LEFT + (generation / most) * (width - LEFT - RIGHT),
              y: (value) => base - ((value - axis.lower) / (axis.upper - axis.lower)) * (base - TOP) };
   }
