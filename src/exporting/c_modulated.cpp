@@ -255,7 +255,7 @@ void add_load_feedback(const SupgTables::Modulation& modulation, CText& text) {
 
 /// By how much a leg's timer grows, as an expression of C.
 std::string c_growth(const SupgTables::Modulation& modulation) {
-  const std::string grown = modulation.rates_on ? "growth(sensed[leg], leg)" : "tick_parts";
+  std::string grown = modulation.rates_on ? "growth(sensed[leg], leg)" : "tick_parts";
   if (modulation.load_feedback <= 0.0f) return grown;
   return "held(" + grown + ", state->timer[leg], sensed[leg][sensor_count])";
 }

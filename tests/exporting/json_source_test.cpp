@@ -77,8 +77,8 @@ TEST(JsonSource, HasWhatHoldsTimersByTheLoadOfTheirFeet) {
   EXPECT_EQ(load["strength"], 4.0);
   EXPECT_EQ(load["loads"].size(), json["controller"]["legs"].size());
   EXPECT_EQ(load["loads"][1]["reads"], "load." + json["controller"]["legs"][1].get<std::string>());
-  const int period = json["controller"]["supg"]["period_ticks"];
-  ASSERT_EQ(load["cosines"].size(), static_cast<std::size_t>(period + 1));
+  const std::size_t period = json["controller"]["supg"]["period_ticks"];
+  ASSERT_EQ(load["cosines"].size(), period + 1);
   EXPECT_EQ(load["cosines"][0], 1.0);
   EXPECT_NEAR(load["cosines"][period / 2].get<double>(), -1.0, 1e-6);
 }
