@@ -1,9 +1,6 @@
 #include "amble/watch/curves.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <optional>
 #include <string_view>
 
 #include "amble/core/index.hpp"
@@ -15,13 +12,6 @@ namespace {
 
 constexpr std::size_t most_steps = 200;
 constexpr double most_generations = 1e9;
-
-std::optional<double> number(std::string_view text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
 
 }  // namespace
 
@@ -47,7 +37,7 @@ void Curve::read(const std::string& line) {
     return;
   }
   if (std::max(generation_at_, best_at_) >= cells.size()) return;
-  const auto generation = number(cells[generation_at_]), best = number(cells[best_at_]);
+  const auto generation = number_in(cells[generation_at_]), best = number_in(cells[best_at_]);
   if (!generation || !(*generation >= 0.0 && *generation <= most_generations)) return;
   last_ = static_cast<int>(*generation);
   if (best && (steps_.empty() || *best != steps_.back().best)) steps_.push_back({last_, *best});

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -29,11 +28,7 @@ std::optional<double> cell(const std::vector<std::string_view>& header, std::str
   const auto place = to_index(std::ranges::find(header, column) - header.begin());
   const auto cells = io::split(line, ',');
   if (place >= header.size() || place >= cells.size()) return std::nullopt;
-  double value = 0.0;
-  const auto text = cells[place];
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
+  return number_in(cells[place]);
 }
 
 /// The whole lines of the end of a table, without its header.

@@ -5,7 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstddef>
+#include <system_error>
 
 namespace amble::watch {
 namespace {
@@ -37,6 +40,13 @@ std::string read_part(const std::filesystem::path& path, std::uint64_t from, std
   ::close(fd);
   bytes.resize(count);
   return bytes;
+}
+
+std::optional<double> number_in(std::string_view cell) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
 }
 
 TableTail::Growth TableTail::poll() {

@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace amble::watch {
@@ -21,6 +23,9 @@ struct FileMark {
 
 /// Bytes `from` … of a file, at most `most` of them; fewer, or none, where it ends or cannot be read.
 std::string read_part(const std::filesystem::path& path, std::uint64_t from, std::uint64_t most);
+
+/// The number in a table's cell; nothing if it is none, or not finite.
+std::optional<double> number_in(std::string_view cell);
 
 /// Follows a table to which another process appends lines, by whole lines.
 class TableTail {

@@ -386,14 +386,10 @@ double phase_under(double feedback, float share, int ticks, bool lifted_then) {
   const float weight_n = 1.0f / leg_loads(settings.modulation, {}, quadruped(), timestep_s)[0].gain;
   LaneArray targets(joints, 1);
   std::vector<float> state(2 * legs);
-  for (int tick = 0; tick < ticks; ++tick) {
-    sensors.foot_load_n.set_lane(0, share * weight_n);
-    batch.step(sensors, targets);
-  }
-  for (int tick = 0; tick < period && lifted_then; ++tick) {
-    sensors.foot_load_n.set_lane(0, 0.0f);
-    batch.step(sensors, targets);
-  }
+  sensors.foot_load_n.set_lane(0, share * weight_n);
+  for (int tick = 0; tick < ticks; ++tick) batch.step(sensors, targets);
+  sensors.foot_load_n.set_lane(0, 0.0f);
+  for (int tick = 0; tick < period && lifted_then; ++tick) batch.step(sensors, targets);
   batch.state(0, state);
   return static_cast<double>(state[0]) / period;
 }

@@ -1,9 +1,10 @@
 // The curves of a run, generation by generation, over its species as stacked bands; runs before it as thin lines.
-import { niceAxis, niceStep, number } from "../plot.js";
-import { colour, element, svgElement } from "../theme.js";
+import { niceAxis, number } from "../plot.js";
+import { colour, element } from "../theme.js";
+import { AXIS, LEFT, RIGHT, TOP, lineKey, paintGenerations, paintLevels } from "./axes.js";
 import { Picture, line, write, writeLines } from "./picture.js";
 
-const LEFT = 54, RIGHT = 12, TOP = 12, AXIS = 24, BANDS = 64, GAP = 24;
+const BANDS = 64, GAP = 24;
 // Runs before, the latest first: colour and dashes.
 const OLD = [["--c5", [7, 3]], ["--c3", [2, 3]], ["--c6", [9, 3, 2, 3]]];
 const LINES = [["best so far", (row) => row.best_so_far, "--ink", 2.4, []], ["best of the generation", ({ best }) => best, "--c1", 1, []],
@@ -53,8 +54,8 @@ export class Curve {
 
   showKeys() {
     const ends = ({ name, history }) => `before: ${name}, ${number(history.at(-1).best_so_far, 1)} m (typically ${number(history.at(-1).typical, 1)} m)`;
-    this.keys.replaceChildren(...LINES.map(([text, , ...look]) => key(text, ...look)),
-                              ...this.before.map((run, i) => key(ends(run), OLD[i][0], 1.8, OLD[i][1])));
+    this.keys.replaceChildren(...LINES.map(([text, , ...look]) => lineKey(text, ...look)),
+                              ...this.before.map((run, i) => lineKey(ends(run), OLD[i][0], 1.8, OLD[i][1])));
   }
 
   paint(context, width, height) {
@@ -67,25 +68,16 @@ export class Curve {
     const { lower, upper, ticks, text } = niceAxis(0, highest, 5);
     const y = (value) => base - ((value - lower) / (upper - lower)) * (base - TOP);
     const empty = runs.every((run) => run.length === 0);
-    for (const tick of empty ? [lower] : ticks) {
-      line(context, [[LEFT, y(tick)], [width - RIGHT, y(tick)]], "--hair", 1);
-      write(context, tick === ticks.at(-1) ? text(tick) + this.unit : text(tick), LEFT - 8, y(tick), { align: "right", size: 11.5 });
-    }
+    if (!empty) paintLevels(context, ticks, { text, unit: this.unit, y, width });
+    else paintLevels(context, [lower], { text, unit: "", y, width });
     if (empty) writeLines(context, this.hint, (LEFT + width - RIGHT) / 2, base / 2, width - LEFT - RIGHT, { align: "center", size: 14 });
     const curve = (run, value, css, thick, dash) => line(context, run.map((row) => [x(row.generation), y(value(row))]), css, thick, dash);
     for (const generation of this.marks) this.paintMark(context, x(generation), base, width);
     before.forEach((run, i) => curve(run.history, (row) => row.best_so_far, OLD[i][0], 1.8, OLD[i][1]));
     for (const [, ...look] of [...LINES].reverse()) curve(history, ...look);
     for (const [value, css] of [[(row) => row.best_so_far, "--ink"], [(row) => row.median, "--c0"]]) this.paintEnd(context, x, y, value, css);
-    this.paintGenerations(context, x, base + 12, most, width);
+    paintGenerations(context, x, base + 12, most, width);
     if (bands) this.paintSpecies(context, x, base + GAP + 8, width);
-  }
-
-  paintGenerations(context, x, y, most, width) {
-    const step = Math.max(1, niceStep(most, width < 500 ? 4 : 8));
-    write(context, "generation 0", LEFT - 8, y, { size: 11.5 });
-    for (let at = step; at <= most; at += step)
-      if (x(at) > LEFT + 84) write(context, String(at), Math.min(x(at), width - RIGHT - 8), y, { align: "center", size: 11.5 });
   }
 
   /** The world changed. */
@@ -122,10 +114,4 @@ export class Curve {
     context.globalAlpha = 1;
     write(context, "species", LEFT - 8, top + high / 2, { align: "right", size: 11 });
   }
-}
-
-/** A line as in the picture, and what it is. */
-function key(text, css, thick, dash) {
-  const shown = svgElement("line", { x1: 1, y1: 5, x2: 27, y2: 5, stroke: `var(${css})`, "stroke-width": Math.max(thick, 1.4), "stroke-dasharray": dash.join(" "), "stroke-linecap": "round" });
-  return element("span", { class: "line-key" }, svgElement("svg", { width: 28, height: 10, "aria-hidden": "true" }, shown), text);
 }

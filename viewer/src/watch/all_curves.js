@@ -1,9 +1,10 @@
 // How far the best of every run has got, over the generations: a thin line for each run, a thick one for the median of each condition.
-import { niceAxis, niceStep, number } from "../plot.js";
-import { element, svgElement } from "../theme.js";
-import { Picture, line, write, writeLines } from "../lab/picture.js";
+import { niceAxis, number } from "../plot.js";
+import { element } from "../theme.js";
+import { AXIS, LEFT, RIGHT, TOP, lineKey, paintGenerations, paintLevels } from "../lab/axes.js";
+import { Picture, line, writeLines } from "../lab/picture.js";
 
-const LEFT = 54, RIGHT = 12, TOP = 12, AXIS = 24, AGAIN_MS = 10_000, MEDIAN_OF = 3, POINTS = 120, NEAR_PX = 30;
+const AGAIN_MS = 10_000, MEDIAN_OF = 3, POINTS = 120, NEAR_PX = 30;
 const LOOKS = Array.from({ length: 8 }, (_, i) => `--c${i}`);
 
 /** The runs of one condition have the same name but for a number at the end: "runs/supg-novelty-007" is of "supg-novelty", "supg/7" of "supg". */
@@ -75,6 +76,7 @@ export class AllCurves {
   }
 
   mark(id, unit) {
+    if (id === this.chosen && unit === this.unit) return;
     Object.assign(this, { chosen: id, unit });
     this.picture.repaint();
   }
@@ -99,14 +101,8 @@ export class AllCurves {
   paint(context, width, height) {
     const { most, base, axis, x, y } = this.scale(width, height);
     if (!this.runs.size) return writeLines(context, "No run has a generation yet.", width / 2, base / 2, width - LEFT - RIGHT, { align: "center", size: 14 });
-    for (const tick of axis.ticks) {
-      line(context, [[LEFT, y(tick)], [width - RIGHT, y(tick)]], "--hair", 1);
-      write(context, tick === axis.ticks.at(-1) ? axis.text(tick) + this.unit : axis.text(tick), LEFT - 8, y(tick), { align: "right", size: 11.5 });
-    }
-    write(context, "generation 0", LEFT - 8, base + 12, { size: 11.5 });
-    const step = Math.max(1, niceStep(most, width < 500 ? 4 : 8));
-    for (let at = step; at <= most; at += step)
-      if (x(at) > LEFT + 84) write(context, String(at), Math.min(x(at), width - RIGHT - 8), base + 12, { align: "center", size: 11.5 });
+    paintLevels(context, axis.ticks, { text: axis.text, unit: this.unit, y, width });
+    paintGenerations(context, x, base + 12, most, width);
     const stairs = ({ last, steps }) => steps.flatMap(([at, best], i) => [[x(at), y(best)], [x(steps[i + 1]?.[0] ?? last), y(best)]]);
     context.globalAlpha = this.conditions.some(({ median: points }) => points.length) ? 0.35 : 0.8;
     for (const { runs, css, dash } of this.conditions) for (const run of runs) line(context, stairs(run), css, 1, dash);
@@ -129,8 +125,6 @@ export class AllCurves {
   }
 
   key({ name, runs, css, dash }) {
-    const shown = svgElement("line", { x1: 1, y1: 5, x2: 27, y2: 5, stroke: `var(${css})`, "stroke-width": 2.6, "stroke-dasharray": dash.join(" "), "stroke-linecap": "round" });
-    const many = runs.length >= MEDIAN_OF ? `, median of ${runs.length}` : "";
-    return element("span", { class: "line-key" }, svgElement("svg", { width: 28, height: 10, "aria-hidden": "true" }, shown), name + many);
+    return lineKey(name + (runs.length >= MEDIAN_OF ? `, median of ${runs.length}` : ""), css, 2.6, dash);
   }
 }
