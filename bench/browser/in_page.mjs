@@ -37,7 +37,7 @@ const live = ({ url, seconds }) => inFrame(url, async (page) => {
   await until("its time is over", () => performance.now() - begin_ms > 1000 * seconds);
   await fetch("/clock?end");
   const passed_s = (performance.now() - begin_ms) / 1000;
-  return { frames_s: frames / passed_s, busy_share: busy_ms / 1000 / passed_s, speed: (page.amble.time() - from_s) / passed_s, picture: !page.document.querySelector(".no-stage") };
+  return { frames_s: frames / passed_s, busy_share: busy_ms / 1000 / passed_s, speed: (page.amble.time() - from_s) / passed_s };
 });
 
 /** A run of the lab with its first settings until its best so far has walked so many metres: robot-steps up to there, and seconds. */

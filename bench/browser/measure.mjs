@@ -68,7 +68,7 @@ async function livePages(browsers) {
     await pageRow(browsers, `${robots[i]}, live: frames/s; of a core, the page's own thread; all of the browser's processes`, async ({ browser }) => {
       const told = await browser.run("live", { url: `/pages/${robots[i]}.html#live`, seconds: LIVE_S });
       const [before_s, after_s] = browser.clock.splice(0);
-      return `${one(told.frames_s)}; ${percent(told.busy_share)}; ${percent((after_s - before_s) / LIVE_S)}${told.picture ? "" : " (no 3-D picture)"}`;
+      return `${one(told.frames_s)}; ${percent(told.busy_share)}; ${percent((after_s - before_s) / LIVE_S)}`;
     });
   }
 }

@@ -26,7 +26,7 @@ const BROWSERS = {
              prepare: (profile) => writeFileSync(join(profile, "user.js"), Object.entries(PREFERENCES).map(([name, value]) => `user_pref("${name}", ${JSON.stringify(value)});\n`).join("")) },
   chromium: { programs: ["chromium", "chromium-browser"], variable: "CHROMIUM",
               words: (profile, url) => ["--headless", "--no-sandbox", "--disable-dev-shm-usage", "--no-first-run", "--disable-background-networking", "--disable-component-update",
-                                        "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=1280,800", `--user-data-dir=${profile}`, url],
+                                        "--disable-gpu-compositing", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=1280,800", `--user-data-dir=${profile}`, url],
               prepare: () => {} },
 };
 

@@ -294,15 +294,33 @@ test("champions of two kinds are side by side, each with its own CPPN and diagra
     assert.notEqual((await pictureOf(page)).hash, first.hash);
   }));
 
-test("without WebGL the page says so, and its diagrams work", async () => {
-  const without = await launch({ gl: false });
+/** The stage's pixels, as they are: {width, data}. */
+const pixels = (page) => page.evaluate(() => {
+  window.amble.render();
+  const stage = document.querySelector("#stage canvas"), copy = document.createElement("canvas");
+  [copy.width, copy.height] = [stage.width, stage.height];
+  copy.getContext("2d").drawImage(stage, 0, 0);
+  return { width: copy.width, data: [...copy.getContext("2d").getImageData(0, 0, copy.width, copy.height).data] };
+});
+
+test("without WebGL the picture is drawn in outlines, like that of WebGL, and moves with the diagrams", async () => {
+  const path = makePage("walk5.html", recording("walk.rec")), without = await launch({ gl: false });
   try {
-    const { page } = await open(without, makePage("walk5.html", recording("walk.rec")));
-    assert.match(await page.locator("#stage").textContent(), /no WebGL/);
+    const [{ page: solid }, { page, problems }] = [await open(browser, path, { at_s: 0.5 }), await open(without, path, { at_s: 0.5 })];
+    const [one, other] = [await pixels(solid), await pixels(page)];
+    assert.deepEqual([one.width, one.data.length], [other.width, other.data.length]);
+    const apart = one.data.map((value, i) => Math.abs(value - other.data[i]));
+    const mean = apart.reduce((sum, value) => sum + value, 0) / apart.length, far = apart.filter((value) => value > 60).length / apart.length;
+    assert.ok(mean < 3 && far < 0.01, `mean difference ${mean} of 255, ${far} of the values over 60`);
+    assert.ok((await pictureOf(page)).colours > 100);
+    assert.equal(await page.evaluate(() => window.amble.drawnAs()), "outlines");
+    const before = await pictureOf(page);
     await page.keyboard.press("Shift+ArrowRight");
+    assert.notEqual((await pictureOf(page)).hash, before.hash);
     const moved = await page.evaluate(() => { window.amble.render(); return document.querySelector(".cursor").style.transform; });
     assert.notEqual(moved, "translateX(72.00px)");
-    await page.close();
+    assert.deepEqual(problems.filter((problem) => !/WebGL/.test(problem)), []);
+    await Promise.all([page.close(), solid.close()]);
   } finally {
     await without.close();
   }

@@ -1,8 +1,10 @@
 // Parts of the page's program that need no browser.
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { BoxGeometry, SphereGeometry } from "../../viewer/node_modules/three/build/three.module.js";
 import { makePatch } from "../../viewer/make-patch.mjs";
 import { patched } from "../../viewer/src/patch.js";
+import { clipNear, cornersOf, hullOf } from "../../viewer/src/outlines.js";
 import { niceAxis } from "../../viewer/src/plot.js";
 import { rates, wantedPath } from "../../viewer/src/told_path.js";
 import { footfalls, runs } from "../../viewer/src/walk.js";
@@ -153,4 +155,27 @@ test("the best so far after a generation is that of the last step, as far as the
   assert.deepEqual([0, 2, 3, 6, 7, 9, 10].map((at) => bestAfter(run, at)), [0.5, 0.5, 1, 1, 2, 2, undefined]);
   assert.equal(median([3, 1, 2]), 2);
   assert.equal(median([4, 1, 2, 3]), 2.5);
+});
+
+test("a hull is what a rubber band would be, always the same way around", () => {
+  const square = [[0, 0], [2, 0], [2, 2], [0, 2]], inside = [[1, 1], [0.5, 1.5], [1, 0], [2, 1]];
+  for (const points of [[...square, ...inside], [...inside, ...square].reverse()]) {
+    const hull = hullOf(points.map((point) => [...point]));
+    assert.deepEqual([...hull].sort(), [...square].sort());
+    const area = hull.reduce((sum, [x, y], i) => sum + x * hull[(i + 1) % 4][1] - y * hull[(i + 1) % 4][0], 0) / 2;
+    assert.equal(area, 4);
+  }
+});
+
+test("corners are a box's eight, and a ball's outline to a twentieth", () => {
+  const box = cornersOf(new BoxGeometry(0.2, 3, 0.05));
+  assert.equal(new Set(box.map((corner) => corner.toArray().map((value) => value.toFixed(4)).join())).size, 8);
+  const ball = hullOf(cornersOf(new SphereGeometry(1, 24, 16)).map(({ x, z }) => [x, z]));
+  const area = ball.reduce((sum, [x, y], i) => sum + x * ball[(i + 1) % ball.length][1] - y * ball[(i + 1) % ball.length][0], 0) / 2;
+  assert.ok(area > 0.95 * Math.PI && area <= Math.PI, `${area}`);
+});
+
+test("what lies behind the eye is cut off where it crosses", () => {
+  assert.deepEqual(clipNear([[0, 0, 1], [4, 0, 1], [4, 0, -1], [0, 0, -1]], 0), [[0, 0, 0], [0, 0, 1], [4, 0, 1], [4, 0, 0]]);
+  assert.deepEqual(clipNear([[0, 0, -1], [1, 0, -1], [1, 1, -2]], 0.1), []);
 });

@@ -9,11 +9,11 @@ export class Drag {
   constructor(stage, live) {
     Object.assign(this, { stage, live, ray: new Raycaster(), plane: new Plane(), to: new Vector3() });
     this.makeArrow();
-    const { canvas } = stage;
-    // Before the camera's controls, which listen on the canvas itself, hear of it.
-    canvas.parentElement.addEventListener("pointerdown", (event) => this.begin(event), { capture: true });
-    canvas.addEventListener("pointermove", (event) => this.isHeldBy(event) && this.move(event));
-    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (event) => this.isHeldBy(event) && this.end());
+    const { picture } = stage;
+    // Before the camera's controls, which listen on the picture itself, hear of it.
+    picture.parentElement.addEventListener("pointerdown", (event) => this.begin(event), { capture: true });
+    picture.addEventListener("pointermove", (event) => this.isHeldBy(event) && this.move(event));
+    for (const end of ["pointerup", "pointercancel"]) picture.addEventListener(end, (event) => this.isHeldBy(event) && this.end());
   }
 
   /** Along y, one long, from the origin; seen through whatever is before it. */
@@ -30,13 +30,13 @@ export class Drag {
   }
 
   aim(event) {
-    const box = this.stage.canvas.getBoundingClientRect();
+    const box = this.stage.picture.getBoundingClientRect();
     const at = new Vector2((2 * (event.clientX - box.left)) / box.width - 1, 1 - (2 * (event.clientY - box.top)) / box.height);
     this.ray.setFromCamera(at, this.stage.camera);
   }
 
   begin(event) {
-    if (event.button !== 0 || event.target !== this.stage.canvas || this.held) return; // one finger drags
+    if (event.button !== 0 || !this.stage.picture.contains(event.target) || this.held) return; // one finger drags
     this.aim(event);
     const { group, model } = this.stage.lanes[0];
     const [hit] = this.ray.intersectObjects(model.parts.map(({ mesh }) => mesh).filter((mesh) => mesh.visible), false);
@@ -44,7 +44,7 @@ export class Drag {
     const { clock } = this.live;
     if (clock.time_s < clock.duration_s) clock.seek(clock.duration_s); // what is past cannot be pushed
     this.stage.controls.enabled = false;
-    this.stage.canvas.setPointerCapture(event.pointerId);
+    this.stage.picture.setPointerCapture(event.pointerId);
     this.plane.setFromNormalAndCoplanarPoint(this.stage.camera.getWorldDirection(new Vector3()), hit.point);
     // Where the body was grasped, as seen from the middle of the trunk, which is what the force acts on.
     this.grasp = hit.point.clone().sub(group.position).sub(model.root.position);

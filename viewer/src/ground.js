@@ -3,6 +3,7 @@ import {
   BufferAttribute, BufferGeometry, CanvasTexture, Group, Mesh, MeshBasicMaterial, PlaneGeometry, ShadowMaterial,
   SRGBColorSpace,
 } from "three";
+import { drawAs } from "./drawing.js";
 import { heightAt } from "./heights.js";
 import { colour } from "./theme.js";
 
@@ -21,10 +22,10 @@ export class Ground {
     this.step_m = markStep(reach_m);
     this.group = new Group();
     const extent = LINES * this.step_m;
-    this.plane = new Mesh(new PlaneGeometry(8 * extent, 8 * extent), new MeshBasicMaterial({ depthWrite: false }));
-    this.shadow = new Mesh(new PlaneGeometry(2 * extent, 2 * extent), new ShadowMaterial({ opacity: 0.2, depthWrite: false }));
+    this.plane = drawAs(new Mesh(new PlaneGeometry(8 * extent, 8 * extent), new MeshBasicMaterial({ depthWrite: false })), "floor");
+    this.shadow = drawAs(new Mesh(new PlaneGeometry(2 * extent, 2 * extent), new ShadowMaterial({ opacity: 0.2, depthWrite: false })), "shadow");
     this.shadow.receiveShadow = true;
-    this.lines = new Mesh(gridGeometry(this.step_m, extent), new MeshBasicMaterial({ depthWrite: false }));
+    this.lines = drawAs(new Mesh(gridGeometry(this.step_m, extent), new MeshBasicMaterial({ depthWrite: false })), "lines");
     this.labels = Array.from({ length: 2 * LABELS + 1 }, () => this.makeLabel());
     this.textures = new Map();
     this.group.add(this.plane, this.shadow, this.lines, ...this.labels);
@@ -35,8 +36,7 @@ export class Ground {
 
   makeLabel() {
     const material = new MeshBasicMaterial({ transparent: true, depthWrite: false });
-    const label = new Mesh(new PlaneGeometry(0.5 * this.step_m, 0.25 * this.step_m), material);
-    return label;
+    return drawAs(new Mesh(new PlaneGeometry(0.5 * this.step_m, 0.25 * this.step_m), material), "label");
   }
 
   /** Numbers at whole marks, so that the pictures of all are few. */
@@ -113,8 +113,8 @@ export class Trail {
     this.extend();
     const geometry = () => new BufferGeometry().setAttribute("position", this.points).setIndex(indices);
     const material = (opacity) => new MeshBasicMaterial({ transparent: true, opacity, depthWrite: false, side: 2 });
-    this.past = new Mesh(geometry(), material(0.75));
-    this.whole = new Mesh(geometry(), material(0.16));
+    this.past = drawAs(new Mesh(geometry(), material(0.75)), "ribbon");
+    this.whole = drawAs(new Mesh(geometry(), material(0.16)), "ribbon");
     this.past.frustumCulled = this.whole.frustumCulled = false;
     this.group = new Group();
     this.group.add(this.whole, this.past);

@@ -52,7 +52,7 @@ export class Live {
     document.getElementById("subtitle").after(this.told);
     if (walk.description.commands) this.steer = new Steer(this);
     this.panel = new LivePanel(document.getElementById("live"), this, "");
-    if (page.stage) this.drag = new Drag(page.stage, this);
+    this.drag = new Drag(page.stage, this);
     page.live = this;
     this.changed();
     setTimeout(() => this.compare(), 300);
@@ -74,7 +74,7 @@ export class Live {
 
   /** Ground, gravity or body are others. */
   changed() {
-    this.page.stage?.renew(0, this.panel?.missingLegs() ?? []);
+    this.page.stage.renew(0, this.panel?.missingLegs() ?? []);
     this.page.invalidate();
   }
 

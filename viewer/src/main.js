@@ -50,7 +50,8 @@ const publicApi = (page) => ({
   render: () => page.show(),
   /** How long the last frames took to compute and draw, ms. */
   frames: () => page.frames,
-  hasStage: () => page.stage !== null,
+  /** What has drawn the picture that is shown: "solid" (WebGL) or "outlines". */
+  drawnAs: () => page.stage.drawnAs(),
   /** For a walker that is simulated (null: it is recorded): its LiveRobot, and simulating so many seconds at once. */
   live: () => page.live?.walk.live ?? null,
   simulate: (seconds) => page.clock.seek((page.clock.duration_s = page.clock.more(page.clock.duration_s + seconds))),

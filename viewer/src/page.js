@@ -11,6 +11,7 @@ const SPANS_S = [2, 5, 15, 60];
 const SLOW_S = 0.07, SLOW_FRAMES = 40; // frames so far apart, so many of them, are too much for the machine
 const FEW = 4; // walkers whose names stand in the picture, and whose stories fit above it
 const FOLDED = 12; // more than so many are in a list that is closed at first
+const PICTURES_A_DIAGRAM = 4; // where processors draw
 const FRAMES_KEPT = 2000; // of their times, for amble.frames()
 const byId = (id) => document.getElementById(id);
 
@@ -62,20 +63,7 @@ export class Page {
   }
 
   makeStage() {
-    try {
-      this.stage = new Stage(byId("stage"), this.walks, () => this.invalidate());
-      this.stage.canvas.addEventListener("webglcontextlost", () => this.noStage("The browser took the 3-D picture away."));
-    } catch (error) {
-      console.info(error.message);
-      this.noStage("This browser shows no 3-D pictures (no WebGL). The diagrams work without.");
-    }
-  }
-  noStage(text) {
-    this.stage?.canvas.remove();
-    this.stage?.paper.remove();
-    this.stage = null;
-    byId("stage").append(element("p", { class: "no-stage" }, text));
-    byId("views").hidden = true;
+    this.stage = new Stage(byId("stage"), this.walks, () => this.invalidate());
   }
 
   makeViews() {
@@ -115,7 +103,7 @@ export class Page {
   select(i) {
     if (i >= this.walks.length) return;
     this.selected = i;
-    this.stage?.arrange(this.layout === "side", i);
+    this.stage.arrange(this.layout === "side", i);
     this.walkerChoice?.choose(i);
     if (this.walks.length > FEW) byId("subtitle").textContent = story(this.walks[i], true);
     this.analysis.select(i);
@@ -131,27 +119,27 @@ export class Page {
   }
   setCamera(mode) {
     this.camera = mode;
-    this.stage?.setMode(mode);
+    this.stage.setMode(mode);
     this.cameraChoice.choose(mode);
   }
   setLayout(layout) {
     if (this.walks.length === 1) return;
     this.layout = layout;
     this.layoutChoice.choose(layout);
-    this.stage?.arrange(layout === "side", this.selected);
+    this.stage.arrange(layout === "side", this.selected);
     this.resetCamera();
   }
   resetCamera() {
-    this.stage?.resetCamera();
+    this.stage.resetCamera();
     this.invalidate();
   }
 
   repaint() {
-    this.stage?.paint();
+    this.stage.paint();
     this.overview.repaint();
     this.analysis.repaint();
     this.show();
-    if (matchMedia("print").matches) this.stage?.copyToPaper();
+    if (matchMedia("print").matches) this.stage.copyToPaper();
   }
 
   /** Asks for a frame; many changes before it make one. */
@@ -163,35 +151,38 @@ export class Page {
 
   frame(now_ms) {
     this.asked = false;
-    if (this.clock.playing && this.stage?.rests(now_ms)) return this.invalidate();
     this.live?.update(now_ms);
     if (this.clock.playing && this.last_ms !== undefined) {
       const passed_s = (now_ms - this.last_ms) / 1000;
       this.clock.advance(Math.min(passed_s, 0.25));
       this.slow = passed_s > SLOW_S ? (this.slow ?? 0) + 1 : 0;
-      if (this.slow === SLOW_FRAMES) this.stage?.simplify();
+      if (this.slow === SLOW_FRAMES) this.stage.simplify();
     }
     this.last_ms = this.clock.playing ? now_ms : undefined;
-    this.show();
+    this.show(this.clock.playing);
     if (this.clock.playing) this.invalidate();
   }
 
-  /** Brings everything to the clock's time, at once. */
-  show() {
+  /** Brings everything to the clock's time, at once; `moves`: others follow. */
+  show(moves = false) {
     this.showing = true; // what moves the camera here asks for no other frame
     const start_ms = performance.now();
-    if (this.stage) {
-      this.stage.resize();
-      this.stage.show(this.clock.time_s);
-    }
+    this.stage.resize();
+    this.stage.show(this.clock.time_s, moves);
+    // Without a graphics card the diagrams cost as much as the picture.
+    this.skipped = moves && this.stage.slow ? (this.skipped + 1) % PICTURES_A_DIAGRAM : 0;
+    if (this.skipped === 0) this.showDiagrams();
+    this.frames.push(performance.now() - start_ms);
+    if (this.frames.length > FRAMES_KEPT) this.frames.shift();
+    this.showing = false;
+  }
+
+  showDiagrams() {
     this.analysis.show();
     this.overview.show();
     this.showTransport();
     for (const update of this.now) update();
     this.live?.tell();
-    this.frames.push(performance.now() - start_ms);
-    if (this.frames.length > FRAMES_KEPT) this.frames.shift();
-    this.showing = false;
   }
 }
 

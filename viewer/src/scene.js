@@ -3,11 +3,12 @@ import {
   Color, DirectionalLight, Fog, Group, HemisphereLight, PCFShadowMap, PerspectiveCamera, Scene, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { Drawing } from "./drawing.js";
 import { Ground, Trail } from "./ground.js";
 import { heightAt } from "./heights.js";
 import { RobotModel } from "./robot.js";
 import { Terrain } from "./terrain.js";
-import { colour, walkerLineColour } from "./theme.js";
+import { colour, element, walkerLineColour } from "./theme.js";
 
 export const CAMERAS = ["follow", "orbit", "still"];
 const TURN_S = 20; // of the orbiting camera, once around
@@ -30,20 +31,14 @@ function drawnByProcessor(renderer) {
 }
 
 export class Stage {
-  /** Throws if the browser gives no WebGL. */
   constructor(parent, walks, onChange) {
-    this.walks = walks;
-    this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
-    this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = PCFShadowMap;
-    parent.prepend(this.renderer.domElement);
-    this.canvas = this.renderer.domElement;
-    this.canvas.setAttribute("aria-label", "The robot in motion; drag to turn, scroll to come nearer");
-    this.canvas.setAttribute("role", "img");
-    this.parent = parent;
-    this.paper = document.createElement("canvas"); // what printers get: they cannot print WebGL
-    this.paper.className = "paper";
+    Object.assign(this, { parent, walks, onChange });
+    this.picture = element("div", { class: "picture", role: "img", "aria-label": "The robot in motion; drag to turn, scroll to come nearer" });
+    parent.prepend(this.picture);
+    this.paper = element("canvas", { class: "paper" }); // what printers get: they cannot print WebGL
     parent.append(this.paper);
+    this.pixelRatio = 2; // more is not seen
+    this.makeSolid();
 
     this.scene = new Scene();
     this.scene.fog = new Fog("#fff", 1, 2);
@@ -55,17 +50,55 @@ export class Stage {
 
     this.camera = new PerspectiveCamera(32, 1, 0.02 * this.reach, 80 * this.reach);
     this.camera.up.set(...upwards(walks[0].robot));
-    this.onChange = onChange;
     this.makeControls();
-    this.pixelRatio = 2; // more is not seen
-    this.slow = drawnByProcessor(this.renderer);
     this.mode = "follow";
     this.side = true;
     this.selected = 0;
     this.paint();
     this.arrange();
     this.time_s = 0;
+    this.chooseRenderer(false);
     this.resetCamera();
+  }
+
+  /** What draws by WebGL, where the browser has it; `slow` where there is no graphics card for it. */
+  makeSolid() {
+    this.solid = null;
+    this.slow = true;
+    try {
+      this.solid = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    } catch (error) {
+      return console.info(error.message);
+    }
+    this.solid.shadowMap.enabled = true;
+    this.solid.shadowMap.type = PCFShadowMap;
+    this.solid.domElement.addEventListener("webglcontextlost", () => {
+      this.solid = null; // the browser took it away
+      this.slow = true;
+      this.onChange();
+    });
+    this.slow = drawnByProcessor(this.solid);
+  }
+
+  /** What draws the next picture: while it moves, processors draw outlines. */
+  chooseRenderer(moves) {
+    const chosen = this.solid && !(this.slow && moves) ? this.solid : (this.drawing ??= new Drawing());
+    if (chosen === this.renderer) return;
+    this.renderer = chosen;
+    this.picture.replaceChildren(chosen.domElement);
+    this.width = 0; // so that resize() sets the size anew
+    this.resize();
+  }
+
+  drawnAs() {
+    return this.renderer === this.solid ? "solid" : "outlines";
+  }
+
+  /** Takes the picture away. */
+  remove() {
+    this.solid?.dispose();
+    this.picture.remove();
+    this.paper.remove();
   }
 
   addWalker(walk, i) {
@@ -84,7 +117,7 @@ export class Stage {
   makeControls() {
     const target = this.controls?.target;
     this.controls?.dispose();
-    this.controls = new OrbitControls(this.camera, this.canvas);
+    this.controls = new OrbitControls(this.camera, this.picture);
     if (target) this.controls.target.copy(target);
     this.controls.maxPolarAngle = 0.495 * Math.PI;
     this.controls.minDistance = 0.8 * this.reach;
@@ -148,8 +181,9 @@ export class Stage {
 
   /** Keeps the picture for paper. */
   copyToPaper() {
-    [this.paper.width, this.paper.height] = [this.canvas.width, this.canvas.height];
-    this.paper.getContext("2d").drawImage(this.canvas, 0, 0);
+    const { domElement } = this.renderer;
+    [this.paper.width, this.paper.height] = [domElement.width, domElement.height];
+    this.paper.getContext("2d").drawImage(domElement, 0, 0);
   }
 
   /** Where each walker's centre of mass is over the ground at time t, smoothed. */
@@ -232,34 +266,37 @@ export class Stage {
     return [x, y];
   }
 
-  /** While it plays: is it too early for the next picture? Processors draw every 33 ms at most. */
+  /** While it plays, where processors draw and have other work: is it too early for the next picture? */
   rests(now_ms) {
     if (!this.slow) return false;
-    if (!this.simple) this.simplify();
     if (now_ms - (this.drawn_ms ?? -1e9) < 30) return true;
     this.drawn_ms = now_ms;
     return false;
   }
 
-  /** Less to draw, for machines that cannot keep up. */
+  /** Less to draw, for machines that cannot keep up: first without shadows, then outlines. */
   simplify() {
+    this.slow ||= this.simple;
     this.simple = true;
-    this.renderer.shadowMap.enabled = this.sun.castShadow = false;
+    if (this.solid) this.solid.shadowMap.enabled = false;
+    this.sun.castShadow = false;
     this.pixelRatio = 1;
     this.width = 0; // so that resize() sets the size anew
   }
 
   resize() {
     const { clientWidth: width, clientHeight: height } = this.parent;
-    if (width === 0 || height === 0 || (width === this.width && height === this.height)) return;
+    if (!this.renderer || width === 0 || height === 0 || (width === this.width && height === this.height)) return;
     [this.width, this.height] = [width, height];
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, this.pixelRatio));
-    this.renderer.setSize(width, height);
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, this.slow ? 1 : this.pixelRatio));
+    this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
   }
 
-  show(t) {
+  /** The picture at time t; `moves`: others follow. */
+  show(t, moves = false) {
+    this.chooseRenderer(moves);
     this.time_s = t;
     for (const { walk, model, trail, terrain } of this.lanes) {
       model.setPose(walk.pose(t));

@@ -1,5 +1,6 @@
 // Uneven ground around a walker.
 import { BufferAttribute, BufferGeometry, Mesh, MeshLambertMaterial } from "three";
+import { drawAs } from "./drawing.js";
 import { colour } from "./theme.js";
 
 const HALF = 90; // cells to each side of the walker
@@ -21,7 +22,7 @@ export class Terrain {
     this.shades = new BufferAttribute(new Float32Array(3 * side * side), 3);
     const geometry = new BufferGeometry().setAttribute("position", this.points).setAttribute("color", this.shades);
     geometry.setIndex(indices);
-    this.mesh = new Mesh(geometry, new MeshLambertMaterial({ vertexColors: true }));
+    this.mesh = drawAs(new Mesh(geometry, new MeshLambertMaterial({ vertexColors: true })), "patches");
     this.mesh.receiveShadow = true;
     this.mesh.frustumCulled = false;
     this.paint();

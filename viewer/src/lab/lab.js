@@ -38,7 +38,7 @@ export class Lab {
     byId("cells").append(this.map.element);
     this.stage = new LabStage(module, byId("stage"), {
       now: (walk, time_s) => this.showNow(time_s), shown: (walk) => this.showInside(walk),
-      trouble: (error) => this.complain(error.message), noPicture: () => this.noPicture(),
+      trouble: (error) => this.complain(error.message),
     });
     this.footfalls = new Footfalls(byId("footfalls"), this.stage.clock);
     this.files = new Files(this);
@@ -321,10 +321,6 @@ export class Lab {
     this.curve.picture.repaint();
     this.ends.picture.repaint();
   }
-  noPicture() {
-    byId("stage").append(element("p", { class: "no-stage" }, "This browser shows no 3-D pictures (no WebGL). Evolution and diagrams work without."));
-  }
-
   say(text) {
     byId("said").textContent = text;
   }

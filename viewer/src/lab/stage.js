@@ -40,17 +40,9 @@ export class LabStage {
 
   begin(live, title) {
     this.walk = new LiveWalk(live, { title, origin: "", cppn_svg: null });
-    this.stage?.renderer.dispose();
-    this.stage?.canvas.remove();
-    this.stage?.paper.remove();
-    this.stage = null;
-    try {
-      this.stage = new Stage(this.parent, [this.walk], () => this.invalidate());
-      this.drag = new Drag(this.stage, this);
-    } catch (error) {
-      console.info(error.message);
-      this.hear.noPicture();
-    }
+    this.stage?.remove();
+    this.stage = new Stage(this.parent, [this.walk], () => this.invalidate());
+    this.drag = new Drag(this.stage, this);
     this.clock.more = (until_s) => {
       const reached_s = this.walk.advance(Math.min(until_s, this.duration_s));
       return this.walk.outcome === "diverged" ? this.duration_s : reached_s;
@@ -112,7 +104,7 @@ export class LabStage {
     this.showing = true; // what moves the camera here asks for no other frame
     if (this.stage) {
       this.stage.resize();
-      this.stage.show(time_s);
+      this.stage.show(time_s, this.clock.playing);
     }
     this.hear.now(this.walk, time_s);
     this.showing = false;

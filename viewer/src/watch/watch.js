@@ -33,7 +33,7 @@ export class Watch {
     });
     this.stage = new LabStage(module, byId("stage"), {
       now: (walk, time_s) => this.showStory(time_s), shown: (walk) => this.showWalker(walk),
-      trouble: (error) => this.complain(error.message), noPicture: () => this.noPicture(),
+      trouble: (error) => this.complain(error.message),
     });
     this.footfalls = new Footfalls(byId("footfalls"), this.stage.clock);
     this.walk = button("Let it walk", () => (this.stage.clock.playing ? this.stage.clock.pause() : this.stage.clock.play()), { hidden: "" });
@@ -250,9 +250,6 @@ export class Watch {
     this.curve.picture.repaint();
     this.map.picture.repaint();
     this.all.picture.repaint();
-  }
-  noPicture() {
-    byId("stage").append(element("p", { class: "no-stage" }, "This browser shows no 3-D pictures (no WebGL). The diagrams work without."));
   }
   complain(text) {
     byId("trouble").hidden = false;

@@ -1,0 +1,349 @@
+// Draws the scene on a 2-D canvas: every shape is one filled outline, the far ones first. For browsers without WebGL or whose processor draws:
+// an eighth of what WebGL takes there. What it leaves out: shadows on uneven ground, and what is hidden by hills.
+import { BackSide, Color, Matrix4, Vector3 } from "three";
+import { clipNear, cornersOf, hullOf } from "./outlines.js";
+
+const NEAR = 0.05; // of what a picture shows, nothing is nearer, m
+const MANY_TRIANGLES = 300; // a mesh of more is drawn as its convex hull
+const RIBBON_PARTS = 250;
+const TERRAIN_STEP = 3; // cells of the ground that make one patch
+const LEAST_LABEL_PX = 7;
+const PATCHES_LAYER = -6; // over the lines on the floor, under the path
+const ABIT_M = 1e-3;
+const FOG_STOPS = 8;
+
+/** What a mesh is drawn as, if not as a convex shape: floor, lines, ribbon, shadow, label or patches. */
+export function drawAs(mesh, drawn) {
+  mesh.userData.drawn = drawn;
+  return mesh;
+}
+
+export class Drawing {
+  /** With the parts of WebGLRenderer that a Stage uses. */
+  constructor() {
+    this.domElement = document.createElement("canvas");
+    this.ratio = 1;
+    this.known = new WeakMap(); // what is kept for each geometry and image
+    this.colour = new Color();
+    this.toClip = new Matrix4();
+  }
+  setPixelRatio(ratio) {
+    this.ratio = ratio;
+  }
+  setSize(width, height) {
+    Object.assign(this.domElement, { width: Math.round(width * this.ratio), height: Math.round(height * this.ratio) });
+  }
+  dispose() {}
+
+  render(scene, camera) {
+    scene.updateMatrixWorld();
+    camera.updateMatrixWorld();
+    this.paint = this.domElement.getContext("2d", { alpha: false, willReadFrequently: true });
+    this.look(scene, camera);
+    this.paint.globalAlpha = 1;
+    this.paint.fillStyle = scene.background.getStyle();
+    this.paint.fillRect(0, 0, this.domElement.width, this.domElement.height);
+    for (const { mesh } of this.inOrder(scene)) this[`draw_${mesh.userData.drawn ?? "shape"}`](mesh);
+    this.paint.globalAlpha = 1;
+  }
+
+  /** What holds for the whole picture: camera, light, haze. */
+  look(scene, camera) {
+    const { width, height } = this.domElement;
+    Object.assign(this, { half: [width / 2, height / 2], fog: scene.fog, camera });
+    this.toClip.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
+    this.eye = camera.getWorldPosition(new Vector3());
+    const axis = (i) => new Vector3().setFromMatrixColumn(camera.matrixWorld, i).normalize();
+    [this.right, this.up, this.back] = [axis(0), axis(1), axis(2)];
+    const lights = scene.children.filter(({ isLight }) => isLight);
+    this.sky = lights.find(({ isHemisphereLight }) => isHemisphereLight);
+    this.sun = lights.find(({ isDirectionalLight }) => isDirectionalLight);
+    this.toSky = this.sky.getWorldPosition(new Vector3()).normalize();
+    this.toSun = this.sun.getWorldPosition(new Vector3()).sub(this.sun.target.getWorldPosition(new Vector3())).normalize();
+    this.casters = [];
+  }
+
+  /** All that is seen, in layers, the far before the near; an outline before what it surrounds, a ball (a foot) over what it ends. */
+  inOrder(scene) {
+    const seen = [];
+    scene.traverseVisible((mesh) => {
+      if (!mesh.isMesh) return;
+      if (mesh.castShadow) this.casters.push(mesh);
+      const layer = mesh.userData.drawn === "patches" ? PATCHES_LAYER : mesh.renderOrder;
+      seen.push({ mesh, layer, depth: this.depthOfMesh(mesh) });
+    });
+    return seen.sort((a, b) => a.layer - b.layer || b.depth - a.depth);
+  }
+
+  depthOfMesh(mesh) {
+    const { geometry } = mesh, of = (other) => this.depthOf(other.getWorldPosition(new Vector3()));
+    if (mesh.material.side === BackSide) return of(mesh) + ABIT_M;
+    if (geometry.type === "SphereGeometry") return Math.min(...mesh.parent.children.filter(({ isMesh }) => isMesh).map(of)) - ABIT_M;
+    geometry.boundingSphere ?? geometry.computeBoundingSphere();
+    return this.depthOf(geometry.boundingSphere.center.clone().applyMatrix4(mesh.matrixWorld));
+  }
+
+  depthOf(point) {
+    return this.back.dot(this.eye) - this.back.dot(point);
+  }
+
+  /** [x, y, w]: of the picture, in pixels times w, and how far before the eye. */
+  project(point) {
+    const e = this.toClip.elements, { x, y, z } = point, [halfWidth, halfHeight] = this.half;
+    const w = e[3] * x + e[7] * y + e[11] * z + e[15];
+    return [halfWidth * (w + e[0] * x + e[4] * y + e[8] * z + e[12]), halfHeight * (w - (e[1] * x + e[5] * y + e[9] * z + e[13])), w];
+  }
+
+  /** Points of a mesh's own frame in the picture, or null if one of them is behind the eye. */
+  seenAll(corners, matrix) {
+    const at = new Vector3(), seen = [];
+    for (const corner of corners) {
+      const [x, y, w] = this.project(at.copy(corner).applyMatrix4(matrix));
+      if (w < NEAR) return null;
+      seen.push([x / w, y / w]);
+    }
+    return seen;
+  }
+
+  /** Adds a polygon to the path. */
+  trace(points) {
+    points.forEach(([x, y], i) => (i ? this.paint.lineTo(x, y) : this.paint.moveTo(x, y)));
+    this.paint.closePath();
+  }
+
+  // ---- light ----
+
+  /** A material's colour as CSS, where its surface faces `normal`, at a depth: Lambert's law for a sky and a sun, then haze. */
+  lit(material, normal, depth, shade = 1) {
+    const shown = this.colour.copy(material.color).multiplyScalar(shade);
+    if (material.isMeshLambertMaterial) {
+      const bright = (this.sky.intensity * (0.75 + 0.25 * this.toSky.dot(normal)) + this.sun.intensity * Math.max(0, this.toSun.dot(normal))) / Math.PI;
+      shown.multiplyScalar(bright).add(material.emissive);
+    }
+    return this.hazy(shown, depth).getStyle();
+  }
+
+  hazy(shown, depth) {
+    return shown.lerp(this.fog.color, this.hidden(depth));
+  }
+
+  /** The share of haze before what is so far away, as three.js has it. */
+  hidden(depth) {
+    const share = Math.min(Math.max((depth - this.fog.near) / (this.fog.far - this.fog.near), 0), 1);
+    return share * share * (3 - 2 * share);
+  }
+
+  /** Haze over the plane z = 0, from none nearby to full at the horizon: on the plane, equal depths are parallel lines in the picture. */
+  haze() {
+    const across = Math.hypot(this.right.z, this.up.z);
+    if (across < 1e-3 || this.eye.z <= 0) return null;
+    const pixels = this.half[1] / Math.tan((this.camera.fov * Math.PI) / 360);
+    // A point at this depth is (right · q + up · s − back) · depth from the eye; z = 0 gives how far it is along (right.z, up.z).
+    const along = (depth) => (this.back.z - this.eye.z / depth) / across;
+    const place = (value) => [this.half[0] + (pixels * value * this.right.z) / across, this.half[1] - (pixels * value * this.up.z) / across];
+    const { near, far, color } = this.fog, first = along(near), last = along(far);
+    const gradient = this.paint.createLinearGradient(...place(first), ...place(last));
+    const [r, g, b] = color.getStyle().match(/\d+/g);
+    for (let i = 0; i <= FOG_STOPS; ++i) {
+      const depth = near * (far / near) ** (i / FOG_STOPS);
+      gradient.addColorStop(Math.min(Math.max((along(depth) - first) / (last - first), 0), 1), `rgba(${r}, ${g}, ${b}, ${this.hidden(depth)})`);
+    }
+    return gradient;
+  }
+
+  // ---- kinds of meshes ----
+
+  draw_floor(mesh) {
+    this.fillRectangles(mesh, [0, 1, 3, 2], this.lit(mesh.material, this.up, 0)); // the vertices of a PlaneGeometry
+  }
+
+  /** Lines on the floor, each four vertices in turn, and the haze over it. */
+  draw_lines(mesh) {
+    this.fillRectangles(mesh, [0, 1, 2, 3], this.lit(mesh.material, this.up, 0));
+    const haze = this.haze();
+    if (!haze) return;
+    this.paint.fillStyle = haze;
+    this.paint.fillRect(0, 0, ...this.half.map((value) => 2 * value));
+  }
+
+  /** Filled one by one, which is quicker than all in one path. */
+  fillRectangles(mesh, order, style) {
+    const { position } = mesh.geometry.attributes, at = new Vector3();
+    this.paint.globalAlpha = mesh.material.opacity;
+    this.paint.fillStyle = style;
+    for (let i = 0; i < position.count; i += 4) {
+      const corners = order.map((k) => this.project(at.fromBufferAttribute(position, i + k).applyMatrix4(mesh.matrixWorld)));
+      const seen = clipNear(corners, NEAR);
+      if (!this.within(seen)) continue;
+      this.paint.beginPath();
+      this.trace(seen.map(([x, y, w]) => [x / w, y / w]));
+      this.paint.fill();
+    }
+  }
+
+  /** What stands between the sun and the plane, all in one tone. */
+  draw_shadow(mesh) {
+    if (this.toSun.z <= 0.05) return;
+    this.paint.globalAlpha = mesh.material.opacity;
+    this.paint.fillStyle = "#000";
+    this.paint.beginPath();
+    for (const caster of this.casters) {
+      const fallen = this.kept(caster.geometry).corners.map((corner) => {
+        const at = corner.clone().applyMatrix4(caster.matrixWorld);
+        return at.addScaledVector(this.toSun, -at.z / this.toSun.z);
+      });
+      const seen = this.seenAll(fallen, IDENTITY);
+      if (seen) this.trace(hullOf(seen));
+    }
+    this.paint.fill();
+  }
+
+  /** A picture that lies on the ground. */
+  draw_label(mesh) {
+    const { image } = mesh.material.map ?? {}, { position } = mesh.geometry.attributes;
+    if (!image) return;
+    const corners = [0, 1, 2].map((i) => new Vector3().fromBufferAttribute(position, i)), seen = this.seenAll(corners, mesh.matrixWorld);
+    if (!seen) return;
+    const [[x, y], wide, high] = seen, depth = this.depthOf(mesh.getWorldPosition(new Vector3()));
+    if (Math.hypot(high[0] - x, high[1] - y) < LEAST_LABEL_PX) return;
+    this.paint.globalAlpha = 1 - this.hidden(depth);
+    const shown = Math.hypot(wide[0] - x, wide[1] - y) < image.width / 2 ? this.reduced(image) : image;
+    const [width, height] = [shown.width, shown.height];
+    this.paint.setTransform((wide[0] - x) / width, (wide[1] - y) / width, (high[0] - x) / height, (high[1] - y) / height, x, y);
+    this.paint.drawImage(shown, 0, 0);
+    this.paint.resetTransform();
+  }
+
+  /** A third as large, once for all pictures: a canvas makes small what is large without care, or slowly. */
+  reduced(image) {
+    if (!this.known.has(image)) {
+      const small = document.createElement("canvas");
+      [small.width, small.height] = [Math.round(image.width / 3), Math.round(image.height / 3)];
+      const paint = small.getContext("2d", { willReadFrequently: true });
+      paint.imageSmoothingQuality = "high";
+      paint.drawImage(image, 0, 0, small.width, small.height);
+      this.known.set(image, small);
+    }
+    return this.known.get(image);
+  }
+
+  /** A band of pairs of vertices, left and right, as far as its draw range says. */
+  draw_ribbon(mesh) {
+    const { position } = mesh.geometry.attributes, rows = Math.floor(mesh.geometry.drawRange.count / 6) + 1, at = new Vector3();
+    const step = Math.max(1, Math.ceil(rows / RIBBON_PARTS));
+    this.paint.globalAlpha = mesh.material.opacity;
+    this.paint.fillStyle = this.lit(mesh.material, this.up, 0);
+    this.paint.beginPath();
+    let left = [], right = [];
+    const end = () => {
+      if (left.length > 1) this.trace([...left, ...right.reverse()]);
+      [left, right] = [[], []];
+    };
+    for (let row = 0; row < rows; row = row + 1 < rows ? Math.min(row + step, rows - 1) : rows) {
+      const pair = [2 * row, 2 * row + 1].map((i) => this.project(at.fromBufferAttribute(position, i).applyMatrix4(mesh.matrixWorld)));
+      if (pair.some(([, , w]) => w < NEAR)) {
+        end();
+        continue;
+      }
+      const [one, other] = pair.map(([x, y, w]) => [x / w, y / w]);
+      left.push(one);
+      right.push(other);
+    }
+    end();
+    this.paint.fill();
+  }
+
+  /** Uneven ground: a square of vertices with shades. */
+  draw_patches(mesh) {
+    const { position, color } = mesh.geometry.attributes, side = Math.round(Math.sqrt(position.count)), patches = [];
+    const at = new Vector3(), vertices = new Map();
+    const vertex = (i) => {
+      if (!vertices.has(i)) vertices.set(i, this.project(at.fromBufferAttribute(position, i).applyMatrix4(mesh.matrixWorld)));
+      return vertices.get(i);
+    };
+    for (let j = 0; j + TERRAIN_STEP < side; j += TERRAIN_STEP)
+      for (let i = 0; i + TERRAIN_STEP < side; i += TERRAIN_STEP) {
+        const a = j * side + i, b = a + TERRAIN_STEP * side, corners = [a, a + TERRAIN_STEP, b + TERRAIN_STEP, b], seen = corners.map(vertex);
+        if (seen.some(([, , w]) => w < NEAR) || !this.within(seen)) continue;
+        patches.push({ corners, seen, depth: seen[0][2] });
+      }
+    patches.sort((a, b) => b.depth - a.depth);
+    this.paint.globalAlpha = 1;
+    const point = (i) => new Vector3().fromBufferAttribute(position, i);
+    for (const { corners, seen, depth } of patches) {
+      const origin = point(corners[0]), normal = point(corners[1]).sub(origin).cross(point(corners[3]).sub(origin)).normalize();
+      this.fillPolygon(seen.map(([x, y, w]) => [x / w, y / w]), this.lit(mesh.material, normal, depth, color.getX(corners[0])));
+    }
+  }
+
+  /** Whether a polygon of [x, y, w] may be in the picture, and not behind the haze. */
+  within(seen) {
+    const [width, height] = this.half.map((value) => 2 * value);
+    return seen.some(([x]) => x > 0) && seen.some(([x, , w]) => x < width * w) && seen.some(([, y]) => y > 0) &&
+           seen.some(([, y, w]) => y < height * w) && seen.some(([, , w]) => w < this.fog.far);
+  }
+
+  /** With a line around it, so that no seam is seen beside its neighbours. */
+  fillPolygon(points, style) {
+    this.paint.fillStyle = this.paint.strokeStyle = style;
+    this.paint.beginPath();
+    this.trace(points);
+    this.paint.fill();
+    this.paint.stroke();
+  }
+
+  /** A geometry's corners, and its faces where they are few and flat. */
+  kept(geometry) {
+    if (!this.known.has(geometry)) this.known.set(geometry, { corners: cornersOf(geometry), faces: facesOf(geometry) });
+    return this.known.get(geometry);
+  }
+
+  draw_shape(mesh) {
+    const { corners, faces } = this.kept(mesh.geometry), { material } = mesh;
+    const depth = this.depthOf(mesh.getWorldPosition(new Vector3()));
+    this.paint.globalAlpha = material.opacity;
+    if (faces && material.isMeshLambertMaterial && material.opacity === 1) return this.drawFaces(mesh, faces, depth);
+    const seen = this.seenAll(corners, mesh.matrixWorld);
+    if (!seen) return;
+    this.paint.fillStyle = this.roundly(material, seen, depth);
+    this.paint.beginPath();
+    this.trace(hullOf(seen));
+    this.paint.fill();
+  }
+
+  /** A round shape is lit above and dark below. */
+  roundly(material, seen, depth) {
+    if (!material.isMeshLambertMaterial) return this.lit(material, this.up, depth);
+    let [top, bottom] = [Infinity, -Infinity];
+    for (const [, y] of seen) [top, bottom] = [Math.min(top, y), Math.max(bottom, y)];
+    const gradient = this.paint.createLinearGradient(0, top, 0, bottom), normal = new Vector3();
+    for (const height of [0.9, 0.3, -0.5, -0.95])
+      gradient.addColorStop((1 - height) / 2, this.lit(material, normal.copy(this.up).multiplyScalar(height).addScaledVector(this.back, Math.sqrt(1 - height * height)), depth));
+    return gradient;
+  }
+
+  drawFaces(mesh, faces, depth) {
+    const centre = new Vector3(), facing = [];
+    for (const { corners, normal } of faces) {
+      const outwards = normal.clone().transformDirection(mesh.matrixWorld);
+      centre.copy(corners[0]).applyMatrix4(mesh.matrixWorld);
+      if (outwards.dot(this.eye) <= outwards.dot(centre)) continue;
+      const seen = this.seenAll(corners, mesh.matrixWorld);
+      if (seen) facing.push({ seen, outwards, depth: this.depthOf(centre) });
+    }
+    facing.sort((a, b) => b.depth - a.depth);
+    for (const { seen, outwards } of facing) this.fillPolygon(seen, this.lit(mesh.material, outwards, depth));
+  }
+}
+
+const IDENTITY = new Matrix4();
+
+/** Flat faces, each with its corners and normal; null for what is round or has too many. */
+function facesOf(geometry) {
+  const { position, normal } = geometry.attributes;
+  const corners = (indices) => indices.map((i) => new Vector3().fromBufferAttribute(position, i));
+  const face = (indices) => ({ corners: corners(indices), normal: new Vector3().fromBufferAttribute(normal, indices[0]) });
+  if (geometry.type === "BoxGeometry") return Array.from({ length: 6 }, (_, side) => face([0, 1, 3, 2].map((i) => 4 * side + i)));
+  if (geometry.type !== "BufferGeometry" || geometry.index || position.count > 3 * MANY_TRIANGLES) return null;
+  return Array.from({ length: position.count / 3 }, (_, i) => face([3 * i, 3 * i + 1, 3 * i + 2]));
+}
