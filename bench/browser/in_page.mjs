@@ -24,20 +24,20 @@ export async function stepsIn(module, champions, count) {
 /** Lets a champion's page walk so long: frames, and seconds in which its own thread worked on them. */
 const live = ({ url, seconds }) => inFrame(url, async (page) => {
   await until("it walks", () => page.amble.live() && page.amble.time() > 1);
-  let frames = 0, busy_ms = 0;
+  let busy_ms = 0;
   const ask = page.requestAnimationFrame.bind(page);
   page.requestAnimationFrame = (draw) => ask((now_ms) => {
     const start_ms = performance.now();
     draw(now_ms);
     busy_ms += performance.now() - start_ms;
-    ++frames;
   });
   const begin_ms = performance.now(), from_s = page.amble.time();
+  page.amble.frames().length = 0;
   await fetch("/clock?begin"); // the processes' seconds from here on
   await until("its time is over", () => performance.now() - begin_ms > 1000 * seconds);
   await fetch("/clock?end");
   const passed_s = (performance.now() - begin_ms) / 1000;
-  return { frames_s: frames / passed_s, busy_share: busy_ms / 1000 / passed_s, speed: (page.amble.time() - from_s) / passed_s };
+  return { frames_s: page.amble.frames().length / passed_s, busy_share: busy_ms / 1000 / passed_s, speed: (page.amble.time() - from_s) / passed_s };
 });
 
 /** A run of the lab with its first settings until its best so far has walked so many metres: robot-steps up to there, and seconds. */

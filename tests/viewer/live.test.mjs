@@ -181,6 +181,17 @@ test("what is lifted falls, and the native program repeats it to the bit", () =>
     assert.match(await natively(page, "dropped.json"), /^bits +the same in every step$/m);
   }));
 
+test("the page of one that obeys opens live, and its recording is a link away", async () => {
+  const { page, problems } = await open(browser, makePage("drive.html", OBEYS, "--undisturbed"), { at_s: null });
+  assert.ok(await page.evaluate(() => window.amble.live()));
+  await page.getByRole("link", { name: "Recorded" }).click();
+  await page.waitForFunction(() => window.amble?.live() === null && window.amble.duration > 10);
+  await page.getByRole("link", { name: "Drive it live" }).click();
+  await page.waitForFunction(() => window.amble?.live());
+  assert.deepEqual(problems, []);
+  await page.close();
+});
+
 test("one that obeys is told by keys, pad and gamepad, and the native program repeats to the bit what it was told", async () => {
   const path = makePage("steered.html", OBEYS, "--undisturbed");
   await onPage({}, async (page) => {

@@ -5,7 +5,7 @@ import { clipNear, cornersOf, hullOf } from "./outlines.js";
 
 const NEAR = 0.05; // of what a picture shows, nothing is nearer, m
 const MANY_TRIANGLES = 300; // a mesh of more is drawn as its convex hull
-const RIBBON_PARTS = 250;
+const RIBBON_PARTS = 150;
 const TERRAIN_STEP = 3; // cells of the ground that make one patch
 const LEAST_LABEL_PX = 7;
 const PATCHES_LAYER = -6; // over the lines on the floor, under the path

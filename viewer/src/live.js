@@ -11,9 +11,17 @@ import { element } from "./theme.js";
 const DIAGRAMS_EVERY_MS = 80; // while it walks
 
 /** Which walker the address asks for; null: the recordings. */
-export function askedLive(hash) {
+function askedLive(hash) {
   const match = /(?:^#|&)live(?:=(\d+))?/.exec(hash);
   return match ? Number(match[1] ?? 0) : null;
+}
+
+/** Whether a walker is told where to go: alone in its page it is there to be driven. */
+const obeys = ({ champion, poses }) => Boolean(champion) && poses.columns.includes("command.speed");
+
+/** Which walker a page opens with, simulated; null: with the recordings. */
+export function openedLive(walkers, hash) {
+  return hash === "" && walkers.length === 1 && obeys(walkers[0]) ? 0 : askedLive(hash);
 }
 
 /** The walk of a walker's champion, in its start pose. */

@@ -1,6 +1,6 @@
 import { pageData } from "./data.js";
 import { heightAt } from "./heights.js";
-import { Live, askedLive, liveChoice, liveWalk } from "./live.js";
+import { Live, liveChoice, liveWalk, openedLive } from "./live.js";
 import { chosenCells, showMap } from "./map.js";
 import { Page } from "./page.js";
 import { Walk } from "./walk.js";
@@ -72,13 +72,13 @@ async function start() {
     return;
   }
   const data = pageData(document);
-  const live = askedLive(location.hash), champion = data.walkers[live]?.champion;
+  const live = openedLive(data.walkers, location.hash), champion = data.walkers[live]?.champion;
   const walks = champion ? [await liveWalk(data.walkers[live])] : await Promise.all(shownWalkers(data).map(Walk.unpack));
   const page = new Page(data, walks);
   const links = liveChoice(data.walkers, champion ? live : null);
   if (links) {
     document.getElementById("subtitle").after(links);
-    addEventListener("hashchange", () => askedLive(location.hash) !== live && location.reload());
+    addEventListener("hashchange", () => openedLive(data.walkers, location.hash) !== live && location.reload());
   }
   if (champion) new Live(page, walks[0]);
   const time_s = askedTime();

@@ -1,7 +1,7 @@
 // Outlines of convex shapes, of which a picture can be drawn without a depth for every pixel.
 import { Vector3 } from "three";
 
-const DIRECTIONS = 120; // in which a round shape is touched: its outline has some thirty corners
+const DIRECTIONS = 72; // in which a round shape is touched: its outline has some twenty corners
 
 /** Unit vectors spread evenly over a sphere (a Fibonacci lattice). */
 const directions = Array.from({ length: DIRECTIONS }, (_, i) => {

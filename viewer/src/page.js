@@ -11,7 +11,7 @@ const SPANS_S = [2, 5, 15, 60];
 const SLOW_S = 0.07, SLOW_FRAMES = 40; // frames so far apart, so many of them, are too much for the machine
 const FEW = 4; // walkers whose names stand in the picture, and whose stories fit above it
 const FOLDED = 12; // more than so many are in a list that is closed at first
-const PICTURES_A_DIAGRAM = 4; // where processors draw
+const PICTURES_A_DIAGRAM = 2; // where processors draw
 const FRAMES_KEPT = 2000; // of their times, for amble.frames()
 const byId = (id) => document.getElementById(id);
 
@@ -151,6 +151,7 @@ export class Page {
 
   frame(now_ms) {
     this.asked = false;
+    if (this.clock.playing && this.stage.rests(now_ms)) return this.invalidate();
     this.live?.update(now_ms);
     if (this.clock.playing && this.last_ms !== undefined) {
       const passed_s = (now_ms - this.last_ms) / 1000;

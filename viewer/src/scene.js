@@ -266,7 +266,7 @@ export class Stage {
     return [x, y];
   }
 
-  /** While it plays, where processors draw and have other work: is it too early for the next picture? */
+  /** While it plays: is it too early for the next picture? Processors draw thirty a second. */
   rests(now_ms) {
     if (!this.slow) return false;
     if (now_ms - (this.drawn_ms ?? -1e9) < 30) return true;
