@@ -307,6 +307,11 @@ test("a run that goes on is left for an experiment only if that is confirmed", (
     await choose(true);
     await page.waitForFunction(() => window.amble.evolution === null);
     assert.equal(asked.length, 3);
+    await page.waitForFunction(() => [...document.querySelectorAll("#cppn text")].some((name) => name.textContent === "time")); // of the file's network
+    assert.ok(await page.evaluate(() => {
+      const { left, right } = document.querySelector("#cppn svg").getBoundingClientRect();
+      return [...document.querySelectorAll("#cppn text")].every((name) => name.getBoundingClientRect().left >= left && name.getBoundingClientRect().right <= right);
+    }), "a name of the network is cut off");
     assert.match(asked[0], /^\d+ generations are over, and the run is not\. Leave it\?/);
   }));
 

@@ -73,6 +73,9 @@ test("a run's curve grows, its best walks, and when it ends the page says where 
     await page.waitForFunction(() => window.amble.stage.walk);
     assert.ok((await pictureOf(page)).colours > 50);
     assert.match(await page.locator("#story").textContent(), /Best of generation \d+: /);
+    const drawn = await page.locator("#cppn text").allTextContents();
+    assert.ok(drawn.includes("bias") && drawn.includes("time"), `the network's nodes: ${drawn}`);
+    assert.ok((await page.locator("#patterns .panel").count()) > 3);
     page.setDefaultTimeout(300_000);
     await says(page, "The run has ended; its files are in");
     assert.ok((await story(page)).includes(run));

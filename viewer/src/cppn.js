@@ -1,7 +1,7 @@
 // A champion's network, the CPPN: inputs on the left, outputs on the right, and hidden nodes as far right as they are from the inputs.
 import { svgElement } from "./theme.js";
 
-const ROW = 34, LAYER = 84, PAD = 16, TEXT = 92;
+const ROW = 34, LAYER = 84, PAD = 16, LETTER = 7.6, BESIDE = 24; // px; a letter's width on average, and what a name needs beside its letters
 // The curves of the functions, within −8 … 8 px.
 const GLYPHS = {
   bipolar_sigmoid: "M-8 6C-3 6-2 3 0 0C2-3 3-6 8-6", gaussian: "M-8 6C-3 6-3-6 0-6C3-6 3 6 8 6", sine: "M-8 0C-5-9-3-9 0 0C3 9 5 9 8 0",
@@ -22,13 +22,16 @@ function layersOf({ nodes, links }) {
   return { layer, last };
 }
 
+const textWidth = (names) => BESIDE + LETTER * Math.max(4, ...names.map((name) => name.length));
+
 /** @returns {SVGElement} `names`: {inputs, outputs} */
 export function drawCppn(genome, names) {
   const { nodes, links } = genome, { layer, last } = layersOf(genome);
   const columns = Array.from({ length: last + 1 }, (_, l) => nodes.filter(({ id }) => layer.get(id) === l));
-  const tall = Math.max(...columns.map((column) => column.length)) * ROW + 2 * PAD, wide = 2 * TEXT + last * LAYER;
+  const tall = Math.max(...columns.map((column) => column.length)) * ROW + 2 * PAD, left = textWidth(["bias", ...names.inputs]);
+  const wide = left + last * LAYER + textWidth(names.outputs);
   const place = new Map();
-  columns.forEach((column, l) => column.forEach(({ id }, i) => place.set(id, [TEXT + l * LAYER, tall / 2 + (i - (column.length - 1) / 2) * ROW])));
+  columns.forEach((column, l) => column.forEach(({ id }, i) => place.set(id, [left + l * LAYER, tall / 2 + (i - (column.length - 1) / 2) * ROW])));
   const enabled = links.filter((link) => link.enabled), hidden = nodes.filter(({ kind }) => kind === "hidden").length;
   const picture = svgElement("svg", { class: "cppn", viewBox: `0 0 ${wide} ${tall}`, width: wide, height: tall, role: "img",
     "aria-label": `The network: ${names.inputs.length} inputs, ${hidden} hidden nodes, ${names.outputs.length} outputs, ${enabled.length} links` });

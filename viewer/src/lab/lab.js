@@ -1,15 +1,14 @@
 // The lab: form, lesson, a run, and what is shown of it.
 import { Machine } from "../amble.js";
-import { Patterns } from "../patterns.js";
 import { number } from "../plot.js";
 import { element, onThemeChange } from "../theme.js";
-import { drawCppn } from "../cppn.js";
 import { Curve, kindsOf } from "./curve.js";
 import { Ends } from "./ends.js";
 import { Evolution } from "./evolution.js";
 import { Files } from "./open.js";
 import { Footfalls } from "./footfalls.js";
 import { Form } from "./form.js";
+import { Inside } from "./inside.js";
 import { lessonList } from "./lesson.js";
 import { MapView } from "./map_view.js";
 import { DEFAULTS, WORLD, changedPlan, planOf, sameWorld, worldOf } from "./plan.js";
@@ -20,7 +19,6 @@ import { Toolbar } from "./toolbar.js";
 const SAY_EVERY = 10; // generations, to screen readers
 const MORE = 100; // generations, after the end
 const PREVIEW_MS = 250; // after the last change of a setting
-const SUPG_NOTE = "Each leg’s joints, over one cycle of its timer. The line is where the leg is now; touch sends it back to the start.";
 const byId = (id) => document.getElementById(id);
 
 export class Lab {
@@ -40,6 +38,7 @@ export class Lab {
       now: (walk, time_s) => this.showNow(time_s), shown: (walk) => this.showInside(walk),
       trouble: (error) => this.complain(error.message),
     });
+    this.inside = new Inside({ section: byId("inside"), cppn: byId("cppn"), patterns: byId("patterns") });
     this.footfalls = new Footfalls(byId("footfalls"), this.stage.clock);
     this.files = new Files(this);
     onThemeChange(() => this.repaint());
@@ -153,7 +152,7 @@ export class Lab {
       trouble: (error) => this.broken(error),
     });
     Object.assign(this, { settings, progress: null, best: null });
-    this.names = await this.evolution.open(plan, files);
+    await this.evolution.open(plan, files);
     this.curve.begin(this.runName(settings));
     this.ends.begin();
     this.map.begin();
@@ -269,7 +268,7 @@ export class Lab {
     const looker = (this.looker = new Thread(this.module));
     try {
       await looker.ask("plan", plan);
-      this.names = await looker.ask("begin");
+      await looker.ask("begin");
       const text = await looker.ask("first");
       if (looker !== this.looker || this.evolution) return;
       this.best = null;
@@ -294,19 +293,13 @@ export class Lab {
   showNow(time_s) {
     const story = this.stage.story(time_s);
     if (byId("story").textContent !== story) byId("story").textContent = story;
-    this.patterns?.show(time_s);
+    this.inside.show(time_s);
     this.footfalls.show();
   }
 
   showInside(walk) {
     this.footfalls.begin(walk);
-    const { genome } = JSON.parse(this.stage.text);
-    byId("inside").hidden = false;
-    byId("cppn").replaceChildren(drawCppn(genome, this.names));
-    this.patterns = walk.supg ? new Patterns(walk) : null;
-    byId("patterns").replaceChildren(...(this.patterns ? [element("p", { class: "lead" }, SUPG_NOTE), this.patterns.element]
-      : [element("p", { class: "lead" }, "This controller has no patterns over time: the network gives the weights of the neurons that move the joints.")]));
-    this.patterns?.show(0);
+    this.inside.begin(walk, this.stage.text);
   }
 
   render() {

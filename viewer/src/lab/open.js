@@ -52,7 +52,6 @@ export class Files {
     lab.form.setRobot(lab.robot());
     await lab.preview();
     if (!champion) return lab.say(`${facts.name} is chosen. Press Start to evolve it.`);
-    lab.names = { inputs: [], outputs: [] };
     lab.best = { text, generation: JSON.parse(text).generation };
     await lab.stage.show(text, "From the file");
     lab.stage.random = true;

@@ -4,6 +4,7 @@ import { element, onThemeChange } from "../theme.js";
 import { button } from "../widgets.js";
 import { Curve } from "../lab/curve.js";
 import { Footfalls } from "../lab/footfalls.js";
+import { Inside } from "../lab/inside.js";
 import { LabStage } from "../lab/stage.js";
 import { AllCurves } from "./all_curves.js";
 import { MapPicture } from "./map_picture.js";
@@ -36,6 +37,7 @@ export class Watch {
       trouble: (error) => this.complain(error.message),
     });
     this.footfalls = new Footfalls(byId("footfalls"), this.stage.clock);
+    this.inside = new Inside({ section: byId("inside"), cppn: byId("cppn"), patterns: byId("patterns") });
     this.walk = button("Let it walk", () => (this.stage.clock.playing ? this.stage.clock.pause() : this.stage.clock.play()), { hidden: "" });
     this.best = button("The best again", () => this.showBest(), { hidden: "" });
     byId("views").append(this.walk, this.best);
@@ -229,10 +231,12 @@ export class Watch {
 
   showWalker(walk) {
     this.footfalls.begin(walk);
+    this.inside.begin(walk, this.stage.text);
     this.showWalk();
   }
   showStory(time_s) {
     this.footfalls.show();
+    this.inside.show(time_s);
     const text = this.stage.story(time_s);
     if (byId("story").textContent !== text) byId("story").textContent = text;
   }
