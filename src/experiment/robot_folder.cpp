@@ -26,6 +26,8 @@ namespace amble::experiment {
 namespace {
 
 constexpr double timestep_s = 0.01;  // that of the presets
+/// Of the swing of the inner legs, at the greatest turn, where a robot is steered by hand.
+constexpr double most_slowing = 0.6;
 
 std::optional<physics::SweepsAdvice> advice_for(const robot::RobotSpec& robot) {
   if (robot.joints.empty()) return std::nullopt;
@@ -146,11 +148,17 @@ std::string steer_text(const std::string& name, const CommandSizes& sizes, const
       "\n"
       "[score.tracking]\n"
       "speed_m_s = {9:.2g}\n"
-      "turn_rad_s = {6:.2g}\n",
+      "turn_rad_s = {6:.2g}\n"
+      "\n"
+      "# Does it walk and not obey? Steered by hand while it evolves (docs/STEERING.md), a Go2 did better "
+      "after "
+      "a minute:\n"
+      "#   --set controller.kind=supg --set controller.differential.turn_gain={10:.2g} "
+      "--set controller.differential.full_speed_m_s={5:.2g}\n",
       io::printable(name), io::toml_quoted(preset ? path_from(folder, part) : part.string()),
       io::toml_quoted(name + ", steered"), sizes.leg_height_m, 0.25 * sizes.most_speed_m_s,
       sizes.most_speed_m_s, sizes.most_turn_rad_s, 1.0 / sizes.most_speed_m_s, 1.0 / sizes.most_turn_rad_s,
-      0.5 * sizes.most_speed_m_s);
+      0.5 * sizes.most_speed_m_s, most_slowing / sizes.most_turn_rad_s);
 }
 
 /// What was read and guessed, and what to do next.
