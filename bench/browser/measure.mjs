@@ -1,4 +1,4 @@
-// node --experimental-wasm-relaxed-simd measure.mjs NATIVE_BUILD MODULES [--quick] [--seeds N] [CHAMPION…]: the tables of docs/BROWSER.md (tools/measure-browser).
+// node --experimental-wasm-relaxed-simd measure.mjs NATIVE_BUILD MODULES [--quick] [--live] [--seeds N] [CHAMPION…]: the tables of docs/BROWSER.md (tools/measure-browser).
 import { execFileSync } from "node:child_process";
 import { copyFileSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
 import { availableParallelism, cpus, tmpdir } from "node:os";
@@ -9,7 +9,7 @@ import { Browser, findBrowser } from "../../tests/browser/harness.mjs";
 import { stepsIn } from "./in_page.mjs";
 
 const { values: options, positionals: [build, modules, ...named] } = parseArgs({
-  allowPositionals: true, options: { quick: { type: "boolean", default: false }, seeds: { type: "string" } },
+  allowPositionals: true, options: { quick: { type: "boolean", default: false }, live: { type: "boolean", default: false }, seeds: { type: "string" } },
 });
 const paths = named.length ? named : ["servo", "octopod"].map((name) => `robots/${name}/champion.json`);
 const COUNT = options.quick ? 100 : 1000, LIVE_S = options.quick ? 3 : 20, METRES = options.quick ? 1 : 3, GENERATIONS = options.quick ? 10 : 300;
@@ -105,10 +105,12 @@ try {
       say(`${kind} is not installed`);
     }
   console.log(`${cpus()[0].model}, ${availableParallelism()} processors; ${new Date().toISOString().slice(0, 10)}${options.quick ? "; --quick: no figures to keep" : ""}`);
-  await stepsEverywhere(browsers);
+  if (!options.live) await stepsEverywhere(browsers);
   if (browsers.length) {
     head("page", ...browsers.map(({ called }) => called));
     await livePages(browsers);
+  }
+  if (browsers.length && !options.live) {
     await labRuns(browsers);
     sizes(browsers);
   }

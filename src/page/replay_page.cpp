@@ -71,7 +71,8 @@ io::Json walker_json(const Walker& walker) {
           {"cell", walker.cell ? io::Json(*walker.cell) : io::Json(nullptr)},
           {"champion", packed_text(walker.champion)},
           {"typical", walker.typical},
-          {"shown", walker.shown}};
+          {"shown", walker.shown},
+          {"as_evolved", walker.as_evolved}};
 }
 
 /// The WebAssembly module, where a walker can be simulated.

@@ -21,6 +21,7 @@ struct Walker {
   std::string champion = {};
   /// What it typically does, in words, and which trial is shown, e.g. "its median trial"; empty: unknown.
   std::string typical = {}, shown = {};
+  bool as_evolved = false;  ///< nothing else was asked of its walk: if it obeys commands, its page opens live
 };
 
 /// A map of elites from which the reader chooses the walkers that are shown.

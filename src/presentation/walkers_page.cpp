@@ -62,6 +62,7 @@ const page::Walker* WalkersPage::add_champion(const experiment::Champion& champi
   if (!walker) return nullptr;
   walker->typical = shown->typical;
   walker->shown = shown->which();
+  walker->as_evolved = options_.not_for_recordings().empty();
   if (options_.history) {
     walker->title = fmt::format("gen {}", champion.generation);
     page_.title = champion.experiment + ": its history";

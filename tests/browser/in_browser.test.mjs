@@ -35,7 +35,7 @@ before(async () => {
 });
 after(() => browser?.close());
 
-/** Without 3-D pictures, as where there is neither a graphics card nor a program that stands in for it, a page says so once. */
+/** Without WebGL, as where there is neither a graphics card nor a program that stands in for it, a page says so once, and draws outlines. */
 const problemsOf = ({ problems }) => problems.filter((problem) => !/WebGL/i.test(problem));
 
 champions.forEach(([name, champion], number) =>

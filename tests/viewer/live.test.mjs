@@ -182,14 +182,22 @@ test("what is lifted falls, and the native program repeats it to the bit", () =>
   }));
 
 test("the page of one that obeys opens live, and its recording is a link away", async () => {
-  const { page, problems } = await open(browser, makePage("drive.html", OBEYS, "--undisturbed"), { at_s: null });
+  const path = makePage("drive.html", OBEYS), { page, problems } = await open(browser, path, { at_s: null });
   assert.ok(await page.evaluate(() => window.amble.live()));
   await page.getByRole("link", { name: "Recorded" }).click();
   await page.waitForFunction(() => window.amble?.live() === null && window.amble.duration > 10);
   await page.getByRole("link", { name: "Drive it live" }).click();
   await page.waitForFunction(() => window.amble?.live());
   assert.deepEqual(problems, []);
+  await page.addInitScript(() => { WebAssembly.validate = () => false; }); // a browser that cannot simulate it
+  await page.goto(new URL(page.url()).href.split("#")[0]);
+  await page.reload();
+  await page.waitForFunction(() => window.amble?.live() === null);
+  assert.match(await page.locator("#trouble").textContent(), /cannot be driven here: .*This is its recording\.$/);
   await page.close();
+  const { page: asked } = await open(browser, makePage("driven-in-ode.html", OBEYS, "--engine", "ode", "--undisturbed"), { at_s: null });
+  assert.equal(await asked.evaluate(() => window.amble.live()), null);
+  await asked.close();
 });
 
 test("one that obeys is told by keys, pad and gamepad, and the native program repeats to the bit what it was told", async () => {

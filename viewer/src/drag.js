@@ -10,10 +10,17 @@ export class Drag {
     Object.assign(this, { stage, live, ray: new Raycaster(), plane: new Plane(), to: new Vector3() });
     this.makeArrow();
     const { picture } = stage;
+    this.listening = new AbortController();
+    const { signal } = this.listening;
     // Before the camera's controls, which listen on the picture itself, hear of it.
-    picture.parentElement.addEventListener("pointerdown", (event) => this.begin(event), { capture: true });
-    picture.addEventListener("pointermove", (event) => this.isHeldBy(event) && this.move(event));
-    for (const end of ["pointerup", "pointercancel"]) picture.addEventListener(end, (event) => this.isHeldBy(event) && this.end());
+    picture.parentElement.addEventListener("pointerdown", (event) => this.begin(event), { capture: true, signal });
+    picture.addEventListener("pointermove", (event) => this.isHeldBy(event) && this.move(event), { signal });
+    for (const end of ["pointerup", "pointercancel"]) picture.addEventListener(end, (event) => this.isHeldBy(event) && this.end(), { signal });
+  }
+
+  /** Hears of nothing any more. */
+  remove() {
+    this.listening.abort();
   }
 
   /** Along y, one long, from the origin; seen through whatever is before it. */

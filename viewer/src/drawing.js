@@ -1,18 +1,16 @@
-// Draws the scene on a 2-D canvas: every shape is one filled outline, the far ones first. For browsers without WebGL or whose processor draws:
-// an eighth of what WebGL takes there. What it leaves out: shadows on uneven ground, and what is hidden by hills.
+// Draws the scene on a 2-D canvas: every shape is one filled outline, the far ones first. For browsers without WebGL, or whose processor would
+// draw for it (docs/BROWSER.md has what both take). What it leaves out: shadows on uneven ground, and what is hidden by hills.
 import { BackSide, Color, Matrix4, Vector3 } from "three";
 import { clipNear, cornersOf, hullOf } from "./outlines.js";
 
-const NEAR = 0.05; // of what a picture shows, nothing is nearer, m
 const MANY_TRIANGLES = 300; // a mesh of more is drawn as its convex hull
-const RIBBON_PARTS = 150;
+const RIBBON_BLOCK = 64, RIBBON_PARTS = 400; // rows that are seen or not together; so many parts at most, as a rule
 const TERRAIN_STEP = 3; // cells of the ground that make one patch
 const LEAST_LABEL_PX = 7;
-const PATCHES_LAYER = -6; // over the lines on the floor, under the path
-const ABIT_M = 1e-3;
+const PATCHES_LAYER = -5.5; // over the numbers on the floor, under the path
 const FOG_STOPS = 8;
 
-/** What a mesh is drawn as, if not as a convex shape: floor, lines, ribbon, shadow, label or patches. */
+/** What a mesh is drawn as, if not as any convex shape: foot, floor, lines, ribbon, shadow, label or patches. */
 export function drawAs(mesh, drawn) {
   mesh.userData.drawn = drawn;
   return mesh;
@@ -33,12 +31,12 @@ export class Drawing {
   setSize(width, height) {
     Object.assign(this.domElement, { width: Math.round(width * this.ratio), height: Math.round(height * this.ratio) });
   }
-  dispose() {}
 
   render(scene, camera) {
     scene.updateMatrixWorld();
     camera.updateMatrixWorld();
     this.paint = this.domElement.getContext("2d", { alpha: false, willReadFrequently: true });
+    this.paint.lineJoin = "round";
     this.look(scene, camera);
     this.paint.globalAlpha = 1;
     this.paint.fillStyle = scene.background.getStyle();
@@ -50,7 +48,7 @@ export class Drawing {
   /** What holds for the whole picture: camera, light, haze. */
   look(scene, camera) {
     const { width, height } = this.domElement;
-    Object.assign(this, { half: [width / 2, height / 2], fog: scene.fog, camera });
+    Object.assign(this, { half: [width / 2, height / 2], fog: scene.fog, near_m: camera.near, camera });
     this.toClip.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
     this.eye = camera.getWorldPosition(new Vector3());
     const axis = (i) => new Vector3().setFromMatrixColumn(camera.matrixWorld, i).normalize();
@@ -63,7 +61,7 @@ export class Drawing {
     this.casters = [];
   }
 
-  /** All that is seen, in layers, the far before the near; an outline before what it surrounds, a ball (a foot) over what it ends. */
+  /** All that is seen, in layers, the far before the near; a foot over the leg that ends in it, with its outline before it. */
   inOrder(scene) {
     const seen = [];
     scene.traverseVisible((mesh) => {
@@ -76,11 +74,13 @@ export class Drawing {
   }
 
   depthOfMesh(mesh) {
-    const { geometry } = mesh, of = (other) => this.depthOf(other.getWorldPosition(new Vector3()));
-    if (mesh.material.side === BackSide) return of(mesh) + ABIT_M;
-    if (geometry.type === "SphereGeometry") return Math.min(...mesh.parent.children.filter(({ isMesh }) => isMesh).map(of)) - ABIT_M;
+    const { geometry, material, parent, userData } = mesh, abit_m = 0.1 * this.near_m;
+    if (material.side === BackSide) return this.depthOfMesh(parent) + 0.5 * abit_m;
     geometry.boundingSphere ?? geometry.computeBoundingSphere();
-    return this.depthOf(geometry.boundingSphere.center.clone().applyMatrix4(mesh.matrixWorld));
+    const own = this.depthOf(geometry.boundingSphere.center.clone().applyMatrix4(mesh.matrixWorld));
+    if (userData.drawn !== "foot") return own;
+    const others = parent.children.filter((other) => other.isMesh && other.userData.drawn !== "foot");
+    return Math.min(own, ...others.map((other) => this.depthOfMesh(other))) - abit_m;
   }
 
   depthOf(point) {
@@ -99,7 +99,7 @@ export class Drawing {
     const at = new Vector3(), seen = [];
     for (const corner of corners) {
       const [x, y, w] = this.project(at.copy(corner).applyMatrix4(matrix));
-      if (w < NEAR) return null;
+      if (w < this.near_m) return null;
       seen.push([x / w, y / w]);
     }
     return seen;
@@ -173,7 +173,7 @@ export class Drawing {
     this.paint.fillStyle = style;
     for (let i = 0; i < position.count; i += 4) {
       const corners = order.map((k) => this.project(at.fromBufferAttribute(position, i + k).applyMatrix4(mesh.matrixWorld)));
-      const seen = clipNear(corners, NEAR);
+      const seen = clipNear(corners, this.near_m);
       if (!this.within(seen)) continue;
       this.paint.beginPath();
       this.trace(seen.map(([x, y, w]) => [x / w, y / w]));
@@ -227,29 +227,29 @@ export class Drawing {
     return this.known.get(image);
   }
 
-  /** A band of pairs of vertices, left and right, as far as its draw range says. */
+  /** A band of pairs of vertices, left and right, as far as its draw range says: what of it is not behind the haze. */
   draw_ribbon(mesh) {
     const { position } = mesh.geometry.attributes, rows = Math.floor(mesh.geometry.drawRange.count / 6) + 1, at = new Vector3();
-    const step = Math.max(1, Math.ceil(rows / RIBBON_PARTS));
+    const vertex = (i) => this.project(at.fromBufferAttribute(position, i).applyMatrix4(mesh.matrixWorld));
+    const blocks = [];
+    for (let first = 0; first + 1 < rows; first += RIBBON_BLOCK)
+      if ([first, Math.min(first + RIBBON_BLOCK, rows - 1)].some((row) => vertex(2 * row)[2] < this.fog.far)) blocks.push(first);
+    // Powers of two, so that a path that grows keeps its vertices.
+    const step = Math.min(RIBBON_BLOCK, 2 ** Math.max(1, Math.ceil(Math.log2((blocks.length * RIBBON_BLOCK) / RIBBON_PARTS))));
     this.paint.globalAlpha = mesh.material.opacity;
     this.paint.fillStyle = this.lit(mesh.material, this.up, 0);
     this.paint.beginPath();
-    let left = [], right = [];
-    const end = () => {
-      if (left.length > 1) this.trace([...left, ...right.reverse()]);
-      [left, right] = [[], []];
-    };
-    for (let row = 0; row < rows; row = row + 1 < rows ? Math.min(row + step, rows - 1) : rows) {
-      const pair = [2 * row, 2 * row + 1].map((i) => this.project(at.fromBufferAttribute(position, i).applyMatrix4(mesh.matrixWorld)));
-      if (pair.some(([, , w]) => w < NEAR)) {
-        end();
-        continue;
+    for (const first of blocks) {
+      const left = [], right = [], last = Math.min(first + RIBBON_BLOCK, rows - 1);
+      for (let row = first; row <= last; row = row < last ? Math.min(row + step, last) : last + 1) {
+        const pair = [vertex(2 * row), vertex(2 * row + 1)];
+        if (pair.some(([, , w]) => w < this.near_m)) continue;
+        const [one, other] = pair.map(([x, y, w]) => [x / w, y / w]);
+        left.push(one);
+        right.push(other);
       }
-      const [one, other] = pair.map(([x, y, w]) => [x / w, y / w]);
-      left.push(one);
-      right.push(other);
+      if (left.length > 1) this.trace([...left, ...right.reverse()]);
     }
-    end();
     this.paint.fill();
   }
 
@@ -264,7 +264,7 @@ export class Drawing {
     for (let j = 0; j + TERRAIN_STEP < side; j += TERRAIN_STEP)
       for (let i = 0; i + TERRAIN_STEP < side; i += TERRAIN_STEP) {
         const a = j * side + i, b = a + TERRAIN_STEP * side, corners = [a, a + TERRAIN_STEP, b + TERRAIN_STEP, b], seen = corners.map(vertex);
-        if (seen.some(([, , w]) => w < NEAR) || !this.within(seen)) continue;
+        if (seen.some(([, , w]) => w < this.near_m) || !this.within(seen)) continue;
         patches.push({ corners, seen, depth: seen[0][2] });
       }
     patches.sort((a, b) => b.depth - a.depth);
@@ -296,6 +296,10 @@ export class Drawing {
   kept(geometry) {
     if (!this.known.has(geometry)) this.known.set(geometry, { corners: cornersOf(geometry), faces: facesOf(geometry) });
     return this.known.get(geometry);
+  }
+
+  draw_foot(mesh) {
+    this.draw_shape(mesh);
   }
 
   draw_shape(mesh) {

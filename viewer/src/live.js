@@ -17,7 +17,7 @@ function askedLive(hash) {
 }
 
 /** Whether a walker is told where to go: alone in its page it is there to be driven. */
-const obeys = ({ champion, poses }) => Boolean(champion) && poses.columns.includes("command.speed");
+const obeys = ({ champion, as_evolved, poses }) => Boolean(champion) && as_evolved && poses.columns.includes("command.speed");
 
 /** Which walker a page opens with, simulated; null: with the recordings. */
 export function openedLive(walkers, hash) {

@@ -66,21 +66,34 @@ function shownWalkers(data) {
   return cells.map((cell) => data.walkers.find((walker) => walker.cell === cell));
 }
 
+/** The walker that is simulated, and its place; where that was not asked for and is not possible, its recording walks. */
+async function simulated(walkers) {
+  const live = openedLive(walkers, location.hash);
+  if (!walkers[live]?.champion) return { live: null, walk: null };
+  try {
+    return { live, walk: await liveWalk(walkers[live]) };
+  } catch (error) {
+    if (location.hash !== "") throw error;
+    complain(`It cannot be driven here: ${error.message}. This is its recording.`);
+    return { live: null, walk: null };
+  }
+}
+
 async function start() {
   if (typeof DecompressionStream === "undefined") {
     complain("This browser is too old to unpack the recording in this page: it needs one of 2023 or later.");
     return;
   }
   const data = pageData(document);
-  const live = openedLive(data.walkers, location.hash), champion = data.walkers[live]?.champion;
-  const walks = champion ? [await liveWalk(data.walkers[live])] : await Promise.all(shownWalkers(data).map(Walk.unpack));
+  const opened = openedLive(data.walkers, location.hash), { live, walk } = await simulated(data.walkers);
+  const walks = walk ? [walk] : await Promise.all(shownWalkers(data).map(Walk.unpack));
   const page = new Page(data, walks);
-  const links = liveChoice(data.walkers, champion ? live : null);
+  const links = liveChoice(data.walkers, live);
   if (links) {
     document.getElementById("subtitle").after(links);
-    addEventListener("hashchange", () => openedLive(data.walkers, location.hash) !== live && location.reload());
+    addEventListener("hashchange", () => openedLive(data.walkers, location.hash) !== opened && location.reload());
   }
-  if (champion) new Live(page, walks[0]);
+  if (walk) new Live(page, walk);
   const time_s = askedTime();
   if (time_s !== null) page.clock.seek(time_s);
   else if (!matchMedia("(prefers-reduced-motion: reduce)").matches) page.clock.play();

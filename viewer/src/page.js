@@ -157,11 +157,15 @@ export class Page {
       const passed_s = (now_ms - this.last_ms) / 1000;
       this.clock.advance(Math.min(passed_s, 0.25));
       this.slow = passed_s > SLOW_S ? (this.slow ?? 0) + 1 : 0;
-      if (this.slow === SLOW_FRAMES) this.stage.simplify();
+      if (this.slow === SLOW_FRAMES) {
+        this.slow = 0;
+        this.stage.simplify();
+      }
     }
     this.last_ms = this.clock.playing ? now_ms : undefined;
-    this.show(this.clock.playing);
+    this.show(this.clock.playing || this.stage.slow);
     if (this.clock.playing) this.invalidate();
+    else this.stage.afterRest(() => this.clock.playing || this.show());
   }
 
   /** Brings everything to the clock's time, at once; `moves`: others follow. */

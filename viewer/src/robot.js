@@ -3,6 +3,7 @@ import {
   BackSide, BoxGeometry, BufferGeometry, CapsuleGeometry, CylinderGeometry, Float32BufferAttribute, Group, Mesh,
   MeshBasicMaterial, MeshLambertMaterial, SphereGeometry, Vector3,
 } from "three";
+import { drawAs } from "./drawing.js";
 import { colour, legColour, walkerColour } from "./theme.js";
 
 /** Flat faces: no two triangles share a vertex. */
@@ -115,6 +116,7 @@ export class RobotModel {
       const leg = legOfBody(this.robot, geom.body);
       const foot = this.robot.legs.findIndex((each) => footGeoms(each).includes(g));
       if (foot >= 0) {
+        drawAs(mesh, "foot");
         const outline = outlineOf(mesh.geometry);
         mesh.add(outline);
         (this.feet[foot] ??= { shapes: [], touching: null }).shapes.push({ mesh, material, outline });

@@ -13,6 +13,7 @@ import { colour, element, walkerLineColour } from "./theme.js";
 export const CAMERAS = ["follow", "orbit", "still"];
 const TURN_S = 20; // of the orbiting camera, once around
 const SMOOTH_S = 0.4; // the camera follows the mean way over this long before and after
+const REST_MS = 250;
 const NEAR = 4.1; // reaches; so far away is the camera from one walker
 const MOST_SPREAD = { side: 8, ghosts: 6 }; // reaches; farther apart, the camera stays with the selected walker
 
@@ -73,14 +74,15 @@ export class Stage {
     this.solid.shadowMap.enabled = true;
     this.solid.shadowMap.type = PCFShadowMap;
     this.solid.domElement.addEventListener("webglcontextlost", () => {
-      this.solid = null; // the browser took it away
+      if (!this.solid) return;
+      this.solid = null; // the browser took it away, for good: outlines do as well
       this.slow = true;
       this.onChange();
     });
     this.slow = drawnByProcessor(this.solid);
   }
 
-  /** What draws the next picture: while it moves, processors draw outlines. */
+  /** What draws the next picture: processors draw outlines, but for one that stays. */
   chooseRenderer(moves) {
     const chosen = this.solid && !(this.slow && moves) ? this.solid : (this.drawing ??= new Drawing());
     if (chosen === this.renderer) return;
@@ -94,9 +96,14 @@ export class Stage {
     return this.renderer === this.solid ? "solid" : "outlines";
   }
 
-  /** Takes the picture away. */
+  /** Takes the picture away, and what listens for it. */
   remove() {
-    this.solid?.dispose();
+    clearTimeout(this.resting);
+    const { solid } = this;
+    this.solid = null;
+    solid?.dispose();
+    solid?.forceContextLoss();
+    this.controls.dispose();
     this.picture.remove();
     this.paper.remove();
   }
@@ -274,6 +281,12 @@ export class Stage {
     return false;
   }
 
+  /** The picture of what has come to rest, a moment later, where it takes a processor long. */
+  afterRest(draw) {
+    clearTimeout(this.resting);
+    if (this.slow && this.solid) this.resting = setTimeout(draw, REST_MS);
+  }
+
   /** Less to draw, for machines that cannot keep up: first without shadows, then outlines. */
   simplify() {
     this.slow ||= this.simple;
@@ -286,7 +299,7 @@ export class Stage {
 
   resize() {
     const { clientWidth: width, clientHeight: height } = this.parent;
-    if (!this.renderer || width === 0 || height === 0 || (width === this.width && height === this.height)) return;
+    if (width === 0 || height === 0 || (width === this.width && height === this.height)) return;
     [this.width, this.height] = [width, height];
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, this.slow ? 1 : this.pixelRatio));
     this.renderer.setSize(width, height, false);

@@ -5,7 +5,7 @@ import { colour } from "./theme.js";
 
 const HALF = 90; // cells to each side of the walker
 const DARKEST = 0.55; // of the colour of the highest places
-const STEP = 10; // the mesh moves by so many cells at once
+const STEP = 12; // the mesh moves by so many cells at once: a multiple of what drawing.js makes patches of
 
 /** A square of the ground that follows its walker. */
 export class Terrain {

@@ -4,7 +4,10 @@ import { Patterns } from "../patterns.js";
 import { element } from "../theme.js";
 
 const SUPG_NOTE = "Each leg’s joints, over one cycle of its timer. The line is where the leg is now; touch sends it back to the start.";
-const WITHOUT_NOTE = "This controller has no patterns over time: the network gives the weights of the neurons that move the joints.";
+const WITHOUT_NOTES = {
+  ctrnn: "This controller has no patterns over time: the network gives the weights of the neurons that move the joints.",
+  sine: "This controller has no patterns that touch begins anew: the network gives each joint its wave.",
+};
 
 export class Inside {
   /** In a section that is hidden until there is a walker, with places for both: {section, cppn, patterns}. */
@@ -18,7 +21,7 @@ export class Inside {
     section.hidden = false;
     cppn.replaceChildren(drawCppn(JSON.parse(text).genome, { inputs, outputs }));
     this.patterns = walk.supg ? new Patterns(walk) : null;
-    patterns.replaceChildren(element("p", { class: "lead" }, this.patterns ? SUPG_NOTE : WITHOUT_NOTE), ...(this.patterns ? [this.patterns.element] : []));
+    patterns.replaceChildren(element("p", { class: "lead" }, this.patterns ? SUPG_NOTE : WITHOUT_NOTES[walk.controller.kind] ?? ""), ...(this.patterns ? [this.patterns.element] : []));
     this.show(0);
   }
 

@@ -40,6 +40,7 @@ export class LabStage {
 
   begin(live, title) {
     this.walk = new LiveWalk(live, { title, origin: "", cppn_svg: null });
+    this.drag?.remove();
     this.stage?.remove();
     this.stage = new Stage(this.parent, [this.walk], () => this.invalidate());
     this.drag = new Drag(this.stage, this);
@@ -68,8 +69,8 @@ export class LabStage {
     this.began_ms = performance.now();
     this.clock.duration_s = 0;
     this.clock.seek(0);
-    this.stage?.renew(0, this.missing());
-    this.stage?.resetCamera();
+    this.stage.renew(0, this.missing());
+    this.stage.resetCamera();
     this.invalidate();
   }
 
@@ -86,36 +87,38 @@ export class LabStage {
 
   frame(now_ms) {
     this.asked = false;
-    if (this.clock.playing && this.stage?.rests(now_ms)) return this.invalidate();
-    this.drag?.update();
+    if (this.clock.playing && this.stage.rests(now_ms)) return this.invalidate();
+    this.drag.update();
     const passed_s = this.clock.playing && this.last_ms !== undefined ? Math.min((now_ms - this.last_ms) / 1000, 0.1) : 0;
     this.last_ms = this.clock.playing ? now_ms : undefined;
     this.slow = passed_s > SLOW_S ? (this.slow ?? 0) + 1 : 0;
-    if (this.slow === SLOW_FRAMES) this.stage?.simplify();
+    if (this.slow === SLOW_FRAMES) {
+      this.slow = 0;
+      this.stage.simplify();
+    }
     if (passed_s > 0) this.move(passed_s);
-    this.draw();
+    this.draw(this.clock.playing || this.stage.slow);
     if (this.clock.playing) this.invalidate();
+    else this.stage.afterRest(() => this.clock.playing || this.draw());
   }
 
-  /** Now, without waiting for the browser's next frame. */
-  draw() {
+  /** Now, without waiting for the browser's next frame; `moves`: other pictures follow. */
+  draw(moves = false) {
     if (!this.walk) return; // nothing has walked yet
     const time_s = Math.min(this.clock.time_s, this.walk.seconds);
     this.showing = true; // what moves the camera here asks for no other frame
-    if (this.stage) {
-      this.stage.resize();
-      this.stage.show(time_s, this.clock.playing);
-    }
+    this.stage.resize();
+    this.stage.show(time_s, moves);
     this.hear.now(this.walk, time_s);
     this.showing = false;
   }
 
   move(passed_s) {
-    if (this.next && performance.now() - this.began_ms > LEAST_MS && !this.drag?.held) return this.takeNext().catch((error) => this.hear.trouble(error));
+    if (this.next && performance.now() - this.began_ms > LEAST_MS && !this.drag.held) return this.takeNext().catch((error) => this.hear.trouble(error));
     if (this.walk.seconds < this.duration_s - 1e-9 && this.walk.outcome !== "diverged") return this.clock.advance(passed_s);
     this.over_s += passed_s;
     if (this.next) return this.takeNext().catch((error) => this.hear.trouble(error));
-    if (this.over_s < PAUSE_S || this.drag?.held) return;
+    if (this.over_s < PAUSE_S || this.drag.held) return;
     this.again();
   }
 
