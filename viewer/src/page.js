@@ -175,7 +175,7 @@ export class Page {
     this.stage.resize();
     this.stage.show(this.clock.time_s, moves);
     // Without a graphics card the diagrams cost as much as the picture.
-    this.skipped = moves && this.stage.slow ? (this.skipped + 1) % PICTURES_A_DIAGRAM : 0;
+    this.skipped = moves && this.clock.playing && this.stage.slow ? (this.skipped + 1) % PICTURES_A_DIAGRAM : 0;
     if (this.skipped === 0) this.showDiagrams();
     this.frames.push(performance.now() - start_ms);
     if (this.frames.length > FRAMES_KEPT) this.frames.shift();
