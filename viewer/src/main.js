@@ -66,9 +66,8 @@ function shownWalkers(data) {
   return cells.map((cell) => data.walkers.find((walker) => walker.cell === cell));
 }
 
-/** The walker that is simulated, and its place; where that was not asked for and is not possible, its recording walks. */
-async function simulated(walkers) {
-  const live = openedLive(walkers, location.hash);
+/** The walker in place `live` (null: none) as it is simulated, and its place; where that was not asked for and is not possible, its recording walks. */
+async function simulated(walkers, live) {
   if (!walkers[live]?.champion) return { live: null, walk: null };
   try {
     return { live, walk: await liveWalk(walkers[live]) };
@@ -85,7 +84,7 @@ async function start() {
     return;
   }
   const data = pageData(document);
-  const opened = openedLive(data.walkers, location.hash), { live, walk } = await simulated(data.walkers);
+  const opened = openedLive(data.walkers, location.hash), { live, walk } = await simulated(data.walkers, opened);
   const walks = walk ? [walk] : await Promise.all(shownWalkers(data).map(Walk.unpack));
   const page = new Page(data, walks);
   const links = liveChoice(data.walkers, live);

@@ -8,7 +8,7 @@ import { CAMERAS, Stage } from "./scene.js";
 import { element, onThemeChange } from "./theme.js";
 
 const SPANS_S = [2, 5, 15, 60];
-const SLOW_S = 0.07, SLOW_FRAMES = 40; // frames so far apart, so many of them, are too much for the machine
+const LATE_PICTURES = 40; // in a row are too much for the machine
 const FEW = 4; // walkers whose names stand in the picture, and whose stories fit above it
 const FOLDED = 12; // more than so many are in a list that is closed at first
 const PICTURES_A_DIAGRAM = 2; // where processors draw
@@ -156,11 +156,7 @@ export class Page {
     if (this.clock.playing && this.last_ms !== undefined) {
       const passed_s = (now_ms - this.last_ms) / 1000;
       this.clock.advance(Math.min(passed_s, 0.25));
-      this.slow = passed_s > SLOW_S ? (this.slow ?? 0) + 1 : 0;
-      if (this.slow === SLOW_FRAMES) {
-        this.slow = 0;
-        this.stage.simplify();
-      }
+      this.stage.keepUp(passed_s, LATE_PICTURES);
     }
     this.last_ms = this.clock.playing ? now_ms : undefined;
     this.show(this.clock.playing || this.stage.slow);

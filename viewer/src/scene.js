@@ -13,7 +13,7 @@ import { colour, element, walkerLineColour } from "./theme.js";
 export const CAMERAS = ["follow", "orbit", "still"];
 const TURN_S = 20; // of the orbiting camera, once around
 const SMOOTH_S = 0.4; // the camera follows the mean way over this long before and after
-const REST_MS = 250;
+const REST_MS = 250, LATE_S = 0.07;
 const NEAR = 4.1; // reaches; so far away is the camera from one walker
 const MOST_SPREAD = { side: 8, ghosts: 6 }; // reaches; farther apart, the camera stays with the selected walker
 
@@ -285,6 +285,14 @@ export class Stage {
   afterRest(draw) {
     clearTimeout(this.resting);
     if (this.slow && this.solid) this.resting = setTimeout(draw, REST_MS);
+  }
+
+  /** While it plays: how long ago the picture before was. After `most` in a row that came late there is less to draw. */
+  keepUp(passed_s, most) {
+    this.late = passed_s > LATE_S ? (this.late ?? 0) + 1 : 0;
+    if (this.late < most) return;
+    this.late = 0;
+    this.simplify();
   }
 
   /** Less to draw, for machines that cannot keep up: first without shadows, then outlines. */

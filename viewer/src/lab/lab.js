@@ -38,7 +38,7 @@ export class Lab {
       now: (walk, time_s) => this.showNow(time_s), shown: (walk) => this.showInside(walk),
       trouble: (error) => this.complain(error.message),
     });
-    this.inside = new Inside({ section: byId("inside"), cppn: byId("cppn"), patterns: byId("patterns") });
+    this.inside = new Inside(byId("inside"));
     this.footfalls = new Footfalls(byId("footfalls"), this.stage.clock);
     this.files = new Files(this);
     onThemeChange(() => this.repaint());

@@ -8,7 +8,7 @@ import { Stage } from "../scene.js";
 
 const PAUSE_S = 0.6; // after a walk, before the next
 const LEAST_MS = 2500; // of a walk, before a better one takes its place
-const SLOW_S = 0.07, SLOW_FRAMES = 20; // frames so far apart, so many of them, are too much for the machine
+const LATE_PICTURES = 20; // in a row are too much for the machine
 
 export class LabStage {
   /** `parent`: where the picture goes; `now(text)`: what it does, for those who look; `shown(walk)`: another walker. */
@@ -91,11 +91,7 @@ export class LabStage {
     this.drag.update();
     const passed_s = this.clock.playing && this.last_ms !== undefined ? Math.min((now_ms - this.last_ms) / 1000, 0.1) : 0;
     this.last_ms = this.clock.playing ? now_ms : undefined;
-    this.slow = passed_s > SLOW_S ? (this.slow ?? 0) + 1 : 0;
-    if (this.slow === SLOW_FRAMES) {
-      this.slow = 0;
-      this.stage.simplify();
-    }
+    this.stage.keepUp(passed_s, LATE_PICTURES);
     if (passed_s > 0) this.move(passed_s);
     this.draw(this.clock.playing || this.stage.slow);
     if (this.clock.playing) this.invalidate();

@@ -37,7 +37,7 @@ export class Watch {
       trouble: (error) => this.complain(error.message),
     });
     this.footfalls = new Footfalls(byId("footfalls"), this.stage.clock);
-    this.inside = new Inside({ section: byId("inside"), cppn: byId("cppn"), patterns: byId("patterns") });
+    this.inside = new Inside(byId("inside"));
     this.walk = button("Let it walk", () => (this.stage.clock.playing ? this.stage.clock.pause() : this.stage.clock.play()), { hidden: "" });
     this.best = button("The best again", () => this.showBest(), { hidden: "" });
     byId("views").append(this.walk, this.best);
