@@ -8,7 +8,7 @@ const RIBBON_BLOCK = 64, RIBBON_PARTS = 400; // rows that are seen or not togeth
 const TERRAIN_STEP = 3; // cells of the ground that make one patch
 const LEAST_LABEL_PX = 7;
 const PATCHES_LAYER = -5.5; // over the numbers on the floor, under the path
-const FOG_STOPS = 8;
+const FOG_STOPS = 8, LINE_PIECES = 6;
 
 /** What a mesh is drawn as, if not as any convex shape: foot, floor, lines, ribbon, shadow, label or patches. */
 export function drawAs(mesh, drawn) {
@@ -20,6 +20,7 @@ export class Drawing {
   /** With the parts of WebGLRenderer that a Stage uses. */
   constructor() {
     this.domElement = document.createElement("canvas");
+    this.backdrop = document.createElement("canvas");
     this.ratio = 1;
     this.known = new WeakMap(); // what is kept for each geometry and image
     this.colour = new Color();
@@ -38,9 +39,7 @@ export class Drawing {
     this.paint = this.domElement.getContext("2d", { alpha: false, willReadFrequently: true });
     this.paint.lineJoin = "round";
     this.look(scene, camera);
-    this.paint.globalAlpha = 1;
-    this.paint.fillStyle = scene.background.getStyle();
-    this.paint.fillRect(0, 0, this.domElement.width, this.domElement.height);
+    this.sky_css = scene.background.getStyle();
     for (const { mesh } of this.inOrder(scene)) this[`draw_${mesh.userData.drawn ?? "shape"}`](mesh);
     this.paint.globalAlpha = 1;
   }
@@ -133,37 +132,76 @@ export class Drawing {
     return share * share * (3 - 2 * share);
   }
 
-  /** Haze over the plane z = 0, from none nearby to full at the horizon: on the plane, equal depths are parallel lines in the picture. */
-  haze() {
+  /**
+   * A colour on the plane z = 0 in haze: as it is nearby, transparent at the horizon. On the plane, equal depths are parallel lines in the
+   * picture. A string where the plane is seen from right above.
+   */
+  throughHaze(css) {
     const across = Math.hypot(this.right.z, this.up.z);
-    if (across < 1e-3 || this.eye.z <= 0) return null;
+    if (across < 1e-3 || this.eye.z <= 0) return css;
     const pixels = this.half[1] / Math.tan((this.camera.fov * Math.PI) / 360);
     // A point at this depth is (right · q + up · s − back) · depth from the eye; z = 0 gives how far it is along (right.z, up.z).
     const along = (depth) => (this.back.z - this.eye.z / depth) / across;
     const place = (value) => [this.half[0] + (pixels * value * this.right.z) / across, this.half[1] - (pixels * value * this.up.z) / across];
-    const { near, far, color } = this.fog, first = along(near), last = along(far);
+    const { near, far } = this.fog, first = along(near), last = along(far);
     const gradient = this.paint.createLinearGradient(...place(first), ...place(last));
-    const [r, g, b] = color.getStyle().match(/\d+/g);
+    const [r, g, b] = css.match(/\d+/g);
     for (let i = 0; i <= FOG_STOPS; ++i) {
       const depth = near * (far / near) ** (i / FOG_STOPS);
-      gradient.addColorStop(Math.min(Math.max((along(depth) - first) / (last - first), 0), 1), `rgba(${r}, ${g}, ${b}, ${this.hidden(depth)})`);
+      gradient.addColorStop(Math.min(Math.max((along(depth) - first) / (last - first), 0), 1), `rgba(${r}, ${g}, ${b}, ${1 - this.hidden(depth)})`);
     }
     return gradient;
   }
 
   // ---- kinds of meshes ----
 
+  /** With the sky: kept while the camera only follows the walker, as a gradient over all of the picture takes long. */
   draw_floor(mesh) {
-    this.fillRectangles(mesh, [0, 1, 3, 2], this.lit(mesh.material, this.up, 0)); // the vertices of a PlaneGeometry
+    const { width, height } = this.domElement, floor_css = this.lit(mesh.material, this.up, 0);
+    const key = [width, height, this.sky_css, floor_css, this.camera.fov, ...[this.eye.z, this.fog.near, this.fog.far, ...this.back, ...this.up].map((value) => value.toFixed(5))].join();
+    if (key !== this.backdropKey) this.paintBackdrop(mesh, floor_css);
+    this.backdropKey = key;
+    this.paint.globalAlpha = 1;
+    this.paint.drawImage(this.backdrop, 0, 0);
   }
 
-  /** Lines on the floor, each four vertices in turn, and the haze over it. */
+  paintBackdrop(floor, floor_css) {
+    const { width, height } = this.domElement, picture = this.paint;
+    if (this.backdrop.width !== width || this.backdrop.height !== height) Object.assign(this.backdrop, { width, height });
+    this.paint = this.backdrop.getContext("2d", { alpha: false, willReadFrequently: true });
+    this.paint.globalAlpha = 1;
+    this.paint.fillStyle = this.sky_css;
+    this.paint.fillRect(0, 0, width, height);
+    this.fillRectangles(floor, [0, 1, 3, 2], this.throughHaze(floor_css)); // the vertices of a PlaneGeometry
+    this.paint = picture;
+  }
+
+  /** Lines on the floor, each four vertices in turn: in pieces of one tone each, as thin gradients take very long. */
   draw_lines(mesh) {
-    this.fillRectangles(mesh, [0, 1, 2, 3], this.lit(mesh.material, this.up, 0));
-    const haze = this.haze();
-    if (!haze) return;
-    this.paint.fillStyle = haze;
-    this.paint.fillRect(0, 0, ...this.half.map((value) => 2 * value));
+    const { near, far } = this.fog, { position } = mesh.geometry.attributes, at = new Vector3();
+    const ends = [this.near_m, ...Array.from({ length: LINE_PIECES }, (_, i) => near * (far / near) ** (i / LINE_PIECES)), far];
+    const shares = ends.slice(1).map((end, i) => 1 - this.hidden(Math.sqrt(ends[i] * end)));
+    this.paint.fillStyle = this.lit(mesh.material, this.up, 0);
+    for (let i = 0; i < position.count; i += 4) {
+      const [a, b, c, d] = [0, 1, 2, 3].map((k) => this.project(at.fromBufferAttribute(position, i + k).applyMatrix4(mesh.matrixWorld)));
+      const alongX = Math.abs(position.getX(i + 1) - position.getX(i)) > Math.abs(position.getY(i + 3) - position.getY(i));
+      this.fillStrip(alongX ? [[a, b], [d, c]] : [[a, d], [b, c]], ends, shares);
+    }
+  }
+
+  /** A narrow band between two edges, each [from, to] in [x, y, w], cut where it reaches a depth of `ends`, each piece as opaque as `shares` says. */
+  fillStrip(edges, ends, shares) {
+    const [[from], [to]] = [edges.map(([start]) => start), edges.map(([, end]) => end)], long = to[2] - from[2];
+    const [least, most] = long > 0 ? [from[2], to[2]] : [to[2], from[2]];
+    for (let i = 1; i < ends.length; ++i) {
+      const near = Math.max(ends[i - 1], least), far = Math.min(ends[i], most);
+      if (near > far || (near === far && long !== 0)) continue;
+      const places = long === 0 ? [0, 1] : [(near - from[2]) / long, (far - from[2]) / long];
+      const [[p, q], [s, r]] = edges.map(([start, end]) => places.map((share) => start.map((value, axis) => value + share * (end[axis] - value))));
+      if (!this.within([p, q, r, s])) continue;
+      this.paint.globalAlpha = shares[i - 1];
+      this.fillSeen([p, q, r, s]);
+    }
   }
 
   /** Filled one by one, which is quicker than all in one path. */
@@ -174,11 +212,14 @@ export class Drawing {
     for (let i = 0; i < position.count; i += 4) {
       const corners = order.map((k) => this.project(at.fromBufferAttribute(position, i + k).applyMatrix4(mesh.matrixWorld)));
       const seen = clipNear(corners, this.near_m);
-      if (!this.within(seen)) continue;
-      this.paint.beginPath();
-      this.trace(seen.map(([x, y, w]) => [x / w, y / w]));
-      this.paint.fill();
+      if (this.within(seen)) this.fillSeen(seen);
     }
+  }
+
+  fillSeen(polygon) {
+    this.paint.beginPath();
+    this.trace(polygon.map(([x, y, w]) => [x / w, y / w]));
+    this.paint.fill();
   }
 
   /** What stands between the sun and the plane, all in one tone. */

@@ -11,7 +11,7 @@ const SPANS_S = [2, 5, 15, 60];
 const LATE_PICTURES = 40; // in a row are too much for the machine
 const FEW = 4; // walkers whose names stand in the picture, and whose stories fit above it
 const FOLDED = 12; // more than so many are in a list that is closed at first
-const PICTURES_A_DIAGRAM = 2; // where processors draw
+const PICTURES_A_DIAGRAM = 3; // where processors draw
 const FRAMES_KEPT = 2000; // of their times, for amble.frames()
 const byId = (id) => document.getElementById(id);
 
