@@ -7,6 +7,8 @@ import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { amble, launch, makePage, open, pictureOf, recording, settled } from "./browser.mjs";
 
+const CHAMPION = join(process.env.AMBLE_SOURCE, "robots/servo/champion.json");
+
 let browser;
 before(async () => (browser = await launch()));
 after(() => browser.close());
@@ -306,8 +308,8 @@ const squares = (page) => page.evaluate(() => {
 });
 
 /** How a page looks by WebGL and in outlines: mean difference of the squares' colours, and the share of those that differ by over 40, of 255. */
-async function apart(without, path, at_s, prepare = () => {}) {
-  const pages = [await open(browser, path, { at_s }), await open(without, path, { at_s })].map(({ page }) => page);
+async function apart(without, path, place, prepare = () => {}) {
+  const pages = [await open(browser, path, place), await open(without, path, place)].map(({ page }) => page);
   for (const page of pages) await prepare(page);
   const [one, other] = [await squares(pages[0]), await squares(pages[1])];
   await Promise.all(pages.map((page) => page.close()));
@@ -316,16 +318,28 @@ async function apart(without, path, at_s, prepare = () => {}) {
   return { mean: all.reduce((sum, value) => sum + value, 0) / all.length, far: all.filter((value) => value > 40).length / all.length };
 }
 
-test("outlines look like what WebGL draws: alone, as ghosts, on uneven ground", async () => {
+/** Takes the near leg of a live walker away, which changes the picture. */
+async function withoutLeg(page) {
+  await page.evaluate(() => { window.amble.pause(); window.amble.simulate(0.5 - window.amble.time()); window.amble.render(); });
+  const before = await squares(page);
+  await page.locator("#live .live-legs input").nth(1).uncheck();
+  await settled(page);
+  await page.evaluate(() => window.amble.render());
+  const after = await squares(page), changed = after.filter((value, i) => Math.abs(value - before[i]) > 40).length;
+  assert.ok(changed > after.length / 500, `${changed} of ${after.length} values of the picture changed`);
+}
+
+test("outlines look like what WebGL draws: alone, as ghosts, on uneven ground, without a leg", async () => {
   const without = await launch({ gl: false });
   try {
     const cases = {
-      alone: [1.5, makePage("walk7.html", recording("walk.rec")), 0.5],
-      ghosts: [1.5, makePage("two7.html", recording("walk.rec"), recording("slow.rec")), 1, (page) => page.evaluate(() => window.amble.layout("ghosts"))],
-      uneven: [5, makePage("rough7.html", recording("uneven.rec")), 0.5], // without shadows
+      alone: [1.5, makePage("walk7.html", recording("walk.rec")), { at_s: 0.5 }],
+      ghosts: [1.5, makePage("two7.html", recording("walk.rec"), recording("slow.rec")), { at_s: 1 }, (page) => page.evaluate(() => window.amble.layout("ghosts"))],
+      uneven: [5, makePage("rough7.html", recording("uneven.rec")), { at_s: 0.5 }], // without shadows
+      "without a leg": [1.5, makePage("live7.html", CHAMPION, "--undisturbed"), { hash: "live" }, withoutLeg],
     };
-    for (const [what, [most, path, at_s, prepare]] of Object.entries(cases)) {
-      const { mean, far } = await apart(without, path, at_s, prepare);
+    for (const [what, [most, path, place, prepare]] of Object.entries(cases)) {
+      const { mean, far } = await apart(without, path, place, prepare);
       assert.ok(mean < most && far < most / 200, `${what}: mean difference ${mean} of 255, ${far} of the squares over 40`);
     }
   } finally {
@@ -349,6 +363,19 @@ test("without WebGL the picture is drawn in outlines, and moves with the diagram
   } finally {
     await without.close();
   }
+});
+
+test("where the browser takes WebGL away the picture goes on in outlines", async () => {
+  const { page, problems } = await open(browser, makePage("walk8.html", recording("walk.rec")), { at_s: 0.5 });
+  assert.equal(await page.evaluate(() => { window.amble.render(); return window.amble.drawnAs(); }), "solid");
+  const before = await pictureOf(page);
+  await page.evaluate(() => document.querySelector("#stage canvas").getContext("webgl2").getExtension("WEBGL_lose_context").loseContext());
+  await page.waitForFunction(() => window.amble.drawnAs() === "outlines");
+  assert.ok((await pictureOf(page)).colours > 100);
+  await page.keyboard.press("Shift+ArrowRight");
+  assert.notEqual((await pictureOf(page)).hash, before.hash);
+  assert.deepEqual(problems.filter((problem) => !/Context Lost/.test(problem)), []);
+  await page.close();
 });
 
 test("damaged data is reported in the page", async () => {
