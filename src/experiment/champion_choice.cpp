@@ -15,7 +15,7 @@
 namespace amble::experiment {
 
 ChampionChoice::ChampionChoice(const Config& config, const Problem& problem, const RunPaths& paths)
-    : problem_(problem), paths_(&paths), interval_generations_(config.champion.interval_generations) {
+    : problem_(problem), paths_(&paths) {
   problem_.noise.score = config.champion.episode_score(problem.noise.score);
   const int episodes = config.champion.episodes;
   if (episodes == 0) return;
@@ -35,10 +35,9 @@ std::optional<double> ChampionChoice::judged(const neat::Genome& genome, const s
   return last_->second;
 }
 
-std::optional<bool> ChampionChoice::prefers(int generation, const neat::Genome& genome, double objective,
+std::optional<bool> ChampionChoice::prefers(const neat::Genome& genome, double objective,
                                             const Progress& progress, const std::atomic<bool>& stop) {
   if (evaluator_ == nullptr) return objective > progress.best;
-  if (generation % interval_generations_ != 0) return false;
   if (!champion_ && progress.best_generation >= 0) {
     champion_ = judged(load_champion(paths_->champion(progress.best_generation)).genome, stop);
     if (!champion_) return std::nullopt;

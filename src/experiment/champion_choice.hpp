@@ -19,25 +19,23 @@ namespace amble::experiment {
 /// `champion.episodes`, by its objective in as many further trials, the same for all genomes of the run and
 /// none of which evolution meets. So one lucky evaluation cannot make a champion. Judgements follow from
 /// genome, seed and config alone, so they are not stored: a resumed run judges its champion again. How the
-/// trials are combined is `champion.score`; generations between `champion.interval_generations` are passed
-/// over.
+/// trials are combined is `champion.score`.
 class ChampionChoice {
  public:
   /// Keeps a pointer to `paths`.
   ChampionChoice(const Config& config, const Problem& problem, const RunPaths& paths);
 
-  /// Whether the genome of a generation, which reached `objective` in its evaluation, is better than the
-  /// champion of `progress`. If so, it is the champion from now on. Nothing if `stop` was set meanwhile.
-  /// Throws UserError if the champion's file cannot be read.
-  std::optional<bool> prefers(int generation, const neat::Genome& genome, double objective,
-                              const Progress& progress, const std::atomic<bool>& stop);
+  /// Whether the genome, which reached `objective` in its evaluation, is better than the champion of
+  /// `progress`. If so, it is the champion from now on. Nothing if `stop` was set meanwhile. Throws UserError
+  /// if the champion's file cannot be read.
+  std::optional<bool> prefers(const neat::Genome& genome, double objective, const Progress& progress,
+                              const std::atomic<bool>& stop);
 
  private:
   std::optional<double> judged(const neat::Genome& genome, const std::atomic<bool>& stop);
 
   Problem problem_;  ///< with the noise of the trials that decide
   const RunPaths* paths_;
-  int interval_generations_;
   std::shared_ptr<const ground::Ground> ground_;
   std::vector<trial::Scenario> scenarios_;
   std::unique_ptr<Evaluator> evaluator_;

@@ -213,7 +213,7 @@ bool Run::State::keep_best(std::span<const neat::Genome> candidates, std::span<c
   row.best_hidden = genome.count(neat::NodeKind::hidden);
   row.best_links = genome.enabled_links();
   Progress& progress = state_.progress;
-  const auto preferred = choice.prefers(row.generation, genome, row.best, progress, stop);
+  const auto preferred = choice.prefers(genome, row.best, progress, stop);
   if (!preferred) return false;
   if (*preferred) {
     const NewBest found{.generation = row.generation,

@@ -143,50 +143,6 @@ TEST(ChampionChoice, ByTheMedianKeepsWhatTypicallyDoesBest) {
   }
 }
 
-TEST(ChampionChoice, TriesTheBestOfOneGenerationInAnInterval) {
-  const TemporaryFolder scratch;
-  Config all = judged_config(4), third = all;
-  third.champion.interval_generations = 3;
-  run(scratch / "all", all, 2);
-  run(scratch / "third", third, 2);
-  const auto table = record::read_generations(RunPaths(scratch / "third").generations);
-  EXPECT_EQ(table.best, record::read_generations(RunPaths(scratch / "all").generations).best);
-
-  // What a run keeps that tries all of them, but of generations 0, 3, 6, …: the record among those.
-  std::vector<int> kept;
-  for (const Champion& champion : champions(scratch / "third")) {
-    kept.push_back(champion.generation);
-    EXPECT_EQ(champion.generation % 3, 0);
-  }
-  ASSERT_GE(kept.size(), 2u);
-  EXPECT_EQ(kept.front(), 0);
-  const auto of_all = champions(scratch / "all");
-  for (const Champion& champion : of_all) {
-    if (champion.generation % 3 == 0) {
-      EXPECT_THAT(kept, testing::Contains(champion.generation));
-    }
-  }
-}
-
-TEST(ChampionChoice, InAnIntervalIsTheSameAfterAnInterruptionBetween) {
-  const TemporaryFolder scratch;
-  Config config = judged_config(4);
-  config.champion.interval_generations = 4;
-  run(scratch / "whole", config, 1);
-  Config first = config;
-  first.generations = 10;  // two after the last that was tried
-  run(scratch / "parts", first, 2);
-  Listener listener;
-  ASSERT_EQ(Run::resume(scratch / "parts", generations, 2).execute(listener, listener.stop),
-            RunStatus::finished);
-  const auto whole = champions(scratch / "whole"), parts = champions(scratch / "parts");
-  ASSERT_EQ(whole.size(), parts.size());
-  for (std::size_t i = 0; i < whole.size(); ++i) {
-    EXPECT_EQ(whole[i].generation, parts[i].generation);
-    EXPECT_EQ(whole[i].genome, parts[i].genome);
-  }
-}
-
 TEST(ChampionChoice, NeedsNoise) {
   try {
     small_config({"champion.episodes=4"});
@@ -203,10 +159,6 @@ TEST(ChampionChoice, IsNoPartOfAConfigsIdentityUnlessItIsMade) {
   EXPECT_TRUE(identity_json(judged_config(4)).contains("champion"));
   EXPECT_FALSE(identity_json(judged_config(4)).at("champion").contains("score"))
       << "as before it could be chosen";
-  EXPECT_FALSE(identity_json(judged_config(4)).at("champion").contains("interval_generations"));
-  Config config = judged_config(4);
-  config.champion.interval_generations = 2;
-  EXPECT_EQ(identity_json(config).at("champion").at("interval_generations"), 2);
 }
 
 }  // namespace champion_choice_test

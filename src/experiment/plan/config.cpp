@@ -63,10 +63,6 @@ void ChampionSettings::describe(io::SettingsVisitor& visitor) {
                    "a generation becomes the champion; 0: its evaluation decides, luck included"});
   visitor.choice("score", score, champion_score_names,
                  {"what counts of their scores; median: what the walker typically does"});
-  visitor.integer(
-      "interval_generations", interval_generations, {1, 1000},
-      {"of so many generations one has its best tried, the first of all among them; fewer cost less "
-       "time. Nothing where its evaluation decides"});
 }
 
 trial::EpisodeScore ChampionSettings::episode_score(trial::EpisodeScore of_evolution) const {
@@ -173,15 +169,6 @@ std::unique_ptr<const score::Behaviour> Config::make_behaviour(const robot::Robo
   return score::make_behaviour(search::strategy_kind(search).behaviour, settings);
 }
 
-namespace {
-
-void leave_out_defaults(io::Json& values, const ChampionSettings& champion) {
-  if (champion.score == ChampionScore::as_in_evolution) values.erase("score");
-  if (champion.interval_generations == 1) values.erase("interval_generations");
-}
-
-}  // namespace
-
 std::string Config::identity() const {
   Config copy = *this;
   copy.name.clear();
@@ -201,8 +188,8 @@ std::string Config::identity() const {
   if (copy.evaluation.is_default()) values.erase("evaluation");
   if (copy.champion.is_default())
     values.erase("champion");
-  else
-    leave_out_defaults(values.at("champion"), copy.champion);
+  else if (copy.champion.score == ChampionScore::as_in_evolution)
+    values.at("champion").erase("score");
   return values.dump();
 }
 

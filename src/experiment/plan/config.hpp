@@ -53,9 +53,6 @@ struct ChampionSettings {
   /// evaluation decides, luck included.
   int episodes = 0;
   ChampionScore score = ChampionScore::as_in_evolution;  ///< what counts of their scores
-  /// Of so many generations one has its best tried, 1 … 1000: fewer cost less time. Nothing without
-  /// `episodes`.
-  int interval_generations = 1;
 
   void describe(io::SettingsVisitor& visitor);  ///< the table [champion]
   /// Whether no further trials decide.
