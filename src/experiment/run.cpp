@@ -1,7 +1,9 @@
 #include "amble/experiment/run.hpp"
 
 #include <algorithm>
+#include <future>
 #include <new>
+#include <optional>
 #include <utility>
 
 #include "amble/core/clock.hpp"
@@ -64,9 +66,16 @@ class Run::State {
 
  private:
   RunStatus generations(RunListener& listener, const std::atomic<bool>& stop);
+  /// The best of a generation, of which the search forgets its candidates.
+  struct Best {
+    int index = 0;  ///< among the candidates
+    neat::Genome genome;
+  };
+  /// What is known of a generation before its best is tried further.
+  GenerationRow summarise(const EvaluatedGeneration& evaluated);
+  Best best_of(const EvaluatedGeneration& evaluated, GenerationRow& row) const;
   /// Saves the best of a generation if it becomes the champion; false if `stop` was set meanwhile.
-  bool keep_best(std::span<const neat::Genome> candidates, std::span<const double> objectives,
-                 ChampionChoice& choice, TypicalTrials& typical, GenerationRow& row,
+  bool keep_best(const Best& best, ChampionChoice& choice, TypicalTrials& typical, GenerationRow& row,
                  const std::atomic<bool>& stop);
   /// Measures what the champion typically does; false if `stop` was set meanwhile.
   bool measure_typical(TypicalTrials& trials, const neat::Genome& champion, const std::atomic<bool>& stop);
@@ -166,7 +175,8 @@ RunStatus Run::State::execute(RunListener& listener, const std::atomic<bool>& st
   }
 }
 
-// The generation loop: ask, evaluate, keep the best, tell, write.
+// The generation loop: evaluate, tell, keep the best, write. With several workers the next generation is
+// already evaluated while the best of this one is tried further, which is work for one of them.
 RunStatus Run::State::generations(RunListener& listener, const std::atomic<bool>& stop) {
   Evaluator evaluator(*problem_, behaviour_->path(), jobs_, behaviour_->measures());
   ChampionChoice choice(config_, *problem_, folder_.paths());
@@ -175,23 +185,24 @@ RunStatus Run::State::generations(RunListener& listener, const std::atomic<bool>
     const auto champion = load_champion(paths().champion(best));
     if (!measure_typical(typical, champion.genome, stop)) return RunStatus::interrupted;
   }
+  std::future<std::optional<EvaluatedGeneration>> evaluating;
+  const auto evaluate_next = [&] {
+    if (generation() >= config_.generations) return;
+    evaluating = std::async(jobs_ > 1 ? std::launch::async : std::launch::deferred, [&] {
+      return evaluate_generation(evaluator, *problem_, config_.evaluation, ground_, config_.seed,
+                                 generation(), state_.strategy->ask(), stop);
+    });
+  };
   double last_row_s = now_s(), files_s = 0.0;
-  while (generation() < config_.generations) {
-    const auto candidates = state_.strategy->ask();
-    const auto evaluated = evaluate_generation(evaluator, *problem_, config_.evaluation, ground_,
-                                               config_.seed, generation(), candidates, stop);
-    if (!evaluated) return RunStatus::interrupted;
-    const auto& [result, objectives] = *evaluated;
-
-    GenerationRow row;
-    row.generation = generation();
-    row.times = result.times;
-    row.evaluations = candidates.size();
-    row.steps = result.steps;
-    summarise_trials(objectives, result.trajectories, row);
-    tally_.add(result.trajectories, problem_->trial.steps());
-    if (!keep_best(candidates, objectives, choice, typical, row, stop)) return RunStatus::interrupted;
+  for (evaluate_next(); evaluating.valid();) {
+    const auto evaluated = evaluating.get();
+    if (!evaluated || stop)
+      return RunStatus::interrupted;  // also if it ended just before the listener stopped
+    GenerationRow row = summarise(*evaluated);
+    const Best best = best_of(*evaluated, row);
     tell(*evaluated, row);
+    evaluate_next();
+    if (!keep_best(best, choice, typical, row, stop)) return RunStatus::interrupted;
 
     const double row_s = now_s();
     row.wall_s = row_s - std::exchange(last_row_s, row_s);
@@ -205,23 +216,37 @@ RunStatus Run::State::generations(RunListener& listener, const std::atomic<bool>
   return RunStatus::finished;
 }
 
-bool Run::State::keep_best(std::span<const neat::Genome> candidates, std::span<const double> objectives,
-                           ChampionChoice& choice, TypicalTrials& typical, GenerationRow& row,
-                           const std::atomic<bool>& stop) {
+GenerationRow Run::State::summarise(const EvaluatedGeneration& evaluated) {
+  const auto& [result, objectives] = evaluated;
+  GenerationRow row;
+  row.generation = generation();
+  row.times = result.times;
+  row.evaluations = objectives.size();
+  row.steps = result.steps;
+  summarise_trials(objectives, result.trajectories, row);
+  tally_.add(result.trajectories, problem_->trial.steps());
+  return row;
+}
+
+Run::State::Best Run::State::best_of(const EvaluatedGeneration& evaluated, GenerationRow& row) const {
+  const auto& objectives = evaluated.objectives;
   const auto best = to_index(std::ranges::max_element(objectives) - objectives.begin());
-  const neat::Genome& genome = candidates[best];
+  const neat::Genome& genome = state_.strategy->ask()[best];
   row.best_hidden = genome.count(neat::NodeKind::hidden);
   row.best_links = genome.enabled_links();
+  return {static_cast<int>(best), genome};
+}
+
+bool Run::State::keep_best(const Best& best, ChampionChoice& choice, TypicalTrials& typical,
+                           GenerationRow& row, const std::atomic<bool>& stop) {
   Progress& progress = state_.progress;
-  const auto preferred = choice.prefers(genome, row.best, progress, stop);
+  const auto preferred = choice.prefers(best.genome, row.best, progress, stop);
   if (!preferred) return false;
   if (*preferred) {
-    const NewBest found{.generation = row.generation,
-                        .index = static_cast<int>(best),
-                        .genome = genome,
-                        .objective = row.best};
+    const NewBest found{
+        .generation = row.generation, .index = best.index, .genome = best.genome, .objective = row.best};
     const auto champion = try_champion(config_, *problem_, found, jobs_, row.times, stop);
-    if (!champion || !measure_typical(typical, genome, stop)) return false;
+    if (!champion || !measure_typical(typical, best.genome, stop)) return false;
     const Stopwatch watch(row.times.files_s);
     folder_.save_champion(*champion);
     progress.best = row.best;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -62,8 +63,10 @@ struct GenerationRow {
   double wall_s = 0.0;                 ///< since the row before
   StageTimes times;  ///< parts of it; files_s has the time for the files of the row before, too
 
-  /// Wall time not spent in engines: wall_s but for physics and referees.
-  double outside_s() const { return wall_s - times.physics_s - times.referees_s; }
+  /// Wall time not spent in engines: wall_s but for physics and referees, at least 0. With several workers
+  /// the best of a generation is tried further while the next one is evaluated, so that parts of a line may
+  /// be more than it.
+  double outside_s() const { return std::max(0.0, wall_s - times.physics_s - times.referees_s); }
   /// The search's metric of this name; nothing if it has none.
   std::optional<double> metric(std::string_view name) const;
 };
