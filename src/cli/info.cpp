@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <numeric>
@@ -87,7 +88,7 @@ void print_stages(const record::Generations& rows) {
   stage("search", rows.search_s);
   if (sum(rows.referees_s) > 0.0) stage("referees", rows.referees_s);
   stage("files", rows.files_s);
-  print("overhead", rest_s);
+  print("overhead", std::max(0.0, rest_s));  // stages of neighbouring generations may overlap
 }
 
 /// A map's figures, and what they are in new trials if that takes seconds.

@@ -62,7 +62,7 @@ class Run::State {
   const RunPaths& paths() const { return folder_.paths(); }
   const Problem& problem() const { return *problem_; }
   const TrialTally& tally() const { return tally_; }
-  int generation() const { return state_.strategy->round(); }
+  int generation() const { return done_; }
 
  private:
   RunStatus generations(RunListener& listener, const std::atomic<bool>& stop);
@@ -89,6 +89,7 @@ class Run::State {
   RunFiles files_;
   GenerationGround ground_;
   TrialTally tally_;
+  int done_;  ///< generations that are written; the search may be told one more
   int jobs_;
 };
 
@@ -100,6 +101,7 @@ Run::State::State(RunFolder folder, const Config& config, std::unique_ptr<const 
       behaviour_(config.make_behaviour(&problem_->robot)),
       state_(std::move(state)),
       files_(std::move(files)),
+      done_(state_.strategy->round()),
       jobs_(jobs) {}
 
 Run::Run(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -187,20 +189,25 @@ RunStatus Run::State::generations(RunListener& listener, const std::atomic<bool>
   }
   std::future<std::optional<EvaluatedGeneration>> evaluating;
   const auto evaluate_next = [&] {
-    if (generation() >= config_.generations) return;
-    evaluating = std::async(jobs_ > 1 ? std::launch::async : std::launch::deferred, [&] {
-      return evaluate_generation(evaluator, *problem_, config_.evaluation, ground_, config_.seed,
-                                 generation(), state_.strategy->ask(), stop);
-    });
+    const int generation = state_.strategy->round();
+    if (generation >= config_.generations) return;
+    // The search itself is asked here: it need not be thread-safe.
+    const auto candidates = state_.strategy->ask();
+    evaluating =
+        std::async(jobs_ > 1 ? std::launch::async : std::launch::deferred, [&, generation, candidates] {
+          return evaluate_generation(evaluator, *problem_, config_.evaluation, ground_, config_.seed,
+                                     generation, candidates, stop);
+        });
   };
   double last_row_s = now_s(), files_s = 0.0;
   for (evaluate_next(); evaluating.valid();) {
-    const auto evaluated = evaluating.get();
+    auto evaluated = evaluating.get();
     if (!evaluated || stop)
       return RunStatus::interrupted;  // also if it ended just before the listener stopped
     GenerationRow row = summarise(*evaluated);
     const Best best = best_of(*evaluated, row);
     tell(*evaluated, row);
+    evaluated.reset();  // before the next generation needs as much memory
     evaluate_next();
     if (!keep_best(best, choice, typical, row, stop)) return RunStatus::interrupted;
 
@@ -211,6 +218,7 @@ RunStatus Run::State::generations(RunListener& listener, const std::atomic<bool>
       const Stopwatch watch(files_s);
       files_.write(row, config_, state_);
     }
+    ++done_;
     listener.on_generation(row, progress(), config_);
   }
   return RunStatus::finished;
@@ -219,7 +227,7 @@ RunStatus Run::State::generations(RunListener& listener, const std::atomic<bool>
 GenerationRow Run::State::summarise(const EvaluatedGeneration& evaluated) {
   const auto& [result, objectives] = evaluated;
   GenerationRow row;
-  row.generation = generation();
+  row.generation = state_.strategy->round();
   row.times = result.times;
   row.evaluations = objectives.size();
   row.steps = result.steps;

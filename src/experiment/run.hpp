@@ -51,10 +51,11 @@ class Run {
   /// files are altered (bad_file), or `generations` are too few.
   static Run resume(const std::filesystem::path& folder, std::optional<int> generations, int jobs);
 
-  /// Runs until all generations are done, or `stop` is set: then the generation in flight is discarded and
-  /// the last checkpoint remains. Throws UserError: files cannot be written (ExitCode::io), the engine does
-  /// not repeat a champion (differs), memory is used up (io); and what the listener throws. The run can be
-  /// resumed from its last checkpoint then.
+  /// Runs until all generations are done, or `stop` is set: then the generation in flight is discarded, with
+  /// the one before if its best is still being tried, and the last checkpoint remains. With several workers
+  /// an error is thrown once the evaluation in flight has ended. Throws UserError: files cannot be written
+  /// (ExitCode::io), the engine does not repeat a champion (differs), memory is used up (io); and what the
+  /// listener throws. The run can be resumed from its last checkpoint then.
   RunStatus execute(RunListener& listener, const std::atomic<bool>& stop);
 
   /// That of the run, with the generations that it goes to.
