@@ -134,7 +134,7 @@ export class Drawing {
 
   /**
    * A colour on the plane z = 0 in haze: as it is nearby, transparent at the horizon. On the plane, equal depths are parallel lines in the
-   * picture. A string where the plane is seen from right above.
+   * picture. As it is everywhere where the plane is seen from right above, or from below.
    */
   throughHaze(css) {
     const across = Math.hypot(this.right.z, this.up.z);
@@ -172,7 +172,11 @@ export class Drawing {
     this.paint.globalAlpha = 1;
     this.paint.fillStyle = this.sky_css;
     this.paint.fillRect(0, 0, width, height);
-    this.fillRectangles(floor, [0, 1, 3, 2], this.throughHaze(floor_css)); // the vertices of a PlaneGeometry
+    this.paint.fillStyle = this.throughHaze(floor_css);
+    const { position } = floor.geometry.attributes, at = new Vector3();
+    const corners = [0, 1, 3, 2].map((k) => this.project(at.fromBufferAttribute(position, k).applyMatrix4(floor.matrixWorld))); // of a PlaneGeometry
+    const seen = clipNear(corners, this.near_m);
+    if (this.within(seen)) this.fillSeen(seen);
     this.paint = picture;
   }
 
@@ -201,18 +205,6 @@ export class Drawing {
       if (!this.within([p, q, r, s])) continue;
       this.paint.globalAlpha = shares[i - 1];
       this.fillSeen([p, q, r, s]);
-    }
-  }
-
-  /** Filled one by one, which is quicker than all in one path. */
-  fillRectangles(mesh, order, style) {
-    const { position } = mesh.geometry.attributes, at = new Vector3();
-    this.paint.globalAlpha = mesh.material.opacity;
-    this.paint.fillStyle = style;
-    for (let i = 0; i < position.count; i += 4) {
-      const corners = order.map((k) => this.project(at.fromBufferAttribute(position, i + k).applyMatrix4(mesh.matrixWorld)));
-      const seen = clipNear(corners, this.near_m);
-      if (this.within(seen)) this.fillSeen(seen);
     }
   }
 
