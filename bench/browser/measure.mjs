@@ -1,6 +1,6 @@
 // node --experimental-wasm-relaxed-simd measure.mjs NATIVE_BUILD MODULES [--quick] [--live] [--seeds N] [CHAMPION…]: the tables of docs/BROWSER.md (tools/measure-browser).
 import { execFileSync } from "node:child_process";
-import { copyFileSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
+import { copyFileSync, existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { availableParallelism, cpus, tmpdir } from "node:os";
 import { basename, dirname, join, resolve } from "node:path";
 import { parseArgs } from "node:util";
@@ -65,12 +65,28 @@ async function livePages(browsers) {
   for (const [i, path] of paths.entries()) {
     const page = join(folder, `${robots[i]}.html`);
     execFileSync(program, ["view", path, "--undisturbed", "-o", page]);
-    await pageRow(browsers, `${robots[i]}, live: frames/s; of a core, the page's own thread; all of the browser's processes`, async ({ browser }) => {
+    await pageRow(browsers, `${robots[i]}, live: pictures/s; of a core, the page's script; its thread; all of the browser`, async ({ browser }) => {
       const told = await browser.run("live", { url: `/pages/${robots[i]}.html#live`, seconds: LIVE_S });
-      const [before_s, after_s] = browser.clock.splice(0);
-      return `${one(told.frames_s)}; ${percent(told.busy_share)}; ${percent((after_s - before_s) / LIVE_S)}`;
+      const { page_s, all_s } = used(...browser.clock.splice(0));
+      return `${one(told.frames_s)}; ${percent(told.busy_share)}; ${percent(page_s / LIVE_S)}; ${percent(all_s / LIVE_S)}`;
     });
   }
+}
+
+/** Between two readings of the threads: the page's own (its script, style, layout, paint), and all but those that stand for a graphics card. */
+function used(before, after) {
+  const earlier = new Map(before.map(({ id, used_s }) => [id, used_s]));
+  const threads = after.map((thread) => ({ ...thread, used_s: thread.used_s - (earlier.get(thread.id) ?? 0) }));
+  return { page_s: Math.max(...threads.filter(({ main, content }) => main && content).map(({ used_s }) => used_s)),
+           all_s: threads.filter(({ name }) => name !== "skip_drawing").reduce((sum, { used_s }) => sum + used_s, 0) };
+}
+
+/** Chromium with a graphics device that does not draw, if that was compiled and Chromium has SwiftShader. */
+async function openWithDevice() {
+  const driver = resolve(build, "bench/libskip_drawing.so"), swiftshader = "/usr/lib/chromium/libvk_swiftshader.so", path = join(folder, "driver.json");
+  if (![driver, swiftshader].every(existsSync) || !findBrowser("chromium")) return say("no graphics device that does not draw (./setup --wasm)");
+  writeFileSync(path, JSON.stringify({ file_format_version: "1.0.0", ICD: { library_path: driver, api_version: "1.3.0" } }));
+  return open("chromium", ", a card drawing", { VK_ICD_FILENAMES: path, VK_DRIVER_FILES: path, AMBLE_SWIFTSHADER: swiftshader });
 }
 
 async function labRuns(browsers) {
@@ -95,15 +111,17 @@ function sizes(browsers) {
   line("size of the page: runs that go on, served; its module; the module packed, as pages carry it", `${mb(watch.length)}; ${mb(wasm.length)}; ${mb((gzipSync(wasm, { level: 9 }).length * 4) / 3)}`, ...browsers.slice(1).map(() => ""));
 }
 
+async function open(kind, with_ = "", device = null) {
+  const browser = await Browser.open(kind, { jobs: "bench/browser/in_page.mjs", pages: folder, longest_s: 900, device });
+  browsers.push({ browser, runs: [], called: nameOf(await browser.run("who")) + with_ });
+}
+
 const browsers = [];
 try {
   for (const kind of ["chromium", "firefox"])
-    if (findBrowser(kind)) {
-      const browser = await Browser.open(kind, { jobs: "bench/browser/in_page.mjs", pages: folder, longest_s: 900 });
-      browsers.push({ browser, runs: [], called: nameOf(await browser.run("who")) });
-    } else {
-      say(`${kind} is not installed`);
-    }
+    if (findBrowser(kind)) await open(kind);
+    else say(`${kind} is not installed`);
+  if (options.live) await openWithDevice();
   console.log(`${cpus()[0].model}, ${availableParallelism()} processors; ${new Date().toISOString().slice(0, 10)}${options.quick ? "; --quick: no figures to keep" : ""}`);
   if (!options.live) await stepsEverywhere(browsers);
   if (browsers.length) {

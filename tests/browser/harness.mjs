@@ -20,13 +20,16 @@ const PREFERENCES = {
   "network.proxy.type": 0, "services.settings.server": "http://127.0.0.1:9/", "toolkit.telemetry.enabled": false, "toolkit.telemetry.unified": false,
   "webgl.force-enabled": true, "dom.disable_open_during_load": false,
 };
+// Chromium draws on the processor, or on what Vulkan has as a graphics device.
+const WITHOUT_DEVICE = ["--disable-gpu-compositing", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+const WITH_DEVICE = ["--ignore-gpu-blocklist", "--enable-gpu-rasterization", "--disable-gpu-sandbox", "--use-gl=angle", "--use-angle=vulkan"];
 const BROWSERS = {
   firefox: { programs: ["firefox-esr", "firefox"], variable: "FIREFOX",
              words: (profile, url) => ["--headless", "--no-remote", "--profile", profile, url],
              prepare: (profile) => writeFileSync(join(profile, "user.js"), Object.entries(PREFERENCES).map(([name, value]) => `user_pref("${name}", ${JSON.stringify(value)});\n`).join("")) },
   chromium: { programs: ["chromium", "chromium-browser"], variable: "CHROMIUM",
-              words: (profile, url) => ["--headless", "--no-sandbox", "--disable-dev-shm-usage", "--no-first-run", "--disable-background-networking", "--disable-component-update",
-                                        "--disable-gpu-compositing", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=1280,800", `--user-data-dir=${profile}`, url],
+              words: (profile, url, device) => ["--headless", "--no-sandbox", "--disable-dev-shm-usage", "--no-first-run", "--disable-background-networking", "--disable-component-update",
+                                        ...(device ? WITH_DEVICE : WITHOUT_DEVICE), "--window-size=1280,800", `--user-data-dir=${profile}`, url],
               prepare: () => {} },
 };
 
@@ -50,11 +53,12 @@ const withEar = (html) => html.replace("<head>", () => `<head>${EAR}`);
 export class Browser {
   /**
    * Starts it in a fresh profile. `jobs`: a module below the sources whose default export has a function for each job; `pages`: a
-   * folder whose files are at /pages/; a job takes at most `longest_s`.
+   * folder whose files are at /pages/; a job takes at most `longest_s`; `device`: variables of the environment by which Chromium finds a
+   * graphics device, if it shall have one.
    */
-  static async open(kind, { jobs, pages, longest_s = JOB_S }) {
+  static async open(kind, { jobs, pages, longest_s = JOB_S, device = null }) {
     const browser = new Browser();
-    Object.assign(browser, { kind, pages, longest_s, asked: [], clock: [], waiting: null, told: new Map(), count: 0, output: "" });
+    Object.assign(browser, { kind, pages, longest_s, device, asked: [], clock: [], waiting: null, told: new Map(), count: 0, output: "" });
     browser.server = createServer((ask, answer) => browser.answer(ask, answer).catch((error) => answer.writeHead(500).end(error.message)));
     await new Promise((done) => browser.server.listen(0, "127.0.0.1", done));
     browser.url = `http://127.0.0.1:${browser.server.address().port}`;
@@ -66,8 +70,8 @@ export class Browser {
     const { words, prepare } = BROWSERS[this.kind];
     this.profile = mkdtempSync(join(tmpdir(), "amble-browser-"));
     prepare(this.profile);
-    const environment = { ...process.env, HOME: this.profile, MOZ_CRASHREPORTER_DISABLE: "1", MOZ_DISABLE_AUTO_SAFE_MODE: "1" };
-    this.process = spawn(findBrowser(this.kind), words(this.profile, url), { stdio: ["ignore", "pipe", "pipe"], env: environment });
+    const environment = { ...process.env, HOME: this.profile, MOZ_CRASHREPORTER_DISABLE: "1", MOZ_DISABLE_AUTO_SAFE_MODE: "1", ...this.device };
+    this.process = spawn(findBrowser(this.kind), words(this.profile, url, this.device), { stdio: ["ignore", "pipe", "pipe"], env: environment });
     for (const stream of [this.process.stdout, this.process.stderr]) stream.on("data", (text) => (this.output = (this.output + text).slice(-4000)));
     this.ended = new Promise((done) => this.process.on("exit", done));
     this.ended.then(() => this.fail("the browser ended"));
@@ -180,18 +184,28 @@ for (;;) {
 }
 </script></body></html>`;
 
-/** What a process and all that it started have used of processors so far, s. */
+/**
+ * What a process and all that it started have used of processors so far, s, by thread: {id, main: whether it is its process's first, content:
+ * whether that process shows pages, name, used_s}.
+ */
 function processorSeconds(root) {
-  const all = readdirSync("/proc").filter((name) => /^\d+$/.test(name)).flatMap((pid) => {
+  const read = (path) => readFileSync(path, "utf8"), numbers = (path) => readdirSync(path).filter((name) => /^\d+$/.test(name));
+  const unlessEnded = (look) => {
     try {
-      const [, parent, ...rest] = readFileSync(`/proc/${pid}/stat`, "utf8").replace(/^.*\) /s, "").split(" ");
-      return [{ pid: Number(pid), parent: Number(parent), used_s: (Number(rest[9]) + Number(rest[10])) / 100 }]; // utime and stime, in 1/100 s
+      return look();
     } catch {
-      return []; // it has ended
+      return [];
     }
-  });
-  const sum = (pid) => all.filter(({ parent }) => parent === pid).reduce((total, one) => total + one.used_s + sum(one.pid), 0);
-  return sum(root) + (all.find(({ pid }) => pid === root)?.used_s ?? 0);
+  };
+  const parents = numbers("/proc").flatMap((pid) => unlessEnded(() => [[Number(pid), Number(read(`/proc/${pid}/stat`).replace(/^.*\) /s, "").split(" ")[1])]]));
+  const family = (pid) => [pid, ...parents.filter(([, parent]) => parent === pid).flatMap(([child]) => family(child))];
+  return family(root).flatMap((pid) => unlessEnded(() => {
+    const content = /--type=renderer|-contentproc/.test(read(`/proc/${pid}/cmdline`));
+    return numbers(`/proc/${pid}/task`).flatMap((task) => unlessEnded(() => [{
+      id: `${pid}.${task}`, main: Number(task) === pid, content, name: read(`/proc/${pid}/task/${task}/comm`).trim(),
+      used_s: Number(read(`/proc/${pid}/task/${task}/schedstat`).split(" ")[0]) / 1e9,
+    }]));
+  }));
 }
 
 /** A folder for pages, which is made. */

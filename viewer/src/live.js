@@ -8,8 +8,6 @@ import { Drag } from "./drag.js";
 import { Steer } from "./steer.js";
 import { element } from "./theme.js";
 
-const DIAGRAMS_EVERY_MS = 80; // while it walks
-
 /** Which walker the address asks for; null: the recordings. */
 function askedLive(hash) {
   const match = /(?:^#|&)live(?:=(\d+))?/.exec(hash);
@@ -102,15 +100,18 @@ export class Live {
   }
 
   /** Before each frame. */
-  update(now_ms) {
+  update() {
     this.drag?.update();
     this.steer?.update();
     const { window } = this.page;
     window.duration_s = Math.max(this.clock.duration_s, window.span_s);
-    if (this.clock.duration_s === this.shown_s || (this.clock.playing && now_ms - this.shown_ms < DIAGRAMS_EVERY_MS)) return;
-    this.page.analysis.repaint();
-    this.page.overview.repaint();
-    [this.shown_s, this.shown_ms] = [this.clock.duration_s, now_ms];
+  }
+
+  /** Whether there is more to show than when last asked. */
+  grew() {
+    const before_s = this.shown_s;
+    this.shown_s = this.clock.duration_s;
+    return this.shown_s !== before_s;
   }
 
   /** Says how it is, to those who look and to those who listen, when that has changed. */

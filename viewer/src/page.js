@@ -11,7 +11,7 @@ const SPANS_S = [2, 5, 15, 60];
 const LATE_PICTURES = 40; // in a row are too much for the machine
 const FEW = 4; // walkers whose names stand in the picture, and whose stories fit above it
 const FOLDED = 12; // more than so many are in a list that is closed at first
-const PICTURES_A_DIAGRAM = 3; // where processors draw
+const TOLD_EVERY_MS = 100; // numbers and strips while it plays, and diagrams of what is simulated: who reads them needs no more
 const FRAMES_KEPT = 2000; // of their times, for amble.frames()
 const byId = (id) => document.getElementById(id);
 
@@ -152,7 +152,7 @@ export class Page {
   frame(now_ms) {
     this.asked = false;
     if (this.clock.playing && this.stage.rests(now_ms)) return this.invalidate();
-    this.live?.update(now_ms);
+    this.live?.update();
     if (this.clock.playing && this.last_ms !== undefined) {
       const passed_s = (now_ms - this.last_ms) / 1000;
       this.clock.advance(Math.min(passed_s, 0.25));
@@ -170,15 +170,20 @@ export class Page {
     const start_ms = performance.now();
     this.stage.resize();
     this.stage.show(this.clock.time_s, moves);
-    // Without a graphics card the diagrams cost as much as the picture.
-    this.skipped = moves && this.clock.playing && this.stage.slow ? (this.skipped + 1) % PICTURES_A_DIAGRAM : 0;
-    if (this.skipped === 0) this.showDiagrams();
+    if (!moves || !this.clock.playing || !(start_ms - this.told_ms < TOLD_EVERY_MS)) this.tell(start_ms);
+    else if (!this.live && !this.stage.slow) this.analysis.show(); // cursors glide
     this.frames.push(performance.now() - start_ms);
     if (this.frames.length > FRAMES_KEPT) this.frames.shift();
     this.showing = false;
   }
 
-  showDiagrams() {
+  /** All but the picture. */
+  tell(now_ms) {
+    this.told_ms = now_ms;
+    if (this.live?.grew()) {
+      this.analysis.repaint();
+      this.overview.repaint();
+    }
     this.analysis.show();
     this.overview.show();
     this.showTransport();
