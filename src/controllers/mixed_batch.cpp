@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "amble/controllers/neural_kernel.hpp"
+#include "amble/controllers/supg_kernel.hpp"
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
 #include "amble/cppn/activation.hpp"
@@ -127,17 +128,14 @@ void MixedBatch::begin_tick(const robot::SensorFrame& sensors) {
 }
 
 void MixedBatch::read(const robot::SensorFrame& sensors) {
+  read_.clear();
   for (std::size_t s = 0; s < net_->sensors.size(); ++s) {
     const LegSensor& sensor = net_->sensors[s];
     const float* const reading = substrate::row_of(sensor.sensor, sensors);
     AMBLE_CHECK(reading != nullptr && sensors.touch.lanes() == lanes(), "the sensors are of another robot");
-    float* const row = values_.row(static_cast<int>(s));
-    const float gain = sensor.gain, shift = sensor.shift;
-    for (int lane = 0; lane < lanes(); ++lane) {
-      const float value = reading[lane] * gain - shift, above = value > -1.0f ? value : -1.0f;
-      row[lane] = above < 1.0f ? above : 1.0f;
-    }
+    read_.push_back({reading, sensor.gain, sensor.shift, values_.row(static_cast<int>(s))});
   }
+  if (!read_.empty()) run_sensed(read_, lanes());
 }
 
 /// Sines and cosines of the legs' phases, 0 of those that stand, and what they pull others by.
@@ -168,22 +166,15 @@ void MixedBatch::read_phases() {
 }
 
 void MixedBatch::set_rates(int leg) {
-  const float* const sum = sums_.row(leg);
-  const float* const sine = couples() ? phases_.row(leg) : sum;
-  const float* const cosine = couples() ? phases_.row(legs_ + leg) : sum;
-  const float* const sines = couples() ? pulls_.row(leg) : sum;
-  const float* const cosines = couples() ? pulls_.row(legs_ + leg) : sum;
-  std::int32_t* const advance = advances();
-  const int count = lanes();
-  for (int lane = 0; lane < count; ++lane) {
-    float rho = sum[lane];
-    if (couples()) {
-      const float ahead = sines[lane] * cosine[lane], behind = cosines[lane] * sine[lane];
-      rho = rho + (ahead - behind);
-    }
-    rho = rho > -1.0f ? rho : -1.0f;
-    advance[lane] = advance_parts(rho < 1.0f ? rho : 1.0f);
-  }
+  PulledRates rates{
+      .sum = sums_.row(leg), .sine = nullptr, .cosine = nullptr, .sines = nullptr, .cosines = nullptr};
+  if (couples())
+    rates = {.sum = sums_.row(leg),
+             .sine = phases_.row(leg),
+             .cosine = phases_.row(legs_ + leg),
+             .sines = pulls_.row(leg),
+             .cosines = pulls_.row(legs_ + leg)};
+  run_pulled_rates(rates, advances(), lanes());
 }
 
 void MixedBatch::reshape(int supg, float* targets_rad) {
@@ -191,16 +182,11 @@ void MixedBatch::reshape(int supg, float* targets_rad) {
   const JointRange& range = range_of(supg);
   const auto middle_rad = static_cast<float>(0.5 * (range.lower_rad + range.upper_rad));
   const auto half_rad = static_cast<float>(0.5 * (range.upper_rad - range.lower_rad));
-  const float* const amplitude = sums_.row(legs_ + supg);
-  const float* const shift = sums_.row(legs_ + supgs_count_ + supg);
-  const int count = lanes();
-  for (int lane = 0; lane < count; ++lane) {
-    const float a_above = amplitude[lane] > -1.0f ? amplitude[lane] : -1.0f;
-    const float b_above = shift[lane] > -1.0f ? shift[lane] : -1.0f;
-    const float more_rad = (targets_rad[lane] - middle_rad) * (a_above < 1.0f ? a_above : 1.0f);
-    const float shift_rad = (b_above < 1.0f ? b_above : 1.0f) * half_rad;
-    targets_rad[lane] = (targets_rad[lane] + more_rad) + shift_rad;
-  }
+  run_reshape({.amplitude = sums_.row(legs_ + supg),
+               .shift = sums_.row(legs_ + supgs_count_ + supg),
+               .middle_rad = middle_rad,
+               .half_rad = half_rad},
+              targets_rad, lanes());
 }
 
 void MixedBatch::end_target(int supg, const float* targets_rad) {

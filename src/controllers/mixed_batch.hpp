@@ -10,6 +10,7 @@
 #include "amble/controllers/mixed.hpp"
 #include "amble/controllers/modulated_supg_batch.hpp"
 #include "amble/controllers/sum_table.hpp"
+#include "amble/controllers/supg_kernel.hpp"
 
 namespace amble::controllers {
 
@@ -47,6 +48,7 @@ class MixedBatch : public ModulatedSupgBatch {
   std::vector<int> expressed_;                             ///< link by link: in how many lanes
   bool tables_known_ = false;
   SumTable to_neurons_, to_supgs_, to_phases_;
+  std::vector<SensedRow> read_;  ///< into the next
   LaneRows values_;              ///< what is summed, row by row (MixedNet)
   LaneRows bias_, step_, next_;  ///< neuron by neuron
   LaneRows sums_;                ///< rates, leg by leg; amplitudes and shifts, SUPG by SUPG

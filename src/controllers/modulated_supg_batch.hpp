@@ -3,19 +3,21 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "amble/controllers/lane_rows.hpp"
 #include "amble/controllers/modulation.hpp"
 #include "amble/controllers/supg.hpp"
 #include "amble/controllers/supg_batch.hpp"
+#include "amble/controllers/supg_kernel.hpp"
 
 namespace amble::controllers {
 
-/// Modulated SUPG controllers stepping together; what they do is documented at SupgArchitecture. Timers are
-/// updated over the lanes; targets are interpolated lane by lane, four joints at a time, as an entry's
-/// numbers lie together. Without sensors, with reset 1 and no refractory time it does to the bit what
-/// SupgBatch does.
+/// Modulated SUPG controllers stepping together; what they do is documented at SupgArchitecture, its loops
+/// are in supg_kernel.hpp. Timers are updated over the lanes; targets are interpolated lane by lane, four
+/// joints at a time, as an entry's numbers lie together. Without sensors, with reset 1 and no refractory time
+/// it does to the bit what SupgBatch does.
 class ModulatedSupgBatch : public Batch {
  public:
   /// `parked` is what runs in lanes that have not been loaded.
@@ -57,29 +59,31 @@ class ModulatedSupgBatch : public Batch {
   void pull(int leg);
   void write_targets(int leg, LaneArray& targets_rad);
   void start_filters(int row, const float* present_rad);
-  void find_entries(int leg, const std::int32_t* timers);
-  void interpolate(int first, int end, float* targets_rad) const;
-  void write_joint(int row, float* continued_rad, float* present_rad, LaneArray& targets_rad);
+  void interpolate(int leg, const std::int32_t* timers, int first, int end, float* targets_rad) const;
+  void limit_joint(int row, float* continued_rad, float* present_rad, LaneArray& targets_rad);
+  void end_joint(int row, const float* continued_rad, const float* present_rad, LaneArray& targets_rad);
 
   ModulatedSupgs supgs_;
   ModulatedParameters parked_;
   int lanes_;
-  std::int32_t period_, start_, end_of_cycle_;  ///< in parts; the last −1: stopped
-  bool wraps_, shapes_, by_reading_;
-  std::int32_t airborne_ticks_needed_, by_touch_, phase_, reset_share_, refractory_ticks_;
+  std::int32_t period_, start_;  ///< in parts
+  TimerRules rules_;             ///< in parts; an end of a cycle at −1: stopped
+  bool shapes_, by_reading_;
+  std::int32_t reset_share_;
 
   std::vector<const float*> tables_;     ///< by lane: its controller's entries
-  std::vector<std::int32_t> entry_;      ///< by lane, of the leg in hand: from there to the one at its timer
-  std::vector<float> share_;             ///< the same: of the way to the next entry
   std::vector<std::int32_t> timer_;      ///< leg by leg over the lanes: parts, −1 stopped
   std::vector<std::int32_t> continued_;  ///< what it would be in this tick without a jump
   std::vector<std::int32_t> airborne_ticks_, wait_ticks_, first_timer_, triggered_, refractory_left_;
-  LaneRows sensed_;                    ///< of the leg in hand, sensor by sensor
-  LaneRows load_;                      ///< of the leg in hand; of load_feedback
-  std::vector<float> cosines_;         ///< phase_cosines()
-  LaneRows weights_;                   ///< the same, channel by channel; of ShapeBy::reading
-  LaneRows rates_;                     ///< leg by leg, sensor by sensor
-  std::vector<std::int32_t> advance_;  ///< of the leg in hand, by lane
+  std::vector<std::pair<float, float>> limits_rad_;  ///< as SupgJoints::of_legs
+  std::vector<LimitedRow> limited_;                  ///< of the leg in hand
+  std::vector<SensedRow> rows_;                      ///< of the leg in hand, into the next two
+  LaneRows sensed_;                                  ///< of the leg in hand, sensor by sensor
+  LaneRows load_;                                    ///< of the leg in hand; of load_feedback
+  std::vector<float> cosines_;                       ///< phase_cosines()
+  LaneRows weights_;                                 ///< the same, channel by channel; of ShapeBy::reading
+  LaneRows rates_;                                   ///< leg by leg, sensor by sensor
+  std::vector<std::int32_t> advance_;                ///< of the leg in hand, by lane
   std::vector<std::int32_t> no_chance_, jumped_, fresh_;  ///< by lane; the last: 1 before its first tick
   std::vector<float> continued_rad_, present_rad_;        ///< of the leg in hand, type by type
   std::optional<RandomTriggers> random_;

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "amble/controllers/supg_kernel.hpp"
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
 #include "amble/core/random.hpp"
@@ -141,34 +142,20 @@ void SupgBatch::step(const robot::SensorFrame& sensors, LaneArray& targets_rad) 
 }
 
 void SupgBatch::update_timers(int leg, const float* touch, const std::int32_t* by_chance) {
-  // Copies, values read before any is written, and masks in place of conditions: only so does GCC 12 use SIMD
-  // instructions, which is a twentieth of the time of a hexapod's trial.
-  const std::int32_t period = period_ticks_, needed = airborne_ticks_needed_, end = end_of_cycle_,
-                     start = start_tick_, by_touch = by_touch_;
-  const int lanes = lanes_;
   const std::size_t first = index(leg, 0);
-  std::int32_t* const timer = timer_.data() + first;
-  std::int32_t* const airborne = airborne_ticks_.data() + first;
-  std::int32_t* const wait = wait_ticks_.data() + first;
-  std::int32_t* const fired = triggered_.data() + first;
-  const std::int32_t* const first_timer = first_timer_.data() + first;
-  for (int lane = 0; lane < lanes; ++lane) {
-    const std::int32_t before = timer[lane], waiting = wait[lane], off_ground = airborne[lane],
-                       first_value = first_timer[lane], drawn = by_chance[lane];
-    const std::int32_t touching = mask(touch[lane] > 0.5f);
-    const std::int32_t triggered =
-        mask(waiting < 0) & ((touching & by_touch & mask(off_ground >= needed)) | drawn);
-
-    std::int32_t next = before + 1;
-    next = select(mask(next >= period), end, next);
-    next = select(mask(before == stopped), stopped, next);
-    next = select(triggered, start, next);
-    timer[lane] = select(mask(waiting == 0), first_value, next);
-
-    fired[lane] = -triggered;
-    wait[lane] = std::max(waiting - 1, -1);
-    airborne[lane] = ~touching & std::min(off_ground + 1, needed);
-  }
+  const TimerRules rules{.period = period_ticks_,
+                         .end_of_cycle = end_of_cycle_,
+                         .airborne_needed = airborne_ticks_needed_,
+                         .by_touch = by_touch_};
+  run_ticks(rules, start_tick_,
+            {.contact = touch,
+             .by_chance = by_chance,
+             .first_timer = first_timer_.data() + first,
+             .timer = timer_.data() + first,
+             .airborne = airborne_ticks_.data() + first,
+             .wait = wait_ticks_.data() + first,
+             .fired = triggered_.data() + first},
+            lanes_);
 }
 
 void SupgBatch::write_targets(int leg, LaneArray& targets_rad) const {

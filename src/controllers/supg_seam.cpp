@@ -1,5 +1,8 @@
 #include "amble/controllers/supg_seam.hpp"
 
+#include <algorithm>
+
+#include "amble/controllers/supg_kernel.hpp"
 #include "amble/cppn/activation.hpp"
 
 namespace amble::controllers {
@@ -10,17 +13,6 @@ float decay(double x) {
   float t = static_cast<float>(x);
   cppn::activate(neat::Activation::bipolar_sigmoid, cppn::Linear::identity, {&t, 1});
   return (1.0f - t) / (1.0f + t);
-}
-
-/// Numbers that fade would become denormal, which is slow, and not the same everywhere.
-float without_dust(float value_rad) {
-  constexpr float dust_rad = 1e-9f;
-  return value_rad > dust_rad || value_rad < -dust_rad ? value_rad : 0.0f;
-}
-
-float limited(float value, float lower, float upper) {
-  const float above = value > lower ? value : lower;
-  return above < upper ? above : upper;
 }
 
 }  // namespace
@@ -66,36 +58,22 @@ void SeamSmoother::load(int joint, int lane, float target_rad) {
 
 void SeamSmoother::smooth(int joint, const float* continued_rad, const float* present_rad,
                           const std::int32_t* jumped, float lower_rad, float upper_rad, float* targets_rad) {
-  const int lanes = lanes_;
-  if (factors_.residual_decay > 0.0f) {
-    const float decay = factors_.residual_decay;
-    float* const residual_rad = residual_rad_.row(joint);
-    for (int lane = 0; lane < lanes; ++lane) {
-      const float left = without_dust(decay * residual_rad[lane]);
-      const float y = limited(continued_rad[lane] + left, lower_rad, upper_rad),
-                  taken = y - present_rad[lane];
-      residual_rad[lane] = jumped[lane] != 0 ? taken : left;
-      targets_rad[lane] = y;
-    }
-  } else {
-    for (int lane = 0; lane < lanes; ++lane) targets_rad[lane] = present_rad[lane];
-  }
-  if (factors_.filter_order > 0) {
-    filter(joint, targets_rad);
-    for (int lane = 0; lane < lanes; ++lane)
-      targets_rad[lane] = limited(targets_rad[lane], lower_rad, upper_rad);
-  }
-}
-
-void SeamSmoother::filter(int joint, float* targets_rad) {
-  const float share = factors_.filter_share;
-  for (int stage = 0; stage < factors_.filter_order; ++stage) {
-    float* const z_rad = stage_rad_.row(stage * joints_ + joint);
-    for (int lane = 0; lane < lanes_; ++lane) {
-      z_rad[lane] = without_dust(z_rad[lane] + share * (targets_rad[lane] - z_rad[lane]));
-      targets_rad[lane] = z_rad[lane];
-    }
-  }
+  if (factors_.residual_decay > 0.0f)
+    run_residual({.decay = factors_.residual_decay,
+                  .lower_rad = lower_rad,
+                  .upper_rad = upper_rad,
+                  .continued_rad = continued_rad,
+                  .present_rad = present_rad,
+                  .jumped = jumped,
+                  .residual_rad = residual_rad_.row(joint)},
+                 targets_rad, lanes_);
+  else
+    std::copy_n(present_rad, lanes_, targets_rad);
+  if (factors_.filter_order == 0) return;
+  for (int stage = 0; stage < factors_.filter_order; ++stage)
+    run_filter(factors_.filter_share, stage_rad_.row(stage * joints_ + joint), targets_rad, lanes_);
+  const LimitedRow row{targets_rad, lower_rad, upper_rad, targets_rad};
+  run_limits({&row, 1}, lanes_);
 }
 
 }  // namespace amble::controllers

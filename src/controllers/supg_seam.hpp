@@ -59,8 +59,6 @@ class SeamSmoother {
               float lower_rad, float upper_rad, float* targets_rad);
 
  private:
-  void filter(int joint, float* targets_rad);
-
   SeamFactors factors_;
   int joints_, lanes_;
   LaneRows residual_rad_;
