@@ -40,6 +40,16 @@ const live = ({ url, seconds }) => inFrame(url, async (page) => {
   return { frames_s: page.amble.frames().length / passed_s, busy_share: busy_ms / 1000 / passed_s, speed: (page.amble.time() - from_s) / passed_s };
 });
 
+/** Lets a page that only clears a canvas do so: pictures/s. */
+const blank = ({ url, seconds }) => inFrame(url, async (page) => {
+  const begin_ms = performance.now();
+  page.amble.pictures = 0;
+  await fetch("/clock?begin");
+  await until("its time is over", () => performance.now() - begin_ms > 1000 * seconds);
+  await fetch("/clock?end");
+  return { frames_s: page.amble.pictures / ((performance.now() - begin_ms) / 1000) };
+});
+
 /** A run of the lab with its first settings until its best so far has walked so many metres: robot-steps up to there, and seconds. */
 const lab = ({ url, seed, metres, generations }) => inFrame(url, async (page) => {
   const { amble } = page;
@@ -54,7 +64,7 @@ const lab = ({ url, seed, metres, generations }) => inFrame(url, async (page) =>
   const { history } = amble.curve;
   told.steps = now().steps;
   amble.anew();
-  return { ...told, rows: history.length, said: textOf(page, "#said") };
+  return { ...told, robot: amble.robot().name, rows: history.length, said: textOf(page, "#said") };
 });
 
-export default { who: () => navigator.userAgent, steps, live, lab };
+export default { who: () => navigator.userAgent, steps, live, blank, lab };

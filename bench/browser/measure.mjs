@@ -73,6 +73,25 @@ async function livePages(browsers) {
   }
 }
 
+/** What the browser takes around any page whose picture changes. */
+async function blankPage(browsers) {
+  writeFileSync(join(folder, "blank.html"), `<!DOCTYPE html><html lang="en"><head><title>blank</title></head><body><p id="trouble" hidden></p><canvas width="668" height="476"></canvas><script>
+    const paint = document.querySelector("canvas").getContext("webgl2"), amble = { pictures: 0 };
+    const draw = () => {
+      paint.clearColor((++amble.pictures % 100) / 100, 0, 0, 1);
+      paint.clear(paint.COLOR_BUFFER_BIT);
+      requestAnimationFrame(draw);
+    };
+    window.amble = amble;
+    draw();
+  </script></body></html>`);
+  await pageRow(browsers, "a page that only clears a WebGL canvas: pictures/s; of a core, its thread; all of the browser", async ({ browser }) => {
+    const told = await browser.run("blank", { url: "/pages/blank.html", seconds: LIVE_S });
+    const { page_s, all_s } = used(...browser.clock.splice(0));
+    return told.frames_s ? `${one(told.frames_s)}; ${percent(page_s / LIVE_S)}; ${percent(all_s / LIVE_S)}` : "no WebGL";
+  });
+}
+
 /** Between two readings of the threads: the page's own (its script, style, layout, paint), and all but those that stand for a graphics card. */
 function used(before, after) {
   const earlier = new Map(before.map(({ id, used_s }) => [id, used_s]));
@@ -93,8 +112,9 @@ async function labRuns(browsers) {
   execFileSync(program, ["lab", "-o", join(folder, "lab.html")]);
   for (const threads of [...new Set([1, Math.min(availableParallelism(), 4)])])
     for (const seed of SEEDS)
-      await pageRow(browsers, `lab, ${threads} worker${threads > 1 ? "s" : ""}, seed ${seed}: thousand robot-steps/s for each worker; s to a walker of ${METRES} m`, async (it) => {
+      await pageRow(browsers, `lab, its first settings (hexapod), ${threads} worker${threads > 1 ? "s" : ""}, seed ${seed}: thousand robot-steps/s for each worker; s to a walker of ${METRES} m`, async (it) => {
         const told = await it.browser.run("lab", { url: `/pages/lab.html#threads=${threads}`, seed, metres: METRES, generations: GENERATIONS });
+        if (told.robot !== "hexapod") throw new Error(`the lab's first robot is ${told.robot}`);
         const rate = told.steps / told.seconds / threads, reached = told.best_m >= METRES;
         if (reached) it.runs.push({ steps: told.steps, rate });
         return `${one(rate / 1000)}; ${reached ? one(told.seconds) : `none (best ${one(told.best_m)} m) in ${one(told.seconds)}`}`;
@@ -127,6 +147,7 @@ try {
   if (browsers.length) {
     head("page", ...browsers.map(({ called }) => called));
     await livePages(browsers);
+    await blankPage(browsers);
   }
   if (browsers.length && !options.live) {
     await labRuns(browsers);

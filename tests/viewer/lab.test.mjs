@@ -260,6 +260,16 @@ test("a map fills, and the walker of a cell walks", () =>
     await filled.first().click();
     await page.waitForFunction(() => /Of the map/.test(document.getElementById("story").textContent));
     await filled.first().press("ArrowRight");
+    assert.match(await filled.first().getAttribute("aria-label"), /^column \d+, row \d+ from below: \d+\.\d\d m$/);
+    assert.equal(await filled.first().getAttribute("aria-pressed"), "true");
+    await button(page, "4 more generations").or(button(page, "100 more generations")).click();
+    await until(page, 6);
+    await button(page, "Pause").click();
+    assert.match(await page.locator("#story").textContent(), /Of the map/, "what was chosen walks on");
+    await button(page, "The best again").click();
+    await page.waitForFunction(() => /Best of generation/.test(document.getElementById("story").textContent));
+    assert.equal(await page.locator(".lab-map button[aria-pressed=true]").count(), 0);
+    assert.equal(await button(page, "The best again").isHidden(), true);
   }));
 
 test("each experiment sets up the lab, and its runs stay in the diagram to compare with", () =>
@@ -304,9 +314,12 @@ test("a run that goes on is left for an experiment only if that is confirmed", (
     await page.setInputFiles("#file", join(AMBLE_SOURCE, "robots/biped/champion.json"));
     while (asked.length < 2) await page.waitForTimeout(50);
     assert.notEqual(await field(page, "robot").inputValue(), "own");
+    page.once("dialog", (dialog) => (asked.push(dialog.message()), dialog.dismiss()));
+    await button(page, "Stop and begin anew").click();
+    assert.equal(await page.evaluate(() => window.amble.evolution.state), "paused");
     await choose(true);
     await page.waitForFunction(() => window.amble.evolution === null);
-    assert.equal(asked.length, 3);
+    assert.equal(asked.length, 4);
     await page.waitForFunction(() => [...document.querySelectorAll("#cppn text")].some((name) => name.textContent === "time")); // of the file's network
     assert.ok(await page.evaluate(() => {
       const { left, right } = document.querySelector("#cppn svg").getBoundingClientRect();

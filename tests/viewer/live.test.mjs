@@ -1,7 +1,7 @@
 // A champion that is simulated in its page.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { readFileSync, writeFileSync } from "node:fs";
+import { readFileSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { deflateSync, inflateSync } from "node:zlib";
@@ -202,6 +202,7 @@ test("the page of one that obeys opens live, and its recording is a link away", 
 
 test("one that obeys is told by keys, pad and gamepad, and the native program repeats to the bit what it was told", async () => {
   const path = makePage("steered.html", OBEYS, "--undisturbed");
+  assert.ok(statSync(path).size <= 1.5e6);
   await onPage({}, async (page) => {
     const told = () => page.locator(".steer-said").textContent();
     const commands = async () => JSON.parse(await page.evaluate(() => window.amble.live().inputs())).inputs.map(({ command }) => command);
@@ -215,6 +216,9 @@ test("one that obeys is told by keys, pad and gamepad, and the native program re
     await page.keyboard.up("ArrowUp");
     await page.keyboard.up("ArrowLeft");
     assert.equal(await told(), "told: stop");
+    for (const key of ["ArrowUp", "Shift"]) await page.keyboard.down(key);
+    for (const key of ["ArrowUp", "Shift"]) await page.keyboard.up(key);
+    assert.equal(await told(), "told: stop", "an arrow that is let go of while Shift is held is let go of");
     await simulate(page, 0.5);
     const pad = await page.locator(".steer-pad").boundingBox();
     await page.mouse.click(pad.x + pad.width - 1, pad.y + pad.height / 2);
@@ -229,6 +233,12 @@ test("one that obeys is told by keys, pad and gamepad, and the native program re
     await page.waitForFunction(() => document.querySelector(".steer-said").textContent.endsWith("to the left"));
     await page.evaluate(() => { navigator.getGamepads = () => [{ axes: [0, 0] }]; });
     await page.waitForFunction(() => document.querySelector(".steer-said").textContent === "told: stop");
+    await page.evaluate(() => {
+      window.amble.pause();
+      navigator.getGamepads = () => [{ axes: [0, -1] }];
+      dispatchEvent(new Event("gamepadconnected"));
+    });
+    await page.waitForFunction(() => window.amble.playing(), null, { timeout: 5000 }); // a stick wakes it
     await page.evaluate(() => window.amble.pause());
     assert.match(await natively(page, "steered-inputs.json", OBEYS), /^bits +the same in every step$/m);
   }, path);
@@ -286,6 +296,27 @@ test("what is chosen is what it walks on and what it is", () =>
     assert.ok(Math.abs(angles[0] - angles[1]) < 0.05, `the locked knee went from ${angles[0]} to ${angles[1]} rad`);
   }));
 
+test("the past is shown on the ground and with the legs that were", () =>
+  onPage({}, async (page) => {
+    await page.evaluate(() => window.amble.pause());
+    await simulate(page, 1);
+    const shown = async (t) => {
+      await page.evaluate((time) => window.amble.seek(time), t);
+      await settled(page);
+      return page.evaluate(() => ({ there: window.amble.foot(0, 3).there, heights: [0.7, 1.3, 2.1, 3.3].map((x) => window.amble.groundAt(0, x, 0.2)) }));
+    };
+    const before = await shown(0.5);
+    await choose(page, "Kind", "stairs");
+    await page.locator("#live .live-legs input").last().uncheck();
+    await simulate(page, 1);
+    const now = await shown(2);
+    assert.deepEqual([before.there, now.there], [true, false]);
+    assert.notDeepEqual(now.heights, before.heights);
+    assert.deepEqual(await shown(0.5), before);
+    await choose(page, "Kind", "hills"); // what is changed is the present, which is shown
+    assert.ok((await time(page)) > 1.9);
+  }));
+
 test("it starts again with what was changed, or as it was evolved", () =>
   onPage({}, async (page) => {
     await page.locator("#live .live-legs input").last().uncheck();
@@ -314,6 +345,12 @@ test("it evolves twenty generations in the page, whose best walks there and is a
     assert.equal(await status(), paused);
     const curve = await pictureOf(page, ".evolve-curve");
     assert.ok(curve.colours > 20, `only ${curve.colours} colours`);
+    await page.emulateMedia({ colorScheme: "dark" });
+    await settled(page);
+    assert.notEqual((await pictureOf(page, ".evolve-curve")).hash, curve.hash);
+    await page.emulateMedia({ colorScheme: "light" });
+    await settled(page);
+    assert.equal((await pictureOf(page, ".evolve-curve")).hash, curve.hash);
 
     await button("Show the best").click();
     await page.waitForFunction(() => /Exact: .* in all \d+ steps/.test(document.querySelector(".live-bits").textContent));

@@ -3,10 +3,12 @@ import { SPEEDS } from "./clock.js";
 import { CAMERAS } from "./scene.js";
 import { element } from "./theme.js";
 
+const FRAMES = "← →";
 const KEYS = [
-  ["Space", "play, pause"], ["← →", "a frame back, on"], ["Shift ← →", "a second back, on"],
+  ["Space", "play, pause"], [FRAMES, "a frame back, on"], ["Shift ← →", "a second back, on"],
   ["Home, End", "to start, end"], [", .", "slower, faster"], ["C", "camera: follow, orbit, still"], ["R", "camera to its place"],
 ];
+const KEY_OF_ONE_THAT_OBEYS = ["← ↑ → ↓", "where it is to go, while they are held"];
 const KEYS_OF_MANY = [["G", "side by side or ghosts"], ["1 … 9", "choose the walker of the diagrams"]];
 
 const byId = (id) => document.getElementById(id);
@@ -43,7 +45,9 @@ export function connectTransport(clock) {
     slider.value = clock.time_s;
     slider.setAttribute("aria-valuetext", `${clock.time_s.toFixed(2)} seconds`);
     speed.value = clock.speed;
-    output.replaceChildren(clockText(clock.time_s, 2), element("span", {}, ` / ${clockText(clock.duration_s, 0)}`));
+    // What is simulated has no length, but while it is looked at again.
+    const again = clock.more && clock.time_s < clock.duration_s, total = again ? clockText(clock.duration_s, 2) : clockText(clock.duration_s, 0);
+    output.replaceChildren(clockText(clock.time_s, 2), ...(clock.more && !again ? [] : [element("span", {}, ` / ${total}`)]));
     const name = clock.playing ? "Pause" : "Play";
     if (play.getAttribute("aria-label") !== name) {
       play.setAttribute("aria-label", name);
@@ -86,8 +90,10 @@ export function connectKeys(page) {
   });
 }
 
-export function keyTable(many) {
-  const rows = [...KEYS, ...(many ? KEYS_OF_MANY : [])].map(([keys, what]) =>
+export function keyTable(walks) {
+  const obeys = Boolean(walks[0].live && walks[0].description.commands); // its arrows steer
+  const own = obeys ? [KEY_OF_ONE_THAT_OBEYS, ...KEYS.filter(([keys]) => keys !== FRAMES)] : KEYS;
+  const rows = [...own, ...(walks.length > 1 ? KEYS_OF_MANY : [])].map(([keys, what]) =>
     element("tr", {}, element("td", {}, element("kbd", {}, keys)), element("td", {}, what)));
   return element("details", { class: "help" }, element("summary", {}, "Keys"), element("table", {}, ...rows));
 }

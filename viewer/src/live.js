@@ -49,6 +49,7 @@ export class Live {
     Object.assign(this, { page, walk, clock: page.clock });
     this.clock.more = (until_s) => {
       const reached_s = walk.advance(until_s);
+      this.fitWindow(reached_s);
       if (walk.outcome === "diverged" || walk.full) this.clock.pause();
       return reached_s;
     };
@@ -80,8 +81,18 @@ export class Live {
 
   /** Ground, gravity or body are others. */
   changed() {
-    this.page.stage.renew(0, this.panel?.missingLegs() ?? []);
+    this.shownEra = null;
+    this.showEra();
     this.page.invalidate();
+  }
+
+  /** The ground and the body that were at the time which is shown. */
+  showEra() {
+    const era = this.walk.eraAt(this.clock.time_s);
+    if (era === this.shownEra) return;
+    this.shownEra = era;
+    this.walk.showEra(era);
+    this.page.stage.renew(0, era.missing);
   }
 
   /** Whether these are the native program's bits, by the trial in the champion's file. */
@@ -103,8 +114,14 @@ export class Live {
   update() {
     this.drag?.update();
     this.steer?.update();
+    this.fitWindow(this.clock.duration_s);
+    this.showEra();
+  }
+
+  /** What diagrams can show reaches up to a time. */
+  fitWindow(until_s) {
     const { window } = this.page;
-    window.duration_s = Math.max(this.clock.duration_s, window.span_s);
+    window.duration_s = Math.max(until_s, window.span_s);
   }
 
   /** Whether there is more to show than when last asked. */

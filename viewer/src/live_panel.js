@@ -14,12 +14,13 @@ export class LivePanel {
     parent.append(
       element("h2", {}, "Live"),
       element("p", { class: "lead" }, "The champion is simulated now, in this page. Drag its body to push it; change what it walks on and what it is. " +
-              "The clock’s buttons and the diagrams work as always: go back in time, and Play goes on from the end."),
+              "The clock’s buttons and the diagrams work as always: go back in time, and Play repeats what was, and goes on."),
       this.said,
+      ...(page.steer ? [page.steer.element] : []),
       element("div", { class: "live-buttons" },
         button("Start again", () => this.restart({})), button("As it was evolved", () => this.restart({ asEvolved: true })),
         button("Save what was done", () => this.save(), { title: "A file with which `amble trial --inputs` does it again, to the bit" })),
-      ...(page.steer ? [page.steer.element] : []), this.pushes(), this.ground(), this.body(), this.bits, page.evolve.element);
+      this.pushes(), this.ground(), this.body(), this.bits, page.evolve.element);
     parent.hidden = false;
     this.read();
   }
@@ -38,6 +39,8 @@ export class LivePanel {
       this.say(error.message);
     }
     this.walk.renew();
+    const { clock } = this.page;
+    clock.seek(clock.duration_s); // what is past stays as it was
     this.page.changed();
     this.read();
   }
@@ -182,12 +185,6 @@ export class LivePanel {
     const uneven = ground.kind !== "plane";
     this.height.disabled = this.seed.disabled = !uneven;
     for (const { show } of this.rows) show();
-  }
-
-  /** Legs, by number, that it lacks now. */
-  missingLegs() {
-    const names = this.walk.description.damage.parts.filter(({ kind }) => kind === "missing").map(({ leg }) => leg);
-    return names.map((name) => this.walk.robot.legs.findIndex((leg) => leg.name === name));
   }
 }
 

@@ -51,7 +51,9 @@ export class LiveWalk extends Walk {
     this.fallen = false;
     this.fell_s = null; // when first
     this.extremes = { speed: [0, 0], height: [Infinity, -Infinity] };
+    this.eras = []; // what it walked on and what it was, each from a time on
     this.readGround();
+    this.beginEra();
     this.note();
   }
 
@@ -94,6 +96,26 @@ export class LiveWalk extends Walk {
     this.description = this.live.describe();
     this.robot.gravity_m_s2 = this.description.robot.gravity_m_s2;
     this.readGround();
+    this.beginEra();
+  }
+
+  /** Legs, by number, that it lacks now. */
+  missingLegs() {
+    const names = this.description.damage.parts.filter(({ kind }) => kind === "missing").map(({ leg }) => leg);
+    return names.map((name) => this.robot.legs.findIndex((leg) => leg.name === name));
+  }
+
+  beginEra() {
+    this.eras = this.eras.filter(({ from_s }) => from_s < this.seconds);
+    this.eras.push({ from_s: this.seconds, ground: this.ground, gravity_m_s2: this.robot.gravity_m_s2, missing: this.missingLegs() });
+  }
+  eraAt(time_s) {
+    return this.eras.findLast(({ from_s }) => from_s <= time_s) ?? this.eras[0];
+  }
+  /** What is shown is that of an era. */
+  showEra(era) {
+    this.ground = era.ground;
+    this.robot.gravity_m_s2 = era.gravity_m_s2;
   }
 
   readGround() {

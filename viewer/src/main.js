@@ -42,7 +42,7 @@ const publicApi = (page) => ({
   groundAt: (i, x_m, y_m) => heightAt(page.walks[i].ground, x_m, y_m),
   /** Where the stage has put a walker's root and feet: [[x, y, z], …]; the root first. */
   placed: (i) => page.stage.lanes[i].model.placed(),
-  /** {colour, outlined} of a foot now. */
+  /** {colour, outlined, there} of a foot now. */
   foot: (i, leg) => page.stage.lanes[i].model.footLook(leg),
   /** Where it is in the picture: [x, y], −1 … 1 to the right and up. */
   seen: (i) => page.stage.seen(i),

@@ -42,8 +42,10 @@ export class Page {
     this.foot(data);
   }
 
-  head({ title }) {
-    byId("title").textContent = title;
+  head({ title, walkers }) {
+    const [{ live, title: name }] = this.walks;
+    byId("title").textContent = live && walkers.length > 1 ? name : title;
+    if (live) byId("kicker").textContent = "amble · live";
     if (this.walks.length <= FEW && !this.walks[0].live)
       byId("subtitle").textContent = this.walks.map((walk) => story(walk, this.walks.length > 1)).join(" ");
   }
@@ -59,7 +61,7 @@ export class Page {
   foot({ made_by }) {
     const origins = [...new Set(this.walks.map(({ origin }) => origin))].join(", ");
     document.body.append(element("footer", {},
-      keyTable(this.walks.length > 1), element("p", {}, `Recorded from ${origins}. Made by ${made_by}.`)));
+      keyTable(this.walks), element("p", {}, `${this.walks[0].live ? "Simulated in this page, after" : "Recorded from"} ${origins}. Made by ${made_by}.`)));
   }
 
   makeStage() {
@@ -138,6 +140,7 @@ export class Page {
     this.stage.paint();
     this.overview.repaint();
     this.analysis.repaint();
+    this.live?.evolve.paint();
     this.show();
     if (matchMedia("print").matches) this.stage.copyToPaper();
   }

@@ -156,10 +156,10 @@ export class RobotModel {
     for (const { mesh, leg } of this.parts) mesh.visible = !legs.includes(leg);
   }
 
-  /** What a foot looks like now: its colour, and whether it has an outline. */
+  /** What a foot looks like now: its colour, and whether it has an outline, and is there. */
   footLook(leg) {
-    const { material, outline } = this.feet[leg].shapes[0];
-    return { colour: `#${material.color.getHexString()}`, outlined: outline.visible };
+    const { mesh, material, outline } = this.feet[leg].shapes[0];
+    return { colour: `#${material.color.getHexString()}`, outlined: outline.visible, there: mesh.visible };
   }
 
   setGhost(ghost) {

@@ -4,6 +4,7 @@ import { element } from "./theme.js";
 import { button, group } from "./widgets.js";
 
 const KEYS = { ArrowUp: [1, 0], ArrowDown: [-1, 0], ArrowLeft: [0, 1], ArrowRight: [0, -1] };
+const STICK_MS = 100;
 const STILL = 0.15; // of a stick that is let go of
 
 export class Steer {
@@ -18,6 +19,7 @@ export class Steer {
       button("stop", () => this.tell(0, 0))), this.said);
     this.followPointer();
     this.followKeys();
+    this.followStick();
   }
 
   /** Shares of the greatest speed and turn of its evolution, from -1 to 1. */
@@ -60,8 +62,10 @@ export class Steer {
   /** The arrows as long as they are held, before the page takes them for the clock; with Shift they are the clock's. */
   followKeys() {
     const change = (event) => {
-      if (!(event.key in KEYS) || event.shiftKey || event.ctrlKey || event.metaKey || event.altKey) return;
-      if (["SELECT", "INPUT"].includes(event.target.tagName)) return;
+      if (!(event.key in KEYS)) return;
+      // A key that is held is let go of wherever that happens, and whatever else is held by then.
+      const others = event.shiftKey || event.ctrlKey || event.metaKey || event.altKey || ["SELECT", "INPUT"].includes(event.target.tagName);
+      if (event.type === "keydown" ? others : !this.held.has(event.key)) return;
       event.preventDefault();
       event.stopPropagation();
       if (event.type === "keydown") this.held.add(event.key);
@@ -74,6 +78,11 @@ export class Steer {
       if (this.held.size) this.tell(0, 0);
       this.held.clear();
     });
+  }
+
+  /** A stick also wakes what pauses, when no frame asks for it. */
+  followStick() {
+    addEventListener("gamepadconnected", () => (this.asking ??= setInterval(() => this.live.clock.playing || this.update(), STICK_MS)));
   }
 
   /** Before each frame: the left stick of a gamepad, until it is let go of. */

@@ -151,7 +151,7 @@ export class Lab {
       changedPlan: (changes) => this.nextPlan(changes), changed: (generation, changes) => this.worldChanged(generation, changes),
       trouble: (error) => this.broken(error),
     });
-    Object.assign(this, { settings, progress: null, best: null });
+    Object.assign(this, { settings, progress: null, best: null, newest: null, elite: false });
     await this.evolution.open(plan, files);
     this.curve.begin(this.runName(settings));
     this.ends.begin();
@@ -179,7 +179,8 @@ export class Lab {
   /** Ends the run; settings can be chosen again. */
   anew() {
     this.evolution?.stop();
-    Object.assign(this, { evolution: null, progress: null });
+    Object.assign(this, { evolution: null, progress: null, elite: false });
+    this.map.mark(null);
     this.form.lock(false);
     byId("places").hidden = true;
     this.refresh();
@@ -226,18 +227,22 @@ export class Lab {
 
   take(progress, champion) {
     this.progress = progress;
-    if (champion) {
-      this.best = { text: champion, generation: progress.generation };
-      const title = `Best of generation ${progress.generation}`;
-      this.attempt(() => this.stage.show(champion, title, { soon: !this.stage.walk || this.stage.random }));
-      this.stage.random = false;
-    }
+    if (champion) this.takeBest(champion, progress.generation);
     this.curve.add({ ...progress, ends: undefined, map: undefined, cells: progress.map?.length });
     byId("places").hidden = false;
     this.ends.add(progress);
     this.map.add(progress);
     if (progress.generation % SAY_EVERY === 0) this.say(this.summary());
     this.refresh();
+  }
+
+  /** A new best, which walks next unless a cell of the map was chosen. */
+  takeBest(text, generation) {
+    this.newest = { text, generation };
+    if (this.elite) return;
+    this.best = this.newest;
+    this.attempt(() => this.stage.show(text, `Best of generation ${generation}`, { soon: !this.stage.walk || this.stage.random }));
+    this.stage.random = false;
   }
 
   summary() {
@@ -283,11 +288,20 @@ export class Lab {
     }
   }
 
+  /** The walker of a cell, until the best is asked for again. */
   async showElite(cell) {
     const text = await this.evolution.elite(cell);
-    this.best = { text, generation: this.progress.generation };
+    Object.assign(this, { elite: true, best: { text, generation: this.progress.generation } });
     await this.stage.show(text, "Of the map");
     this.stage.clock.play();
+    this.refresh();
+  }
+  async showBest() {
+    Object.assign(this, { elite: false, best: this.newest });
+    this.map.mark(null);
+    await this.stage.show(this.best.text, `Best of generation ${this.best.generation}`);
+    this.stage.clock.play();
+    this.refresh();
   }
 
   showNow(time_s) {

@@ -19,11 +19,16 @@ export class MapView {
     const id = column * mapBins + row; // the last descriptor's bin is the first digit
     const button = element("button", { type: "button", tabindex: "-1", disabled: "", "aria-label": "empty" });
     button.addEventListener("click", () => {
-      for (const { button: other } of this.cells) other.setAttribute("aria-pressed", String(other === button));
+      this.mark(id);
       choose(id);
     });
     button.addEventListener("keydown", (event) => this.move(event, i));
-    return { id, button, box: element("td", {}, button) };
+    return { id, place: `column ${column + 1}, row ${row + 1} from below`, button, box: element("td", {}, button) };
+  }
+
+  /** Which cell walks; null: none. */
+  mark(chosen) {
+    for (const { id, button } of this.cells) button.setAttribute("aria-pressed", String(id === chosen));
   }
 
   /** Arrow keys go to the next cell that is filled. */
@@ -47,13 +52,14 @@ export class MapView {
       button.setAttribute("aria-label", "empty");
     }
     this.note.textContent = "";
+    this.mark(null);
   }
 
   add({ map }) {
     if (!map) return;
     const best = Math.max(0.01, ...map.map(([, metres]) => metres)), by = new Map(map);
     let first = null;
-    for (const { id, button } of this.cells) {
+    for (const { id, place, button } of this.cells) {
       const metres = by.get(id);
       button.disabled = metres === undefined;
       if (metres === undefined) {
@@ -62,7 +68,7 @@ export class MapView {
       }
       first ??= button;
       button.style.setProperty("--far", `${Math.round(100 * (0.12 + (0.88 * metres) / best))}%`);
-      button.setAttribute("aria-label", `${number(metres, 2)} m`);
+      button.setAttribute("aria-label", `${place}: ${number(metres, 2)} m`);
       button.title = `${number(metres, 2)} m`;
     }
     if (first && !this.cells.some(({ button }) => button.tabIndex === 0 && !button.disabled)) first.tabIndex = 0;

@@ -98,7 +98,7 @@ export class Files {
     const last = curve.history.at(-1), best = now.best_generation;
     lab.progress = last ? { ...last, best_generation: best, map: now.map } : null;
     const text = best < 0 ? await evolution.first() : await evolution.champion();
-    lab.best = best < 0 ? null : { text, generation: best };
+    lab.best = lab.newest = best < 0 ? null : { text, generation: best };
     await lab.stage.show(text, best < 0 ? "One of the next generation" : `Best of generation ${best}`);
     lab.stage.random = best < 0;
   }

@@ -69,14 +69,9 @@ export class LabStage {
     this.began_ms = performance.now();
     this.clock.duration_s = 0;
     this.clock.seek(0);
-    this.stage.renew(0, this.missing());
+    this.stage.renew(0, this.walk.missingLegs());
     this.stage.resetCamera();
     this.invalidate();
-  }
-
-  missing() {
-    const names = this.walk.description.damage.parts.filter(({ kind }) => kind === "missing").map(({ leg }) => leg);
-    return names.map((name) => this.walk.robot.legs.findIndex((leg) => leg.name === name));
   }
 
   invalidate() {

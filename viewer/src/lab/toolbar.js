@@ -15,6 +15,7 @@ export class Toolbar {
     this.lab = lab;
     this.start = button("Start", () => lab.toggle(), { class: "primary" });
     this.again = button("Stop and begin anew", () => this.beginAnew());
+    this.bestAgain = button("The best again", () => lab.attempt(() => lab.showBest()), { title: "In place of the walker of a cell" });
     this.saveBest = button("Save the walker", () => lab.files.saveBest(), { title: "A champion’s file, which all commands of amble take" });
     this.saveRun = button("Save the run", () => lab.attempt(() => lab.files.saveRun()), { title: "A folder in one file: the lab opens it again, and amble resume goes on with it" });
     this.file = element("input", { type: "file", id: "file", class: "unseen", accept: ".json,.tar,application/json,application/x-tar", "aria-label": "Open a robot, a champion or a run", tabindex: "-1" });
@@ -23,7 +24,7 @@ export class Toolbar {
       this.file.value = "";
     });
     this.open = button("Open a file", () => this.file.click(), { title: "A robot.json, a champion, or a run that was saved here; or drop it on the page" });
-    byId("buttons").append(this.start, this.again, this.saveBest, this.saveRun, this.open, this.file);
+    byId("buttons").append(this.start, this.again, this.bestAgain, this.saveBest, this.saveRun, this.open, this.file);
     this.walk = button("Let it walk", () => this.toggleWalk());
     this.push = button("Push it", () => this.pushIt(), { title: "From its right side; or drag its body" });
     byId("views").append(this.walk, this.push);
@@ -38,6 +39,7 @@ export class Toolbar {
   }
 
   beginAnew() {
+    if (!this.lab.mayLeave()) return;
     this.lab.anew();
     this.lab.attempt(() => this.lab.preview());
     this.start.focus();
@@ -53,6 +55,7 @@ export class Toolbar {
     this.start.textContent = !evolution ? "Start" : state === "running" ? "Pause" : state === "ended" ? `${lab.more_generations} more generations` : "Go on";
     this.start.disabled = state === "broken";
     this.again.hidden = !evolution;
+    this.bestAgain.hidden = !lab.elite || !lab.newest;
     this.saveBest.hidden = !lab.best;
     this.saveRun.hidden = !evolution || !progress;
     lab.form.sayWorld(state);
