@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "amble/core/error.hpp"
@@ -31,6 +32,7 @@ std::vector<std::string> column_names(const experiment::Problem& problem, const 
   std::vector<std::string> names{"step", "fallen", "time_s"};
   for (auto& name : record::standard_columns(joints, legs)) names.push_back(std::move(name));
   for (auto& name : trial.controllers().state_names()) names.push_back(std::move(name));
+  if (trial.obeys()) std::ranges::move(record::command_columns(), std::back_inserter(names));
   return names;
 }
 
@@ -172,6 +174,10 @@ const std::vector<double>& Session::state() {
   put_lane(physics.sensors().touch);
   trial_->controllers().state(lane, controller_state_);
   state_.insert(state_.end(), controller_state_.begin(), controller_state_.end());
+  if (trial_->obeys()) {
+    const trial::Command told = trial_->told();
+    state_.insert(state_.end(), {static_cast<double>(told.speed_m_s), static_cast<double>(told.turn_rad_s)});
+  }
   return state_;
 }
 

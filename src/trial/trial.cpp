@@ -1,5 +1,6 @@
 #include "amble/trial/trial.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -70,6 +71,13 @@ void Runner::move_to(physics::Engine& engine, const std::vector<int>& numb_legs)
 void Runner::tell(int lane, Command command) {
   AMBLE_CHECK(protocol_.commands.has_value(), "commands are changed where there are some");
   protocol_.commands->change(lanes_[to_index(lane)].trajectory.steps, command);
+}
+
+std::optional<Command> Runner::told(int lane) const {
+  const Lane& slot = lanes_[to_index(lane)];
+  const CommandSchedule* const commands = commands_of(slot.task);
+  if (commands == nullptr) return std::nullopt;
+  return commands->at(std::max(slot.trajectory.steps - 1, 0));
 }
 
 void Runner::refill(int lane, TaskQueue& queue) {

@@ -99,6 +99,9 @@ class Runner {
   /// the same tick of theirs so are all others whose scenario has no commands. AMBLE_CHECK:
   /// Protocol::commands is there. Without effect on a lane whose scenario has commands.
   void tell(int lane, Command command);
+  /// What the robot of a lane was told in its last step, or before the first is told in that; none without
+  /// commands.
+  std::optional<Command> told(int lane) const;
 
   /// The targets of the last tick, rad from the start pose, joints × lanes, as the engine got them.
   const LaneArray& targets_rad() const { return targets_rad_; }

@@ -177,6 +177,8 @@ TEST(Session, TellsOneThatObeysAndItGoesElsewhere) {
   session.step(600);
   other.step(600);
   EXPECT_NE(session.trace(), other.trace());
+  EXPECT_FLOAT_EQ(static_cast<float>(value(session, "command.speed")), 0.2f);
+  EXPECT_FLOAT_EQ(static_cast<float>(value(other, "command.turn")), -0.3f);
 
   const auto champion = parse_champion_for(engine, tests::obeying_champion_text(), "champion");
   const auto replay = replay_live(champion, parse_inputs(session.inputs(), "inputs"));

@@ -207,6 +207,12 @@ test("one that obeys is told by keys, pad and gamepad, and the native program re
     const told = () => page.locator(".steer-said").textContent();
     const commands = async () => JSON.parse(await page.evaluate(() => window.amble.live().inputs())).inputs.map(({ command }) => command);
     const { most_speed_m_s: fast, most_turn_rad_s: turn } = (await description(page)).commands;
+    const way = async () => {
+      await page.locator(".path-from-above").scrollIntoViewIfNeeded();
+      await settled(page);
+      return page.locator("#analysis canvas").evaluateAll((all) => all.slice(0, 2).map((canvas) => canvas.toDataURL()));
+    };
+    const before = await way();
     assert.equal(await told(), "as it was evolved");
     await page.keyboard.down("ArrowUp");
     assert.match(await told(), /^told: 0\.28 m\/s$/);
@@ -220,10 +226,12 @@ test("one that obeys is told by keys, pad and gamepad, and the native program re
     for (const key of ["ArrowUp", "Shift"]) await page.keyboard.up(key);
     assert.equal(await told(), "told: stop", "an arrow that is let go of while Shift is held is let go of");
     await simulate(page, 0.5);
+    await page.locator(".steer-pad").scrollIntoViewIfNeeded();
     const pad = await page.locator(".steer-pad").boundingBox();
     await page.mouse.click(pad.x + pad.width - 1, pad.y + pad.height / 2);
     assert.match(await told(), /to the right$/);
     await simulate(page, 0.5);
+    (await way()).forEach((picture, i) => assert.notEqual(picture, before[i], "what it is told and does runs along"));
     const sent = await commands();
     const close = (command, expected) => command.forEach((part, i) => assert.ok(Math.abs(part - expected[i]) < 1e-6, `${command}`));
     close(sent[0], [fast, 0]);

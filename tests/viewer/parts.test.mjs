@@ -6,7 +6,7 @@ import { makePatch } from "../../viewer/make-patch.mjs";
 import { patched } from "../../viewer/src/patch.js";
 import { clipNear, cornersOf, hullOf } from "../../viewer/src/outlines.js";
 import { niceAxis } from "../../viewer/src/plot.js";
-import { rates, wantedPath } from "../../viewer/src/told_path.js";
+import { GrowingRates, rates, wantedPath } from "../../viewer/src/told_path.js";
 import { footfalls, runs } from "../../viewer/src/walk.js";
 import { bestAfter, conditionOf, median } from "../../viewer/src/watch/all_curves.js";
 import { placeOf } from "../../viewer/src/watch/map_picture.js";
@@ -123,6 +123,20 @@ test("where a robot lags behind its commands, its rates say so and the wanted pa
   assert.ok(Math.abs(speeds[200] - 0.15) < 0.003 && Math.abs(turns[200] + 0.25) < 1e-9);
   const [x, y] = wantedPath(walk, headings), full = circling({ speed: 0.3, turn: -0.5, seconds: 10 });
   assert.ok(Math.hypot(x[400] - full.com[0][400], y[400] - full.com[1][400]) < 0.01);
+});
+
+test("of a walk that grows, heading and wanted path are those of the whole, and rates those of the second before", () => {
+  const walk = circling({ speed: 0.3, turn: -0.5, seconds: 10, slower: 0.5 }), whole = rates(walk), table = new Map(), { count } = walk.poses;
+  for (const name of GrowingRates.columns) table.set(name, new Float64Array(count));
+  walk.poses.get = (name) => table.get(name);
+  const growing = new GrowingRates(walk);
+  for (let k = 0; k < count; ++k) growing.add(k);
+  for (let k = 60; k < count; k += 7) {
+    assert.ok(Math.abs(growing.headings[k] - whole.headings[k]) < 1e-12);
+    for (const axis of [0, 1]) assert.ok(Math.abs(growing.wanted[axis][k] - whole.wanted[axis][k]) < 1e-12);
+    assert.ok(Math.abs(growing.turns[k] - whole.turns[k - 25]) < 1e-9 && Math.abs(growing.speeds[k] - 0.15) < 0.005);
+  }
+  assert.ok(Math.abs(growing.extents[0][1] - 0.3) < 1e-9 && Math.abs(growing.extents[1][0] + 0.5) < 1e-9);
 });
 
 test("a patch makes of a module any other, and one that is cut off is told", () => {

@@ -105,10 +105,10 @@ export class Analysis {
 
   told(walk, plot) {
     if (!walk.commands) return [];
-    const done = rates(walk), path = new PathFromAbove(walk, done.headings);
+    const done = walk.told ?? rates(walk), path = new PathFromAbove(walk, done);
     this.shown.push(path);
     return [section("Told and done", "Dashed: the speed and the turn that it was told, and the way that they lead to from its start. " +
-                    "Black: what it did, means over a second.", path.element, plot(commandPlot(walk, done, this.window, this.clock)))];
+                    `Black: what it did, means over ${walk.live ? "the second before" : "a second"}.`, path.element, plot(commandPlot(walk, done, this.window, this.clock)))];
   }
 
   supg(walk, plot) {

@@ -1,5 +1,6 @@
 // A walk that is simulated while it is looked at: the same as a recorded one, but growing at its end.
 import { drawCppn } from "./cppn.js";
+import { GrowingRates } from "./told_path.js";
 import { Walk } from "./walk.js";
 
 const LONGEST_S = 600;
@@ -17,7 +18,7 @@ class Table {
     return this.byName.get(name);
   }
   add(values) {
-    this.columns.forEach((column, c) => (column[this.count] = values[c]));
+    values.forEach((value, c) => (this.columns[c][this.count] = value));
     ++this.count;
   }
 }
@@ -39,7 +40,7 @@ export class LiveWalk extends Walk {
   /** `live`: a LiveRobot in its start pose; `json`: the recorded walk of the same champion. */
   constructor(live, json) {
     const description = live.describe();
-    const names = [...description.columns, "speed"];
+    const names = [...description.columns, "speed", ...(description.commands ? GrowingRates.columns : [])];
     const table = new Table(names, Math.round(LONGEST_S / description.timestep_s) + 1, description.timestep_s);
     const { robot, controller } = description;
     super({ title: json.title, origin: json.origin, cppn_svg: json.cppn_svg, cell: null, gait: null, seconds: 0,
@@ -52,6 +53,7 @@ export class LiveWalk extends Walk {
     this.fell_s = null; // when first
     this.extremes = { speed: [0, 0], height: [Infinity, -Infinity] };
     this.eras = []; // what it walked on and what it was, each from a time on
+    this.told = description.commands ? new GrowingRates(this) : null;
     this.readGround();
     this.beginEra();
     this.note();
@@ -77,6 +79,7 @@ export class LiveWalk extends Walk {
     this.outcome = "completed";
     this.fell_s = null;
     this.extremes = { speed: [0, 0], height: [Infinity, -Infinity] };
+    this.told?.begin();
     this.renew();
     this.note();
     this.findEvents();
@@ -153,13 +156,14 @@ export class LiveWalk extends Walk {
   note() {
     const { table } = this, state = this.live.state(this.description.columns.length);
     const row = table.count;
-    table.add([...state, 0]);
+    table.add(state); // the other columns are filled here
     this.seconds = row * table.step_s;
     this.fallen = state[1] > 0;
     if (this.fallen) this.fell_s ??= this.seconds;
     const before = Math.max(0, row - Math.round(SPEED_WINDOW_S / table.step_s)), [x, y, z] = this.com;
     const speed = row > before ? Math.hypot(x[row] - x[before], y[row] - y[before]) / ((row - before) * table.step_s) : 0;
     this.speeds[row] = speed;
+    this.told?.add(row);
     const { speed: fast, height } = this.extremes;
     fast[1] = Math.max(fast[1], speed);
     [height[0], height[1]] = [Math.min(height[0], z[row]), Math.max(height[1], z[row])];

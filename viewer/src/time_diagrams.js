@@ -143,13 +143,13 @@ function band(pen, row, title, { lower, upper, ticks, text }) {
 }
 
 /** What a walker was told, thin, and what it did. */
-export function commandPlot(walk, { speeds, turns }, window, clock) {
-  const [told, turned] = walk.commands;
-  const rows = [["Speed along its own axis, m/s", told, speeds], ["Turn to the left, rad/s", turned, turns]].map(([title, ...columns]) =>
-    ({ title, columns, axis: niceAxis(...around(extent(columns)), 4) }));
+export function commandPlot(walk, rates, window, clock) {
+  const [told, turned] = walk.commands, { speeds, turns } = rates;
+  const rows = [["Speed along its own axis, m/s", told, speeds], ["Turn to the left, rad/s", turned, turns]].map(([title, ...columns], r) =>
+    ({ title, columns, known: rates.extents ? null : extent(columns), now: () => rates.extents[r] }));
   return new Plot("What it was told, and what it did", 2 * MOTION_ROW, window, clock, (pen) => {
-    rows.forEach(({ title, columns: [wanted, done], axis }, r) => {
-      const y = band(pen, r, title, axis);
+    rows.forEach(({ title, columns: [wanted, done], known, now }, r) => {
+      const y = band(pen, r, title, niceAxis(...around(known ?? now()), 4));
       pen.curve(done, walk.poses, y, "--ink", 2.4);
       pen.curve(wanted, walk.poses, y, "--told", 1.6, { dash: [6, 3] });
     });

@@ -76,6 +76,10 @@ bool LiveTrial::obeys() const {
   return problem_.architecture->extra_senses().commands();
 }
 
+trial::Command LiveTrial::told() const {
+  return runner_->told(lane).value_or(trial::Command{});
+}
+
 void LiveTrial::move_to(Problem next) {
   auto engine = next.make_engine();
   auto ground = next.make_ground(next.ground_key);

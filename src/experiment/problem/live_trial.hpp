@@ -48,6 +48,8 @@ class LiveTrial {
   int steps() const { return steps_; }  ///< made so far
   /// Whether the controller senses commands.
   bool obeys() const;
+  /// What it was told in the last step; of one that obeys.
+  trial::Command told() const;
   /// Whether RobotSpec::fall_rule was met after the last step.
   bool fallen() const;
   const Problem& problem() const { return problem_; }
