@@ -116,7 +116,7 @@ test("footfalls, timers, patterns and joints run along", () =>
 test("dragging its body pushes it, and the native program repeats to the bit what was done", () =>
   onPage({}, async (page) => {
     await simulate(page, 1);
-    const box = await page.locator("#stage canvas").first().boundingBox();
+    const box = await page.locator("#stage .picture").boundingBox();
     const [x, y] = await page.evaluate(() => window.amble.seen(0));
     const at = [box.x + ((x + 1) / 2) * box.width, box.y + ((1 - y) / 2) * box.height];
     await page.mouse.move(...at);
@@ -137,7 +137,7 @@ test("dragging its body pushes it, and the native program repeats to the bit wha
 test("a finger drags it as a mouse does, a second finger changes nothing, and the page does not scroll", () =>
   onPage({ viewport: { width: 390, height: 800 }, hasTouch: true, isMobile: true }, async (page) => {
     await simulate(page, 0.5);
-    const box = await page.locator("#stage canvas").first().boundingBox();
+    const box = await page.locator("#stage .picture").boundingBox();
     const [x, y] = await page.evaluate(() => window.amble.seen(0));
     const at = { x: box.x + ((x + 1) / 2) * box.width, y: box.y + ((1 - y) / 2) * box.height };
     const devtools = await page.context().newCDPSession(page), scrolled = await page.evaluate(() => scrollY);
