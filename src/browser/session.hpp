@@ -38,7 +38,8 @@ class Session {
   /// ground, damage, what became of the champion in its file.
   std::string describe() const;
   /// Steps, whether it has fallen, simulated time (s), then record::standard_columns, the controller's state
-  /// and, of one that obeys, what it is told: speed (m/s) and turn (rad/s, to the left). Valid until the next call of a function that is not const.
+  /// and, of one that obeys, what it is told: speed (m/s) and turn (rad/s, to the left). Valid until the
+  /// next call of a function that is not const.
   const std::vector<double>& state();
   /// Heights of uneven ground: ground::HeightField::heights_m; null for the plane.
   const float* heights_m() const;

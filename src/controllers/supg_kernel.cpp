@@ -236,8 +236,9 @@ HWY_INLINE void targets_of(const TargetTables& tables, const std::int32_t* timer
     const Places places(tables, timers + first, some);
     const auto target = [&](int lane, int type) HWY_ATTR {
       const auto from = static_cast<std::ptrdiff_t>(places.at[lane]) << of.stride_bits;
-      return target_at(of, tables.tables[first + lane] + from + type, places.share[lane],
-                       tables.says + first + lane, tables.says_stride);
+      const float* const says = of.channels > 0 ? tables.says + first + lane : nullptr;
+      return target_at(of, tables.tables[first + lane] + from + type, places.share[lane], says,
+                       tables.says_stride);
     };
     for (int type = 0; type < of.width; type += 4) {
       float* const to = targets_rad + type * lanes + first;

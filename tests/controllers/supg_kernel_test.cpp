@@ -131,7 +131,7 @@ class AllKernels {
           const Floats table = floats(2 * 8 << stride_bits, stream_);
           const std::vector<const float*> tables(static_cast<std::size_t>(lanes_), table.data());
           const Ints timers = ints(lanes_, -1, 5 * parts_per_tick, stream_);
-          LaneRows says(channels + 1, lanes_);
+          LaneRows says(channels, lanes_);
           for (int lane = 0; lane < lanes_; ++lane)
             for (int channel = 0; channel < channels; ++channel)
               says.at(channel, lane) = static_cast<float>(stream_.uniform(-1.0, 1.0));

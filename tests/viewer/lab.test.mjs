@@ -280,8 +280,9 @@ test("each experiment sets up the lab, and its runs stay in the diagram to compa
       const one = experiments.nth(i);
       await one.locator("summary").click();
       for (const step of await one.locator(".lab-buttons button").all()) {
+        await page.evaluate(() => (window.amble.stage.random = false));
         await step.click();
-        await page.waitForFunction(() => window.amble.stage.random);
+        await page.waitForFunction(() => window.amble.stage.random || !document.getElementById("trouble").hidden);
         assert.equal(await page.locator("#trouble").isHidden(), true, await trouble(page));
       }
     }

@@ -82,7 +82,13 @@ export class Steer {
 
   /** A stick also wakes what pauses, when no frame asks for it. */
   followStick() {
-    addEventListener("gamepadconnected", () => (this.asking ??= setInterval(() => this.live.clock.playing || this.update(), STICK_MS)));
+    const moved = () => [...(navigator.getGamepads?.() ?? [])].some((gamepad) => gamepad?.axes.slice(0, 2).some((part) => Math.abs(part) >= STILL));
+    let before = false; // so that a stick which is held does not undo a pause
+    addEventListener("gamepadconnected", () => (this.asking ??= setInterval(() => {
+      const now = moved();
+      if (now && !before && !this.live.clock.playing) this.update();
+      before = now;
+    }, STICK_MS)));
   }
 
   /** Before each frame: the left stick of a gamepad, until it is let go of. */

@@ -61,6 +61,7 @@ export class GrowingRates {
   }
 
   begin() {
+    this.begun = (this.begun ?? 0) + 1;
     this.extents = [[0, 0], [0, 0]]; // of speeds and of turns, wanted and done
   }
 
@@ -71,7 +72,8 @@ export class GrowingRates {
     wantedHeadings[k] = k === 0 ? headings[0] : wantedHeadings[k - 1] + turn[k] * step_s;
     x[k] = k === 0 ? walk.com[0][0] : x[k - 1] + speed[k] * step_s * Math.cos(wantedHeadings[k]);
     y[k] = k === 0 ? walk.com[1][0] : y[k - 1] + speed[k] * step_s * Math.sin(wantedHeadings[k]);
-    [speeds[k], turns[k]] = ratesBetween(walk, headings, Math.max(0, k - Math.round(MEAN_S / step_s)), k, k);
+    const from = Math.max(0, k - Math.round(MEAN_S / step_s));
+    [speeds[k], turns[k]] = ratesBetween(walk, headings, from, k, Math.round((from + k) / 2));
     [[speed[k], speeds[k]], [turn[k], turns[k]]].forEach((values, i) => {
       this.extents[i] = [Math.min(this.extents[i][0], ...values), Math.max(this.extents[i][1], ...values)];
     });
@@ -80,8 +82,8 @@ export class GrowingRates {
 
 /** Both paths from above, and where the walker is. */
 export class PathFromAbove {
-  constructor(walk, { wanted }) {
-    Object.assign(this, { walk, wanted, done: walk.com, rows: 0, visible: true });
+  constructor(walk, rates) {
+    Object.assign(this, { walk, rates, wanted: rates.wanted, done: walk.com, rows: 0, visible: true });
     this.fit();
     this.canvas = element("canvas", { class: "path-from-above", role: "img", "aria-label": this.label() });
     this.element = element("div", {}, this.canvas);
@@ -101,7 +103,8 @@ export class PathFromAbove {
 
   /** What is shown holds all rows that there are; of a walk that grows, with room for more. Whether it changed. */
   fit() {
-    const { count } = this.walk.poses, anew = this.rows === 0 || count < this.rows;
+    const { count } = this.walk.poses, { begun } = this.rates, anew = this.rows === 0 || begun !== this.begun;
+    this.begun = begun;
     const least = anew ? [Infinity, Infinity] : [...this.least], most = anew ? [-Infinity, -Infinity] : [...this.most];
     for (const path of [this.wanted, this.done])
       for (let axis = 0; axis < 2; ++axis)
@@ -138,7 +141,7 @@ export class PathFromAbove {
   show(t) {
     this.time_s = t;
     if (!this.at || (!this.visible && !matchMedia("print").matches)) return;
-    if (this.walk.live && this.walk.poses.count !== this.rows && this.fit()) return this.repaint();
+    if (this.walk.live && (this.walk.poses.count !== this.rows || this.rates.begun !== this.begun) && this.fit()) return this.repaint();
     const paint = this.canvas.getContext("2d"), { width, height } = this.canvas, row = this.walk.place(t).row;
     paint.setTransform(1, 0, 0, 1, 0, 0);
     paint.clearRect(0, 0, width, height);

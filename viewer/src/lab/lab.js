@@ -290,7 +290,9 @@ export class Lab {
 
   /** The walker of a cell, until the best is asked for again. */
   async showElite(cell) {
-    const text = await this.evolution.elite(cell);
+    const { evolution } = this, text = await evolution.elite(cell);
+    if (evolution !== this.evolution) return;
+    this.map.mark(cell);
     Object.assign(this, { elite: true, best: { text, generation: this.progress.generation } });
     await this.stage.show(text, "Of the map");
     this.stage.clock.play();

@@ -19,7 +19,6 @@ export class MapView {
     const id = column * mapBins + row; // the last descriptor's bin is the first digit
     const button = element("button", { type: "button", tabindex: "-1", disabled: "", "aria-label": "empty" });
     button.addEventListener("click", () => {
-      this.mark(id);
       choose(id);
     });
     button.addEventListener("keydown", (event) => this.move(event, i));

@@ -29,8 +29,8 @@ export class LabStage {
     const { text, title } = this.next;
     this.next = null;
     this.over_s = 0;
-    const live = await LiveRobot.open(this.module, text), { name, joints } = live.describe().robot;
-    const same = this.walk && name === this.robotName && joints.length === this.joints;
+    const live = await LiveRobot.open(this.module, text), { robot: { name, joints }, columns } = live.describe();
+    const same = this.walk && name === this.robotName && columns.join() === this.walk.description.columns.join();
     if (same) this.walk.become(live);
     else this.begin(live, title);
     Object.assign(this, { title, robotName: name, joints: joints.length, text, elsewhere: false });
