@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "amble/controllers/neural_kernel.hpp"
-#include "amble/controllers/supg_kernel.hpp"
 #include "amble/core/check.hpp"
 #include "amble/core/index.hpp"
 #include "amble/cppn/activation.hpp"

@@ -9,21 +9,21 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "amble/controllers/supg_kernel.cpp"
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+
+#include "amble/core/simd-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace amble::controllers::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// As many lanes as the machine has, up to 16, and one, for those that are left.
-using Floats = hn::CappedTag<float, 16>;
-using OneFloat = hn::CappedTag<float, 1>;
+using simd::HWY_NAMESPACE::Floats;
+using simd::HWY_NAMESPACE::width;
+using OneFloat = hn::CappedTag<float, 1>;  // for lanes that are left over
 
 /// work(tag, lane) for so many lanes at a time as the tag has.
 template <typename Work>
 HWY_INLINE void for_lanes(int count, Work work) {
-  constexpr int width = static_cast<int>(hn::MaxLanes(Floats()));
   int lane = 0;
   for (; lane + width <= count; lane += width) work(Floats(), lane);
   for (; lane < count; ++lane) work(OneFloat(), lane);

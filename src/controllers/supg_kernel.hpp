@@ -89,7 +89,7 @@ struct Residual {
   const std::int32_t* jumped;
   float* residual_rad;
 };
-void run_residual(const Residual& residual, float* targets_rad, int count);
+void run_residual(const Residual& of, float* targets_rad, int count);
 
 /// One stage of its filter, z ← z + share (y − z), y ← z, without what is within ± 1e−9 rad.
 void run_filter(float share, float* z_rad, float* targets_rad, int count);
