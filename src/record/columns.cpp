@@ -21,6 +21,13 @@ std::vector<std::string> torque_columns(const std::vector<std::string>& joints) 
   return columns;
 }
 
+std::vector<std::string> load_columns(const std::vector<std::string>& legs) {
+  std::vector<std::string> columns;
+  columns.reserve(legs.size());
+  for (const std::string& leg : legs) columns.push_back("load." + leg);
+  return columns;
+}
+
 std::vector<std::string> command_columns() {
   return {"command.speed", "command.turn"};
 }

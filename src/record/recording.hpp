@@ -23,14 +23,17 @@ struct RecordingHeader {
 };
 
 /// The columns every recording has, in order: root.x .y .z .qw .qx .qy .qz, com.x .y .z, then per joint
-/// angle.NAME and target.NAME (joint by joint: all angles, then all targets), then touch.LEG. The
-/// torque columns, if there are any, and a controller's state names follow.
+/// angle.NAME and target.NAME (joint by joint: all angles, then all targets), then touch.LEG. Torques and
+/// loads, if there are any, and a controller's state names follow.
 std::vector<std::string> standard_columns(const std::vector<std::string>& joints,
                                           const std::vector<std::string>& legs);
 
 /// The columns that follow the standard ones if the engine has motor torques (N m): torque.NAME, joint by
 /// joint.
 std::vector<std::string> torque_columns(const std::vector<std::string>& joints);
+
+/// The columns that follow those if the engine measures the feet's loads (N): load.LEG, leg by leg.
+std::vector<std::string> load_columns(const std::vector<std::string>& legs);
 
 /// The last columns of a trial with commands: command.speed (m/s) and command.turn (rad/s to the left).
 std::vector<std::string> command_columns();

@@ -6,13 +6,16 @@ namespace amble::trial {
 namespace {
 
 record::RecordingHeader with_columns(record::RecordingHeader header, const robot::RobotSpec& robot,
-                                     bool torques, const controllers::Batch& controllers, bool commands) {
+                                     const physics::Engine& engine, const controllers::Batch& controllers,
+                                     bool commands) {
   std::vector<std::string> joints, legs;
   for (const auto& joint : robot.joints) joints.push_back(joint.name);
   for (const auto& leg : robot.legs) legs.push_back(leg.name);
   header.columns = record::standard_columns(joints, legs);
-  if (torques)
+  if (engine.motor_torque_nm() != nullptr)
     for (auto& name : record::torque_columns(joints)) header.columns.push_back(std::move(name));
+  if (engine.foot_load_n() != nullptr)
+    for (auto& name : record::load_columns(legs)) header.columns.push_back(std::move(name));
   for (auto& name : controllers.state_names()) header.columns.push_back(std::move(name));
   if (commands)
     for (auto& name : record::command_columns()) header.columns.push_back(std::move(name));
@@ -42,8 +45,7 @@ void EventObserver::on_step(int, const physics::Engine&, const controllers::Batc
 RecordingObserver::RecordingObserver(const std::filesystem::path& path, record::RecordingHeader header,
                                      const robot::RobotSpec& robot, const physics::Engine& engine,
                                      const controllers::Batch& controllers, const CommandSchedule* commands)
-    : writer_(path, with_columns(std::move(header), robot, engine.motor_torque_nm() != nullptr, controllers,
-                                 commands != nullptr)),
+    : writer_(path, with_columns(std::move(header), robot, engine, controllers, commands != nullptr)),
       state_count_(controllers.state_names().size()),
       commands_(commands) {}
 
@@ -64,6 +66,7 @@ void RecordingObserver::on_step(int step, const physics::Engine& engine,
   put_lane(targets_rad);
   put_lane(engine.sensors().touch);
   if (const LaneArray* torques_nm = engine.motor_torque_nm()) put_lane(*torques_nm);
+  if (const LaneArray* loads_n = engine.foot_load_n()) put_lane(*loads_n);
   frame_.resize(frame_.size() + state_count_);
   controllers.state(lane, std::span(frame_).last(state_count_));
   if (commands_ != nullptr) {

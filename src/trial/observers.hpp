@@ -41,8 +41,8 @@ class EventObserver : public Observer {
 /// Writes every step of a trial to a recording (record/recording.hpp).
 class RecordingObserver : public Observer {
  public:
-  /// `header` with everything but the columns. Motor torques are recorded if the engine reports them, and
-  /// `commands` (not copied) if there are any.
+  /// `header` with everything but the columns. Motor torques and loads of feet are recorded if the engine
+  /// measures them, and `commands` (not copied) if there are any.
   RecordingObserver(const std::filesystem::path& path, record::RecordingHeader header,
                     const robot::RobotSpec& robot, const physics::Engine& engine,
                     const controllers::Batch& controllers, const CommandSchedule* commands = nullptr);

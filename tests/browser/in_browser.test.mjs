@@ -1,9 +1,9 @@
 // node in_browser.test.mjs firefox|chromium: the module in a browser computes the native program's bits, and amble's pages work there.
 // Exit code 77 where that browser is not installed.
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
-import { mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
-import { dirname, join } from "node:path";
+import { execFileSync, spawn } from "node:child_process";
+import { readFileSync, readdirSync } from "node:fs";
+import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { LiveRobot, chooseModule } from "../../viewer/src/amble.js";
 import { again, champions, source } from "./champions.mjs";
@@ -16,7 +16,7 @@ if (!findBrowser(kind)) {
   console.log(`skipped: ${kind} is not installed (./setup --${kind === "firefox" ? "dev" : "tools"})`);
   process.exit(77);
 }
-const GENERATIONS = 20;
+const GENERATIONS = 20, MORE = 2;
 const SERVO = source("robots/servo/champion.json");
 const text = (path) => readFileSync(path, "utf8");
 
@@ -37,6 +37,13 @@ after(() => browser?.close());
 
 /** Without WebGL, as where there is neither a graphics card nor a program that stands in for it, a page says so once, and draws outlines. */
 const problemsOf = ({ problems }) => problems.filter((problem) => !/WebGL/i.test(problem));
+
+/** A run as the lab saves it, unpacked into a folder of that name. */
+function unpacked(tar, name) {
+  const folder = madeFolder(join(AMBLE_WORK, name));
+  execFileSync("tar", ["xf", "-", "-C", folder, "--strip-components=1"], { input: Buffer.from(tar, "base64") });
+  return folder;
+}
 
 champions.forEach(([name, champion], number) =>
   test(`${name}: the same bits natively, in Node.js and here, in ${STEPS} steps of a session and in the trial of its file`, async () => {
@@ -82,17 +89,26 @@ test(`${GENERATIONS} generations in the lab, in its workers, have the table and 
   const told = await browser.run("lab", { url: "/pages/lab.html#threads=2", settings });
   assert.deepEqual(problemsOf(told), []);
   assert.equal(told.history, GENERATIONS);
-  const run = join(AMBLE_WORK, "lab-here"), native = join(AMBLE_WORK, "lab-native");
-  for (const [path, bytes] of told.files) {
-    mkdirSync(dirname(join(run, path)), { recursive: true });
-    writeFileSync(join(run, path), Buffer.from(bytes, "base64"));
-  }
+  const run = unpacked(told.tar, "lab-here"), native = join(AMBLE_WORK, "lab-native");
   amble("evolve", join(run, "config.toml"), "--jobs", "1", "--out", native);
   const names = (folder) => readdirSync(join(folder, "champions")).sort();
   assert.deepEqual(table(run), table(native));
   assert.deepEqual(names(run), names(native));
   assert.ok(names(run).length > 1);
   for (const name of names(run)) assert.equal(text(join(run, "champions", name)), text(join(native, "champions", name)), name);
+});
+
+test("a run of the lab goes on natively, and from there on in the lab, in the generations of one that never stopped", async () => {
+  const run = join(AMBLE_WORK, "lab-here"), native = join(AMBLE_WORK, "lab-native");
+  amble("resume", run, "--generations", String(GENERATIONS + MORE), "--jobs", "1");
+  const tar = execFileSync("tar", ["cf", "-", "-C", AMBLE_WORK, "lab-here"], { maxBuffer: 1e8 }).toString("base64");
+  const told = await browser.run("goOn", { url: "/pages/lab.html#threads=2", tar, generations: GENERATIONS + MORE, longer: MORE });
+  assert.deepEqual(problemsOf(told), []);
+  const back = unpacked(told.tar, "lab-back"), over = table(back).length - 1;
+  assert.ok(over >= GENERATIONS + 2 * MORE, `${over} generations`);
+  amble("resume", native, "--generations", String(over), "--jobs", "1");
+  assert.deepEqual(table(back), table(native));
+  assert.equal(told.bests.length, GENERATIONS + MORE);
 });
 
 test("the lab says what is wrong with files that it cannot open", async () => {

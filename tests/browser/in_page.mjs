@@ -18,7 +18,7 @@ async function champion(text) {
   return LiveRobot.open(module.module, text);
 }
 
-/** What a button saves, as text. */
+/** What a button saves, a blob. */
 async function saved(page, name) {
   const make = page.URL.createObjectURL;
   const blob = await new Promise((done) => {
@@ -29,7 +29,21 @@ async function saved(page, name) {
     press(page, name);
   });
   page.URL.createObjectURL = make;
-  return blob.text();
+  return blob;
+}
+
+/** Gives the lab a file, as who chooses one does. */
+function give(page, name, content) {
+  const data = new page.DataTransfer(), input = page.document.getElementById("file");
+  data.items.add(new page.File([content], name));
+  input.files = data.files;
+  input.dispatchEvent(new page.Event("change"));
+}
+
+/** The run of the lab as it saves it, a tar in base64. */
+async function savedRun(page) {
+  const bytes = new Uint8Array(await (await saved(page, "Save the run")).arrayBuffer());
+  return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""));
 }
 
 export default {
@@ -79,36 +93,42 @@ export default {
     await walk(0.5);
     page.amble.pause();
     const asked = page.performance.getEntriesByType("resource").map(({ name }) => name).filter((name) => !/^(data|blob):/.test(name));
-    return { inputs: await saved(page, "Save what was done"), asked };
+    return { inputs: await (await saved(page, "Save what was done")).text(), asked };
   }),
 
   /** What the lab says of files that it cannot open; the last one it can. */
   refused: ({ url, files, good }) => inFrame(url, async (page) => {
-    const give = ({ name, text }) => {
-      const data = new page.DataTransfer(), input = page.document.getElementById("file");
-      data.items.add(new page.File([text], name));
-      input.files = data.files;
-      input.dispatchEvent(new page.Event("change"));
-    };
     const said = [];
     for (const file of files) {
-      give(file);
+      give(page, file.name, file.text);
       said.push(await until(`${file.name} is refused`, () => textOf(page, "#trouble").startsWith(file.name) && textOf(page, "#trouble")));
     }
-    give(good);
+    give(page, good.name, good.text);
     await until("the other walks", () => /From the file/.test(textOf(page, "#story")));
     return { said };
   }),
 
-  /** A run of the lab in workers: all files of its folder. */
+  /** A run of the lab in workers, and what it is saved as. */
   lab: ({ url, settings }) => inFrame(url, async (page) => {
     const lab = page.amble;
     lab.form.set(settings);
     lab.chosen("robot");
     press(page, "Start");
     await until("the run has ended", () => lab.evolution?.state === "ended" || lab.evolution?.state === "broken");
-    const files = (await lab.evolution.files()).map(({ path, bytes }) => [path, btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""))]);
-    return { said: textOf(page, "#said"), history: lab.curve.history.length, files };
+    return { said: textOf(page, "#said"), history: lab.curve.history.length, tar: await savedRun(page) };
+  }),
+
+  /** A run that ended after so many generations opens in the lab, and goes on for a hundred more: what it is saved as when it has done `longer` of them. */
+  goOn: ({ url, tar, generations, longer }) => inFrame(url, async (page) => {
+    const lab = page.amble;
+    give(page, "run.tar", Uint8Array.from(atob(tar), (letter) => letter.charCodeAt(0)));
+    await until("the run is open", () => lab.evolution?.state === "ended" && lab.curve.history.length === generations);
+    const bests = lab.curve.history.map(({ best }) => best);
+    press(page, "100 more generations");
+    await until("it goes on", () => lab.evolution.generation >= generations + longer);
+    press(page, "Pause");
+    await until("it pauses", () => lab.evolution.state === "paused");
+    return { bests, tar: await savedRun(page) };
   }),
 
   /** The page of a run that has ended, served by the program. */

@@ -42,6 +42,9 @@ RUNS = {
          "controller.supg.idle=wrap", "controller.supg.seam.residual_s=0.05"],
         ['controller.supg.modulation.sensors=["pitch","angle.knee"]', "controller.supg.modulation.rate=1",
          "controller.supg.modulation.shape=0.8", "controller.supg.modulation.shape_by=reading", "controller.supg.idle=wrap"],
+        ["controller.supg.trigger=none", "controller.supg.idle=wrap", "controller.supg.modulation.load_feedback=4"],
+        ['controller.supg.modulation.sensors=["load","torque.knee"]', "controller.supg.modulation.rate=1",
+         "controller.supg.modulation.shape=1", "controller.supg.modulation.load_feedback=1"],
         ["controller.supg.seam.residual_s=0.02", "controller.supg.seam.filter_s=0.03", "controller.supg.idle=wrap"],
         [*TOLD, "trial.first_command=before_first_step"],
         [*TOLD, "trial.first_command=before_first_step", "controller.supg.idle=wrap", "controller.supg.seam.residual_s=0.05"],
@@ -63,7 +66,7 @@ RUNS = {
 # What the recordings of a preset must have shown, so that following them means something.
 SHOWN = {
     "authors": ["cycle in a CPPN", "hidden node", "start by phase", "delayed start", "trigger", "trigger in mid-cycle",
-                "mid", "hold", "wrap", "bounce", "jump", "other rate", "shift", "pull", "refractory", "reshaped",
+                "mid", "hold", "wrap", "bounce", "jump", "other rate", "shift", "pull", "refractory", "reshaped", "held", "pulled by load",
                 "neuron that is not 0", "link to hidden", "link to rate", "link to amplitude", "link to shift", "link to coupling"],
     "paper": ["hidden node", "delayed start", "start by phase", "trigger in mid-cycle", "trigger ignored", "mid", "hold", "wrap"],
     "robust": ["hidden node", "delayed start", "start by phase", "trigger in mid-cycle", "hold", "wrap"],
@@ -117,7 +120,7 @@ def follow(champion, recording, events):
             if begun and is_modulated:
                 sensed = modulation.sensed(number, recording, frame)
                 rho = rates[number] if net else sum(rate[number] * s for rate, s in zip(modulation.rates, sensed))
-                leg.tick_sensing(touching, rho, recorded_timer)
+                leg.tick_sensing(touching, rho, recorded_timer, modulation.pull(number, leg.timer, recording, frame))
                 if abs(recorded_timer - leg.timer) < TIMER_TOLERANCE:
                     leg.timer = float(recorded_timer)
             elif begun:

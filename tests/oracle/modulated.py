@@ -17,6 +17,8 @@ class Modulation:
         self.patterns, self.robot = patterns, champion["robot"]
         self.settings = patterns.settings.get("modulation", {})
         self.names = self.settings.get("sensors", [])
+        self.load_feedback = self.settings.get("load_feedback", 0.0)
+        self.weight_n = sum(body["mass_kg"] for body in self.robot["bodies"]) * math.hypot(*self.robot["gravity_m_s2"])
         self.timestep_s = champion["trial"]["timestep_s"]
         scales = {item["of"]: item["scale"] for item in champion["controller"].get("sensing", {}).get("sensors", [])}
         self.scales = [scales.get(name.split(".")[0], 1.0) for name in self.names]
@@ -64,14 +66,21 @@ class Modulation:
         joint = None
         if joint_type:
             joint = self.robot["joints"][self.patterns.joints_of_leg[leg][self.robot["joint_types"].index(joint_type)]]
+            if kind == "torque":
+                full = joint["servo"]["max_torque_nm"]
             if kind == "angle":
                 full, middle = 0.5 * (joint["upper_rad"] - joint["lower_rad"]), 0.5 * (joint["upper_rad"] + joint["lower_rad"])
+        if kind == "load":
+            full = self.weight_n
         reading = self._reading(kind, joint, leg, recording, felt)
         return min(max((reading - middle) * scale / full, -1.0), 1.0)
 
     def _reading(self, kind, joint, leg, recording, felt):
         if kind == "touch":
             return recording["touch." + self.patterns.legs[leg]][felt]
+        if kind in ("load", "torque"):  # of the step before
+            name = self.patterns.legs[leg] if kind == "load" else joint["name"]
+            return recording[f"{kind}.{name}"][felt] if felt >= 0 else 0.0
         if kind == "angle":
             return recording["angle." + joint["name"]][felt]
         if kind == "speed":
@@ -84,6 +93,13 @@ class Modulation:
             return math.asin(min(max(2.0 * (w * y - x * z), -1.0), 1.0))
         raise ValueError(f"the model knows no sensor {kind}")
 
+    def pull(self, leg, timer, recording, frame):
+        """How much the load of a leg's foot takes off its timer's growth, ticks."""
+        if self.load_feedback == 0.0:
+            return 0.0
+        load = self._scaled("load", 1.0, leg, recording, frame - 1)
+        return self.load_feedback * load * math.cos(2.0 * math.pi * max(math.floor(timer), 0) / self.patterns.period_ticks)
+
 
 class ModulatedLeg(Leg):
     """Its timer is a number of ticks that need not be whole. What rounding leaves open is taken from the recording."""
@@ -93,7 +109,7 @@ class ModulatedLeg(Leg):
         self.modulation = self.settings.get("modulation", {"reset": 1.0, "refractory_ticks": 0})
         self.rests = 0
 
-    def tick_sensing(self, touching, rho, recorded_timer):
+    def tick_sensing(self, touching, rho, recorded_timer, pull=0.0):
         """Raises nothing: the timer is the nearest to the recorded one that the model allows."""
         self.tick_number += 1
         delayed = self.settings["offset"] == "delay"
@@ -110,6 +126,9 @@ class ModulatedLeg(Leg):
         growth = 2.0 ** min(max(rho, -1.0), 1.0)
         if abs(growth - 1.0) > 0.01:
             self._note("other rate")
+        if pull != 0.0:
+            self._note("held" if pull >= growth else "pulled by load")
+            growth = min(max(growth - pull, 0.0), 2.0)
         choices = []
         for error in (0.0, -2.0 / PARTS, 2.0 / PARTS):
             on, timer = self._grown(before, growth + error)

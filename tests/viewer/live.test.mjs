@@ -241,6 +241,10 @@ test("one that obeys is told by keys, pad and gamepad, and the native program re
     await page.waitForFunction(() => document.querySelector(".steer-said").textContent.endsWith("to the left"));
     await page.evaluate(() => { navigator.getGamepads = () => [{ axes: [0, 0] }]; });
     await page.waitForFunction(() => document.querySelector(".steer-said").textContent === "told: stop");
+    await page.evaluate(() => { navigator.getGamepads = () => [{ axes: [0, -1] }]; });
+    await page.waitForFunction(() => document.querySelector(".steer-said").textContent !== "told: stop");
+    await page.evaluate(() => { navigator.getGamepads = () => [null]; }); // unplugged while it is held
+    await page.waitForFunction(() => document.querySelector(".steer-said").textContent === "told: stop");
     await page.evaluate(() => window.amble.pause());
     await settled(page); // no picture asks for the stick any more
     await page.evaluate(() => {

@@ -135,6 +135,23 @@ test("the keys do what the page says", () =>
     assert.equal(await page.evaluate(() => window.amble.playing()), true);
   }));
 
+test("letters, digits and marks can be switched off as keys, and the others stay", () =>
+  onPage({}, async (page) => {
+    const camera = () => page.locator("[aria-label=Camera] [aria-pressed=true]").textContent();
+    const before = await camera();
+    await page.locator("summary", { hasText: "Keys" }).click();
+    await page.getByLabel("Letters, digits, comma and full stop are keys").uncheck();
+    for (const key of ["c", "k", ".", "2"]) await page.keyboard.press(key);
+    assert.equal(await camera(), before);
+    assert.equal(await page.locator("#speed").inputValue(), "1");
+    assert.equal(await page.evaluate(() => window.amble.playing()), false);
+    await page.keyboard.press("ArrowRight");
+    assert.ok(Math.abs((await time(page)) - 0.02) < 1e-6);
+    await page.getByLabel("Letters, digits, comma and full stop are keys").check();
+    await page.keyboard.press("c");
+    assert.notEqual(await camera(), before);
+  }));
+
 test("each camera shows another picture a second later", () =>
   onPage({}, async (page) => {
     const hashes = new Set();

@@ -11,6 +11,9 @@ const KEYS = [
 const KEY_OF_ONE_THAT_OBEYS = ["← ↑ → ↓", "where it is to go, while they are held"];
 const KEYS_OF_MANY = [["G", "side by side or ghosts"], ["1 … 9", "choose the walker of the diagrams"]];
 
+/** Letters, digits and marks may stand for what somebody says to a computer that listens; so they can be switched off. */
+const single = { keys: true };
+
 const byId = (id) => document.getElementById(id);
 
 /** A group of buttons of which one is chosen. */
@@ -83,7 +86,7 @@ export function connectKeys(page) {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.tagName === "SELECT") return;
     if (event.target.tagName === "INPUT" && event.target.id !== "slider" && event.target.type !== "checkbox") return; // its own keys
     const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
-    if (!action) return;
+    if (!action || (!single.keys && /^[^ ]$/.test(event.key))) return;
     event.preventDefault();
     if (event.target.tagName === "BUTTON") event.target.blur(); // or Space would press it as well
     action(event);
@@ -95,5 +98,9 @@ export function keyTable(walks) {
   const own = obeys ? [KEY_OF_ONE_THAT_OBEYS, ...KEYS.filter(([keys]) => keys !== FRAMES)] : KEYS;
   const rows = [...own, ...(walks.length > 1 ? KEYS_OF_MANY : [])].map(([keys, what]) =>
     element("tr", {}, element("td", {}, element("kbd", {}, keys)), element("td", {}, what)));
-  return element("details", { class: "help" }, element("summary", {}, "Keys"), element("table", {}, ...rows));
+  const box = element("input", { type: "checkbox", id: "single-keys" });
+  box.checked = single.keys;
+  box.addEventListener("change", () => (single.keys = box.checked));
+  return element("details", { class: "help" }, element("summary", {}, "Keys"), element("table", {}, ...rows),
+                 element("label", {}, box, " Letters, digits, comma and full stop are keys, too"));
 }

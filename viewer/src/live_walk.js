@@ -82,7 +82,7 @@ export class LiveWalk extends Walk {
     this.told?.begin();
     this.renew();
     this.note();
-    this.findEvents();
+    this.found = null;
   }
 
   /** The walk of another champion of the same robot, from time 0; `genome`: its network, where the page draws it. */
@@ -148,7 +148,6 @@ export class LiveWalk extends Walk {
       if (!broken) this.note();
     }
     if (broken) this.outcome = "diverged";
-    if (steps > 0) this.findEvents();
     return this.seconds;
   }
 

@@ -91,15 +91,12 @@ export class Steer {
     }, STICK_MS)));
   }
 
-  /** Before each frame: the left stick of a gamepad, until it is let go of. */
+  /** Before each frame: the left stick of the first gamepad, until it is let go of or unplugged. */
   update() {
-    for (const gamepad of navigator.getGamepads?.() ?? []) {
-      if (!gamepad) continue;
-      const [left, ahead] = [-gamepad.axes[0], -gamepad.axes[1]].map((part) => (Math.abs(part) < STILL ? 0 : Math.round(part * 20) / 20));
-      const moved = left !== 0 || ahead !== 0;
-      if (moved || this.stick) this.tell(ahead, left);
-      this.stick = moved;
-      return;
-    }
+    const axes = [...(navigator.getGamepads?.() ?? [])].find((gamepad) => gamepad?.axes.length > 1)?.axes ?? [0, 0];
+    const [left, ahead] = [-axes[0], -axes[1]].map((part) => (Math.abs(part) < STILL ? 0 : Math.round(part * 20) / 20));
+    const moved = left !== 0 || ahead !== 0;
+    if (moved || this.stick) this.tell(ahead, left);
+    this.stick = moved;
   }
 }

@@ -27,24 +27,38 @@ export class Walk {
     this.debounce_s = this.gait?.settings.debounce_s ?? 0;
     this.neurons = (poses.names ?? []).filter((name) => name.startsWith("neuron.")).map((name) => ({ name: name.slice("neuron.".length), values: poses.get(name) }));
     this.triggered = this.columnsOfLegs(contacts, "trigger.");
-    this.findEvents();
     this.supg = this.controller.patterns_rad ? this.controller : null;
   }
 
   /**
    * Stances as the gait figures count them, [from, to] in seconds, when there was chatter in and between them, and when
-   * a foot triggered its timer.
+   * a foot triggered its timer. Looked for when asked for: what is simulated grows with every picture.
    */
-  findEvents() {
-    const { step_s, count } = this.contacts;
+  get events() {
+    const { count } = this.contacts;
+    if (this.found?.count !== count) this.found = { count, ...this.findEvents(count) };
+    return this.found;
+  }
+  get stances() {
+    return this.events.stances;
+  }
+  get chatter() {
+    return this.events.chatter;
+  }
+  get triggers() {
+    return this.events.triggers;
+  }
+
+  findEvents(count) {
+    const { step_s } = this.contacts;
     const known = (column) => column.subarray(0, count);
-    this.triggers = this.triggered && this.triggered.map((trigger) => onsets(known(trigger), step_s));
+    const triggers = this.triggered && this.triggered.map((trigger) => onsets(known(trigger), step_s));
     const least = Math.round(this.debounce_s / step_s);
     const span = ([first, end]) => [first === 0 ? 0 : (first + 1) * step_s, Math.min(end + 1, count) * step_s];
     const middles = (rows) => rows.map(span).map(([from, to]) => (from + to) / 2);
     const all = this.touches.map((touch) => footfalls(runs(known(touch)), least));
-    this.stances = all.map(({ stances }) => stances.map(span));
-    this.chatter = all.map(({ gaps, touches }) => ({ gaps: middles(gaps), touches: middles(touches) }));
+    return { triggers, stances: all.map(({ stances }) => stances.map(span)),
+             chatter: all.map(({ gaps, touches }) => ({ gaps: middles(gaps), touches: middles(touches) })) };
   }
 
   /** One column per leg, or null if a leg has none. */
