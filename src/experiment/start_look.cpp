@@ -29,6 +29,7 @@ constexpr double crouching_share = 0.15;
 constexpr double least_kg_per_m3 = 10.0, usual_kg_per_m3 = 1000.0;
 /// The density of a cube as wide as the robot; iron has less.
 constexpr double most_kg_per_m3 = 8000.0;
+constexpr double largest_m = 15.0;
 
 double volume_m3(const robot::Geom& geom) {
   const Vec3 size = geom.size_m;
@@ -78,12 +79,25 @@ double width_m(const RobotSpec& robot) {
   return std::max({sides.x, sides.y, sides.z});
 }
 
+/// Whatever it weighs, no robot that walks is so large: of shapes without a mass that are filled with a usual
+/// density the mass tells nothing.
+void look_at_size(double wide_m, std::vector<std::string>& odd) {
+  constexpr double usual_m = 0.5;
+  if (wide_m > largest_m)
+    odd.push_back(
+        fmt::format("size: {:.3g} m is more than any robot that walks: are its lengths in {}? amble takes "
+                    "metres and kilograms",
+                    wide_m, unit_of(usual_kg_per_m3 * std::pow(usual_m / wide_m, 3))));
+}
+
 void look_at_mass(const RobotSpec& robot, std::vector<std::string>& odd) {
   double all_m3 = 0.0;
   for (const robot::Geom& geom : robot.geoms)
     if (geom.collides) all_m3 += volume_m3(geom);
   const double mass_kg = robot.total_mass_kg(), wide_m = width_m(robot);
-  if (const double kg_per_m3 = mass_kg / all_m3; all_m3 > 0.0 && kg_per_m3 < least_kg_per_m3)
+  if (const double kg_per_m3 = mass_kg / all_m3; !(all_m3 > 0.0) || kg_per_m3 >= least_kg_per_m3)
+    look_at_size(wide_m, odd);
+  else
     odd.push_back(fmt::format(
         "mass: {:.3g} kg on {:.3g} m, {:.2g} kg/m3, is less than foam: are its lengths in {}, or masses "
         "missing? amble takes metres and kilograms",
@@ -147,24 +161,6 @@ void look_at_legs(const RobotSpec& robot, std::vector<std::string>& odd) {
         "legs: they point along {}, not down: if the model has another axis up than z, turn its root, in the "
         "robot file by {}",
         axis_of(sum), upright_line(robot, sum)));
-}
-
-/// From the foot up the chain, joint by joint.
-double longest_leg_m(const RobotSpec& robot, const std::vector<robot::Pose>& poses) {
-  double longest_m = 0.0;
-  for (const robot::Leg& leg : robot.legs) {
-    Vec3 end = robot::foot_m(robot, leg, poses);
-    double length_m = 0.0;
-    for (int body = robot.foot_body(leg); body > 0; body = robot.bodies[to_index(body)].parent)
-      for (const int j : robot.joints_of_body(body)) {
-        if (std::ranges::find(leg.joints, j) == leg.joints.end()) continue;
-        const Vec3 anchor = poses[to_index(body)] * robot.joints[to_index(j)].anchor_m;
-        length_m += norm(end - anchor);
-        end = anchor;
-      }
-    longest_m = std::max(longest_m, length_m);
-  }
-  return longest_m;
 }
 
 /// What a held robot has done so far.
@@ -242,7 +238,9 @@ class Hold {
 
   void what_carries(const std::vector<robot::Pose>& poses) {
     if (robot_.legs.empty()) return;
-    const double legs_m = longest_leg_m(robot_, poses);
+    double legs_m = 0.0;
+    for (const robot::Leg& leg : robot_.legs)
+      legs_m = std::max(legs_m, robot::leg_length_m(robot_, leg, poses));
     // On more than four legs, which spread to all sides, a low trunk is no fall.
     const double crouching_m = robot_.legs.size() > 4 ? 0.0 : crouching_share * legs_m;
     double lowest_m = std::max(crouching_m, 0.01 * legs_m);

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "amble/core/index.hpp"
+#include "amble/robot/leg_doubts.hpp"
 #include "amble/robot/legs.hpp"
 #include "amble/robot/pose.hpp"
 
@@ -249,6 +250,8 @@ std::vector<std::string> doubts(const RobotSpec& robot) {
   doubt_inertia(robot, lines);
   doubt_placeholders(robot, lines);
   doubt_torques(robot, lines);
+  doubt_strength(robot, lines);
+  doubt_axes(robot, lines);
   doubt_friction(robot, lines);
   doubt_stops(robot, lines);
   doubt_narrow_stops(robot, lines);

@@ -25,6 +25,8 @@ constexpr bool is_larger_than_robot(double moments_kg_m2, double mass_kg, double
 /// - A joint whose largest torque does not hold the weight of the robot on half of its legs in the start pose
 ///   (the force is vertical, at the centre of the foot; the weight of the leg itself is not subtracted); if
 ///   all do, one that does not hold it once the foot is a quarter of its distance ahead or aside.
+/// - Motors too strong for the robot, as torques in kg·cm are, and joints that spin a leg about itself
+///   (leg_doubts.hpp).
 /// - Stops more than two turns away, and most joints with stops less than 0.1 rad apart: degrees for radians,
 ///   or the other way round.
 std::vector<std::string> doubts(const RobotSpec& robot);

@@ -59,6 +59,27 @@ std::vector<Vec3> feet_m(const RobotSpec& robot, std::span<const Pose> poses) {
   return places_m;
 }
 
+double leg_length_m(const RobotSpec& robot, const Leg& leg, std::span<const Pose> poses) {
+  Vec3 end = foot_m(robot, leg, poses);
+  double length_m = 0.0;
+  // From the foot up the chain, joint by joint.
+  for (int body = robot.foot_body(leg); body > 0; body = robot.bodies[to_index(body)].parent)
+    for (const int j : robot.joints_of_body(body)) {
+      if (std::ranges::find(leg.joints, j) == leg.joints.end()) continue;
+      const Vec3 anchor = poses[to_index(body)] * robot.joints[to_index(j)].anchor_m;
+      length_m += norm(end - anchor);
+      end = anchor;
+    }
+  return length_m;
+}
+
+double longest_leg_m(const RobotSpec& robot) {
+  const std::vector<Pose> poses = start_poses(robot);
+  double longest_m = 0.0;
+  for (const Leg& leg : robot.legs) longest_m = std::max(longest_m, leg_length_m(robot, leg, poses));
+  return longest_m;
+}
+
 double leg_height_m(const RobotSpec& robot) {
   if (robot.legs.empty()) return 0.0;
   const std::vector<Pose> poses = start_poses(robot);

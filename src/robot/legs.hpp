@@ -22,6 +22,12 @@ double foot_bottom_m(const RobotSpec& robot, const Leg& leg, std::span<const Pos
 /// Centres of the feet, leg by leg.
 std::vector<Vec3> feet_m(const RobotSpec& robot, std::span<const Pose> poses);
 
+/// How far a leg reaches with all joints stretched: from its hip joint from joint to joint to the centre of
+/// its foot, m.
+double leg_length_m(const RobotSpec& robot, const Leg& leg, std::span<const Pose> poses);
+/// That of the longest leg in the start pose; 0 for a robot without legs.
+double longest_leg_m(const RobotSpec& robot);
+
 /// How high the legs carry: the mean over them of the height of the hip joint (hips_m) over the lowest point
 /// of the foot, in the start pose, m. 0 for a robot without legs.
 double leg_height_m(const RobotSpec& robot);

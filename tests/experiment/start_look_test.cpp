@@ -95,6 +95,30 @@ TEST(StartLook, SaysWhichUnitLengthsSeemToHave) {
   EXPECT_THAT(odd_at_start(grams, "batch", 0.01), Contains(HasSubstr("are its masses in grams?")));
 }
 
+TEST(StartLook, DoubtsARobotThatIsTooLargeWhateverItWeighs) {
+  const auto scaled = [](double by, double mass_by) {
+    auto robot = own_robot("quadruped/authors");
+    for (auto& geom : robot.geoms) {
+      geom.size_m = by * geom.size_m;
+      geom.position_m = by * geom.position_m;
+    }
+    for (auto& body : robot.bodies) {
+      body.position_m = by * body.position_m;
+      body.mass_kg *= mass_by;
+    }
+    robot.fall_height_m = -1e9;
+    std::vector<std::string> lines;
+    for (const auto& line : odd_at_start(robot, "batch", 0.01))
+      if (line.starts_with("size:") || line.starts_with("mass:")) lines.push_back(line);
+    return lines;
+  };
+  EXPECT_THAT(scaled(1.0, 1.0), IsEmpty());
+  // As heavy as its shapes: nothing is lighter than foam.
+  EXPECT_THAT(scaled(100.0, 1e6), ElementsAre(testing::AllOf(HasSubstr("size:"), HasSubstr("centimetres"))));
+  EXPECT_THAT(scaled(1000.0, 1e9), ElementsAre(testing::AllOf(HasSubstr("size:"), HasSubstr("millimetres"))));
+  EXPECT_THAT(scaled(1000.0, 1.0), ElementsAre(HasSubstr("mass:"))) << "said once";
+}
+
 TEST(StartLook, MeasuresMeshesAsItMeasuresBoxes) {
   const auto mass_of = [](robot::Shape shape, double half_m) {
     auto robot = own_robot("quadruped/authors");

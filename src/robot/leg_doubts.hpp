@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "amble/robot/spec.hpp"
+
+namespace amble::robot {
+
+/// The best servos give about 50 N m per kg of their own, and half of a robot is not motors: those of a small
+/// robot hardly sum up to more than so much per kg of all that it is, N m/kg. Motors of larger robots may.
+constexpr double strongest_nm_per_kg = 25.0;
+/// What a motor of a leg has, at most, of the torque that bears the leg's share of the weight at right
+/// angles.
+constexpr double strongest_times = 8.0;
+/// N m of a kg·cm, the unit in which servos are sold.
+constexpr double nm_per_kg_cm = 0.0980665;
+
+/// Adds a line on joints of legs whose motors are too strong to be of this robot, as torques in kg·cm are:
+/// more than `strongest_times` what bears a leg's share, on a robot with more than `strongest_nm_per_kg`.
+/// Neither alone is odd: short legs have small shares, large robots large motors. Velocity servos count
+/// alone, as --init makes them of a URDF's effort: torque servos come of actuators in MJCF, whose force is
+/// times a gear, and of tasks.
+void doubt_strength(const RobotSpec& robot, std::vector<std::string>& lines);
+
+/// Adds a line on joints of legs whose axis passes through the foot however the joints beyond them are bent,
+/// so that they only spin what hangs on them. A joint near its foot (an ankle, a wheel) may do so.
+void doubt_axes(const RobotSpec& robot, std::vector<std::string>& lines);
+
+}  // namespace amble::robot
