@@ -42,6 +42,8 @@ struct ModelFile {
   std::vector<XmlElement> aside = {};
   std::vector<RemovedAttribute> removed = {};
   std::map<std::string, MeshStore::Bytes> meshes = {};  ///< that the text names
+
+  bool is_urdf() const { return root_is_welded; }
 };
 
 /// Compiles MJCF (.xml, .mjcf) or URDF (.urdf). Attributes and elements that this MuJoCo does not know, since

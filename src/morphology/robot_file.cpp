@@ -13,6 +13,7 @@
 #include "amble/morphology/model_file.hpp"
 #include "amble/morphology/model_parts.hpp"
 #include "amble/morphology/original_model.hpp"
+#include "amble/morphology/servo_guess.hpp"
 #include "amble/morphology/side_file.hpp"
 #include "amble/robot/check.hpp"
 #include "amble/robot/pose.hpp"
@@ -176,10 +177,12 @@ class JointOrder {
       own.command->upper_rad = std::min(own.command->upper_rad, own.upper_rad);
       return;
     }
-    fail(ExitCode::bad_input,
-         "{}: joint '{}': its range of command {:.6g} … {:.6g} rad goes beyond its stops {:.6g} … {:.6g} rad",
-         what_, joint.name, joint.command->lower_rad + start, joint.command->upper_rad + start,
-         joint.lower_rad + start, joint.upper_rad + start);
+    fail(
+        ExitCode::bad_input,
+        "{}: joint '{}': its range of command {:.6g} … {:.6g} rad goes beyond its stops {:.6g} … {:.6g} rad: "
+        "correct it under [command], or make the file anew with `amble robot --init`",
+        what_, joint.name, joint.command->lower_rad + start, joint.command->upper_rad + start,
+        joint.lower_rad + start, joint.upper_rad + start);
   }
 
   void refuse_unnamed() const {
@@ -270,6 +273,7 @@ robot::RobotSpec make_robot(const SideFile& side, const ModelFile& model, const 
   if (notes != nullptr) {
     notes->add(parts.notes);
     order.add_notes(*notes);
+    note_other_limits(model, robot, *notes);
   }
   return robot;
 }

@@ -239,29 +239,11 @@ class RobotGuesser {
       if (line.is_doubt) guess_.doubts.push_back(line.text);
   }
 
-  void doubt_motors(const std::vector<ServoGuess>& servos) {
-    std::vector<std::string> without_limit, without_gear;
-    for (std::size_t j = 0; j < servos.size(); ++j) {
-      if (parts_.drives[j] == Drive::none) continue;
-      if (servos[j].torque_is_guessed) without_limit.push_back(parts_.joints[j].name);
-      if (servos[j].lacks_gear) without_gear.push_back(parts_.joints[j].name);
-    }
-    if (!without_limit.empty())
-      guess_.doubts.push_back(fmt::format(
-          "the model has no limit of torque that a motor could have, and it was guessed: {}; give "
-          "max_torque_nm of the motors that you have",
-          fmt::join(without_limit, ", ")));
-    if (!without_gear.empty())
-      guess_.doubts.push_back(
-          fmt::format("motors with controls of ±1 and a gear of 1 give 1 N m: is `gear` missing? {}",
-                      fmt::join(without_gear, ", ")));
-  }
-
   void write_servos() {
     const double bearing_nm = bearing_torque_nm(parts_, legs_.legs.size(), longest_leg_m(parts_, legs_));
     const std::vector<ServoGuess> servos = guess_servos(file_, parts_, bearing_nm);
     doubt_readings();
-    doubt_motors(servos);
+    std::ranges::move(doubts_of_motors(file_, parts_, servos, bearing_nm), std::back_inserter(guess_.doubts));
     if (std::ranges::any_of(servos, &ServoGuess::has_no_speed_limit))
       guess_.settled.emplace_back(
           "position actuators turn as fast as their torque allows, as an MJCF has no greatest speed; if what "

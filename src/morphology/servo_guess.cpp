@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "amble/core/index.hpp"
+#include "amble/robot/leg_doubts.hpp"
 
 namespace amble::morphology {
 namespace {
@@ -72,11 +73,7 @@ class ServoGuesser {
       return of_motor(actuator, hint, damping);
     }
     if (hint.max_torque_nm > 0.0) return of_effort(hint);
-    return {velocity(enough()),
-            fmt::format("no motor in the model: {} × the torque that bears a leg's share of the "
-                        "weight; gain: that of the paper's motors",
-                        enough_times),
-            true};
+    return of_nothing(hint);
   }
 
  private:
@@ -105,10 +102,31 @@ class ServoGuesser {
   ServoGuess of_position(const Actuator& actuator, const MotorHint& hint, double damping) const {
     const auto [most, source] = limit(actuator, hint);
     const double kd = std::max(actuator.kv, hint.kv_nm_s_per_rad);
-    return {torque(most, actuator.kp, kd),
-            fmt::format("kp{} of the model's actuator{}; torque: {}", kd > 0.0 ? " and kd" : "",
-                        kd > 0.0 || damping == 0.0 ? "" : ", whose damping is that of the joint", source),
-            !has_limit(actuator, hint), false, true};
+    return {
+        .servo = torque(most, actuator.kp, kd),
+        .why = fmt::format("kp{} of the model's actuator{}; torque: {}", kd > 0.0 ? " and kd" : "",
+                           kd > 0.0 || damping == 0.0 ? "" : ", whose damping is that of the joint", source),
+        .torque_is_guessed = !has_limit(actuator, hint),
+        .has_no_speed_limit = true};
+  }
+
+  /// Neither an actuator nor a limit of torque; of a URDF perhaps one of speed.
+  ServoGuess of_nothing(const MotorHint& hint) const {
+    ServoGuess guessed{velocity(enough()),
+                       fmt::format("no motor in the model: {} × the torque that bears a leg's share of the "
+                                   "weight; gain: ",
+                                   enough_times),
+                       true};
+    guessed.servo.gain_per_s = gain_within(hint.max_speed_rad_s);
+    guessed.why +=
+        guessed.servo.gain_per_s < velocity_gain_per_s ? why_slower(hint) : "that of the paper's motors";
+    guessed.speed_is_guessed = file_.is_urdf() && hint.max_speed_rad_s == 0.0;
+    return guessed;
+  }
+
+  static std::string why_slower(const MotorHint& hint) {
+    return fmt::format("{} rad from its target a joint turns at the model's velocity limit, {:.4g} rad/s",
+                       widest_error_rad, hint.max_speed_rad_s);
   }
 
   ServoGuess of_effort(const MotorHint& hint) const {
@@ -123,17 +141,17 @@ class ServoGuesser {
           hint.max_torque_nm, enough_times);
     }
     std::string gain_why = fmt::format("that of the paper's motors, {} /s", velocity_gain_per_s);
-    const double in_limit = hint.max_speed_rad_s / widest_error_rad;
-    if (absurd && hint.is_of_a_template()) {
+    const bool of_template = absurd && hint.is_of_a_template();
+    if (of_template) {
       gain_why += fmt::format(": the velocity limit beside that, {:.4g} rad/s, is a template's too",
                               hint.max_speed_rad_s);
-    } else if (in_limit > 0.0 && in_limit < velocity_gain_per_s) {
-      servo.gain_per_s = rounded(in_limit);
-      gain_why =
-          fmt::format("{} rad from its target a joint turns at the model's velocity limit, {:.4g} rad/s",
-                      widest_error_rad, hint.max_speed_rad_s);
+    } else if (gain_within(hint.max_speed_rad_s) < velocity_gain_per_s) {
+      servo.gain_per_s = gain_within(hint.max_speed_rad_s);
+      gain_why = why_slower(hint);
     }
-    return {servo, fmt::format("torque: {}; gain: {}", torque_why, gain_why), absurd};
+    ServoGuess guessed{servo, fmt::format("torque: {}; gain: {}", torque_why, gain_why), absurd};
+    guessed.speed_is_guessed = file_.is_urdf() && (of_template || hint.max_speed_rad_s == 0.0);
+    return guessed;
   }
 
   ServoGuess of_velocity(const Actuator& actuator, const MotorHint& hint) const {
@@ -153,18 +171,27 @@ class ServoGuesser {
     }
     const double kp = bearing_nm_ / bearing_error_rad;
     const double kd = std::max(0.0, damping_time_s * kp - damping);
-    return {
-        torque(most, kp, kd),
-        fmt::format("torque: {}; kp guessed: it bears a leg's share of the weight at {} rad; kd, with the "
-                    "joint's damping, {} s × kp",
-                    source, bearing_error_rad, damping_time_s),
-        !is_by_control && !has_limit(actuator, hint),
-        is_by_control && actuator.control_limit == 1.0 && actuator.gain == 1.0};
+    return {.servo = torque(most, kp, kd),
+            .why = fmt::format(
+                "torque: {}; kp guessed: it bears a leg's share of the weight at {} rad; kd, with the "
+                "joint's damping, {} s × kp",
+                source, bearing_error_rad, damping_time_s),
+            .torque_is_guessed = !is_by_control && !has_limit(actuator, hint),
+            .lacks_gear = is_by_control && actuator.control_limit == 1.0 && actuator.gain == 1.0};
   }
 
   const ModelFile& file_;
   double bearing_nm_;
 };
+
+/// Servos that are sold have less.
+constexpr double most_kg_cm = 1000.0;
+
+/// But for the digits of a file.
+bool same_number(double a, double b) {
+  constexpr double rounding = 1e-3;
+  return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
+}
 
 constexpr double tiny_share = 1e-4;
 /// A leg is a pendulum of sqrt(g / length) rad/s; a walker's joints turn at about that.
@@ -186,6 +213,73 @@ std::vector<ServoGuess> guess_servos(const ModelFile& file, const ModelParts& pa
     servos.push_back(
         guesser.guess(parts.joints[j].name, parts.model_joints[j], parts.joints[j].damping_nm_s_per_rad));
   return servos;
+}
+
+double gain_within(double max_speed_rad_s) {
+  if (max_speed_rad_s <= 0.0) return velocity_gain_per_s;
+  return std::min(rounded(max_speed_rad_s / widest_error_rad), velocity_gain_per_s);
+}
+
+std::vector<std::string> doubts_of_motors(const ModelFile& file, const ModelParts& parts,
+                                          const std::vector<ServoGuess>& servos, double bearing_nm) {
+  std::vector<std::string> torqueless, speedless, gearless;
+  bool in_kg_cm = false;
+  for (std::size_t j = 0; j < servos.size(); ++j) {
+    if (parts.drives[j] == Drive::none) continue;
+    const std::string& name = parts.joints[j].name;
+    if (servos[j].torque_is_guessed) torqueless.push_back(name);
+    if (servos[j].speed_is_guessed) speedless.push_back(name);
+    if (servos[j].lacks_gear) gearless.push_back(name);
+    const auto hint = file.motors.find(name);
+    const double effort = hint == file.motors.end() ? 0.0 : hint->second.max_torque_nm;
+    in_kg_cm = in_kg_cm || (servos[j].torque_is_guessed && effort > 0.0 && effort < most_kg_cm &&
+                            robot::nm_per_kg_cm * effort < robot::strongest_times * bearing_nm);
+  }
+  std::vector<std::string> doubts;
+  if (!torqueless.empty())
+    doubts.push_back(
+        fmt::format("the model has no limit of torque that a motor could have, and it was guessed: {}; give "
+                    "max_torque_nm of the motors that you have{}",
+                    fmt::join(torqueless, ", "),
+                    in_kg_cm ? ". Is effort in kg·cm, as on data sheets? × 0.098 makes N m" : ""));
+  if (!speedless.empty())
+    doubts.push_back(fmt::format(
+        "the model has no limit of speed that a motor could have, and it was guessed, {:.2g} rad/s at {} rad "
+        "from a target: {}; give gain_per_s of the motors that you have, their speed in rad/s / {}",
+        velocity_gain_per_s * widest_error_rad, widest_error_rad, fmt::join(speedless, ", "),
+        widest_error_rad));
+  if (!gearless.empty())
+    doubts.push_back(
+        fmt::format("motors with controls of ±1 and a gear of 1 give 1 N m: is `gear` missing? {}",
+                    fmt::join(gearless, ", ")));
+  return doubts;
+}
+
+void note_other_limits(const ModelFile& file, const robot::RobotSpec& robot, ReadingNotes& notes) {
+  if (!file.is_urdf()) return;
+  std::vector<std::string> torques, speeds;
+  for (const robot::Joint& joint : robot.joints) {
+    const auto found = file.motors.find(joint.name);
+    if (!joint.has_motor() || found == file.motors.end()) continue;
+    const MotorHint& hint = found->second;
+    if (hint.max_torque_nm > 0.0 && !same_number(joint.servo.max_torque_nm, hint.max_torque_nm))
+      torques.push_back(
+          fmt::format("{} ({:.4g}, not {:.4g})", joint.name, joint.servo.max_torque_nm, hint.max_torque_nm));
+    if (joint.servo.mode == robot::ServoMode::velocity && hint.max_speed_rad_s > 0.0 &&
+        !same_number(joint.servo.gain_per_s, gain_within(hint.max_speed_rad_s)))
+      speeds.push_back(fmt::format("{} ({:.4g}, not {:.4g})", joint.name, joint.servo.gain_per_s,
+                                   gain_within(hint.max_speed_rad_s)));
+  }
+  if (!torques.empty())
+    notes.add(Reading::replaced,
+              fmt::format("effort of <limit>, N m, by max_torque_nm of the robot file, which has the say: {}",
+                          fmt::join(torques, ", ")));
+  if (!speeds.empty())
+    notes.add(
+        Reading::replaced,
+        fmt::format("velocity of <limit> by gain_per_s of the robot file, which has the say, not by that "
+                    "speed / {} rad: {}",
+                    widest_error_rad, fmt::join(speeds, ", ")));
 }
 
 std::vector<std::string> joints_of_tiny_links(const ModelParts& parts, const std::vector<int>& joints) {

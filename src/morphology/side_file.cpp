@@ -382,10 +382,11 @@ void describe_side_file(io::SettingsVisitor& visitor) {
 }
 
 SideFile read_side_file(const std::filesystem::path& path) {
-  if (path.extension() != ".toml") {
+  if (path.extension() != ".toml")
     fail(ExitCode::bad_input,
-         "{}: a robot is named by its TOML file, which names the model (robots/README.md)", path.string());
-  }
+         "{}: a robot is named by its TOML file, which names the model (robots/README.md); to make one of a "
+         "model, run: amble robot --init {}",
+         path.string(), io::shell_word(path.string()));
   return SideFileReader(path, io::TomlDocument::read(path)).read();
 }
 

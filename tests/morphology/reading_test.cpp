@@ -135,7 +135,8 @@ TEST(Command, IsCountedAsTheModelDoesAndStaysWithinTheStops) {
   EXPECT_DOUBLE_EQ(robot.joints[1].command->upper_rad, 0.1);
   EXPECT_EQ(
       files.error_of([&] { load("[command]\nknee = [-0.8, 0]\n"); }),
-      "one_leg.toml: joint 'A_knee': its range of command -0.8 … 0 rad goes beyond its stops -0.7 … 0 rad");
+      "one_leg.toml: joint 'A_knee': its range of command -0.8 … 0 rad goes beyond its stops -0.7 … 0 rad: "
+      "correct it under [command], or make the file anew with `amble robot --init`");
   EXPECT_EQ(files.error_of([&] { load("[command]\nknee = [0]\n"); }),
             "one_leg.toml:18: 'command.knee': expected [lower, upper] with lower below upper");
 }

@@ -128,8 +128,10 @@ TEST(LoadRobot, RefusesAStartPoseOutsideTheRangeOrUnderground) {
 TEST(LoadRobot, WantsTheTomlFileNotTheModel) {
   const Files files;
   const auto path = files.write("one_leg.xml", one_leg_xml);
-  EXPECT_EQ(files.error_of([&] { load_robot(path); }),
-            "one_leg.xml: a robot is named by its TOML file, which names the model (robots/README.md)");
+  EXPECT_EQ(
+      files.error_of([&] { load_robot(path); }),
+      "one_leg.xml: a robot is named by its TOML file, which names the model (robots/README.md); to make "
+      "one of a model, run: amble robot --init one_leg.xml");
 }
 
 TEST(LoadRobot, SaysWhichFileIsMissing) {

@@ -1,0 +1,98 @@
+#include "amble/morphology/servo_guess.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "amble/morphology/robot_guess.hpp"
+#include "tests/models/small_models.hpp"
+#include "tests/morphology/files.hpp"
+
+namespace amble::morphology {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+/// `text` with every `from` in it replaced.
+std::string all(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+/// A biped of 4.2 kg with legs of 0.4 m, which bear 8 N m: efforts of 12 and 9 N m.
+class Servos : public testing::Test {
+ protected:
+  RobotGuess guess(const std::string& urdf) {
+    return guess_robot(compile_model(files_.write("r.urdf", urdf)), "r.urdf");
+  }
+  std::string notes_on(const std::string& toml, const std::string& urdf) {
+    files_.write("r.urdf", urdf);
+    ReadingNotes notes;
+    load_robot(files_.write("r.toml", toml), &notes);
+    return notes.text();
+  }
+  Files files_;
+  const std::string urdf_ = tests::urdf_with_effort();
+};
+
+TEST_F(Servos, WithoutALimitOfSpeedAreNamedAsThoseWithoutOneOfTorque) {
+  const auto speedless = HasSubstr("no limit of speed that a motor could have");
+  EXPECT_THAT(guess(urdf_).doubts, Not(Contains(speedless)));
+  for (const char* velocity : {"", " velocity=\"0\""})
+    EXPECT_THAT(guess(all(urdf_, " velocity=\"5\"", velocity)).doubts,
+                Contains(AllOf(speedless, HasSubstr("left_hip_joint"), HasSubstr("gain_per_s"))))
+        << velocity;
+  // Only one of the joints.
+  EXPECT_THAT(guess(with(urdf_, "effort=\"9\" velocity=\"5\"", "effort=\"9\"")).doubts,
+              Contains(AllOf(speedless, HasSubstr("left_knee_joint"), Not(HasSubstr("right")))));
+  // A limit of speed alone is taken.
+  const RobotGuess fast = guess(all(all(urdf_, "effort=\"12\" ", ""), "effort=\"9\" ", ""));
+  EXPECT_THAT(fast.doubts, Contains(HasSubstr("no limit of torque")));
+  EXPECT_THAT(fast.doubts, Not(Contains(speedless)));
+  EXPECT_THAT(fast.toml, HasSubstr("gain_per_s = 6.25"));
+}
+
+TEST_F(Servos, OfAnMjcfLackNoLimitOfSpeed) {
+  for (const tests::SmallModel& model : tests::small_models()) {
+    if (model.extension != "xml") continue;
+    const RobotGuess guessed = guess_robot(compile_model(files_.write("m.xml", model.text)), "m.xml");
+    EXPECT_THAT(guessed.doubts, Not(Contains(HasSubstr("limit of speed")))) << model.name;
+  }
+}
+
+TEST_F(Servos, WithAnEffortThatWasReplacedAreAskedForTheirUnit) {
+  const auto with_hips = [&](const std::string& effort) {
+    return guess(all(urdf_, "effort=\"12\"", "effort=\"" + effort + "\"")).doubts;
+  };
+  EXPECT_THAT(with_hips("420"), Contains(AllOf(HasSubstr("no limit of torque"), HasSubstr("kg·cm"))));
+  EXPECT_THAT(with_hips("100000"), Contains(AllOf(HasSubstr("no limit of torque"), Not(HasSubstr("kg·cm")))));
+}
+
+TEST_F(Servos, ThatDifferFromACorrectedUrdfAreNoted) {
+  const std::string toml = guess(urdf_).toml;
+  EXPECT_THAT(notes_on(toml, urdf_), AllOf(Not(HasSubstr("effort")), Not(HasSubstr("velocity"))));
+  EXPECT_THAT(notes_on(toml, all(urdf_, "effort=\"9\"", "effort=\"1.5\"")),
+              AllOf(HasSubstr("replaced  effort of <limit>"), HasSubstr("left_knee_joint (9, not 1.5)"),
+                    HasSubstr("max_torque_nm"), Not(HasSubstr("hip_joint (")), Not(HasSubstr("velocity"))));
+  EXPECT_THAT(notes_on(toml, all(urdf_, "velocity=\"5\"", "velocity=\"4\"")),
+              AllOf(HasSubstr("replaced  velocity of <limit>"), HasSubstr("left_hip_joint (6.25, not 5)"),
+                    Not(HasSubstr("effort"))));
+  // As fast as the paper's motors is fast enough.
+  const std::string fast = all(urdf_, "velocity=\"5\"", "velocity=\"8\"");
+  EXPECT_THAT(notes_on(guess(fast).toml, all(fast, "velocity=\"8\"", "velocity=\"80\"")),
+              Not(HasSubstr("velocity")));
+}
+
+TEST_F(Servos, OfACorrectedUrdfWhoseStopsAreNarrowerAreRefusedWithWhatToDo) {
+  const std::string toml = guess(urdf_).toml;
+  const std::string error = files_.error_of(
+      [&] { notes_on(toml, all(urdf_, "lower=\"-1\" upper=\"1\"", "lower=\"-0.2\" upper=\"0.2\"")); });
+  EXPECT_THAT(error, AllOf(HasSubstr("goes beyond its stops -0.2 … 0.2 rad"), HasSubstr("[command]"),
+                           HasSubstr("amble robot --init")));
+}
+
+}  // namespace
+}  // namespace amble::morphology
