@@ -69,6 +69,13 @@ void warn_of_endless_joints(const robot::RobotSpec& robot, std::vector<std::stri
     warnings.push_back(fmt::format("joints without a range: they have no stops: {}", fmt::join(names, ", ")));
 }
 
+void warn_of_missing_presets(RobotFolder& written) {
+  written.warnings.push_back(fmt::format(
+      "the presets of amble were not found: {} includes {}, which is not there; they are in amble's folder "
+      "configs/: correct the path, or use amble where it was built or installed",
+      written.config_file.string(), robot_preset));
+}
+
 namespace fs = std::filesystem;
 
 /// A path as a file in `folder` names it.
@@ -151,7 +158,8 @@ std::string steer_text(const std::string& name, const CommandSizes& sizes, const
       "turn_rad_s = {6:.2g}\n"
       "\n"
       "# Does it walk and not obey? Steered by hand while it evolves (docs/STEERING.md), a Go2 did better "
-      "after a minute:\n"
+      "after a minute,\n"
+      "# but such a walker cannot be exported:\n"
       "#   --set controller.kind=supg --set controller.differential.turn_gain={10:.2g} "
       "--set controller.differential.full_speed_m_s={5:.2g}\n",
       io::printable(name), io::toml_quoted(preset ? path_from(folder, part) : part.string()),
@@ -190,6 +198,17 @@ std::string text_of(const RobotFolder& written, const NewRobot& made, const fs::
     fmt::format_to(out, "next: complete it, and check it with\n  amble robot {}\n", io::shell_word(file));
   }
   return text;
+}
+
+void refuse_to_replace_any(const std::vector<fs::path>& files) {
+  std::vector<std::string> there;
+  for (const fs::path& file : files)
+    if (fs::exists(file)) there.push_back(file.string());
+  if (there.empty()) return;
+  const bool one = there.size() == 1;
+  fail(ExitCode::bad_input,
+       "{} {} there already, and {} not replaced: delete {} first, or name another folder with -o",
+       fmt::join(there, ", "), one ? "is" : "are", one ? "is" : "are", one ? "it" : "them");
 }
 
 }  // namespace
@@ -247,9 +266,7 @@ RobotFolder write_robot_folder(const fs::path& model, fs::path folder,
       fail(ExitCode::bad_input, "{}: the model must not be called {}, as a config is", model.string(),
            config);
   const fs::path steer_file = folder / "steer.toml";
-  for (const fs::path& path : {written.robot_file, written.config_file, steer_file})
-    if (fs::exists(path))
-      fail(ExitCode::bad_input, "{} is there already, and is not replaced", path.string());
+  refuse_to_replace_any({written.robot_file, written.config_file, steer_file});
   NewRobot made = make_new_robot(file, path_from(folder, model), written.robot_file);
   std::optional<robot::RobotSpec>& robot = made.robot;
   fs::create_directories(folder);
@@ -268,6 +285,7 @@ RobotFolder write_robot_folder(const fs::path& model, fs::path folder,
   written.warnings = made.guess.doubts;
   if (robot) std::ranges::copy(robot::doubts(*robot), std::back_inserter(written.warnings));
   if (robot && model.extension() != ".urdf") warn_of_endless_joints(*robot, written.warnings);
+  if (!preset) warn_of_missing_presets(written);
   written.ready = robot && !robot->legs.empty();
   written.text = text_of(written, made, folder);
   return written;

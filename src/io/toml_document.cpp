@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "amble/core/error.hpp"
@@ -57,8 +58,13 @@ class Loader {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) {
-      fail(ExitCode::io, "{}: 'include' = {}: {}: No such file or directory", include.where,
-           toml_text(include), printable(path.string()));
+      const bool preset = std::ranges::find(path, "configs") != path.end();
+      fail(ExitCode::io, "{}: 'include' = {}: {}: No such file or directory{}", include.where,
+           toml_text(include), printable(path.string()),
+           preset
+               ? "; the presets are in amble's folder configs/, of its sources or of where it is installed "
+                 "(share/amble): correct the path"
+               : "");
     }
     if (!std::filesystem::is_regular_file(status))
       bad(include, printable(path.string()) + " is not a regular file");

@@ -141,6 +141,12 @@ TEST_F(RobotInit, WarnsOfInertiasTorquesAndMotorsThatAreHardlyMeant) {
        "  torques that do not hold the weight of 1.52 kg on half of the legs in the start pose: front_left_"},
       {changed(servo, "effort=\"1.0\"", "effort=\"1000\""), "effort.urdf",
        "  the model has no limit of torque that a motor could have, and it was guessed: front_left_"},
+      {changed(servo, "effort=\"1.0\"", "effort=\"15\""), "kg_cm.urdf",
+       "; are they in kg·cm, as on data sheets?"},
+      {changed(servo, " velocity=\"", " was=\""), "speed.urdf",
+       "  the model has no limit of speed that a motor could have, and it was guessed, 7.2 rad/s at 0.8 rad "
+       "from "
+       "a target: front_left_"},
       {changed(hexapod, " forcelimited=\"true\" forcerange=\"-9 9\"", ""), "unlimited.xml",
        "  the model has no limit of torque that a motor could have"},
   };
@@ -209,8 +215,15 @@ TEST_F(RobotInit, PrintsCommandsOnALineOfTheirOwnWhateverTheFolderIsCalled) {
 TEST_F(RobotInit, ReplacesNothing) {
   const std::string model = write(small_models()[0]);
   ASSERT_EQ(amble({"robot", "--init", model, "-o", scratch_ / "out"}).exit_code, 0);
+  const std::string robot = scratch_ / "out/keyframe.toml", config = scratch_ / "out/evolve.toml";
   expect_refusal({"robot", "--init", model, "-o", scratch_ / "out"}, ExitCode::bad_input,
-                 "keyframe.toml is there already, and is not replaced");
+                 robot + ", " + config + ", " + std::string(scratch_ / "out/steer.toml") +
+                     " are there already, and are not replaced: delete them first, or name another folder "
+                     "with -o");
+  std::filesystem::remove(robot);
+  std::filesystem::remove(scratch_ / "out/steer.toml");
+  expect_refusal({"robot", "--init", model, "-o", scratch_ / "out"}, ExitCode::bad_input,
+                 config + " is there already, and is not replaced: delete it first, or");
 }
 
 TEST_F(RobotInit, RefusesWhatIsNoModel) {
