@@ -119,7 +119,8 @@ void add_evolve(CLI::App& app, Action& action) {
       ->add_option("--generations", options->overrides.generations,
                    "Generations to evaluate (default: the config's)")
       ->check(between(1, experiment::most_generations));
-  command->add_option("--out", options->out, "The run folder to make; it must be new or empty")->required();
+  command->add_option("-o,--out", options->out, "The run folder to make; it must be new or empty")
+      ->required();
   add_jobs(*command, options->jobs);
   add_watch(*command, options->watch, "run");
   add_examples(

@@ -124,7 +124,10 @@ std::optional<std::string> unexpected(const CLI::App& app, const CLI::App& comma
   for (const std::string& word : app.remaining(true)) {
     if (word.size() < 2 || word.front() != '-') continue;
     const std::string name = word.substr(0, word.find('='));
-    return fmt::format("unknown option '{}'{}", name, io::did_you_mean(name, option_names(command)));
+    // Any letter is like any other.
+    const bool is_letter = name.size() <= 2;
+    return fmt::format("unknown option '{}'{}", name,
+                       is_letter ? "" : io::did_you_mean(name, option_names(command)));
   }
   for (const std::string& word : app.remaining(true))
     if (word != "--") return fmt::format("unexpected argument '{}'", word);

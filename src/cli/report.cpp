@@ -8,7 +8,9 @@
 
 #include "amble/cli/help.hpp"
 #include "amble/core/error.hpp"
+#include "amble/experiment/run_paths.hpp"
 #include "amble/io/file.hpp"
+#include "amble/io/quoting.hpp"
 #include "amble/io/text.hpp"
 #include "amble/report/figures.hpp"
 #include "amble/report/page.hpp"
@@ -99,6 +101,11 @@ void prepare(const std::vector<Output>& files) {
 
 ExitCode make_report(const ReportOptions& options) {
   check_options(options);
+  if (experiment::is_run_folder(options.study))
+    fail(ExitCode::bad_input,
+         "{}: not a study's folder but a run's; for its page, run: amble view {} --static -o {}",
+         printable(options.study), io::shell_word(options.study.string()),
+         io::shell_word(options.out.string()));
   const auto files = outputs(report::make_report(report::load_study_data(options.study)), options);
   prepare(files);
   for (const Output& file : files) io::write_file(file.path, file.text);

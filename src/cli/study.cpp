@@ -228,7 +228,8 @@ void add_study(CLI::App& app, Action& action) {
       "study", "Compare conditions over many seeds: evolve, test champions, keep a record of each run");
   auto options = std::make_shared<StudyOptions>();
   command->add_option("FILE", options->file, "Study file (TOML)")->required();
-  command->add_option("--out", options->out, "Folder of the study; goes on with what is there")->required();
+  command->add_option("-o,--out", options->out, "Folder of the study; goes on with what is there")
+      ->required();
   add_jobs(*command, options->jobs, "Processors to use; as many runs go on side by side");
   command->add_option("--per-run", options->per_run, "How many of them each run takes")
       ->capture_default_str()

@@ -13,6 +13,7 @@
 #include "amble/experiment/plan/manifest.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
+#include "amble/io/quoting.hpp"
 
 namespace amble::experiment {
 namespace fs = std::filesystem;
@@ -20,6 +21,17 @@ namespace {
 
 std::string champion_name(int generation) {
   return fmt::format("{:05}.json", generation);
+}
+
+/// Of a folder that is no run's.
+[[noreturn]] void refuse_folder(const fs::path& folder) {
+  if (!fs::is_regular_file(folder / "study.toml"))
+    fail(ExitCode::bad_input, "{}: not a run folder (config.toml or robot.json is missing)", folder.string());
+  const fs::path runs = folder / "runs";
+  fail(ExitCode::bad_input,
+       "{}: not a run folder but a study's{}; for its page, run: amble report {} -o report.html",
+       folder.string(), fs::is_directory(runs) ? fmt::format(", whose runs are in {}", runs.string()) : "",
+       io::shell_word(folder.string()));
 }
 
 }  // namespace
@@ -84,8 +96,7 @@ bool is_run_folder(const fs::path& folder) {
 RunPaths find_run(const fs::path& folder) {
   if (!fs::is_directory(folder))
     fail(ExitCode::io, "{}: {}", folder.string(), fs::exists(folder) ? "not a folder" : "no such folder");
-  if (!is_run_folder(folder))
-    fail(ExitCode::bad_input, "{}: not a run folder (config.toml or robot.json is missing)", folder.string());
+  if (!is_run_folder(folder)) refuse_folder(folder);
   RunPaths paths(folder);
   io::unseal_json(manifest_format, run_version, io::read_file(paths.manifest), paths.manifest.string());
   return paths;

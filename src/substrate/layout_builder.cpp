@@ -14,6 +14,8 @@ namespace {
 constexpr std::size_t most_links = 1'000'000;
 /// The tick of a query for something that is no pattern.
 constexpr int no_tick = -1;
+/// What to do about nodes that were made for another robot's joints.
+constexpr const char* other_robot = "for nodes of its own joints: --set controller.substrate=auto";
 
 template <typename... Args>
 [[noreturn]] void refuse(const std::string& key, fmt::format_string<Args...> text, Args&&... args) {
@@ -137,7 +139,7 @@ void LayoutBuilder::assign_joints() {
     const auto joint = std::find_if(robot_.joints.begin(), robot_.joints.end(),
                                     [&](const robot::Joint& j) { return j.name == name; });
     if (joint == robot_.joints.end())
-      refuse(item("nodes", i, "joint"), " = \"{}\": the robot has no such joint", name);
+      refuse(item("nodes", i, "joint"), " = \"{}\": the robot has no such joint; {}", name, other_robot);
     if (!joint->driven())
       refuse(item("nodes", i, "joint"), " = \"{}\": the robot's file has that joint held, not driven", name);
     layout_.nodes_[i].joint = static_cast<int>(joint - robot_.joints.begin());
@@ -149,7 +151,7 @@ void LayoutBuilder::assign_joints() {
   }
   for (std::size_t joint = 0; joint < robot_.joints.size(); ++joint)
     if (layout_.drivers_[joint] < 0 && robot_.joints[joint].driven())
-      refuse("nodes", ": no node drives the robot's joint {}", robot_.joints[joint].name);
+      refuse("nodes", ": no node drives the robot's joint {}; {}", robot_.joints[joint].name, other_robot);
 }
 
 void LayoutBuilder::add_links() {

@@ -102,14 +102,16 @@ TEST(BadSubstrate, SensorOrJointThatTheRobotLacks) {
             "torque.JOINT, roll, "
             "pitch, yaw, yaw_rate, command_speed, command_turn, command_stop, heading_error or sine");
   EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[3].joint = "FL_elbow"; }),
-            "nodes[3].joint = \"FL_elbow\": the robot has no such joint");
+            "nodes[3].joint = \"FL_elbow\": the robot has no such joint; for nodes of its own joints: --set "
+            "controller.substrate=auto");
 }
 
 TEST(BadSubstrate, JointDrivenTwiceOrNotAtAll) {
   EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[4].joint = "FL_knee"; }),
             "nodes[4].joint = \"FL_knee\": \"FL.knee\" (nodes[3]) drives it already");
   EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[4].joint = ""; }),
-            "nodes: no node drives the robot's joint FL_hip_io");
+            "nodes: no node drives the robot's joint FL_hip_io; for nodes of its own joints: --set "
+            "controller.substrate=auto");
   EXPECT_EQ(ctrnn([](Settings& s) { s.nodes[4].sensor = "roll"; }),
             "nodes[4]: \"FL.hip_io\" has both a sensor and a joint");
   EXPECT_EQ(ctrnn([](Settings& s) { s.nodes.clear(); }), "nodes is empty: a controller needs nodes");
