@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "amble/robot/doubts.hpp"
 #include "amble/robot/legs.hpp"
 #include "tests/robot/legged.hpp"
 
@@ -101,6 +102,7 @@ TEST(Axes, AlongTheLegAreNamedWhereNothingBeyondBendsIt) {
   EXPECT_THAT(axes(robot),
               ElementsAre(AllOf(HasSubstr("L1_knee (0 0 1), L1_hip_fb (0 0 1), axes in the world"),
                                 Not(HasSubstr("L1_hip_io")), Not(HasSubstr("R1")))));
+  EXPECT_THAT(doubts(robot), testing::Contains(axes(robot)[0]));
 }
 
 TEST(Axes, AlongAStraightLegAreFineWhereAKneeBendsIt) {
