@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 from ._evaluation import Evaluation
 
 Path = str | PathLike[str]
-Engine = Literal["ode", "batch", "mujoco", "mujoco-model"]
+Engine = Literal["ode", "batch", "mujoco", "mujoco-model", "ode-variant"]
 
 __version__: str
 __commit__: str

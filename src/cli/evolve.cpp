@@ -47,6 +47,7 @@ void print_best(const experiment::Run& run, int jobs) {
   fmt::print("      {}{} without noise; generation {}, {} evaluations\n",
              champion.problem.trials_vary() ? fmt::format("{} in its evaluation, ", text(progress.best)) : "",
              text(champion.result.value()), progress.best_generation, progress.evaluations);
+  if (!score.is_distance()) fmt::print("      by its score: {} (docs/SCORES.md)\n", score::described(score));
   const auto weak = robot::weak_joints(run.robot());
   if (typical.fell_share > 0.5 && !weak.empty())
     fmt::print("note: it falls in most of these trials, and motors are too weak to hold it up: {}\n",

@@ -12,6 +12,7 @@
 #include "amble/cli/help.hpp"
 #include "amble/cli/progress.hpp"
 #include "amble/cli/stop_signal.hpp"
+#include "amble/core/hash.hpp"
 #include "amble/core/index.hpp"
 #include "amble/cppn/reference.hpp"
 #include "amble/experiment/champion.hpp"
@@ -145,6 +146,8 @@ ExitCode run_info(const std::filesystem::path& folder) {
                100.0 * rows.typical_fell.back());
   const auto champions = paths.champion_files();
   fmt::print("champions   {}\n", champions.size());
+  fmt::print("digest      {} (equal for equal results; times do not count)\n",
+             hex(experiment::run_digest(paths)));
   if (!champions.empty()) {
     fmt::print("\nbest: {}\n", champions.back().string());
     print_champion(experiment::load_champion(champions.back()));

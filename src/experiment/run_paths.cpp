@@ -4,16 +4,21 @@
 
 #include <algorithm>
 #include <charconv>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "amble/core/error.hpp"
 #include "amble/core/hash.hpp"
+#include "amble/core/index.hpp"
 #include "amble/experiment/config.hpp"
 #include "amble/experiment/plan/manifest.hpp"
 #include "amble/io/file.hpp"
 #include "amble/io/json_file.hpp"
 #include "amble/io/quoting.hpp"
+#include "amble/io/text.hpp"
+#include "amble/record/generations_csv.hpp"
 
 namespace amble::experiment {
 namespace fs = std::filesystem;
@@ -86,6 +91,20 @@ std::uint64_t run_identity(const RunPaths& paths) {
   return hash_text(fmt::format("{} {} {} {} {}", config.seed, config.name, config.identity(),
                                hash_text(io::read_file(paths.robot)),
                                processes.empty() ? "" : processes.front().dump()));
+}
+
+std::uint64_t run_digest(const RunPaths& paths) {
+  std::istringstream table(io::read_file(paths.generations));
+  std::string line, found;
+  std::size_t columns = 0;  // before the times
+  while (std::getline(table, line)) {
+    std::vector<std::string_view> cells = io::split(line, ',');
+    if (columns == 0) columns = to_index(std::ranges::find(cells, record::column::wall_s) - cells.begin());
+    cells.resize(std::min(cells.size(), columns));
+    found += fmt::format("{}\n", fmt::join(cells, ","));
+  }
+  for (const fs::path& champion : paths.champion_files()) found += io::read_file(champion);
+  return hash_text(found);
 }
 
 bool is_run_folder(const fs::path& folder) {

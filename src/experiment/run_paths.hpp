@@ -39,6 +39,10 @@ std::filesystem::path champion_at(const std::filesystem::path& champion_or_run);
 /// one of the same name in the same place. Throws UserError.
 std::uint64_t run_identity(const RunPaths& paths);
 
+/// Of what a run has found so far: its table without times, and its champions' files. The same for the same
+/// config, seed and version, for any number of workers, interrupted or not. Throws UserError.
+std::uint64_t run_digest(const RunPaths& paths);
+
 /// Whether a folder looks like a run's.
 bool is_run_folder(const std::filesystem::path& folder);
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <initializer_list>
 #include <span>
 
 #include "amble/core/index.hpp"
@@ -32,7 +34,23 @@ class ClaimCheck {
          fmt::format("the name of a condition, not \"{}\"", io::printable(name)));
   }
   void measure(std::string_view key, const std::string& name) const {
-    that(is_measure(study_, name), key, fmt::format("{}; not \"{}\"", measure_names(), io::printable(name)));
+    const std::string not_this = fmt::format("not \"{}\"", io::printable(name));
+    if (const auto dot = name.find('.'); dot != std::string::npos)
+      that(study_.find_test(name.substr(0, dot)) != nullptr, key,
+           fmt::format("a measure of a test that the study has ({}); {}", test_names(), not_this));
+    that(is_measure(study_, name), key, fmt::format("{}; {}", measure_names(), not_this));
+  }
+  /// Conditions whose champions a test does not try have none of its measures.
+  void tried(std::string_view key, const std::string& condition, const TestSpec* test) const {
+    if (test == nullptr || condition.empty()) return;
+    that(test->applies_to(condition), key,
+         fmt::format("a condition that test '{}' tries (its 'conditions'), not \"{}\"", test->name,
+                     io::printable(condition)));
+  }
+  std::string test_names() const {
+    std::vector<std::string> names;
+    for (const TestSpec& test : study_.tests) names.push_back(io::printable(test.name));
+    return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
   }
   /// Names of regular gaits, "walk" for both walks among them: no others can occur.
   void gaits(std::string_view key, const std::vector<std::string>& names) const {
@@ -47,13 +65,57 @@ class ClaimCheck {
   std::size_t index_;
 };
 
+/// A key of some kinds of claims, and whether a claim says more there than nothing.
+struct OwnKey {
+  std::string_view name;
+  std::initializer_list<ClaimKind> kinds;
+  bool (*is_set)(const ClaimSpec&);
+};
+
+/// What a kind does not use would look like a rule and be none.
+void check_unused(const ClaimSpec& claim, const ClaimCheck& check) {
+  using enum ClaimKind;
+  static const ClaimSpec nothing;
+  static const std::array keys{
+      OwnKey{"against", {difference, ratio}, [](const ClaimSpec& c) { return !c.against.empty(); }},
+      OwnKey{"base_measure", {ratio}, [](const ClaimSpec& c) { return !c.base_measure.empty(); }},
+      OwnKey{"relation", {difference}, [](const ClaimSpec& c) { return c.relation != nothing.relation; }},
+      OwnKey{"test", {difference}, [](const ClaimSpec& c) { return c.test != nothing.test; }},
+      OwnKey{"alpha", {difference, value}, [](const ClaimSpec& c) { return c.alpha != nothing.alpha; }},
+      OwnKey{"margin", {difference}, [](const ClaimSpec& c) { return c.margin != nothing.margin; }},
+      OwnKey{"at_least", {ratio, count}, [](const ClaimSpec& c) { return c.at_least > -unbounded; }},
+      OwnKey{"at_most", {ratio, count, plateau}, [](const ClaimSpec& c) { return c.at_most < unbounded; }},
+      OwnKey{"threshold", {count}, [](const ClaimSpec& c) { return c.threshold > -unbounded; }},
+      OwnKey{
+          "threshold_condition", {count}, [](const ClaimSpec& c) { return !c.threshold_condition.empty(); }},
+      OwnKey{"mean", {value}, [](const ClaimSpec& c) { return c.mean != nothing.mean; }},
+      OwnKey{"sd", {value}, [](const ClaimSpec& c) { return c.sd != nothing.sd; }},
+      OwnKey{"within", {value}, [](const ClaimSpec& c) { return c.within != nothing.within; }},
+      OwnKey{"runs", {value, count}, [](const ClaimSpec& c) { return c.runs != nothing.runs; }},
+      OwnKey{"successes", {count}, [](const ClaimSpec& c) { return c.successes != nothing.successes; }},
+      OwnKey{"includes", {gaits}, [](const ClaimSpec& c) { return !c.includes.empty(); }},
+      OwnKey{"only", {gaits}, [](const ClaimSpec& c) { return !c.only.empty(); }},
+      OwnKey{"from_generation", {plateau}, [](const ClaimSpec& c) { return c.from_generation != 0; }}};
+  for (const OwnKey& key : keys)
+    check.that(!key.is_set(claim) || std::ranges::find(key.kinds, claim.kind) != key.kinds.end(), key.name,
+               fmt::format("nothing: a claim of kind \"{}\" does not use it",
+                           claim_kind_names[to_index(claim.kind)]));
+}
+
+void check_other_condition(const ClaimSpec& claim, const ClaimCheck& check) {
+  check.condition("against", claim.against);
+  check.that(
+      claim.against != claim.condition, "against",
+      fmt::format("another condition than 'condition', not \"{}\" again", io::printable(claim.against)));
+}
+
 void check_ratio(const ClaimSpec& claim, const ClaimCheck& check) {
   check.that(claim.against.empty() != claim.base_measure.empty(), "against",
              "either 'against' (a condition) or 'base_measure' for a ratio");
   if (claim.against.empty())
     check.measure("base_measure", claim.base_measure);
   else
-    check.condition("against", claim.against);
+    check_other_condition(claim, check);
   check.that(claim.at_least > -unbounded || claim.at_most < unbounded, "at_least",
              "at_least, at_most or both for a ratio");
 }
@@ -69,7 +131,7 @@ void check_count(const ClaimSpec& claim, const ClaimCheck& check) {
 }
 
 void check_difference(const ClaimSpec& claim, const ClaimCheck& check) {
-  check.condition("against", claim.against);
+  check_other_condition(claim, check);
   check.that(claim.margin == 0.0 || claim.relation == Relation::not_less, "margin",
              "0 unless relation = \"not_less\"");
   check.that(claim.margin == 0.0 || claim.test != TwoSampleTest::mann_whitney, "margin",
@@ -118,9 +180,12 @@ void check_claim(const StudySpec& study, std::size_t index) {
   check.that(claim.at_least <= claim.at_most, "at_least",
              fmt::format("at most 'at_most' = {}, not {}", claim.at_most, claim.at_least));
   check.condition("condition", claim.condition);
+  check_unused(claim, check);
   if (claim.kind == ClaimKind::gaits) {
-    check.that(study.find_test(claim.measure) != nullptr, "measure",
-               fmt::format("the name of a test, not \"{}\"", io::printable(claim.measure)));
+    check.that(
+        study.find_test(claim.measure) != nullptr, "measure",
+        fmt::format("the name of a test ({}), not \"{}\"", check.test_names(), io::printable(claim.measure)));
+    check.tried("condition", claim.condition, study.find_test(claim.measure));
     check.that(!claim.includes.empty() || !claim.only.empty(), "includes",
                "names of gaits here or in 'only'");
     check.gaits("includes", claim.includes);
@@ -128,6 +193,8 @@ void check_claim(const StudySpec& study, std::size_t index) {
     return;
   }
   check.measure("measure", claim.measure);
+  const TestSpec* const test = test_of(study, claim.measure);
+  check.tried("condition", claim.condition, test);
   if (claim.kind == ClaimKind::difference) check_difference(claim, check);
   if (claim.kind == ClaimKind::ratio) check_ratio(claim, check);
   if (claim.kind == ClaimKind::count) check_count(claim, check);
@@ -136,6 +203,9 @@ void check_claim(const StudySpec& study, std::size_t index) {
   if (claim.kind == ClaimKind::plateau)
     check.that(claim.at_most < unbounded && claim.from_generation > 0, "at_most",
                "at_most and from_generation for a plateau");
+  check.tried("against", claim.against, test);
+  check.tried("threshold_condition", claim.threshold_condition, test);
+  check.tried("condition", claim.condition, test_of(study, claim.base_measure));
 }
 
 }  // namespace amble::ledger

@@ -193,6 +193,11 @@ bool is_measure(const StudySpec& study, std::string_view name) {
   return spec != nullptr && found != test_measures.end() && has(*spec, found->needs);
 }
 
+const TestSpec* test_of(const StudySpec& study, std::string_view measure) {
+  const std::string_view test = split(measure).test;
+  return test.empty() ? nullptr : study.find_test(test);
+}
+
 std::string measure_names() {
   std::string text;
   for (const RunMeasure& row : run_measures) text += fmt::format("{}, ", row.name);

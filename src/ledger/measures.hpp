@@ -35,6 +35,9 @@ struct TestSpec;
 /// Whether a study's records have a measure of that name.
 bool is_measure(const StudySpec& study, std::string_view name);
 
+/// The test that a measure is of; null for one of runs and maps, and where there is no such test.
+const TestSpec* test_of(const StudySpec& study, std::string_view measure);
+
 /// All names that is_measure() can know, for messages: "train_m, hidden, …, TEST.distance_m, .upright_s, …".
 std::string measure_names();
 

@@ -68,7 +68,8 @@ void check_conditions(const StudySpec& study) {
           item("conditions", i, "steering"),
           fmt::format("'{}': no test of the condition has a command", item("conditions", i, "steering")));
     if (condition.seeds.empty() && study.seeds.empty())
-      throw study.error_at("seeds", "'seeds' is missing: expected a list of whole numbers");
+      throw study.error_at("seeds",
+                           "'seeds' is missing or empty: expected a list of whole numbers, at least one");
   }
 }
 

@@ -72,8 +72,9 @@ std::string curves_figure(const Report& report, FigureSize layout) {
   }
   const figures::Interval generations{0.0, last}, distances{0.0, best > 0.0 ? 1.04 * best : 1.0};
   Svg svg(width_px(layout), grid.height_px(),
-          fmt::format("Best {} so far over {} generations, median and quartiles of {} conditions",
-                      report.objective.name(), static_cast<int>(last) + 1, curves.size()));
+          fmt::format("{} of the champion so far over {} generations, median and quartiles of {} conditions",
+                      report.objective.is_distance ? "Distance" : "Score", static_cast<int>(last) + 1,
+                      curves.size()));
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const Box plot = grid.plot(i);
     draw_panel(svg, report, curves[i], grid, plot, Scale{generations, plot.x, plot.right()},

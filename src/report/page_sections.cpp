@@ -161,9 +161,11 @@ std::string distance_section(const Report& report) {
 std::string curves_section(const Report& report) {
   return section(
       "curves", "How they learned",
-      fmt::format("Best {} so far over the generations: median and quartiles over the runs of a condition, "
-                  "in grey the medians of the others.",
-                  report.objective.name()),
+      fmt::format(
+          "The {} of each run’s champion so far, in its evaluation, over the generations: median and "
+          "quartiles over the runs of a condition, in grey the medians of the others. It may fall where "
+          "trials of their own decide on champions (champion.episodes).",
+          report.objective.name()),
       figure([&](FigureSize layout) { return curves_figure(report, layout); }));
 }
 

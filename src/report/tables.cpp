@@ -72,7 +72,7 @@ Table bests_table(const Report& report) {
 
 Table curves_table(const Report& report) {
   Table table{"curves",
-              fmt::format("quartiles over runs of the best {} so far", report.objective.name()),
+              fmt::format("quartiles over runs of the {} of the champion so far", report.objective.name()),
               {"condition", "generation", "n", "lower_quartile_m", "median_m", "upper_quartile_m"},
               {}};
   for (const BestCurve& curve : report.curves)

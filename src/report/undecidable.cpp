@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "amble/core/index.hpp"
 #include "amble/report/number_text.hpp"
@@ -22,7 +23,27 @@ std::size_t needed_by_ranks(double alpha) {
   return runs;
 }
 
+/// The shortest of its runs must go on after the generation from which a plateau counts.
+std::string too_short(const ledger::StudySpec& study, const ClaimSpec& claim) {
+  const ledger::ConditionSpec& condition = *study.find(claim.condition);
+  const int generations = condition.generations > 0 ? condition.generations : study.generations;
+  if (generations == 0 || generations > claim.from_generation) return {};
+  return fmt::format("with {} of '{}' it cannot be decided; more than from_generation = {} are needed",
+                     counted(to_index(generations), "generation"), claim.condition, claim.from_generation);
+}
+
+/// No outcome can confirm a count of more runs than there are.
+std::string too_few(const ClaimSpec& claim, std::size_t planned) {
+  if (claim.at_least <= static_cast<double>(planned)) return {};
+  return fmt::format("with {} of '{}' it cannot be confirmed; {:g} are needed", counted(planned, "run"),
+                     claim.condition, std::ceil(claim.at_least));
+}
+
 std::string line_of(const StudyData& data, const ClaimSpec& claim) {
+  if (claim.kind == ClaimKind::plateau)
+    if (const std::string line = too_short(data.study, claim); !line.empty()) return line;
+  if (claim.kind == ClaimKind::count)
+    if (const std::string line = too_few(claim, data.planned(claim.condition)); !line.empty()) return line;
   std::size_t least = data.planned(claim.condition);
   std::string fewest = claim.condition;
   if (!claim.against.empty() && data.planned(claim.against) < least) {

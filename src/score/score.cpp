@@ -273,6 +273,17 @@ record::Objective objective_of(const Settings& settings) {
           .title = "Score"};
 }
 
+std::string described(const Settings& settings) {
+  std::string text;
+  for (const Term& term : settings.terms) {
+    const double weight = std::abs(term.weight);
+    const std::string factor = weight == 1.0 ? "" : fmt::format("{:g} × ", weight);
+    const char* const sign = term.weight < 0.0 ? (text.empty() ? "−" : " − ") : (text.empty() ? "" : " + ");
+    text += fmt::format("{}{}{}", sign, factor, term.quantity);
+  }
+  return text;
+}
+
 std::string with_unit(std::string_view number, const Settings& settings) {
   return fmt::format("{}{}", number, objective_of(settings).unit);
 }

@@ -113,6 +113,9 @@ class Score {
 /// What a score by these settings is called and measured in.
 record::Objective objective_of(const Settings& settings);
 
+/// What is added up to it, by the names of docs/SCORES.md: "tracking", "distance + 0.5 × upright_time".
+std::string described(const Settings& settings);
+
 /// A score, already formatted, with its unit (record::Objective::unit): "3.12 m".
 std::string with_unit(std::string_view number, const Settings& settings);
 

@@ -65,6 +65,22 @@ PlannedTest of_condition(PlannedTest test, const experiment::Config& config,
   return test;
 }
 
+/// "FILE:LINE: " of what a condition's mistake is about: its own settings, or those of all; empty if the
+/// study was not read from a file.
+std::string place_of(const ledger::StudySpec& study, std::size_t index, std::string_view mistake) {
+  if (!study.where) return {};
+  const auto names = [&](const std::string& setting) {
+    return mistake.find(setting) != std::string_view::npos;
+  };
+  const ledger::ConditionSpec& condition = study.conditions[index];
+  const bool of_all =
+      std::ranges::none_of(condition.settings, names) && std::ranges::any_of(study.settings, names);
+  const bool own = std::ranges::any_of(condition.settings, names);
+  const std::string key =
+      of_all ? "settings" : fmt::format("conditions[{}].{}", index, own ? "settings" : "config");
+  return study.where(key) + ": ";
+}
+
 PlannedCondition plan_condition(const ledger::StudySpec& study, std::size_t index,
                                 const std::vector<PlannedTest>& tests) {
   const ledger::ConditionSpec& spec = study.conditions[index];
@@ -85,7 +101,10 @@ PlannedCondition plan_condition(const ledger::StudySpec& study, std::size_t inde
     check_tests(condition);
     check_gaits(condition);
   } catch (const UserError& error) {
-    fail(error.code(), "condition '{}': {}", spec.name, error.what());
+    std::string mistake = error.what();
+    constexpr std::string_view typed = "--set ";  // what nobody has typed here
+    if (mistake.starts_with(typed)) mistake.replace(0, typed.size(), "the setting ");
+    fail(error.code(), "{}condition '{}': {}", place_of(study, index, mistake), spec.name, mistake);
   }
   condition.hash = config_hash(condition.config, condition.robot);
   return condition;

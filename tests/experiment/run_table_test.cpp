@@ -49,6 +49,30 @@ Change cell(int number, const std::string& value) {
   };
 }
 
+TEST(RunDigest, IsThatOfWhatWasFoundAndOfNothingElse) {
+  const TemporaryFolder scratch;
+  const Config config = small_config({"engine=batch", "population.size=10"});
+  const auto digest_of = [&](const char* name, const Config& run, int workers, int first_stop) {
+    const auto folder = scratch / name;
+    Listener stopped(first_stop);
+    Run::start(folder, run, workers).execute(stopped, stopped.stop);
+    if (first_stop < run.generations) {
+      Listener rest;
+      Run::resume(folder, {}, workers).execute(rest, rest.stop);
+    }
+    return run_digest(RunPaths(folder));
+  };
+  const std::uint64_t digest = digest_of("one", config, 1, 3);
+  EXPECT_EQ(digest_of("two", config, 2, 3), digest);
+  EXPECT_EQ(digest_of("stopped", config, 1, 2), digest);
+  Config other = config;
+  other.seed = 2;
+  EXPECT_NE(digest_of("other", other, 1, 3), digest);
+  const RunPaths paths(scratch / "one");
+  io::write_file(paths.champion_files().back(), io::read_file(paths.champion_files().back()) + " ");
+  EXPECT_NE(run_digest(paths), digest);
+}
+
 class TouchedRun : public testing::Test {
  protected:
   /// Three generations of more.

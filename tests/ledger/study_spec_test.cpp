@@ -138,7 +138,10 @@ TEST(StudySpec, MistakesAreNamedWithTheirPlace) {
   EXPECT_EQ(diagnostic(replaced(good, "against = \"b\"", "against = \"c\"")),
             "s.toml:17: 'claims[0].against': expected the name of a condition, not \"c\"");
   EXPECT_EQ(diagnostic(replaced(good, "five.distance_m", "six.distance_m")),
-            "s.toml:18: 'claims[0].measure': expected " + all_measures + "; not \"six.distance_m\"");
+            "s.toml:18: 'claims[0].measure': expected a measure of a test that the study has (five); not "
+            "\"six.distance_m\"");
+  EXPECT_EQ(diagnostic(replaced(good, "five.distance_m", "five.speed")),
+            "s.toml:18: 'claims[0].measure': expected " + all_measures + "; not \"five.speed\"");
   EXPECT_EQ(diagnostic(replaced(good, "kind = \"difference\"", "kind = \"ratio\"")),
             "s.toml:13: 'claims[0].at_least': expected at_least, at_most or both for a ratio");
   EXPECT_EQ(diagnostic(replaced(good, "seconds = 300", "seconds = 300\nepisodes = 3")),
@@ -150,10 +153,10 @@ TEST(StudySpec, MistakesAreNamedWithTheirPlace) {
 }
 
 /// The diagnostic for the good study with this claim about the condition "a" instead of its own.
-std::string claim_diagnostic(const std::string& claim) {
+std::string claim_diagnostic(const std::string& claim, const std::string& measure = "five.distance_m") {
   const std::string text = good;
   return diagnostic(text.substr(0, text.find("[[claims]]")) +
-                    "[[claims]]\ntext = \"Claim.\"\ncondition = \"a\"\nmeasure = \"five.distance_m\"\n" +
+                    "[[claims]]\ntext = \"Claim.\"\ncondition = \"a\"\nmeasure = \"" + measure + "\"\n" +
                     claim);
 }
 
@@ -195,23 +198,49 @@ TEST(ClaimSpec, ThatNoOutcomeCouldMeetIsRefused) {
        "'claims[0].at_least': expected at most 'at_most' = 2, not 2.5"},
       {"kind = 'count'\nthreshold = 1.0\nat_least = 3\nat_most = 2",
        "'claims[0].at_least': expected at most 'at_most' = 2, not 3"},
-      {"kind = 'plateau'\nat_least = 0.2\nat_most = 0.1\nfrom_generation = 1",
-       "'claims[0].at_least': expected at most 'at_most' = 0.1, not 0.2"},
+      {"kind = 'ratio'\nagainst = 'a'\nat_least = 0.5",
+       "'claims[0].against': expected another condition than 'condition', not \"a\" again"},
+      {"kind = 'difference'\nagainst = 'a'",
+       "'claims[0].against': expected another condition than 'condition', not \"a\" again"},
   });
+}
+
+TEST(ClaimSpec, SaysNothingThatItsKindDoesNotUse) {
+  const auto unused = [](const std::string& key, const std::string& kind) {
+    return "'claims[0]." + key + "': expected nothing: a claim of kind \"" + kind + "\" does not use it";
+  };
+  expect_diagnostics({
+      {"kind = 'difference'\nagainst = 'b'\nat_least = 2.0", unused("at_least", "difference")},
+      {"kind = 'difference'\nagainst = 'b'\nthreshold = 2.0", unused("threshold", "difference")},
+      {"kind = 'count'\nthreshold = 1.0\nat_least = 3\nagainst = 'b'", unused("against", "count")},
+      {"kind = 'count'\nthreshold = 1.0\nat_least = 3\nalpha = 0.01", unused("alpha", "count")},
+      {"kind = 'plateau'\nat_least = 0.0\nat_most = 0.1\nfrom_generation = 1", unused("at_least", "plateau")},
+      {"kind = 'value'\nmean = 3.0\nsd = 1.0\nruns = 2\nsuccesses = 1", unused("successes", "value")},
+      {"kind = 'ratio'\nagainst = 'b'\nat_most = 2.0\ntest = 'welch'", unused("test", "ratio")},
+  });
+}
+
+TEST(ClaimSpec, IsAboutConditionsThatItsTestTries) {
+  const std::string some = replaced(good, "seconds = 300", "seconds = 300\nconditions = [\"b\"]");
+  EXPECT_EQ(diagnostic(some),
+            "s.toml:17: 'claims[0].condition': expected a condition that test 'five' tries (its "
+            "'conditions'), not \"a\"");
+  EXPECT_NE(diagnostic(replaced(some, "[\"b\"]", "[\"a\"]"))
+                .find("'claims[0].against': expected a condition that test"),
+            std::string::npos);
 }
 
 TEST(ClaimSpec, OfGaitsNamesGaitsThatThereAre) {
   const auto gaits = [](const std::string& names) {
-    const std::string text = replaced(good, "five.distance_m", "five");
-    return diagnostic(replaced(text, "kind = \"difference\"", "kind = \"gaits\"\n" + names));
+    return claim_diagnostic("kind = 'gaits'\n" + names, "five");
   };
   const std::string known =
       "walk lateral, walk diagonal, trot, pace, bound, pronk, gallop, tripod, tetrapod, wave, walk, run, hop";
   EXPECT_EQ(gaits("includes = ['walk', 'walk lateral', 'trot']\nonly = ['hop', 'tripod']"), "");
   EXPECT_EQ(gaits("includes = ['trot', 'canter']"),
-            "s.toml:16: 'claims[0].includes': expected " + known + "; not \"canter\"");
+            "s.toml:18: 'claims[0].includes': expected " + known + "; not \"canter\"");
   EXPECT_EQ(gaits("only = ['irregular']"),
-            "s.toml:16: 'claims[0].only': expected " + known + "; not \"irregular\"");
+            "s.toml:18: 'claims[0].only': expected " + known + "; not \"irregular\"");
   EXPECT_NE(gaits("only = [\"tr\\not\"]").find("; not \"tr\\x0aot\""), std::string::npos);
 }
 
@@ -272,11 +301,10 @@ TEST(ClaimSpec, OfEachOtherKindHasWhatItsRuleNeeds) {
       {"kind = 'plateau'\nat_most = 0.1", plateau},
       {"kind = 'plateau'\nfrom_generation = 1", plateau},
       {"kind = 'gaits'\nincludes = ['trot']",
-       "'claims[0].measure': expected the name of a test, not \"five.distance_m\""},
+       "'claims[0].measure': expected the name of a test (five), not \"five.distance_m\""},
   });
   const auto gaits = [](const std::string& names) {
-    const std::string text = replaced(good, "five.distance_m", "five");
-    return diagnostic(replaced(text, "kind = \"difference\"", "kind = \"gaits\"" + names));
+    return claim_diagnostic("kind = 'gaits'" + names, "five");
   };
   EXPECT_EQ(gaits("\nincludes = ['trot']"), "");
   EXPECT_EQ(gaits("\nonly = ['trot']"), "");
@@ -314,8 +342,10 @@ TEST(StudySpec, NumbersKeepToTheirRanges) {
         {"name = \"s\"", "generations", "0", "1000000000", "-1", "1000000001"},
         {test, "reach_m", "0.0", "1e6", "-0.1", "1000000.1"},
         {test, "mutants", "0", "100000", "-1", "100001"}}) {
-    EXPECT_EQ(with_key(old, key, least), "") << key;
-    EXPECT_EQ(with_key(old, key, most), "") << key;
+    for (const char* accepted : {least, most}) {
+      const std::string found = with_key(old, key, accepted);
+      EXPECT_TRUE(found.empty() || found.ends_with("does not use it")) << found;  // by claims of another kind
+    }
     EXPECT_NE(with_key(old, key, below).find(key), std::string::npos) << key;
     EXPECT_NE(with_key(old, key, beyond).find(key), std::string::npos) << key;
   }
@@ -337,7 +367,7 @@ TEST(StudySpec, TestsHaveSeveralEpisodesWhereNoiseOrGroundMakesThemDiffer) {
   EXPECT_EQ(episodes("noise = \"n.toml\""), "");
   EXPECT_EQ(episodes("ground = \"n.toml\""), "");
   EXPECT_NE(episodes("damage = \"n.toml\"").find("without noise all trials are the same"), std::string::npos);
-  EXPECT_EQ(diagnostic(replaced(good, "seconds = 300", "seconds = 300\nconditions = [\"b\"]")), "");
+  EXPECT_EQ(diagnostic(replaced(good, "seconds = 300", "seconds = 300\nconditions = [\"b\", \"a\"]")), "");
   EXPECT_NE(diagnostic(replaced(good, "seconds = 300", "seconds = 300\nconditions = [\"b\", \"c\"]"))
                 .find("'tests[0].conditions' names \"c\", which is none of the conditions"),
             std::string::npos);
@@ -359,6 +389,9 @@ TEST(StudySpec, EveryConditionHasAConfigSeedsAndAName) {
   EXPECT_NE(diagnostic(replaced(good, "config = \"a.toml\"", "")).find("'conditions[0].config' is missing"),
             std::string::npos);
   EXPECT_NE(diagnostic(replaced(good, "seeds = [1, 2]", "")).find("'seeds' is missing"), std::string::npos);
+  EXPECT_NE(diagnostic(replaced(good, "seeds = [1, 2]", "seeds = []"))
+                .find("or empty: expected a list of whole numbers"),
+            std::string::npos);
   EXPECT_EQ(diagnostic(replaced(replaced(good, "seeds = [1, 2]", ""), "config = \"a.toml\"",
                                 "config = \"a.toml\"\nseeds = [3]")),
             "")

@@ -23,12 +23,12 @@ std::map<std::string, std::string> everything_of(const Report& report) {
 TEST(GoldenReport, OfAStudyWithClaimsOfAllKindsMatchesTheGoldenHash) {
   tests::expect_golden(everything_of(make_report(small_study())), {{"bests.csv", "1c77f25a4bd6a929"},
                                                                    {"curves.csv", "d40556d895ef1a3b"},
-                                                                   {"curves.svg", "625d1787f141bd4c"},
+                                                                   {"curves.svg", "6c520d01e74c57bd"},
                                                                    {"distance-long.svg", "7e400d8078fdbdf8"},
                                                                    {"distance-ode.svg", "d2efe48e54d7170e"},
                                                                    {"distance.svg", "9c6b93ca425adec2"},
                                                                    {"gaits.csv", "959e7d3d2a7f6266"},
-                                                                   {"report.html", "2738e61f53e53d94"},
+                                                                   {"report.html", "872a66220414eb7d"},
                                                                    {"runs.csv", "1f4f4065d23006c9"},
                                                                    {"survival.csv", "a9e3ab0405e89883"},
                                                                    {"upright-long.svg", "db68d5dd2e14c067"},
@@ -47,19 +47,19 @@ TEST(GoldenReport, OfMutantsMatchesTheGoldenHash) {
   });
   tests::expect_golden(made, {{"mutants-long.svg", "54f814c86cb1bf2d"},
                               {"mutants.csv", "83f46b3dfd1e8088"},
-                              {"report.html", "7b46aaa91c437b66"}});
+                              {"report.html", "c382b81d148eecdd"}});
 }
 
 TEST(GoldenReport, OfFiveConditionsMatchesTheGoldenHash) {
   tests::expect_golden(everything_of(make_report(large_study(5, 9))),
                        {{"bests.csv", "65b355680fcc9d62"},
                         {"curves.csv", "e722cbcdc2c0b6de"},
-                        {"curves.svg", "1746ce677050705d"},
+                        {"curves.svg", "b7b5f5e06e3b2e01"},
                         {"distance-long.svg", "8486e9373b1b7429"},
                         {"distance-ode.svg", "9b57fef4b5bb87dc"},
                         {"distance.svg", "b50e8c08468766b9"},
                         {"gaits.csv", "624a2e0c41e13fe1"},
-                        {"report.html", "0e02beef205449d2"},
+                        {"report.html", "87915614b85ee437"},
                         {"runs.csv", "e9026294e9c5c3d6"},
                         {"survival.csv", "e924fdae1fbaf0c6"},
                         {"upright-long.svg", "eaf7c66f041e51ac"},
@@ -74,7 +74,7 @@ TEST(GoldenReport, OfAStudyHalfDoneMatchesTheGoldenHash) {
   data.study.claims[0].alpha = 0.01;
   data.unknown_files = {"notes.txt"};
   tests::expect_golden({{"half.html", make_page(make_report(std::move(data)))}},
-                       {{"half.html", "d78e3bd61c5e5904"}});
+                       {{"half.html", "ce5315da19d17e8a"}});
 }
 
 }  // namespace

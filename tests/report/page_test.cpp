@@ -178,10 +178,10 @@ TEST(Page, OfAScoreThatIsNoDistanceClaimsNoMetres) {
   const std::string html = page(scored_study("speed_kept"));
   EXPECT_THAT(html, HasSubstr("Score in evolution"));
   EXPECT_THAT(html, HasSubstr("median 5.00 after generation 9"));
-  EXPECT_THAT(html, HasSubstr("Best score so far"));
+  EXPECT_THAT(html, HasSubstr("The score of each run’s champion so far"));
   EXPECT_THAT(html, HasSubstr("5.00 against 1.83; difference 3.17 ["));
   EXPECT_THAT(html, HasSubstr("15.0 m [")) << "of tests";
-  for (const char* wrong : {"istance in evolution", "est distance so far", "How far they walked",
+  for (const char* wrong : {"istance in evolution", "The distance of each run", "How far they walked",
                             "Distance of each run", "generation 9 m", "5.00\u00a0m"})
     EXPECT_THAT(html, Not(HasSubstr(wrong)));
 }

@@ -46,6 +46,31 @@ TEST(UndecidableClaims, OfRanksDependOnHowSmallPIsToBe) {
   EXPECT_THAT(undecidable_claims(with_claim(7, ranks(0.001))), IsEmpty());
 }
 
+TEST(UndecidableClaims, OfPlateausNeedRunsThatGoOnAfterTheirGeneration) {
+  ledger::ClaimSpec claim;
+  claim.kind = ledger::ClaimKind::plateau;
+  claim.from_generation = 5;
+  ledger::StudySpec study = with_claim(6, claim);
+  study.generations = 5;
+  EXPECT_THAT(undecidable_claims(study),
+              ElementsAre(HasSubstr("with 5 generations of 'a' it cannot be decided; "
+                                    "more than from_generation = 5 are needed")));
+  study.conditions[0].generations = 6;
+  EXPECT_THAT(undecidable_claims(study), IsEmpty());
+  study.generations = study.conditions[0].generations = 0;  // as in the config
+  EXPECT_THAT(undecidable_claims(study), IsEmpty());
+}
+
+TEST(UndecidableClaims, CountMoreRunsThanThereAre) {
+  ledger::ClaimSpec claim;
+  claim.kind = ledger::ClaimKind::count;
+  claim.threshold = 1.0;
+  claim.at_least = 9;
+  EXPECT_THAT(undecidable_claims(with_claim(6, claim)),
+              ElementsAre(HasSubstr("with 6 runs of 'a' it cannot be confirmed; 9 are needed")));
+  EXPECT_THAT(undecidable_claims(with_claim(9, claim)), IsEmpty());
+}
+
 TEST(UndecidableClaims, OfRatiosAndPlateausNeedARunMoreThanOthers) {
   for (const auto kind : {ledger::ClaimKind::ratio, ledger::ClaimKind::plateau}) {
     ledger::ClaimSpec claim;

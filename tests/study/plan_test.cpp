@@ -140,6 +140,29 @@ TEST(Plan, ATestUnderOwnNoiseHasThatOfEachConditionAndIsRefusedWhereThereIsNone)
   }
 }
 
+TEST(Plan, AMistakeInAStudysSettingsIsNamedWithItsPlaceInTheStudy) {
+  const auto refusal = [](std::vector<std::string> all, std::vector<std::string> own) {
+    auto study = small_study();
+    study.conditions = {condition("a", "robust/supg-objective")};
+    study.settings = std::move(all);
+    study.conditions[0].settings = std::move(own);
+    study.where = [](const std::string& key) { return "s.toml, at " + key; };
+    try {
+      make_plan(study, "out");
+    } catch (const UserError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(refusal({}, {"population.sise=10"}),
+              testing::StartsWith(
+                  "s.toml, at conditions[0].settings: condition 'a': the setting population.sise=10"));
+  EXPECT_THAT(refusal({"population.sise=10"}, {"seed=3"}),
+              testing::StartsWith("s.toml, at settings: condition 'a': the setting population.sise=10"));
+  EXPECT_THAT(refusal({}, {"search.kind=hope"}),
+              testing::StartsWith("s.toml, at conditions[0].settings: condition 'a': "));
+}
+
 TEST(Plan, ATestThatLooksThroughARunsChampionsIsRefusedWhereTheyDoNotSwitchAsTheWalkerDoes) {
   auto study = small_study();
   study.conditions = {condition("best", "repertoire/quadruped"),

@@ -100,6 +100,47 @@ test("twenty generations in the page: curve and species grow, it pauses and goes
     assert.ok(existsSync(join(run, "checkpoint.bin")));
   }));
 
+test("the best of runs before walk once more, in the world that was chosen, and are called by what was run", () =>
+  inLab(STILL, async (page) => {
+    const step = (experiment, name) => page.locator(`#experiment-${experiment}`).getByRole("button", { name, exact: true });
+    const evolve = async (settings = {}) => {
+      await page.evaluate((v) => window.amble.form.set(v), { population: 20, seconds: 2, generations: 2, ...settings });
+      await button(page, "Start").click();
+      await ended(page);
+    };
+    const set = async (experiment, name) => {
+      await page.evaluate((id) => (document.getElementById(`experiment-${id}`).open = true), experiment);
+      await step(experiment, name).click();
+    };
+    await field(page, "seed").fill("7");
+    await set("rough", "Flat");
+    assert.equal(await field(page, "seed").inputValue(), "7", "a seed stays");
+    await evolve();
+    assert.equal(await page.locator(".earlier").isHidden(), true);
+    const flat = await page.evaluate(() => window.amble.newest.text);
+    await set("rough", "Hurdles");
+    assert.equal(await field(page, "seed").inputValue(), "7");
+    await evolve({ slope: 0.1 });
+    const earlier = page.locator(".earlier button"), name = await earlier.textContent();
+    assert.match(name, /^Flat, population 20, generations 2, …, seed 7$/);
+    assert.match(await page.locator(".keys").first().textContent(), /before: Flat, population 20/);
+    await page.evaluate(() => { window.amble.form.set({ ground: "plane", slope: 0 }); window.amble.chosen("ground"); });
+    await page.waitForFunction(() => /is there now/.test(document.getElementById("said").textContent));
+    await earlier.click();
+    await page.waitForFunction((title) => window.amble.stage.title === title, name);
+    assert.equal(await page.evaluate(() => window.amble.stage.text), flat);
+    assert.equal(await page.evaluate(() => window.amble.stage.walk.description.ground.kind), "plane");
+    assert.equal(JSON.parse(flat).seed, 7);
+    await button(page, "The best again").click();
+    await page.waitForFunction(() => /^Best of generation/.test(window.amble.stage.title));
+    assert.equal(await page.evaluate(() => window.amble.stage.walk.description.ground.kind), "plane", "also where the newest is put");
+    assert.match(await page.locator("#typically").textContent(), /^Typically: the middle of 16 new trials of the best, .* \d+ of these end in a fall\.$/);
+
+    await set("luck", "Seed 3");
+    assert.equal(await page.locator(".earlier").isHidden(), true, "another experiment has other runs before");
+    assert.equal(await field(page, "seed").inputValue(), "3");
+  }));
+
 test("any number of threads gives the same generations", async () => {
   const all = [];
   for (const threads of [1, 3])

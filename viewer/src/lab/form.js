@@ -10,8 +10,9 @@ const SEARCHES = [["objective", "the farthest"], ["novelty", "the newest"], ["ma
 const MUTATIONS = [["all", "weights, nodes, links"], ["weights", "weights only"], ["none", "none"]];
 const NOISES = [["none", "none"], ["little", "a little"], ["strong", "a lot"]];
 const HINTS = {
-  supg: "Each joint has a pattern, which begins anew when its foot touches the ground.", together: "As SUPGs, but all legs begin at the same time.",
-  sine: "A network of neurons reads joints, feet and a sine wave, its clock.", ctrnn: "Neurons that act on each other over time, and make a rhythm by themselves.",
+  supg: "Single-unit pattern generators: each joint has a pattern, which begins anew when its foot touches the ground.",
+  together: "As SUPGs, but all legs begin at the same time.",
+  sine: "A network of neurons reads joints, feet and a sine wave, its clock.", ctrnn: "A continuous-time recurrent neural network: neurons that act on each other over time, and make a rhythm by themselves.",
   objective: "Who walks farthest has most children.", novelty: "Who ends where nobody has ended has most children: novelty search.",
   "map-elites": "A map keeps the best robot of each kind, and all of them have children: MAP-Elites.",
   all: "Children get other weights, and now and then a new node or link.", weights: "The network stays as large as it is.", none: "Children are only mixed from two parents.",
@@ -33,7 +34,7 @@ const LATER = ["noise", "gravity"];
 export class Form {
   /** `changed(key)` is called after the user has chosen. */
   constructor(robots, changed) {
-    Object.assign(this, { changed, fields: new Map(), rows: [], hints: [] });
+    Object.assign(this, { changed, fields: new Map(), names: new Map(), texts: new Map(), rows: [], hints: [] });
     this.run = group("The run",
       this.field("robot", "Robot", select(robots.map(({ id, name }) => [id, name]))), this.field("controller", "Controller", select(CONTROLLERS)),
       this.hint("controller"), this.field("search", "Who has children", select(SEARCHES)), this.hint("search"), this.field("population", "Population", slider(10, 200, 10, 60), ({ population }) => `${population}`),
@@ -57,6 +58,8 @@ export class Form {
     control.addEventListener("input", () => this.show());
     control.addEventListener("change", () => this.changed(key));
     this.fields.set(key, control);
+    this.names.set(key, name);
+    this.texts.set(key, text);
     this.rows.push({ ...made, control });
     return made.label;
   }
@@ -73,6 +76,19 @@ export class Form {
     const values = {};
     for (const [key, control] of this.fields) values[key] = valueOf(key, control);
     return values;
+  }
+
+  /** What `values` have other than `others`, in words; not the seed, and nothing that has no effect. */
+  differences(values, others) {
+    const idle = { lostAt: values.lost === "never", roughness: values.ground === "plane", seed: true };
+    return [...this.fields.keys()].filter((key) => !idle[key] && values[key] !== others[key]).map((key) => this.words(key, values));
+  }
+  words(key, values) {
+    const control = this.fields.get(key), value = values[key];
+    if (key === "robot") return [...control.options].find((option) => option.value === value)?.textContent ?? value;
+    const option = control.tagName === "SELECT" && [...control.options].find((one) => one.value === String(value));
+    const text = control.type === "checkbox" ? (value ? "yes" : "no") : option ? option.textContent : this.texts.get(key)(values) || value;
+    return `${this.names.get(key).toLowerCase()} ${text}`;
   }
 
   set(values) {

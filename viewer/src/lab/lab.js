@@ -3,6 +3,7 @@ import { Machine } from "../amble.js";
 import { number } from "../plot.js";
 import { element, onThemeChange } from "../theme.js";
 import { Curve, kindsOf } from "./curve.js";
+import { Earlier } from "./earlier.js";
 import { Ends } from "./ends.js";
 import { Evolution } from "./evolution.js";
 import { Files } from "./open.js";
@@ -18,6 +19,7 @@ import { Toolbar } from "./toolbar.js";
 
 const SAY_EVERY = 10; // generations, to screen readers
 const MORE = 100; // generations, after the end
+const NAMED = 2; // settings, in the name of a run
 const PREVIEW_MS = 250; // after the last change of a setting
 const byId = (id) => document.getElementById(id);
 
@@ -31,11 +33,12 @@ export class Lab {
     this.curve = new Curve();
     this.ends = new Ends();
     this.map = new MapView((cell) => this.attempt(() => this.showElite(cell)));
-    byId("curves").append(this.curve.element);
+    this.earlier = new Earlier((run) => this.attempt(() => this.showEarlier(run)));
+    byId("curves").append(this.curve.element, this.earlier.element);
     byId("ends").append(this.ends.element);
     byId("cells").append(this.map.element);
     this.stage = new LabStage(module, byId("stage"), {
-      now: (walk, time_s) => this.showNow(time_s), shown: (walk) => this.showInside(walk),
+      now: (walk, time_s) => this.tellNow(time_s), shown: (walk) => this.showInside(walk),
       trouble: (error) => this.complain(error.message),
     });
     this.inside = new Inside(byId("inside"));
@@ -94,12 +97,15 @@ export class Lab {
   setUp(experiment, step) {
     if (!this.mayLeave()) return;
     if (this.evolution) this.anew();
-    if (this.experiment !== experiment.id) this.curve.forget();
+    if (this.experiment !== experiment.id) {
+      this.curve.forget();
+      this.earlier.forget();
+    }
     this.experiment = experiment.id;
-    this.stepName = experiment.steps.length > 1 ? step.name : experiment.title;
-    const { robot } = this.form.values();
-    this.form.set({ ...DEFAULTS, ...WORLD, robot, ...step.set });
+    const { robot, seed } = this.form.values(); // a class shares seeds among its pupils
+    this.form.set({ ...DEFAULTS, ...WORLD, robot, seed, ...step.set });
     this.form.setRobot(this.robot());
+    this.step = { name: experiment.steps.length > 1 ? step.name : experiment.title, settings: this.form.values(), seed: step.set.seed };
     this.attempt(() => this.preview());
     this.say(`${experiment.title}: ${step.name}. The settings are in place; press Start.`);
     this.toolbar.start.focus({ preventScroll: true });
@@ -161,11 +167,16 @@ export class Lab {
     this.refresh();
   }
 
+  /** The step that was set up, what was chosen otherwise, and the seed, unless the step is called by it. */
   runName(settings) {
-    return this.stepName ?? `${this.robot().name}, seed ${settings.seed}`;
+    const { name, settings: others, seed } = this.step ?? { settings: { ...DEFAULTS, ...WORLD, robot: settings.robot } };
+    const differences = this.form.differences(settings, others), many = differences.length > NAMED;
+    return [name ?? this.robot().name, ...differences.slice(0, NAMED), ...(many ? ["…"] : []),
+            ...(seed === settings.seed ? [] : [`seed ${settings.seed}`])].join(", ");
   }
 
   goOn() {
+    this.elsewhere = null;
     this.evolution.goOn();
     this.say("Evolution runs.");
     this.refresh();
@@ -179,7 +190,8 @@ export class Lab {
   /** Ends the run; settings can be chosen again. */
   anew() {
     this.evolution?.stop();
-    Object.assign(this, { evolution: null, progress: null, elite: false });
+    if (this.newest) this.earlier.add({ name: this.curve.name, ...this.newest });
+    Object.assign(this, { evolution: null, progress: null, newest: null, elite: false, elsewhere: null });
     this.map.mark(null);
     this.form.lock(false);
     byId("places").hidden = true;
@@ -201,7 +213,8 @@ export class Lab {
     if (!sameWorld(world, settings)) evolution.changeAt(evolution.generation, world);
     if (evolution.state === "ended") {
       const { ground, damage } = JSON.parse(plan).config;
-      await this.stage.put({ ground, damage });
+      this.elsewhere = { ground, damage };
+      await this.stage.put(this.elsewhere);
       this.say("The walker is there now.");
     } else {
       this.say("The world changes with the next generation.");
@@ -294,19 +307,32 @@ export class Lab {
     if (evolution !== this.evolution) return;
     this.map.mark(cell);
     Object.assign(this, { elite: true, best: { text, generation: this.progress.generation } });
-    await this.stage.show(text, "Of the map");
-    this.stage.clock.play();
-    this.refresh();
+    await this.showNow(text, "Of the map");
+  }
+  /** The best of a run before; that of now comes back when it is asked for. */
+  async showEarlier({ name, text, generation }) {
+    clearTimeout(this.waiting);
+    this.looker?.die();
+    this.looker = null;
+    Object.assign(this, { elite: true, best: { text, generation } });
+    this.map.mark(null);
+    await this.showNow(text, name);
   }
   async showBest() {
     Object.assign(this, { elite: false, best: this.newest });
     this.map.mark(null);
-    await this.stage.show(this.best.text, `Best of generation ${this.best.generation}`);
+    await this.showNow(this.best.text, `Best of generation ${this.best.generation}`);
+  }
+
+  /** At once, and where the walker before was put after the end of the run. */
+  async showNow(text, title) {
+    await this.stage.show(text, title);
+    if (this.elsewhere) await this.stage.put(this.elsewhere);
     this.stage.clock.play();
     this.refresh();
   }
 
-  showNow(time_s) {
+  tellNow(time_s) {
     const story = this.stage.story(time_s);
     if (byId("story").textContent !== story) byId("story").textContent = story;
     this.inside.show(time_s);

@@ -73,7 +73,7 @@ export class Files {
     lab.form.set(settings);
     lab.form.setRobot(lab.robot());
     lab.form.set({ missing: settings.missing });
-    lab.stepName = undefined;
+    lab.step = null;
     try {
       await lab.open(plan, settings, files);
     } catch (error) {

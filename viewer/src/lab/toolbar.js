@@ -4,9 +4,17 @@ import { element } from "../theme.js";
 import { button } from "../widgets.js";
 import { mapBins } from "./plan.js";
 
+const TRIALS = 16; // of what the best typically does: src/experiment/plan/typical_level.hpp
 const PUSH_S = 0.1, PUSH_M_S = 0.25; // a push gives the whole robot this speed
 
 const NUMBERS = ["Generations", "Best so far", "Best, typically", "Median of all", "Species", "Generations/s"];
+
+/** What "typically" stands for, and who falls. */
+function typicallyMeans({ typical, typical_fell: fell }) {
+  if (!Number.isFinite(typical)) return "";
+  const falls = Number.isFinite(fell) ? ` ${Math.round(fell * TRIALS)} of these end in a fall.` : "";
+  return `Typically: the middle of ${TRIALS} new trials of the best, each a little different.${falls}`;
+}
 
 const byId = (id) => document.getElementById(id);
 
@@ -63,6 +71,7 @@ export class Toolbar {
     bar.max = evolution?.generations ?? 1;
     bar.value = evolution?.generation ?? 0;
     byId("now").hidden = !progress;
+    byId("typically").textContent = progress ? typicallyMeans(progress) : "";
     if (progress) this.showNumbers(progress, evolution);
   }
 
