@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-/* The sensors of this moment. 0: they did not answer. */
+/* The foot switches of this moment. 0: they did not answer. */
 int board_read(walker_sensors *sensors);
 /* 1: the emergency stop is pressed, or its wire is broken (a switch that opens, from the pin to ground). */
 int board_stop_pressed(void);

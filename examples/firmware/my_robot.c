@@ -1,5 +1,5 @@
-/* The builder's numbers: wiring, and servos as calibration has found them. The only file to edit. Joints and legs are in
- * the order of walker.h. */
+/* The builder's numbers: wiring, servos as calibration has found them, and sensors beyond foot switches. The only file to
+ * edit. Joints and legs are in the order of walker.h. */
 #include "robot.h"
 
 /* pin, sign, zero_us, least_us, most_us, slew_us_per_s (6.5 rad/s), us_per_rad of a servo that nobody has calibrated.
@@ -27,6 +27,37 @@ const uint8_t robot_switch_pins[] = {34, 35, 36, 39};
 const safety_limits robot_safety_limits = {50000, 100000 / WALKER_TICK_US, 5000000 / WALKER_TICK_US,
                                            1000000 / WALKER_TICK_US};
 
+/* A command, `go SPEED TURN`, holds for 1 s: whoever steers sends a line more often. 0: it holds until the next. */
+const uint16_t robot_command_ticks = 1000000 / WALKER_TICK_US;
+
 /* Errors here: walker.h has another number of joints or legs than the tables above. */
 typedef char a_servo_for_each_joint[sizeof robot_servos == WALKER_JOINTS * sizeof(servo) ? 1 : -1];
 typedef char a_switch_for_each_leg[sizeof robot_switch_pins == WALKER_LEGS ? 1 : -1];
+
+#if ROBOT_READS_MORE && !defined ROBOT_EMULATED
+/* Errors here: the controller reads more than foot switches. Put in place of each #error line what reads that sensor, as the
+ * comment of walker.h has units and signs, e.g. from an IMU; and return 0 where it does not answer. Called once per tick. Or
+ * evolve a controller that does without: docs/BUILDING.md, "Steering on the table". */
+int robot_sense(walker_sensors *sensors) {
+  (void)sensors;
+#if WALKER_READS_ATTITUDE
+#error "This controller reads ATTITUDE: set sensors->roll_rad, pitch_rad and yaw_rad here"
+#endif
+#ifdef WALKER_READS_YAW_RATE
+#error "This controller reads YAW_RATE: set sensors->yaw_rate_rad_s here"
+#endif
+#if WALKER_READS_ANGLES
+#error "This controller reads ANGLES: set sensors->angle_rad[joint] of all joints here"
+#endif
+#ifdef WALKER_READS_SPEEDS
+#error "This controller reads SPEEDS: set sensors->speed_rad_s[joint] of all joints here"
+#endif
+#ifdef WALKER_READS_TORQUES
+#error "This controller reads TORQUES: set sensors->torque_nm[joint] of all joints here"
+#endif
+#ifdef WALKER_READS_LOADS
+#error "This controller reads LOADS: set sensors->load_n[leg] of all legs here"
+#endif
+  return 1;
+}
+#endif

@@ -32,6 +32,7 @@ void robot_init(robot *r) {
   r->calibration.fraction_bits = bits;
   r->calibration.joint = -1;
   r->calibration.print = board_print;
+  command_begin(&r->command);
   r->arm_was_pressed = 1; /* a button that is held while power comes arms nothing */
   r->line_length = 0;
 }
@@ -64,12 +65,24 @@ static void ramp(robot *r) {
   if (risen < rise_ticks) return;
   r->mode = ROBOT_WALKS;
   walker_init(&r->controller);
+  command_begin(&r->command);
   say("walks", "");
+}
+
+/* What was told to it goes on until there is another line, or for as long as my_robot.c has it. */
+static void tell(robot *r) {
+#ifdef WALKER_OBEYS
+  if (command_runs_out(&r->command, robot_command_ticks)) say("no line for long: ", "told to stand");
+  walker_set_command(&r->controller, r->command.speed_m_s, r->command.turn_rad_s);
+#else
+  (void)r;
+#endif
 }
 
 static void walk(robot *r) {
   walker_targets targets;
   int joint;
+  tell(r);
   walker_step(&r->controller, &r->sensors, &targets);
   for (joint = 0; joint < WALKER_JOINTS; ++joint) {
 #ifdef WALKER_FRACTION_BITS
@@ -119,6 +132,18 @@ static int same(const char *a, const char *b) {
   return *a == *b;
 }
 
+static void go(robot *r) {
+#ifdef WALKER_OBEYS
+  if (r->mode != ROBOT_WALKS)
+    say("not obeyed: ", "it does not walk");
+  else if (!command_take(&r->command, r->line))
+    say("expected go SPEED TURN, m/s and rad/s, e.g. go 0.2 -0.35, not ", r->line);
+#else
+  (void)r;
+  say("not obeyed: ", "this controller takes no commands");
+#endif
+}
+
 static void obey(robot *r, const safety_inputs *in) {
   if (same(r->line, "stop") ||
       (r->mode == ROBOT_CALIBRATES && !calibrate_line(&r->calibration, r->line))) {
@@ -131,8 +156,10 @@ static void obey(robot *r, const safety_inputs *in) {
   } else if (same(r->line, "calibrate") && r->mode == ROBOT_STOPPED && safety_arm(&r->safety, in)) {
     r->mode = ROBOT_CALIBRATES;
     calibrate_begin(&r->calibration);
+  } else if (command_begins(r->line)) {
+    go(r);
   } else if (r->line[0]) {
-    say("expected arm, stop or, while stopped, calibrate, not ", r->line);
+    say("expected arm, stop, go SPEED TURN or, while stopped, calibrate, not ", r->line);
   }
 }
 
@@ -154,6 +181,9 @@ static safety_inputs sense(robot *r, uint32_t now_us) {
   int leg;
   in.now_us = now_us;
   in.answered = board_read(&r->sensors) != 0;
+#if ROBOT_READS_MORE
+  in.answered = robot_sense(&r->sensors) != 0 && in.answered;
+#endif
   in.stop = board_stop_pressed() != 0;
   in.timed = r->mode != ROBOT_CALIBRATES; /* its tables take long to print */
   in.walks = r->mode == ROBOT_WALKS;

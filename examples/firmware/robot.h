@@ -4,6 +4,7 @@
 
 #include "board.h"
 #include "calibrate.h"
+#include "commands.h"
 #include "safety.h"
 #include "servos.h"
 #include "walker.h"
@@ -16,6 +17,15 @@ extern "C" {
 extern const servo robot_servos[];
 extern const uint8_t robot_switch_pins[];
 extern const safety_limits robot_safety_limits;
+extern const uint16_t robot_command_ticks; /* a command holds for so long without another line; 0: until the next */
+
+/* Whether the controller reads more than foot switches. */
+#if WALKER_READS_ANGLES || WALKER_READS_ATTITUDE || defined WALKER_READS_SPEEDS || defined WALKER_READS_TORQUES || \
+    defined WALKER_READS_YAW_RATE || defined WALKER_READS_LOADS
+#define ROBOT_READS_MORE 1
+/* The builder's function, my_robot.c: what board_read does not know of. 0: a sensor did not answer. */
+int robot_sense(walker_sensors *sensors);
+#endif
 
 typedef enum { ROBOT_STOPPED, ROBOT_RAMPS, ROBOT_WALKS, ROBOT_CALIBRATES } robot_mode;
 
@@ -28,6 +38,7 @@ typedef struct {
   walker_sensors sensors;
   safety safety;
   calibration calibration;
+  command command;
   uint8_t arm_was_pressed, line_length;
   char line[24];
 } robot;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "examples/firmware/calibrate.c"
+#include "examples/firmware/commands.c"
 #include "examples/firmware/pca9685.c"
 #include "examples/firmware/safety.c"
 #include "examples/firmware/servos.c"
@@ -214,6 +215,52 @@ TEST(FirmwareCalibration, StaysWithinWhatServosBear) {
   EXPECT_EQ(say.state.pulse_us, 2500);
   for (int i = 0; i < 30; ++i) say("-100");
   EXPECT_EQ(say.state.pulse_us, 500);
+}
+
+TEST(FirmwareCommands, AreTakenFromTheirLine) {
+  for (const auto& [line, speed_m_s, turn_rad_s] : {std::tuple{"go 0.2 -0.35", 0.2f, -0.35f},
+                                                    {"go 0 0", 0.0f, 0.0f},
+                                                    {"go  +1  2 ", 1.0f, 2.0f},
+                                                    {"go -.5 1.", -0.5f, 1.0f},
+                                                    {"go 99.9999 -0.0001", 99.9999f, -0.0001f}}) {
+    command told{.speed_m_s = 7.0f, .turn_rad_s = 7.0f, .ticks = 3};
+    EXPECT_EQ(command_take(&told, line), 1) << line;
+    EXPECT_FLOAT_EQ(told.speed_m_s, speed_m_s) << line;
+    EXPECT_FLOAT_EQ(told.turn_rad_s, turn_rad_s) << line;
+    EXPECT_EQ(told.ticks, 0) << line;
+  }
+}
+
+TEST(FirmwareCommands, OfOtherLinesChangeNothing) {
+  for (const char* line :
+       {"go",           "go ",      "go 1",      "go 1 ",  "go 1 2 3",  "go 1 x",   "go x 1",
+        "go 1,2 3",     "go 1e1 2", "go - 1",    "go . 1", "go 1..2 3", "go 1 --2", "go 100 1",
+        "go 0.00001 1", "go nan 1", "go0.1 0.2", "GO 1 1", "ago 1 1",   ""}) {
+    command told{.speed_m_s = 7.0f, .turn_rad_s = -7.0f, .ticks = 3};
+    EXPECT_EQ(command_take(&told, line), 0) << line;
+    EXPECT_EQ(told.speed_m_s, 7.0f) << line;
+    EXPECT_EQ(told.turn_rad_s, -7.0f) << line;
+    EXPECT_EQ(told.ticks, 3) << line;
+  }
+  EXPECT_EQ(command_begins("go"), 1);
+  EXPECT_EQ(command_begins("go x"), 1);
+  EXPECT_EQ(command_begins("gone"), 0);
+}
+
+TEST(FirmwareCommands, RunOutWhereNoLineFollows) {
+  command told;
+  command_begin(&told);
+  ASSERT_EQ(command_take(&told, "go 0 0.1"), 1);
+  for (int tick = 0; tick < 99; ++tick) EXPECT_EQ(command_runs_out(&told, 100), 0);
+  ASSERT_EQ(command_take(&told, "go 0.2 0"), 1);
+  for (int tick = 0; tick < 100; ++tick) EXPECT_EQ(command_runs_out(&told, 100), 0);
+  EXPECT_EQ(told.speed_m_s, 0.2f);
+  EXPECT_EQ(command_runs_out(&told, 100), 1);
+  EXPECT_EQ(told.speed_m_s, 0.0f);
+  for (int tick = 0; tick < 70000; ++tick) EXPECT_EQ(command_runs_out(&told, 100), 0);
+  ASSERT_EQ(command_take(&told, "go 0.2 0"), 1);
+  for (int tick = 0; tick < 70000; ++tick) EXPECT_EQ(command_runs_out(&told, 0), 0);
+  EXPECT_EQ(told.speed_m_s, 0.2f);
 }
 
 TEST(FirmwarePca9685, CountsTheNearestOfItsClock) {

@@ -201,22 +201,101 @@ TEST(Firmware, OfAnArduinoThatHangsIsResetAndWaitsToBeArmed) {
   expect_in_page(ran.out);
 }
 
+/// The example with another controller.
+void write_example(const TemporaryFolder& scratch, const experiment::Champion& champion,
+                   Arithmetic arithmetic = Arithmetic::float32) {
+  std::filesystem::copy(example, scratch / "firmware", std::filesystem::copy_options::recursive);
+  write_walker(scratch / "firmware", champion, arithmetic);
+}
+
+Ran make_other(const TemporaryFolder& scratch, const std::string& goal) {
+  return run_shell("make -s --no-print-directory -C '" + (scratch / "firmware").string() + "' OUT='" +
+                   (scratch / "build").string() + "' " + goal);
+}
+
+const std::string modulation = "controller.supg.modulation.";
+const std::vector<std::string> no_switches = {"controller.supg.trigger=none", "controller.supg.idle=wrap"};
+
+/// SUPGs without switches that are told a speed and a turn.
+experiment::Champion obeying() {
+  Sample sample{.name = "obeying", .preset = "authors/supg", .assignments = no_switches};
+  sample.assignments.insert(sample.assignments.end(),
+                            {modulation + R"(sensors=["command_speed","command_turn"])",
+                             modulation + "rate=1", modulation + "shape=1", "command.kind=random"});
+  return evolve(sample);
+}
+
+/// A controller that reads all that an export can read.
+experiment::Champion feeling() {
+  return evolve(
+      {.name = "feeling",
+       .preset = "authors/supg",
+       .assignments = {
+           modulation + R"(sensors=["roll","yaw_rate","load","speed.hip_io","torque.knee","angle.knee"])",
+           modulation + "rate=1", modulation + "shape=1"}});
+}
+
 TEST(Firmware, OfOtherControllersIsJudgedGoodAsWell) {
-  Sample untriggered{.name = "untriggered",
-                     .preset = "authors/supg",
-                     .assignments = {"controller.supg.trigger=none", "controller.supg.idle=wrap"}};
-  const experiment::Champion blind = evolve(untriggered), other = champion_of("quadruped_supg");
+  const experiment::Champion blind = evolve(
+                                 {.name = "blind", .preset = "authors/supg", .assignments = no_switches}),
+                             other = champion_of("quadruped_supg"), feels = feeling();
   for (const auto& [champion, arithmetic] : {std::pair{&other, Arithmetic::float32},
                                              {&other, Arithmetic::fixed},
                                              {&blind, Arithmetic::float32},
-                                             {&blind, Arithmetic::fixed}}) {
+                                             {&blind, Arithmetic::fixed},
+                                             {&feels, Arithmetic::float32}}) {
     const TemporaryFolder scratch;
-    std::filesystem::copy(example, scratch / "firmware", std::filesystem::copy_options::recursive);
-    write_walker(scratch / "firmware", *champion, arithmetic);
-    const Ran ran = run_shell("make -s --no-print-directory -C '" + (scratch / "firmware").string() +
-                              "' OUT='" + (scratch / "build").string() + "' run-60s-host");
+    write_example(scratch, *champion, arithmetic);
+    const Ran ran = make_other(scratch, "run-60s-host");
     EXPECT_EQ(ran.exit_code, 0) << ran.out;
   }
+}
+
+/// Expects that a log with a fault is judged bad, in a row.
+void expect_seen(const std::filesystem::path& folder, const std::string& fault, const std::string& row) {
+  const Ran judged = run_shell("cd '" + folder.string() + "' && sed '" + fault + "' host.log | ./check_run");
+  EXPECT_EQ(judged.exit_code, 1) << fault;
+  const std::size_t at = judged.out.find(row);
+  ASSERT_NE(at, std::string::npos) << row;
+  const std::string line = judged.out.substr(at, judged.out.find('\n', at) - at);
+  EXPECT_NE(line.find("not as wanted"), std::string::npos) << fault << "\n" << judged.out;
+}
+
+TEST(Firmware, OfAControllerThatObeysIsToldWhatToDoAndStandsWhereNoLineFollows) {
+  const TemporaryFolder scratch;
+  write_example(scratch, obeying());
+  const Ran ran = make_other(scratch, "run-60s-host");
+  ASSERT_EQ(ran.exit_code, 0) << ran.out;
+  for (const auto& [fault, row] : std::map<std::string, std::string>{
+           {"/^T 800 /,/^T 801 /s/^P 13 .*/P 13 1777/", "those of the exported controller"},
+           {"/^S no line for long/d", "told to stand"},
+           {"/^S not obeyed/d", "while it does not walk"}})
+    expect_seen(scratch / "build", fault, row);
+  // A second is the builder's choice.
+  run_shell("sed -i 's/robot_command_ticks = 1000000/robot_command_ticks = 2000000/' '" +
+            (scratch / "firmware/my_robot.c").string() + "'");
+  const Ran slower = make_other(scratch, "run-60s-host");
+  EXPECT_EQ(slower.exit_code, 0) << slower.out;
+  EXPECT_NE(slower.out.find("| 2 from 13.51 s on | 2 from 13.51 s on |"), std::string::npos) << slower.out;
+}
+
+TEST(Firmware, OfAControllerThatReadsMoreSaysWhatAndIsCopiedOnceThatIsRead) {
+  const TemporaryFolder scratch;
+  write_example(scratch, feeling());
+  for (const char* goal : {"esp32", "esp32-pca9685", "arduino"}) {
+    const Ran refused = make_other(scratch, goal);
+    EXPECT_NE(refused.exit_code, 0) << goal;
+    for (const char* what : {"ATTITUDE", "YAW_RATE", "ANGLES", "SPEEDS", "TORQUES", "LOADS"})
+      EXPECT_NE(refused.out.find(std::string("This controller reads ") + what), std::string::npos)
+          << what << " " << refused.out;
+    EXPECT_FALSE(std::filesystem::exists(scratch / "build/main/my_robot.c")) << goal;
+  }
+  // Headers that are not here do not matter.
+  run_shell("sed -i 's/^#error .*/#include \"of_an_imu.h\"/' '" + (scratch / "firmware/my_robot.c").string() +
+            "'");
+  const Ran copied = make_other(scratch, "esp32");
+  EXPECT_EQ(copied.exit_code, 0) << copied.out;
+  EXPECT_TRUE(std::filesystem::exists(scratch / "build/main/my_robot.c"));
 }
 
 TEST(Firmware, CheckOfARunSeesEachKindOfFault) {
@@ -231,15 +310,9 @@ TEST(Firmware, CheckOfARunSeesEachKindOfFault) {
            {"/^T 1850 /,/^T 1851 /s/^P 17 .*/P 17 1700/", "pressed at 18.00 s"},
            {"/^T 3200 /,/^T 3201 /s/^P 17 .*/P 17 1700/", "a tick 70 ms late"},
            {"/^T 50 /,/^T 51 /s/^P 17 .*/P 17 1700/", "before it is armed"},
-           {"/^T 4000 /,/^T 4001 /d", "got its pulse"}}) {
-    const Ran judged =
-        run_shell("cd '" + scratch.path().string() + "' && sed '" + fault + "' host.log | ./check_run");
-    EXPECT_EQ(judged.exit_code, 1) << fault;
-    const std::size_t at = judged.out.find(row);
-    ASSERT_NE(at, std::string::npos);
-    const std::string line = judged.out.substr(at, judged.out.find('\n', at) - at);
-    EXPECT_NE(line.find("not as wanted"), std::string::npos) << fault << "\n" << judged.out;
-  }
+           {"/^T 4000 /,/^T 4001 /d", "got its pulse"},
+           {"0,/^S not obeyed/{/^S not obeyed/d}", "takes none"}})
+    expect_seen(scratch.path(), fault, row);
 }
 
 /// The lines of a code block of a page, from the one that begins with `first` on.
@@ -294,9 +367,9 @@ TEST(Firmware, OfAnEsp32ComesAsAComponentOfEspIdf) {
 
 TEST(Firmware, NamesNoLegAndNoJoint) {
   for (const char* file :
-       {"robot.c", "robot.h", "my_robot.c", "board.h", "safety.c", "calibrate.c", "servos.c",
+       {"robot.c", "robot.h", "my_robot.c", "board.h", "safety.c", "calibrate.c", "commands.c", "servos.c",
         "arduino/arduino.ino", "esp32/main.c", "esp32/pulses_ledc.c", "esp32/pulses_pca9685.c",
-        "emulator/board_qemu.c", "emulator/esp_idf_fake.c", "emulator/check_run.c"}) {
+        "emulator/board_qemu.c", "emulator/esp_idf_fake.c", "emulator/check_run.c", "emulator/sense.h"}) {
     const std::string text = io::read_file(example + file);
     for (const char* name : {"WALKER_JOINT_", "WALKER_LEG_", "front", "rear", "knee", "shoulder"})
       EXPECT_EQ(text.find(name), std::string::npos) << file << " " << name;

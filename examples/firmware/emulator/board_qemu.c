@@ -3,6 +3,7 @@
  * somebody who walks on the spot, and the servos' pulses go to the standard output by semihosting. */
 #include "robot.h"
 #include "script.h"
+#include "sense.h"
 #include "semihosting.h"
 
 enum { arm_tick = 2, last_tick = 600 /* 6 s */ };
@@ -78,10 +79,21 @@ static int wait_for_tick(void) {
 }
 
 int board_read(walker_sensors *sensors) {
+#if WALKER_READS_TOUCH
   uint32_t leg;
   for (leg = 0; leg < WALKER_LEGS; ++leg) sensors->touch[leg] = (uint8_t)script_touch(ticks_done, leg);
+#else
+  (void)sensors;
+#endif
   return 1;
 }
+
+#if ROBOT_READS_MORE
+int robot_sense(walker_sensors *sensors) {
+  script_sense(sensors, ticks_done);
+  return 1;
+}
+#endif
 
 int board_stop_pressed(void) { return 0; }
 int board_arm_pressed(void) { return ticks_done == arm_tick; }

@@ -8,6 +8,7 @@
 
 #include "robot.h"
 #include "script.h"
+#include "sense.h"
 
 enum { stagger = 10, rise = 200, ramp_length = WALKER_JOINTS * stagger + rise + 1, most_events = 64 };
 
@@ -114,31 +115,79 @@ static int stretches(stretch found[8]) {
   return 5;
 }
 
+/* The exported controller, and the servos behind it. */
+typedef struct {
+  walker_state state;
+  int wanted_us[WALKER_JOINTS], now_us[WALKER_JOINTS];
+} follower;
+
+static void follower_begin(follower *f) {
+  int joint;
+  walker_init(&f->state);
+  for (joint = 0; joint < WALKER_JOINTS; ++joint) f->now_us[joint] = goal_us(joint, rounded_rad(first_rad[joint]));
+}
+
+static void follower_step(follower *f, int tick) {
+  walker_sensors sensors;
+  walker_targets targets;
+  int joint;
+#if WALKER_READS_TOUCH
+  int leg;
+#endif
+  memset(&sensors, 0, sizeof sensors);
+#if WALKER_READS_TOUCH
+  for (leg = 0; leg < WALKER_LEGS; ++leg) sensors.touch[leg] = (uint8_t)script_touch((uint32_t)tick, (uint32_t)leg);
+#endif
+  script_sense(&sensors, (uint32_t)tick);
+  walker_step(&f->state, &sensors, &targets);
+  for (joint = 0; joint < WALKER_JOINTS; ++joint) {
+    f->wanted_us[joint] = goal_us(joint, target_rad(&targets, joint));
+    f->now_us[joint] = slewed_us(joint, f->now_us[joint], f->wanted_us[joint]);
+  }
+}
+
+#ifdef WALKER_OBEYS
+/* Whether a command is in effect in a tick, and which: the last line that was read since it walks and is not too old. */
+static int told(int tick, int walks_from, float *speed_m_s, float *turn_rad_s) {
+  int read_in;
+  for (read_in = tick; read_in >= walks_from; --read_in) {
+    const char *line = script_line((uint32_t)read_in - 1);
+    if (robot_command_ticks > 0 && tick - read_in >= robot_command_ticks) break;
+    if (line) return sscanf(line, "go %f %f", speed_m_s, turn_rad_s) == 2;
+  }
+  *speed_m_s = *turn_rad_s = 0.0f;
+  return 0;
+}
+
+static void tell(follower *f, int tick, int walks_from) {
+  float speed_m_s, turn_rad_s;
+  told(tick, walks_from, &speed_m_s, &turn_rad_s);
+  walker_set_command(&f->state, speed_m_s, turn_rad_s);
+}
+#else
+static void tell(follower *f, int tick, int walks_from) { (void)f, (void)tick, (void)walks_from; }
+#endif
+
 /* ---- rows ---- */
 
-static void check_targets(const stretch *found, int count) {
-  long same = 0, all = 0, limited = 0;
+/* The number of pulses that commands changed. */
+static long check_targets(const stretch *found, int count) {
+  long same = 0, all = 0, limited = 0, changed = 0;
   int i, joint, tick;
   char text[128], wanted[64];
   for (i = 0; i < count; ++i) {
-    walker_state state;
-    int now_us[WALKER_JOINTS];
-    walker_init(&state);
-    for (joint = 0; joint < WALKER_JOINTS; ++joint) now_us[joint] = goal_us(joint, rounded_rad(first_rad[joint]));
-    for (tick = found[i].armed + ramp_length; tick < found[i].ends; ++tick) {
-      walker_sensors sensors;
-      walker_targets targets;
-#if WALKER_READS_TOUCH
-      int leg;
-      for (leg = 0; leg < WALKER_LEGS; ++leg) sensors.touch[leg] = (uint8_t)script_touch((uint32_t)tick, (uint32_t)leg);
-#endif
-      walker_step(&state, &sensors, &targets);
-      for (joint = 0; joint < WALKER_JOINTS; ++joint) {
-        const int wanted_us = goal_us(joint, target_rad(&targets, joint));
-        now_us[joint] = slewed_us(joint, now_us[joint], wanted_us);
-        limited += now_us[joint] != wanted_us;
-        same += pulses[tick][joint] == logged(now_us[joint]);
-        ++all;
+    const int walks_from = found[i].armed + ramp_length;
+    follower obeys, deaf;
+    follower_begin(&obeys);
+    follower_begin(&deaf);
+    for (tick = walks_from; tick < found[i].ends; ++tick) {
+      tell(&obeys, tick, walks_from);
+      follower_step(&obeys, tick);
+      follower_step(&deaf, tick);
+      for (joint = 0; joint < WALKER_JOINTS; ++joint, ++all) {
+        limited += obeys.now_us[joint] != obeys.wanted_us[joint];
+        changed += obeys.now_us[joint] != deaf.now_us[joint];
+        same += pulses[tick][joint] == logged(obeys.now_us[joint]);
       }
     }
   }
@@ -147,6 +196,7 @@ static void check_targets(const stretch *found, int count) {
   row(same == all && all > 0, "pulses of walking that are those of the exported controller", wanted, text);
   snprintf(text, sizeof text, "%.1f %%", 100.0 * (double)limited / (double)all);
   row(1, "of them held back by the slew", "–", text);
+  return changed;
 }
 
 static void check_limits(void) {
@@ -225,6 +275,48 @@ static void check_stop(const char *what, const char *words, int from, int until)
   row(event == from && with == 0 && any_pulse(from - 1) && (until == script_ticks || any_pulse(until)), what, wanted, text);
 }
 
+/* How often the robot said something, and the tick in which it did so first; -1: never. */
+static int said(const char *words, int *first) {
+  int i, times = 0;
+  *first = -1;
+  for (i = 0; i < event_count; ++i)
+    if (strcmp(events[i].text, words) == 0 && times++ == 0) *first = events[i].tick;
+  return times;
+}
+
+static void check_said(const char *what, const char *words, int times, int from) {
+  char text[128], wanted[64];
+  int first;
+  const int found = said(words, &first);
+  snprintf(wanted, sizeof wanted, "%d from %.2f s on", times, from * (WALKER_TICK_US / 1e6));
+  snprintf(text, sizeof text, "%d from %.2f s on", found, first * (WALKER_TICK_US / 1e6));
+  row(found == times && first == from, what, wanted, text);
+}
+
+#ifdef WALKER_OBEYS
+static void check_commands(const stretch *found, long changed) {
+  const int walks_from = found[0].armed + ramp_length;
+  int tick, times = 0, from = -1;
+  float speed_m_s, turn_rad_s;
+  char text[128];
+  snprintf(text, sizeof text, "%ld", changed);
+  row(changed > 0, "of them changed by commands, `go 0.2 0.3` at 7.00 s and others", "some", text);
+  for (tick = walks_from + 1; tick < found[0].ends; ++tick)
+    if (told(tick - 1, walks_from, &speed_m_s, &turn_rad_s) && !told(tick, walks_from, &speed_m_s, &turn_rad_s) && times++ == 0)
+      from = tick;
+  check_said("told to stand, as no line came for long", "no line for long: told to stand", times, from);
+  check_said("refused: a command at 19.20 s, while it does not walk", "not obeyed: it does not walk", 1, told_in_vain + 1);
+}
+#else
+static void check_commands(const stretch *found, long changed) {
+  int tick, lines = 0;
+  (void)found, (void)changed;
+  for (tick = 0; tick < script_ticks; ++tick) lines += script_line((uint32_t)tick) != 0;
+  check_said("refused: commands, from 7.00 s on, as this controller takes none", "not obeyed: this controller takes no commands",
+             lines, told_first + 1);
+}
+#endif
+
 static void check_before(void) {
   int tick, with = 0;
   char text[128];
@@ -249,7 +341,7 @@ int main(void) {
   check_ticks();
   check_before();
   check_ramps(found, count);
-  check_targets(found, count);
+  check_commands(found, check_targets(found, count));
   check_limits();
   check_slew();
   check_stop("stop by the switch, pressed at 18.00 s; armed in vain at 19.00 s", "stopped: emergency stop", stop_pressed,

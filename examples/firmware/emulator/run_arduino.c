@@ -58,6 +58,10 @@ static void ignore_low_pins(void) {
   for (interrupt = 0; interrupt < 8; ++interrupt) avr_extint_set_strict_lvl_trig(avr, interrupt, 0);
 }
 
+static void type_line(const char *line) {
+  for (; line && *line; ++line) avr_raise_irq(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_INPUT), (uint8_t)*line);
+}
+
 static void light_changed(avr_irq_t *irq, uint32_t value, void *param) {
   static uint32_t before = 0;
   (void)irq, (void)param;
@@ -68,6 +72,7 @@ static void light_changed(avr_irq_t *irq, uint32_t value, void *param) {
   if (hangs && reset_us == 0 && hung_us > 0) reset_us = now_us();
   if (hangs) return;
   if (tick < script_ticks) printf("T %ld %ld\n", tick, now_us());
+  type_line(script_line((uint32_t)tick));
 }
 
 /* ---- PCA9685 ---- */

@@ -7,6 +7,10 @@
 enum {
   script_ticks = 6000,
   armed_first = 100,
+  told_first = 700, /* a line each half a second, then none */
+  told_last = 1150,
+  told_again = 1500, /* one line */
+  told_in_vain = 1920, /* it does not walk */
   stop_pressed = 1800,
   armed_in_vain = 1900, /* the stop is still pressed */
   stop_released = 1950,
@@ -32,6 +36,13 @@ static inline int script_arms(uint32_t tick) {
 }
 
 static inline int script_stops(uint32_t tick) { return tick >= stop_pressed && tick < stop_released; }
+
+/* What somebody types while a tick goes on; the program reads it in the next one. 0: nothing. */
+static inline const char *script_line(uint32_t tick) {
+  if (tick >= told_first && tick <= told_last && (tick - told_first) % 50u == 0) return "go 0.2 0.3\n";
+  if (tick == told_again) return "go 0.1 -0.3\n";
+  return tick == told_in_vain ? "go 0.3 0\n" : 0;
+}
 
 /* Feet come down after 0.8 s and a little, each in its own time, and stay for half of it. */
 static inline int script_touch(uint32_t tick, uint32_t leg) {
