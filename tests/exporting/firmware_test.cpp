@@ -350,18 +350,23 @@ TEST(Firmware, CalibrationAnswersAsItsPageSaysAndItsTableCompiles) {
   EXPECT_EQ(compiled.exit_code, 0) << compiled.out;
 }
 
-TEST(Firmware, OfAnEsp32ComesAsAComponentOfEspIdf) {
-  if (!installed("riscv64-unknown-elf-gcc")) GTEST_SKIP() << "riscv64-unknown-elf-gcc: ./setup --firmware";
+TEST(Firmware, OfAnEsp32ComesAsAComponentOfEspIdfAlsoWhereItCannotBeCompiled) {
   const TemporaryFolder scratch;
   for (const auto& [target, ours, other] :
        {std::tuple{"esp32", "main/pulses_ledc.c", "main/pulses_pca9685.c"},
         {"esp32-pca9685", "main/pulses_pca9685.c", "main/pulses_ledc.c"},
-        {"esp32", "main/pulses_ledc.c", "main/pca9685.c"}}) {
+        {"esp32", "main/pulses_ledc.c", "main/pca9685.c"},
+        {"esp32-pca9685 RISCV=no-compiler", "main/pulses_pca9685.c", "main/pulses_ledc.c"},
+        {"esp32 RISCV=no-compiler", "main/pulses_ledc.c", "main/pulses_pca9685.c"}}) {
+    const bool compiles =
+        std::string(target).find('=') == std::string::npos && installed("riscv64-unknown-elf-gcc");
     const Ran ran = make_example(scratch, target);
     EXPECT_EQ(ran.exit_code, 0) << ran.out;
     EXPECT_TRUE(std::filesystem::exists(scratch / "main/main.c"));
     EXPECT_TRUE(std::filesystem::exists(scratch / ours)) << target;
     EXPECT_FALSE(std::filesystem::exists(scratch / other)) << target;
+    EXPECT_EQ(ran.out.find("copied without compiling it") == std::string::npos, compiles) << ran.out;
+    EXPECT_EQ(std::ranges::count(ran.out, '\n'), compiles ? 0 : 1) << ran.out;
   }
 }
 
