@@ -12,6 +12,7 @@
 #include <system_error>
 #include <vector>
 
+#include "amble/cli/data_folder.hpp"
 #include "amble/cli/help.hpp"
 #include "amble/cli/messages.hpp"
 #include "amble/experiment/build_info.hpp"
@@ -120,7 +121,10 @@ std::string circumstances(int argc, char** argv) {
 }
 
 ExitCode run(int all, char** words) {
-  std::vector<char*> arguments = load_plugins(all, words);
+  const std::vector<char*> given = load_plugins(all, words);
+  std::vector<std::string> texts = amble::cli::with_own_files({given.begin(), given.end()});
+  std::vector<char*> arguments;
+  for (std::string& text : texts) arguments.push_back(text.data());
   const int argc = static_cast<int>(arguments.size());
   char** const argv = arguments.data();
   CLI::App app("Evolves walking controllers for legged robots.", "amble");

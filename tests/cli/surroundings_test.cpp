@@ -51,6 +51,9 @@ class Surroundings : public testing::Test {
            "' --set engine=batch --set population.size=6 --set trial.duration_s=0.3 --jobs 1 " + more +
            " --out " + io::shell_quoted(out);
   }
+  static std::string small() {
+    return " --set engine=batch --set population.size=6 --set trial.duration_s=0.3 --generations 1 --jobs 1 ";
+  }
   std::vector<std::string> left_in(const std::string& folder) const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(scratch_ / folder))
@@ -67,6 +70,26 @@ std::string after(const std::string& text, const std::string& beginning) {
   if (at == std::string::npos) return "";
   const std::size_t from = at + beginning.size();
   return text.substr(from, text.find('\n', from) - from);
+}
+
+TEST_F(Surroundings, ConfigsAndRobotsOfTheDocsAreFoundFromAnyFolder) {
+  const Said evolved = shell(
+      "amble evolve configs/quick/quadruped.toml --set robot=robots/servo/servo.toml --set "
+      "controller.substrate=auto" +
+      small() + "--out robots/servo");
+  EXPECT_EQ(evolved.code, ok) << evolved.text;
+  EXPECT_THAT(
+      evolved.text,
+      HasSubstr(
+          "note: configs/quick/quadruped.toml is not in this folder; it is taken from " AMBLE_SOURCE_DIR));
+  EXPECT_THAT(evolved.text, HasSubstr("note: robots/servo/servo.toml is not in this folder"));
+  EXPECT_TRUE(std::filesystem::exists(scratch_ / "robots/servo/config.toml")) << "what is written stays here";
+  const Said own = shell("amble trial robots/servo --undisturbed --seconds 0.1");
+  EXPECT_EQ(own.code, ok) << own.text;
+  EXPECT_EQ(own.text.find("note: robots"), std::string::npos) << "a folder of one's own goes before";
+  EXPECT_EQ(shell("amble trial robots/hexapod/champion.json --undisturbed --seconds 0.1").code, ok);
+  EXPECT_THAT(shell("amble evolve configs/none.toml --out runs/1").text,
+              HasSubstr("configs/none.toml: No such file"));
 }
 
 TEST_F(Surroundings, CommandsThatArePrintedCanBePastedWhateverTheRunIsCalled) {
