@@ -58,8 +58,7 @@ void ProgressLine::on_generation(const experiment::GenerationRow& row, const exp
   };
   const auto species = row.metric("species");
   show({fmt::format("generation {}/{}", done, config.generations),
-        fmt::format("typically {}", text(row.typical.median)),
-        fmt::format("(evaluated at {:.2f})", progress.best),
+        fmt::format("typically {}", text(row.typical.median)), fmt::format("(scored {:.2f})", progress.best),
         fmt::format("{} {}", last ? "took" : "left", clock_text(last ? now - start_s_ : left_s)),
         fmt::format("median {}", text(row.median)),
         row.diverged > 0 ? fmt::format("{} diverged", row.diverged) : "",
