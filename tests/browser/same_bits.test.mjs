@@ -16,16 +16,25 @@ before(async () => {
   mkdirSync(AMBLE_WORK, { recursive: true });
 });
 
-champions.forEach(([name, champion], number) =>
-  test(`${name}: the same bits in ${STEPS} steps of a session, and in the trial of its file`, async () => {
-    const robot = await LiveRobot.open(module, text(champion));
-    assert.equal(robot.stepsAsRecorded(), robot.describe().recorded_steps);
-    await runSession(robot, number);
-    const { status, stdout, stderr } = again(champion, robot.inputs(), `session-${number}`);
-    assert.equal(stderr, "");
-    assert.match(stdout, new RegExp(`^steps +${STEPS}$`, "m"));
-    assert.match(stdout, /^bits +the same in every step$/m);
-    assert.equal(status, 0);
+/**
+ * Sessions of each champion: numbers that are apart by the champions, of which there are as many as neither grounds nor damages divide. So seven
+ * are on all grounds and have all damages, and AMBLE_SESSIONS=42 is all grounds with all damages.
+ */
+const SESSIONS = Number(process.env.AMBLE_SESSIONS ?? 7);
+
+champions.forEach(([name, champion], first) =>
+  test(`${name}: the same bits in ${SESSIONS} sessions of ${STEPS} steps, and in the trial of its file`, async () => {
+    assert.equal(champions.length, 11);
+    for (let i = 0; i < SESSIONS; ++i) {
+      const robot = await LiveRobot.open(module, text(champion)), number = first + i * champions.length;
+      assert.equal(robot.stepsAsRecorded(), robot.describe().recorded_steps);
+      await runSession(robot, number);
+      const { status, stdout, stderr } = again(champion, robot.inputs(), `session-${number}`);
+      assert.equal(stderr, "");
+      assert.match(stdout, new RegExp(`^steps +${STEPS}$`, "m"));
+      assert.match(stdout, /^bits +the same in every step$/m, `session ${number}`);
+      assert.equal(status, 0);
+    }
   }));
 
 test("the native program tells the first step that is another, and another champion", async () => {
