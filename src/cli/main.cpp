@@ -124,6 +124,7 @@ ExitCode run(int all, char** words) {
   const std::vector<char*> given = load_plugins(all, words);
   std::vector<std::string> texts = amble::cli::with_own_files({given.begin(), given.end()});
   std::vector<char*> arguments;
+  arguments.reserve(texts.size());
   for (std::string& text : texts) arguments.push_back(text.data());
   const int argc = static_cast<int>(arguments.size());
   char** const argv = arguments.data();

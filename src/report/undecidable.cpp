@@ -41,9 +41,9 @@ std::string too_few(const ClaimSpec& claim, std::size_t planned) {
 
 std::string line_of(const StudyData& data, const ClaimSpec& claim) {
   if (claim.kind == ClaimKind::plateau)
-    if (const std::string line = too_short(data.study, claim); !line.empty()) return line;
+    if (std::string line = too_short(data.study, claim); !line.empty()) return line;
   if (claim.kind == ClaimKind::count)
-    if (const std::string line = too_few(claim, data.planned(claim.condition)); !line.empty()) return line;
+    if (std::string line = too_few(claim, data.planned(claim.condition)); !line.empty()) return line;
   std::size_t least = data.planned(claim.condition);
   std::string fewest = claim.condition;
   if (!claim.against.empty() && data.planned(claim.against) < least) {
