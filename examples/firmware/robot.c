@@ -34,7 +34,7 @@ void robot_init(robot *r) {
   r->calibration.print = board_print;
   command_begin(&r->command);
   r->arm_was_pressed = 1; /* a button that is held while power comes arms nothing */
-  r->line_length = 0;
+  r->line_length = r->line_is_long = 0;
 }
 
 static void say(const char *before, const char *words) {
@@ -169,9 +169,15 @@ static void listen(robot *r, const safety_inputs *in) {
     if (character == '\n' || character == '\r') {
       r->line[r->line_length] = 0;
       r->line_length = 0;
-      obey(r, in);
+      if (r->line_is_long)
+        say("too long, not obeyed: ", r->line);
+      else
+        obey(r, in);
+      r->line_is_long = 0;
     } else if (r->line_length + 1 < (int)sizeof r->line) {
       r->line[r->line_length++] = (char)character;
+    } else {
+      r->line_is_long = 1;
     }
   }
 }

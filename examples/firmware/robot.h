@@ -41,6 +41,7 @@ typedef struct {
   command command;
   uint8_t arm_was_pressed, line_length;
   char line[24];
+  uint8_t line_is_long; /* so that the rest of it was dropped */
 } robot;
 
 /* Stopped, no pulses. Once the board is ready. */

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <string_view>
 #include <system_error>
 
@@ -27,25 +29,35 @@ std::optional<fs::path> data_folder() {
 
 namespace {
 
-/// Of a word such as configs/quick/supg.toml, --noise=configs/… or robot=robots/… the path, as far as it can
-/// be one of ours; else empty.
+/// Options whose values are written, or are words.
+bool takes_no_input(std::string_view option) {
+  constexpr std::array<std::string_view, 10> options{"-o",      "--out",    "--csv",      "--figures",
+                                                     "--json",  "--record", "--patterns", "--mjcf",
+                                                     "--slurm", "--title"};
+  return std::ranges::find(options, option) != options.end();
+}
+
+/// Of a word such as configs/quick/supg.toml, --noise=configs/…, robot=robots/… or --set=robot=robots/… the
+/// path, as far as it can be one of ours; else empty.
 std::string_view path_in(std::string_view word) {
-  const std::size_t equals = word.find('=');
-  const std::string_view path = equals == std::string_view::npos ? word : word.substr(equals + 1);
-  return path.starts_with("configs/") || path.starts_with("robots/") ? path : std::string_view();
+  if (word.starts_with("-")) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string_view::npos || takes_no_input(word.substr(0, equals))) return {};
+    word.remove_prefix(equals + 1);
+  }
+  constexpr std::string_view robot = "robot=";  // of --set
+  if (word.starts_with(robot)) word.remove_prefix(robot.size());
+  return word.starts_with("configs/") || word.starts_with("robots/") ? word : std::string_view();
 }
 
 }  // namespace
 
 std::vector<std::string> with_own_files(std::vector<std::string> words) {
-  const auto names_output = [](std::string_view word) { return word == "-o" || word == "--out"; };
   std::optional<fs::path> data;
   for (std::size_t i = 1; i < words.size(); ++i) {
     const std::string path(path_in(words[i]));
     std::error_code error;
-    if (path.empty() || names_output(words[i - 1]) || words[i].starts_with("--out=") ||
-        fs::exists(path, error))
-      continue;
+    if (path.empty() || takes_no_input(words[i - 1]) || fs::exists(path, error)) continue;
     if (!data) data = data_folder();
     if (!data || !fs::exists(*data / path, error)) continue;
     words[i].replace(words[i].size() - path.size(), path.size(), (*data / path).string());

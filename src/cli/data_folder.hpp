@@ -13,7 +13,7 @@ std::optional<std::filesystem::path> data_folder();
 
 /// The words of a command, in which files below configs/ and robots/ that are not there are those of the
 /// data folder, so that what the docs say holds wherever the program was installed; a note says so. What is
-/// written (-o, --out) is left as it is.
+/// written (-o, --csv, …) is left as it is.
 std::vector<std::string> with_own_files(std::vector<std::string> words);
 
 /// The config that that of a new robot extends.

@@ -102,20 +102,13 @@ void check_unused(const ClaimSpec& claim, const ClaimCheck& check) {
                            claim_kind_names[to_index(claim.kind)]));
 }
 
-void check_other_condition(const ClaimSpec& claim, const ClaimCheck& check) {
-  check.condition("against", claim.against);
-  check.that(
-      claim.against != claim.condition, "against",
-      fmt::format("another condition than 'condition', not \"{}\" again", io::printable(claim.against)));
-}
-
 void check_ratio(const ClaimSpec& claim, const ClaimCheck& check) {
   check.that(claim.against.empty() != claim.base_measure.empty(), "against",
              "either 'against' (a condition) or 'base_measure' for a ratio");
   if (claim.against.empty())
     check.measure("base_measure", claim.base_measure);
   else
-    check_other_condition(claim, check);
+    check.condition("against", claim.against);
   check.that(claim.at_least > -unbounded || claim.at_most < unbounded, "at_least",
              "at_least, at_most or both for a ratio");
 }
@@ -131,7 +124,7 @@ void check_count(const ClaimSpec& claim, const ClaimCheck& check) {
 }
 
 void check_difference(const ClaimSpec& claim, const ClaimCheck& check) {
-  check_other_condition(claim, check);
+  check.condition("against", claim.against);
   check.that(claim.margin == 0.0 || claim.relation == Relation::not_less, "margin",
              "0 unless relation = \"not_less\"");
   check.that(claim.margin == 0.0 || claim.test != TwoSampleTest::mann_whitney, "margin",
@@ -173,14 +166,19 @@ void ClaimSpec::describe(io::SettingsVisitor& visitor) {
   visitor.integer("from_generation", from_generation, {0, 1e9}, {"plateau: from when on the gain counts"});
 }
 
-void check_claim(const StudySpec& study, std::size_t index) {
+void check_claim(const StudySpec& study, std::size_t index, bool is_recorded) {
   const ClaimSpec& claim = study.claims[index];
   const ClaimCheck check(study, index);
   check.that(!claim.text.empty(), "text", "a sentence");
   check.that(claim.at_least <= claim.at_most, "at_least",
              fmt::format("at most 'at_most' = {}, not {}", claim.at_most, claim.at_least));
   check.condition("condition", claim.condition);
-  check_unused(claim, check);
+  if (!is_recorded) {
+    check_unused(claim, check);
+    check.that(
+        claim.against.empty() || claim.against != claim.condition, "against",
+        fmt::format("another condition than 'condition', not \"{}\" again", io::printable(claim.against)));
+  }
   if (claim.kind == ClaimKind::gaits) {
     check.that(
         study.find_test(claim.measure) != nullptr, "measure",

@@ -62,7 +62,7 @@ struct ClaimSpec {
 };
 
 /// Throws UserError, with its place, if a study's claim lacks what its kind needs, or is about conditions,
-/// tests or measures that the study does not have.
-void check_claim(const StudySpec& study, std::size_t index);
+/// tests or measures that the study does not have; unless it is recorded also if it says what has no effect.
+void check_claim(const StudySpec& study, std::size_t index, bool is_recorded);
 
 }  // namespace amble::ledger

@@ -85,7 +85,7 @@ StudySpec load_study_copy(const StudyPaths& paths) {
     fail(ExitCode::bad_input,
          "{}: not a study (study.toml is missing); to make one, run: amble study FILE --out {}",
          paths.folder.string(), io::shell_word(paths.folder.string()));
-  return load_study(paths.spec);
+  return load_study(paths.spec, true);
 }
 
 namespace {

@@ -205,7 +205,7 @@ UserError StudySpec::error_at(const std::string& key, const std::string& text) c
   return UserError(where ? fmt::format("{}: {}", where(key), text) : text);
 }
 
-StudySpec load_study(const std::filesystem::path& path) {
+StudySpec load_study(const std::filesystem::path& path, bool is_recorded) {
   const auto document = std::make_shared<io::TomlDocument>(io::TomlDocument::read(path));
   if (!document->is_list("conditions") && !document->keys_of("controller").empty())
     fail(ExitCode::bad_input, "{}: the config of a run, and not a study; expected `amble evolve` for it",
@@ -218,7 +218,7 @@ StudySpec load_study(const std::filesystem::path& path) {
   check_seeds(study, "seeds", study.seeds);
   check_conditions(study);
   check_tests(study);
-  for (std::size_t i = 0; i < study.claims.size(); ++i) check_claim(study, i);
+  for (std::size_t i = 0; i < study.claims.size(); ++i) check_claim(study, i, is_recorded);
 
   const auto resolve = [&document](std::string& file, const std::string& key) {
     if (file.empty() || std::filesystem::path(file).is_absolute()) return;

@@ -104,6 +104,8 @@ struct StudySpec {
 
 /// Reads and checks a study file. Paths of configs come back such that they can be opened from the current
 /// folder. Throws UserError: syntax, unknown keys, a name or a seed twice, a claim about what is not there.
-StudySpec load_study(const std::filesystem::path& path);
+/// `is_recorded`: a copy beside records, whose claims may have keys without effect, as earlier versions let
+/// them.
+StudySpec load_study(const std::filesystem::path& path, bool is_recorded = false);
 
 }  // namespace amble::ledger

@@ -76,8 +76,10 @@ std::string place_of(const ledger::StudySpec& study, std::size_t index, std::str
   const bool of_all =
       std::ranges::none_of(condition.settings, names) && std::ranges::any_of(study.settings, names);
   const bool own = std::ranges::any_of(condition.settings, names);
-  const std::string key =
-      of_all ? "settings" : fmt::format("conditions[{}].{}", index, own ? "settings" : "config");
+  const bool of_robot = !condition.robot.empty() && mistake.find(condition.robot) != std::string_view::npos;
+  const std::string key = of_robot ? fmt::format("conditions[{}].robot", index)
+                          : of_all ? "settings"
+                                   : fmt::format("conditions[{}].{}", index, own ? "settings" : "config");
   return study.where(key) + ": ";
 }
 

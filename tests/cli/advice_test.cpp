@@ -50,8 +50,9 @@ TEST_F(Advice, AProgramWithoutItsPresetsSaysSoWhereItNeedsThem) {
   EXPECT_THAT(lab.err, AllOf(HasSubstr("were not found"), HasSubstr("run amble where it was built")));
   // Beside its presets there is nothing to say.
   spill(scratch_ / "r.urdf", urdf_with_effort());
-  EXPECT_THAT(amble({"robot", "--init", scratch_ / "r.urdf", "-o", scratch_ / "r"}).out,
-              Not(HasSubstr("presets")));
+  const auto beside = amble({"robot", "--init", scratch_ / "r.urdf", "-o", scratch_ / "r"});
+  EXPECT_EQ(beside.exit_code, 0) << beside.err;
+  EXPECT_THAT(beside.out, Not(HasSubstr("presets")));
 }
 
 TEST_F(Advice, AnIncludeThatIsNoPresetIsNotLookedForThere) {

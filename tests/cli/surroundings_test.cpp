@@ -88,6 +88,16 @@ TEST_F(Surroundings, ConfigsAndRobotsOfTheDocsAreFoundFromAnyFolder) {
   EXPECT_EQ(own.code, ok) << own.text;
   EXPECT_EQ(own.text.find("note: robots"), std::string::npos) << "a folder of one's own goes before";
   EXPECT_EQ(shell("amble trial robots/hexapod/champion.json --undisturbed --seconds 0.1").code, ok);
+  const Said written = shell(
+      "mkdir away && cd away && amble gait ../robots/servo --undisturbed --seconds 1 --json "
+      "robots/servo/servo.toml");
+  EXPECT_EQ(written.text.find("note:"), std::string::npos)
+      << written.text << "what is written is nobody's but one's own";
+  const Said set = shell(
+      "amble evolve configs/quick/quadruped.toml --set=robot=robots/hexapod/hexapod.toml --set "
+      "controller.substrate=auto" +
+      small() + "--out runs/2");
+  EXPECT_EQ(set.code, ok) << set.text;
   EXPECT_THAT(shell("amble evolve configs/none.toml --out runs/1").text,
               HasSubstr("configs/none.toml: No such file"));
 }

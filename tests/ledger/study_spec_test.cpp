@@ -220,6 +220,14 @@ TEST(ClaimSpec, SaysNothingThatItsKindDoesNotUse) {
   });
 }
 
+TEST(ClaimSpec, OfAStudyThatIsRecordedMayHaveWhatEarlierVersionsLetItHave) {
+  const TemporaryFolder folder;
+  io::write_file(folder.path() / "s.toml",
+                 replaced(good, "kind = \"difference\"", "kind = \"difference\"\nat_least = 2.0"));
+  EXPECT_THROW(load_study(folder.path() / "s.toml"), UserError);
+  EXPECT_EQ(load_study(folder.path() / "s.toml", true).claims[0].at_least, 2.0);
+}
+
 TEST(ClaimSpec, IsAboutConditionsThatItsTestTries) {
   const std::string some = replaced(good, "seconds = 300", "seconds = 300\nconditions = [\"b\"]");
   EXPECT_EQ(diagnostic(some),

@@ -124,16 +124,16 @@ test("the best of runs before walk once more, in the world that was chosen, and 
     const earlier = page.locator(".earlier button"), name = await earlier.textContent();
     assert.match(name, /^Flat, population 20, generations 2, …, seed 7$/);
     assert.match(await page.locator(".keys").first().textContent(), /before: Flat, population 20/);
-    await page.evaluate(() => { window.amble.form.set({ ground: "plane", slope: 0 }); window.amble.chosen("ground"); });
+    await page.evaluate(() => { window.amble.form.set({ ground: "stairs", slope: 0 }); window.amble.chosen("ground"); });
     await page.waitForFunction(() => /is there now/.test(document.getElementById("said").textContent));
     await earlier.click();
     await page.waitForFunction((title) => window.amble.stage.title === title, name);
     assert.equal(await page.evaluate(() => window.amble.stage.text), flat);
-    assert.equal(await page.evaluate(() => window.amble.stage.walk.description.ground.kind), "plane");
+    assert.equal(await page.evaluate(() => window.amble.stage.walk.description.ground.kind), "stairs");
     assert.equal(JSON.parse(flat).seed, 7);
     await button(page, "The best again").click();
     await page.waitForFunction(() => /^Best of generation/.test(window.amble.stage.title));
-    assert.equal(await page.evaluate(() => window.amble.stage.walk.description.ground.kind), "plane", "also where the newest is put");
+    assert.equal(await page.evaluate(() => window.amble.stage.walk.description.ground.kind), "stairs", "also where the newest is put");
     assert.match(await page.locator("#typically").textContent(), /^Typically: the middle of 16 new trials of the best, .* \d+ of these end in a fall\.$/);
 
     await set("luck", "Seed 3");

@@ -80,7 +80,8 @@ export class Form {
 
   /** What `values` have other than `others`, in words; not the seed, and nothing that has no effect. */
   differences(values, others) {
-    const idle = { lostAt: values.lost === "never", roughness: values.ground === "plane", seed: true };
+    const idle = { lostAt: values.lost === "never", roughness: values.ground === "plane", seed: true,
+                   feels: !["supg", "together"].includes(values.controller), mutation: values.search === "map-elites" };
     return [...this.fields.keys()].filter((key) => !idle[key] && values[key] !== others[key]).map((key) => this.words(key, values));
   }
   words(key, values) {

@@ -213,7 +213,7 @@ export class Lab {
     if (!sameWorld(world, settings)) evolution.changeAt(evolution.generation, world);
     if (evolution.state === "ended") {
       const { ground, damage } = JSON.parse(plan).config;
-      this.elsewhere = { ground, damage };
+      this.elsewhere = { robot: this.stage.robotName, ground, damage };
       await this.stage.put(this.elsewhere);
       this.say("The walker is there now.");
     } else {
@@ -327,9 +327,10 @@ export class Lab {
   /** At once, and where the walker before was put after the end of the run. */
   async showNow(text, title) {
     await this.stage.show(text, title);
-    if (this.elsewhere) await this.stage.put(this.elsewhere);
-    this.stage.clock.play();
     this.refresh();
+    // Another robot stays where it evolved: legs and heights are those of this one.
+    if (this.elsewhere?.robot === this.stage.robotName) await this.stage.put(this.elsewhere);
+    this.stage.clock.play();
   }
 
   tellNow(time_s) {
