@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 #include "amble/cli/help.hpp"
 #include "amble/cli/stop_signal.hpp"
@@ -31,13 +30,6 @@ std::string mjcf_of(const experiment::Champion& champion) {
   return morphology::simulation_mjcf(champion.problem.robot, champion.problem.trial.timestep_s);
 }
 
-void make_folder_of(const fs::path& file) {
-  if (!file.has_parent_path()) return;
-  std::error_code error;
-  fs::create_directories(file.parent_path(), error);
-  if (error) fail(ExitCode::io, "cannot make folder {}: {}", file.parent_path().string(), error.message());
-}
-
 ExitCode run_export(const ExportOptions& options) {
   if (options.fixed && options.format != "c") fail(ExitCode::bad_input, "--fixed: only with --format c");
   const fs::path path = fs::is_directory(options.champion)
@@ -47,7 +39,7 @@ ExitCode run_export(const ExportOptions& options) {
   if (options.format == "c") {
     if (!options.out || options.out->extension() != ".c")
       fail(ExitCode::bad_input, "--format c: expected -o FILE.c, beside which FILE.h is written");
-    make_folder_of(*options.out);
+    io::make_folder(options.out->parent_path());
     exporting::write_c(champion, *options.out,
                        options.fixed ? exporting::Arithmetic::fixed : exporting::Arithmetic::float32,
                        stop_signal());
@@ -57,7 +49,7 @@ ExitCode run_export(const ExportOptions& options) {
   if (options.out)
     io::refuse_to_replace(*options.out, json ? exporting::export_json_start : "<mujoco",
                           json ? "a JSON document" : "an MJCF model");
-  if (options.out) make_folder_of(*options.out);
+  if (options.out) io::make_folder(options.out->parent_path());
   const std::string text = json ? exporting::export_json(champion, stop_signal()) : mjcf_of(champion);
   if (options.out)
     io::write_file(*options.out, text);

@@ -27,8 +27,7 @@ ExitCode make_lab(const LabOptions& options) {
   if (!data)
     fail(ExitCode::io,
          "the presets of amble (configs/, robots/) were not found: run amble where it was built or "
-         "installed, or "
-         "in the folder of its sources");
+         "installed, or in the folder of its sources");
   const auto configs = options.configs.empty() ? presentation::gallery_configs(*data) : options.configs;
   io::write_file(options.out,
                  page::make_lab_page(presentation::lab_robots(configs, *data), presentation::made_by()));

@@ -90,13 +90,7 @@ void prepare(const std::vector<Output>& files) {
       fail(ExitCode::bad_input, "{} is a folder: name another place", printable(file.path));
     io::refuse_to_replace(file.path, file.beginning, file.what);
   }
-  for (const Output& file : files) {
-    if (!file.path.has_parent_path()) continue;
-    std::error_code error;
-    fs::create_directories(file.path.parent_path(), error);
-    if (error)
-      fail(ExitCode::io, "cannot make folder {}: {}", printable(file.path.parent_path()), error.message());
-  }
+  for (const Output& file : files) io::make_folder(file.path.parent_path());
 }
 
 ExitCode make_report(const ReportOptions& options) {

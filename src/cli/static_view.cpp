@@ -61,7 +61,7 @@ std::vector<page::Fact> facts(const experiment::Config& config, const experiment
 void refuse_to_replace_others(const StaticView& options) {
   io::refuse_to_replace(options.out, "<!DOCTYPE html>", "a page");
   if (!options.figures) return;
-  fs::create_directories(*options.figures);
+  io::make_folder(*options.figures);
   for (const auto name : page::figure_names)
     io::refuse_to_replace(*options.figures / name, "<svg", "a figure");
 }
@@ -114,7 +114,7 @@ ExitCode make_static_view(const StaticView& options) {
   const auto recorded = record_again(champion, champion_path, options.engine, shown.key);
   const page::RunPage contents = page_of(paths, config, champion, options.engine, shown);
 
-  if (options.out.has_parent_path()) fs::create_directories(options.out.parent_path());
+  io::make_folder(options.out.parent_path());
   io::write_file(options.out, page::make_page(contents, recorded));
   if (options.figures)
     for (const auto& figure : page::figure_files(contents, recorded))

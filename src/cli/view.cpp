@@ -88,7 +88,7 @@ ExitCode make_view(const ViewOptions& options) {
     else
       add_recording(page, input, options);
   const std::string html = std::move(page).html();
-  if (options.out.has_parent_path()) fs::create_directories(options.out.parent_path());
+  io::make_folder(options.out.parent_path());
   io::write_file(options.out, html);
   fmt::print("{}\n", fs::absolute(options.out).lexically_normal().string());
   return ExitCode::ok;

@@ -61,9 +61,7 @@ bool holds_nothing(const fs::path& folder) {
 void make_folder(const fs::path& folder) {
   std::vector<fs::path> missing;
   for (fs::path at = folder; !at.empty() && !fs::exists(at); at = at.parent_path()) missing.push_back(at);
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) fail(ExitCode::io, "cannot make folder {}: {}", folder.string(), error.message());
+  io::make_folder(folder);
   if (!fs::is_directory(folder)) fail(ExitCode::io, "{} is not a folder", folder.string());
   for (const auto& made : missing) io::sync_entry(made);
 }

@@ -190,6 +190,13 @@ void sync_entry(const std::filesystem::path& path) {
   if (!sync_folder_of(path.has_filename() ? path : path.parent_path())) fail_to_write(path, errno);
 }
 
+void make_folder(const std::filesystem::path& folder) {
+  if (folder.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) fail(ExitCode::io, "cannot make folder {}: {}", folder.string(), error.message());
+}
+
 void refuse_to_replace(const std::filesystem::path& path, std::string_view beginning, std::string_view what) {
   if (!std::filesystem::is_regular_file(path)) return;
   const std::string found = InputFile(path).read(beginning.size());

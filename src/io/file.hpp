@@ -74,6 +74,10 @@ void write_file(const std::filesystem::path& path, std::string_view bytes);
 /// UserError(ExitCode::io).
 void sync_entry(const std::filesystem::path& path);
 
+/// Makes a folder and those above it; nothing if it is there or the path is empty, as that of the folder of
+/// "a.txt". Throws UserError(ExitCode::io).
+void make_folder(const std::filesystem::path& folder);
+
 /// Throws UserError(ExitCode::bad_input) if `path` is a file with contents that do not begin with
 /// `beginning`: it is not of the kind that would be written (`what`, e.g. "a recording"), and must not be
 /// replaced.

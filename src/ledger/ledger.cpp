@@ -39,9 +39,7 @@ Record Ledger::load(std::string_view condition, std::int64_t seed) const {
 }
 
 void Ledger::save(const Record& record) const {
-  std::error_code error;
-  fs::create_directories(paths_.records, error);
-  if (error) fail(ExitCode::io, "cannot make folder {}: {}", paths_.records.string(), error.message());
+  io::make_folder(paths_.records);
   io::write_file(paths_.record(record.condition, record.seed), record_text(record));
 }
 
@@ -125,9 +123,7 @@ void keep_study(const StudyPaths& paths, const StudySpec& study, const fs::path&
     if (io::read_file(paths.spec) == text) return;
     check_place(paths, study, text);
   }
-  std::error_code error;
-  fs::create_directories(paths.folder, error);
-  if (error) fail(ExitCode::io, "cannot make folder {}: {}", paths.folder.string(), error.message());
+  io::make_folder(paths.folder);
   io::write_file(paths.spec, text);
 }
 

@@ -88,8 +88,8 @@ void doubt_strength(const RobotSpec& robot, std::vector<std::string>& lines) {
   if (!strong.empty())
     lines.push_back(fmt::format(
         "torques of more than {:g} times the {:.2g} N m that bear a leg's share of {:.3g} kg, and in sum "
-        "{:.0f} "
-        "N m per kg, more than a robot can carry motors for: {}; are they in kg·cm, as on data sheets? "
+        "{:.0f} N m per kg, more than a robot can carry motors for: {}; are they in kg·cm, as on data "
+        "sheets? "
         "× 0.098 makes {:.3g} N m of {:.3g}",
         strongest_times, bearing_nm, mass_kg, motors_nm(robot) / mass_kg, fmt::join(strong, ", "),
         nm_per_kg_cm * least_nm, least_nm));
@@ -114,11 +114,10 @@ void doubt_axes(const RobotSpec& robot, std::vector<std::string>& lines) {
     }
   }
   if (!idle.empty())
-    lines.push_back(
-        fmt::format("joints that spin their leg about itself and hardly move its foot, through which their "
-                    "axis passes: {}, "
-                    "axes in the world; check <axis>, which in a URDF is in the joint's own frame",
-                    fmt::join(idle, ", ")));
+    lines.push_back(fmt::format(
+        "joints that spin their leg about itself and hardly move its foot, through which their "
+        "axis passes: {}, axes in the world; check <axis>, which in a URDF is in the joint's own frame",
+        fmt::join(idle, ", ")));
 }
 
 }  // namespace amble::robot

@@ -73,13 +73,13 @@ std::string place_of(const ledger::StudySpec& study, std::size_t index, std::str
     return mistake.find(setting) != std::string_view::npos;
   };
   const ledger::ConditionSpec& condition = study.conditions[index];
-  const bool of_all =
-      std::ranges::none_of(condition.settings, names) && std::ranges::any_of(study.settings, names);
-  const bool own = std::ranges::any_of(condition.settings, names);
-  const bool of_robot = !condition.robot.empty() && mistake.find(condition.robot) != std::string_view::npos;
-  const std::string key = of_robot ? fmt::format("conditions[{}].robot", index)
-                          : of_all ? "settings"
-                                   : fmt::format("conditions[{}].{}", index, own ? "settings" : "config");
+  std::string key = fmt::format("conditions[{}].config", index);
+  if (!condition.robot.empty() && names(condition.robot))
+    key = fmt::format("conditions[{}].robot", index);
+  else if (std::ranges::any_of(condition.settings, names))
+    key = fmt::format("conditions[{}].settings", index);
+  else if (std::ranges::any_of(study.settings, names))
+    key = "settings";
   return study.where(key) + ": ";
 }
 

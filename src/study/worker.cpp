@@ -136,9 +136,7 @@ class Worker {
 
   /// Run folders are made and removed by one process at a time: another one would find half a folder.
   std::unique_ptr<io::FolderLock> wait_for_turn() const {
-    std::error_code error;
-    std::filesystem::create_directories(plan_.paths.runs, error);
-    if (error) fail(ExitCode::io, "cannot make folder {}: {}", plan_.paths.runs.string(), error.message());
+    io::make_folder(plan_.paths.runs);
     const auto start = std::chrono::steady_clock::now();
     while (true) {
       try {
