@@ -21,6 +21,7 @@ enum class Purpose : std::uint32_t {
   mutants = 9,           ///< mutants that only measure evolvability
   random_triggers = 10,  ///< triggers of SUPGs by chance
   cma_es = 11,           ///< samples of CMA-ES
+  cma_emitters = 12,     ///< samples of the emitters of a map, and where they begin
 };
 
 /// A stream of random numbers that depends on its key alone, (seed, purpose, generation, individual), and so

@@ -10,15 +10,10 @@
 #include "amble/core/index.hpp"
 #include "amble/core/random.hpp"
 #include "amble/neat/initial_genome.hpp"
+#include "amble/search/weights.hpp"
 
 namespace amble::search {
 namespace {
-
-std::vector<double> weights_of(const neat::Genome& genome) {
-  std::vector<double> weights;
-  for (const neat::LinkGene& link : genome.links) weights.push_back(link.weight);
-  return weights;
-}
 
 /// Positions of the evaluations, the best first.
 std::vector<std::size_t> ranked(std::span<const Evaluation> evaluations) {
@@ -72,8 +67,7 @@ void CmaEs::sample() {
     Stream stream(seed_, Purpose::cma_es, static_cast<std::uint32_t>(round_ + 1),
                   static_cast<std::uint32_t>(i));
     for (double& number : normal) number = stream.normal();
-    const std::vector<double> point = distribution_.sample(normal);
-    for (std::size_t link = 0; link < point.size(); ++link) candidates_[i].links[link].weight = point[link];
+    set_weights(candidates_[i], distribution_.sample(normal));
   }
 }
 

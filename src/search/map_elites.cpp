@@ -12,6 +12,7 @@
 #include "amble/neat/genome_io.hpp"
 #include "amble/neat/initial_genome.hpp"
 #include "amble/neat/mutation.hpp"
+#include "amble/search/line.hpp"
 
 namespace amble::search {
 namespace {
@@ -54,6 +55,9 @@ MapElites::MapElites(const MapElitesSettings& settings, const SearchSpace& space
       curiosity_(settings.select == Selection::curiosity ? cells_->count() : 0),
       before_(space.inputs, space.outputs, space.neat.innovations),
       innovations_(before_) {
+  if (settings.variation == Variation::cma) emitters_.emplace(settings, space, cells_->count());
+  if (settings.select == Selection::dominated)
+    pool_.emplace(to_index(settings.pool.size), to_index(settings.pool.neighbours));
   breed();
 }
 
@@ -62,6 +66,11 @@ void MapElites::breed() {
   innovations_ = before_;
   candidates_.clear();
   origins_.clear();
+  if (emitters_) {
+    candidates_ = emitters_->candidates(round_);
+    origins_.resize(candidates_.size());
+    return;
+  }
   const int batch = settings_.batch;
   // After the first rounds only for a map that is still empty.
   const bool random =
@@ -99,6 +108,10 @@ void MapElites::add_elite_again(std::uint32_t cell) {
 void MapElites::add_child(Stream& stream) {
   const Parent parent = draw(stream);
   origins_.push_back({Origin::Kind::child, parent.elite});
+  if (settings_.variation == Variation::line) {
+    candidates_.push_back(moved_along_line(expanded(parent), expanded(draw(stream)), settings_.line, stream));
+    return;
+  }
   if (stream.chance(settings_.crossover_probability)) {
     const Parent mate = draw(stream);
     const bool mate_is_fitter = mate.objective > parent.objective;
@@ -114,6 +127,11 @@ void MapElites::add_child(Stream& stream) {
 
 /// Any elite or challenger, or of two of them that which is worth more.
 MapElites::Parent MapElites::draw(Stream& stream) const {
+  if (pool_) {
+    const PoolMember& member =
+        pool_->members()[stream.below(static_cast<std::uint32_t>(pool_->members().size()))];
+    return {&member.genome, member.objective, {}};
+  }
   const auto count = elites().size() + static_cast<std::uint32_t>(challengers_.size());
   const Parent one = parent(stream.below(count));
   if (settings_.select == Selection::uniform) return one;
@@ -172,10 +190,36 @@ void MapElites::tell(std::span<const Evaluation> evaluations) {
     else
       take_child(static_cast<std::uint32_t>(i), evaluations[i]);
   }
+  if (emitters_) tell_emitters(evaluations);
+  if (pool_) fill_pool(evaluations);
   challengers_ = most_promising(std::move(challengers_), settings_.most_challengers(), *cells_, elites());
   ++round_;
   before_ = innovations_;
   breed();
+}
+
+void MapElites::tell_emitters(std::span<const Evaluation> evaluations) {
+  std::vector<std::uint32_t> cells;
+  for (const Evaluation& evaluation : evaluations)
+    cells.push_back(evaluation.viable ? cells_->of(evaluation.behaviour) : 0);
+  emitters_->tell(candidates_, evaluations, cells, elites(), round_);
+}
+
+/// New genomes alone: those that are tried again are in it, if they are worth it, by their first evaluation.
+void MapElites::fill_pool(std::span<const Evaluation> evaluations) {
+  std::vector<PoolMember> members;
+  for (std::size_t i = 0; i < evaluations.size(); ++i) {
+    if (origins_[i].kind != Origin::Kind::child || !evaluations[i].viable) continue;
+    PoolMember& member = members.emplace_back();
+    member.genome = neat::compact(candidates_[i]);
+    member.objective = evaluations[i].objective;
+    for (std::size_t d = 0; d < settings_.descriptors.size(); ++d) {
+      const DescriptorSettings& range = settings_.descriptors[d];
+      member.place.push_back((double{evaluations[i].behaviour[d]} - range.least) /
+                             (range.most - range.least));
+    }
+  }
+  pool_->add(std::move(members));
 }
 
 void MapElites::take_child(std::uint32_t candidate, const Evaluation& evaluation) {
@@ -282,6 +326,8 @@ void MapElites::save(io::BinaryWriter& writer) const {
     curiosity.push_back(curiosity_[elites()[number].cell]);
   writer.put_span(std::span<const float>(curiosity));
   if (settings_.tries_candidates_again()) save_challengers(challengers_, writer);
+  if (emitters_) emitters_->save(writer);
+  if (pool_) pool_->save(writer);
 }
 
 void MapElites::load(io::BinaryReader& reader) {
@@ -297,6 +343,11 @@ void MapElites::load(io::BinaryReader& reader) {
   if (settings_.tries_candidates_again())
     challengers_ =
         load_challengers(reader, settings_.most_challengers(), cells_->count(), settings_.descriptors.size());
+  if (emitters_) emitters_->load(reader);
+  if (!pool_) return;
+  pool_->load(reader, settings_.descriptors.size());
+  for (const PoolMember& member : pool_->members())
+    neat::validate(neat::expand(member.genome, "the pool"), inputs_, outputs_, recurrent_);
 }
 
 std::string MapElites::take_log_growth(std::size_t i) {
@@ -316,27 +367,6 @@ std::uint64_t MapElites::restore_log(std::size_t i, io::InputFile& file, const s
     curiosity_[elites()[number].cell] = loaded_curiosity_[number];
   breed();
   return bytes;
-}
-
-void validate_map_elites(const Settings& settings, std::size_t) {
-  settings.map_elites.validate();
-}
-
-void check_map_elites_memory(const Settings& settings, const SearchSpace& space, double memory_bytes) {
-  if (space.neat.innovations.scope == neat::InnovationScope::run)
-    fail_setting(
-        {"innovations.scope", "search.kind"},
-        "innovations.scope = \"run\": expected \"generation\": the list of a run's innovations grows "
-        "without bound under search.kind = \"map-elites\"");
-  // This assumes that genomes grow to four times the links they start with.
-  const double links = 4.0 * (space.inputs + 1.0) * space.outputs;
-  const double elite_bytes = 160.0 + 13.0 * links + 4.0 * static_cast<double>(space.behaviour_length);
-  const double cells = settings.map_elites.cell_count();
-  if (const double needed = cells * (elite_bytes + 8.0); needed > memory_bytes)
-    fail_setting({"search.map_elites.descriptors", "search.map_elites.cells"},
-                 "search.map_elites: {} cells could need {:.1f} GB, this process may use {:.1f} GB: expected "
-                 "fewer cells",
-                 settings.map_elites.cell_count(), needed / 1e9, memory_bytes / 1e9);
 }
 
 }  // namespace amble::search

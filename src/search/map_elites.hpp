@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,8 @@
 #include "amble/neat/innovations.hpp"
 #include "amble/search/cells.hpp"
 #include "amble/search/challengers.hpp"
+#include "amble/search/cma_emitters.hpp"
+#include "amble/search/dominated_pool.hpp"
 #include "amble/search/elite_log.hpp"
 #include "amble/search/settings.hpp"
 #include "amble/search/strategies.hpp"
@@ -18,7 +21,8 @@ namespace amble::search {
 
 /// MAP-Elites (Mouret & Clune 2015) with NEAT's genomes: keeps the best genome of each cell of a map over
 /// descriptors (Evaluation::behaviour). A round is a batch: random genomes at first, then mutated copies of
-/// elites, or children of two, and elites that are evaluated again.
+/// elites, or children of two, and elites that are evaluated again. Under Variation::line and Variation::cma
+/// only weights change, and under the latter candidates come from distributions (cma_emitters.hpp).
 ///
 /// - A candidate enters the cell of its descriptor if that is empty, or if its objective is larger than that
 ///   of the elite there. One whose evaluation is not viable never does.
@@ -60,7 +64,7 @@ class MapElites : public Strategy {
   struct Parent {
     const std::string* genome = nullptr;  ///< compact
     double objective = 0.0;
-    EliteName elite;  ///< of no elite: a challenger
+    EliteName elite;  ///< of no elite: a challenger, or of the pool
   };
 
   void breed();
@@ -74,6 +78,8 @@ class MapElites : public Strategy {
   std::uint32_t most_evaluations(std::uint32_t cell) const;
   bool prevails(const Elite& elite, std::span<const float> descriptor) const;
 
+  void tell_emitters(std::span<const Evaluation> evaluations);
+  void fill_pool(std::span<const Evaluation> evaluations);
   void take_child(std::uint32_t candidate, const Evaluation& evaluation);
   void reevaluate(const EliteName& elite, const Evaluation& evaluation);
   void take_challenger(Challenger challenger, const Evaluation& evaluation);
@@ -91,6 +97,8 @@ class MapElites : public Strategy {
   LoggedElites map_;
   std::vector<Challenger> challengers_;  ///< in the order of their candidates
   std::vector<float> curiosity_;         ///< by cell; empty unless parents are drawn by it
+  std::optional<CmaEmitters> emitters_;  ///< under Variation::cma
+  std::optional<DominatedPool> pool_;    ///< under Selection::dominated
   neat::Innovations before_;  ///< before the candidates were bred: with them save() need not write these
   neat::Innovations innovations_;
   Counts counts_;  ///< of the last completed round
@@ -99,11 +107,5 @@ class MapElites : public Strategy {
   std::vector<Origin> origins_;
   std::vector<float> loaded_curiosity_;  ///< between load() and restore_log(), by elite
 };
-
-/// Throws SettingError where these settings do not fit descriptors of this length.
-void validate_map_elites(const Settings& settings, std::size_t behaviour_length);
-/// Throws SettingError for a map that could need more memory, and for innovations of a run's scope, whose
-/// list grows without bound.
-void check_map_elites_memory(const Settings& settings, const SearchSpace& space, double memory_bytes);
 
 }  // namespace amble::search

@@ -115,9 +115,11 @@ void MapElitesSettings::describe(io::SettingsVisitor& visitor) {
   visitor.integer("batch", batch, {1, 1e6}, {"genomes evaluated in a round (a generation)"});
   visitor.integer("initial", initial, {1, 1e9},
                   {"random genomes in the first rounds, rounded up to whole rounds"});
-  visitor.choice("select", select, selection_names,
-                 {"parents: any elite, or of two elites that with the better objective, or the more curious",
-                  "curiosity: Cully & Demiris 2018"});
+  visitor.choice(
+      "select", select, selection_names,
+      {"parents: any elite; of two elites that with the better objective, or the more curious; or any of a "
+       "pool beside the map of genomes that are unlike all better ones",
+       "curiosity: Cully & Demiris 2018; dominated: Bahlous-Boldi et al. 2025, arXiv 2502.00593"});
   visitor.number("crossover_probability", crossover_probability, {0, 1},
                  {"of children with two parents; all others are mutated copies", "Tarapore et al. 2016: 0"});
   visitor.number("reevaluate_share", reevaluate_share, {0, 0.9},
@@ -133,6 +135,44 @@ void MapElitesSettings::describe(io::SettingsVisitor& visitor) {
       "challenger_share", challenger_share, {0, 0.9},
       {"share of each batch at most in which candidates that would enter are tried again, the most "
        "promising ones; without effect if trials = 1"});
+  visitor.choice(
+      "variation", variation, variation_names,
+      {.what =
+           "new genomes: by NEAT's mutation; or weights alone: along the line to another elite, or by CMA-ES "
+           "towards what improves the map, both without a weight_limit but for the first",
+       .source = "line: Vassiliades & Mouret 2018; cma: Fontaine & Nikolaidis 2023 (CMA-MAE)",
+       .first_is_implied = true});
+  visitor.table("pool", pool,
+                {.what = "the pool of select = \"dominated\"; without effect under others",
+                 .defaults_are_implied = true});
+  visitor.table("line", line,
+                {.what = "variation along lines; without effect under others", .defaults_are_implied = true});
+  visitor.table("cma", cma,
+                {.what = "variation by CMA-ES; without effect under others", .defaults_are_implied = true});
+}
+
+void PoolSettings::describe(io::SettingsVisitor& visitor) {
+  visitor.integer("size", size, {2, 1e5}, {"genomes that it holds"});
+  visitor.integer("neighbours", neighbours, {1, 1e5},
+                  {"how many of the nearest better ones count for how unlike a genome is"});
+}
+
+void LineSettings::describe(io::SettingsVisitor& visitor) {
+  visitor.number("own", own, {0.0, 1e3}, {"standard deviation of each weight's own step"});
+  visitor.number(
+      "shared", shared, {0.0, 1e3},
+      {"standard deviation of the step that all weights share, as a share of the way to the other elite"});
+}
+
+void CmaEmitterSettings::describe(io::SettingsVisitor& visitor) {
+  visitor.integer("emitters", emitters, {1, 1e4},
+                  {"distributions; the batch is shared out evenly, at least 4 candidates each"});
+  visitor.number("step", step, {1e-9, 1e3}, {"standard deviation of each weight where an emitter begins"});
+  visitor.number("learning_rate", learning_rate, {0.0, 1.0},
+                 {"how much of the way a cell's threshold goes to the objective of a candidate that exceeds "
+                  "it; 1: CMA-ME"});
+  visitor.number("least_threshold", least_threshold, {-1e9, 1e9},
+                 {"threshold of a cell at first: what a candidate there must exceed"});
 }
 
 void MapElitesSettings::validate() const {
@@ -162,10 +202,31 @@ void MapElitesSettings::validate() const {
         "search.map_elites.challenger_share = {}: expected more if trials = {}: no candidate could be tried "
         "again",
         challenger_share, trials);
+  if (variation == Variation::cma) validate_emitters();
   if (archive == Archive::cvt && centroid_samples < cells)
     fail_setting({"search.map_elites.centroid_samples", "search.map_elites.cells"},
                  "search.map_elites.centroid_samples = {}: expected at least search.map_elites.cells, {}",
                  centroid_samples, cells);
+}
+
+void MapElitesSettings::validate_emitters() const {
+  constexpr int least_candidates = 4;
+  if (candidates_per_emitter() < least_candidates)
+    fail_setting({"search.map_elites.batch", "search.map_elites.cma.emitters"},
+                 "search.map_elites.batch = {}: expected a multiple of search.map_elites.cma.emitters = {}, "
+                 "at least {} each, under "
+                 "variation = \"cma\"",
+                 batch, cma.emitters, least_candidates);
+  if (trials > 1)
+    fail_setting(
+        {"search.map_elites.trials", "search.map_elites.variation"},
+        "search.map_elites.trials = {}: expected 1 under variation = \"cma\", whose candidates enter at once",
+        trials);
+  if (reevaluate_share > 0.0)
+    fail_setting({"search.map_elites.reevaluate_share", "search.map_elites.variation"},
+                 "search.map_elites.reevaluate_share = {}: expected 0 under variation = \"cma\", whose "
+                 "emitters need the whole batch",
+                 reevaluate_share);
 }
 
 std::uint32_t MapElitesSettings::cell_count() const {

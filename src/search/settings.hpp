@@ -93,10 +93,54 @@ inline constexpr std::array<std::string_view, 2> archive_names{"grid", "cvt"};
 enum class Selection {
   uniform,    ///< any, equally likely
   objective,  ///< that with the better objective of two
-  curiosity   ///< the more curious of two (Cully & Demiris 2018)
+  curiosity,  ///< the more curious of two (Cully & Demiris 2018)
+  dominated   ///< any of a pool beside the map, of those unlike all that are better (Bahlous-Boldi et al.
+              ///< 2025)
 };
 /// As configs write them, by Selection.
-inline constexpr std::array<std::string_view, 3> selection_names{"uniform", "objective", "curiosity"};
+inline constexpr std::array<std::string_view, 4> selection_names{"uniform", "objective", "curiosity",
+                                                                 "dominated"};
+
+/// How new genomes come from those of a map.
+enum class Variation {
+  mutation,  ///< mutated copies and children of two, by NEAT
+  line,      ///< weights alone, along the line to another elite (Vassiliades & Mouret 2018)
+  cma        ///< weights alone, by CMA-ES towards what improves the map (Fontaine & Nikolaidis 2023)
+};
+/// As configs write them, by Variation.
+inline constexpr std::array<std::string_view, 3> variation_names{"mutation", "line", "cma"};
+
+/// Variation::line: each weight of a copy moves by `own` × a normal number, and by `shared` × one more of
+/// them, the same for all weights, × its difference from the mate's.
+struct LineSettings {
+  double own = 0.02;    ///< standard deviation in the unit of weights, 0 … 1000
+  double shared = 0.2;  ///< standard deviation as a share of the way to the mate, 0 … 1000
+
+  void describe(io::SettingsVisitor& visitor);  ///< the table [search.map_elites.line]
+  bool operator==(const LineSettings&) const = default;
+};
+
+/// Variation::cma: CMA-MAE. Each emitter is a distribution of its own; `batch` is shared out evenly.
+struct CmaEmitterSettings {
+  int emitters = 15;  ///< distributions, 1 … 1e4
+  double step = 0.1;  ///< standard deviation of each weight where one begins, 1e−9 … 1000
+  /// How much of the way a cell's threshold goes to the objective of a candidate that exceeds it, 0 … 1. 0: a
+  /// search for the best alone; 1: CMA-ME, where the threshold is the elite's objective.
+  double learning_rate = 0.01;
+  double least_threshold = 0.0;  ///< of a cell at first, in the unit of the score, −1e9 … 1e9
+
+  void describe(io::SettingsVisitor& visitor);  ///< the table [search.map_elites.cma]
+  bool operator==(const CmaEmitterSettings&) const = default;
+};
+
+/// Selection::dominated (dominated_pool.hpp).
+struct PoolSettings {
+  int size = 1024;     ///< genomes, 2 … 1e5
+  int neighbours = 3;  ///< better ones to which a distance counts, 1 … 1e5
+
+  void describe(io::SettingsVisitor& visitor);  ///< the table [search.map_elites.pool]
+  bool operator==(const PoolSettings&) const = default;
+};
 
 /// MAP-Elites (Mouret & Clune 2015; docs/REPERTOIRES.md). Ranges are those that describe() holds a config to.
 struct MapElitesSettings {
@@ -118,10 +162,15 @@ struct MapElitesSettings {
   /// Most of a batch that are candidates tried again before they enter, the most promising ones, 0 … 0.9.
   /// Without effect if `trials` is 1.
   double challenger_share = 0.35;
+  Variation variation = Variation::mutation;  ///< how new genomes come from elites
+  PoolSettings pool;                          ///< Selection::dominated
+  LineSettings line;                          ///< Variation::line
+  CmaEmitterSettings cma;                     ///< Variation::cma
 
   void describe(io::SettingsVisitor& visitor);  ///< the table [search.map_elites]
   /// Throws SettingError for what cannot be: a map without descriptors, an empty range, too many cells, fewer
-  /// samples than centroids, shares that leave no room for new genomes or none for challengers.
+  /// samples than centroids, shares that leave no room for new genomes or none for challengers, emitters
+  /// without candidates or beside candidates that are tried again.
   void validate() const;
   /// Cells of the map; 0 if there are more than most_cells.
   std::uint32_t cell_count() const;
@@ -129,8 +178,13 @@ struct MapElitesSettings {
   std::size_t reevaluations(std::size_t elites) const;
   /// Whether a candidate can need more than one evaluation to enter the map.
   bool tries_candidates_again() const { return trials > 1; }
+  /// Candidates of each emitter in a round; 0 if they cannot be shared out evenly.
+  int candidates_per_emitter() const { return batch % cma.emitters == 0 ? batch / cma.emitters : 0; }
   /// Candidates at most that are tried again in a round before they enter.
   std::size_t most_challengers() const;
+
+ private:
+  void validate_emitters() const;
 };
 
 /// Largest number of cells of a map.

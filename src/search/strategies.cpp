@@ -52,6 +52,39 @@ void check_novelty_memory(const Settings& settings, const SearchSpace& space, do
   settings.novelty.check_memory(space.behaviour_length, space.neat.population.size, memory_bytes);
 }
 
+void validate_map_elites(const Settings& settings, std::size_t) {
+  settings.map_elites.validate();
+}
+
+void check_map_elites_memory(const Settings& settings, const SearchSpace& space, double memory_bytes) {
+  if (space.neat.innovations.scope == neat::InnovationScope::run)
+    fail_setting(
+        {"innovations.scope", "search.kind"},
+        "innovations.scope = \"run\": expected \"generation\": the list of a run's innovations grows "
+        "without bound under search.kind = \"map-elites\"");
+  // This assumes that genomes grow to four times the links they start with.
+  const double links = 4.0 * (space.inputs + 1.0) * space.outputs;
+  const double elite_bytes = 160.0 + 13.0 * links + 4.0 * static_cast<double>(space.behaviour_length);
+  const double cells = settings.map_elites.cell_count();
+  double needed = cells * (elite_bytes + 8.0);
+  if (settings.map_elites.variation == Variation::cma) {
+    const double weights = (space.inputs + 1.0) * space.outputs;
+    const double emitters_bytes = settings.map_elites.cma.emitters * 16.0 * weights * weights;
+    if (emitters_bytes > memory_bytes)
+      fail_setting({"search.map_elites.cma.emitters"},
+                   "search.map_elites.cma.emitters = {}: that many distributions of {:.0f} weights need "
+                   "{:.1f} GB, this process "
+                   "may use {:.1f} GB: expected fewer",
+                   settings.map_elites.cma.emitters, weights, emitters_bytes / 1e9, memory_bytes / 1e9);
+    needed += cells * sizeof(double) + emitters_bytes;
+  }
+  if (needed > memory_bytes)
+    fail_setting({"search.map_elites.descriptors", "search.map_elites.cells"},
+                 "search.map_elites: {} cells could need {:.1f} GB, this process may use {:.1f} GB: expected "
+                 "fewer cells",
+                 settings.map_elites.cell_count(), needed / 1e9, memory_bytes / 1e9);
+}
+
 int population(const Settings&, const neat::Settings& neat) {
   return neat.population.size;
 }

@@ -67,7 +67,13 @@ class Candidates : public trial::TaskQueue {
 
 search::Settings search_settings(const std::string& kind) {
   search::Settings settings;
-  settings.kind = kind;
+  // "map-elites-line", "map-elites-cma" and "map-elites-dominated" name a variation or selection too.
+  settings.kind = kind.starts_with("map-elites") ? "map-elites" : kind;
+  if (kind.ends_with("-line")) settings.map_elites.variation = search::Variation::line;
+  if (kind.ends_with("-cma")) settings.map_elites.variation = search::Variation::cma;
+  if (kind.ends_with("-dominated")) settings.map_elites.select = search::Selection::dominated;
+  settings.map_elites.cma.emitters = 4;
+  settings.map_elites.pool.size = 20;
   settings.novelty.path_stride = 50;
   settings.map_elites.descriptors = {{.quantity = "duty_factor", .leg = "L1", .bins = 5},
                                      {.quantity = "uprightness", .leg = {}, .bins = 5}};
@@ -176,7 +182,10 @@ INSTANTIATE_TEST_SUITE_P(SameBits, GoldenEvolution,
                                          SmallRun{"modulated", "objective", 2, "fcc3786bf621f36e"},
                                          SmallRun{"reading", "novelty", 2, "8b3b45c6d42215f6"},
                                          SmallRun{"mixed", "objective", 2, "7e647738fe27b7c0"},
-                                         SmallRun{"oscillators", "cma-es", 2, "b3ce942be9e748db"}),
+                                         SmallRun{"oscillators", "cma-es", 2, "b3ce942be9e748db"},
+                                         SmallRun{"supg", "map-elites-dominated", 2, "747db76cec98a25b"},
+                                         SmallRun{"oscillators", "map-elites-line", 2, "8a4482c14cb95a42"},
+                                         SmallRun{"oscillators", "map-elites-cma", 2, "2f26e426ea5d7dd6"}),
                          [](const auto& small) {
                            std::string name = std::string(small.param.controller) + "_" + small.param.search;
                            std::ranges::replace(name, '-', '_');

@@ -373,7 +373,8 @@ TEST_P(MapElitesSearch, DrawsParentsAsItsSettingSays) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Parents, MapElitesSearch,
-                         testing::Values(Selection::uniform, Selection::objective, Selection::curiosity),
+                         testing::Values(Selection::uniform, Selection::objective, Selection::curiosity,
+                                         Selection::dominated),
                          [](const auto& selection) {
                            return std::string(selection_names[static_cast<std::size_t>(selection.param)]);
                          });
@@ -503,18 +504,6 @@ TEST(MapElitesSettings, ThatCannotBeAreRefusedInOneLine) {
   settings.centroid_samples = settings.cells - 1;
   EXPECT_THAT(refusal(settings), HasSubstr("centroid_samples = 9999: expected at least"));
   EXPECT_THAT(refusal({}), HasSubstr("expected at least one"));
-}
-
-TEST(MapElitesSettings, NeedMemoryForEachOfTheirCells) {
-  Settings settings;
-  settings.map_elites = small_map();
-  settings.map_elites.descriptors[0].bins = 100'000;
-  neat::Settings neat;
-  const SearchSpace space{.neat = neat, .inputs = 3, .outputs = 2, .behaviour_length = dimensions};
-  EXPECT_NO_THROW(check_map_elites_memory(settings, space, 1e9));
-  EXPECT_THROW(check_map_elites_memory(settings, space, 1e8), SettingError);
-  neat.innovations.scope = neat::InnovationScope::run;
-  EXPECT_THROW(check_map_elites_memory(settings, space, 1e9), SettingError);
 }
 
 }  // namespace

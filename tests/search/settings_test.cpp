@@ -8,6 +8,7 @@
 #include "amble/core/error.hpp"
 #include "amble/io/toml_settings.hpp"
 #include "amble/search/distance_estimates.hpp"
+#include "amble/search/strategies.hpp"
 
 namespace amble::search {
 namespace {
@@ -76,6 +77,57 @@ TEST(MapElitesSettings, EvaluateAShareOfABatchAgainAsFarAsThereAreElites) {
   EXPECT_EQ(settings.reevaluations(2), 2u);
   settings.reevaluate_share = 0.0;
   EXPECT_EQ(settings.reevaluations(100), 0u);
+}
+
+TEST(MapElitesSettings, ShareABatchOutEvenlyAmongEmittersWhoseCandidatesEnterAtOnce) {
+  MapElitesSettings settings = map_of({5, 5});
+  settings.variation = Variation::cma;
+  settings.batch = 60;
+  EXPECT_EQ(refused_keys(settings), std::vector<std::string>{});
+  EXPECT_EQ(settings.candidates_per_emitter(), 4);
+  const std::vector<std::string> share{"search.map_elites.batch", "search.map_elites.cma.emitters"};
+  for (const int batch : {61, 45, 15}) {
+    settings.batch = batch;
+    EXPECT_EQ(refused_keys(settings), share) << batch;
+  }
+  settings.batch = 60;
+  settings.trials = 2;
+  EXPECT_EQ(refused_keys(settings),
+            (std::vector<std::string>{"search.map_elites.trials", "search.map_elites.variation"}));
+  settings.trials = 1;
+  settings.reevaluate_share = 0.1;
+  EXPECT_EQ(refused_keys(settings),
+            (std::vector<std::string>{"search.map_elites.reevaluate_share", "search.map_elites.variation"}));
+}
+
+class MapElitesMemory : public testing::Test {
+ protected:
+  MapElitesMemory() {
+    settings_.kind = "map-elites";
+    settings_.map_elites = map_of({6, 6});
+  }
+  void check(double memory_bytes) const {
+    strategy_kind(settings_).check_memory(
+        settings_, {.neat = neat_, .inputs = 3, .outputs = 2, .behaviour_length = 2}, memory_bytes);
+  }
+
+  Settings settings_;
+  neat::Settings neat_;
+};
+
+TEST_F(MapElitesMemory, IsNeededForEachCell) {
+  settings_.map_elites.descriptors[0].bins = 100'000;
+  EXPECT_NO_THROW(check(1e9));
+  EXPECT_THROW(check(1e8), SettingError);
+  neat_.innovations.scope = neat::InnovationScope::run;
+  EXPECT_THROW(check(1e9), SettingError);
+}
+
+TEST_F(MapElitesMemory, IsNeededForEachEmitter) {
+  settings_.map_elites.variation = Variation::cma;
+  settings_.map_elites.cma.emitters = 1000;
+  EXPECT_NO_THROW(check(1e7));
+  EXPECT_THROW(check(1e6), SettingError);
 }
 
 TEST(MapElitesSettings, CallADimensionByItsQuantityAndLeg) {

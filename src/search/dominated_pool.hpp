@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "amble/io/binary.hpp"
+
+namespace amble::search {
+
+/// A genome that is bred from while it is unlike those that are better.
+struct PoolMember {
+  std::string genome;  ///< in whatever form the search keeps it
+  double objective = 0.0;
+  std::vector<double> place;  ///< its descriptor, each over its range: 0 … 1 where it is inside
+};
+
+/// Dominated novelty of each (Bahlous-Boldi et al., "Dominated Novelty Search", arXiv 2502.00593): the mean
+/// distance of its place to the `neighbours` nearest that are at least as good, or as many as there are.
+/// Infinite for the best.
+std::vector<double> dominated_novelty(std::span<const PoolMember> members, std::size_t neighbours);
+
+/// The genomes with the largest dominated novelty of all that were added. Without cells or bounds.
+class DominatedPool {
+ public:
+  DominatedPool(std::size_t size, std::size_t neighbours) : size_(size), neighbours_(neighbours) {}
+
+  std::span<const PoolMember> members() const { return members_; }
+  /// Keeps the best of those in the pool and these; of equal ones those that came first.
+  void add(std::vector<PoolMember> members);
+
+  void save(io::BinaryWriter& writer) const;
+  /// Throws UserError(bad_file) for more members than the pool holds, or other places.
+  void load(io::BinaryReader& reader, std::size_t dimensions);
+
+ private:
+  std::size_t size_, neighbours_;
+  std::vector<PoolMember> members_;
+};
+
+}  // namespace amble::search
