@@ -160,7 +160,11 @@ void CovarianceAdaptation::load(io::BinaryReader& reader) {
     if (read.size() != values->size()) reader.bad("a distribution of other dimensions");
     *values = std::move(read);
   }
-  if (rounds_ < 0 || !std::isfinite(step_) || !(step_ > 0.0)) reader.bad("a distribution that cannot be");
+  const auto finite = [](const std::vector<double>& values) {
+    return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+  };
+  if (rounds_ < 0 || !sound_ || !std::isfinite(step_) || !(step_ > 0.0) || !finite(mean_) || !finite(factor_))
+    reader.bad("a distribution that cannot be");
 }
 
 }  // namespace amble::search

@@ -25,8 +25,11 @@ std::vector<double> dominated_novelty(std::span<const PoolMember> members, std::
   for (std::size_t i = 0; i < members.size(); ++i) {
     nearest.clear();
     for (std::size_t j = 0; j < members.size(); ++j) {
-      if (j == i || members[j].objective < members[i].objective) continue;
-      const double squares = squared_distance(members[i].place, members[j].place);
+      // Of equally good ones the first counts as better, or twins would drop out together.
+      const bool dominates = members[j].objective > members[i].objective ||
+                             (members[j].objective == members[i].objective && j < i);
+      if (!dominates) continue;
+      const double squares = squared_distance(members[i].descriptor, members[j].descriptor);
       if (nearest.size() == neighbours && !(squares < nearest.back())) continue;
       nearest.insert(std::ranges::upper_bound(nearest, squares), squares);
       if (nearest.size() > neighbours) nearest.pop_back();
@@ -58,7 +61,7 @@ void DominatedPool::save(io::BinaryWriter& writer) const {
   for (const PoolMember& member : members_) {
     writer.put_span(std::span<const char>(member.genome));
     writer.put(member.objective);
-    writer.put_span(std::span<const double>(member.place));
+    writer.put_span(std::span<const double>(member.descriptor));
   }
 }
 
@@ -71,10 +74,11 @@ void DominatedPool::load(io::BinaryReader& reader, std::size_t dimensions) {
     const auto genome = reader.get_vector<char>();
     member.genome.assign(genome.begin(), genome.end());
     member.objective = reader.get<double>();
-    member.place = reader.get_vector<double>();
-    const bool finite = std::isfinite(member.objective) &&
-                        std::ranges::all_of(member.place, [](double value) { return std::isfinite(value); });
-    if (member.place.size() != dimensions || !finite) reader.bad("a genome of another pool");
+    member.descriptor = reader.get_vector<double>();
+    const bool finite =
+        std::isfinite(member.objective) &&
+        std::ranges::all_of(member.descriptor, [](double value) { return std::isfinite(value); });
+    if (member.descriptor.size() != dimensions || !finite) reader.bad("a genome of another pool");
     members_.push_back(std::move(member));
   }
 }

@@ -13,15 +13,16 @@ namespace amble::search {
 struct PoolMember {
   std::string genome;  ///< in whatever form the search keeps it
   double objective = 0.0;
-  std::vector<double> place;  ///< its descriptor, each over its range: 0 … 1 where it is inside
+  std::vector<double> descriptor;  ///< each number over its range: 0 … 1 where it is inside
 };
 
 /// Dominated novelty of each (Bahlous-Boldi et al., "Dominated Novelty Search", arXiv 2502.00593): the mean
-/// distance of its place to the `neighbours` nearest that are at least as good, or as many as there are.
-/// Infinite for the best.
+/// distance of its descriptor to the `neighbours` nearest that are better, or as good and before it; of
+/// fewer, if there are no more. Infinite for the first of the best.
 std::vector<double> dominated_novelty(std::span<const PoolMember> members, std::size_t neighbours);
 
-/// The genomes with the largest dominated novelty of all that were added. Without cells or bounds.
+/// The genomes with the largest dominated novelty of all that were added: the population of that search,
+/// without cells or bounds.
 class DominatedPool {
  public:
   DominatedPool(std::size_t size, std::size_t neighbours) : size_(size), neighbours_(neighbours) {}
@@ -31,7 +32,7 @@ class DominatedPool {
   void add(std::vector<PoolMember> members);
 
   void save(io::BinaryWriter& writer) const;
-  /// Throws UserError(bad_file) for more members than the pool holds, or other places.
+  /// Throws UserError(bad_file) for more members than the pool holds, or other descriptors.
   void load(io::BinaryReader& reader, std::size_t dimensions);
 
  private:

@@ -66,11 +66,7 @@ void MapElites::breed() {
   innovations_ = before_;
   candidates_.clear();
   origins_.clear();
-  if (emitters_) {
-    candidates_ = emitters_->candidates(round_);
-    origins_.resize(candidates_.size());
-    return;
-  }
+  if (emitters_) return add_samples();
   const int batch = settings_.batch;
   // After the first rounds only for a map that is still empty.
   const bool random =
@@ -96,6 +92,14 @@ void MapElites::breed() {
     candidates_.push_back(neat::initial_genome(neat_.genome, inputs_, outputs_, innovations_, stream));
     origins_.emplace_back();
   }
+}
+
+/// Elites again, as many as there are of their share of the batch, and the emitters' samples.
+void MapElites::add_samples() {
+  for (const std::uint32_t cell : elites().least_evaluated(settings_.reevaluations(elites().size())))
+    add_elite_again(cell);
+  for (neat::Genome& sample : emitters_->candidates(round_)) candidates_.push_back(std::move(sample));
+  origins_.resize(candidates_.size());
 }
 
 void MapElites::add_elite_again(std::uint32_t cell) {
@@ -198,11 +202,14 @@ void MapElites::tell(std::span<const Evaluation> evaluations) {
   breed();
 }
 
+/// Their samples are the last candidates of the round.
 void MapElites::tell_emitters(std::span<const Evaluation> evaluations) {
+  const std::size_t samples = to_index(settings_.cma.emitters) * to_index(settings_.candidates_per_emitter());
+  const auto of_samples = evaluations.last(samples);
   std::vector<std::uint32_t> cells;
-  for (const Evaluation& evaluation : evaluations)
+  for (const Evaluation& evaluation : of_samples)
     cells.push_back(evaluation.viable ? cells_->of(evaluation.behaviour) : 0);
-  emitters_->tell(candidates_, evaluations, cells, elites(), round_);
+  emitters_->tell(std::span(candidates_).last(samples), of_samples, cells, elites(), round_);
 }
 
 /// New genomes alone: those that are tried again are in it, if they are worth it, by their first evaluation.
@@ -215,8 +222,8 @@ void MapElites::fill_pool(std::span<const Evaluation> evaluations) {
     member.objective = evaluations[i].objective;
     for (std::size_t d = 0; d < settings_.descriptors.size(); ++d) {
       const DescriptorSettings& range = settings_.descriptors[d];
-      member.place.push_back((double{evaluations[i].behaviour[d]} - range.least) /
-                             (range.most - range.least));
+      member.descriptor.push_back((double{evaluations[i].behaviour[d]} - range.least) /
+                                  (range.most - range.least));
     }
   }
   pool_->add(std::move(members));
@@ -306,15 +313,17 @@ void MapElites::credit_parent(const EliteName& parent, bool entered) {
 
 std::vector<Metric> MapElites::metrics() const {
   const double cells = elites().cells(), filled = elites().size();
-  return {{"elites", filled},
-          {"coverage", filled / cells},
-          {"qd_score", elites().objective_sum()},
-          {"map_best", elites().best_objective()},
-          {"entered", static_cast<double>(counts_.entered)},
-          {"improved", static_cast<double>(counts_.improved)},
-          {"reevaluated", static_cast<double>(counts_.reevaluated)},
-          {"moved", static_cast<double>(counts_.moved)},
-          {"lost", static_cast<double>(counts_.lost)}};
+  std::vector<Metric> all{{"elites", filled},
+                          {"coverage", filled / cells},
+                          {"qd_score", elites().objective_sum()},
+                          {"map_best", elites().best_objective()},
+                          {"entered", static_cast<double>(counts_.entered)},
+                          {"improved", static_cast<double>(counts_.improved)},
+                          {"reevaluated", static_cast<double>(counts_.reevaluated)},
+                          {"moved", static_cast<double>(counts_.moved)},
+                          {"lost", static_cast<double>(counts_.lost)}};
+  if (emitters_) all.push_back({"cma_restarts", static_cast<double>(emitters_->restarts())});
+  return all;
 }
 
 void MapElites::save(io::BinaryWriter& writer) const {

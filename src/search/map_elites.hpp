@@ -68,6 +68,7 @@ class MapElites : public Strategy {
   };
 
   void breed();
+  void add_samples();
   void add_elite_again(std::uint32_t cell);
   void add_child(Stream& stream);
   Parent draw(Stream& stream) const;

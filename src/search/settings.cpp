@@ -137,10 +137,11 @@ void MapElitesSettings::describe(io::SettingsVisitor& visitor) {
        "promising ones; without effect if trials = 1"});
   visitor.choice(
       "variation", variation, variation_names,
-      {.what =
-           "new genomes: by NEAT's mutation; or weights alone: along the line to another elite, or by CMA-ES "
-           "towards what improves the map, both without a weight_limit but for the first",
-       .source = "line: Vassiliades & Mouret 2018; cma: Fontaine & Nikolaidis 2023 (CMA-MAE)",
+      {.what = "new genomes: by NEAT's mutation; or weights alone, which genome.weight_limit then only "
+               "bounds where "
+               "they begin: along the line to another elite, or by CMA-ES towards what improves the map",
+       .source =
+           "line: Vassiliades & Mouret 2018; cma: CMA-MAE, Fontaine & Nikolaidis 2023, arXiv 2205.10752",
        .first_is_implied = true});
   visitor.table("pool", pool,
                 {.what = "the pool of select = \"dominated\"; without effect under others",
@@ -152,27 +153,34 @@ void MapElitesSettings::describe(io::SettingsVisitor& visitor) {
 }
 
 void PoolSettings::describe(io::SettingsVisitor& visitor) {
-  visitor.integer("size", size, {2, 1e5}, {"genomes that it holds"});
-  visitor.integer("neighbours", neighbours, {1, 1e5},
-                  {"how many of the nearest better ones count for how unlike a genome is"});
+  visitor.integer("size", size, {2, 1e4}, {"genomes that it holds", "arXiv 2502.00593: 1024"});
+  visitor.integer(
+      "neighbours", neighbours, {1, 100},
+      {"how many of the nearest better ones count for how unlike a genome is", "k of arXiv 2502.00593"});
 }
 
 void LineSettings::describe(io::SettingsVisitor& visitor) {
-  visitor.number("own", own, {0.0, 1e3}, {"standard deviation of each weight's own step"});
+  visitor.number("iso_sigma", iso_sigma, {0.0, 1e3},
+                 {"standard deviation of each weight's own step", "σ₁ of Vassiliades & Mouret 2018"});
   visitor.number(
-      "shared", shared, {0.0, 1e3},
-      {"standard deviation of the step that all weights share, as a share of the way to the other elite"});
+      "line_sigma", line_sigma, {0.0, 1e3},
+      {"standard deviation of the step that all weights share, as a share of the way to the other elite",
+       "σ₂ of Vassiliades & Mouret 2018: 0.2"});
 }
 
 void CmaEmitterSettings::describe(io::SettingsVisitor& visitor) {
   visitor.integer("emitters", emitters, {1, 1e4},
-                  {"distributions; the batch is shared out evenly, at least 4 candidates each"});
-  visitor.number("step", step, {1e-9, 1e3}, {"standard deviation of each weight where an emitter begins"});
+                  {"distributions; what reevaluate_share leaves of the batch is shared out evenly, at least "
+                   "4 candidates each"});
+  visitor.number("step", step, {1e-9, 1e3},
+                 {"standard deviation of each weight where an emitter begins", "σ₀ of arXiv 2205.10752"});
   visitor.number("learning_rate", learning_rate, {0.0, 1.0},
                  {"how much of the way a cell's threshold goes to the objective of a candidate that exceeds "
-                  "it; 1: CMA-ME"});
-  visitor.number("least_threshold", least_threshold, {-1e9, 1e9},
-                 {"threshold of a cell at first: what a candidate there must exceed"});
+                  "it; 1: nearly CMA-ME",
+                  "α of arXiv 2205.10752: 0.01"});
+  visitor.number(
+      "least_threshold", least_threshold, {-1e9, 1e9},
+      {"threshold of a cell at first: what a candidate there must exceed", "min_f of arXiv 2205.10752"});
 }
 
 void MapElitesSettings::validate() const {
@@ -202,31 +210,43 @@ void MapElitesSettings::validate() const {
         "search.map_elites.challenger_share = {}: expected more if trials = {}: no candidate could be tried "
         "again",
         challenger_share, trials);
-  if (variation == Variation::cma) validate_emitters();
+  if (variation != Variation::mutation) validate_variation();
   if (archive == Archive::cvt && centroid_samples < cells)
     fail_setting({"search.map_elites.centroid_samples", "search.map_elites.cells"},
                  "search.map_elites.centroid_samples = {}: expected at least search.map_elites.cells, {}",
                  centroid_samples, cells);
 }
 
-void MapElitesSettings::validate_emitters() const {
+int MapElitesSettings::candidates_per_emitter() const {
+  const int samples = batch - static_cast<int>(std::lround(reevaluate_share * batch));
+  return cma.emitters > 0 && samples % cma.emitters == 0 ? samples / cma.emitters : 0;
+}
+
+void MapElitesSettings::validate_variation() const {
+  const std::string_view name = variation_names[static_cast<std::size_t>(variation)];
+  if (crossover_probability > 0.0)
+    fail_setting({"search.map_elites.crossover_probability", "search.map_elites.variation"},
+                 "search.map_elites.crossover_probability = {}: expected 0 under variation = \"{}\", which "
+                 "does not mix links",
+                 crossover_probability, name);
+  if (variation != Variation::cma) return;
   constexpr int least_candidates = 4;
   if (candidates_per_emitter() < least_candidates)
-    fail_setting({"search.map_elites.batch", "search.map_elites.cma.emitters"},
-                 "search.map_elites.batch = {}: expected a multiple of search.map_elites.cma.emitters = {}, "
-                 "at least {} each, under "
-                 "variation = \"cma\"",
-                 batch, cma.emitters, least_candidates);
+    fail_setting(
+        {"search.map_elites.batch", "search.map_elites.cma.emitters"},
+        "search.map_elites.batch = {}: expected what reevaluate_share = {} leaves of it to be a multiple of "
+        "search.map_elites.cma.emitters = {}, at least {} each",
+        batch, reevaluate_share, cma.emitters, least_candidates);
   if (trials > 1)
     fail_setting(
         {"search.map_elites.trials", "search.map_elites.variation"},
         "search.map_elites.trials = {}: expected 1 under variation = \"cma\", whose candidates enter at once",
         trials);
-  if (reevaluate_share > 0.0)
-    fail_setting({"search.map_elites.reevaluate_share", "search.map_elites.variation"},
-                 "search.map_elites.reevaluate_share = {}: expected 0 under variation = \"cma\", whose "
-                 "emitters need the whole batch",
-                 reevaluate_share);
+  if (select != Selection::uniform)
+    fail_setting({"search.map_elites.select", "search.map_elites.variation"},
+                 "search.map_elites.select = \"{}\": expected \"uniform\" under variation = \"cma\", which "
+                 "draws no parents",
+                 selection_names[static_cast<std::size_t>(select)]);
 }
 
 std::uint32_t MapElitesSettings::cell_count() const {

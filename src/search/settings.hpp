@@ -110,24 +110,26 @@ enum class Variation {
 /// As configs write them, by Variation.
 inline constexpr std::array<std::string_view, 3> variation_names{"mutation", "line", "cma"};
 
-/// Variation::line: each weight of a copy moves by `own` × a normal number, and by `shared` × one more of
-/// them, the same for all weights, × its difference from the mate's.
+/// Variation::line ("iso+line"): each weight of a copy moves by a normal number of its own, and along the
+/// line to the mate by one more that all weights share.
 struct LineSettings {
-  double own = 0.02;    ///< standard deviation in the unit of weights, 0 … 1000
-  double shared = 0.2;  ///< standard deviation as a share of the way to the mate, 0 … 1000
+  double iso_sigma = 0.02;  ///< standard deviation of a weight's own step, in the unit of weights, 0 … 1000
+  double line_sigma =
+      0.2;  ///< standard deviation of the shared one, as a share of the way to the mate, 0 … 1000
 
   void describe(io::SettingsVisitor& visitor);  ///< the table [search.map_elites.line]
   bool operator==(const LineSettings&) const = default;
 };
 
-/// Variation::cma: CMA-MAE. Each emitter is a distribution of its own; `batch` is shared out evenly.
+/// Variation::cma: CMA-MAE. Each emitter is a distribution of its own; what `reevaluate_share` leaves of a
+/// batch is shared out evenly.
 struct CmaEmitterSettings {
-  int emitters = 15;  ///< distributions, 1 … 1e4
-  double step = 0.1;  ///< standard deviation of each weight where one begins, 1e−9 … 1000
-  /// How much of the way a cell's threshold goes to the objective of a candidate that exceeds it, 0 … 1. 0: a
-  /// search for the best alone; 1: CMA-ME, where the threshold is the elite's objective.
+  int emitters = 16;  ///< distributions, 1 … 1e4
+  double step = 0.1;  ///< standard deviation of each weight where one begins (σ₀), 1e−9 … 1000
+  /// How much of the way a cell's threshold goes to the objective of a candidate that exceeds it (α), 0 … 1.
+  /// 0: a search for the best alone; 1: nearly CMA-ME, but that several of a round count by their mean.
   double learning_rate = 0.01;
-  double least_threshold = 0.0;  ///< of a cell at first, in the unit of the score, −1e9 … 1e9
+  double least_threshold = 0.0;  ///< of a cell at first, in the unit of the score (min_f), −1e9 … 1e9
 
   void describe(io::SettingsVisitor& visitor);  ///< the table [search.map_elites.cma]
   bool operator==(const CmaEmitterSettings&) const = default;
@@ -135,8 +137,8 @@ struct CmaEmitterSettings {
 
 /// Selection::dominated (dominated_pool.hpp).
 struct PoolSettings {
-  int size = 1024;     ///< genomes, 2 … 1e5
-  int neighbours = 3;  ///< better ones to which a distance counts, 1 … 1e5
+  int size = 1024;     ///< genomes, 2 … 1e4
+  int neighbours = 3;  ///< better ones to which a distance counts (k), 1 … 100
 
   void describe(io::SettingsVisitor& visitor);  ///< the table [search.map_elites.pool]
   bool operator==(const PoolSettings&) const = default;
@@ -179,12 +181,12 @@ struct MapElitesSettings {
   /// Whether a candidate can need more than one evaluation to enter the map.
   bool tries_candidates_again() const { return trials > 1; }
   /// Candidates of each emitter in a round; 0 if they cannot be shared out evenly.
-  int candidates_per_emitter() const { return batch % cma.emitters == 0 ? batch / cma.emitters : 0; }
+  int candidates_per_emitter() const;
   /// Candidates at most that are tried again in a round before they enter.
   std::size_t most_challengers() const;
 
  private:
-  void validate_emitters() const;
+  void validate_variation() const;
 };
 
 /// Largest number of cells of a map.

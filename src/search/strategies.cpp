@@ -1,5 +1,7 @@
 #include "amble/search/strategies.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "amble/core/check.hpp"
@@ -65,24 +67,25 @@ void check_map_elites_memory(const Settings& settings, const SearchSpace& space,
   // This assumes that genomes grow to four times the links they start with.
   const double links = 4.0 * (space.inputs + 1.0) * space.outputs;
   const double elite_bytes = 160.0 + 13.0 * links + 4.0 * static_cast<double>(space.behaviour_length);
-  const double cells = settings.map_elites.cell_count();
-  double needed = cells * (elite_bytes + 8.0);
-  if (settings.map_elites.variation == Variation::cma) {
-    const double weights = (space.inputs + 1.0) * space.outputs;
-    const double emitters_bytes = settings.map_elites.cma.emitters * 16.0 * weights * weights;
-    if (emitters_bytes > memory_bytes)
-      fail_setting({"search.map_elites.cma.emitters"},
-                   "search.map_elites.cma.emitters = {}: that many distributions of {:.0f} weights need "
-                   "{:.1f} GB, this process "
-                   "may use {:.1f} GB: expected fewer",
-                   settings.map_elites.cma.emitters, weights, emitters_bytes / 1e9, memory_bytes / 1e9);
-    needed += cells * sizeof(double) + emitters_bytes;
-  }
-  if (needed > memory_bytes)
+  const MapElitesSettings& map = settings.map_elites;
+  const double cells = map.cell_count();
+  const double weights = (space.inputs + 1.0) * space.outputs;
+  double beside = 0.0;  // what is kept beside the map
+  if (map.variation == Variation::cma)
+    beside = map.cma.emitters * 16.0 * weights * weights + cells * sizeof(double);
+  if (map.select == Selection::dominated) beside = (map.pool.size + map.batch) * 2.0 * elite_bytes;
+  if (beside > memory_bytes)
+    fail_setting({"search.map_elites.cma.emitters", "search.map_elites.pool.size"},
+                 "search.map_elites: {} could need {:.1f} GB, this process may use {:.1f} GB: expected fewer",
+                 map.variation == Variation::cma
+                     ? fmt::format("cma.emitters = {} for CPPNs of {:.0f} weights", map.cma.emitters, weights)
+                     : fmt::format("pool.size = {} and a batch of {}", map.pool.size, map.batch),
+                 beside / 1e9, memory_bytes / 1e9);
+  if (const double needed = cells * (elite_bytes + 8.0) + beside; needed > memory_bytes)
     fail_setting({"search.map_elites.descriptors", "search.map_elites.cells"},
                  "search.map_elites: {} cells could need {:.1f} GB, this process may use {:.1f} GB: expected "
                  "fewer cells",
-                 settings.map_elites.cell_count(), needed / 1e9, memory_bytes / 1e9);
+                 map.cell_count(), needed / 1e9, memory_bytes / 1e9);
 }
 
 int population(const Settings&, const neat::Settings& neat) {
@@ -149,8 +152,8 @@ void Settings::describe(io::SettingsVisitor& visitor) {
   visitor.row_name(
       "kind", kind, kinds().rows(),
       {"what selects parents: the objective itself (distance walked), novelty of behaviour, or "
-       "being the best of one's kind (a map of gaits); or the objective, by CMA-ES on the weights of a "
-       "CPPN that does not grow",
+       "being the best of one's kind (a map of gaits, filled as search.map_elites.variation says); or the "
+       "objective, by CMA-ES on the weights of a CPPN that does not grow",
        "Morse et al. 2013, sec. 4; arXiv 1604.00772"});
   visitor.table("novelty", novelty, {"novelty search; without effect under other kinds"});
   visitor.table("map_elites", map_elites, {"MAP-Elites; without effect under other kinds"});

@@ -18,8 +18,8 @@ using testing::ElementsAre;
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-PoolMember member(double objective, std::vector<double> place) {
-  return {.genome = std::to_string(objective), .objective = objective, .place = std::move(place)};
+PoolMember member(double objective, std::vector<double> descriptor) {
+  return {.genome = std::to_string(objective), .objective = objective, .descriptor = std::move(descriptor)};
 }
 
 std::vector<double> objectives(const DominatedPool& pool) {
@@ -42,9 +42,9 @@ TEST(DominatedNovelty, CountsTheDistanceOverAllDimensions) {
               ElementsAre(endless, DoubleEq(0.5)));
 }
 
-TEST(DominatedNovelty, OfEquallyGoodOnesEachIsDominatedByTheOther) {
+TEST(DominatedNovelty, OfEquallyGoodOnesTheFirstCountsAsBetter) {
   EXPECT_THAT(dominated_novelty(std::vector{member(1.0, {0.0}), member(1.0, {0.25})}, 3),
-              ElementsAre(DoubleEq(0.25), DoubleEq(0.25)));
+              ElementsAre(endless, DoubleEq(0.25)));
 }
 
 TEST(DominatedNovelty, IsWhatLookingAtAllDistancesGives) {
@@ -56,13 +56,18 @@ TEST(DominatedNovelty, IsWhatLookingAtAllDistancesGives) {
   for (std::size_t i = 0; i < members.size(); ++i) {
     std::vector<double> distances;
     for (std::size_t j = 0; j < members.size(); ++j)
-      if (i != j && members[j].objective >= members[i].objective)
-        distances.push_back(
-            std::hypot(members[i].place[0] - members[j].place[0], members[i].place[1] - members[j].place[1]));
+      if (members[j].objective > members[i].objective ||
+          (members[j].objective == members[i].objective && j < i))
+        distances.push_back(std::hypot(members[i].descriptor[0] - members[j].descriptor[0],
+                                       members[i].descriptor[1] - members[j].descriptor[1]));
     std::ranges::sort(distances);
     distances.resize(std::min<std::size_t>(4, distances.size()));
     double sum = 0.0;
     for (const double distance : distances) sum += distance;
+    if (distances.empty()) {
+      EXPECT_EQ(novelties[i], endless);
+      continue;
+    }
     EXPECT_NEAR(novelties[i], sum / static_cast<double>(distances.size()), 1e-12);
   }
 }
@@ -73,6 +78,12 @@ TEST(DominatedPool, KeepsTheBestAndWhatIsUnlikeAllBetterOnes) {
   EXPECT_THAT(objectives(pool), ElementsAre(3.0, 0.1));
   pool.add({member(4.0, {0.52})});  // the one at 0.5 is now in its shade
   EXPECT_THAT(objectives(pool), ElementsAre(4.0, 0.1));
+}
+
+TEST(DominatedPool, KeepsOneOfTwoTwinsThatAreTheBest) {
+  DominatedPool pool(2, 3);
+  pool.add({member(3.0, {0.5}), member(3.0, {0.5}), member(1.0, {0.1})});
+  EXPECT_THAT(objectives(pool), ElementsAre(3.0, 1.0));
 }
 
 TEST(DominatedPool, IsReadAsItWasSaved) {
@@ -86,7 +97,7 @@ TEST(DominatedPool, IsReadAsItWasSaved) {
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(again.members()[i].genome, pool.members()[i].genome);
     EXPECT_EQ(again.members()[i].objective, pool.members()[i].objective);
-    EXPECT_EQ(again.members()[i].place, pool.members()[i].place);
+    EXPECT_EQ(again.members()[i].descriptor, pool.members()[i].descriptor);
   }
 }
 

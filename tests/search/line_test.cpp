@@ -21,7 +21,7 @@ TEST(Line, ChildrenWithoutAStepOfTheirOwnLieOnTheLineToTheMate) {
                      mate = genome_of({{0, 2.0}, {1, 2.0}, {2, 0.5}});
   Stream stream(1, Purpose::test);
   for (int i = 0; i < 100; ++i) {
-    const neat::Genome child = moved_along_line(parent, mate, {.own = 0.0, .shared = 0.2}, stream);
+    const neat::Genome child = moved_along_line(parent, mate, {.iso_sigma = 0.0, .line_sigma = 0.2}, stream);
     const double way = child.links[0].weight - 1.0;
     EXPECT_NEAR(child.links[1].weight, -2.0 + 4.0 * way, 1e-12);
     EXPECT_EQ(child.links[2].weight, 0.5);
@@ -34,7 +34,7 @@ TEST(Line, StepsHaveTheDeviationsOfTheSettings) {
   double along = 0.0, own = 0.0;
   Stream stream(2, Purpose::test);
   for (int i = 0; i < children; ++i) {
-    const neat::Genome child = moved_along_line(parent, mate, {.own = 0.1, .shared = 0.2}, stream);
+    const neat::Genome child = moved_along_line(parent, mate, {.iso_sigma = 0.1, .line_sigma = 0.2}, stream);
     along += std::pow(child.links[0].weight - 1.0, 2);
     own += std::pow(child.links[1].weight - 1.0, 2);
   }
@@ -46,7 +46,7 @@ TEST(Line, LinksThatTheMateLacksMoveByTheirOwnStepAlone) {
   const neat::Genome parent = genome_of({{1, 1.0}, {4, 1.0}, {7, 1.0}}),
                      mate = genome_of({{0, 9.0}, {4, 3.0}, {8, 9.0}});
   Stream stream(3, Purpose::test);
-  const neat::Genome child = moved_along_line(parent, mate, {.own = 0.0, .shared = 0.5}, stream);
+  const neat::Genome child = moved_along_line(parent, mate, {.iso_sigma = 0.0, .line_sigma = 0.5}, stream);
   EXPECT_EQ(child.links[0].weight, 1.0);
   EXPECT_NE(child.links[1].weight, 1.0);
   EXPECT_EQ(child.links[2].weight, 1.0);

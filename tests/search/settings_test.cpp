@@ -82,6 +82,7 @@ TEST(MapElitesSettings, EvaluateAShareOfABatchAgainAsFarAsThereAreElites) {
 TEST(MapElitesSettings, ShareABatchOutEvenlyAmongEmittersWhoseCandidatesEnterAtOnce) {
   MapElitesSettings settings = map_of({5, 5});
   settings.variation = Variation::cma;
+  settings.cma.emitters = 15;
   settings.batch = 60;
   EXPECT_EQ(refused_keys(settings), std::vector<std::string>{});
   EXPECT_EQ(settings.candidates_per_emitter(), 4);
@@ -90,14 +91,34 @@ TEST(MapElitesSettings, ShareABatchOutEvenlyAmongEmittersWhoseCandidatesEnterAtO
     settings.batch = batch;
     EXPECT_EQ(refused_keys(settings), share) << batch;
   }
-  settings.batch = 60;
+  settings.batch = 120;
+  settings.reevaluate_share = 0.5;
+  EXPECT_EQ(settings.candidates_per_emitter(), 4);
+  EXPECT_EQ(refused_keys(settings), std::vector<std::string>{});
   settings.trials = 2;
   EXPECT_EQ(refused_keys(settings),
             (std::vector<std::string>{"search.map_elites.trials", "search.map_elites.variation"}));
-  settings.trials = 1;
-  settings.reevaluate_share = 0.1;
+}
+
+TEST(MapElitesSettings, RefuseWhatHasNoEffectBesideAVariationOfWeightsAlone) {
+  MapElitesSettings settings = map_of({5, 5});
+  settings.variation = Variation::cma;
+  settings.select = Selection::dominated;
   EXPECT_EQ(refused_keys(settings),
-            (std::vector<std::string>{"search.map_elites.reevaluate_share", "search.map_elites.variation"}));
+            (std::vector<std::string>{"search.map_elites.select", "search.map_elites.variation"}));
+  settings.variation = Variation::line;
+  EXPECT_EQ(refused_keys(settings), std::vector<std::string>{});
+  settings.crossover_probability = 0.5;
+  EXPECT_EQ(refused_keys(settings), (std::vector<std::string>{"search.map_elites.crossover_probability",
+                                                              "search.map_elites.variation"}));
+}
+
+TEST(MapElitesSettings, OfEachVariationFitAtTheirDefaults) {
+  for (const Variation variation : {Variation::mutation, Variation::line, Variation::cma}) {
+    MapElitesSettings settings = map_of({5, 5});
+    settings.variation = variation;
+    EXPECT_EQ(refused_keys(settings), std::vector<std::string>{}) << static_cast<int>(variation);
+  }
 }
 
 class MapElitesMemory : public testing::Test {
@@ -128,6 +149,13 @@ TEST_F(MapElitesMemory, IsNeededForEachEmitter) {
   settings_.map_elites.cma.emitters = 1000;
   EXPECT_NO_THROW(check(1e7));
   EXPECT_THROW(check(1e6), SettingError);
+}
+
+TEST_F(MapElitesMemory, IsNeededForTheGenomesOfAPool) {
+  settings_.map_elites.select = Selection::dominated;
+  settings_.map_elites.pool.size = 10'000;
+  EXPECT_NO_THROW(check(1e8));
+  EXPECT_THROW(check(5e6), SettingError);
 }
 
 TEST(MapElitesSettings, CallADimensionByItsQuantityAndLeg) {
