@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "amble/core/index.hpp"
 #include "amble/report/number_text.hpp"
@@ -60,6 +61,31 @@ std::string line_of(const StudyData& data, const ClaimSpec& claim) {
                      needed);
 }
 
+/// The claims of differences of one relation are adjusted together (Holm): the smallest p counts as many
+/// times over as there are claims, so that ranks of few runs can confirm none of many. Nothing where any of
+/// them could be confirmed.
+std::string too_many(const StudyData& data, ledger::Relation relation) {
+  std::vector<const ClaimSpec*> family;
+  for (const ClaimSpec& claim : data.study.claims)
+    if (claim.kind == ClaimKind::difference && claim.relation == relation) family.push_back(&claim);
+  if (family.size() < 2) return {};
+  double smallest_p = 1.0;
+  for (const ClaimSpec* const claim : family) {
+    if (claim->test != ledger::TwoSampleTest::mann_whitney) return {};
+    const double p =
+        statistics::smallest_mann_whitney_p(data.planned(claim->condition), data.planned(claim->against));
+    if (p >= claim->alpha) return {};  // has a line of its own
+    if (p * static_cast<double>(family.size()) < claim->alpha) return {};
+    smallest_p = std::min(smallest_p, p);
+  }
+  return fmt::format(
+      "the {} claims that one condition is {} another are adjusted together, and with these runs the "
+      "smallest p of "
+      "ranks is {:.2g}: none can be confirmed; {} runs of each condition are needed, or fewer claims",
+      family.size(), relation == ledger::Relation::greater ? "ahead of" : "not behind", smallest_p,
+      needed_by_ranks(family.front()->alpha / static_cast<double>(family.size())));
+}
+
 }  // namespace
 
 std::vector<std::string> undecidable_claims(const ledger::StudySpec& study) {
@@ -68,6 +94,8 @@ std::vector<std::string> undecidable_claims(const ledger::StudySpec& study) {
   for (std::size_t i = 0; i < study.claims.size(); ++i)
     if (const std::string line = line_of(data, study.claims[i]); !line.empty())
       lines.push_back(fmt::format("claims[{}], \"{}\": {}", i, study.claims[i].text, line));
+  for (const auto relation : {ledger::Relation::greater, ledger::Relation::not_less})
+    if (std::string line = too_many(data, relation); !line.empty()) lines.push_back(std::move(line));
   return lines;
 }
 

@@ -46,6 +46,24 @@ TEST(UndecidableClaims, OfRanksDependOnHowSmallPIsToBe) {
   EXPECT_THAT(undecidable_claims(with_claim(7, ranks(0.001))), IsEmpty());
 }
 
+TEST(UndecidableClaims, OfRanksMayBeTooManyToBeAdjustedTogether) {
+  ledger::ClaimSpec claim;
+  claim.test = ledger::TwoSampleTest::mann_whitney;
+  ledger::StudySpec study = with_claim(5, claim);
+  for (int more = 0; more < 5; ++more) study.claims.push_back(study.claims.front());
+  EXPECT_THAT(undecidable_claims(study), IsEmpty());  // 6 × 2/252 = 0.048
+  study.claims.push_back(study.claims.front());
+  EXPECT_THAT(undecidable_claims(study),
+              ElementsAre(HasSubstr(
+                  "the 7 claims that one condition is ahead of another are adjusted together, and "
+                  "with these runs the smallest p of ranks is 0.0079: none can be confirmed; 6 runs")));
+  study.claims.back().relation = ledger::Relation::not_less;  // of another family
+  EXPECT_THAT(undecidable_claims(study), IsEmpty());
+  study.claims.back() = study.claims.front();
+  study.claims.back().test = ledger::TwoSampleTest::welch;  // whose p has no least
+  EXPECT_THAT(undecidable_claims(study), IsEmpty());
+}
+
 TEST(UndecidableClaims, OfPlateausNeedRunsThatGoOnAfterTheirGeneration) {
   ledger::ClaimSpec claim;
   claim.kind = ledger::ClaimKind::plateau;
