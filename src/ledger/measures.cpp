@@ -65,7 +65,7 @@ constexpr std::array map_measures{
     MapMeasure{"staying_share", "share of the elites that stay in their cell", true}};
 
 /// What a test must look for to have a measure.
-enum class Requires { trials, episodes, reaching, mutants, commands, energy };
+enum class Requires { trials, episodes, reaching, mutants, commands, energy, seam };
 
 struct TestMeasure {
   std::string_view name, label;
@@ -99,6 +99,16 @@ std::optional<double> gait_change(const Record&, const TestResult& test) {
   for (const record::Mutant& mutant : test.mutants)
     if (mutant.viable()) sum += mutant.change, ++viable;
   return viable > 0.0 ? sum / viable : 0.0;
+}
+
+std::optional<double> jumps(const Record&, const TestResult& test) {
+  return test.seam ? std::optional(static_cast<double>(test.seam->jumps)) : std::nullopt;
+}
+std::optional<double> jump_rad(const Record&, const TestResult& test) {
+  return test.seam ? std::optional(test.seam->mean_rad) : std::nullopt;
+}
+std::optional<double> jump_power_w(const Record&, const TestResult& test) {
+  return test.seam ? std::optional(test.seam->power_w) : std::nullopt;
 }
 
 using Found = std::optional<double>;
@@ -136,6 +146,12 @@ constexpr std::array test_measures{
                 Requires::commands},
     TestMeasure{"cost_of_transport", "cost of transport",
                 [](const Record&, const TestResult& t) { return t.cost_of_transport(); }, Requires::energy},
+    TestMeasure{"switch_s", "time from a change of command until it is followed, s",
+                [](const Record&, const TestResult& t) { return t.obeyed(&Obeyed::switch_s); },
+                Requires::commands},
+    TestMeasure{"jumps", "jumps of legs' targets", jumps, Requires::seam},
+    TestMeasure{"jump_rad", "mean jump of a leg's targets, rad", jump_rad, Requires::seam},
+    TestMeasure{"jump_power_w", "power of a leg's motors after a jump, W", jump_power_w, Requires::seam},
     TestMeasure{"reached_s", "wall time until it was reached, s", reached_s, Requires::reaching},
     TestMeasure{"reached_generation", "generation that reached it",
                 [](const Record&, const TestResult& t) -> Found {
@@ -167,6 +183,8 @@ bool has(const TestSpec& test, Requires needs) {
       return !test.command.empty();
     case Requires::energy:
       return test.energy;
+    case Requires::seam:
+      return test.seam;
     case Requires::trials:
       break;
   }
@@ -204,15 +222,16 @@ std::string measure_names() {
   std::string corrected;
   for (const MapMeasure& row : map_measures)
     (row.is_corrected ? corrected : text) += fmt::format("{}, ", row.name);
-  std::array<std::string, 6> of_tests;
+  std::array<std::string, 7> of_tests;
   for (const TestMeasure& row : test_measures) {
     std::string& names = of_tests.at(to_index(row.needs));
     names += fmt::format("{}.{}", names.empty() ? "" : ", ", row.name);
   }
   return fmt::format(
       "{}with map_trials {}TEST{}, with episodes {}, with reach_m {}, with mutants {}, with "
-      "command {}, with energy {}",
-      text, corrected, of_tests[0], of_tests[1], of_tests[2], of_tests[3], of_tests[4], of_tests[5]);
+      "command {}, with energy {}, with seam {}",
+      text, corrected, of_tests[0], of_tests[1], of_tests[2], of_tests[3], of_tests[4], of_tests[5],
+      of_tests[6]);
 }
 
 std::vector<std::string> measures_of_runs() {

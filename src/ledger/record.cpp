@@ -19,10 +19,11 @@ constexpr std::string_view record_format = "amble-study-record";
 constexpr int record_version = 2;
 
 // As records name them.
-constexpr std::array<std::pair<const char*, std::optional<double> Obeyed::*>, 3> obeyed_values{
+constexpr std::array<std::pair<const char*, std::optional<double> Obeyed::*>, 4> obeyed_values{
     {{"tracking", &Obeyed::tracking},
      {"speed_error_m_s", &Obeyed::speed_error_m_s},
-     {"turn_error_rad_s", &Obeyed::turn_error_rad_s}}};
+     {"turn_error_rad_s", &Obeyed::turn_error_rad_s},
+     {"switch_s", &Obeyed::switch_s}}};
 
 // A robot moves if it gets that far in that time: the rule of standing still of score/walking.hpp.
 constexpr double moving_window_s = 10.0, moving_m = 0.25;
@@ -86,6 +87,11 @@ io::Json to_json(const TestResult& test) {
                 {"gait", test.gait},
                 {"path_interval_s", test.path_interval_s},
                 {"path_m", test.path_m}};
+  if (test.seam)
+    json["seam"] = {{"jumps", test.seam->jumps},
+                    {"mean_rad", test.seam->mean_rad},
+                    {"largest_rad", test.seam->largest_rad},
+                    {"power_w", test.seam->power_w}};
   if (test.reach_m > 0.0) json["reach_m"] = test.reach_m;
   if (test.reached)
     json["reached"] = {{"generation", test.reached->generation},
@@ -112,6 +118,15 @@ std::uint64_t total_from(const io::JsonView& view) {
   const std::int64_t value = view.integer();
   if (value < 0) view.bad("a whole number from 0 to 9223372036854775807");
   return static_cast<std::uint64_t>(value);
+}
+
+Seam seam_from(const io::JsonView& view) {
+  const Seam seam{.jumps = view.at("jumps").integer(),
+                  .mean_rad = view.at("mean_rad").finite_number(),
+                  .largest_rad = view.at("largest_rad").finite_number(),
+                  .power_w = view.at("power_w").finite_number()};
+  if (seam.jumps < 0) view.at("jumps").bad("a whole number of at least 0");
+  return seam;
 }
 
 void read_mutants(const io::JsonView& view, TestResult& test) {
@@ -142,6 +157,7 @@ TestResult test_from(const io::JsonView& view) {
   if (test.episodes.empty()) episodes.bad("a list of at least one trial");
   const auto path = view.at("path_m");
   for (std::size_t i = 0; i < path.size(); ++i) test.path_m.push_back(path.at(i).finite_number());
+  if (view.has("seam")) test.seam = seam_from(view.at("seam"));
   if (view.has("reach_m")) test.reach_m = view.at("reach_m").finite_number();
   if (view.has("reached")) {
     const auto reached = view.at("reached");

@@ -19,6 +19,7 @@ struct Obeyed {
   std::optional<double> tracking = {};
   /// Nothing for a trial that ended within its first second.
   std::optional<double> speed_error_m_s = {}, turn_error_rad_s = {};
+  std::optional<double> switch_s = {};  ///< nothing where the command never changes
 
   friend bool operator==(const Obeyed&, const Obeyed&) = default;
 };
@@ -44,6 +45,16 @@ struct EpisodeResult {
   friend bool operator==(const EpisodeResult&, const EpisodeResult&) = default;
 };
 
+/// How the targets of a trial pass from cycle to cycle (gait::SeamReport; TestSpec::seam).
+struct Seam {
+  std::int64_t jumps = 0;    ///< of all legs
+  double mean_rad = 0.0;     ///< how far a leg's farthest target goes in one
+  double largest_rad = 0.0;  ///< the farthest
+  double power_w = 0.0;      ///< of a leg's motors, the mean over 0.1 s after them
+
+  friend bool operator==(const Seam&, const Seam&) = default;
+};
+
 /// When a run first had a champion that gets as far as a test asks (TestSpec::reach_m).
 struct Reached {
   int generation = 0;
@@ -62,6 +73,7 @@ struct TestResult {
   std::string gait;                     ///< of the first episode (gait/gait.hpp); empty: no name
   double path_interval_s = 0.0;
   std::vector<double> path_m;           ///< first episode: x0, y0, x1, y1, … from the start, rounded to mm
+  std::optional<Seam> seam = {};        ///< of the first episode; nothing of controllers without timers
   double reach_m = 0.0;                 ///< TestSpec::reach_m; 0: not looked for
   std::optional<Reached> reached = {};  ///< nothing: not looked for, or no champion of the run gets that far
   double champion_score = 0.0;  ///< mean over the episodes, of which mutants keep shares; 0 without mutants

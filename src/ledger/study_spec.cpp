@@ -141,6 +141,8 @@ void TestSpec::describe(io::SettingsVisitor& visitor) {
   visitor.number("reach_m", reach_m, {0, 1e6},
                  {"the first best of the run whose median trial gets that far is found, m; 0: not"});
   visitor.flag("energy", energy, {"whether the cost of transport is measured"});
+  visitor.flag("seam", seam,
+               {"whether jumps of targets from cycle to cycle are measured, and the power after them"});
   visitor.integer("mutants", mutants, {0, most_mutants},
                   {"mutants of the champion that are tried beside it, in the same trials; 0: none"});
   visitor.texts("conditions", conditions, {"conditions whose champions are tested; empty: all"});

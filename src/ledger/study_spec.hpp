@@ -66,6 +66,7 @@ struct TestSpec {
   /// > 0: also finds the first of the run's successive bests whose median trial gets that far, m.
   double reach_m = 0.0;
   bool energy = false;  ///< also measures what the trials cost (Spent)
+  bool seam = false;    ///< also measures how targets pass from cycle to cycle (Seam), of the first trial
   /// > 0: also tries so many mutants of the champion in the same trials (record::Mutant).
   int mutants = 0;
   std::vector<std::string> conditions;  ///< names; empty: all

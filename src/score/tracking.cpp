@@ -36,6 +36,12 @@ struct Second {
     return std::sqrt(along * along + across_m_s * across_m_s);
   }
   double turn_error_rad_s() const { return std::abs(turned_rad - turn_rad_s); }
+  bool follows() const {
+    return speed_error_m_s() <= followed_speed_m_s && turn_error_rad_s() <= followed_turn_rad_s;
+  }
+  bool has_command_of(const Second& other) const {
+    return speed_m_s == other.speed_m_s && turn_rad_s == other.turn_rad_s;
+  }
 };
 
 std::vector<Second> seconds_of(const record::Trajectory& trajectory) {
@@ -160,6 +166,27 @@ double tracking(const record::Trajectory& trajectory, const Context& context) {
   const bool only_stops = moving_seconds == 0 && trajectory.outcome == record::Outcome::completed;
   const double moving_mean = only_stops ? 1.0 : moving / std::max(moving_seconds, 1);
   return std::clamp((moving + stops * moving_mean) / whole, 0.0, 1.0);
+}
+
+std::optional<double> switch_s(const record::Trajectory& trajectory, const Context& context) {
+  const std::vector<Second> seconds = seconds_of(trajectory);
+  std::size_t waited = 0, changes = 0;
+  bool waits = false, changed_before = false;
+  for (std::size_t k = 0; k < seconds.size(); ++k) {
+    const bool changes_now = k == 0 ? !seconds[k].is_stop() : !seconds[k].has_command_of(seconds[k - 1]);
+    // A change that goes on from the second before is a ramp: still the same one.
+    if (changes_now && !(waits && changed_before)) {
+      waits = true;
+      ++changes;
+    }
+    changed_before = changes_now;
+    if (waits && seconds[k].follows()) waits = false;
+    if (waits) ++waited;
+  }
+  if (changes == 0) return std::nullopt;
+  const auto whole = static_cast<std::size_t>(record::second_count(context.duration_s));
+  if (waits && whole > seconds.size()) waited += whole - seconds.size();
+  return static_cast<double>(waited) / static_cast<double>(changes);
 }
 
 }  // namespace amble::score

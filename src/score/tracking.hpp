@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "amble/record/trajectory.hpp"
 #include "amble/score/score.hpp"
 
@@ -52,5 +54,14 @@ double heading_error(const record::Trajectory& trajectory, const Context& contex
 /// over the whole seconds of a trial that completes; those that a fall cuts off count 0. A trial of less than
 /// a second counts 0.
 double tracking(const record::Trajectory& trajectory, const Context& context);
+
+/// A second in which both errors are at most these follows its command.
+inline constexpr double followed_speed_m_s = 0.1, followed_turn_rad_s = 0.2;
+
+/// Mean over the changes of command, s, of the whole seconds from a change to the first second that follows;
+/// one that none follows until the next change, or the end of the trial, counts all of them, those that a
+/// fall cuts off too. The start is a change unless a stop is commanded; seconds of a ramp are one. Nothing
+/// without a change.
+std::optional<double> switch_s(const record::Trajectory& trajectory, const Context& context);
 
 }  // namespace amble::score

@@ -60,6 +60,7 @@ std::optional<ledger::Obeyed> obeyed(const experiment::TrialResult& trial) {
   ledger::Obeyed obeyed{.tracking = thousandths(trial.tracking->tracking)};
   if (const auto& error = trial.tracking->speed_error_m_s) obeyed.speed_error_m_s = thousandths(*error);
   if (const auto& error = trial.tracking->turn_error_rad_s) obeyed.turn_error_rad_s = thousandths(*error);
+  if (const auto& wait_s = trial.tracking->switch_s) obeyed.switch_s = thousandths(*wait_s);
   return obeyed;
 }
 
@@ -70,6 +71,15 @@ std::optional<ledger::Spent> spent(const PlannedTest& test, const experiment::Pr
   return ledger::Spent{.energy_j = thousandths(trial.energy_j),
                        .way_m = thousandths(trial.way_m),
                        .weight_n = thousandths(problem.weight_n())};
+}
+
+/// Rounded as in records. Nothing of a controller without timers.
+std::optional<ledger::Seam> seam(const PlannedTest& test, const gait::Report& report) {
+  if (!test.spec.seam || !report.seam) return std::nullopt;
+  return ledger::Seam{.jumps = report.seam->jumps,
+                      .mean_rad = thousandths(report.seam->mean_rad),
+                      .largest_rad = thousandths(report.seam->largest_rad),
+                      .power_w = thousandths(report.seam->power_after_w.value_or(0.0))};
 }
 
 std::string gait_name(const gait::Report& report) {
@@ -144,6 +154,7 @@ std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experi
                             .gait = {},
                             .path_interval_s = interval_s,
                             .path_m = {},
+                            .seam = {},
                             .reach_m = test.spec.reach_m,
                             .reached = {},
                             .champion_score = 0.0,
@@ -170,7 +181,9 @@ std::optional<ledger::TestResult> run_test(const PlannedTest& test, const experi
                                .obeyed = obeyed(trial),
                                .spent = spent(test, problem, trial)});
   }
-  result.gait = gait_name(gait.finish(replayed->front().outcome));
+  const gait::Report report = gait.finish(replayed->front().outcome);
+  result.gait = gait_name(report);
+  result.seam = seam(test, report);
   result.path_m = walks.front().path_m();
   return result;
 }

@@ -122,6 +122,7 @@ std::string PlannedTest::settings_hash(std::string_view home) const {
   if (command) definition["command"] = io::settings_to_json(*command);
   if (steering) definition["steering"] = io::settings_to_json(*steering);
   if (spec.energy) definition["energy"] = true;
+  if (spec.seam) definition["seam"] = true;
   return hex(hash_text(definition.dump()));
 }
 

@@ -51,6 +51,21 @@ TEST(Measures, CostOfTransportIsEnergyByWeightAndWayAndInfiniteOfWhatGoesNowhere
   EXPECT_EQ(measure(record, "five.cost_of_transport"), std::numeric_limits<double>::infinity());
 }
 
+TEST(Measures, OfSeamsAndSwitchesAreThoseOfTheRecord) {
+  Record record = sample_record();
+  EXPECT_FALSE(measure(record, "five.jump_rad"));
+  EXPECT_FALSE(measure(record, "five.switch_s"));
+  record.tests[0].seam = {.jumps = 12, .mean_rad = 0.25, .largest_rad = 0.5, .power_w = 3.5};
+  record.tests[0].episodes[0].obeyed = {.tracking = 0.5, .switch_s = 1.5};
+  EXPECT_EQ(measure(record, "five.jumps"), 12.0);
+  EXPECT_EQ(measure(record, "five.jump_rad"), 0.25);
+  EXPECT_EQ(measure(record, "five.jump_power_w"), 3.5);
+  EXPECT_EQ(measure(record, "five.switch_s"), 1.5);
+  const TestResult read = parse_record(record_text(record), "record").tests[0];
+  EXPECT_EQ(read.seam, record.tests[0].seam);
+  EXPECT_EQ(read.episodes[0].obeyed, record.tests[0].episodes[0].obeyed);
+}
+
 /// A test whose path goes `steps_m` along x from sample to sample.
 TestResult path_test(double interval_s, const std::vector<double>& steps_m) {
   TestResult test = sample_record().tests[0];

@@ -122,8 +122,8 @@ const std::string all_measures =
     "corrected_coverage, corrected_qd_score, staying_share, TEST.distance_m, .upright_s, "
     ".walking_s, .moving_s, .kept, with episodes .lower_quartile_m, .upper_quartile_m, .best_m, .fell_share, "
     "with reach_m .reached_s, .reached_generation, .reached_evaluations, with mutants .viable_share, "
-    ".mutants_kept, .gait_change, with command .tracking, .speed_error, .turn_error, "
-    "with energy .cost_of_transport";
+    ".mutants_kept, .gait_change, with command .tracking, .speed_error, .turn_error, .switch_s, "
+    "with energy .cost_of_transport, with seam .jumps, .jump_rad, .jump_power_w";
 
 TEST(StudySpec, MistakesAreNamedWithTheirPlace) {
   EXPECT_EQ(diagnostic(good), "");

@@ -112,5 +112,35 @@ TEST(Tracking, MeasuresErrorsInTheirUnits) {
   EXPECT_NEAR(speed_error(trajectory, context(4)), 0.3, 0.005);
 }
 
+TEST(SwitchTime, IsTheMeanOfWholeSecondsUntilTheFirstThatFollows) {
+  // Two seconds late, at once, never.
+  const auto walk = drive(
+      {{0.0, 0.0, 0.4, 0.0, 2}, {0.4, 0.0, 0.4, 0.0, 4}, {0.4, -0.5, 0.4, -0.5, 3}, {0.4, 0.0, 0.0, 0.0, 3}});
+  EXPECT_EQ(switch_s(walk, context(12)), (2.0 + 0.0 + 3.0) / 3.0);
+}
+
+TEST(SwitchTime, AllowsATenthOfAMetreAndAFifthOfARadianASecond) {
+  EXPECT_EQ(switch_s(drive({{0.31, 0.0, 0.4, 0.0, 3}}), context(3)), 0.0);
+  EXPECT_EQ(switch_s(drive({{0.29, 0.0, 0.4, 0.0, 3}}), context(3)), 3.0);
+  EXPECT_EQ(switch_s(drive({{0.4, 0.19, 0.4, 0.0, 3}}), context(3)), 0.0);
+  EXPECT_EQ(switch_s(drive({{0.4, 0.21, 0.4, 0.0, 3}}), context(3)), 3.0);
+}
+
+TEST(SwitchTime, CountsARampAsOneChangeAndAStopAtTheStartAsNone) {
+  const auto ramp = drive(
+      {{0.0, 0.0, 0.0, 0.0, 2}, {0.0, 0.0, 0.2, 0.0, 1}, {0.0, 0.0, 0.4, 0.0, 1}, {0.4, 0.0, 0.4, 0.0, 3}});
+  EXPECT_EQ(switch_s(ramp, context(7)), 2.0);
+  EXPECT_EQ(switch_s(drive({{0.3, 0.0, 0.0, 0.0, 4}}), context(4)), std::nullopt);
+}
+
+TEST(SwitchTime, CountsWhatAFallCutsOffUnlessTheCommandWasFollowedBefore) {
+  auto fallen = drive({{0.0, 0.0, 0.4, 0.0, 3}});
+  fallen.outcome = record::Outcome::fell;
+  EXPECT_EQ(switch_s(fallen, context(12)), 12.0);
+  fallen = drive({{0.4, 0.0, 0.4, 0.0, 3}});
+  fallen.outcome = record::Outcome::fell;
+  EXPECT_EQ(switch_s(fallen, context(12)), 0.0);
+}
+
 }  // namespace
 }  // namespace amble::score

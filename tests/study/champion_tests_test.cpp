@@ -199,6 +199,18 @@ TEST(ChampionTest, SteeredByHandIsTheTrialOfThatWalkerAndMeasuresItsCost) {
   EXPECT_FALSE(run_test(test, champion(), never)->episodes[0].spent);
 }
 
+TEST(ChampionTest, MeasuresTheSeamOfItsFirstTrialWhereItIsAsked) {
+  PlannedTest test{.spec = trial_test("t", 6.0), .noise = {}};
+  EXPECT_FALSE(run_test(test, champion(), never)->seam);
+  test.spec.seam = true;
+  const auto result = run_test(test, champion(), never);
+  ASSERT_TRUE(result->seam);
+  EXPECT_GT(result->seam->jumps, 0);
+  EXPECT_GT(result->seam->mean_rad, 0.0);
+  EXPECT_GE(result->seam->largest_rad, result->seam->mean_rad);
+  EXPECT_GT(result->seam->power_w, 0.0);
+}
+
 TEST(ChampionTest, SamplesItsFirstTrialsPathInMillimetresEverySecondOrThreeHundredTimes) {
   const auto brief = tested(trial_test("t", 6.0));
   EXPECT_EQ(brief.path_interval_s, 1.0);

@@ -135,7 +135,8 @@ std::optional<Tracking> tracking_of(const Problem& problem, const record::Trajec
                                .duration_s = problem.trial.steps() * problem.trial.timestep_s};
   return Tracking{.tracking = score::tracking(trajectory, context),
                   .speed_error_m_s = score::speed_error(trajectory, context),
-                  .turn_error_rad_s = score::turn_error(trajectory, context)};
+                  .turn_error_rad_s = score::turn_error(trajectory, context),
+                  .switch_s = score::switch_s(trajectory, context)};
 }
 
 /// The way from whole second to whole second over the ground, m.

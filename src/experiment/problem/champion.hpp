@@ -22,6 +22,7 @@ struct Tracking {
   /// tracking is 0.
   std::optional<double> speed_error_m_s = {}, turn_error_rad_s = {};
   /// @}
+  std::optional<double> switch_s = {};  ///< score::switch_s()
 };
 
 /// The result of a trial.
