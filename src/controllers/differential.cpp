@@ -224,6 +224,10 @@ DifferentialArchitecture::DifferentialArchitecture(std::unique_ptr<const Archite
     }
 }
 
+float DifferentialArchitecture::most_change() const {
+  return Steering(settings_, timestep_s_).most_change();
+}
+
 std::unique_ptr<Batch> DifferentialArchitecture::make_batch(int lanes) const {
   return std::make_unique<DifferentialBatch>(walker_->make_batch(lanes), Steering(settings_, timestep_s_),
                                              joints_);

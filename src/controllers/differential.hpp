@@ -59,6 +59,12 @@ class DifferentialArchitecture : public Architecture {
     float centre_rad = 0.0f, lower_rad = 0.0f, upper_rad = 0.0f;
   };
 
+  const Architecture& walker() const { return *walker_; }
+  const DifferentialSettings& settings() const { return settings_; }
+  const std::vector<Steered>& joints() const { return joints_; }
+  /// Largest change of a factor in a tick.
+  float most_change() const;
+
  private:
   std::unique_ptr<const Architecture> walker_;
   DifferentialSettings settings_;

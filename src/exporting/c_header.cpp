@@ -166,6 +166,7 @@ void add_structs(const ControllerTables& tables, bool fixed, CText& text) {
   else
     add_oscillator_state(std::get<OscillatorTables>(tables.parts), text);
   add_command_state(tables, text);
+  add_differential_state(tables, text);
   text.line("}} {}_state;", text.prefix());
   text.line("");
 }
@@ -222,6 +223,8 @@ void add_constants(const ControllerTables& tables, bool fixed, CText& text) {
   if (tables.reads_yaw_rate()) text.line("#define {}_READS_YAW_RATE 1", upper);
   if (tables.reads_loads()) text.line("#define {}_READS_LOADS 1", upper);
   if (tables.reads_commands()) text.line("#define {}_OBEYS 1", upper);
+  if (tables.differential)
+    text.line("#define {}_IS_STEERED 1 /* by hand, around what it has learnt */", upper);
   text.line("");
 }
 

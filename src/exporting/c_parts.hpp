@@ -32,6 +32,12 @@ void add_commands(const ControllerTables& tables, CText& text);
 std::string c_command_init(const ControllerTables& tables);
 std::string c_command_step(const ControllerTables& tables, const char* sensors);
 
+/// For a controller that is steered by hand: members of the state, the walker's text with names of its own
+/// for what it does at first and in a step, and all around it.
+void add_differential_state(const ControllerTables& tables, CText& text);
+std::string c_walker_text(std::string text, const std::string& prefix);
+void add_differential(const ControllerTables& tables, CText& text);
+
 /// For SUPGs whose targets are smoothed: members of the state, tables and functions, and what else the
 /// function PREFIX_init does. `timer`: the type of timers.
 void add_seam_state(const SupgTables::Seam& seam, CText& text);

@@ -55,12 +55,15 @@ CSource c_source(const ControllerTables& tables, const robot::RobotSpec& robot, 
                  const Trace& trace, const CSourceOptions& options) {
   AMBLE_CHECK(!trace.ticks.empty(), "a self-test needs a tick");
   AMBLE_CHECK(c_identifier(options.prefix) == options.prefix, "the prefix is a C identifier");
-  CText text(options.prefix);
+  if (tables.differential && options.arithmetic == Arithmetic::fixed)
+    fail(ExitCode::bad_input,
+         "--fixed: the controller is steered by hand, which is not exported in fixed point");
+  CText text(options.prefix), walker(options.prefix);
   text.line("/* Controller exported by amble {}. See {}.h. */", in_comment(provenance.amble), options.prefix);
   text.line("#include \"{}.h\"", options.prefix);
   text.line("");
   if (std::holds_alternative<SupgTables>(tables.parts)) {
-    add_supg(tables, options, text);
+    add_supg(tables, options, walker);
   } else {
     if (options.arithmetic == Arithmetic::fixed)
       fail(ExitCode::bad_input,
@@ -68,9 +71,15 @@ CSource c_source(const ControllerTables& tables, const robot::RobotSpec& robot, 
            "exported in fixed point",
            tables.kind);
     if (std::holds_alternative<NeuralTables>(tables.parts))
-      add_neural(tables, text);
+      add_neural(tables, walker);
     else
-      add_oscillators(tables, text);
+      add_oscillators(tables, walker);
+  }
+  if (tables.differential) {
+    text.append(c_walker_text(walker.take(), options.prefix));
+    add_differential(tables, text);
+  } else {
+    text.append(walker.take());
   }
   add_self_test(tables, trace, options, text);
   return {.header = c_header(tables, robot, provenance, trace, options), .source = text.take()};

@@ -69,6 +69,8 @@ class CText {
   /// The inside of a block comment, line by line; long lines are broken.
   void comment_lines(const std::vector<std::string>& lines);
 
+  /// Text as it is.
+  void append(std::string_view text) { text_ += text; }
   std::string take() { return std::move(text_); }
 
  private:

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "amble/controllers/ctrnn.hpp"
+#include "amble/controllers/differential.hpp"
 #include "amble/controllers/joint_range.hpp"
 #include "amble/controllers/network.hpp"
 #include "amble/controllers/oscillators.hpp"
@@ -260,6 +261,21 @@ bool reads(const ControllerTables& tables, auto wanted) {
          });
 }
 
+Differential differential_tables(const controllers::DifferentialArchitecture& steered) {
+  const controllers::DifferentialSettings& settings = steered.settings();
+  Differential tables{.turn_gain = static_cast<float>(settings.turn_gain),
+                      .heading_gain = static_cast<float>(settings.heading_gain),
+                      .full_speed_m_s = static_cast<float>(settings.full_speed_m_s),
+                      .most_change = steered.most_change()};
+  for (const auto& joint : steered.joints())
+    tables.joints.push_back({.joint = joint.joint,
+                             .factor = joint.factor,
+                             .centre_rad = joint.centre_rad,
+                             .lower_rad = joint.lower_rad,
+                             .upper_rad = joint.upper_rad});
+  return tables;
+}
+
 /// Joints of no leg stay where they are.
 void hold_other_joints(const robot::RobotSpec& robot, ControllerTables& tables) {
   for (std::size_t j = robot.leg_joint_count(); j < tables.joints.size(); ++j)
@@ -282,10 +298,9 @@ bool ControllerTables::reads_touch() const {
 
 bool ControllerTables::reads_attitude() const {
   using Kind = substrate::Sensor::Kind;
-  return reads(*this, [](auto sensed) {
-    return sensed == Kind::roll || sensed == Kind::pitch || sensed == Kind::yaw ||
-           sensed == Kind::heading_error;
-  });
+  return reads_heading_error() || reads(*this, [](auto sensed) {
+           return sensed == Kind::roll || sensed == Kind::pitch || sensed == Kind::yaw;
+         });
 }
 
 bool ControllerTables::reads_speeds() const {
@@ -306,13 +321,14 @@ bool ControllerTables::reads_loads() const {
 
 bool ControllerTables::reads_commands() const {
   using Kind = substrate::Sensor::Kind;
-  return reads(*this, [](auto sensed) {
-    return sensed == Kind::command_speed || sensed == Kind::command_turn || sensed == Kind::command_stop ||
-           sensed == Kind::heading_error;
-  });
+  return differential || reads(*this, [](auto sensed) {
+           return sensed == Kind::command_speed || sensed == Kind::command_turn ||
+                  sensed == Kind::command_stop || sensed == Kind::heading_error;
+         });
 }
 
 bool ControllerTables::reads_heading_error() const {
+  if (differential && differential->heading_gain > 0.0f) return true;
   return reads(*this, [](auto sensed) { return sensed == substrate::Sensor::Kind::heading_error; });
 }
 
@@ -322,15 +338,14 @@ bool ControllerTables::reads_nothing() const {
 }
 
 ControllerTables controller_tables(const Problem& problem, const neat::Genome& genome) {
-  const controllers::Architecture& architecture = *problem.architecture;
+  const auto* const steered =
+      dynamic_cast<const controllers::DifferentialArchitecture*>(problem.architecture.get());
+  const controllers::Architecture& architecture =
+      steered != nullptr ? steered->walker() : *problem.architecture;
   if (problem.controller.switching.any())
     fail(ExitCode::bad_input,
          "controller.switching cannot be exported; expected a champion of one genome, as `amble repertoire "
          "RUN --cell` writes");
-  if (problem.controller.differential.any())
-    fail(ExitCode::bad_input,
-         "controller.differential cannot be exported: it is a baseline for simulations; expected a champion "
-         "without it");
   const auto parameters = problem.decode(genome);
   ControllerTables tables{.kind = architecture.name(),
                           .timestep_s = problem.trial.timestep_s,
@@ -359,6 +374,7 @@ ControllerTables controller_tables(const Problem& problem, const neat::Genome& g
          "a controller of kind {} cannot be exported: expected supg, mixed, network, ctrnn or oscillators",
          architecture.name());
   }
+  if (steered != nullptr) tables.differential = differential_tables(*steered);
   return tables;
 }
 

@@ -163,6 +163,19 @@ struct OscillatorTables {
   std::vector<Oscillator> oscillators = {};
 };
 
+/// Steering by hand (controllers::DifferentialArchitecture) of whatever controller.
+struct Differential {
+  struct Steered {
+    int joint = 0;   ///< in control order
+    int factor = 0;  ///< controllers::DifferentialArchitecture::Factor
+    float centre_rad = 0.0f, lower_rad = 0.0f, upper_rad = 0.0f;
+  };
+
+  float turn_gain = 0.0f, heading_gain = 0.0f, full_speed_m_s = 0.0f;
+  float most_change = 2.0f;  ///< of a factor in a tick
+  std::vector<Steered> joints = {};
+};
+
 /// A decoded controller as an export needs it, whatever its architecture.
 struct ControllerTables {
   std::string kind;  ///< controllers::Architecture::name
@@ -170,6 +183,7 @@ struct ControllerTables {
   std::vector<CommandedJoint> joints;  ///< in control order
   std::vector<std::string> legs;
   std::variant<SupgTables, NeuralTables, OscillatorTables> parts;
+  std::optional<Differential> differential = {};
 
   /// Which sensors it reads.
   bool reads_angles() const;

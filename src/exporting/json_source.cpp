@@ -320,16 +320,30 @@ Json trace_json(const ControllerTables& tables, const Trace& trace) {
   return json;
 }
 
+/// Around the controller: controllers::DifferentialArchitecture.
+Json differential_json(const Differential& steering) {
+  Json joints = Json::array();
+  for (const Differential::Steered& joint : steering.joints)
+    joints.push_back({{"joint", joint.joint},
+                      {"factor", joint.factor},
+                      {"centre_rad", joint.centre_rad},
+                      {"range_rad", {joint.lower_rad, joint.upper_rad}}});
+  return {{"turn_gain", steering.turn_gain},           {"heading_gain", steering.heading_gain},
+          {"full_speed_m_s", steering.full_speed_m_s}, {"most_change", steering.most_change},
+          {"factors", "left, right, between, others"}, {"joints", std::move(joints)}};
+}
+
 }  // namespace
 
 std::string json_source(const experiment::Champion& champion, const ControllerTables& tables,
                         const Provenance& provenance, const Trace& trace) {
   Json settings = experiment::problem_json(champion.problem);
   settings.erase("robot");
-  const Json document{
+  Json document{
       {"provenance", provenance_json(provenance)}, {"controller", controller_json(tables)},
       {"test", trace_json(tables, trace)},         {"robot", robot::to_json(champion.problem.robot)},
       {"settings", std::move(settings)},           {"genome", neat::to_json(champion.genome)}};
+  if (tables.differential) document["differential"] = differential_json(*tables.differential);
   return io::sealed_json("amble-export", export_version, document);
 }
 

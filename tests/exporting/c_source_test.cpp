@@ -119,7 +119,7 @@ TEST_P(EachChampion, InFixedPointIsWithinHalfABit) {
   const experiment::Champion champion = evolve(GetParam());
   const auto tables = exporting::controller_tables(champion.problem, champion.genome);
   const auto* const supg = std::get_if<exporting::SupgTables>(&tables.parts);
-  if (!supg || supg->seam || supg->modulation || supg->contact) {
+  if (!supg || supg->seam || supg->modulation || supg->contact || tables.differential) {
     EXPECT_THROW(write_walker(scratch.path(), champion, Arithmetic::fixed), UserError);
     return;
   }

@@ -82,7 +82,8 @@ std::vector<Sample> seam_samples() {
 }
 
 std::vector<Sample> modulated_samples() {
-  const std::string modulation = supg + "modulation.", seam = supg + "seam.";
+  const std::string modulation = supg + "modulation.", seam = supg + "seam.",
+                    hand = "controller.differential.";
   return {
       {"modulated",
        "authors/supg",
@@ -131,6 +132,20 @@ std::vector<Sample> modulated_samples() {
        "hexapod",
        {modulation + R"(sensors=["command_turn","heading_error"])", modulation + "rate=1",
         modulation + "shape=1", "command.kind=random", "trial.first_command=before_first_step"}},
+      {"by_hand",
+       "authors/supg",
+       "hexapod",
+       {hand + "turn_gain=2", hand + "full_speed_m_s=0.3", hand + "heading_gain=0.5", "command.kind=random"}},
+      {"by_hand_and_hearing",
+       "authors/supg",
+       "quadruped",
+       {modulation + R"(sensors=["command_turn"])", modulation + "rate=1", modulation + "shape=1",
+        hand + "turn_gain=1", "command.kind=random", "trial.first_command=before_first_step"}},
+      {"by_hand_oscillators",
+       "authors/supg",
+       "hexapod",
+       {"controller.kind=oscillators", hand + "turn_gain=4", hand + "full_speed_m_s=0.2",
+        hand + "about=middle", "command.kind=random"}},
       {"oscillators", "authors/supg", "quadruped", {"controller.kind=oscillators"}},
       {"oscillators_reset",
        "authors/supg",

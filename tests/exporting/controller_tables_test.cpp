@@ -51,18 +51,32 @@ TEST(ControllerTables, RefuseTriggersByChance) {
             "expected \"edge\", \"level\" or \"none\"");
 }
 
-TEST(ControllerTables, RefuseSteeringByHandAndSwitching) {
-  experiment::Champion steered = tests::evolve({.name = "", .preset = "authors/supg"}), switching = steered;
-  steered.problem.controller.differential.turn_gain = 4.0;
-  EXPECT_EQ(
-      refusal(steered),
-      "controller.differential cannot be exported: it is a baseline for simulations; expected a champion "
-      "without it");
+TEST(ControllerTables, RefuseSwitching) {
+  experiment::Champion switching = tests::evolve({.name = "", .preset = "authors/supg"});
   switching.problem.controller.switching.gaits.resize(2);
   EXPECT_EQ(
       refusal(switching),
       "controller.switching cannot be exported; expected a champion of one genome, as `amble repertoire "
       "RUN --cell` writes");
+}
+
+TEST(ControllerTables, OfAWalkerSteeredByHandAreItsOwnAndTheSteering) {
+  experiment::Champion champion = tests::evolve({.name = "", .preset = "authors/supg"});
+  const ControllerTables walker = controller_tables(champion.problem, champion.genome);
+  EXPECT_FALSE(walker.differential || walker.reads_commands());
+  champion.problem.set_commands({.kind = trial::CommandKind::fixed, .stretches = {{0.3, 0.0}}});
+  champion.problem.set_differential({.turn_gain = 4.0, .full_speed_m_s = 0.25});
+  const ControllerTables steered = controller_tables(champion.problem, champion.genome);
+  ASSERT_TRUE(steered.differential);
+  EXPECT_EQ(steered.differential->turn_gain, 4.0f);
+  EXPECT_EQ(steered.differential->full_speed_m_s, 0.25f);
+  EXPECT_EQ(steered.differential->joints.size(), 12u);
+  EXPECT_TRUE(steered.reads_commands());
+  EXPECT_FALSE(steered.reads_heading_error() || steered.reads_attitude());
+  EXPECT_EQ(steered.kind, walker.kind);
+  EXPECT_EQ(std::get<SupgTables>(steered.parts).targets_rad, std::get<SupgTables>(walker.parts).targets_rad);
+  champion.problem.set_differential({.turn_gain = 4.0, .heading_gain = 1.0});
+  EXPECT_TRUE(controller_tables(champion.problem, champion.genome).reads_attitude());
 }
 
 TEST(ControllerTables, OfOscillatorsNameTheJointsOfLegsAlone) {

@@ -2,7 +2,8 @@
  * tick, as float32. Input: angles of all joints, touches of all legs, roll, pitch, yaw, and where they are read
  * speeds and torques of all joints, the yaw rate, loads of all legs, and speed and turn commanded. Output: targets of
  * all joints (rad), then the state: of SUPGs timers and triggers by leg, and then the neurons' values,
- * or the neurons' values alone; of oscillators the first phase, then, where they read touches, triggers by leg. */
+ * or the neurons' values alone; of oscillators the first phase, then, where they read touches, triggers by leg. Of one that
+ * is steered by hand its factors as well. */
 #include "walker.h"
 
 #include <stdio.h>
@@ -102,6 +103,9 @@ int main(void) {
 #ifdef WALKER_FIRST_NEURON
     for (i = 0; i < WALKER_NEURONS; ++i) put(state.value[WALKER_FIRST_NEURON + i]);
 #endif
+#endif
+#ifdef WALKER_IS_STEERED
+    for (i = 0; i < 4; ++i) put(state.factor[i]);
 #endif
   }
   return 0;
