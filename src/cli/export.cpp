@@ -35,8 +35,8 @@ std::string mjcf_of(const experiment::Champion& champion) {
 /// the ticks of the self-test.
 void steer_by_hand(experiment::Champion& champion, const std::string& gains) {
   if (champion.problem.command.kind == trial::CommandKind::none)
-    champion.problem.set_commands({.kind = trial::CommandKind::fixed,
-                                   .stretches = {{0.3, 0.0, 0.25}, {0.3, 0.3, 0.25}, {0.2, -0.3, 0.25}, {}}});
+    champion.problem.set_commands(
+        {.kind = trial::CommandKind::fixed, .stretches = {{0.3, 0.0}, {0.3, 0.3}, {0.2, -0.3}, {}}});
   champion.problem.set_differential(experiment::parse_differential(gains, "--steering"));
 }
 

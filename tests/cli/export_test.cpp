@@ -28,12 +28,16 @@ std::string run_of_kind(const TemporaryFolder& scratch, const std::string& kind)
 TEST(ExportCommand, WritesCThatPassesItsSelfTest) {
   const TemporaryFolder scratch;
   const auto run = run_of_kind(scratch, "supg");
-  for (const bool fixed : {false, true}) {
+  const std::vector<std::vector<std::string>> ways{
+      {}, {"--fixed"}, {"--steering", "turn_gain = 2, full_speed_m_s = 0.3"}};
+  for (const auto& way : ways) {
     std::vector<std::string> arguments{"export", run, "--format", "c", "-o", scratch / "my_robot.c"};
-    if (fixed) arguments.emplace_back("--fixed");
+    arguments.insert(arguments.end(), way.begin(), way.end());
     const auto written = amble(arguments);
     ASSERT_EQ(written.exit_code, 0) << written.err;
     EXPECT_EQ(written.out, "");
+    EXPECT_EQ(slurp(scratch / "my_robot.h").find("void my_robot_set_command(") != std::string::npos,
+              way.size() == 2);
     EXPECT_THAT(slurp(scratch / "my_robot.h"),
                 AllOf(StartsWith("/* Controller exported by amble "), HasSubstr("#define MY_ROBOT_JOINTS 12"),
                       HasSubstr("void my_robot_step(")));

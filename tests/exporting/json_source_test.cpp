@@ -48,6 +48,19 @@ TEST(JsonSource, HasTheTablesOfSupgs) {
   EXPECT_EQ(neat::genome_from_json(io::JsonView(json["genome"], "text")), champion.genome);
 }
 
+TEST(JsonSource, TellsHowAWalkerIsSteeredByHand) {
+  experiment::Champion champion = tests::evolve({.name = "", .preset = "authors/supg"});
+  EXPECT_FALSE(document_of(champion).contains("differential"));
+  champion.problem.set_commands({.kind = trial::CommandKind::fixed, .stretches = {{0.3, 0.2}}});
+  champion.problem.set_differential({.turn_gain = 4.0, .full_speed_m_s = 0.25, .heading_gain = 0.5});
+  const io::Json json = document_of(champion);
+  EXPECT_EQ(json["differential"]["turn_gain"], 4.0);
+  EXPECT_EQ(json["differential"]["joints"].size(), 12u);
+  const io::Json& tick = json["test"]["ticks"][0];
+  EXPECT_TRUE(tick.contains("command") && tick.contains("heading_error_rad") &&
+              tick.contains("attitude_rad"));
+}
+
 TEST(JsonSource, AndTheHeaderTellJointsWithoutAMotorAndFeetOfSeveralShapes) {
   experiment::Champion champion = tests::evolve({.name = "", .preset = "authors/supg", .robot = "sprung"});
   robot::RobotSpec& robot = champion.problem.robot;
