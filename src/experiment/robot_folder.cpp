@@ -158,8 +158,7 @@ std::string steer_text(const std::string& name, const CommandSizes& sizes, const
       "turn_rad_s = {6:.2g}\n"
       "\n"
       "# Does it walk and not obey? Steered by hand while it evolves (docs/STEERING.md), a Go2 did better "
-      "after a minute,\n"
-      "# but such a walker cannot be exported:\n"
+      "after a minute:\n"
       "#   --set controller.kind=supg --set controller.differential.turn_gain={10:.2g} "
       "--set controller.differential.full_speed_m_s={5:.2g}\n",
       io::printable(name), io::toml_quoted(preset ? path_from(folder, part) : part.string()),

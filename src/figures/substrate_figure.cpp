@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <vector>
 
 #include "amble/core/index.hpp"
 #include "amble/figures/style_sheet.hpp"
@@ -64,27 +65,49 @@ void draw_node(Svg& svg, Point at, motion::NodeRole role) {
   }
 }
 
-void draw_legend(Svg& svg, const Substrate& substrate) {
-  double x = node_px + 1.0;
-  const auto write = [&](std::string_view text) {
-    svg.text({x + 12.0, 16.0}, Anchor::start, "value", text);
-    x += 12.0 + 7.4 * static_cast<double>(text.size()) + 26.0;
-  };
-  for (std::size_t role = 0; role < role_names.size(); ++role) {
-    const auto has_role = [&](const motion::NetworkNode& node) {
-      return node.role == static_cast<motion::NodeRole>(role);
-    };
-    if (std::ranges::none_of(substrate.nodes, has_role)) continue;
-    draw_node(svg, {x, 12.0}, static_cast<motion::NodeRole>(role));
-    write(role_names[role]);
+/// What a legend says: roles of nodes and kinds of links that there are.
+struct LegendEntry {
+  std::string_view text;
+  int role = -1, kind = -1;  ///< one of them
+  Point at = {};             ///< of its mark
+};
+
+constexpr double legend_row_px = 18.0;
+
+/// In rows that the picture is wide enough for.
+std::vector<LegendEntry> legend_of(const Substrate& substrate, double width_px) {
+  std::vector<LegendEntry> entries;
+  for (std::size_t role = 0; role < role_names.size(); ++role)
+    if (std::ranges::any_of(substrate.nodes, [&](const motion::NetworkNode& node) {
+          return node.role == static_cast<motion::NodeRole>(role);
+        }))
+      entries.push_back({.text = role_names[role], .role = static_cast<int>(role)});
+  for (std::size_t kind = 0; kind < substrate.link_kinds.size(); ++kind)
+    if (std::ranges::any_of(substrate.links,
+                            [&](const SubstrateLink& link) { return link.kind == static_cast<int>(kind); }))
+      entries.push_back({.text = substrate.link_kinds[kind], .kind = static_cast<int>(kind)});
+  constexpr double left_px = node_px + 1.0, letter_px = 7.4;
+  Point at{left_px, 12.0};
+  for (LegendEntry& entry : entries) {
+    const double wide_px = 12.0 + letter_px * static_cast<double>(entry.text.size());
+    if (at.x > left_px && at.x + wide_px > width_px) at = {left_px, at.y + legend_row_px};
+    entry.at = at;
+    at.x += wide_px + 26.0;
   }
-  for (std::size_t kind = 0; kind < substrate.link_kinds.size(); ++kind) {
-    const auto is_kind = [&](const SubstrateLink& link) { return link.kind == static_cast<int>(kind); };
-    if (std::ranges::none_of(substrate.links, is_kind)) continue;
-    svg.begin_group(leg_class(static_cast<int>(kind)));
-    svg.line({x - 8.0, 12.0}, {x + 6.0, 12.0}, "link strong");
-    svg.end_group();
-    write(substrate.link_kinds[kind]);
+  return entries;
+}
+
+void draw_legend(Svg& svg, const std::vector<LegendEntry>& entries) {
+  for (const LegendEntry& entry : entries) {
+    const Point at = entry.at;
+    if (entry.role >= 0) {
+      draw_node(svg, at, static_cast<motion::NodeRole>(entry.role));
+    } else {
+      svg.begin_group(leg_class(entry.kind));
+      svg.line({at.x - 8.0, at.y}, {at.x + 6.0, at.y}, "link strong");
+      svg.end_group();
+    }
+    svg.text({at.x + 12.0, at.y + 4.0}, Anchor::start, "value", entry.text);
   }
 }
 
@@ -92,7 +115,10 @@ void draw_legend(Svg& svg, const Substrate& substrate) {
 
 std::string substrate_figure(const Substrate& substrate, FigureSize layout) {
   const bool wide = layout == FigureSize::wide;
-  const SubstratePlaces places = substrate_places(substrate, width_px(layout), wide ? 36.0 : 8.0);
+  const std::vector<LegendEntry> legend =
+      wide ? legend_of(substrate, width_px(layout)) : std::vector<LegendEntry>();
+  const double top_px = legend.empty() ? 8.0 : 24.0 + legend.back().at.y;
+  const SubstratePlaces places = substrate_places(substrate, width_px(layout), top_px);
   Svg svg(places.width_px, places.height_px,
           fmt::format("Substrate of {} nodes and {} links", substrate.nodes.size(), substrate.links.size()));
   for (const auto& frame : places.frames) svg.polygon(frame, "plane");
@@ -105,7 +131,7 @@ std::string substrate_figure(const Substrate& substrate, FigureSize layout) {
                "tiny halo", substrate.nodes[i].name);
     for (const auto& [at, text] : places.marks) svg.text(at, Anchor::middle, "tick", text);
     for (const auto& [at, text] : places.titles) svg.text(at, Anchor::start, "tick halo", text);
-    draw_legend(svg, substrate);
+    draw_legend(svg, legend);
   }
   return svg.finish();
 }

@@ -125,11 +125,12 @@ TEST_F(Advice, AFolderOfAnotherKindIsNamedWithTheCommandForIt) {
   expect_refusal({"export", study, "--format", "json"}, ExitCode::bad_input, words);
 }
 
-TEST_F(Advice, AConfigThatIsSteeredByHandSaysThatItCannotBeExported) {
+TEST_F(Advice, AConfigOfARobotThatObeysSaysHowItIsSteeredByHand) {
   spill(scratch_ / "r.xml", model_text(four_legs()));
   ASSERT_EQ(amble({"robot", "--init", scratch_ / "r.xml", "-o", scratch_ / "r"}).exit_code, 0);
   EXPECT_THAT(slurp(scratch_ / "r/steer.toml"),
-              HasSubstr("# but such a walker cannot be exported:\n#   --set controller.kind=supg"));
+              HasSubstr("did better after a minute:\n#   --set controller.kind=supg --set "
+                        "controller.differential.turn_gain="));
 }
 
 }  // namespace

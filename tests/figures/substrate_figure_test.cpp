@@ -75,6 +75,22 @@ TEST(SubstrateFigure, DrawsLinksInTheColoursOfTheirKindsWithHeads) {
   EXPECT_EQ(tests::with_class(elements, "loop").size(), 1u) << "a link to itself";
 }
 
+TEST(SubstrateFigure, HasALegendOfAsManyRowsAsItNeeds) {
+  Substrate substrate = grid(2);
+  substrate.link_kinds.assign(14, "coupling between legs");
+  substrate.links.clear();
+  for (int kind = 0; kind < 14; ++kind) substrate.links.push_back({0, 1, kind, 0.1});
+  const auto elements = tests::parse_xml(substrate_figure(substrate, FigureSize::wide));
+  std::set<double> rows;
+  for (const auto& mark : tests::with_class(elements, "strong")) {
+    EXPECT_LT(mark.number("x2") + 12.0 + 7.0 * 21, width_px(FigureSize::wide));
+    rows.insert(mark.number("y2"));
+  }
+  EXPECT_GT(rows.size(), 1u);
+  for (const auto& [x, y] : node_places(elements))
+    EXPECT_FALSE(y > *rows.rbegin() && y < *rows.rbegin() + 18.0) << "between the legend and the network";
+}
+
 TEST(SubstrateFigure, PutsAFrameAroundEachPlaneAndModule) {
   EXPECT_EQ(tests::with_class(tests::parse_xml(substrate_figure(grid(2), FigureSize::wide)), "plane").size(),
             1u);
