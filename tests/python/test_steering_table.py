@@ -17,9 +17,12 @@ def test_each_engine_has_a_row_of_eight_commands(tmp_path):
                "--speed", "0.2", "--turn", "0.1", tmp_path / "run"]
     rows = subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout.splitlines()
     cells = [[cell.strip() for cell in row.strip("|").split("|")] for row in rows]
-    assert [row[:2] for row in cells[3:]] == [["run", "batch"], ["run", "ode"]]
+    assert [row[:2] for row in cells[5:]] == [["run", "batch"], ["run", "ode"]]
     assert cells[2][4:6] == ["0.20, +0.00", "0.14, +0.10"]  # what they are told first
-    for row in cells[3:]:
+    # All turns are small: who stands follows both stops and what is no faster than 0.1 m/s; who walks at 0.1 m/s all.
+    assert [row[0] for row in cells[3:5]] == ["*stands*", "*deaf, straight ahead at 0.10 m/s*"]
+    assert [row[2] for row in cells[3:5]] == ["4", "8"]
+    for row in cells[5:]:
         assert len(row) == len(cells[0]) == 12
         assert 0.0 <= float(row[2]) <= 8.0
         assert row[3] in ("0 of 1", "1 of 1")

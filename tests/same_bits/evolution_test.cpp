@@ -183,7 +183,7 @@ INSTANTIATE_TEST_SUITE_P(SameBits, GoldenEvolution,
                                          SmallRun{"reading", "novelty", 2, "8b3b45c6d42215f6"},
                                          SmallRun{"mixed", "objective", 2, "7e647738fe27b7c0"},
                                          SmallRun{"oscillators", "cma-es", 2, "b3ce942be9e748db"},
-                                         SmallRun{"supg", "map-elites-dominated", 2, "747db76cec98a25b"},
+                                         SmallRun{"supg", "map-elites-dominated", 2, "789b15833b541787"},
                                          SmallRun{"oscillators", "map-elites-line", 2, "8a4482c14cb95a42"},
                                          SmallRun{"oscillators", "map-elites-cma", 2, "2f26e426ea5d7dd6"}),
                          [](const auto& small) {
