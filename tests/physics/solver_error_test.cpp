@@ -46,7 +46,8 @@ TEST(SolverError, AsksForMoreSweepsUnderAHeavyTrunkUntilTheRobotHasThem) {
   EXPECT_EQ(before.sweeps, 14);
   EXPECT_GT(before.error_m_s, 0.015);
   EXPECT_GT(before.better_sweeps, before.sweeps);
-  EXPECT_LE(before.better_error_m_s, 0.002);
+  EXPECT_LE(before.better_error_m_s, 0.005);
+  EXPECT_LE(before.better_sweeps, 160) << "more is slow and hardly better";
 
   robot.contact.sweeps = before.better_sweeps;
   const SweepsAdvice after = sweeps_advice(robot, timestep_s);

@@ -17,7 +17,7 @@ std::vector<double> solver_errors_m_s(const robot::RobotSpec& robot, double time
 
 /// What a robot needs. Robots with an error of up to 0.012 m/s walk in ODE and MuJoCo as they do in the batch
 /// engine, one with 0.02 did not (docs/ROBOTS.md): from 0.015 m/s on, the first number of sweeps of a
-/// geometric series whose error is at most 0.002.
+/// geometric series whose error is at most 0.005, as that of the gallery's robots is.
 struct SweepsAdvice {
   int sweeps = 0;          ///< that the robot has
   double error_m_s = 0.0;  ///< with those
