@@ -91,6 +91,9 @@ std::string engine_line(const robot::RobotSpec& robot) {
                      choice.why_not_batch);
 }
 
+/// As many as studies/defaults.toml gave the robots of docs/ROBOTS.md.
+constexpr int generations_of_a_minute = 300;
+
 /// What a config of a robot on one or two legs has besides: by distance alone the first generations learn to
 /// fall far.
 constexpr const char* score_of_two_legs =
@@ -125,6 +128,7 @@ std::string config_text(const std::string& name, const std::string& engine,
       "name = {3}\n"
       "robot = {4}\n"
       "{5}"
+      "generations = {8}  # a minute on two cores\n"
       "\n"
       "[controller]\n"
       "substrate = \"auto\"  # a node for each joint, made from the robot's legs and joint types\n"
@@ -132,7 +136,7 @@ std::string config_text(const std::string& name, const std::string& engine,
       io::printable(name), preset ? "" : "# The presets of amble were not found: correct this path.\n",
       io::toml_quoted(preset ? path_from(folder, *preset) : robot_preset), io::toml_quoted(name),
       io::toml_quoted(name + ".toml"), engine, robot ? settings_text(*robot) : "",
-      legs == 1 || legs == 2 ? score_of_two_legs : "");
+      legs == 1 || legs == 2 ? score_of_two_legs : "", generations_of_a_minute);
 }
 
 /// The config of a robot that is told where to go.
