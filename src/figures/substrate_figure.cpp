@@ -72,7 +72,7 @@ struct LegendEntry {
   Point at = {};             ///< of its mark
 };
 
-constexpr double legend_row_px = 18.0;
+constexpr double legend_line_px = 18.0;
 
 /// In rows that the picture is wide enough for.
 std::vector<LegendEntry> legend_of(const Substrate& substrate, double width_px) {
@@ -90,7 +90,7 @@ std::vector<LegendEntry> legend_of(const Substrate& substrate, double width_px) 
   Point at{left_px, 12.0};
   for (LegendEntry& entry : entries) {
     const double wide_px = 12.0 + letter_px * static_cast<double>(entry.text.size());
-    if (at.x > left_px && at.x + wide_px > width_px) at = {left_px, at.y + legend_row_px};
+    if (at.x > left_px && at.x + wide_px > width_px) at = {left_px, at.y + legend_line_px};
     entry.at = at;
     at.x += wide_px + 26.0;
   }

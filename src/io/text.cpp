@@ -1,6 +1,7 @@
 #include "amble/io/text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <numeric>
 #include <vector>
@@ -28,6 +29,12 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     if (end == std::string_view::npos) return parts;
     text.remove_prefix(end + 1);
   }
+}
+
+std::string first_few(std::span<const std::string> names) {
+  constexpr std::size_t all = 6, few = 4;
+  if (names.size() <= all) return fmt::format("{}", fmt::join(names, ", "));
+  return fmt::format("{} and {} more", fmt::join(names.first(few), ", "), names.size() - few);
 }
 
 namespace {

@@ -15,6 +15,10 @@ std::string printable(std::string_view text);
 /// part. They point into `text`.
 std::vector<std::string_view> split(std::string_view text, char separator);
 
+/// "a, b, c, d and 8 more": all of a list of up to six, else the first four, so that a warning stays
+/// readable.
+std::string first_few(std::span<const std::string> names);
+
 /// Fewest single-character edits that turn one word into the other (Levenshtein 1966).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "amble/core/index.hpp"
+#include "amble/io/text.hpp"
 #include "amble/robot/leg_doubts.hpp"
 
 namespace amble::morphology {
@@ -35,12 +36,14 @@ struct Actuator {
   double gain = 0.0, kp = 0.0, kv = 0.0;
   double max_torque_nm = 0.0;  ///< 0: not limited
   double control_limit = 0.0;  ///< 0: not limited
+  bool is_geared = false;      ///< its forces are not its joint's torques
 };
 
 Actuator read(const mjModel& model, int a) {
   const double gear = std::abs(model.actuator_gear[6 * a]);
   const mjtNum* bias = model.actuator_biasprm + mjNBIAS * a;
   Actuator actuator;
+  actuator.is_geared = gear != 1.0;
   actuator.gain = std::abs(model.actuator_gainprm[mjNGAIN * a]) * gear;
   if (model.actuator_biastype[a] == mjBIAS_AFFINE) {
     actuator.kp = std::max(0.0, -bias[1]) * gear * gear;
@@ -107,7 +110,8 @@ class ServoGuesser {
         .why = fmt::format("kp{} of the model's actuator{}; torque: {}", kd > 0.0 ? " and kd" : "",
                            kd > 0.0 || damping == 0.0 ? "" : ", whose damping is that of the joint", source),
         .torque_is_guessed = !has_limit(actuator, hint),
-        .has_no_speed_limit = true};
+        .has_no_speed_limit = true,
+        .torque_is_geared = actuator.is_geared};
   }
 
   /// Neither an actuator nor a limit of torque; of a URDF perhaps one of speed.
@@ -193,6 +197,20 @@ bool same_number(double a, double b) {
   return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
 }
 
+/// Actuators of an MJCF that are too strong to be of this robot; data sheets tell no torque before a gear. A
+/// URDF's efforts become velocity servos, which robot::doubt_strength() doubts.
+std::string strong_actuators(const ModelParts& parts, const std::vector<ServoGuess>& servos,
+                             double bearing_nm) {
+  double mass_kg = 0.0;
+  for (const robot::Body& body : parts.bodies) mass_kg += body.mass_kg;
+  std::vector<robot::MotorTorque> motors;
+  for (std::size_t j = 0; j < servos.size(); ++j)
+    if (parts.drives[j] != Drive::none && servos[j].servo.mode == robot::ServoMode::torque &&
+        !servos[j].torque_is_guessed && !servos[j].torque_is_geared)
+      motors.push_back({parts.joints[j].name, servos[j].servo.max_torque_nm});
+  return robot::strength_line(motors, mass_kg, bearing_nm);
+}
+
 constexpr double tiny_share = 1e-4;
 /// A leg is a pendulum of sqrt(g / length) rad/s; a walker's joints turn at about that.
 constexpr double slow_share = 0.25;
@@ -240,18 +258,20 @@ std::vector<std::string> doubts_of_motors(const ModelFile& file, const ModelPart
     doubts.push_back(
         fmt::format("the model has no limit of torque that a motor could have, and it was guessed: {}; give "
                     "max_torque_nm of the motors that you have{}",
-                    fmt::join(torqueless, ", "),
+                    io::first_few(torqueless),
                     in_kg_cm ? ". Is effort in kg·cm, as on data sheets? × 0.098 makes N m" : ""));
   if (!speedless.empty())
     doubts.push_back(fmt::format(
         "the model has no limit of speed that a motor could have, and it was guessed, {:.2g} rad/s at {} rad "
         "from a target: {}; give gain_per_s of the motors that you have, their speed in rad/s / {}",
-        velocity_gain_per_s * widest_error_rad, widest_error_rad, fmt::join(speedless, ", "),
+        velocity_gain_per_s * widest_error_rad, widest_error_rad, io::first_few(speedless),
         widest_error_rad));
   if (!gearless.empty())
     doubts.push_back(
         fmt::format("motors with controls of ±1 and a gear of 1 give 1 N m: is `gear` missing? {}",
-                    fmt::join(gearless, ", ")));
+                    io::first_few(gearless)));
+  if (std::string strong = strong_actuators(parts, servos, bearing_nm); !strong.empty())
+    doubts.push_back(std::move(strong));
   return doubts;
 }
 

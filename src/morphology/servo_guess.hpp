@@ -14,6 +14,7 @@ struct ServoGuess {
   bool speed_is_guessed = false;    ///< the same of a URDF's limit of speed
   bool lacks_gear = false;          ///< its torque is that of a control of ±1 with a gear of 1
   bool has_no_speed_limit = false;  ///< a position actuator: as fast as its torque allows
+  bool torque_is_geared = false;    ///< a position actuator's force times its gear
 };
 
 /// The torque with which a leg of that length bears its share of the robot's weight at right angles.
@@ -27,7 +28,8 @@ std::vector<ServoGuess> guess_servos(const ModelFile& file, const ModelParts& pa
 /// paper's motors if that is less, or without a limit (0).
 double gain_within(double max_speed_rad_s);
 
-/// Lines on joints with motors whose torque or speed was guessed, or whose actuators lack a gear.
+/// Lines on joints with motors whose torque or speed was guessed, whose actuators lack a gear, or are too
+/// strong to be of such a robot.
 std::vector<std::string> doubts_of_motors(const ModelFile& file, const ModelParts& parts,
                                           const std::vector<ServoGuess>& servos, double bearing_nm);
 

@@ -1,13 +1,13 @@
 #include "amble/robot/doubts.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "amble/core/index.hpp"
+#include "amble/io/text.hpp"
 #include "amble/robot/leg_doubts.hpp"
 #include "amble/robot/legs.hpp"
 #include "amble/robot/pose.hpp"
@@ -128,7 +128,7 @@ void doubt_placeholders(const RobotSpec& robot, std::vector<std::string>& lines)
     lines.push_back(fmt::format(
         "moments of inertia that would need a body larger than the robot, which reaches {:.2g} m, as "
         "templates have them: {}: check inertia, mass and units",
-        reach, fmt::join(names, ", ")));
+        reach, io::first_few(names)));
 }
 
 /// work(joint, axis, lever, force) of each joint between a foot and the root, in the start pose: the lever to
@@ -165,13 +165,13 @@ void doubt_torques(const RobotSpec& robot, std::vector<std::string>& lines) {
     lines.push_back(fmt::format(
         "torques that do not hold the weight of {:.3g} kg on half of the legs in the start pose: {}; check "
         "max_torque_nm, masses, and the start pose",
-        robot.total_mass_kg(), fmt::join(weak, ", ")));
+        robot.total_mass_kg(), io::first_few(weak)));
   else if (const auto stepping = weaker_than(robot, stepping_torques_nm(robot)); !stepping.empty())
     lines.push_back(fmt::format(
         "torques that do not hold the weight of {:.3g} kg on half of the legs once a foot is a quarter of "
         "its "
         "leg's length ahead or aside: {}; the robot may stand and not walk: check max_torque_nm and masses",
-        robot.total_mass_kg(), fmt::join(stepping, ", ")));
+        robot.total_mass_kg(), io::first_few(stepping)));
 }
 
 /// With less friction than ice has no foot finds a hold.
@@ -199,7 +199,7 @@ void doubt_stops(const RobotSpec& robot, std::vector<std::string>& lines) {
     lines.push_back(fmt::format(
         "stops more than two turns away, which look like degrees: {}; a URDF has radians, an MJCF what its "
         "<compiler angle> says",
-        fmt::join(odd, ", ")));
+        io::first_few(odd)));
 }
 
 /// Stops so near each other, of most joints, as radians are when they are read as degrees.
@@ -218,7 +218,7 @@ void doubt_narrow_stops(const RobotSpec& robot, std::vector<std::string>& lines)
     lines.push_back(fmt::format(
         "most joints hardly move: {}; are these radians? An MJCF has degrees unless its <compiler angle> is "
         "\"radian\"",
-        fmt::join(narrow, ", ")));
+        io::first_few(narrow)));
 }
 
 }  // namespace

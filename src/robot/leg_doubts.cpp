@@ -1,13 +1,13 @@
 #include "amble/robot/leg_doubts.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "amble/core/index.hpp"
+#include "amble/io/text.hpp"
 #include "amble/robot/legs.hpp"
 #include "amble/robot/pose.hpp"
 
@@ -17,14 +17,6 @@ namespace {
 /// Whether its torque may be a data sheet's number.
 bool is_bought(const Joint& joint) {
   return joint.servo.mode == ServoMode::velocity;
-}
-
-/// Sum of the largest torques of all such motors.
-double motors_nm(const RobotSpec& robot) {
-  double sum_nm = 0.0;
-  for (const Joint& joint : robot.joints)
-    if (is_bought(joint)) sum_nm += joint.servo.max_torque_nm;
-  return sum_nm;
 }
 
 /// How far a joint's axis passes the foot of its leg.
@@ -69,30 +61,37 @@ double farthest_m(const RobotSpec& robot, const Leg& leg, int j) {
 
 }  // namespace
 
-void doubt_strength(const RobotSpec& robot, std::vector<std::string>& lines) {
-  const double mass_kg = robot.total_mass_kg();
-  if (robot.legs.empty() || motors_nm(robot) <= strongest_nm_per_kg * mass_kg) return;
-  const double bearing_nm =
-      mass_kg * norm(robot.gravity_m_s2) * longest_leg_m(robot) / static_cast<double>(robot.legs.size());
+std::string strength_line(const std::vector<MotorTorque>& motors, double mass_kg, double bearing_nm) {
+  double sum_nm = 0.0;
+  for (const MotorTorque& motor : motors) sum_nm += motor.most_nm;
+  if (sum_nm <= strongest_nm_per_kg * mass_kg) return {};
   std::vector<std::string> strong;
   double least_nm = 0.0;
-  for (const Leg& leg : robot.legs)
-    for (const int j : leg.joints) {
-      if (j < 0) continue;
-      const Joint& joint = robot.joints[to_index(j)];
-      const double most_nm = joint.servo.max_torque_nm;
-      if (!is_bought(joint) || most_nm <= strongest_times * bearing_nm) continue;
-      least_nm = strong.empty() ? most_nm : std::min(least_nm, most_nm);
-      strong.push_back(fmt::format("{} ({:.3g} N m)", joint.name, most_nm));
-    }
-  if (!strong.empty())
-    lines.push_back(fmt::format(
-        "torques of more than {:g} times the {:.2g} N m that bear a leg's share of {:.3g} kg, and in sum "
-        "{:.0f} N m per kg, more than a robot can carry motors for: {}; are they in kg·cm, as on data "
-        "sheets? "
-        "× 0.098 makes {:.3g} N m of {:.3g}",
-        strongest_times, bearing_nm, mass_kg, motors_nm(robot) / mass_kg, fmt::join(strong, ", "),
-        nm_per_kg_cm * least_nm, least_nm));
+  for (const MotorTorque& motor : motors) {
+    if (motor.most_nm <= strongest_times * bearing_nm) continue;
+    least_nm = strong.empty() ? motor.most_nm : std::min(least_nm, motor.most_nm);
+    strong.push_back(fmt::format("{} ({:.3g} N m)", motor.joint, motor.most_nm));
+  }
+  if (strong.empty()) return {};
+  return fmt::format(
+      "torques of more than {:g} times the {:.2g} N m that bear a leg's share of {:.3g} kg, and in sum "
+      "{:.0f} N m per kg, more than a robot can carry motors for: {}; are they in kg·cm, as on data "
+      "sheets? "
+      "× 0.098 makes {:.3g} N m of {:.3g}",
+      strongest_times, bearing_nm, mass_kg, sum_nm / mass_kg, io::first_few(strong), nm_per_kg_cm * least_nm,
+      least_nm);
+}
+
+void doubt_strength(const RobotSpec& robot, std::vector<std::string>& lines) {
+  if (robot.legs.empty()) return;
+  std::vector<MotorTorque> motors;
+  for (const Joint& joint : robot.joints)
+    if (is_bought(joint)) motors.push_back({joint.name, joint.servo.max_torque_nm});
+  const double mass_kg = robot.total_mass_kg();
+  const double bearing_nm =
+      mass_kg * norm(robot.gravity_m_s2) * longest_leg_m(robot) / static_cast<double>(robot.legs.size());
+  if (std::string line = strength_line(motors, mass_kg, bearing_nm); !line.empty())
+    lines.push_back(std::move(line));
 }
 
 void doubt_axes(const RobotSpec& robot, std::vector<std::string>& lines) {
@@ -117,7 +116,7 @@ void doubt_axes(const RobotSpec& robot, std::vector<std::string>& lines) {
     lines.push_back(fmt::format(
         "joints that spin their leg about itself and hardly move its foot, through which their "
         "axis passes: {}, axes in the world; check <axis>, which in a URDF is in the joint's own frame",
-        fmt::join(idle, ", ")));
+        io::first_few(idle)));
 }
 
 }  // namespace amble::robot

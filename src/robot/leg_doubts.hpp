@@ -16,11 +16,21 @@ constexpr double strongest_times = 8.0;
 /// N m of a kg·cm, the unit in which servos are sold.
 constexpr double nm_per_kg_cm = 0.0980665;
 
-/// Adds a line on joints of legs whose motors are too strong to be of this robot, as torques in kg·cm are:
-/// more than `strongest_times` what bears a leg's share, on a robot with more than `strongest_nm_per_kg`.
-/// Neither alone is odd: short legs have small shares, large robots large motors. Velocity servos count
-/// alone, as --init makes them of a URDF's effort: torque servos come of actuators in MJCF, whose force is
-/// times a gear, and of tasks.
+/// A joint's name and its motor's largest torque.
+struct MotorTorque {
+  std::string joint;
+  double most_nm = 0.0;
+};
+
+/// The line on motors that are too strong to be of a robot of that mass, as torques in kg·cm are: those of
+/// more than `strongest_times` what bears a leg's share of its weight, if the sum of all these is more than
+/// `strongest_nm_per_kg`. Neither alone is odd: short legs have small shares, large robots large motors.
+/// Empty: none is.
+std::string strength_line(const std::vector<MotorTorque>& motors, double mass_kg, double bearing_nm);
+
+/// Adds that line on a robot with legs. Velocity servos count alone, as --init makes them of a URDF's effort:
+/// torque servos come of actuators in MJCF, whose force is times a gear and which --init itself doubts, and
+/// of tasks.
 void doubt_strength(const RobotSpec& robot, std::vector<std::string>& lines);
 
 /// Adds a line on joints of legs whose axis passes through the foot however the joints beyond them are bent,

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <span>
+#include <string>
 #include <vector>
 
 namespace amble::io {
@@ -15,6 +17,13 @@ TEST(Split, GivesOnePartMoreThanThereAreSeparators) {
   EXPECT_THAT(split("a/b", ','), ElementsAre("a/b"));
   EXPECT_THAT(split(",a,,", ','), ElementsAre("", "a", "", ""));
   EXPECT_THAT(split("", ','), ElementsAre(""));
+}
+
+TEST(FirstFew, NamesAllOfAShortListAndCountsTheRestOfALongOne) {
+  const std::vector<std::string> names{"a", "b", "c", "d", "e", "f", "g"};
+  EXPECT_EQ(first_few({}), "");
+  EXPECT_EQ(first_few(std::span(names).first(6)), "a, b, c, d, e, f");
+  EXPECT_EQ(first_few(names), "a, b, c, d and 3 more");
 }
 
 const std::vector<std::string> commands{"evolve", "resume", "repertoire", "report", "info", "view"};

@@ -1,7 +1,11 @@
 #include "amble/morphology/servo_guess.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <string>
+#include <tuple>
 
 #include "amble/morphology/robot_guess.hpp"
 #include "tests/models/small_models.hpp"
@@ -69,6 +73,36 @@ TEST_F(Servos, WithAnEffortThatWasReplacedAreAskedForTheirUnit) {
   };
   EXPECT_THAT(with_hips("420"), Contains(AllOf(HasSubstr("no limit of torque"), HasSubstr("kg·cm"))));
   EXPECT_THAT(with_hips("100000"), Contains(AllOf(HasSubstr("no limit of torque"), Not(HasSubstr("kg·cm")))));
+}
+
+/// A quadruped of 1.3 kg with a hip and a knee a leg, and these attributes of each position actuator.
+std::string mjcf_with_actuators(const std::string& attributes) {
+  std::string legs, actuators;
+  for (const auto& [name, x, y] :
+       {std::tuple{"fl", 0.1, 0.07}, {"fr", 0.1, -0.07}, {"rl", -0.1, 0.07}, {"rr", -0.1, -0.07}}) {
+    legs += fmt::format(R"(<body name="{0}_thigh" pos="{1} {2} 0"><joint name="{0}_hip" axis="0 1 0"/>
+      <geom type="capsule" size="0.01" fromto="0 0 0 0 0 -0.08" mass="0.05"/>
+      <body name="{0}_shin" pos="0 0 -0.08"><joint name="{0}_knee" axis="0 1 0"/>
+      <geom type="capsule" size="0.01" fromto="0 0 0 0 0 -0.08" mass="0.025"/></body></body>)",
+                        name, x, y);
+    for (const char* joint : {"hip", "knee"})
+      actuators += fmt::format(R"(<position joint="{}_{}" kp="20" {}/>)", name, joint, attributes);
+  }
+  return fmt::format(R"(<mujoco><worldbody><body name="trunk" pos="0 0 0.17"><freejoint/>
+    <geom type="box" size="0.12 0.05 0.03" mass="1"/>{}</body></worldbody><actuator>{}</actuator></mujoco>)",
+                     legs, actuators);
+}
+
+TEST_F(Servos, OfAnMjcfThatAreTooStrongForTheRobotAreAskedForTheirUnit) {
+  const auto doubts = [&](const std::string& attributes) {
+    return guess_robot(compile_model(files_.write("m.xml", mjcf_with_actuators(attributes))), "m.xml").doubts;
+  };
+  EXPECT_THAT(doubts(R"(forcerange="-15.3 15.3")"),
+              Contains(AllOf(HasSubstr("kg·cm"), HasSubstr("fl_hip (15.3 N m)"), HasSubstr("and 4 more"))));
+  EXPECT_THAT(doubts(R"(forcerange="-1.5 1.5")"), Not(Contains(HasSubstr("kg·cm"))));
+  // A force before a gear is no torque of a data sheet.
+  EXPECT_THAT(doubts(R"(forcerange="-3.06 3.06" gear="5")"), Not(Contains(HasSubstr("kg·cm"))));
+  EXPECT_THAT(doubts(""), Not(Contains(HasSubstr("are they in kg·cm"))));
 }
 
 TEST_F(Servos, ThatDifferFromACorrectedUrdfAreNoted) {
