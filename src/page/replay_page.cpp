@@ -62,7 +62,7 @@ io::Json walker_json(const Walker& walker) {
           {"seconds", recording.seconds},
           {"outcome", record::outcome_names[to_index(recording.outcome)]},
           {"robot", io::parse_json(recording.robot_json, what)},
-          {"controller", io::parse_json(recording.controller_json, what)},
+          {"controller", packed(io::parse_json(recording.controller_json, what).dump())},
           {"ground", ground_json(recording.ground_json, what)},
           {"poses", frames_json(recording.poses)},
           {"contacts", frames_json(recording.contacts)},

@@ -5,7 +5,9 @@
 
 #include <regex>
 
+#include "amble/io/base64.hpp"
 #include "amble/io/file.hpp"
+#include "amble/robot/deflate.hpp"
 #include "tests/io/temporary_folder.hpp"
 #include "tests/page/synthetic.hpp"
 
@@ -41,7 +43,9 @@ TEST_F(ViewPageTest, CarriesRobotsControllersAndFrames) {
   EXPECT_EQ(data["walkers"][0]["title"], "one");
   EXPECT_EQ(data["walkers"][1]["poses"]["count"], 31);
   EXPECT_EQ(data["walkers"][1]["robot"]["name"], "test robot");
-  EXPECT_EQ(data["walkers"][1]["controller"]["kind"], "supg");
+  const auto controller = io::parse_json(SyntheticWalk{}.header().controller_json, "controller").dump();
+  const auto deflated = io::from_base64(data["walkers"][1]["controller"].get<std::string>());
+  EXPECT_EQ(robot::inflated(deflated, controller.size()), controller);
   EXPECT_EQ(data["walkers"][0]["outcome"], "completed");
 }
 

@@ -5,6 +5,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
+import { deflateSync, inflateSync } from "node:zlib";
 import { amble, launch, makePage, open, pictureOf, recording, settled } from "./browser.mjs";
 
 const CHAMPION = join(process.env.AMBLE_SOURCE, "robots/servo/champion.json");
@@ -121,7 +122,10 @@ test("a recording without a step gives a page that says so and shows the start p
 
 test("a controller without patterns is named by its kind, and has no timers", () => {
   const page = changed(makePage("walk2.html", recording("walk.rec")), "ctrnn.html",
-                       (text) => text.replace('"kind":"supg"', '"kind":"ctrnn"').replace('"patterns_rad":', '"others":'));
+                       (html) => {
+    const packed = /"controller":"([^"]+)"/.exec(html)[1], text = inflateSync(Buffer.from(packed, "base64")).toString();
+    return html.replace(packed, deflateSync(text.replace('"kind":"supg"', '"kind":"ctrnn"').replace('"patterns_rad":', '"others":')).toString("base64"));
+  });
   return onPage(page, {}, async (opened) => {
     assert.match(await opened.locator("#analysis").textContent(), /of kind “ctrnn”/);
     assert.equal(await opened.locator(".patterns").count(), 0);
@@ -136,6 +140,44 @@ test("a walker with neurons shows what they say, and what it typically does", ()
     assert.equal(await neurons.locator("canvas").count(), 1);
     assert.match(await page.locator("#analysis").textContent(), /patterns, stretched and shifted by the links of neurons/);
   }));
+
+for (const [hash, width, scheme] of [["recorded", 1400, "light"], ["live", 390, "dark"]])
+  test(`the network of a mixed champion is folded, and open it follows the time, port and node that are chosen: ${hash}`, () =>
+    onPage(join(process.env.AMBLE_SOURCE, "docs/drive.html"), { hash, viewport: { width, height: 900 }, colorScheme: scheme }, async (page) => {
+      const network = page.locator("#analysis section", { has: page.getByRole("heading", { name: "Network", exact: true }) });
+      const picture = network.locator("canvas"), words = network.locator(".note"), pictures = new Set();
+      assert.ok(!(await picture.isVisible()));
+      await network.locator("summary").click();
+      const goTo = (t) => page.evaluate((seconds) => {
+        if (window.amble.live() && window.amble.time() < seconds) window.amble.simulate(seconds - window.amble.time());
+        window.amble.seek(seconds);
+        window.amble.render();
+      }, t);
+      const isAnother = async (what) => {
+        await settled(page);
+        const seen = await picture.evaluate((canvas) => canvas.toDataURL());
+        assert.ok(!pictures.has(seen), what);
+        pictures.add(seen);
+      };
+      await picture.scrollIntoViewIfNeeded();
+      await goTo(2);
+      assert.match(await picture.getAttribute("aria-label"), /^The network: 11 sensors, 12 neurons, 18 SUPGs, 834 of 984 links$/);
+      await isAnother("open");
+      await goTo(2.3);
+      await isAnother("later");
+      for (const name of ["hidden", "amplitude", "rate", "shift", "coupling", "weights"]) {
+        await network.getByRole("button", { name, exact: true }).click();
+        await isAnother(name);
+      }
+      await network.getByRole("button", { name: "all", exact: true }).click();
+      await network.getByRole("combobox", { name: "Node" }).selectOption("front_left.hidden 1");
+      assert.match(await words.textContent(), /^front_left\.hidden 1: [+−]\d\.\d\d\. Most of \d+ links into it: [\w.]+( \d)? [+−]\d\.\d\d \(hidden\), /);
+      await isAnother("one node");
+      const { width: across } = await picture.boundingBox();
+      await picture.click({ position: { x: across / 2, y: 36 } }); // what the robot is told is in the middle
+      assert.match(await words.textContent(), /^command_stop: \+[01]\.00\. No links lead into it\.$/);
+      assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width);
+    }));
 
 /** A model of a table on ten legs, each with a hip and a knee. */
 function tenLegs() {

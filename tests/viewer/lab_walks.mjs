@@ -267,6 +267,9 @@ async function steer(person) {
   await person.press("stop");
   await says("told: stop");
   await person.moment("on rough ground, with a leg less");
+  await person.hit(page.getByText("What sensors, neurons and SUPGs say to each other"));
+  await page.getByRole("img", { name: /^The network: / }).waitFor();
+  await person.moment("what it says to itself");
 }
 
 /** `looks`: [width, scheme] in which the test takes the walk. */

@@ -1,8 +1,13 @@
 // Parts of the page's program that need no browser.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import { test } from "node:test";
 import { BoxGeometry, SphereGeometry } from "../../viewer/node_modules/three/build/three.module.js";
 import { makePatch } from "../../viewer/make-patch.mjs";
+import { LiveRobot, chooseModule } from "../../viewer/src/amble.js";
+import { LiveWalk } from "../../viewer/src/live_walk.js";
+import { nodesOf, passing } from "../../viewer/src/network.js";
 import { patched } from "../../viewer/src/patch.js";
 import { clipNear, cornersOf, hullOf } from "../../viewer/src/outlines.js";
 import { niceAxis } from "../../viewer/src/plot.js";
@@ -137,6 +142,41 @@ test("of a walk that grows, heading and wanted path are those of the whole, and 
     assert.ok(Math.abs(growing.turns[k] - whole.turns[k - 25]) < 1e-9 && Math.abs(growing.speeds[k] - 0.15) < 0.005);
   }
   assert.ok(Math.abs(growing.extents[0][1] - 0.3) < 1e-9 && Math.abs(growing.extents[1][0] + 0.5) < 1e-9);
+});
+
+/** The hexapod that obeys, told to turn and simulated here for so many seconds. */
+async function steeredWalk(seconds) {
+  const file = (path) => readFileSync(join(process.env.AMBLE_SOURCE, path));
+  const { module } = await chooseModule([{ name: "amble", bytes: file("viewer/dist/amble.wasm") }]);
+  const walk = new LiveWalk(await LiveRobot.open(module, file("robots/hexapod/steered.json").toString()), {});
+  walk.command = [0.2, 0.3];
+  walk.advance(seconds);
+  return walk;
+}
+
+test("what sensors and SUPGs say, and what passes through links, is what neurons of the simulation hear", async () => {
+  const walk = await steeredWalk(4), nodes = nodesOf(walk), { links } = walk.controller, heard = new Set();
+  const nowOf = (row) => ({ walk, done: walk.told, row, t: row * walk.poses.step_s });
+  for (let row = 20; row + 1 < walk.poses.count; row += 7) {
+    const says = nodes.map((node) => node.say(nowOf(row))), phases = nodes.map((node) => node.phase(nowOf(row)));
+    nodes.forEach((node, i) => {
+      if (node.role !== "hidden") return assert.ok(says[i] !== null && Math.abs(says[i]) <= 1, node.name);
+      const into = links.filter(({ target, port }) => target === i && port === "hidden");
+      into.forEach(({ source }) => heard.add(nodes[source].name));
+      const sum = into.reduce((total, link) => total + passing(link, says, phases), node.bias);
+      const next = says[i] + node.step * (Math.tanh(sum) - says[i]);
+      assert.ok(Math.abs(next - node.say(nowOf(row + 1))) < 0.01 * node.step, `${node.name}, row ${row}: ${next} in place of ${node.say(nowOf(row + 1))}`);
+    });
+  }
+  for (const name of ["command_speed", "command_turn", "heading_error", "yaw_rate", "front_left.touch"]) assert.ok(heard.has(name), [...heard].join());
+});
+
+test("couplings are still where legs keep the difference of their phases, and pull them back where they do not", () => {
+  const turned = 2 * Math.PI * 0.25, link = { port: "coupling", source: 0, target: 1, weight: 0.8, in_phase: 0.8 * Math.cos(turned), out_of_phase: 0.8 * Math.sin(turned) };
+  const pull = (source, target) => passing(link, [], [source, target]);
+  assert.ok(Math.abs(pull(0.75, 0.5)) < 1e-12);
+  assert.ok(pull(0.85, 0.5) > 0.4 && pull(0.65, 0.5) < -0.4, "a leg that is behind goes faster");
+  assert.equal(pull(-1, 0.5), 0, "timers that stand couple with none");
 });
 
 test("a patch makes of a module any other, and one that is cut off is told", () => {

@@ -1,5 +1,6 @@
 // The diagrams of one walker, as sections beside the stage.
 import { GaitTable } from "./gait.js";
+import { Network } from "./network.js";
 import { Patterns } from "./patterns.js";
 import { element, legClass } from "./theme.js";
 import { PathFromAbove, rates } from "./told_path.js";
@@ -69,12 +70,13 @@ export class Analysis {
       this.shown.push(made);
       return made.element;
     };
-    const { window, clock } = this;
+    const { window, clock } = this, done = walk.commands && (walk.told ?? rates(walk));
     this.parent.replaceChildren(
-      ...this.told(walk, plot),
+      ...this.told(walk, done, plot),
       this.footfalls(walk, plot(footfallPlot(walk, window, clock))),
       ...this.supg(walk, plot),
       ...(walk.neurons.length ? [section("Neurons", neuronText(walk), plot(neuronPlot(walk, window, clock)))] : []),
+      ...this.network(walk, done),
       section("Joints", "Each joint’s angle, in the colour of its leg, and the target that its servo follows, thin. " +
               "The height of a row is the joint’s range, which stands beside it in rad.",
               ...jointPlots(walk, window, clock).map(plot)),
@@ -103,9 +105,21 @@ export class Analysis {
     return made;
   }
 
-  told(walk, plot) {
-    if (!walk.commands) return [];
-    const done = walk.told ?? rates(walk), path = new PathFromAbove(walk, done);
+  /** Folded, as it is as tall as all diagrams before it, and costs nothing so. */
+  network(walk, done) {
+    if (walk.controller.kind !== "mixed") return [];
+    const network = new Network(walk, done, this.clock), key = (css, text) => element("span", { class: "key", style: `--leg: var(${css})` }, text);
+    this.shown.push(network);
+    return [section("Network", "", element("details", { class: "help" }, element("summary", {}, "What sensors, neurons and SUPGs say to each other"),
+      element("p", { class: "lead" }, "As on the robot seen from above. A square is a sensor, a circle a neuron, one with a hand a SUPG: the hand is the " +
+        "phase of its leg’s timer. What is filled grows with what the node says; a SUPG says its target, within the joint’s range. A link’s width is its weight times " +
+        "what its source says now, or its weight alone. Readings are as without noise and delay."),
+      element("p", { class: "keys" }, key("--plus", "plus"), key("--minus", "minus")), network.element))];
+  }
+
+  told(walk, done, plot) {
+    if (!done) return [];
+    const path = new PathFromAbove(walk, done);
     this.shown.push(path);
     return [section("Told and done", "Dashed: the speed and the turn that it was told, and the way that they lead to from its start. " +
                     `Black: what it did, means over ${walk.live ? "the second before" : "a second"}.`, path.element, plot(commandPlot(walk, done, this.window, this.clock)))];

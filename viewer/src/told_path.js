@@ -34,16 +34,22 @@ export function rates(walk) {
   const turned = headings(walk), speeds = new Float64Array(count), turns = new Float64Array(count);
   for (let k = 0; k < count; ++k)
     [speeds[k], turns[k]] = ratesBetween(walk, turned, Math.max(0, k - half), Math.min(count - 1, k + half), k);
-  return { headings: turned, speeds, turns, wanted: wantedPath(walk, turned) };
+  return { headings: turned, speeds, turns, wantedHeadings: wantedHeadings(walk, turned), wanted: wantedPath(walk, turned) };
+}
+
+/** What the commanded turns have led to, row by row. */
+function wantedHeadings(walk, turned) {
+  const { step_s, count } = walk.poses, wanted = new Float64Array(count);
+  for (let k = 0; k < count; ++k) wanted[k] = k === 0 ? turned[0] : wanted[k - 1] + walk.commands[1][k] * step_s;
+  return wanted;
 }
 
 /** Where the commands would have led from the start: [x, y] by row. */
 export function wantedPath(walk, turned) {
-  const { step_s, count } = walk.poses, [speed, turn] = walk.commands, x = [walk.com[0][0]], y = [walk.com[1][0]];
-  for (let k = 1, heading = turned[0]; k < count; ++k) {
-    heading += turn[k] * step_s;
-    x.push(x[k - 1] + speed[k] * step_s * Math.cos(heading));
-    y.push(y[k - 1] + speed[k] * step_s * Math.sin(heading));
+  const { step_s, count } = walk.poses, [speed] = walk.commands, x = [walk.com[0][0]], y = [walk.com[1][0]], heading = wantedHeadings(walk, turned);
+  for (let k = 1; k < count; ++k) {
+    x.push(x[k - 1] + speed[k] * step_s * Math.cos(heading[k]));
+    y.push(y[k - 1] + speed[k] * step_s * Math.sin(heading[k]));
   }
   return [x, y];
 }

@@ -9,7 +9,8 @@ const SPEED_WINDOW_S = 0.5; // speed is the way of this long
 export class Walk {
   static async unpack(json) {
     const ground = await unpackGround(json.ground), cppn_svg = await inflateText(json.cppn_svg);
-    return new Walk({ ...json, ground, cppn_svg }, await unpackFrames(json.poses), await unpackFrames(json.contacts));
+    const controller = JSON.parse(await inflateText(json.controller));
+    return new Walk({ ...json, ground, cppn_svg, controller }, await unpackFrames(json.poses), await unpackFrames(json.contacts));
   }
 
   constructor(json, poses, contacts) {
