@@ -140,6 +140,8 @@ constexpr std::string_view figures = R"css(
 .ghost { fill: none; stroke: var(--line); opacity: .55; }
 .offset { stroke: var(--ink); stroke-dasharray: 2 3; }
 .path { fill: none; stroke: var(--ink); stroke-width: 2; stroke-linejoin: round; stroke-linecap: round; }
+.told { fill: none; stroke: var(--c1); stroke-width: 1.8; stroke-dasharray: 6 4; }
+.told-dot { fill: var(--c1); }
 .beeline { stroke: var(--soft); stroke-dasharray: 2 5; }
 .footprint { fill: currentColor; }
 .trunk-outline { fill: none; stroke: var(--line); stroke-width: 1.2; }
@@ -156,6 +158,7 @@ constexpr std::string_view figures = R"css(
 .far { opacity: .42; }
 .plane { fill: var(--panel); stroke: var(--hair); }
 .link { stroke: currentColor; stroke-width: 1.1; opacity: .7; } .link.strong { stroke-width: 1.8; } .link.weak { stroke-width: .6; }
+.dashed { stroke-dasharray: 4 3; }
 .many .link { opacity: .2; stroke-width: .7; } .many .link.strong { stroke-width: 1.1; }
 .loop { fill: none; stroke: currentColor; stroke-width: 1.1; }
 .arrow { fill: currentColor; }

@@ -4,17 +4,44 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "amble/core/error.hpp"
+#include "amble/core/index.hpp"
 #include "amble/figures/axis.hpp"
 
 namespace amble::figures {
+
+namespace {
+
+/// Kinds by the names of the ports, in the order in which they are met.
+Substrate by_port(const motion::NeuralNetwork& network, Substrate substrate) {
+  substrate.link_kinds.clear();
+  std::vector<double> largest;
+  for (const motion::NetworkLink& link : network.links) {
+    const auto found = std::ranges::find(substrate.link_kinds, link.port);
+    const int kind = static_cast<int>(found - substrate.link_kinds.begin());
+    if (found == substrate.link_kinds.end()) {
+      substrate.link_kinds.push_back(link.port);
+      largest.push_back(0.0);
+    }
+    largest[to_index(kind)] = std::max(largest[to_index(kind)], std::fabs(link.weight));
+    substrate.links.push_back({link.source, link.target, kind, std::fabs(link.weight), link.weight < 0.0});
+  }
+  for (SubstrateLink& link : substrate.links)
+    if (const double most = largest[to_index(link.kind)]; most > 0.0) link.strength /= most;
+  return substrate;
+}
+
+}  // namespace
 
 Substrate substrate_of(const motion::NeuralNetwork& network) {
   Substrate substrate{.coordinates = network.coordinates,
                       .nodes = network.nodes,
                       .links = {},
                       .link_kinds = {"excites", "inhibits"}};
+  if (std::ranges::any_of(network.links, [](const auto& link) { return !link.port.empty(); }))
+    return by_port(network, std::move(substrate));
   double largest = 0.0;
   for (const motion::NetworkLink& link : network.links) largest = std::max(largest, std::fabs(link.weight));
   for (const motion::NetworkLink& link : network.links)

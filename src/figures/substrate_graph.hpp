@@ -13,6 +13,7 @@ struct SubstrateLink {
   int source = 0, target = 0;  ///< indices into Substrate::nodes
   int kind = 0;                ///< index into Substrate::link_kinds; decides the colour
   double strength = 0.5;       ///< in [0, 1]; decides the width
+  bool negative = false;       ///< dashed: its weight is, and its kind does not say so
 };
 
 /// A substrate as figures draw it.
@@ -24,7 +25,8 @@ struct Substrate {
 };
 
 /// Links of positive weight are of kind 0 ("excites"), those of negative weight of kind 1 ("inhibits"); their
-/// strength is |weight| divided by the largest one.
+/// strength is |weight| divided by the largest one. Where links have ports, these are their kinds, and the
+/// largest one is that of the port.
 Substrate substrate_of(const motion::NeuralNetwork& network);
 
 /// Whether there are few enough coordinates for a figure: four at most.

@@ -80,7 +80,8 @@ int read_count(const JsonView& json) {
 
 NetworkLink read_link(const JsonView& json, std::size_t nodes) {
   const double weight = json.at("weight").finite_number();
-  return {read_index(json.at("source"), nodes), read_index(json.at("target"), nodes), weight};
+  return {read_index(json.at("source"), nodes), read_index(json.at("target"), nodes), weight,
+          json.has("port") ? json.at("port").text() : std::string()};
 }
 
 /// The columns of a recording that a Motion holds, by index.

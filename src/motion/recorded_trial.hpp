@@ -39,6 +39,7 @@ struct NetworkNode {
 struct NetworkLink {
   int source = 0, target = 0;  ///< indices into NeuralNetwork::nodes
   double weight = 0.0;
+  std::string port;  ///< what it acts on, where links differ in that: those of a mixed controller
 };
 
 /// The neural network of a controller, as a recording holds it.

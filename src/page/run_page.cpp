@@ -143,12 +143,7 @@ std::string network_section(const motion::NeuralNetwork& network) {
                  both([&](FigureSize layout) { return figures::substrate_figure(substrate, layout); }));
 }
 
-std::string controller_section(const motion::RecordedTrial& recorded) {
-  if (recorded.network) return network_section(*recorded.network);
-  if (!recorded.supg)
-    return section("The controller", "",
-                   note(fmt::format("The controller of this champion is of kind “{}”, which is not drawn.",
-                                    recorded.controller_kind)));
+std::string patterns_section(const motion::RecordedTrial& recorded) {
   const motion::SupgPatterns& supg = *recorded.supg;
   const std::string_view offset = supg.starts_at_offset ? "where the leg’s timer starts"
                                                         : "how long the leg waits before its timer starts";
@@ -163,6 +158,15 @@ std::string controller_section(const motion::RecordedTrial& recorded) {
       both([&](FigureSize layout) {
         return figures::pattern_figure(recorded.robot, supg, recorded.motion, layout);
       }));
+}
+
+std::string controller_section(const motion::RecordedTrial& recorded) {
+  if (!recorded.network && !recorded.supg)
+    return section("The controller", "",
+                   note(fmt::format("The controller of this champion is of kind “{}”, which is not drawn.",
+                                    recorded.controller_kind)));
+  return (recorded.network ? network_section(*recorded.network) : std::string()) +
+         (recorded.supg ? patterns_section(recorded) : std::string());
 }
 
 std::string path_section(const motion::RecordedTrial& recorded, const motion::Summary& summary) {

@@ -63,6 +63,22 @@ TEST(SubstrateCommand, DrawsThem) {
   }
 }
 
+TEST(SubstrateCommand, DrawsPortsInColoursOfTheirOwnOfAConfigAndOfAChampion) {
+  const TemporaryFolder scratch;
+  const auto of_config = amble({"substrate", source + "/robots/hexapod/steer.toml", "-o", scratch / "c.svg"});
+  ASSERT_EQ(of_config.exit_code, 0) << of_config.err;
+  const std::string champion = source + "/robots/hexapod/steered.json";
+  const auto of_champion = amble({"substrate", champion, "-o", scratch / "champion.svg"});
+  ASSERT_EQ(of_champion.exit_code, 0) << of_champion.err;
+  EXPECT_EQ(of_champion.out, of_config.out) << "all links that there may be";
+  for (const char* port : {">hidden<", ">rate<", ">amplitude<", ">shift<", ">coupling<"}) {
+    EXPECT_THAT(slurp(scratch / "c.svg"), HasSubstr(port));
+    EXPECT_THAT(slurp(scratch / "champion.svg"), HasSubstr(port));
+  }
+  EXPECT_THAT(slurp(scratch / "champion.svg"), HasSubstr("Substrate of 41 nodes and 834 links"));
+  EXPECT_THAT(amble({"substrate", champion, "--set", "seed=2"}).err, HasSubstr("--set is for a config"));
+}
+
 /// A substrate of a user's own: each leg's motors hear its foot, its hip's angle and one common sine; each
 /// has a neuron more, and the knees know their neighbours'.
 std::string own_config() {

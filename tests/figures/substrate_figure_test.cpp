@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "amble/figures/substrate_graph.hpp"
@@ -89,6 +91,53 @@ TEST(SubstrateFigure, HasALegendOfAsManyRowsAsItNeeds) {
   EXPECT_GT(rows.size(), 1u);
   for (const auto& [x, y] : node_places(elements))
     EXPECT_FALSE(y > *rows.rbegin() && y < *rows.rbegin() + 18.0) << "between the legend and the network";
+}
+
+TEST(SubstrateFigure, DrawsNoTwoKindsAlike) {
+  Substrate substrate = grid(2);
+  substrate.link_kinds.clear();
+  substrate.links.clear();
+  for (int kind = 0; kind < 14; ++kind) {
+    substrate.link_kinds.push_back("kind " + std::to_string(kind));
+    substrate.links.push_back({0, 1, kind, 1.0});
+  }
+  const auto elements = tests::parse_xml(substrate_figure(substrate, FigureSize::wide));
+  std::map<std::vector<std::string>, int> looks;
+  for (const auto& mark : tests::with_class(elements, "strong")) ++looks[mark.path];
+  EXPECT_EQ(looks.size(), 14u);
+  for (const auto& [look, count] : looks) EXPECT_EQ(count, 2) << "a link, and its mark in the legend";
+}
+
+TEST(SubstrateFigure, DashesLinksOfNegativeWeightAndSaysSo) {
+  Substrate substrate = grid(2);
+  substrate.links[1].negative = true;
+  const auto elements = tests::parse_xml(substrate_figure(substrate, FigureSize::wide));
+  EXPECT_EQ(tests::with_class(elements, "dashed").size(), 2u) << "one link, and one mark in the legend";
+  EXPECT_THAT(tests::texts(elements), testing::Contains("dashed: of negative weight"));
+  EXPECT_THAT(tests::texts(tests::parse_xml(substrate_figure(grid(2), FigureSize::wide))),
+              Not(testing::Contains("dashed: of negative weight")));
+}
+
+TEST(SubstrateFigure, LetsNoNameCoverAnotherOrStandOut) {
+  Substrate substrate = grid(4);
+  for (std::size_t i = 0; i < substrate.nodes.size(); ++i)
+    substrate.nodes[i].name = "middle_left.hidden " + std::to_string(i);
+  const auto elements = tests::parse_xml(substrate_figure(substrate, FigureSize::wide));
+  const auto names = tests::with_class(elements, "tiny");
+  ASSERT_EQ(names.size(), substrate.nodes.size());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto wide_px = [](const tests::XmlElement& name) {
+      return 5.2 * static_cast<double>(name.text.size());
+    };
+    EXPECT_LE(names[i].number("x") + wide_px(names[i]), width_px(FigureSize::wide));
+    for (std::size_t k = 0; k < i; ++k) {
+      const double left = std::max(names[i].number("x"), names[k].number("x"));
+      const double right =
+          std::min(names[i].number("x") + wide_px(names[i]), names[k].number("x") + wide_px(names[k]));
+      EXPECT_TRUE(left >= right || std::fabs(names[i].number("y") - names[k].number("y")) > 10.0)
+          << names[i].text << " and " << names[k].text;
+    }
+  }
 }
 
 TEST(SubstrateFigure, PutsAFrameAroundEachPlaneAndModule) {

@@ -23,6 +23,20 @@ TEST(SubstrateGraph, ShowsSignsAsKindsAndWeightsAsSharesOfTheLargest) {
   EXPECT_EQ(substrate.links[1].target, 2);
 }
 
+TEST(SubstrateGraph, ShowsPortsAsKindsWhereLinksHaveThem) {
+  motion::NeuralNetwork network = motion::parse_network(tests::network_json(), "x");
+  network.links = {{0, 1, 4.0, "hidden"}, {1, 2, -0.1, "rate"}, {0, 2, 0.2, "rate"}, {0, 1, -1.0, "hidden"}};
+  const Substrate substrate = substrate_of(network);
+  EXPECT_EQ(substrate.link_kinds, (std::vector<std::string>{"hidden", "rate"}));
+  const std::vector<int> kinds{0, 1, 1, 0};
+  const std::vector<double> strengths{1.0, 0.5, 1.0, 0.25};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(substrate.links[i].kind, kinds[i]);
+    EXPECT_EQ(substrate.links[i].strength, strengths[i]) << "a share of the port's largest weight";
+    EXPECT_EQ(substrate.links[i].negative, network.links[i].weight < 0.0);
+  }
+}
+
 TEST(SubstrateGraph, HasNoStrengthWhereAllWeightsAreZero) {
   motion::NeuralNetwork network = motion::parse_network(tests::network_json(), "x");
   for (motion::NetworkLink& link : network.links) link.weight = 0.0;
